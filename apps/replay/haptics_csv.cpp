@@ -22,7 +22,7 @@ void addPose(CsvRow& row, const Pose& pose) {
 } // namespace
 
 const char* stateName(StepState state) {
-    constexpr const char* kNames[] = {"off", "free", "contact", "escape", "trapped", "fading"};
+    constexpr const char* kNames[] = {"off", "free", "contact", "escape", "trapped", "fading", "waiting"};
     return kNames[static_cast<size_t>(state)];
 }
 
@@ -47,6 +47,12 @@ void HapticsCsv::add(const StepRecord& tick) {
     row_.add(int64_t{tick.stalled});
     row_.add(tick.marginPassive);
     row_.add(tick.marginUncoupled);
+    row_.add(int64_t{tick.cause});
+    row_.add(tick.lag);
+    for (const Wrench& wrench : {tick.deviceWrench, tick.residual}) {
+        addVector(row_, wrench.force);
+        addVector(row_, wrench.torque);
+    }
     file_.write(row_.end());
     digest_.add(tick);
 }

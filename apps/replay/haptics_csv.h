@@ -23,7 +23,8 @@ public:
         "t_s,dev_x,dev_y,dev_z,dev_qw,dev_qx,dev_qy,dev_qz,tool_x,tool_y,tool_z,tool_qw,tool_qx,tool_qy,tool_"
         "qz,"
         "fx,fy,fz,tx,ty,tz,contacts,min_gap_m,state,guidance,frame,scene_age_s,stalled,margin_passive,"
-        "margin_uncoupled";
+        "margin_uncoupled,cause,lag_m,out_fx,out_fy,out_fz,out_tx,out_ty,out_tz,rest_fx,rest_fy,rest_fz,"
+        "rest_tx,rest_ty,rest_tz";
 
 private:
     OutputFile file_;

@@ -49,6 +49,9 @@ Json hapticJson(const ReplaySummary::Haptic& haptic) {
             {"stalled_ticks", haptic.stalledTicks},
             {"trapped_ticks", haptic.trappedTicks},
             {"escape_ticks", haptic.escapeTicks},
+            {"waiting_ticks", haptic.waitingTicks},
+            {"regions_vanished", haptic.regionsVanished},
+            {"index_shift_m", number(haptic.indexShift)},
             {"not_finite_ticks", haptic.notFiniteTicks},
             {"max_penetration_m", number(haptic.maxPenetration)},
             {"max_escape_depth_m", number(haptic.maxEscapeDepth)},
@@ -136,6 +139,9 @@ void ReplaySummary::Haptic::take(TickTotals totals) {
     stalledTicks = totals.stalled;
     trappedTicks = totals.trapped;
     escapeTicks = totals.escape;
+    waitingTicks = totals.waiting;
+    regionsVanished = totals.vanished;
+    indexShift = totals.indexShift;
     notFiniteTicks = totals.notFinite;
     maxForce = totals.maxForce;
     maxTorque = totals.maxTorque;

@@ -28,8 +28,10 @@ struct ReplaySummary {
     struct Haptic {
         uint64_t ticks = 0, late = 0;
         Percentiles stepMicros;
-        uint64_t stalledTicks = 0, trappedTicks = 0, escapeTicks = 0;
-        uint64_t notFiniteTicks = 0; // ticks without force because a number was not finite
+        uint64_t stalledTicks = 0, trappedTicks = 0, escapeTicks = 0, waitingTicks = 0;
+        uint32_t regionsVanished = 0;     // times that regions disappeared while they pressed
+        std::optional<double> indexShift; // [m] by which lags moved the hand map, in all
+        uint64_t notFiniteTicks = 0;      // ticks without force because a number was not finite
         std::optional<double> maxPenetration, maxEscapeDepth;       // [m] from the penetration audit
         double maxForce = 0.0, maxTorque = 0.0, maxForceStep = 0.0; // [N], [N m], [N]
         std::optional<double> stiffness, rotationalStiffness;       // [N/m], [N m/rad]

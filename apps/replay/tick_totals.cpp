@@ -24,6 +24,9 @@ void TickTotals::add(const TickRow& row) {
     stalled += tick.stalled;
     trapped += tick.state == StepState::Trapped;
     escape += tick.state == StepState::Escape;
+    waiting += tick.state == StepState::Waiting;
+    vanished = tick.vanished;
+    indexShift = glm::length(tick.indexShift);
     infeasible += tick.infeasible != 0;
     notFinite += !tick.finite;
     solves += tick.solves;

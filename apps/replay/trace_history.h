@@ -10,7 +10,7 @@
 
 namespace fathom {
 
-inline constexpr size_t kStepStates = static_cast<size_t>(StepState::Fading) + 1;
+inline constexpr size_t kStepStates = static_cast<size_t>(StepState::Waiting) + 1;
 
 // A group of consecutive ticks. A maximum below its minimum means that it has no finite value.
 struct TraceBin {

@@ -2,7 +2,6 @@
 // Group long-run: one million ticks in lockstep with frames, guidance, dead-man button and a roaming hand.
 // Nothing drifts or grows, and a repeated run gives the same digest.
 #include "apps/replay/digest.h"
-#include "apps/replay/step_to_tick.h"
 #include "apps/stability/case_text.h"
 #include "apps/stability/loop_rig.h"
 #include "apps/stability/rng.h"
@@ -75,7 +74,7 @@ void judge(const StepRecord& record, LongRun& run, Digest& digest) {
     run.contacts += record.contacts > 0;
     run.escapes += record.state == StepState::Escape;
     run.guided += record.guidance > 0.0;
-    digest.add(tickOf(record, {}, 0.0, false));
+    digest.add(record);
 }
 
 LongRun roam(uint64_t ticks) {

@@ -45,6 +45,7 @@ HapticCycle::HapticCycle(const Tool& tool, std::span<const Shape> shapes, const 
         }
     }
     springEnd_ = device_ = arm != nullptr ? device_ : tool_;
+    allowed_ = springEnd_;
     stage_.restart(tool_);
 }
 
@@ -59,8 +60,8 @@ StepRecord HapticCycle::step(const StepInput& input) noexcept {
     out.frame = set != nullptr ? set->frame : now.running ? input.frame : -1;
     out.sceneAge = out.frame >= 0 ? sceneAge(input, set) : kNotKnown;
     now.stale = out.sceneAge > options_.staleAfter;
-    now.held = armState_.connected &&
-               (!armState_.follows || !now.sane || now.off || !now.running || now.stale);
+    now.held =
+        armState_.connected && (!armState_.follows || !now.sane || now.off || !now.running || now.stale);
     now.clutch = (input.buttons & options_.clutchBit) != 0 || now.held || !input.present;
     takeSample(input, now);
     guidance_.step(input.guidance, device_, (input.buttons & kGuidanceButton) != 0,
@@ -70,6 +71,7 @@ StepRecord HapticCycle::step(const StepInput& input) noexcept {
     ProxyStep moved = stepTool(input, set, now, out);
     const bool vanished = regionsVanished(moved, newData);
     takeUpLag(moved, vanished, out);
+    allowed_ = moved.allowed;
     makeWrench(input, now, moved, newData, vanished, out);
 
     report(now, moved, set != nullptr, out);
@@ -114,7 +116,7 @@ ProxyStep HapticCycle::stepTool(const StepInput& input, const ContactSet* set, c
     if (now.running && now.sane && !now.held) {
         moved = moveTool(input, set, out);
     } else {
-        moved.allowed = springEnd_; // nothing pushes while the tool is held
+        moved.allowed = allowed_; // held: the last reaction fades out
     }
     armState_.held = now.held;
     freeDirection(moved);
@@ -243,9 +245,8 @@ StepState HapticCycle::stateOf(const Situation& now, const ProxyStep& moved, boo
 void HapticCycle::holdArm(const Situation& now, bool trapped, StepRecord& out) noexcept {
     const bool wrong =
         !now.sane || !now.running || now.off || now.stale || trapped || !out.finite || now.held;
-    const bool met =
-        now.clutch || armState_.connected ||
-        glm::distance(out.tool.position, out.device.position) <= kResumeWithin;
+    const bool met = now.clutch || armState_.connected ||
+                     glm::distance(out.tool.position, out.device.position) <= kResumeWithin;
     armState_.hold = wrong || (armState_.hold && !met);
     out.armHold = armState_.hold;
 }

@@ -29,12 +29,14 @@ namespace fathom {
 //   cannot delay it.
 // - A force that returns is bounded by a share of the limits that rises from what the device renders
 //   (ForceRamps); rising counts ticks.
-// - Device gone or silent: nothing is rendered in that step, and recorded as such. The tool stays and the hand
+// - Device gone or silent: nothing is rendered in that step, and recorded as such. The tool stays and the
+// hand
 //   is re-indexed when it is back. Three losses within 1 s keep the forces off until 1 s is clean.
 // - A real arm follows the tool (follow()) and stands still, or must because forces are off, the scene is old
 //   or the sample is broken: the tool is held and the force ramps out over 0.2 s; then the tool moves to the
 //   measured arm and the hand is re-indexed to it, so that both resume from there.
-// - A number that is not finite: zero wrench in that step, which is counted; the force then returns from zero.
+// - A number that is not finite: zero wrench in that step, which is counted; the force then returns from
+// zero.
 class HapticCycle {
 public:
     // start: raw pose of the hand before the first step. The tool starts where the hand commands it or, if
@@ -132,6 +134,7 @@ private:
     std::vector<double> leafRadius_; // [m]
     Pose tool_;                      // base_T_tool after the last step
     Pose springEnd_;       // base_T_tool that the solver aims at: device pose moved by the guidance lead
+    Pose allowed_;         // base_T_tool that the active rows allow
     Pose device_, handle_; // last good sample: mapped, raw
     double time_ = 0.0;    // [s] of the last step
 

@@ -33,7 +33,7 @@ bool HapticCycle::follow(const ArmFollow& told) noexcept {
     armState_.placed = true;
     tool_ = arm_->tip();
     map_.align(handle_, tool_);
-    device_ = springEnd_ = tool_;
+    device_ = springEnd_ = allowed_ = tool_;
     stage_.restart(tool_);
     ahead_.restart();
     return true;

@@ -39,7 +39,8 @@ struct StepInput {
     bool forcesOff = false;
     bool present = true;   // false: the device is gone or silent, and renders no wrench
     bool doubtful = false; // the pose is not believed yet: hand and tool stay, the force may only fall
-    bool reindex = false;  // the pose is believed from now on, wherever it is: the tool stays, as after a clutch
+    bool reindex =
+        false; // the pose is believed from now on, wherever it is: the tool stays, as after a clutch
 
     // The active set (that the previous step obeyed; null = none), and a newer one on offer. Both must
     // outlive the step. When StepRecord::adopted is true, the newer one is active from now on. A set that
@@ -127,10 +128,10 @@ struct StepRecord {
     Pose guidanceTarget;     // held and slewed; valid when guidanceClass >= 0
     std::array<Touch, kMostTouches> touches; // the first touchCount entries are valid
     uint32_t touchCount = 0;
-    uint32_t cause = 0;      // why there is a force: bits of wrench_stage.h
-    double lag = 0.0;        // [m] tool to the pose that the rows alone allow
-    dvec3 indexShift{0.0};   // [m] total by which lags moved the hand map
-    uint32_t vanished = 0;   // times that regions disappeared while they pressed
+    uint32_t cause = 0;    // why there is a force: bits of wrench_stage.h
+    double lag = 0.0;      // [m] tool to the pose that the rows alone allow
+    dvec3 indexShift{0.0}; // [m] total by which lags moved the hand map
+    uint32_t vanished = 0; // times that regions disappeared while they pressed
 };
 
 } // namespace fathom

@@ -48,9 +48,11 @@ void WrenchStage::shift(const dvec3& by) noexcept {
 
 void WrenchStage::stepRamps(const WrenchInput& input) noexcept {
     arming_ = (arming_ || input.off) && (ramps_.active() || input.off);
-    const auto share = [](const dvec3& v, double limit) { return limit > 0.0 ? glm::length(v) / limit : 0.0; };
-    const double rendered = std::max(share(previous_.force, options_.forceLimit),
-                                     share(previous_.torque, options_.torqueLimit));
+    const auto share = [](const dvec3& v, double limit) {
+        return limit > 0.0 ? glm::length(v) / limit : 0.0;
+    };
+    const double rendered =
+        std::max(share(previous_.force, options_.forceLimit), share(previous_.torque, options_.torqueLimit));
     ramps_.step({input.power, !input.trapped, !input.stale}, options_.period, input.period, rendered,
                 arming_ ? options_.armTime : ForceRamps::kRampTime);
 }
@@ -63,8 +65,8 @@ Wrench WrenchStage::damping(const WrenchInput& input, const Wrench& reaction) no
         const auto turned = [](const Pose& now, const Pose& before) {
             return rotationLog(now.rotation * glm::conjugate(before.rotation));
         };
-        const dvec3 slip = (input.tool.position - toolBefore_.position) -
-                           (input.device.position - deviceBefore_.position);
+        const dvec3 slip =
+            (input.tool.position - toolBefore_.position) - (input.device.position - deviceBefore_.position);
         const dvec3 spin = turned(input.tool, toolBefore_) - turned(input.device, deviceBefore_);
         wrench.force = along(slip, reaction.force) * (springs.damping / options_.period);
         wrench.torque = along(spin, reaction.torque) * (springs.rotationalDamping / options_.period);
@@ -144,8 +146,8 @@ WrenchStage::Output WrenchStage::step(const WrenchInput& input) noexcept {
     smooth_ = lowPass(scaled(sumOf(contact, input.pull), ramps_.gain()), smooth_, options_.lowPassGain);
     const Wrench damper = passivityWrench(input, contact);
     const Wrench asked = sumOf(smooth_, damper);
-    const Wrench sized = limitSize(asked, ramps_.share() * options_.forceLimit,
-                                   ramps_.share() * options_.torqueLimit);
+    const Wrench sized =
+        limitSize(asked, ramps_.share() * options_.forceLimit, ramps_.share() * options_.torqueLimit);
     Output out;
     out.wrench = limitSlew(sized, previous_, options_.slewForce * options_.period,
                            options_.slewTorque * options_.period);

@@ -26,19 +26,19 @@ struct WrenchInput {
     Pose end;     // that the solver aims at: device pose moved by the guidance lead
     Pose device;  // that the hand commands
     dquat baseRhandle{1.0, 0.0, 0.0, 0.0};
-    Springs springs;         // active
-    Wrench pull;             // of guidance, part of the wrench
-    uint32_t pushes = 0;     // cause::kRow and kJoint of the solver's answer
-    bool mayRise = true;     // as ReactionInput
-    bool newData = false;    // as ReactionInput
-    bool vanished = false;   // the regions that pressed are gone although nothing moved
-    bool power = false;      // forces are on, nothing holds them back
-    bool off = false;        // forces off or dead-man open: the next rise takes HapticOptions::armTime
+    Springs springs;       // active
+    Wrench pull;           // of guidance, part of the wrench
+    uint32_t pushes = 0;   // cause::kRow and kJoint of the solver's answer
+    bool mayRise = true;   // as ReactionInput
+    bool newData = false;  // as ReactionInput
+    bool vanished = false; // the regions that pressed are gone although nothing moved
+    bool power = false;    // forces are on, nothing holds them back
+    bool off = false;      // forces off or dead-man open: the next rise takes HapticOptions::armTime
     bool trapped = false;
     bool stale = false;
-    bool sane = true;        // false: the hand's sample is not finite, and there is no force in this tick
-    bool rendered = true;    // false: the device renders nothing in this tick, whatever is written
-    double period = 0.001;   // [s] measured, or nominal
+    bool sane = true;      // false: the hand's sample is not finite, and there is no force in this tick
+    bool rendered = true;  // false: the device renders nothing in this tick, whatever is written
+    double period = 0.001; // [s] measured, or nominal
 };
 
 // One thread; noexcept, no allocation. Guarantees, whatever the input: force and torque stay within their
@@ -62,7 +62,7 @@ public:
     // Tool and hand start anew at `pose`, without force.
     void restart(const Pose& pose) noexcept { toolBefore_ = deviceBefore_ = pose; }
 
-    bool off() const noexcept { return ramps_.off(); } // ramped out, or never on
+    bool off() const noexcept { return ramps_.off(); }            // ramped out, or never on
     double reaction() const noexcept { return reaction_.size(); } // [N] of the last tick
     const PassivityController& passivity() const noexcept { return passivity_; }
     uint64_t notFinite() const noexcept { return notFinite_; }

@@ -25,7 +25,7 @@ struct PassivityOptions {
     double damping = 0.0;           // b [N s/m]
     double rotationalDamping = 0.0; // b_r [N m s/rad]
     double metricRadius = 0.1;      // k [m]: weight of rotation against translation, as in the springs
-    uint32_t delayTicks = 0;  // whole ticks from a wrench to the hand, 0..64
+    uint32_t delayTicks = 0;        // whole ticks from a wrench to the hand, 0..64
 };
 
 // b from the preset. If b is unknown, the value at which the preset's stiffness is just passive at 1 kHz,
@@ -35,15 +35,15 @@ PassivityOptions makePassivity(const DevicePreset& preset, const Springs& spring
 
 // Input of the observer for one tick, after the proxy has moved.
 struct PassivityStep {
-    Pose device;           // base_T_tool that the hand commands
-    Pose end;              // hand's end of the spring: device pose plus the guidance lead
-    Wrench contact;        // reaction of the regions, unscaled, on actuated axes
-    bool rows = true;      // some row is active, or the reaction still fades
-    double repay = 0.033;  // [s] in which a debt is dissipated: the time between frames
+    Pose device;          // base_T_tool that the hand commands
+    Pose end;             // hand's end of the spring: device pose plus the guidance lead
+    Wrench contact;       // reaction of the regions, unscaled, on actuated axes
+    bool rows = true;     // some row is active, or the reaction still fades
+    double repay = 0.033; // [s] in which a debt is dissipated: the time between frames
     double forceLimit = 20.0, torqueLimit = 2.0; // [N], [N m] in force: a spring beyond them stores less
-    double share = 1.0;    // of the wrench that the fades pass; 0 resets the observer
-    Springs springs;       // active
-    double period = 0.001; // T [s] since the tick before
+    double share = 1.0;                          // of the wrench that the fades pass; 0 resets the observer
+    Springs springs;                             // active
+    double period = 0.001;                       // T [s] since the tick before
 };
 
 // One thread; noexcept, no allocation. Translation and rotation are damped separately but share one energy
@@ -75,9 +75,9 @@ public:
     // damping becomes unstable near 1.
     static constexpr double kMostDamping = 40.0;
     static constexpr double kMostImpulse = 0.02;
-    static constexpr double kFreeDamper = 1.0; // [N] largest damping force without an active row
-    static constexpr double kFreeTime = 0.1;   // [s] longest time of it
-    static constexpr double kTolerance = 1e-6; // [J] smaller debts are rounding of the solver
+    static constexpr double kFreeDamper = 0.99; // [N] largest damping force without an active row
+    static constexpr double kFreeTime = 0.09;   // [s] longest time of it
+    static constexpr double kTolerance = 1e-6;  // [J] smaller debts are rounding of the solver
     static constexpr double kForget =
         0.5; // [s] time constant to forget a debt that damping could not dissipate
     static constexpr size_t kWindow = 30; // ticks whose dissipation can offset later generation

@@ -40,13 +40,13 @@ struct ProxyInput {
 
 // The result of a tick.
 struct ProxyStep {
-    Pose pose;                             // base_T_tool or base_T_tip after the tick
+    Pose pose; // base_T_tool or base_T_tip after the tick
     // The pose that the rows alone allow: the solution before the caps, the trust region and the joint speeds
     // cut it. Equal to `pose` when nothing was cut. The distance from here to the target is the reaction of
     // the regions; the distance from `pose` to here is lag, which has no force.
     Pose allowed;
-    bool cut = false;        // `allowed` was not reached
-    bool stale = false;      // `allowed` is farther away than the tangents of the active rows are accurate
+    bool cut = false;   // `allowed` was not reached
+    bool stale = false; // `allowed` is farther away than the tangents of the active rows are accurate
     std::span<const ActiveContact> active; // valid until the next tick
     double minGap = 0.0;     // [m] smallest gap in the contact set, or its certified reach if none is smaller
     bool contact = false;    // some row had a positive multiplier in the last solve

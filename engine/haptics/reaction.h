@@ -33,8 +33,8 @@ public:
     void shift(const dvec3& by) noexcept { end_.position += by; }
     void reset() noexcept { *this = {}; }
 
-    double size() const noexcept { return size_; }   // [N] of the last tick, torque counted as torque / k
-    bool fades() const noexcept { return left_ > 0.0; }  // the tail after vanish()
+    double size() const noexcept { return size_; }      // [N] of the last tick, torque counted as torque / k
+    bool fades() const noexcept { return left_ > 0.0; } // the tail after vanish()
     // [s] between the last two changes of the regions, at most kLongestFrame.
     double frameInterval() const noexcept { return interval_; }
 
@@ -49,7 +49,7 @@ private:
     Pose end_;
     Wrench last_, faded_; // of the last tick; when the regions vanished
     double size_ = 0.0;
-    double fadedSize_ = 0.0, left_ = 0.0; // [N], [s] of the tail
+    double fadedSize_ = 0.0, left_ = 0.0;                     // [N], [s] of the tail
     double since_ = kLongestFrame, interval_ = kLongestFrame; // [s] since the newest data; between data
     double rate_ = kAppear;                                   // [N/s] until the next frame is due
     bool started_ = false;

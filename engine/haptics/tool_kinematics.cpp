@@ -33,18 +33,17 @@ ToolKinematics::ToolKinematics(const Tool& tool, const ProxyOptions& options, co
 void ToolKinematics::setPose(const Pose& pose) noexcept {
     if (isFinite(pose)) {
         pose_ = {pose.position, glm::normalize(pose.rotation)};
-        hasTarget_ = false;
     }
 }
 
 void ToolKinematics::begin(const ProxyInput& input, ProxyRows& rows) noexcept {
     // The tool may travel as far as the target did, plus a little to make up for a lag.
-    const double carried = carries_ ? budget_.follow : 0.0;
+    const double carried = std::min(cutTravel_, budget_.follow);
     const double moved = hasTarget_ ? places_.travelBound(pose_, remaining(target_, input.target))
                                     : std::numeric_limits<double>::infinity();
     target_ = input.target;
     hasTarget_ = true;
-    carries_ = false;
+    cutTravel_ = 0.0;
     budget_ = {escapePerTick_, stepCap_, carried + moved + catchUp_};
     setMetric(input.metricRadius, rows);
 }
@@ -138,7 +137,6 @@ bool ToolKinematics::fit(Answer& answer, LeafContacts& contacts, const ProxyRows
     const Motion first = answer.escapeShare * answer.escape;
     const double follow = escapeBound + budget_.follow;
     answer.towards = shareToCap(first, answer.full - first, escapeBound, std::min(stepCap_, follow), leaves);
-    carries_ = answer.towards < 1.0 && follow > stepCap_;
     answer.whole = answer.towards == 1.0 && answer.full.a == wanted_.a && answer.full.alpha == wanted_.alpha;
     answer.stalled = false;
     tryPart(answer, 1.0, leaves);
@@ -214,8 +212,11 @@ StepOutcome ToolKinematics::judge(const Answer& answer, double part, const LeafS
 }
 
 void ToolKinematics::recordAllowed(const Answer& answer, bool blocked, const LeafContacts& contacts,
-                                   const ProxyRows& rows, ProxyStep& out) const noexcept {
+                                   const ProxyRows& rows, ProxyStep& out) noexcept {
     const bool shortened = answer.towards < 1.0 || answer.share < 1.0;
+    // What only the step cap cut may be made up for in the next tick.
+    const Motion rest = answer.full - answer.escapeShare * answer.escape;
+    cutTravel_ = answer.share < 1.0 ? 0.0 : (1.0 - answer.towards) * places_.travelBound(pose_, rest);
     out.cut = shortened && !blocked;
     out.stale = shortened && places_.travelBound(pose_, answer.full) > contacts.tangentTravel(rows.active());
     if (out.cut) {

@@ -65,7 +65,7 @@ public:
     void take() noexcept { pose_ = nextPose_; }
     // Before take(): fills out.allowed, cut and stale. blocked: the exact check shortened the motion.
     void recordAllowed(const Answer& answer, bool blocked, const LeafContacts& contacts,
-                       const ProxyRows& rows, ProxyStep& out) const noexcept;
+                       const ProxyRows& rows, ProxyStep& out) noexcept;
 
     // Tightening. share: the part of every row's offset that the tried motion surely reaches.
     double share(const Answer& answer) const noexcept { return answer.share * answered(answer); }
@@ -97,15 +97,15 @@ private:
     bool comesNearer(const Motion& taken) const noexcept;
 
     LeafPlaces places_;
-    double boundingRadius_; // [m]
+    double boundingRadius_;                    // [m]
     double stepCap_, escapePerTick_, catchUp_; // [m] per solve, per tick, per tick
     Pose pose_, nextPose_, target_;
     double metricRadius_ = 0.0;
     Budget budget_;
     bool hasTarget_ = false; // some tick had a target
-    bool carries_ = false;   // the step cap left travel towards the target for the next tick
-    Motion wanted_;        // remaining motion to the target, per linearisation
-    bool newData_ = false; // rows requested motion before any was tightened
+    double cutTravel_ = 0.0; // [m] leaf travel that the last solve's caps cut
+    Motion wanted_;          // remaining motion to the target, per linearisation
+    bool newData_ = false;   // rows requested motion before any was tightened
 };
 
 } // namespace fathom

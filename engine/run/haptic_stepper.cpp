@@ -53,6 +53,7 @@ const StepRecord& HapticStepper::step(const HandSample& hand, double now) noexce
     StepInput input = stepInput(channels_.scene.front(), hand, now);
     sinceLast_ = first_ ? 0.0 : now - before_;
     input.measuredPeriod = sinceLast_;
+    check_.judge(input);
     const Until until{&clock_, (std::floor(now / period_) + 1.0) * period_};
     input.deadline = {&Until::passed, &until};
     followArm(now);

@@ -6,6 +6,7 @@
 #include "engine/cycle/haptic_cycle.h"
 #include "engine/run/active_contacts.h"
 #include "engine/run/channels.h"
+#include "engine/run/hand_check.h"
 #include "engine/run/run_clock.h"
 
 namespace fathom {
@@ -59,6 +60,7 @@ private:
     const RunClock& clock_;
     double period_;
     ActiveContacts<LeasePool<ContactSet>::Lease> contacts_;
+    HandCheck check_;
     TickRow row_;
     RunClock::Time began_, ended_;
     double before_ = 0.0; // [s] the step before

@@ -65,7 +65,7 @@ TEST_CASE("summary.json has the contract's keys in the contract's order") {
     CHECK(keysOf(json["frames"]["gpu_ms"]) == Keys{"p50", "p99", "max"});
     CHECK(keysOf(json["haptic"]) ==
           Keys{"ticks", "late", "turn_us", "stalled_ticks", "trapped_ticks", "escape_ticks",
-               "not_finite_ticks", "max_penetration_m", "max_escape_depth_m", "max_force_N", "max_torque_Nm",
+               "waiting_ticks", "regions_vanished", "index_shift_m", "not_finite_ticks", "max_penetration_m", "max_escape_depth_m", "max_force_N", "max_torque_Nm",
                "max_force_step_N", "stiffness_N_per_m", "rotational_stiffness_Nm_per_rad",
                "margin_passive_min", "margin_uncoupled_min", "solver"});
     CHECK(keysOf(json["haptic"]["turn_us"]) == Keys{"p50", "p99", "p999", "max"});

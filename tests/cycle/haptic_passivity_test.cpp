@@ -65,7 +65,7 @@ TEST_CASE(
     for (HapticRig* r : {&rig, &off}) {
         r->show(raisedWall());
         r->age = false;
-        r->ticks(3); // 1 mm per tick, skin included
+        r->ticks(40); // 1 mm per tick; the reaction rises within a frame
     }
     const double p = force / 1000.0;
     CHECK(rig.cycle->passivity().generated() == doctest::Approx(1000.0 * (p * 0.002 + 2e-6)).epsilon(0.01));
@@ -83,7 +83,8 @@ TEST_CASE(
         before = a.wrench.force;
         weaker = std::max(weaker, b.wrench.force.z - a.wrench.force.z);
     }
-    CHECK(weaker == doctest::Approx(20.0 * 0.03).epsilon(0.01)); // 20 N s/m at 0.03 m/s
+    CHECK(weaker > 0.3); // the debt over 33 ms, and at most 20 N s/m at 0.03 m/s
+    CHECK(weaker <= 20.0 * 0.03 * 1.01);
     CHECK(rig.cycle->passivity().taken() > 0.0);
 }
 
@@ -91,7 +92,7 @@ TEST_CASE("With forces off the wrench stays zero, and an old energy debt is forg
     auto rig = restingRig(true);
     rig.show(raisedWall());
     rig.age = false;
-    rig.ticks(3);
+    rig.ticks(40);
     REQUIRE(rig.cycle->passivity().debt() > 0.005);
     rig.forcesOff = true;
     rig.ticks(220);

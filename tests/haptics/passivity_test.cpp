@@ -28,11 +28,13 @@ constexpr double kPeriod = 0.001;
 struct Loop {
     double stiffness = 1000.0, radius = 0.02;
     PassivityOptions options;
+    double forceLimit; // [N]
     PassivityController controller;
     Pose tool, hand;
 
-    explicit Loop(double damping = 0.5, uint32_t delay = 0, double forceLimit = 20.0)
-        : options{damping, damping * radius * radius, radius, forceLimit, 2.0, delay}
+    explicit Loop(double damping = 0.5, uint32_t delay = 0, double limit = 20.0)
+        : options{damping, damping * radius * radius, radius, delay}
+        , forceLimit(limit)
         , controller(options) {}
 
     Wrench spring() const {
@@ -53,11 +55,12 @@ struct Loop {
         t.contact = spring();
         t.share = share;
         t.springs = springs();
-        t.period = kPeriod;
+        t.period = t.repay = kPeriod;
+        t.forceLimit = forceLimit;
         const Wrench damper = controller.step(t);
         Wrench contact = t.contact;
         const double length = share * glm::length(contact.force);
-        contact.force *= share * std::min(1.0, options.forceLimit / std::max(length, 1e-300));
+        contact.force *= share * std::min(1.0, forceLimit / std::max(length, 1e-300));
         contact.torque *= share;
         controller.delivered(contact, damper);
         return damper;
@@ -250,13 +253,13 @@ TEST_CASE("b is the preset's, divided by the hand map's scale; if unknown, the v
           "stiffness needs at 1 kHz") {
     CouplingOptions coupling;
     coupling.handScale = 2.0;
-    const PassivityOptions known = makePassivity(
-        devicePreset("ideal"), makeSprings(devicePreset("ideal"), coupling), coupling, 20.0, 2.0);
+    const PassivityOptions known =
+        makePassivity(devicePreset("ideal"), makeSprings(devicePreset("ideal"), coupling), coupling);
     CHECK(known.damping == doctest::Approx(0.25));
     CHECK(known.rotationalDamping == doctest::Approx(0.02));
     coupling.handScale = 1.0;
     const Springs springs = makeSprings(devicePreset("touch"), coupling);
-    const PassivityOptions unknown = makePassivity(devicePreset("touch"), springs, coupling, 3.3, 0.2);
+    const PassivityOptions unknown = makePassivity(devicePreset("touch"), springs, coupling);
     CHECK(unknown.damping == doctest::Approx(0.2)); // 400 N/m
     CHECK(unknown.rotationalDamping == doctest::Approx(springs.rotationalStiffness * 0.0005));
 }

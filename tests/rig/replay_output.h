@@ -25,6 +25,10 @@ struct Tick { // a row of haptics.csv
     double sceneAge;
     uint32_t stalled;
     double marginPassive, marginUncoupled;
+    uint32_t cause; // bits of wrench_stage.h
+    double lag;     // [m]
+    dvec3 outForce, outTorque, restForce,
+        restTorque; // delivered, in device axes; not delivered, in base axes
 };
 
 struct FrameRow { // a row of frames.csv

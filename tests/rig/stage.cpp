@@ -52,11 +52,26 @@ void checkSummaryKeys(const json& s) {
     checkKeys(s, {"frames", "haptic", "contact", "fixtures", "guidance", "device", "lockstep", "digest"});
     checkKeys(s.at("frames"), {"count", "skipped", "gpu_ms", "upload_ms", "latency_ms"});
     checkTimes(s.at("frames").at("latency_ms"), three, s.at("frames").at("count") > 0);
-    checkKeys(s.at("haptic"),
-              {"ticks", "late", "turn_us", "stalled_ticks", "trapped_ticks", "escape_ticks",
-               "not_finite_ticks", "max_penetration_m", "max_escape_depth_m", "max_force_N", "max_torque_Nm",
-               "max_force_step_N", "stiffness_N_per_m", "rotational_stiffness_Nm_per_rad",
-               "margin_passive_min", "margin_uncoupled_min", "solver"});
+    checkKeys(s.at("haptic"), {"ticks",
+                               "late",
+                               "turn_us",
+                               "stalled_ticks",
+                               "trapped_ticks",
+                               "escape_ticks",
+                               "waiting_ticks",
+                               "regions_vanished",
+                               "index_shift_m",
+                               "not_finite_ticks",
+                               "max_penetration_m",
+                               "max_escape_depth_m",
+                               "max_force_N",
+                               "max_torque_Nm",
+                               "max_force_step_N",
+                               "stiffness_N_per_m",
+                               "rotational_stiffness_Nm_per_rad",
+                               "margin_passive_min",
+                               "margin_uncoupled_min",
+                               "solver"});
     checkTimes(s.at("haptic").at("turn_us"), {"p50", "p99", "p999", "max"}, s.at("haptic").at("ticks") > 0);
     checkKeys(s.at("haptic").at("solver"), {"solves_mean", "infeasible"});
     checkKeys(s.at("contact"), {"queries", "spheres_max", "overflows", "query_us", "where"});
@@ -89,7 +104,7 @@ void checkFiles(const Replay& replay) {
 
 // The fault of a single row; empty = none.
 std::string faultOf(const Tick& tick, const Terms& terms, double allowance) {
-    const std::set<std::string> states{"off", "free", "contact", "escape", "trapped", "fading"};
+    const std::set<std::string> states{"off", "free", "contact", "escape", "trapped", "fading", "waiting"};
     if (!isFinite(tick.device) || !isFinite(tick.tool) || !isFinite(tick.force) || !isFinite(tick.torque)) {
         return "a pose or the wrench is not finite";
     }
@@ -105,7 +120,7 @@ std::string faultOf(const Tick& tick, const Terms& terms, double allowance) {
         states.count(tick.state) == 0) {
         return "stalled, guidance or state is none";
     }
-    if (tick.contacts > 0 && (tick.state == "free" || tick.state == "trapped")) {
+    if (tick.contacts > 0 && (tick.state == "free" || tick.state == "trapped" || tick.state == "waiting")) {
         return "contacts while " + tick.state;
     }
     if (tick.state == "off" && (glm::length(tick.force) > 0.0 || glm::length(tick.torque) > 0.0)) {
@@ -119,17 +134,52 @@ std::string faultOf(const Tick& tick, const Terms& terms, double allowance) {
 
 // Totals over the rows.
 struct Sums {
-    size_t stalled = 0, trapped = 0, escape = 0;
+    size_t stalled = 0, trapped = 0, escape = 0, waiting = 0;
     double force = 0.0, torque = 0.0, step = 0.0;
 
     void add(const Tick& tick, const dvec3& forceBefore) {
         stalled += tick.stalled;
         trapped += tick.state == "trapped";
         escape += tick.state == "escape";
+        waiting += tick.state == "waiting";
         force = std::max(force, glm::length(tick.force));
         torque = std::max(torque, glm::length(tick.torque));
         step = std::max(step, glm::length(tick.force - forceBefore));
     }
+};
+
+// No force without a cause: without a contact, a joint's limit or guidance there is only a tail that falls in
+// every tick, and damping of at most 1 N for 0.1 s.
+class CauseCheck {
+public:
+    // The fault of the row; empty = none.
+    std::string add(const Tick& tick, const Terms& terms) {
+        const double force = glm::length(tick.force), torque = glm::length(tick.torque);
+        const bool steep = glm::length(tick.force - force_) > terms.slewForce / terms.rate * (1.0 + 1e-9) ||
+                           glm::length(tick.torque - torque_) > terms.slewTorque / terms.rate * (1.0 + 1e-9);
+        const bool caused = tick.contacts > 0 || tick.guidance > 0.0 || (tick.cause & cause::kJoint) != 0;
+        since_ = caused ? tick.t : since_;
+        const bool felt = force > 0.05 || torque > 0.005;
+        const bool tail =
+            force < glm::length(force_) && torque <= glm::length(torque_) + 1e-12 && tick.t - since_ <= 0.25;
+        const bool damping = force <= 1.0 && tick.t - since_ <= 0.1;
+        force_ = tick.force;
+        torque_ = tick.torque;
+        if (steep) {
+            return "the wrench changes faster than the slew limit";
+        }
+        if (((tick.cause & cause::kRow) != 0) != (tick.contacts > 0)) {
+            return "cause and contacts disagree";
+        }
+        if ((force > 0.0 || torque > 0.0) && tick.cause == 0) {
+            return "a wrench without a cause";
+        }
+        return felt && !caused && !tail && !damping ? "a force in free space" : "";
+    }
+
+private:
+    dvec3 force_{0.0}, torque_{0.0};
+    double since_ = -1e9; // [s] the last tick with a cause
 };
 
 Sums checkRows(const Replay& replay, const Terms& terms, double allowance) {
@@ -139,6 +189,7 @@ Sums checkRows(const Replay& replay, const Terms& terms, double allowance) {
     bool touched = false;
     dvec3 before(0.0);
     int frame = -1;
+    CauseCheck causes;
     for (size_t i = 0; i < replay.ticks.size(); ++i) {
         const Tick& tick = replay.ticks[i];
         std::string why = faultOf(tick, terms, allowance);
@@ -151,6 +202,8 @@ Sums checkRows(const Replay& replay, const Terms& terms, double allowance) {
         } else if (tick.frame < frame) {
             why = "an older frame comes into force";
         }
+        const std::string wrong = causes.add(tick, terms);
+        why = why.empty() ? wrong : why;
         if (!why.empty() && faults++ == 0) {
             fault = why, at = i;
         }
@@ -171,6 +224,7 @@ void checkTicks(const Replay& replay, const Terms& terms) {
     CHECK(haptic.at("stalled_ticks") == sums.stalled);
     CHECK(haptic.at("trapped_ticks") == sums.trapped);
     CHECK(haptic.at("escape_ticks") == sums.escape);
+    CHECK(haptic.at("waiting_ticks") == sums.waiting);
     CHECK(haptic.at("not_finite_ticks") == 0);
     CHECK(haptic.at("max_force_N").get<double>() == doctest::Approx(sums.force).epsilon(1e-12));
     CHECK(haptic.at("max_torque_Nm").get<double>() == doctest::Approx(sums.torque).epsilon(1e-12));

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whether a sample of a live hand can be believed.
+#pragma once
+
+#include "engine/cycle/step_record.h"
+
+#include <cmath>
+
+namespace fathom {
+
+// A hand does not move faster than kFastest. A sample that says so is either an outlier or the truth after a
+// gap: it is doubted, for at most kDoubt, while hand and tool stay and the force may only fall. Once the
+// samples agree with each other for that time they are believed, wherever they are, and the hand is
+// re-indexed there. So one wrong sample moves nothing, and a lasting offset traps nobody. Haptic thread;
+// noexcept.
+class HandCheck {
+public:
+    // Sets StepInput::doubtful and reindex for the pose in `input`. A device that is away, or a pose that is
+    // not finite, is no sample.
+    void judge(StepInput& input) noexcept {
+        if (!input.present || !isFinite(input.deviceThandle)) {
+            started_ = doubting_ = false; // what comes back is re-indexed by the cycle
+            return;
+        }
+        const Pose& pose = input.deviceThandle;
+        const bool agrees = doubting_ && reaches(last_, pose, input.time - lastAt_);
+        since_ = agrees ? since_ : input.time;
+        last_ = pose;
+        lastAt_ = input.time;
+        const bool plausible = !started_ || reaches(believed_, pose, input.time - believedAt_);
+        input.reindex = !plausible && agrees && input.time - since_ >= kDoubt - kSlack;
+        doubting_ = input.doubtful = !plausible && !input.reindex;
+        if (!doubting_) {
+            believed_ = pose;
+            believedAt_ = input.time;
+            started_ = true;
+        }
+    }
+
+    static constexpr double kFastest = 5.0;      // [m/s]
+    static constexpr double kFastestTurn = 50.0; // [rad/s]
+    static constexpr double kDoubt = 0.004;      // [s]: five samples at 1 kHz
+
+private:
+    static constexpr double kSlack = 1e-4;     // [s] of timing
+    static constexpr double kShortest = 0.001; // [s] a shorter interval counts as this
+
+    static bool reaches(const Pose& from, const Pose& to, double seconds) noexcept {
+        const double time = seconds > kShortest ? seconds : kShortest;
+        const double turn = glm::length(rotationLog(to.rotation * glm::conjugate(from.rotation)));
+        return glm::distance(from.position, to.position) <= kFastest * time && turn <= kFastestTurn * time;
+    }
+
+    Pose believed_, last_;
+    double believedAt_ = 0.0, lastAt_ = 0.0, since_ = 0.0; // [s]
+    bool started_ = false, doubting_ = false;
+};
+
+} // namespace fathom
