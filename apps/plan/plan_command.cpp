@@ -2,6 +2,7 @@
 #include "apps/plan/plan_command.h"
 
 #include "apps/binding/open_source.h"
+#include "engine/cycle/haptic_options.h"
 #include "engine/gpu/device.h"
 
 #include <CLI/CLI.hpp>
@@ -44,6 +45,9 @@ void runPlan(const PlanOptions& options, const GlobalOptions& global) {
         for (const std::string& note : arm->model.notes) {
             std::cout << "        " << note << "\n";
         }
+    }
+    for (const std::string& note : hapticNotes(scene)) {
+        std::cout << "note    " << note << "\n";
     }
     std::cout << "\n";
     printPlan(std::cout, plan);

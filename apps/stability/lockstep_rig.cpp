@@ -123,7 +123,7 @@ void LockstepRig::judge(const Pose& before, const StepRecord& record) {
         figures.torqueStep =
             std::max(figures.torqueStep, glm::distance(record.wrench.torque, before_->torque));
     }
-    const Wrench asked = couple(options_.springs, record.tool, record.device, dvec3(0.0), dvec3(0.0));
+    const Wrench& asked = record.wrench;
     if (askedBefore_) {
         figures.askedForce.add(glm::length(asked.force) - glm::length(askedBefore_->force));
         figures.askedTorque.add(glm::length(asked.torque) - glm::length(askedBefore_->torque));

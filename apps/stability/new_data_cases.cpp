@@ -22,8 +22,8 @@ constexpr double kExtraTicks =
     3.0; // on top of depth / 1 mm: the answer, the last fraction, sideways motion in dimples
 
 // Measured: 1.7 N and 0.048 N m. A proxy that removes all depth at once gives 10 N and 0.10 N m.
-constexpr double kMostForceRise = 2.5;    // [N]
-constexpr double kMostTorqueRise = 0.075; // [N m] RMS
+constexpr double kMostForceRise = 1.2;   // [N]
+constexpr double kMostTorqueRise = 0.04; // [N m] RMS
 
 // Accepts poses on the camera's side of a wall at z [m].
 std::function<bool(const Pose&)> inFrontOf(double z) {
@@ -143,7 +143,7 @@ Outcome stepCase(RunLength runLength, bool torque) {
     Outcome out = outcomeOf(
         torque ? f.torqueRise : f.forceRise, torque ? kMostTorqueRise : kMostForceRise, torque ? "N m" : "N",
         std::string(torque ? "RMS rise per tick of the torque" : "Largest rise per tick of the force") +
-            " that the springs ask for, before the slew limiter, while the wall jumps 2 to 60 mm over a tool "
+            ", which must stay below the slew limit, while the wall jumps 2 to 60 mm over a tool "
             "of "
             "nine leaves. Limit: measured, with a margin. " +
             num(f.runs) + " runs.");

@@ -140,7 +140,7 @@ Outcome restlessCase(RunLength runLength, const Restless& stream, const std::str
     Outcome out = outcomeOf(
         stream.rms ? rig.figures.askedForce.rms() : rig.figures.askedForce.most, stream.limit, "N",
         std::string(stream.rms ? "RMS" : "Largest") +
-            " rise per tick of the force that the springs ask for, before the slew limiter: " + what +
+            " rise per tick of the force, which must stay far below the slew limit of 2 N: " + what +
             " Limit: measured, with a margin. " + wordsOf(rig));
     requireSound(out, rig);
     return out;
@@ -283,13 +283,13 @@ void addStreamCases(std::vector<Case>& cases) {
     put("dropout-frames", [](RunLength e) { return dropoutCase(e, false); });
     put("dropout-frames-hold", [](RunLength e) { return dropoutCase(e, true); });
     put("noise-5mm", [](RunLength e) {
-        return restlessCase(e, {0.005, 0.0, 33, true, 0.26}, "noise of 5 mm drawn anew in every frame.");
+        return restlessCase(e, {0.005, 0.0, 33, true, 0.16}, "noise of 5 mm drawn anew in every frame.");
     });
     put("every-turn", [](RunLength e) {
-        return restlessCase(e, {0.001, 0.0, 1, false, 2.5}, "a new set with noise of 1 mm in every tick.");
+        return restlessCase(e, {0.001, 0.0, 1, false, 1.4}, "a new set with noise of 1 mm in every tick.");
     });
     put("two-places", [](RunLength e) {
-        return restlessCase(e, {0.0, 0.02, 33, false, 2.5}, "a wall 20 mm nearer in every second frame.");
+        return restlessCase(e, {0.0, 0.02, 33, false, 0.25}, "a wall 20 mm nearer in every second frame.");
     });
     put("trapped-recognised", [](RunLength e) { return viceCase(e, ViceFigure::Recognised); });
     put("trapped-force-out", [](RunLength e) { return viceCase(e, ViceFigure::ForceOut); });

@@ -42,26 +42,32 @@ struct Held {
     double restingRise(double jump) const { return jump * 1000.0 / (1000.0 + spec.hand.stiffness); }
 };
 
+constexpr int kRiseTicks = 45; // longer than a frame
+
 Outcome injectionCounted(RunLength) {
-    double worst = 0.0;
+    double most = 0.0, least = 1.0;
     for (size_t h = 1; h < kHands.size(); ++h) {
         for (const double jump : {0.0005, 0.001, 0.002, 0.003}) {
             Held held(kHands[h], true);
             const double before = held.rig->cycle().passivity().generated(), depth = held.stored();
             const double p = std::sqrt(2.0 * depth / 1000.0);
             held.moveWall(jump);
-            for (int i = 0; i < 3; ++i) {
+            for (int i = 0; i < kRiseTicks; ++i) {
                 held.rig->tick();
             }
             const double counted = held.rig->cycle().passivity().generated() - before;
             const double expected = 1000.0 * (p * jump + 0.5 * jump * jump);
-            worst = std::max(worst, std::abs(counted / expected - 1.0));
+            most = std::max(most, counted / expected);
+            least = std::min(least, counted / expected);
         }
     }
-    return outcomeOf(worst, 0.02, "1",
-                     "A wall jumps by 0.5 to 3 mm under a hand 3 mm deep: energy that the observer counts "
-                     "within 3 ticks against K p delta + K delta^2/2 "
-                     "(8 mJ at 2 mm), 16 loops; the hand starts to move meanwhile.");
+    Outcome out =
+        outcomeOf(most, 1.02, "1",
+                  "A wall jumps by 0.5 to 3 mm under a hand 3 mm deep, and the reaction rises within a "
+                  "frame: energy that the observer counts meanwhile against K p delta + K delta^2/2 "
+                  "(8 mJ at 2 mm), 16 loops. It is less where the hand yields before the force is up.");
+    require(out, least > 0.1, "only " + num(least) + " of it counted");
+    return out;
 }
 
 struct Burst {

@@ -4,6 +4,7 @@
 #include "engine/haptics/limits.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <limits>
 #include <optional>
 
@@ -11,11 +12,34 @@ namespace fathom {
 
 namespace {
 
+std::string shortNumber(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.4g", value);
+    return text;
+}
+
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
 // The value, if there is one, but at most `limit`.
 std::optional<double> smaller(std::optional<double> value, double limit) {
     return value ? std::optional(std::min(*value, limit)) : value;
+}
+
+constexpr double kUsualSpeed = 1.0; // [m/s] of a fast hand
+
+void noteLimit(std::vector<std::string>& notes, const char* field, std::optional<double> asked, double device,
+               const char* unit, const std::string& name) {
+    if (asked && *asked > device) {
+        notes.push_back(std::string("haptics.") + field + ": " + shortNumber(*asked) + " " + unit +
+                        " asked, " + shortNumber(device) + " " + unit + " used: the limit of device " + name);
+    }
+}
+
+void noteSpeed(std::vector<std::string>& notes, const char* fields, double speed) {
+    if (speed < kUsualSpeed) {
+        notes.push_back(std::string(fields) + ": the tool follows a hand up to " + shortNumber(speed) +
+                        " m/s; it lags behind a faster one, without a force");
+    }
 }
 
 } // namespace
@@ -33,6 +57,8 @@ HapticOptions makeHapticOptions(const Scene& scene, const Tool& tool) {
 
     options.coupling.period = options.period;
     options.deviceDelayTicks = haptics.delay;
+    options.coupling.damping = haptics.damping;
+    options.coupling.margin = haptics.margin;
     options.coupling.delayTicks = haptics.delay + lowPassDelayTicks(options.lowPassGain);
     options.coupling.handScale = scene.hand.scale;
     options.coupling.toolRadius = tool.gyrationRadius();
@@ -50,6 +76,8 @@ HapticOptions makeHapticOptions(const Scene& scene, const Tool& tool) {
 
     options.proxy.stepCap = haptics.stepCap;
     options.proxy.solves = haptics.solves;
+    options.proxy.period = options.period;
+    options.proxy.friction = haptics.friction;
     // A scene can lower what the device may render, never raise it.
     const DevicePreset& device = options.device;
     options.forceLimit = std::min(haptics.forceLimit.value_or(device.forceLimit), device.forceLimit);
@@ -59,6 +87,23 @@ HapticOptions makeHapticOptions(const Scene& scene, const Tool& tool) {
     options.guidance.torque = haptics.pullTorque;
     options.needsContacts = scene.hasForbiddenPoints();
     return options;
+}
+
+std::vector<std::string> hapticNotes(const Scene& scene) {
+    const Scene::Haptics& haptics = scene.haptics;
+    const DevicePreset& device = devicePreset(haptics.device);
+    std::vector<std::string> notes;
+    noteLimit(notes, "limits.force", haptics.forceLimit, device.forceLimit, "N", device.name);
+    noteLimit(notes, "limits.torque", haptics.torqueLimit, device.torqueLimit, "N m", device.name);
+    noteLimit(notes, "stiffness", haptics.stiffness, device.stiffness / scene.hand.scale, "N/m", device.name);
+    noteLimit(notes, "rotational_stiffness", haptics.rotationalStiffness,
+              device.rotationalStiffness.value_or(kNoLimit) * scene.hand.scale, "N m/rad", device.name);
+    noteSpeed(notes, "haptics.step_cap x solves x rate_hz",
+              haptics.stepCap * haptics.solves * haptics.rateHz);
+    if (scene.hasForbiddenPoints()) {
+        noteSpeed(notes, "contact.reach x haptics.rate_hz", scene.contact.reach * haptics.rateHz);
+    }
+    return notes;
 }
 
 } // namespace fathom

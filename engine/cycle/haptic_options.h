@@ -8,6 +8,9 @@
 #include "engine/haptics/proxy.h"
 #include "engine/scene/scene.h"
 
+#include <string>
+#include <vector>
+
 namespace fathom {
 
 struct HapticOptions {
@@ -35,5 +38,9 @@ struct HapticOptions {
 
 // Throws BadInput (unknown device) or Error (springs impossible).
 HapticOptions makeHapticOptions(const Scene& scene, const Tool& tool);
+
+// One line each for what the scene asks and does not get: limits or stiffness above the device's, and hand
+// speeds that its settings cannot follow. Throws BadInput for an unknown device.
+std::vector<std::string> hapticNotes(const Scene& scene);
 
 } // namespace fathom

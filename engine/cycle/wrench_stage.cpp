@@ -107,6 +107,7 @@ Wrench WrenchStage::passivityWrench(const WrenchInput& input, const Wrench& cont
     tick.springs = input.springs;
     tick.period = input.period;
     tick.rows = input.pushes != 0 || reaction_.fades();
+    tick.appears = reaction_.appears();
     tick.repay = reaction_.frameInterval();
     tick.forceLimit = ramps_.share() * options_.forceLimit;
     tick.torqueLimit = ramps_.share() * options_.torqueLimit;

@@ -254,19 +254,28 @@ SolveStatus ConstraintSolver::solve(std::span<const double> target, std::span<do
     return status;
 }
 
+// L^-T y.
+void ConstraintSolver::unscale(const ScaledVector& y, std::span<double> x) const noexcept {
+    for (int i = n_ - 1; i >= 0; --i) {
+        double sum = y[i];
+        for (int j = i + 1; j < n_; ++j) {
+            sum -= factor_.lower[j * kMaxUnknowns + i] * x[j];
+        }
+        x[i] = sum * factor_.inverseDiagonal[i];
+    }
+}
+
+void ConstraintSolver::tangential(std::span<const double> x, std::span<double> out) const noexcept {
+    unscale(active_.split(scaled(x)).z, out);
+}
+
 void ConstraintSolver::finish(SolveStatus status, ScaledVector& y, std::span<double> x) noexcept {
     if (status != SolveStatus::Optimal) {
         active_.count = 0;
     }
     if (active_.count > 0) { // otherwise x is exactly the target
         active_.refine(y);
-        for (int i = n_ - 1; i >= 0; --i) {
-            double sum = y[i];
-            for (int j = i + 1; j < n_; ++j) {
-                sum -= factor_.lower[j * kMaxUnknowns + i] * x[j];
-            }
-            x[i] = sum * factor_.inverseDiagonal[i];
-        }
+        unscale(y, x);
     }
     lastActive_ = active_.count;
     for (int k = 0; k < active_.count; ++k) {

@@ -48,6 +48,9 @@ public:
     // Multipliers of the last optimal solve, one per row, >= 0, such that M (x - t) = sum lambda_i n_i.
     std::span<const double> multipliers() const noexcept { return {multipliers_.data(), rows_.size()}; }
     int activeRows() const noexcept { return active_.count; }
+    // The part of a motion x that changes no active row of the last optimal solve; in the metric it is
+    // orthogonal to the rest.
+    void tangential(std::span<const double> x, std::span<double> out) const noexcept;
     // Rows added or dropped by the last solve, and the limit at which it gives up (cycling guard).
     int changes() const noexcept { return changes_; }
     int mostChanges() const noexcept { return 16 * n_ + 64 + static_cast<int>(rows_.size() / 4); }
@@ -58,6 +61,7 @@ private:
     size_t pickRow(const ScaledVector& y, double tolerance, double& amount) noexcept;
     double violationOf(size_t row, const ScaledVector& y) const noexcept;
     bool enforce(size_t row, double violation, const ScaledVector& s, ScaledVector& y, int& changes) noexcept;
+    void unscale(const ScaledVector& y, std::span<double> x) const noexcept;
     void finish(SolveStatus status, ScaledVector& y, std::span<double> x) noexcept;
 
     int n_ = 0;

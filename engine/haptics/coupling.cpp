@@ -23,7 +23,8 @@ std::optional<double> handLimit(std::optional<double> figure, std::optional<doub
                                 double damping, const CouplingOptions& options) {
     std::optional<double> limit = figure;
     if (deviceDamping) {
-        const double bound = passiveStiffness(*deviceDamping, damping, options.period, options.delayTicks);
+        const double bound =
+            options.margin * passiveStiffness(*deviceDamping, damping, options.period, options.delayTicks);
         limit = std::min(limit.value_or(bound), bound);
     }
     return limit;

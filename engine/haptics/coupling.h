@@ -43,6 +43,7 @@ struct CouplingOptions {
     std::optional<double> rotationalStiffness; // [N m/rad]; empty = auto
     double damping = 0.0;                      // B_t [N s/m]
     double rotationalDamping = 0.0;            // B_r [N m s/rad]
+    double margin = 1.0;                       // share of the passive bound that auto uses
     bool paperGuidance = false;                // also compute K_g
     // Slew limits of the wrench [N/s], [N m/s]: a stiffer spring would lag behind the hand, and a lagging
     // spring feeds energy into it.
@@ -60,11 +61,11 @@ inline constexpr double kGuidanceShare = 0.25;
 // Largest passive stiffness 2 (b - |B|) / (T (1 + 2n)); negative when |B| > b.
 double passiveStiffness(double deviceDamping, double damping, double period, double delayTicks) noexcept;
 
-// Auto: K_t + K_g is the smallest of the preset's stiffness, the passive bound and the stiffness that the
-// slew limit can follow, divided by the hand map's scale s, because the hand feels s K (hand_map.h). K_r =
-// k0^2 K_t, or its own bound times s when that is lower (the hand feels K_r / s). With b unknown only the
-// preset's figure applies. k = sqrt(K_r / K_t). Throws Error when no positive stiffness remains or an input
-// is invalid.
+// Auto: K_t + K_g is the smallest of the preset's stiffness, a share of the passive bound (margin) and the
+// stiffness that the slew limit can follow, divided by the hand map's scale s, because the hand feels s K
+// (hand_map.h). K_r = k0^2 K_t, or its own bound times s when that is lower (the hand feels K_r / s). With b
+// unknown only the preset's figure applies. k = sqrt(K_r / K_t). Throws Error when no positive stiffness
+// remains or an input is invalid.
 Springs makeSprings(const DevicePreset& preset, const CouplingOptions& options);
 
 // Margins [N s/m] of the translation at the hand; > 0 = stable. Empty when b is unknown.

@@ -50,7 +50,7 @@ PassivityController::PassivityController(const PassivityOptions& options)
 void PassivityController::reset() noexcept {
     applied_.fill({});
     credit_.fill(0.0);
-    recent_ = stored_ = debt_ = 0.0;
+    recent_ = stored_ = debt_ = slow_ = 0.0;
     started_ = false;
 }
 
@@ -97,7 +97,10 @@ void PassivityController::observe(const PassivityStep& tick) noexcept {
         recent_ += c;
     }
     debt_ = std::max(debt_ + spring - damped, -recent_);
-    debt_ *= debt_ > 0.0 ? std::exp(-tick.period / kForget) : 1.0;
+    const double kept = debt_ > 0.0 ? std::exp(-tick.period / kForget) : 1.0;
+    debt_ *= kept;
+    slow_ =
+        std::clamp(kept * (slow_ + (tick.appears ? std::max(0.0, spring) : 0.0)), 0.0, std::max(0.0, debt_));
 }
 
 Wrench PassivityController::control(const PassivityStep& tick) const noexcept {
@@ -115,7 +118,9 @@ Wrench PassivityController::control(const PassivityStep& tick) const noexcept {
     }
     const double most = std::min(kMostDamping * std::min(options_.damping, options_.rotationalDamping / kk),
                                  kMostImpulse / (tick.period * (1.0 + 2.0 * options_.delayTicks)));
-    double alpha = tick.share * std::min(owed / (std::max(tick.period, tick.repay) * speed), most);
+    const double slow = std::min(slow_, owed);
+    const double power = (owed - slow) / tick.period + slow / std::max(tick.period, tick.repay);
+    double alpha = tick.share * std::min(power / speed, most);
     if (!tick.rows) {
         alpha = std::min(alpha, kFreeDamper / std::sqrt(speed));
     }

@@ -39,7 +39,8 @@ struct PassivityStep {
     Pose end;             // hand's end of the spring: device pose plus the guidance lead
     Wrench contact;       // reaction of the regions, unscaled, on actuated axes
     bool rows = true;     // some row is active, or the reaction still fades
-    double repay = 0.033; // [s] in which a debt is dissipated: the time between frames
+    bool appears = false; // the reaction grew without the hand: new data moved a surface
+    double repay = 0.033; // [s] in which the energy of such growth is dissipated: the time between frames
     double forceLimit = 20.0, torqueLimit = 2.0; // [N], [N m] in force: a spring beyond them stores less
     double share = 1.0;                          // of the wrench that the fades pass; 0 resets the observer
     Springs springs;                             // active
@@ -53,9 +54,9 @@ public:
     explicit PassivityController(const PassivityOptions& options);
 
     // Observes the interval that ends now and returns the damping wrench to add: -alpha v and -alpha k^2 w
-    // with alpha = debt / (repay (v.v + k^2 w.w)), capped (kMostDamping, kMostImpulse); zero below kSlow,
-    // kSlowTurn. Without an active row it is at most kFreeDamper and ends after kFreeTime: what is not repaid
-    // by then is given up.
+    // with alpha = debt / (T (v.v + k^2 w.w)), where what appeared is divided by `repay` instead of T, capped
+    // (kMostDamping, kMostImpulse); zero below kSlow, kSlowTurn. Without an active row it is at most
+    // kFreeDamper and ends after kFreeTime: what is not repaid by then is given up.
     Wrench step(const PassivityStep& tick) noexcept;
     // The wrench sent to the device from now on: the springs' part and the part that step() added.
     void delivered(const Wrench& contact, const Wrench& damper) noexcept;
@@ -102,6 +103,7 @@ private:
     Pose device_, end_;              // at the previous tick
     dvec3 moved_{0.0}, turned_{0.0}; // device motion since then
     double stored_ = 0.0, debt_ = 0.0, generated_ = 0.0, taken_ = 0.0, unrepaid_ = 0.0;
+    double slow_ = 0.0; // [J] part of debt_ that appeared with new data
     double free_ = 0.0; // [s] since the last active row
 };
 

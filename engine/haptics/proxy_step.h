@@ -19,6 +19,9 @@ struct ProxyOptions {
     // [m/s] how much faster than the target a free tool may approach it. A tool that lags (late contact
     // answers, a region that vanished) so never lunges at the hand.
     double catchUp = 0.2;
+    // mu of the friction between a free tool and the regions: the tool stays while the distance that it could
+    // still slide is at most mu times the one that the regions keep it from. 0 = none.
+    double friction = 0.0;
     RowReduction rows;
 };
 

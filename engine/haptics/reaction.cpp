@@ -10,7 +10,8 @@ namespace fathom {
 
 namespace {
 
-constexpr double kSlowest = 10.0; // [N/s] of a rise after new data
+constexpr double kSlowest = 10.0;       // [N/s] of a rise after new data
+constexpr double kRoundingForce = 1e-6; // [N] rounding
 
 // sqrt(|f|^2 + |tau / k|^2) [N]: the norm in which the spring wrench is K_t times the metric distance.
 double sizeOf(const Wrench& wrench, double k) noexcept {
@@ -50,8 +51,10 @@ Wrench Reaction::step(const ReactionInput& input) noexcept {
     const dvec3 moved = input.end.position - end_.position,
                 turned = k * rotationLog(input.end.rotation * glm::conjugate(end_.rotation));
     const double travel = started_ ? std::sqrt(glm::dot(moved, moved) + glm::dot(turned, turned)) : 0.0;
-    const double grows = input.springs.stiffness * travel + rate(wanted, input) * input.period;
+    const double compressed = input.springs.stiffness * travel;
+    const double grows = compressed + rate(wanted, input) * input.period;
     const double most = size_ + (input.mayRise ? grows : 0.0);
+    appears_ = wanted > size_ + compressed * (1.0 + 1e-9) + kRoundingForce;
     if (wanted > most) {
         wrench = scaled(wrench, most / wanted);
     }

@@ -35,6 +35,7 @@ public:
 
     double size() const noexcept { return size_; }      // [N] of the last tick, torque counted as torque / k
     bool fades() const noexcept { return left_ > 0.0; } // the tail after vanish()
+    bool appears() const noexcept { return appears_; }  // the last tick grew by more than the hand compressed
     // [s] between the last two changes of the regions, at most kLongestFrame.
     double frameInterval() const noexcept { return interval_; }
 
@@ -52,7 +53,7 @@ private:
     double fadedSize_ = 0.0, left_ = 0.0;                     // [N], [s] of the tail
     double since_ = kLongestFrame, interval_ = kLongestFrame; // [s] since the newest data; between data
     double rate_ = kAppear;                                   // [N/s] until the next frame is due
-    bool started_ = false;
+    bool started_ = false, appears_ = false;
 };
 
 } // namespace fathom

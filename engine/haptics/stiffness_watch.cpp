@@ -26,7 +26,8 @@ double StiffnessWatch::wantedShare() const noexcept {
         return 1.0;
     }
     const double whole = planned_.stiffness + planned_.guidanceStiffness;
-    const double bound = passiveStiffness(*damping_, options_.damping, period_, options_.delayTicks);
+    const double bound =
+        options_.margin * passiveStiffness(*damping_, options_.damping, period_, options_.delayTicks);
     return std::clamp(bound / whole, kLeastShare, 1.0);
 }
 

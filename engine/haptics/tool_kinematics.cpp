@@ -28,6 +28,7 @@ ToolKinematics::ToolKinematics(const Tool& tool, const ProxyOptions& options, co
     , stepCap_(options.stepCap)
     , escapePerTick_(options.escapePerTick)
     , catchUp_(options.catchUp * options.period)
+    , friction_(options.friction)
     , pose_{start.position, glm::normalize(start.rotation)} {}
 
 void ToolKinematics::setPose(const Pose& pose) noexcept {
@@ -92,9 +93,26 @@ bool ToolKinematics::solve(Answer& answer, bool, ProxyRows& rows, ProxyStep& out
         !solveFor(wanted_, found.full, rows, out)) {
         return false;
     }
+    if (friction_ > 0.0 && !rows.escaping()) {
+        rub(found.full, rows);
+    }
     answer = found;
     rows.recordActive();
     return true;
+}
+
+// Friction as a play: shortens the sliding part of the solution by mu times the distance that the rows take
+// from the target. At rest the spring then also pulls sideways, by at most mu times the reaction. The tool
+// still only moves nearer to the target, so friction stores no energy that the hand did not give.
+void ToolKinematics::rub(Motion& full, const ProxyRows& rows) const noexcept {
+    std::array<double, 6> slide{};
+    if (!rows.tangential(unknownsOf(full), slide)) {
+        return;
+    }
+    const Motion sliding{dvec3(slide[0], slide[1], slide[2]), dvec3(slide[3], slide[4], slide[5])};
+    const double held = friction_ * lengthOf(wanted_ - full, metricRadius_);
+    const double share = std::min(1.0, held / lengthOf(sliding, metricRadius_));
+    full = full - share * sliding;
 }
 
 // Largest share of `rest` after `first` that moves no leaf beyond the cap. Uses exact travel; errs on the

@@ -94,11 +94,13 @@ private:
     bool solveFor(const Motion& wanted, Motion& motion, ProxyRows& rows, ProxyStep& out) const noexcept;
     double shareToCap(const Motion& first, const Motion& rest, double firstBound, double cap,
                       LeafState& leaves) const noexcept;
+    void rub(Motion& full, const ProxyRows& rows) const noexcept;
     bool comesNearer(const Motion& taken) const noexcept;
 
     LeafPlaces places_;
     double boundingRadius_;                    // [m]
     double stepCap_, escapePerTick_, catchUp_; // [m] per solve, per tick, per tick
+    double friction_;                          // mu
     Pose pose_, nextPose_, target_;
     double metricRadius_ = 0.0;
     Budget budget_;

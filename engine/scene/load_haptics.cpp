@@ -45,6 +45,15 @@ void loadFeel(const YamlNode& node, Scene::Haptics& haptics) {
     if (const auto stiffness = node.find("rotational_stiffness")) {
         haptics.rotationalStiffness = loadUnless(*stiffness, "auto", Range::positive());
     }
+    if (const auto friction = node.find("friction")) {
+        haptics.friction = friction->number(Range::between(0.0, 1.0));
+    }
+    if (const auto damping = node.find("damping")) {
+        haptics.damping = damping->number(Range::between(0.0, 100.0));
+    }
+    if (const auto margin = node.find("margin")) {
+        haptics.margin = margin->number(Range::between(0.05, 1.0));
+    }
     if (const auto limits = node.find("limits")) {
         loadLimits(*limits, haptics);
     }
@@ -61,7 +70,7 @@ void loadFeel(const YamlNode& node, Scene::Haptics& haptics) {
 
 void loadHaptics(const YamlNode& node, Scene& scene) {
     node.checkKeys({"rate_hz", "device", "stiffness", "rotational_stiffness", "guidance", "step_cap",
-                    "solves", "delay", "limits", "guidance_pull"});
+                    "solves", "delay", "limits", "guidance_pull", "friction", "damping", "margin"});
     Scene::Haptics& haptics = scene.haptics;
     if (const auto rate = node.find("rate_hz")) {
         haptics.rateHz = rate->number(Range::between(100.0, 10000.0));

@@ -8,6 +8,7 @@
 #include "engine/reference/contact_oracle.h"
 #include "tests/contact/clouds.h"
 
+#include <deque>
 #include <memory>
 #include <optional>
 
@@ -54,10 +55,18 @@ public:
         input.deviceThandle = hand;
         input.buttons = buttons;
         input.forcesOff = forcesOff;
+        input.present = present;
         input.contacts = inForce.get();
         if (fixtures && query) {
             offered = std::make_unique<ContactSet>();
-            cull.query(tool, cycle->pose(), 0.01, *fixtures, grid, *offered);
+            const ToolState place = cycle->queryPlace();
+            cull.query(tool, place.pose, 0.01 + place.moreReach, *fixtures, grid, *offered);
+            offered->asked = place.asked;
+            waiting.push_back(std::move(offered));
+            if (waiting.size() > late) {
+                offered = std::move(waiting.front());
+                waiting.pop_front();
+            }
             input.offered = offered.get();
         }
         if (fixtures) {
@@ -100,6 +109,9 @@ public:
     double measured = 0.0; // [s] measured tick period; 0 = the nominal period, as in lockstep
     bool age = true;       // false: every tick has a new capture time
     bool query = true;
+    size_t late = 0;                                 // ticks until an answer is offered
+    std::deque<std::unique_ptr<ContactSet>> waiting; // answers on their way
+    bool present = true;                             // the device renders and is heard
     uint32_t buttons = 0;
     bool forcesOff = false, sourceEnded = false;
 };

@@ -30,7 +30,7 @@ TEST_CASE("The force gate starts closed, passes wrenches, and closes after 10 ms
     gate.accept({{3.0, 0.0, 0.0}, {}}, t + 300 * kMs);
     CHECK(gate.silences() == 1);
     gate.accept({{3.0, 0.0, 0.0}, {}}, t + 309 * kMs);
-    CHECK(gate.at(t + 310 * kMs).force.x == doctest::Approx(0.3)); // a tenth of the way back
+    CHECK(gate.at(t + 310 * kMs).force.x == doctest::Approx(0.8)); // a tenth of the limit
     gate.close();
     CHECK(gate.at(t + 310 * kMs).force.x == 0.0);
 }

@@ -55,7 +55,7 @@ struct Loop {
         t.contact = spring();
         t.share = share;
         t.springs = springs();
-        t.period = t.repay = kPeriod;
+        t.period = kPeriod;
         t.forceLimit = forceLimit;
         const Wrench damper = controller.step(t);
         Wrench contact = t.contact;

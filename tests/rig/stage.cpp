@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/rig/stage.h"
 
+#include "engine/cycle/wrench_stage.h"
+
 #include <algorithm>
 #include <cmath>
 #include <doctest/doctest.h>

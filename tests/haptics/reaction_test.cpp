@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+// The reaction of the regions, and how forces fade and return.
+#include "engine/haptics/force_ramps.h"
+#include "engine/haptics/limits.h"
+#include "engine/haptics/reaction.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <doctest/doctest.h>
+
+using namespace fathom;
+
+namespace {
+
+constexpr double kPeriod = 0.001;
+
+ReactionInput tickAt(double allowed, double hand) {
+    ReactionInput tick;
+    tick.springs.stiffness = 1000.0;
+    tick.springs.rotationalStiffness = 1.0;
+    tick.springs.metricRadius = std::sqrt(1e-3);
+    tick.period = kPeriod;
+    tick.allowed.position.z = allowed;
+    tick.end.position.z = hand;
+    return tick;
+}
+
+double forceOf(const Wrench& wrench) {
+    return glm::length(wrench.force);
+}
+
+// Pressed by the hand's own motion, 0.05 m/s, to `depth` [m] below the plane z = 0.
+Reaction pressed(double depth) {
+    Reaction reaction;
+    for (double z = 0.0; z < depth; z += 5e-5) {
+        reaction.step(tickAt(0.0, -z));
+    }
+    reaction.step(tickAt(0.0, -depth));
+    return reaction;
+}
+
+} // namespace
+
+TEST_CASE("Without an active row there is no reaction, however far the hand is") {
+    Reaction reaction;
+    for (const double hand : {0.0, 0.01, -0.3, 5.0}) {
+        CHECK(forceOf(reaction.step(tickAt(hand, hand))) == 0.0);
+    }
+}
+
+TEST_CASE("A reaction follows the hand that compresses it in the same tick, at any speed") {
+    for (const double speed : {0.001, 0.1, 2.0}) {
+        Reaction reaction;
+        double z = 0.0;
+        for (int i = 0; i < 20; ++i) {
+            const Wrench wrench = reaction.step(tickAt(0.0, -z));
+            CHECK(wrench.force.z == doctest::Approx(1000.0 * z));
+            z += speed * kPeriod;
+        }
+    }
+}
+
+TEST_CASE("A reaction that appears without the hand rises by 100 N/s, and falls at once") {
+    Reaction reaction;
+    reaction.step(tickAt(-0.02, -0.02));
+    double before = 0.0;
+    for (int i = 0; i < 100; ++i) { // a row takes the tool back to 0: 20 N
+        const double force = forceOf(reaction.step(tickAt(0.0, -0.02)));
+        CHECK(force - before <= 0.1 + 1e-9);
+        before = force;
+    }
+    CHECK(before == doctest::Approx(10.0));
+    CHECK(forceOf(reaction.step(tickAt(-0.019, -0.02))) == doctest::Approx(1.0));
+}
+
+TEST_CASE(
+    "New data lifts the hand evenly over the time between frames, by at most twice the surface's speed") {
+    for (const double speed : {0.03, 0.1}) {
+        Reaction reaction = pressed(0.005);
+        double surface = 0.0, before = 5.0, steepest = 0.0;
+        for (int i = 0; i < 200; ++i) {
+            ReactionInput tick = tickAt(surface, -0.005);
+            if (i % 33 == 0) {
+                surface += 0.033 * speed;
+                tick = tickAt(surface, -0.005);
+                tick.newData = true;
+            }
+            const double force = forceOf(reaction.step(tick));
+            steepest = std::max(steepest, (force - before) / kPeriod);
+            before = force;
+        }
+        CHECK(steepest <= 2.0 * 1000.0 * speed);
+        CHECK(steepest >= 0.8 * std::min(1000.0 * speed, Reaction::kAppear));
+    }
+}
+
+TEST_CASE("Rows that are stale let the reaction fall and never rise") {
+    Reaction reaction = pressed(0.005);
+    ReactionInput tick = tickAt(0.0, -0.02);
+    tick.mayRise = false;
+    CHECK(forceOf(reaction.step(tick)) == doctest::Approx(5.0));
+    tick = tickAt(0.0, -0.003);
+    tick.mayRise = false;
+    CHECK(forceOf(reaction.step(tick)) == doctest::Approx(3.0));
+    tick = tickAt(0.0, -0.02);
+    tick.mayRise = false;
+    CHECK(forceOf(reaction.step(tick)) == doctest::Approx(3.0));
+}
+
+TEST_CASE("What vanished under the hand fades out within 0.2 s and falls in every tick") {
+    Reaction reaction = pressed(0.005);
+    reaction.vanish();
+    double before = 5.0;
+    for (int i = 0; i < 200; ++i) {
+        const double force = forceOf(reaction.step(tickAt(-0.005, -0.005)));
+        CHECK((force < before || (force == 0.0 && i == 199)));
+        before = force;
+    }
+    CHECK(before <= 1e-9);
+    CHECK_FALSE(reaction.fades());
+}
+
+TEST_CASE("Forces fade out by a factor and return by their limit, from what the device renders") {
+    ForceRamps ramps;
+    const auto ticks = [&](int count, std::array<bool, 3> on, double rendered) {
+        for (int i = 0; i < count; ++i) {
+            ramps.step(on, kPeriod, kPeriod, rendered, 1.5);
+        }
+    };
+    ticks(150, {true, true, true}, 0.0); // first time: 1.5 s
+    CHECK(ramps.share() == doctest::Approx(0.1));
+    CHECK(ramps.gain() == 1.0);
+    ticks(1400, {true, true, true}, 0.5);
+    CHECK(ramps.share() == 1.0);
+    ticks(100, {true, false, true}, 0.5); // trapped: half of 0.2 s
+    CHECK(ramps.gain() == doctest::Approx(0.5));
+    ticks(1, {true, true, true}, 0.3); // the limit starts where the device is
+    CHECK(ramps.gain() == 1.0);
+    CHECK(ramps.share() == doctest::Approx(0.3 + 0.005));
+    ramps.cut();
+    CHECK(ramps.off());
+    ticks(1, {true, true, true}, 0.0);
+    CHECK(ramps.share() == doctest::Approx(kPeriod / 1.5));
+}

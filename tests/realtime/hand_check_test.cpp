@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// Samples of a live hand that no hand can make.
+#include "engine/run/hand_check.h"
+
+#include <doctest/doctest.h>
+
+using namespace fathom;
+
+namespace {
+
+// A hand at 1 kHz that moves along x.
+struct Samples {
+    HandCheck check;
+    double time = 0.0;
+
+    StepInput next(const Pose& pose, bool present = true) {
+        StepInput input;
+        input.time = time += 0.001;
+        input.deviceThandle = pose;
+        input.present = present;
+        check.judge(input);
+        return input;
+    }
+    StepInput next(double x) { return next({{x, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}}); }
+};
+
+} // namespace
+
+TEST_CASE("A hand of up to 5 m/s and 50 rad/s is believed in every sample") {
+    Samples samples;
+    for (int i = 0; i < 200; ++i) {
+        const StepInput input =
+            samples.next({{0.0049 * i, 0.0, 0.0}, rotationExp(dvec3(0.0, 0.0, 0.049 * i))});
+        CHECK_FALSE(input.doubtful);
+        CHECK_FALSE(input.reindex);
+    }
+}
+
+TEST_CASE("One wrong sample is doubted, and the next good one is believed at once") {
+    for (const double wrong : {0.02, 1.0, 1e9, 1e200}) {
+        Samples samples;
+        for (int i = 0; i < 10; ++i) {
+            samples.next(0.001 * i);
+        }
+        CHECK(samples.next(wrong).doubtful);
+        const StepInput back = samples.next(0.011);
+        CHECK_FALSE(back.doubtful);
+        CHECK_FALSE(back.reindex);
+    }
+}
+
+TEST_CASE(
+    "A lasting offset is re-indexed after five samples, once, and samples that contradict each other stay "
+    "doubted") {
+    Samples samples;
+    samples.next(0.0);
+    int doubted = 0;
+    StepInput input = samples.next(1.0);
+    while (input.doubtful && doubted < 100) {
+        ++doubted;
+        input = samples.next(1.0);
+    }
+    CHECK(doubted == 4);
+    CHECK(input.reindex);
+    input = samples.next(1.001);
+    CHECK_FALSE(input.doubtful);
+    CHECK_FALSE(input.reindex);
+    for (int i = 0; i < 50; ++i) {
+        CHECK(samples.next(i % 2 == 0 ? 30.0 : -30.0).doubtful);
+    }
+}
+
+TEST_CASE("A device that was away is believed where it comes back") {
+    Samples samples;
+    samples.next(0.0);
+    samples.next({{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}}, false);
+    const StepInput input = samples.next(0.3);
+    CHECK_FALSE(input.doubtful);
+    CHECK_FALSE(input.reindex);
+}
