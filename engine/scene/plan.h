@@ -12,8 +12,63 @@
 
 namespace fathom {
 
+// What the passes compute.
+struct PlannedPasses {
+    bool occlusion = false; // unregistered colour: finds the points that the colour camera sees
+    bool cloud = false;     // any point class: classify and surface
+    bool spheres = false;   // any forbidden point class
+    bool thin = false;      // error budget
+    bool tree = false;      // bounds of spheres up to one root, for the GPU query
+    bool hold = false;
+    bool moments = false;        // any guidance class
+    bool guidancePoints = false; // a guidance class needs its points on the CPU (largest part, trimmed mean)
+    uint32_t classes = 0;        // number of point classes
+    bool box = false;            // some class has a box
+    bool range = false;          // some class has a range gate
+    bool fan = false;            // the sensor's pixels are beams at equal angles
+    bool beam = false;           // each point's sphere grows by its own sigma
+    bool leaks = false; // somewhere in near..far neighbours may be a region radius apart: leaks are detected
+    uint32_t filterRadius = 0;
+    bool edge = false;
+    bool polynomialWeights = false; // of the filter, instead of exp
+    bool arm = false;               // an arm carries the tool: joints are the unknowns, and all links collide
+    bool water = false;             // colours are corrected for attenuation in water
+    bool selfFilter = false;        // points inside the arm's spheres are removed
+    enum class Query { None, Cpu, Gpu } query = Query::None; // contact query
+};
+
+// What is uploaded, stored and sent to the host, and in which form.
+struct PlannedLayout {
+    bool rays = false;    // ray table: distorted lens, or a fan
+    bool colour = false;  // some class uses colour, so it is uploaded
+    bool yuyv = false;    // colour is uploaded as YUYV, two pixels per word
+    bool inPlace = false; // images in whole pages are read in place, not copied
+    bool pack =
+        false; // with byPixel: the device packs spheres for the host, because its memory is across a bus
+    bool memoryTexels = false; // the memory of points is read as texels: faster on a CPU device; on a GPU a
+                               // fetch may follow the write to the same place
+    bool keepDepth = false;    // classify leaves the depth on the device for the passes after it
+};
+
+// How the passes are divided among invocations and threads. Changes times, never results.
+struct PlannedTuning {
+    bool tiled = false;       // the filter reads its window from shared memory
+    bool filterBlock = false; // one invocation per 4x4 sub-patch, window in registers (radius <= 2)
+    bool groupCounts = false; // classify counts per group in shared memory first
+    // With shared memory: `spheres` has one invocation per pixel, `moments` one per sub-patch. Otherwise one
+    // per sub-patch and one per patch.
+    bool byPixel = false;
+    // Groups run in several rounds, so throughput counts more than latency. Decided by the image size,
+    // because the number of patches with work is unknown when passes are recorded.
+    bool manyPatches = false;
+    uint32_t pixelGroup = 256; // most invocations per group of the pixel passes; divides 256
+    uint32_t subGroup = 64;    // invocations per group of the sub-patch passes
+    bool passTimes = true;     // the device times the passes; else their times are zero
+    uint32_t publishers = 1;   // threads that lay out a set for the host, including the frame thread
+};
+
 // Pure data. Code that builds pipelines and buffers only follows it.
-struct Plan {
+struct Plan : PlannedPasses, PlannedLayout, PlannedTuning {
     // A part that is in the plan or skipped, with the reason.
     struct Item {
         std::string kind; // "pass", "buffer", "thread", "arm"
@@ -23,53 +78,6 @@ struct Plan {
         uint64_t bytes = 0; // device and host memory of a buffer
     };
     std::vector<Item> items;
-
-    // Passes.
-    bool occlusion = false; // unregistered colour: finds the points that the colour camera sees
-    bool cloud = false;     // any point class: classify and surface
-    bool spheres = false;   // any forbidden point class
-    bool thin = false;      // error budget
-    bool tree = false;      // bounds of spheres up to one root, for the GPU query
-    bool hold = false;
-    bool moments = false;        // any guidance class
-    bool guidancePoints = false; // a guidance class needs its points on the CPU (largest part, trimmed mean)
-    // Variants.
-    bool rays = false;        // ray table: distorted lens, or a fan
-    bool colour = false;      // some class uses colour, so it is uploaded
-    bool yuyv = false;        // colour is uploaded as YUYV, two pixels per word
-    bool inPlace = false;     // images in whole pages are read in place, not copied
-    bool tiled = false;       // the filter reads its window from shared memory
-    bool filterBlock = false; // one invocation per 4x4 sub-patch, window in registers (radius <= 2)
-    uint32_t classes = 0;     // number of point classes
-    bool box = false;         // some class has a box
-    bool range = false;       // some class has a range gate
-    bool fan = false;         // the sensor's pixels are beams at equal angles
-    bool beam = false;        // each point's sphere grows by its own sigma
-    bool leaks = false; // somewhere in near..far neighbours may be a region radius apart: leaks are detected
-    bool polynomialWeights = false; // of the filter, instead of exp
-    uint32_t filterRadius = 0;
-    bool edge = false;
-    bool groupCounts = false; // classify counts per group in shared memory first
-    // With shared memory: `spheres` has one invocation per pixel, `moments` one per sub-patch. Otherwise one
-    // per sub-patch and one per patch.
-    bool byPixel = false;
-    bool pack =
-        false; // with byPixel: the device packs spheres for the host, because its memory is across a bus
-    bool memoryTexels = false; // the memory of points is read as texels: faster on a CPU device; on a GPU a
-                               // fetch may follow the write to the same place
-    bool keepDepth = false;    // classify leaves the depth on the device for the passes after it
-    // Groups run in several rounds, so throughput counts more than latency. Decided by the image size,
-    // because the number of patches with work is unknown when passes are recorded.
-    bool manyPatches = false;
-    uint32_t pixelGroup = 256; // most invocations per group of the pixel passes; divides 256
-    uint32_t subGroup = 64;    // invocations per group of the sub-patch passes
-    bool arm = false;          // an arm carries the tool: joints are the unknowns, and all links collide
-    bool water = false;        // colours are corrected for attenuation in water
-    bool selfFilter = false;   // points inside the arm's spheres are removed
-    bool passTimes = true;     // the device times the passes; else their times are zero
-    uint32_t publishers = 1;   // threads that lay out a set for the host, including the frame thread
-    // Contact query.
-    enum class Query { None, Cpu, Gpu } query = Query::None;
 
     bool has(const std::string& name) const;
     // CPU devices list patches in a separate pass, because divergent lanes of classify would all pay for it.
