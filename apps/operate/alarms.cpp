@@ -75,12 +75,12 @@ void Alarms::stepScene(const StepRecord& tick, const HapticOptions& haptics, boo
 
 void Alarms::step(Console& console, const RunView& run, const HapticOptions& haptics, const Scene& scene,
                   const Health& health) {
-    const double now = run.anyTurn() ? run.step().record.t : 0.0;
+    const double now = run.anyTick() ? run.step().record.t : 0.0;
     set(health.handGone, Level::Warning, "hand",
         "Haptic device lost: forces off, the tool stays; reconnecting", now);
     set(!health.recorderFailed.empty(), Level::Caution, "recorder",
         "Recording stopped: " + health.recorderFailed, now);
-    if (run.anyTurn()) {
+    if (run.anyTick()) {
         const StepRecord& r = run.step().record;
         const Rates rates = run.rates();
         const double force = glm::length(r.wrench.force), torque = glm::length(r.wrench.torque);

@@ -14,7 +14,7 @@ namespace {
 constexpr double kHueReach = 12.0;  // [degree] on each side of the picked hue
 constexpr double kToneReach = 0.28; // half width of the saturation and lightness bands
 constexpr uint32_t kPatch = 2;      // [pixels] average colour within this distance of the click
-constexpr size_t kMostHistory = 64;
+constexpr size_t kMaxHistory = 64;
 
 // The colour of a depth pixel as the gates use it: without the water's attenuation.
 uint32_t colourFor(const Scene& scene, const SceneSnapshot& snapshot, uint32_t u, uint32_t v, uint32_t rgba) {
@@ -203,7 +203,7 @@ void FixtureEditor::remove(size_t row) {
 
 void FixtureEditor::apply(Scene next) {
     past_.push_back(scene_.fixtures);
-    if (past_.size() > kMostHistory) {
+    if (past_.size() > kMaxHistory) {
         past_.erase(past_.begin());
     }
     future_.clear();

@@ -51,8 +51,6 @@ public:
     const std::array<float, 72>& hues() const {
         return hues_;
     } // of the image, 5 degrees per bin, largest bin = 1
-    bool canUndo() const { return !past_.empty(); }
-    bool canRedo() const { return !future_.empty(); }
 
 private:
     void apply(Scene next);

@@ -118,8 +118,8 @@ namespace {
 
 // Keeps the end of a long name, which distinguishes it.
 std::string shortened(const std::string& text) {
-    constexpr size_t kMost = 38;
-    return text.size() <= kMost ? text : "..." + text.substr(text.size() - kMost);
+    constexpr size_t kMaxLetters = 38;
+    return text.size() <= kMaxLetters ? text : "..." + text.substr(text.size() - kMaxLetters);
 }
 
 // The state of the recorder, or the position in a recording.

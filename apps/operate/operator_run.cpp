@@ -1,23 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/operate/operator_run.h"
 
-#include "apps/operate/shown_state.h"
+#include "apps/operate/view_click.h"
 #include "engine/types/error.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <utility>
 
 namespace fathom::operate {
 
 namespace {
-
-constexpr double kFramePeriod = 1.0 / 60.0; // [s] shortest period of the window
-
-double seconds() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 float percentile(std::vector<float> values, double share) {
     if (values.empty()) {
@@ -35,6 +28,13 @@ std::string title(const OperateOptions& options) {
 
 } // namespace
 
+LiveSinks::LiveSinks(const OperateOptions& options, double period)
+    : observers(options.viewEndpoint.empty() ? nullptr
+                                             : std::make_unique<ViewPublisher>(options.viewEndpoint))
+    , published(recorder, observers.get())
+    , faults(options.shots, period, published)
+    , snapshots(faults) {}
+
 OperatorRun::OperatorRun(const OperateOptions& options, const GlobalOptions& global)
     : options_(options)
     , placement_(ThreadPlacement::ofThisProcess())
@@ -43,95 +43,123 @@ OperatorRun::OperatorRun(const OperateOptions& options, const GlobalOptions& glo
     , session_(options, global,
                {window_.offscreen() ? gpu::Drawing::Offscreen : gpu::Drawing::Surface, window_.extensions()},
                signals_.asked())
-    , haptics_(softly(session_.scene, session_.tool))
-    , feed_(session_)
-    , observers_(options.viewEndpoint.empty() ? nullptr
-                                              : std::make_unique<ViewPublisher>(options.viewEndpoint))
-    , published_(recorder_, observers_.get())
-    , faults_(options.shots, haptics_.period, published_)
-    , sink_(faults_)
-    , view_(sink_)
-    , log_(options.state) {
-    console_.takeSettings(session_.scene, options.textScale);
-    canvas_ = std::make_unique<Canvas>(window_, *session_.instance, console_.textScale, options.shots);
-    canvas_->open(session_.cycles.device());
-    startThreads();
-    console_.forces = options_.armed;
+    , sinks_(options, makeHapticOptions(session_.scene, session_.tool).period)
+    , display_(options_, window_, session_, sinks_.snapshots)
+    , editor_(session_.scene,
+              [this](const Scene& scene, const std::vector<Shape>& shapes) { changeScene(scene, shapes); })
+    , recording_(options.shots, sinks_.recorder, session_)
+    , live_(options_, session_, signals_, placement_, sinks_.snapshots, sinks_.observers.get()) {
+    live_.start(editor_.shapes());
+    display_.console.forces = options_.armed;
     window_.onForcesOff = [this] {
-        hand_->setForces(false); // at once, before the rest of this frame
+        live_.forcesOff(); // at once, before the rest of this frame
         forcesOff_ = true;
     };
 }
 
-bool OperatorRun::wantsToEnd() const {
-    const bool turned = options_.ticks > 0.0 && view_.step().record.t >= options_.ticks;
-    return turned || window_.closed() || console_.quit || thread_->ended() || signals_.asked().load() ||
-           (options_.seconds > 0.0 && seconds() - started_ >= options_.seconds);
+void OperatorRun::changeScene(const Scene& scene, const std::vector<Shape>& shapes) {
+    const uint64_t number = live_.feed().setScene(scene);
+    if (sinks_.recorder.recording()) {
+        sinks_.recorder.edit(number, recordedScene(editor_));
+    }
+    live_.setShapes(shapes);
 }
 
-HudInput OperatorRun::hudInput() const {
-    HudInput hud{view_,
-                 session_.scene,
-                 haptics_,
-                 session_.passNames,
-                 canvas_->letters(),
-                 session_.title(),
-                 screen_.unknownShare(),
-                 windowHz_,
-                 options_.path || session_.liveHand != nullptr,
-                 &measured_,
-                 !hand_->there(),
-                 armHolds(session_.arm.get(), view_.step().record)};
-    return hud;
+bool OperatorRun::wantsToEnd() const {
+    const bool ticked = options_.ticks > 0.0 && display_.view.step().record.t >= options_.ticks;
+    return ticked || display_.wantsToEnd() || live_.ended() || signals_.asked().load();
 }
 
 void OperatorRun::run() {
-    started_ = lastFrame_ = seconds();
+    display_.begin();
     while (!wantsToEnd()) {
-        const double spent = seconds() - lastFrame_;
-        window_.beginFrame(std::clamp(kFramePeriod - spent, 0.0, kFramePeriod));
-        const double now = seconds();
-        windowHz_ += 0.05 * (1.0 / std::max(1e-3, now - lastFrame_) - windowHz_);
-        lastFrame_ = now;
+        display_.beginFrame();
         frame();
     }
     if (window_.offscreen() && !options_.shots.empty()) { // no key can request one offscreen
-        console_.screenshot = true;
+        display_.console.screenshot = true;
         window_.beginFrame(0.0);
         frame();
     }
-    log_.write(console_, view_, extras(), true);
-    thread_->end();
-    recorder_.stop();
-    recorder_.finish();
-    view_.refresh();
+    writeState(true);
+    live_.end();
+    sinks_.recorder.stop();
+    sinks_.recorder.finish();
+    display_.view.refresh();
     report();
-    if (thread_->failure()) {
-        std::rethrow_exception(thread_->failure());
+    if (live_.failure()) {
+        std::rethrow_exception(live_.failure());
     }
 }
 
+void OperatorRun::writeState(bool now) {
+    display_.writeState(editor_, live_.haptics(), &measured_, live_.handThere(), now);
+}
+
 void OperatorRun::frame() {
-    const bool fresh = view_.refresh();
-    const HudInput hud = hudInput();
-    const auto arm = armSpheres(session_.arm.get(), view_.step().record.arm.posture);
-    measured_ = measuredArm(session_.arm.get(), view_, arm);
-    screen_.draw(console_, *editor_, alarms_, {view_, session_.tool, hud, fresh, arm, measured_});
-    const auto& room = console_.places["traces room"];
-    traces_.draw(console_, hud, {room[0], room[1]}, {room[2], room[3]});
+    const bool fresh = display_.view.refresh();
+    const StepRecord& record = display_.view.step().record;
+    HudInput hud = display_.hud(live_.haptics());
+    hud.driven = options_.path || session_.liveHand != nullptr;
+    hud.arm = &measured_;
+    hud.handGone = !live_.handThere();
+    hud.armHolds = armHolds(session_.arm.get(), record);
+    const auto arm = armSpheres(session_.arm.get(), record.arm.posture);
+    measured_ = measuredArm(session_.arm.get(), display_.view, arm);
+    display_.draw(editor_, {display_.view, session_.tool, hud, fresh, arm, measured_});
     listen();
-    alarms_.step(console_, view_, haptics_, editor_->scene(),
-                 {session_.handover->gone(), !hand_->there(), recorder_.failure()});
+    display_.alarms.step(display_.console, display_.view, live_.haptics(), editor_.scene(),
+                         {session_.handover->gone(), !live_.handThere(), sinks_.recorder.failure()});
     show();
-    log_.write(console_, view_, extras());
+    writeState(false);
+}
+
+void OperatorRun::listen() {
+    Console& console = display_.console;
+    const ViewPort& large = display_.screen.large();
+    const double depth = large.view.cameraTbase.apply(display_.view.step().record.device.position).z;
+    if (const auto at = live_.steer(console, large, depth)) {
+        clickInView(console, editor_, display_.screen, display_.view.scene(), *at);
+    }
+    if (std::exchange(forcesOff_, false)) { // overrides all other keys of this frame
+        console.forces = console.guidance = false;
+    }
+    live_.apply(console);
+    recording_.follow(console, editor_);
+    followPilot();
+    display_.exportTraces();
+}
+
+// Springs, limits and scale are constant during a run. So this turns forces off, keeps the tool where it is,
+// and starts a new run there.
+void OperatorRun::followPilot() {
+    Console& console = display_.console;
+    const std::string name = std::exchange(console.pilotWanted, "");
+    if (name.empty() || !session_.scene.choosePilot(name)) {
+        return;
+    }
+    console.forces = console.guidance = console.recording = console.frozen = false;
+    live_.feed().freeze(false);
+    recording_.follow(console, editor_);
+    if (!live_.pause()) {
+        return; // the run failed: the window ends
+    }
+    display_.view.refresh();
+    const StepRecord last = display_.view.step().record;
+    const bool stays = display_.view.anyTick() && !options_.path && isFinite(last.tool);
+    display_.view.rewind();
+    editor_.keep(console.settings(), name);
+    live_.restart(editor_.shapes(), stays ? &last : nullptr);
+    console.notify(name + " flies now: arm the forces");
 }
 
 // Window and frame thread each detect a lost device; only the window knows when it no longer draws on it.
 void OperatorRun::show() {
     DeviceHandover& device = *session_.handover;
     try {
-        canvas_->finishFrame(console_, screen_.layers(), [this] { return feed_.busy(); });
-        if (canvas_->isOpen()) {
+        display_.canvas.finishFrame(display_.console, display_.screen.layers(),
+                                    [this] { return live_.feed().busy(); });
+        if (display_.canvas.isOpen()) {
             device.accept(); // once it has drawn
         } else if (device.offered()) {
             reopen();
@@ -140,11 +168,11 @@ void OperatorRun::show() {
         device.lose(e.what());
     }
     if (device.wanted()) {
-        canvas_->drop();
+        display_.canvas.drop();
         device.release();
     }
     const bool gone = device.gone();
-    if (std::exchange(toldGone_, gone) != gone) { // as text, which needs no GPU
+    if (std::exchange(showsGone_, gone) != gone) { // as text, which needs no GPU
         window_.setTitle(title(options_) + (gone ? ": GPU is gone, forces fade" : ""));
     }
 }
@@ -152,37 +180,28 @@ void OperatorRun::show() {
 // Only between frames, because an open ImGui frame refers to textures of the old device.
 void OperatorRun::reopen() {
     try {
-        canvas_->open(session_.cycles.device());
-        screen_.redraw();
+        display_.canvas.open(session_.cycles.device());
+        display_.screen.redraw();
     } catch (const Error& e) { // a driver that restarts may report any error
         session_.handover->lose(e.what());
     }
 }
 
-StateExtras OperatorRun::extras() const {
-    StateExtras extras =
-        extrasOf({console_, view_, session_, window_, *canvas_, screen_, alarms_, *editor_, haptics_});
-    extras.arm = &measured_;
-    extras.hand = session_.liveHand ? session_.liveHand->description() : "";
-    extras.handThere = hand_->there();
-    return extras;
-}
-
 void OperatorRun::report() const {
-    const std::vector<float>& us = view_.stepMicros();
-    const double time = std::max(1e-3, seconds() - started_);
-    std::printf("window       %.1f frames a second, %llu left out for passes on the shared queue\n",
-                static_cast<double>(canvas_->counts().drawn) / time,
-                static_cast<unsigned long long>(canvas_->counts().yielded));
+    const std::vector<float>& us = display_.view.stepMicros();
+    const double time = std::max(1e-3, display_.elapsed());
+    std::printf("window       %.1f frames per second, %llu skipped for passes on the shared queue\n",
+                static_cast<double>(display_.canvas.counts().drawn) / time,
+                static_cast<unsigned long long>(display_.canvas.counts().yielded));
     if (session_.cycles.renewals() > 0) {
-        std::printf("device       lost and made anew %u times\n", session_.cycles.renewals());
+        std::printf("device       lost and reopened %u times\n", session_.cycles.renewals());
     }
-    std::printf("turn         p50 %.2f p99 %.2f max %.2f us, %zu turns, %llu ended over one period late, "
+    std::printf("step         p50 %.2f p99 %.2f max %.2f us, %zu ticks, %llu ended over one period late, "
                 "%llu periods without one\n",
                 static_cast<double>(percentile(us, 0.5)), static_cast<double>(percentile(us, 0.99)),
                 static_cast<double>(percentile(us, 1.0)), us.size(),
-                static_cast<unsigned long long>(view_.lateTurns()),
-                static_cast<unsigned long long>(engine_->periodsMissed()));
+                static_cast<unsigned long long>(display_.view.lateTicks()),
+                static_cast<unsigned long long>(live_.engine().periodsMissed()));
 }
 
 } // namespace fathom::operate

@@ -1,30 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
-// A pilot's session: the threads of a realtime run, and the window on the main thread.
+// A pilot's session: a live run, and the window on the main thread.
 #pragma once
 
-#include "apps/binding/stop_signals.h"
-#include "apps/binding/view_publisher.h"
-#include "apps/operate/canvas.h"
-#include "apps/operate/operate_command.h"
-#include "apps/operate/pilot_hand.h"
-#include "apps/operate/recorder.h"
-#include "apps/operate/run_thread.h"
-#include "apps/operate/screen.h"
-#include "apps/operate/state_log.h"
-#include "apps/operate/steering.h"
-#include "apps/operate/traces_panel.h"
+#include "apps/operate/live_run.h"
+#include "apps/operate/recorder_control.h"
+#include "apps/operate/run_display.h"
 #include "apps/replay/fault_trace.h"
-#include "apps/session/path_hand.h"
-#include "apps/session/session_feed.h"
-#include "engine/run/realtime_run.h"
 
 #include <memory>
 
 namespace fathom::operate {
 
-// The run never waits for the window: it has the same haptic, contact, camera and writer threads as `replay
-// --realtime`, and the window reads what the writer published. When the GPU is lost, the camera thread opens
-// it again (DeviceHandover) while hand and keys keep working.
+// Receivers of a live run's records, from the first (`snapshots`) to the last (`recorder`).
+struct LiveSinks {
+    LiveSinks(const OperateOptions& options, double period);
+
+    std::unique_ptr<ViewPublisher> observers; // null = no view socket
+    Recorder recorder;
+    PublishedSink published;
+    FaultTrace faults;
+    SnapshotSink snapshots;
+};
+
+// The run never waits for the window, which reads what the writer published. When the GPU is lost, the camera
+// thread opens it again (DeviceHandover) while hand and keys keep working.
 class OperatorRun {
 public:
     // Throws BadInput (scene, display, device), Error, DeviceLost.
@@ -35,28 +34,17 @@ public:
     void run();
 
     // After run(): the final state of the view.
-    const RunView& view() const { return view_; }
-    const RealtimeRun& engine() const { return *engine_; }
+    const RunView& view() const { return display_.view; }
+    const RealtimeRun& engine() const { return live_.engine(); }
 
 private:
-    static HapticOptions softly(const Scene& scene, const Tool& tool);
-    HapticDevice& device(); // the device that drives the tool
-    void makeHand(const Pose& start, const Pose* tool);
-    void makeEngine(const Pose& start, const Pose* tool);
-    void forgetFrames();
-    void startThreads();
+    void changeScene(const Scene& scene, const std::vector<Shape>& shapes);
     void followPilot();
     void frame();
     void show();   // shows the drawn frame if there is a device
     void reopen(); // opens the canvas on another device
     void listen(); // applies the keys and clicks of this frame
-    uint32_t buttonsOf(const Console& console) const;
-    std::filesystem::path freshRecording();
-    void startRecording();
-    void followRecorder();
-    void exportTraces();
-    StateExtras extras() const;
-    HudInput hudInput() const;
+    void writeState(bool now);
     bool wantsToEnd() const;
     void report() const;
 
@@ -66,34 +54,14 @@ private:
     Window window_;
     CpuConfinement confined_;
     Session session_;
-    HapticOptions haptics_;
-    SessionFeed feed_;
-    std::unique_ptr<ViewPublisher> observers_; // null = no view socket
-    Recorder recorder_;
-    PublishedSink published_;
-    FaultTrace faults_;
-    SnapshotSink sink_;
-    std::unique_ptr<RealtimeRun> engine_;
-    std::unique_ptr<HapticCycle> cycle_;
-    std::unique_ptr<PilotHand> pilot_;
-    std::unique_ptr<PathHand> path_;
-    std::unique_ptr<GatedHand> hand_;
-    std::unique_ptr<Steering> steering_;
-    std::unique_ptr<FixtureEditor> editor_;
-
-    Console console_;
-    std::unique_ptr<Canvas> canvas_;
-    RunView view_;
+    LiveSinks sinks_;
+    RunDisplay display_;
+    FixtureEditor editor_;
+    RecorderControl recording_;
     MeasuredArm measured_;
-    Screen screen_;
-    TracesPanel traces_;
-    Alarms alarms_;
-    StateLog log_;
-    bool toldGone_ = false, forcesOff_ = false; // forcesOff_: requested since the last listen()
-    double started_ = 0.0, windowHz_ = 0.0, lastFrame_ = 0.0;
-    uint32_t recordings_ = 0;           // number of the last folder name tried
-    std::string recordingTo_;           // recording folder until all is on disk; empty = none
-    std::unique_ptr<RunThread> thread_; // last member, so it ends before what it uses and sends a zero wrench
+    bool showsGone_ = false; // the window's title says that the GPU is gone
+    bool forcesOff_ = false; // requested since the last listen()
+    LiveRun live_;           // last, so that its threads end before what they use
 };
 
 } // namespace fathom::operate

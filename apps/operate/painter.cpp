@@ -4,10 +4,8 @@
 #include "engine/gpu/result.h"
 
 #include <algorithm>
-#include <backends/imgui_impl_vulkan.h>
 #include <chrono>
 #include <cstring>
-#include <imgui.h>
 #include <thread>
 
 namespace fathom::operate {
@@ -18,54 +16,16 @@ namespace {
 
 constexpr uint64_t kLongWait = 2'000'000'000; // [ns]
 
-VkRenderPass makePass(VkDevice device) {
-    // Loads the attachment, which already contains the images below.
-    const VkAttachmentDescription colour{.format = kDrawn,
-                                         .samples = VK_SAMPLE_COUNT_1_BIT,
-                                         .loadOp = VK_ATTACHMENT_LOAD_OP_LOAD,
-                                         .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
-                                         .stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE,
-                                         .stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE,
-                                         .initialLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-                                         .finalLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
-    const VkAttachmentReference reference{0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
-    const VkSubpassDescription subpass{.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS,
-                                       .colorAttachmentCount = 1,
-                                       .pColorAttachments = &reference};
-    const VkRenderPassCreateInfo info{.sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO,
-                                      .attachmentCount = 1,
-                                      .pAttachments = &colour,
-                                      .subpassCount = 1,
-                                      .pSubpasses = &subpass};
-    VkRenderPass pass = VK_NULL_HANDLE;
-    check(vkCreateRenderPass(device, &info, nullptr, &pass), "vkCreateRenderPass");
-    return pass;
-}
-
-VkDescriptorPool makeDescriptors(VkDevice device) {
-    const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 4};
-    const VkDescriptorPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
-                                          .flags = VK_DESCRIPTOR_POOL_CREATE_FREE_DESCRIPTOR_SET_BIT,
-                                          .maxSets = 4,
-                                          .poolSizeCount = 1,
-                                          .pPoolSizes = &size};
-    VkDescriptorPool pool = VK_NULL_HANDLE;
-    check(vkCreateDescriptorPool(device, &info, nullptr, &pool), "vkCreateDescriptorPool");
-    return pool;
-}
-
 } // namespace
 
-Painter::Painter(gpu::Device& device, Swapchain* swapchain)
+Painter::Painter(const gpu::Instance& instance, gpu::Device& device, Swapchain* swapchain, Unmade)
     : device_(device)
-    , swapchain_(swapchain) {}
+    , swapchain_(swapchain)
+    , panels_(instance, device) {}
 
 // Delegates, so that the destructor runs when a later step throws.
 Painter::Painter(const gpu::Instance& instance, gpu::Device& device, Swapchain* swapchain)
-    : Painter(device, swapchain) {
-    instance_ = instance.handle();
-    descriptors_ = makeDescriptors(device.handle());
-    pass_ = makePass(device.handle());
+    : Painter(instance, device, swapchain, Unmade{}) {
     const VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr,
                                        VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT, device.drawFamily()};
     check(vkCreateCommandPool(device.handle(), &pool, nullptr, &pool_), "vkCreateCommandPool");
@@ -84,13 +44,10 @@ Painter::~Painter() {
     if (flying_) { // returns at once on a lost device
         vkWaitForFences(device_.handle(), 1, &done_, VK_TRUE, kLongWait);
     }
-    stopPanels();
     vkDestroyFramebuffer(device_.handle(), framebuffer_, nullptr);
     vkDestroySemaphore(device_.handle(), ready_, nullptr);
     vkDestroyFence(device_.handle(), done_, nullptr);
     vkDestroyCommandPool(device_.handle(), pool_, nullptr);
-    vkDestroyRenderPass(device_.handle(), pass_, nullptr);
-    vkDestroyDescriptorPool(device_.handle(), descriptors_, nullptr);
 }
 
 bool Painter::finished(uint64_t patience) {
@@ -116,37 +73,9 @@ void Painter::once(const std::function<void(VkCommandBuffer)>& body) {
     finished(kLongWait);
 }
 
-void Painter::startPanels() {
-    ImGui_ImplVulkan_InitInfo info{};
-    info.Instance = instance_;
-    info.PhysicalDevice = device_.physical();
-    info.Device = device_.handle();
-    info.QueueFamily = device_.drawFamily();
-    info.Queue = device_.drawQueue();
-    info.DescriptorPool = descriptors_;
-    info.MinImageCount = info.ImageCount = 2;
-    info.CheckVkResultFn = [](VkResult result) { check(result, "drawing of the window's panels"); };
-    ImGui_ImplVulkan_Init(&info, pass_);
-}
-
-void Painter::stopPanels() {
-    if (ImGui::GetIO().BackendRendererUserData != nullptr) {
-        ImGui_ImplVulkan_Shutdown();
-        vkResetDescriptorPool(device_.handle(), descriptors_, 0);
-    }
-}
-
-// The backend never frees an old font texture, so the whole backend is restarted.
 void Painter::uploadFonts() {
     finished(kLongWait);
-    stopPanels();
-    startPanels();
-#if IMGUI_VERSION_NUM < 19000
-    once([](VkCommandBuffer commands) { ImGui_ImplVulkan_CreateFontsTexture(commands); });
-    ImGui_ImplVulkan_DestroyFontUploadObjects();
-#else
-    ImGui_ImplVulkan_CreateFontsTexture(); // submits and waits by itself
-#endif
+    panels_.restart([this](const std::function<void(VkCommandBuffer)>& body) { once(body); });
 }
 
 void Painter::resize(VkExtent2D size) {
@@ -159,7 +88,7 @@ void Painter::resize(VkExtent2D size) {
                                VK_IMAGE_USAGE_TRANSFER_DST_BIT);
     const VkImageView view = target_.view();
     const VkFramebufferCreateInfo info{.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO,
-                                       .renderPass = pass_,
+                                       .renderPass = panels_.pass(),
                                        .attachmentCount = 1,
                                        .pAttachments = &view,
                                        .width = size.width,
@@ -212,13 +141,13 @@ bool Painter::draw(VkExtent2D size, std::span<const Layer> layers, ImDrawData* d
 }
 
 void Painter::stage(std::span<const Layer> layers) {
-    fresh_.fill(false);
-    for (size_t i = 0; i < std::min(layers.size(), kMostLayers); ++i) {
+    for (size_t i = 0; i < std::min(layers.size(), kMaxLayers); ++i) {
         const Layer& layer = layers[i];
-        if (layer.pixels.empty()) {
+        Staged& staged = staged_[i];
+        staged.fresh = !layer.pixels.empty();
+        if (!staged.fresh) {
             continue;
         }
-        Staged& staged = staged_[i];
         if (!staged.image || staged.image.size().width != layer.width ||
             staged.image.size().height != layer.height) {
             staged.image = FrameTexture(device_, kImage, {layer.width, layer.height},
@@ -226,7 +155,6 @@ void Painter::stage(std::span<const Layer> layers) {
             staged.staging = gpu::Buffer(device_, layer.pixels.size_bytes(), gpu::MemoryKind::Upload, "view");
         }
         std::memcpy(staged.staging.as<uint32_t>().data(), layer.pixels.data(), layer.pixels.size_bytes());
-        fresh_[i] = true;
     }
 }
 

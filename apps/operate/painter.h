@@ -4,6 +4,7 @@
 #pragma once
 
 #include "apps/operate/frame_texture.h"
+#include "apps/operate/panel_backend.h"
 #include "apps/operate/swapchain.h"
 
 #include <array>
@@ -12,8 +13,6 @@
 #include <optional>
 #include <span>
 #include <vector>
-
-struct ImDrawData;
 
 namespace fathom::operate {
 
@@ -51,14 +50,16 @@ public:
     uint64_t drawn() const { return drawn_; }
     uint64_t yielded() const { return yielded_; } // frames skipped for compute passes
     static constexpr double kCourtesy = 0.012;    // [s]
-    static constexpr size_t kMostLayers = 2;
+    static constexpr size_t kMaxLayers = 2;
 
 private:
     struct Staged {
         FrameTexture image;
         gpu::Buffer staging;
+        bool fresh = false; // staged for this frame
     };
-    Painter(gpu::Device& device, Swapchain* swapchain); // creates no device objects
+    struct Unmade {}; // creates none of the painter's own device objects
+    Painter(const gpu::Instance& instance, gpu::Device& device, Swapchain* swapchain, Unmade);
     void resize(VkExtent2D size);
     bool finished(uint64_t patience); // [ns]
     bool yields(const std::function<bool()>& busy);
@@ -67,23 +68,18 @@ private:
     void recordLayer(size_t i, const Layer& layer);
     void recordToSurface(VkImage shown);
     void submit(bool onSurface);
-    void startPanels(); // of ImGui
-    void stopPanels();
     void once(const std::function<void(VkCommandBuffer)>& body);
 
-    VkInstance instance_ = VK_NULL_HANDLE;
     gpu::Device& device_;
     Swapchain* swapchain_;
+    PanelBackend panels_;
     VkCommandPool pool_ = VK_NULL_HANDLE;
     VkCommandBuffer commands_ = VK_NULL_HANDLE;
-    VkDescriptorPool descriptors_ = VK_NULL_HANDLE;
-    VkRenderPass pass_ = VK_NULL_HANDLE;
     VkFence done_ = VK_NULL_HANDLE;
     VkSemaphore ready_ = VK_NULL_HANDLE;
     VkFramebuffer framebuffer_ = VK_NULL_HANDLE;
     FrameTexture target_;
-    std::array<Staged, kMostLayers> staged_;
-    std::array<bool, kMostLayers> fresh_{};
+    std::array<Staged, kMaxLayers> staged_;
     bool flying_ = false; // a submission may still be running
     uint64_t drawn_ = 0, yielded_ = 0;
 };

@@ -4,8 +4,7 @@
 #include "apps/replay/image.h"
 #include "engine/gpu/result.h"
 
-#include <backends/imgui_impl_vulkan.h>
-#include <imgui.h>
+#include <algorithm>
 
 namespace fathom::operate {
 
@@ -37,7 +36,7 @@ void Painter::recordLayer(size_t i, const Layer& layer) {
         return;
     }
     const VkExtent2D size = staged.image.size();
-    if (fresh_[i]) {
+    if (staged.fresh) {
         changeLayout(commands_, staged.image.handle(), VK_IMAGE_LAYOUT_UNDEFINED, kDestination);
         const VkBufferImageCopy copy = wholeImage(size);
         vkCmdCopyBufferToImage(commands_, staged.staging.handle(), staged.image.handle(), kDestination, 1,
@@ -67,17 +66,11 @@ void Painter::record(std::span<const Layer> layers, ImDrawData* data, VkImage sh
     const VkImageSubresourceRange range{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
     vkCmdClearColorImage(commands_, target_.handle(), kDestination, &kGround, 1, &range);
     changeLayout(commands_, target_.handle(), kDestination, kDestination);
-    for (size_t i = 0; i < std::min(layers.size(), kMostLayers); ++i) {
+    for (size_t i = 0; i < std::min(layers.size(), kMaxLayers); ++i) {
         recordLayer(i, layers[i]);
     }
     changeLayout(commands_, target_.handle(), kDestination, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
-    VkRenderPassBeginInfo pass{VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO};
-    pass.renderPass = pass_;
-    pass.framebuffer = framebuffer_;
-    pass.renderArea.extent = target_.size();
-    vkCmdBeginRenderPass(commands_, &pass, VK_SUBPASS_CONTENTS_INLINE);
-    ImGui_ImplVulkan_RenderDrawData(data, commands_);
-    vkCmdEndRenderPass(commands_);
+    panels_.record(commands_, framebuffer_, target_.size(), data);
     changeLayout(commands_, target_.handle(), VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, kSource);
     if (shown != VK_NULL_HANDLE) {
         recordToSurface(shown);

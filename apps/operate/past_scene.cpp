@@ -11,15 +11,14 @@ namespace fathom::operate {
 
 namespace {
 
-constexpr double kMostLead = 90.0; // [frames] processed before the shown one, however long points are held
+constexpr double kMaxLead = 90.0; // [frames] processed before the shown one, however long points are held
 
 } // namespace
 
 PastScene::PastScene(Session& session)
     : session_(session)
     , images_(session.camera->images())
-    , lead_(
-          static_cast<uint32_t>(std::min(kMostLead, std::ceil(session.scene.holdSeconds / kPeriod) + 1.0))) {
+    , lead_(static_cast<uint32_t>(std::min(kMaxLead, std::ceil(session.scene.holdSeconds / kPeriod) + 1.0))) {
     if (images_ == 0) {
         throw BadInput(session.camera->description(), "recording", "it has no random access to frames",
                        "a recording folder (TUM RGB-D)");

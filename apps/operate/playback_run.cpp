@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/operate/playback_run.h"
 
-#include "apps/operate/shown_state.h"
 #include "apps/operate/view_click.h"
 #include "devices/recorded/hand_csv.h"
 #include "engine/haptics/hand_map.h"
@@ -9,20 +8,13 @@
 #include "engine/types/log.h"
 
 #include <algorithm>
-#include <chrono>
-#include <cstdio>
 #include <limits>
 
 namespace fathom::operate {
 
 namespace {
 
-constexpr double kDrawPeriod = 1.0 / 60.0;               // [s] shortest period of the window
 constexpr double kFirstRetry = 0.1, kLongestRetry = 2.0; // [s]
-
-double playedSeconds() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 std::optional<HandPath> handOf(const std::filesystem::path& folder) {
     const auto file = folder / "hand.csv";
@@ -47,7 +39,7 @@ TickLog mappedHand(const HandPath& hand, const Scene& scene) {
 }
 
 // The recorded ticks. If wrench.csv has no poses, the hand comes from its own file.
-TickLog turnsOf(const std::filesystem::path& folder, const std::optional<HandPath>& hand,
+TickLog ticksOf(const std::filesystem::path& folder, const std::optional<HandPath>& hand,
                 const Scene& scene) {
     TickLog log = readTickLog(folder);
     if (!hand || log.poses) {
@@ -81,48 +73,36 @@ PlaybackRun::PlaybackRun(const OperateOptions& options, const GlobalOptions& glo
                signals_.asked())
     , haptics_(makeHapticOptions(session_.scene, session_.tool))
     , hand_(handOf(options.recording))
-    , log_(turnsOf(options.recording, hand_, session_.scene))
+    , log_(ticksOf(options.recording, hand_, session_.scene))
     , past_(session_)
     , sink_(nothing_)
-    , view_(sink_)
+    , display_(options_, window_, session_, sink_)
     , editor_(session_.scene,
               [this](const Scene& scene, const std::vector<Shape>&) {
                   past_.setScene(scene);
                   shown_ = -1.0;
               })
     , steering_(Pose{}, session_.scene.hand)
-    , panel_(log_, durationOf(past_, log_))
-    , state_(options.state) {
-    console_.takeSettings(session_.scene, options.textScale);
-    canvas_ = std::make_unique<Canvas>(window_, *session_.instance, console_.textScale, options.shots);
-    canvas_->open(session_.cycles.device());
-    console_.timeLine.on = true;
-    console_.timeLine.images = past_.images();
-    console_.timeLine.duration = durationOf(past_, log_);
+    , panel_(log_, durationOf(past_, log_)) {
+    TimeLine& line = display_.console.timeLine;
+    line.on = true;
+    line.images = past_.images();
+    line.duration = durationOf(past_, log_);
     if (log_.moments.empty()) {
-        console_.notify("no hand.csv or wrench.csv there: frames only");
+        display_.console.notify("no hand.csv or wrench.csv there: frames only");
     }
 }
 
 void PlaybackRun::run() {
-    double last = started_ = playedSeconds();
-    while (!wantsToEnd()) {
-        window_.beginFrame(std::clamp(kDrawPeriod - (playedSeconds() - last), 0.0, kDrawPeriod));
-        const double now = playedSeconds(), dt = now - last;
-        windowHz_ += 0.05 * (1.0 / std::max(1e-3, dt) - windowHz_);
-        last = now;
-        frame(dt);
+    display_.begin();
+    while (!display_.wantsToEnd() && !signals_.asked().load()) {
+        frame(display_.beginFrame());
     }
-    state_.write(console_, view_, extras(), true);
-}
-
-bool PlaybackRun::wantsToEnd() const {
-    return window_.closed() || console_.quit || signals_.asked().load() ||
-           (options_.seconds > 0.0 && playedSeconds() - started_ >= options_.seconds);
+    display_.writeState(editor_, haptics_, nullptr, true, true);
 }
 
 void PlaybackRun::frame(double dt) {
-    if (canvas_->isOpen()) {
+    if (display_.canvas.isOpen()) {
         try {
             draw(dt);
         } catch (const DeviceFailed& e) {
@@ -132,80 +112,66 @@ void PlaybackRun::frame(double dt) {
         ImGui::EndFrame();
         lookForDevice();
     }
-    state_.write(console_, view_, extras());
+    display_.writeState(editor_, haptics_, nullptr, true, false);
 }
 
 void PlaybackRun::loseDevice(const std::string& why) {
-    log::warn("GPU is gone ({}): it is looked for", why);
+    log::warn("GPU is gone ({}): retrying", why);
     ImGui::EndFrame(); // does nothing when the frame has already ended
-    canvas_->drop();
+    display_.canvas.drop();
     retry_ = kFirstRetry;
-    retryAt_ = playedSeconds() + retry_;
+    retryAt_ = display_.elapsed() + retry_;
 }
 
 void PlaybackRun::lookForDevice() {
-    if (playedSeconds() < retryAt_) {
+    if (display_.elapsed() < retryAt_) {
         return;
     }
     try {
         session_.cycles.renew();
-        canvas_->open(session_.cycles.device());
+        display_.canvas.open(session_.cycles.device());
     } catch (const Error& e) { // a driver that restarts may report any error
         log::debug("GPU: {}", e.what());
         retry_ = std::min(2.0 * retry_, kLongestRetry);
-        retryAt_ = playedSeconds() + retry_;
+        retryAt_ = display_.elapsed() + retry_;
         return;
     }
     log::warn("GPU is back");
-    console_.notify("The GPU was gone and is back");
+    display_.console.notify("The GPU was gone and is back");
     past_.retake();
-    screen_.redraw();
+    display_.screen.redraw();
 }
 
 void PlaybackRun::draw(double dt) {
     followTime(dt);
-    const bool fresh = view_.refresh();
-    const HudInput hud{view_,
-                       session_.scene,
-                       haptics_,
-                       session_.passNames,
-                       canvas_->letters(),
-                       options_.recording,
-                       screen_.unknownShare(),
-                       windowHz_,
-                       true};
-    alarms_ = Alarms(); // alarms of this moment only, none latched
-    alarms_.step(console_, view_, haptics_, editor_.scene());
-    const bool known = log_.poses && view_.anyTurn();
-    const auto arm = armSpheres(known ? session_.arm.get() : nullptr, view_.step().record.arm.posture);
-    screen_.draw(console_, editor_, alarms_, {view_, session_.tool, hud, fresh, arm, MeasuredArm()});
-    const auto& room = console_.places["traces room"];
-    traces_.draw(console_, hud, {room[0], room[1]}, {room[2], room[3]});
-    const auto& strip = console_.places["time line room"];
-    panel_.draw(console_, canvas_->letters(), {strip[0], strip[1]}, {strip[2], strip[3]});
+    const bool fresh = display_.view.refresh();
+    HudInput hud = display_.hud(haptics_);
+    hud.title = options_.recording;
+    hud.driven = true;
+    display_.alarms = Alarms(); // alarms of this moment only, none latched
+    display_.alarms.step(display_.console, display_.view, haptics_, editor_.scene());
+    const bool known = log_.poses && display_.view.anyTick();
+    const auto arm =
+        armSpheres(known ? session_.arm.get() : nullptr, display_.view.step().record.arm.posture);
+    display_.draw(editor_, {display_.view, session_.tool, hud, fresh, arm, MeasuredArm()});
+    const auto& strip = display_.console.places["time line room"];
+    panel_.draw(display_.console, display_.canvas.letters(), {strip[0], strip[1]}, {strip[2], strip[3]});
     listen();
-    canvas_->finishFrame(console_, screen_.layers(), [] { return false; });
+    display_.canvas.finishFrame(display_.console, display_.screen.layers(), [] { return false; });
 }
 
 void PlaybackRun::listen() {
-    if (const auto at = steering_.step(console_, screen_.large(), 0.0)) {
-        clickInView(console_, editor_, screen_, view_.scene(), *at);
+    Console& console = display_.console;
+    if (const auto at = steering_.step(console, display_.screen.large(), 0.0)) {
+        clickInView(console, editor_, display_.screen, display_.view.scene(), *at);
     }
-    panel_.listen(console_);
-    console_.recording = console_.frozen = false; // not available in playback
-    if (console_.exportCsv) {
-        console_.exportCsv = false;
-        try {
-            traces_.exportCsv(view_, std::filesystem::path(options_.shots) / "traces.csv");
-            console_.notify("traces written");
-        } catch (const Error& e) {
-            console_.notify(e.what());
-        }
-    }
+    panel_.listen(console);
+    console.recording = console.frozen = false; // not available in playback
+    display_.exportTraces();
 }
 
 void PlaybackRun::followTime(double dt) {
-    TimeLine& line = console_.timeLine;
+    TimeLine& line = display_.console.timeLine;
     if (line.playing) {
         line.t += dt * line.speed;
         line.playing = line.t < line.duration;
@@ -231,8 +197,8 @@ uint32_t PlaybackRun::buttonsAt(double t) const {
 // Loads the ten seconds before this moment, so that traces and blocks show what they showed then.
 void PlaybackRun::showMoment() {
     constexpr double kSame = 1e-9; // [s]
-    view_.rewind();
-    const double t = console_.timeLine.t;
+    display_.view.rewind();
+    const double t = display_.console.timeLine.t;
     const auto& moments = log_.moments;
     const auto after = [&](double when) {
         return static_cast<size_t>(
@@ -244,15 +210,11 @@ void PlaybackRun::showMoment() {
     TickRow row;
     for (size_t i = after(t - RunView::kSpan); i < end; ++i) {
         row.record = log_.recordAt(i);
-        view_.take(row);
+        display_.view.take(row);
     }
     const uint32_t buttons = buttonsAt(t);
-    console_.forces = (buttons & kDeadManOpen) == 0;
-    console_.guidance = (buttons & kGuidanceButton) != 0;
-}
-
-StateExtras PlaybackRun::extras() const {
-    return extrasOf({console_, view_, session_, window_, *canvas_, screen_, alarms_, editor_, haptics_});
+    display_.console.forces = (buttons & kDeadManOpen) == 0;
+    display_.console.guidance = (buttons & kGuidanceButton) != 0;
 }
 
 } // namespace fathom::operate

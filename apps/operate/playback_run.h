@@ -3,15 +3,12 @@
 #pragma once
 
 #include "apps/binding/stop_signals.h"
-#include "apps/operate/canvas.h"
 #include "apps/operate/operate_command.h"
 #include "apps/operate/past_scene.h"
 #include "apps/operate/recorder.h"
-#include "apps/operate/screen.h"
-#include "apps/operate/state_log.h"
+#include "apps/operate/run_display.h"
 #include "apps/operate/steering.h"
 #include "apps/operate/time_line_panel.h"
-#include "apps/operate/traces_panel.h"
 #include "engine/run/thread_placement.h"
 
 namespace fathom::operate {
@@ -37,30 +34,23 @@ private:
     void followTime(double dt);
     void showMoment();
     uint32_t buttonsAt(double t) const;
-    StateExtras extras() const;
 
     OperateOptions options_;
     StopSignals signals_;
     Window window_;
     Session session_;
-    std::unique_ptr<Canvas> canvas_;
     HapticOptions haptics_;
     std::optional<HandPath> hand_;
     TickLog log_;
     PastScene past_;
     Recorder nothing_; // never started: the next sink of sink_
     SnapshotSink sink_;
-    RunView view_;
+    RunDisplay display_;
     FixtureEditor editor_;
     Steering steering_;
     TimeLinePanel panel_;
-    TracesPanel traces_;
-    Screen screen_;
-    Alarms alarms_;
-    Console console_;
-    StateLog state_;
     double retryAt_ = 0.0, retry_ = 0.0; // [s] time of the next attempt to open a device; pause after it
-    double started_ = 0.0, shown_ = -1.0, windowHz_ = 0.0;
+    double shown_ = -1.0;                // [s] shown moment of the recording
 };
 
 } // namespace fathom::operate

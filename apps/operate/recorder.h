@@ -3,24 +3,18 @@
 // active settings.
 #pragma once
 
-#include "apps/operate/snapshots.h"
-#include "devices/recorded/line_file.h"
+#include "apps/operate/recorded_edits.h"
+#include "apps/operate/recorded_ticks.h"
 #include "devices/recorded/recording_writer.h"
+#include "engine/run/record_drain.h"
 
 #include <atomic>
-#include <deque>
 #include <filesystem>
 #include <memory>
 #include <mutex>
 #include <string>
 
 namespace fathom::operate {
-
-// The fixtures of a recording at its start or after an edit.
-struct RecordedScene {
-    std::string text;           // text of a scene file
-    std::vector<uint32_t> held; // rows of frozen classes
-};
 
 // Writes a TUM RGB-D folder with scene.yaml, hand.csv (raw poses and buttons), and wrench.csv and touches.csv
 // (tick_log.h). Edited fixtures add edits.csv and the scenes it names (apps/binding/scene_edits.h).
@@ -56,28 +50,16 @@ public:
 private:
     template <class Job>
     void orFail(const Job& job); // call with mutex_ held
-    void openFiles(const std::filesystem::path& folder);
     void addImage(const PublishedFrame& frame, const Fixtures& set);
-    void addEdit(const PublishedFrame& frame);
-    void putEdit(uint64_t image, bool still);
-    void flushTicks(double from, double to, double start, double scale);
-    void putTick(const TickRow& row, double t);
-    int64_t imageOf(int64_t frame) const; // frame index in this recording; -1 = from before it
 
     std::atomic<bool> recording_{false};
     std::atomic<uint64_t> lost_{0}, images_{0};
     mutable std::mutex mutex_; // guards all members below; window and writer thread
     std::unique_ptr<RecordingWriter> writer_;
     std::string failure_;
-    std::deque<TickRow> ticks_;                        // since the last frame
-    std::deque<std::pair<int64_t, uint64_t>> numbers_; // index in run, in recording
-    double lastCapture_ = -1.0, lastWritten_ = -1.0;
-    LineFile hand_, wrench_, touches_, edits_;
-    std::filesystem::path folder_;
-    RecordedScene edited_;                                    // the active fixtures
-    std::deque<std::pair<uint64_t, RecordedScene>> upcoming_; // by number of the change
-    uint32_t scenes_ = 0;                                     // files scene-N.yaml
-    bool still_ = false;
+    double lastCapture_ = -1.0; // [s] of the last image, in the run
+    RecordedTicks ticks_;
+    RecordedEdits edits_;
 };
 
 } // namespace fathom::operate

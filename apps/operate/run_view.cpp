@@ -8,8 +8,8 @@ namespace fathom::operate {
 namespace {
 
 constexpr double kSameBlock = 0.25; // [s] without a touch end a block
-constexpr size_t kMostBlocks = 12;
-constexpr size_t kMostTicks = 1'000'000; // ticks whose times are kept; bounds the memory of long sessions
+constexpr size_t kMaxBlocks = 12;
+constexpr size_t kMaxTimedTicks = 1'000'000; // ticks whose times are kept; bounds the memory of long sessions
 
 } // namespace
 
@@ -46,12 +46,12 @@ void RunView::take(const TickRow& row) {
     tick_ = row;
     ++ticks_;
     late_ += row.late ? 1 : 0;
-    if (micros_.size() < kMostTicks) {
+    if (micros_.size() < kMaxTimedTicks) {
         micros_.resize(micros_.size() + 1);
         wokenLate_.resize(micros_.size());
     }
-    micros_[(ticks_ - 1) % kMostTicks] = static_cast<float>(row.micros);
-    wokenLate_[(ticks_ - 1) % kMostTicks] = static_cast<float>(row.wokenLate * 1e6);
+    micros_[(ticks_ - 1) % kMaxTimedTicks] = static_cast<float>(row.micros);
+    wokenLate_[(ticks_ - 1) % kMaxTimedTicks] = static_cast<float>(row.wokenLate * 1e6);
     const StepRecord& r = row.record;
     if (row.driven && row.armStatus.known) {
         measured_ = Measured{r.t - row.armStatus.age, row.armStatus.posture};
@@ -82,7 +82,7 @@ void RunView::noteBlocks(const TickRow& row) {
         same->deepest = std::max(same->deepest, same->beyond);
         same->force = glm::length(r.wrench.force);
     }
-    while (blocks_.size() > kMostBlocks) {
+    while (blocks_.size() > kMaxBlocks) {
         blocks_.pop_back();
     }
 }

@@ -61,7 +61,7 @@ public:
     const std::optional<Measured>& measured() const {
         return measured_;
     } // last measurement; empty = never measured
-    bool anyTurn() const { return ticks_ > 0; }
+    bool anyTick() const { return ticks_ > 0; }
     uint64_t ticks() const { return ticks_; }
     const std::deque<TraceSample>& trace() const { return trace_; }
     const std::deque<Block>& blocks() const {
@@ -71,7 +71,7 @@ public:
     // Of the last million ticks, unordered.
     const std::vector<float>& stepMicros() const { return micros_; }
     const std::vector<float>& wokenLateMicros() const { return wokenLate_; } // also of the last million ticks
-    uint64_t lateTurns() const { return late_; }
+    uint64_t lateTicks() const { return late_; }
     const std::vector<double>& passMs() const { return passMs_; } // of the last frame that was processed
 
 private:

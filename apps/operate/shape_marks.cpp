@@ -9,7 +9,7 @@ namespace fathom::operate {
 
 namespace {
 
-constexpr double kTurn = 6.283185307179586;
+constexpr double kFullTurn = 6.283185307179586;
 
 } // namespace
 
@@ -40,7 +40,7 @@ void drawShape(ImDrawList& list, const ViewPort& port, const Shape& shape) {
     const auto at = [&](double x, double y, double z) { return shape.baseTshape.apply({x, y, z}); };
     const auto ring = [&](double r, double z, int axis) {
         for (int i = 0; i < 40; ++i) {
-            const double a = kTurn * i / 40, b = kTurn * (i + 1) / 40;
+            const double a = kFullTurn * i / 40, b = kFullTurn * (i + 1) / 40;
             const auto p = [&](double w) {
                 const double c = r * std::cos(w), s = r * std::sin(w);
                 return axis == 2 ? at(c, s, z) : axis == 1 ? at(c, z, s) : at(z, c, s);

@@ -12,8 +12,8 @@ namespace fathom::operate {
 
 namespace {
 
-constexpr double kMostPixels = 2.5e6; // limit for all spheres of an image together
-constexpr double kNearest = 0.02;     // [m]
+constexpr double kMaxPixels = 2.5e6; // limit for all spheres of an image together
+constexpr double kNearest = 0.02;    // [m]
 
 uint32_t dimmed(uint32_t colour) {
     const auto channel = [&](uint32_t shift) {
@@ -148,7 +148,7 @@ void SpaceGround::splatRegions(const Fixtures& set) {
         const double r = view_.lens.fx * double{set.spheres.radius[i]} / z;
         cost += 8.0 * 3.14 * r * r;
     }
-    const size_t step = std::max<size_t>(1, static_cast<size_t>(std::ceil(cost / kMostPixels)));
+    const size_t step = std::max<size_t>(1, static_cast<size_t>(std::ceil(cost / kMaxPixels)));
     for (size_t i = 0; i < set.spheres.size(); i += step) {
         const dvec3 c = view_.cameraTbase.apply(regionCentre(set, i));
         const double radius = double{set.spheres.radius[i]};

@@ -2,10 +2,13 @@
 #include "apps/operate/state_log.h"
 
 #include "apps/binding/scene_edits.h"
+#include "apps/operate/why_panel.h"
+#include "engine/gpu/instance.h"
 #include "engine/types/error.h"
 
 #include <chrono>
 #include <cmath>
+#include <imgui.h>
 #include <nlohmann/json.hpp>
 
 namespace fathom::operate {
@@ -63,7 +66,8 @@ json armOf(const MeasuredArm* arm) {
             {"drawn", arm->isOff()}};
 }
 
-json runOf(const RunView& run, const StateExtras& extras) {
+json runOf(const ShownState& s) {
+    const RunView& run = s.view;
     const StepRecord& r = run.step().record;
     const Rates rates = run.rates();
     return {{"t", r.t},
@@ -85,14 +89,14 @@ json runOf(const RunView& run, const StateExtras& extras) {
             {"spheres", run.scene().set.spheres.size()},
             {"generation", run.scene().set.generation},
             {"grasp", r.arm.posture.grasp},
-            {"arm_holds", extras.armHolds},
+            {"arm_holds", armHolds(s.session.arm.get(), r)},
             {"arm", run.step().driven ? json(armStateName(run.step().armStatus.state)) : json(nullptr)},
-            {"real_arm", armOf(extras.arm)}};
+            {"real_arm", armOf(s.measured)}};
 }
 
-json fixturesOf(const Scene* scene) {
+json fixturesOf(const Scene& scene) {
     json rows = json::array();
-    for (const FixtureClass& f : scene != nullptr ? scene->fixtures : std::vector<FixtureClass>()) {
+    for (const FixtureClass& f : scene.fixtures) {
         if (!isSpare(f)) {
             rows.push_back(
                 {{"name", f.name},
@@ -109,6 +113,26 @@ json fixturesOf(const Scene* scene) {
     return rows;
 }
 
+// Window frames: begun, drawn, skipped for passes.
+json windowOf(const ShownState& s) {
+    const Canvas::Counts counts = s.canvas.counts();
+    const VkExtent2D size = s.window.size();
+    return {{"begun", ImGui::GetFrameCount()},        {"frames", counts.drawn}, {"yielded", counts.yielded},
+            {"swapchains", counts.swapchains},        {"width", size.width},    {"height", size.height},
+            {"validation", gpu::validationMessages()}};
+}
+
+json handOf(const ShownState& s) {
+    return s.session.liveHand ? json{{"name", s.session.liveHand->description()}, {"there", s.handThere}}
+                              : json(nullptr);
+}
+
+std::string whyOf(const ShownState& s) {
+    return s.view.blocks().empty()
+               ? ""
+               : whyBlocked(s.view.blocks().front(), s.editor.scene(), s.view.scene().set);
+}
+
 } // namespace
 
 StateLog::StateLog(const std::filesystem::path& file)
@@ -121,7 +145,7 @@ StateLog::StateLog(const std::filesystem::path& file)
     }
 }
 
-void StateLog::write(const Console& console, const RunView& run, const StateExtras& extras, bool now) {
+void StateLog::write(const ShownState& s, bool now) {
     constexpr double kPeriod = 1.0 / 30.0; // [s]
     const double t =
         std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -129,31 +153,26 @@ void StateLog::write(const Console& console, const RunView& run, const StateExtr
         return;
     }
     next_ = t + kPeriod;
-    json line = {{"console", consoleOf(console)},
-                 {"run", runOf(run, extras)},
-                 {"mode", extras.mode},
-                 {"window",
-                  {{"begun", extras.begun},
-                   {"frames", extras.windowFrames},
-                   {"yielded", extras.yielded},
-                   {"swapchains", extras.swapchains},
-                   {"width", extras.width},
-                   {"height", extras.height},
-                   {"validation", extras.validationMessages}}},
-                 {"hand", extras.hand.empty() ? json(nullptr)
-                                              : json{{"name", extras.hand}, {"there", extras.handThere}}},
-                 {"gpu", {{"there", extras.deviceThere}, {"made_anew", extras.renewals}}},
-                 {"unknown_share", extras.unknownShare},
-                 {"alarms", extras.alarms},
-                 {"fixtures", fixturesOf(extras.scene)},
-                 {"shapes", extras.shapes},
-                 {"selected", extras.selected},
-                 {"why", extras.why},
-                 {"pilot",
-                  {{"name", extras.scene != nullptr ? extras.scene->pilot : ""},
-                   {"stiffness", extras.stiffness},
-                   {"force_limit", extras.forceLimit}}},
-                 {"hovered", console.hovered}};
+    const Scene& scene = s.editor.scene();
+    const json line = {{"console", consoleOf(s.console)},
+                       {"run", runOf(s)},
+                       {"mode", modeOf(s.console, s.view).word},
+                       {"window", windowOf(s)},
+                       {"hand", handOf(s)},
+                       {"gpu",
+                        {{"there", s.canvas.isOpen() && !s.session.handover->gone()},
+                         {"made_anew", s.session.cycles.renewals()}}},
+                       {"unknown_share", s.screen.unknownShare()},
+                       {"alarms", s.alarms.inWords()},
+                       {"fixtures", fixturesOf(scene)},
+                       {"shapes", s.editor.shapes().size()},
+                       {"selected", s.editor.selectedPoints()},
+                       {"why", whyOf(s)},
+                       {"pilot",
+                        {{"name", scene.pilot},
+                         {"stiffness", s.haptics.springs.stiffness},
+                         {"force_limit", s.haptics.forceLimit}}},
+                       {"hovered", s.console.hovered}};
     out_ << line.dump(-1, ' ', false, json::error_handler_t::replace) << "\n" << std::flush;
     if (!out_) {
         throw Error(name_ + ": cannot be written");

@@ -3,34 +3,31 @@
 // where, for tests and other programs.
 #pragma once
 
-#include "apps/operate/console.h"
-#include "apps/operate/measured_arm.h"
-#include "apps/operate/run_view.h"
+#include "apps/operate/alarms.h"
+#include "apps/operate/canvas.h"
+#include "apps/operate/fixture_editor.h"
+#include "apps/operate/screen.h"
+#include "apps/session/session.h"
 
 #include <filesystem>
 #include <fstream>
 #include <string>
-#include <vector>
 
 namespace fathom::operate {
 
-// State that StateLog::write() cannot read from console and run view.
-struct StateExtras {
-    std::string mode;
-    uint64_t begun = 0, windowFrames = 0, yielded = 0; // window frames: begun, drawn, skipped for passes
-    uint32_t swapchains = 0, width = 0, height = 0, validationMessages = 0;
-    bool deviceThere = true;
-    uint32_t renewals = 0; // times that the device was recreated
-    double unknownShare = 0.0;
-    std::vector<std::string> alarms;  // shown alarms: level, key
-    const Scene* scene = nullptr;     // the active scene
-    size_t shapes = 0, selected = 0;  // selected: number of points in the preview
-    const MeasuredArm* arm = nullptr; // null = no real arm
-    std::string hand;                 // the live device; empty = none
-    bool handThere = true;
-    double stiffness = 0.0, forceLimit = 0.0; // [N/m], [N] of the active pilot
-    std::string why;                          // of the newest block
-    std::vector<std::string> armHolds;        // measured_arm.h
+// The objects whose state is written.
+struct ShownState {
+    const Console& console;
+    const RunView& view;
+    const Session& session;
+    const Window& window;
+    const Canvas& canvas;
+    const Screen& screen;
+    const Alarms& alarms;
+    const FixtureEditor& editor;
+    const HapticOptions& haptics;
+    const MeasuredArm* measured = nullptr; // null = no real arm
+    bool handThere = true;                 // the live hand is connected
 };
 
 class StateLog {
@@ -38,7 +35,7 @@ public:
     // An empty file name disables the log. Throws Error that names the file.
     explicit StateLog(const std::filesystem::path& file);
     // Writes when the next line is due, or at once if `now`.
-    void write(const Console& console, const RunView& run, const StateExtras& extras, bool now = false);
+    void write(const ShownState& shown, bool now);
 
 private:
     std::ofstream out_;

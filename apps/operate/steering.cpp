@@ -12,7 +12,7 @@ namespace fathom::operate {
 
 namespace {
 
-constexpr double kSpeed = 0.12, kTurning = 0.9;        // [m/s], [rad/s] while a key is down
+constexpr double kSpeed = 0.12, kKeyRotation = 0.9;    // [m/s], [rad/s] while a key is down
 constexpr double kWheel = 0.008;                       // [m] per notch
 constexpr float kCursor = 240.0f, kSlowCursor = 30.0f; // [pixels/s] without and with Shift
 constexpr double kClick = 4.0; // [pixels] a click may move this far before it is a drag
@@ -125,7 +125,7 @@ void Steering::moveByKeys(Console& console, const ViewPort& large) {
     const double dt = std::min(0.1, double{io.DeltaTime});
     const dquat baseReye = glm::conjugate(large.view.cameraTbase.rotation);
     if (io.KeyShift) {
-        rotate(baseReye * (kTurning * dt * dvec3(-direction.y, direction.x, direction.z)));
+        rotate(baseReye * (kKeyRotation * dt * dvec3(-direction.y, direction.x, direction.z)));
     } else {
         shift(baseReye * (kSpeed * dt * direction));
     }

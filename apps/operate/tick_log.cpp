@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* kShortHead = "t_s,fx,fy,fz,tx,ty,tz,contacts,state";
 constexpr size_t kShort = 9, kAll = 37, kTouchColumns = 13;
-constexpr size_t kMostTicks = 4'000'000, kMostTouchRows = kMostTicks * kMostTouches;
+constexpr size_t kMaxLoggedTicks = 4'000'000, kMaxTouchRows = kMaxLoggedTicks * kMostTouches;
 
 void put(std::ostream& out, const dvec3& v) {
     out << "," << v.x << "," << v.y << "," << v.z;
@@ -130,7 +130,7 @@ void readTouches(const std::filesystem::path& file, TickLog& log) {
             row.refuse(", t_s", std::to_string(row[0]), "the time of a row of wrench.csv, ascending");
         }
         Moment& moment = log.moments[tick];
-        if (log.touches.size() >= kMostTouchRows || moment.touchCount >= kMostTouches) {
+        if (log.touches.size() >= kMaxTouchRows || moment.touchCount >= kMostTouches) {
             row.refuse("", "one more", "8 touches per tick");
         }
         moment.firstTouch = moment.touchCount == 0 ? log.touches.size() : moment.firstTouch;
@@ -190,7 +190,7 @@ TickLog readTickLog(const std::filesystem::path& folder) {
         if (!std::isfinite(row[0]) || (!log.moments.empty() && !(row[0] > log.moments.back().t))) {
             row.refuse(", t_s", std::to_string(row[0]), "later than the row before");
         }
-        if (log.moments.size() >= kMostTicks) {
+        if (log.moments.size() >= kMaxLoggedTicks) {
             row.refuse("", "one tick more", "4000000 ticks");
         }
         log.moments.push_back(momentFrom(row, log.poses));

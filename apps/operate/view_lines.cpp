@@ -18,8 +18,8 @@ void dashed(ImDrawList& list, ImVec2 a, ImVec2 b, ImU32 colour, float width, flo
 }
 
 void thin(std::vector<ImVec2>& points) {
-    constexpr float kOff = 0.25f; // [pixels]
-    constexpr size_t kMost = 16;  // points that one segment may replace
+    constexpr float kOff = 0.25f;       // [pixels]
+    constexpr size_t kMaxReplaced = 16; // points that one segment may replace
     const auto off = [&](size_t from, size_t to, size_t i) {
         const ImVec2 a = points[from], b = points[to], p = points[i];
         const float x = b.x - a.x, y = b.y - a.y;
@@ -36,7 +36,7 @@ void thin(std::vector<ImVec2>& points) {
             }
             return true;
         };
-        while (to + 1 < points.size() && to - from < kMost && straight(to + 1)) {
+        while (to + 1 < points.size() && to - from < kMaxReplaced && straight(to + 1)) {
             ++to;
         }
         points[++kept] = points[to]; // overwrites only visited points: kept <= to

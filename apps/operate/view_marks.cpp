@@ -219,7 +219,7 @@ void drawMarks(ImDrawList& list, const MarksInput& input) {
                        record.guidance > 0.0 && record.guidanceClass == static_cast<int>(i));
         }
     }
-    if (!input.run.anyTurn() || !isFinite(record.device)) {
+    if (!input.run.anyTick() || !isFinite(record.device)) {
         return;
     }
     toolAt(list, input, record.device, true);

@@ -22,13 +22,13 @@ namespace fathom::operate {
 namespace {
 
 constexpr int kWidth = 1280, kHeight = 720;
-constexpr uint32_t kLeast = 320, kMost = 8192; // [pixels] range of offscreen sizes
+constexpr uint32_t kMinSize = 320, kMaxSize = 8192; // [pixels] range of offscreen sizes
 
 VkExtent2D sizeFrom(const std::string& text) {
     VkExtent2D size{};
     char rest = 0;
-    if (std::sscanf(text.c_str(), "%ux%u%c", &size.width, &size.height, &rest) != 2 || size.width < kLeast ||
-        size.height < kLeast || size.width > kMost || size.height > kMost) {
+    if (std::sscanf(text.c_str(), "%ux%u%c", &size.width, &size.height, &rest) != 2 ||
+        size.width < kMinSize || size.height < kMinSize || size.width > kMaxSize || size.height > kMaxSize) {
         throw BadInput("operate", "--offscreen", "'" + text + "'", "WxH, each 320 to 8192 pixels");
     }
     return size;

@@ -150,7 +150,7 @@ TEST_CASE("A GPU lost in passes, painter or presentation is opened again while t
     rig.key("r");
     REQUIRE(rig.await([](const json& s) { return s["console"]["recording"] == false; }));
     checkEnd(lost.window);
-    CHECK(rig.output().find("lost and made anew 3 times") != std::string::npos);
+    CHECK(rig.output().find("lost and reopened 3 times") != std::string::npos);
     const ProgramRun replay = runFathom({"replay", (rig.folder() / "recording-1" / "scene.yaml").string(),
                                          "--source", (rig.folder() / "recording-1").string(), "--device",
                                          "llvmpipe", "--out", (rig.folder() / "again").string()});

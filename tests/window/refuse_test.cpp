@@ -44,6 +44,6 @@ TEST_CASE("Offscreen, the window draws without a display and without validation 
                                                  "--offscreen", "800x500", "--validate", "--seconds", "2"});
     INFO(run.err);
     CHECK(run.exitCode == 0);
-    CHECK(run.out.find("frames a second") != std::string::npos);
+    CHECK(run.out.find("frames per second") != std::string::npos);
     CHECK(run.out.find("window       0.0") == std::string::npos);
 }

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// The threads of a pilot's run and the objects that they use. Another pilot gets a new run on the same
+// session.
+#pragma once
+
+#include "apps/binding/stop_signals.h"
+#include "apps/binding/view_publisher.h"
+#include "apps/operate/operate_command.h"
+#include "apps/operate/pilot_hand.h"
+#include "apps/operate/run_thread.h"
+#include "apps/operate/steering.h"
+#include "apps/session/path_hand.h"
+#include "apps/session/session_feed.h"
+#include "engine/run/realtime_run.h"
+
+#include <memory>
+
+namespace fathom::operate {
+
+// Window thread. The same haptic, contact, camera and writer threads as `replay --realtime`; none waits for
+// the window. Everything given to the constructor outlives this.
+class LiveRun {
+public:
+    // observers: null = no view socket.
+    LiveRun(const OperateOptions& options, Session& session, const StopSignals& signals,
+            const ThreadPlacement& placement, RunSink& sink, ViewPublisher* observers);
+
+    // Starts the first run, with forces off. Throws BadInput, Error, DeviceLost.
+    void start(const std::vector<Shape>& shapes);
+    // Turns forces off and ends the run. False when it had ended by itself: then the window ends.
+    bool pause();
+    // Starts a run with the session's present pilot. tool: the step where the tool stays; null = at the start
+    // of the path.
+    void restart(const std::vector<Shape>& shapes, const StepRecord* tool);
+    void end() { thread_->end(); }
+
+    // Moves the hand by this frame's keys and mouse; returns where the large view was clicked.
+    std::optional<ImVec2> steer(Console& console, const ViewPort& large, double toolDepth);
+    void apply(const Console& console); // forces, frozen fixtures, buttons
+    void forcesOff() { hand_->setForces(false); }
+    void setShapes(const std::vector<Shape>& shapes);
+
+    bool ended() const { return thread_->ended(); }
+    std::exception_ptr failure() const { return thread_->failure(); }
+    const HapticOptions& haptics() const { return haptics_; }
+    SessionFeed& feed() { return feed_; }
+    bool handThere() const { return hand_->there(); }
+    const RealtimeRun& engine() const { return *engine_; }
+
+private:
+    HapticDevice& device(); // the device that drives the tool
+    void makeHand(const std::vector<Shape>& shapes, const Pose& start, const Pose* tool);
+    void makeEngine(const std::vector<Shape>& shapes, const Pose& start, const Pose* tool);
+    void forgetFrames();
+    uint32_t buttonsOf(const Console& console) const;
+
+    const OperateOptions& options_;
+    Session& session_;
+    const StopSignals& signals_;
+    const ThreadPlacement& placement_;
+    RunSink& sink_;
+    ViewPublisher* observers_;
+    HapticOptions haptics_;
+    SessionFeed feed_;
+    std::unique_ptr<RealtimeRun> engine_;
+    std::unique_ptr<HapticCycle> cycle_;
+    std::unique_ptr<PilotHand> pilot_;
+    std::unique_ptr<PathHand> path_;
+    std::unique_ptr<GatedHand> hand_;
+    std::unique_ptr<Steering> steering_;
+    std::unique_ptr<RunThread> thread_; // last, so it ends before what it uses and sends a zero wrench
+};
+
+} // namespace fathom::operate

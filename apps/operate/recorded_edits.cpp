@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/operate/recorded_edits.h"
+
+#include "apps/binding/scene_edits.h"
+#include "engine/types/error.h"
+
+#include <fstream>
+
+namespace fathom::operate {
+
+void RecordedEdits::begin(const std::filesystem::path& folder, const RecordedScene& scene) {
+    file_.close();
+    folder_ = folder;
+    now_ = scene;
+    upcoming_.clear();
+    scenes_ = 0;
+    still_ = false;
+}
+
+// The first edit also writes the scene file of the start.
+void RecordedEdits::frame(const PublishedFrame& frame, uint64_t image) {
+    const auto takesEffect = [&] { return !upcoming_.empty() && upcoming_.front().first <= frame.edit; };
+    if (!takesEffect() && frame.still == still_) {
+        return;
+    }
+    if (!file_.isOpen()) {
+        file_.open(folder_ / SceneEdits::kFile, SceneEdits::kHead);
+        if (image > 0) {
+            put(0);
+        }
+    }
+    for (; takesEffect(); upcoming_.pop_front()) {
+        now_ = std::move(upcoming_.front().second);
+    }
+    still_ = frame.still;
+    put(image);
+}
+
+void RecordedEdits::put(uint64_t image) {
+    const std::string name = "scene-" + std::to_string(scenes_++) + ".yaml";
+    std::ofstream text(folder_ / name);
+    text << now_.text << std::flush;
+    if (!text) {
+        throw Error((folder_ / name).string() + ": cannot be written");
+    }
+    std::ostream& out = file_.lines();
+    out << image << "," << name << ",";
+    for (size_t i = 0; i < now_.held.size(); ++i) {
+        out << (i == 0 ? "" : " ") << now_.held[i];
+    }
+    out << "," << (still_ ? 1 : 0) << "\n";
+    file_.flush();
+}
+
+} // namespace fathom::operate

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/operate/run_display.h"
+
+#include "engine/types/error.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+namespace fathom::operate {
+
+namespace {
+
+constexpr double kWindowPeriod = 1.0 / 60.0; // [s] shortest period of the window
+
+double seconds() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+Console consoleFor(const Scene& scene, double textScale) {
+    Console console;
+    console.takeSettings(scene, textScale);
+    return console;
+}
+
+} // namespace
+
+RunDisplay::RunDisplay(const OperateOptions& options, Window& window, Session& session, SnapshotSink& sink)
+    : console(consoleFor(session.scene, options.textScale))
+    , canvas(window, *session.instance, console.textScale, options.shots)
+    , view(sink)
+    , options_(options)
+    , window_(window)
+    , session_(session)
+    , log_(options.state) {
+    canvas.open(session.cycles.device());
+}
+
+void RunDisplay::begin() {
+    started_ = lastFrame_ = seconds();
+}
+
+double RunDisplay::beginFrame() {
+    window_.beginFrame(std::clamp(kWindowPeriod - (seconds() - lastFrame_), 0.0, kWindowPeriod));
+    const double now = seconds(), dt = now - lastFrame_;
+    windowHz_ += 0.05 * (1.0 / std::max(1e-3, dt) - windowHz_);
+    lastFrame_ = now;
+    return dt;
+}
+
+double RunDisplay::elapsed() const {
+    return seconds() - started_;
+}
+
+bool RunDisplay::wantsToEnd() const {
+    return window_.closed() || console.quit || (options_.seconds > 0.0 && elapsed() >= options_.seconds);
+}
+
+HudInput RunDisplay::hud(const HapticOptions& haptics) const {
+    return {.run = view,
+            .scene = session_.scene,
+            .haptics = haptics,
+            .passNames = session_.passNames,
+            .letters = canvas.letters(),
+            .title = session_.title(),
+            .unknownShare = screen.unknownShare(),
+            .windowHz = windowHz_};
+}
+
+void RunDisplay::draw(FixtureEditor& editor, const ScreenInput& input) {
+    screen.draw(console, editor, alarms, input);
+    const auto& room = console.places["traces room"];
+    traces_.draw(console, input.hud, {room[0], room[1]}, {room[2], room[3]});
+}
+
+void RunDisplay::exportTraces() {
+    if (!std::exchange(console.exportCsv, false)) {
+        return;
+    }
+    const auto file = std::filesystem::path(options_.shots) / "traces.csv";
+    try {
+        traces_.exportCsv(view, file);
+        console.notify("traces written to " + file.string());
+    } catch (const Error& e) {
+        console.notify(e.what());
+    }
+}
+
+void RunDisplay::writeState(const FixtureEditor& editor, const HapticOptions& haptics,
+                            const MeasuredArm* measured, bool handThere, bool now) {
+    log_.write(
+        {console, view, session_, window_, canvas, screen, alarms, editor, haptics, measured, handThere},
+        now);
+}
+
+} // namespace fathom::operate

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// The window on a session: console, views, panels, state file, and the pace of frames.
+#pragma once
+
+#include "apps/operate/alarms.h"
+#include "apps/operate/canvas.h"
+#include "apps/operate/operate_command.h"
+#include "apps/operate/screen.h"
+#include "apps/operate/state_log.h"
+#include "apps/operate/traces_panel.h"
+#include "apps/session/session.h"
+
+namespace fathom::operate {
+
+// Window thread. Options, window, session and sink outlive it. For live runs and for recordings.
+struct RunDisplay {
+    // Opens the canvas on the session's device. Throws Error, DeviceLost.
+    RunDisplay(const OperateOptions& options, Window& window, Session& session, SnapshotSink& sink);
+
+    void begin();        // the time of the run counts from now
+    double beginFrame(); // waits for the window's next frame; returns the time since the last one [s]
+    // True when the window is closed, the pilot quits or the time is up.
+    bool wantsToEnd() const;
+    double elapsed() const; // [s] since begin()
+
+    HudInput hud(const HapticOptions& haptics) const; // the parts that are the same for every run
+    void draw(FixtureEditor& editor, const ScreenInput& input);
+    void exportTraces(); // if requested: traces.csv in the folder of the options
+
+    // Writes the state file. measured: null = no real arm.
+    void writeState(const FixtureEditor& editor, const HapticOptions& haptics, const MeasuredArm* measured,
+                    bool handThere, bool now);
+
+    Console console;
+    Canvas canvas;
+    RunView view;
+    Screen screen;
+    Alarms alarms;
+
+private:
+    const OperateOptions& options_;
+    Window& window_;
+    Session& session_;
+    TracesPanel traces_;
+    StateLog log_;
+    double started_ = 0.0, lastFrame_ = 0.0; // [s] of the steady clock
+    double windowHz_ = 0.0;
+};
+
+} // namespace fathom::operate
