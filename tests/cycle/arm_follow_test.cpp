@@ -25,24 +25,23 @@ struct FollowRig {
     }
 
     StepRecord step() {
-        placed = cycle->follow(told);
+        placed = cycle->follow(status);
         start = cycle->place();
-        auto offered = std::make_unique<ContactSet>();
-        world.cull.query(rig.toolAt(asked.arm), Pose{}, 0.01, world.fixtures, world.grid, *offered);
-        offered->frame = 0;
+        contacts.offer([this] {
+            auto set = std::make_unique<ContactSet>();
+            world.cull.query(rig.toolAt(asked.arm), Pose{}, 0.01, world.fixtures, world.grid, *set);
+            set->frame = 0;
+            set->query = ++queries;
+            return set;
+        });
         StepInput input;
         input.time = input.captureTime = time;
         input.deviceThandle = hand;
         input.buttons = buttons;
-        input.contacts = inForce.get();
-        input.offered = offered.get();
         input.frame = 0;
-        input.generation = offered->generation;
+        input.generation = contacts.offered()->generation;
         input.sourceEnded = true;
-        const StepRecord record = cycle->step(input);
-        if (record.adopted) {
-            inForce = std::move(offered);
-        }
+        const StepRecord record = contacts.step(*cycle, input);
         asked = cycle->place(); // the answer comes one tick late
         time += options.period;
         return record;
@@ -60,10 +59,11 @@ struct FollowRig {
     World world;
     HapticOptions options = makeHapticOptions(handScene(), ballTool());
     Pose hand = at(0, 0, 0);
-    ArmFollow told{true, true, {}};
+    ArmFollow status{true, true, {}};
     ToolState asked, start;
     std::unique_ptr<HapticCycle> cycle;
-    std::unique_ptr<ContactSet> inForce;
+    ActiveContacts<std::unique_ptr<ContactSet>> contacts;
+    uint64_t queries = 0;
     double time = 0.0;
     uint32_t buttons = 0;
     bool placed = false;
@@ -97,8 +97,8 @@ TEST_CASE("An arm that stands still holds the tool at once, and the force is gon
         FollowRig follow = pressed();
         const double full = forceOf(follow.ticks(50));
         const ArmPosture before = follow.cycle->place().arm;
-        (why == 0 ? follow.told.follows = false : (follow.buttons = kDeadManOpen) != 0);
-        follow.told.known = false; // also without feedback
+        (why == 0 ? follow.status.follows = false : (follow.buttons = kDeadManOpen) != 0);
+        follow.status.known = false; // also without feedback
         double last = full;
         for (int i = 0; i < 400; ++i) {
             follow.hand.position += dvec3(0.0005, 0.0005, 0.0);
@@ -118,7 +118,7 @@ TEST_CASE("An arm that stands still holds the tool at once, and the force is gon
 TEST_CASE("Forces off hold an arm that follows, and it does not jump to a hand that moved elsewhere") {
     FollowRig follow = pressed();
     follow.ticks(50);
-    follow.told.posture = follow.cycle->place().arm;
+    follow.status.posture = follow.cycle->place().arm;
     follow.buttons = kDeadManOpen;
     follow.ticks(300);
     follow.hand.position += dvec3(-0.2, -0.3, 0.1);
@@ -137,15 +137,15 @@ TEST_CASE("Forces off hold an arm that follows, and it does not jump to a hand t
 TEST_CASE(
     "The tool resumes from the arm's measured posture, also inside a region, and only moves out of it") {
     FollowRig follow = pressed();
-    follow.told.posture = follow.cycle->place().arm;
-    follow.told.posture.q[0] += 0.01; // the arm's own lag carried its links 5 to 10 mm into the ball
-    follow.told.follows = false;
+    follow.status.posture = follow.cycle->place().arm;
+    follow.status.posture.q[0] += 0.01; // the arm's own lag carried its links 5 to 10 mm into the ball
+    follow.status.follows = false;
     follow.ticks(300);
     CHECK(follow.placed);
-    CHECK(follow.cycle->place().arm.q == follow.told.posture.q);
+    CHECK(follow.cycle->place().arm.q == follow.status.posture.q);
     double deepest = follow.depth();
     CHECK(deepest > 0.004);
-    follow.told.follows = true;
+    follow.status.follows = true;
     for (int i = 0; i < 500; ++i) {
         const StepRecord record = follow.step();
         CHECK(follow.depth() <= deepest + 1e-9);
@@ -157,25 +157,25 @@ TEST_CASE(
 
 TEST_CASE("A tool placed far from known contacts waits until contacts are known there") {
     FollowRig follow = pressed();
-    follow.told = {false, true, follow.cycle->place().arm};
+    follow.status = {false, true, follow.cycle->place().arm};
     follow.ticks(300);
     CHECK(follow.placed);
-    follow.told.posture.q = {-0.6, 0.3, 0.2, -0.1}; // contacts are known only near the old place
-    follow.told.follows = true;
+    follow.status.posture.q = {-0.6, 0.3, 0.2, -0.1}; // contacts are known only near the old place
+    follow.status.follows = true;
     const StepRecord first = follow.step();
     CHECK_FALSE(first.adopted);
     CHECK(first.armHold);
-    CHECK(first.arm.posture.q == follow.told.posture.q);
+    CHECK(first.arm.posture.q == follow.status.posture.q);
     const StepRecord then = follow.ticks(3);
-    CHECK(follow.inForce != nullptr);
+    CHECK(follow.contacts.active() != nullptr);
     CHECK_FALSE(then.armHold);
 }
 
 TEST_CASE("A measured posture that is not finite or beyond the limits leaves the tool inside them") {
     FollowRig follow = pressed();
     const ArmPosture before = follow.cycle->place().arm;
-    follow.told = {false, true, {}};
-    follow.told.posture.q = {kNotKnown, 9.0, -9.0, 0.1};
+    follow.status = {false, true, {}};
+    follow.status.posture.q = {kNotKnown, 9.0, -9.0, 0.1};
     follow.ticks(300);
     const ArmPosture now = follow.cycle->place().arm;
     CHECK(now.q == JointVector{before.q[0], 1.2, -1.2, 0.1});

@@ -36,7 +36,7 @@ TEST_CASE("Until the first contact set the tool is held, the wrench is zero and 
     CHECK(record.adopted);
     CHECK(record.frame == 7);
     CHECK(record.state == StepState::Free);
-    CHECK(record.minGap == rig.inForce->reach); // nothing is nearer than the reach of the query
+    CHECK(record.minGap == rig.contacts.active()->reach); // nothing is nearer than the reach of the query
 }
 
 TEST_CASE("In free space the tool equals the hand to the last bit and there is no force") {

@@ -6,6 +6,7 @@
 #include "engine/contact/cull_cpu.h"
 #include "engine/cycle/haptic_cycle.h"
 #include "engine/reference/contact_oracle.h"
+#include "engine/run/active_contacts.h"
 #include "tests/contact/clouds.h"
 
 #include <deque>
@@ -56,18 +57,15 @@ public:
         input.buttons = buttons;
         input.forcesOff = forcesOff;
         input.present = present;
-        input.contacts = inForce.get();
         if (fixtures && query) {
-            offered = std::make_unique<ContactSet>();
-            const ToolState place = cycle->queryPlace();
-            cull.query(tool, place.pose, 0.01 + place.moreReach, *fixtures, grid, *offered);
-            offered->asked = place.asked;
-            waiting.push_back(std::move(offered));
-            if (waiting.size() > late) {
-                offered = std::move(waiting.front());
+            waiting.push_back(answer());
+        }
+        if (waiting.size() > late) {
+            contacts.offer([this] {
+                auto due = std::move(waiting.front());
                 waiting.pop_front();
-            }
-            input.offered = offered.get();
+                return due;
+            });
         }
         if (fixtures) {
             input.frame = fixtures->frame;
@@ -80,10 +78,7 @@ public:
         input.guidance = guidance;
         input.sourceEnded = sourceEnded;
         input.measuredPeriod = measured;
-        const StepRecord record = cycle->step(input);
-        if (record.adopted) {
-            inForce = std::move(offered);
-        }
+        const StepRecord record = contacts.step(*cycle, input);
         time += measured > 0.0 ? measured : options.period;
         return record;
     }
@@ -94,6 +89,14 @@ public:
         }
         return record;
     }
+    std::unique_ptr<ContactSet> answer() {
+        auto set = std::make_unique<ContactSet>();
+        const ToolState place = cycle->queryPlace();
+        cull.query(tool, place.pose, 0.01 + place.moreReach, *fixtures, grid, *set);
+        set->asked = place.asked;
+        set->query = ++queries;
+        return set;
+    }
     double gap() const { return oracleSmallestGap(tool, cycle->pose(), *fixtures); }
 
     Tool tool;
@@ -102,7 +105,8 @@ public:
     CullCpu cull;
     RegionGrid grid;
     std::optional<Fixtures> fixtures;
-    std::unique_ptr<ContactSet> inForce, offered;
+    ActiveContacts<std::unique_ptr<ContactSet>> contacts;
+    uint64_t queries = 0;
     std::vector<GuidancePose> guidance;
     Pose hand;
     double time = 0.0, captured = 0.0;

@@ -221,7 +221,7 @@ TEST_CASE("A set that does not cover the tool is rejected and the active one is 
     StepInput input;
     input.time = rig.time;
     input.deviceThandle = rig.hand;
-    input.contacts = rig.inForce.get();
+    input.contacts = rig.contacts.active();
     input.offered = &far;
     const auto record = rig.cycle->step(input);
     CHECK_FALSE(record.adopted);
@@ -252,7 +252,7 @@ TEST_CASE("The same run twice gives the same bits, and steps do not allocate") {
         StepInput input;
         input.time = rig.time;
         input.deviceThandle = rig.hand;
-        input.contacts = rig.inForce.get();
+        input.contacts = rig.contacts.active();
         input.guidance = rig.guidance;
         const uint64_t before = allocationCount();
         for (int i = 0; i < 200; ++i) {
