@@ -23,8 +23,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kMostStep = 0.05; // [s] largest simulated step, so that a stopped process does not jump
-constexpr double kEcaRange = 1.6;  // [rad] between the stops of every joint
+constexpr double kMaxStep = 0.05; // [s] largest simulated step, so that a stopped process does not jump
+constexpr double kEcaRange = 1.6; // [rad] between the stops of every joint
 
 struct SimulatorOptions {
     std::string protocol;
@@ -128,7 +128,7 @@ void runSimulator(const SimulatorOptions& options) {
             break;
         }
         terminal.exchange(*arm);
-        arm->step(std::min(kMostStep, std::chrono::duration<double>(now - before).count()));
+        arm->step(std::min(kMaxStep, std::chrono::duration<double>(now - before).count()));
         before = now;
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }

@@ -19,11 +19,11 @@ constexpr double kPushStart = 0.060; // [m] start of a push, before the touch
 constexpr double kClear = 0.030;     // [m] clearance around the stance
 constexpr double kRoom = 0.100; // [m] distance of the first candidate of the stance from the nearest region
 constexpr double kBackStep = 0.020;     // [m]
-constexpr int kMostBackSteps = 200;     // 4 m: more than the near limit of any camera
+constexpr int kMaxBackSteps = 200;      // 4 m: more than the near limit of any camera
 constexpr double kBeforeTarget = 0.060; // [m]
 constexpr double kGapCap = 0.050;       // [m] longest step of the search
-constexpr double kTurn = 4.0;           // [degree]
-constexpr double kTurnTime = 1.4;       // [s]
+constexpr double kRotation = 4.0;       // [degree]
+constexpr double kRotationTime = 1.4;   // [s]
 constexpr double kHoldTime = 2.2;       // [s] at a guidance target
 constexpr double kButtonTime = 1.5;     // [s] of that, at the end, with the button down
 constexpr uint32_t kGuidanceButton = 1;
@@ -176,7 +176,7 @@ std::vector<Goal> goalsOf(const Scene& scene, const Fixtures& set) {
 dvec3 standBefore(const FreeSpace& space, const dvec3& end, const dvec3& direction, double distance,
                   const dvec3* from) {
     dvec3 point = end - distance * direction;
-    for (int i = 0; i < kMostBackSteps; ++i, point -= kBackStep * direction) {
+    for (int i = 0; i < kMaxBackSteps; ++i, point -= kBackStep * direction) {
         if (space.gap(point) >= kClear && (from == nullptr || !space.touch(*from, point))) {
             break;
         }
@@ -198,8 +198,8 @@ void push(PathWriter& path, const FreeSpace& space, const Goal& goal, const dvec
     path.rest(0.3, 0);
     // Mostly across the push, which tilts a long tool, and partly about it.
     const dvec3 aside = glm::cross(direction, std::abs(direction.y) < 0.9 ? dvec3(0, 1, 0) : dvec3(1, 0, 0));
-    path.step(glm::normalize(glm::normalize(aside) + 0.5 * direction), kTurn * std::numbers::pi / 180.0,
-              kTurnTime);
+    path.step(glm::normalize(glm::normalize(aside) + 0.5 * direction), kRotation * std::numbers::pi / 180.0,
+              kRotationTime);
     path.rest(0.3, 0);
     path.move(before, kFastest);
 }

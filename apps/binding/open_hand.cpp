@@ -70,7 +70,7 @@ std::string axesOf(const std::string& preset) {
 
 bool awaitHand(LiveHand& hand, const std::atomic<bool>& stop) {
     const auto began = std::chrono::steady_clock::now();
-    bool told = false;
+    bool reported = false;
     for (;;) {
         hand.read(0.0);
         if (hand.alive()) {
@@ -79,9 +79,9 @@ bool awaitHand(LiveHand& hand, const std::atomic<bool>& stop) {
         if (stop.load()) {
             return false;
         }
-        if (!told && std::chrono::steady_clock::now() - began > std::chrono::seconds(1)) {
+        if (!reported && std::chrono::steady_clock::now() - began > std::chrono::seconds(1)) {
             log::warn("waiting for {}: plugged in and homed?", hand.description());
-            told = true;
+            reported = true;
         }
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }

@@ -13,8 +13,8 @@ namespace fathom {
 
 namespace {
 
-constexpr int kAbove = 10;  // lowest number of the copies, above all target numbers
-constexpr size_t kMost = 8; // descriptors per child
+constexpr int kAbove = 10;            // lowest number of the copies, above all target numbers
+constexpr size_t kMaxDescriptors = 8; // descriptors per child
 
 // Inherited descriptors have no FD_CLOEXEC. Ours have it, and one may have the number of a standard error
 // that was closed.
@@ -55,14 +55,14 @@ public:
     int fault = 0;
 
 private:
-    int copies_[kMost];
+    int copies_[kMaxDescriptors];
     size_t count_ = 0;
 };
 
 } // namespace
 
 int startOwnProcess(pid_t& process, std::span<const int> files, std::span<const char* const> words) noexcept {
-    if (files.size() > kMost) {
+    if (files.size() > kMaxDescriptors) {
         return EINVAL;
     }
     const Actions given(files);

@@ -12,7 +12,7 @@ namespace fathom {
 
 namespace {
 
-constexpr size_t kMostEdits = 100'000;
+constexpr size_t kMaxEdits = 100'000;
 // Name of a spare class in a recording's scene files; during the run its name is empty.
 constexpr const char* kSpareName = "(spare ";
 
@@ -80,9 +80,9 @@ SceneEdits::SceneEdits(const std::filesystem::path& folder) {
         throw BadInput(file.string(), "line 1", lines.empty() ? "none" : "'" + lines[0].text + "'",
                        std::string("header ") + kHead);
     }
-    if (lines.size() > kMostEdits) {
+    if (lines.size() > kMaxEdits) {
         throw BadInput(file.string(), "rows", std::to_string(lines.size() - 1),
-                       "at most " + std::to_string(kMostEdits));
+                       "at most " + std::to_string(kMaxEdits));
     }
     for (size_t i = 1; i < lines.size(); ++i) {
         SceneEdit edit = readEdit(file, lines[i]);

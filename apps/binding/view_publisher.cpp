@@ -67,10 +67,10 @@ void ViewPublisher::step(const TickRow& row) {
     if (ticks_++ % kPollEvery == 0) {
         const bool newcomer = endpoint_.poll();
         if (newcomer) {
-            tellRegions();
+            sendRegions();
         }
-        if (newcomer || shapesAreOthers()) {
-            tellFixtures();
+        if (newcomer || shapesDiffer()) {
+            sendFixtures();
         }
     }
     if (!endpoint_.watched()) {
@@ -96,30 +96,30 @@ void ViewPublisher::step(const TickRow& row) {
 
 void ViewPublisher::frame(const Fixtures& set) {
     set_ = &set;
-    if (set.generation != told_) {
-        tellRegions();
-        tellFixtures();
+    if (set.generation != sent_) {
+        sendRegions();
+        sendFixtures();
     }
 }
 
 void ViewPublisher::setShapes(std::span<const Shape> shapes) {
     const std::lock_guard lock(mutex_);
     shapes_.assign(shapes.begin(), shapes.end());
-    othersThanTold_ = true;
+    shapesChanged_ = true;
 }
 
-bool ViewPublisher::shapesAreOthers() {
+bool ViewPublisher::shapesDiffer() {
     const std::lock_guard lock(mutex_);
-    return othersThanTold_;
+    return shapesChanged_;
 }
 
-void ViewPublisher::tellRegions() noexcept {
+void ViewPublisher::sendRegions() noexcept {
     if (set_ == nullptr || !endpoint_.watched()) {
         return;
     }
     const RegionSpheres& spheres = set_->spheres;
     regions_.frame = set_->frame;
-    regions_.generation = told_ = set_->generation;
+    regions_.generation = sent_ = set_->generation;
     copy(set_->origin, regions_.origin);
     regions_.total = static_cast<uint32_t>(spheres.size());
     regions_.first = 0;
@@ -135,13 +135,13 @@ void ViewPublisher::tellRegions() noexcept {
     } while (regions_.first < regions_.total);
 }
 
-void ViewPublisher::tellFixtures() {
+void ViewPublisher::sendFixtures() {
     rows_.clear();
     {
         const std::lock_guard lock(mutex_);
         std::transform(shapes_.begin(), shapes_.end(), std::back_inserter(rows_),
                        [](const Shape& shape) { return rowOf(shape); });
-        othersThanTold_ = false;
+        shapesChanged_ = false;
     }
     if (set_ != nullptr) {
         std::transform(set_->guidance.begin(), set_->guidance.end(), std::back_inserter(rows_),

@@ -33,15 +33,15 @@ public:
     const ViewSocket& endpoint() const noexcept { return endpoint_; }
 
 private:
-    void tellRegions() noexcept;
-    void tellFixtures();
-    bool shapesAreOthers(); // true when the shapes differ from those sent
+    void sendRegions() noexcept;
+    void sendFixtures();
+    bool shapesDiffer(); // true when the shapes differ from those sent
 
     static constexpr uint32_t kPollEvery = 16; // ticks
 
     ViewSocket endpoint_;
     const Fixtures* set_ = nullptr;
-    uint64_t told_ = 0; // generation of the last set that was sent
+    uint64_t sent_ = 0; // generation of the last set that was sent
     uint32_t ticks_ = 0;
     fathom_door_state state_{};
     fathom_door_regions regions_{};
@@ -49,7 +49,7 @@ private:
     std::vector<fathom_door_fixture> rows_;
     std::mutex mutex_; // guards the two members below
     std::vector<Shape> shapes_;
-    bool othersThanTold_ = false;
+    bool shapesChanged_ = false;
 };
 
 // Forwards everything to one sink, and to the socket if there is one.

@@ -8,7 +8,7 @@
 
 namespace fathom {
 
-// read() and write(): haptic thread. told(): one other thread.
+// read() and write(): haptic thread. change(): one other thread.
 class WatchedHand final : public HapticDevice {
 public:
     // `hand` outlives this and is connected now.
@@ -25,12 +25,12 @@ public:
 
     // One log line per change, else empty. A loss and return between two calls is only counted
     // (LiveHandFigures::losses).
-    std::string told() {
+    std::string change() {
         const bool there = there_.load(std::memory_order_relaxed);
-        if (there == told_) {
+        if (there == reported_) {
             return "";
         }
-        told_ = there;
+        reported_ = there;
         return name_ + (there ? ": back; the tool resumes from its position"
                               : ": gone or silent: forces fade out, the tool stays; reconnecting");
     }
@@ -39,7 +39,7 @@ private:
     LiveHand& hand_;
     std::string name_; // a copy, because the haptic thread may change the device's own
     std::atomic<bool> there_{true};
-    bool told_ = true;
+    bool reported_ = true;
 };
 
 } // namespace fathom

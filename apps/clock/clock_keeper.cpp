@@ -83,10 +83,10 @@ bool ClockKeeper::held() noexcept {
     char byte = 0;
     while (process_ > 0) {
         pollfd waited{answer_, POLLIN, 0};
-        const int told = ::poll(&waited, 1, held_ ? 0 : static_cast<int>(kStep.count()));
-        if (told > 0 && (waited.revents & POLLIN) != 0 && ::read(answer_, &byte, 1) == 1) {
+        const int ready = ::poll(&waited, 1, held_ ? 0 : static_cast<int>(kStep.count()));
+        if (ready > 0 && (waited.revents & POLLIN) != 0 && ::read(answer_, &byte, 1) == 1) {
             held_ = held_ || byte == kClockHeld;
-        } else if (told > 0 || (!held_ && std::chrono::steady_clock::now() > until)) {
+        } else if (ready > 0 || (!held_ && std::chrono::steady_clock::now() > until)) {
             end(); // it has ended or does not answer
         } else if (held_) {
             break;

@@ -31,8 +31,9 @@ int measure(const Request& request, const GlobalOptions& global, const WindowLoa
         loads = {"idle", "frames", "window"};
     }
     LatencyRun run(options, global, windowLoad, signals.asked());
-    std::cout << "rate         " << run.rateHz() << " turns a second, " << options.seconds << " s a part; "
-              << run.placement() << "\nframes       30 a second on " << run.device() << "\n";
+    std::cout << "rate         " << run.rateHz() << " ticks per second, " << options.seconds
+              << " s per part; " << run.placement() << "\nframes       30 per second on " << run.device()
+              << "\n";
     std::vector<LatencyPart> parts;
     for (const std::string& load : loads) {
         if (!signals.asked().load()) {
@@ -47,7 +48,7 @@ int measure(const Request& request, const GlobalOptions& global, const WindowLoa
     if (request.soakMinutes > 0.0) {
         const bool holds = !parts.empty() && soakHolds(parts.back(), options.seconds);
         std::cout << "soak         " << (holds ? "kept" : "MISSED") << ": asked are " << options.seconds
-                  << " s, no frame or record lost, memory grown by at most " << kMostGrowth << " MiB\n";
+                  << " s, no frame or record lost, memory grown by at most " << kMaxGrowth << " MiB\n";
         return holds ? 0 : 1;
     }
     return 0;

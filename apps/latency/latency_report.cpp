@@ -42,8 +42,8 @@ nlohmann::json toJson(const Histogram& h) {
 void printLatency(std::ostream& out, const LatencyPart& part) {
     out << std::fixed << std::setprecision(1) << std::left << std::setw(13) << part.load;
     printTimes(out, "woken late", part.late);
-    printTimes(out, "; turn", part.tick);
-    out << "\n             " << part.tick.count() << " turns in " << part.seconds << " s, "
+    printTimes(out, "; step", part.tick);
+    out << "\n             " << part.tick.count() << " ticks in " << part.seconds << " s, "
         << part.periodsMissed << " periods without one, " << part.late.between(1000, Histogram::kBins)
         << " over 1 ms late, " << part.framesLost << " frames lost";
     if (!part.memory.empty()) {
@@ -56,7 +56,7 @@ void printHistograms(std::ostream& out, std::span<const LatencyPart> parts) {
     std::vector<const Histogram*> columns;
     out << std::right << std::setw(14) << "from us";
     for (const LatencyPart& part : parts) {
-        out << std::setw(14) << part.load + " late" << std::setw(14) << part.load + " turn";
+        out << std::setw(14) << part.load + " late" << std::setw(14) << part.load + " step";
         columns.insert(columns.end(), {&part.late, &part.tick});
     }
     out << "\n";
@@ -106,7 +106,7 @@ void writeLatency(const std::filesystem::path& file, std::span<const LatencyPart
 bool soakHolds(const LatencyPart& part, double asked) {
     const bool whole = part.seconds >= kWholeShare * asked && part.frames > 0 && part.tick.count() > 0 &&
                        part.memory.size() >= kLeastLooks;
-    return whole && part.framesLost == 0 && part.recordsLost == 0 && part.memoryGrowth() <= kMostGrowth;
+    return whole && part.framesLost == 0 && part.recordsLost == 0 && part.memoryGrowth() <= kMaxGrowth;
 }
 
 } // namespace fathom

@@ -9,7 +9,7 @@
 
 namespace fathom {
 
-inline constexpr double kMostGrowth = 8.0; // [MiB] allowed growth of resident memory in a soak
+inline constexpr double kMaxGrowth = 8.0; // [MiB] allowed growth of resident memory in a soak
 
 void printLatency(std::ostream& out, const LatencyPart& part);
 // One row per range in 1-2-5 steps, one column per part and kind. Skips empty rows at both ends.

@@ -17,10 +17,10 @@ namespace fathom::profile {
 
 namespace {
 
-constexpr double kDepth = 0.002;      // [m] penetration of the tool
-constexpr double kBudgetReach = 0.01; // [m] reach of the cull
-constexpr int k60 = 122, k300 = 274;  // half a wall's edge, in spheres; 60 025 and 301 401 spheres
-constexpr size_t kLeastForP99 = 100;  // samples; fewer give no p99
+constexpr double kDepth = 0.002;       // [m] penetration of the tool
+constexpr double kBudgetReach = 0.01;  // [m] reach of the cull
+constexpr int k60 = 122, k300 = 274;   // half a wall's edge, in spheres; 60 025 and 301 401 spheres
+constexpr size_t kSamplesForP99 = 100; // samples; fewer give no p99
 
 struct Budget {
     double p50, p99; // [ms] wall time; NaN = no budget
@@ -72,7 +72,7 @@ Cost sampleEach(size_t samples, size_t of, Work&& work) {
     for (size_t i = 0; i < of; ++i) { // warm-up
         work(i);
     }
-    for (size_t i = 0; i < std::max(samples, kLeastForP99); ++i) {
+    for (size_t i = 0; i < std::max(samples, kSamplesForP99); ++i) {
         const Clocks clocks;
         work(i % of);
         taken.take(clocks);
@@ -220,11 +220,11 @@ void addStep(const StudyContext& context, Study& study) {
     const std::string size =
         std::to_string(run.spheres) + " spheres, " + std::to_string(d.leaves) + " leaves";
     const double share = static_cast<double>(run.contacts) / d.ticks;
-    verify(run.deepest <= 1e-9, "budgets", "turn, " + size,
+    verify(run.deepest <= 1e-9, "budgets", "step, " + size,
            "a leaf entered a sphere by " + digits(run.deepest * 1e6) + " um");
-    verify(share >= 0.95, "budgets", "turn, " + size,
+    verify(share >= 0.95, "budgets", "step, " + size,
            "the tool touches the wall in " + digits(share * 100.0) + " % of the ticks only");
-    addRow(study, "haptic turn pressed 2 mm, up to 4 solves with the full check", size, run.turns.cost(),
+    addRow(study, "haptic turn pressed 2 mm, up to 4 solves with the full check", size, run.steps.cost(),
            {0.03, 0.08}, share);
 }
 

@@ -154,16 +154,16 @@ private:
                     std::chrono::nanoseconds(static_cast<int64_t>(setting_.deadlineMicros * 1e3))};
         const Deadline deadline{setting_.deadlineMicros > 0.0 ? &Clock::passed : nullptr, &clock};
         const Clocks clocks;
-        const ProxyStep turn = proxy_.step({hand, 0.05, &inForce_, deadline});
-        result_.turns.take(clocks);
-        note(k, hand, turn);
+        const ProxyStep step = proxy_.step({hand, 0.05, &inForce_, deadline});
+        result_.steps.take(clocks);
+        note(k, hand, step);
     }
 
-    void note(uint32_t k, const Pose& hand, const ProxyStep& turn) {
-        result_.stalled += turn.stalled ? 1 : 0;
-        result_.solves += turn.solves;
-        result_.rounds += turn.rounds;
-        result_.contacts += turn.contact ? 1 : 0;
+    void note(uint32_t k, const Pose& hand, const ProxyStep& step) {
+        result_.stalled += step.stalled ? 1 : 0;
+        result_.solves += step.solves;
+        result_.rounds += step.rounds;
+        result_.contacts += step.contact ? 1 : 0;
         dvec3 behind = hand.position - proxy_.pose().position;
         behind.z = 0.0; // distance normal to the wall is not lag
         lag_ += glm::dot(behind, behind);

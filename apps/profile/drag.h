@@ -24,7 +24,7 @@ struct DragSetting {
 };
 
 struct DragResult {
-    CpuSamples queries, turns;
+    CpuSamples queries, steps;
     double lagRms = 0.0;   // [m] distance of the tool behind the hand along the wall, all ticks
     double deepest = -1.0; // [m] deepest leaf in any sphere, audited ticks; < 0 = no overlap
     uint64_t stalled = 0, solves = 0, rounds = 0, contacts = 0;
@@ -34,7 +34,7 @@ struct DragResult {
     // Adds the times of another run of the same setting with the same result.
     void addTimes(const DragResult& again) {
         queries.add(again.queries);
-        turns.add(again.turns);
+        steps.add(again.steps);
     }
 };
 

@@ -15,8 +15,8 @@ namespace fathom::profile {
 
 namespace {
 
-constexpr double kReach = 0.01; // [m]
-constexpr size_t kPoses = 8;    // a timed sample is one query per pose
+constexpr double kPeerReach = 0.01; // [m]
+constexpr size_t kPoses = 8;        // a timed sample is one query per pose
 
 // One set of spheres on the host and on the device.
 struct Rig {
@@ -52,7 +52,7 @@ struct Workload {
             Pose& pose = poses.emplace_back(touch);
             pose.position += camera.rotation * dvec3(across, -0.5 * across, deep);
             poseLeaves(tool, pose, rig.host().origin, leaves.emplace_back());
-            gaps.push_back(peers::nearbyGaps(rig.host().spheres, leaves.back(), kReach));
+            gaps.push_back(peers::nearbyGaps(rig.host().spheres, leaves.back(), kPeerReach));
             for (const double gap : gaps.back()) {
                 found += gap <= 0.0 ? 1.0 / kPoses : 0.0;
             }
@@ -106,7 +106,7 @@ StudyRow ourGrid(const StudyContext& context, const Rig& rig, const Workload& wo
     answerAndTime(
         context, work,
         [&](size_t i, std::vector<uint32_t>& found) {
-            cull.cull(work.leaves[i], static_cast<float>(kReach), grid, found);
+            cull.cull(work.leaves[i], static_cast<float>(kPeerReach), grid, found);
         },
         row);
     requireRight(row);
@@ -137,7 +137,7 @@ StudyRow ourWholeAnswer(const StudyContext& context, const Rig& rig, const Workl
     ContactSet set;
     peers::Disagreement all;
     for (size_t i = 0; i < kPoses; ++i) {
-        cull.query(work.tool, work.poses[i], kReach, rig.host(), rig.bench.set().grid, set);
+        cull.query(work.tool, work.poses[i], kPeerReach, rig.host(), rig.bench.set().grid, set);
         const peers::Disagreement d = wholeDisagreement(rig, work.leaves[i], set);
         all.differ += d.differ, all.ties += d.ties;
     }
@@ -147,7 +147,7 @@ StudyRow ourWholeAnswer(const StudyContext& context, const Rig& rig, const Workl
     timePoses(
         context,
         [&](size_t i) {
-            cull.query(work.tool, work.poses[i], kReach, rig.host(), rig.bench.set().grid, set);
+            cull.query(work.tool, work.poses[i], kPeerReach, rig.host(), rig.bench.set().grid, set);
         },
         row);
     return row;
@@ -163,9 +163,9 @@ StudyRow ourTree(const StudyContext& context, const Rig& rig, const Workload& wo
     answerAndTime(
         context, work,
         [&](size_t i, std::vector<uint32_t>& found) {
-            verify(
-                query.cull(rig.bench.set(), work.leaves[i], work.poses[i], static_cast<float>(kReach), found),
-                "peers", row.setting, "overflow");
+            verify(query.cull(rig.bench.set(), work.leaves[i], work.poses[i], static_cast<float>(kPeerReach),
+                              found),
+                   "peers", row.setting, "overflow");
         },
         row);
     requireRight(row);
@@ -212,7 +212,7 @@ void addSource(const StudyContext& context, const FrameSequence& frames, const s
             answerAndTime(
                 context, work,
                 [&](size_t i, std::vector<uint32_t>& found) {
-                    b.peer->query(work.leaves[i], static_cast<float>(kReach), found);
+                    b.peer->query(work.leaves[i], static_cast<float>(kPeerReach), found);
                 },
                 row);
             rows.push_back(std::move(row));

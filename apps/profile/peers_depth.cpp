@@ -13,8 +13,8 @@ namespace fathom::profile {
 
 namespace {
 
-constexpr double kSamePoint = 2e-5; // [m]
-constexpr double kEdgeJump = 0.02;  // relative depth jump that counts as an edge
+constexpr double kPeerPoint = 2e-5; // [m]
+constexpr double kPeerJump = 0.02;  // relative depth jump that counts as an edge
 constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 
 // A scene that selects every measured point. Besides the surface pass, only classify and moments run.
@@ -60,7 +60,7 @@ std::vector<uint8_t> flatPixels(const reference::FrameView& view, int radius) {
             bool ok = z0 > 0.0;
             for (int k = 0; ok && k < (2 * radius + 1) * (2 * radius + 1); ++k) {
                 const double z = view.z(u - radius + k % (2 * radius + 1), v - radius + k / (2 * radius + 1));
-                ok = z > 0.0 && std::abs(z - z0) <= kEdgeJump * z0;
+                ok = z > 0.0 && std::abs(z - z0) <= kPeerJump * z0;
             }
             flat[view.index(u, v)] = ok ? 1 : 0;
         }
@@ -155,7 +155,7 @@ size_t wrongPoints(const reference::FrameView& view, const std::vector<dvec3>& p
             const size_t i = view.index(u, v);
             const double z = view.z(u, v);
             wrong += present(i) != (z > 0.0) ||
-                     (z > 0.0 && !(glm::length(points[i] - view.point(u, v, z)) <= kSamePoint));
+                     (z > 0.0 && !(glm::length(points[i] - view.point(u, v, z)) <= kPeerPoint));
         }
     }
     return wrong;

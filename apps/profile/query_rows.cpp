@@ -14,8 +14,8 @@ namespace fathom::profile {
 
 namespace {
 
-constexpr double kQueryReach = 0.01;    // [m]
-constexpr double kMostBrutePairs = 4e8; // limit of leaf-sphere pairs for brute force
+constexpr double kQueryReach = 0.01;   // [m]
+constexpr double kMaxBrutePairs = 4e8; // limit of leaf-sphere pairs for brute force
 constexpr float kSingleReach = static_cast<float>(kQueryReach);
 
 // The spheres that a cull searches.
@@ -128,7 +128,7 @@ void timeCpuCull(const StudyContext& context, const SphereSet& set, const Touchi
 
 StudyRow bruteRow(const StudyContext& context, const SphereSet& set, const TouchingTool& at) {
     StudyRow row = at.row(set, kBruteWay);
-    if (at.pairs(set) > kMostBrutePairs) {
+    if (at.pairs(set) > kMaxBrutePairs) {
         return row;
     }
     std::vector<uint32_t> found;

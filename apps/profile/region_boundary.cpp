@@ -13,7 +13,7 @@ namespace fathom::profile {
 namespace {
 
 constexpr double kOnSurface = 1e-8; // [m]
-constexpr int kMostSteps = 400;
+constexpr int kMaxSteps = 400;
 
 class Region {
 public:
@@ -51,7 +51,7 @@ bool boundaryPoint(const Region& region, std::mt19937_64& random, dvec3& point) 
     const dvec3 out = glm::normalize(dvec3(x, y, z));
     double left = 3.0 * region.maxRadius();
     point = region.centre(target) + left * out;
-    for (int i = 0; i < kMostSteps; ++i) {
+    for (int i = 0; i < kMaxSteps; ++i) {
         const double d = region.distance(point, left);
         if (i == 0 && d <= 0.0) {
             return false;

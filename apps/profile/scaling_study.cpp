@@ -17,12 +17,12 @@ constexpr size_t kTwinPatches = 300;
 // The quantity that a row varies. Each has its own column; the others do not apply.
 enum class Grows { Pixels, SharePercent, Classes };
 
-struct Measured {
+struct ScaledCost {
     double x = 0.0;
     FrameCost cost;
 };
 
-using Curve = std::vector<Measured>;
+using Curve = std::vector<ScaledCost>;
 
 Scene sceneWith(const Settings& settings, uint32_t classes) {
     Settings plain = settings;
@@ -46,12 +46,12 @@ public:
         : context_(context)
         , study_(study) {}
 
-    Measured take(const std::string& source, const std::string& setting, Grows by, double x,
-                  const FrameSequence& frames, uint32_t classes) {
+    ScaledCost take(const std::string& source, const std::string& setting, Grows by, double x,
+                    const FrameSequence& frames, uint32_t classes) {
         FrameBench bench(context_.device, sceneWith(context_.settings, classes), frames.camera);
         const uint32_t guided = bench.run(frames.frames.front()).guidanceCount;
         check(bench, setting, frames);
-        Measured m{x, bench.measure(frames.frames, context_.settings.repeats())};
+        ScaledCost m{x, bench.measure(frames.frames, context_.settings.repeats())};
         if (guided == 0) { // empty dispatch
             m.cost.passes.erase("moments");
         }
@@ -86,7 +86,7 @@ public:
         panel.logX = logarithmic;
         const auto add = [&](const std::string& name, auto&& value) {
             PlotSeries series{name, {}, true, 0.0, name};
-            for (const Measured& m : curve) {
+            for (const ScaledCost& m : curve) {
                 const Spread spread = value(m);
                 series.points.push_back({m.x, spread.p50, "", false, false, NAN, spread ? spread.p90 : NAN});
             }
@@ -97,12 +97,12 @@ public:
             }
             panel.series.push_back(std::move(series));
         };
-        add("upload to published", [](const Measured& m) { return m.cost.total; });
-        add("upload (host)", [](const Measured& m) { return m.cost.upload; });
-        add("collect (host)", [](const Measured& m) { return m.cost.collect; });
-        add("grid (host)", [](const Measured& m) { return m.cost.grid; });
+        add("upload to published", [](const ScaledCost& m) { return m.cost.total; });
+        add("upload (host)", [](const ScaledCost& m) { return m.cost.upload; });
+        add("collect (host)", [](const ScaledCost& m) { return m.cost.collect; });
+        add("grid (host)", [](const ScaledCost& m) { return m.cost.grid; });
         for (const auto& [name, spread] : curve.front().cost.passes) {
-            add(name, [pass = name](const Measured& m) { // without guidance, no moments
+            add(name, [pass = name](const ScaledCost& m) { // without guidance, no moments
                 const auto it = m.cost.passes.find(pass);
                 return it != m.cost.passes.end() ? it->second : Spread{};
             });

@@ -15,7 +15,7 @@ constexpr double kSameOptimum = 1e-5; // [m] rounding error accumulated over tic
 
 const char* const kReduced = "reduced rows, "; // source of those rows
 
-struct Setting {
+struct SolverSetting {
     uint32_t solves;
     double cap;            // [m]
     double deadline = 0.0; // [us], 0 = none
@@ -33,12 +33,12 @@ std::string rowsOf(const RowReduction& rows) {
     return text.empty() ? "all rows" : text;
 }
 
-std::string nameOf(const Setting& s) {
+std::string nameOf(const SolverSetting& s) {
     return std::to_string(s.solves) + " solves, cap " + digits(s.cap * 1e3) + " mm" +
            (s.deadline > 0.0 ? ", " + digits(s.deadline) + " us" : "");
 }
 
-DragSetting dragOf(const StudyContext& context, double speed, const Setting& s) {
+DragSetting dragOf(const StudyContext& context, double speed, const SolverSetting& s) {
     DragSetting d;
     d.speed = speed;
     d.ticks = context.settings.quick ? 200 : 1500;
@@ -93,8 +93,8 @@ std::vector<RowReduction> reductionsOf(bool quick) {
     return list;
 }
 
-std::vector<Setting> settingsOf(bool quick) {
-    std::vector<Setting> list;
+std::vector<SolverSetting> settingsOf(bool quick) {
+    std::vector<SolverSetting> list;
     for (uint32_t solves : quick ? std::vector<uint32_t>{1, 4} : std::vector<uint32_t>{1, 2, 4, 8, 16}) {
         for (double cap : quick ? std::vector{0.002} : std::vector{0.0005, 0.001, 0.002, 0.004}) {
             list.push_back({solves, cap});
@@ -107,7 +107,7 @@ std::vector<Setting> settingsOf(bool quick) {
 }
 
 // Solving on few rows and checking the rest must give the same pose as solving on all rows, at every tick.
-void verifyReduction(const Setting& s, const DragResult& run, const DragResult& usual) {
+void verifyReduction(const SolverSetting& s, const DragResult& run, const DragResult& usual) {
     if (s.rows.first == 0 || !s.rows.checked) {
         return;
     }
@@ -116,8 +116,8 @@ void verifyReduction(const Setting& s, const DragResult& run, const DragResult& 
            "not the optimum over all rows: the tool is off by " + digits(change.max * 1e6) + " um");
 }
 
-StudyRow rowOf(const std::string& source, const std::string& name, const Setting& s, const DragResult& run,
-               const DragResult& optimum) {
+StudyRow rowOf(const std::string& source, const std::string& name, const SolverSetting& s,
+               const DragResult& run, const DragResult& optimum) {
     StudyRow row;
     row.source = source;
     row.setting = name;
@@ -127,7 +127,7 @@ StudyRow rowOf(const std::string& source, const std::string& name, const Setting
     const Apart error = apartAll(run, optimum);
     const double ticks = static_cast<double>(run.poses.size());
     row.error = error.rms * 1e3;
-    row.cost = run.turns.cost();
+    row.cost = run.steps.cost();
     row.more = {error.max * 1e3,
                 run.lagRms * 1e3,
                 static_cast<double>(run.solves) / ticks,
@@ -140,7 +140,7 @@ StudyRow rowOf(const std::string& source, const std::string& name, const Setting
 // Runs all settings interleaved. Unless a deadline cuts ticks short, each repeat gives the same poses as the
 // first.
 std::vector<DragResult> dragInterleaved(const StudyContext& context, double speed,
-                                        const std::vector<Setting>& settings) {
+                                        const std::vector<SolverSetting>& settings) {
     std::vector<DragResult> runs(settings.size());
     interleave({}, settings.size(), [&](size_t i, const Repeats&) {
         DragResult run = drag(dragOf(context, speed, settings[i]));
@@ -160,7 +160,7 @@ void addSpeed(const StudyContext& context, Study& study, double speed) {
     const Apart change = apartAll(optimum, drag(dragOf(context, speed, {128, 0.002})));
     verify(change.max <= kConverged, "solver", "64 solves",
            "not converged: twice as many move the tool by " + digits(change.max * 1e6) + " um");
-    std::vector<Setting> settings = settingsOf(context.settings.quick);
+    std::vector<SolverSetting> settings = settingsOf(context.settings.quick);
     const size_t plain = settings.size(); // later settings have reduced rows
     for (const RowReduction& rows : reductionsOf(context.settings.quick)) {
         settings.push_back({4, 0.002, 0.0, rows});
@@ -169,7 +169,7 @@ void addSpeed(const StudyContext& context, Study& study, double speed) {
     const DragResult usual = drag(dragOf(context, speed, {4, 0.002}));
     const std::string hand = "hand at " + digits(speed) + " m/s";
     for (size_t i = 0; i < settings.size(); ++i) {
-        const Setting& s = settings[i];
+        const SolverSetting& s = settings[i];
         verifyReduction(s, runs[i], usual);
         study.rows.push_back(i < plain ? rowOf(hand, nameOf(s), s, runs[i], optimum)
                                        : rowOf(kReduced + hand, rowsOf(s.rows), s, runs[i], optimum));
@@ -188,7 +188,7 @@ Study solverStudy(const StudyContext& context) {
     study.errorName = "pose error RMS to the converged optimum, a radian as 50 mm";
     study.errorUnit = "mm";
     study.rankBy.time = cpuTime;
-    study.timeName = "turn, CPU time p50";
+    study.timeName = "step, CPU time p50";
     study.moreNames = {"error_max_mm",        "lag_rms_mm",    "solves_a_turn",
                        "strengthened_a_turn", "stalled_turns", "share_in_contact"};
     study.rankBy.reason =

@@ -4,9 +4,9 @@
 namespace fathom::profile {
 
 PanelGrid panelGrid(size_t panels) {
-    constexpr int kMostInOneRow = 3; // more are too small to read when the image is fitted to a page
+    constexpr int kMaxInOneRow = 3; // more are too small to read when the image is fitted to a page
     const int count = std::max(1, static_cast<int>(panels));
-    const int down = count > kMostInOneRow ? 2 : 1;
+    const int down = count > kMaxInOneRow ? 2 : 1;
     return {(count + down - 1) / down, down};
 }
 

@@ -13,7 +13,7 @@ namespace fathom::profile {
 
 namespace {
 
-constexpr size_t kMostMade = 1024; // leaves of a generated cover; more take minutes
+constexpr size_t kMaxMade = 1024; // leaves of a generated cover; more take minutes
 
 // Presses the tool into the wall and drags it.
 DragResult pressed(const StudyContext& context, const Tool& tool) {
@@ -40,7 +40,7 @@ StudyRow rowOf(const StudyContext& context, const std::string& source, const std
     verify(share >= 0.9, "tool", row.setting,
            "the tool touches the wall in " + digits(share * 100.0) + " % of the ticks only");
     row.error = std::max(fit.protrusion, fit.gap) * 1e3;
-    row.cost = run.turns.cost();
+    row.cost = run.steps.cost();
     row.more = {fit.protrusion * 1e3, fit.gap * 1e3, static_cast<double>(tool.leafCount()),
                 run.queries.cost().cpu.p50, share};
     return row;
@@ -61,7 +61,7 @@ void addMadeCovers(const StudyContext& context, Study& study, const std::vector<
     const TriangleMesh mesh = gripperMesh();
     const MeshDistance distance(mesh, true);
     for (size_t most : counts) {
-        if (most > kMostMade) {
+        if (most > kMaxMade) {
             continue;
         }
         CoverOptions options;
@@ -86,7 +86,7 @@ Study toolStudy(const StudyContext& context) {
     study.errorName = "protrusion or gap, the larger";
     study.errorUnit = "mm";
     study.rankBy.time = cpuTime;
-    study.timeName = "turn in contact, CPU time p50";
+    study.timeName = "step in contact, CPU time p50";
     study.moreNames = {"protrusion_mm", "gap_mm", "leaves", "query_p50_ms", "share_in_contact"};
     const std::vector<Solid> shape = gripper();
     const std::vector<size_t> counts =

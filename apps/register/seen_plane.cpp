@@ -12,7 +12,7 @@ namespace fathom {
 namespace {
 
 constexpr size_t kLeastPixels = 50;
-constexpr double kMostOffPlane = 0.01; // of the distance
+constexpr double kMaxOffPlane = 0.01; // of the distance
 
 struct Plane {
     dvec3 point{0.0}, normal{0.0};
@@ -32,7 +32,7 @@ std::optional<Plane> fitPlane(const std::vector<dvec3>& points) {
         spread += d * d.transpose() / static_cast<double>(points.size());
     }
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> shape(spread);
-    if (std::sqrt(std::max(0.0, shape.eigenvalues()(0))) > kMostOffPlane * mean.z) {
+    if (std::sqrt(std::max(0.0, shape.eigenvalues()(0))) > kMaxOffPlane * mean.z) {
         return std::nullopt;
     }
     const Eigen::Vector3d n = shape.eigenvectors().col(0);

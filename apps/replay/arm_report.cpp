@@ -124,7 +124,7 @@ ReplaySummary::Arm ArmReport::summary(const std::vector<double>& links) {
     }
     out.residual = percentilesOf(std::move(residuals_));
     for (size_t i = 0; out.driven && i < kArmStates; ++i) {
-        out.driven->turns.emplace_back(armStateName(static_cast<ArmState>(i)), ticks_[i]);
+        out.driven->ticks.emplace_back(armStateName(static_cast<ArmState>(i)), ticks_[i]);
     }
     if (out.driven) {
         out.driven->tipLag = percentilesOf(std::move(tipLags_));

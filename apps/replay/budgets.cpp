@@ -7,8 +7,8 @@ namespace fathom {
 
 namespace {
 
-constexpr double kTurnP50 = 30.0, kTurnP99 = 80.0; // [us]
-const char* const kTurnOf = "the budget is of 256 in contact with 60 k spheres";
+constexpr double kStepP50 = 30.0, kStepP99 = 80.0; // [us]
+const char* const kStepOf = "the budget is of 256 in contact with 60 k spheres";
 
 // [ms] Budget of the frame latency, from upload to publication.
 std::optional<double> frameBudget(const Intrinsics& depth, double forbiddenShare, DeviceKind device) {
@@ -44,9 +44,9 @@ std::vector<BudgetFigure> budgetFigures(const ReplaySummary& summary, const Intr
         add("frame p50", "ms", summary.frames.latencyMs.p50, *budget);
     }
     const std::string of =
-        " (" + std::to_string(leaves) + (leaves == 1 ? " leaf; " : " leaves; ") + kTurnOf + ")";
-    add("turn p50" + of, "us", summary.haptic.stepMicros.p50, kTurnP50);
-    add("turn p99" + of, "us", summary.haptic.stepMicros.p99, kTurnP99);
+        " (" + std::to_string(leaves) + (leaves == 1 ? " leaf; " : " leaves; ") + kStepOf + ")";
+    add("step p50" + of, "us", summary.haptic.stepMicros.p50, kStepP50);
+    add("step p99" + of, "us", summary.haptic.stepMicros.p99, kStepP99);
     return figures;
 }
 

@@ -13,10 +13,10 @@ namespace fathom {
 
 namespace {
 
-constexpr double kTicksMax = 20000.0; // buffer size at the highest rate that a scene may request
+constexpr double kMaxTicks = 20000.0; // buffer size at the highest rate that a scene may request
 
 size_t ticksOf(double seconds, double period) {
-    return static_cast<size_t>(std::clamp(std::ceil(seconds / period), 1.0, kTicksMax));
+    return static_cast<size_t>(std::clamp(std::ceil(seconds / period), 1.0, kMaxTicks));
 }
 
 } // namespace

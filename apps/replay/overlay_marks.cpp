@@ -94,8 +94,8 @@ void toolOutline(const Canvas& canvas, std::span<const Sphere> leaves, const Pos
 
 // Outlines of the single leaves, as in the paper's figures. Skipped if so many would only form a grey area.
 void leafCircles(const Canvas& canvas, std::span<const Sphere> leaves, const Pose& pose) {
-    constexpr size_t kMost = 96;
-    if (leaves.size() < 2 || leaves.size() > kMost) {
+    constexpr size_t kMaxOutlined = 96;
+    if (leaves.size() < 2 || leaves.size() > kMaxOutlined) {
         return;
     }
     cairo_t* cr = canvas.image.cr();

@@ -165,8 +165,8 @@ void RealtimeReplay::step(const TickRow& row, const PublishedFrame* obeyed, bool
     if (view_) {
         view_->step(row);
     }
-    if (const std::string told = watched_ ? watched_->told() : ""; !told.empty()) {
-        log::warn("{}", told);
+    if (const std::string change = watched_ ? watched_->change() : ""; !change.empty()) {
+        log::warn("{}", change);
     }
     audit(row, obeyed, obeyedKnown, behind);
     if (obeyed != nullptr && recorder_.wantsMoment()) {

@@ -30,7 +30,7 @@ void printPart(const char* name, const Percentiles& p, const char* unit) {
 
 void print(const ReplaySummary::Arm& arm) {
     std::cout << "arm          " << arm.leaves << " leaves on " << arm.links.size() << " links, "
-              << arm.joints.size() << " joints; at a limit in " << arm.limitedTicks << " turns, singular in "
+              << arm.joints.size() << " joints; at a limit in " << arm.limitedTicks << " ticks, singular in "
               << arm.singularTicks << ", limits exceeded by " << arm.limitViolation << "\n";
     printPart("  residual  ", arm.residual, "m");
     for (const auto& link : arm.links) {
@@ -49,7 +49,7 @@ void print(const ReplaySummary& s, const std::filesystem::path& out) {
     printPart("  latency   ", s.frames.latencyMs, "ms");
     std::cout << "haptic       " << s.haptic.ticks << " ticks, " << s.haptic.stalledTicks << " stalled, "
               << s.haptic.trappedTicks << " trapped, " << s.haptic.escapeTicks << " escaping\n";
-    printPart("  turn      ", s.haptic.stepMicros, "us");
+    printPart("  step      ", s.haptic.stepMicros, "us");
     printPart("  query     ", s.contact.queryMicros, "us");
     std::cout << "  force      up to " << s.haptic.maxForce << " N, torque up to " << s.haptic.maxTorque
               << " N m, stiffness " << s.haptic.stiffness.value_or(0.0) << " N/m\n"
@@ -64,7 +64,7 @@ void print(const ReplaySummary& s, const std::filesystem::path& out) {
     }
     for (const auto& f : s.fixtures) {
         std::cout << "fixture      " << f.name << " (" << f.role << "): " << f.pointsMean.value_or(0.0)
-                  << " points, " << f.spheresMean.value_or(0.0) << " spheres a frame\n";
+                  << " points, " << f.spheresMean.value_or(0.0) << " spheres per frame\n";
     }
     std::cout << "digest       " << s.digest << "\nwritten to   " << out.string() << "\n";
 }
@@ -74,7 +74,7 @@ void printBudgets(const ReplaySummary& summary, const Session& session) {
     for (const BudgetFigure& f :
          budgetFigures(summary, session.camera->info().depth, session.cycles.facts().kind, leaves)) {
         std::cout << "budget       " << f.what << " " << f.measured << " of " << f.budget << " " << f.unit
-                  << (f.holds() ? ", kept\n" : ", MISSED\n");
+                  << (f.holds() ? ", met\n" : ", MISSED\n");
     }
 }
 
@@ -82,13 +82,13 @@ void print(const RealtimeFigures& f, const ThreadPlacement& placement, const Rep
     std::cout << "realtime     " << describe(placement) << (f.stopped ? "; stopped by a signal" : "") << "\n";
     printPart("  woken late", f.wokenLateMicros, "us");
     printPart("  exposed   ", f.exposureMs, "ms before the set was published");
-    std::cout << "  turns     " << s.haptic.late << " of " << s.haptic.ticks
+    std::cout << "  ticks     " << s.haptic.late << " of " << s.haptic.ticks
               << " ended over one period late, " << f.periodsMissed << " periods without one\n  frames    "
               << f.framesLost << (f.live ? " lost" : " that a live camera would have lost") << ", "
               << f.framesInPlace << " read where the camera left them; scene too old in " << f.staleTicks
-              << " turns\n";
+              << " ticks\n";
     if (f.renewals > 0) {
-        std::cout << "  device    lost and made anew " << f.renewals << " times\n";
+        std::cout << "  device    lost and reopened " << f.renewals << " times\n";
     }
     if (f.recordsLost > 0) {
         std::cout << "  records   " << f.recordsLost << " lost: the writer could not keep up\n";
@@ -96,9 +96,9 @@ void print(const RealtimeFigures& f, const ThreadPlacement& placement, const Rep
 }
 
 void print(const ReplaySummary::Arm::Driven& driven) {
-    std::cout << "real arm     " << driven.description << ": at the end " << driven.lastState << "; turns";
-    for (const auto& [state, turns] : driven.turns) {
-        std::cout << (&state == &driven.turns.front().first ? " " : ", ") << turns << " " << state;
+    std::cout << "real arm     " << driven.description << ": at the end " << driven.lastState << "; ticks";
+    for (const auto& [state, ticks] : driven.ticks) {
+        std::cout << (&state == &driven.ticks.front().first ? " " : ", ") << ticks << " " << state;
     }
     std::cout << "\n  line      " << driven.damaged << " frames damaged, opened again " << driven.reopened
               << " times, feedback up to " << driven.oldest * 1e3 << " ms old\n";
@@ -233,7 +233,7 @@ void addReplayCommand(CLI::App& app, const GlobalOptions& global, int& result) {
     command->add_flag("--realtime", options->realtime, "by the clock, on threads, in place of lockstep");
     command
         ->add_option("--picture-rate", options->frameRate,
-                     "with --realtime: frames a second of a recording or simulated camera, 30 unless told")
+                     "with --realtime: frames per second of a recording or simulated camera (default 30)")
         ->check(CLI::Range(1.0, 240.0));
     command->add_flag("--save-fixtures", options->saveFixtures, "write fixtures/NNNNNN.ply of every frame");
     command->add_option("--out", options->out, "output folder; its files are replaced")->required();

@@ -93,13 +93,13 @@ Json guidanceJson(const std::vector<ReplaySummary::GuidanceRow>& rows) {
 }
 
 Json drivenJson(const ReplaySummary::Arm::Driven& driven) {
-    Json turns = Json::object();
-    for (const auto& [state, count] : driven.turns) {
-        turns[state] = count;
+    Json ticks = Json::object();
+    for (const auto& [state, count] : driven.ticks) {
+        ticks[state] = count;
     }
     return {{"arm", driven.description},
             {"last_state", driven.lastState},
-            {"turns", turns},
+            {"turns", ticks},
             {"frames_damaged", driven.damaged},
             {"reopened", driven.reopened},
             {"feedback_age_max_s", number(driven.oldest)},

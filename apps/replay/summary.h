@@ -84,7 +84,7 @@ struct ReplaySummary {
         uint64_t limitedTicks = 0, singularTicks = 0, graspHeldTicks = 0;
         struct Driven { // a real arm that follows
             std::string description, lastState;
-            std::vector<std::pair<std::string, uint64_t>> turns; // ticks in each state of armStateName()
+            std::vector<std::pair<std::string, uint64_t>> ticks; // in each state of armStateName()
             uint64_t damaged = 0, reopened = 0; // damaged frames; times that the line reopened
             double oldest = 0.0;                // [s] largest age of the feedback used
             Percentiles tipLag; // [m] distance of the measured tip from the tool while the arm follows

@@ -30,7 +30,7 @@ void HandRunFigures::add(const HandRunFigures& other) {
 }
 
 std::string HandRunFigures::words() const {
-    return num(runs) + " runs, " + num(rig.ticks) + " turns, " + num(rig.contact) + " in contact, " +
+    return num(runs) + " runs, " + num(rig.ticks) + " ticks, " + num(rig.contact) + " in contact, " +
            num(rig.stalled) + " stalled, " + num(rig.trapped) + " trapped, " + num(rig.refused) +
            " answers refused, path " + num(rig.path) + " m.";
 }

@@ -11,8 +11,8 @@ namespace fathom::stability {
 
 namespace {
 
-constexpr double kLimit = 1e-9; // relative limit of the KKT residual, of violations (over the step) and of
-                                // the distance to the optimum
+constexpr double kSolverLimit = 1e-9; // relative limit of the KKT residual, of violations (over the step) and
+                                      // of the distance to the optimum
 
 size_t sizeOf(RunLength runLength, size_t full) {
     return runLength == RunLength::Full ? full : std::max<size_t>(40, full / 25);
@@ -32,7 +32,7 @@ std::string counts(const SolverTally& t) {
 
 Outcome judged(const SolverTally& tally, const std::string& what) {
     Outcome out =
-        outcomeOf(tally.worst(), kLimit, "1",
+        outcomeOf(tally.worst(), kSolverLimit, "1",
                   "Worst of KKT residual, violated row and distance to the optimum in long double. " + what +
                       counts(tally));
     require(out, tally.disagreements == 0,
@@ -229,7 +229,7 @@ Outcome warmCase(RunLength runLength) {
             }
         }
     }
-    Outcome out = outcomeOf(worst, kLimit, "1",
+    Outcome out = outcomeOf(worst, kSolverLimit, "1",
                             "Difference of warm and cold start over the target, " + num(compared) +
                                 " pairs, rows in changing order.");
     require(out, differ == 0, num(differ) + " pairs of different status");

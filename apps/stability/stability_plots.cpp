@@ -18,7 +18,7 @@ constexpr Colour kPaper{1.0, 1.0, 1.0}, kInk{0.10, 0.14, 0.19}, kQuiet{0.39, 0.4
 constexpr Colour kBar{0.16, 0.42, 0.80}, kBroken{0.76, 0.16, 0.13};
 constexpr double kRow = 17.0, kTop = 104.0, kLeft = 330.0, kRight = 1010.0;
 constexpr int kWidth = 1240;
-constexpr double kLeast = -9.0, kMost = 1.0; // axis range: log10(figure / limit)
+constexpr double kAxisBegin = -9.0, kAxisEnd = 1.0; // axis range: log10(figure / limit)
 
 // 0 = far within the limit, 1 = at the limit; everything beyond the axis returns 10.
 double shareOfLimit(const Outcome& o) {
@@ -34,7 +34,7 @@ double shareOfLimit(const Outcome& o) {
 }
 
 void drawAxis(const fathom::Image& image, const PlotAxis& axis, double bottom) {
-    for (int decade = static_cast<int>(kLeast); decade <= static_cast<int>(kMost); ++decade) {
+    for (int decade = static_cast<int>(kAxisBegin); decade <= static_cast<int>(kAxisEnd); ++decade) {
         const double x = axis.at(decade);
         image.setColour(decade == 0 ? kBroken : kGrid);
         cairo_set_line_width(image.cr(), decade == 0 ? 2.0 : 1.0);
@@ -48,7 +48,8 @@ void drawAxis(const fathom::Image& image, const PlotAxis& axis, double bottom) {
 
 void drawBar(const fathom::Image& image, const PlotAxis& axis, double y, const CaseResult& r) {
     const double share = shareOfLimit(r.outcome);
-    const double end = axis.at(std::clamp(share > 0.0 ? std::log10(share) : kLeast, kLeast + 0.03, kMost));
+    const double end =
+        axis.at(std::clamp(share > 0.0 ? std::log10(share) : kAxisBegin, kAxisBegin + 0.03, kAxisEnd));
     image.setColour(r.outcome.holds() ? kBar : kBroken);
     cairo_rectangle(image.cr(), axis.from, y - 10.0, end - axis.from, 11.0);
     cairo_fill(image.cr());
@@ -64,7 +65,7 @@ void writeMargins(const std::filesystem::path& file, const std::vector<CaseResul
     const double height =
         kTop + kRow * (static_cast<double>(results.size()) + 1.6 * static_cast<double>(groups)) + 30.0;
     const fathom::Image image(kWidth, static_cast<int>(height), kPaper);
-    const PlotAxis axis{kLeast, kMost, kLeft, kRight};
+    const PlotAxis axis{kAxisBegin, kAxisEnd, kLeft, kRight};
     image.text(24.0, 36.0, "Stability suite: how much of its limit each case uses", 20.0, kInk, Align::Left,
                true);
     image.text(24.0, 60.0,

@@ -211,7 +211,7 @@ Outcome slowTicks(RunLength runLength) {
     }
     Outcome out =
         outcomeOf(worst, 0.9, "1",
-                  "Turns become 1.5 to 3 times slower in contact: the automatic stiffness follows the bound "
+                  "Ticks become 1.5 to 3 times slower in contact: the automatic stiffness follows the bound "
                   "down (least passive margin then " +
                       num(margin) +
                       " b), late over early speed of the hand; with the stiffness kept and no controller " +

@@ -14,7 +14,7 @@ namespace fathom::stability {
 
 namespace {
 
-constexpr double kTwoPi = 6.28318530717958647692;
+constexpr double kCycle = 6.28318530717958647692;
 
 // A closed path of the hand in all six degrees of freedom.
 struct ClosedPath {
@@ -22,7 +22,7 @@ struct ClosedPath {
     std::array<dvec3, 2> way{}, tick{}; // [m], [rad]
 
     Pose at(double phase) const {
-        const double a = kTwoPi * phase;
+        const double a = kCycle * phase;
         const dvec3 moved = way[0] * std::sin(a) + way[1] * (std::cos(a) - 1.0);
         return {focus + moved, rotationExp(tick[0] * std::sin(2.0 * a) + tick[1] * (1.0 - std::cos(a)))};
     }
