@@ -13,7 +13,10 @@ namespace fathom::operate {
 namespace {
 
 constexpr const char* kShortHead = "t_s,fx,fy,fz,tx,ty,tz,contacts,state";
-constexpr size_t kShort = 9, kAll = 37, kTouchColumns = 13;
+constexpr size_t kShort = 9, kSevenJoints = 37, kTouchColumns = 13;
+constexpr size_t kFirstJoints = 7; // before the grasp; the others follow it
+constexpr const char* kMoreJoints = ",q8";
+constexpr size_t kAll = kSevenJoints + kMostJoints - kFirstJoints;
 constexpr size_t kMaxLoggedTicks = 4'000'000, kMaxTouchRows = kMaxLoggedTicks * kMostTouches;
 
 void put(std::ostream& out, const dvec3& v) {
@@ -80,13 +83,13 @@ private:
     std::vector<double> values_;
 };
 
-Moment momentFrom(const NumberRows& row, bool poses) {
+Moment momentFrom(const NumberRows& row, size_t columns) {
     Moment m;
     m.t = row[0];
     m.wrench = {row.vec(1), row.vec(4)};
     m.contacts = row.whole(7, 1e9);
     m.state = static_cast<StepState>(row.whole(8, static_cast<double>(StepState::Waiting)));
-    if (poses) {
+    if (columns > kShort) {
         m.guidance = row[9];
         m.guidanceClass = static_cast<int>(row.whole(10, 1e6)) - 1;
         m.sceneAge = row[11];
@@ -95,10 +98,13 @@ Moment momentFrom(const NumberRows& row, bool poses) {
         m.marginUncoupled = row[14];
         m.device = row.pose(15);
         m.tool = row.pose(22);
-        for (size_t k = 0; k < kMostJoints; ++k) {
+        for (size_t k = 0; k < kFirstJoints; ++k) {
             m.arm.q[k] = row[29 + k];
         }
         m.arm.grasp = row[36];
+        for (size_t i = kSevenJoints; i < columns; ++i) {
+            m.arm.q[kFirstJoints + i - kSevenJoints] = row[i];
+        }
     }
     return m;
 }
@@ -145,7 +151,8 @@ const char* wrenchHead() {
     return "t_s,fx,fy,fz,tx,ty,tz,contacts,state,guidance,target,scene_age_s,frame,margin_passive,margin_"
            "uncoupled,"
            "device_x,device_y,device_z,device_qw,device_qx,device_qy,device_qz,"
-           "tool_x,tool_y,tool_z,tool_qw,tool_qx,tool_qy,tool_qz,q1,q2,q3,q4,q5,q6,q7,grasp";
+           "tool_x,tool_y,tool_z,tool_qw,tool_qx,tool_qy,tool_qz,q1,q2,q3,q4,q5,q6,q7,grasp,q8,q9,q10,q11,"
+           "q12";
 }
 
 const char* touchesHead() {
@@ -161,10 +168,13 @@ void writeTick(std::ostream& wrench, std::ostream& touches, double t, int64_t fr
            << "," << tick.marginUncoupled;
     put(wrench, tick.device);
     put(wrench, tick.tool);
-    for (double q : tick.arm.posture.q) {
-        wrench << "," << q;
+    for (size_t k = 0; k < kFirstJoints; ++k) {
+        wrench << "," << tick.arm.posture.q[k];
     }
     wrench << "," << tick.arm.posture.grasp;
+    for (size_t k = kFirstJoints; k < kMostJoints; ++k) {
+        wrench << "," << tick.arm.posture.q[k];
+    }
     wrench << "\n";
     for (uint32_t i = 0; i < tick.touchCount; ++i) {
         const Touch& touch = tick.touches[i];
@@ -182,18 +192,21 @@ TickLog readTickLog(const std::filesystem::path& folder) {
         return log;
     }
     NumberRows row(folder / kWrenchFile);
-    log.poses = row.head() == wrenchHead();
+    const std::string head = wrenchHead();
+    const bool sevenJoints = row.head() == head.substr(0, head.find(kMoreJoints)); // up to version 0.2
+    log.poses = row.head() == head || sevenJoints;
+    const size_t columns = sevenJoints ? kSevenJoints : log.poses ? kAll : kShort;
     if (!log.poses && row.head() != kShortHead) {
         row.refuse("", row.head(), std::string("header ") + kShortHead + ",...");
     }
-    while (row.next(log.poses ? kAll : kShort)) {
+    while (row.next(columns)) {
         if (!std::isfinite(row[0]) || (!log.moments.empty() && !(row[0] > log.moments.back().t))) {
             row.refuse(", t_s", std::to_string(row[0]), "later than the row before");
         }
         if (log.moments.size() >= kMaxLoggedTicks) {
             row.refuse("", "one tick more", "4000000 ticks");
         }
-        log.moments.push_back(momentFrom(row, log.poses));
+        log.moments.push_back(momentFrom(row, columns));
     }
     if (log.poses && std::filesystem::exists(folder / kTouchesFile)) {
         readTouches(folder / kTouchesFile, log);

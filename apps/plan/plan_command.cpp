@@ -2,6 +2,7 @@
 #include "apps/plan/plan_command.h"
 
 #include "apps/binding/open_source.h"
+#include "engine/cycle/arm_text.h"
 #include "engine/cycle/haptic_options.h"
 #include "engine/gpu/device.h"
 
@@ -42,6 +43,9 @@ void runPlan(const PlanOptions& options, const GlobalOptions& global) {
     if (arm) {
         std::cout << "arm     " << arm->model.count() << " joints, " << arm->model.leaves.size()
                   << " leaves on " << arm->model.links.size() << " links\n";
+        for (const std::string& line : describeArm(*arm)) {
+            std::cout << "        " << line << "\n";
+        }
         for (const std::string& note : arm->model.notes) {
             std::cout << "        " << note << "\n";
         }

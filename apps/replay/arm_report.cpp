@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/replay/arm_report.h"
 
+#include "engine/cycle/arm_text.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -10,6 +12,11 @@ namespace {
 
 // Tolerance for joints and fingers exactly at a limit: a difference of two angles is rounded.
 constexpr double kRounding = 1e-12;
+
+// Distance of a mimic joint from where the joint that it follows puts it.
+double apart(const ArmMimic& mimic, double q, const JointVector& joints) {
+    return std::max(0.0, std::abs(q - mimic.offset - mimic.multiplier * joints[mimic.joint]) - kRounding);
+}
 
 // No comma, quote or line break in a column's name.
 std::string column(std::string name) {
@@ -29,7 +36,7 @@ ArmReport::ArmReport(const std::filesystem::path& file, const ArmRig& rig, const
         header += column(joint.name);
         sums_.joints.push_back({joint.name, joint.lower, joint.upper, joint.speed, HUGE_VAL, -HUGE_VAL, 0.0});
     }
-    header += ",grasp,residual_m,manipulability,at_limits,limit_violation,singular,grasp_held";
+    header += ",grasp,residual_m,manipulability,at_limits,limit_violation,singular,grasp_held,flipped";
     if (!realArm.empty()) {
         sums_.driven = ReplaySummary::Arm::Driven{};
         sums_.driven->description = realArm;
@@ -46,6 +53,7 @@ ArmReport::ArmReport(const std::filesystem::path& file, const ArmRig& rig, const
         ++sums_.links[leaf.link].leaves;
     }
     sums_.leaves = rig.model.leaves.size();
+    sums_.description = describeArm(rig);
 }
 
 double ArmReport::violation(const TickRow& row) const {
@@ -55,9 +63,16 @@ double ArmReport::violation(const TickRow& row) const {
         const ArmJoint& joint = rig_.model.joints[k];
         const double q = arm.q[k], way = std::abs(q - row.startArm.q[k]);
         const double fast = way - joint.speed * rig_.proxy.period - kRounding;
+        if (joint.mimic) { // narrows the joint that it follows
+            worst = std::max(worst, apart(*joint.mimic, q, arm.q));
+            continue;
+        }
         worst = std::max({worst, joint.lower - q, q - joint.upper, fast});
     }
     for (const ArmFinger& finger : rig_.model.fingers) {
+        if (finger.mimic) {
+            continue;
+        }
         const double at = finger.open + arm.grasp * (finger.closed - finger.open);
         worst = std::max({worst, finger.lower - at - kRounding, at - finger.upper - kRounding});
     }
@@ -84,6 +99,7 @@ void ArmReport::add(const TickRow& row) {
     row_.add(wrong);
     row_.add(int64_t{arm.singular});
     row_.add(int64_t{arm.graspHeld});
+    row_.add(int64_t{arm.flipped});
     if (sums_.driven) {
         addDriven(row);
     }
@@ -91,6 +107,7 @@ void ArmReport::add(const TickRow& row) {
     sums_.limitViolation = std::max(sums_.limitViolation, wrong);
     sums_.limitedTicks += arm.atLimits > 0 ? 1 : 0;
     sums_.singularTicks += arm.singular ? 1 : 0;
+    sums_.flips += arm.flipped ? 1 : 0;
     sums_.graspHeldTicks += arm.graspHeld ? 1 : 0;
     if (moved) {
         residuals_.push_back(static_cast<float>(arm.residual));

@@ -15,7 +15,7 @@ namespace fathom {
 
 // One thread. Checks the limits again, independently of the engine, from the joints alone. Columns of
 // arm.csv: t_s, one per joint [rad] or [m], grasp, residual_m, manipulability, at_limits, limit_violation,
-// singular, grasp_held. With a real arm also real_arm (its state) and measured_<joint> per joint.
+// singular, grasp_held, flipped. With a real arm also real_arm (its state) and measured_<joint> per joint.
 class ArmReport {
 public:
     // realArm: description of the real arm that follows; empty = none.

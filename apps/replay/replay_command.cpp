@@ -32,6 +32,9 @@ void print(const ReplaySummary::Arm& arm) {
     std::cout << "arm          " << arm.leaves << " leaves on " << arm.links.size() << " links, "
               << arm.joints.size() << " joints; at a limit in " << arm.limitedTicks << " ticks, singular in "
               << arm.singularTicks << ", limits exceeded by " << arm.limitViolation << "\n";
+    for (const std::string& line : arm.description) {
+        std::cout << "  " << line << "\n";
+    }
     printPart("  residual  ", arm.residual, "m");
     for (const auto& link : arm.links) {
         if (link.penetration) {

@@ -128,7 +128,9 @@ Json armJson(const ReplaySummary::Arm& arm) {
             {"residual_m", times(arm.residual)},
             {"limited_ticks", arm.limitedTicks},
             {"singular_ticks", arm.singularTicks},
-            {"grasp_held_ticks", arm.graspHeldTicks}};
+            {"grasp_held_ticks", arm.graspHeldTicks},
+            {"flips", arm.flips},
+            {"description", arm.description}};
 }
 
 } // namespace

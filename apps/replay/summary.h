@@ -71,7 +71,8 @@ struct ReplaySummary {
             double lower, upper, speed;  // limits: [rad] or [m], [rad/s] or [m/s]
             double least, most, fastest; // reached in the run
         };
-        std::vector<Joint> joints; // base to tip
+        std::vector<Joint> joints;            // base to tip
+        std::vector<std::string> description; // of describeArm()
         struct Link {
             std::string name;
             uint64_t leaves = 0;
@@ -81,7 +82,7 @@ struct ReplaySummary {
         uint64_t leaves = 0;
         double limitViolation = 0.0; // largest violation of a position or speed limit [rad], [m]
         Percentiles residual;        // [m] part of the hand's motion that the arm cannot follow
-        uint64_t limitedTicks = 0, singularTicks = 0, graspHeldTicks = 0;
+        uint64_t limitedTicks = 0, singularTicks = 0, graspHeldTicks = 0, flips = 0;
         struct Driven { // a real arm that follows
             std::string description, lastState;
             std::vector<std::pair<std::string, uint64_t>> ticks; // in each state of armStateName()

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/cycle/arm_rig.h"
 
+#include "engine/model/arm_mimic.h"
 #include "engine/types/error.h"
 
 #include <algorithm>
@@ -52,6 +53,8 @@ private:
         options.tip = arm_.tip;
         options.meshes = arm_.meshes;
         options.leavesPerShape = arm_.leaves;
+        options.locked = arm_.locked;
+        options.keepStray = arm_.keepStray;
         for (const auto& finger : arm_.grasp.fingers) {
             options.fingers.push_back({finger.joint, finger.open, finger.closed});
         }
@@ -96,19 +99,63 @@ private:
             const std::string field = "joints[" + std::to_string(i) + "]";
             const size_t k = indexOf(field, wanted.name);
             ArmJoint& joint = rig_->model.joints[k];
-            joint.lower = wanted.lower.value_or(joint.lower);
-            joint.upper = wanted.upper.value_or(joint.upper);
-            joint.speed = wanted.speed.value_or(joint.speed);
+            override(wanted, joint);
             const std::string range =
                 "lower <= upper, here " + text(joint.lower) + " to " + text(joint.upper);
             if (joint.lower > joint.upper) {
                 refuse(field, wanted.name, range);
+            }
+            if (joint.mimic && wanted.start) {
+                refuse(field + ".start", text(*wanted.start),
+                       "no start, because the joint follows " + rig_->model.joints[joint.mimic->joint].name);
             }
             const double start = wanted.start.value_or(std::clamp(0.0, joint.lower, joint.upper));
             if (start < joint.lower || start > joint.upper) {
                 refuse(field + ".start", text(start), text(joint.lower) + " to " + text(joint.upper));
             }
             rig_->start[k] = start;
+        }
+        narrow();
+        noteSpeeds();
+    }
+
+    static void override(const SceneArm::Joint& wanted, ArmJoint& joint) {
+        if (wanted.lower || wanted.upper) {
+            joint.limitsFrom = "scene";
+        }
+        joint.lower = wanted.lower.value_or(joint.lower);
+        joint.upper = wanted.upper.value_or(joint.upper);
+        if (wanted.speed) {
+            joint.speed = *wanted.speed;
+            joint.speedFrom = "scene";
+        }
+    }
+
+    // The scene's limits of mimic joints bind the joints that they follow.
+    void narrow() {
+        ArmModel& model = rig_->model;
+        for (const std::string& note : narrowByMimics(model)) {
+            if (std::find(model.notes.begin(), model.notes.end(), note) == model.notes.end()) {
+                model.notes.push_back(note);
+            }
+        }
+        for (size_t k = 0; k < model.count(); ++k) {
+            rig_->start[k] = std::clamp(rig_->start[k], model.joints[k].lower, model.joints[k].upper);
+        }
+        model.follow(rig_->start);
+    }
+
+    void noteSpeeds() {
+        std::string names;
+        for (const ArmJoint& joint : rig_->model.joints) {
+            if (joint.speedFrom == kNoSpeed && !joint.mimic) {
+                names += (names.empty() ? "" : ", ") + joint.name;
+            }
+        }
+        if (!names.empty()) {
+            rig_->model.notes.push_back("no speed in the URDF for " + names + ": " + text(kUnknownTurn) +
+                                        " rad/s or " + text(kUnknownSlide) +
+                                        " m/s is used; arm.joints sets another");
         }
     }
 

@@ -89,8 +89,8 @@ ProxyStep HapticCycle::moveArm(const StepInput& input, const ProxyInput& wanted,
     const ArmStep moved = arm_->step(request);
     tool_ = moved.pose;
     jointEnds_ = moved.atEnds;
-    out.arm = {{moved.q, moved.grasp}, moved.residual,  moved.manipulability,
-               moved.atLimits,         moved.graspHeld, moved.singular};
+    out.arm = {{moved.q, moved.grasp}, moved.residual, moved.manipulability, moved.atLimits,
+               moved.graspHeld,        moved.singular, moved.flipped};
     return moved;
 }
 

@@ -99,6 +99,7 @@ struct ArmRecord {
     uint32_t atLimits = 0;       // active limits of joints or joint speeds
     bool graspHeld = false;      // the grasp stopped because a finger would have entered a region
     bool singular = false;       // near a singularity: the solution is damped
+    bool flipped = false;        // left a singularity to another side than it came from
 };
 
 // One row of haptics.csv, and further values for the window.

@@ -14,8 +14,11 @@ class ArmNormal {
 public:
     explicit ArmNormal(size_t joints) noexcept
         : n_(joints) {}
-    void setColumn(size_t joint, const dvec3& v, const dvec3& scaledOmega) noexcept {
-        columns_[joint] = {v.x, v.y, v.z, scaledOmega.x, scaledOmega.y, scaledOmega.z};
+    void addColumn(size_t joint, const dvec3& v, const dvec3& scaledOmega) noexcept {
+        const std::array<double, 6> more{v.x, v.y, v.z, scaledOmega.x, scaledOmega.y, scaledOmega.z};
+        for (size_t i = 0; i < more.size(); ++i) {
+            columns_[joint][i] += more[i];
+        }
     }
     // A joint that cannot move: its column is excluded from smallestSingular().
     void leaveOut(size_t joint) noexcept { leftOut_[joint] = true; }
@@ -25,6 +28,9 @@ public:
     double smallestSingular(size_t rows = 6) const noexcept;
     void damp(double lambda) noexcept; // fills metric()
     std::span<const double> metric() const noexcept { return {metric_.data(), n_ * n_}; }
+    std::array<std::array<double, kMostJoints>, kMostJoints> gram() const noexcept; // J^T M J
+    // J^T M x for x = [a; alpha], alpha scaled by k.
+    void gradient(const dvec3& a, const dvec3& scaledAlpha, JointVector& out) const noexcept;
     // (J^T M J + lambda^2 I)^-1 J^T M x for x = [a; alpha], alpha scaled by k. After damp().
     void solve(const dvec3& a, const dvec3& scaledAlpha, JointVector& out) const noexcept;
 

@@ -17,10 +17,23 @@ ArmKinematics::ArmKinematics(const ArmModel& arm, const Pose& baseTarm, const Ar
     , base_(baseTarm)
     , options_(options)
     , places_(arm)
-    , normal_(arm.count()) {
+    , normal_(arm.count())
+    , release_(arm, options.release) {
     for (size_t k = 0; k < arm.count(); ++k) {
         now_.posture.q[k] = std::clamp(0.0, arm.joints[k].lower, arm.joints[k].upper);
+        gain_[k] = 1.0;
+        if (!arm.joints[k].mimic) {
+            column_[k] = free_.size();
+            free_.push_back(k);
+        }
     }
+    for (size_t k = 0; k < arm.count(); ++k) {
+        if (const auto& mimic = arm.joints[k].mimic) {
+            column_[k] = column_[mimic->joint];
+            gain_[k] = mimic->multiplier;
+        }
+    }
+    arm.follow(now_.posture.q);
 }
 
 void ArmKinematics::setPosture(const ArmPosture& posture) noexcept {
@@ -32,7 +45,9 @@ void ArmKinematics::setPosture(const ArmPosture& posture) noexcept {
     if (std::isfinite(posture.grasp)) {
         now_.posture.grasp = std::clamp(posture.grasp, 0.0, 1.0);
     }
+    arm_.follow(now_.posture.q);
     start_ = now_.posture.q;
+    release_.reset(start_);
     arm_.place(now_.posture.q, base_, now_.frames, now_.posture.grasp);
 }
 
@@ -51,45 +66,56 @@ void ArmKinematics::report(ArmStep& out) const noexcept {
 }
 
 // The tighter of the position and the speed limit.
-ArmKinematics::Range ArmKinematics::rangeOf(size_t joint) const noexcept {
+ArmKinematics::Range ArmKinematics::rangeOf(size_t unknown) const noexcept {
+    const size_t joint = free_[unknown];
     const ArmJoint& j = arm_.joints[joint];
     const double reach = j.speed * options_.period;
     return {std::max(j.lower, start_[joint] - reach), std::min(j.upper, start_[joint] + reach)};
 }
 
 void ArmKinematics::addLimits(ProxyRows& rows) const noexcept {
-    for (size_t k = 0; k < arm_.count(); ++k) {
-        const Range range = rangeOf(k);
-        const double low = range.low - now_.posture.q[k], high = range.high - now_.posture.q[k];
+    for (size_t u = 0; u < free_.size(); ++u) {
+        const Range range = rangeOf(u);
+        const double q = now_.posture.q[free_[u]], low = range.low - q, high = range.high - q;
         for (const double sign : {1.0, -1.0}) {
             JointVector normal{};
-            normal[k] = sign;
+            normal[u] = sign;
             ContactRow row;
             row.kind = ContactRow::Kind::Joint;
             row.offset = std::min(0.0, sign > 0.0 ? low : -high);
-            const ArmJoint& joint = arm_.joints[k];
-            const double q = now_.posture.q[k];
+            const ArmJoint& joint = arm_.joints[free_[u]];
             row.gap = std::min(0.0, sign > 0.0 ? joint.lower - q : q - joint.upper);
-            row.key = ~uint64_t{0} - 2 * k - (sign > 0.0 ? 1 : 0);
+            row.key = ~uint64_t{0} - 2 * u - (sign > 0.0 ? 1 : 0);
             rows.add(row, normal);
         }
     }
 }
 
 JointVector ArmKinematics::normalOf(const ContactRow& row, const LeafState& leaves) const noexcept {
-    JointVector normal{};
-    if (row.kind == ContactRow::Kind::Equality) { // constrains the tip
-        const dvec3 tip = pose().position;
-        for (size_t k = 0; k < arm_.count(); ++k) {
-            const dvec3 rotation = arm_.joints[k].slides ? dvec3(0.0) : arm_.axisOf(now_.frames, k);
-            normal[k] =
-                glm::dot(row.normal, arm_.motionOf(now_.frames, k, tip)) + glm::dot(row.spin, rotation);
-        }
-        return normal;
+    if (row.kind != ContactRow::Kind::Equality) {
+        return leafNormal(arm_.leaves[row.leaf], leafNow(row.leaf, leaves), row.normal);
     }
-    const dvec3 centre = leafNow(row.leaf, leaves);
-    for (size_t k = 0; k < arm_.leaves[row.leaf].joint; ++k) {
-        normal[k] = glm::dot(row.normal, arm_.motionOf(now_.frames, k, centre));
+    JointVector normal{}; // constrains the tip
+    const dvec3 tip = pose().position;
+    for (size_t k = 0; k < arm_.count(); ++k) {
+        const dvec3 rotation = arm_.joints[k].slides ? dvec3(0.0) : arm_.axisOf(now_.frames, k);
+        normal[column_[k]] += gain_[k] * (glm::dot(row.normal, arm_.motionOf(now_.frames, k, tip)) +
+                                          glm::dot(row.spin, rotation));
+    }
+    return normal;
+}
+
+JointVector ArmKinematics::leafNormal(const ArmLeaf& leaf, const dvec3& centre,
+                                      const dvec3& direction) const noexcept {
+    JointVector normal{};
+    for (size_t k = 0; k < leaf.joint; ++k) {
+        normal[column_[k]] += gain_[k] * glm::dot(direction, arm_.motionOf(now_.frames, k, centre));
+    }
+    for (size_t f = leaf.finger; f > 0; f = arm_.fingers[f - 1].carrier) {
+        if (const auto& mimic = arm_.fingers[f - 1].mimic) {
+            normal[column_[mimic->joint]] +=
+                mimic->multiplier * glm::dot(direction, arm_.motionOfFinger(now_.frames, f - 1, centre));
+        }
     }
     return normal;
 }
@@ -99,10 +125,10 @@ bool ArmKinematics::addRow(ContactRow row, const LeafState& leaves, ProxyRows& r
     if (row.offset > proxy::kEscapeThreshold && row.kind != ContactRow::Kind::Equality) {
         // At most half of the motion that the joints have left in this tick.
         double possible = 0.0;
-        for (size_t k = 0; k < arm_.leaves[row.leaf].joint; ++k) {
-            const Range range = rangeOf(k);
-            const double low = range.low - now_.posture.q[k], high = range.high - now_.posture.q[k];
-            possible += std::max(normal[k] * low, normal[k] * high);
+        for (size_t u = 0; u < free_.size(); ++u) {
+            const Range range = rangeOf(u);
+            const double q = now_.posture.q[free_[u]];
+            possible += std::max(normal[u] * (range.low - q), normal[u] * (range.high - q));
         }
         row.offset = std::min(row.offset, 0.5 * possible);
     }
@@ -115,29 +141,33 @@ bool ArmKinematics::aim(const LeafState&, ProxyRows& rows, ArmStep& out) noexcep
     // oscillates.
     Motion left = remaining(tip, target_);
     left = std::min(1.0, kFarthestAim * options_.stepCap / lengthOf(left, metricRadius_)) * left;
-    normal_ = ArmNormal(arm_.count());
-    for (size_t j = 0; j < arm_.count(); ++j) {
-        const dvec3 rotation = arm_.joints[j].slides ? dvec3(0.0) : arm_.axisOf(now_.frames, j);
-        normal_.setColumn(j, arm_.motionOf(now_.frames, j, tip.position), metricRadius_ * rotation);
-        if (arm_.joints[j].lower == arm_.joints[j].upper) {
-            normal_.leaveOut(j);
+    normal_ = ArmNormal(free_.size());
+    for (size_t k = 0; k < arm_.count(); ++k) {
+        const dvec3 rotation = arm_.joints[k].slides ? dvec3(0.0) : arm_.axisOf(now_.frames, k);
+        normal_.addColumn(column_[k], gain_[k] * arm_.motionOf(now_.frames, k, tip.position),
+                          gain_[k] * metricRadius_ * rotation);
+        if (!arm_.joints[k].mimic && arm_.joints[k].lower == arm_.joints[k].upper) {
+            normal_.leaveOut(column_[k]);
         }
     }
     const double smallest = normal_.smallestSingular(metricRadius_ == 0.0 ? 3 : 6);
     if (out.solves == 0) {
         out.manipulability = smallest;
         out.singular = smallest < options_.singularBelow;
+        out.flipped = release_.begin(out.singular, now_.posture.q);
     }
     normal_.damp(dampingFor(smallest, options_.singularBelow, options_.damping, options_.singularDamping));
     normal_.solve(left.a, metricRadius_ * left.alpha, wanted_);
+    nudged_ = smallest < options_.singularBelow &&
+              release_.nudge(normal_, {left, metricRadius_, now_.posture.q, now_.frames}, wanted_);
     rows.setMetric(normal_.metric());
     return true;
 }
 
 bool ArmKinematics::solve(Answer& answer, bool again, ProxyRows& rows, ArmStep& out) const noexcept {
-    const std::span<const double> wanted(wanted_.data(), arm_.count());
+    const std::span<const double> wanted(wanted_.data(), free_.size());
     JointVector dq{};
-    const std::span<double> x(dq.data(), arm_.count());
+    const std::span<double> x(dq.data(), free_.size());
     rows.load(wanted);
     bool optimal = rows.solve(wanted, x);
     if (!optimal && !again) {
@@ -166,10 +196,11 @@ void ArmKinematics::tryPosture(const JointVector& q, double grasp, LeafState& le
 
 void ArmKinematics::tryPart(const Answer& answer, double part, LeafState& leaves) noexcept {
     JointVector q{};
-    for (size_t k = 0; k < arm_.count(); ++k) {
-        const Range range = rangeOf(k);
-        q[k] = std::clamp(now_.posture.q[k] + part * answer.dq[k], range.low, range.high);
+    for (size_t u = 0; u < free_.size(); ++u) {
+        const Range range = rangeOf(u);
+        q[free_[u]] = std::clamp(now_.posture.q[free_[u]] + part * answer.dq[u], range.low, range.high);
     }
+    arm_.follow(q);
     tryPosture(q, now_.posture.grasp, leaves);
 }
 
@@ -193,8 +224,9 @@ Motion ArmKinematics::motionOf(const JointVector& dq) const noexcept {
     const dvec3 tip = pose().position;
     Motion motion;
     for (size_t k = 0; k < arm_.count(); ++k) {
-        motion.a += dq[k] * arm_.motionOf(now_.frames, k, tip);
-        motion.alpha += dq[k] * (arm_.joints[k].slides ? dvec3(0.0) : arm_.axisOf(now_.frames, k));
+        const double moved = gain_[k] * dq[column_[k]];
+        motion.a += moved * arm_.motionOf(now_.frames, k, tip);
+        motion.alpha += moved * (arm_.joints[k].slides ? dvec3(0.0) : arm_.axisOf(now_.frames, k));
     }
     return motion;
 }
@@ -204,8 +236,8 @@ JointVector ArmKinematics::uncutAnswer(const Answer& answer, ProxyRows& rows) co
     const Motion left = remaining(pose(), target_);
     JointVector wanted{}, dq{};
     normal_.solve(left.a, metricRadius_ * left.alpha, wanted);
-    const std::span<const double> target(wanted.data(), arm_.count());
-    const std::span<double> x(dq.data(), arm_.count());
+    const std::span<const double> target(wanted.data(), free_.size());
+    const std::span<double> x(dq.data(), free_.size());
     rows.ignoreSpeeds();
     rows.load(target);
     return rows.solve(target, x) ? dq : answer.dq;
@@ -241,6 +273,9 @@ StepOutcome ArmKinematics::judge(const Answer&, double part, const LeafState& le
     const double before = lengthOf(remaining(pose(), target_), metricRadius_);
     const double after = lengthOf(remaining(nextPose(), target_), metricRadius_);
     if (!out.escape && after >= before && before > proxy::kNothing) {
+        if (nudged_) {
+            release_.rejected();
+        }
         return StepOutcome::None;
     }
     escapeLeft_ *= 1.0 - part;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Kinematics of an arm for ConstrainedProxy. The unknowns are joint increments dq. The solver minimises |J dq
+// Kinematics of an arm for ConstrainedProxy. The unknowns are increments dq of the free joints; mimic joints
+// add to the column of the joint that they follow. The solver minimises |J dq
 // - x_u|_M^2 + lambda^2 |dq|^2 (damped least squares, Nakamura and Hanafusa 1986) subject to n^T J_leaf dq >=
 // -gap, joint limits and joint speeds, all as rows of the same solver.
 #pragma once
@@ -7,6 +8,7 @@
 #include "engine/haptics/arm_damping.h"
 #include "engine/haptics/arm_leaf_places.h"
 #include "engine/haptics/constrained_proxy.h"
+#include "engine/haptics/singular_release.h"
 #include "engine/haptics/tool_motion.h"
 #include "engine/model/arm_model.h"
 
@@ -17,6 +19,7 @@ struct ArmProxyOptions : ProxyOptions {
     double damping = 1e-3;         // [m/rad] lambda away from singular postures
     double singularBelow = 0.02;   // [m/rad] smallest singular value of M^1/2 J below which lambda grows
     double singularDamping = 0.05; // [m/rad] lambda at the singular posture
+    ReleaseWeights release;        // how a singular posture is left
     double graspPerTick = 0.0;     // most change of the grasp per tick; 1 = from open to closed
 };
 
@@ -30,6 +33,7 @@ struct ArmStep : ProxyStep {
     uint32_t atLimits = 0;     // joint limit and speed rows with a positive multiplier in the last solve
     uint32_t atEnds = 0;       // the joint limits among them
     bool singular = false;     // manipulability below the threshold: damped
+    bool flipped = false;      // a singular posture was left to another side than the arm came from
     bool graspHeld = false;    // a finger would have entered a region, so the grasp did not change
 };
 
@@ -39,14 +43,14 @@ public:
     using Step = ArmStep;
     static constexpr bool kSolvesLastRound = true; // bisect the result of the last tightening
     struct Answer {
-        JointVector dq{};
+        JointVector dq{};     // of the free joints
         double share = 1.0;   // of the solution, within the step cap
         bool stalled = false; // cut by the trust region
     };
 
     ArmKinematics(const ArmModel& arm, const Pose& baseTarm, const ArmProxyOptions& options);
 
-    size_t unknowns() const noexcept { return arm_.count(); }
+    size_t unknowns() const noexcept { return free_.size(); }
     Pose pose() const noexcept { return arm_.tip(now_.frames); }
     const dvec3& origin() const noexcept { return now_.frames[0].position; } // used without an active set
     Pose nextPose() const noexcept { return arm_.tip(next_.frames); }
@@ -108,23 +112,29 @@ private:
     struct Range { // [rad], [m] allowed motion of a joint in this tick
         double low, high;
     };
-    Range rangeOf(size_t joint) const noexcept;
+    Range rangeOf(size_t unknown) const noexcept;
     Motion motionOf(const JointVector& dq) const noexcept; // of the tip
     JointVector uncutAnswer(const Answer& answer, ProxyRows& rows) const noexcept;
     JointVector normalOf(const ContactRow& row, const LeafState& leaves) const noexcept;
+    JointVector leafNormal(const ArmLeaf& leaf, const dvec3& centre, const dvec3& direction) const noexcept;
     void tryPosture(const JointVector& q, double grasp, LeafState& leaves) noexcept;
 
     const ArmModel& arm_;
     Pose base_;
     ArmProxyOptions options_;
+    std::vector<size_t> free_;                 // joints that follow no other: the unknowns
+    std::array<size_t, kMostJoints> column_{}; // unknown that moves each joint
+    JointVector gain_{};                       // motion of each joint per motion of its unknown
     ArmLeafPlaces places_;
     State now_, next_;
     JointVector start_{}; // joints at the start of the tick
     Pose target_;
     double metricRadius_ = 0.0;
     ArmNormal normal_;        // of this linearisation
-    JointVector wanted_{};    // target of this linearisation
+    JointVector wanted_{};    // target of this linearisation, free joints
     double escapeLeft_ = 0.0; // [m] left in this tick
+    SingularRelease release_;
+    bool nudged_ = false; // `wanted_` contains a step of release_
 };
 
 } // namespace fathom

@@ -9,6 +9,10 @@ Pose movedBy(const dvec3& axis, bool slides, double q) {
     return slides ? Pose{q * axis, {1.0, 0.0, 0.0, 0.0}} : Pose{dvec3(0.0), rotationExp(q * axis)};
 }
 
+double valueOf(const ArmMimic& mimic, const JointVector& q) {
+    return mimic.offset + mimic.multiplier * q[mimic.joint];
+}
+
 } // namespace
 
 void ArmModel::place(const JointVector& q, const Pose& worldTbase, ArmFrames& frames,
@@ -21,15 +25,28 @@ void ArmModel::place(const JointVector& q, const Pose& worldTbase, ArmFrames& fr
     }
     for (size_t f = 0; f < fingers.size(); ++f) {
         const ArmFinger& finger = fingers[f];
-        const double at = finger.open + grasp * (finger.closed - finger.open);
-        frames[kMostJoints + 1 + f] =
-            frames[finger.joint] * finger.before * movedBy(finger.axis, finger.slides, at);
+        const double at =
+            finger.mimic ? valueOf(*finger.mimic, q) : finger.open + grasp * (finger.closed - finger.open);
+        const Pose& carrier = frames[finger.carrier == 0 ? finger.joint : kMostJoints + finger.carrier];
+        frames[kMostJoints + 1 + f] = carrier * finger.before * movedBy(finger.axis, finger.slides, at);
+    }
+}
+
+void ArmModel::follow(JointVector& q) const noexcept {
+    for (size_t k = 0; k < joints.size(); ++k) {
+        q[k] = joints[k].mimic ? valueOf(*joints[k].mimic, q) : q[k];
     }
 }
 
 dvec3 ArmModel::motionOf(const ArmFrames& frames, size_t k, const dvec3& point) const noexcept {
     const dvec3 axis = axisOf(frames, k);
     return joints[k].slides ? axis : glm::cross(axis, point - frames[k + 1].position);
+}
+
+dvec3 ArmModel::motionOfFinger(const ArmFrames& frames, size_t f, const dvec3& point) const noexcept {
+    const Pose& frame = frames[kMostJoints + 1 + f];
+    const dvec3 axis = frame.rotation * fingers[f].axis;
+    return fingers[f].slides ? axis : glm::cross(axis, point - frame.position);
 }
 
 } // namespace fathom

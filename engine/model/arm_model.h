@@ -7,6 +7,7 @@
 #include <array>
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -14,10 +15,20 @@
 
 namespace fathom {
 
-inline constexpr size_t kMostJoints = 7;  // the solver takes eight unknowns
-inline constexpr size_t kMostFingers = 4; // gripper joints per arm
+inline constexpr size_t kMostJoints = 12;    // moving joints of a chain, mimic joints included
+inline constexpr size_t kMostFreeJoints = 8; // of these, the ones that follow no other: the solver's unknowns
+inline constexpr size_t kMostFingers = 16;   // moving joints off the chain
+inline constexpr double kUnknownTurn = 1.0;  // [rad/s] speed of a revolute joint whose URDF states none
+inline constexpr double kUnknownSlide = 0.1; // [m/s] the same for a prismatic joint
+inline constexpr const char* kNoSpeed = "default, the URDF states none";
 
-// A moving joint of the chain, or a finger's.
+// A joint at offset + multiplier * (another joint).
+struct ArmMimic {
+    uint32_t joint = 0; // of the chain, follows no other
+    double multiplier = 1.0, offset = 0.0;
+};
+
+// A moving joint of the chain.
 struct ArmJoint {
     std::string name;
     bool slides = false;       // prismatic; else revolute
@@ -25,9 +36,12 @@ struct ArmJoint {
     dvec3 axis{0.0, 0.0, 1.0}; // unit, joint frame
     double lower, upper;       // [rad], [m]; +-inf for continuous joints
     double speed;              // [rad/s], [m/s] > 0
+    std::optional<ArmMimic> mimic{};
+    std::string limitsFrom = "URDF", speedFrom = "URDF"; // for the user
 };
 
-// A gripper joint off the chain: at `open` when grasp is 0 and at `closed` when grasp is 1.
+// A moving joint off the chain: a gripper's, at `open` when grasp is 0 and at `closed` when grasp is 1, or
+// one that follows a joint of the chain.
 struct ArmFinger {
     std::string name;
     uint32_t joint = 0; // number of chain joints between it and the base
@@ -37,6 +51,8 @@ struct ArmFinger {
     double open = 0.0, closed = 0.0; // [rad], [m]
     double lower = -std::numeric_limits<double>::infinity(); // [rad], [m] of the URDF
     double upper = std::numeric_limits<double>::infinity();
+    uint32_t carrier = 0;            // 0 = none; else fingers[carrier - 1], an earlier one, carries it
+    std::optional<ArmMimic> mimic{}; // follows this joint of the chain instead of the grasp
 };
 
 // A sphere of a link.
@@ -62,14 +78,19 @@ using ArmFrames = std::array<Pose, kMostJoints + 1 + kMostFingers>;
 // Immutable after loading; its functions are noexcept and do not allocate.
 class ArmModel {
 public:
-    std::vector<ArmJoint> joints;   // base to tip
-    std::vector<ArmFinger> fingers; // those that ArmOptions names
-    std::vector<ArmLeaf> leaves;    // grouped by link; other joints off the chain stay at 0
+    std::vector<ArmJoint> joints; // base to tip
+    std::vector<ArmFinger>
+        fingers;                 // that move: named by ArmOptions, or mimic joints of those or of the chain
+    std::vector<ArmLeaf> leaves; // grouped by link
     std::vector<std::string> links; // that have leaves
     Pose lastTtip;                  // frame after the last joint -> tip
-    std::vector<std::string> notes; // one line per thing in the files that no leaf covers
+    std::vector<std::string> notes; // one line per doubt about the files: what no leaf covers, defaults
+    std::string baseText, tipText;  // links, each with the reason for its choice
+    std::vector<std::string> held;  // one line per joint that stays where it is
 
     size_t count() const { return joints.size(); }
+    // Sets the mimic joints from the ones that they follow.
+    void follow(JointVector& q) const noexcept;
     // Frames of joints and fingers at joint values q [rad], [m], grasp 0 open .. 1 closed.
     void place(const JointVector& q, const Pose& worldTbase, ArmFrames& frames,
                double grasp = 0.0) const noexcept;
@@ -81,7 +102,9 @@ public:
         return frames[frameOf(leaf)].apply(leaves[leaf].sphere.centre);
     }
     // Velocity of a point carried by joint `k`: d point / d q_k [m/rad] or [1]. axis: direction of the joint.
+    // Mimic joints that follow k are not included.
     dvec3 motionOf(const ArmFrames& frames, size_t k, const dvec3& point) const noexcept;
+    dvec3 motionOfFinger(const ArmFrames& frames, size_t f, const dvec3& point) const noexcept;
     dvec3 axisOf(const ArmFrames& frames, size_t k) const noexcept {
         return frames[k + 1].rotation * joints[k].axis;
     }
@@ -94,15 +117,17 @@ struct ArmOptions {
         std::string joint;
         std::optional<double> open, closed; // [rad], [m]; empty = the lower and the upper limit of the URDF
     };
-    std::vector<Finger>
-        fingers;           // joints off the chain whose parent link hangs on the chain by fixed joints only
-    std::string base, tip; // links; empty = the root, and the end of the longest chain of moving joints
+    std::vector<Finger> fingers;          // joints off the chain; one per group of mimic joints is enough
+    std::string base, tip;                // links; empty = chosen by the tree, see chooseEnds()
+    std::map<std::string, double> locked; // joints that stay at this value [rad], [m], on or off the chain
     std::filesystem::path meshes; // root of package:// paths; empty = the URDF's folder and its parents
     uint32_t leavesPerShape = 24; // for each collision box, cylinder and mesh; spheres are used as they are
+    bool keepStray = false;       // keep the pieces of a mesh that lie far from the rest
 };
 
-// Throws BadInput for an unknown link or finger, more than kMostJoints moving joints, planar or floating
-// joints, missing or crossed limits, or an unusable mesh.
+// Throws BadInput for an unknown link, finger or locked joint, more than kMostJoints moving joints, planar or
+// floating joints on the chain, missing or crossed limits, mimic joints without a master, or an unusable
+// mesh.
 ArmModel loadArm(const std::filesystem::path& urdf, const ArmOptions& options = {});
 
 } // namespace fathom

@@ -2,16 +2,22 @@
 #include "engine/model/link_spheres.h"
 
 #include "engine/model/sphere_cover.h"
+#include "engine/model/urdf_file.h"
 #include "engine/types/inside.h"
+#include "engine/types/printable.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <string_view>
 #include <utility>
 
 namespace fathom {
 
 namespace {
+
+constexpr double kMostAlongCapsule = 256.0; // spheres
 
 // Upright about z; a rectangle for four corners.
 TriangleMesh prism(uint32_t sides, const std::array<double, 2>& half, double length) {
@@ -30,41 +36,77 @@ TriangleMesh prism(uint32_t sides, const std::array<double, 2>& half, double len
     return mesh;
 }
 
-std::filesystem::path pathOf(std::string name, const ShapeSource& source) {
-    for (const std::string scheme : {"package://", "file://"}) {
-        name = name.rfind(scheme, 0) == 0 ? name.substr(scheme.size()) : name;
+// The file that a URDF's mesh name stands for: below arm.meshes, or the URDF's folder and the three above it,
+// with the package's name as a folder and without it.
+std::filesystem::path pathOf(const std::string& name, const ShapeSource& source) {
+    constexpr std::string_view kPackage = "package://", kFile = "file://";
+    const bool package = name.rfind(kPackage, 0) == 0;
+    const std::string rest = package                     ? name.substr(kPackage.size())
+                             : name.rfind(kFile, 0) == 0 ? name.substr(kFile.size())
+                                                         : name;
+    std::vector<std::string> names{rest};
+    if (const size_t slash = rest.find('/'); package && slash != std::string::npos) {
+        names.push_back(rest.substr(slash + 1));
     }
-    if (!source.meshes.empty()) {
-        return source.meshes / name;
+    std::vector<std::filesystem::path> folders{source.meshes};
+    if (source.meshes.empty()) {
+        folders = {source.urdf.parent_path()};
+        for (int up = 0; up < 3; ++up) {
+            folders.push_back(folders.back() / "..");
+        }
     }
-    std::filesystem::path folder = source.urdf.parent_path();
-    for (int up = 0; up < 3 && !std::filesystem::exists(folder / name); ++up) {
-        folder /= "..";
+    std::string looked;
+    for (const std::string& wanted : names) {
+        for (const auto& folder : folders) {
+            std::error_code ignored;
+            if (std::filesystem::exists(folder / wanted, ignored)) {
+                return folder / wanted;
+            }
+            const std::string place = (folder / wanted).lexically_normal().string();
+            if (!wanted.starts_with('/') || looked.empty()) {
+                looked += (looked.empty() ? "" : ", ") + place;
+            }
+        }
     }
-    return folder / name;
-}
-
-bool liesOutside(const std::filesystem::path& file, const ShapeSource& source) {
-    return !liesInside(file, source.meshes.empty() ? source.urdf.parent_path() : source.meshes);
+    throw ShapeRefused{"mesh '" + excerpt(name) + "' not found; looked for " + excerpt(looked, 1000),
+                       "an existing file; arm.meshes names the folder that package:// stands for"};
 }
 
 LoadedMesh readMesh(const urdf::Mesh& mesh, const ShapeSource& source, ShapeSpheres& made) {
     MeshOptions options;
     options.stretch = {mesh.scale.x, mesh.scale.y, mesh.scale.z};
-    options.dropStray = true; // the parts of an arm are close together; anything else is stray
+    options.dropStray = !source.keepStray; // the parts of an arm are close together; anything else is stray
+    options.keepStray = source.keepStray;
     if (!isFinite(options.stretch) || options.stretch.x * options.stretch.y * options.stretch.z == 0.0) {
         throw ShapeRefused{"a mesh scale that is 0 or not finite", "three finite numbers, none 0"};
     }
     const std::filesystem::path file = pathOf(mesh.filename, source);
     LoadedMesh loaded = loadMesh(file, options);
-    made.outside = liesOutside(file, source) ? file : "";
+    made.outside = outsideOf(file, source);
     if (loaded.facts.strayParts > 0) {
-        made.notes.push_back(file.string() + ": stray geometry is dropped: " + strayText(loaded.facts));
+        made.notes.push_back(file.string() + ": stray geometry is dropped: " + strayText(loaded.facts) +
+                             "; arm.keep_stray keeps it");
     }
     if (!loaded.doubt.empty()) {
         made.notes.push_back(file.string() + ": " + loaded.doubt);
     }
     return loaded;
+}
+
+// Spheres along the axis of a capsule, so close that they contain it with 5 % of its radius.
+std::vector<Sphere> capsuleSpheres(const CapsuleSize& capsule) {
+    const double radius = 1.05 * capsule.radius, half = 0.5 * capsule.length;
+    const double reach = std::sqrt(radius * radius - capsule.radius * capsule.radius);
+    const auto count = static_cast<size_t>(std::min(kMostAlongCapsule, std::ceil(half / reach))) + 1;
+    const double step = capsule.length / static_cast<double>(count);
+    const double grown = std::hypot(capsule.radius, 0.5 * step); // of spheres in the middle of each step
+    std::vector<Sphere> spheres;
+    for (size_t i = 0; i < count; ++i) {
+        spheres.push_back({{0.0, 0.0, -half + (static_cast<double>(i) + 0.5) * step}, grown});
+    }
+    spheres.push_back({{0.0, 0.0, -half}, capsule.radius});
+    spheres.push_back({{0.0, 0.0, half}, capsule.radius});
+    return spheres;
 }
 
 LoadedMesh meshOf(const urdf::Geometry& shape, const ShapeSource& source, ShapeSpheres& made) {
@@ -79,17 +121,48 @@ LoadedMesh meshOf(const urdf::Geometry& shape, const ShapeSource& source, ShapeS
         return readMesh(*mesh, source, made);
     }
     loaded.facts = tidy(loaded.mesh, 0.0);
-    if (loaded.mesh.triangles.empty()) {
-        throw ShapeRefused{"a shape of size 0", "positive sizes"};
-    }
     return loaded;
+}
+
+// The smallest size of a box, cylinder or sphere [m].
+double leastSize(const urdf::Geometry& shape) {
+    if (const auto* box = dynamic_cast<const urdf::Box*>(&shape)) {
+        return std::min({box->dim.x, box->dim.y, box->dim.z});
+    }
+    if (const auto* tube = dynamic_cast<const urdf::Cylinder*>(&shape)) {
+        return std::min(tube->radius, tube->length);
+    }
+    if (const auto capsule = capsuleOf(shape)) {
+        return capsule->length < 0.0 ? capsule->length : capsule->radius;
+    }
+    const auto* ball = dynamic_cast<const urdf::Sphere*>(&shape);
+    return ball != nullptr ? ball->radius : 1.0;
 }
 
 } // namespace
 
+std::filesystem::path meshFileOf(const urdf::Geometry& shape, const ShapeSource& source) {
+    const auto* mesh = dynamic_cast<const urdf::Mesh*>(&shape);
+    return mesh == nullptr || capsuleOf(shape) ? "" : pathOf(mesh->filename, source);
+}
+
+std::filesystem::path outsideOf(const std::filesystem::path& file, const ShapeSource& source) {
+    return liesInside(file, source.meshes.empty() ? source.urdf.parent_path() : source.meshes) ? "" : file;
+}
+
 LinkShape readLinkShape(const urdf::Geometry& shape, const ShapeSource& source) {
     LinkShape out;
-    if (const auto* ball = dynamic_cast<const urdf::Sphere*>(&shape)) {
+    const double size = leastSize(shape);
+    if (!(size >= 0.0)) {
+        throw ShapeRefused{"a shape with a negative size", "sizes above 0"};
+    }
+    if (size == 0.0) {
+        out.made.notes.push_back("a shape of size 0 is skipped");
+        return out;
+    }
+    if (const auto capsule = capsuleOf(shape)) {
+        out.made.spheres = capsuleSpheres(*capsule);
+    } else if (const auto* ball = dynamic_cast<const urdf::Sphere*>(&shape)) {
         out.made.spheres.push_back({dvec3(0.0), ball->radius});
     } else {
         out.surface = meshOf(shape, source, out.made);

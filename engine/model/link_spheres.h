@@ -17,6 +17,7 @@ namespace fathom {
 struct ShapeSource {
     std::filesystem::path urdf;   // mesh file names are searched in its folder and the parents,
     std::filesystem::path meshes; // or here, unless empty
+    bool keepStray = false;       // keep pieces far from the rest of a mesh
 };
 
 // Exception: the rejected value and what is allowed. The caller adds the file and the link.
@@ -33,17 +34,26 @@ struct ShapeSpheres {
 
 // A shape whose file has been read.
 struct LinkShape {
-    std::optional<LoadedMesh> surface; // empty = the shape is a sphere, the one in `made`
+    std::optional<LoadedMesh> surface; // empty = the shape is a sphere, the one in `made`, or of size 0
     ShapeSpheres made;                 // its spheres and notes so far
 
     size_t points() const { return surface ? surface->mesh.points.size() : 0; }
 };
 
-// Throws ShapeRefused for invalid sizes and BadInput for a mesh file. Call it while no other thread runs: a
-// mesh is read in a child process (runReader).
+// The file of a shape that is a mesh, as readLinkShape() reads it; empty for other shapes. Throws
+// ShapeRefused when it is missing.
+std::filesystem::path meshFileOf(const urdf::Geometry& shape, const ShapeSource& source);
+
+// The file if it is outside the folder that is searched, else empty.
+std::filesystem::path outsideOf(const std::filesystem::path& file, const ShapeSource& source);
+
+// A shape of size 0 gives a note and no spheres. Throws ShapeRefused for negative sizes and missing meshes,
+// and BadInput for a bad mesh file. Call it while no other thread runs: a mesh is read in a child process
+// (runReader).
 LinkShape readLinkShape(const urdf::Geometry& shape, const ShapeSource& source);
 
-// A sphere is kept; a box, cylinder or mesh gets at most `leaves` spheres. Throws ShapeRefused. Any thread.
+// A sphere is kept; a box, cylinder, capsule or mesh gets at most `leaves` spheres. Throws ShapeRefused. Any
+// thread.
 ShapeSpheres linkSpheres(LinkShape shape, uint32_t leaves);
 
 } // namespace fathom

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // URDF to ArmModel.
+#include "engine/model/arm_ends.h"
+#include "engine/model/arm_mimic.h"
 #include "engine/model/arm_model.h"
-#include "engine/model/cover_links.h"
+#include "engine/model/arm_shapes.h"
+#include "engine/model/joint_drives.h"
 #include "engine/model/urdf_file.h"
 #include "engine/types/error.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
+#include <sstream>
 
 namespace fathom {
 
@@ -24,25 +27,22 @@ public:
         , urdf_(readUrdf(file)) {}
 
     ArmModel load() {
-        const auto base = options_.base.empty() ? urdf_->getRoot() : named(options_.base);
-        const auto chain = chainTo(tipOf(base), base);
-        Pose before;
-        for (const auto& joint : chain) {
-            before = before * poseOf(joint->parent_to_joint_origin_transform);
-            if (joint->type != urdf::Joint::FIXED) {
-                add(*joint, before);
-                before = Pose{};
-            }
-        }
-        model_.lastTtip = before;
-        addLinks(base, Pose{}, {0, 0});
-        if (model_.fingers.size() < options_.fingers.size()) {
-            refuseFinger();
-        }
-        coverShapes();
+        const ArmEnds ends = chooseEnds(*urdf_, file_, options_.base, options_.tip);
+        model_.baseText = ends.base->name + " (" + ends.baseWhy + ")";
+        model_.tipText = ends.tip->name + " (" + ends.tipWhy + ")";
+        model_.notes = ends.notes;
+        const auto chain = chainTo(ends.tip, ends.base);
+        drives_ = driveJoints(*urdf_, file_, options_, chain);
+        addChain(chain);
+        addLinks(ends.base, Pose{}, {0, 0});
+        addAbove(ends.base);
+        checkFingers();
+        shapes_.cover(file_, options_, model_);
         if (model_.leaves.empty()) {
             refuse("collision", "no shapes on any link", "links with collision geometry");
         }
+        const auto narrowed = narrowByMimics(model_);
+        model_.notes.insert(model_.notes.end(), narrowed.begin(), narrowed.end());
         return std::move(model_);
     }
 
@@ -53,33 +53,6 @@ private:
     [[noreturn]] void refuse(const std::string& field, const std::string& value,
                              const std::string& allowed) const {
         throw BadInput(file_.string(), field, value, allowed);
-    }
-
-    LinkPtr named(const std::string& name) const {
-        LinkPtr link = urdf_->getLink(name);
-        if (!link) {
-            std::string names;
-            for (const auto& [other, ignored] : urdf_->links_) {
-                names += (names.empty() ? "" : ", ") + other;
-            }
-            refuse("link", "'" + name + "'", names);
-        }
-        return link;
-    }
-
-    // End of the path from `link` with the most moving joints; the first of equals.
-    std::pair<LinkPtr, int> deepest(const LinkPtr& link, int moving) const {
-        std::pair<LinkPtr, int> best{link, moving};
-        for (const auto& joint : link->child_joints) {
-            const auto below =
-                deepest(urdf_->getLink(joint->child_link_name), moving + (joint->type != urdf::Joint::FIXED));
-            best = below.second > best.second ? below : best;
-        }
-        return best;
-    }
-
-    LinkPtr tipOf(const LinkPtr& base) const {
-        return options_.tip.empty() ? deepest(base, 0).first : named(options_.tip);
     }
 
     std::vector<JointPtr> chainTo(const LinkPtr& tip, const LinkPtr& base) const {
@@ -94,143 +67,183 @@ private:
         return chain;
     }
 
-    void add(const urdf::Joint& joint, const Pose& before) {
-        const std::string field = "joint " + joint.name;
-        const bool ticks = joint.type == urdf::Joint::REVOLUTE || joint.type == urdf::Joint::CONTINUOUS;
-        if (!ticks && joint.type != urdf::Joint::PRISMATIC) {
-            refuse(field, "planar or floating", "revolute, continuous, prismatic or fixed");
+    using Kind = JointDrive::Kind;
+
+    void addChain(const std::vector<JointPtr>& chain) {
+        Pose before;
+        for (const auto& joint : chain) {
+            before = before * poseOf(joint->parent_to_joint_origin_transform);
+            if (joint->type == urdf::Joint::FIXED) {
+                continue;
+            }
+            const JointDrive& drive = drives_.at(joint->name);
+            if (!hasAxis(*joint)) {
+                refuse("joint " + joint->name, "planar or floating",
+                       "revolute, continuous, prismatic or fixed; arm.base starts below it");
+            }
+            if (drive.kind == Kind::Held) {
+                before = before * hold(*joint, drive);
+                continue;
+            }
+            add(*joint, before, drive);
+            before = Pose{};
         }
-        if (model_.joints.size() == kMostJoints) {
-            refuse(field, "one more moving joint", std::to_string(kMostJoints) + " at most from base to tip");
+        model_.lastTtip = before;
+    }
+
+    Pose hold(const urdf::Joint& joint, const JointDrive& drive) {
+        std::ostringstream line;
+        line << joint.name << " stays at " << drive.value << " (" << drive.why << ")";
+        if (std::find(model_.held.begin(), model_.held.end(), line.str()) == model_.held.end()) {
+            model_.held.push_back(line.str());
         }
+        return drive.value == 0.0 || !hasAxis(joint) ? Pose{} : motionOf(joint, drive.value);
+    }
+
+    dvec3 axisOf(const urdf::Joint& joint) const {
         const dvec3 axis(joint.axis.x, joint.axis.y, joint.axis.z);
-        ArmJoint out{joint.name,
-                     !ticks,
-                     before,
-                     axis,
-                     -std::numeric_limits<double>::infinity(),
-                     std::numeric_limits<double>::infinity(),
-                     kMostSpeed};
-        if (joint.limits) {
-            out.speed =
-                joint.limits->velocity > 0.0 ? std::min(joint.limits->velocity, kMostSpeed) : kMostSpeed;
+        if (!(glm::length(axis) > 1e-9)) {
+            refuse("joint " + joint.name, "axis of no length", "a direction");
         }
-        if (joint.type != urdf::Joint::CONTINUOUS) {
+        return glm::normalize(axis);
+    }
+
+    void checkRoom(const urdf::Joint& joint, const JointDrive& drive) {
+        free_ += drive.kind == Kind::Free ? 1 : 0;
+        const bool all = model_.joints.size() == kMostJoints;
+        if (all || free_ > kMostFreeJoints) {
+            refuse("joint " + joint.name, "one more moving joint",
+                   std::to_string(all ? kMostJoints : kMostFreeJoints) +
+                       " at most from base to tip; arm.locked holds joints, arm.base and arm.tip shorten the "
+                       "chain");
+        }
+    }
+
+    void add(const urdf::Joint& joint, const Pose& before, const JointDrive& drive) {
+        checkRoom(joint, drive);
+        const bool slides = joint.type == urdf::Joint::PRISMATIC;
+        constexpr double kAny = std::numeric_limits<double>::infinity();
+        ArmJoint out{joint.name, slides, before, axisOf(joint), -kAny, kAny, 0.0};
+        setSpeed(joint, out);
+        if (joint.type == urdf::Joint::CONTINUOUS) {
+            out.limitsFrom = "continuous";
+        } else {
             if (!joint.limits || !(joint.limits->lower <= joint.limits->upper)) {
-                refuse(field, "limits missing or crossed", "lower <= upper");
+                refuse("joint " + joint.name, "limits missing or crossed", "lower <= upper");
             }
             out.lower = joint.limits->lower;
             out.upper = joint.limits->upper;
         }
-        if (!(glm::length(axis) > 1e-9)) {
-            refuse(field, "axis of no length", "a direction");
+        if (drive.kind == Kind::Follows) {
+            out.mimic = drive.mimic;
         }
-        out.axis = glm::normalize(axis);
         model_.joints.push_back(out);
         moving_.push_back(joint.name);
     }
 
-    struct Carrier {     // of a link
-        uint32_t joint;  // number of chain joints
-        uint32_t finger; // 0 = none, else one more than its index
-    };
-
-    // Shapes of `link` and of its descendants, in the frame of the chain joint that carries them.
-    void addLinks(const LinkPtr& link, const Pose& frameTlink, const Carrier& carrier) {
-        const auto index = static_cast<uint32_t>(model_.links.size());
-        for (const auto& collision : link->collision_array) {
-            shapes_.push_back({link, collision, frameTlink * poseOf(collision->origin), carrier, index});
+    static void setSpeed(const urdf::Joint& joint, ArmJoint& out) {
+        const double stated = joint.limits ? joint.limits->velocity : 0.0;
+        if (stated > 0.0) {
+            out.speed = std::min(stated, kMostSpeed);
+        } else {
+            out.speed = out.slides ? kUnknownSlide : kUnknownTurn;
+            out.speedFrom = kNoSpeed;
         }
-        if (!link->collision_array.empty()) {
-            model_.links.push_back(link->name);
-        } else if (!link->visual_array.empty() || link->inertial) { // else it is only a frame
+    }
+
+    // Shapes of `link` and of its descendants but those through `skip`, in the frame of the joint that
+    // carries them.
+    void addLinks(const LinkPtr& link, const Pose& frameTlink, const LinkCarrier& carrier,
+                  const urdf::Joint* skip = nullptr) {
+        shapes_.add(*link, frameTlink, carrier);
+        if (link->collision_array.empty() &&
+            (!link->visual_array.empty() || link->inertial)) { // else it is only a frame
             model_.notes.push_back("link " + link->name + " has no collision shape and can enter regions");
         }
         for (const auto& below : link->child_joints) {
+            if (below.get() == skip) {
+                continue;
+            }
             const LinkPtr child = urdf_->getLink(below->child_link_name);
             const auto chained = std::find(moving_.begin(), moving_.end(), below->name);
             const Pose place = frameTlink * poseOf(below->parent_to_joint_origin_transform);
             if (chained != moving_.end()) {
                 addLinks(child, Pose{}, {static_cast<uint32_t>(chained - moving_.begin()) + 1, 0});
-            } else if (carrier.finger == 0 && addFinger(*below, place, carrier.joint)) {
-                addLinks(child, Pose{}, {carrier.joint, static_cast<uint32_t>(model_.fingers.size())});
-            } else {
+            } else if (below->type == urdf::Joint::FIXED) {
                 addLinks(child, place, carrier);
+            } else {
+                addMoving(*below, child, place, carrier);
             }
         }
     }
 
-    // Returns false when the options name no such finger.
-    bool addFinger(const urdf::Joint& joint, const Pose& before, uint32_t carriedBy) {
-        const auto wanted = std::find_if(options_.fingers.begin(), options_.fingers.end(),
-                                         [&](const auto& finger) { return finger.joint == joint.name; });
-        if (wanted == options_.fingers.end()) {
-            return false;
+    void addMoving(const urdf::Joint& joint, const LinkPtr& child, const Pose& place,
+                   const LinkCarrier& carrier) {
+        const JointDrive& drive = drives_.at(joint.name);
+        if (drive.kind == Kind::Held) {
+            addLinks(child, place * hold(joint, drive), carrier);
+            return;
         }
-        const bool slides = joint.type == urdf::Joint::PRISMATIC;
-        const dvec3 axis(joint.axis.x, joint.axis.y, joint.axis.z);
-        if ((!slides && joint.type != urdf::Joint::REVOLUTE) || !joint.limits ||
-            !(glm::length(axis) > 1e-9)) {
-            refuse("joint " + joint.name, "no finger",
-                   "a revolute or prismatic joint with limits and an axis");
-        }
+        addFinger(joint, drive, place, carrier);
+        addLinks(child, Pose{}, {carrier.joint, static_cast<uint32_t>(model_.fingers.size())});
+    }
+
+    void addFinger(const urdf::Joint& joint, const JointDrive& drive, const Pose& before,
+                   const LinkCarrier& carrier) {
         if (model_.fingers.size() == kMostFingers) {
             refuse("joint " + joint.name, "one more finger", std::to_string(kMostFingers) + " at most");
         }
-        model_.fingers.push_back({joint.name, carriedBy, slides, before, glm::normalize(axis),
-                                  wanted->open.value_or(joint.limits->lower),
-                                  wanted->closed.value_or(joint.limits->upper), joint.limits->lower,
-                                  joint.limits->upper});
-        return true;
+        ArmFinger finger{joint.name,  carrier.joint, joint.type == urdf::Joint::PRISMATIC,
+                         before,      axisOf(joint), drive.open,
+                         drive.closed};
+        finger.carrier = carrier.finger;
+        if (joint.limits && joint.type != urdf::Joint::CONTINUOUS) {
+            finger.lower = joint.limits->lower;
+            finger.upper = joint.limits->upper;
+        }
+        if (drive.kind == Kind::Follows) {
+            finger.mimic = drive.mimic;
+        } else if (joint.mimic) { // what it follows decides
+            finger.lower = std::min({finger.lower, drive.open, drive.closed});
+            finger.upper = std::max({finger.upper, drive.open, drive.closed});
+        }
+        model_.fingers.push_back(finger);
     }
 
-    [[noreturn]] void refuseFinger() const {
+    // The rest of the robot, which the base hangs on or which hangs beside it. It stays where it is, seen
+    // from the base.
+    void addAbove(const LinkPtr& base) {
+        Pose baseTlink;
+        for (LinkPtr link = base; link->parent_joint;) {
+            const urdf::Joint& joint = *link->parent_joint;
+            const LinkPtr above = urdf_->getLink(joint.parent_link_name);
+            if (joint.type != urdf::Joint::FIXED && !hasAxis(joint)) {
+                noteUnguarded(*above, joint);
+                return;
+            }
+            Pose linkTchild = poseOf(joint.parent_to_joint_origin_transform);
+            if (joint.type != urdf::Joint::FIXED) {
+                linkTchild = linkTchild * hold(joint, drives_.at(joint.name));
+            }
+            baseTlink = baseTlink * inverse(linkTchild);
+            addLinks(above, baseTlink, {0, 0}, &joint);
+            link = above;
+        }
+    }
+
+    void checkFingers() const {
         for (const auto& wanted : options_.fingers) {
             const auto same = [&](const ArmFinger& finger) { return finger.name == wanted.joint; };
             if (std::none_of(model_.fingers.begin(), model_.fingers.end(), same)) {
-                refuse(
-                    "finger", "'" + wanted.joint + "'",
-                    "a joint outside the chain from base to tip, not carried by another finger, listed once");
+                refuse("finger", "'" + wanted.joint + "'", "a joint that the arm's base carries");
             }
         }
-        refuse("finger", "named twice", "each finger once");
     }
 
-    struct Shape {
-        LinkPtr link;
-        std::shared_ptr<const urdf::Collision> collision;
-        Pose frameTshape;
-        Carrier carrier;
-        uint32_t index; // of the link among those with shapes
-    };
-
-    void coverShapes() {
-        std::vector<LinkGeometry> all;
-        for (const Shape& shape : shapes_) {
-            all.push_back({shape.link->name, shape.collision->geometry});
-        }
-        const auto made = spheresOf(all, {file_, options_.meshes}, options_.leavesPerShape);
-        for (size_t i = 0; i < shapes_.size(); ++i) {
-            addSpheres(shapes_[i], made[i]);
-        }
-        if (!outside_.empty()) {
-            model_.notes.push_back("meshes outside their search folder: " + std::to_string(outside_.size()) +
-                                   ", the first " + *outside_.begin());
-        }
-    }
-
-    void addSpheres(const Shape& shape, const ShapeSpheres& made) {
-        for (const std::string& note : made.notes) {
-            model_.notes.push_back("link " + shape.link->name + ": " + note);
-        }
-        if (!made.outside.empty()) {
-            outside_.insert(made.outside.lexically_normal().string());
-        }
-        for (const Sphere& s : made.spheres) {
-            model_.leaves.push_back({{shape.frameTshape.apply(s.centre), s.radius},
-                                     shape.carrier.joint,
-                                     shape.index,
-                                     shape.carrier.finger});
+    void noteUnguarded(const urdf::Link& above, const urdf::Joint& joint) {
+        if (!above.collision_array.empty() || above.child_joints.size() > 1 || above.parent_joint) {
+            model_.notes.push_back("link " + above.name + " and what hangs on it beside joint " + joint.name +
+                                   ", which is planar or floating, is not guarded");
         }
     }
 
@@ -238,9 +251,10 @@ private:
     ArmOptions options_;
     std::shared_ptr<const urdf::ModelInterface> urdf_;
     ArmModel model_;
-    std::vector<std::string> moving_;
-    std::vector<Shape> shapes_;
-    std::set<std::string> outside_; // files
+    std::map<std::string, JointDrive> drives_;
+    std::vector<std::string> moving_; // of the chain
+    size_t free_ = 0;                 // of these
+    ArmShapes shapes_;
 };
 
 } // namespace

@@ -52,7 +52,7 @@ TriangleMesh readTriangles(const std::filesystem::path& file) {
     }
     if (mesh.triangles.empty() || mesh.triangles.size() > kMostTriangles) {
         throw BadInput(file.string(), "triangles", std::to_string(mesh.triangles.size()),
-                       "1 to " + std::to_string(kMostTriangles));
+                       "1 to " + std::to_string(kMostTriangles) + "; a mesh program can simplify it");
     }
     return mesh;
 }
@@ -97,9 +97,9 @@ LoadedMesh loadMesh(const std::filesystem::path& file, const MeshOptions& option
     }
     // Equal points of a text file can differ in the last digit, so the tolerance is a millionth of the size.
     loaded.facts = tidy(mesh, 1e-7 * glm::distance(mesh.low(), mesh.high()));
-    findStray(mesh, loaded.facts, options.dropStray);
+    findStray(mesh, loaded.facts, options.dropStray && !options.keepStray);
     const MeshFacts& facts = loaded.facts;
-    if (facts.strayParts > 0 && !options.dropStray) {
+    if (facts.strayParts > 0 && !options.dropStray && !options.keepStray) {
         throw BadInput(file.string(), "stray geometry", strayText(facts),
                        "one group of pieces; --drop-stray leaves them out");
     }

@@ -15,6 +15,7 @@ struct MeshOptions {
     dvec3 stretch{1.0};          // additional factor per file axis, finite and not 0; a negative one mirrors
     char up = 0;                 // 'x', 'y', 'z': the file's axis that becomes +z; 0 = no rotation
     bool dropStray = false;      // drop distant pieces instead of rejecting the file
+    bool keepStray = false;      // keep them, whatever their distance
 };
 
 // A mesh in metres, and facts about its file.

@@ -10,6 +10,10 @@ namespace fathom {
 
 namespace {
 
+// A piece at least this large relative to the largest is another part of the same kind, such as a second
+// finger or a wheel, if it is at most so many of its diagonals or metres away.
+constexpr double kLikeSize = 0.25, kLikeDiagonals = 10.0, kLikeDistance = 0.5;
+
 using Triangle = std::array<uint32_t, 3>;
 using Edge = std::pair<uint32_t, uint32_t>; // lower index first
 
@@ -250,8 +254,10 @@ void findStray(TriangleMesh& mesh, MeshFacts& facts, bool drop) {
     for (bool grown = true; grown;) {
         grown = false;
         for (Part& part : parts) {
-            if (!part.main && between(part.low, part.high, low, high) <= apart &&
-                glm::distance(part.low, part.high) <= 3.0 * apart) {
+            const double size = glm::distance(part.low, part.high);
+            const double most =
+                size >= kLikeSize * apart ? std::max(kLikeDiagonals * apart, kLikeDistance) : apart;
+            if (!part.main && between(part.low, part.high, low, high) <= most && size <= 3.0 * apart) {
                 part.main = grown = true;
                 --facts.strayParts;
                 low = glm::min(low, part.low);

@@ -42,9 +42,10 @@ struct MeshFacts {
 // neighbours agree and closed parts have positive volume. weld <= 0 merges only equal points.
 MeshFacts tidy(TriangleMesh& mesh, double weld);
 
-// Finds stray pieces, which drawing programs leave behind: starting from the largest piece by area, a piece
-// is stray when its distance to all gathered pieces exceeds the diagonal of the largest piece's box. Fills
-// strayParts and strayFarthest; removes the pieces when `drop` is set.
+// Finds stray pieces, which drawing programs leave behind. Starting from the largest piece by area, a piece
+// is stray when its distance to all gathered pieces exceeds the diagonal D of the largest piece's box and it
+// is no like part: a quarter to three times as large, at most 10 D or 0.5 m away. Fills strayParts and
+// strayFarthest; removes the pieces when `drop` is set.
 void findStray(TriangleMesh& mesh, MeshFacts& facts, bool drop);
 
 } // namespace fathom

@@ -2,13 +2,18 @@
 #include "engine/model/urdf_file.h"
 
 #include "engine/model/reader_process.h"
+#include "engine/model/xml_text.h"
 #include "engine/types/error.h"
 #include "engine/types/read_file.h"
 
 #include <algorithm>
+#include <cmath>
 #include <console_bridge/console.h>
 #include <iterator>
+#include <locale>
 #include <set>
+#include <sstream>
+#include <string_view>
 #include <urdf_model/pose.h>
 #include <urdf_parser/urdf_parser.h>
 
@@ -17,7 +22,8 @@ namespace fathom {
 namespace {
 
 constexpr size_t kLargestUrdf = 16u << 20;
-constexpr size_t kMostLinks = 1000; // traversals from the root are recursive
+constexpr const char* kCapsuleFile = "capsule: "; // radius and length follow
+constexpr size_t kMostLinks = 1000;               // traversals from the root are recursive
 
 // Captures the parser's message for use in Fathom's own error line.
 class Listener : public console_bridge::OutputHandler {
@@ -103,12 +109,53 @@ void tryOut(const std::filesystem::path& file, const std::string& text) {
     }
 }
 
+// <capsule radius length/> becomes a mesh whose file name holds the sizes, which the parser passes on.
+std::string hideCapsules(const std::string& text) {
+    std::string out;
+    for (XmlPieces pieces(text); pieces.next();) {
+        const XmlPiece& piece = pieces.piece();
+        if (piece.name != "capsule") {
+            out += piece.text;
+        } else if (piece.closes) {
+            out += "</mesh>";
+        } else {
+            out += "<mesh filename=\"" + std::string(kCapsuleFile) +
+                   xmlEscaped(xmlAttribute(piece.text, "radius") + " " + xmlAttribute(piece.text, "length")) +
+                   (piece.isEmpty ? "\"/>" : "\">");
+        }
+    }
+    return out;
+}
+
+void refuseXacro(const std::filesystem::path& file, const std::string& text) {
+    if (text.find("<xacro:") != std::string::npos) {
+        throw BadInput(file.string(), "robot", "a xacro file",
+                       "a URDF; expand it with: xacro " + file.filename().string() + " > " +
+                           file.stem().stem().string() + ".urdf");
+    }
+}
+
 } // namespace
 
+std::optional<CapsuleSize> capsuleOf(const urdf::Geometry& shape) {
+    const auto* mesh = dynamic_cast<const urdf::Mesh*>(&shape);
+    if (mesh == nullptr || mesh->filename.rfind(kCapsuleFile, 0) != 0) {
+        return std::nullopt;
+    }
+    std::istringstream sizes(mesh->filename.substr(std::string_view(kCapsuleFile).size()));
+    sizes.imbue(std::locale::classic());
+    CapsuleSize size{NAN, NAN};
+    return sizes >> size.radius >> size.length ? size : CapsuleSize{NAN, NAN};
+}
+
 std::shared_ptr<const urdf::ModelInterface> readUrdf(const std::filesystem::path& file) {
-    const std::string text = readWholeFile(file, kLargestUrdf, "a readable URDF file");
+    std::string text = readWholeFile(file, kLargestUrdf, "a readable URDF file");
     if (text.empty()) {
         throw BadInput(file.string(), "file", "empty", "a readable URDF file");
+    }
+    refuseXacro(file, text);
+    if (text.find("<capsule") != std::string::npos) {
+        text = hideCapsules(text);
     }
     tryOut(file, text);
     return parse(file, text);

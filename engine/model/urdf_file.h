@@ -6,12 +6,21 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <urdf_model/model.h>
 
 namespace fathom {
 
-// Never null. Throws BadInput with the parser's message.
+// Never null. Capsules, which the parser does not know, are readable with capsuleOf(). Throws BadInput with
+// the parser's message, and for xacro files, which must be expanded first.
 std::shared_ptr<const urdf::ModelInterface> readUrdf(const std::filesystem::path& file);
+
+// A cylinder of `length` along z with a half sphere at each end [m].
+struct CapsuleSize {
+    double radius, length;
+};
+// Empty when the shape is no capsule.
+std::optional<CapsuleSize> capsuleOf(const urdf::Geometry& shape);
 
 // Converts a pose [m]; the quaternion is normalised.
 Pose poseOf(const urdf::Pose& pose);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/run/open_scene.h"
 
+#include "engine/cycle/arm_text.h"
 #include "engine/haptics/device_preset.h"
 #include "engine/model/sphere_sets.h"
 #include "engine/types/error.h"
@@ -60,6 +61,13 @@ Tool writtenTool(const Scene& scene) {
 std::unique_ptr<ArmRig> openArm(const Scene& scene) {
     const bool tool = scene.arm && scene.tool.given();
     auto arm = tool ? makeArmRig(scene, writtenTool(scene).leaves()) : makeArmRig(scene, {});
+    for (const std::string& line : arm ? describeArm(*arm) : std::vector<std::string>{}) {
+        log::info("arm: {}", line);
+    }
+    if (arm && scene.arm->tip.empty()) {
+        log::warn("{}: tip {}; base {}; arm.tip and arm.base name others", scene.arm->urdf.string(),
+                  arm->model.tipText, arm->model.baseText);
+    }
     for (const std::string& note : arm ? arm->model.notes : std::vector<std::string>{}) {
         log::warn("{}: {}", scene.arm->urdf.string(), note);
     }

@@ -74,8 +74,8 @@ std::filesystem::path existing(const YamlNode& node, Scene& scene, bool folder) 
 } // namespace
 
 void loadArmSection(const YamlNode& node, Scene& scene) {
-    node.checkKeys({"urdf", "meshes", "base_T_arm", "base", "tip", "leaves", "joints", "direction",
-                    "self_filter", "grasp", "driver"});
+    node.checkKeys({"urdf", "meshes", "base_T_arm", "base", "tip", "leaves", "joints", "locked", "keep_stray",
+                    "direction", "self_filter", "grasp", "driver"});
     SceneArm arm;
     arm.urdf = existing(node.at("urdf"), scene, false);
     if (const auto meshes = node.find("meshes")) {
@@ -95,6 +95,14 @@ void loadArmSection(const YamlNode& node, Scene& scene) {
     }
     if (const auto joints = node.find("joints")) {
         loadJoints(*joints, arm);
+    }
+    if (const auto locked = node.find("locked")) {
+        for (const auto& [name, value] : locked->entries()) {
+            arm.locked[name] = value.number(Range::any());
+        }
+    }
+    if (const auto stray = node.find("keep_stray")) {
+        arm.keepStray = stray->boolean();
     }
     if (const auto direction = node.find("direction")) {
         arm.freeDirection = direction->choice<bool>({{"follow", false}, {"free", true}});

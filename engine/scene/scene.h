@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -75,11 +76,13 @@ struct HandLoop {             // the simulated hand that closes the loop (--hand
 
 // Section `arm:` as written; joint and link names are resolved when the URDF is read.
 struct SceneArm {
-    std::filesystem::path urdf, meshes; // meshes: root of package:// paths; empty = near the URDF
-    Pose baseTarm;                      // of the arm's base link
-    std::string base, tip;              // links; empty = the root and the end of the longest chain
-    uint32_t leaves = 24;               // of each box, cylinder or mesh of the URDF
-    struct Joint {                      // overrides of the URDF
+    std::filesystem::path urdf, meshes;   // meshes: root of package:// paths; empty = near the URDF
+    Pose baseTarm;                        // of the arm's base link
+    std::string base, tip;                // links; empty = chosen by the tree
+    std::map<std::string, double> locked; // joints that stay at this value [rad], [m]
+    bool keepStray = false;               // keep pieces of meshes that lie far from the rest
+    uint32_t leaves = 24;                 // of each box, cylinder or mesh of the URDF
+    struct Joint {                        // overrides of the URDF
         std::string name;
         std::optional<double> lower, upper; // [rad], [m]
         std::optional<double> speed;        // [rad/s], [m/s]

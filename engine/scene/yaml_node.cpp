@@ -125,6 +125,23 @@ YamlNode YamlNode::at(std::string_view key) const {
     return *std::move(child);
 }
 
+std::vector<std::pair<std::string, YamlNode>> YamlNode::entries() const {
+    if (!node_.IsMap()) {
+        refuse("a mapping {NAME: value}");
+    }
+    std::vector<std::pair<std::string, YamlNode>> all;
+    std::set<std::string> seen;
+    for (const auto& entry : node_) {
+        const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "";
+        if (key.empty() || !seen.insert(key).second) {
+            throw BadInput(file_, childPath(excerpt(key)), key.empty() ? "no name" : "given twice",
+                           "each name once");
+        }
+        all.emplace_back(key, YamlNode(entry.second, file_, childPath(key)));
+    }
+    return all;
+}
+
 std::vector<YamlNode> YamlNode::list() const {
     if (!node_.IsSequence()) {
         refuse("a list");

@@ -47,6 +47,8 @@ public:
     void checkKeys(std::initializer_list<std::string_view> known) const;
     std::optional<YamlNode> find(std::string_view key) const;
     YamlNode at(std::string_view key) const; // throws when the key is missing
+    // Names and values of a mapping whose names the user chooses. Rejects a name given twice.
+    std::vector<std::pair<std::string, YamlNode>> entries() const;
 
     // Lists of any length or of exactly n.
     std::vector<YamlNode> list() const;

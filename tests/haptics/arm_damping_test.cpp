@@ -54,7 +54,7 @@ ArmNormal withSingulars(size_t joints, const std::vector<double>& values, std::m
                 column[row] += values[i] * right[i][k] * left[i][row];
             }
         }
-        normal.setColumn(k, dvec3(column[0], column[1], column[2]), dvec3(column[3], column[4], column[5]));
+        normal.addColumn(k, dvec3(column[0], column[1], column[2]), dvec3(column[3], column[4], column[5]));
     }
     return normal;
 }
@@ -88,7 +88,7 @@ TEST_CASE("The smallest singular value is 0 for zero columns and for an arm whos
     ArmNormal still(3);
     CHECK(still.smallestSingular() == 0.0);
     ArmNormal locked(1);
-    locked.setColumn(0, dvec3(1.0, 0.0, 0.0), dvec3(0.0));
+    locked.addColumn(0, dvec3(1.0, 0.0, 0.0), dvec3(0.0));
     locked.leaveOut(0);
     CHECK(locked.smallestSingular() == 0.0);
 }

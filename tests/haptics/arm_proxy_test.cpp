@@ -210,9 +210,9 @@ TEST_CASE("A target that is not finite holds the arm, and a start outside the li
 
 TEST_CASE("The smallest singular value and the damping match the textbook formulas") {
     ArmNormal normal(3);
-    normal.setColumn(0, {3, 0, 0}, dvec3(0.0));
-    normal.setColumn(1, {0, 0.5, 0}, dvec3(0.0));
-    normal.setColumn(2, {0, 0, 0}, {0, 2, 0});
+    normal.addColumn(0, {3, 0, 0}, dvec3(0.0));
+    normal.addColumn(1, {0, 0.5, 0}, dvec3(0.0));
+    normal.addColumn(2, {0, 0, 0}, {0, 2, 0});
     CHECK(normal.smallestSingular() == doctest::Approx(0.5).epsilon(1e-12));
     normal.damp(0.0);
     JointVector x{};

@@ -65,7 +65,8 @@ TEST_CASE("Meshes are read before other threads start, because a child would inh
 }
 
 TEST_CASE(
-    "Shapes keep their order, and the first of several rejections is reported, of a file or of a size") {
+    "Shapes keep their order, and the first of several rejections is reported, of a file or of a size; a "
+    "shape of size 0 is skipped") {
     const testing::ObjFile one(testing::boxMesh(dvec3(0.0), dvec3(0.1)));
     const auto made = spheresOf(
         std::vector{ballLink("a", 0.1), meshLink("b", one.path()), ballLink("c", 0.3)}, {"arm.urdf", {}}, 8);
@@ -75,7 +76,12 @@ TEST_CASE(
     CHECK(made[2].spheres[0].radius == 0.3);
     CHECK(spheresOf({}, {"arm.urdf", {}}, 8).empty());
 
-    const LinkGeometry noFile = meshLink("none", "/nowhere/none.obj"), noSize = ballLink("flat", 0.0);
+    const LinkGeometry noFile = meshLink("none", "/nowhere/none.obj"), noSize = ballLink("flat", -0.1);
     CHECK(refusalOf({ballLink("a", 0.1), noSize, noFile}).find("arm.urdf: link flat: ") == 0);
-    CHECK(refusalOf({ballLink("a", 0.1), noFile, noSize}).find("/nowhere/none.obj: ") == 0);
+    CHECK(refusalOf({ballLink("a", 0.1), noFile, noSize})
+              .find("arm.urdf: link none: mesh '/nowhere/none.obj'") == 0);
+    const auto skipped = spheresOf(std::vector{ballLink("flat", 0.0)}, {"arm.urdf", {}}, 8);
+    REQUIRE(skipped.size() == 1);
+    CHECK(skipped[0].spheres.empty());
+    CHECK(skipped[0].notes == std::vector<std::string>{"a shape of size 0 is skipped"});
 }

@@ -125,17 +125,21 @@ TEST_CASE("An unusable arm is rejected with the joint or link and the reason") {
                     jointOf("k", "fixed", "c", "c") + "</robot>")
               .find("link c: in a loop of joints (allowed: a tree of links below one root)") !=
           std::string::npos);
-    std::string nine = "<robot name='r'><link name='l0'>" + kBall + "</link>";
+    std::string many = "<robot name='r'><link name='l0'>" + kBall + "</link>";
     for (int k = 0; k < 9; ++k) {
         const std::string number = std::to_string(k);
         std::string a("l"), b("l"), name("j");
         a += number;
         b += std::to_string(k + 1);
         name += number;
-        nine += "<link name='" + b + "'/>" + jointOf(name, "revolute", a, b);
+        many += "<link name='" + b + "'/>" + jointOf(name, "revolute", a, b);
     }
-    CHECK(refusalOf(nine + "</robot>").find("joint j7: one more moving joint (allowed: 7 at most") !=
-          std::string::npos);
+    CHECK(refusalOf(many + "</robot>")
+              .find("joint j8: one more moving joint (allowed: 8 at most from base to "
+                    "tip; arm.locked holds joints") != std::string::npos);
+    options = {};
+    options.locked = {{"j3", 0.5}};
+    CHECK(load(many + "</robot>", options).count() == 8);
     CHECK(refusalOf("<robot name='r'><link name='a'/></robot>").find("collision: no shapes") !=
           std::string::npos);
 }

@@ -111,6 +111,19 @@ TEST_CASE("Stray geometry is rejected with its distance, or dropped on request")
     CHECK(loaded.mesh.high().x == doctest::Approx(0.175));
 }
 
+TEST_CASE("Several like parts in one mesh are kept, and a small one as far away is stray") {
+    TriangleMesh jaws = boxMesh(dvec3(0.0), dvec3(0.02));
+    addBox(jaws, {0.15, 0.0, 0.0}, dvec3(0.02));
+    addBox(jaws, {0.45, 0.0, 0.0}, dvec3(0.01));
+    CHECK(loadMesh(ObjFile(jaws).path()).facts.strayParts == 0);
+    addBox(jaws, {-0.1, 0.0, 0.0}, dvec3(0.002));
+    const ObjFile file(jaws);
+    CHECK(refusalOfMesh(file.path()).find("stray geometry: 1 pieces") != std::string::npos);
+    MeshOptions keep;
+    keep.keepStray = true;
+    CHECK(loadMesh(file.path(), keep).mesh.triangles.size() == 48);
+}
+
 TEST_CASE("An unstated unit is rejected by the size and set by --scale; --up rotates an axis to +z") {
     const ObjFile millimetres(boxMesh(dvec3(0.0), {0.3, 0.2, 0.1}), 0.001);
     CHECK(refusalOfMesh(millimetres.path()).find("size: 300 m (allowed: 0.001 to 10 m") != std::string::npos);

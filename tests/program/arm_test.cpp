@@ -28,7 +28,7 @@ std::vector<ArmRow> readArm(const std::filesystem::path& file, size_t joints) {
     std::getline(in, line);
     CHECK(line ==
           "t_s,slew,shoulder,elbow,wrist_roll,grasp,residual_m,manipulability,at_limits,limit_violation,"
-          "singular,grasp_held");
+          "singular,grasp_held,flipped");
     std::vector<ArmRow> rows;
     while (std::getline(in, line)) {
         std::vector<double> cells;
@@ -36,7 +36,7 @@ std::vector<ArmRow> readArm(const std::filesystem::path& file, size_t joints) {
         for (std::string cell; std::getline(text, cell, ',');) {
             cells.push_back(std::strtod(cell.c_str(), nullptr));
         }
-        REQUIRE(cells.size() == joints + 8);
+        REQUIRE(cells.size() == joints + 9);
         ArmRow row{cells[0], cells[joints + 1], cells[joints + 2], cells[joints + 5], {}, 0, 0};
         row.joints.assign(cells.begin() + 1, cells.begin() + 1 + static_cast<std::ptrdiff_t>(joints));
         row.limits = static_cast<int>(cells[joints + 4]);
@@ -219,8 +219,15 @@ TEST_CASE("plan, and replay in one line, report a link with a visual but no coll
     CHECK(plan.out.find("        " + note + "\n") != std::string::npos);
     const ProgramRun run = runFathom(stage.command());
     CHECK(run.exitCode == 0);
-    REQUIRE(run.errorLines().size() == 1);
+    REQUIRE(run.errorLines().size() == 2);
+    CHECK(
+        run.err.find("arm41.urdf: tip fore (the end of the longest chain); base base (the root); arm.tip and "
+                     "arm.base name others") != std::string::npos);
     CHECK(run.err.find("arm41.urdf: " + note) != std::string::npos);
+    CHECK(plan.out.find(
+              "        joint elbow: revolute, -2.4 to -0.05 rad (URDF), 1 rad/s (URDF), starts at -0.05\n") !=
+          std::string::npos);
+    CHECK(plan.out.find("        joint pinch stays at 0 (not between base and tip)\n") != std::string::npos);
 }
 
 TEST_CASE(
@@ -229,6 +236,11 @@ TEST_CASE(
     refused("", {"arm.urdf"});
     refused("urdf: nowhere.urdf", {"arm.urdf", "nowhere.urdf", "an existing URDF file"});
     refused(urdf + "tipp: x", {"tipp", "did you mean 'tip'"});
+    refused(urdf + "locked: {elbow: 1}", {"locked elbow", "-2.4 to -0.05"});
+    refused(urdf + "locked: {elbo: 1}", {"locked", "'elbo'"});
+    refused(urdf + "locked: {elbow: x}", {"arm.locked.elbow", "a number"});
+    refused(urdf + "locked: [elbow]", {"arm.locked", "a mapping"});
+    refused(urdf + "keep_stray: 1", {"arm.keep_stray", "true or false"});
     refused(urdf + "tip: nothing", {"'nothing'", "fore"});
     refused(urdf + "joints: [{name: elbo}]", {"arm.joints[0].name", "'elbo'", "slew, shoulder, elbow"});
     refused(urdf + "joints: [{name: elbow, start: 1}]", {"arm.joints[0].start", "-2.4 to -0.05"});

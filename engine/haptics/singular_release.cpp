@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/haptics/singular_release.h"
+
+#include "engine/haptics/jacobi.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fathom {
+
+namespace {
+
+constexpr double kNudge = 1e-3;       // [rad], [m] length of a step
+constexpr double kLeastPull = 1e-5;   // [m] errors below are left alone
+constexpr double kStuck = 0.01;       // of the error's square: a solve that removes less is stuck
+constexpr double kLeastRadius = 0.01; // [m] radius of curvature of the tip's path that is worth a step
+
+} // namespace
+
+SingularRelease::SingularRelease(const ArmModel& arm, const ReleaseWeights& weights) noexcept
+    : arm_(arm)
+    , weights_(weights) {
+    for (size_t k = 0; k < arm.count(); ++k) {
+        gain_[k] = 1.0;
+        column_[k] = arm.joints[k].mimic ? 0 : unknowns_++;
+    }
+    for (size_t k = 0; k < arm.count(); ++k) {
+        if (const auto& mimic = arm.joints[k].mimic) {
+            column_[k] = column_[mimic->joint];
+            gain_[k] = mimic->multiplier;
+        }
+    }
+}
+
+void SingularRelease::reset(const JointVector& q) noexcept {
+    known_ = released_ = false;
+    pause_ = tries_ = 0;
+    regular_ = at_ = q;
+}
+
+bool SingularRelease::begin(bool singular, const JointVector& q) noexcept {
+    pause_ = std::max(0, pause_ - 1);
+    if (singular) {
+        return false;
+    }
+    double before = 0.0, after = 0.0;
+    for (size_t k = 0; k < arm_.count(); ++k) {
+        if (!arm_.joints[k].mimic) {
+            before += way_[column_[k]] * (regular_[k] - at_[k]);
+            after += way_[column_[k]] * (q[k] - at_[k]);
+        }
+    }
+    const bool flipped = released_ && known_ && before * after < 0.0;
+    regular_ = q;
+    known_ = true;
+    released_ = false;
+    tries_ = 0;
+    return flipped;
+}
+
+// Second derivative of the tip's pose by joints i <= j, along the error.
+double SingularRelease::curvature(const Pull& pull, size_t i, size_t j) const noexcept {
+    if (arm_.joints[i].slides) {
+        return 0.0;
+    }
+    const dvec3 first = arm_.axisOf(pull.frames, i), second = arm_.axisOf(pull.frames, j);
+    const dvec3 bend = glm::cross(first, arm_.motionOf(pull.frames, j, arm_.tip(pull.frames).position));
+    const double turn = arm_.joints[j].slides ? 0.0 : glm::dot(pull.left.alpha, glm::cross(first, second));
+    return glm::dot(pull.left.a, bend) + 0.5 * pull.metricRadius * pull.metricRadius * turn;
+}
+
+bool SingularRelease::fits(const JointVector& step, const JointVector& q) const noexcept {
+    for (size_t k = 0; k < arm_.count(); ++k) {
+        const double to = q[k] + gain_[k] * step[column_[k]];
+        if (!arm_.joints[k].mimic && (to < arm_.joints[k].lower || to > arm_.joints[k].upper)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// Of the two directions along the same line.
+double SingularRelease::signOf(const JointVector& direction, const JointVector& q) noexcept {
+    double score = 0.0, last = 0.0;
+    for (size_t k = 0; k < arm_.count(); ++k) {
+        const ArmJoint& joint = arm_.joints[k];
+        if (joint.mimic) {
+            continue;
+        }
+        const double along = direction[column_[k]], range = joint.upper - joint.lower;
+        score += known_ ? weights_.continuity * along * (regular_[k] - q[k]) : 0.0;
+        if (std::isfinite(range) && range > 0.0) {
+            score += weights_.centring * along * (0.5 * (joint.lower + joint.upper) - q[k]) / range;
+        }
+        last = std::abs(along) > 0.1 ? along : last; // nothing decides: the joint nearest to the tip turns up
+    }
+    const double sign = (std::abs(score) > 1e-9 ? score : last) < 0.0 ? -1.0 : 1.0;
+    return tries_ / kPatience % 2 == 1 ? -sign : sign; // blocked on one side: the other one
+}
+
+bool SingularRelease::nudge(const ArmNormal& normal, const Pull& pull, JointVector& wanted) noexcept {
+    const double left = lengthOf(pull.left, pull.metricRadius);
+    JointVector gradient{};
+    normal.gradient(pull.left.a, pull.metricRadius * pull.left.alpha, gradient);
+    double gain = 0.0;
+    for (size_t u = 0; u < unknowns_; ++u) {
+        gain += gradient[u] * wanted[u];
+    }
+    if (pause_ > 0 || left < kLeastPull || gain > kStuck * left * left) {
+        return false;
+    }
+    SquareMatrix<kMostJoints> hessian = normal.gram(), vectors{};
+    for (size_t j = 0; j < arm_.count(); ++j) {
+        for (size_t i = 0; i <= j; ++i) {
+            const double bend = gain_[i] * gain_[j] * curvature(pull, i, j);
+            hessian[column_[i]][column_[j]] -= bend;
+            if (i != j) {
+                hessian[column_[j]][column_[i]] -= bend;
+            }
+        }
+    }
+    for (size_t u = 0; u < unknowns_; ++u) {
+        vectors[u][u] = 1.0;
+    }
+    diagonalise(hessian, unknowns_, &vectors);
+    size_t least = 0;
+    for (size_t u = 1; u < unknowns_; ++u) {
+        least = hessian[u][u] < hessian[least][least] ? u : least;
+    }
+    JointVector step{};
+    double slope = 0.0;
+    for (size_t u = 0; u < unknowns_; ++u) {
+        step[u] = vectors[u][least];
+        slope += step[u] * gradient[u];
+    }
+    const double down = -hessian[least][least];
+    if (down < kLeastRadius * left || std::abs(slope) > down * kNudge) {
+        return false; // a minimum, or already on the way down
+    }
+    double length = kNudge * signOf(step, pull.q);
+    for (const double sign : {1.0, -1.0}) {
+        JointVector tried{};
+        for (size_t u = 0; u < unknowns_; ++u) {
+            tried[u] = sign * length * step[u];
+        }
+        if (fits(tried, pull.q)) {
+            for (size_t u = 0; u < unknowns_; ++u) {
+                wanted[u] += tried[u];
+            }
+            released_ = true;
+            at_ = pull.q;
+            way_ = step;
+            ++tries_;
+            return true;
+        }
+    }
+    return false;
+}
+
+} // namespace fathom

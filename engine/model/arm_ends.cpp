@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/model/arm_ends.h"
+
+#include "engine/types/error.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <map>
+#include <string_view>
+
+namespace fathom {
+
+namespace {
+
+using LinkPtr = std::shared_ptr<const urdf::Link>;
+
+// Usual names of tool frames, the best first: ROS-Industrial's tool0 and flange, then frames of hands.
+constexpr std::array<std::string_view, 22> kToolNames{
+    "tool0",       "tcp",  "tool_frame",   "tool_tip",  "tool_link", "ee_link",           "end_effector_link",
+    "ee",          "eef",  "end_effector", "link_eef",  "link_ee",   "grasping_frame",    "grasp_frame",
+    "flange",      "tool", "hand",         "hand_link", "palm_link", "gripper_base_link", "gripper_base",
+    "gripper_link"};
+
+constexpr std::array<std::string_view, 7> kGripperWords{"finger", "gripper", "jaw",   "knuckle",
+                                                        "claw",   "thumb",   "pincer"};
+
+constexpr size_t kMostNamed = 6; // names in a note
+constexpr int kFingerDepth = 4;  // joints of a finger
+
+bool moves(const urdf::Joint& joint) {
+    return joint.type != urdf::Joint::FIXED;
+}
+
+std::string lowered(std::string name) {
+    name = name.substr(name.rfind('/') + 1);
+    std::transform(name.begin(), name.end(), name.begin(),
+                   [](unsigned char c) { return c == '-' ? '_' : static_cast<char>(std::tolower(c)); });
+    return name;
+}
+
+// Rank of a tool frame's name, with or without a prefix such as "left_"; kToolNames.size() = none.
+size_t toolRank(const std::string& link) {
+    const std::string name = lowered(link);
+    size_t best = kToolNames.size();
+    for (size_t i = 0; i < kToolNames.size(); ++i) {
+        const std::string ending = "_" + std::string(kToolNames[i]);
+        if (name == kToolNames[i] || (name.size() > ending.size() && name.ends_with(ending))) {
+            best = std::min(best, i);
+        }
+    }
+    return best;
+}
+
+bool hasGripperWord(const std::string& name, bool ofLink) {
+    const std::string low = lowered(name);
+    return std::any_of(kGripperWords.begin(), kGripperWords.end(), [&](std::string_view word) {
+        return !(ofLink && word == "gripper") && low.find(word) != std::string::npos; // often a wrist's link
+    });
+}
+
+bool isBareFrame(const urdf::Link& link) {
+    return link.collision_array.empty() && link.visual_array.empty() && !link.inertial;
+}
+
+class EndChooser {
+public:
+    EndChooser(const urdf::ModelInterface& model, const std::filesystem::path& file)
+        : model_(model)
+        , file_(file) {
+        depthBelow(*model.getRoot());
+        for (const auto& [name, joint] : model.joints_) {
+            if (joint->mimic && moves(*joint)) {
+                tied_[name] = tied_[joint->mimic->joint_name] = true;
+            }
+        }
+    }
+
+    LinkPtr named(const std::string& name) const {
+        LinkPtr link = model_.getLink(name);
+        if (!link) {
+            std::string names;
+            for (const auto& [other, ignored] : model_.links_) {
+                names += (names.empty() ? "" : ", ") + other;
+            }
+            throw BadInput(file_.string(), "link", "'" + excerpt(name) + "'", excerpt(names, 1000));
+        }
+        return link;
+    }
+
+    void chooseTip(ArmEnds& ends) {
+        walk(ends.base, 0, false);
+        const bool any = std::any_of(seen_.begin(), seen_.end(),
+                                     [](const Seen& s) { return s.moving > 0 && !s.inGripper; });
+        const auto usable = [&](const Seen& s) { return !any || !s.inGripper; };
+        int most = 0;
+        for (const Seen& s : seen_) {
+            most = usable(s) ? std::max(most, s.moving) : most;
+        }
+        const Seen* best = nullptr;
+        for (const Seen& s : seen_) { // a named frame, on half of the longest chain at least
+            const bool fits = usable(s) && s.moving > 0 && 2 * s.moving > most && s.rank < kToolNames.size();
+            if (fits && (best == nullptr || s.moving > best->moving ||
+                         (s.moving == best->moving && s.rank < best->rank))) {
+                best = &s;
+            }
+        }
+        ends.tipWhy = "a tool frame by its name";
+        if (best == nullptr) {
+            best = &*std::find_if(seen_.begin(), seen_.end(),
+                                  [&](const Seen& s) { return usable(s) && s.moving == most; });
+            ends.tipWhy = best->gripperBelow ? "the end of the longest chain before a gripper"
+                                             : "the end of the longest chain";
+        }
+        noteOthers(ends, *best, any);
+        ends.tip = best->rank < kToolNames.size() ? best->link : bareEnd(best->link, ends);
+    }
+
+private:
+    struct Seen { // a link below the base
+        LinkPtr link;
+        int moving;             // joints between the base and it
+        bool inGripper = false; // carried by a gripper joint
+        bool gripperBelow = false;
+        size_t rank;
+        const urdf::Joint* last = nullptr; // last moving joint above it
+    };
+
+    int depthBelow(const urdf::Link& link) {
+        int most = 0;
+        for (const auto& joint : link.child_joints) {
+            most = std::max(most, depthBelow(*model_.getLink(joint->child_link_name)) + moves(*joint));
+        }
+        return depths_[link.name] = most;
+    }
+
+    int depthThrough(const urdf::Joint& joint) const {
+        return depths_.at(joint.child_link_name) + moves(joint);
+    }
+
+    // Alike branches of moving joints at a link that ends a chain: fingers.
+    bool branchesIntoFingers(const urdf::Link& link, int moving) const {
+        int branches = 0, deepest = 0, shallowest = kFingerDepth;
+        for (const auto& joint : link.child_joints) {
+            if (const int depth = depthThrough(*joint); depth > 0) {
+                ++branches;
+                deepest = std::max(deepest, depth);
+                shallowest = std::min(shallowest, depth);
+            }
+        }
+        return branches > 1 && deepest <= kFingerDepth && deepest - shallowest <= 1 && moving >= 2 &&
+               moving >= deepest;
+    }
+
+    bool isGripper(const urdf::Joint& joint, int moving) const {
+        if (!moves(joint)) {
+            return false;
+        }
+        const bool tiedEnd =
+            moving >= 2 && tied_.count(joint.name) > 0 && depthThrough(joint) <= 2 && !tiedToChain(joint);
+        return hasGripperWord(joint.name, false) || hasGripperWord(joint.child_link_name, true) || tiedEnd;
+    }
+
+    // Whether the joint mimics one above it, as in a chain with coupled joints.
+    bool tiedToChain(const urdf::Joint& joint) const {
+        if (!joint.mimic) { // followed: by a joint below it, or by one beside it as in a gripper
+            return std::any_of(model_.joints_.begin(), model_.joints_.end(), [&](const auto& entry) {
+                return entry.second->mimic && entry.second->mimic->joint_name == joint.name &&
+                       isAbove(joint, *entry.second);
+            });
+        }
+        const auto followed = model_.joints_.find(joint.mimic->joint_name);
+        return followed != model_.joints_.end() && isAbove(*followed->second, joint);
+    }
+
+    bool isAbove(const urdf::Joint& upper, const urdf::Joint& lower) const {
+        for (LinkPtr link = model_.getLink(lower.parent_link_name); link; link = link->getParent()) {
+            if (link->name == upper.child_link_name) {
+                return true;
+            }
+        }
+        return false;
+    }
+
+    void walk(const LinkPtr& link, int moving, bool inGripper, const urdf::Joint* last = nullptr) {
+        const size_t at = seen_.size();
+        seen_.push_back({link, moving, inGripper, false, toolRank(link->name), last});
+        const bool fingers = branchesIntoFingers(*link, moving);
+        for (const auto& joint : link->child_joints) {
+            const bool grips = moves(*joint) && (fingers || isGripper(*joint, moving));
+            seen_[at].gripperBelow = seen_[at].gripperBelow || grips;
+            walk(model_.getLink(joint->child_link_name), moving + moves(*joint), inGripper || grips,
+                 moves(*joint) ? joint.get() : last);
+        }
+    }
+
+    // Other ends with as many joints that do not lie on the same branch.
+    void noteOthers(ArmEnds& ends, const Seen& best, bool any) const {
+        std::vector<std::string> others;
+        const urdf::Joint* before = best.last;
+        for (const Seen& s : seen_) {
+            const bool end = s.moving == best.moving && s.last != best.last && s.last != before;
+            if (end && s.moving > 0 && (!any || !s.inGripper)) {
+                others.push_back(s.link->name);
+                before = s.last;
+            }
+        }
+        if (others.empty()) {
+            return;
+        }
+        std::string names;
+        for (size_t i = 0; i < others.size() && i < kMostNamed; ++i) {
+            names += (i == 0 ? "" : ", ") + others[i];
+        }
+        ends.notes.push_back("tip " + best.link->name + " is one of several ends of chains with " +
+                             std::to_string(best.moving) + " joints; arm.tip selects another: " + names);
+    }
+
+    // Follows fixed joints to frames without shapes, as long as there is only one.
+    LinkPtr bareEnd(LinkPtr link, ArmEnds& ends) const {
+        for (bool further = true; further;) {
+            further = false;
+            LinkPtr bare;
+            size_t count = 0;
+            for (const auto& joint : link->child_joints) {
+                const LinkPtr child = model_.getLink(joint->child_link_name);
+                if (!moves(*joint) && isBareFrame(*child) && depths_.at(child->name) == 0) {
+                    bare = child;
+                    ++count;
+                }
+            }
+            if (count == 1) {
+                link = bare;
+                further = true;
+                ends.tipWhy = "the frame fixed to the end of the longest chain";
+            }
+        }
+        return link;
+    }
+
+    const urdf::ModelInterface& model_;
+    const std::filesystem::path& file_;
+    std::map<std::string, int> depths_; // moving joints below each link
+    std::map<std::string, bool> tied_;  // joints that follow or are followed
+    std::vector<Seen> seen_;
+};
+
+bool isFree(const urdf::Joint& joint) {
+    return joint.type == urdf::Joint::FLOATING || joint.type == urdf::Joint::PLANAR;
+}
+
+// The base below the last planar or floating joint on the way to the tip, if a joint is left below it.
+void lowerBase(const urdf::ModelInterface& model, ArmEnds& ends) {
+    bool any = false;
+    for (LinkPtr link = ends.tip; link && link != ends.base; link = link->getParent()) {
+        if (link->parent_joint && !isFree(*link->parent_joint)) {
+            any = any || moves(*link->parent_joint);
+        } else if (link->parent_joint && any) {
+            ends.base = model.getLink(link->name);
+            ends.baseWhy = "below the planar or floating joint " + link->parent_joint->name;
+            return;
+        }
+    }
+}
+
+} // namespace
+
+ArmEnds chooseEnds(const urdf::ModelInterface& model, const std::filesystem::path& file,
+                   const std::string& base, const std::string& tip) {
+    EndChooser chooser(model, file);
+    ArmEnds ends;
+    ends.base = base.empty() ? model.getRoot() : chooser.named(base);
+    ends.baseWhy = base.empty() ? "the root" : "named by the scene";
+    if (tip.empty()) {
+        chooser.chooseTip(ends);
+    } else {
+        ends.tip = chooser.named(tip);
+        ends.tipWhy = "named by the scene";
+    }
+    if (base.empty()) {
+        lowerBase(model, ends);
+    }
+    return ends;
+}
+
+} // namespace fathom

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/model/arm_mimic.h"
+
+#include "engine/types/error.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fathom {
+
+namespace {
+
+JointTie tieOf(const urdf::ModelInterface& model, const std::filesystem::path& file,
+               const urdf::Joint& joint) {
+    JointTie tie{joint.name, 1.0, 0.0};
+    const auto refuse = [&](const std::string& value, const std::string& allowed) {
+        throw BadInput(file.string(), "joint " + joint.name + ", mimic", value, allowed);
+    };
+    const urdf::Joint* at = &joint;
+    for (size_t steps = 0; at->mimic && at->type != urdf::Joint::FIXED; ++steps) {
+        const urdf::JointMimic& mimic = *at->mimic;
+        if (!std::isfinite(mimic.multiplier) || !std::isfinite(mimic.offset)) {
+            refuse("multiplier " + std::to_string(mimic.multiplier) + ", offset " +
+                       std::to_string(mimic.offset),
+                   "finite numbers");
+        }
+        const auto next = model.joints_.find(mimic.joint_name);
+        if (next == model.joints_.end()) {
+            refuse("'" + excerpt(mimic.joint_name) + "'", "a joint of the robot");
+        }
+        if (steps == model.joints_.size()) {
+            refuse("'" + excerpt(mimic.joint_name) + "'",
+                   "a joint that does not follow this one, directly or through others");
+        }
+        tie = {mimic.joint_name, tie.multiplier * mimic.multiplier,
+               tie.offset + tie.multiplier * mimic.offset};
+        at = next->second.get();
+    }
+    return tie;
+}
+
+// The values of the followed joint at which its mimic joint is at `lower` and `upper`.
+std::pair<double, double> seenFrom(const ArmMimic& mimic, double lower, double upper) {
+    return std::minmax((lower - mimic.offset) / mimic.multiplier, (upper - mimic.offset) / mimic.multiplier);
+}
+
+class Narrower {
+public:
+    explicit Narrower(ArmModel& model)
+        : model_(model) {}
+
+    void add(const std::string& name, const ArmMimic& mimic, double lower, double upper) {
+        ArmJoint& joint = model_.joints[mimic.joint];
+        const auto [low, high] = seenFrom(mimic, lower, upper);
+        if (low > joint.upper || high < joint.lower) {
+            notes_.push_back("joint " + name + ": its limits leave no value for joint " + joint.name +
+                             ", which it follows, and are ignored");
+            return;
+        }
+        if (low > joint.lower || high < joint.upper) {
+            joint.lower = std::max(joint.lower, low);
+            joint.upper = std::min(joint.upper, high);
+            joint.limitsFrom = "mimic joint " + name;
+        }
+    }
+    std::vector<std::string> takeNotes() { return std::move(notes_); }
+
+private:
+    ArmModel& model_;
+    std::vector<std::string> notes_;
+};
+
+} // namespace
+
+std::map<std::string, JointTie> tieJoints(const urdf::ModelInterface& model,
+                                          const std::filesystem::path& file) {
+    std::map<std::string, JointTie> ties;
+    for (const auto& [name, joint] : model.joints_) {
+        ties[name] = tieOf(model, file, *joint);
+    }
+    return ties;
+}
+
+std::vector<std::string> narrowByMimics(ArmModel& model) {
+    Narrower narrower(model);
+    for (const ArmJoint& joint : model.joints) {
+        if (joint.mimic) {
+            narrower.add(joint.name, *joint.mimic, joint.lower, joint.upper);
+            ArmJoint& followed = model.joints[joint.mimic->joint];
+            const double speed = joint.speed / std::abs(joint.mimic->multiplier);
+            if (joint.speedFrom != kNoSpeed && speed < followed.speed) {
+                followed.speed = speed;
+                followed.speedFrom = "mimic joint " + joint.name;
+            }
+        }
+    }
+    for (const ArmFinger& finger : model.fingers) {
+        if (finger.mimic) {
+            narrower.add(finger.name, *finger.mimic, finger.lower, finger.upper);
+        }
+    }
+    return narrower.takeNotes();
+}
+
+} // namespace fathom

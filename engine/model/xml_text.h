@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// Walks the text of an XML file piece by piece, to change parts of it and keep the rest as it is. For files
+// that a real parser has accepted.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace fathom {
+
+// A tag, or the text up to the next one.
+struct XmlPiece {
+    std::string_view text;
+    std::string_view name; // of a tag; empty for text, comments and declarations
+    bool closes = false;   // </name>
+    bool isEmpty = false;  // <name/>
+};
+
+class XmlPieces {
+public:
+    explicit XmlPieces(std::string_view text)
+        : rest_(text) {}
+    bool next(); // false at the end
+    const XmlPiece& piece() const { return piece_; }
+
+private:
+    std::string_view rest_;
+    XmlPiece piece_;
+};
+
+// The value of an attribute of a tag, without its quotes; the five predefined entities are resolved. Empty =
+// none.
+std::string xmlAttribute(std::string_view tag, std::string_view name);
+
+std::string xmlEscaped(std::string_view text); // for an attribute's value
+
+} // namespace fathom

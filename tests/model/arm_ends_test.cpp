@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which base and tip the tree of a URDF gives, and what happens with the rest of the robot.
+#include "tests/model/urdf_text.h"
+
+#include <doctest/doctest.h>
+
+using namespace fathom;
+using namespace fathom::testing;
+
+namespace {
+
+// a - j1 - b - j2 - c, with more links and joints.
+std::string twoJoints(const std::string& more) {
+    return ballLink("a") + ballLink("b") + ballLink("c") +
+           jointText("j1", "revolute", "a", "b", "0 0 0.2", "0 1 0") +
+           jointText("j2", "revolute", "b", "c", "0 0 0.4", "1 0 0") + more;
+}
+
+std::string tipOf(const std::string& urdf) {
+    return loadUrdf(urdf).tipText;
+}
+
+std::string sevenJoints() {
+    std::string urdf = ballLink("0");
+    for (int k = 1; k <= 7; ++k) {
+        const std::string before = std::to_string(k - 1), after = std::to_string(k);
+        urdf += ballLink(after);
+        urdf += jointText(std::string("j").append(after), "revolute", before, after, "0 0 0.1",
+                          k % 2 == 0 ? "0 1 0" : "1 0 0");
+    }
+    return urdf;
+}
+
+} // namespace
+
+TEST_CASE("The tip is the frame with a usual name, and a gripper's joint is not part of the chain") {
+    const std::string jaw =
+        ballLink("claw_link") + jointText("turn", "revolute", "c", "claw_link", "0 0 0.1", "1 0 0");
+    const ArmModel arm = loadUrdf(twoJoints(jaw + "<link name='left_tool0'/>" +
+                                            jointText("f", "fixed", "c", "left_tool0", "0 0 0.15", "0 0 1")));
+    CHECK(arm.count() == 2);
+    CHECK(arm.tipText == "left_tool0 (a tool frame by its name)");
+    CHECK(arm.held == std::vector<std::string>{"turn stays at 0 (not between base and tip)"});
+    CHECK(tipOf(twoJoints(jaw)) == "c (the end of the longest chain before a gripper)");
+}
+
+TEST_CASE("A chain ends at the hand before fingers, whatever their names") {
+    const std::string slide = "<limit lower='0' upper='0.04' velocity='0.2' effort='1'/>";
+    const std::string hand = "<link name='hand'/>" + jointText("h", "fixed", "7", "hand", "0 0 0.1", "0 0 1");
+    const ArmModel seven = loadUrdf(sevenJoints() + hand + ballLink("x") +
+                                    jointText("x1", "prismatic", "hand", "x", "0 0 0", "0 1 0", slide));
+    CHECK(seven.count() == 7);
+    CHECK(seven.tipText == "hand (a tool frame by its name)");
+    const std::string fingers = ballLink("l") + ballLink("r") +
+                                jointText("f1", "prismatic", "c", "l", "0 0 0", "0 1 0", slide) +
+                                jointText("f2", "prismatic", "c", "r", "0 0 0", "0 -1 0", slide);
+    CHECK(tipOf(twoJoints(fingers)) == "c (the end of the longest chain before a gripper)");
+}
+
+TEST_CASE("Without a usual name the tip is the end of the longest chain, or the frame fixed to it") {
+    CHECK(tipOf(twoJoints("")) == "c (the end of the longest chain)");
+    CHECK(tipOf(twoJoints("<link name='t'/>" + jointText("f", "fixed", "c", "t", "0 0 0.4", "0 0 1"))) ==
+          "t (the frame fixed to the end of the longest chain)");
+    CHECK(tipOf(twoJoints(ballLink("camera") + jointText("f", "fixed", "c", "camera", "0 0 0.4", "0 0 1"))) ==
+          "c (the end of the longest chain)");
+    CHECK(tipOf(twoJoints(
+              "<link name='s'/><link name='t'/>" + jointText("f", "fixed", "c", "t", "0 0 0.4", "0 0 1") +
+              jointText("g", "fixed", "c", "s", "0 0 0.4", "0 0 1"))) == "c (the end of the longest chain)");
+}
+
+TEST_CASE("Chains of the same length give a note that names the other ends") {
+    const ArmModel arm = loadUrdf(twoJoints(ballLink("d") + ballLink("e") +
+                                            jointText("k1", "revolute", "a", "d", "0 0.2 0", "0 1 0") +
+                                            jointText("k2", "revolute", "d", "e", "0 0 0.4", "1 0 0")));
+    REQUIRE(arm.notes.size() == 1);
+    CHECK(arm.notes[0] == "tip c is one of several ends of chains with 2 joints; arm.tip selects another: e");
+}
+
+TEST_CASE("Links that the base hangs on, and those beside it, stay where they are and have leaves") {
+    ArmOptions options;
+    options.base = "b";
+    const ArmModel arm = loadUrdf(
+        twoJoints(ballLink("mast") + jointText("m", "fixed", "a", "mast", "0 0.3 0", "0 0 1")), options);
+    CHECK(arm.count() == 1);
+    CHECK(arm.baseText == "b (named by the scene)");
+    REQUIRE(arm.links == std::vector<std::string>{"b", "c", "a", "mast"});
+    ArmFrames frames;
+    arm.place({}, Pose{}, frames);
+    CHECK(glm::distance(arm.centre(frames, 2), dvec3(0.0, 0.0, -0.2)) < 1e-12);
+    CHECK(glm::distance(arm.centre(frames, 3), dvec3(0.0, 0.3, -0.2)) < 1e-12);
+    CHECK(arm.leaves[3].joint == 0);
+}
+
+TEST_CASE(
+    "The base is the link below a planar or floating joint, and what is above is named if it has shapes") {
+    const std::string vehicle = jointText("drive", "floating", "world", "a", "0 0 0", "0 0 1", "");
+    const ArmModel bare = loadUrdf(twoJoints("<link name='world'/>" + vehicle));
+    CHECK(bare.baseText == "a (below the planar or floating joint drive)");
+    CHECK(bare.notes.empty());
+    const ArmModel walls = loadUrdf(twoJoints(ballLink("world") + vehicle));
+    REQUIRE(walls.notes.size() == 1);
+    CHECK(walls.notes[0].find("link world and what hangs on it beside joint drive") == 0);
+}
+
+TEST_CASE(
+    "A joint without speed gets a default that is named, and a shape of size 0 is skipped with a note") {
+    const ArmModel arm =
+        loadUrdf("<link name='root'><collision><geometry><box size='0 0 0'/></geometry></collision></link>" +
+                 twoJoints(jointText("m", "fixed", "root", "a", "0 0 0", "0 0 1", "") + ballLink("d") +
+                           jointText("j3", "continuous", "c", "d", "0 0 0.1", "0 0 1", "")));
+    CHECK(arm.links == std::vector<std::string>{"a", "b", "c", "d"});
+    REQUIRE(arm.notes.size() == 1);
+    CHECK(arm.notes[0] == "link root: a shape of size 0 is skipped");
+    CHECK(arm.joints[2].speed == kUnknownTurn);
+    CHECK(arm.joints[2].speedFrom == kNoSpeed);
+    CHECK(
+        urdfRefusal("<link name='a'><collision><geometry><box size='1 -1 1'/></geometry></collision></link>")
+            .find("link a: a shape with a negative size") != std::string::npos);
+}
+
+TEST_CASE("A missing mesh names the places that were searched and the key that adds one") {
+    const std::string refusal = urdfRefusal(
+        "<link name='a'><collision><geometry><mesh filename='package://some_arm/meshes/base.stl'/></geometry>"
+        "</collision></link>");
+    CHECK(refusal.find("link a: mesh 'package://some_arm/meshes/base.stl' not found; looked for ") !=
+          std::string::npos);
+    CHECK(refusal.find("/some_arm/meshes/base.stl, ") != std::string::npos);
+    CHECK(refusal.find("arm.meshes names the folder") != std::string::npos);
+}

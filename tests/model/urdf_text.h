@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// URDF texts for tests: links with one ball each, joints in one line.
+#pragma once
+
+#include "engine/model/arm_model.h"
+#include "engine/types/error.h"
+
+#include <fstream>
+#include <string>
+#include <unistd.h>
+
+namespace fathom::testing {
+
+inline std::string ballLink(const std::string& name, const std::string& radius = "0.02") {
+    return "<link name='" + name + "'><collision><geometry><sphere radius='" + radius +
+           "'/></geometry></collision></link>";
+}
+
+// axis: "1 0 0"; more: <limit> and <mimic> elements.
+inline std::string
+jointText(const std::string& name, const std::string& type, const std::string& parent,
+          const std::string& child, const std::string& at, const std::string& axis,
+          const std::string& more = "<limit lower='-2' upper='2' velocity='1' effort='1'/>") {
+    return "<joint name='" + name + "' type='" + type + "'><parent link='" + parent + "'/><child link='" +
+           child + "'/><origin xyz='" + at + "'/><axis xyz='" + axis + "'/>" + more + "</joint>";
+}
+
+inline std::string mimicText(const std::string& joint, const std::string& more = "") {
+    return "<mimic joint='" + joint + "' " + more + "/>";
+}
+
+inline ArmModel loadUrdf(const std::string& inside, const ArmOptions& options = {}) {
+    const auto file =
+        std::filesystem::temp_directory_path() / ("fathom_urdf_" + std::to_string(::getpid()) + ".urdf");
+    std::ofstream(file) << "<robot name='r'>" << inside << "</robot>";
+    return loadArm(file, options);
+}
+
+inline std::string urdfRefusal(const std::string& inside, const ArmOptions& options = {}) {
+    try {
+        loadUrdf(inside, options);
+    } catch (const BadInput& e) {
+        return e.what();
+    }
+    return "";
+}
+
+} // namespace fathom::testing
