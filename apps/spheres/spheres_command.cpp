@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/spheres/spheres_command.h"
 
+#include "apps/replay/output_file.h"
 #include "apps/spheres/spheres_report.h"
+#include "engine/model/cover_urdf.h"
 #include "engine/model/sph_file.h"
 #include "engine/model/sphere_cover.h"
 #include "engine/model/sphere_sets.h"
+#include "engine/model/write_spheres.h"
 #include "engine/reference/cell_cover.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
+#include "engine/types/read_file.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -21,8 +25,10 @@ namespace fathom {
 
 namespace {
 
+constexpr size_t kLargestUrdf = 16u << 20;
+
 struct SpheresOptions {
-    std::filesystem::path mesh, out, plot, json;
+    std::filesystem::path mesh, out, plot, json, meshes;
     CoverOptions cover;
     MeshOptions file;
     std::string up, link;
@@ -89,21 +95,52 @@ void drawErrors(const SpheresOptions& options, Maker& maker, size_t leaves) {
                    maker.rows());
 }
 
-// Whether the input file already has spheres (also a flat set of another program) instead of a mesh.
-bool isSet(const std::filesystem::path& file) {
-    const std::string kind = file.extension().string();
-    return kind == ".urdf" || kind == ".yaml" || kind == ".yml" || kind == ".sph";
+// Sets of several links; every other ending is a .sph.
+bool holdsLinks(const std::filesystem::path& file) {
+    return isSphereFile(file) && file.extension() != ".sph";
 }
 
-void convert(const SpheresOptions& options) {
-    if (!options.given.empty()) {
-        throw BadInput(options.mesh.string(), options.given[0], "given with spheres",
-                       "a mesh; of the options only --scale applies to spheres");
+void writeText(const std::filesystem::path& file, const std::string& text) {
+    OutputFile out(file);
+    out.write(text);
+    out.commit();
+}
+
+void writeSets(const SpheresOptions& options, const std::vector<LinkSpheres>& sets) {
+    const std::string kind = options.out.extension().string();
+    if (kind == ".xrdf") {
+        writeText(options.out, xrdfText(sets));
+    } else if (kind == ".json") {
+        writeText(options.out, foamText(sets));
+    } else if (kind != ".urdf") {
+        writeText(options.out, curoboText(sets));
+    } else if (options.mesh.extension() == ".urdf" && options.link.empty()) {
+        writeText(options.out,
+                  spherizedText(readWholeFile(options.mesh, kLargestUrdf, "a readable URDF file"), sets));
+    } else if (sets.size() == 1) {
+        writeText(options.out, spherizedText(sets[0]));
+    } else {
+        throw BadInput(options.out.string(), "links", std::to_string(sets.size()),
+                       "one, chosen by --link, or the robot's own URDF as input");
     }
+    size_t count = 0;
+    for (const LinkSpheres& set : sets) {
+        count += set.spheres.size();
+    }
+    std::cout << count << " spheres of " << sets.size() << " links written to " << options.out.string()
+              << std::endl;
+}
+
+double scaleOf(const SpheresOptions& options) {
     const double scale = options.file.scale.value_or(1.0);
     if (!(scale > 0.0) || !std::isfinite(scale)) {
         throw BadInput(options.mesh.string(), "--scale", std::to_string(scale), "a positive number");
     }
+    return scale;
+}
+
+void convertTree(const SpheresOptions& options) {
+    const double scale = scaleOf(options);
     SphereTree tree = readSphereTree(options.mesh, options.link);
     for (Sphere& s : tree.nodes) {
         s.centre *= scale;
@@ -117,14 +154,53 @@ void convert(const SpheresOptions& options) {
               << std::endl;
 }
 
+// From a set of another program, or from all shapes of a URDF.
+void convertSets(const SpheresOptions& options) {
+    std::vector<LinkSpheres> sets;
+    if (options.mesh.extension() == ".urdf") {
+        const UrdfCover cover =
+            coverUrdf(options.mesh, options.meshes, options.cover.leaves, options.file.keepStray);
+        for (const std::string& note : cover.notes) {
+            log::warn("{}: {}", options.mesh.string(), note);
+        }
+        sets = cover.links;
+    } else {
+        sets = readSets(options.mesh);
+    }
+    sets = selectLink(std::move(sets), options.link, options.mesh);
+    const double scale = scaleOf(options);
+    for (LinkSpheres& set : sets) {
+        for (Sphere& s : set.spheres) {
+            s.centre *= scale;
+            s.radius *= scale;
+        }
+    }
+    writeSets(options, sets);
+}
+
+void convert(const SpheresOptions& options) {
+    const bool covers = options.mesh.extension() == ".urdf" && holdsLinks(options.out);
+    const auto wrong = std::find_if(options.given.begin(), options.given.end(),
+                                    [&](const std::string& name) { return !(covers && name == "--leaves"); });
+    if (wrong != options.given.end()) {
+        throw BadInput(options.mesh.string(), *wrong, "given with spheres",
+                       "a mesh; of the options only --scale applies to spheres");
+    }
+    if (covers && options.file.scale) {
+        throw BadInput(options.mesh.string(), "--scale", "given with a URDF", "its own unit, metres");
+    }
+    holdsLinks(options.out) ? convertSets(options) : convertTree(options);
+}
+
 void runSpheres(SpheresOptions options) {
     check(options);
-    if (isSet(options.mesh)) {
+    if (isSphereFile(options.mesh)) {
         convert(options);
         return;
     }
-    if (!options.link.empty()) {
-        throw BadInput(options.mesh.string(), "--link", "given with a mesh", "spheres of a .urdf or .yaml");
+    if (!options.link.empty() && !holdsLinks(options.out)) {
+        throw BadInput(options.mesh.string(), "--link", "given with a mesh",
+                       "spheres of a .urdf, .yaml, .xrdf or .json");
     }
     options.file.up = options.up.empty() ? '\0' : options.up[0];
     const LoadedMesh loaded = loadMesh(options.mesh, options.file);
@@ -141,7 +217,12 @@ void runSpheres(SpheresOptions options) {
     } catch (const Error& e) {
         throw BadInput(options.mesh.string(), "--protrusion", e.what(), "a length that fits the mesh");
     }
-    writeSph(buildSphereTree(cover.spheres), options.out);
+    if (holdsLinks(options.out)) {
+        const std::string link = options.link.empty() ? options.mesh.stem().string() : options.link;
+        writeSets(options, {{link, cover.spheres}});
+    } else {
+        writeSph(buildSphereTree(cover.spheres), options.out);
+    }
     if (options.compare) {
         maker.others(cover.spheres.size());
     }
@@ -169,9 +250,13 @@ void addSpheresCommand(CLI::App& app) {
     CLI::App* command = app.add_subcommand("spheres", "make a sphere tree that contains a mesh, for a tool");
     command
         ->add_option("MESH", options->mesh,
-                     "STL, OBJ or COLLADA mesh; or spheres: .urdf, .yaml (cuRobo), .sph")
+                     "STL, OBJ or COLLADA mesh; or spheres: .urdf, .yaml (cuRobo), .xrdf, .json (foam), .sph")
         ->required();
-    command->add_option("--out", options->out, "sphere tree (.sph), in the mesh's frame [m]")->required();
+    command
+        ->add_option(
+            "--out", options->out,
+            "sphere tree (.sph), in the mesh's frame [m]; or spheres of links: .urdf, .yaml, .xrdf, .json")
+        ->required();
     command->add_option("--leaves", options->cover.leaves, "most leaf spheres (128)");
     command->add_option("--protrusion", options->cover.protrusion,
                         "[m] largest protrusion; uses as few leaves as possible");
@@ -179,7 +264,9 @@ void addSpheresCommand(CLI::App& app) {
     command->add_option("--up", options->up, "axis of the file that becomes +z (default: unchanged)")
         ->check(CLI::IsMember({"x", "y", "z"}));
     command->add_flag("--drop-stray", options->file.dropStray, "drop pieces far from the rest");
-    command->add_option("--link", options->link, "link of a .urdf or .yaml");
+    command->add_option("--link", options->link, "link of a .urdf, .yaml, .xrdf or .json");
+    command->add_option("--meshes", options->meshes, "folder that package:// stands for in a .urdf");
+    command->add_flag("--keep-stray", options->file.keepStray, "keep pieces far from the rest");
     command->add_flag("--compare", options->compare,
                       "compare with the same number of octree and grid spheres");
     command->add_option("--plot", options->plot, "plot (PNG) of protrusion against number of leaves");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Flat sphere sets per link, as other programs write them: spherized URDF (foam, VAMP) and cuRobo YAML.
+// Flat sphere sets per link, as other programs write them: spherized URDF (foam, VAMP), YAML of cuRobo, XRDF
+// of NVIDIA Isaac, and JSON of foam.
 #pragma once
 
 #include "engine/types/sphere_tree.h"
@@ -25,8 +26,31 @@ std::vector<LinkSpheres> readSpherizedUrdf(const std::filesystem::path& file);
 // BadInput with the line.
 std::vector<LinkSpheres> readCuroboYaml(const std::filesystem::path& file);
 
-// Loads any kind: .sph as it is; .urdf and .yaml/.yml as a top-down tree of the named link (may be empty when
-// only one link has spheres). Throws BadInput that lists the available links.
+// XRDF: `geometry: {NAME: {spheres: {LINK: [...]}}}`, NAME from `collision: {geometry: NAME}` or the only
+// one; `collision: {buffer_distance: {LINK: d}}` is added to the radii. Throws BadInput with the line.
+std::vector<LinkSpheres> readXrdf(const std::filesystem::path& file);
+
+// Either of these two: XRDF says `format: xrdf`.
+std::vector<LinkSpheres> readYamlSets(const std::filesystem::path& file);
+
+// JSON of foam: {"LINK::anything": {"spheres": [{"origin": [x, y, z], "radius": r}]}}, or one such table, or
+// a list of them as for one mesh, whose last one counts; these belong to a link named as the file. Throws
+// BadInput.
+std::vector<LinkSpheres> readFoam(const std::filesystem::path& file);
+
+// Whether readSets() knows the file's ending: .sph, .urdf, .yaml, .yml, .xrdf, .json.
+bool isSphereFile(const std::filesystem::path& file);
+
+// Any kind; a .yaml with `format: xrdf` is XRDF. A .sph gives the leaves of its tree, as a link named as the
+// file. Throws BadInput, also when there is no sphere.
+std::vector<LinkSpheres> readSets(const std::filesystem::path& file);
+
+// Only the named link; all of them without a name. Throws BadInput that lists the available links.
+std::vector<LinkSpheres> selectLink(std::vector<LinkSpheres> sets, const std::string& link,
+                                    const std::filesystem::path& file);
+
+// Loads any kind: .sph as it is; the others as a top-down tree of the named link (may be empty when only one
+// link has spheres). Throws BadInput that lists the available links.
 SphereTree readSphereTree(const std::filesystem::path& file, const std::string& link = "");
 
 } // namespace fathom

@@ -27,7 +27,14 @@ void readSphFile(Bytes input) {
 }
 
 void readSpheresYaml(Bytes input) {
-    needSound(readSphereTree(fuzzFile("spheres.yaml", input)));
+    try {
+        needSound(readSphereTree(fuzzFile("spheres.yaml", input))); // of cuRobo, or XRDF
+    } catch (const Error&) {
+        // it can still be JSON of foam
+    }
+    for (const LinkSpheres& set : readSets(fuzzFile("spheres.json", input))) {
+        needSound(buildSphereTree(set.spheres));
+    }
 }
 
 void readUrdfFile(Bytes input) {
@@ -42,6 +49,7 @@ void readUrdfFile(Bytes input) {
     const ArmModel arm = loadArm(file, few);
     JointVector q{};
     ArmFrames frames;
+    arm.follow(q);
     arm.place(q, {}, frames);
     for (size_t i = 0; i < arm.leaves.size(); ++i) {
         if (!isFinite(arm.centre(frames, i))) {
