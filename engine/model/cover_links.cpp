@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/model/cover_links.h"
 
+#include "engine/model/cover_cache.h"
 #include "engine/types/error.h"
+#include "engine/types/log.h"
 #include "engine/types/processors.h"
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
+#include <cstdio>
 #include <exception>
 #include <thread>
 #include <utility>
@@ -17,10 +21,40 @@ namespace {
 constexpr size_t kMostHeld =
     6'000'000; // mesh corners kept in memory before their spheres are computed (plus one more mesh)
 
+// Logs how far a long run is. Any thread.
+class CoverProgress {
+public:
+    CoverProgress(size_t all, const CoverCache& cache)
+        : all_(all)
+        , cache_(cache) {}
+
+    void add() {
+        const size_t done = ++done_;
+        const auto now = Clock::now().time_since_epoch().count();
+        auto due = due_.load();
+        if (now >= due && done < all_ && due_.compare_exchange_strong(due, now + kEvery)) {
+            log::warn("{} of {} shapes are covered with spheres; the next start finds them in {}", done, all_,
+                      cache_.folder().empty() ? "no cache" : cache_.folder().string());
+        }
+    }
+
+private:
+    using Clock = std::chrono::steady_clock;
+    static constexpr Clock::rep kEvery = Clock::duration(std::chrono::seconds(5)).count();
+
+    size_t all_;
+    const CoverCache& cache_;
+    std::atomic<size_t> done_{0};
+    std::atomic<Clock::rep> due_{Clock::now().time_since_epoch().count() + kEvery};
+};
+
 struct LinkCover {
     const LinkGeometry* of = nullptr;
     LinkShape read;
     ShapeSpheres made;
+    std::filesystem::path file; // of a mesh
+    std::string key;            // of the cache; empty = not cached
+    bool found = false;         // in the cache
     std::exception_ptr refused;
 
     template <class Work>
@@ -36,14 +70,55 @@ struct LinkCover {
     }
 };
 
+// Everything besides the file's content that the cover of a mesh depends on.
+std::string optionsText(const urdf::Mesh& mesh, const ShapeSource& source, uint32_t leaves) {
+    char text[160];
+    std::snprintf(text, sizeof text, "%.17g %.17g %.17g %u %d", mesh.scale.x, mesh.scale.y, mesh.scale.z,
+                  leaves, source.keepStray ? 1 : 0);
+    return text;
+}
+
+// Notes name the mesh file, whose name is no part of the content: kFile stands for it in the cache.
+constexpr const char* kFile = "\x01";
+
+ShapeSpheres renamed(ShapeSpheres made, const std::string& from, const std::string& to) {
+    for (std::string& note : made.notes) {
+        for (size_t at = note.find(from); at != std::string::npos; at = note.find(from, at + to.size())) {
+            note.replace(at, from.size(), to);
+        }
+    }
+    return made;
+}
+
+// Takes a mesh's cover from the cache.
+void look(LinkCover& one, const CoverCache& cache, const ShapeSource& source, uint32_t leaves) {
+    one.file = meshFileOf(*one.of->shape, source);
+    if (one.file.empty()) {
+        return;
+    }
+    const auto& mesh = dynamic_cast<const urdf::Mesh&>(*one.of->shape);
+    one.key = cache.keyOf(one.file, optionsText(mesh, source, leaves));
+    if (auto cached = cache.find(one.key)) {
+        one.made = renamed(std::move(*cached), kFile, one.file.string());
+        one.made.outside = outsideOf(one.file, source);
+        one.found = true;
+    }
+}
+
 // Reads shapes until the memory bound is reached or one is rejected.
-std::vector<LinkCover> readSome(std::span<const LinkGeometry> shapes, const ShapeSource& source) {
+std::vector<LinkCover> readSome(std::span<const LinkGeometry> shapes, const ShapeSource& source,
+                                const CoverCache& cache, uint32_t leaves) {
     std::vector<LinkCover> some;
     size_t points = 0;
     for (size_t i = 0; i < shapes.size() && points < kMostHeld; ++i) {
         LinkCover& one = some.emplace_back();
         one.of = &shapes[i];
-        one.attempt(source.urdf, [&] { one.read = readLinkShape(*one.of->shape, source); });
+        one.attempt(source.urdf, [&] {
+            look(one, cache, source, leaves);
+            if (!one.found) {
+                one.read = readLinkShape(*one.of->shape, source);
+            }
+        });
         points += one.read.points();
         if (one.refused) {
             break;
@@ -52,14 +127,19 @@ std::vector<LinkCover> readSome(std::span<const LinkGeometry> shapes, const Shap
     return some;
 }
 
-void cover(std::vector<LinkCover>& some, const ShapeSource& source, uint32_t leaves) {
+void cover(std::vector<LinkCover>& some, const ShapeSource& source, const CoverCache& cache, uint32_t leaves,
+           CoverProgress& progress) {
     std::atomic<size_t> next{0};
     const auto work = [&] {
         for (size_t i = next++; i < some.size(); i = next++) {
             LinkCover& one = some[i];
-            if (!one.refused) {
-                one.attempt(source.urdf, [&] { one.made = linkSpheres(std::move(one.read), leaves); });
+            if (!one.refused && !one.found) {
+                one.attempt(source.urdf, [&] {
+                    one.made = linkSpheres(std::move(one.read), leaves);
+                    cache.store(one.key, renamed(one.made, one.file.string(), kFile));
+                });
             }
+            progress.add();
         }
     };
     std::vector<std::jthread> others(std::min<size_t>(usableProcessors(), some.size()) - 1);
@@ -72,10 +152,12 @@ void cover(std::vector<LinkCover>& some, const ShapeSource& source, uint32_t lea
 std::vector<ShapeSpheres> spheresOf(std::span<const LinkGeometry> shapes, const ShapeSource& source,
                                     uint32_t leaves) {
     std::vector<ShapeSpheres> made;
+    const CoverCache cache;
+    CoverProgress progress(shapes.size(), cache);
     while (made.size() < shapes.size()) {
         std::vector<LinkCover> some =
-            readSome(shapes.subspan(made.size()), source); // before there are threads
-        cover(some, source, leaves);
+            readSome(shapes.subspan(made.size()), source, cache, leaves); // before there are threads
+        cover(some, source, cache, leaves, progress);
         for (LinkCover& one : some) {
             if (one.refused) {
                 std::rethrow_exception(one.refused);

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/model/cover_cache.h"
+
+#include "engine/types/read_file.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <string_view>
+#include <system_error>
+#include <unistd.h>
+#include <vector>
+
+namespace fathom {
+
+namespace {
+
+constexpr const char* kHead = "fathom cover 1"; // raise the number when covers or this format change
+constexpr size_t kLargest = 4u << 20;
+constexpr size_t kLargestMesh = 512u << 20;
+
+// Fowler-Noll-Vo, 64 bits; two of them with different starts make a key.
+uint64_t hashOf(std::string_view bytes, uint64_t start) {
+    uint64_t hash = start;
+    for (const char c : bytes) {
+        hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+    }
+    return hash;
+}
+
+std::string hex(uint64_t value) {
+    char text[20];
+    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(value));
+    return text;
+}
+
+std::string textOf(const ShapeSpheres& made) {
+    std::string text = std::string(kHead) + "\n";
+    for (const std::string& note : made.notes) {
+        text += "note " + note + "\n";
+    }
+    for (const Sphere& s : made.spheres) {
+        char line[160];
+        std::snprintf(line, sizeof line, "%.17g %.17g %.17g %.17g\n", s.centre.x, s.centre.y, s.centre.z,
+                      s.radius);
+        text += line;
+    }
+    return text + hex(hashOf(text, 0)) + "\n";
+}
+
+// Nothing when the text is not as textOf() writes it.
+std::optional<ShapeSpheres> madeOf(const std::string& text) {
+    const size_t end = text.rfind('\n', text.size() < 2 ? 0 : text.size() - 2) + 1;
+    if (!text.starts_with(std::string(kHead) + "\n") || end == 0 ||
+        text.substr(end) != hex(hashOf(std::string_view(text).substr(0, end), 0)) + "\n") {
+        return std::nullopt;
+    }
+    ShapeSpheres made;
+    std::istringstream lines(text.substr(0, end));
+    std::string line;
+    std::getline(lines, line);
+    while (std::getline(lines, line)) {
+        if (line.starts_with("note ")) {
+            made.notes.push_back(line.substr(5));
+            continue;
+        }
+        Sphere s;
+        if (std::sscanf(line.c_str(), "%lf %lf %lf %lf", &s.centre.x, &s.centre.y, &s.centre.z, &s.radius) !=
+                4 ||
+            !isFinite(s.centre) || !(s.radius > 0.0)) {
+            return std::nullopt;
+        }
+        made.spheres.push_back(s);
+    }
+    return made.spheres.empty() ? std::nullopt : std::optional(made);
+}
+
+} // namespace
+
+CoverCache::CoverCache() {
+    const char* cache = std::getenv("XDG_CACHE_HOME");
+    const char* home = std::getenv("HOME");
+    if (cache != nullptr && *cache != '\0') {
+        folder_ = std::filesystem::path(cache) / "fathom/covers";
+    } else if (home != nullptr && *home != '\0') {
+        folder_ = std::filesystem::path(home) / ".cache/fathom/covers";
+    }
+}
+
+std::string CoverCache::keyOf(const std::filesystem::path& mesh, const std::string& options) const {
+    if (folder_.empty()) {
+        return "";
+    }
+    const auto bytes = readFileAtMost(mesh, kLargestMesh);
+    if (!bytes || bytes->size() > kLargestMesh) {
+        return "";
+    }
+    const std::string kind = mesh.extension().string() + " " + options;
+    return hex(hashOf(*bytes, hashOf(kind, 0xcbf29ce484222325u))) + hex(hashOf(*bytes, hashOf(kind, 1)));
+}
+
+std::optional<ShapeSpheres> CoverCache::find(const std::string& key) const {
+    const auto text = key.empty() ? std::nullopt : readFileAtMost(folder_ / key, kLargest);
+    return text && text->size() <= kLargest ? madeOf(*text) : std::nullopt;
+}
+
+void CoverCache::store(const std::string& key, const ShapeSpheres& made) const {
+    const std::string text = textOf(made);
+    if (key.empty() || made.spheres.empty() || text.size() > kLargest) {
+        return;
+    }
+    std::error_code failed;
+    std::filesystem::create_directories(folder_, failed);
+    const std::filesystem::path fresh = folder_ / (key + "." + std::to_string(::getpid()) + ".new");
+    {
+        std::ofstream out(fresh, std::ios::binary);
+        out << text;
+        if (!out.flush()) {
+            std::filesystem::remove(fresh, failed);
+            return;
+        }
+    }
+    std::filesystem::rename(fresh, folder_ / key, failed);
+    trim();
+}
+
+void CoverCache::trim() const {
+    std::error_code failed;
+    std::vector<std::pair<std::filesystem::file_time_type, std::filesystem::path>> files;
+    for (std::filesystem::directory_iterator at(folder_, failed), end; !failed && at != end;
+         at.increment(failed)) {
+        files.emplace_back(at->last_write_time(failed), at->path());
+    }
+    if (files.size() <= kMostFiles) {
+        return;
+    }
+    std::sort(files.begin(), files.end());
+    for (size_t i = 0; i + kMostFiles < files.size(); ++i) {
+        std::filesystem::remove(files[i].second, failed);
+    }
+}
+
+} // namespace fathom

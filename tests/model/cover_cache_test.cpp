@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/model/cover_cache.h"
+
+#include "engine/model/cover_links.h"
+#include "tests/model/meshes.h"
+
+#include <cstdlib>
+#include <doctest/doctest.h>
+#include <fstream>
+#include <unistd.h>
+
+using namespace fathom;
+
+namespace {
+
+struct CacheFolder {
+    std::filesystem::path path =
+        std::filesystem::temp_directory_path() / ("fathom_cache_" + std::to_string(::getpid()));
+    CacheFolder() { std::filesystem::remove_all(path); }
+    CacheFolder(const CacheFolder&) = delete;
+    CacheFolder& operator=(const CacheFolder&) = delete;
+    ~CacheFolder() { std::filesystem::remove_all(path); }
+    std::filesystem::path only() const { return std::filesystem::directory_iterator(path)->path(); }
+};
+
+const ShapeSpheres kMade{{{{0.1, 1.0 / 3.0, -2.0}, 1.0 / 7.0}}, {"a note"}, {}};
+
+} // namespace
+
+TEST_CASE("A cached cover is given back bit by bit, and not for other content, options or a damaged file") {
+    const CacheFolder folder;
+    const CoverCache cache(folder.path);
+    const testing::ObjFile one(testing::boxMesh(dvec3(0.0), dvec3(0.1))),
+        two(testing::boxMesh(dvec3(0.0), dvec3(0.2)));
+    const std::string key = cache.keyOf(one.path(), "24");
+    CHECK_FALSE(cache.find(key));
+    cache.store(key, kMade);
+    const auto found = cache.find(key);
+    REQUIRE(found);
+    CHECK(found->spheres[0].centre == kMade.spheres[0].centre);
+    CHECK(found->spheres[0].radius == kMade.spheres[0].radius);
+    CHECK(found->notes == kMade.notes);
+    CHECK(cache.keyOf(two.path(), "24") != key);
+    CHECK(cache.keyOf(one.path(), "25") != key);
+    CHECK(cache.keyOf("no/such/file.obj", "24") == "");
+    std::filesystem::resize_file(folder.only(), std::filesystem::file_size(folder.only()) - 3);
+    CHECK_FALSE(cache.find(key));
+    for (const char* text : {"", "\n", "fathom cover 1\n", "fathom cover 1\n1 2 3\n0000\n"}) {
+        std::ofstream(folder.path / key) << text;
+        CHECK_FALSE(cache.find(key));
+    }
+}
+
+TEST_CASE("A link's mesh is covered once, and the second time its cover comes from the cache") {
+    const CacheFolder folder;
+    REQUIRE(::setenv("XDG_CACHE_HOME", folder.path.c_str(), 1) == 0);
+    const testing::ObjFile file(testing::boxMesh(dvec3(0.0), dvec3(0.1)));
+    const auto mesh = std::make_shared<urdf::Mesh>();
+    mesh->filename = file.path().string();
+    mesh->scale = urdf::Vector3(1.0, 1.0, 1.0);
+    const std::vector<LinkGeometry> shapes{{"a", mesh}};
+    const auto first = spheresOf(shapes, {"arm.urdf", {}}, 8);
+    const CoverCache cache;
+    REQUIRE(std::filesystem::exists(cache.folder()));
+    const auto stored = std::filesystem::directory_iterator(cache.folder())->path();
+    CHECK(spheresOf(shapes, {"arm.urdf", {}}, 8)[0].spheres.size() == first[0].spheres.size());
+    cache.store(stored.filename().string(), kMade); // to see which one is used
+    CHECK(spheresOf(shapes, {"arm.urdf", {}}, 8)[0].spheres.size() == 1);
+    CHECK(spheresOf(shapes, {"arm.urdf", {}}, 9)[0].spheres.size() > 1);
+    ::unsetenv("XDG_CACHE_HOME");
+}
+
+TEST_CASE("The cache keeps a bounded number of files, the newest ones") {
+    const CacheFolder folder;
+    const CoverCache cache(folder.path);
+    std::filesystem::create_directories(folder.path);
+    for (size_t i = 0; i < CoverCache::kMostFiles + 20; ++i) {
+        std::ofstream(folder.path / ("old" + std::to_string(i))) << "x";
+    }
+    cache.store("new", kMade);
+    const auto all = std::filesystem::directory_iterator(folder.path);
+    CHECK(static_cast<size_t>(std::distance(begin(all), end(all))) == CoverCache::kMostFiles);
+    CHECK(cache.find("new"));
+}
