@@ -3,6 +3,8 @@
 
 #include "engine/gpu/result.h"
 
+#include <vector>
+
 namespace fathom::gpu {
 
 namespace {
@@ -81,6 +83,16 @@ void Commands::update(const Buffer& buffer, uint64_t offset, uint64_t bytes, con
 void Commands::copy(const Buffer& from, const Buffer& to, uint64_t bytes) {
     const VkBufferCopy region{0, 0, bytes};
     vkCmdCopyBuffer(handle_, from.handle(), to.handle(), 1, &region);
+}
+
+void Commands::copyParts(const Buffer& from, const Buffer& to,
+                         std::span<const std::pair<uint64_t, uint64_t>> parts) {
+    std::vector<VkBufferCopy> regions;
+    for (const auto& [offset, bytes] : parts) {
+        regions.push_back({offset, offset, bytes});
+    }
+    vkCmdCopyBuffer(handle_, from.handle(), to.handle(), static_cast<uint32_t>(regions.size()),
+                    regions.data());
 }
 
 void Commands::barrier() {

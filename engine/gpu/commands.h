@@ -6,6 +6,8 @@
 #include "engine/gpu/timeline.h"
 
 #include <array>
+#include <span>
+#include <utility>
 
 namespace fathom::gpu {
 
@@ -42,6 +44,9 @@ public:
     void fill(const Buffer& buffer, uint32_t value);                                      // the whole buffer
     void update(const Buffer& buffer, uint64_t offset, uint64_t bytes, const void* data); // at most 64 KiB
     void copy(const Buffer& from, const Buffer& to, uint64_t bytes);
+    // Parts of a buffer to the same places of another: offset and size of each [bytes].
+    void copyParts(const Buffer& from, const Buffer& to,
+                   std::span<const std::pair<uint64_t, uint64_t>> parts);
     // Makes earlier writes visible to later commands, but not to the host (see end()) or to reads of indirect
     // arguments: each of these would double the cost on a GPU.
     void barrier();

@@ -7,6 +7,8 @@
 #include "engine/types/error.h"
 #include "engine/types/log.h"
 
+#include <algorithm>
+
 namespace fathom::gpu {
 
 Device::Device(const Instance& instance, const std::string& selector, Drawing drawing)
@@ -18,13 +20,23 @@ Device::Device(const Instance& instance, const std::string& selector, Drawing dr
     if (drawing != Drawing::None) {
         chooseDrawQueue();
     }
+    queryIndex_ = queuesOf(family_) > drawIndex_ + 1 ? drawIndex_ + 1 : 0;
     createLogicalDevice(instance.validation().gpuAssisted, drawing);
     vkGetDeviceQueue(handle_, family_, 0, &queue_);
+    vkGetDeviceQueue(handle_, family_, queryIndex_, &queryQueue_);
     if (drawing != Drawing::None) {
         vkGetDeviceQueue(handle_, drawFamily_, drawIndex_, &drawQueue_);
     }
     cache_.emplace(handle_, cacheFileOf(physical_, ".pipelines"));
     log::info("device {} ({})", facts_.name, facts_.driver);
+}
+
+uint32_t Device::queuesOf(uint32_t family) const {
+    uint32_t count = 0;
+    vkGetPhysicalDeviceQueueFamilyProperties(physical_, &count, nullptr);
+    std::vector<VkQueueFamilyProperties> families(count);
+    vkGetPhysicalDeviceQueueFamilyProperties(physical_, &count, families.data());
+    return families[family].queueCount;
 }
 
 // Prefers a separate graphics queue: in the compute family, else in the first graphics family.
@@ -45,7 +57,9 @@ void Device::chooseDrawQueue() {
 }
 
 void Device::createLogicalDevice(bool gpuAssisted, Drawing drawing) {
-    const float priorities[] = {1.0f, 0.5f}; // passes before frames
+    const float drawIsSecond[] = {1.0f, 0.5f, 1.0f},
+                noDraw[] = {1.0f, 1.0f}; // passes and queries before frames
+    const float* const priorities = drawIndex_ == 1 ? drawIsSecond : noDraw;
     std::vector<VkDeviceQueueCreateInfo> queues;
     const auto add = [&](uint32_t family, uint32_t number, const float* priority) {
         VkDeviceQueueCreateInfo queue{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
@@ -54,9 +68,9 @@ void Device::createLogicalDevice(bool gpuAssisted, Drawing drawing) {
         queue.pQueuePriorities = priority;
         queues.push_back(queue);
     };
-    add(family_, 1 + drawIndex_, priorities);
+    add(family_, 1 + std::max(drawIndex_, queryIndex_), priorities);
     if (drawing != Drawing::None && drawFamily_ != family_) {
-        add(drawFamily_, 1, priorities + 1);
+        add(drawFamily_, 1, drawIsSecond + 1);
     }
 
     VkPhysicalDeviceVulkan12Features v12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
@@ -148,23 +162,32 @@ uint32_t Device::hostPointerTypes(const void* memory) const {
 
 void Device::submit(VkCommandBuffer commands, VkSemaphore timeline, uint64_t waitValue,
                     uint64_t signalValue) {
+    const std::lock_guard lock(queueMutex_);
+    submitTo(queue_, commands, {timeline, waitValue}, {timeline, signalValue});
+}
+
+void Device::submitQuery(VkCommandBuffer commands, const At& wait, const At& signal) {
+    const std::lock_guard lock(ownQueryQueue() ? queryMutex_ : queueMutex_);
+    submitTo(queryQueue_, commands, wait, signal);
+}
+
+void Device::submitTo(VkQueue queue, VkCommandBuffer commands, const At& wait, const At& signal) {
     VkTimelineSemaphoreSubmitInfo values{VK_STRUCTURE_TYPE_TIMELINE_SEMAPHORE_SUBMIT_INFO};
-    values.waitSemaphoreValueCount = waitValue != 0 ? 1 : 0;
-    values.pWaitSemaphoreValues = &waitValue;
+    values.waitSemaphoreValueCount = wait.value != 0 ? 1 : 0;
+    values.pWaitSemaphoreValues = &wait.value;
     values.signalSemaphoreValueCount = 1;
-    values.pSignalSemaphoreValues = &signalValue;
+    values.pSignalSemaphoreValues = &signal.value;
     const VkPipelineStageFlags stage = VK_PIPELINE_STAGE_ALL_COMMANDS_BIT;
     VkSubmitInfo submit{VK_STRUCTURE_TYPE_SUBMIT_INFO};
     submit.pNext = &values;
     submit.waitSemaphoreCount = values.waitSemaphoreValueCount;
-    submit.pWaitSemaphores = &timeline;
+    submit.pWaitSemaphores = &wait.timeline;
     submit.pWaitDstStageMask = &stage;
     submit.commandBufferCount = 1;
     submit.pCommandBuffers = &commands;
     submit.signalSemaphoreCount = 1;
-    submit.pSignalSemaphores = &timeline;
-    const std::lock_guard lock(queueMutex_);
-    check(vkQueueSubmit(queue_, 1, &submit, VK_NULL_HANDLE), "vkQueueSubmit");
+    submit.pSignalSemaphores = &signal.timeline;
+    check(vkQueueSubmit(queue, 1, &submit, VK_NULL_HANDLE), "vkQueueSubmit");
 }
 
 void Device::submitDrawing(const VkSubmitInfo& submit, VkFence fence) {

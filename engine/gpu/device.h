@@ -49,9 +49,18 @@ public:
     // Bits of the coherent memory types that can import the host memory at `memory`; 0 = none.
     uint32_t hostPointerTypes(const void* memory) const;
 
+    // A value of a timeline semaphore.
+    struct At {
+        VkSemaphore timeline = VK_NULL_HANDLE;
+        uint64_t value = 0; // 0 = nothing to wait for
+    };
     // Submits one command buffer; waits for waitValue of the timeline when not 0 and signals signalValue.
     // Holds the queue's mutex during the call. Never called by the haptic thread.
     void submit(VkCommandBuffer commands, VkSemaphore timeline, uint64_t waitValue, uint64_t signalValue);
+    // The same on the queue for contact queries, which does not wait for frames. It is the queue above if the
+    // device has no other (ownQueryQueue() is false).
+    void submitQuery(VkCommandBuffer commands, const At& wait, const At& signal);
+    bool ownQueryQueue() const { return queryQueue_ != queue_; }
 
     // The graphics queue; null for Drawing::None. If the device has only one queue, it is also the compute
     // queue and sharesQueue() is true: drawing then yields to passes in flight.
@@ -72,17 +81,19 @@ public:
 private:
     void createLogicalDevice(bool gpuAssisted, Drawing drawing);
     std::vector<const char*> extensionsFor(Drawing drawing) const;
+    static void submitTo(VkQueue queue, VkCommandBuffer commands, const At& wait, const At& signal);
     void chooseDrawQueue();
+    uint32_t queuesOf(uint32_t family) const;
 
     VkPhysicalDevice physical_ = VK_NULL_HANDLE;
     VkDevice handle_ = VK_NULL_HANDLE;
-    VkQueue queue_ = VK_NULL_HANDLE;
+    VkQueue queue_ = VK_NULL_HANDLE, queryQueue_ = VK_NULL_HANDLE;
     uint32_t family_ = 0;
     VkQueue drawQueue_ = VK_NULL_HANDLE;
-    uint32_t drawFamily_ = 0, drawIndex_ = 0;
-    std::mutex queueMutex_, drawMutex_;  // drawMutex_ only if the queues differ
-    std::optional<PipelineCache> cache_; // set once the device is created
-    mutable PipelineStore pipelines_;    // a cache, so mutable
+    uint32_t drawFamily_ = 0, drawIndex_ = 0, queryIndex_ = 0;
+    std::mutex queueMutex_, drawMutex_, queryMutex_; // the last two only if the queues differ
+    std::optional<PipelineCache> cache_;             // set once the device is created
+    mutable PipelineStore pipelines_;                // a cache, so mutable
     VkPhysicalDeviceMemoryProperties memory_{};
     DeviceFacts facts_;
     PFN_vkGetMemoryHostPointerPropertiesEXT hostPointerProperties_ = nullptr; // null: cannot import

@@ -100,6 +100,8 @@ DeviceFacts readFacts(VkPhysicalDevice device) {
     std::copy_n(id.deviceUUID, facts.uuid.size(), facts.uuid.begin());
     facts.kind = kindOf(properties.properties.deviceType);
     facts.subgroupSize = subgroup.subgroupSize;
+    facts.subgroupArithmetic = (subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0 &&
+                               (subgroup.supportedOperations & VK_SUBGROUP_FEATURE_ARITHMETIC_BIT) != 0;
     facts.maxInvocations = limits.maxComputeWorkGroupInvocations;
     facts.maxSharedBytes = limits.maxComputeSharedMemorySize;
     facts.maxStorageBufferBytes = limits.maxStorageBufferRange;

@@ -18,6 +18,7 @@ struct DeviceFacts {
         uuid{}; // VkPhysicalDeviceIDProperties::deviceUUID, also reported by the driver's other interfaces
     DeviceKind kind = DeviceKind::Cpu;
     uint32_t subgroupSize = 1;
+    bool subgroupArithmetic = false; // in compute shaders
     uint32_t maxInvocations = 128;   // of one work group
     uint32_t maxSharedBytes = 16384; // of one work group
     uint64_t maxStorageBufferBytes = 1u << 27;
