@@ -121,17 +121,13 @@ SceneEdits takeEdits(Scene& scene, const std::filesystem::path& source) {
         const std::filesystem::path file = scene.file;
         scene = edits.at(0).scene;
         scene.file = file;
-        scene.contact.where =
-            Scene::Contact::Where::Cpu; // classes that are held still exist only on the host
     }
     return edits;
 }
 
 // Radii can change during the run, so passes that the first scene's radii would skip stay in the plan.
 Plan planToEdit(const Scene& scene, const CameraInfo& camera, const Tool& tool, const DeviceFacts& device) {
-    Scene editable = scene;
-    editable.contact.where = Scene::Contact::Where::Cpu;
-    Plan plan = makePlan(editable, camera, static_cast<uint32_t>(tool.leafCount()), device);
+    Plan plan = makePlan(scene, camera, static_cast<uint32_t>(tool.leafCount()), device);
     plan.leaks = plan.spheres;
     return plan;
 }

@@ -157,15 +157,29 @@ StudyRow ourTree(const StudyContext& context, const Rig& rig, const Workload& wo
                  const std::string& source) {
     StudyRow row = peerRow(source, "Fathom GPU tree");
     cloud::TreeQuery query(context.device, rig.bench.plan(), rig.bench.cycle().layout(),
-                           rig.bench.cycle().sets(), work.tool, 1u << 21);
+                           rig.bench.cycle().sets());
+    query.setTool(work.tool);
+    NearPairs near;
+    DecideScratch scratch;
+    ContactSet set;
+    const std::vector<uint32_t>& sources = rig.host().spheres.source;
+    std::vector<uint32_t> indexOf(2u * rig.host().camera.depth.pixels());
+    for (uint32_t i = 0; i < sources.size(); ++i) {
+        indexOf[sources[i]] = i;
+    }
     row.more[kBuild] = rig.treeMs;
     row.more[kThreads] = deviceThreads(context.device);
     answerAndTime(
         context, work,
         [&](size_t i, std::vector<uint32_t>& found) {
-            verify(query.cull(rig.bench.set(), work.leaves[i], work.poses[i], static_cast<float>(kPeerReach),
-                              found),
+            fillContactSet(work.tool, work.poses[i], kPeerReach, rig.host(), {}, set);
+            verify(query.list(rig.bench.set(), work.poses[i], kPeerReach, near) &&
+                       decidePairs(work.tool, near, SIZE_MAX, scratch, set),
                    "peers", row.setting, "overflow");
+            found.clear();
+            for (const uint32_t each : set.source) {
+                found.push_back(indexOf[each]);
+            }
         },
         row);
     requireRight(row);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/profile/query_limit.h"
 
-#include "apps/profile/brute_force.h"
 #include "apps/profile/frame_sequence.h"
 #include "engine/cloud/tree_query.h"
+#include "engine/contact/cull_cpu.h"
 #include "shaders/shared/query_params.h"
 
 #include <algorithm>
@@ -13,52 +13,38 @@ namespace fathom::profile {
 
 namespace {
 
-constexpr float kLimitReach = 0.01f;     // [m]
+constexpr double kLimitReach = 0.01;     // [m]
 constexpr double kTestOperations = 12.0; // per test: d^2 takes 8, the squared limit 3, the comparison 1
-constexpr double kNodeBytes = 16.0;      // bytes of a node or a sphere, region or tool
-constexpr double kSlotsOfSub = 16.0;     // slots of a sub-patch in each layer
-constexpr uint32_t kKeysOfPatch = 512;   // FixtureSet::keys: two layers of 256 slots
+constexpr double kSphereBytes = 16.0;    // bytes of a sphere, a bound or a leaf
 
-uint32_t subPatchOf(uint32_t key) {
-    return key / kKeysOfPatch * 16 + key % 256 / 16;
-}
-
-// Adds the nodes above a sub-patch up to the root, as the shader's ancestorsInReach() computes them.
-void addAncestors(const PatchLayout& layout, uint32_t sub, std::set<uint32_t>& nodes) {
-    const uint32_t patch = sub / 16, u = patch % layout.across, v = patch / layout.across;
-    for (size_t level = 1; level < layout.levels.size(); ++level) {
-        const auto shift = static_cast<uint32_t>(2 * (level - 1));
-        nodes.insert(layout.levels[level].first + (v >> shift) * layout.levels[level].across + (u >> shift));
+// The patch of each sphere.
+std::vector<uint32_t> patchesOf(const Fixtures& host, const std::vector<uint32_t>& source,
+                                const PatchLayout& layout) {
+    const uint32_t width = host.camera.depth.width, pixels = host.camera.depth.pixels();
+    std::vector<uint32_t> patches;
+    for (const uint32_t s : source) {
+        patches.push_back(s % pixels / width / 16 * layout.across + s % pixels % width / 16);
     }
+    return patches;
 }
 
 } // namespace
 
-// Bytes count once each, as with a perfect cache: parameters, count, the region's root, the answer, and for
-// the answer's sub-patches their nodes, ancestors and slots, and one path down the tool's tree. Operations:
-// every invocation (one per sub-patch) tests the root. Those of the answer's sub-patches test every node down
-// to their own. That node and each found sphere descend the tool's tree to a leaf; every other sphere there
-// is tested once.
-QueryWork leastQueryWork(const PatchLayout& layout, uint32_t layers, uint32_t toolLevels,
-                         std::span<const uint32_t> keys, std::span<const uint32_t> found) {
-    std::set<uint32_t> subs, ancestors;
-    for (const uint32_t index : found) {
-        subs.insert(subPatchOf(keys[index]));
-    }
-    ancestors.insert(layout.levels.back().first);
-    for (const uint32_t sub : subs) {
-        addAncestors(layout, sub, ancestors);
-    }
+// Bytes count once each, as with a perfect cache: parameters, the bound of every patch, the leaves, the slots
+// of the answer's patches, and the answer. Operations: one test per patch, one per leaf and patch of the
+// answer, one per pair of the answer, and one per other sphere of these patches.
+QueryWork leastQueryWork(const PatchLayout& layout, uint32_t layers, size_t leaves,
+                         std::span<const uint32_t> patches, std::span<const uint32_t> found, size_t pairs) {
+    const std::set<uint32_t> reached(found.begin(), found.end());
     const auto looked = static_cast<double>(std::count_if(
-        keys.begin(), keys.end(), [&](uint32_t key) { return subs.count(subPatchOf(key)) > 0; }));
-    const auto count = static_cast<double>(found.size()), reached = static_cast<double>(subs.size()),
-               down = static_cast<double>(toolLevels), levels = static_cast<double>(layout.levels.size());
+        patches.begin(), patches.end(), [&](uint32_t patch) { return reached.count(patch) > 0; }));
+    const auto blocks = static_cast<double>(reached.size()), tool = static_cast<double>(leaves),
+               spheres = static_cast<double>(found.size()), listed = static_cast<double>(pairs);
     QueryWork work;
-    work.bytes = sizeof(shared::QueryParams) + sizeof(uint32_t) * (1.0 + count) +
-                 kNodeBytes * (static_cast<double>(ancestors.size()) +
-                               reached * (1.0 + kSlotsOfSub * layers) + (found.empty() ? 1.0 : down));
-    work.operations = kTestOperations * (16.0 * layout.patches() + reached * (levels - 1.0 + down - 1.0) +
-                                         count * down + (looked - count));
+    work.bytes = sizeof(shared::QueryParams) + kSphereBytes * layout.patches() +
+                 kSphereBytes * ((reached.empty() ? 0.0 : tool) + blocks * shared::kBlockSlots * layers) +
+                 sizeof(shared::FoundSphere) * spheres + sizeof(uint32_t) * listed;
+    work.operations = kTestOperations * (layout.patches() + blocks * tool + listed + (looked - spheres));
     return work;
 }
 
@@ -71,23 +57,26 @@ QueryLimit measureQuery(const StudyContext& context, const FrameBench& bench, co
     }
     const Tool tool = ballTool(256);
     const Pose pose = touchingPose(tool, set.host, baseTcamera);
-    PosedLeaves leaves;
-    poseLeaves(tool, pose, set.host.origin, leaves);
-    cloud::TreeQuery query(context.device, bench.plan(), bench.cycle().layout(), bench.cycle().sets(), tool,
-                           static_cast<uint32_t>(limit.spheres));
+    const PatchLayout& layout = bench.cycle().layout();
+    cloud::TreeQuery query(context.device, bench.plan(), layout, bench.cycle().sets());
+    query.setTool(tool);
     query.askForTime();
-    std::vector<uint32_t> found, truth;
-    std::vector<uint8_t> marks;
-    verify(query.cull(set, leaves, pose, kLimitReach, found), "limit", "tree_query", "overflow");
-    std::sort(found.begin(), found.end());
-    bruteForceCull(leaves, kLimitReach, set.host.spheres, marks, truth);
-    verify(found == truth && !found.empty(), "limit", "tree_query", "the cull differs from brute force");
-    limit.leaves = tool.leafCount(), limit.found = found.size();
-    limit.least = leastQueryWork(bench.cycle().layout(), bench.plan().hold ? 2 : 1, tool.tree().levels,
-                                 set.keys, found);
+    NearPairs near;
+    DecideScratch scratch;
+    ContactSet device, host;
+    fillContactSet(tool, pose, kLimitReach, set.host, {}, device);
+    verify(query.list(set, pose, kLimitReach, near) && decidePairs(tool, near, SIZE_MAX, scratch, device),
+           "limit", "tree_query", "overflow");
+    CullCpu({SIZE_MAX, SIZE_MAX}).query(tool, pose, kLimitReach, set.host, set.grid, host);
+    verify(device.source == host.source && device.pairSphere == host.pairSphere && device.size() > 0, "limit",
+           "tree_query", "the contact sets of CPU and GPU differ");
+    limit.leaves = tool.leafCount(), limit.found = device.size();
+    limit.least = leastQueryWork(layout, bench.plan().hold ? 2 : 1, tool.leafCount(),
+                                 patchesOf(set.host, set.host.spheres.source, layout),
+                                 patchesOf(set.host, device.source, layout), device.pairSphere.size());
     std::vector<double> ms;
     repeat(
-        context.settings.repeats(), [&] { query.cull(set, leaves, pose, kLimitReach, found); },
+        context.settings.repeats(), [&] { query.list(set, pose, kLimitReach, near); },
         [&](const Clocks&) { ms.push_back(query.gpuMs()); });
     limit.time = context.device.facts().timestampPeriodNs > 0.0 ? spreadOf(ms) : Spread{};
     return limit;

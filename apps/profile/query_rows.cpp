@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <set>
 
 namespace fathom::profile {
 
@@ -90,22 +91,32 @@ void verifyCull(std::vector<uint32_t>& found, const TouchingTool& at, const Stud
     verify(found == at.truth, "query", row.setting, "the cull differs from brute force");
 }
 
-// Times the cull alone: device time, and submission to result. Separate runs, because timestamps take time;
+// The device lists a superset; the host decides later.
+void verifyList(const NearPairs& near, const QueryRig& rig, const TouchingTool& at, const StudyRow& row) {
+    std::set<uint32_t> listed;
+    for (const NearSphere& s : near.spheres) {
+        listed.insert(s.source);
+    }
+    const bool all = std::all_of(at.truth.begin(), at.truth.end(),
+                                 [&](uint32_t i) { return listed.count(rig.host().spheres.source[i]) > 0; });
+    verify(all, "query", row.setting, "the device's list lacks a sphere that brute force finds");
+}
+
+// Times the list alone: device time, and submission to result. Separate runs, because timestamps take time;
 // on a CPU device, more than a cull of few spheres.
 void timeGpuCull(const StudyContext& context, const QueryRig& rig, const TouchingTool& at, StudyRow& row) {
-    std::vector<uint32_t> found;
+    NearPairs near;
     std::vector<double> gpu, submit;
     for (const bool stamped : {false, true}) {
         cloud::TreeQuery query(context.device, rig.bench.plan(), rig.bench.cycle().layout(),
-                               rig.bench.cycle().sets(), at.tool, 1u << 21);
+                               rig.bench.cycle().sets());
+        query.setTool(at.tool);
         if (stamped) {
             query.askForTime();
         }
-        const auto cull = [&] {
-            return query.cull(rig.bench.set(), at.leaves, at.pose, kSingleReach, found);
-        };
+        const auto cull = [&] { return query.list(rig.bench.set(), at.pose, kQueryReach, near); };
         verify(cull(), "query", row.setting, "overflow");
-        verifyCull(found, at, row);
+        verifyList(near, rig, at, row);
         repeat(context.settings.repeats(), cull, [&](const Clocks& c) {
             (stamped ? gpu : submit).push_back(stamped ? query.gpuMs() : c.wallMs());
         });

@@ -103,6 +103,7 @@ SetBuffers::SetBuffers(const gpu::Device& device, const Plan& plan, const PatchL
         if (plan.tree) {
             spheres = Buffer(device, slots * 16, MemoryKind::Device, "set spheres");
             held = plan.hold ? Buffer(device, slots * 16, MemoryKind::Device, "set held") : Buffer();
+            classes = plan.classes > 1 ? Buffer(device, slots, MemoryKind::Device, "set classes") : Buffer();
         }
     }
     if (plan.tree) {

@@ -77,6 +77,7 @@ struct SetBuffers {
     gpu::Buffer nodes; // vec4 per node; empty without a tree
     gpu::Buffer nodeCounts;    // uint per node
     gpu::Buffer spheres, held; // vec4 per slot, R < 0 = none; for the GPU query, else empty
+    gpu::Buffer classes;       // as WorkBuffers::classes; for the GPU query if there are several classes
     gpu::Buffer moments;       // PatchMoments, kMaxClasses per patch
     gpu::Buffer counters;      // FrameCounters
     gpu::Buffer listed;        // uint per patch

@@ -58,7 +58,6 @@ SphereCollector::SphereCollector(FixtureSet& set, const WorkBuffers& work, const
     , begins_(layout.patches() + 1) {
     const uint32_t count = placePatches(workers);
     set.host.spheres.resize(count);
-    set.keys.resize(plan.query == Plan::Query::Gpu ? count : 0);
     counts_.resize(partsOf(&workers, count, kLeastPart));
 }
 

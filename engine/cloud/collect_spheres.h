@@ -11,8 +11,8 @@ class ThreadPool;
 
 namespace fathom::cloud {
 
-// Fills set.host.spheres and, for a GPU query, set.keys, in parts that several threads may share. rows: row
-// of Scene::fixtures for each point class. Only the constructor allocates.
+// Fills set.host.spheres in parts that several threads may share. rows: row of Scene::fixtures for each point
+// class. Only the constructor allocates.
 class SphereCollector {
 public:
     // seen: points of this frame; null if the plan does not pack depths.

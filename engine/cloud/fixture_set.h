@@ -13,10 +13,18 @@ namespace fathom::cloud {
 // the device.
 struct FixtureSet {
     Fixtures host;
-    RegionGrid grid;            // over host.spheres
-    std::vector<uint32_t> keys; // per sphere: patch * 512 + layer * 256 + slot in the patch, ascending; empty
-                                // without a GPU query
+    RegionGrid grid; // over host.spheres
     SetBuffers device;
+    // For the GPU query: what the device's spheres are in host.spheres.
+    std::vector<int> rows;     // per point class: its row of Scene::fixtures; kStill = see below
+    size_t stillFrom = 0;      // host.spheres from here on are not in `device`: spheres of frozen classes
+    uint64_t stillVersion = 0; // changes with those spheres; 0 = none so far
+    gpu::Device::At landed;    // the passes have written `device`
+
+    static constexpr int kStill = -1; // a frozen class: its spheres in `device` do not count
+
+    // Fills the above, but for stillFrom.
+    void describeDevice(const Scene& scene, uint64_t frozenVersion, const gpu::Device::At& written);
 
     FixtureSet() = default; // without a device side
     FixtureSet(const gpu::Device& gpu, const Plan& plan, const PatchLayout& layout)

@@ -38,18 +38,19 @@ FrozenClasses::Kept FrozenClasses::take(const Fixtures& set, uint32_t row) {
     return kept;
 }
 
-void FrozenClasses::apply(Fixtures& set, const Scene& scene) {
+size_t FrozenClasses::apply(Fixtures& set, const Scene& scene) {
     const auto frozen = [&](uint32_t row) {
         return row < scene.fixtures.size() && scene.fixtures[row].isPoints() && scene.fixtures[row].frozen;
     };
-    std::erase_if(kept_, [&](const auto& kept) { return !frozen(kept.first); });
+    version_ += std::erase_if(kept_, [&](const auto& kept) { return !frozen(kept.first); });
     for (uint32_t row = 0; row < scene.fixtures.size(); ++row) {
         if (frozen(row) && !kept_.contains(row)) {
             kept_.emplace(row, take(set, row));
+            ++version_;
         }
     }
     if (kept_.empty()) {
-        return;
+        return set.spheres.size();
     }
     RegionSpheres& spheres = set.spheres;
     size_t at = 0;
@@ -58,6 +59,7 @@ void FrozenClasses::apply(Fixtures& set, const Scene& scene) {
             copySphere(spheres, at++, spheres, i);
         }
     }
+    const size_t first = at;
     spheres.resize(at);
     for (const auto& [row, kept] : kept_) {
         const glm::vec3 shift(kept.origin - set.origin);
@@ -72,6 +74,7 @@ void FrozenClasses::apply(Fixtures& set, const Scene& scene) {
             guidance = guidance.fixture == row && kept.guidance ? *kept.guidance : guidance;
         }
     }
+    return first;
 }
 
 } // namespace fathom::cloud

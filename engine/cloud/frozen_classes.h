@@ -10,13 +10,16 @@
 
 namespace fathom::cloud {
 
-// Changes the host copy of a set only, so it requires the CPU contact query. Frame thread only.
+// Changes the host copy of a set. The GPU query has a copy of the fixed spheres of its own (TreeQuery). Frame
+// thread only.
 class FrozenClasses {
 public:
     // Replaces spheres and targets of classes with FixtureClass::frozen by those of the first set since the
     // class was frozen. Other classes are unchanged. Sources of frozen spheres are offset by twice the number
-    // of pixels, so that every source in a set is unique.
-    void apply(Fixtures& set, const Scene& scene);
+    // of pixels, so that every source in a set is unique. Returns the index of the first frozen sphere: they
+    // are the last ones.
+    size_t apply(Fixtures& set, const Scene& scene);
+    uint64_t version() const { return version_; } // changes with the frozen spheres
 
 private:
     struct Kept {
@@ -27,6 +30,7 @@ private:
     static Kept take(const Fixtures& set, uint32_t row);
 
     std::map<uint32_t, Kept> kept_; // by row of Scene::fixtures
+    uint64_t version_ = 0;
 };
 
 } // namespace fathom::cloud

@@ -199,7 +199,8 @@ PassInfo spheresOf(const CloudContext& c, std::span<const uint32_t> spirv, size_
 
 PassInfo spheresByPatch(const CloudContext& c) {
     PassInfo pass = spheresOf(c, spheres_by_patch_spv, offsetof(FrameCounters, patchGroups));
-    pass.bindings.insert(pass.bindings.end(), {&Set::packed, &Set::places, &Set::runs, &Work::growth});
+    pass.bindings.insert(pass.bindings.end(),
+                         {&Set::packed, &Set::places, &Set::runs, &Work::growth, &Set::classes});
     // Smaller groups wait less at barriers; larger ones finish a patch sooner.
     const uint32_t group = std::min(c.plan.pixelGroup, c.plan.manyPatches ? 128u : 256u);
     pass.constants.insert(pass.constants.end(),
@@ -213,7 +214,8 @@ PassInfo spheresBySub(const CloudContext& c, uint32_t hold, size_t counted) {
     pass.bindings.insert(pass.bindings.end(), {{&Work::growth, kVector},
                                                {&Work::seen, kVector},
                                                {&Work::kept, kVector},
-                                               {&Work::keptTime, VK_FORMAT_R32_UINT}});
+                                               {&Work::keptTime, VK_FORMAT_R32_UINT},
+                                               &Set::classes});
     pass.constants.insert(
         pass.constants.end(),
         {{kSpecGroupSize, c.plan.subGroup}, {kSpecHold, hold}, {kSpecTexels, c.plan.memoryTexels}});

@@ -60,13 +60,6 @@ FATHOM_CLONES void toSources(const uint16_t* places, size_t n, uint32_t corner, 
     }
 }
 
-FATHOM_CLONES void toKeys(const uint16_t* places, size_t n, uint32_t patch,
-                          uint32_t* __restrict keys) noexcept {
-    for (size_t i = 0; i < n; ++i) {
-        keys[i] = patch * 512 + places[i];
-    }
-}
-
 FATHOM_CLONES void grow(float* __restrict radius, size_t n, const uint8_t* steps, float step) noexcept {
     for (size_t i = 0; i < n; ++i) {
         radius[i] += static_cast<float>(steps[i]) * step;
@@ -91,9 +84,6 @@ void SphereColumns::put(uint32_t patch, size_t first, const PatchSpheres& sphere
     toPlaces(spheres.places, words_, places.data());
     const uint32_t corner = (patch / across_ * width_ + patch % across_) * 16;
     toSources(places.data(), spheres.n(), corner, width_, pixels_, &set_.host.spheres.source[first]);
-    if (!set_.keys.empty()) {
-        toKeys(places.data(), spheres.n(), patch, &set_.keys[first]);
-    }
     putCentres(patch, first, spheres, places);
     putClasses(first, spheres, places);
     if (spheres.steps != nullptr) {

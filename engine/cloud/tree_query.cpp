@@ -2,8 +2,8 @@
 #include "engine/cloud/tree_query.h"
 
 #include "shaders/shared/constants.h"
-#include "shaders/shared/query_params.h"
 #include "shaders/tree_query.h"
+#include "shaders/tree_query_plain.h"
 
 #include <algorithm>
 
@@ -11,126 +11,226 @@ namespace fathom::cloud {
 
 namespace {
 
-constexpr uint32_t kGroup = 64;
-constexpr float kOutward = 1.00001f; // for inner nodes: covers the float32 rounding of pose and sum
+using shared::QueryParams;
+using Counts = QueryAnswer::Counts;
 
-std::vector<gpu::BindingKind> bindingsOfQuery() {
-    std::vector<gpu::BindingKind> kinds(7);
-    kinds[0] = gpu::kUniform;
-    return kinds;
+constexpr uint32_t kLeavesPerSphere = 8; // in the first answer's capacity
+constexpr uint32_t kGroups = 1024;       // of one query on a GPU
+constexpr uint32_t kFewestLeaves = 64;   // of a slice: fewer do not pay for another group
+
+gpu::PipelineInfo pipelineOf(const Plan& plan, bool subgroups) {
+    const std::span<const uint32_t> bySubgroup(tree_query_spv), plain(tree_query_plain_spv);
+    return {"tree_query",
+            subgroups ? bySubgroup : plain,
+            std::vector<gpu::BindingKind>(7),
+            {{shared::kSpecGroupSize, plan.pixelGroup}, {shared::kSpecClasses, plan.classes}},
+            sizeof(QueryParams)};
 }
 
 } // namespace
 
 TreeQuery::TreeQuery(gpu::Device& device, const Plan& plan, const PatchLayout& layout, FixturePool& pool,
-                     const Tool& tool, uint32_t capacity)
+                     uint32_t capacity, bool subgroups)
     : device_(device)
     , layout_(layout)
     , pool_(pool)
-    , tool_(tool)
     , hold_(plan.hold)
-    , capacity_(capacity)
-    , pipeline_(device, {"tree_query", tree_query_spv, bindingsOfQuery(), {{shared::kSpecGroupSize, kGroup}}})
+    , pipeline_(device, pipelineOf(plan, subgroups && device.facts().subgroupArithmetic))
     , timeline_(device)
     , commands_(device)
     , watch_(device, 2)
-    , params_(device, sizeof(shared::QueryParams), gpu::MemoryKind::Upload, "query params")
-    , toolTree_(device, tool.tree().nodes.size() * 16, gpu::MemoryKind::Upload, "tool tree")
-    , count_(device, 16, gpu::MemoryKind::Readback, "query count")
-    , unused_(device, 16, gpu::MemoryKind::Device, "unused") {
-    makeAnswer();
-}
+    , still_(device)
+    , answer_(device, {capacity, kLeavesPerSphere * capacity})
+    , unused_(device, 16, gpu::MemoryKind::Device, "unused") {}
 
-void TreeQuery::makeAnswer() {
-    found_ = gpu::Buffer(device_, 4ull * capacity_, gpu::MemoryKind::Readback, "query answer");
+void TreeQuery::makeBindings() {
+    const gpu::Buffer* const answer = &answer_.buffer();
     bindings_.clear();
     for (size_t i = 0; i < pool_.size(); ++i) {
         const SetBuffers& s = pool_.at(i).device;
         bindings_.emplace_back(device_, pipeline_,
-                               std::vector<const gpu::Buffer*>{&params_, &toolTree_, &s.nodes, &s.spheres,
-                                                               &s.held, &count_, &found_},
+                               std::vector<const gpu::Buffer*>{&leaves_, &s.nodes, &s.spheres, &s.held,
+                                                               &s.classes, answer, answer},
                                unused_);
     }
+    stillBindings_ = gpu::Bindings(
+        device_, pipeline_, {&leaves_, &still_.buffer(), &still_.buffer(), nullptr, nullptr, answer, answer},
+        unused_);
 }
 
-void TreeQuery::grow() {
-    capacity_ *= 2;
-    makeAnswer();
-}
-
-// Leaves are the same floats that the CPU query tests; inner nodes are bounds and may be larger.
-void TreeQuery::poseTree(const PosedLeaves& leaves, const Pose& baseTtool, const dvec3& origin) {
-    const SphereTree& tree = tool_.tree();
-    const auto out = toolTree_.as<glm::vec4>();
-    const uint32_t firstLeaf = tree.firstLeaf();
-    for (uint32_t n = 0; n < firstLeaf; ++n) {
-        const Sphere& s = tree.nodes[n];
-        out[n] = s.radius < 0.0 ? glm::vec4(0, 0, 0, -1)
-                                : glm::vec4(glm::vec3(baseTtool.apply(s.centre) - origin),
-                                            static_cast<float>(s.radius) * kOutward + 1e-6f);
+void TreeQuery::setTool(const Tool& tool) {
+    const std::vector<Sphere>& leaves = tool.leaves();
+    if (leaves.size() > leaves_.bytes() / 16) {
+        leaves_ = gpu::Buffer(device_, leaves.size() * 16, gpu::MemoryKind::Device, "tool leaves");
+        leavesWritten_ = gpu::Buffer(device_, leaves.size() * 16, gpu::MemoryKind::Upload, "tool leaves");
+        bindings_.clear();
     }
-    for (uint32_t n = firstLeaf, leaf = 0; n < tree.nodes.size(); ++n) {
-        if (tree.nodes[n].radius < 0.0) {
-            out[n] = glm::vec4(0, 0, 0, -1);
-            continue;
-        }
-        out[n] = {leaves.x[leaf], leaves.y[leaf], leaves.z[leaf], leaves.radius[leaf]};
-        ++leaf;
+    const auto out = leavesWritten_.as<glm::vec4>();
+    const dvec3 centre(glm::vec3(tool.tree().nodes[0].centre));
+    double radius = 0.0;
+    for (size_t i = 0; i < leaves.size(); ++i) {
+        out[i] = glm::vec4(glm::vec3(leaves[i].centre), static_cast<float>(leaves[i].radius));
+        radius = std::max(radius, glm::distance(dvec3(out[i]), centre) + double{out[i].w});
+    }
+    bound_ = glm::vec4(glm::vec3(centre), static_cast<float>(radius * 1.000001));
+    toolRadius_ = tool.boundingRadius();
+    leafCount_ = static_cast<uint32_t>(leaves.size());
+    leavesChanged_ = true;
+}
+
+void TreeQuery::uploadStill(const FixtureSet& set) {
+    if (set.stillVersion == stillVersion_) {
+        return;
+    }
+    stillVersion_ = set.stillVersion;
+    const RegionSpheres& s = set.host.spheres;
+    std::vector<glm::vec4> spheres;
+    for (size_t i = set.stillFrom; i < s.size(); ++i) {
+        spheres.emplace_back(s.x[i], s.y[i], s.z[i], s.radius[i]);
+    }
+    if (still_.fill(spheres)) {
+        bindings_.clear();
     }
 }
 
-void TreeQuery::record(size_t setIndex) {
+TreeQuery::Blocks TreeQuery::stillBlocks() const {
+    return {&stillBindings_, still_.count(), still_.firstBound(), shared::kLayerStill, 1};
+}
+
+QueryParams TreeQuery::paramsAt(const Pose& baseTtool, const dvec3& origin, double reach,
+                                double largest) const {
+    QueryParams p{};
+    const dvec3 t = baseTtool.position - origin;
+    const glm::dmat3 rotation = glm::mat3_cast(baseTtool.rotation); // its columns are the rows of the inverse
+    for (int k = 0; k < 3; ++k) {
+        p.rows[k] = glm::vec4(glm::vec3(rotation[k]), static_cast<float>(t[k]));
+    }
+    p.tool = bound_;
+    p.reach = outwardReach(toolRadius_, glm::length(t), reach, largest);
+    return p;
+}
+
+// If there are few blocks, slices share the leaves among groups. A CPU device would gain nothing.
+void TreeQuery::dispatch(const Blocks& blocks, QueryParams p) {
+    const bool cpu = device_.facts().kind == DeviceKind::Cpu;
+    const uint32_t groups = cpu ? 4 * device_.facts().hostProcessors : kGroups;
+    const uint32_t count = std::max(1u, blocks.count),
+                   fewest = (leafCount_ + shared::kSliceLeaves - 1) / shared::kSliceLeaves,
+                   most = cpu ? fewest : std::max(fewest, leafCount_ / kFewestLeaves);
+    const uint32_t slices = std::clamp(groups / count, fewest, most);
+    p.blocks = {blocks.count, blocks.firstBound, leafCount_, (leafCount_ + slices - 1) / slices};
+    p.layer = blocks.layer, p.layers = blocks.layers;
+    answer_.place(p);
+    commands_.dispatch(pipeline_, *blocks.bindings, {std::clamp(2 * groups / slices, 1u, count), slices, 1},
+                       &p);
+}
+
+void TreeQuery::record(std::span<const Blocks> all, const QueryParams& params) {
     commands_.begin();
+    bool copied = answer_.isNew();
+    if (answer_.isNew()) {
+        answer_.clear(commands_);
+    }
+    if (leavesChanged_) {
+        commands_.copy(leavesWritten_, leaves_, 16ull * leafCount_);
+        copied = true;
+    }
+    copied = still_.upload(commands_) || copied;
+    if (copied) {
+        commands_.barrier();
+    }
+    leavesChanged_ = false;
     if (timed_) {
         watch_.reset();
         watch_.mark(commands_.handle());
     }
-    commands_.fill(count_, 0);
-    commands_.barrier();
-    commands_.dispatch(pipeline_, bindings_[setIndex], (layout_.patches() * 16 + kGroup - 1) / kGroup);
+    for (const Blocks& blocks : all) {
+        if (&blocks != all.data()) {
+            commands_.barrier();
+        }
+        dispatch(blocks, params);
+    }
     if (timed_) {
         watch_.mark(commands_.handle());
     }
+    commands_.barrier();
+    answer_.copy(commands_);
     commands_.end();
+}
+
+void TreeQuery::submit(const gpu::Device::At& after) {
+    device_.submitQuery(commands_.handle(), after, {timeline_.handle(), ++ticket_});
+    timeline_.wait(ticket_);
+}
+
+// Returns the number of spheres and leaves found. The answer is whole unless they exceed its capacity.
+Counts TreeQuery::run(std::span<const Blocks> all, const gpu::Device::At& after, const QueryParams& params) {
+    record(all, params);
+    submit(after);
+    const Counts found = answer_.read();
+    if (found.fits(answer_.most()) && !answer_.isWhole()) {
+        commands_.begin();
+        answer_.copyWhole(commands_);
+        commands_.end();
+        submit({});
+    }
+    return found;
+}
+
+bool TreeQuery::list(const FixtureSet& set, const Pose& baseTtool, double reach, NearPairs& near) {
+    size_t index = 0;
+    while (&pool_.at(index) != &set) {
+        ++index;
+    }
+    uploadStill(set);
+    const QueryParams params = paramsAt(baseTtool, set.host.origin, reach, set.grid.maxRadius());
+    for (;;) {
+        if (bindings_.empty()) {
+            makeBindings();
+        }
+        const Blocks live{&bindings_[index], layout_.patches(), layout_.levels[1].first, shared::kLayerSeen,
+                          hold_ ? 2u : 1u};
+        const Blocks both[] = {live, stillBlocks()};
+        const Counts found = run({both, still_.count() > 0 ? 2u : 1u}, set.landed, params);
+        if (found.fits(answer_.most())) {
+            take(set, near);
+            return true;
+        }
+        if (!answer_.growTo(found)) {
+            return false;
+        }
+        bindings_.clear();
+    }
+}
+
+void TreeQuery::take(const FixtureSet& set, NearPairs& near) const {
+    const auto width = static_cast<uint32_t>(set.host.camera.depth.width);
+    const auto pixels = static_cast<uint32_t>(set.host.camera.depth.pixels());
+    const RegionSpheres& host = set.host.spheres;
+    near.leaves = answer_.leaves();
+    near.spheres.clear();
+    for (const shared::FoundSphere& f : answer_.spheres()) {
+        const uint32_t layer = f.slot & 3u, slot = f.slot >> 2;
+        NearSphere s{0, 0, f.first, f.count, f.sphere.x, f.sphere.y, f.sphere.z, f.sphere.w};
+        if (layer == shared::kLayerStill) {
+            s.source = host.source[set.stillFrom + slot];
+            s.fixture = host.fixture[set.stillFrom + slot];
+        } else if (set.rows[f.fixture] == FixtureSet::kStill) {
+            continue;
+        } else {
+            const uint32_t patch = slot / shared::kBlockSlots;
+            const uint32_t u = patch % layout_.across * 16 + (slot >> 2 & 12) + (slot & 3);
+            const uint32_t v = patch / layout_.across * 16 + (slot >> 4 & 12) + (slot >> 2 & 3);
+            s.source = v * width + u + layer * pixels;
+            s.fixture = static_cast<uint32_t>(set.rows[f.fixture]);
+        }
+        near.spheres.push_back(s);
+    }
 }
 
 double TreeQuery::gpuMs() const {
     const std::vector<double> intervals = watch_.intervalsMs();
     return intervals.empty() ? 0.0 : intervals.front();
-}
-
-bool TreeQuery::cull(const FixtureSet& set, const PosedLeaves& leaves, const Pose& baseTtool, float reach,
-                     std::vector<uint32_t>& found) {
-    shared::QueryParams p{};
-    p.size = {layout_.across, layout_.down, 0, capacity_};
-    for (size_t l = 0; l < layout_.levels.size(); ++l) {
-        p.levels[l] = {layout_.levels[l].across, layout_.levels[l].down, layout_.levels[l].first, 0};
-    }
-    p.region = {layout_.levels.size(), hold_ ? 1 : 0, tool_.tree().degree, tool_.tree().firstLeaf()};
-    p.reach = {reach, 0, 0, 0};
-    *params_.as<shared::QueryParams>().data() = p;
-    poseTree(leaves, baseTtool, set.host.origin);
-
-    size_t index = 0;
-    while (&pool_.at(index) != &set) {
-        ++index;
-    }
-    record(index);
-    device_.submit(commands_.handle(), timeline_.handle(), 0, ++ticket_);
-    timeline_.wait(ticket_);
-    const uint32_t count = count_.as<uint32_t>()[0];
-    found.clear();
-    if (count > capacity_) {
-        return false;
-    }
-    const auto slots = found_.as<uint32_t>().first(count);
-    for (uint32_t answer : slots) {
-        const uint32_t slot = answer / 2, layer = answer % 2;
-        const uint32_t key = (slot / 256) * 512 + layer * 256 + slot % 256;
-        found.push_back(static_cast<uint32_t>(std::lower_bound(set.keys.begin(), set.keys.end(), key) -
-                                              set.keys.begin()));
-    }
-    return true;
 }
 
 } // namespace fathom::cloud

@@ -1,57 +1,87 @@
 // SPDX-License-Identifier: Apache-2.0
-// The contact query on the GPU (shaders/tree_query.comp): tool tree against region tree, in parallel (paper
-// V.A).
+// The contact query on the GPU (shaders/lib/tree_query.glsl): tool tree against region tree, in parallel
+// (paper V.A).
 #pragma once
 
 #include "engine/cloud/fixture_set.h"
-#include "engine/contact/tool.h"
+#include "engine/cloud/query_answer.h"
+#include "engine/cloud/sphere_blocks.h"
+#include "engine/contact/near_pairs.h"
 #include "engine/gpu/pipeline.h"
 #include "engine/gpu/stopwatch.h"
 
-#include <optional>
+#include <span>
+#include <vector>
 
 namespace fathom::cloud {
 
-// Contact thread only. Has its own timeline and command buffer; shares the queue with the frame cadence.
+// Contact thread only. Has a timeline and a command buffer of its own, and a queue of its own where the
+// device has a second one.
 class TreeQuery {
 public:
-    // sets: every set of the pool, so that descriptors are created once. capacity: largest number of spheres
-    // in an answer.
+    // pool: every set of it can be queried. capacity: spheres in the first answer; it grows when an answer
+    // does not fit. subgroups: compact the answer by subgroup where the device can.
     TreeQuery(gpu::Device& device, const Plan& plan, const PatchLayout& layout, FixturePool& pool,
-              const Tool& tool, uint32_t capacity = 65536);
+              uint32_t capacity = 4096, bool subgroups = true);
 
-    // Writes to `found` the index (into set.host.spheres) of every sphere with d^2 <= (reach + r_t + R)^2 for
-    // some leaf, in any order. leaves: poseLeaves() at the same pose, relative to the set's origin. Returns
-    // false, with `found` invalid, when there are more than the capacity; grow() doubles it. Blocks until the
-    // device has finished.
-    bool cull(const FixtureSet& set, const PosedLeaves& leaves, const Pose& baseTtool, float reach,
-              std::vector<uint32_t>& found);
-    void grow();
-    uint32_t capacity() const { return capacity_; }
+    // The leaves of the next queries. The device gets a copy with the next query and keeps it.
+    void setTool(const Tool& tool);
 
-    // Enables timestamps, which cost the device a little. gpuMs(): device time of the last cull; 0 when not
-    // enabled or not supported.
+    // Lists in `near` every pair of leaf and sphere whose gap is at most `reach` [m], and a few more. Blocks
+    // until the device has finished. False when not even the device's largest buffer holds the answer.
+    bool list(const FixtureSet& set, const Pose& baseTtool, double reach, NearPairs& near);
+    uint32_t capacity() const { return answer_.most().spheres; }
+
+    // Asks about pairs at the very limit of the reach, which a device with other arithmetic than Vulkan's
+    // would miss. True when it finds them all. shorter: searches a reach that is shorter by this [m]. Drops
+    // the tool.
+    bool passesProbe(double shorter = 0.0);
+
+    // Enables timestamps, which cost the device a little. gpuMs(): device time of the last query without the
+    // copy of its answer; 0 when not enabled or not supported.
     void askForTime() { timed_ = true; }
     double gpuMs() const;
 
 private:
-    void makeAnswer();
-    void poseTree(const PosedLeaves& leaves, const Pose& baseTtool, const dvec3& origin);
-    void record(size_t setIndex);
+    // Blocks that one dispatch searches.
+    struct Blocks {
+        const gpu::Bindings* bindings;
+        uint32_t count, firstBound, layer, layers;
+    };
+    void makeBindings();
+    void uploadStill(const FixtureSet& set);
+    Blocks stillBlocks() const;
+    shared::QueryParams paramsAt(const Pose& baseTtool, const dvec3& origin, double reach,
+                                 double largest) const;
+    QueryAnswer::Counts run(std::span<const Blocks> all, const gpu::Device::At& after,
+                            const shared::QueryParams& params);
+    void record(std::span<const Blocks> all, const shared::QueryParams& params);
+    void dispatch(const Blocks& blocks, shared::QueryParams params);
+    void submit(const gpu::Device::At& after);
+    void take(const FixtureSet& set, NearPairs& near) const;
 
     gpu::Device& device_;
     const PatchLayout layout_;
     FixturePool& pool_;
-    const Tool& tool_;
     bool hold_;
-    uint32_t capacity_;
     gpu::Pipeline pipeline_;
     gpu::Timeline timeline_;
     gpu::Commands commands_;
     gpu::Stopwatch watch_;
     bool timed_ = false;
-    gpu::Buffer params_, toolTree_, count_, found_, unused_;
+
+    gpu::Buffer leaves_, leavesWritten_; // vec4 per leaf, in the tool's frame; the host writes the second one
+    bool leavesChanged_ = false;
+    uint32_t leafCount_ = 0;
+    glm::vec4 bound_{0.0f};   // of the leaves
+    double toolRadius_ = 0.0; // [m] Tool::boundingRadius()
+
+    SphereBlocks still_; // spheres of frozen classes
+    uint64_t stillVersion_ = 0;
+    QueryAnswer answer_;
+    gpu::Buffer unused_;
     std::vector<gpu::Bindings> bindings_; // one per set
+    gpu::Bindings stillBindings_;
     uint64_t ticket_ = 0;
 };
 

@@ -5,50 +5,18 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <numeric>
+#include <utility>
 
 namespace fathom {
 
 namespace {
 
-constexpr double kPairMargin = 1e-9;      // [m] outward
-constexpr double kTrustMargin = 8e-6;     // [m] part of the 10 um margin of the trust region
-constexpr double kFloatHalfUlp = 0x1p-24; // relative rounding of one float32 operation
-
-void placePairs(size_t leaf, PairScratch& scratch, ContactSet& set) {
-    // Stable counting sort by band: within a band the grid's order remains, which depends only on the set.
-    std::array<uint32_t, ContactSet::kGapBands> end{};
-    for (const double gap : scratch.gap) {
-        ++end[set.bandOf(gap)];
-    }
-    uint32_t sum = set.pairBegin[leaf];
-    std::array<uint32_t, ContactSet::kGapBands> next{};
-    for (uint32_t band = 0; band < ContactSet::kGapBands; ++band) {
-        next[band] = sum;
-        sum += end[band];
-        set.pairBandEnd[leaf * ContactSet::kGapBands + band] = sum;
-    }
-    set.pairBegin[leaf + 1] = sum;
-    set.pairSphere.resize(sum);
-    set.pairX.resize(sum);
-    set.pairY.resize(sum);
-    set.pairZ.resize(sum);
-    set.pairRadius.resize(sum);
-    for (size_t k = 0; k < scratch.gap.size(); ++k) {
-        const uint32_t at = next[set.bandOf(scratch.gap[k])]++;
-        const uint32_t slot = scratch.slot[k];
-        set.pairSphere[at] = scratch.grid.order()[slot];
-        set.pairX[at] = scratch.grid.x()[slot];
-        set.pairY[at] = scratch.grid.y()[slot];
-        set.pairZ[at] = scratch.grid.z()[slot];
-        set.pairRadius[at] = scratch.grid.radius()[slot];
-    }
-}
-
-void findPairs(const dvec3& centre, double leafRadius, double limit, PairScratch& scratch) {
-    scratch.slot.clear();
-    scratch.gap.clear();
+// Appends the leaf's pairs.
+void findPairs(uint32_t leaf, double leafRadius, double limit, PairScratch& scratch, const ContactSet& set) {
+    ListedPairs& pairs = scratch.decide.pairs;
     const RegionGrid& grid = scratch.grid;
+    const dvec3 centre = set.leafAtQuery[leaf];
     const double far = limit + leafRadius + grid.maxRadius() + kPairMargin;
     grid.forEachRun(centre, far, [&](uint32_t begin, uint32_t end) {
         scratch.gaps.resize(std::max<size_t>(scratch.gaps.size(), end - begin));
@@ -59,27 +27,44 @@ void findPairs(const dvec3& centre, double leafRadius, double limit, PairScratch
         }
         for (uint32_t k = 0; k < end - begin; ++k) {
             if (scratch.gaps[k] <= limit) {
-                scratch.slot.push_back(begin + k);
-                scratch.gap.push_back(scratch.gaps[k]);
+                pairs.bucket.push_back(leaf * ContactSet::kGapBands + set.bandOf(scratch.gaps[k]));
+                pairs.sphere.push_back(grid.order()[begin + k]);
             }
         }
     });
 }
 
-} // namespace
-
-double certifiedReach(const PosedLeaves& leaves, double reach, double maxRegionRadius) noexcept {
-    float farthest = 0.0f, largest = 0.0f;
-    for (size_t i = 0; i < leaves.x.size(); ++i) {
-        farthest = std::max({farthest, std::abs(leaves.x[i]), std::abs(leaves.y[i]), std::abs(leaves.z[i])});
-        largest = std::max(largest, leaves.radius[i]);
+// Puts the pairs in the order of their spheres (a stable counting sort) and drops spheres without a pair.
+void orderBySphere(PairScratch& scratch, ContactSet& set) {
+    const ListedPairs& pairs = scratch.decide.pairs;
+    ListedPairs& ordered = scratch.ordered;
+    std::vector<uint32_t>&count = scratch.count, &next = scratch.decide.next;
+    count.assign(set.size(), 0);
+    for (const uint32_t sphere : pairs.sphere) {
+        ++count[sphere];
     }
-    // Position: half an ulp per axis. Distance: three roundings in the square count half each, plus one in
-    // the difference. Limit: two sums, one product (half of it), three values.
-    const double position = std::sqrt(3.0) * kFloatHalfUlp * farthest;
-    const double comparison = 8.0 * kFloatHalfUlp * (reach + largest + maxRegionRadius);
-    return std::max(0.0, reach - std::max(0.0, position + comparison - kTrustMargin));
+    next.resize(set.size());
+    std::exclusive_scan(count.begin(), count.end(), next.begin(), 0u);
+    uint32_t kept = 0;
+    for (uint32_t s = 0; s < count.size(); ++s) { // count becomes the new index of the sphere
+        if (std::exchange(count[s], kept) != 0) {
+            set.x[kept] = set.x[s], set.y[kept] = set.y[s], set.z[kept] = set.z[s];
+            set.radius[kept] = set.radius[s];
+            set.source[kept] = set.source[s], set.fixture[kept] = set.fixture[s];
+            ++kept;
+        }
+    }
+    set.x.resize(kept), set.y.resize(kept), set.z.resize(kept), set.radius.resize(kept);
+    set.source.resize(kept), set.fixture.resize(kept);
+    ordered.resize(pairs.size());
+    for (size_t k = 0; k < pairs.size(); ++k) {
+        const uint32_t at = next[pairs.sphere[k]]++;
+        ordered.bucket[at] = pairs.bucket[k];
+        ordered.sphere[at] = count[pairs.sphere[k]];
+    }
 }
+
+} // namespace
 
 void sortBySource(const RegionSpheres& spheres, std::vector<uint32_t>& indices, PairScratch& scratch) {
     uint32_t largest = 0;
@@ -114,13 +99,13 @@ void sortBySource(const RegionSpheres& spheres, std::vector<uint32_t>& indices, 
     }
 }
 
-void fillContactSet(const Tool& tool, const Pose& baseTtool, double certified, const Fixtures& fixtures,
+void fillContactSet(const Tool& tool, const Pose& baseTtool, double reach, const Fixtures& fixtures,
                     std::span<const uint32_t> indices, ContactSet& out) {
     out.clear();
     out.frame = fixtures.frame;
     out.generation = fixtures.generation;
     out.captureTime = fixtures.captureTime;
-    out.reach = certified;
+    out.reach = reach;
     out.origin = fixtures.origin;
     out.camera = fixtures.baseTcamera.position - fixtures.origin;
     out.queryPose = baseTtool;
@@ -150,17 +135,15 @@ bool listPairs(const Tool& tool, size_t capacity, PairScratch& scratch, ContactS
         scratch.radius[i] = static_cast<float>(set.radius[i]);
     }
     scratch.grid.build(scratch.x, scratch.y, scratch.z, scratch.radius);
-    set.pairSphere.clear();
-    set.pairX.clear(), set.pairY.clear(), set.pairZ.clear(), set.pairRadius.clear();
-    set.pairBegin.assign(tool.leafCount() + 1, 0);
-    set.pairBandEnd.assign(tool.leafCount() * ContactSet::kGapBands, 0);
-    for (size_t leaf = 0; leaf < tool.leafCount(); ++leaf) {
-        findPairs(set.leafAtQuery[leaf], tool.leaves()[leaf].radius, set.reach + kPairMargin, scratch);
-        if (set.pairBegin[leaf] + scratch.slot.size() > capacity) {
+    scratch.decide.pairs.clear();
+    for (uint32_t leaf = 0; leaf < tool.leafCount(); ++leaf) {
+        findPairs(leaf, tool.leaves()[leaf].radius, set.reach + kPairMargin, scratch, set);
+        if (scratch.decide.pairs.size() > capacity) {
             return false;
         }
-        placePairs(leaf, scratch, set);
     }
+    orderBySphere(scratch, set);
+    placePairs(scratch.ordered, scratch.decide.next, set);
     return true;
 }
 

@@ -36,10 +36,9 @@ struct ContactSet {
     std::vector<uint32_t> source;        // slot in the fixture set
     std::vector<uint8_t> fixture;        // row of Scene::fixtures
     std::vector<uint32_t> pairBegin;     // leafCount + 1
-    std::vector<uint32_t>
-        pairSphere; // by band within a leaf; the order within a band depends only on the set
-    std::vector<uint32_t> pairBandEnd; // leafCount x kGapBands: where the pairs of bands 0..b of a leaf end
-    LeafCentres leafAtQuery;           // leaf centres at the query pose, about the origin [m]
+    std::vector<uint32_t> pairSphere;    // by band within a leaf, by source within a band
+    std::vector<uint32_t> pairBandEnd;   // leafCount x kGapBands: where the pairs of bands 0..b of a leaf end
+    LeafCentres leafAtQuery;             // leaf centres at the query pose, about the origin [m]
     // The same sphere values again in pair order, so that kernels read them contiguously.
     std::vector<float> pairX, pairY, pairZ, pairRadius;
 

@@ -64,11 +64,15 @@ void CullCpu::cull(const PosedLeaves& leaves, float reach, const RegionGrid& gri
 
 void CullCpu::query(const Tool& tool, const Pose& baseTtool, double reach, const Fixtures& fixtures,
                     const RegionGrid& grid, ContactSet& out) {
-    const auto onGrid = [&](const PosedLeaves& leaves, float limit, std::vector<uint32_t>& found) {
-        cull(leaves, limit, grid, found);
-        return true;
+    poseLeaves(tool, baseTtool, fixtures.origin, leaves_);
+    const auto onGrid = [&](double tried, const QueryCapacity& most, ContactSet& set) {
+        const double away = glm::distance(baseTtool.position, fixtures.origin);
+        cull(leaves_, outwardReach(tool.boundingRadius(), away, tried, grid.maxRadius()), grid, found_);
+        sortBySource(fixtures.spheres, found_, scratch_);
+        fillContactSet(tool, baseTtool, tried, fixtures, found_, set);
+        return listPairs(tool, most.pairs, scratch_, set);
     };
-    loop_.run(tool, baseTtool, reach, fixtures, grid.maxRadius(), onGrid, out);
+    loop_.run(reach, onGrid, out);
 }
 
 } // namespace fathom

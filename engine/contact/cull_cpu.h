@@ -3,6 +3,7 @@
 // grid.
 #pragma once
 
+#include "engine/contact/contact_fill.h"
 #include "engine/contact/query_loop.h"
 #include "engine/contact/region_grid.h"
 
@@ -17,13 +18,13 @@ public:
     explicit CullCpu(const QueryCapacity& capacity = {})
         : loop_(capacity) {}
 
-    // Fills `out` with every sphere with d^2 <= (reach + r_t + R)^2 for some leaf, sorted by source, and with
-    // all pairs. Computed in float32 on the values of poseLeaves(), d^2 = dx dx + dy dy + dz dz left to right
-    // without contraction. `grid` must have been built from `fixtures`. Overflow: see QueryLoop::run.
+    // Fills `out` with every pair of leaf and sphere whose gap is at most `reach`, as decidePairs() defines
+    // it. `grid` must have been built from `fixtures`. Overflow: see QueryLoop::run.
     void query(const Tool& tool, const Pose& baseTtool, double reach, const Fixtures& fixtures,
                const RegionGrid& grid, ContactSet& out);
 
-    // Only the first step of query(): the index of every such sphere, once, in grid order.
+    // Only the first step of query(): the index of every sphere with d^2 <= (reach + r_t + R)^2 for some
+    // leaf, once, in grid order. float32, d^2 = dx dx + dy dy + dz dz left to right without contraction.
     // leaves: poseLeaves() about the set's origin.
     void cull(const PosedLeaves& leaves, float reach, const RegionGrid& grid, std::vector<uint32_t>& found);
 
@@ -32,6 +33,9 @@ public:
 
 private:
     QueryLoop loop_;
+    PosedLeaves leaves_;
+    std::vector<uint32_t> found_;
+    PairScratch scratch_;
     std::vector<uint8_t> marks_; // by slot of the grid
 };
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Repeats a cull, on the CPU or the GPU, with a smaller reach until its result fits. So every contact set is
+// Repeats a query, on the CPU or the GPU, with a smaller reach until its result fits. So every contact set is
 // complete within its certified reach.
 #pragma once
 
-#include "engine/contact/contact_fill.h"
 #include "engine/contact/contact_set.h"
 
 #include <algorithm>
@@ -32,26 +31,16 @@ public:
     explicit QueryLoop(const QueryCapacity& capacity = {})
         : capacity_(capacity) {}
 
-    // cull(leaves, reach, found) writes into `found` the indices of all spheres with d^2 <= (reach + r_t +
-    // R)^2 for some leaf, in any order, and returns false when they do not fit. Then the reach is halved
-    // until they do, and that reach is certified (out.reach). When even the touching spheres do not fit, the
-    // capacity is raised at once, so no sphere is ever dropped. ContactSet::behind stays empty.
-    template <class Cull>
-    void run(const Tool& tool, const Pose& baseTtool, double reach, const Fixtures& fixtures,
-             double maxRegionRadius, Cull&& cull, ContactSet& out) {
-        poseLeaves(tool, baseTtool, fixtures.origin, leaves_);
+    // list(reach, capacity, out) fills `out` with every pair within the reach, and returns false when there
+    // are more than the capacity. Then the reach is halved until they fit, and that reach is certified
+    // (out.reach). When even the touching spheres do not fit, the capacity is raised at once, so no sphere is
+    // ever dropped. ContactSet::behind stays empty.
+    template <class List>
+    void run(double reach, List&& list, ContactSet& out) {
         bool overflowed = false;
         QueryCapacity next = capacity_;
         for (double tried = reach;;) {
-            bool fits =
-                cull(leaves_, static_cast<float>(tried), found_) && found_.size() <= capacity_.spheres;
-            if (fits) {
-                sortBySource(fixtures.spheres, found_, scratch_);
-                fillContactSet(tool, baseTtool, certifiedReach(leaves_, tried, maxRegionRadius), fixtures,
-                               found_, out);
-                fits = listPairs(tool, capacity_.pairs, scratch_, out);
-            }
-            if (fits) {
+            if (list(tried, capacity_, out) && out.size() <= capacity_.spheres) {
                 break;
             }
             const QueryCapacity doubled{2 * capacity_.spheres, 2 * capacity_.pairs};
@@ -84,9 +73,6 @@ private:
 
     QueryCapacity capacity_;
     QueryStatistics statistics_;
-    PosedLeaves leaves_;
-    std::vector<uint32_t> found_;
-    PairScratch scratch_;
 };
 
 } // namespace fathom

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/cycle/contact_cycle.h"
 
+#include "engine/types/log.h"
+
 #include <algorithm>
 
 namespace fathom {
@@ -18,17 +20,26 @@ ContactCycle::ContactCycle(const Tool& tool, double reach, const ArmRig* arm)
 
 ContactCycle::ContactCycle(gpu::Device& device, const Plan& plan, const PatchLayout& layout,
                            cloud::FixturePool& pool, const Tool& tool, double reach, const ArmRig* arm,
-                           uint32_t gpuCapacity)
+                           const QueryCapacity& capacity)
     : ContactCycle(tool, reach, arm) {
-    gpuCapacity_ = gpuCapacity;
+    cpu_ = CullCpu(capacity);
+    gpuLoop_ = QueryLoop(capacity);
     use(&device, plan, layout, pool);
 }
 
 void ContactCycle::use(gpu::Device* device, const Plan& plan, const PatchLayout& layout,
                        cloud::FixturePool& pool) {
     where_ = plan.query;
-    if (where_ == Plan::Query::Gpu) {
-        gpu_.emplace(*device, plan, layout, pool, tool_, gpuCapacity_);
+    if (where_ != Plan::Query::Gpu) {
+        return;
+    }
+    gpu_.emplace(*device, plan, layout, pool);
+    if (!gpu_->passesProbe()) {
+        log::warn("contact query: {} misses contacts in a test of its arithmetic: the CPU answers",
+                  device->facts().name);
+        gpu_.reset();
+    } else if (arm_ == nullptr) {
+        gpu_->setTool(tool_);
     }
 }
 
@@ -54,19 +65,24 @@ void ContactCycle::ask(const Tool& tool, const cloud::FixtureSet& set, const Pos
     case Plan::Query::Cpu:
         cpu_.query(tool, baseTtool, reach, set.host, set.grid, out);
         break;
-    case Plan::Query::Gpu: {
-        const auto onDevice = [&](const PosedLeaves& leaves, float within, std::vector<uint32_t>& found) {
-            const bool fits = gpu_->cull(set, leaves, baseTtool, within, found);
-            if (!fits) {
-                gpu_->grow(); // for the next query; this one retries with the reach that the loop chooses
-            }
-            return fits;
-        };
-        gpuLoop_.run(tool, baseTtool, reach, set.host, set.grid.maxRadius(), onDevice, out);
+    case Plan::Query::Gpu:
+        askDevice(tool, set, baseTtool, reach, out);
         break;
     }
-    }
     behind_.update(tool, set.host, set.grid.maxRadius(), out);
+}
+
+void ContactCycle::askDevice(const Tool& tool, const cloud::FixtureSet& set, const Pose& baseTtool,
+                             double reach, ContactSet& out) {
+    if (arm_ != nullptr) {
+        gpu_->setTool(tool); // its leaves move with the joints
+    }
+    const auto onDevice = [&](double within, const QueryCapacity& most, ContactSet& filled) {
+        fillContactSet(tool, baseTtool, within, set.host, {}, filled);
+        return gpu_->list(set, baseTtool, within, near_) &&
+               decidePairs(tool, near_, most.pairs, scratch_, filled);
+    };
+    gpuLoop_.run(reach, onDevice, out);
 }
 
 QueryStatistics ContactCycle::statistics() const {

@@ -19,13 +19,14 @@ public:
     // arm: null = the tool moves freely; else queries cover the whole arm at its posture. Without a device
     // the CPU answers.
     ContactCycle(const Tool& tool, double reach, const ArmRig* arm);
-    // The same, then use(). gpuCapacity: largest first answer of the GPU [spheres]; it doubles on overflow.
+    // The same, then use(). capacity: of the first contact sets.
     ContactCycle(gpu::Device& device, const Plan& plan, const PatchLayout& layout, cloud::FixturePool& pool,
                  const Tool& tool, double reach, const ArmRig* arm = nullptr,
-                 uint32_t gpuCapacity = kGpuCapacity);
+                 const QueryCapacity& capacity = {});
 
-    // From the next query on: use() works on the device as the plan requires, dropDevice() on the CPU.
-    // device: null is allowed unless the plan queries on the GPU.
+    // From the next query on: use() works on the device as the plan requires, dropDevice() on the CPU. A
+    // device whose arithmetic fails a test at use() is not asked; a warning says so. device: null is allowed
+    // unless the plan queries on the GPU.
     void use(gpu::Device* device, const Plan& plan, const PatchLayout& layout, cloud::FixturePool& pool);
     void dropDevice() { gpu_.reset(); }
 
@@ -38,19 +39,20 @@ public:
     QueryStatistics statistics() const;
 
 private:
-    static constexpr uint32_t kGpuCapacity = 65536;
-
+    void askDevice(const Tool& tool, const cloud::FixtureSet& set, const Pose& baseTtool, double reach,
+                   ContactSet& out);
     void ask(const Tool& tool, const cloud::FixtureSet& set, const Pose& baseTtool, double reach,
              ContactSet& out);
 
     const Tool& tool_;
     const ArmRig* arm_;
     double reach_;
-    uint32_t gpuCapacity_ = kGpuCapacity;
     Plan::Query where_ = Plan::Query::Cpu;
     CullCpu cpu_;
     QueryLoop gpuLoop_;
     std::optional<cloud::TreeQuery> gpu_;
+    NearPairs near_;
+    DecideScratch scratch_;
     BehindTracker behind_;
     uint64_t queries_ = 0;
 };

@@ -215,9 +215,8 @@ FrameReport FrameCycle::finish() {
                                          plan_, layout_, workers_);
         }
         lastCounts_.valid = valid;
-        if (plan_.query != Plan::Query::Gpu) {
-            frozen_.apply(set.host, scene_);
-        }
+        set.stillFrom = frozen_.apply(set.host, scene_);
+        set.describeDevice(scene_, frozen_.version(), {timeline_.handle(), ticket_});
         f.times.collected = Clock::now();
         if (plan_.spheres) {
             set.grid.build(set.host.spheres, &workers_);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/reference/contact_oracle.h"
 
+#include "engine/contact/near_pairs.h"
+
 #include <algorithm>
 #include <limits>
 
@@ -20,22 +22,12 @@ dvec3 leafCentre(const Tool& tool, size_t leaf, const Pose& baseTtool, const dve
 
 std::vector<uint32_t> oracleSources(const Tool& tool, const Pose& baseTtool, double reach,
                                     const Fixtures& fixtures) {
-    PosedLeaves leaves;
-    poseLeaves(tool, baseTtool, fixtures.origin, leaves);
-    const RegionSpheres& s = fixtures.spheres;
-    const float reach32 = static_cast<float>(reach);
     std::vector<uint32_t> sources;
-    for (size_t i = 0; i < s.size(); ++i) {
-        for (size_t t = 0; t < leaves.x.size(); ++t) {
-            const float dx = leaves.x[t] - s.x[i], dy = leaves.y[t] - s.y[i], dz = leaves.z[t] - s.z[i];
-            const float limit = reach32 + leaves.radius[t] + s.radius[i];
-            if (dx * dx + dy * dy + dz * dz <= limit * limit) {
-                sources.push_back(s.source[i]);
-                break;
-            }
-        }
+    for (const OraclePair& pair : oraclePairs(tool, baseTtool, reach + kPairMargin, fixtures)) {
+        sources.push_back(pair.source);
     }
     std::sort(sources.begin(), sources.end());
+    sources.erase(std::unique(sources.begin(), sources.end()), sources.end());
     return sources;
 }
 

@@ -10,8 +10,8 @@
 
 namespace fathom {
 
-// Sources of the spheres that the query must return, ascending: applies the float32 test of CullCpu::query to
-// every pair.
+// Sources of the spheres that the query must return, ascending: those with a gap of at most `reach` (plus 1
+// nm) to some leaf, in float64.
 std::vector<uint32_t> oracleSources(const Tool& tool, const Pose& baseTtool, double reach,
                                     const Fixtures& fixtures);
 

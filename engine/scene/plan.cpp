@@ -90,7 +90,7 @@ void decideByDevice(const CameraInfo& camera, const DeviceFacts& device, Plan& p
 void decideQuery(const Scene& scene, uint32_t toolLeaves, const DeviceFacts& device, Plan& plan) {
     if (plan.spheres) {
         const bool gpu = scene.contact.where == Scene::Contact::Where::Gpu ||
-                         (scene.contact.where == Scene::Contact::Where::Auto && !plan.arm &&
+                         (scene.contact.where == Scene::Contact::Where::Auto &&
                           device.kind != DeviceKind::Cpu && toolLeaves >= device.gpuQueryLeaves);
         plan.query = gpu ? Plan::Query::Gpu : Plan::Query::Cpu;
     }
@@ -192,7 +192,8 @@ void explainResults(Plan& plan, const CameraInfo& camera) {
                   plan.thin ? "one decision per 4x4 cell" : "no thinning");
     explainBuffer(plan, "memory of points", plan.hold, 36 * slots,
                   plan.hold ? "points that can be held" : "hold_s is 0");
-    explainBuffer(plan, "sphere slots", plan.tree, slots * (plan.hold ? 32u : 16u),
+    const uint64_t bytesOfSlot = (plan.hold ? 32u : 16u) + (plan.classes > 1 ? 1u : 0u);
+    explainBuffer(plan, "sphere slots", plan.tree, slots * bytesOfSlot,
                   plan.tree ? "of one fixture set, for the GPU query" : "no GPU query");
     explainBuffer(plan, "radii", plan.spheres && !plan.pack, slots * (plan.hold ? 8u : 4u),
                   !plan.spheres ? "no forbidden point class"
@@ -259,9 +260,6 @@ uint32_t Plan::dispatchesPerFrame() const {
 }
 
 Plan makePlan(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, const DeviceFacts& device) {
-    if (scene.arm && scene.contact.where == Scene::Contact::Where::Gpu) {
-        throw BadInput(scene.file.string(), "contact.where", "gpu", "auto or cpu with an arm");
-    }
     if (camera.yuyv && camera.colour.width % 2 != 0) {
         throw BadInput("camera", "width of its YUYV colour", std::to_string(camera.colour.width),
                        "even, because two pixels share a word");

@@ -122,8 +122,7 @@ inline uint32_t slotOfPixel(uint32_t u, uint32_t v, uint32_t patchesAcross) {
 }
 
 // toolLeaves chooses between CPU and GPU query for `auto`: the GPU from DeviceFacts::gpuQueryLeaves on,
-// unless the device is a CPU. Both answers are equal to the last bit. An arm requires the CPU query, because
-// its leaves move relative to each other; throws BadInput when the scene requests the GPU.
+// unless the device is a CPU. Both answers are equal to the last bit.
 Plan makePlan(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, const DeviceFacts& device);
 
 } // namespace fathom

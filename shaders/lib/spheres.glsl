@@ -35,6 +35,9 @@ layout(std430, binding = 16) writeonly buffer NodeCounts { uint nodeCounts[]; };
 layout(std430, binding = 17) writeonly buffer Radii { vec4 radii[]; };
 layout(std430, binding = 18) writeonly buffer HeldRadii { vec4 heldRadii[]; }; // the same for the held points in `kept`
 
+// As Classes, in the fixture set.
+layout(std430, binding = 23) writeonly buffer SetClasses { uvec4 setClasses[]; };
+
 const uint kRays = 0; // this pass needs no rays
 const vec2 rays[1] = vec2[1](vec2(0.0));
 #include "shaders/lib/beam.glsl"
@@ -104,6 +107,9 @@ void putBound(uint sub, vec3 centre, float radius, uint count, Notes notes) {
     if (kTree != 0) {
         nodes[sub] = vec4(centre, radius >= 0.0 ? radius * 1.000001 + 1e-7 : -1.0);
         nodeCounts[sub] = count;
+        if (kClasses > 1) {
+            setClasses[sub] = notes.classes;
+        }
     }
 }
 

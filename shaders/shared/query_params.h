@@ -1,18 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parameters of one contact query.
+// Parameters and results of one contact query.
 #ifndef FATHOM_SHARED_QUERY_PARAMS_H
 #define FATHOM_SHARED_QUERY_PARAMS_H
 #include "shaders/shared/interop.h"
 FATHOM_SHARED_BEGIN
 
+// A block is 256 slots of spheres with one bound: a patch of an image, or part of a list. Most leaves that one
+// group tests, and results per word of a slot.
+FATHOM_CONST kBlockSlots = 256, kSliceLeaves = 512;
+// FoundSphere::slot: 4 x slot + layer.
+FATHOM_CONST kLayerSeen = 0, kLayerHeld = 1, kLayerStill = 2;
+
+// Push constants. q = rows * (s - t) transforms a sphere's centre into the frame of the leaves.
 struct QueryParams {
-    uvec4 size;      // patches across, down; -; largest number of results
-    uvec4 levels[6]; // region tree: nodes across, down; index of the first; -
-    uvec4
-        region; // number of region levels; 1 = there are held points; degree and first leaf of the tool tree
-    vec4 reach; // reach [m]; -; -; -
+    vec4 rows[3];  // a row of the rotation; one component of t [m]
+    vec4 tool;     // bounds all leaves, in their frame
+    uvec4 blocks;  // number of blocks; index of the first bound; number of leaves; leaves per slice
+    uvec4 used;    // spheres and leaves found before this query; most of each in this one
+    uint layer;    // of the first layer: kLayerSeen or kLayerStill
+    uint layers;   // 2 = `held` is a second layer
+    uint leafWord; // index of the first leaf in the answer [words]
+    float reach;   // [m] outwardReach()
 };
-FATHOM_SIZE(QueryParams, 144);
+FATHOM_SIZE(QueryParams, 112);
+
+// A sphere with the leaves that are near it.
+struct FoundSphere {
+    uint slot, fixture; // fixture: index of the point class
+    uint first, count;  // of its leaves in the answer
+    vec4 sphere;        // as in the set
+};
+FATHOM_SIZE(FoundSphere, 32);
 
 FATHOM_SHARED_END
 #endif

@@ -35,6 +35,7 @@ void checkBuffers(const Plan& plan, const cloud::WorkBuffers& w, const cloud::Se
         CHECK(built(*b) == plan.tree);
     }
     CHECK(built(s.held) == (plan.tree && plan.hold));
+    CHECK(built(s.classes) == (plan.tree && plan.classes > 1));
     CHECK(built(w.depth) == plan.keepDepth);
     for (const gpu::Buffer* b : {&s.packed, &s.places, &s.runs}) {
         CHECK(built(*b) == plan.pack);
@@ -56,7 +57,7 @@ void checkBuffers(const Plan& plan, const cloud::WorkBuffers& w, const cloud::Se
     sizeOf("rays on the host", plan.rays && plan.pack && !plan.beam ? (8 * pixels + 15) / 16 * 16 : 0);
     sizeOf("depth on the device", w.depth.bytes());
     sizeOf("memory of points", w.seen.bytes() + w.kept.bytes() + w.keptTime.bytes());
-    sizeOf("sphere slots", s.spheres.bytes() + s.held.bytes());
+    sizeOf("sphere slots", s.spheres.bytes() + s.held.bytes() + s.classes.bytes());
     sizeOf("radii", w.radii.bytes() + w.heldRadii.bytes());
     sizeOf("classes of spheres", w.classes.bytes());
     sizeOf("packed spheres", s.packed.bytes() + s.places.bytes() + s.runs.bytes());

@@ -78,6 +78,11 @@ void checkEqual(const ContactSet& a, const ContactSet& b) {
     CHECK(a.fixture == b.fixture);
     CHECK(a.pairBegin == b.pairBegin);
     CHECK(a.pairSphere == b.pairSphere);
+    CHECK(a.pairBandEnd == b.pairBandEnd);
+    CHECK(a.pairX == b.pairX);
+    CHECK(a.pairY == b.pairY);
+    CHECK(a.pairZ == b.pairZ);
+    CHECK(a.pairRadius == b.pairRadius);
     CHECK(a.behind.size() == b.behind.size());
 }
 
@@ -119,21 +124,39 @@ TEST_CASE("Both queries agree for zero reach and for a reach over the whole scen
     CHECK(all > 20 * rig.frames.sets().newest()->host.spheres.size() / 2);
 }
 
-TEST_CASE("An overflowing GPU answer halves its reach, certifies it, and doubles the capacity for the next") {
+TEST_CASE("A GPU answer that does not fit grows and keeps its whole reach") {
     ContactRig rig(twoValves(0.0, 0.0), 1);
     const Tool tool = randomTool(3, 3);
-    cloud::TreeQuery query(vulkan().device, rig.plan, rig.frames.layout(), rig.frames.sets(), tool, 16);
+    cloud::TreeQuery small(vulkan().device, rig.plan, rig.frames.layout(), rig.frames.sets(), 1),
+        large(vulkan().device, rig.plan, rig.frames.layout(), rig.frames.sets(), 1u << 17);
     const auto set = rig.frames.sets().newest();
-    PosedLeaves leaves;
     const Pose pose{{-0.15, 0, 0.80}, {1, 0, 0, 0}};
-    poseLeaves(tool, pose, set->host.origin, leaves);
-    std::vector<uint32_t> found;
-    CHECK_FALSE(query.cull(*set, leaves, pose, 0.5f, found));
-    while (query.capacity() < set->host.spheres.size()) {
-        query.grow();
+    small.setTool(tool);
+    large.setTool(tool);
+    NearPairs a, b;
+    DecideScratch scratch;
+    for (const double reach : {0.5, 0.001, 0.6}) { // the last one also needs a second copy
+        CHECK(small.list(*set, pose, reach, a));
+        CHECK(large.list(*set, pose, reach, b));
+        CHECK(a.spheres.size() == b.spheres.size());
+        CHECK(a.leaves.size() == b.leaves.size());
+        ContactSet one, other;
+        fillContactSet(tool, pose, reach, set->host, {}, one);
+        fillContactSet(tool, pose, reach, set->host, {}, other);
+        CHECK(decidePairs(tool, a, SIZE_MAX, scratch, one));
+        CHECK(decidePairs(tool, b, SIZE_MAX, scratch, other));
+        checkEqual(one, other);
     }
-    CHECK(query.cull(*set, leaves, pose, 0.5f, found));
-    CHECK(found.size() > 16);
+    CHECK(small.capacity() >= b.spheres.size());
+    CHECK(small.capacity() < 1u << 17);
+}
+
+TEST_CASE("The probe passes with the margin of the reach, and fails without it") {
+    ContactRig rig(twoValves(0.0, 0.0), 1);
+    cloud::TreeQuery query(vulkan().device, rig.plan, rig.frames.layout(), rig.frames.sets());
+    CHECK(query.passesProbe());
+    CHECK_FALSE(query.passesProbe(5e-6));
+    CHECK(query.passesProbe());
 }
 
 TEST_CASE("A contact answer that overflows certifies the reach that fits, and the next one the whole reach") {
@@ -149,7 +172,7 @@ TEST_CASE("A contact answer that overflows certifies the reach that fits, and th
     cpu.query(*set, pose, whole);
     REQUIRE(whole.size() > 256);
     ContactCycle gpu(vulkan().device, rig.plan, rig.frames.layout(), rig.frames.sets(), tool, reach, nullptr,
-                     static_cast<uint32_t>(whole.size()) - 1);
+                     {whole.size() - 1, whole.pairSphere.size()});
     ContactSet first, second;
     gpu.query(*set, pose, first);
     CHECK(first.reach < whole.reach);

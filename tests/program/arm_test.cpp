@@ -255,5 +255,4 @@ TEST_CASE(
             {"arm.grasp.fingers[0].open", "0.6", "0 to 0.5"});
     refused(urdf + "grasp: {fingers: [{joint: pinch, closed: -0.1}]}",
             {"arm.grasp.fingers[0].closed", "-0.1", "0 to 0.5"});
-    refused(urdf + "leaves: 1", {"contact.where", "gpu", "cpu with an arm"}, "where: gpu");
 }

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/cloud/query_answer.h"
+
+#include <algorithm>
+#include <bit>
+#include <utility>
+
+namespace fathom::cloud {
+
+namespace {
+
+using shared::FoundSphere;
+using Counts = QueryAnswer::Counts;
+
+constexpr uint64_t kHeader = 16;              // [bytes]
+constexpr Counts kLeastCopied = {1024, 2048}; // in every copy: it costs less than a second one
+constexpr uint32_t kMostOfAny = 0x80000000u;
+
+uint64_t bytesOf(const Counts& most) {
+    return kHeader + uint64_t{most.spheres} * sizeof(FoundSphere) + 4ull * most.leaves;
+}
+
+uint32_t roomFor(uint32_t count) {
+    return count > kMostOfAny ? UINT32_MAX : std::bit_ceil(count);
+}
+
+uint32_t guess(uint32_t last, uint32_t least, uint32_t most) {
+    return std::min(most, std::max(least, last + last / 4));
+}
+
+} // namespace
+
+QueryAnswer::QueryAnswer(const gpu::Device& device, const Counts& most)
+    : device_(device)
+    , answer_(device, bytesOf(most), gpu::MemoryKind::Device, "query answer")
+    , back_(device, bytesOf(most), gpu::MemoryKind::Readback, "query answer on the host")
+    , most_(most)
+    , isNew_(true) {}
+
+bool QueryAnswer::growTo(const Counts& count) {
+    const Counts most{std::max(most_.spheres, roomFor(count.spheres)),
+                      std::max(most_.leaves, roomFor(count.leaves))};
+    if (bytesOf(most) > device_.facts().maxStorageBufferBytes) {
+        return false;
+    }
+    gpu::Buffer answer(device_, bytesOf(most), gpu::MemoryKind::Device, "query answer");
+    back_ = gpu::Buffer(device_, bytesOf(most), gpu::MemoryKind::Readback, "query answer on the host");
+    answer_ = std::move(answer);
+    most_ = most;
+    used_ = {};
+    isNew_ = true;
+    return true;
+}
+
+void QueryAnswer::clear(gpu::Commands& commands) {
+    commands.fill(answer_, 0);
+    isNew_ = false;
+}
+
+uint64_t QueryAnswer::leafOffset() const {
+    return bytesOf({most_.spheres, 0});
+}
+
+void QueryAnswer::place(shared::QueryParams& params) const {
+    params.used = {used_.spheres, used_.leaves, most_.spheres, most_.leaves};
+    params.leafWord = static_cast<uint32_t>(leafOffset() / 4);
+}
+
+void QueryAnswer::copyPart(gpu::Commands& commands, const Counts& part) {
+    const std::pair<uint64_t, uint64_t> parts[] = {{0, bytesOf({part.spheres, 0})},
+                                                   {leafOffset(), 4ull * part.leaves}};
+    commands.copyParts(answer_, back_, parts);
+    copied_ = part;
+}
+
+void QueryAnswer::copy(gpu::Commands& commands) {
+    copyPart(commands, {guess(last_.spheres, kLeastCopied.spheres, most_.spheres),
+                        guess(last_.leaves, kLeastCopied.leaves, most_.leaves)});
+}
+
+void QueryAnswer::copyWhole(gpu::Commands& commands) {
+    copyPart(commands, last_);
+}
+
+Counts QueryAnswer::read() {
+    const auto counts = back_.as<uint32_t>();
+    last_ = {counts[0] - used_.spheres, counts[1] - used_.leaves};
+    used_ = {counts[0], counts[1]};
+    return last_;
+}
+
+std::span<const FoundSphere> QueryAnswer::spheres() const {
+    return {reinterpret_cast<const FoundSphere*>(back_.as<uint8_t>().data() + kHeader), last_.spheres};
+}
+
+std::span<const uint32_t> QueryAnswer::leaves() const {
+    return {back_.as<uint32_t>().data() + leafOffset() / 4, last_.leaves};
+}
+
+} // namespace fathom::cloud

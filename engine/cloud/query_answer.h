@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// The answer of a contact query: device memory that the query fills, and the host's copy of it.
+#pragma once
+
+#include "engine/gpu/buffer.h"
+#include "engine/gpu/commands.h"
+#include "shaders/shared/query_params.h"
+
+#include <span>
+
+namespace fathom::cloud {
+
+// One thread. The answer is a header with two counts, then spheres, then leaves.
+class QueryAnswer {
+public:
+    // Number of spheres and of leaves.
+    struct Counts {
+        uint32_t spheres = 0, leaves = 0;
+        bool fits(const Counts& most) const { return spheres <= most.spheres && leaves <= most.leaves; }
+    };
+
+    QueryAnswer(const gpu::Device& device, const Counts& most);
+
+    const gpu::Buffer& buffer() const { return answer_; }
+    const Counts& most() const { return most_; }
+    bool isNew() const { return isNew_; }
+    // Makes room for an answer. False when the device's buffers cannot hold it. The buffer is a new one.
+    bool growTo(const Counts& count);
+
+    void clear(gpu::Commands& commands); // a new buffer, before its first query
+    // Sets the parameters that say where the query writes.
+    void place(shared::QueryParams& params) const;
+
+    // Copies to the host a little more than the last answer had, so that one copy usually suffices.
+    void copy(gpu::Commands& commands);
+    // After that copy: what the query found, which may exceed most(). found(): the last result.
+    Counts read();
+    const Counts& found() const { return last_; }
+    bool isWhole() const { return last_.fits(copied_); }
+    void copyWhole(gpu::Commands& commands); // when it is not
+
+    // The host's copy.
+    std::span<const shared::FoundSphere> spheres() const;
+    std::span<const uint32_t> leaves() const;
+
+private:
+    uint64_t leafOffset() const;
+    void copyPart(gpu::Commands& commands, const Counts& part);
+
+    const gpu::Device& device_;
+    gpu::Buffer answer_, back_;
+    Counts most_, copied_, last_;
+    Counts used_; // found since the buffer is new, modulo 2^32
+    bool isNew_ = false;
+};
+
+} // namespace fathom::cloud

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+// The start-up test of the contact query: pairs whose gap is the reach, up to the rounding of a float.
+#include "engine/cloud/tree_query.h"
+
+#include "engine/types/pose.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <set>
+
+namespace fathom::cloud {
+
+namespace {
+
+constexpr size_t kProbes = 1000; // spheres: more than one block
+constexpr double kProbeReach = 0.01;
+
+Tool probeTool(std::mt19937_64& random) {
+    std::uniform_real_distribution<double> at(-0.1, 0.1), radius(0.001, 0.02);
+    std::vector<Sphere> leaves;
+    for (int i = 0; i < 70; ++i) { // more than two slices of a small tool
+        leaves.push_back({{at(random), at(random), at(random)}, radius(random)});
+    }
+    return Tool(buildSphereTree(leaves));
+}
+
+struct Probe {
+    std::vector<glm::vec4> spheres;
+    std::set<std::pair<uint32_t, uint32_t>> within; // sphere, leaf
+    double largest = 0.0;                           // [m] radius
+};
+
+// Moves a sphere along its direction to the farthest float position that is still within reach of the leaf.
+glm::vec4 atLimit(const dvec3& leaf, double leafRadius, const dvec3& direction, float radius) {
+    const double wanted = kProbeReach + leafRadius + double{radius};
+    const auto gap = [&](const glm::vec3& s) { return glm::distance(leaf, dvec3(s)) - wanted; };
+    double length = wanted * (1.0 + 1e-6);
+    while (gap(glm::vec3(leaf + direction * length)) > 0.0) {
+        length *= 1.0 - 1e-7;
+    }
+    return glm::vec4(glm::vec3(leaf + direction * length), radius);
+}
+
+Probe probeAt(const Tool& tool, const Pose& pose, std::mt19937_64& random) {
+    std::normal_distribution<double> n;
+    std::uniform_real_distribution<double> logRadius(std::log(1e-3), std::log(0.1));
+    Probe probe;
+    std::vector<dvec3> leaves;
+    for (const Sphere& leaf : tool.leaves()) {
+        leaves.push_back(pose.apply(leaf.centre));
+    }
+    for (uint32_t i = 0; i < kProbes; ++i) {
+        const size_t leaf = i % leaves.size();
+        const dvec3 direction = glm::normalize(dvec3(n(random), n(random), n(random)));
+        probe.spheres.push_back(atLimit(leaves[leaf], tool.leaves()[leaf].radius, direction,
+                                        static_cast<float>(std::exp(logRadius(random)))));
+        const glm::vec4& s = probe.spheres.back();
+        probe.largest = std::max(probe.largest, double{s.w});
+        for (uint32_t l = 0; l < leaves.size(); ++l) {
+            if (glm::distance(leaves[l], dvec3(s)) <= kProbeReach + tool.leaves()[l].radius + double{s.w}) {
+                probe.within.emplace(i, l);
+            }
+        }
+    }
+    return probe;
+}
+
+} // namespace
+
+bool TreeQuery::passesProbe(double shorter) {
+    std::mt19937_64 random(1);
+    const Tool tool = probeTool(random);
+    setTool(tool);
+    size_t missed = 0;
+    for (const double away : {0.0, 0.7, 20.0}) { // [m] from the origin of the spheres
+        const Pose pose{dvec3(away, -away, 0.3 * away), rotationExp(dvec3(1.1, -0.4, 2.3))};
+        Probe probe = probeAt(tool, pose, random);
+        still_.fill(probe.spheres);
+        makeBindings();
+        shared::QueryParams params = paramsAt(pose, dvec3(0.0), kProbeReach, probe.largest);
+        params.reach -= static_cast<float>(shorter);
+        const Blocks blocks = stillBlocks();
+        while (!run({&blocks, 1}, {}, params).fits(answer_.most()) && answer_.growTo(answer_.found())) {
+            makeBindings();
+        }
+        for (const shared::FoundSphere& f : answer_.spheres()) {
+            const bool same = probe.spheres[f.slot >> 2] == f.sphere; // the host decides by these values
+            for (uint32_t k = 0; same && k < f.count; ++k) {
+                probe.within.erase({f.slot >> 2, answer_.leaves()[f.first + k]});
+            }
+        }
+        missed += probe.within.size();
+    }
+    still_.fill({});
+    leafCount_ = 0;
+    bindings_.clear();
+    return missed == 0;
+}
+
+} // namespace fathom::cloud

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/contact/near_pairs.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace fathom {
+
+namespace {
+
+// The same operations as gapOf().
+double gapTo(const glm::dvec4& leaf, const NearSphere& s) noexcept {
+    const double dx = leaf.x - double{s.x}, dy = leaf.y - double{s.y}, dz = leaf.z - double{s.z};
+    return std::sqrt(dx * dx + dy * dy + dz * dz) - (leaf.w + double{s.radius});
+}
+
+// Order of the spheres by source: a stable radix sort.
+void orderBySource(const std::vector<NearSphere>& spheres, DecideScratch& scratch) {
+    constexpr uint32_t kBits = 11;
+    const size_t count = spheres.size();
+    scratch.order.resize(count), scratch.sorted.resize(count);
+    std::iota(scratch.order.begin(), scratch.order.end(), 0u);
+    uint32_t largest = 0;
+    bool ascending = true;
+    for (size_t i = 0; i < count; ++i) {
+        ascending = ascending && spheres[i].source >= largest;
+        largest = std::max(largest, spheres[i].source);
+    }
+    std::array<uint32_t, (1u << kBits)> begin;
+    for (uint32_t shift = 0; !ascending && shift < 32 && (largest >> shift) != 0; shift += kBits) {
+        begin.fill(0);
+        const auto digit = [&](uint32_t i) { return (spheres[i].source >> shift) & (begin.size() - 1); };
+        for (const uint32_t i : scratch.order) {
+            ++begin[digit(i)];
+        }
+        std::exclusive_scan(begin.begin(), begin.end(), begin.begin(), 0u);
+        for (const uint32_t i : scratch.order) {
+            scratch.sorted[begin[digit(i)]++] = i;
+        }
+        scratch.order.swap(scratch.sorted);
+    }
+}
+
+void addSphere(const NearSphere& s, ContactSet& set) {
+    set.x.push_back(s.x), set.y.push_back(s.y), set.z.push_back(s.z), set.radius.push_back(s.radius);
+    set.source.push_back(s.source);
+    set.fixture.push_back(static_cast<uint8_t>(s.fixture));
+}
+
+} // namespace
+
+float outwardReach(double toolRadius, double away, double reach, double largest) noexcept {
+    const double near = toolRadius + reach + largest;
+    const double outward = reach + kPairMargin + 0x1p-22 * (away + 16.0 * near);
+    return std::nextafter(static_cast<float>(outward), std::numeric_limits<float>::infinity());
+}
+
+bool decidePairs(const Tool& tool, const NearPairs& near, size_t mostPairs, DecideScratch& scratch,
+                 ContactSet& set) {
+    orderBySource(near.spheres, scratch);
+    scratch.leaves.resize(tool.leafCount());
+    for (size_t i = 0; i < tool.leafCount(); ++i) {
+        scratch.leaves[i] = glm::dvec4(set.leafAtQuery[i], tool.leaves()[i].radius);
+    }
+    const double limit = set.reach + kPairMargin;
+    ListedPairs& pairs = scratch.pairs;
+    pairs.resize(std::min(near.leaves.size(), mostPairs));
+    size_t listed = 0;
+    for (const uint32_t i : scratch.order) {
+        const NearSphere& s = near.spheres[i];
+        for (const uint32_t leaf : near.leaves.subspan(s.first, s.count)) {
+            const double gap = gapTo(scratch.leaves[leaf], s);
+            if (!(gap <= limit)) {
+                continue;
+            }
+            if (listed == pairs.size()) {
+                return false;
+            }
+            if (set.source.empty() || set.source.back() != s.source) {
+                addSphere(s, set);
+            }
+            pairs.bucket[listed] = leaf * ContactSet::kGapBands + set.bandOf(gap);
+            pairs.sphere[listed++] = static_cast<uint32_t>(set.size() - 1);
+        }
+    }
+    pairs.resize(listed);
+    placePairs(pairs, scratch.next, set);
+    return true;
+}
+
+// A stable counting sort by leaf and band.
+void placePairs(const ListedPairs& pairs, std::vector<uint32_t>& next, ContactSet& set) {
+    constexpr uint32_t kBands = ContactSet::kGapBands;
+    const size_t leaves = set.leafCount(), count = pairs.size();
+    std::vector<uint32_t>& end = set.pairBandEnd;
+    end.assign(leaves * kBands, 0);
+    for (size_t k = 0; k < count; ++k) {
+        ++end[pairs.bucket[k]];
+    }
+    next.resize(end.size());
+    std::exclusive_scan(end.begin(), end.end(), next.begin(), 0u);
+    std::inclusive_scan(end.begin(), end.end(), end.begin());
+    set.pairBegin.resize(leaves + 1);
+    set.pairBegin[0] = 0;
+    for (size_t leaf = 0; leaf < leaves; ++leaf) {
+        set.pairBegin[leaf + 1] = end[leaf * kBands + kBands - 1];
+    }
+    set.pairSphere.resize(count);
+    for (size_t k = 0; k < count; ++k) {
+        set.pairSphere[next[pairs.bucket[k]]++] = pairs.sphere[k];
+    }
+    set.pairX.resize(count), set.pairY.resize(count), set.pairZ.resize(count), set.pairRadius.resize(count);
+    for (size_t k = 0; k < count; ++k) { // exact: the values were floats
+        const uint32_t s = set.pairSphere[k];
+        set.pairX[k] = static_cast<float>(set.x[s]);
+        set.pairY[k] = static_cast<float>(set.y[s]);
+        set.pairZ[k] = static_cast<float>(set.z[s]);
+        set.pairRadius[k] = static_cast<float>(set.radius[s]);
+    }
+}
+
+} // namespace fathom

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// The deciding step of every contact query. A query may list too many pairs of region sphere and leaf, but
+// never too few; float64 arithmetic on the host decides which of them are in the contact set, and in which
+// order. So contact sets do not depend on who listed the pairs.
+#pragma once
+
+#include "engine/contact/contact_set.h"
+
+#include <cstdint>
+#include <glm/vec4.hpp>
+#include <span>
+#include <vector>
+
+namespace fathom {
+
+// A float32 search must find every pair within `reach`. It does if it tests
+//     dx dx + dy dy + dz dz <= (outward + r + R)^2
+// in float32 with any rounding, where `outward` is the result. Positions may be about the set's origin or in
+// the tool's frame (docs/architecture/query.md has the proof). toolRadius: Tool::boundingRadius(). away:
+// distance of the tool's frame from the set's origin. largest: largest radius of the spheres. All in metres.
+float outwardReach(double toolRadius, double away, double reach, double largest) noexcept;
+
+// A region sphere with some of the leaves that may be near it.
+struct NearSphere {
+    uint32_t source, fixture;
+    uint32_t first, count; // its leaves: NearPairs::leaves[first .. first + count)
+    float x, y, z, radius; // [m] about the set's origin
+};
+
+// In any order. A sphere may occur several times, each time with other leaves.
+struct NearPairs {
+    std::vector<NearSphere> spheres;
+    std::span<const uint32_t> leaves; // in memory of whoever listed the pairs, until its next list
+};
+
+// Pairs that are in the set.
+struct ListedPairs {
+    std::vector<uint32_t> bucket; // leaf x ContactSet::kGapBands + band of the gap
+    std::vector<uint32_t> sphere; // index in the set
+
+    size_t size() const { return bucket.size(); }
+    void clear() { bucket.clear(), sphere.clear(); }
+    void resize(size_t n) { bucket.resize(n), sphere.resize(n); }
+};
+
+// Scratch of decidePairs() and placePairs(), kept to save allocations. One thread.
+struct DecideScratch {
+    ListedPairs pairs;
+    std::vector<glm::dvec4> leaves; // centre and radius
+    std::vector<uint32_t> order, sorted, next;
+};
+
+// Adds spheres and pairs to `set`, which has no spheres yet: every pair whose gap at the query pose, in
+// float64, is at most set.reach (plus 1 nm of margin), and every sphere with such a pair. False, with an
+// incomplete set, when there are more than `mostPairs`.
+bool decidePairs(const Tool& tool, const NearPairs& near, size_t mostPairs, DecideScratch& scratch,
+                 ContactSet& set);
+
+// Fills the pair arrays of `set` from pairs in the order of the set's spheres: by leaf, then band, then
+// source.
+void placePairs(const ListedPairs& pairs, std::vector<uint32_t>& next, ContactSet& set);
+
+inline constexpr double kPairMargin = 1e-9; // [m] by which listed gaps may exceed the reach
+
+} // namespace fathom

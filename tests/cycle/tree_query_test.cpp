@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+// The GPU's contact query against the CPU's on images of any size, on what the passes leave of them, on
+// frozen classes and for arms.
+#include "engine/cycle/arm_rig.h"
+#include "engine/cycle/contact_cycle.h"
+#include "tests/haptics/arm_rig.h"
+#include "tests/support/cloud_rig.h"
+
+#include <doctest/doctest.h>
+#include <random>
+
+using namespace fathom;
+using namespace fathom::test;
+
+namespace {
+
+// pack: the form of `spheres` for GPUs, else the one for CPU devices.
+CloudRig::Change onDevice(bool pack) {
+    return [pack](Plan& plan) {
+        plan.query = Plan::Query::Gpu;
+        plan.tree = true;
+        plan.pack = plan.byPixel = pack;
+        plan.memoryTexels = plan.memoryTexels && !pack;
+    };
+}
+
+Tool someTool(size_t leaves, double size) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> side(-size, size), radius(0.002, 0.01);
+    std::vector<Sphere> spheres;
+    for (size_t i = 0; i < leaves; ++i) {
+        spheres.push_back({{side(random), side(random), side(random)}, radius(random)});
+    }
+    return Tool(buildSphereTree(spheres));
+}
+
+void checkSame(const ContactSet& a, const ContactSet& b) {
+    CHECK(a.reach == b.reach);
+    CHECK(a.source == b.source);
+    CHECK(a.fixture == b.fixture);
+    CHECK(a.x == b.x);
+    CHECK(a.y == b.y);
+    CHECK(a.z == b.z);
+    CHECK(a.radius == b.radius);
+    CHECK(a.pairSphere == b.pairSphere);
+    CHECK(a.pairBegin == b.pairBegin);
+    CHECK(a.pairBandEnd == b.pairBandEnd);
+    CHECK(a.pairX == b.pairX);
+    CHECK(a.pairRadius == b.pairRadius);
+}
+
+// Both answers for the rig's newest set. arm: null = the tool at the pose.
+struct Both {
+    const CloudRig& rig;
+    const Tool& tool;
+    const ArmRig* arm = nullptr;
+    std::optional<ContactCycle> cpu, gpu;
+
+    Both(const CloudRig& cloud, const Tool& asked, double reach, const ArmRig* onArm = nullptr)
+        : rig(cloud)
+        , tool(asked)
+        , arm(onArm) {
+        Plan plan = rig.plan();
+        gpu.emplace(vulkan().device, plan, rig.layout(), rig.cycle().sets(), tool, reach, arm);
+        plan.query = Plan::Query::Cpu;
+        cpu.emplace(vulkan().device, plan, rig.layout(), rig.cycle().sets(), tool, reach, arm);
+    }
+    size_t check(const ToolState& place) {
+        ContactSet a, b;
+        cpu->query(rig.set(), place, a);
+        gpu->query(rig.set(), place, b);
+        checkSame(a, b);
+        return b.size();
+    }
+};
+
+// Left half red, right half blue, at one depth.
+Image redAndBlueAt(const CameraInfo& camera, double z) {
+    Image image = drawnImage(
+        camera, [&](int, int) { return z; }, 0xff2020c0);
+    for (size_t i = 0; i < image.colour.size(); ++i) {
+        image.colour[i] = i % camera.depth.width < camera.depth.width / 2 ? 0xff2020c0 : 0xffc02020;
+    }
+    return image;
+}
+
+Scene redAndBlueScene() {
+    Scene scene = plainScene();
+    scene.fixtures[0].hue = Band{345, 15};
+    FixtureClass blue = forbiddenClass("blue", 0.03);
+    blue.hue = Band{225, 255};
+    scene.fixtures.push_back(blue);
+    return scene;
+}
+
+} // namespace
+
+TEST_CASE("Both queries agree on full, sparse and empty images of odd sizes, with several classes and held "
+          "points") {
+    const Tool tool = someTool(70, 0.3);
+    size_t found = 0;
+    for (const bool pack : {false, true}) {
+        for (const std::pair<uint32_t, uint32_t>& size : std::vector<std::pair<uint32_t, uint32_t>>{
+                 {1u, 1u}, {16u, 16u}, {17u, 33u}, {300u, 5u}, {5u, 300u}, {129u, 65u}}) {
+            CAPTURE(pack);
+            CAPTURE(size.first);
+            CAPTURE(size.second);
+            const CameraInfo camera = pinholeCamera(size.first, size.second);
+            Scene scene = classesScene(3);
+            scene.holdSeconds = 1.0;
+            CloudRig rig(scene, camera, onDevice(pack));
+            Both both(rig, tool, 0.05);
+            const auto ask = [&] {
+                for (const double z : {0.5, 0.9, 1.3}) {
+                    found += both.check({Pose{{0.05, -0.02, z}, rotationExp({0.4, z, -1.0})}, {}});
+                }
+            };
+            rig.run(drawnImage(camera, [](int, int) { return 0.0; })); // nothing
+            CHECK(both.check({Pose{{0, 0, 1}, {1, 0, 0, 0}}, {}}) == 0);
+            rig.run(drawnImage(camera, [](int u, int v) { return u + v == 0 ? 1.0 : 0.0; })); // one point
+            ask();
+            rig.run(drawnImage(camera, [](int, int) { return 1.0; })); // every point
+            ask();
+            rig.run(stressImage(camera, 3)); // with points held from before
+            ask();
+        }
+    }
+    CHECK(found > 5000);
+}
+
+TEST_CASE("A device without subgroup arithmetic lists the same pairs") {
+    const CameraInfo camera = pinholeCamera(129, 65);
+    CloudRig rig(plainScene(), camera, onDevice(false));
+    rig.run(drawnImage(camera, [](int, int) { return 1.0; }));
+    const Tool tool = someTool(300, 0.2);
+    const Pose pose{{0, 0, 0.9}, {1, 0, 0, 0}};
+    std::vector<ContactSet> sets(2);
+    for (const bool subgroups : {true, false}) {
+        cloud::TreeQuery query(vulkan().device, rig.plan(), rig.layout(), rig.cycle().sets(), 64, subgroups);
+        CHECK(query.passesProbe());
+        query.setTool(tool);
+        NearPairs near;
+        DecideScratch scratch;
+        fillContactSet(tool, pose, 0.01, rig.host(), {}, sets[subgroups]);
+        CHECK(query.list(rig.set(), pose, 0.01, near));
+        CHECK(decidePairs(tool, near, SIZE_MAX, scratch, sets[subgroups]));
+    }
+    checkSame(sets[0], sets[1]);
+    CHECK(sets[0].size() > 100);
+}
+
+TEST_CASE("Both queries agree while a class is frozen, while two are, and after they are released") {
+    const CameraInfo camera = pinholeCamera(100, 60);
+    Scene scene = redAndBlueScene();
+    CloudRig rig(scene, camera, onDevice(false));
+    const Tool tool = someTool(40, 0.2);
+    Both both(rig, tool, 0.02);
+    const auto ask = [&](double z) { return both.check({Pose{{0.0, 0.0, z}, {1, 0, 0, 0}}, {}}); };
+    const auto show = [&](double depth) { rig.run(redAndBlueAt(camera, depth)); };
+    const auto freeze = [&](bool red, bool blue) {
+        scene.fixtures[0].frozen = red;
+        scene.fixtures[1].frozen = blue;
+        rig.cycle().setScene(scene);
+    };
+    show(1.0);
+    const size_t all = ask(1.0);
+    REQUIRE(all > 100);
+    freeze(true, false);
+    show(1.0); // red stays there
+    CHECK(ask(1.0) == all);
+    show(1.6);
+    CHECK(ask(1.0) > 0);
+    CHECK(ask(1.0) < all);
+    CHECK(ask(1.6) > 0);
+    freeze(true, true);
+    show(1.6); // blue stays there
+    show(2.4);
+    CHECK(ask(1.0) > 0);
+    CHECK(ask(1.6) > 0);
+    CHECK(ask(2.4) == 0);
+    freeze(false, true);
+    show(2.4);
+    CHECK(ask(1.0) == 0);
+    CHECK(ask(1.6) > 0);
+    CHECK(ask(2.4) > 0);
+    freeze(false, false);
+    show(1.0);
+    CHECK(ask(1.0) == all);
+    CHECK(ask(1.6) == 0);
+}
+
+TEST_CASE("Both queries agree for all links of an arm at several postures") {
+    const CameraInfo camera = pinholeCamera(160, 120);
+    Scene scene = plainScene();
+    scene.baseTcamera.position = {0.5, 0.0, -1.03}; // looks along z at a plane beside the arm
+    CloudRig rig(scene, camera, onDevice(true));
+    rig.run(drawnImage(camera, [](int, int) { return 1.0; }));
+    ArmRig arm;
+    arm.model = testing::makeArm(4, 8);
+    const Tool tool = arm.toolAt(arm.startPosture());
+    Both both(rig, tool, 0.01, &arm);
+    size_t found = 0;
+    for (const double bend : {0.0, 0.3, -0.5, 1.0}) {
+        ToolState place;
+        place.arm = arm.startPosture();
+        place.arm.q[0] = bend;
+        place.arm.q[1] = -0.5 * bend;
+        found += both.check(place);
+    }
+    CHECK(found > 100);
+}
