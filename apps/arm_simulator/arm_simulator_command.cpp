@@ -2,6 +2,7 @@
 #include "apps/arm_simulator/arm_simulator_command.h"
 
 #include "apps/binding/stop_signals.h"
+#include "apps/number_option.h"
 #include "devices/simulated/arm_simulator.h"
 #include "engine/types/error.h"
 
@@ -147,7 +148,7 @@ void addArmSimulatorCommand(CLI::App& app) {
         ->check(CLI::IsMember({"reach_alpha5", "eca_5e"}));
     command->add_option("--link", options->link, "symbolic link to the terminal while the command runs");
     command->add_option("--seconds", options->seconds, "end after this time [s] (0: until Ctrl-C)")
-        ->check(CLI::Range(0.0, 86400.0));
+        ->check(numberIn(Range::between(0.0, 86400.0)));
     command->callback([options] { runSimulator(*options); });
 }
 

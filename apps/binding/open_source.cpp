@@ -12,6 +12,7 @@
 #include "devices/sonar/beam_camera.h"
 #include "devices/v4l2/v4l2_camera.h"
 #include "devices/water/water_camera.h"
+#include "engine/scene/camera_limits.h"
 #include "engine/types/error.h"
 #include "engine/types/inside.h"
 #include "engine/types/log.h"
@@ -95,6 +96,7 @@ std::unique_ptr<Camera> openDry(const Scene& scene, const std::optional<std::fil
 std::unique_ptr<Camera> openCamera(const Scene& scene, const std::optional<std::filesystem::path>& source,
                                    Images images) {
     std::unique_ptr<Camera> camera = openDry(scene, source, images);
+    checkCamera(camera->info(), camera->description());
     if (scene.beam) {
         const BeamSigma beam{scene.beam->range, scene.beam->perMetre, scene.beam->width};
         camera = std::make_unique<BeamCamera>(std::move(camera), beam);

@@ -4,6 +4,7 @@
 #include "apps/binding/stop_signals.h"
 #include "apps/latency/latency_report.h"
 #include "apps/latency/latency_run.h"
+#include "apps/number_option.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -63,14 +64,14 @@ void addLatencyCommand(CLI::App& app, const GlobalOptions& global, WindowLoad wi
     command->add_option("SCENE", request->run.scene, "scene file (YAML)")->required();
     command->add_option("--source", request->run.source, "recording folder instead of the scene's camera");
     command->add_option("--seconds", request->run.seconds, "length of each part (10)")
-        ->check(CLI::Range(0.5, 86400.0));
+        ->check(numberIn(Range::between(0.5, 86400.0)));
     command
         ->add_option("--load", request->loads, "idle, frames or window; may be given again; all when none is")
         ->check(CLI::IsMember({"idle", "frames", "window"}));
     command
         ->add_option("--soak", request->soakMinutes,
                      "one run of so many minutes with frames: memory flat, no frame lost")
-        ->check(CLI::Range(0.01, 1440.0));
+        ->check(numberIn(Range::between(0.01, 1440.0)));
     command->add_option("--out", request->out, "the same as JSON, with every bin that counted");
     command->callback([request, &global, &result, windowLoad = std::move(windowLoad)] {
         result = measure(*request, global, windowLoad);

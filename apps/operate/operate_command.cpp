@@ -3,6 +3,7 @@
 
 #include "apps/binding/open_hand.h"
 #include "apps/binding/view_publisher.h"
+#include "apps/number_option.h"
 #include "apps/operate/operator_run.h"
 #include "apps/operate/playback_run.h"
 #include "engine/types/error.h"
@@ -30,10 +31,11 @@ void addOperateCommand(CLI::App& app, const GlobalOptions& global) {
     command->add_option("--offscreen", options->offscreen,
                         "WxH: draw without a display; with --folder, ends with a screenshot");
     command->add_option("--seconds", options->seconds, "end after so long; 0: when the window is closed")
-        ->check(CLI::NonNegativeNumber);
+        ->check(numberIn(Range::between(0.0, 604800.0)));
     command->add_option("--pilot", options->pilot,
                         "whose stiffness, limits and scale: one of the scene's pilots");
-    command->add_option("--text-scale", options->textScale, "size of letters")->check(CLI::Range(0.75, 2.0));
+    command->add_option("--text-scale", options->textScale, "size of letters")
+        ->check(numberIn(Range::between(0.75, 2.0)));
     command->add_option("--state", options->state,
                         "write what the window shows to this file, a JSON object per line");
     command->add_option("--folder", options->shots, "where screenshots, traces and recordings go");

@@ -4,6 +4,7 @@
 #include "apps/binding/open_hand.h"
 #include "apps/binding/open_source.h"
 #include "apps/binding/stop_signals.h"
+#include "apps/number_option.h"
 #include "apps/record/hand_log.h"
 #include "devices/recorded/recording_writer.h"
 #include "engine/types/error.h"
@@ -108,7 +109,7 @@ void addRecordCommand(CLI::App& app, const GlobalOptions&, int& result) {
     command
         ->add_option("--seconds", options->seconds,
                      "end after this time [s]; default: until the source ends or Ctrl-C")
-        ->check(CLI::PositiveNumber);
+        ->check(numberIn(Range::between(0.001, 604800.0)));
     command->add_option("--out", options->out, "folder of the recording; must not contain one yet")
         ->required();
     command->callback([options, &result] { result = runRecord(*options); });

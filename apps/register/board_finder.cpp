@@ -2,6 +2,7 @@
 #include "apps/register/board_finder.h"
 
 #include "apps/register/board_corners.h"
+#include "apps/register/point_pairs.h"
 #include "apps/register/seen_plane.h"
 #include "devices/recorded/text_file.h"
 #include "engine/types/error.h"
@@ -13,8 +14,9 @@
 namespace fathom {
 
 BoardPlace readBoardPlace(const std::filesystem::path& file) {
-    constexpr const char* kAllowed = "one row columns,rows,square_m,x,y,z,qx,qy,qz,qw: 3 to 40 inner corners "
-                                     "per side, odd sum, positive size, valid quaternion";
+    constexpr const char* kAllowed =
+        "one row columns,rows,square_m,x,y,z,qx,qy,qz,qw: 3 to 40 inner corners "
+        "per side, odd sum, squares of 0.001 to 10 m, position within 1e6 m, valid quaternion";
     BoardPlace place;
     for (const TextLine& line : readDataLines(file)) {
         if (line.text[0] == 'c') { // the header
@@ -31,8 +33,8 @@ BoardPlace readBoardPlace(const std::filesystem::path& file) {
         const bool read = static_cast<bool>(words >> columns >> rows >> place.square >> t.x >> t.y >> t.z >>
                                             q.x >> q.y >> q.z >> q.w);
         const bool sized = std::min(columns, rows) >= 3 && std::max(columns, rows) <= 40;
-        if (!read || words >> more || again || !sized || (columns + rows) % 2 == 0 || !(place.square > 0.0) ||
-            !(glm::length(q) > 1e-6)) {
+        if (!read || words >> more || again || !sized || (columns + rows) % 2 == 0 ||
+            !isNear(place.baseTboard, place.square)) {
             throw BadInput(file.string(), "line " + std::to_string(line.number), line.text.substr(0, 160),
                            kAllowed);
         }

@@ -5,9 +5,20 @@
 #include "engine/types/error.h"
 
 #include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
 #include <sstream>
 
 namespace fathom {
+
+bool isNear(const dvec3& p) {
+    return isFinite(p) && std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <= 1e6; // [m]
+}
+
+bool isNear(const Pose& target, double size) {
+    return isNear(target.position) && glm::length(target.rotation) > 1e-6 &&
+           glm::length(target.rotation) < 1e6 && size >= 1e-3 && size <= 10.0; // [m]
+}
 
 std::vector<PointPair> readPointPairs(const std::filesystem::path& file) {
     std::vector<PointPair> pairs;
@@ -21,9 +32,9 @@ std::vector<PointPair> readPointPairs(const std::filesystem::path& file) {
         PointPair pair;
         std::string more;
         dvec3 &c = pair.camera, &b = pair.base;
-        if (!(words >> c.x >> c.y >> c.z >> b.x >> b.y >> b.z) || words >> more) {
+        if (!(words >> c.x >> c.y >> c.z >> b.x >> b.y >> b.z) || words >> more || !isNear(c) || !isNear(b)) {
             throw BadInput(file.string(), "line " + std::to_string(line.number), line.text.substr(0, 160),
-                           "six numbers camera_x,camera_y,camera_z,base_x,base_y,base_z [m]");
+                           "six numbers camera_x,camera_y,camera_z,base_x,base_y,base_z, up to 1e6 m");
         }
         pair.name = "line " + std::to_string(line.number);
         pairs.push_back(pair);

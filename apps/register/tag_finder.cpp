@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/register/tag_finder.h"
 
+#include "apps/register/point_pairs.h"
 #include "apps/register/seen_plane.h"
 #include "devices/recorded/text_file.h"
 #include "engine/types/error.h"
@@ -45,10 +46,11 @@ std::map<int, TagPlace> readTagPlaces(const std::filesystem::path& file) {
         std::string more;
         const bool read =
             static_cast<bool>(words >> id >> place.size >> t.x >> t.y >> t.z >> q.x >> q.y >> q.z >> q.w);
-        if (!read || words >> more || id < 0 || !(place.size > 0.0) || !(glm::length(q) > 1e-6) ||
+        if (!read || words >> more || id < 0 || !isNear(place.baseTtag, place.size) ||
             places.count(id) != 0) {
             throw BadInput(file.string(), "line " + std::to_string(line.number), line.text.substr(0, 160),
-                           "id,size_m,x,y,z,qx,qy,qz,qw: unique ids, positive size, valid quaternion");
+                           "id,size_m,x,y,z,qx,qy,qz,qw: unique ids, size of 0.001 to 10 m, position within "
+                           "1e6 m, valid quaternion");
         }
         q = glm::normalize(q);
         places[id] = place;

@@ -5,6 +5,7 @@
 #include "apps/binding/open_hand.h"
 #include "apps/binding/open_source.h"
 #include "apps/binding/view_publisher.h"
+#include "apps/number_option.h"
 #include "apps/replay/budgets.h"
 #include "apps/replay/lockstep_replay.h"
 #include "apps/replay/realtime_replay.h"
@@ -230,14 +231,14 @@ void addReplayCommand(CLI::App& app, const GlobalOptions& global, int& result) {
     command->add_option("--view-door", options->viewEndpoint, kViewEndpointHelp);
     command->add_option("--arm", options->arm, kArmHelp);
     command->add_option("--seconds", options->seconds, "with --hand-device: go on so long on the last frame")
-        ->check(CLI::NonNegativeNumber);
+        ->check(numberIn(Range::between(0.0, 604800.0)));
     command->add_option("--query", options->query, "where contacts are found")
         ->check(CLI::IsMember({"cpu", "gpu"}));
     command->add_flag("--realtime", options->realtime, "by the clock, on threads, in place of lockstep");
     command
         ->add_option("--picture-rate", options->frameRate,
                      "with --realtime: frames per second of a recording or simulated camera (default 30)")
-        ->check(CLI::Range(1.0, 240.0));
+        ->check(numberIn(Range::between(1.0, 240.0)));
     command->add_flag("--save-fixtures", options->saveFixtures, "write fixtures/NNNNNN.ply of every frame");
     command->add_option("--out", options->out, "output folder; its files are replaced")->required();
     command->callback([options, &global, &result] { result = runReplay(*options, global); });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/spheres/spheres_command.h"
 
+#include "apps/number_option.h"
 #include "apps/replay/output_file.h"
 #include "apps/spheres/spheres_report.h"
 #include "engine/model/cover_urdf.h"
@@ -77,10 +78,6 @@ void check(const SpheresOptions& options) {
         throw BadInput("spheres", "--leaves", std::to_string(options.cover.leaves),
                        "1 to " + std::to_string(kMostCoverSpheres));
     }
-    if (!(options.cover.protrusion >= 0.0)) {
-        throw BadInput("spheres", "--protrusion", std::to_string(options.cover.protrusion),
-                       "a length in metres above 0");
-    }
 }
 
 void drawErrors(const SpheresOptions& options, Maker& maker, size_t leaves) {
@@ -133,9 +130,6 @@ void writeSets(const SpheresOptions& options, const std::vector<LinkSpheres>& se
 
 double scaleOf(const SpheresOptions& options) {
     const double scale = options.file.scale.value_or(1.0);
-    if (!(scale > 0.0) || !std::isfinite(scale)) {
-        throw BadInput(options.mesh.string(), "--scale", std::to_string(scale), "a positive number");
-    }
     return scale;
 }
 
@@ -258,9 +252,12 @@ void addSpheresCommand(CLI::App& app) {
             "sphere tree (.sph), in the mesh's frame [m]; or spheres of links: .urdf, .yaml, .xrdf, .json")
         ->required();
     command->add_option("--leaves", options->cover.leaves, "most leaf spheres (128)");
-    command->add_option("--protrusion", options->cover.protrusion,
-                        "[m] largest protrusion; uses as few leaves as possible");
-    command->add_option("--scale", options->file.scale, "metres per unit of the file (1), also for spheres");
+    command
+        ->add_option("--protrusion", options->cover.protrusion,
+                     "[m] largest protrusion; uses as few leaves as possible")
+        ->check(numberIn(Range::zeroOr(1e-6, 10.0)));
+    command->add_option("--scale", options->file.scale, "metres per unit of the file (1), also for spheres")
+        ->check(numberIn(Range::between(1e-9, 1e6)));
     command->add_option("--up", options->up, "axis of the file that becomes +z (default: unchanged)")
         ->check(CLI::IsMember({"x", "y", "z"}));
     command->add_flag("--drop-stray", options->file.dropStray, "drop pieces far from the rest");

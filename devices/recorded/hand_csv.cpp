@@ -13,8 +13,9 @@ namespace fathom {
 namespace {
 
 constexpr std::array<std::string_view, 9> kColumns{"t_s", "x", "y", "z", "qw", "qx", "qy", "qz", "button"};
-constexpr size_t kNumbers = 8;           // all but button
-constexpr size_t kMostRows = 10'000'000; // 2.8 hours at 1 kHz
+constexpr size_t kNumbers = 8;                        // all but button
+constexpr double kLongest = 86400.0, kFarthest = 1e6; // [s], [m]
+constexpr size_t kMostRows = 10'000'000;              // 2.8 hours at 1 kHz
 
 struct Row {
     const std::string& file;
@@ -59,6 +60,14 @@ HandWaypoint readRow(const Row& row, size_t columns) {
     for (size_t i = 0; i < kNumbers; ++i) {
         if (!parseNumber(fields[i], v[i]) || !std::isfinite(v[i])) {
             row.refuse(kColumns[i], fields[i], "a finite number");
+        }
+    }
+    if (!(std::abs(v[0]) <= kLongest)) {
+        row.refuse(kColumns[0], fields[0], "seconds from the start of the run, within a day of it");
+    }
+    for (size_t i = 1; i < 4; ++i) {
+        if (!(std::abs(v[i]) <= kFarthest)) {
+            row.refuse(kColumns[i], fields[i], "metres, up to 1000 km from the origin");
         }
     }
     HandWaypoint point;

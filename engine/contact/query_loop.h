@@ -4,9 +4,11 @@
 #pragma once
 
 #include "engine/contact/contact_set.h"
+#include "engine/types/error.h"
 
 #include <algorithm>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace fathom {
@@ -43,13 +45,18 @@ public:
             if (list(tried, capacity_, out) && out.size() <= capacity_.spheres) {
                 break;
             }
-            const QueryCapacity doubled{2 * capacity_.spheres, 2 * capacity_.pairs};
+            const QueryCapacity doubled{2 * capacity_.spheres, std::min(2 * capacity_.pairs, kMostPairs)};
             next = overflowed ? next : doubled;
             overflowed = true;
             if (tried > kSmallestReach) {
                 tried *= 0.5;
-            } else {
+            } else if (capacity_.pairs < kMostPairs || found_.size() > capacity_.spheres) {
                 capacity_ = next = doubled;
+            } else {
+                throw Error("the tool's " + std::to_string(tool.leafCount()) +
+                            " leaf spheres touch more than " + std::to_string(kMostPairs) +
+                            " pairs of leaf and region sphere (allowed: a tool "
+                            "with fewer or smaller spheres, or one that starts outside of the regions)");
             }
         }
         capacity_ = next;
@@ -60,6 +67,7 @@ public:
     const QueryCapacity& capacity() const { return capacity_; }
 
 private:
+    static constexpr size_t kMostPairs = size_t{4} << 20; // 150 MB a set
     static constexpr double kSmallestReach =
         2e-5; // [m] below this the trust region is only margin, so halving gains nothing
 

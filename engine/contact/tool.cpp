@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <string>
 #include <utility>
 
@@ -21,6 +22,17 @@ void checkTree(const SphereTree& tree) {
     }
 }
 
+void checkLeaf(const Sphere& leaf, size_t index) {
+    const dvec3 far = glm::abs(leaf.centre);
+    if (!(std::max({far.x, far.y, far.z}) <= kMostToolReach) || !(leaf.radius <= kMostLeafRadius)) {
+        char text[160];
+        std::snprintf(
+            text, sizeof text, "tool: leaf %zu at (%.6g, %.6g, %.6g) with radius %.6g exceeds %g m or %g m",
+            index, leaf.centre.x, leaf.centre.y, leaf.centre.z, leaf.radius, kMostToolReach, kMostLeafRadius);
+        throw Error(text);
+    }
+}
+
 } // namespace
 
 Tool::Tool(SphereTree tree)
@@ -32,9 +44,7 @@ Tool::Tool(SphereTree tree)
         if (leaf.radius < 0.0) {
             continue;
         }
-        if (!isFinite(leaf.centre) || !std::isfinite(leaf.radius)) {
-            throw Error("tool: leaf " + std::to_string(leaves_.size()) + " is not finite");
-        }
+        checkLeaf(leaf, leaves_.size());
         leaves_.push_back(leaf);
         sumOfSquares += glm::dot(leaf.centre, leaf.centre);
         largestRadius = std::max(largestRadius, leaf.radius);

@@ -102,7 +102,13 @@ double CoverPiece::radiusFrom(const dvec3& c) const {
 
 double countOfPieces(const TriangleMesh& mesh, double edge) {
     // Halving ends between edge / 2 and edge; a third of edge^2 is what the smallest well-shaped ones have.
-    return static_cast<double>(mesh.triangles.size()) + mesh.area() / (0.16 * edge * edge);
+    double slivers = 0.0; // a needle is cut along its length, whatever its area
+    for (size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const dvec3 a = mesh.corner(t, 0), b = mesh.corner(t, 1), c = mesh.corner(t, 2);
+        const double longest = std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
+        slivers += longest > edge ? longest / edge : 0.0;
+    }
+    return static_cast<double>(mesh.triangles.size()) + mesh.area() / (0.16 * edge * edge) + slivers;
 }
 
 std::vector<CoverPiece> cutToPieces(const TriangleMesh& mesh, const MeshDistance& distance, double edge,

@@ -16,6 +16,7 @@ namespace {
 constexpr size_t kSeats = 2000;
 constexpr double kPieces = 6'000.0; // initial number of pieces
 constexpr double kMostPieces = 2e6;
+constexpr double kSlivers = 20.0; // times as many pieces when the surface consists of needles
 
 struct Fitting {
     const TriangleMesh& mesh;
@@ -26,8 +27,12 @@ struct Fitting {
 };
 
 double edgeFor(const TriangleMesh& mesh, double count) {
-    double edge = std::sqrt(mesh.area() / (0.3 * count));
-    return std::max(edge, 1e-12);
+    double edge = std::max(std::sqrt(mesh.area() / (0.3 * count)), 1e-12);
+    const double most = static_cast<double>(mesh.triangles.size()) + kSlivers * count;
+    while (countOfPieces(mesh, edge) > most) {
+        edge *= 1.25;
+    }
+    return edge;
 }
 
 // Largest protrusion of a sphere, from the signed distance of its centre.

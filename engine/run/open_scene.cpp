@@ -52,7 +52,7 @@ Tool writtenTool(const Scene& scene) {
         throw;
     } catch (const Error& e) {
         throw BadInput(scene.file.string(), "tool", e.what(),
-                       "1 to 4096 spheres with finite centres and positive radii");
+                       "1 to 4096 spheres with coordinates up to 50 m and radii above 0, up to 10 m");
     }
 }
 

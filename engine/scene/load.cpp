@@ -9,7 +9,7 @@ Pose loadPose(const YamlNode& node) {
     node.checkKeys({"xyz", "quat_xyzw"});
     Pose pose;
     if (const auto xyz = node.find("xyz")) {
-        pose.position = xyz->vec3();
+        pose.position = xyz->vec3(Range::position());
     }
     if (const auto quat = node.find("quat_xyzw")) {
         pose.rotation = quat->quatXyzw();
@@ -40,10 +40,10 @@ Scene sceneOf(const YamlNode& root, const std::filesystem::path& file) {
         loadFilter(*filter, scene);
     }
     if (const auto budget = root.find("error_budget")) {
-        scene.errorBudget = budget->number(Range::notNegative());
+        scene.errorBudget = budget->number(Range::zeroOr(1e-7, 0.1));
     }
     if (const auto hold = root.find("hold_s")) {
-        scene.holdSeconds = hold->number(Range::notNegative());
+        scene.holdSeconds = hold->number(Range::between(0.0, 3600.0));
     }
     loadFixtures(root.at("fixtures"), scene);
     const auto arm = root.find("arm"), tool = root.find("tool");

@@ -4,6 +4,7 @@
 
 #include "engine/scene/scene.h"
 #include "engine/scene/yaml_node.h"
+#include "engine/types/sphere_tree.h"
 
 namespace fathom {
 

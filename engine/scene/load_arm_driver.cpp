@@ -60,7 +60,7 @@ SceneArm::Driver loadArmDriver(const YamlNode& node) {
         }
     }
     if (const auto current = node.find("current")) {
-        driver.current = current->number(reach ? Range{0.0, 10.0, true} : Range::between(1.0, 255.0));
+        driver.current = current->number(reach ? Range::between(1e-3, 10.0) : Range::between(1.0, 255.0));
     }
     return driver;
 }

@@ -8,6 +8,8 @@ namespace fathom {
 
 namespace {
 
+const Range kJoint = Range::between(-1e4, 1e4); // [rad], [m]
+
 std::optional<double> loadOptional(const YamlNode& node, std::string_view key, const Range& range) {
     const auto value = node.find(key);
     return value ? std::optional(value->number(range)) : std::nullopt;
@@ -27,10 +29,10 @@ void loadJoints(const YamlNode& list, SceneArm& arm) {
         row.checkKeys({"name", "lower", "upper", "speed", "start"});
         SceneArm::Joint joint;
         names.push_back(joint.name = nameOnce(row.at("name"), names));
-        joint.lower = loadOptional(row, "lower", Range::any());
-        joint.upper = loadOptional(row, "upper", Range::any());
-        joint.speed = loadOptional(row, "speed", Range::positive());
-        joint.start = loadOptional(row, "start", Range::any());
+        joint.lower = loadOptional(row, "lower", kJoint);
+        joint.upper = loadOptional(row, "upper", kJoint);
+        joint.speed = loadOptional(row, "speed", Range::between(1e-6, 1e3));
+        joint.start = loadOptional(row, "start", kJoint);
         if (joint.lower && joint.upper && *joint.lower > *joint.upper) {
             row.refuse("lower " + row.at("lower").value() + ", upper " + row.at("upper").value(),
                        "lower <= upper");
@@ -46,8 +48,8 @@ void loadGrasp(const YamlNode& node, SceneArm& arm, uint32_t clutchBit) {
         row.checkKeys({"joint", "open", "closed"});
         SceneArm::Finger finger;
         names.push_back(finger.joint = nameOnce(row.at("joint"), names));
-        finger.open = loadOptional(row, "open", Range::any());
-        finger.closed = loadOptional(row, "closed", Range::any());
+        finger.open = loadOptional(row, "open", kJoint);
+        finger.closed = loadOptional(row, "closed", kJoint);
         arm.grasp.fingers.push_back(finger);
     }
     if (const auto button = node.find("button")) {

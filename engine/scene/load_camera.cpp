@@ -58,10 +58,10 @@ CameraSource loadSource(const YamlNode& node, Scene& scene) {
 void loadDepthRange(const YamlNode& camera, Scene& scene) {
     const auto nearZ = camera.find("near"), farZ = camera.find("far");
     if (nearZ) {
-        scene.nearZ = nearZ->number(Range::positive());
+        scene.nearZ = nearZ->number(Range::between(1e-3, 1e4));
     }
     if (farZ) {
-        scene.farZ = farZ->number(Range::positive());
+        scene.farZ = farZ->number(Range::between(1e-3, 1e4));
     }
     if (scene.nearZ < scene.farZ) {
         return;
@@ -76,15 +76,12 @@ void loadDepthRange(const YamlNode& camera, Scene& scene) {
 void loadPort(const YamlNode& node, Scene& scene) {
     node.checkKeys({"distance", "index"});
     Scene::Port port;
-    port.distance = node.at("distance").number(Range::notNegative());
+    port.distance = node.at("distance").number(Range::between(0.0, 10.0));
     if (!(port.distance < scene.nearZ)) {
         node.at("distance").refuse("a number below camera.near = " + std::to_string(scene.nearZ));
     }
     if (const auto index = node.find("index")) {
-        port.index = index->number(Range::positive());
-        if (port.index < 1.0 || port.index > 2.0) {
-            index->refuse("1 to 2");
-        }
+        port.index = index->number(Range::between(1.0, 2.0));
     }
     scene.port = port;
 }
@@ -95,7 +92,7 @@ void loadBeam(const YamlNode& node, Scene& scene) {
     Scene::Beam beam;
     beam.width = kRadian * node.at("width_deg").number(Range::between(0.0, 30.0));
     if (const auto sigma = node.find("sigma")) {
-        beam.range = sigma->number(Range::notNegative());
+        beam.range = sigma->number(Range::between(0.0, 1.0));
     }
     if (const auto more = node.find("sigma_per_m")) {
         beam.perMetre = more->number(Range::between(0.0, 1.0));
@@ -119,7 +116,7 @@ void loadCamera(const YamlNode& camera, Scene& scene) {
         scene.baseTcamera = loadPose(*pose);
     }
     if (const auto sigma = camera.find("registration_sigma")) {
-        scene.registrationSigma = sigma->number(Range::notNegative());
+        scene.registrationSigma = sigma->number(Range::between(0.0, 1.0));
     }
     if (const auto port = camera.find("port")) {
         loadPort(*port, scene);
@@ -135,10 +132,10 @@ void loadFilter(const YamlNode& filter, Scene& scene) {
         scene.filter.radius = radius->integer(0, 16);
     }
     if (const auto sigma = filter.find("sigma")) {
-        scene.filter.sigma = sigma->number(Range::positive());
+        scene.filter.sigma = sigma->number(Range::between(1e-5, 10.0));
     }
     if (const auto edge = filter.find("edge")) {
-        scene.filter.edge = edge->number(Range::notNegative());
+        scene.filter.edge = edge->number(Range::between(0.0, 10.0));
     }
     if (const auto weights = filter.find("weights")) {
         using Weights = Scene::Filter::Weights;

@@ -36,7 +36,8 @@ std::optional<Band> loadBand(const YamlNode& row, std::string_view key, const Ra
 Box loadBox(const YamlNode& node) {
     node.checkKeys({"min", "max"});
     const YamlNode min = node.at("min"), max = node.at("max");
-    const Box box{min.vec3(), max.vec3()};
+    const Range corner = Range::between(-1e9, 1e9); // farther than any point: no limit on that side
+    const Box box{min.vec3(corner), max.vec3(corner)};
     if (!glm::all(glm::lessThanEqual(box.min, box.max))) {
         node.refuse("min " + min.value() + ", max " + max.value(), "min <= max on every axis");
     }
@@ -48,7 +49,7 @@ void loadPoints(const YamlNode& row, FixtureClass& fixture) {
     fixture.hue = loadBand(row, "hue", Range::between(0.0, 360.0), true);
     fixture.saturation = loadBand(row, "saturation", share, false);
     fixture.lightness = loadBand(row, "lightness", share, false);
-    fixture.range = loadBand(row, "range", Range::notNegative(), false);
+    fixture.range = loadBand(row, "range", Range::between(0.0, 1e4), false);
     if (const auto intensity = row.find("intensity")) { // sensors without colour deliver intensity as grey
         if (fixture.lightness) {
             intensity->refuse("instead of lightness, not with it");
@@ -59,10 +60,10 @@ void loadPoints(const YamlNode& row, FixtureClass& fixture) {
         fixture.box = loadBox(*box);
     }
     if (const auto radius = row.find("radius")) {
-        fixture.radius = radius->number(Range::positive());
+        fixture.radius = radius->number(Range::between(1e-4, 10.0));
     }
     if (const auto standoff = row.find("standoff")) {
-        fixture.standoff = standoff->number(Range::any());
+        fixture.standoff = standoff->number(Range::between(-10.0, 10.0));
     }
     if (const auto quat = row.find("quat_xyzw")) {
         fixture.orientation = quat->quatXyzw();
@@ -101,10 +102,10 @@ void loadShape(const YamlNode& row, FixtureClass& fixture) {
     if (!size) {
         return;
     }
-    fixture.size = size->vec3(Range::notNegative());
+    fixture.size = size->vec3(Range::between(0.0, 1e4));
     const std::vector<YamlNode> items = size->list(3);
     for (size_t i = 0; i < used; ++i) {
-        items[i].number(Range::positive());
+        items[i].number(Range::between(1e-4, 1e4));
     }
 }
 

@@ -7,6 +7,7 @@ namespace fathom {
 namespace {
 
 constexpr size_t kMaxLeaves = 4096;
+const Range kPlace{-kMostToolReach, kMostToolReach}, kRadius{kLeastLeafRadius, kMostLeafRadius};
 
 std::vector<std::array<double, 4>> loadSpheres(const YamlNode& node) {
     const std::vector<YamlNode> rows = node.list();
@@ -16,8 +17,8 @@ std::vector<std::array<double, 4>> loadSpheres(const YamlNode& node) {
     std::vector<std::array<double, 4>> spheres;
     for (const YamlNode& row : rows) {
         const std::vector<YamlNode> numbers = row.list(4);
-        spheres.push_back({numbers[0].number(Range::any()), numbers[1].number(Range::any()),
-                           numbers[2].number(Range::any()), numbers[3].number(Range::positive())});
+        spheres.push_back({numbers[0].number(kPlace), numbers[1].number(kPlace), numbers[2].number(kPlace),
+                           numbers[3].number(kRadius)});
     }
     return spheres;
 }
@@ -28,7 +29,7 @@ void loadHandMap(const YamlNode& map, Scene::Hand& hand) {
         hand.baseRdevice = rotation->quatXyzw();
     }
     if (const auto scale = map.find("scale")) {
-        hand.scale = scale->number(Range::positive());
+        hand.scale = scale->number(Range::between(1e-3, 100.0));
     }
     if (const auto clutch = map.find("clutch")) {
         hand.clutchBit = loadButtonBit(*clutch);
@@ -38,13 +39,13 @@ void loadHandMap(const YamlNode& map, Scene::Hand& hand) {
 void loadHandLoop(const YamlNode& node, HandLoop& loop) {
     node.checkKeys({"mass", "damping", "stiffness"});
     if (const auto mass = node.find("mass")) {
-        loop.mass = mass->number(Range::positive());
+        loop.mass = mass->number(Range::between(1e-3, 100.0));
     }
     if (const auto damping = node.find("damping")) {
-        loop.damping = damping->number(Range::notNegative());
+        loop.damping = damping->number(Range::between(0.0, 1e4));
     }
     if (const auto stiffness = node.find("stiffness")) {
-        loop.stiffness = stiffness->number(Range::notNegative());
+        loop.stiffness = stiffness->number(Range::between(0.0, 1e6));
     }
 }
 

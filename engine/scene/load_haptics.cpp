@@ -17,19 +17,19 @@ std::optional<double> loadUnless(const YamlNode& node, std::string_view word, co
 void loadLimits(const YamlNode& limits, Scene::Haptics& haptics) {
     limits.checkKeys({"force", "torque", "slew_N_per_s", "slew_Nm_per_s", "lowpass_hz"});
     if (const auto force = limits.find("force")) {
-        haptics.forceLimit = loadUnless(*force, "preset", Range::notNegative());
+        haptics.forceLimit = loadUnless(*force, "preset", Range::between(0.0, 1e4));
     }
     if (const auto torque = limits.find("torque")) {
-        haptics.torqueLimit = loadUnless(*torque, "preset", Range::notNegative());
+        haptics.torqueLimit = loadUnless(*torque, "preset", Range::between(0.0, 1e3));
     }
     if (const auto slew = limits.find("slew_N_per_s")) {
-        haptics.slewForce = slew->number(Range::positive());
+        haptics.slewForce = slew->number(Range::between(0.1, 1e9));
     }
     if (const auto slew = limits.find("slew_Nm_per_s")) {
-        haptics.slewTorque = slew->number(Range::positive());
+        haptics.slewTorque = slew->number(Range::between(1e-3, 1e9));
     }
     if (const auto lowpass = limits.find("lowpass_hz")) {
-        haptics.lowpassHz = lowpass->number(Range::notNegative());
+        haptics.lowpassHz = lowpass->number(Range::zeroOr(0.1, 1e4));
         if (haptics.lowpassHz >= 0.5 * haptics.rateHz) {
             lowpass->refuse("0 (off) or below half of haptics.rate_hz");
         }
@@ -40,10 +40,10 @@ void loadLimits(const YamlNode& limits, Scene::Haptics& haptics) {
 
 void loadFeel(const YamlNode& node, Scene::Haptics& haptics) {
     if (const auto stiffness = node.find("stiffness")) {
-        haptics.stiffness = loadUnless(*stiffness, "auto", Range::positive());
+        haptics.stiffness = loadUnless(*stiffness, "auto", Range::between(1e-3, 1e6));
     }
     if (const auto stiffness = node.find("rotational_stiffness")) {
-        haptics.rotationalStiffness = loadUnless(*stiffness, "auto", Range::positive());
+        haptics.rotationalStiffness = loadUnless(*stiffness, "auto", Range::between(1e-6, 1e5));
     }
     if (const auto friction = node.find("friction")) {
         haptics.friction = friction->number(Range::between(0.0, 1.0));
@@ -60,10 +60,10 @@ void loadFeel(const YamlNode& node, Scene::Haptics& haptics) {
     if (const auto pull = node.find("guidance_pull")) {
         pull->checkKeys({"force", "torque"});
         if (const auto force = pull->find("force")) {
-            haptics.pullForce = force->number(Range::notNegative());
+            haptics.pullForce = force->number(Range::between(0.0, 100.0));
         }
         if (const auto torque = pull->find("torque")) {
-            haptics.pullTorque = torque->number(Range::notNegative());
+            haptics.pullTorque = torque->number(Range::between(0.0, 10.0));
         }
     }
 }

@@ -20,7 +20,7 @@ Scene::Pilot loadPilot(const YamlNode& row, const Scene& scene) {
     }
     loadFeel(row, pilot.haptics);
     if (const auto scale = row.find("scale")) {
-        pilot.scale = scale->number(Range::positive());
+        pilot.scale = scale->number(Range::between(1e-3, 100.0));
     }
     return pilot;
 }
@@ -49,7 +49,7 @@ void loadWindow(const YamlNode& window, Scene& scene) {
         w.spaceIsLarge = large->choice<bool>({{"camera", false}, {"space", true}});
     }
     if (const auto yaw = window.find("yaw")) {
-        w.yaw = yaw->number(Range::any());
+        w.yaw = yaw->number(Range::between(-1e3, 1e3));
     }
     if (const auto pitch = window.find("pitch")) {
         w.pitch = pitch->number(Range::between(-1.5, 1.5));

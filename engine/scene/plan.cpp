@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/scene/plan.h"
 
+#include "engine/scene/camera_limits.h"
 #include "engine/types/error.h"
 
 #include <algorithm>
@@ -264,6 +265,7 @@ Plan makePlan(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves,
         throw BadInput("camera", "width of its YUYV colour", std::to_string(camera.colour.width),
                        "even, because two pixels share a word");
     }
+    checkCamera(camera, "camera");
     Plan plan = decide(scene, camera, toolLeaves, device);
     explainPasses(plan, scene, camera);
     explainImages(plan, camera);

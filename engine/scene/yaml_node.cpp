@@ -168,6 +168,9 @@ std::string YamlNode::text() const {
     if (!node_.IsScalar() || node_.Scalar().empty()) {
         refuse("text");
     }
+    if (printable(node_.Scalar()) != node_.Scalar()) {
+        refuse("text in UTF-8 without line breaks and other control characters");
+    }
     return node_.Scalar();
 }
 
@@ -227,7 +230,7 @@ dquat YamlNode::quatXyzw() const {
     const std::vector<YamlNode> items = list(4);
     double q[4], largest = 0.0;
     for (size_t i = 0; i < 4; ++i) {
-        q[i] = items[i].number(Range::any());
+        q[i] = items[i].number(Range::finite());
         largest = std::max(largest, std::abs(q[i]));
     }
     if (!(largest > 1e-300)) {

@@ -18,18 +18,20 @@
 
 namespace fathom {
 
-// Range of allowed numbers: lo <= x <= hi, or lo < x <= hi when loExcluded. Always finite.
+// Range of allowed numbers: lo <= x <= hi, or also 0. Every key has both bounds, within what the passes can
+// compute in float32. NaN is outside of every range.
 struct Range {
-    double lo = -std::numeric_limits<double>::infinity();
-    double hi = std::numeric_limits<double>::infinity();
-    bool loExcluded = false;
+    double lo, hi;
+    bool orZero = false;
 
-    static Range any() { return {}; }
-    static Range positive() { return {0.0, std::numeric_limits<double>::infinity(), true}; }
-    static Range notNegative() { return {0.0}; }
     static Range between(double lo, double hi) { return {lo, hi}; }
+    static Range zeroOr(double lo, double hi) { return {lo, hi, true}; }
+    static Range position() { return {-1e6, 1e6}; } // [m] in the base frame
+    static Range finite() {
+        return {-std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
+    }
 
-    bool contains(double x) const { return loExcluded ? x > lo && x <= hi : x >= lo && x <= hi; }
+    bool contains(double x) const { return (x >= lo && x <= hi) || (orZero && x == 0.0); }
     std::string words() const; // "a number from 0 to 360"
 };
 
@@ -56,7 +58,7 @@ public:
 
     // Scalars. Quoted numbers and booleans are text and are rejected.
     bool is(std::string_view word) const; // true if the scalar equals `word`
-    std::string text() const;             // not empty
+    std::string text() const;             // not empty, printable (printable.h)
     bool boolean() const;                 // true or false
     double number(const Range& range,
                   const std::string& orElse = "") const; // orElse: "auto or ", for the message
@@ -67,8 +69,8 @@ public:
     template <class T>
     T choice(std::initializer_list<std::pair<std::string_view, T>> words) const;
 
-    dvec3 vec3(const Range& range = Range::any()) const; // list of three numbers
-    dquat quatXyzw() const;                              // list of four, x y z w; not zero; normalised
+    dvec3 vec3(const Range& range) const; // list of three numbers
+    dquat quatXyzw() const;               // list of four, x y z w; not zero; normalised
 
     [[noreturn]] void refuse(const std::string& allowed) const; // throws for this node's value
     [[noreturn]] void refuse(const std::string& value, const std::string& allowed) const;

@@ -3,7 +3,6 @@
 #include "engine/scene/yaml_node.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 
 namespace fathom {
@@ -40,15 +39,10 @@ size_t editDistance(std::string_view a, std::string_view b) {
 } // namespace
 
 std::string Range::words() const {
-    const bool bounded = std::isfinite(hi);
-    if (!std::isfinite(lo)) {
-        return bounded ? "a number up to " + shortNumber(hi) : "a finite number";
+    if (hi == std::numeric_limits<double>::max()) {
+        return "a finite number";
     }
-    if (loExcluded) {
-        return "a number above " + shortNumber(lo) + (bounded ? ", up to " + shortNumber(hi) : "");
-    }
-    return bounded ? "a number from " + shortNumber(lo) + " to " + shortNumber(hi)
-                   : "a number of at least " + shortNumber(lo);
+    return (orZero ? "0, or a number from " : "a number from ") + shortNumber(lo) + " to " + shortNumber(hi);
 }
 
 std::string_view nearestWord(std::string_view word, std::span<const std::string_view> words) {

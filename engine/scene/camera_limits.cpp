@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/scene/camera_limits.h"
+
+#include "engine/scene/yaml_node.h"
+#include "engine/types/error.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace fathom {
+
+namespace {
+
+constexpr double kNarrowest = 100.0; // focal length in image sizes: 0.6 degrees across the image
+constexpr double kSteepest = 60.0;   // slope of a ray: 89 degrees off the axis
+
+std::string shortly(double x) {
+    char text[40];
+    std::snprintf(text, sizeof text, "%.9g", x);
+    return text;
+}
+
+class Check {
+public:
+    explicit Check(const std::string& source)
+        : source_(source) {}
+
+    void number(const std::string& field, double x, const Range& range) const {
+        if (!range.contains(x)) {
+            throw BadInput(source_, field, shortly(x), range.words());
+        }
+    }
+
+    // The slope of the outermost ray along an axis of the image.
+    void slope(const std::string& field, double centre, double size, double focal) const {
+        const double steepest = std::max(std::abs(centre), std::abs(size - centre)) / focal;
+        if (!(steepest <= kSteepest)) {
+            throw BadInput(source_, field, shortly(centre) + " with a focal length of " + shortly(focal),
+                           "rays within 89 degrees of the axis");
+        }
+    }
+
+    void lens(const std::string& name, const Intrinsics& lens) const {
+        const double size = std::max(lens.width, lens.height);
+        const Range focal = Range::between(1.0, kNarrowest * std::max(size, 1.0));
+        number(name + " fx", lens.fx, focal);
+        number(name + " fy", lens.fy, focal);
+        slope(name + " cx", lens.cx, lens.width, lens.fx);
+        slope(name + " cy", lens.cy, lens.height, lens.fy);
+        for (const double k : lens.distortion) {
+            number(name + " distortion", k, Range::between(-1e6, 1e6));
+        }
+    }
+
+private:
+    const std::string& source_;
+};
+
+} // namespace
+
+void checkCamera(const CameraInfo& camera, const std::string& source) {
+    const Check check(source);
+    check.lens("depth", camera.depth);
+    if (camera.hasColour && !camera.registered) {
+        check.lens("colour", camera.colour);
+        for (int i = 0; i < 3; ++i) {
+            check.number("colour_T_depth", camera.colourTdepth.position[i], Range::between(-10.0, 10.0));
+        }
+    }
+    check.number("depth unit", camera.metresPerUnit, Range::between(1e-7, 1.0));
+    check.number("sigma", camera.sigma, Range::between(0.0, 1.0));
+    if (camera.beam) {
+        check.number("beam sigma", camera.beam->range, Range::between(0.0, 1.0));
+        check.number("beam sigma per metre", camera.beam->perMetre, Range::between(0.0, 1.0));
+        check.number("beam width", camera.beam->width, Range::between(0.0, 1.0));
+    }
+}
+
+} // namespace fathom

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// The range check of what a camera states about itself, whatever file or device it comes from.
+#pragma once
+
+#include "engine/types/camera_info.h"
+
+#include <string>
+
+namespace fathom {
+
+// Throws BadInput that names `source`, the field, its value and what is allowed: lenses whose rays or pixel
+// spacing are absurd, distances that float32 cannot hold, NaN.
+void checkCamera(const CameraInfo& camera, const std::string& source);
+
+} // namespace fathom
