@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/latency/latency_report.h"
 
-#include "engine/types/error.h"
+#include "engine/types/output_file.h"
 
 #include <array>
-#include <fstream>
 #include <iomanip>
 #include <nlohmann/json.hpp>
 
@@ -95,12 +94,9 @@ void writeLatency(const std::filesystem::path& file, std::span<const LatencyPart
                                 {"memory_MiB", part.memory},
                                 {"memory_growth_MiB", part.memoryGrowth()}});
     }
-    std::ofstream out(file);
-    out << all.dump(1) << "\n";
-    out.close();
-    if (!out) {
-        throw Error(file.string() + ": cannot be written");
-    }
+    OutputFile out(file);
+    out.write(all.dump(1) + "\n");
+    out.commit();
 }
 
 bool soakHolds(const LatencyPart& part, double asked) {

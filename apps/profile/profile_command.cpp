@@ -6,7 +6,7 @@
 #include "apps/profile/report.h"
 #include "apps/profile/studies.h"
 #include "apps/profile/study_plot.h"
-#include "apps/replay/output_file.h"
+#include "apps/replay/output_folder.h"
 #include "engine/types/error.h"
 
 #include <CLI/CLI.hpp>
@@ -85,7 +85,7 @@ void writeStudy(const Study& study, const Facts& facts, const std::filesystem::p
 
 void runProfile(const Settings& settings, const GlobalOptions& global) {
     checkNames(settings);
-    prepareOutputFolder(settings.out, false);
+    const OutputLock lock = prepareOutputFolder(settings.out, false);
     const gpu::Instance instance(global.validation());
     gpu::Device device(instance, global.device);
     ClockKeeper clock(global, device.facts());

@@ -3,7 +3,7 @@
 
 #include "apps/profile/frame_sequence.h"
 #include "apps/replay/csv.h"
-#include "apps/replay/output_file.h"
+#include "engine/types/output_file.h"
 #include "engine/types/processors.h"
 #include "engine/types/version.h"
 

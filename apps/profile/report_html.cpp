@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/profile/report.h"
-#include "apps/replay/output_file.h"
+#include "engine/types/output_file.h"
 #include "engine/types/error.h"
 
 #include <fstream>

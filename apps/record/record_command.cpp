@@ -6,6 +6,7 @@
 #include "apps/binding/stop_signals.h"
 #include "apps/number_option.h"
 #include "apps/record/hand_log.h"
+#include "apps/replay/output_folder.h"
 #include "devices/recorded/recording_writer.h"
 #include "engine/types/error.h"
 
@@ -66,6 +67,7 @@ int runRecord(const RecordOptions& options) {
         scene, options.source.empty() ? std::nullopt : std::optional<std::filesystem::path>(options.source),
         Images::Every);
     const StopSignals signals;
+    const OutputLock lock(options.out);
     RecordingWriter writer(options.out, camera->info(), 2);
     const std::unique_ptr<HandLog> hand = openHandLog(options, scene, *camera);
     double length = 0.0;

@@ -3,10 +3,10 @@
 #pragma once
 
 #include "apps/replay/csv.h"
-#include "apps/replay/output_file.h"
 #include "apps/replay/summary.h"
 #include "engine/cycle/arm_rig.h"
 #include "engine/run/channels.h"
+#include "engine/types/output_file.h"
 
 #include <filesystem>
 #include <vector>

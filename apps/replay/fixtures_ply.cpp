@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/replay/fixtures_ply.h"
 
-#include "apps/replay/output_file.h"
 #include "apps/replay/silhouette.h"
+#include "engine/types/output_file.h"
 
 #include <bit>
 #include <string>

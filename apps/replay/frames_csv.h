@@ -3,9 +3,9 @@
 #pragma once
 
 #include "apps/replay/csv.h"
-#include "apps/replay/output_file.h"
 #include "engine/cycle/frame_cycle.h"
 #include "engine/cycle/step_record.h"
+#include "engine/types/output_file.h"
 
 #include <string>
 #include <vector>

@@ -4,8 +4,8 @@
 
 #include "apps/replay/csv.h"
 #include "apps/replay/digest.h"
-#include "apps/replay/output_file.h"
 #include "engine/cycle/step_record.h"
+#include "engine/types/output_file.h"
 
 namespace fathom {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/replay/image.h"
 
-#include "apps/replay/output_file.h"
 #include "engine/types/error.h"
+#include "engine/types/output_file.h"
 
 #include <exception>
 

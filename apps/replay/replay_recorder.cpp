@@ -14,11 +14,6 @@ namespace {
 
 constexpr double kMomentMargin = 1.05; // a rising force copies the frame once per 5 %
 
-std::filesystem::path prepared(std::filesystem::path out, bool withFixtures) {
-    prepareOutputFolder(out, withFixtures);
-    return out;
-}
-
 } // namespace
 
 ReplayRecorder::Ending::Ending(const Session& session, const HapticCycle& cycle)
@@ -37,7 +32,8 @@ ReplayRecorder::Ending::Ending(const Session& session, const HapticCycle& cycle)
 ReplayRecorder::ReplayRecorder(std::filesystem::path out, const Scene& scene,
                                const std::vector<std::string>& passes, bool saveFixtures, const ArmRig* arm,
                                const std::string& realArm)
-    : out_(prepared(std::move(out), saveFixtures))
+    : out_(std::move(out))
+    , lock_(prepareOutputFolder(out_, saveFixtures))
     , scene_(scene)
     , saveFixtures_(saveFixtures)
     , haptics_(out_ / "haptics.csv")

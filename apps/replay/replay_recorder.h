@@ -5,6 +5,7 @@
 #include "apps/replay/arm_report.h"
 #include "apps/replay/frames_csv.h"
 #include "apps/replay/haptics_csv.h"
+#include "apps/replay/output_folder.h"
 #include "apps/replay/summary.h"
 #include "apps/replay/tick_totals.h"
 #include "apps/replay/trace_history.h"
@@ -75,6 +76,7 @@ private:
     void writeImages(const Ending& ending) const;
 
     std::filesystem::path out_;
+    OutputLock lock_;
     const Scene& scene_;
     bool saveFixtures_;
     HapticsCsv haptics_;

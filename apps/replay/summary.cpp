@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/replay/summary.h"
 
-#include "apps/replay/output_file.h"
 #include "apps/replay/tick_totals.h"
+#include "engine/types/output_file.h"
 
 #include <cmath>
 #include <nlohmann/json.hpp>

@@ -2,7 +2,7 @@
 #include "apps/spheres/spheres_report.h"
 
 #include "apps/replay/curve_plot.h"
-#include "apps/replay/output_file.h"
+#include "engine/types/output_file.h"
 
 #include <iomanip>
 #include <map>

@@ -2,7 +2,7 @@
 #include "apps/stability/stability_command.h"
 
 #include "apps/clock/clock_keeper.h"
-#include "apps/replay/output_file.h"
+#include "apps/replay/output_folder.h"
 #include "apps/stability/stability_plots.h"
 #include "apps/stability/stability_report.h"
 #include "engine/gpu/device.h"
@@ -48,7 +48,7 @@ int runStability(const StabilityOptions& options, const GlobalOptions& global) {
         return (chosen ? *chosen : chosen.emplace(global)).device;
     };
     const auto cases = stability::chosenCases(stability::allCases(source), options.cases);
-    prepareOutputFolder(options.out, false);
+    const OutputLock lock = prepareOutputFolder(options.out, false);
     std::vector<stability::CaseResult> results;
     double seconds = 0.0;
     for (const stability::Case& one : cases) {

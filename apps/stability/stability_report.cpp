@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/stability/stability_report.h"
 
-#include "apps/replay/output_file.h"
+#include "engine/types/output_file.h"
 #include "apps/stability/case_text.h"
 #include "engine/gpu/instance.h"
 #include "engine/gpu/physical_device.h"

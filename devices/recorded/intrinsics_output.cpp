@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/recorded/intrinsics_output.h"
 
-#include "engine/types/error.h"
+#include "engine/types/output_file.h"
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
@@ -60,12 +59,9 @@ Json intrinsicsJson(const CameraInfo& camera) {
 } // namespace
 
 void writeIntrinsics(const std::filesystem::path& file, const CameraInfo& camera) {
-    std::ofstream out(file);
-    out << intrinsicsJson(camera).dump(2) << "\n";
-    out.flush();
-    if (!out) {
-        throw Error(file.string() + ": cannot be written");
-    }
+    OutputFile out(file);
+    out.write(intrinsicsJson(camera).dump(2) + "\n");
+    out.commit();
 }
 
 } // namespace fathom

@@ -28,9 +28,15 @@ std::string text(double value) {
 }
 
 const fs::path& freshFolder(const fs::path& folder) {
-    for (const char* name : {"associations.txt", "depth.txt"}) {
+    for (const char* name : {"associations.txt", "depth.txt", "rgb.txt", "intrinsics.json"}) {
         if (fs::exists(folder / name)) {
             throw BadInput("--out", folder.string(), std::string("has ") + name,
+                           "a folder without a recording");
+        }
+    }
+    for (const char* name : {"depth", "rgb"}) {
+        if (fs::is_symlink(folder / name)) {
+            throw BadInput("--out", folder.string(), std::string(name) + " is a symbolic link",
                            "a folder without a recording");
         }
     }

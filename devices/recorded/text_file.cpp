@@ -2,6 +2,7 @@
 #include "devices/recorded/text_file.h"
 
 #include "engine/types/error.h"
+#include "engine/types/input_files.h"
 #include "engine/types/read_file.h"
 
 #include <algorithm>
@@ -40,6 +41,7 @@ DataLines::DataLines(const std::filesystem::path& file)
     if (!in_.is_open()) {
         throw BadInput(name_, "file", whyUnreadable(file), "a readable text file");
     }
+    noteInput(file);
 }
 
 bool DataLines::next(TextLine& line) {

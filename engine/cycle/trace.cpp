@@ -2,6 +2,7 @@
 #include "engine/cycle/trace.h"
 
 #include "engine/types/error.h"
+#include "engine/types/input_files.h"
 #include "engine/types/replaceable.h"
 
 #include <cmath>
@@ -56,6 +57,7 @@ std::filesystem::path replaceable(std::filesystem::path file) {
     if (!isReplaceable(file)) {
         throw Error("trace " + file.string() + ": cannot be written: a folder, a device or a pipe");
     }
+    refuseInput(file);
     return file;
 }
 

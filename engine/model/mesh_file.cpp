@@ -3,6 +3,7 @@
 
 #include "engine/model/import_triangles.h"
 #include "engine/types/error.h"
+#include "engine/types/input_files.h"
 
 #include <algorithm>
 #include <cctype>
@@ -46,6 +47,7 @@ TriangleMesh readTriangles(const std::filesystem::path& file) {
         throw BadInput(file.string(), "mesh", std::to_string(bytes) + " bytes",
                        "at most " + std::to_string(kLargestMesh));
     }
+    noteInput(file);
     auto [mesh, fault] = importTriangles(file);
     if (!fault.empty()) {
         throw BadInput(file.string(), "mesh", fault, kinds);

@@ -2,6 +2,8 @@
 #include "engine/model/sph_file.h"
 
 #include "engine/types/error.h"
+#include "engine/types/input_files.h"
+#include "engine/types/output_file.h"
 #include "engine/types/read_file.h"
 
 #include <algorithm>
@@ -49,6 +51,7 @@ public:
         if (!in_.is_open() || failed) {
             throw BadInput(name_, "file", whyUnreadable(file), "a readable sphere tree (.sph)");
         }
+        noteInput(file);
         if (size_ > kMaxBytes) {
             throw BadInput(name_, "file", std::to_string(size_) + " bytes",
                            "at most " + std::to_string(kMaxBytes));
@@ -200,12 +203,9 @@ void writeSph(const SphereTree& tree, const std::filesystem::path& file) {
                       used ? s.radius : -1.0, used ? 1 : 0);
         text += line;
     }
-    std::ofstream out(file, std::ios::binary);
-    out << text;
-    out.close();
-    if (!out) {
-        throw Error(file.string() + ": cannot be written");
-    }
+    OutputFile out(file);
+    out.write(text);
+    out.commit();
 }
 
 } // namespace fathom

@@ -2,6 +2,7 @@
 #include "engine/types/read_file.h"
 
 #include "engine/types/error.h"
+#include "engine/types/input_files.h"
 
 #include <algorithm>
 #include <fstream>
@@ -27,6 +28,7 @@ std::optional<std::string> readFileAtMost(const std::filesystem::path& file, siz
     if (!in) {
         return std::nullopt;
     }
+    noteInput(file);
     std::string text;
     while (in && text.size() <= most) {
         const size_t before = text.size(), piece = std::min(kPiece, most + 1 - before);

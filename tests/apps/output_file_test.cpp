@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/replay/output_file.h"
+#include "engine/types/output_file.h"
 
+#include "apps/replay/output_folder.h"
 #include "engine/types/error.h"
+#include "engine/types/read_file.h"
 #include "tests/apps/scratch_folder.h"
+#include "tests/rig/file_size_limit.h"
 
 #include <doctest/doctest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 using namespace fathom;
 using namespace fathom::testing;
@@ -65,17 +70,91 @@ TEST_CASE("A missing folder, a folder in the file's place and a full disk are er
         OutputFile file(folder.path() / "taken");
         file.commit();
     }));
-    if (std::filesystem::exists("/dev/full")) {
-        // The temporary name is a link to a device that is always full.
-        std::filesystem::create_symlink("/dev/full", folder.path() / "full.csv.partial");
-        CHECK(named("full.csv", [&] {
-            OutputFile file(folder.path() / "full.csv");
-            file.write("text");
-            file.commit();
-        }));
-    } else {
-        MESSAGE("no device that is always full here: that error is not tried");
+    const FileSizeLimit small(3);
+    CHECK(named("full.csv", [&] {
+        OutputFile file(folder.path() / "full.csv");
+        file.write("text");
+        file.commit();
+    }));
+}
+
+TEST_CASE("A temporary name that is a link is not followed, and the link's target stays as it was") {
+    const ScratchFolder folder;
+    put(folder.path() / "victim", "mine");
+    std::filesystem::create_symlink(folder.path() / "victim", folder.path() / "a.csv.partial");
+    OutputFile file(folder.path() / "a.csv");
+    file.write("new");
+    file.commit();
+    CHECK(textOf(folder.path() / "victim") == "mine");
+    CHECK(textOf(folder.path() / "a.csv") == "new");
+    CHECK_FALSE(std::filesystem::is_symlink(folder.path() / "a.csv"));
+}
+
+TEST_CASE("Of two writers of one file, the first one fails and the second one's file is whole") {
+    const ScratchFolder folder;
+    OutputFile first(folder.path() / "a.csv");
+    first.write("first");
+    OutputFile second(folder.path() / "a.csv");
+    second.write("second");
+    CHECK_THROWS_AS(first.commit(), Error);
+    second.commit();
+    CHECK(textOf(folder.path() / "a.csv") == "second");
+}
+
+TEST_CASE("A file that was read is not replaced, under its own name or by a link") {
+    const ScratchFolder folder;
+    put(folder.path() / "in.txt", "input");
+    REQUIRE(readFileAtMost(folder.path() / "in.txt", 100));
+    std::filesystem::create_symlink(folder.path() / "in.txt", folder.path() / "link");
+    std::filesystem::create_hard_link(folder.path() / "in.txt", folder.path() / "same");
+    for (const char* name : {"in.txt", "link", "same"}) {
+        CAPTURE(name);
+        CHECK_THROWS_AS(OutputFile(folder.path() / name), BadInput);
     }
+    put(folder.path() / "other", "input");
+    CHECK_NOTHROW(OutputFile(folder.path() / "other").commit());
+    CHECK(textOf(folder.path() / "in.txt") == "input");
+}
+
+TEST_CASE("An output folder is locked by one process; the lock of a dead one and a file left behind do not "
+          "count") {
+    const ScratchFolder folder;
+    const auto refused = [&] {
+        try {
+            prepareOutputFolder(folder.path(), false);
+        } catch (const BadInput& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    {
+        const OutputLock lock = prepareOutputFolder(folder.path(), false);
+        CHECK(refused().find("in use by process " + std::to_string(::getpid())) != std::string::npos);
+    }
+    CHECK(folder.files() == 0); // the lock file is gone
+    put(folder.path() / ".fathom.lock", "1");
+    CHECK(refused().empty());
+    const pid_t child = ::fork();
+    if (child == 0) {
+        const OutputLock lock = prepareOutputFolder(folder.path(), false);
+        ::_exit(0); // without a destructor, as if killed
+    }
+    ::waitpid(child, nullptr, 0);
+    CHECK(std::filesystem::exists(folder.path() / ".fathom.lock"));
+    CHECK(refused().empty());
+    put(folder.path() / "victim", "mine");
+    std::filesystem::create_symlink(folder.path() / "victim", folder.path() / ".fathom.lock");
+    CHECK_THROWS_AS(prepareOutputFolder(folder.path(), false), Error);
+    CHECK(textOf(folder.path() / "victim") == "mine");
+}
+
+TEST_CASE("Fixture files of an earlier run are not deleted through a link") {
+    const ScratchFolder folder, other;
+    put(other.path() / "000001.ply", "mine");
+    std::filesystem::create_directory_symlink(other.path(), folder.path() / "fixtures");
+    CHECK_THROWS_AS(prepareOutputFolder(folder.path(), true), Error);
+    CHECK_THROWS_AS(prepareOutputFolder(folder.path(), false), Error);
+    CHECK(textOf(other.path() / "000001.ply") == "mine");
 }
 
 TEST_CASE("An output folder is made with its parents and loses the frame and fault files of an earlier run, "

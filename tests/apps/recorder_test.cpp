@@ -7,10 +7,9 @@
 #include "devices/recorded/recorded_camera.h"
 #include "engine/types/error.h"
 #include "tests/apps/scratch_folder.h"
+#include "tests/rig/file_size_limit.h"
 
-#include <csignal>
 #include <doctest/doctest.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
@@ -87,25 +86,6 @@ void checkWhole(const std::filesystem::path& folder, size_t ticks) {
     CHECK(readHandCsv(folder / "hand.csv").size() >= log.moments.size());
 }
 
-// During its lifetime, no file of this process grows beyond this size.
-class SmallDisk {
-public:
-    explicit SmallDisk(rlim_t bytes)
-        : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-        ::getrlimit(RLIMIT_FSIZE, &before_);
-        const rlimit small{bytes, before_.rlim_max};
-        REQUIRE(::setrlimit(RLIMIT_FSIZE, &small) == 0);
-    }
-    ~SmallDisk() {
-        ::setrlimit(RLIMIT_FSIZE, &before_);
-        std::signal(SIGXFSZ, handler_);
-    }
-
-private:
-    rlimit before_{};
-    void (*handler_)(int);
-};
-
 } // namespace
 
 TEST_CASE("A stopped recording is complete: every frame, and every tick until the end of the last frame") {
@@ -146,7 +126,7 @@ TEST_CASE("A full disk ends a recording with a message that names the file, and 
         const auto folder = scratch.path() / std::to_string(bytes);
         Recorder recorder;
         {
-            const SmallDisk disk(bytes);
+            const FileSizeLimit disk(bytes);
             RecordedRun session(recorder, ticks);
             recorder.start(folder, "camera: {}\n", someCamera());
             for (int i = 0; i < 4000 && recorder.recording(); ++i) {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/replay/output_file.h"
+#include "engine/types/output_file.h"
 
 #include "engine/types/error.h"
+#include "engine/types/input_files.h"
 #include "engine/types/replaceable.h"
 
-#include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #include <utility>
 
@@ -18,33 +18,6 @@ namespace {
 
 constexpr size_t kBufferBytes = size_t{1} << 20;
 
-bool isFixtureFile(const std::filesystem::path& file) {
-    const std::string stem = file.stem().string();
-    return file.extension() == ".ply" && stem.size() >= 6 &&
-           std::all_of(stem.begin(), stem.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
-}
-
-// Left by FaultTrace in an earlier run.
-bool isFaultFile(const std::filesystem::path& file) {
-    constexpr std::string_view kStart = "fault-";
-    const std::string stem = file.stem().string();
-    return file.extension() == ".csv" && stem.size() > kStart.size() &&
-           stem.compare(0, kStart.size(), kStart) == 0 &&
-           stem.find_first_not_of("0123456789.", kStart.size()) == std::string::npos;
-}
-
-void removeAll(const std::filesystem::path& folder, bool (*wanted)(const std::filesystem::path&)) {
-    std::vector<std::filesystem::path> old;
-    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-        if (wanted(entry.path())) {
-            old.push_back(entry.path());
-        }
-    }
-    for (const auto& file : old) {
-        std::filesystem::remove(file);
-    }
-}
-
 } // namespace
 
 OutputFile::OutputFile(std::filesystem::path path)
@@ -53,8 +26,11 @@ OutputFile::OutputFile(std::filesystem::path path)
     if (!isReplaceable(path_)) {
         throw Error(path_.string() + ": cannot replace: a folder, a device or a pipe");
     }
+    refuseInput(path_);
     temporary_ += ".partial";
-    descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+    refuseInput(temporary_);
+    ::unlink(temporary_.c_str()); // left by a killed run, or a link, which must not be followed
+    descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0644);
     if (descriptor_ < 0) {
         fail("cannot create");
     }
@@ -69,9 +45,18 @@ OutputFile::OutputFile(OutputFile&& other) noexcept
 
 OutputFile::~OutputFile() {
     if (descriptor_ >= 0) {
+        if (isMine()) {
+            ::unlink(temporary_.c_str());
+        }
         ::close(descriptor_);
-        ::unlink(temporary_.c_str());
     }
+}
+
+bool OutputFile::isMine() const {
+    struct stat open {
+    }, named{};
+    return ::fstat(descriptor_, &open) == 0 && ::lstat(temporary_.c_str(), &named) == 0 &&
+           open.st_dev == named.st_dev && open.st_ino == named.st_ino;
 }
 
 void OutputFile::write(const void* bytes, size_t count) {
@@ -88,6 +73,10 @@ void OutputFile::write(const void* bytes, size_t count) {
 
 void OutputFile::commit() {
     flush();
+    if (!isMine()) {
+        ::close(std::exchange(descriptor_, -1));
+        throw Error(path_.string() + ": cannot write: another program writes the same file");
+    }
     // A network file system reports a full disk at close(). No retry: the descriptor is closed either way.
     if (::close(std::exchange(descriptor_, -1)) != 0 || ::rename(temporary_.c_str(), path_.c_str()) != 0) {
         const int reason = errno;
@@ -122,19 +111,6 @@ void OutputFile::writeAll(const char* bytes, size_t count) {
 
 void OutputFile::fail(const char* what) const {
     throw Error(path_.string() + ": " + what + ": " + std::strerror(errno));
-}
-
-void prepareOutputFolder(const std::filesystem::path& folder, bool withFixtures) {
-    const std::filesystem::path fixtures = folder / "fixtures";
-    try {
-        std::filesystem::create_directories(withFixtures ? fixtures : folder);
-        removeAll(folder, isFaultFile);
-        if (std::filesystem::is_directory(fixtures)) {
-            removeAll(fixtures, isFixtureFile);
-        }
-    } catch (const std::filesystem::filesystem_error& error) {
-        throw Error(folder.string() + ": cannot use as output folder: " + error.code().message());
-    }
 }
 
 } // namespace fathom

@@ -11,9 +11,10 @@
 
 namespace fathom {
 
-// Buffers at most one megabyte. One thread. Every failure (missing folder, no permission, disk full, `path`
-// is a folder, device or pipe) throws Error that names the file. Without commit(), the destructor leaves an
-// older file at `path` unchanged.
+// Buffers at most one megabyte. One thread. Follows no link. Every failure (missing folder, no permission,
+// disk full, `path` is a folder, device or pipe, an input of this process, or written by another program)
+// throws Error that names the file. Without commit(), the destructor leaves an older file at `path`
+// unchanged.
 class OutputFile {
 public:
     explicit OutputFile(std::filesystem::path path);
@@ -29,6 +30,7 @@ public:
     const std::filesystem::path& path() const { return path_; }
 
 private:
+    bool isMine() const; // the temporary name still belongs to the open file
     void flush();
     void writeAll(const char* bytes, size_t count);
     [[noreturn]] void fail(const char* what) const;
@@ -37,9 +39,5 @@ private:
     int descriptor_ = -1;
     std::vector<char> buffer_;
 };
-
-// Creates `folder` (and fixtures/ in it if requested) and deletes the frame and fault files of an earlier
-// run, so that sets of two runs never mix. Throws Error that names the folder.
-void prepareOutputFolder(const std::filesystem::path& folder, bool withFixtures);
 
 } // namespace fathom

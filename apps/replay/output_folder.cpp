@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/replay/output_folder.h"
+
+#include "engine/types/error.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <string>
+#include <string_view>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <utility>
+#include <vector>
+
+namespace fathom {
+
+namespace {
+
+// The process that holds the lock, as it wrote it itself.
+std::string holderOf(int descriptor) {
+    char text[16] = {};
+    const ssize_t size = ::pread(descriptor, text, sizeof text - 1, 0);
+    const bool digits =
+        size > 0 && std::all_of(text, text + size, [](unsigned char c) { return std::isdigit(c); });
+    return digits ? "process " + std::string(text) : "another process";
+}
+
+bool isNamed(int descriptor, const std::filesystem::path& file) {
+    struct stat open {
+    }, named{};
+    return ::fstat(descriptor, &open) == 0 && ::lstat(file.c_str(), &named) == 0 &&
+           open.st_dev == named.st_dev && open.st_ino == named.st_ino;
+}
+
+bool isFixtureFile(const std::filesystem::path& file) {
+    const std::string stem = file.stem().string();
+    return file.extension() == ".ply" && stem.size() >= 6 &&
+           std::all_of(stem.begin(), stem.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
+}
+
+// Left by FaultTrace in an earlier run.
+bool isFaultFile(const std::filesystem::path& file) {
+    constexpr std::string_view kStart = "fault-";
+    const std::string stem = file.stem().string();
+    return file.extension() == ".csv" && stem.size() > kStart.size() &&
+           stem.compare(0, kStart.size(), kStart) == 0 &&
+           stem.find_first_not_of("0123456789.", kStart.size()) == std::string::npos;
+}
+
+void removeAll(const std::filesystem::path& folder, bool (*wanted)(const std::filesystem::path&)) {
+    std::vector<std::filesystem::path> old;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        if (wanted(entry.path())) {
+            old.push_back(entry.path());
+        }
+    }
+    for (const auto& file : old) {
+        std::filesystem::remove(file);
+    }
+}
+
+} // namespace
+
+// The file may be removed between open() and flock(), by the process that held it: then the lock is on a file
+// without a name, and the next attempt opens the new one.
+OutputLock::OutputLock(const std::filesystem::path& folder)
+    : file_(folder / ".fathom.lock") {
+    std::error_code failed;
+    std::filesystem::create_directories(folder, failed);
+    if (failed) {
+        throw Error(folder.string() + ": cannot use as output folder: " + failed.message());
+    }
+    do {
+        if (descriptor_ >= 0) {
+            ::close(descriptor_);
+        }
+        descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0644);
+        if (descriptor_ < 0) {
+            throw Error(file_.string() + ": cannot create: " + std::strerror(errno));
+        }
+        if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
+            const std::string holder = errno == EWOULDBLOCK ? holderOf(descriptor_) : std::strerror(errno);
+            ::close(std::exchange(descriptor_, -1));
+            throw BadInput(folder.string(), "output folder", "in use by " + holder,
+                           "a folder of its own for each run");
+        }
+    } while (!isNamed(descriptor_, file_));
+    const std::string self = std::to_string(::getpid());
+    if (::ftruncate(descriptor_, 0) != 0 || ::pwrite(descriptor_, self.data(), self.size(), 0) < 0) {
+        const std::string reason = std::strerror(errno);
+        ::close(std::exchange(descriptor_, -1));
+        throw Error(file_.string() + ": cannot write: " + reason);
+    }
+}
+
+OutputLock::OutputLock(OutputLock&& other) noexcept
+    : file_(std::move(other.file_))
+    , descriptor_(std::exchange(other.descriptor_, -1)) {}
+
+OutputLock::~OutputLock() {
+    if (descriptor_ >= 0) {
+        ::unlink(file_.c_str());
+        ::close(descriptor_);
+    }
+}
+
+OutputLock prepareOutputFolder(const std::filesystem::path& folder, bool withFixtures) {
+    const std::filesystem::path fixtures = folder / "fixtures";
+    try {
+        OutputLock lock(folder);
+        if (std::filesystem::is_symlink(fixtures)) {
+            throw Error(fixtures.string() + ": cannot use as output folder: a symbolic link");
+        }
+        if (withFixtures) {
+            std::filesystem::create_directory(fixtures);
+        }
+        removeAll(folder, isFaultFile);
+        if (std::filesystem::is_directory(fixtures)) {
+            removeAll(fixtures, isFixtureFile);
+        }
+        return lock;
+    } catch (const std::filesystem::filesystem_error& error) {
+        throw Error(folder.string() + ": cannot use as output folder: " + error.code().message());
+    }
+}
+
+} // namespace fathom

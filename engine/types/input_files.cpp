@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/types/input_files.h"
+
+#include "engine/types/error.h"
+
+#include <mutex>
+#include <optional>
+#include <set>
+#include <sys/stat.h>
+#include <utility>
+
+namespace fathom {
+
+namespace {
+
+using Identity = std::pair<dev_t, ino_t>;
+constexpr size_t kMost = 100'000; // bounds the memory of a long run
+
+std::mutex mutex; // of inputs
+std::set<Identity> inputs;
+
+std::optional<Identity> identityOf(const std::filesystem::path& file) {
+    struct stat status {};
+    return ::stat(file.c_str(), &status) == 0 ? std::optional<Identity>({status.st_dev, status.st_ino})
+                                              : std::nullopt;
+}
+
+} // namespace
+
+void noteInput(const std::filesystem::path& file) {
+    if (const auto identity = identityOf(file)) {
+        const std::lock_guard lock(mutex);
+        if (inputs.size() < kMost) {
+            inputs.insert(*identity);
+        }
+    }
+}
+
+bool isInput(const std::filesystem::path& file) {
+    const auto identity = identityOf(file);
+    const std::lock_guard lock(mutex);
+    return identity && inputs.count(*identity) != 0;
+}
+
+void refuseInput(const std::filesystem::path& file) {
+    if (isInput(file)) {
+        throw BadInput(file.string(), "output", "the input itself", "another file than those that are read");
+    }
+}
+
+} // namespace fathom
