@@ -36,6 +36,7 @@ SpooledCamera::SpooledCamera(std::unique_ptr<Camera> source, const std::filesyst
         throw;
     }
     skipped_ = source->skipped();
+    warnings_ = source->warnings();
     const auto pixels = std::max(info_.depth.pixels(), static_cast<uint32_t>(colourWords_));
     slots_ = std::make_unique<FrameSlots>(pixels, colourWords_ > 0, kFramesInFlight + 1);
 }

@@ -28,6 +28,7 @@ public:
     const CameraInfo& info() const override { return info_; }
     std::optional<Frame> next() override;
     uint32_t skipped() const override { return skipped_; }
+    std::vector<std::string> warnings() const override { return warnings_; }
     std::string description() const override { return description_; }
 
 private:
@@ -39,6 +40,7 @@ private:
     CameraInfo info_;
     std::string description_, folder_;
     uint32_t skipped_ = 0;
+    std::vector<std::string> warnings_; // of the source
     int descriptor_ = -1;
     size_t colourWords_ = 0;               // per frame
     std::vector<Frame::Content> contents_; // without their pixels

@@ -14,6 +14,8 @@ namespace fathom::operate {
 
 namespace {
 
+constexpr double kPatience = 1.0; // [s]
+
 template <class Value>
 std::string print(const char* form, Value value) {
     char text[128];
@@ -73,6 +75,27 @@ void Alarms::stepScene(const StepRecord& tick, const HapticOptions& haptics, boo
         print("Scene stale: over %.0f ms, forces fade", haptics.staleAfter * 1e3), tick.t);
 }
 
+// What replay lists as warnings (apps/session/run_watch.h), from what the window holds of the run.
+void Alarms::stepProtection(const RunView& run, const Scene& scene, const StepRecord& tick) {
+    const Fixtures& shown = run.scene().set;
+    regionSeen_.resize(scene.fixtures.size(), tick.t);
+    for (size_t row = 0; row < scene.fixtures.size(); ++row) {
+        const FixtureClass& f = scene.fixtures[row];
+        const bool counts =
+            f.isPoints() && f.role == Role::Forbidden && !isSpare(f) && !f.frozen && shown.frame >= 0;
+        const std::vector<uint8_t>& of = shown.spheres.fixture;
+        const bool some = !counts || std::find(of.begin(), of.end(), static_cast<uint8_t>(row)) != of.end();
+        regionSeen_[row] = some ? tick.t : std::min(regionSeen_[row], tick.t); // time goes back in playback
+        set(tick.t - regionSeen_[row] > kPatience, Level::Caution, ("region " + f.name).c_str(),
+            "No region: no point of '" + f.name + "' for over a second", tick.t);
+    }
+    forcesSeen_ = tick.state != StepState::Off || tick.frame >= 0 ? tick.t : std::min(forcesSeen_, tick.t);
+    set(tick.t - forcesSeen_ > kPatience, Level::Caution, "off",
+        shown.frame < 0 ? "No forces: no frame has become a set of regions"
+                        : "No forces: no contact answer covers the tool",
+        tick.t);
+}
+
 void Alarms::step(Console& console, const RunView& run, const HapticOptions& haptics, const Scene& scene,
                   const Health& health) {
     const double now = run.anyTick() ? run.step().record.t : 0.0;
@@ -88,6 +111,7 @@ void Alarms::step(Console& console, const RunView& run, const HapticOptions& hap
         set(r.state == StepState::Trapped, Level::Warning, "trapped",
             "Tool trapped: no motion satisfies every region", r.t);
         stepScene(r, haptics, health.gpuGone);
+        stepProtection(run, scene, r);
         set(force > 0.98 * haptics.forceLimit, Level::Caution, "force",
             print("Force at its limit of %.1f N", haptics.forceLimit), r.t);
         set(torque > 0.98 * haptics.torqueLimit, Level::Caution, "torque",

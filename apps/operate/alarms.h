@@ -48,10 +48,13 @@ public:
 
 private:
     void set(bool on, Level level, const char* key, const std::string& words, double t);
+    void stepProtection(const RunView& run, const Scene& scene, const StepRecord& tick);
     void stepScene(const StepRecord& tick, const HapticOptions& haptics, bool deviceGone);
     std::vector<Alarm> alarms_;
-    bool waits_ = false;     // true until the first frame after the GPU was lost
-    int64_t lostFrame_ = -1; // newest frame at that time
+    bool waits_ = false;             // true until the first frame after the GPU was lost
+    std::vector<double> regionSeen_; // [s] per fixture row: when it last had a region
+    double forcesSeen_ = 0.0;        // [s] when a set was last obeyed
+    int64_t lostFrame_ = -1;         // newest frame at that time
 };
 
 void drawAlarms(Console& console, const Alarms& alarms);

@@ -5,6 +5,7 @@
 #include "engine/cycle/arm_text.h"
 #include "engine/cycle/haptic_options.h"
 #include "engine/gpu/device.h"
+#include "engine/scene/dead_gates.h"
 
 #include <CLI/CLI.hpp>
 #include <iomanip>
@@ -52,6 +53,9 @@ void runPlan(const PlanOptions& options, const GlobalOptions& global) {
     }
     for (const std::string& note : hapticNotes(scene)) {
         std::cout << "note    " << note << "\n";
+    }
+    for (const std::string& dead : deadGates(scene, camera->info())) {
+        std::cout << "warning " << dead << "\n";
     }
     std::cout << "\n";
     printPlan(std::cout, plan);

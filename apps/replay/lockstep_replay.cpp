@@ -88,7 +88,7 @@ void LockstepReplay::takeDueFrames(double t) {
         if (!ready_) {
             processNext();
         }
-        recorder_.frame(*ready_, nextTime_, kept_.back()->fixtures);
+        recorder_.frame(*ready_, nextTime_, kept_.back()->fixtures, lastColour_);
         ready_.reset();
         scene_.show(kept_.back()->fixtures);
         scene_.captureTime = nextTime_;

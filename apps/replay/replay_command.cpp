@@ -70,6 +70,9 @@ void print(const ReplaySummary& s, const std::filesystem::path& out) {
         std::cout << "fixture      " << f.name << " (" << f.role << "): " << f.pointsMean.value_or(0.0)
                   << " points, " << f.spheresMean.value_or(0.0) << " spheres per frame\n";
     }
+    for (const std::string& warning : s.warnings) {
+        std::cout << "warning      " << warning << "\n";
+    }
     std::cout << "digest       " << s.digest << "\nwritten to   " << out.string() << "\n";
 }
 
@@ -125,8 +128,8 @@ std::unique_ptr<CadenceTrace> openTrace(const Session& session, const GlobalOpti
 ReplaySummary runLockstep(const ReplayOptions& options, const GlobalOptions& global) {
     Session session(options, global);
     const auto trace = openTrace(session, global);
-    ReplayRecorder recorder(options.out, session.scene, session.cycles.frames().passNames(),
-                            options.saveFixtures, session.arm.get());
+    ReplayRecorder recorder(options.out, session.scene, session.cycles.camera(),
+                            session.cycles.frames().passNames(), options.saveFixtures, session.arm.get());
     LockstepReplay replay(session, options, recorder, trace.get());
     const ReplaySummary summary = recorder.finish(replay.run());
     if (trace) {
@@ -146,8 +149,8 @@ ReplaySummary runRealtime(const ReplayOptions& options, const GlobalOptions& glo
                        "with a recording or a simulated camera: a live one has a rate of its own");
     }
     const auto trace = openTrace(session, global);
-    ReplayRecorder recorder(options.out, session.scene, session.cycles.frames().passNames(),
-                            options.saveFixtures, session.arm.get(),
+    ReplayRecorder recorder(options.out, session.scene, session.cycles.camera(),
+                            session.cycles.frames().passNames(), options.saveFixtures, session.arm.get(),
                             session.realArm ? session.realArm->description() : "");
     RealtimeReplay replay(session, options, recorder, placement, trace.get());
     const ReplaySummary summary = recorder.finish(replay.run());
@@ -214,6 +217,11 @@ int runReplay(const ReplayOptions& asked, const GlobalOptions& global) {
                   << kPenetrationLimit << "\n";
         return 1;
     }
+    if (options.strict && !summary.warnings.empty()) {
+        std::cerr << "fathom: --strict: " << summary.warnings.size()
+                  << " warnings; the first: " << summary.warnings.front() << "\n";
+        return 1;
+    }
     return 0;
 }
 
@@ -239,6 +247,9 @@ void addReplayCommand(CLI::App& app, const GlobalOptions& global, int& result) {
         ->add_option("--picture-rate", options->frameRate,
                      "with --realtime: frames per second of a recording or simulated camera (default 30)")
         ->check(numberIn(Range::between(1.0, 240.0)));
+    command->add_flag(
+        "--strict", options->strict,
+        "exit code 1 if the run had warnings: a class without points, skipped frames, no force");
     command->add_flag("--save-fixtures", options->saveFixtures, "write fixtures/NNNNNN.ply of every frame");
     command->add_option("--out", options->out, "output folder; its files are replaced")->required();
     command->callback([options, &global, &result] { result = runReplay(*options, global); });

@@ -19,6 +19,7 @@ struct ReplayOptions : SessionOptions {
     double seconds = 0.0;     // [s] minimum length of a run with a live device
     double frameRate = 0.0;   // [Hz] frame rate of a camera that is not live; 0 = 30
     bool saveFixtures = false;
+    bool strict = false; // warnings give exit code 1
     std::filesystem::path out;
 };
 

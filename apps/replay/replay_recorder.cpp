@@ -27,9 +27,10 @@ ReplayRecorder::Ending::Ending(const Session& session, const HapticCycle& cycle)
     , forceLimit(cycle.options().forceLimit)
     , torqueLimit(cycle.options().torqueLimit)
     , camera(session.cycles.camera())
-    , leaves(session.tool.leaves()) {}
+    , leaves(session.tool.leaves())
+    , warnings(session.camera->warnings()) {}
 
-ReplayRecorder::ReplayRecorder(std::filesystem::path out, const Scene& scene,
+ReplayRecorder::ReplayRecorder(std::filesystem::path out, const Scene& scene, const CameraInfo& camera,
                                const std::vector<std::string>& passes, bool saveFixtures, const ArmRig* arm,
                                const std::string& realArm)
     : out_(std::move(out))
@@ -40,6 +41,7 @@ ReplayRecorder::ReplayRecorder(std::filesystem::path out, const Scene& scene,
     , frames_(out_ / "frames.csv", passes)
     , arm_(arm)
     , armReport_(arm != nullptr ? std::make_unique<ArmReport>(out_ / "arm.csv", *arm, realArm) : nullptr)
+    , watch_(scene, camera)
     , sums_(scene.fixtures.size()) {
     for (const FixtureClass& f : scene.fixtures) {
         if (f.isPoints() && f.role == Role::Guidance) {
@@ -50,7 +52,11 @@ ReplayRecorder::ReplayRecorder(std::filesystem::path out, const Scene& scene,
     }
 }
 
-void ReplayRecorder::frame(const FrameReport& report, double t, const Fixtures& set) {
+void ReplayRecorder::frame(const FrameReport& report, double t, const Fixtures& set,
+                           std::span<const uint32_t> colour) {
+    if (!report.unchanged) {
+        watch_.frame(t, report.counts, set, colour);
+    }
     frames_.add(report, t);
     ++frameCount_;
     uploadMs_.push_back(static_cast<float>(report.uploadMs));
@@ -83,6 +89,7 @@ void ReplayRecorder::addGuidance(const Fixtures& set) {
 
 void ReplayRecorder::tick(const TickRow& row) {
     haptics_.add(row.record);
+    watch_.tick(row.record.t, stateName(row.record.state), row.record.frame);
     totals_.add(row);
     history_.add(row.record);
     lastTick_ = row.record;
@@ -175,6 +182,12 @@ ReplaySummary ReplayRecorder::finish(const Ending& ending) {
     if (armReport_) {
         armReport_->commit();
         summary.arm = armReport_->summary(ending.linkPenetration);
+    }
+    watch_.end();
+    summary.warnings = watch_.warnings().list();
+    summary.warnings.insert(summary.warnings.end(), ending.warnings.begin(), ending.warnings.end());
+    if (ending.skipped > 0 && ending.warnings.empty()) {
+        summary.warnings.push_back(std::to_string(ending.skipped) + " frames skipped");
     }
     summary.device = ending.device;
     summary.lockstep = ending.lockstep;

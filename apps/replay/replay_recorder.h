@@ -9,6 +9,7 @@
 #include "apps/replay/summary.h"
 #include "apps/replay/tick_totals.h"
 #include "apps/replay/trace_history.h"
+#include "apps/session/run_watch.h"
 #include "apps/session/session.h"
 #include "engine/contact/query_loop.h"
 #include "engine/contact/tool.h"
@@ -27,11 +28,12 @@ class ReplayRecorder {
 public:
     // saveFixtures: also saves fixture sets as fixtures/NNNNNN.ply. realArm: description of the real arm that
     // follows; empty = none. Throws Error that names the file or folder that cannot be written.
-    ReplayRecorder(std::filesystem::path out, const Scene& scene, const std::vector<std::string>& passes,
-                   bool saveFixtures, const ArmRig* arm = nullptr, const std::string& realArm = "");
+    ReplayRecorder(std::filesystem::path out, const Scene& scene, const CameraInfo& camera,
+                   const std::vector<std::string>& passes, bool saveFixtures, const ArmRig* arm = nullptr,
+                   const std::string& realArm = "");
 
     // A processed frame at t [s] of the run with its set; also when the set is unchanged.
-    void frame(const FrameReport& report, double t, const Fixtures& set);
+    void frame(const FrameReport& report, double t, const Fixtures& set, std::span<const uint32_t> colour);
     void tick(const TickRow& row);
     // overlay.png shows the moment of the largest force. True when the last tick is the largest so far, by a
     // clear margin or in a new frame; then call moment() with that tick's set and image.
@@ -60,11 +62,13 @@ public:
         std::span<const uint32_t> colour; // of the last frame, used when no force occurred; may be empty
         const Fixtures* lastSet = nullptr;
         std::span<const Sphere> leaves;
+        std::vector<std::string> warnings;   // of the camera
         std::vector<double> linkPenetration; // [m] from ToolAudit; empty = no arm or no audit
     };
     // Writes all files and returns the content of summary.json.
     ReplaySummary finish(const Ending& ending);
 
+    RunWarnings& warnings() { return watch_.warnings(); }
     const std::filesystem::path& folder() const { return out_; }
 
 private:
@@ -83,6 +87,7 @@ private:
     FramesCsv frames_;
     const ArmRig* arm_;
     std::unique_ptr<ArmReport> armReport_; // null without an arm
+    RunWatch watch_;
     TickTotals totals_;
     TraceHistory history_;
     StepRecord lastTick_;

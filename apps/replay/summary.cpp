@@ -177,6 +177,7 @@ std::string toJson(const ReplaySummary& summary) {
     json["device"] = summary.device;
     json["lockstep"] = summary.lockstep;
     json["digest"] = summary.digest;
+    json["warnings"] = summary.warnings;
     // A device or class name may contain invalid UTF-8, which must not fail the summary.
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

@@ -96,7 +96,8 @@ struct ReplaySummary {
 
     std::string device;
     bool lockstep = true;
-    std::string digest; // hexadecimal
+    std::string digest;                // hexadecimal
+    std::vector<std::string> warnings; // protection that the run did not give, a sentence each
 };
 
 // The text of summary.json. Keys and their order are part of the contract of `replay --out`.

@@ -52,6 +52,7 @@ ShuttleCamera::ShuttleCamera(std::unique_ptr<Camera> source, size_t count, const
             {{c.depth.begin(), c.depth.end()}, {colours.begin(), colours.end()}, c.baseTcamera});
         progress(images_.size());
     }
+    warnings_ = source->warnings();
     if (images_.empty()) {
         throw Error(description_ + ": no frame");
     }

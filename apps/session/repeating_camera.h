@@ -22,6 +22,7 @@ public:
     const CameraInfo& info() const override { return info_; }
     std::optional<Frame> next() override;
     uint32_t skipped() const override { return skipped_ + source_->skipped(); }
+    std::vector<std::string> warnings() const override { return source_->warnings(); }
     bool live() const override { return source_->live(); }
     uint64_t lost() const override { return source_->lost(); }
     std::string description() const override { return description_; }
@@ -47,6 +48,7 @@ public:
     const CameraInfo& info() const override { return info_; }
     std::optional<Frame> next() override;
     uint32_t skipped() const override { return 0; }
+    std::vector<std::string> warnings() const override { return warnings_; }
     std::string description() const override { return description_; }
 
 private:
@@ -60,6 +62,7 @@ private:
     std::vector<Image> images_;
     std::unique_ptr<FrameSlots> slots_;
     uint32_t shown_ = 0;
+    std::vector<std::string> warnings_; // of the source
 };
 
 } // namespace fathom

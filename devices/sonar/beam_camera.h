@@ -21,6 +21,7 @@ public:
     const CameraInfo& info() const override { return info_; }
     std::optional<Frame> next() override { return source_->next(); }
     uint32_t skipped() const override { return source_->skipped(); }
+    std::vector<std::string> warnings() const override { return source_->warnings(); }
     uint32_t images() const override { return source_->images(); }
     bool seek(uint32_t index) override { return source_->seek(index); }
     bool live() const override { return source_->live(); }

@@ -23,6 +23,7 @@ public:
     const CameraInfo& info() const override { return info_; }
     std::optional<Frame> next() override;
     uint32_t skipped() const override { return source_->skipped(); }
+    std::vector<std::string> warnings() const override { return source_->warnings(); }
     std::string description() const override { return source_->description() + " behind a flat port"; }
     uint32_t images() const override { return source_->images(); }
     bool seek(uint32_t index) override { return source_->seek(index); }

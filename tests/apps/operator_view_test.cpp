@@ -165,6 +165,26 @@ TEST_CASE("Alarms are sorted by level, highest first, and an acknowledged one is
     CHECK(run.step().end()[-2] == "ADVISORY latched note"); // before acknowledged alarms
 }
 
+TEST_CASE("A class without a region and a run without an active set raise alarms after a second") {
+    ViewedRun run;
+    FixtureClass valve;
+    valve.name = "valve";
+    run.scene.fixtures = {valve};
+    Fixtures set;
+    set.frame = 0;
+    run.sink.frame({}, set);
+    run.view.refresh();
+    CHECK(run.step().empty());
+    run.step(0.9);
+    CHECK(run.step().empty());
+    run.step(0.2);
+    CHECK(run.step() == Words{"CAUTION active region valve"});
+    run.row.record.state = StepState::Off;
+    run.row.record.frame = -1;
+    run.step(1.1);
+    CHECK(run.step() == Words{"CAUTION active off", "CAUTION active region valve"});
+}
+
 TEST_CASE("The alarm names the cause of an old scene: the camera or a lost GPU") {
     ViewedRun run;
     run.row.record.sceneAge = 2.0 * run.haptics.staleAfter;

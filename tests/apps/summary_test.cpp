@@ -60,7 +60,7 @@ TEST_CASE("summary.json has the contract's keys in the contract's order") {
         {"body", dvec3(1, 2, 3), dvec3(0, 0, -1), Pose{{4, 5, 6}, {0.5, 0.5, -0.5, 0.5}}, 77});
     const Ordered json = Ordered::parse(toJson(summary));
     CHECK(keysOf(json) ==
-          Keys{"frames", "haptic", "contact", "fixtures", "guidance", "device", "lockstep", "digest"});
+          Keys{"frames", "haptic", "contact", "fixtures", "guidance", "device", "lockstep", "digest", "warnings"});
     CHECK(keysOf(json["frames"]) == Keys{"count", "skipped", "gpu_ms", "upload_ms", "latency_ms"});
     CHECK(keysOf(json["frames"]["gpu_ms"]) == Keys{"p50", "p99", "max"});
     CHECK(keysOf(json["haptic"]) ==

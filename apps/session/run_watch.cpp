@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/session/run_watch.h"
+
+#include "engine/cloud/frame_params.h"
+#include "engine/scene/dead_gates.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace fathom {
+
+namespace {
+
+constexpr int kGreySpread = 6; // largest difference of the channels of a pixel without colour, noise included
+constexpr size_t kColourStep = 7; // every 7th pixel is enough
+
+std::string print(const char* form, double a, double b = 0.0) {
+    char text[120];
+    std::snprintf(text, sizeof text, form, a, b);
+    return text;
+}
+
+bool isGrey(std::span<const uint32_t> colour) {
+    for (size_t i = 0; i < colour.size(); i += kColourStep) {
+        const int r = colour[i] & 255, g = colour[i] >> 8 & 255, b = colour[i] >> 16 & 255;
+        if (std::max({r, g, b}) - std::min({r, g, b}) > kGreySpread) {
+            return false;
+        }
+    }
+    return !colour.empty();
+}
+
+// Why the frame has no depth between near and far.
+std::string depthCause(const Fixtures& set, double nearZ, double farZ) {
+    uint16_t least = UINT16_MAX, most = 0;
+    for (const uint16_t d : set.depth) {
+        least = d != 0 ? std::min(least, d) : least;
+        most = std::max(most, d);
+    }
+    const std::string band = print("no depth between camera.near %.6g and camera.far %.6g m", nearZ, farZ);
+    if (most == 0) {
+        return band;
+    }
+    const double unit = set.camera.metresPerUnit;
+    return band + print("; readings are %.6g to %.6g m", least * unit, most * unit) +
+           print(", with a depth unit of %.6g m", unit);
+}
+
+std::string causeOf(const FixtureClass& f, uint32_t marked, uint32_t valid, const Fixtures& set,
+                    std::span<const uint32_t> colour, double nearZ, double farZ) {
+    if (valid == 0) {
+        return depthCause(set, nearZ, farZ);
+    }
+    if (marked > 0 && f.role == Role::Guidance) {
+        return std::to_string(marked) + " points, min_count is " + std::to_string(f.minCount);
+    }
+    if (marked > 0) {
+        return "the filter rejects all its points as flying or isolated";
+    }
+    const bool needsColour = f.hue || (f.saturation && f.saturation->lo > 0.0);
+    if (needsColour && isGrey(colour)) {
+        return "the colour image is grey, and its gates need colour";
+    }
+    return f.box ? "no pixel passes its gates, box included" : "no pixel passes its gates";
+}
+
+} // namespace
+
+RunWatch::RunWatch(const Scene& scene, const CameraInfo& camera)
+    : fixtures_(scene.fixtures)
+    , nearZ_(scene.nearZ)
+    , farZ_(scene.farZ) {
+    for (const uint32_t row : cloud::classRows(scene)) {
+        classes_.push_back({row, std::nullopt, false, ""});
+    }
+    for (const std::string& dead : deadGates(scene, camera)) {
+        warnings_.add(dead, dead);
+    }
+}
+
+void RunWatch::frame(double t, const cloud::FrameCounts& counts, const Fixtures& set,
+                     std::span<const uint32_t> colour) {
+    framed_ = true;
+    const auto at = [](const std::vector<uint32_t>& list, size_t c) {
+        return c < list.size() ? list[c] : 0u;
+    };
+    for (size_t c = 0; c < classes_.size(); ++c) {
+        ClassState& state = classes_[c];
+        const FixtureClass& f = fixtures_[state.row];
+        const uint32_t marked = at(counts.classPixels, c);
+        const bool some = f.role == Role::Guidance ? marked >= f.minCount : marked > 0 && counts.spheres > 0;
+        if (some || f.name.empty() || f.frozen) { // a spare class of the window has no name
+            state.none.reset();
+            state.ever = true;
+            continue;
+        }
+        state.none = state.none.value_or(t);
+        if (state.cause.empty() || t - *state.none >= kPatience) {
+            state.cause = causeOf(f, marked, counts.valid, set, colour, nearZ_, farZ_);
+        }
+        if (t - *state.none >= kPatience) {
+            warnClass(state, print("from %.2f s on for %.0f s", *state.none, kPatience));
+        }
+    }
+}
+
+void RunWatch::warnClass(const ClassState& state, const std::string& since) {
+    const FixtureClass& f = fixtures_[state.row];
+    warnings_.add("class " + f.name, "fixture '" + f.name + "' has no " +
+                                         (f.role == Role::Guidance ? "target " : "region ") + since + ": " +
+                                         state.cause);
+}
+
+void RunWatch::tick(double t, std::string_view state, int64_t frame) {
+    ++ticks_;
+    last_ = t;
+    if (state != "off" && state != "waiting") {
+        ++loud_;
+        quiet_.clear();
+        return;
+    }
+    if (quiet_ != state) {
+        quiet_ = state;
+        quietSince_ = t;
+    }
+    quietFrame_ = frame;
+    if (t - quietSince_ >= kPatience) {
+        warnState(kPatience);
+    }
+}
+
+void RunWatch::warnState(double seconds) {
+    const std::string cause = quiet_ == "waiting" ? "the tool cannot follow the hand"
+                              : !framed_          ? "no frame has become a set of regions"
+                              : quietFrame_ < 0
+                                  ? "no contact answer covers the tool"
+                                  : "forces are off by the dead-man switch, or the haptic device is lost";
+    warnings_.add("state " + quiet_, "state '" + quiet_ + "' from " +
+                                         print("%.2f s on for %.3g s: ", quietSince_, seconds) + cause);
+}
+
+void RunWatch::end() {
+    for (const ClassState& state : classes_) {
+        if (state.none && !state.ever) {
+            warnClass(state, "in any frame");
+        }
+    }
+    if (ticks_ > 0 && loud_ == 0) {
+        warnState(last_ - quietSince_);
+    }
+}
+
+} // namespace fathom

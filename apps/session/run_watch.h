@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// Watches the frames and ticks of a run for protection that is silently off.
+#pragma once
+
+#include "engine/cloud/collect.h"
+#include "engine/scene/scene.h"
+#include "engine/types/run_warnings.h"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace fathom {
+
+// Warns once per class and per state. One thread.
+class RunWatch {
+public:
+    static constexpr double kPatience = 1.0; // [s] that a class may have no point, or a state give no force
+
+    // Adds the gates of the scene that no point can pass.
+    RunWatch(const Scene& scene, const CameraInfo& camera);
+
+    // A frame at t [s] with its counts, its set and its colours (R8 G8 B8 A8, may be empty).
+    void frame(double t, const cloud::FrameCounts& counts, const Fixtures& set,
+               std::span<const uint32_t> colour);
+    // A tick at t [s]: its state as in haptics.csv, and the frame of its active set (-1 = none).
+    void tick(double t, std::string_view state, int64_t frame);
+    // Call once after the last tick: short runs have not used up the patience.
+    void end();
+
+    RunWarnings& warnings() { return warnings_; }
+
+private:
+    struct ClassState {
+        size_t row = 0;             // of Scene::fixtures
+        std::optional<double> none; // [s] since when it has no point; empty = it has some
+        bool ever = false;          // it had a point in the run
+        std::string cause;
+    };
+    void warnClass(const ClassState& state, const std::string& since);
+    void warnState(double seconds);
+
+    std::vector<FixtureClass> fixtures_;
+    double nearZ_, farZ_;             // [m]
+    std::vector<ClassState> classes_; // in the order of the mask's bits
+    RunWarnings warnings_;
+    std::string quiet_;                    // state without force, while it lasts
+    double quietSince_ = 0.0, last_ = 0.0; // [s]
+    int64_t quietFrame_ = -1;
+    uint64_t ticks_ = 0, loud_ = 0; // loud: ticks in another state
+    bool framed_ = false;
+};
+
+} // namespace fathom

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/scene/dead_gates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <glm/geometric.hpp>
+
+namespace fathom {
+
+namespace {
+
+constexpr double kFewValues = 30.0; // of depth between near and far
+constexpr double kMostRaw = 65535.0;
+
+std::string print(const char* form, double a, double b = 0.0, double c = 0.0) {
+    char text[160];
+    std::snprintf(text, sizeof text, form, a, b, c);
+    return text;
+}
+
+// Length of the longest ray of the image per metre of depth. Infinite for a distorted lens.
+double longestRay(const Intrinsics& lens) {
+    if (lens.distorted()) {
+        return HUGE_VAL;
+    }
+    double longest = 1.0;
+    for (const double u : {0.0, lens.width - 1.0}) {
+        for (const double v : {0.0, lens.height - 1.0}) {
+            longest = std::max(longest, glm::length(dvec3(lens.ray(u, v), 1.0)));
+        }
+    }
+    return longest;
+}
+
+// Why no colour passes; empty = some does.
+std::string deadColour(const FixtureClass& f, const CameraInfo& camera) {
+    const bool needsColour = f.hue || (f.saturation && f.saturation->lo > 0.0);
+    if (f.usesColour() && !camera.hasColour) {
+        return "it has a colour gate, and the camera has no colour";
+    }
+    if (f.hue && f.saturation && f.saturation->hi <= 0.0) {
+        return "a pixel of saturation 0 has no hue";
+    }
+    if (needsColour && f.lightness && (f.lightness->hi <= 0.0 || f.lightness->lo >= 1.0)) {
+        return "a black or white pixel has neither hue nor saturation";
+    }
+    return "";
+}
+
+std::string deadRange(const FixtureClass& f, const Scene& scene, const CameraInfo& camera) {
+    const double farthest = scene.farZ * longestRay(camera.depth);
+    if (f.range && (f.range->hi < scene.nearZ || f.range->lo > farthest)) {
+        return print("its range of %.6g to %.6g m", f.range->lo, f.range->hi) +
+               print(" lies outside of camera.near %.6g to camera.far %.6g m", scene.nearZ, scene.farZ);
+    }
+    return "";
+}
+
+} // namespace
+
+std::vector<std::string> deadGates(const Scene& scene, const CameraInfo& camera) {
+    std::vector<std::string> dead;
+    bool points = false;
+    for (const FixtureClass& f : scene.fixtures) {
+        if (!f.isPoints() || f.name.empty()) { // a spare class of the window has no name
+            continue;
+        }
+        points = true;
+        std::string cause = deadColour(f, camera);
+        cause = cause.empty() ? deadRange(f, scene, camera) : cause;
+        if (!cause.empty()) {
+            dead.push_back("fixture '" + f.name + "' can have no point: " + cause);
+        }
+    }
+    const double unit = camera.metresPerUnit;
+    const double values =
+        std::floor(std::min(scene.farZ / unit, kMostRaw)) - std::ceil(scene.nearZ / unit) + 1.0;
+    if (points && values < kFewValues) {
+        dead.push_back(print("a depth unit of %.6g m leaves %.0f depth values", unit, std::max(0.0, values)) +
+                       print(" between camera.near %.6g and camera.far %.6g m", scene.nearZ, scene.farZ));
+    }
+    return dead;
+}
+
+} // namespace fathom

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+// Warnings about protection that is silently off.
+#include "apps/session/run_watch.h"
+
+#include <doctest/doctest.h>
+
+using namespace fathom;
+
+namespace {
+
+constexpr uint32_t kGrey = 0xff808080, kColoured = 0xff2020c0;
+
+Scene sceneOf(Role role) {
+    Scene scene;
+    FixtureClass f;
+    f.name = "valve";
+    f.role = role;
+    f.hue = Band{345, 20};
+    scene.fixtures.push_back(f);
+    return scene;
+}
+
+CameraInfo camera() {
+    CameraInfo info;
+    info.depth = {.width = 64, .height = 48, .fx = 60, .fy = 60, .cx = 32, .cy = 24};
+    info.colour = info.depth;
+    return info;
+}
+
+struct Run {
+    explicit Run(Role role = Role::Forbidden)
+        : watch(sceneOf(role), camera()) {
+        set.camera = camera();
+        set.depth = {600, 610, 0, 620};
+    }
+
+    // Frames at 30 Hz up to `end` [s], each with so many marked pixels and spheres.
+    void frames(double end, uint32_t marked, uint32_t spheres, uint32_t colour, uint32_t valid = 4) {
+        cloud::FrameCounts counts;
+        counts.valid = valid;
+        counts.classPixels = {marked};
+        counts.spheres = spheres;
+        const std::vector<uint32_t> image(64, colour);
+        for (; t < end; t += 1.0 / 30.0) {
+            watch.frame(t, counts, set, image);
+        }
+    }
+    void ticks(double from, double to, const char* state, int64_t frame) {
+        for (int i = 0; i < static_cast<int>((to - from) * 1e3); ++i) {
+            watch.tick(from + i * 1e-3, state, frame);
+        }
+    }
+    std::string only() {
+        const std::vector<std::string> all = watch.warnings().list();
+        CHECK(all.size() == 1);
+        return all.empty() ? "" : all.front();
+    }
+    bool quiet() { return watch.warnings().list().empty(); }
+
+    RunWatch watch;
+    Fixtures set;
+    double t = 0.0;
+};
+
+bool has(const std::string& text, const std::string& part) {
+    CAPTURE(text);
+    CAPTURE(part);
+    CHECK(text.find(part) != std::string::npos);
+    return text.find(part) != std::string::npos;
+}
+
+} // namespace
+
+TEST_CASE(
+    "A class without a point is named once with its cause, after a second or at the end of a short run") {
+    Run run;
+    run.frames(0.9, 0, 0, kColoured);
+    CHECK(run.quiet());
+    run.frames(3.0, 0, 0, kColoured);
+    has(run.only(), "fixture 'valve' has no region from 0.00 s on for 1 s: no pixel passes its gates");
+
+    Run brief;
+    brief.frames(0.1, 0, 0, kColoured);
+    brief.watch.end();
+    has(brief.only(), "fixture 'valve' has no region in any frame");
+
+    Run sometimes;
+    sometimes.frames(0.5, 20, 5, kColoured);
+    sometimes.frames(1.3, 0, 0, kColoured);
+    sometimes.frames(3.0, 20, 5, kColoured);
+    sometimes.watch.end();
+    CHECK(sometimes.quiet());
+    sometimes.frames(4.5, 0, 0, kColoured);
+    has(sometimes.only(), "from 3.");
+}
+
+TEST_CASE(
+    "The cause of a missing class is grey colour, depth outside near and far, the filter or min_count") {
+    Run grey;
+    grey.frames(0.1, 0, 0, kGrey);
+    grey.watch.end();
+    has(grey.only(), "the colour image is grey");
+
+    Run far;
+    far.set.camera.metresPerUnit = 1.0;
+    far.frames(0.1, 0, 0, kColoured, 0);
+    far.watch.end();
+    has(far.only(), "readings are 600 to 620 m, with a depth unit of 1 m");
+
+    Run flying;
+    flying.frames(0.1, 3, 0, kColoured);
+    flying.watch.end();
+    has(flying.only(), "flying or isolated");
+
+    Run few(Role::Guidance);
+    few.frames(0.1, 49, 0, kColoured);
+    few.watch.end();
+    has(few.only(), "no target in any frame: 49 points, min_count is 50");
+    Run enough(Role::Guidance);
+    enough.frames(2.0, 50, 0, kColoured);
+    enough.watch.end();
+    CHECK(enough.quiet());
+}
+
+TEST_CASE(
+    "A state without force that lasts over a second is named once with its cause, and a short one is not") {
+    Run none;
+    none.ticks(0.0, 3.0, "off", -1);
+    has(none.only(), "state 'off' from 0.00 s on for 1 s: no frame has become a set of regions");
+
+    Run uncovered;
+    uncovered.frames(0.1, 20, 5, kColoured);
+    uncovered.ticks(0.0, 1.5, "off", -1);
+    has(uncovered.only(), "no contact answer covers the tool");
+
+    Run switched;
+    switched.frames(0.1, 20, 5, kColoured);
+    switched.ticks(0.0, 0.9, "off", 0);
+    switched.ticks(0.9, 1.0, "free", 0);
+    switched.ticks(1.0, 1.9, "off", 0);
+    CHECK(switched.quiet());
+    switched.ticks(1.9, 2.5, "off", 0);
+    has(switched.only(), "state 'off' from 1.00 s on");
+
+    Run lags;
+    lags.ticks(0.0, 1.5, "waiting", 0);
+    has(lags.only(), "the tool cannot follow the hand");
+
+    Run brief;
+    brief.ticks(0.0, 0.2, "off", -1);
+    brief.watch.end();
+    has(brief.only(), "state 'off'");
+    Run starts;
+    starts.ticks(0.0, 0.2, "off", -1);
+    starts.ticks(0.2, 0.4, "free", 0);
+    starts.watch.end();
+    CHECK(starts.quiet());
+}
+
+TEST_CASE("Warnings are kept once per key, in order, on one line, and their number is bounded") {
+    RunWarnings warnings;
+    CHECK(warnings.add("a", "first\nline"));
+    CHECK_FALSE(warnings.add("a", "again"));
+    CHECK(warnings.add("b", "second"));
+    CHECK(warnings.list() == std::vector<std::string>{"first line", "second"});
+    for (int i = 0; i < 1000; ++i) {
+        warnings.add(std::to_string(i), "more");
+    }
+    CHECK(warnings.list().size() == RunWarnings::kMost);
+}

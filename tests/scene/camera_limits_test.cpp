@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a camera states about itself: absurd lenses, and gates that no point of it can pass.
+#include "engine/scene/camera_limits.h"
+#include "engine/scene/dead_gates.h"
+#include "tests/scene/scene_file.h"
+
+#include <cmath>
+#include <doctest/doctest.h>
+#include <functional>
+
+using namespace fathom;
+
+namespace {
+
+CameraInfo camera() {
+    CameraInfo info;
+    info.depth = {.width = 640, .height = 480, .fx = 525, .fy = 525, .cx = 320, .cy = 240};
+    info.colour = info.depth;
+    return info;
+}
+
+std::string fault(const std::function<void(CameraInfo&)>& change) {
+    CameraInfo info = camera();
+    change(info);
+    try {
+        checkCamera(info, "recorded here");
+    } catch (const BadInput& e) {
+        return e.what();
+    }
+    return "";
+}
+
+std::string dead(const std::string& fixture, const std::function<void(CameraInfo&)>& change = {}) {
+    CameraInfo info = camera();
+    if (change) {
+        change(info);
+    }
+    const SceneFile file("fixtures: [{name: valve, role: forbidden, " + fixture + "}]\n" + kTool);
+    std::string all;
+    for (const std::string& sentence : deadGates(loadScene(file.path()), info)) {
+        all += sentence + "\n";
+    }
+    return all;
+}
+
+} // namespace
+
+TEST_CASE("Lenses of absurd or non-finite numbers are rejected with source, field, value and range") {
+    CHECK(fault([](CameraInfo&) {}) == "");
+    CHECK(fault([](CameraInfo& c) { c.depth.fx = 1e300; }) ==
+          "recorded here: depth fx: 1e+300 (allowed: a number from 1 to 64000)");
+    for (const double bad : {1e300, 1e-300, 0.0, -525.0, std::nan(""), HUGE_VAL, 1e6}) {
+        CAPTURE(bad);
+        CHECK(fault([&](CameraInfo& c) { c.depth.fx = bad; }).find("depth fx: ") != std::string::npos);
+        CHECK(fault([&](CameraInfo& c) { c.depth.fy = bad; }).find("depth fy: ") != std::string::npos);
+        CHECK(fault([&](CameraInfo& c) { c.metresPerUnit = bad == 1e6 ? 2.0 : bad; }) != "");
+    }
+    for (const double bad : {1e300, -1e9, std::nan("")}) {
+        CAPTURE(bad);
+        CHECK(fault([&](CameraInfo& c) { c.depth.cx = bad; }).find("within 89 degrees") != std::string::npos);
+        CHECK(fault([&](CameraInfo& c) { c.depth.cy = bad; }).find("within 89 degrees") != std::string::npos);
+        CHECK(fault([&](CameraInfo& c) { c.depth.distortion[2] = bad == -1e9 ? 1e9 : bad; }) != "");
+        const auto colour = [&](CameraInfo& c) { c.registered = false, c.colour.fx = std::abs(bad); };
+        CHECK(fault(colour).find("colour fx: ") != std::string::npos);
+        const auto apart = [&](CameraInfo& c) { c.registered = false, c.colourTdepth.position.x = bad; };
+        CHECK(fault(apart).find("colour_T_depth: ") != std::string::npos);
+        CHECK(fault([&](CameraInfo& c) { c.beam = BeamSigma{bad, 0.0, 0.01}; }) != "");
+        CHECK(fault([&](CameraInfo& c) { c.sigma = bad; }) != "");
+    }
+}
+
+TEST_CASE("A class that no point can pass is named with its cause, and others are not") {
+    const auto colourless = [](CameraInfo& c) { c.hasColour = false; };
+    CHECK(dead("radius: 0.04") == "");
+    CHECK(dead("hue: [345, 20], saturation: [0.4, 1], lightness: [0.1, 0.9]") == "");
+    CHECK(dead("radius: 0.04", colourless) == "");
+    CHECK(dead("hue: [345, 20]", colourless).find("'valve' can have no point: it has a colour gate") !=
+          std::string::npos);
+    CHECK(dead("hue: [345, 20], saturation: [0, 0]").find("has no hue") != std::string::npos);
+    CHECK(dead("hue: [345, 20], lightness: [0, 0]").find("black or white") != std::string::npos);
+    CHECK(dead("saturation: [0.5, 1], lightness: [1, 1]").find("black or white") != std::string::npos);
+    CHECK(dead("lightness: [1, 1]") == "");
+    CHECK(dead("range: [4, 6]").find("range of 4 to 6 m lies outside") != std::string::npos);
+    CHECK(dead("range: [0, 0.05]").find("lies outside") != std::string::npos);
+    CHECK(dead("range: [3.2, 6]") == ""); // the corners of the image reach farther than camera.far
+    CHECK(dead("radius: 0.04", [](CameraInfo& c) { c.metresPerUnit = 1.0; }) ==
+          "a depth unit of 1 m leaves 3 depth values between camera.near 0.1 and camera.far 3 m\n");
+    CHECK(dead("radius: 0.04", [](CameraInfo& c) { c.metresPerUnit = 1e-6; }).find("leaves 0 depth values") !=
+          std::string::npos);
+}
