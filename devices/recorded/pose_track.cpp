@@ -7,8 +7,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 
 namespace fathom {
+
+namespace {
+
+constexpr double kFarthest = 1e6; // [m]
+
+} // namespace
 
 PoseTrack::PoseTrack(const std::filesystem::path& file) {
     for (const TextLine& line : readDataLines(file)) {
@@ -30,6 +37,9 @@ PoseTrack::PoseTrack(const std::filesystem::path& file) {
         if (!(length > 1e-6) || !std::isfinite(length)) {
             refuse("a quaternion qx qy qz qw of non-zero length");
         }
+        if (!(std::max({std::abs(v[1]), std::abs(v[2]), std::abs(v[3])}) <= kFarthest)) {
+            refuse("a position within 1000 km of the origin");
+        }
         if (!poses_.empty() && !(v[0] > poses_.back().t)) {
             refuse("a time later than in the previous line");
         }
@@ -40,17 +50,40 @@ PoseTrack::PoseTrack(const std::filesystem::path& file) {
     }
 }
 
-Pose PoseTrack::at(double t) const noexcept {
-    const auto after = std::upper_bound(poses_.begin(), poses_.end(), t,
-                                        [](double time, const Stamped& p) { return time < p.t; });
-    if (after == poses_.begin()) {
-        return poses_.front().baseTcamera;
+std::vector<PoseTrack::Stamped>::const_iterator PoseTrack::after(double t) const noexcept {
+    return std::upper_bound(poses_.begin(), poses_.end(), t,
+                            [](double time, const Stamped& p) { return time < p.t; });
+}
+
+std::optional<Pose> PoseTrack::at(double t) const noexcept {
+    constexpr double kSlack = 1e-6; // [s] rounding of stamps since 1970
+    const auto next = after(t);
+    const bool hasBefore = next != poses_.begin(), hasNext = next != poses_.end();
+    if (hasBefore && hasNext && next->t - (next - 1)->t <= kLongestGap + kSlack) {
+        const Stamped& before = *(next - 1);
+        return interpolate(before.baseTcamera, next->baseTcamera, (t - before.t) / (next->t - before.t));
     }
-    const Stamped& before = *(after - 1);
-    if (after == poses_.end()) {
-        return before.baseTcamera;
+    const double since = hasBefore ? t - (next - 1)->t : HUGE_VAL, until = hasNext ? next->t - t : HUGE_VAL;
+    if (!(std::min(since, until) <= kNear + kSlack)) {
+        return std::nullopt;
     }
-    return interpolate(before.baseTcamera, after->baseTcamera, (t - before.t) / (after->t - before.t));
+    return since <= until ? (next - 1)->baseTcamera : next->baseTcamera;
+}
+
+std::string PoseTrack::whyNone(double t) const {
+    const auto next = after(t);
+    char text[160];
+    if (next == poses_.begin()) {
+        std::snprintf(text, sizeof text, "its stamp %.3f s is %.3f s before the first pose of poses.txt", t,
+                      next->t - t);
+    } else if (next == poses_.end()) {
+        std::snprintf(text, sizeof text, "its stamp %.3f s is %.3f s after the last pose of poses.txt", t,
+                      t - poses_.back().t);
+    } else {
+        std::snprintf(text, sizeof text, "its stamp %.3f s is in a gap of %.3f s of poses.txt", t,
+                      next->t - (next - 1)->t);
+    }
+    return text;
 }
 
 } // namespace fathom

@@ -7,6 +7,7 @@
 #include "engine/types/log.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 
 namespace fathom {
@@ -14,6 +15,9 @@ namespace fathom {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr double kMostApart = 0.1;   // [s] depth and colour of a pair
+constexpr size_t kMostWarnings = 20; // skipped frames that are named in the summary, too
 
 const fs::path& existingFolder(const fs::path& folder) {
     std::error_code failed;
@@ -94,6 +98,13 @@ std::string RecordedCamera::read(const IndexLine& line, FrameSlot& slot) const {
         return "depth stamp " + std::to_string(line.depthStamp) + " goes back from " +
                std::to_string(*lastStamp_);
     }
+    if (poses_ && !poses_->at(line.depthStamp)) {
+        return poses_->whyNone(line.depthStamp);
+    }
+    if (info().hasColour && !(std::abs(line.colourStamp - line.depthStamp) <= kMostApart)) {
+        return "its colour is " + std::to_string(std::abs(line.colourStamp - line.depthStamp)) +
+               " s from its depth, over " + std::to_string(kMostApart) + " s";
+    }
     const CameraInfo& camera = info();
     std::string fault =
         readDepthPng(line.depth, sizeOf(camera.depth), slot.depth().first(camera.depth.pixels()));
@@ -133,6 +144,9 @@ void RecordedCamera::skip(uint32_t index, const std::string& fault) {
     if (firstFault_.empty()) {
         firstFault_ = fault;
     }
+    if (warnings_.size() < kMostWarnings) {
+        warnings_.push_back(unnamed_.back());
+    }
 }
 
 void RecordedCamera::nameSkipped() {
@@ -140,6 +154,14 @@ void RecordedCamera::nameSkipped() {
         log::warn("{}: {}", folder_.string(), line);
     }
     unnamed_.clear();
+}
+
+std::vector<std::string> RecordedCamera::warnings() const {
+    std::vector<std::string> all = warnings_;
+    if (skipped_ > all.size()) {
+        all.push_back(std::to_string(skipped_ - all.size()) + " more frames skipped");
+    }
+    return all;
 }
 
 bool RecordedCamera::seek(uint32_t index) {

@@ -16,8 +16,8 @@
 namespace fathom {
 
 // Frame index and source number = data line of the index from 0; capture time = depth stamp. Every data line
-// is either delivered or skipped: a missing or damaged image, another size or type, or a depth stamp that
-// goes back skips the frame and is logged once. Frames are read on the calling thread. The camera must
+// is either delivered or skipped: a missing or damaged image, another size or type, a depth stamp that goes
+// back or has no pose in poses.txt, or colour far from depth in time skips the frame and is logged once. Frames are read on the calling thread. The camera must
 // outlive its leases; leases may end on any thread.
 class RecordedCamera final : public Camera {
 public:
@@ -30,6 +30,7 @@ public:
     // alive.
     std::optional<Frame> next() override;
     uint32_t skipped() const override { return skipped_; }
+    std::vector<std::string> warnings() const override;
     uint32_t images() const override { return static_cast<uint32_t>(index_.size()); }
     bool seek(uint32_t index) override;
     std::string description() const override { return "recorded " + folder_.string(); }
@@ -58,7 +59,8 @@ private:
     std::unordered_set<std::string> judged_; // image folders
     std::optional<double> lastStamp_;        // [s] of the last delivered frame; empty after seek()
     std::string firstFault_;
-    std::vector<std::string> unnamed_; // skipped frames that are not logged yet
+    std::vector<std::string> warnings_; // the first skipped frames
+    std::vector<std::string> unnamed_;  // skipped frames that are not logged yet
 };
 
 } // namespace fathom

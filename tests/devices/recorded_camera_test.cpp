@@ -177,7 +177,7 @@ TEST_CASE("A lease owns its page-aligned memory until it ends, on any thread") {
     CHECK(camera.next().value()->index == 32);
 }
 
-TEST_CASE("poses are interpolated at the capture time and held outside their span") {
+TEST_CASE("poses are interpolated at the capture time and held for 50 ms outside their span") {
     const TemporaryFolder folder;
     writeSmallRecording(folder, 4); // stamps 0, 0.1, 0.2, 0.3
     folder.write("poses.txt",

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// Times of a recording that do not belong together: poses and colour far from depth.
+#include "devices/recorded/recorded_camera.h"
+#include "tests/devices/recorded_folder.h"
+
+#include <doctest/doctest.h>
+
+using namespace fathom;
+
+TEST_CASE("A frame without a pose in poses.txt is skipped and named: before it, after it, in a gap, or in "
+          "another epoch") {
+    const TemporaryFolder folder;
+    writeSmallRecording(folder, 6); // stamps 0, 0.1, ... 0.5
+    const auto indices = [&](const std::string& poses) {
+        folder.write("poses.txt", poses);
+        RecordedCamera camera(folder.path());
+        std::vector<uint32_t> all;
+        while (const std::optional<Frame> frame = camera.next()) {
+            all.push_back((*frame)->index);
+        }
+        CHECK(camera.skipped() == 6 - all.size());
+        CHECK(camera.warnings().size() == camera.skipped());
+        return all;
+    };
+    const std::string end = " 0 0 0 0 0 0 1\n";
+    using Indices = std::vector<uint32_t>;
+    CHECK(indices("0" + end + "0.5" + end) == Indices{0, 1, 2, 3, 4, 5});
+    CHECK(indices("0.26" + end + "1" + end) == Indices{3, 4, 5});
+    CHECK(indices("-1" + end + "0.14" + end) == Indices{0, 1});
+    CHECK(indices("0.1" + end + "1000" + end) == Indices{1}); // a gap
+    CHECK(indices("-600" + end + "-599.9" + end + "0.2" + end + "0.6" + end) == Indices{2, 3, 4, 5});
+    for (const char* poses : {"100 0 0 0 0 0 0 1\n200 0 0 0 0 0 0 1\n", "1700000000 0 0 0 0 0 0 1\n"}) {
+        folder.write("poses.txt", poses);
+        CHECK(recordingRefusal(folder.path()).find("before the first pose of poses.txt") !=
+              std::string::npos);
+    }
+    folder.write("poses.txt", "0 1e7 0 0 0 0 0 1\n");
+    CHECK(recordingRefusal(folder.path()).find("within 1000 km") != std::string::npos);
+}
+
+TEST_CASE("A pair whose colour is over 0.1 s from its depth is skipped and named") {
+    const TemporaryFolder folder;
+    writeSmallRecording(folder, 4);
+    folder.write("associations.txt", "0.00 rgb/0.png 0.0 depth/0.png\n5.1 rgb/1.png 0.1 depth/1.png\n"
+                                     "0.25 rgb/2.png 0.2 depth/2.png\n-0.2 rgb/3.png 0.3 depth/3.png\n");
+    RecordedCamera camera(folder.path());
+    CHECK(camera.next().value()->index == 0);
+    CHECK(camera.next().value()->index == 2);
+    CHECK_FALSE(camera.next().has_value());
+    REQUIRE(camera.warnings().size() == 2);
+    CHECK(camera.warnings()[0].find("frame 1 skipped: its colour is 5.000000 s from its depth") == 0);
+}
