@@ -32,6 +32,7 @@ layout(std430, binding = 5) writeonly buffer Points { vec4 points[]; };
 #include "shaders/lib/lens.glsl"
 #include "shaders/lib/masks.glsl"
 #include "shaders/lib/slots.glsl"
+#include "shaders/lib/bilateral.glsl"
 
 const uint kHalo = kRadius > 1u ? kRadius : 1u;
 const uint kTileEdge = kTiled != 0 ? 16u + 2u * kHalo : 1u;
@@ -117,31 +118,6 @@ bool isIsolated(vec3 n[9]) {
     return near < 2u;
 }
 
-// Weight of paper eq. 2 for t = distance^2 / (2 sigma^2). The polynomial equals exp(-t) at 0; its error is at
-// most 0.008.
-float weightOf(float t) {
-    if (kPolynomial == 0) {
-        return exp(-t);
-    }
-    float w = max(0.0, 1.0 - t * (1.0 / 16.68));
-    w *= w;
-    w *= w;
-    w *= w;
-    return w * w;
-}
-
-// Sums differences from the centre, so that the mean of a distant surface loses no digits.
-struct Mean {
-    float sum, weights;
-};
-
-Mean weighed(Mean mean, vec3 q, vec3 p) {
-    vec3 apart = q - p;
-    float weight = weightOf(dot(apart, apart) * params.filterParams.x);
-    weight = q.z != 0.0 ? weight : 0.0;
-    return Mean(mean.sum + (q.z - p.z) * weight, mean.weights + weight);
-}
-
 // Paper eq. 1-2: filtered depth [m], with weights from the Cartesian distance between points.
 float filtered(ivec2 at, vec3 p, ivec2 patchOrigin) {
     Mean mean = Mean(0.0, 0.0);
@@ -150,7 +126,7 @@ float filtered(ivec2 at, vec3 p, ivec2 patchOrigin) {
             mean = weighed(mean, windowPoint(at + ivec2(dx, dy), patchOrigin), p);
         }
     }
-    return p.z + mean.sum / mean.weights; // weights >= 1 because the centre counts 1
+    return filteredDepth(mean, p);
 }
 
 bool isRejected(vec3 around[9]) {
@@ -197,7 +173,7 @@ void filterPair(uint slot, ivec2 patchOrigin) {
     [[unroll]] for (int k = 0; k < 2; ++k) {
         ivec2 here = at + ivec2(k, 0);
         bool shown = mask[k] != 0 && !isRejected(aroundOf(here, patchOrigin));
-        points[slot + uint(k)] = shown ? basePoint(here, p[k].z + mean[k].sum / mean[k].weights) : vec4(0.0);
+        points[slot + uint(k)] = shown ? basePoint(here, filteredDepth(mean[k], p[k])) : vec4(0.0);
     }
 }
 
@@ -258,7 +234,7 @@ float surfaceInWindow(vec3 window[kWide * kWide], const int centre, uint mask) {
             weights += weight;
         }
     }
-    float z = kRadius != 0 ? p.z + sum / weights : p.z;
+    float z = kRadius != 0 ? filteredDepth(Mean(sum, weights), p) : p.z;
     return rejected ? 0.0 : z;
 }
 

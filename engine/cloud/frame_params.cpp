@@ -125,7 +125,7 @@ shared::FrameParams sceneParams(const Scene& scene, const CameraInfo& camera, co
     p.filterParams = {1.0 / (2.0 * scene.filter.sigma * scene.filter.sigma), scene.errorBudget, kIsolation,
                       kIsolationPixels / std::min(camera.depth.fx, camera.depth.fy)};
     const double constant = depthSigma(0.0);
-    p.noise = {constant, depthSigma(1.0) - constant, 3.0, 0.0};
+    p.noise = {constant, depthSigma(1.0) - constant, 3.0, scene.filterBound()};
     if (camera.beam) {
         p.beam = {camera.beam->range, camera.beam->perMetre, camera.beam->across(), 0.0};
     }

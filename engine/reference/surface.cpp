@@ -80,7 +80,8 @@ double filteredDepth(const FrameView& view, int u, int v) {
             }
         }
     }
-    return sum / weights;
+    const double z = view.z(u, v), most = view.scene().filterBound() * z / glm::length(p0);
+    return z + std::clamp(sum / weights - z, -most, most);
 }
 
 } // namespace

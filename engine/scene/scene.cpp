@@ -24,6 +24,15 @@ bool Scene::usesColour() const {
                        [](const FixtureClass& f) { return f.isPoints() && f.usesColour(); });
 }
 
+double Scene::filterBound() const {
+    double least = 1e6; // [m] no bound
+    for (const FixtureClass& f : fixtures) {
+        const bool counts = f.isPoints() && f.role == Role::Forbidden && !f.name.empty(); // not a spare class
+        least = counts ? std::min(least, 0.25 * (f.radius + 3.0 * registrationSigma)) : least;
+    }
+    return least;
+}
+
 bool Scene::choosePilot(const std::string& name) {
     const auto at =
         std::find_if(pilots.begin(), pilots.end(), [&](const Pilot& p) { return p.name == name; });

@@ -228,6 +228,8 @@ struct Scene {
     bool hasForbiddenPoints() const;
     bool hasGuidance() const; // any guidance class of points
     bool usesColour() const;  // any class that tests colour
+    // [m] Most that the filter moves a point: a quarter of the smallest forbidden radius.
+    double filterBound() const;
 };
 
 // Reads and checks a scene file. Throws BadInput naming file, field, value and what is allowed; unknown keys

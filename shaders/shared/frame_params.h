@@ -31,8 +31,9 @@ struct FrameParams {
     vec4 more;             // depth k3, colour k3, metres per raw unit, depth jump that is an edge (relative)
     vec4 filterParams;     // 1 / (2 sigma^2) [1/m^2], error budget [m], isolation distance [m], 3 x isolation
                            // pixels / focal
-    vec4 noise;          // depth sigma = x + y z^2 [m]; z: number of sigma (3) that counts as a difference; -
-    vec4 baseTcamera[3]; // rows of [R | t], t relative to the origin [m]
+    vec4 noise;            // depth sigma = x + y z^2 [m]; z: number of sigma (3) that counts as a difference;
+                           // w: most that the filter moves a point [m]
+    vec4 baseTcamera[3];   // rows of [R | t], t relative to the origin [m]
     vec4 cameraTbase[3];
     vec4 colourTdepth[3];
     ClassParams classes[8];
