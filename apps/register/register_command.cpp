@@ -2,14 +2,17 @@
 #include "apps/register/register_command.h"
 
 #include "apps/binding/open_source.h"
+#include "apps/number_option.h"
 #include "apps/register/board_finder.h"
 #include "apps/register/point_pairs.h"
+#include "apps/register/robust_fit.h"
 #include "apps/register/tag_finder.h"
 #include "engine/types/error.h"
+#include "engine/types/output_file.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
-#include <fstream>
 #include <iostream>
 #include <memory>
 #include <sstream>
@@ -18,9 +21,13 @@ namespace fathom {
 
 namespace {
 
+constexpr size_t kMostListed = 20;  // outliers
+constexpr double kBadCorners = 0.1; // share of corners that a finder may mistake
+
 struct RegisterOptions {
     std::string scene, source, points, tags, board, out;
     uint32_t frames = 30;
+    double bound = FitLimits{}.residual; // [m]
 };
 
 template <class Finder>
@@ -71,6 +78,19 @@ std::string asYaml(const RigidFit& fit) {
     return text;
 }
 
+void writeOut(const RegisterOptions& options, const std::string& yaml) {
+    if (options.out.empty()) {
+        return;
+    }
+    try {
+        OutputFile file(options.out);
+        file.write(yaml);
+        file.commit();
+    } catch (const Error& e) {
+        throw BadInput("register", "--out", e.what(), "a writable file");
+    }
+}
+
 void runRegister(const RegisterOptions& options) {
     const std::string* from = nullptr;
     int given = 0;
@@ -84,19 +104,22 @@ void runRegister(const RegisterOptions& options) {
     }
     const bool fromPoints = from == &options.points;
     const std::vector<PointPair> pairs = fromPoints ? readPointPairs(options.points) : seenTargets(options);
-    const RigidFit fit = fitRigid(pairs, *from);
+    const RobustFit robust = fitRobust(pairs, {options.bound, fromPoints ? 0.0 : kBadCorners}, *from);
+    const RigidFit& fit = robust.fit;
     const std::string yaml = asYaml(fit);
-    std::cout << "# " << pairs.size() << " pairs of points; RMS distance " << 1e3 * fit.sigma
-              << " mm, largest " << 1e3 * fit.worst << " mm (" << fit.worstName << ")\n"
-              << "# for the camera section of the scene; every region grows by 3 registration_sigma\n"
-              << yaml;
-    if (!options.out.empty()) {
-        std::ofstream file(options.out);
-        file << yaml << std::flush;
-        if (!file) {
-            throw BadInput("register", "--out", options.out, "a writable file");
-        }
+    std::cout << "# " << pairs.size() - robust.outliers.size() << " of " << pairs.size()
+              << " pairs of points fit; RMS distance " << 1e3 * fit.sigma << " mm, largest "
+              << 1e3 * fit.worst << " mm (" << fit.worstName << ")\n";
+    for (size_t i = 0; i < std::min(robust.outliers.size(), kMostListed); ++i) {
+        const RobustFit::Outlier& outlier = robust.outliers[i];
+        std::cout << "# left out: " << outlier.name << ", " << 1e3 * outlier.distance << " mm away\n";
     }
+    if (!robust.doubt.empty()) {
+        throw Error(*from + ": doubtful: " + robust.doubt);
+    }
+    std::cout << "# for the camera section of the scene; every region grows by 3 registration_sigma\n"
+              << yaml;
+    writeOut(options, yaml);
 }
 
 } // namespace
@@ -115,6 +138,10 @@ void addRegisterCommand(CLI::App& app, const GlobalOptions&) {
         "--points", options->points,
         "the same points in both frames: CSV camera_x,camera_y,camera_z,base_x,base_y,base_z [m]");
     command->add_option("--frames", options->frames, "number of frames to use")->check(CLI::Range(1, 10000));
+    command
+        ->add_option("--bound", options->bound,
+                     "[m] largest RMS distance of the pairs (0.02); beyond it, the exit code is 1")
+        ->check(numberIn(Range::between(1e-4, 1.0)));
     command->add_option("--out", options->out, "output file for the two lines of YAML");
     command->callback([options] { runRegister(*options); });
 }

@@ -26,33 +26,52 @@ Eigen::Matrix4d hornMatrix(const Eigen::Matrix3d& s) {
     return n;
 }
 
+// Means and second moments of the pairs.
+struct Moments {
+    dvec3 camera{0.0}, base{0.0};
+    Eigen::Matrix3d cross = Eigen::Matrix3d::Zero(), spread = Eigen::Matrix3d::Zero();
+
+    explicit Moments(std::span<const PointPair> pairs) {
+        const auto count = static_cast<double>(pairs.size());
+        for (const PointPair& pair : pairs) {
+            camera += pair.camera / count;
+            base += pair.base / count;
+        }
+        for (const PointPair& pair : pairs) {
+            const Eigen::Vector3d c = toEigen(pair.camera - camera), b = toEigen(pair.base - base);
+            cross += c * b.transpose();
+            spread += b * b.transpose() / count;
+        }
+    }
+};
+
+Pose poseOf(const Moments& m) {
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> solver(hornMatrix(m.cross));
+    const Eigen::Vector4d q = solver.eigenvectors().col(3);
+    Pose pose;
+    pose.rotation = glm::normalize(dquat(q(0), q(1), q(2), q(3)));
+    pose.position = m.base - pose.rotation * m.camera;
+    return pose;
+}
+
 } // namespace
+
+Pose poseOf(std::span<const PointPair> pairs) {
+    return poseOf(Moments(pairs));
+}
 
 RigidFit fitRigid(std::span<const PointPair> pairs, const std::string& source) {
     const auto count = static_cast<double>(pairs.size());
     if (pairs.size() < 4) {
         throw BadInput(source, "pairs", std::to_string(pairs.size()), "4 or more, not on one line");
     }
-    dvec3 camera(0.0), base(0.0);
-    for (const PointPair& pair : pairs) {
-        camera += pair.camera / count;
-        base += pair.base / count;
-    }
-    Eigen::Matrix3d cross = Eigen::Matrix3d::Zero(), spread = Eigen::Matrix3d::Zero();
-    for (const PointPair& pair : pairs) {
-        const Eigen::Vector3d c = toEigen(pair.camera - camera), b = toEigen(pair.base - base);
-        cross += c * b.transpose();
-        spread += b * b.transpose() / count;
-    }
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> shape(spread);
+    const Moments moments(pairs);
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> shape(moments.spread);
     if (!(shape.eigenvalues()(1) > kLeastSpread * kLeastSpread)) {
         throw BadInput(source, "pairs", "all on one line", "points that span a surface");
     }
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> solver(hornMatrix(cross));
-    const Eigen::Vector4d q = solver.eigenvectors().col(3);
     RigidFit fit;
-    fit.baseTcamera.rotation = glm::normalize(dquat(q(0), q(1), q(2), q(3)));
-    fit.baseTcamera.position = base - fit.baseTcamera.rotation * camera;
+    fit.baseTcamera = poseOf(moments);
     double squares = 0.0;
     for (const PointPair& pair : pairs) {
         const double distance =

@@ -21,6 +21,9 @@ struct RigidFit {
     std::string worstName;
 };
 
+// Least squares over three or more pairs that are not on one line, which the caller checks.
+Pose poseOf(std::span<const PointPair> pairs);
+
 // Least squares (B. K. P. Horn, Closed-form solution of absolute orientation using unit quaternions, 1987).
 // Throws BadInput, that names `source`, for fewer than 4 pairs or collinear points (within 1 mm).
 RigidFit fitRigid(std::span<const PointPair> pairs, const std::string& source);

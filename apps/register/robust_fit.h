@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// A rigid fit that says which pairs it does not believe, and when it does not believe the whole.
+#pragma once
+
+#include "apps/register/rigid_fit.h"
+
+#include <string>
+#include <vector>
+
+namespace fathom {
+
+struct RobustFit {
+    struct Outlier {
+        std::string name;      // of the pair
+        double distance = 0.0; // [m] from the fit
+    };
+    RigidFit fit;                  // of the inliers
+    std::vector<Outlier> outliers; // farthest first
+    std::string doubt;             // why the fit must not be used, with the worst pairs; empty = no doubt
+};
+
+// What to accept.
+struct FitLimits {
+    double residual = 0.02;    // [m] RMS distance of the inliers, and the farthest inlier
+    double outlierShare = 0.0; // of all pairs; more raise a doubt
+};
+
+// Least median of squares over triples of pairs (P. J. Rousseeuw, 1984), then least squares of the inliers.
+// Doubts scale, a mirrored axis, outliers and the residual. Deterministic. Throws like fitRigid().
+RobustFit fitRobust(std::span<const PointPair> pairs, const FitLimits& limits, const std::string& source);
+
+} // namespace fathom

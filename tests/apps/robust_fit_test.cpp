@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// Registrations that must not be believed: scale, mirror images, outliers, scatter.
+#include "apps/register/robust_fit.h"
+#include "engine/types/error.h"
+
+#include <cmath>
+#include <doctest/doctest.h>
+#include <glm/geometric.hpp>
+#include <random>
+
+using namespace fathom;
+
+namespace {
+
+const Pose kTruth{{0.4, -0.3, 1.2}, glm::normalize(dquat(0.3, 0.8, -0.4, 0.2))};
+const FitLimits kByHand{};
+
+std::vector<PointPair> pairsOf(size_t count, double noise, unsigned seed = 5) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> place(-0.5, 0.5);
+    std::normal_distribution<double> error(0.0, 1.0);
+    std::vector<PointPair> pairs;
+    for (size_t i = 0; i < count; ++i) {
+        const dvec3 p(place(random), place(random), 1.0 + place(random));
+        const dvec3 e(error(random), error(random), error(random));
+        pairs.push_back({p, kTruth.apply(p) + noise * e, "line " + std::to_string(i + 2)});
+    }
+    return pairs;
+}
+
+double offBy(const RobustFit& robust) {
+    return glm::distance(robust.fit.baseTcamera.apply({0, 0, 1}), kTruth.apply({0, 0, 1}));
+}
+
+bool has(const std::string& text, const std::string& part) {
+    CAPTURE(text);
+    CAPTURE(part);
+    CHECK(text.find(part) != std::string::npos);
+    return text.find(part) != std::string::npos;
+}
+
+} // namespace
+
+TEST_CASE("Good pairs raise no doubt and give the least-squares fit, exact or noisy, few or many") {
+    for (const size_t count : {4, 5, 8, 40, 900}) {
+        for (const double noise : {0.0, 0.001, 0.003}) {
+            CAPTURE(count);
+            CAPTURE(noise);
+            const auto pairs = pairsOf(count, noise);
+            const RobustFit robust = fitRobust(pairs, kByHand, "test");
+            CHECK(robust.doubt == "");
+            CHECK(robust.outliers.empty());
+            CHECK(offBy(robust) <= 4.0 * noise + 1e-9);
+            CHECK(robust.fit.sigma == fitRigid(pairs, "test").sigma);
+        }
+    }
+}
+
+TEST_CASE("Distances in other units are doubted with their ratio and the worst pairs") {
+    for (const double scale : {1000.0, 0.001, 25.4, 1.1, 0.9}) {
+        CAPTURE(scale);
+        auto pairs = pairsOf(6, 0.001);
+        for (PointPair& pair : pairs) {
+            pair.base *= scale;
+        }
+        const RobustFit robust = fitRobust(pairs, kByHand, "test");
+        has(robust.doubt, "times those in the camera frame (units?)");
+        has(robust.doubt, "; worst line ");
+    }
+}
+
+TEST_CASE("A mirror image is doubted, whichever axis is negated or swapped") {
+    for (int axis = 0; axis < 4; ++axis) {
+        CAPTURE(axis);
+        auto pairs = pairsOf(7, 0.001);
+        for (PointPair& pair : pairs) {
+            if (axis == 3) {
+                std::swap(pair.base.x, pair.base.y);
+            } else {
+                pair.base[axis] = -pair.base[axis];
+            }
+        }
+        has(fitRobust(pairs, kByHand, "test").doubt, "mirror image");
+    }
+}
+
+TEST_CASE("Outliers are left out of the fit, listed farthest first, and doubted") {
+    for (const size_t count : {6, 10, 60}) {
+        CAPTURE(count);
+        auto pairs = pairsOf(count, 0.0005);
+        pairs[2].base += dvec3(0.3, 0.0, 0.0);
+        const size_t outliers = count >= 10 ? 2 : 1;
+        if (outliers == 2) {
+            std::swap(pairs[7].base, pairs[8].base); // typed in the wrong order: two more
+            pairs[7].base = kTruth.apply(pairs[7].camera);
+            pairs[8].base = kTruth.apply(pairs[8].camera) + dvec3(0.0, 0.1, 0.0);
+        }
+        const RobustFit robust = fitRobust(pairs, kByHand, "test");
+        REQUIRE(robust.outliers.size() == outliers);
+        CHECK(robust.outliers[0].name == "line 4");
+        CHECK(robust.outliers[0].distance == doctest::Approx(0.3).epsilon(0.02));
+        CHECK(offBy(robust) < 0.003);
+        has(robust.doubt, std::to_string(outliers) + " of " + std::to_string(count) +
+                              " pairs do not fit the others; worst line 4 30");
+        FitLimits lenient;
+        lenient.outlierShare = 0.4;
+        CHECK(fitRobust(pairs, lenient, "test").doubt == "");
+    }
+}
+
+TEST_CASE("Pairs that scatter beyond the bound are doubted with their RMS distance and the worst pairs") {
+    const auto pairs = pairsOf(20, 0.03);
+    const RobustFit robust = fitRobust(pairs, kByHand, "test");
+    CHECK(robust.doubt != "");
+    has(robust.doubt, "; worst line ");
+    FitLimits wide;
+    wide.residual = 0.3;
+    CHECK(fitRobust(pairs, wide, "test").doubt == "");
+}
