@@ -148,6 +148,17 @@ std::string named(const std::vector<RobustFit::Outlier>& worst) {
     return worst.empty() ? "" : text;
 }
 
+// Whether the mirror image fits far better: by consensus, or all pairs at once, as a plane among the pairs
+// fits either way.
+bool isMirrored(Pairs pairs, const Consensus& found) {
+    constexpr double kBetter = 0.3;
+    const std::vector<PointPair> image = mirrored(pairs);
+    const double plain = rankedDistance(poseOf(pairs), pairs, pairs.size() - 1);
+    return (plain > kLeastTolerance &&
+            rankedDistance(poseOf(image), image, image.size() - 1) < kBetter * plain) ||
+           (found.distance > kLeastTolerance && Search(image).run().distance < kBetter * found.distance);
+}
+
 std::string doubtOf(Pairs pairs, const FitLimits& limits, const Consensus& found, const RobustFit& robust) {
     const std::string worst = named(farthest(pairs, robust.fit.baseTcamera, 0.0));
     const double scale = scaleOf(pairs);
@@ -155,7 +166,7 @@ std::string doubtOf(Pairs pairs, const FitLimits& limits, const Consensus& found
         return print("distances in the base frame are %.6g times those in the camera frame (units?)", scale) +
                worst;
     }
-    if (found.distance > kLeastTolerance && Search(mirrored(pairs)).run().distance < 0.3 * found.distance) {
+    if (isMirrored(pairs, found)) {
         return "the pairs fit a mirror image: one axis of a frame is negated, or two are swapped" + worst;
     }
     if (!(robust.fit.sigma <= limits.residual)) {

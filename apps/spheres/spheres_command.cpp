@@ -2,7 +2,6 @@
 #include "apps/spheres/spheres_command.h"
 
 #include "apps/number_option.h"
-#include "apps/replay/output_file.h"
 #include "apps/spheres/spheres_report.h"
 #include "engine/model/cover_urdf.h"
 #include "engine/model/sph_file.h"
@@ -11,7 +10,9 @@
 #include "engine/model/write_spheres.h"
 #include "engine/reference/cell_cover.h"
 #include "engine/types/error.h"
+#include "engine/types/input_files.h"
 #include "engine/types/log.h"
+#include "engine/types/output_file.h"
 #include "engine/types/read_file.h"
 
 #include <CLI/CLI.hpp>
@@ -188,6 +189,8 @@ void convert(const SpheresOptions& options) {
 
 void runSpheres(SpheresOptions options) {
     check(options);
+    noteInput(options.mesh);
+    refuseInput(options.out); // now, before the work
     if (isSphereFile(options.mesh)) {
         convert(options);
         return;

@@ -16,7 +16,7 @@ namespace {
 constexpr size_t kSeats = 2000;
 constexpr double kPieces = 6'000.0; // initial number of pieces
 constexpr double kMostPieces = 2e6;
-constexpr double kSlivers = 20.0; // times as many pieces when the surface consists of needles
+constexpr double kSlivers = 6.0; // times as many pieces when the surface consists of needles
 
 struct Fitting {
     const TriangleMesh& mesh;
