@@ -29,6 +29,7 @@ public:
     // unless the plan queries on the GPU.
     void use(gpu::Device* device, const Plan& plan, const PatchLayout& layout, cloud::FixturePool& pool);
     void dropDevice() { gpu_.reset(); }
+    bool onDevice() const { return gpu_.has_value(); } // the device answers
 
     // Without forbidden points the contact set is empty and its reach is unlimited.
     void query(const cloud::FixtureSet& set, const Pose& baseTtool, ContactSet& out) {

@@ -25,9 +25,8 @@ struct DeviceFacts {
     uint32_t hostProcessors = 1;       // CPUs usable by the thread that created the device
     uint64_t hostPointerAlignment = 0; // [bytes] of imported host memory; 0 = cannot import
     double timestampPeriodNs = 1.0;    // 0 = no timestamps
-    // Number of tool leaves from which `contact.where: auto` uses this device, if it is not a CPU. The
-    // default is never, unless `fathom profile query` measured otherwise: on an NVIDIA H200 the CPU was
-    // faster for every tool (docs/h200).
+    // Number of tool leaves from which `contact.where: auto` uses this device, if it is not a CPU. Never by
+    // default; discrete GPUs start with a measured number, and `fathom profile query` stores one per device.
     uint32_t gpuQueryLeaves = 0xffffffffu;
 };
 

@@ -91,6 +91,7 @@ size_t compareQueries(ContactRig& rig, const Tool& tool, double reach, uint32_t 
     onCpu.query = Plan::Query::Cpu;
     ContactCycle cpu(vulkan().device, onCpu, rig.frames.layout(), rig.frames.sets(), tool, reach);
     ContactCycle gpu(vulkan().device, rig.plan, rig.frames.layout(), rig.frames.sets(), tool, reach);
+    CHECK(gpu.onDevice());
     const auto set = rig.frames.sets().newest();
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> x(-0.25, 0.25), z(0.6, 1.0), step(-3.0, 3.0);

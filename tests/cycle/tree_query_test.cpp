@@ -64,6 +64,8 @@ struct Both {
         gpu.emplace(vulkan().device, plan, rig.layout(), rig.cycle().sets(), tool, reach, arm);
         plan.query = Plan::Query::Cpu;
         cpu.emplace(vulkan().device, plan, rig.layout(), rig.cycle().sets(), tool, reach, arm);
+        CHECK(gpu->onDevice());
+        CHECK_FALSE(cpu->onDevice());
     }
     size_t check(const ToolState& place) {
         ContactSet a, b;
