@@ -68,7 +68,7 @@ bool colourOf(vec3 p, out vec3 rgb) {
     if (q.z <= 0.0) {
         return false;
     }
-    ivec2 at = ivec2(round(projectPoint(q, params.colourLens, params.colourDistortion, params.more.y)));
+    ivec2 at = ivec2(round(projectPoint(q, params.colourLens, params.colourDistortion, params.more.y, params.colourLensMore)));
     if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, ivec2(params.colourSize.xy)))) {
         return false;
     }

@@ -30,7 +30,7 @@ void main() {
     if (p.z <= 0.0) {
         return;
     }
-    ivec2 at = ivec2(round(projectPoint(p, params.colourLens, params.colourDistortion, params.more.y)));
+    ivec2 at = ivec2(round(projectPoint(p, params.colourLens, params.colourDistortion, params.more.y, params.colourLensMore)));
     if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, ivec2(params.colourSize.xy)))) {
         return;
     }

@@ -26,6 +26,16 @@ vec4 distortionOf(const Intrinsics& lens) {
     return {lens.distortion[0], lens.distortion[1], lens.distortion[2], lens.distortion[3]};
 }
 
+vec4 moreOf(const Intrinsics& lens) {
+    const auto& [k4, k5, k6] = lens.divisor;
+    const bool plain = lens.divisor == std::array<double, 3>{};
+    const uint32_t model = lens.model == LensModel::Equidistant        ? shared::kLensEquidistant
+                           : lens.model == LensModel::ScaledTangential ? shared::kLensScaledTangential
+                           : plain                                     ? shared::kLensPlain
+                                                                       : shared::kLensRational;
+    return {k4, k5, k6, model};
+}
+
 void setRows(vec4 (&rows)[3], const Pose& pose) {
     const glm::dmat3 r = glm::mat3_cast(pose.rotation); // column-major
     for (int i = 0; i < 3; ++i) {
@@ -120,6 +130,8 @@ shared::FrameParams sceneParams(const Scene& scene, const CameraInfo& camera, co
     p.distortion = distortionOf(camera.depth);
     p.colourLens = lensOf(camera.colour);
     p.colourDistortion = distortionOf(camera.colour);
+    p.lensMore = moreOf(camera.depth);
+    p.colourLensMore = moreOf(camera.colour);
     p.more = {camera.depth.distortion[4], camera.colour.distortion[4], camera.metresPerUnit,
               scene.filter.edge};
     p.filterParams = {1.0 / (2.0 * scene.filter.sigma * scene.filter.sigma), scene.errorBudget, kIsolation,

@@ -8,13 +8,42 @@ namespace fathom {
 
 namespace {
 
-// Brown-Conrady: ideal ray -> distorted ray.
-glm::dvec2 distort(const glm::dvec2& r, const std::array<double, 5>& d) noexcept {
-    const auto [k1, k2, p1, p2, k3] = d;
+constexpr double kMostSlope = 11.43; // tan(85 degrees)
+
+// Ideal ray -> distorted ray.
+glm::dvec2 distort(const glm::dvec2& r, const Intrinsics& lens) noexcept {
     const double rr = r.x * r.x + r.y * r.y;
-    const double radial = 1.0 + rr * (k1 + rr * (k2 + rr * k3));
-    return {r.x * radial + 2.0 * p1 * r.x * r.y + p2 * (rr + 2.0 * r.x * r.x),
-            r.y * radial + p1 * (rr + 2.0 * r.y * r.y) + 2.0 * p2 * r.x * r.y};
+    if (lens.model == LensModel::Equidistant) {
+        const auto [k1, k2, k3, k4, unused] = lens.distortion;
+        const double length = std::sqrt(rr), t = std::atan(length), tt = t * t;
+        const double bent = t * (1.0 + tt * (k1 + tt * (k2 + tt * (k3 + tt * k4))));
+        return length > 0.0 ? r * (bent / length) : r;
+    }
+    const auto [k1, k2, p1, p2, k3] = lens.distortion;
+    const auto [k4, k5, k6] = lens.divisor;
+    const double radial = (1.0 + rr * (k1 + rr * (k2 + rr * k3))) / (1.0 + rr * (k4 + rr * (k5 + rr * k6)));
+    const glm::dvec2 q = lens.model == LensModel::ScaledTangential ? r * radial : r;
+    return {r.x * radial + 2.0 * p1 * q.x * q.y + p2 * (rr + 2.0 * q.x * q.x),
+            r.y * radial + p1 * (rr + 2.0 * q.y * q.y) + 2.0 * p2 * q.x * q.y};
+}
+
+// Newton's method with numeric derivatives, for lenses too wide for the fixed-point iteration.
+glm::dvec2 undistort(const glm::dvec2& seen, const Intrinsics& lens) noexcept {
+    constexpr double kStep = 1e-6;
+    const double angle = glm::length(seen);
+    const bool angles = lens.model == LensModel::Equidistant && angle > 0.0 && angle < 1.48;
+    glm::dvec2 r = angles ? seen * (std::tan(angle) / angle) : seen;
+    for (int i = 0; i < 100; ++i) {
+        const glm::dvec2 error = distort(r, lens) - seen;
+        if (std::abs(error.x) + std::abs(error.y) < 1e-14) {
+            break;
+        }
+        const glm::dvec2 dx = (distort(r + glm::dvec2(kStep, 0.0), lens) - seen - error) / kStep;
+        const glm::dvec2 dy = (distort(r + glm::dvec2(0.0, kStep), lens) - seen - error) / kStep;
+        const double det = dx.x * dy.y - dy.x * dx.y;
+        r -= glm::dvec2(error.x * dy.y - dy.x * error.y, dx.x * error.y - error.x * dx.y) / det;
+    }
+    return r;
 }
 
 } // namespace
@@ -27,9 +56,12 @@ glm::dvec2 Intrinsics::ray(double u, double v) const noexcept {
     if (!distorted()) {
         return seen;
     }
+    if (model != LensModel::Polynomial || divisor != std::array<double, 3>{}) {
+        return undistort(seen, *this);
+    }
     glm::dvec2 r = seen;
     for (int i = 0; i < 100; ++i) { // converges for every lens whose distortion is monotone in the image
-        const glm::dvec2 error = distort(r, distortion) - seen;
+        const glm::dvec2 error = distort(r, *this) - seen;
         r -= error;
         if (std::abs(error.x) + std::abs(error.y) < 1e-14) {
             break;
@@ -45,9 +77,22 @@ glm::dvec2 Intrinsics::project(const dvec3& point) const noexcept {
     }
     glm::dvec2 r{point.x / point.z, point.y / point.z};
     if (distorted()) {
-        r = distort(r, distortion);
+        r = distort(r, *this);
     }
     return {fx * r.x + cx, fy * r.y + cy};
+}
+
+bool Intrinsics::invertible() const noexcept {
+    for (uint32_t i = 0; i < 25 && !fan; ++i) {
+        const uint32_t column = i % 5, row = i / 5;
+        const double u = 0.25 * column * (width - 1.0), v = 0.25 * row * (height - 1.0);
+        const glm::dvec2 r = ray(u, v), back = project({r.x, r.y, 1.0});
+        if (!(std::abs(back.x - u) < 1e-3) || !(std::abs(back.y - v) < 1e-3) ||
+            (distorted() && !(glm::length(r) < kMostSlope))) {
+            return false;
+        }
+    }
+    return true;
 }
 
 double BeamSigma::across() const noexcept {

@@ -10,24 +10,40 @@
 
 namespace fathom {
 
-// Pinhole lens with Brown-Conrady distortion (k1 k2 p1 p2 k3, plumb_bob order), or a fan of beams at equal
-// angles. Pixel (0, 0) is the centre of the first pixel; z forward, x right, y down.
+// How a lens bends the ray (x/z, y/z), r its length.
+enum class LensModel : uint8_t {
+    Polynomial,       // OpenCV: radial factor (1 + k1 r^2 + k2 r^4 + k3 r^6) / (1 + k4 r^2 + k5 r^4 + k6 r^6)
+    ScaledTangential, // the same, with p1 and p2 applied after the radial factor (librealsense)
+    Equidistant,      // Kannala-Brandt: angle t (1 + k1 t^2 + k2 t^4 + k3 t^6 + k4 t^8), t = atan(r)
+};
+
+// Pinhole lens with distortion, or a fan of beams at equal angles. Pixel (0, 0) is the centre of the first
+// pixel; z forward, x right, y down.
 struct Intrinsics {
     uint32_t width = 0, height = 0;                // [pixels]
     double fx = 0.0, fy = 0.0, cx = 0.0, cy = 0.0; // [pixels]
-    std::array<double, 5> distortion{};            // k1 k2 p1 p2 k3; all zero = none
+    std::array<double, 5> distortion{};            // k1 k2 p1 p2 k3; Equidistant: k1 k2 k3 k4 -
     // Sonar or laser scanner: (u - cx) / fx is the azimuth from z towards x [rad], (v - cy) / fy the
     // elevation towards y. fx, fy in [pixels/rad]; no distortion; all rays within 85 degrees of the axis.
     bool fan = false;
+    LensModel model = LensModel::Polynomial;
+    std::array<double, 3> divisor{}; // k4 k5 k6; all zero = Brown-Conrady
 
-    bool distorted() const { return distortion != std::array<double, 5>{}; }
+    // Polynomial with all coefficients zero: no distortion.
+    bool distorted() const {
+        return model == LensModel::Equidistant || distortion != std::array<double, 5>{} ||
+               divisor != std::array<double, 3>{};
+    }
     bool pinhole() const { return !fan && !distorted(); } // a ray is linear in the pixel
     uint32_t pixels() const { return width * height; }
 
-    // Ray (x/z, y/z) through pixel (u, v). Inverts the distortion by fixed-point iteration in float64.
+    // Ray (x/z, y/z) through pixel (u, v). Inverts the distortion by iteration in float64.
     glm::dvec2 ray(double u, double v) const noexcept;
     // Pixel of a point with z > 0, distortion included.
     glm::dvec2 project(const dvec3& point) const noexcept;
+    // Whether ray() inverts project() over the whole image: false when the lens folds the image, or sees
+    // farther than 85 degrees from its axis.
+    bool invertible() const noexcept;
 };
 
 // Uncertainty of a point from a sensor that measures along beams (sonar, laser): a normal error along the

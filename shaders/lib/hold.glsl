@@ -24,7 +24,7 @@ bool uncontradicted(vec3 p) {
     vec3 q = transformPoint(params.cameraTbase, p);
     bool before = q.z > 0.0;
     q.z = before ? q.z : 1.0;
-    vec2 pixel = kFan != 0 ? projectFan(q, params.lens) : projectPoint(q, params.lens, params.distortion, params.more.x);
+    vec2 pixel = kFan != 0 ? projectFan(q, params.lens) : projectPoint(q, params.lens, params.distortion, params.more.x, params.lensMore);
     ivec2 at = ivec2(round(pixel));
     bool inside = all(lessThan(uvec2(at), params.size.xy)); // a negative number converts to a large one
     float z = depthAt(inside ? uint(at.y) * params.size.x + uint(at.x) : 0u);

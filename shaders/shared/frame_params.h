@@ -7,6 +7,12 @@ FATHOM_SHARED_BEGIN
 
 FATHOM_CONST kMaxClasses = 8; // point classes per scene: bits of a pixel's mask
 
+// Lens models (lens.glsl). Plain: Brown-Conrady.
+FATHOM_CONST kLensPlain = 0;
+FATHOM_CONST kLensRational = 1;
+FATHOM_CONST kLensScaledTangential = 2;
+FATHOM_CONST kLensEquidistant = 3;
+
 // One point class. Gates are inclusive; an unused gate has bounds that every point passes.
 struct ClassParams {
     vec4 hue;      // lo, hi [degree]; 1 = wraps through 0; w = 0: grey passes, -1: it fails
@@ -40,9 +46,11 @@ struct FrameParams {
     vec4 beam;      // sigma along a beam = x + y r [m], across it z r [m] (BeamSigma); -
     vec4 ranges[8]; // per class: least and largest range [m]; 1 = has a range gate; -
     vec4 water;     // attenuation of stored red, green, blue [1/m]; -
+    vec4 lensMore;       // depth k4, k5, k6; kLensPlain or the other models
+    vec4 colourLensMore; // the same of colour
     vec4 steps;     // ray increments per pixel 1 / fx, 1 / fy; growth step of spheres [m]; its reciprocal
 };
-FATHOM_SIZE(FrameParams, 64 + 112 + 144 + 640 + 176);
+FATHOM_SIZE(FrameParams, 64 + 112 + 144 + 640 + 208);
 
 // Growth steps in the error budget: a packed sphere stores its growth in 8 bits.
 FATHOM_CONST kGrowthSteps = 255;
