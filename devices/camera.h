@@ -39,6 +39,10 @@ public:
     virtual bool seek(uint32_t) { return false; }
     // [s] frame period, when the source knows it.
     virtual std::optional<double> framePeriod() const { return std::nullopt; }
+    // Recordings of several streams: which ones are played, and what else there is, in one line.
+    virtual std::string streams() const { return ""; }
+    // Why no colour gate can pass: no colour stream, one that is not read, or grey; empty = there is colour.
+    virtual std::string whyNoColour() const { return info().hasColour ? "" : "the source has no colour"; }
     // One word and a name, e.g. "recorded FOLDER".
     virtual std::string description() const = 0;
 

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/binding/open_source.h"
 
-#include "devices/bag/bag_camera.h"
+#include "apps/binding/open_recording.h"
+#include "apps/binding/source_check.h"
 #include "devices/openni2/open_openni2.h"
-#include "devices/pcd/pcd_camera.h"
-#include "devices/recorded/recorded_camera.h"
 #include "devices/simulated/analytic_scene.h"
 #include "devices/simulated/simulated_camera.h"
 #include "devices/simulated/simulated_sonar.h"
@@ -18,6 +17,8 @@
 #include "engine/types/log.h"
 
 #include <cmath>
+#include <cstdio>
+#include <set>
 
 namespace fathom {
 
@@ -51,32 +52,38 @@ std::unique_ptr<Camera> openLive(CameraRequest request, Images images) {
     return std::make_unique<V4l2Camera>(request);
 }
 
-std::unique_ptr<Camera> openNamed(const std::string& source, Images images) {
+// Says once which streams a recording is played from.
+void sayStreams(const Camera& camera, const std::string& file) {
+    static std::set<std::string> said; // one thread opens cameras
+    if (const std::string streams = camera.streams(); !streams.empty() && said.insert(file).second) {
+        std::fprintf(stderr, "fathom: %s: %s\n", file.c_str(), streams.c_str());
+    }
+}
+
+std::unique_ptr<Camera> openNamed(const std::string& source, Images images, double farthest) {
     if (isCameraRequest(source)) {
         return openLive(parseCameraRequest(source), images);
     }
     if (isOpenNi2Request(source)) {
         return openOpenNi2(source);
     }
-    if (source.ends_with(".bag")) {
-        return std::make_unique<BagCamera>(source);
-    }
-    if (source.ends_with(".pcd")) {
-        return std::make_unique<PcdCamera>(source);
-    }
-    return std::make_unique<RecordedCamera>(source);
+    SourceRequest request = parseSource(source);
+    request.options.farthest = farthest;
+    std::unique_ptr<Camera> camera = openRecording(request);
+    sayStreams(*camera, request.file);
+    return camera;
 }
 
 std::unique_ptr<Camera> openDry(const Scene& scene, const std::optional<std::filesystem::path>& source,
                                 Images images) {
     if (source) {
-        return openNamed(source->string(), images);
+        return openNamed(source->string(), images, scene.farZ);
     }
     switch (scene.source.kind) {
     case CameraSource::Kind::Simulated:
         return openSimulated(scene);
     case CameraSource::Kind::Recorded:
-        return openNamed(scene.source.value, images);
+        return openNamed(scene.source.value, images, scene.farZ);
     case CameraSource::Kind::V4l2:
         break;
     }
@@ -97,6 +104,9 @@ std::unique_ptr<Camera> openCamera(const Scene& scene, const std::optional<std::
                                    Images images) {
     std::unique_ptr<Camera> camera = openDry(scene, source, images);
     checkCamera(camera->info(), camera->description());
+    if (source || scene.source.kind != CameraSource::Kind::Simulated) {
+        camera = std::make_unique<SourceCheck>(std::move(camera), scene);
+    }
     if (scene.beam) {
         const BeamSigma beam{scene.beam->range, scene.beam->perMetre, scene.beam->width};
         camera = std::make_unique<BeamCamera>(std::move(camera), beam);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/bag/bag_camera.h"
 
-#include "devices/bag/ros_messages.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
 
@@ -12,185 +11,219 @@ namespace fathom {
 
 namespace {
 
-constexpr const char* kImage = "sensor_msgs/Image";
+constexpr double kMillimetre = 0.001;    // REP 118: 16-bit depth
+constexpr double kFinestOfMetres = 1e-4; // [m] unit of float depth
+constexpr double kMostUnits = 65000.0;
+constexpr size_t kUnitSamples = 9;
 
-// "/a/b/image/data" -> "/a/b", else "/a/b/image_raw" -> "/a/b".
-std::string parentOf(const std::string& topic, int levels) {
-    std::string parent = topic;
-    for (int i = 0; i < levels; ++i) {
-        parent.erase(std::min(parent.find_last_of('/'), parent.size()));
-    }
-    return parent;
-}
-
-bool isRealSense(const std::string& topic) {
-    return topic.ends_with("/image/data");
-}
-
-double medianStep(const std::vector<double>& stamps) {
-    std::vector<double> steps;
-    for (size_t i = 1; i < stamps.size(); ++i) {
-        steps.push_back(stamps[i] - stamps[i - 1]);
-    }
-    if (steps.empty()) {
-        return 0.0;
-    }
-    std::nth_element(steps.begin(), steps.begin() + static_cast<long>(steps.size() / 2), steps.end());
-    return steps[steps.size() / 2];
+// "Depth Units", "Depth_Units": the name changed between versions of the SDK.
+bool isDepthUnits(std::string name) {
+    std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) {
+        return c == ' ' || c == '-' ? '_' : static_cast<char>(std::tolower(c));
+    });
+    return name.ends_with("/option/depth_units/value");
 }
 
 } // namespace
 
-BagCamera::BagCamera(const std::filesystem::path& file)
-    : bag_(file) {
+BagCamera::BagCamera(const std::filesystem::path& file, SourceOptions options)
+    : options_(std::move(options))
+    , file_(openMessageFile(file)) {
     try {
-        chooseTopics();
-        readLenses();
+        choice_ = StreamChooser(*file_, options_).choose();
+        useSpan();
+        chooseUnit();
+        useClocks();
     } catch (const BadInput&) {
         throw;
     } catch (const Error& e) {
         throw BadInput(file.string(), "content", e.what(), "whole messages");
     }
-    tolerance_ = tolerance();
-    slots_.emplace(std::max(info_.depth.pixels(), info_.colour.pixels()), info_.hasColour,
+    slots_.emplace(std::max(info().depth.pixels(), info().colour.pixels()), info().hasColour,
                    kFramesInFlight + 1);
 }
 
-std::optional<BagCamera::Stream> BagCamera::openStream(const BagTopic& topic,
-                                                       bool (*wanted)(const std::string&)) {
-    if (topic.type != kImage || topic.messages.empty()) {
-        return std::nullopt;
+std::string BagCamera::whyNoColour() const {
+    if (!choice_.colour) {
+        return choice_.unread.empty() ? "the recording has no colour stream"
+                                      : "no colour stream is read; not read: " + choice_.unread +
+                                            " (read are " + ros::kColourEncodings + ")";
     }
-    const ros::Image first = ros::image(bag_.read(topic.messages.front()));
-    if (!wanted(first.encoding)) {
-        return std::nullopt;
-    }
-    Stream stream{&topic, first.frame, first.encoding, {}};
-    for (const BagEntry& entry : topic.messages) {
-        stream.stamps.push_back(1e-9 * static_cast<double>(entry.time));
-    }
-    return stream;
+    return choice_.colour->content == ros::Content::Grey
+               ? "its only other stream is grey: " + choice_.colour->name + " (" + choice_.colour->encoding +
+                     ")"
+               : "";
 }
 
-void BagCamera::chooseTopics() {
-    std::string seen;
-    for (const BagTopic& topic : bag_.topics()) {
-        if (depth_.topic == nullptr) {
-            depth_ = openStream(topic, ros::isDepth).value_or(Stream{});
-        }
-        if (!colour_) {
-            colour_ = openStream(topic, ros::isColour);
-        }
-        seen += topic.type == kImage ? (seen.empty() ? "" : ", ") + topic.name : "";
-    }
-    if (depth_.topic == nullptr) {
-        throw BadInput(bag_.file().string(), "topics", seen.empty() ? "no images" : seen,
-                       "one of sensor_msgs/Image with encoding 16UC1, mono16 or 32FC1");
+// Start and duration count from the first depth image, by the time of recording.
+void BagCamera::useSpan() {
+    const std::vector<MessageEntry>& all = topicOf(choice_.depth).messages;
+    const auto place = [&](double after) {
+        const auto at = std::find_if(all.begin(), all.end(), [&](const MessageEntry& entry) {
+            return 1e-9 * static_cast<double>(entry.time - all.front().time) >= after;
+        });
+        return static_cast<uint32_t>(at - all.begin());
+    };
+    cursor_ = place(options_.start);
+    end_ = std::isfinite(options_.duration) ? place(options_.start + options_.duration)
+                                            : static_cast<uint32_t>(all.size());
+    if (cursor_ >= end_) {
+        throw BadInput(file_->file().string(), "start", std::to_string(options_.start),
+                       "a time before the last depth image");
     }
 }
 
-Intrinsics BagCamera::lensOf(const Stream& stream) {
-    const std::string& name = stream.topic->name;
-    const std::string info =
-        isRealSense(name) ? parentOf(name, 2) + "/info/camera_info" : parentOf(name, 1) + "/camera_info";
-    const BagTopic* topic = bag_.find(info);
-    if (topic == nullptr || topic->messages.empty()) {
-        throw BadInput(bag_.file().string(), info, "missing", "sensor_msgs/CameraInfo beside " + name);
+void BagCamera::useClocks() {
+    const std::string file = file_->file().string();
+    depth_.emplace(*file_, topicOf(choice_.depth));
+    if (!depth_->stamped()) {
+        log::warn("{}: {}: headers have no stamps: the time of recording is used", file, choice_.depth.name);
     }
-    const Intrinsics lens = ros::cameraInfo(bag_.read(topic->messages.front()));
-    if (lens.width < 1 || lens.height < 1 || lens.width > 3840 || lens.height > 2160) {
-        throw BadInput(bag_.file().string(), info,
-                       std::to_string(lens.width) + "x" + std::to_string(lens.height),
-                       "at most 3840x2160 pixels");
-    }
-    return lens;
-}
-
-// Maps points of the common reference to the stream, as in a recording folder (recording_intrinsics.cpp).
-Pose BagCamera::tfOf(const Stream& stream) {
-    const std::string name = parentOf(stream.topic->name, 2) + "/tf/0";
-    const BagTopic* topic = isRealSense(stream.topic->name) ? bag_.find(name) : nullptr;
-    if (topic == nullptr || topic->messages.empty()) {
-        throw BadInput(bag_.file().string(), "extrinsics", "missing",
-                       "depth registered to colour (same frame and lens), or the topic " + name);
-    }
-    return ros::transform(bag_.read(topic->messages.front()));
-}
-
-double BagCamera::depthUnit() {
-    constexpr double kMillimetre = 0.001; // REP 118
-    if (!isRealSense(depth_.topic->name)) {
-        return kMillimetre;
-    }
-    const BagTopic* topic = bag_.find(parentOf(depth_.topic->name, 3) + "/option/Depth Units/value");
-    if (topic == nullptr || topic->messages.empty()) {
-        return kMillimetre;
-    }
-    // Stored as float: use 0.001, not 0.0010000000474974513.
-    const double unit =
-        std::round(1e9 * static_cast<double>(ros::float32(bag_.read(topic->messages.front())))) * 1e-9;
-    return unit > 0.0 ? unit : kMillimetre;
-}
-
-void BagCamera::readLenses() {
-    info_.depth = lensOf(depth_);
-    info_.metresPerUnit = depthUnit();
-    info_.hasColour = colour_.has_value();
-    info_.colour = info_.depth;
-    if (!colour_) {
+    if (!choice_.colour) {
         return;
     }
-    const Intrinsics colour = lensOf(*colour_);
-    const Intrinsics& depth = info_.depth;
-    const bool sameLens = colour.width == depth.width && colour.height == depth.height &&
-                          colour.fx == depth.fx && colour.fy == depth.fy && colour.cx == depth.cx &&
-                          colour.cy == depth.cy;
-    const std::string& name = depth_.topic->name;
-    if (sameLens && (depth_.frame == colour_->frame || name.find("aligned") != std::string::npos ||
-                     name.find("registered") != std::string::npos)) {
+    colour_.emplace(*file_, topicOf(*choice_.colour));
+    const double slower = std::max(depth_->medianPeriod(), colour_->medianPeriod());
+    tolerance_ = slower > 0.0 ? 0.5 * slower : 0.05;
+    if (depth_->stamped() == colour_->stamped() && pairsByStamp()) {
         return;
     }
-    info_.registered = false;
-    info_.colour = colour;
-    info_.colourTdepth = tfOf(*colour_) * inverse(tfOf(depth_));
+    log::warn(
+        "{}: no stamps of {} and {} are within {:.3f} s (the first ones differ by {:.3f} s): images are "
+        "paired by the time of recording",
+        file, choice_.depth.name, choice_.colour->name, tolerance_, colour_->stampOf(0) - depth_->stampOf(0));
+    depth_->useRecordingTime();
+    colour_->useRecordingTime();
 }
 
-double BagCamera::tolerance() const {
-    const double slower = std::max(medianStep(depth_.stamps), colour_ ? medianStep(colour_->stamps) : 0.0);
-    return slower > 0.0 ? 0.5 * slower : 0.05;
+// Whether any of some images, at the start and over the whole recording, has a partner by the headers'
+// stamps.
+bool BagCamera::pairsByStamp() {
+    const std::vector<MessageEntry>& all = topicOf(choice_.depth).messages;
+    const size_t count = end_ - cursor_, step = std::max<size_t>(1, count / kUnitSamples);
+    const auto pairs = [&](size_t i) {
+        return colour_->nearest(depth_->stampOf(i), all[i].time, tolerance_).has_value();
+    };
+    for (size_t i = cursor_; i < std::min<size_t>(end_, cursor_ + kUnitSamples); ++i) {
+        if (pairs(i)) {
+            return true;
+        }
+    }
+    for (size_t i = cursor_; i < end_; i += step) {
+        if (pairs(i)) {
+            return true;
+        }
+    }
+    return false;
 }
 
-std::optional<size_t> BagCamera::colourFor(double stamp) const {
-    const std::vector<double>& stamps = colour_->stamps;
-    const auto distance = [stamp](double s) { return std::abs(s - stamp); };
-    const auto best = std::min_element(stamps.begin(), stamps.end(),
-                                       [&](double a, double b) { return distance(a) < distance(b); });
-    return best != stamps.end() && distance(*best) <= tolerance_
-               ? std::optional(static_cast<size_t>(best - stamps.begin()))
-               : std::nullopt;
+// A RealSense SDK's option, else millimetres.
+double BagCamera::sensorUnit() {
+    const std::string sensor = parentTopic(choice_.depth.name, 3) + "/option/";
+    for (const MessageTopic& topic : file_->topics()) {
+        if (!isSdkTopic(choice_.depth.name) || !topic.name.starts_with(sensor) || !isDepthUnits(topic.name) ||
+            topic.messages.empty()) {
+            continue;
+        }
+        // Stored as float: use 0.001, not 0.0010000000474974513.
+        const double unit = std::round(1e9 * static_cast<double>(ros::float32(file_->read(topic, 0)))) * 1e-9;
+        if (!(unit >= kFinestUnit && unit <= kCoarsestUnit)) {
+            throw BadInput(file_->file().string(), topic.name, std::to_string(unit),
+                           "0.000001 to 0.1 metres per unit, or scale=M behind the file's name");
+        }
+        return unit;
+    }
+    return kMillimetre;
+}
+
+double BagCamera::farthestSampled() {
+    double most = 0.0;
+    const size_t count = end_ - cursor_, step = std::max<size_t>(1, count / kUnitSamples);
+    for (size_t i = cursor_; i < end_; i += step) {
+        try {
+            most = std::max(most, ros::farthest(imageOf(choice_.depth, i)));
+        } catch (const Error&) { // named when it is played
+        }
+    }
+    return most;
+}
+
+// Metres get the finest unit that holds one and a half times the farthest depth seen, or the scene's far.
+void BagCamera::chooseUnit() {
+    CameraInfo& camera = choice_.camera;
+    if (!ros::holdsMetres(imageOf(choice_.depth, cursor_))) {
+        options_.checkUnit(file_->file().string());
+        camera.metresPerUnit = options_.scale ? *options_.scale : sensorUnit();
+        return;
+    }
+    const double metresPerValue = options_.scale.value_or(1.0);
+    const double needed = std::min(1.5 * metresPerValue * farthestSampled(), options_.farthest);
+    camera.metresPerUnit =
+        kFinestOfMetres * std::ceil(std::max(1.0, needed / (kMostUnits * kFinestOfMetres)));
+    valuesPerUnit_ = camera.metresPerUnit / metresPerValue;
+}
+
+ros::Image BagCamera::imageOf(const ImageStream& stream, size_t index) {
+    const MessageCursor message = file_->read(topicOf(stream), index);
+    return stream.compressed ? ros::compressedImage(message) : ros::image(message);
 }
 
 // Returns the fault; empty when the slot is filled.
-std::string BagCamera::read(size_t index, FrameSlot& slot, double& stamp) {
-    const auto sized = [](const ros::Image& image, const Intrinsics& lens) {
-        return image.width == lens.width && image.height == lens.height;
-    };
-    const ros::Image depth = ros::image(bag_.read(depth_.topic->messages[index]));
-    stamp = depth.stamp;
-    if (!sized(depth, info_.depth) || depth.encoding != depth_.encoding) {
+std::string BagCamera::read(size_t index, FrameSlot& slot, double stamp) {
+    if (lastStamp_ && stamp < *lastStamp_) {
+        return "depth stamp " + std::to_string(stamp) + " goes back from " + std::to_string(*lastStamp_);
+    }
+    const Image depth = imageOf(choice_.depth, index);
+    const bool alike = (depth.compressed ? depth.format : depth.encoding) == choice_.depth.encoding;
+    if (!alike || ros::sizeOf(depth) != std::pair(info().depth.width, info().depth.height)) {
         return "size or encoding differs from the first frame";
     }
-    std::string fault = ros::depthRows(depth, slot.depth());
-    if (!fault.empty() || !colour_) {
+    uint64_t beyond = 0;
+    const std::string fault = ros::depthRows(depth, valuesPerUnit_, slot.depth(), beyond);
+    if (!fault.empty()) {
         return fault;
     }
-    const auto pair = colourFor(depth_.stamps[index]);
+    tellBeyond(index, beyond);
+    return colour_ ? readColour(index, stamp, slot) : "";
+}
+
+std::string BagCamera::readColour(size_t depthIndex, double stamp, FrameSlot& slot) {
+    const auto pair = colour_->nearest(stamp, topicOf(choice_.depth).messages[depthIndex].time, tolerance_);
     if (!pair) {
         return "no colour frame within " + std::to_string(tolerance_) + " s";
     }
-    const ros::Image colour = ros::image(bag_.read(colour_->topic->messages[*pair]));
-    return sized(colour, info_.colour) ? ros::colourRows(colour, slot.colour())
-                                       : "colour size differs from its camera_info";
+    const Image colour = imageOf(*choice_.colour, *pair);
+    return ros::sizeOf(colour) == std::pair(info().colour.width, info().colour.height)
+               ? ros::colourRows(colour, slot.colour())
+               : "colour size differs from its camera_info";
+}
+
+void BagCamera::tellBeyond(size_t index, uint64_t beyond) {
+    const double limit = 65535.0 * info().metresPerUnit;
+    if (beyond > 0 && !toldBeyond_ && limit < options_.farthest) {
+        toldBeyond_ = true;
+        log::warn("{}: frame {}: {} pixels are farther than {} m and count as not measured",
+                  file_->file().string(), index, beyond, limit);
+    }
+}
+
+bool BagCamera::seek(uint32_t index) {
+    if (index >= end_) {
+        return false;
+    }
+    cursor_ = index;
+    lastStamp_.reset();
+    return true;
+}
+
+Frame BagCamera::lease(size_t index, double stamp, FrameSlot& slot) const {
+    Frame::Content content;
+    content.index = static_cast<uint32_t>(index);
+    content.sourceNumber = index;
+    content.captureTime = stamp;
+    content.depth = slot.depth().first(info().depth.pixels());
+    content.colour = slot.colour().first(colour_ ? info().colour.pixels() : 0);
+    return slot.lend(content);
 }
 
 std::optional<Frame> BagCamera::next() {
@@ -198,10 +231,10 @@ std::optional<Frame> BagCamera::next() {
     if (slot == nullptr) {
         throw Error(description() + ": all frame buffers are leased");
     }
-    while (cursor_ < depth_.topic->messages.size()) {
+    while (cursor_ < end_) {
         const uint32_t index = cursor_++;
+        const double stamp = depth_->stampOf(index);
         std::string fault;
-        double stamp = 0.0;
         try {
             fault = read(index, *slot, stamp);
         } catch (const Error& e) {
@@ -209,21 +242,16 @@ std::optional<Frame> BagCamera::next() {
         }
         if (fault.empty()) {
             delivered_ = true;
-            Frame::Content content;
-            content.index = index;
-            content.sourceNumber = index;
-            content.captureTime = stamp;
-            content.depth = slot->depth().first(info_.depth.pixels());
-            content.colour = slot->colour().first(colour_ ? info_.colour.pixels() : 0);
-            return slot->lend(content);
+            lastStamp_ = stamp;
+            return lease(index, stamp, *slot);
         }
         ++skipped_;
         firstFault_ = firstFault_.empty() ? fault : firstFault_;
-        log::warn("{}: frame {} skipped: {}", bag_.file().string(), index, fault);
+        log::warn("{}: frame {} skipped: {}", file_->file().string(), index, fault);
     }
     slot->release();
     if (!delivered_) {
-        throw BadInput(bag_.file().string(), "frames", "none is usable; first: " + firstFault_,
+        throw BadInput(file_->file().string(), "frames", "none is usable; first: " + firstFault_,
                        "one usable frame");
     }
     return std::nullopt;

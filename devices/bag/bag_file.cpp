@@ -14,10 +14,9 @@ namespace fathom {
 
 namespace {
 
-constexpr char kMagic[] = "#ROSBAG V2.0\n";
+constexpr char kBagMagic[] = "#ROSBAG V2.0\n";
 constexpr uint8_t kMessage = 2, kBagHeader = 3, kIndexData = 4, kChunk = 5, kChunkInfo = 6, kConnection = 7;
-constexpr uint32_t kMostBytes = 1u << 30; // of one record or chunk
-constexpr size_t kKept = 2;               // unpacked chunks
+constexpr uint32_t kBagBytes = 1u << 30; // of one record or chunk
 
 std::map<std::string, std::string> parseFields(std::span<const uint8_t> bytes) {
     std::map<std::string, std::string> fields;
@@ -51,13 +50,13 @@ std::string word(const std::map<std::string, std::string>& fields, const char* n
 } // namespace
 
 BagFile::BagFile(const std::filesystem::path& file)
-    : file_(file)
+    : MessageFile(file)
     , in_(isRegularFile(file) ? std::ifstream(file, std::ios::binary) : std::ifstream()) {
     std::error_code failed;
     size_ = std::filesystem::file_size(file, failed);
-    std::string magic(sizeof kMagic - 1, ' ');
+    std::string magic(sizeof kBagMagic - 1, ' ');
     if (failed || !in_.is_open() || !in_.read(magic.data(), static_cast<std::streamsize>(magic.size())) ||
-        magic != kMagic) {
+        magic != kBagMagic) {
         throw BadInput(file.string(), "format", in_.is_open() ? "no bag" : whyUnreadable(file),
                        "a ROS 1 bag of version 2.0");
     }
@@ -83,7 +82,7 @@ BagFile::BagFile(const std::filesystem::path& file)
 std::vector<uint8_t> BagFile::readBlock() {
     uint32_t count = 0;
     in_.read(reinterpret_cast<char*>(&count), sizeof count);
-    if (!in_ || count > kMostBytes || count > size_) {
+    if (!in_ || count > kBagBytes || count > size_) {
         throw Error("truncated");
     }
     std::vector<uint8_t> bytes(count);
@@ -110,12 +109,8 @@ void BagFile::readIndex(uint64_t indexAt) {
         const auto op = number<uint8_t>(record.fields, "op");
         if (op == kConnection) {
             const std::string name = word(record.fields, "topic");
-            auto topic = std::find_if(topics_.begin(), topics_.end(),
-                                      [&](const BagTopic& t) { return t.name == name; });
-            if (topic == topics_.end()) {
-                topic = topics_.insert(topic, {name, word(parseFields(record.data), "type"), {}});
-            }
-            topicOf[number<uint32_t>(record.fields, "conn")] = static_cast<size_t>(topic - topics_.begin());
+            topicOf[number<uint32_t>(record.fields, "conn")] =
+                topicAt(name, word(parseFields(record.data), "type"), false);
         } else if (op == kChunkInfo) {
             chunks.push_back(number<uint64_t>(record.fields, "chunk_pos"));
         }
@@ -127,10 +122,7 @@ void BagFile::readIndex(uint64_t indexAt) {
     for (const uint64_t chunk : chunks) {
         readChunkIndex(chunk, topicOf);
     }
-    for (BagTopic& topic : topics_) {
-        std::stable_sort(topic.messages.begin(), topic.messages.end(),
-                         [](const BagEntry& a, const BagEntry& b) { return a.time < b.time; });
-    }
+    sortByTime();
 }
 
 // A chunk is followed by its index records, one per connection, with time and offset of each message.
@@ -155,41 +147,21 @@ void BagFile::readChunkIndex(uint64_t chunkAt, std::map<uint32_t, size_t>& topic
     }
 }
 
-const BagTopic* BagFile::find(const std::string& name) const {
-    const auto topic =
-        std::find_if(topics_.begin(), topics_.end(), [&](const BagTopic& t) { return t.name == name; });
-    return topic == topics_.end() ? nullptr : &*topic;
-}
-
-const BagFile::Unpacked& BagFile::unpack(uint64_t chunkAt) {
-    for (Unpacked& kept : unpacked_) {
-        if (kept.chunk == chunkAt) {
-            kept.used = ++clock_;
-            return kept;
+const std::vector<uint8_t>& BagFile::unpack(uint64_t chunkAt) {
+    return unpacked_.at(chunkAt, [&] {
+        in_.clear();
+        in_.seekg(static_cast<std::streamoff>(chunkAt));
+        const Record record = readRecord();
+        const auto size = number<uint32_t>(record.fields, "size");
+        if (size > kBagBytes) {
+            throw Error("a chunk of " + std::to_string(size) + " bytes");
         }
-    }
-    in_.clear();
-    in_.seekg(static_cast<std::streamoff>(chunkAt));
-    const Record record = readRecord();
-    const auto size = number<uint32_t>(record.fields, "size");
-    if (size > kMostBytes) {
-        throw Error("a chunk of " + std::to_string(size) + " bytes");
-    }
-    Unpacked fresh{chunkAt, unpackChunk(word(record.fields, "compression"), record.data, size), ++clock_};
-    if (unpacked_.size() == kKept) {
-        auto oldest = std::min_element(unpacked_.begin(), unpacked_.end(),
-                                       [](const Unpacked& a, const Unpacked& b) { return a.used < b.used; });
-        *oldest = std::move(fresh);
-        return *oldest;
-    }
-    unpacked_.reserve(kKept);
-    unpacked_.push_back(std::move(fresh));
-    return unpacked_.back();
+        return unpackChunk(word(record.fields, "compression"), record.data, size);
+    });
 }
 
-std::span<const uint8_t> BagFile::read(const BagEntry& entry) {
-    const Unpacked& chunk = unpack(entry.chunk);
-    ByteCursor cursor(chunk.bytes);
+std::span<const uint8_t> BagFile::bytes(const MessageEntry& entry) {
+    ByteCursor cursor(unpack(entry.chunk));
     cursor.take(entry.offset);
     if (number<uint8_t>(parseFields(cursor.block()), "op") != kMessage) {
         throw Error("the index does not point to a message");

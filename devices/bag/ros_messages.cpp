@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/bag/ros_messages.h"
 
-#include "devices/bag/byte_cursor.h"
-#include "devices/v4l2/pixel_format.h"
+#include "devices/recorded/lens_model.h"
 
 #include <array>
 #include <cmath>
@@ -11,39 +10,78 @@ namespace fathom::ros {
 
 namespace {
 
+constexpr uint32_t kMostCoefficients = 64, kMostLinks = 10'000;
+
 struct Header {
     double stamp = 0.0;
     std::string frame;
 };
 
-Header header(ByteCursor& cursor) {
-    cursor.word(); // sequence number
+Header header(MessageCursor& cursor) {
+    if (!cursor.cdr()) {
+        cursor.word(); // sequence number
+    }
     const uint32_t seconds = cursor.word(), nanos = cursor.word();
     return {seconds + 1e-9 * nanos, cursor.name()};
 }
 
-struct Layout {
-    const char* encoding;
-    uint32_t bytes;            // per pixel
-    std::array<int8_t, 3> rgb; // channel offsets
-};
-constexpr std::array kPlain{Layout{"rgb8", 3, {0, 1, 2}}, Layout{"bgr8", 3, {2, 1, 0}},
-                            Layout{"rgba8", 4, {0, 1, 2}}, Layout{"bgra8", 4, {2, 1, 0}},
-                            Layout{"mono8", 1, {0, 0, 0}}};
-constexpr const char* kYuyv = "yuv422_yuy2";
-
-std::string checkBytes(const Image& image, size_t row) {
-    if (image.step < row || image.data.size() < size_t{image.step} * (image.height - 1) + row) {
-        return "an image of " + std::to_string(image.data.size()) + " bytes in rows of " +
-               std::to_string(image.step);
+template <size_t N>
+std::array<double, N> reals(MessageCursor& cursor) {
+    std::array<double, N> out{};
+    for (double& value : out) {
+        value = cursor.real();
     }
-    return image.bigEndian && image.encoding.find("16") != std::string::npos ? "big-endian pixels" : "";
+    return out;
+}
+
+Pose poseOf(MessageCursor& cursor) {
+    const auto [x, y, z] = reals<3>(cursor);
+    const auto [qx, qy, qz, qw] = reals<4>(cursor);
+    const dquat q(qw, qx, qy, qz);
+    const double length = glm::length(q);
+    if (!(length > 1e-6) || !std::isfinite(length + x + y + z)) {
+        throw Error("an invalid transform");
+    }
+    return {{x, y, z}, q / length};
+}
+
+// Region of interest and binning of the image against the calibrated size.
+struct Crop {
+    uint32_t binX = 1, binY = 1, left = 0, top = 0, width = 0, height = 0;
+};
+
+Crop cropOf(MessageCursor& cursor, uint32_t width, uint32_t height) {
+    Crop crop;
+    crop.binX = std::max(1u, cursor.word());
+    crop.binY = std::max(1u, cursor.word());
+    crop.left = cursor.word();
+    crop.top = cursor.word();
+    crop.height = cursor.word();
+    crop.width = cursor.word();
+    if (crop.width == 0 || crop.height == 0) { // all of the image
+        return {crop.binX, crop.binY, 0, 0, width, height};
+    }
+    if (crop.left > width || crop.width > width - crop.left || crop.top > height ||
+        crop.height > height - crop.top) {
+        throw Error("camera_info with a region of interest outside of its image");
+    }
+    return crop;
+}
+
+Intrinsics cropped(double fx, double fy, double cx, double cy, const Crop& crop) {
+    Intrinsics lens;
+    lens.width = crop.width / crop.binX;
+    lens.height = crop.height / crop.binY;
+    lens.fx = fx / crop.binX;
+    lens.fy = fy / crop.binY;
+    lens.cx = (cx - crop.left) / crop.binX;
+    lens.cy = (cy - crop.top) / crop.binY;
+    return lens;
 }
 
 } // namespace
 
-Image image(std::span<const uint8_t> message) {
-    ByteCursor cursor(message);
+Image image(MessageCursor cursor) {
     const Header head = header(cursor);
     Image out;
     out.stamp = head.stamp;
@@ -57,112 +95,92 @@ Image image(std::span<const uint8_t> message) {
     return out;
 }
 
-Intrinsics cameraInfo(std::span<const uint8_t> message) {
-    ByteCursor cursor(message);
-    header(cursor);
-    Intrinsics lens;
-    lens.height = cursor.word();
-    lens.width = cursor.word();
-    const std::string model = cursor.name();
-    const uint32_t count = cursor.word();
-    bool straight = true;
-    for (uint32_t i = 0; i < count; ++i) {
-        const double k = cursor.real();
-        straight = straight && k == 0.0;
-        if (i < lens.distortion.size()) {
-            lens.distortion[i] = k;
-        }
-    }
-    // RealSense writes "Brown Conrady" for its rectified depth and zeros with every other name.
-    if (!straight && (count > 5 || (model != "plumb_bob" && model != "Brown Conrady"))) {
-        throw Error("distortion model '" + model + "' is not known");
-    }
-    std::array<double, 9> k{};
-    for (double& value : k) {
-        value = cursor.real();
-    }
-    lens.fx = k[0];
-    lens.cx = k[2];
-    lens.fy = k[4];
-    lens.cy = k[5];
-    if (!(lens.fx > 0.0) || !(lens.fy > 0.0) || !std::isfinite(lens.fx + lens.fy + lens.cx + lens.cy)) {
-        throw Error("camera_info without a focal length: the camera was not calibrated");
-    }
-    return lens;
+Image compressedImage(MessageCursor cursor) {
+    const Header head = header(cursor);
+    Image out;
+    out.compressed = true;
+    out.stamp = head.stamp;
+    out.frame = head.frame;
+    out.format = cursor.name();
+    out.encoding = out.format.substr(0, out.format.find(';'));
+    out.data = cursor.block();
+    return out;
 }
 
-Pose transform(std::span<const uint8_t> message) {
-    ByteCursor cursor(message);
-    const double x = cursor.real(), y = cursor.real(), z = cursor.real();
-    const double qx = cursor.real(), qy = cursor.real(), qz = cursor.real(), qw = cursor.real();
-    const dquat q(qw, qx, qy, qz);
+double stamp(MessageCursor cursor) {
+    return header(cursor).stamp;
+}
+
+CameraInfo cameraInfo(MessageCursor cursor) {
+    CameraInfo info;
+    info.frame = header(cursor).frame;
+    const uint32_t height = cursor.word(), width = cursor.word();
+    const std::string model = cursor.name();
+    const uint32_t count = cursor.word();
+    if (count > kMostCoefficients) {
+        throw Error("camera_info with " + std::to_string(count) + " distortion coefficients");
+    }
+    std::vector<double> distortion(count);
+    for (double& value : distortion) {
+        value = cursor.real();
+    }
+    const auto k = reals<9>(cursor), r = reals<9>(cursor);
+    const auto p = reals<12>(cursor);
+    const Crop crop = cropOf(cursor, width, height);
+    if (!(k[0] > 0.0) || !(k[4] > 0.0) || !std::isfinite(k[0] + k[2] + k[4] + k[5])) {
+        throw Error("camera_info without a focal length: the camera was not calibrated");
+    }
+    info.raw = cropped(k[0], k[4], k[2], k[5], crop);
+    const bool projects = p[0] > 0.0 && p[5] > 0.0 && std::isfinite(p[0] + p[2] + p[5] + p[6]);
+    info.rectified = projects ? cropped(p[0], p[5], p[2], p[6], crop) : info.raw;
+    const double diagonal = r[0] + r[4] + r[8];
+    info.turned = diagonal != 0.0 && !(std::abs(diagonal - 3.0) < 1e-9);
+    const std::string allowed = setDistortion(info.raw, model, distortion);
+    if (!allowed.empty()) {
+        throw Error("distortion model '" + model + "' with " + std::to_string(distortion.size()) +
+                    " coefficients is not read: " + allowed);
+    }
+    return info;
+}
+
+Pose transform(MessageCursor cursor) {
+    return poseOf(cursor);
+}
+
+Pose extrinsics(MessageCursor cursor) {
+    constexpr size_t kBare = 12 * sizeof(double); // some versions have no header
+    if (cursor.left() != kBare) {
+        header(cursor);
+    }
+    const auto r = reals<9>(cursor); // column by column
+    const auto [x, y, z] = reals<3>(cursor);
+    const glm::dmat3 rotation(r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8]);
+    const dquat q = glm::quat_cast(rotation);
     const double length = glm::length(q);
-    if (!(length > 1e-6) || !std::isfinite(length + x + y + z)) {
+    if (!(std::abs(length - 1.0) < 0.1) || !std::isfinite(x + y + z)) {
         throw Error("an invalid transform");
     }
     return {{x, y, z}, q / length};
 }
 
-float float32(std::span<const uint8_t> message) {
-    return ByteCursor(message).value<float>();
+float float32(MessageCursor cursor) {
+    return cursor.value<float>();
 }
 
-bool isDepth(const std::string& encoding) {
-    return encoding == "16UC1" || encoding == "mono16" || encoding == "32FC1";
-}
-
-bool isColour(const std::string& encoding) {
-    for (const Layout& layout : kPlain) {
-        if (encoding == layout.encoding) {
-            return true;
-        }
+std::vector<FrameLink> frameLinks(MessageCursor cursor) {
+    const uint32_t count = cursor.word();
+    if (count > kMostLinks) {
+        throw Error(std::to_string(count) + " transforms in one message");
     }
-    return encoding == kYuyv;
-}
-
-std::string depthRows(const Image& image, std::span<uint16_t> out) {
-    const bool metres = image.encoding == "32FC1";
-    const std::string fault = checkBytes(image, size_t{image.width} * (metres ? 4 : 2));
-    if (!fault.empty()) {
-        return fault;
+    std::vector<FrameLink> links;
+    for (uint32_t i = 0; i < count; ++i) {
+        FrameLink link;
+        link.parent = header(cursor).frame;
+        link.child = cursor.name();
+        link.parentTchild = poseOf(cursor);
+        links.push_back(std::move(link));
     }
-    for (uint32_t y = 0; y < image.height; ++y) {
-        const uint8_t* in = image.data.data() + size_t{y} * image.step;
-        uint16_t* to = out.data() + size_t{y} * image.width;
-        if (!metres) {
-            std::memcpy(to, in, size_t{2} * image.width);
-            continue;
-        }
-        for (uint32_t x = 0; x < image.width; ++x) {
-            float z = 0.0f;
-            std::memcpy(&z, in + 4 * x, 4);
-            to[x] = z > 0.0f && z < 65.535f ? static_cast<uint16_t>(std::lround(1e3f * z)) : uint16_t{0};
-        }
-    }
-    return "";
-}
-
-std::string colourRows(const Image& image, std::span<uint32_t> out) {
-    if (image.encoding == kYuyv) {
-        return unpackColour(fourccOf("YUYV"), {image.width, image.height}, image.step,
-                            std::as_bytes(image.data), out);
-    }
-    for (const Layout& layout : kPlain) {
-        if (image.encoding != layout.encoding) {
-            continue;
-        }
-        const std::string fault = checkBytes(image, size_t{image.width} * layout.bytes);
-        for (uint32_t y = 0; fault.empty() && y < image.height; ++y) {
-            const uint8_t* in = image.data.data() + size_t{y} * image.step;
-            for (uint32_t x = 0; x < image.width; ++x, in += layout.bytes) {
-                out[size_t{y} * image.width + x] = uint32_t{in[layout.rgb[0]]} |
-                                                   uint32_t{in[layout.rgb[1]]} << 8 |
-                                                   uint32_t{in[layout.rgb[2]]} << 16 | 0xff000000u;
-            }
-        }
-        return fault;
-    }
-    return "encoding " + image.encoding;
+    return links;
 }
 
 } // namespace fathom::ros

@@ -1,38 +1,48 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parsers for the ROS 1 messages of a depth camera's bag. Source: the .msg definitions of
-// sensor_msgs, geometry_msgs and std_msgs.
+// Parsers for the messages of a depth camera, as ROS 1 and ROS 2 serialise them. Source: the .msg definitions
+// of sensor_msgs, geometry_msgs, tf2_msgs, std_msgs and realsense2_camera_msgs.
 #pragma once
 
+#include "devices/bag/message_cursor.h"
 #include "engine/types/camera_info.h"
 
-#include <cstdint>
-#include <optional>
-#include <span>
-#include <string>
+#include <vector>
 
 namespace fathom::ros {
 
 // All throw Error when the message is truncated or invalid.
 
-// sensor_msgs/Image; a view into the message.
+// sensor_msgs/Image or CompressedImage; a view into the message.
 struct Image {
     double stamp = 0.0; // [s]
     std::string frame, encoding;
-    uint32_t width = 0, height = 0, step = 0; // [pixels], [bytes] per row
-    bool bigEndian = false;
+    uint32_t width = 0, height = 0, step = 0; // [pixels], [bytes] per row; 0: compressed
+    bool bigEndian = false, compressed = false;
+    std::string format;            // of a compressed image, e.g. "16UC1; compressedDepth png"
     std::span<const uint8_t> data; // of the message's bytes
 };
-Image image(std::span<const uint8_t> message); // sensor_msgs/Image
+Image image(MessageCursor message);
+Image compressedImage(MessageCursor message);
+double stamp(MessageCursor message); // [s] of any message that begins with a header
 
-Intrinsics cameraInfo(std::span<const uint8_t> message); // sensor_msgs/CameraInfo; plumb_bob or no distortion
-Pose transform(std::span<const uint8_t> message);        // geometry_msgs/Transform
-float float32(std::span<const uint8_t> message);         // std_msgs/Float32
+// sensor_msgs/CameraInfo.
+struct CameraInfo {
+    std::string frame;
+    Intrinsics raw;       // K and D, in pixels of the images: binning and region of interest are applied
+    Intrinsics rectified; // P, without distortion; K where P is empty
+    bool turned = false;  // rectification turns the camera (R)
+};
+CameraInfo cameraInfo(MessageCursor message);
 
-bool isDepth(const std::string& encoding);  // 16UC1, mono16 (as RealSense writes), 32FC1
-bool isColour(const std::string& encoding); // rgb8, bgr8, rgba8, bgra8, yuv422_yuy2, mono8
+Pose transform(MessageCursor message);  // geometry_msgs/Transform
+Pose extrinsics(MessageCursor message); // realsense2_camera_msgs/Extrinsics
+float float32(MessageCursor message);   // std_msgs/Float32
 
-// Both return the fault, or empty when everything was converted. Metres (32FC1) become units of 1 mm.
-std::string depthRows(const Image& image, std::span<uint16_t> out);
-std::string colourRows(const Image& image, std::span<uint32_t> out);
+// One transform of a tf2_msgs/TFMessage.
+struct FrameLink {
+    std::string parent, child;
+    Pose parentTchild;
+};
+std::vector<FrameLink> frameLinks(MessageCursor message);
 
 } // namespace fathom::ros

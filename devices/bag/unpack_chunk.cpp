@@ -6,12 +6,13 @@
 #include <bzlib.h>
 #include <lz4frame.h>
 #include <memory>
+#include <zstd.h>
 
 namespace fathom {
 
 namespace {
 
-constexpr uint64_t kMostLz4 = 255, kMostBz2 = 65536; // largest compression ratios of the formats
+constexpr uint64_t kMostLz4 = 255, kMostOther = 65536; // largest compression ratios of the formats
 
 struct FreeContext {
     void operator()(LZ4F_dctx* context) const noexcept { LZ4F_freeDecompressionContext(context); }
@@ -51,6 +52,14 @@ size_t unpackBz2(std::span<const uint8_t> packed, std::vector<uint8_t>& out) {
     return size;
 }
 
+size_t unpackZstd(std::span<const uint8_t> packed, std::vector<uint8_t>& out) {
+    const size_t got = ZSTD_decompress(out.data(), out.size(), packed.data(), packed.size());
+    if (ZSTD_isError(got) != 0) {
+        throw Error(std::string("zstd: ") + ZSTD_getErrorName(got));
+    }
+    return got;
+}
+
 } // namespace
 
 std::vector<uint8_t> unpackChunk(const std::string& compression, std::span<const uint8_t> packed,
@@ -58,7 +67,7 @@ std::vector<uint8_t> unpackChunk(const std::string& compression, std::span<const
     if (compression == "none") {
         return {packed.begin(), packed.end()};
     }
-    const uint64_t most = (packed.size() + 64) * (compression == "lz4" ? kMostLz4 : kMostBz2);
+    const uint64_t most = (packed.size() + 64) * (compression == "lz4" ? kMostLz4 : kMostOther);
     if (size > most) { // check before allocating
         throw Error("a chunk of " + std::to_string(packed.size()) + " bytes cannot hold the " +
                     std::to_string(size) + " that it declares");
@@ -69,6 +78,8 @@ std::vector<uint8_t> unpackChunk(const std::string& compression, std::span<const
         got = unpackLz4(packed, out);
     } else if (compression == "bz2") {
         got = unpackBz2(packed, out);
+    } else if (compression == "zstd") {
+        got = unpackZstd(packed, out);
     } else {
         throw Error("compression '" + compression + "' is not known");
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decompression of bag chunks.
+// Decompression of the chunks of bags and MCAP files.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace fathom {
 
-// compression: none, bz2 or lz4 (LZ4 frames, as roslz4 writes). size: of the unpacked chunk [bytes]. Throws
-// Error when the result has another size.
+// compression: none, bz2, lz4 (LZ4 frames, as roslz4 and MCAP write) or zstd. size: of the unpacked chunk
+// [bytes]. Throws Error when the result has another size.
 std::vector<uint8_t> unpackChunk(const std::string& compression, std::span<const uint8_t> packed,
                                  uint32_t size);
 

@@ -2,6 +2,7 @@
 #include "devices/pcd/pcd_camera.h"
 
 #include "engine/types/error.h"
+#include "engine/types/log.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +12,7 @@ namespace fathom {
 
 namespace {
 
-constexpr double kFinestUnit = 1e-4;  // [m]
+constexpr double kFinestStep = 1e-4;  // [m]
 constexpr double kMostResidual = 1.0; // [pixels]
 
 // A straight line p = a s + b through many points.
@@ -111,7 +112,7 @@ FittedLens fitLens(const PcdCloud& cloud) {
     return *best;
 }
 
-PcdCamera::PcdCamera(const std::filesystem::path& file)
+PcdCamera::PcdCamera(const std::filesystem::path& file, const SourceOptions& options)
     : file_(file)
     , cloud_(readPcd(file)) {
     FittedLens fit;
@@ -127,18 +128,31 @@ PcdCamera::PcdCamera(const std::filesystem::path& file)
                        "a cloud from a depth camera or a scan with equal angles: x right and y down, y up "
                        "and z backward, or x forward and z up");
     }
-    double farthest = 0.0;
-    for (dvec3& p : cloud_.points) {
-        p = fit.opticalTcloud * p;
-        farthest = measured(p) ? std::max(farthest, p.z) : farthest;
-    }
+    scalePoints(fit, options.scale.value_or(1.0));
     if (cloud_.colour.empty()) {
         cloud_.colour = greyOf(cloud_.intensity);
     }
     info_.depth = info_.colour = fit.lens;
     info_.hasColour = !cloud_.colour.empty();
-    info_.metresPerUnit = kFinestUnit * std::ceil(std::max(1.0, farthest / (65000.0 * kFinestUnit)));
     slots_.emplace(info_.depth.pixels(), info_.hasColour, 1);
+}
+
+// To the optical frame and metres; sets the depth unit.
+void PcdCamera::scalePoints(const FittedLens& fit, double scale) {
+    constexpr double kDoubtful = 50.0; // [m]
+    double farthest = 0.0, nearest = HUGE_VAL;
+    for (dvec3& p : cloud_.points) {
+        p = fit.opticalTcloud * p * scale;
+        farthest = measured(p) ? std::max(farthest, p.z) : farthest;
+        nearest = measured(p) ? std::min(nearest, p.z) : nearest;
+    }
+    if (nearest > kDoubtful) {
+        log::warn(
+            "{}: the nearest point is at {:.4g} m; if the cloud is in millimetres, put ,scale=0.001 behind "
+            "its name",
+            file_.string(), nearest);
+    }
+    info_.metresPerUnit = kFinestStep * std::ceil(std::max(1.0, farthest / (65000.0 * kFinestStep)));
 }
 
 std::optional<Frame> PcdCamera::next() {

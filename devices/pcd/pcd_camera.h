@@ -5,6 +5,7 @@
 #include "devices/camera.h"
 #include "devices/frame_slots.h"
 #include "devices/pcd/pcd_file.h"
+#include "devices/recorded/source_options.h"
 
 #include <glm/mat3x3.hpp>
 #include <optional>
@@ -29,8 +30,9 @@ FittedLens fitLens(const PcdCloud& cloud);
 // scale is the smallest of 1, 255 and 65535 that contains the maximum.
 class PcdCamera final : public Camera {
 public:
-    // Throws BadInput, also when neither a pinhole nor a fan fits within one pixel.
-    explicit PcdCamera(const std::filesystem::path& file);
+    // options.scale: metres per unit of the points, else 1. Throws BadInput, also when neither a pinhole nor
+    // a fan fits within one pixel.
+    explicit PcdCamera(const std::filesystem::path& file, const SourceOptions& options = {});
 
     const CameraInfo& info() const override { return info_; }
     std::optional<Frame> next() override;
@@ -38,6 +40,8 @@ public:
     std::string description() const override { return "cloud " + file_.string(); }
 
 private:
+    void scalePoints(const FittedLens& fit, double scale);
+
     std::filesystem::path file_;
     CameraInfo info_;
     std::optional<FrameSlots> slots_;

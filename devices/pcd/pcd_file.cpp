@@ -5,6 +5,7 @@
 #include "engine/types/read_file.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstring>
@@ -220,40 +221,45 @@ double realAt(const uint8_t* point, const Field& field) {
     return value;
 }
 
-} // namespace
-
-bool unpackLzf(std::span<const uint8_t> in, std::span<uint8_t> out) {
-    size_t from = 0, to = 0;
-    while (from < in.size()) {
-        const uint32_t control = in[from++];
-        if (control < 32) { // control + 1 literal bytes
-            const size_t count = control + 1;
-            if (from + count > in.size() || to + count > out.size()) {
-                return false;
-            }
-            std::memcpy(out.data() + to, in.data() + from, count);
-            from += count;
-            to += count;
-            continue;
-        }
-        size_t count = control >> 5, back = (control & 31) << 8;
-        if (count == 7) {
-            count += from < in.size() ? in[from++] : 0;
-        }
-        if (from >= in.size()) {
-            return false;
-        }
-        back += in[from++] + 1u;
-        count += 2;
-        if (back > to || to + count > out.size()) {
-            return false;
-        }
-        for (size_t i = 0; i < count; ++i, ++to) { // source and target may overlap
-            out[to] = out[to - back];
+// Fields r, g, b of one colour each: 8-bit integers, or floats of 0 to 1 or 0 to 255.
+std::vector<uint32_t> separateColours(const Header& header, const std::vector<uint8_t>& bytes) {
+    std::array<const Field*, 3> fields{};
+    const char* const kNames[2][3] = {{"r", "g", "b"}, {"red", "green", "blue"}};
+    for (const auto& names : kNames) {
+        for (size_t i = 0; i < 3; ++i) {
+            fields[i] = fields[i] != nullptr ? fields[i] : find(header, names[i]);
         }
     }
-    return to == out.size();
+    std::vector<uint32_t> colours;
+    for (const Field* field : fields) {
+        if (field == nullptr || (field->type == 'F' ? field->size < 4 : field->size != 1)) {
+            return colours;
+        }
+    }
+    const size_t points = size_t{header.width} * header.height;
+    const auto level = [&](size_t point, const Field& field) {
+        const uint8_t* at = bytes.data() + point * header.bytes;
+        return field.type == 'F' ? realAt(at, field) : static_cast<double>(at[field.offset]);
+    };
+    double most = 0.0;
+    for (size_t i = 0; i < points; ++i) {
+        for (const Field* field : fields) {
+            most = field->type == 'F' ? std::max(most, level(i, *field)) : 255.0;
+        }
+    }
+    const double scale = most <= 1.0 ? 255.0 : 1.0;
+    for (size_t i = 0; i < points; ++i) {
+        uint32_t colour = 0xff000000u;
+        for (size_t c = 0; c < 3; ++c) {
+            const double value = scale * level(i, *fields[c]);
+            colour |= static_cast<uint32_t>(value > 0.0 ? std::min(255.0, value + 0.5) : 0.0) << 8 * c;
+        }
+        colours.push_back(colour);
+    }
+    return colours;
 }
+
+} // namespace
 
 PcdCloud readPcd(const std::filesystem::path& file) {
     const std::string text = readWholeFile(file, kMostBytes, "an organised PCD file");
@@ -279,6 +285,9 @@ PcdCloud readPcd(const std::filesystem::path& file) {
         if (intensity != nullptr && intensity->type == 'F') {
             cloud.intensity.push_back(static_cast<float>(realAt(point, *intensity)));
         }
+    }
+    if (cloud.colour.empty()) {
+        cloud.colour = separateColours(header, bytes);
     }
     return cloud;
 }

@@ -16,7 +16,7 @@ namespace fathom {
 struct PcdCloud {
     uint32_t width = 0, height = 0;
     std::vector<dvec3> points;    // [m] row-major; not finite where nothing was measured
-    std::vector<uint32_t> colour; // 0xAABBGGRR; empty without a field rgb or rgba
+    std::vector<uint32_t> colour; // 0xAABBGGRR; empty without fields rgb, rgba, or r, g, b
     std::vector<float> intensity; // empty without a field intensity
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/recorded/intrinsics_output.h"
 
+#include "devices/recorded/lens_model.h"
+#include "engine/types/error.h"
 #include "engine/types/output_file.h"
 
 #include <nlohmann/json.hpp>
@@ -19,8 +21,8 @@ Json lensJson(const Intrinsics& lens) {
             {"fy", lens.fy},
             {"cx", lens.cx},
             {"cy", lens.cy},
-            {"distortion_model", "plumb_bob"},
-            {"distortion", lens.distortion}};
+            {"distortion_model", distortionModel(lens)},
+            {"distortion", distortionCoefficients(lens)}};
 }
 
 Json poseJson(const Pose& pose) {

@@ -3,6 +3,7 @@
 
 #include "engine/types/read_file.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <csetjmp>
@@ -39,17 +40,12 @@ class PngReader {
 public:
     explicit PngReader(const std::filesystem::path& file)
         : file_(isRegularFile(file) ? std::fopen(file.c_str(), "rb") : nullptr) {
-        if (!file_) {
-            say(whyUnreadable(file).c_str());
-            return;
-        }
-        png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, &message_, onError, onWarning);
-        info_ = png_ != nullptr ? png_create_info_struct(png_) : nullptr;
-        if (info_ == nullptr) {
-            say("libpng: out of memory");
-            return;
-        }
-        readHead();
+        open(whyUnreadable(file));
+    }
+    explicit PngReader(std::span<const uint8_t> bytes)
+        : file_(bytes.empty() ? nullptr
+                              : ::fmemopen(const_cast<uint8_t*>(bytes.data()), bytes.size(), "rb")) {
+        open("no bytes");
     }
     ~PngReader() { png_destroy_read_struct(&png_, &info_, nullptr); }
     PngReader(const PngReader&) = delete;
@@ -79,6 +75,20 @@ public:
     }
 
 private:
+    void open(const std::string& whyNot) {
+        if (!file_) {
+            say(whyNot.c_str());
+            return;
+        }
+        png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, &message_, onError, onWarning);
+        info_ = png_ != nullptr ? png_create_info_struct(png_) : nullptr;
+        if (info_ == nullptr) {
+            say("libpng: out of memory");
+            return;
+        }
+        readHead();
+    }
+
     void say(const char* text) { std::snprintf(message_.data(), message_.size(), "%s", text); }
 
     void readHead() {
@@ -131,15 +141,7 @@ std::string checkHead(const PngReader& png, PngSize size, int bits) {
     return png.bits() > bits ? std::to_string(png.bits()) + " bits a channel, not 8" : "";
 }
 
-} // namespace
-
-std::optional<PngSize> readPngSize(const std::filesystem::path& file) {
-    const PngReader png(file);
-    return png.fault().empty() ? std::optional(png.size()) : std::nullopt;
-}
-
-std::string readDepthPng(const std::filesystem::path& file, PngSize size, std::span<uint16_t> target) {
-    PngReader png(file);
+std::string readDepth(PngReader& png, PngSize size, std::span<uint16_t> target) {
     if (std::string fault = checkHead(png, size, 16); !fault.empty()) {
         return fault;
     }
@@ -151,13 +153,52 @@ std::string readDepthPng(const std::filesystem::path& file, PngSize size, std::s
     return png.readDepth(rows.data()) ? "" : png.fault();
 }
 
-std::string readColourPng(const std::filesystem::path& file, PngSize size, std::span<uint32_t> target) {
-    PngReader png(file);
+std::string readColour(PngReader& png, PngSize size, std::span<uint32_t> target) {
     if (std::string fault = checkHead(png, size, 8); !fault.empty()) {
         return fault;
     }
     std::vector<png_bytep> rows = rowPointers(size, target);
     return png.readColour(rows.data()) ? "" : png.fault();
+}
+
+} // namespace
+
+std::optional<PngSize> readPngSize(const std::filesystem::path& file) {
+    const PngReader png(file);
+    return png.fault().empty() ? std::optional(png.size()) : std::nullopt;
+}
+
+std::optional<PngHead> pngHead(std::span<const uint8_t> bytes) {
+    constexpr size_t kHead = 26; // signature, length and name of IHDR, width, height, bits, colour type
+    constexpr std::array<uint8_t, 8> kSignature{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+    if (bytes.size() < kHead || !std::equal(kSignature.begin(), kSignature.end(), bytes.begin())) {
+        return std::nullopt;
+    }
+    const auto word = [&](size_t at) {
+        return uint32_t{bytes[at]} << 24 | uint32_t{bytes[at + 1]} << 16 | uint32_t{bytes[at + 2]} << 8 |
+               bytes[at + 3];
+    };
+    return PngHead{{word(16), word(20)}, bytes[24], bytes[25] == PNG_COLOR_TYPE_GRAY};
+}
+
+std::string readDepthPng(const std::filesystem::path& file, PngSize size, std::span<uint16_t> target) {
+    PngReader png(file);
+    return readDepth(png, size, target);
+}
+
+std::string readDepthPng(std::span<const uint8_t> bytes, PngSize size, std::span<uint16_t> target) {
+    PngReader png(bytes);
+    return readDepth(png, size, target);
+}
+
+std::string readColourPng(const std::filesystem::path& file, PngSize size, std::span<uint32_t> target) {
+    PngReader png(file);
+    return readColour(png, size, target);
+}
+
+std::string readColourPng(std::span<const uint8_t> bytes, PngSize size, std::span<uint32_t> target) {
+    PngReader png(bytes);
+    return readColour(png, size, target);
 }
 
 } // namespace fathom

@@ -23,8 +23,18 @@ std::optional<PngSize> readPngSize(const std::filesystem::path& file);
 // target has size.width x size.height elements; another size or pixel type is rejected before decoding.
 std::string readDepthPng(const std::filesystem::path& file, PngSize size,
                          std::span<uint16_t> target); // 16-bit grey
+std::string readDepthPng(std::span<const uint8_t> bytes, PngSize size, std::span<uint16_t> target);
 // 8-bit RGB, RGBA, grey (with or without alpha) or palette -> R8 G8 B8 A8 (0xAABBGGRR); alpha 255 when the
 // file has none.
 std::string readColourPng(const std::filesystem::path& file, PngSize size, std::span<uint32_t> target);
+std::string readColourPng(std::span<const uint8_t> bytes, PngSize size, std::span<uint32_t> target);
+
+// What the first bytes of a PNG state; empty when they are not those of a PNG.
+struct PngHead {
+    PngSize size;
+    int bits = 0; // per channel
+    bool grey = false;
+};
+std::optional<PngHead> pngHead(std::span<const uint8_t> bytes);
 
 } // namespace fathom

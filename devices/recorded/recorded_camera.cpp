@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/recorded/recorded_camera.h"
 
+#include "devices/recorded/colour_image.h"
 #include "devices/recorded/png_image.h"
 #include "engine/types/error.h"
 #include "engine/types/inside.h"
@@ -30,36 +31,79 @@ const fs::path& existingFolder(const fs::path& folder) {
     return folder;
 }
 
-std::optional<PoseTrack> readPoses(const fs::path& folder) {
-    const fs::path file = folder / "poses.txt";
-    return fs::exists(file) ? std::optional<PoseTrack>(file) : std::nullopt;
-}
-
 PngSize sizeOf(const Intrinsics& lens) {
     return {lens.width, lens.height};
 }
 
-std::string words(PngSize size) {
+std::string sizeWords(PngSize size) {
     return std::to_string(size.width) + "x" + std::to_string(size.height);
 }
 
 } // namespace
 
-RecordedCamera::RecordedCamera(const fs::path& folder)
+RecordedCamera::RecordedCamera(const fs::path& folder, const SourceOptions& options)
     : folder_(existingFolder(folder))
-    , intrinsics_(readIntrinsics(folder / "intrinsics.json"))
-    , index_(readIndex(folder, intrinsics_))
-    , poses_(readPoses(folder))
-    , slots_(std::max(intrinsics_.camera.depth.pixels(), intrinsics_.camera.colour.pixels()),
-             intrinsics_.camera.hasColour, kFramesInFlight + 2) {
+    , layout_(readLayout(folder, options))
+    , slots_(std::max(layout_.intrinsics.camera.depth.pixels(), layout_.intrinsics.camera.colour.pixels()),
+             layout_.intrinsics.camera.hasColour, kFramesInFlight + 2) {
+    checkStamps();
+    useOptions(options);
     if (info().hasColour) {
         checkColourSize();
     }
     const Intrinsics& lens = info().depth;
-    for (uint32_t i = 0; intrinsics_.rangeImages && i < lens.pixels(); ++i) {
+    for (uint32_t i = 0; layout_.intrinsics.rangeImages && i < lens.pixels(); ++i) {
         const uint32_t column = i % lens.width, row = i / lens.width;
         const dvec3 ray(lens.ray(column, row), 1.0);
         axisShare_.push_back(static_cast<float>(1.0 / glm::length(ray)));
+    }
+}
+
+// Stamps that go back now and then are faults of single frames. Where most do, they are no times: all frames
+// are played in the order of the index.
+void RecordedCamera::checkStamps() {
+    double latest = -HUGE_VAL;
+    size_t back = 0;
+    for (const IndexLine& line : layout_.index) {
+        back += line.fault.empty() && line.depthStamp < latest ? 1 : 0;
+        latest = line.fault.empty() ? std::max(latest, line.depthStamp) : latest;
+    }
+    if (2 * back < layout_.index.size()) {
+        return;
+    }
+    const std::string told =
+        std::to_string(back) + " of " + std::to_string(layout_.index.size()) + " depth stamps go back";
+    if (layout_.poses) {
+        throw BadInput(folder_.string(), "index", told,
+                       "stamps that rise, because poses.txt is read by them");
+    }
+    log::warn("{}: {}: stamps are ignored, frames are played in the order of the index at 30 per second",
+              folder_.string(), told);
+    for (size_t i = 0; i < layout_.index.size(); ++i) {
+        layout_.index[i].depthStamp = static_cast<double>(i) / 30.0;
+    }
+}
+
+void RecordedCamera::useOptions(const SourceOptions& options) {
+    CameraInfo& camera = layout_.intrinsics.camera;
+    options.checkUnit(folder_.string());
+    camera.metresPerUnit = options.scale.value_or(camera.metresPerUnit);
+    camera.hasColour = camera.hasColour && options.colour != "none";
+    if (!options.extrinsics.empty()) {
+        camera.registered = false;
+        camera.colourTdepth = readExtrinsics(options.extrinsics);
+    }
+    if (options.start == 0.0 && std::isinf(options.duration)) {
+        return;
+    }
+    std::vector<IndexLine>& index = layout_.index;
+    const double first = index.front().depthStamp + options.start;
+    std::erase_if(index, [&](const IndexLine& line) {
+        return line.depthStamp < first || line.depthStamp >= first + options.duration;
+    });
+    if (index.empty()) {
+        throw BadInput(folder_.string(), "start", std::to_string(options.start),
+                       "a time before the last frame");
     }
 }
 
@@ -69,13 +113,19 @@ void RecordedCamera::toDepth(std::span<uint16_t> ranges) const {
     }
 }
 
+void RecordedCamera::dropInvalid(std::span<uint16_t> depth) const {
+    if (layout_.invalid != 0) {
+        std::replace(depth.begin(), depth.end(), layout_.invalid, uint16_t{0});
+    }
+}
+
 // A single image of another size is a bad frame; a colour stream that never has the stated size is a
 // recording without registration.
 void RecordedCamera::checkColourSize() const {
     const PngSize wanted = sizeOf(info().colour);
     std::optional<PngSize> other;
-    for (const IndexLine& line : index_) {
-        const auto depth = readPngSize(line.depth), colour = readPngSize(line.colour);
+    for (const IndexLine& line : layout_.index) {
+        const auto depth = readPngSize(line.depth), colour = colourImageSize(line.colour);
         if (colour == wanted) {
             return;
         }
@@ -85,7 +135,7 @@ void RecordedCamera::checkColourSize() const {
     }
     if (other) {
         throw BadInput((folder_ / "intrinsics.json").string(), "color.width, color.height",
-                       "colour images of " + words(*other) + " where " + words(wanted) + " is told",
+                       "colour images of " + sizeWords(*other) + " where " + sizeWords(wanted) + " is told",
                        "colour of the depth's size, or blocks depth and color with extrinsics_topic_tf");
     }
 }
@@ -111,11 +161,12 @@ std::string RecordedCamera::read(const IndexLine& line, FrameSlot& slot) const {
     if (!fault.empty()) {
         return line.depth.string() + ": " + fault;
     }
+    dropInvalid(slot.depth());
     toDepth(slot.depth());
     if (!camera.hasColour) {
         return "";
     }
-    fault = readColourPng(line.colour, sizeOf(camera.colour), slot.colour().first(camera.colour.pixels()));
+    fault = readColourImage(line.colour, sizeOf(camera.colour), slot.colour().first(camera.colour.pixels()));
     return fault.empty() ? "" : line.colour.string() + ": " + fault;
 }
 
@@ -123,11 +174,13 @@ Frame RecordedCamera::lease(uint32_t index, FrameSlot& slot) const {
     Frame::Content content;
     content.index = index;
     content.sourceNumber = index;
-    content.captureTime = index_[index].depthStamp;
+    content.captureTime = layout_.index[index].depthStamp;
     content.depth = slot.depth().first(info().depth.pixels());
     content.colour = slot.colour().first(info().hasColour ? info().colour.pixels() : 0);
-    if (poses_) {
-        content.baseTcamera = poses_->at(content.captureTime);
+    if (layout_.poses) {
+        content.baseTcamera = layout_.poses->at(content.captureTime);
+    } else if (layout_.index[index].baseTcamera) {
+        content.baseTcamera = layout_.index[index].baseTcamera;
     }
     return slot.lend(content);
 }
@@ -165,7 +218,7 @@ std::vector<std::string> RecordedCamera::warnings() const {
 }
 
 bool RecordedCamera::seek(uint32_t index) {
-    if (index >= index_.size()) {
+    if (index >= layout_.index.size()) {
         return false;
     }
     cursor_ = index;
@@ -195,19 +248,19 @@ bool RecordedCamera::leadsOut(const fs::path& image) {
 }
 
 std::optional<Frame> RecordedCamera::next() {
-    if (cursor_ == index_.size()) {
+    if (cursor_ == layout_.index.size()) {
         return std::nullopt;
     }
     FrameSlot* slot = slots_.acquire();
     if (slot == nullptr) {
         throw Error(description() + ": all frame buffers are leased");
     }
-    while (cursor_ < index_.size()) {
+    while (cursor_ < layout_.index.size()) {
         const uint32_t index = cursor_++;
-        tellOfLinks(index_[index]);
-        const std::string fault = read(index_[index], *slot);
+        tellOfLinks(layout_.index[index]);
+        const std::string fault = read(layout_.index[index], *slot);
         if (fault.empty()) {
-            lastStamp_ = index_[index].depthStamp;
+            lastStamp_ = layout_.index[index].depthStamp;
             any_ = true;
             nameSkipped();
             return lease(index, *slot);
@@ -219,7 +272,8 @@ std::optional<Frame> RecordedCamera::next() {
         nameSkipped();
     } else {
         throw BadInput(folder_.string(), "frames",
-                       "none of " + std::to_string(index_.size()) + " is usable; first: " + firstFault_,
+                       "none of " + std::to_string(layout_.index.size()) +
+                           " is usable; first: " + firstFault_,
                        "at least one usable pair of images");
     }
     return std::nullopt;

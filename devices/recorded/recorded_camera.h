@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Camera that plays a TUM RGB-D folder once, pair by pair, on request.
+// Camera that plays a recording folder once, pair by pair, on request: TUM RGB-D, Open3D, BOP or 7-Scenes.
 #pragma once
 
 #include "devices/camera.h"
 #include "devices/frame_slots.h"
-#include "devices/recorded/pose_track.h"
-#include "devices/recorded/recording_index.h"
+#include "devices/recorded/recording_layout.h"
+#include "devices/recorded/source_options.h"
 
 #include <filesystem>
 #include <optional>
@@ -23,21 +23,24 @@ class RecordedCamera final : public Camera {
 public:
     // Throws BadInput when the folder, its index, intrinsics.json or poses.txt is unusable, or when all
     // colour images have a size that intrinsics.json does not state.
-    explicit RecordedCamera(const std::filesystem::path& folder);
+    explicit RecordedCamera(const std::filesystem::path& folder, const SourceOptions& options = {});
 
-    const CameraInfo& info() const override { return intrinsics_.camera; }
+    const CameraInfo& info() const override { return layout_.intrinsics.camera; }
     // Throws BadInput at the end of a recording without a usable frame, Error when too many leases are
     // alive.
     std::optional<Frame> next() override;
     uint32_t skipped() const override { return skipped_; }
     std::vector<std::string> warnings() const override;
-    uint32_t images() const override { return static_cast<uint32_t>(index_.size()); }
+    uint32_t images() const override { return static_cast<uint32_t>(layout_.index.size()); }
     bool seek(uint32_t index) override;
     std::string description() const override { return "recorded " + folder_.string(); }
 
 private:
     void checkColourSize() const;
+    void useOptions(const SourceOptions& options);
+    void checkStamps();
     std::string read(const IndexLine& line, FrameSlot& slot) const; // the fault; empty = read
+    void dropInvalid(std::span<uint16_t> depth) const;
     void toDepth(std::span<uint16_t> ranges) const;
     Frame lease(uint32_t index, FrameSlot& slot) const;
     void tellOfLinks(const IndexLine& line);
@@ -46,9 +49,7 @@ private:
     void nameSkipped();
 
     std::filesystem::path folder_;
-    RecordingIntrinsics intrinsics_;
-    std::vector<IndexLine> index_;
-    std::optional<PoseTrack> poses_;
+    RecordingLayout layout_;
     FrameSlots slots_;
     std::vector<float> axisShare_; // z of a unit step along each ray; empty = images hold z
     uint32_t cursor_ = 0;          // next data line

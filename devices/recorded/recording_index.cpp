@@ -137,7 +137,7 @@ std::vector<IndexLine> associate(const std::vector<StampedFile>& depth, std::vec
     for (size_t d = 0; d < depth.size(); ++d) {
         if (colourOf[d] != none) {
             const StampedFile& c = colour[colourOf[d]];
-            index.push_back({depth[d].stamp, c.stamp, depth[d].file, c.file, ""});
+            index.push_back({depth[d].stamp, c.stamp, depth[d].file, c.file, "", std::nullopt});
         }
     }
     if (index.size() < depth.size()) {
@@ -155,7 +155,7 @@ std::vector<IndexLine> readIndex(const fs::path& folder, const RecordingIntrinsi
     if (!intrinsics.camera.hasColour) {
         source = "depth.txt";
         for (StampedFile& depth : readStampedFiles(folder, "depth.txt")) {
-            index.push_back({depth.stamp, depth.stamp, std::move(depth.file), {}, ""});
+            index.push_back({depth.stamp, depth.stamp, std::move(depth.file), {}, "", std::nullopt});
         }
     } else if (fs::exists(folder / "associations.txt")) {
         index = readAssociations(folder);

@@ -5,6 +5,7 @@
 #include "devices/recorded/recording_intrinsics.h"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,7 @@ struct IndexLine {
     double depthStamp = 0.0, colourStamp = 0.0; // [s]
     std::filesystem::path depth, colour;        // files, the folder included
     std::string fault;                          // why the line is unusable; empty = usable
+    std::optional<Pose> baseTcamera;            // where the layout has a pose per image
 };
 
 // One entry per data line of associations.txt ("t_rgb rgb/x.png t_depth depth/x.png"). Without that file:

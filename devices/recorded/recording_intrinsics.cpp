@@ -2,9 +2,10 @@
 #include "devices/recorded/recording_intrinsics.h"
 
 #include "devices/recorded/json_field.h"
+#include "devices/recorded/lens_model.h"
+#include "devices/recorded/source_options.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -12,51 +13,36 @@ namespace fathom {
 
 namespace {
 
-std::array<double, 5> readDistortion(const JsonField& lens) {
-    std::array<double, 5> all{};
-    const auto list = lens.find("distortion");
+void readDistortion(const JsonField& block, Intrinsics& lens) {
+    const auto list = block.find("distortion"), model = block.find("distortion_model");
     const std::vector<double> given = list ? list->numbers() : std::vector<double>{};
-    if (std::all_of(given.begin(), given.end(), [](double k) { return k == 0.0; })) {
-        return all; // for any model
+    const std::string allowed = setDistortion(lens, model ? model->text() : "", given);
+    if (!allowed.empty()) {
+        (allowed.starts_with("plumb_bob") && model ? *model : *list).refuse(allowed);
     }
-    if (const auto model = lens.find("distortion_model")) {
-        constexpr std::array<std::string_view, 4> kKnown{"plumb_bob", "Brown Conrady", "brown_conrady",
-                                                         "radtan"};
-        if (std::find(kKnown.begin(), kKnown.end(), model->text()) == kKnown.end()) {
-            model->refuse("plumb_bob or Brown Conrady, unless all coefficients are zero");
-        }
-    }
-    if (given.size() != 4 && given.size() != 5) {
-        list->refuse("k1, k2, p1, p2 and k3 or none");
-    }
-    std::copy(given.begin(), given.end(), all.begin());
-    return all;
-}
-
-// Rays need the inverse of the distortion, which does not exist when the lens folds the image.
-bool invertible(const Intrinsics& lens) {
-    for (uint32_t i = 0; i < 25; ++i) {
-        const uint32_t column = i % 5, row = i / 5;
-        const double u = 0.25 * column * (lens.width - 1.0), v = 0.25 * row * (lens.height - 1.0);
-        const glm::dvec2 ray = lens.ray(u, v);
-        const glm::dvec2 back = lens.project({ray.x, ray.y, 1.0});
-        if (!(std::abs(back.x - u) < 1e-3) || !(std::abs(back.y - v) < 1e-3)) {
-            return false;
-        }
-    }
-    return true;
 }
 
 Intrinsics readLens(const JsonField& block) {
     Intrinsics lens;
     lens.width = block.at("width").integer(1, kMaxImageWidth);
     lens.height = block.at("height").integer(1, kMaxImageHeight);
+    if (const auto matrix = block.find("intrinsic_matrix")) { // Open3D, column by column
+        const std::vector<double> k = matrix->numbers(9);
+        if (!(k[0] > 0.0 && k[4] > 0.0) || k[8] != 1.0 || k[2] != 0.0 || k[5] != 0.0) {
+            matrix->refuse("fx, 0, 0, 0, fy, 0, cx, cy, 1");
+        }
+        lens.fx = k[0];
+        lens.fy = k[4];
+        lens.cx = k[6];
+        lens.cy = k[7];
+        return lens;
+    }
     lens.fx = block.at("fx").positive();
     lens.fy = block.at("fy").positive();
     lens.cx = block.at("cx").finite();
     lens.cy = block.at("cy").finite();
-    lens.distortion = readDistortion(block);
-    if (!invertible(lens)) {
+    readDistortion(block, lens);
+    if (!lens.invertible()) {
         block.at("distortion").refuse("coefficients that can be inverted over the whole image");
     }
     return lens;
@@ -166,7 +152,13 @@ void readStamps(const JsonField& root, RecordingIntrinsics& intrinsics) {
 
 } // namespace
 
-RecordingIntrinsics readIntrinsics(const std::filesystem::path& file) {
+Pose readExtrinsics(const std::filesystem::path& file) {
+    const nlohmann::json document = parseJsonFile(file);
+    const JsonField root(document, file.string(), "");
+    return root.find("extrinsics_topic_tf") ? readColourTdepth(root) : readPose(root);
+}
+
+RecordingIntrinsics readIntrinsics(const std::filesystem::path& file, bool needScale) {
     const nlohmann::json document = parseJsonFile(file);
     const JsonField root(document, file.string(), "");
     RecordingIntrinsics intrinsics;
@@ -177,7 +169,14 @@ RecordingIntrinsics readIntrinsics(const std::filesystem::path& file) {
     } else {
         readOneLens(root, camera);
     }
-    camera.metresPerUnit = root.at("depth_scale_m_per_unit").positive();
+    needScale = needScale && !root.find("intrinsic_matrix");
+    if (const auto scale =
+            needScale ? root.at("depth_scale_m_per_unit") : root.find("depth_scale_m_per_unit")) {
+        camera.metresPerUnit = scale->positive();
+        if (camera.metresPerUnit < kFinestUnit || camera.metresPerUnit > kCoarsestUnit) {
+            scale->refuse("metres per unit, 0.000001 to 0.1: 1000 units per metre are 0.001");
+        }
+    }
     const auto colourThere = root.find("has_color");
     camera.hasColour = !colourThere || colourThere->boolean();
     if (!camera.hasColour && !camera.registered) {

@@ -26,10 +26,15 @@ struct RecordingIntrinsics {
 // Flat: width height fx fy cx cy [distortion_model distortion] depth_scale_m_per_unit [registered_to_color:
 // true]. Two lenses: depth and color (or colour) blocks of the same keys, depth_scale_m_per_unit,
 // registered_to_color, and unless registered extrinsics_topic_tf {Depth, Color: {t [m], q_xyzw}}. Distortion
-// is Brown-Conrady k1 k2 p1 p2 [k3] (plumb_bob); other models are accepted only with all coefficients zero.
+// is as setDistortion() takes it (lens_model.h).
 // has_color: false (flat only) marks a recording without colour. Sonars and laser scans (flat only):
 // projection: equal_angles (fx, fy in pixels per radian), depth_is: range, and beam {width_deg, sigma_m,
 // sigma_m_per_m}; its rgb/ images show intensity as grey. Throws BadInput naming the file and field.
-RecordingIntrinsics readIntrinsics(const std::filesystem::path& file);
+// needScale false: a missing depth_scale_m_per_unit is 0.001. Open3D's camera_intrinsic.json is read as well
+// (intrinsic_matrix, column by column; depth in millimetres).
+RecordingIntrinsics readIntrinsics(const std::filesystem::path& file, bool needScale = true);
+
+// colourTdepth of a JSON file with t [m] and q_xyzw, or with extrinsics_topic_tf. Throws as above.
+Pose readExtrinsics(const std::filesystem::path& file);
 
 } // namespace fathom

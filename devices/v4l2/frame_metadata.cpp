@@ -28,7 +28,7 @@ uint32_t wordAt(std::span<const uint8_t> bytes, size_t at) {
     return bytes[at] | bytes[at + 1] << 8 | bytes[at + 2] << 16 | static_cast<uint32_t>(bytes[at + 3]) << 24;
 }
 
-v4l2_buffer bufferAt(uint32_t index) {
+v4l2_buffer metadataBuffer(uint32_t index) {
     v4l2_buffer buffer{};
     buffer.index = index;
     buffer.type = V4L2_BUF_TYPE_META_CAPTURE;
@@ -112,7 +112,7 @@ bool MetadataStream::start() {
         return false;
     }
     for (uint32_t i = 0; i < std::min(request.count, kBuffers); ++i) {
-        v4l2_buffer buffer = bufferAt(i);
+        v4l2_buffer buffer = metadataBuffer(i);
         if (control(descriptor_, VIDIOC_QUERYBUF, &buffer) != 0) {
             return false;
         }
@@ -140,7 +140,7 @@ MetadataStream::~MetadataStream() {
 }
 
 void MetadataStream::gather() {
-    v4l2_buffer buffer = bufferAt(0);
+    v4l2_buffer buffer = metadataBuffer(0);
     while (control(descriptor_, VIDIOC_DQBUF, &buffer) == 0) {
         const auto& bytes = buffers_[buffer.index];
         told_[next_++ % told_.size()] = {
@@ -149,7 +149,7 @@ void MetadataStream::gather() {
                 1e-6 * static_cast<double>(buffer.timestamp.tv_usec),
             pipeLatencyOf(bytes.first(std::min<size_t>(buffer.bytesused, bytes.size())))};
         control(descriptor_, VIDIOC_QBUF, &buffer);
-        buffer = bufferAt(0);
+        buffer = metadataBuffer(0);
     }
 }
 

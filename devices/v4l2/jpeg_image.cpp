@@ -27,6 +27,22 @@ private:
 
 } // namespace
 
+bool isJpeg(std::span<const std::byte> bytes) {
+    return bytes.size() > 2 && bytes[0] == std::byte{0xff} && bytes[1] == std::byte{0xd8};
+}
+
+std::optional<VideoSize> jpegSize(std::span<const std::byte> bytes) {
+    int width = 0, height = 0, sampling = 0, space = 0;
+    const Decoder decoder;
+    if (!isJpeg(bytes) || decoder.get() == nullptr ||
+        tjDecompressHeader3(decoder.get(), reinterpret_cast<const unsigned char*>(bytes.data()),
+                            static_cast<unsigned long>(bytes.size()), &width, &height, &sampling,
+                            &space) != 0) {
+        return std::nullopt;
+    }
+    return VideoSize{static_cast<uint32_t>(width), static_cast<uint32_t>(height)};
+}
+
 std::string readJpeg(std::span<const std::byte> bytes, VideoSize size, std::span<uint32_t> out) {
     thread_local const Decoder kDecoder;
     if (kDecoder.get() == nullptr) {

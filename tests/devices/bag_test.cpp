@@ -4,134 +4,24 @@
 #include "devices/bag/unpack_chunk.h"
 #include "devices/recorded/recorded_camera.h"
 #include "engine/types/error.h"
+#include "tests/devices/bag_maker.h"
 #include "tests/devices/recorded_folder.h"
 
-#include <bzlib.h>
 #include <cmath>
 #include <doctest/doctest.h>
-#include <fstream>
-#include <lz4frame.h>
 #include <spdlog/spdlog.h>
 
 using namespace fathom;
+using namespace fathom::test;
 
 namespace {
 
-// Bytes as ROS 1 serialises them.
-struct Out {
-    std::string bytes;
-    template <class T>
-    Out& put(T value) {
-        bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
-        return *this;
-    }
-    Out& text(const std::string& s) {
-        put(static_cast<uint32_t>(s.size()));
-        bytes += s;
-        return *this;
-    }
-};
-
-template <class T>
-std::string raw(T value) {
-    return Out().put(value).bytes;
-}
-
-std::string record(const std::vector<std::pair<std::string, std::string>>& fields, const std::string& data) {
-    Out header;
-    for (const auto& [name, value] : fields) {
-        header.text(name + "=" + value);
-    }
-    return Out().text(header.bytes).text(data).bytes;
-}
-
-std::string packed(const std::string& bytes, const std::string& compression) {
-    std::string out(bytes.size() + 4096, 0);
-    if (compression == "lz4") {
-        out.resize(LZ4F_compressFrame(out.data(), out.size(), bytes.data(), bytes.size(), nullptr));
-    } else if (compression == "bz2") {
-        auto size = static_cast<unsigned>(out.size());
-        BZ2_bzBuffToBuffCompress(out.data(), &size, const_cast<char*>(bytes.data()),
-                                 static_cast<unsigned>(bytes.size()), 1, 0, 0);
-        out.resize(size);
-    } else {
-        return bytes;
-    }
-    return out;
-}
-
-// A bag with one chunk, written by the format's page.
-class BagMaker {
-public:
-    void add(const std::string& topic, const std::string& type, double t, const std::string& message) {
-        uint32_t conn = 0;
-        while (conn < topics_.size() && topics_[conn].first != topic) {
-            ++conn;
-        }
-        if (conn == topics_.size()) {
-            topics_.emplace_back(topic, type);
-            index_.emplace_back();
-        }
-        const auto seconds = static_cast<uint32_t>(t),
-                   nanos = static_cast<uint32_t>(std::lround((t - seconds) * 1e9));
-        const std::string time = Out().put(seconds).put(nanos).bytes;
-        index_[conn] += time + raw(static_cast<uint32_t>(chunk_.size()));
-        chunk_ += record({{"op", "\x02"}, {"conn", raw(conn)}, {"time", time}}, message);
-    }
-    std::string bag(const std::string& compression, bool indexed = true) const {
-        const std::string magic = "#ROSBAG V2.0\n";
-        const auto header = [&](uint64_t at) {
-            return record({{"op", "\x03"}, {"index_pos", raw(at)}}, std::string(64, ' '));
-        };
-        const size_t chunkAt = magic.size() + header(0).size();
-        std::string body = record({{"op", "\x05"},
-                                   {"compression", compression},
-                                   {"size", raw(static_cast<uint32_t>(chunk_.size()))}},
-                                  packed(chunk_, compression));
-        std::string tail;
-        for (uint32_t conn = 0; conn < topics_.size(); ++conn) {
-            body += record({{"op", "\x04"}, {"conn", raw(conn)}}, index_[conn]);
-            tail += record({{"op", "\x07"}, {"conn", raw(conn)}, {"topic", topics_[conn].first}},
-                           Out().text("type=" + topics_[conn].second).bytes);
-        }
-        tail += record({{"op", "\x06"}, {"chunk_pos", raw(uint64_t{chunkAt})}}, "");
-        return magic + header(indexed ? chunkAt + body.size() : 0) + body + tail;
-    }
-
-private:
-    std::vector<std::pair<std::string, std::string>> topics_;
-    std::vector<std::string> index_;
-    std::string chunk_;
-};
-
-std::string stamped(double t) {
-    return Out()
-        .put(uint32_t{7})
-        .put(static_cast<uint32_t>(t))
-        .put(static_cast<uint32_t>(std::lround((t - std::floor(t)) * 1e9)))
-        .text("camera")
-        .bytes;
+std::string info(double fx) {
+    return infoMessage({.width = 3, .height = 2, .k = {fx, 5.0, 1.0, 0.5}});
 }
 
 std::string image(double t, const std::string& encoding, uint32_t step, const std::string& pixels) {
-    return stamped(t) + Out()
-                            .put(uint32_t{2})
-                            .put(uint32_t{3})
-                            .text(encoding)
-                            .put(uint8_t{0})
-                            .put(step)
-                            .text(pixels)
-                            .bytes;
-}
-
-std::string info(double fx) {
-    Out out;
-    out.bytes = stamped(0);
-    out.put(uint32_t{2}).put(uint32_t{3}).text("plumb_bob").put(uint32_t{0});
-    for (const double k : {fx, 0.0, 1.0, 0.0, 5.0, 0.5, 0.0, 0.0, 1.0}) {
-        out.put(k);
-    }
-    return out.bytes + std::string(21 * 8 + 25, '\0');
+    return imageMessage(t, {.encoding = encoding, .width = 3, .height = 2, .step = step, .pixels = pixels});
 }
 
 // Three depth images 100 ms apart and two colour images, 3 x 2 pixels, rows with padding.
@@ -155,7 +45,7 @@ BagMaker smallBag(double colourFx = 4.0) {
     return maker;
 }
 
-std::string refusal(const std::filesystem::path& file) {
+std::string bagRefusal(const std::filesystem::path& file) {
     try {
         BagCamera camera(file);
     } catch (const BadInput& e) {
@@ -192,7 +82,7 @@ TEST_CASE("A bag that is not closed, truncated, damaged or without depth is reje
     const TemporaryFolder folder;
     const auto refused = [&](const std::string& bytes) {
         folder.write("a.bag", bytes);
-        const std::string said = refusal(folder.path() / "a.bag");
+        const std::string said = bagRefusal(folder.path() / "a.bag");
         CHECK(said.find('\n') == std::string::npos);
         return said;
     };
@@ -221,7 +111,7 @@ TEST_CASE("A bag that claims more data than its bytes can hold is rejected befor
     const size_t last = twice.rfind(Out().text("op=\x06").bytes) - 4;
     twice += twice.substr(last); // the chunk's record once more
     folder.write("a.bag", twice);
-    CHECK(refusal(folder.path() / "a.bag").find("names a chunk twice") != std::string::npos);
+    CHECK(bagRefusal(folder.path() / "a.bag").find("names a chunk twice") != std::string::npos);
 }
 
 TEST_CASE("A bag with any byte changed is either rejected or read, and never crashes the reader") {

@@ -141,6 +141,35 @@ TEST_CASE("LZF unpacks literals and short, long and overlapping matches, and rej
     CHECK_FALSE(unpackLzf(std::vector<uint8_t>{7 << 5}, small));
 }
 
+TEST_CASE("A cloud with fields r, g, b has colour, and one in millimetres is scaled when that is said") {
+    const TemporaryFolder folder;
+    std::string text = "FIELDS x y z r g b\nSIZE 4 4 4 1 1 1\nTYPE F F F U U U\nCOUNT 1 1 1 1 1 1\nWIDTH 9\n"
+                       "HEIGHT 7\nPOINTS 63\nDATA ascii\n";
+    for (uint32_t i = 0; i < kWidth * kHeight; ++i) {
+        const double z = 500.0 + i % kWidth, x = (i % kWidth - 4.0) / 10.0 * z,
+                     y = (i / kWidth - 3.0) / 10.0 * z;
+        text += std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(z) + " 200 10 20\n";
+    }
+    folder.write("mm.pcd", text);
+    PcdCamera scaled(folder.path() / "mm.pcd", {.scale = 0.001});
+    const auto frame = scaled.next();
+    REQUIRE(frame);
+    CHECK((*frame)->depth[0] * scaled.info().metresPerUnit == doctest::Approx(0.5).epsilon(1e-3));
+    REQUIRE((*frame)->colour.size() == 63);
+    CHECK((*frame)->colour[5] == 0xff140ac8u);
+    PcdCamera metres(folder.path() / "mm.pcd");
+    CHECK((*metres.next())->depth[0] * metres.info().metresPerUnit == doctest::Approx(500.0).epsilon(1e-3));
+    std::string floats = text;
+    floats.replace(floats.find("4 4 4 1 1 1"), 11, "4 4 4 4 4 4");
+    floats.replace(floats.find("F F F U U U"), 11, "F F F F F F");
+    for (size_t at = 0; (at = floats.find(" 200 10 20\n")) != std::string::npos;) {
+        floats.replace(at, 11, " 1 0 0.5\n");
+    }
+    folder.write("f.pcd", floats);
+    PcdCamera unit(folder.path() / "f.pcd");
+    CHECK((*unit.next())->colour[5] == 0xff8000ffu);
+}
+
 TEST_CASE("A real compressed cloud gives the depth image and lens of its recording") {
     if (!haveRecording("pcl_milk_table")) {
         return;

@@ -65,7 +65,7 @@ TEST_CASE("a missing folder, an empty folder and a folder without an index are r
     folder.write("associations.txt", "# nothing\n\n");
     CHECK(holds(recordingRefusal(folder.path()), "associations.txt: no pair of images"));
     std::filesystem::remove(folder.path() / "intrinsics.json");
-    CHECK(holds(recordingRefusal(folder.path()), "intrinsics.json: file: cannot be read"));
+    CHECK(holds(recordingRefusal(folder.path()), "intrinsics.json: file: missing"));
 }
 
 TEST_CASE("A recording without a usable frame is rejected at its end, with the first reason") {
@@ -197,7 +197,7 @@ TEST_CASE("Distortion that is unknown, incomplete or folds the image is rejected
     const auto with = [&](const std::string& model, const std::string& list, const std::string& expected) {
         checkIntrinsics(none, R"("distortion_model": ")" + model + R"(", "distortion": )" + list, expected);
     };
-    with("fisheye", "[0.1, 0, 0, 0, 0]", "distortion_model: \"fisheye\"");
+    with("f_theta", "[0.1, 0, 0, 0, 0]", "distortion_model: \"f_theta\"");
     with("plumb_bob", "[0.1, 0.2]", "distortion: [0.1,0.2]");
     with("plumb_bob", "[0.1, 0, 0, 0, null]", "distortion[4]: null");
     with("plumb_bob", "[-5, 0, 0, 0, 0]", "distortion: [-5,0,0,0,0]");

@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // Targets that read files: scenes, recordings, clouds, bags.
 #include "devices/bag/bag_camera.h"
+#include "devices/bag/image_pixels.h"
 #include "devices/pcd/pcd_camera.h"
 #include "devices/recorded/hand_csv.h"
 #include "devices/recorded/png_image.h"
 #include "devices/recorded/pose_track.h"
 #include "devices/recorded/recorded_camera.h"
+#include "devices/recorded/source_options.h"
 #include "devices/v4l2/jpeg_image.h"
 #include "engine/scene/scene.h"
 #include "engine/types/error.h"
 #include "tests/fuzz/fuzz_target.h"
 
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <string_view>
@@ -104,6 +107,67 @@ void readPcdFile(Bytes input) {
 void readBag(Bytes input) {
     BagCamera camera(fuzzFile("recording.bag", input));
     drain(camera);
+}
+
+void readMcap(Bytes input) {
+    BagCamera camera(fuzzFile("recording.mcap", input));
+    drain(camera);
+}
+
+void readDatabase(Bytes input) {
+    BagCamera camera(fuzzFile("recording.db3", input));
+    drain(camera);
+}
+
+// The first byte selects the encoding, the second the size.
+void readMessageImage(Bytes input) {
+    constexpr std::array kEncodings{"rgb8",
+                                    "16UC1",
+                                    "32FC1",
+                                    "nv12",
+                                    "nv21",
+                                    "uyvy",
+                                    "yuyv",
+                                    "bayer_rggb8",
+                                    "bgr16",
+                                    "bayer_gbrg16",
+                                    "mono8",
+                                    "jpeg; rgb8",
+                                    "16UC1; compressedDepth png",
+                                    "16UC1; compressedDepth rvl",
+                                    "32FC1; compressedDepth rvl"};
+    if (input.size() < 3) {
+        throw Error("too short");
+    }
+    ros::Image image;
+    image.format = kEncodings[input[0] % kEncodings.size()];
+    image.compressed = image.format.find(';') != std::string::npos;
+    image.encoding = image.format.substr(0, image.format.find(';'));
+    image.width = 1 + input[1] % 16;
+    image.height = 1 + input[1] / 16;
+    image.step = input[2];
+    image.data = input.subspan(3);
+    const auto size = ros::sizeOf(image);
+    if (!size || uint64_t{size->first} * size->second > 1u << 16) {
+        throw Error("no head, or too large to be quick");
+    }
+    std::vector<uint16_t> depth(size_t{size->first} * size->second);
+    std::vector<uint32_t> colour(depth.size());
+    uint64_t beyond = 0;
+    const bool deep = ros::content(image) == ros::Content::Depth;
+    const std::string fault =
+        deep ? ros::depthRows(image, 0.001, depth, beyond) : ros::colourRows(image, colour);
+    need(beyond <= depth.size() && std::isfinite(ros::farthest(image)));
+    if (!fault.empty()) {
+        throw Error(fault);
+    }
+}
+
+// The options behind the name of a recording.
+void readSourceText(Bytes input) {
+    const SourceRequest request = parseSource(std::string(input.begin(), input.end()));
+    need(!request.options.scale || *request.options.scale > 0.0);
+    need(request.options.start >= 0.0 && request.options.duration > 0.0);
 }
 
 } // namespace fathom::testing

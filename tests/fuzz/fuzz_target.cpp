@@ -20,6 +20,7 @@ namespace {
 
 constexpr std::array kTargets{
     FuzzTarget{"bag", readBag},
+    FuzzTarget{"database", readDatabase},
     FuzzTarget{"descriptors", readDescriptors},
     FuzzTarget{"door", readEndpoint},
     FuzzTarget{"eca", readEca},
@@ -29,13 +30,16 @@ constexpr std::array kTargets{
     FuzzTarget{"index", readIndexFile},
     FuzzTarget{"intrinsics", readIntrinsicsFile},
     FuzzTarget{"jpeg", readJpegImage},
+    FuzzTarget{"mcap", readMcap},
     FuzzTarget{"mesh", readMesh, 20}, // a process each
+    FuzzTarget{"message_image", readMessageImage},
     FuzzTarget{"pairs", readPairs},
     FuzzTarget{"pcd", readPcdFile},
     FuzzTarget{"pixels", readPixels},
     FuzzTarget{"png", readPng},
     FuzzTarget{"reach", readReach},
     FuzzTarget{"scene", readScene},
+    FuzzTarget{"source", readSourceText},
     FuzzTarget{"space_mouse", readSpaceMouse},
     FuzzTarget{"sph", readSphFile},
     FuzzTarget{"spheres_yaml", readSpheresYaml},

@@ -41,7 +41,7 @@ TEST_CASE("A recording folder that is missing, empty, a file or without an index
     stage.write("rec/associations.txt", "# nothing\n");
     checkRefused(stage, {folder, "associations.txt", "no pair of images", "at least one"});
     fs::remove(stage / "rec/intrinsics.json");
-    checkRefused(stage, {"intrinsics.json", "cannot be read"});
+    checkRefused(stage, {"intrinsics.json", "missing"});
 }
 
 TEST_CASE("A recording without a usable frame is rejected in one line that names the first fault") {

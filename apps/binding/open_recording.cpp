@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/binding/open_recording.h"
+
+#include "devices/bag/bag_camera.h"
+#include "devices/pcd/pcd_camera.h"
+#include "devices/recorded/recorded_camera.h"
+#include "engine/types/error.h"
+#include "engine/types/read_file.h"
+
+#include <array>
+#include <fstream>
+
+namespace fathom {
+
+namespace {
+
+enum class Kind { Unknown, Messages, Cloud };
+
+constexpr const char* kKinds = "a recording folder, a ROS bag (.bag), MCAP (.mcap), a ROS 2 database (.db3) "
+                               "or an organised cloud (.pcd)";
+
+struct KnownFile {
+    std::string_view ending, begin;
+    Kind kind;
+};
+constexpr std::array kFiles{
+    KnownFile{".bag", "#ROSBAG", Kind::Messages}, KnownFile{".mcap", "\x89MCAP0\r\n", Kind::Messages},
+    KnownFile{".db3", "SQLite format 3", Kind::Messages}, KnownFile{".pcd", "# .PCD", Kind::Cloud}};
+
+std::string firstBytes(const std::filesystem::path& file) {
+    std::string bytes(16, '\0');
+    std::ifstream in(isRegularFile(file) ? std::ifstream(file, std::ios::binary) : std::ifstream());
+    in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    return bytes.substr(0, static_cast<size_t>(in.gcount()));
+}
+
+Kind kindOf(const std::filesystem::path& file) {
+    std::string ending = file.extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    for (const KnownFile& known : kFiles) {
+        if (ending == known.ending) {
+            return known.kind;
+        }
+    }
+    const std::string begin = firstBytes(file);
+    for (const KnownFile& known : kFiles) {
+        if (begin.starts_with(known.begin)) {
+            return known.kind;
+        }
+    }
+    return Kind::Unknown;
+}
+
+bool isRos2Folder(const std::filesystem::path& folder) {
+    return std::filesystem::exists(folder / "metadata.yaml") &&
+           !std::filesystem::exists(folder / "intrinsics.json");
+}
+
+} // namespace
+
+std::unique_ptr<Camera> openRecording(const SourceRequest& request) {
+    const std::filesystem::path file = request.file;
+    std::error_code failed;
+    if (std::filesystem::is_directory(file, failed)) {
+        if (isRos2Folder(file)) {
+            return std::make_unique<BagCamera>(file, request.options);
+        }
+        return std::make_unique<RecordedCamera>(file, request.options);
+    }
+    switch (kindOf(file)) {
+    case Kind::Messages:
+        return std::make_unique<BagCamera>(file, request.options);
+    case Kind::Cloud:
+        return std::make_unique<PcdCamera>(file, request.options);
+    case Kind::Unknown:
+        break;
+    }
+    if (std::filesystem::exists(file, failed)) {
+        throw BadInput(request.file, "kind", "a file of a kind that is not read", kKinds);
+    }
+    return std::make_unique<RecordedCamera>(file, request.options); // says that it is missing
+}
+
+} // namespace fathom

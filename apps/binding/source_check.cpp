@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/binding/source_check.h"
+
+#include "engine/types/log.h"
+
+#include <algorithm>
+
+namespace fathom {
+
+namespace {
+
+// A colour that is not black: any channel above 8 levels. YUYV images count as seen.
+bool isLit(uint32_t rgba) {
+    return (rgba & 0x00f8f8f8u) != 0;
+}
+
+} // namespace
+
+SourceCheck::SourceCheck(std::unique_ptr<Camera> source, const Scene& scene)
+    : source_(std::move(source))
+    , nearZ_(scene.nearZ)
+    , farZ_(scene.farZ) {
+    const std::string why = source_->whyNoColour();
+    bool asked = false;
+    for (const FixtureClass& fixture : scene.fixtures) {
+        asked = asked || fixture.usesColour();
+        if (!why.empty() && fixture.usesColour()) {
+            log::warn("fixture '{}' will have no point: it asks for colour, but {}", fixture.name, why);
+        }
+    }
+    colourSeen_ = !asked || !why.empty() || info().yuyv;
+}
+
+// Stops at the first pixel in range: for a good source that is soon.
+bool SourceCheck::inRange(std::span<const uint16_t> depth) {
+    const double unit = info().metresPerUnit;
+    for (const uint16_t raw : depth) {
+        if (raw == 0) {
+            continue;
+        }
+        least_ = std::min(least_, raw);
+        largest_ = std::max(largest_, raw);
+        if (raw * unit >= nearZ_ && raw * unit <= farZ_) {
+            return true;
+        }
+    }
+    return false;
+}
+
+void SourceCheck::look(const Frame& frame) {
+    depthSeen_ = depthSeen_ || inRange(frame->depth);
+    colourSeen_ = colourSeen_ || std::any_of(frame->colour.begin(), frame->colour.end(), isLit);
+}
+
+void SourceCheck::end() {
+    done_ = true;
+    const double unit = info().metresPerUnit;
+    if (!depthSeen_ && largest_ == 0) {
+        log::warn("{}: no depth in the first second: nothing is protected", description());
+    } else if (!depthSeen_) {
+        log::warn("{}: no depth of the first second is between camera.near {} m and camera.far {} m: "
+                  "nothing is protected; it is {:.4g} to {:.4g} m, so check the unit (scale=M) or near and "
+                  "far",
+                  description(), nearZ_, farZ_, least_ * unit, largest_ * unit);
+    }
+    if (!colourSeen_) {
+        log::warn("{}: the colour images of the first second are black, so no class that asks for colour has "
+                  "a point; {}",
+                  description(), streams());
+    }
+}
+
+std::optional<Frame> SourceCheck::next() {
+    std::optional<Frame> frame = source_->next();
+    if (done_) {
+        return frame;
+    }
+    if (!frame) {
+        if (begin_) {
+            end();
+        }
+        return frame;
+    }
+    begin_ = begin_ ? begin_ : std::optional((*frame)->captureTime);
+    look(*frame);
+    if (depthSeen_ && colourSeen_) {
+        done_ = true;
+    } else if ((*frame)->captureTime - *begin_ >= 1.0) {
+        end();
+    }
+    return frame;
+}
+
+} // namespace fathom

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Depth images as compressed_depth_image_transport publishes them: PNG or RVL behind a head of 12 bytes.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+
+namespace fathom {
+
+// RVL (A. D. Wilson, Fast Lossless Depth Image Compression, 2017) to out.size() values. False when the bytes
+// end early or hold another number of values.
+bool unpackRvl(std::span<const uint8_t> in, std::span<uint16_t> out);
+
+// data: head and image. codec: the text behind the encoding ("compressedDepth png", "compressedDepth rvl").
+struct CompressedDepth {
+    std::span<const uint8_t> data;
+    bool rvl = false;
+
+    // Width and height; empty without a readable head.
+    std::optional<std::pair<uint32_t, uint32_t>> size() const;
+    // The values as stored: raw units of a 16UC1 image, inverse depth of a 32FC1 image. Returns the fault, or
+    // empty.
+    std::string values(uint32_t width, uint32_t height, std::span<uint16_t> out) const;
+    // Metres of a stored value of a 32FC1 image; 0 = no measurement.
+    double metres(uint16_t stored) const;
+};
+
+} // namespace fathom

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/bag/frame_tree.h"
+
+#include "devices/bag/ros_messages.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace fathom {
+
+namespace {
+
+bool samePose(const Pose& a, const Pose& b) {
+    return glm::length(a.position - b.position) < 1e-6 &&
+           std::abs(glm::dot(a.rotation, b.rotation)) > 1.0 - 1e-9;
+}
+
+} // namespace
+
+void FrameTree::read() {
+    constexpr size_t kMostMessages = 2000;
+    for (const MessageTopic& topic : file_.topics()) {
+        if (topic.type != "tf2_msgs/TFMessage" && topic.type != "tf/tfMessage") {
+            continue;
+        }
+        for (size_t i = 0; i < std::min(kMostMessages, topic.messages.size()); ++i) {
+            for (const ros::FrameLink& link : ros::frameLinks(file_.read(topic, i))) {
+                const auto known = links_.try_emplace(link.child, Link{link.parent, link.parentTchild}).first;
+                Link& before = known->second;
+                before.moves = before.moves || before.parent != link.parent ||
+                               !samePose(before.parentTchild, link.parentTchild);
+            }
+        }
+    }
+}
+
+std::map<std::string, Pose> FrameTree::ancestors(const std::string& frame) const {
+    std::map<std::string, Pose> poses{{frame, Pose{}}};
+    Pose pose;
+    for (auto link = links_.find(frame); link != links_.end() && !link->second.moves;
+         link = links_.find(link->second.parent)) {
+        pose = link->second.parentTchild * pose;
+        if (!poses.emplace(link->second.parent, pose).second) {
+            break; // a loop
+        }
+    }
+    return poses;
+}
+
+std::optional<Pose> FrameTree::pose(const std::string& from, const std::string& to) {
+    if (!read_) {
+        read_ = true;
+        read();
+    }
+    const auto ofFrom = ancestors(from), ofTo = ancestors(to);
+    for (const auto& [frame, pose] : ofFrom) {
+        if (const auto common = ofTo.find(frame); common != ofTo.end()) {
+            return inverse(common->second) * pose;
+        }
+    }
+    return std::nullopt;
+}
+
+} // namespace fathom

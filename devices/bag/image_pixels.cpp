@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/bag/image_pixels.h"
+
+#include "devices/bag/colour_rows.h"
+#include "devices/bag/compressed_depth.h"
+#include "devices/recorded/png_image.h"
+#include "devices/v4l2/jpeg_image.h"
+
+#include <cmath>
+#include <cstring>
+
+namespace fathom::ros {
+
+namespace {
+
+bool isDepthEncoding(const std::string& encoding) {
+    return encoding == "16UC1" || encoding == "mono16" || encoding == "32FC1";
+}
+
+bool isCompressedDepth(const Image& image) {
+    return image.format.find("compressedDepth") != std::string::npos;
+}
+
+CompressedDepth packed(const Image& image) {
+    return {image.data, image.format.find("rvl") != std::string::npos};
+}
+
+std::string checkBytes(const Image& image, size_t row) {
+    if (image.height == 0 || image.step < row ||
+        image.data.size() < size_t{image.step} * (image.height - 1) + row) {
+        return "an image of " + std::to_string(image.data.size()) + " bytes in rows of " +
+               std::to_string(image.step);
+    }
+    return image.bigEndian ? "big-endian pixels" : "";
+}
+
+// Raw units of metres; 0 when there is none. Too far for 16 bits: counted.
+uint16_t unitsOf(double metres, double metresPerUnit, uint64_t& beyond) {
+    if (!(metres > 0.0) || !std::isfinite(metres)) {
+        return 0;
+    }
+    const double units = std::round(metres / metresPerUnit);
+    beyond += units > 65535.0 ? 1 : 0;
+    return units > 65535.0 ? uint16_t{0} : static_cast<uint16_t>(units);
+}
+
+float floatAt(const Image& image, uint32_t x, uint32_t y) {
+    float z = 0.0f;
+    std::memcpy(&z, image.data.data() + size_t{y} * image.step + size_t{4} * x, 4);
+    return z;
+}
+
+std::string compressedDepthRows(const Image& image, double metresPerUnit, std::span<uint16_t> out,
+                                uint64_t& beyond) {
+    const auto size = sizeOf(image);
+    if (!size) {
+        return "a compressed image without a head that is read";
+    }
+    if (!isCompressedDepth(image)) {
+        return readDepthPng(image.data, {size->first, size->second}, out);
+    }
+    const CompressedDepth depth = packed(image);
+    const std::string fault = depth.values(size->first, size->second, out);
+    if (!fault.empty() || image.encoding != "32FC1") {
+        return fault;
+    }
+    for (uint16_t& value : out.first(size_t{size->first} * size->second)) {
+        value = unitsOf(depth.metres(value), metresPerUnit, beyond);
+    }
+    return "";
+}
+
+} // namespace
+
+Content content(const Image& image) {
+    const ColourLayout* layout = colourLayout(image.encoding);
+    if (!image.compressed) {
+        return isDepthEncoding(image.encoding) ? Content::Depth
+               : layout == nullptr             ? Content::None
+               : layout->grey()                ? Content::Grey
+                                               : Content::Colour;
+    }
+    if (isCompressedDepth(image)) {
+        return Content::Depth;
+    }
+    const auto png = pngHead(image.data);
+    if (png && png->grey) {
+        return png->bits == 16 ? Content::Depth : Content::Grey;
+    }
+    if (!png && !isJpeg(std::as_bytes(image.data))) {
+        return Content::None;
+    }
+    return layout != nullptr && layout->grey() ? Content::Grey : Content::Colour;
+}
+
+std::optional<std::pair<uint32_t, uint32_t>> sizeOf(const Image& image) {
+    if (!image.compressed) {
+        return std::pair(image.width, image.height);
+    }
+    if (isCompressedDepth(image)) {
+        return packed(image).size();
+    }
+    if (const auto png = pngHead(image.data)) {
+        return std::pair(png->size.width, png->size.height);
+    }
+    const auto jpeg = jpegSize(std::as_bytes(image.data));
+    return jpeg ? std::optional(std::pair(jpeg->width, jpeg->height)) : std::nullopt;
+}
+
+bool holdsMetres(const Image& image) {
+    return image.encoding == "32FC1" && (!image.compressed || isCompressedDepth(image));
+}
+
+std::string depthRows(const Image& image, double metresPerUnit, std::span<uint16_t> out, uint64_t& beyond) {
+    if (image.compressed) {
+        return compressedDepthRows(image, metresPerUnit, out, beyond);
+    }
+    const bool metres = holdsMetres(image);
+    const std::string fault = checkBytes(image, size_t{image.width} * (metres ? 4 : 2));
+    for (uint32_t y = 0; fault.empty() && y < image.height; ++y) {
+        uint16_t* to = out.data() + size_t{y} * image.width;
+        if (!metres) {
+            std::memcpy(to, image.data.data() + size_t{y} * image.step, size_t{2} * image.width);
+        }
+        for (uint32_t x = 0; metres && x < image.width; ++x) {
+            to[x] = unitsOf(double{floatAt(image, x, y)}, metresPerUnit, beyond);
+        }
+    }
+    return fault;
+}
+
+std::string colourRows(const Image& image, std::span<uint32_t> out) {
+    const auto size = sizeOf(image);
+    if (image.compressed && size) {
+        return pngHead(image.data) ? readColourPng(image.data, {size->first, size->second}, out)
+                                   : readJpeg(std::as_bytes(image.data), {size->first, size->second}, out);
+    }
+    const ColourLayout* layout = colourLayout(image.encoding);
+    if (layout == nullptr) {
+        return "encoding " + image.encoding;
+    }
+    if (image.bigEndian && image.encoding.find("16") != std::string::npos) {
+        return "big-endian pixels";
+    }
+    return unpackColours({image.width, image.height, image.step, image.data}, *layout, out);
+}
+
+double farthest(const Image& image) {
+    double most = 0.0;
+    if (image.compressed) {
+        const auto size = sizeOf(image);
+        constexpr uint64_t kMost = 3840ull * 2160;
+        if (!size || uint64_t{size->first} * size->second > kMost) {
+            return 0.0;
+        }
+        std::vector<uint16_t> stored(size_t{size->first} * size->second);
+        const CompressedDepth depth = packed(image);
+        if (!depth.values(size->first, size->second, stored).empty()) {
+            return 0.0;
+        }
+        for (const uint16_t value : stored) {
+            most = std::max(most, depth.metres(value));
+        }
+        return most;
+    }
+    if (!checkBytes(image, size_t{4} * image.width).empty()) {
+        return 0.0;
+    }
+    for (uint32_t y = 0; y < image.height; ++y) {
+        for (uint32_t x = 0; x < image.width; ++x) {
+            const double z = double{floatAt(image, x, y)};
+            most = std::isfinite(z) ? std::max(most, z) : most;
+        }
+    }
+    return most;
+}
+
+} // namespace fathom::ros

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// Converts the images of messages to those of a Frame. Sources: sensor_msgs/image_encodings and the packages
+// compressed_image_transport and compressed_depth_image_transport.
+#pragma once
+
+#include "devices/bag/ros_messages.h"
+
+#include <optional>
+
+namespace fathom::ros {
+
+// What an image may be used as, by its encoding alone.
+enum class Content { None, Depth, Colour, Grey };
+Content content(const Image& image);
+// Names of what is read, for messages.
+inline constexpr const char* kDepthEncodings = "16UC1, mono16, 32FC1, or these as compressedDepth or PNG";
+inline constexpr const char* kColourEncodings = "rgb8, bgr8, rgba8, bgra8, the same with 16 bits, 8UC3, "
+                                                "8UC4, yuv422, uyvy, yuyv, nv12, nv21, bayer_*, JPEG, "
+                                                "PNG";
+
+// Width and height [pixels]; of a compressed image as its head states them, empty when it has no readable
+// head.
+std::optional<std::pair<uint32_t, uint32_t>> sizeOf(const Image& image);
+
+// Whether depth values are metres (float) rather than the sensor's units.
+bool holdsMetres(const Image& image);
+
+// Depth to raw units, 0 = no measurement. Metres are divided by metresPerUnit and rounded; `beyond` counts
+// those too far for 16 bits, which become 0. Returns the fault, or empty when everything was converted. The
+// image's size must be that of `out`.
+std::string depthRows(const Image& image, double metresPerUnit, std::span<uint16_t> out, uint64_t& beyond);
+// R8 G8 B8 A8 (0xAABBGGRR). YUV is BT.601, limited range. Returns as depthRows().
+std::string colourRows(const Image& image, std::span<uint32_t> out);
+// The largest finite depth [m] of an image that holds metres; 0 when it has none or cannot be read.
+double farthest(const Image& image);
+
+} // namespace fathom::ros

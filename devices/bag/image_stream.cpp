@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/bag/image_stream.h"
+
+#include "devices/recorded/recording_intrinsics.h"
+#include "engine/types/error.h"
+
+namespace fathom {
+
+namespace {
+
+constexpr const char* kImageType = "sensor_msgs/Image";
+constexpr const char* kCompressedType = "sensor_msgs/CompressedImage";
+
+std::string streamSize(uint32_t width, uint32_t height) {
+    return std::to_string(width) + "x" + std::to_string(height);
+}
+
+// The camera_info beside the topic, else one of the same camera frame.
+const MessageTopic* infoOf(const MessageFile& file, const ImageStream& stream, const std::string& info) {
+    const std::string base = baseTopic(stream.name);
+    if (!info.empty()) {
+        return file.find(info);
+    }
+    for (const std::string& name : {isSdkTopic(base) ? parentTopic(base, 2) + "/info/camera_info"
+                                                     : parentTopic(base, 1) + "/camera_info",
+                                    base + "/camera_info", base + "_info"}) {
+        if (const MessageTopic* topic = file.find(name); topic != nullptr && !topic->messages.empty()) {
+            return topic;
+        }
+    }
+    return nullptr;
+}
+
+void readLens(MessageFile& file, const std::string& asked, ImageStream& stream) {
+    const MessageTopic* topic = infoOf(file, stream, asked);
+    if (topic == nullptr || topic->messages.empty()) {
+        const std::string base = baseTopic(stream.name);
+        const std::string beside = !asked.empty()     ? asked
+                                   : isSdkTopic(base) ? parentTopic(base, 2) + "/info/camera_info"
+                                                      : parentTopic(base, 1) + "/camera_info";
+        stream.noLens = beside + ": missing (allowed: sensor_msgs/CameraInfo beside " + stream.name +
+                        ", or info=TOPIC or intrinsics=FILE behind the file's name)";
+        return;
+    }
+    const ros::CameraInfo info = ros::cameraInfo(file.read(*topic, 0));
+    const Intrinsics lens = namedRectified(stream.name) ? info.rectified : info.raw;
+    const std::string told = topic->name + ": ";
+    if (lens.width < 1 || lens.height < 1 || lens.width > kMaxImageWidth || lens.height > kMaxImageHeight) {
+        stream.noLens = told + streamSize(lens.width, lens.height) + " (allowed: at most 3840x2160 pixels)";
+    } else if (stream.width != lens.width || stream.height != lens.height) {
+        stream.noLens = told + streamSize(lens.width, lens.height) + " where the images of " + stream.name +
+                        " have " + streamSize(stream.width, stream.height) +
+                        " (allowed: the images' size, binning and region of interest applied)";
+    } else if (!lens.invertible()) {
+        stream.noLens = told + "distortion (allowed: coefficients that can be inverted over the whole image)";
+    } else {
+        stream.lens = lens;
+        stream.raw = info.raw;
+        stream.rectified = namedRectified(stream.name);
+        stream.turned = info.turned;
+    }
+}
+
+} // namespace
+
+std::vector<ImageStream> imageStreams(MessageFile& file, const std::string& info) {
+    std::vector<ImageStream> streams;
+    for (size_t i = 0; i < file.topics().size(); ++i) {
+        const MessageTopic& topic = file.topics()[i];
+        const bool compressed = topic.type == kCompressedType;
+        if ((topic.type != kImageType && !compressed) || topic.messages.empty()) {
+            continue;
+        }
+        ImageStream stream;
+        stream.topic = i;
+        stream.name = topic.name;
+        stream.compressed = compressed;
+        stream.role = namedRole(topic.name);
+        try {
+            const MessageCursor message = file.read(topic, 0);
+            const ros::Image first = compressed ? ros::compressedImage(message) : ros::image(message);
+            stream.frame = first.frame;
+            stream.encoding = compressed ? first.format : first.encoding;
+            stream.content = ros::content(first);
+            const auto size = ros::sizeOf(first);
+            stream.width = size ? size->first : 0;
+            stream.height = size ? size->second : 0;
+            readLens(file, info, stream);
+        } catch (const Error& e) {
+            stream.noLens = stream.name + ": " + e.what();
+        }
+        streams.push_back(std::move(stream));
+    }
+    return streams;
+}
+
+} // namespace fathom

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// What one image topic of a file holds, and its lens.
+#pragma once
+
+#include "devices/bag/image_pixels.h"
+#include "devices/bag/message_file.h"
+#include "devices/bag/stream_names.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace fathom {
+
+// One topic of images.
+struct ImageStream {
+    size_t topic = 0; // in MessageFile::topics()
+    std::string name, frame, encoding;
+    ros::Content content = ros::Content::None;
+    NamedRole role = NamedRole::None;
+    uint32_t width = 0, height = 0; // [pixels]; 0: not readable
+    bool compressed = false;
+    // The lens of its images, rectified or not; `raw` compares with that of another topic of the same camera.
+    std::optional<Intrinsics> lens;
+    Intrinsics raw;
+    bool rectified = false, turned = false;
+    std::string noLens; // why there is no lens
+};
+
+// Every topic of sensor_msgs/Image or CompressedImage that has messages, by its first message. Its lens is
+// that of the topic `info`, or where that is empty of the camera_info beside the images.
+std::vector<ImageStream> imageStreams(MessageFile& file, const std::string& info);
+
+} // namespace fathom

@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/bag/mcap_file.h"
+
+#include "devices/bag/unpack_chunk.h"
+#include "engine/types/error.h"
+#include "engine/types/log.h"
+#include "engine/types/read_file.h"
+
+#include <array>
+#include <set>
+#include <zlib.h>
+
+namespace fathom {
+
+namespace {
+
+constexpr std::array<char, 8> kMcapMagic{'\x89', 'M', 'C', 'A', 'P', '0', '\r', '\n'};
+constexpr uint8_t kMcapFooter = 2, kMcapSchema = 3, kMcapChannel = 4, kMcapMessage = 5, kMcapChunk = 6,
+                  kMcapIndex = 7;
+constexpr uint64_t kRecordHead = 9;            // kind and length [bytes]
+constexpr uint64_t kMcapBytes = 1u << 30;      // of one record that is read, or of one unpacked chunk
+constexpr uint64_t kMcapMessages = 20'000'000; // of a file
+constexpr size_t kMcapTopics = 10'000;
+
+std::string mcapText(ByteCursor& cursor) {
+    return cursor.name();
+}
+
+// One record of an unpacked chunk.
+struct Inner {
+    uint8_t kind = 0;
+    size_t at = 0;
+    std::span<const uint8_t> content;
+};
+
+bool nextInner(std::span<const uint8_t> bytes, size_t& at, Inner& inner) {
+    if (bytes.size() - at < kRecordHead) {
+        return false;
+    }
+    ByteCursor cursor(bytes.subspan(at));
+    inner.kind = cursor.value<uint8_t>();
+    const auto size = cursor.value<uint64_t>();
+    if (size > cursor.left()) {
+        throw Error("truncated");
+    }
+    inner.at = at;
+    inner.content = cursor.take(size);
+    at += kRecordHead + size;
+    return true;
+}
+
+} // namespace
+
+McapFile::McapFile(const std::filesystem::path& file)
+    : MessageFile(file)
+    , in_(isRegularFile(file) ? std::ifstream(file, std::ios::binary) : std::ifstream()) {
+    std::error_code failed;
+    size_ = std::filesystem::file_size(file, failed);
+    std::array<char, kMcapMagic.size()> magic{};
+    if (failed || !in_.is_open() || !in_.read(magic.data(), magic.size()) || magic != kMcapMagic) {
+        throw BadInput(file.string(), "format", in_.is_open() ? "not MCAP" : whyUnreadable(file),
+                       "an MCAP file of version 0");
+    }
+    try {
+        scan();
+        readUnindexed();
+        resolve();
+    } catch (const Error& e) {
+        throw BadInput(file.string(), "content", e.what(), "whole MCAP records");
+    }
+}
+
+// Heads of all records, in sequence. Chunks are not unpacked.
+void McapFile::scan() {
+    for (uint64_t at = kMcapMagic.size(); at < size_;) {
+        std::array<uint8_t, kRecordHead> head{};
+        in_.clear();
+        in_.seekg(static_cast<std::streamoff>(at));
+        in_.read(reinterpret_cast<char*>(head.data()), head.size());
+        uint64_t size = 0;
+        std::memcpy(&size, head.data() + 1, sizeof size);
+        if (!in_ || size > size_ - at - kRecordHead) {
+            break;
+        }
+        if (!record(head[0], at + kRecordHead, size)) {
+            return; // the footer
+        }
+        at += kRecordHead + size;
+    }
+    if (!chunks_.empty()) {
+        chunks_.back().indexed = false; // its indexes may be incomplete
+    }
+    for (auto& [channel, entries] : found_) {
+        messages_ -= std::erase_if(
+            entries, [&](const MessageEntry& e) { return !chunks_.empty() && e.chunk == chunks_.back().at; });
+    }
+    log::warn("{}: ends early: it was not finished; {} whole chunks are used", file().string(),
+              chunks_.size());
+}
+
+bool McapFile::record(uint8_t kind, uint64_t at, uint64_t size) {
+    if (kind == kMcapSchema) {
+        readSchema(content(at, size));
+    } else if (kind == kMcapChannel) {
+        readChannel(content(at, size));
+    } else if (kind == kMcapChunk) {
+        chunks_.push_back({at, size, false});
+    } else if (kind == kMcapIndex && !chunks_.empty()) {
+        chunks_.back().indexed = true;
+        readIndex(content(at, size));
+    } else if (kind == kMcapMessage) {
+        const std::vector<uint8_t> head = content(at, std::min<uint64_t>(size, 22));
+        ByteCursor cursor(head);
+        const auto channel = cursor.value<uint16_t>();
+        cursor.word(); // sequence
+        add(channel, {cursor.value<uint64_t>(), 0, at});
+    }
+    return kind != kMcapFooter;
+}
+
+std::vector<uint8_t> McapFile::content(uint64_t at, uint64_t size) {
+    if (at > size_ || size > size_ - at || size > kMcapBytes) {
+        throw Error("a record of " + std::to_string(size) + " bytes");
+    }
+    std::vector<uint8_t> bytes(size);
+    in_.clear();
+    in_.seekg(static_cast<std::streamoff>(at));
+    in_.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
+    if (!in_) {
+        throw Error("truncated");
+    }
+    return bytes;
+}
+
+void McapFile::readSchema(std::span<const uint8_t> content) {
+    ByteCursor cursor(content);
+    const auto id = cursor.value<uint16_t>();
+    schemas_[id] = mcapText(cursor);
+}
+
+void McapFile::readChannel(std::span<const uint8_t> content) {
+    ByteCursor cursor(content);
+    const auto id = cursor.value<uint16_t>(), schema = cursor.value<uint16_t>();
+    const std::string topic = mcapText(cursor), encoding = mcapText(cursor);
+    const auto type = schemas_.find(schema);
+    const bool read = encoding == "cdr" || encoding == "ros1";
+    if (channels_.contains(id)) {
+        return;
+    }
+    if (topics_.size() >= kMcapTopics) {
+        throw Error("more than " + std::to_string(kMcapTopics) + " topics");
+    }
+    const std::string name = type == schemas_.end() ? "" : type->second;
+    channels_[id] = topicAt(topic, read ? name : encoding + " " + name, encoding == "cdr");
+}
+
+void McapFile::readIndex(std::span<const uint8_t> content) {
+    ByteCursor cursor(content);
+    const auto channel = cursor.value<uint16_t>();
+    for (ByteCursor entries(cursor.block()); !entries.empty();) {
+        const auto time = entries.value<uint64_t>(), offset = entries.value<uint64_t>();
+        add(channel, {time, chunks_.back().at, offset});
+    }
+}
+
+void McapFile::add(uint16_t channel, const MessageEntry& entry) {
+    if (++messages_ > kMcapMessages) {
+        throw Error("more than " + std::to_string(kMcapMessages) + " messages");
+    }
+    found_[channel].push_back(entry);
+}
+
+// Chunks without an index, and the first chunk of each channel that no record outside of chunks describes.
+void McapFile::readUnindexed() {
+    for (const Chunk& chunk : chunks_) {
+        if (!chunk.indexed) {
+            try {
+                scanChunk(chunk, true);
+            } catch (const Error& e) {
+                log::warn("{}: a chunk at byte {} is skipped: {}", file().string(), chunk.at, e.what());
+            }
+        }
+    }
+    std::set<uint64_t> wanted;
+    for (const auto& [channel, entries] : found_) {
+        if (!channels_.contains(channel) && !entries.empty() && entries.front().chunk != 0) {
+            wanted.insert(entries.front().chunk);
+        }
+    }
+    for (const Chunk& chunk : chunks_) {
+        if (wanted.contains(chunk.at)) {
+            scanChunk(chunk, false);
+        }
+    }
+}
+
+void McapFile::scanChunk(const Chunk& chunk, bool messages) {
+    const std::vector<uint8_t>& bytes = unpack(chunk.at);
+    Inner inner;
+    for (size_t at = 0; nextInner(bytes, at, inner);) {
+        if (inner.kind == kMcapSchema) {
+            readSchema(inner.content);
+        } else if (inner.kind == kMcapChannel) {
+            readChannel(inner.content);
+        } else if (inner.kind == kMcapMessage && messages) {
+            ByteCursor cursor(inner.content);
+            const auto channel = cursor.value<uint16_t>();
+            cursor.word();
+            add(channel, {cursor.value<uint64_t>(), chunk.at, inner.at});
+        }
+    }
+}
+
+void McapFile::resolve() {
+    for (auto& [channel, entries] : found_) {
+        const auto topic = channels_.find(channel);
+        if (topic != channels_.end()) {
+            auto& all = topics_[topic->second].messages;
+            all.insert(all.end(), entries.begin(), entries.end());
+        }
+    }
+    found_.clear();
+    sortByTime();
+}
+
+const std::vector<uint8_t>& McapFile::unpack(uint64_t chunkAt) {
+    return unpacked_.at(chunkAt, [&] {
+        const auto chunk = std::lower_bound(chunks_.begin(), chunks_.end(), chunkAt,
+                                            [](const Chunk& c, uint64_t at) { return c.at < at; });
+        if (chunk == chunks_.end() || chunk->at != chunkAt) {
+            throw Error("the index does not point to a chunk");
+        }
+        const std::vector<uint8_t> packed = content(chunkAt, chunk->size);
+        ByteCursor cursor(packed);
+        cursor.take(16); // first and last time
+        const auto size = cursor.value<uint64_t>();
+        const uint32_t sum = cursor.word();
+        const std::string compression = mcapText(cursor);
+        const auto length = cursor.value<uint64_t>();
+        if (size > kMcapBytes || length > cursor.left()) {
+            throw Error("a chunk of " + std::to_string(size) + " bytes");
+        }
+        std::vector<uint8_t> bytes = unpackChunk(compression.empty() ? "none" : compression,
+                                                 cursor.take(length), static_cast<uint32_t>(size));
+        if (sum != 0 && crc32(0, bytes.data(), static_cast<uInt>(bytes.size())) != sum) {
+            throw Error("a chunk whose checksum is wrong");
+        }
+        return bytes;
+    });
+}
+
+std::span<const uint8_t> McapFile::bytes(const MessageEntry& entry) {
+    constexpr size_t kMcapHead = 22; // channel, sequence, two times
+    std::span<const uint8_t> all;
+    if (entry.chunk == 0) {
+        uint64_t size = 0;
+        const std::vector<uint8_t> head = content(entry.offset - sizeof size, sizeof size);
+        std::memcpy(&size, head.data(), sizeof size);
+        message_ = content(entry.offset, size);
+        all = message_;
+    } else {
+        const std::vector<uint8_t>& chunk = unpack(entry.chunk);
+        Inner inner;
+        size_t at = entry.offset;
+        if (at > chunk.size() || !nextInner(chunk, at, inner) || inner.kind != kMcapMessage) {
+            throw Error("the index does not point to a message");
+        }
+        all = inner.content;
+    }
+    if (all.size() < kMcapHead) {
+        throw Error("truncated");
+    }
+    return all.subspan(kMcapHead);
+}
+
+} // namespace fathom

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// An MCAP file, with or without chunks. Source: mcap.dev/spec.
+#pragma once
+
+#include "devices/bag/message_file.h"
+#include "devices/bag/unpacked_chunks.h"
+
+#include <fstream>
+#include <map>
+
+namespace fathom {
+
+// Chunks are uncompressed, LZ4 frames or zstd. A file that was not finished is read to its last whole record,
+// with a warning. The indexes behind chunks are used; the summary's offsets are not.
+class McapFile final : public MessageFile {
+public:
+    // Throws BadInput that names the file.
+    explicit McapFile(const std::filesystem::path& file);
+    std::span<const uint8_t> bytes(const MessageEntry& entry) override;
+
+private:
+    struct Chunk {
+        uint64_t at = 0; // offset of its content in the file
+        uint64_t size = 0;
+        bool indexed = false;
+    };
+    void scan();
+    bool record(uint8_t kind, uint64_t at, uint64_t size);
+    std::vector<uint8_t> content(uint64_t at, uint64_t size);
+    void readSchema(std::span<const uint8_t> content);
+    void readChannel(std::span<const uint8_t> content);
+    void readIndex(std::span<const uint8_t> content);
+    void add(uint16_t channel, const MessageEntry& entry);
+    void readUnindexed();
+    void scanChunk(const Chunk& chunk, bool messages);
+    void resolve();
+    const std::vector<uint8_t>& unpack(uint64_t chunkAt);
+
+    std::ifstream in_;
+    uint64_t size_ = 0, messages_ = 0;
+    std::map<uint16_t, std::string> schemas_;
+    std::map<uint16_t, size_t> channels_; // topics
+    std::map<uint16_t, std::vector<MessageEntry>> found_;
+    std::vector<Chunk> chunks_;
+    UnpackedChunks unpacked_;
+    std::vector<uint8_t> message_; // the last one read outside of chunks
+};
+
+} // namespace fathom

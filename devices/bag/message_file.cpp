@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/bag/message_file.h"
+
+#include "devices/bag/bag_file.h"
+#include "devices/bag/mcap_file.h"
+#include "devices/bag/ros2_database.h"
+#include "devices/bag/split_recording.h"
+#include "engine/types/read_file.h"
+
+#include <fstream>
+
+namespace fathom {
+
+const MessageTopic* MessageFile::find(const std::string& name) const {
+    const auto topic =
+        std::find_if(topics_.begin(), topics_.end(), [&](const MessageTopic& t) { return t.name == name; });
+    return topic == topics_.end() ? nullptr : &*topic;
+}
+
+size_t MessageFile::topicAt(const std::string& name, std::string type, bool cdr) {
+    const auto topic =
+        std::find_if(topics_.begin(), topics_.end(), [&](const MessageTopic& t) { return t.name == name; });
+    if (topic != topics_.end()) {
+        return static_cast<size_t>(topic - topics_.begin());
+    }
+    if (const size_t middle = type.find("/msg/"); middle != std::string::npos) {
+        type.erase(middle, 4);
+    }
+    topics_.push_back({name, std::move(type), {}, cdr});
+    return topics_.size() - 1;
+}
+
+void MessageFile::sortByTime() {
+    for (MessageTopic& topic : topics_) {
+        std::stable_sort(topic.messages.begin(), topic.messages.end(),
+                         [](const MessageEntry& a, const MessageEntry& b) { return a.time < b.time; });
+    }
+}
+
+std::unique_ptr<MessageFile> openMessageFile(const std::filesystem::path& file) {
+    std::error_code failed;
+    if (std::filesystem::is_directory(file, failed)) {
+        return std::make_unique<SplitRecording>(file);
+    }
+    std::string begin(16, '\0');
+    std::ifstream in(isRegularFile(file) ? std::ifstream(file, std::ios::binary) : std::ifstream());
+    in.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+    std::string ending = file.extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (ending == ".mcap" || (ending != ".bag" && begin.starts_with("\x89MCAP"))) {
+        return std::make_unique<McapFile>(file);
+    }
+    if (ending == ".db3" || (ending != ".bag" && begin.starts_with("SQLite format 3"))) {
+        return std::make_unique<Ros2Database>(file);
+    }
+    return std::make_unique<BagFile>(file);
+}
+
+} // namespace fathom

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// A ROS 2 recording as a folder: metadata.yaml and one or more files, played as one.
+#pragma once
+
+#include "devices/bag/message_file.h"
+
+namespace fathom {
+
+class SplitRecording final : public MessageFile {
+public:
+    // The .mcap and .db3 files of the folder, in order of the number that ends their name. Throws BadInput
+    // when there are none, and for files that are compressed as a whole.
+    explicit SplitRecording(const std::filesystem::path& folder);
+    std::span<const uint8_t> bytes(const MessageEntry& entry) override;
+
+private:
+    std::vector<std::unique_ptr<MessageFile>> files_;
+};
+
+} // namespace fathom

@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/bag/stream_choice.h"
+
+#include "devices/recorded/recording_intrinsics.h"
+#include "engine/types/error.h"
+
+#include <cmath>
+#include <tuple>
+
+namespace fathom {
+
+namespace {
+
+bool nearlyEqual(double a, double b) {
+    return std::abs(a - b) < 1e-6;
+}
+
+bool sameLens(const Intrinsics& a, const Intrinsics& b) {
+    return a.width == b.width && a.height == b.height && nearlyEqual(a.fx, b.fx) && nearlyEqual(a.fy, b.fy) &&
+           nearlyEqual(a.cx, b.cx) && nearlyEqual(a.cy, b.cy) && a.distortion == b.distortion &&
+           a.divisor == b.divisor && a.model == b.model;
+}
+
+bool isIdentity(const Pose& pose) {
+    return glm::length(pose.position) < 1e-9 && std::abs(std::abs(pose.rotation.w) - 1.0) < 1e-12;
+}
+
+// How well a name fits a use: 2 names it, 1 says nothing, 0 names another.
+int fits(NamedRole role, NamedRole use) {
+    return role == use ? 2 : (role == NamedRole::None ? 1 : 0);
+}
+
+std::string sizeText(uint32_t width, uint32_t height) {
+    return std::to_string(width) + "x" + std::to_string(height);
+}
+
+} // namespace
+
+StreamChooser::StreamChooser(MessageFile& file, const SourceOptions& options)
+    : file_(file)
+    , options_(options)
+    , streams_(imageStreams(file, options.info))
+    , frames_(file) {}
+
+void StreamChooser::refuse(const std::string& field, const std::string& value,
+                           const std::string& allowed) const {
+    throw BadInput(file_.file().string(), field, value, allowed);
+}
+
+std::vector<const ImageStream*> StreamChooser::depths() const {
+    std::vector<const ImageStream*> all;
+    int best = 1;
+    for (const ImageStream& stream : streams_) {
+        const bool named = stream.name == options_.depth;
+        const bool fit = options_.depth.empty() ? stream.role != NamedRole::Infrared : named;
+        const int how = named ? 2 : fits(stream.role, NamedRole::Depth);
+        if (stream.content == ros::Content::Depth && fit && how >= best) {
+            if (how > best) {
+                all.clear();
+                best = how;
+            }
+            all.push_back(&stream);
+        }
+    }
+    if (!all.empty()) {
+        return all;
+    }
+    std::string seen;
+    for (const ImageStream& stream : streams_) {
+        seen += (seen.empty() ? "" : ", ") + stream.name + " (" + stream.encoding + ")";
+    }
+    const std::string wanted = options_.depth.empty() ? "one of depth" : options_.depth;
+    refuse("topics", seen.empty() ? "no images" : seen,
+           wanted + ": sensor_msgs/Image or CompressedImage with encoding " + ros::kDepthEncodings +
+               (options_.depth.empty() ? ", whose name is not one of infrared; or depth=TOPIC" : ""));
+}
+
+std::vector<const ImageStream*> StreamChooser::colours() const {
+    std::vector<const ImageStream*> all;
+    if (options_.colour == "none") {
+        return all;
+    }
+    int best = 0;
+    for (const ImageStream& stream : streams_) {
+        const bool usable = stream.content == ros::Content::Colour || stream.content == ros::Content::Grey;
+        const bool named = stream.name == options_.colour;
+        if (!usable || (!options_.colour.empty() && !named)) {
+            continue;
+        }
+        // Grey comes last: it is no colour, but shows something.
+        const int how = stream.content == ros::Content::Grey ? 0 : 1 + fits(stream.role, NamedRole::Colour);
+        if (how > best) {
+            all.clear();
+            best = how;
+        }
+        if (how == best) {
+            all.push_back(&stream);
+        }
+    }
+    if (all.empty() && !options_.colour.empty()) {
+        refuse("colour", options_.colour, std::string("a topic with encoding ") + ros::kColourEncodings);
+    }
+    return all;
+}
+
+StreamChooser::Relation StreamChooser::relate(const ImageStream& depth, const ImageStream& colour) {
+    const bool sdk = isSdkTopic(depth.name) || isSdkTopic(colour.name); // its frames are all "0"
+    const bool sameFrame = !sdk && depth.frame == colour.frame;
+    const bool alike = !colour.lens && depth.width == colour.width && depth.height == colour.height;
+    if (!options_.intrinsics.empty() && !depth.lens) {
+        return {1, true, {}, ""}; // the file says the rest
+    }
+    if (!depth.lens || (!colour.lens && !(alike && sameFrame && namedRegistered(depth.name)))) {
+        return {0, false, {}, depth.lens ? colour.noLens : depth.noLens};
+    }
+    if (!options_.extrinsics.empty()) {
+        return {3, false, readExtrinsics(options_.extrinsics), ""};
+    }
+    const bool same = !colour.lens || sameLens(*depth.lens, *colour.lens);
+    if (same && sameFrame) {
+        return {4, true, {}, ""};
+    }
+    if (same && !sdk && namedRegistered(depth.name)) {
+        return {sharedParts(depth.name, colour.name) > 0 ? 4 : 3, true, {}, ""};
+    }
+    // The same camera, one of the two images rectified.
+    if (sameFrame && depth.rectified != colour.rectified && sameLens(depth.raw, colour.raw) &&
+        !depth.turned && !colour.turned) {
+        return {3, false, {}, ""};
+    }
+    return relateByPose(depth, colour);
+}
+
+StreamChooser::Relation StreamChooser::relateByPose(const ImageStream& depth, const ImageStream& colour) {
+    std::optional<Pose> pose = sdkPose(depth, colour);
+    if (!pose && !isSdkTopic(depth.name)) {
+        pose = topicPose(depth);
+        pose = pose || depth.frame == colour.frame ? pose : frames_.pose(depth.frame, colour.frame);
+    }
+    if (pose) {
+        const bool registered = isIdentity(*pose) && sameLens(*depth.lens, *colour.lens);
+        return {2, registered, registered ? Pose{} : *pose, ""};
+    }
+    const std::string topic = isSdkTopic(depth.name)
+                                  ? parentTopic(colour.name, 2) + "/tf/0"
+                                  : "tf_static between the frames, .../extrinsics/depth_to_color";
+    return {0,
+            false,
+            {},
+            "extrinsics: missing (allowed: depth registered to colour (same frame and lens), or the topic " +
+                topic + ", or extrinsics=FILE or colour=none behind the file's name)"};
+}
+
+// Maps points of the common reference to the stream, as in a recording folder (recording_intrinsics.cpp).
+std::optional<Pose> StreamChooser::sdkPose(const ImageStream& depth, const ImageStream& colour) {
+    if (!isSdkTopic(depth.name) || !isSdkTopic(colour.name)) {
+        return std::nullopt;
+    }
+    const std::string ofDepth = parentTopic(depth.name, 2) + "/tf/",
+                      ofColour = parentTopic(colour.name, 2) + "/tf/";
+    for (const MessageTopic& topic : file_.topics()) {
+        if (!topic.name.starts_with(ofDepth) || topic.messages.empty()) {
+            continue;
+        }
+        const MessageTopic* other = file_.find(ofColour + topic.name.substr(ofDepth.size()));
+        if (other != nullptr && !other->messages.empty()) {
+            const Pose depthTf = ros::transform(file_.read(topic, 0));
+            return ros::transform(file_.read(*other, 0)) * inverse(depthTf);
+        }
+    }
+    return std::nullopt;
+}
+
+// The topic .../extrinsics/depth_to_color of realsense-ros, of the same camera.
+std::optional<Pose> StreamChooser::topicPose(const ImageStream& depth) {
+    const MessageTopic* best = nullptr;
+    for (const MessageTopic& topic : file_.topics()) {
+        if (topic.type.ends_with("/Extrinsics") && topic.name.ends_with("depth_to_color") &&
+            !topic.messages.empty() &&
+            (best == nullptr || sharedParts(topic.name, depth.name) > sharedParts(best->name, depth.name))) {
+            best = &topic;
+        }
+    }
+    return best != nullptr ? std::optional(ros::extrinsics(file_.read(*best, 0))) : std::nullopt;
+}
+
+void StreamChooser::replaceLenses(StreamChoice& choice) const {
+    const RecordingIntrinsics given = readIntrinsics(options_.intrinsics, false);
+    const auto fits = [&](const ImageStream& stream, const Intrinsics& lens) {
+        if (stream.width != lens.width || stream.height != lens.height) {
+            throw BadInput(options_.intrinsics.string(), "width, height", sizeText(lens.width, lens.height),
+                           sizeText(stream.width, stream.height) + ", the images of " + stream.name);
+        }
+    };
+    fits(choice.depth, given.camera.depth);
+    const bool colour = choice.camera.hasColour;
+    if (colour) {
+        fits(*choice.colour, given.camera.colour);
+    }
+    choice.camera = given.camera;
+    choice.camera.hasColour = colour;
+    if (!options_.extrinsics.empty()) {
+        choice.camera.registered = false;
+        choice.camera.colourTdepth = readExtrinsics(options_.extrinsics);
+    }
+}
+
+std::string StreamChooser::describe(const StreamChoice& choice) const {
+    const auto named = [](const ImageStream& stream) { return stream.name + " (" + stream.encoding + ")"; };
+    std::string said = "depth " + named(choice.depth);
+    said += choice.colour ? ", colour " + named(*choice.colour) : ", no colour";
+    said += !choice.colour ? "" : (choice.camera.registered ? ", registered" : ", by extrinsics");
+    std::string rest;
+    for (const ImageStream& stream : streams_) {
+        if (stream.topic != choice.depth.topic && (!choice.colour || stream.topic != choice.colour->topic)) {
+            rest += (rest.empty() ? "; not used: " : ", ") + named(stream);
+        }
+    }
+    return said + rest;
+}
+
+StreamChoice StreamChooser::choose() {
+    const std::vector<const ImageStream*> ofDepth = depths(), ofColour = colours();
+    using Score = std::tuple<int, size_t, bool, bool>;
+    const ImageStream *depth = nullptr, *colour = nullptr;
+    Score best;
+    Relation relation;
+    for (const ImageStream* d : ofDepth) {
+        if (ofColour.empty() &&
+            (depth == nullptr || (!depth->lens && d->lens) ||
+             (depth->lens.has_value() == d->lens.has_value() && depth->compressed && !d->compressed))) {
+            depth = d;
+        }
+        for (const ImageStream* c : ofColour) {
+            const Relation found = relate(*d, *c);
+            const Score score{found.rank, sharedParts(d->name, c->name), !d->compressed, !c->compressed};
+            if (depth == nullptr || score > best) {
+                best = score;
+                relation = found;
+                depth = d;
+                colour = c;
+            }
+        }
+    }
+    StreamChoice choice;
+    choice.depth = *depth;
+    if (!depth->lens && options_.intrinsics.empty()) {
+        throw BadInput(file_.file().string() + ": " + depth->noLens);
+    }
+    // Grey is not worth a refusal: nothing asks for it.
+    if (colour != nullptr && relation.rank == 0 && options_.intrinsics.empty()) {
+        if (colour->content != ros::Content::Grey || !options_.colour.empty()) {
+            throw BadInput(file_.file().string() + ": " + relation.fault);
+        }
+        colour = nullptr;
+    }
+    CameraInfo& camera = choice.camera;
+    camera.hasColour = colour != nullptr;
+    camera.depth = camera.colour = depth->lens.value_or(Intrinsics{});
+    if (colour != nullptr) {
+        choice.colour = *colour;
+        camera.registered = relation.registered;
+        camera.colour = relation.registered || !colour->lens ? camera.depth : *colour->lens;
+        camera.colourTdepth = relation.colourTdepth;
+    }
+    if (!options_.intrinsics.empty()) {
+        replaceLenses(choice);
+    }
+    for (const ImageStream& stream : streams_) {
+        if (stream.content == ros::Content::None) {
+            choice.unread += (choice.unread.empty() ? "" : ", ") + stream.name + " (" + stream.encoding + ")";
+        }
+    }
+    choice.said = describe(choice);
+    return choice;
+}
+
+} // namespace fathom

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// Chooses the depth and colour streams of a file of messages, with their lenses and their poses.
+#pragma once
+
+#include "devices/bag/frame_tree.h"
+#include "devices/bag/image_stream.h"
+#include "devices/recorded/source_options.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace fathom {
+
+struct StreamChoice {
+    ImageStream depth;
+    std::optional<ImageStream> colour;
+    CameraInfo camera;  // lenses, registration, extrinsics; not the depth unit
+    std::string said;   // what was chosen, and what else there is, in one line
+    std::string unread; // image topics that may be colour but whose encoding is not read
+};
+
+class StreamChooser {
+public:
+    StreamChooser(MessageFile& file, const SourceOptions& options);
+    // Depth and colour of one camera: registered before extrinsics, then names, shared path, uncompressed,
+    // order. Infrared and the like are never depth, and colour only as grey where nothing else is. Throws
+    // BadInput that names file and topic.
+    StreamChoice choose();
+
+private:
+    // How colour relates to depth. rank 0: unknown, for the reason given in `fault`.
+    struct Relation {
+        int rank = 0;
+        bool registered = false;
+        Pose colourTdepth;
+        std::string fault;
+    };
+    std::vector<const ImageStream*> depths() const;
+    std::vector<const ImageStream*> colours() const;
+    Relation relate(const ImageStream& depth, const ImageStream& colour);
+    Relation relateByPose(const ImageStream& depth, const ImageStream& colour);
+    std::optional<Pose> sdkPose(const ImageStream& depth, const ImageStream& colour);
+    std::optional<Pose> topicPose(const ImageStream& depth);
+    void replaceLenses(StreamChoice& choice) const;
+    std::string describe(const StreamChoice& choice) const;
+    [[noreturn]] void refuse(const std::string& field, const std::string& value,
+                             const std::string& allowed) const;
+
+    MessageFile& file_;
+    const SourceOptions& options_;
+    std::vector<ImageStream> streams_;
+    FrameTree frames_;
+};
+
+} // namespace fathom

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/bag/stream_names.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <string_view>
+#include <vector>
+
+namespace fathom {
+
+namespace {
+
+constexpr std::array<std::string_view, 2> kDepthWords{"depth", "range"};
+constexpr std::array<std::string_view, 3> kColourWords{"rgb", "color", "colour"};
+constexpr std::array<std::string_view, 18> kInfraredWords{
+    "ir",        "infra",     "infrared",   "nir",       "lwir",         "thermal",
+    "intensity", "amplitude", "confidence", "disparity", "reflectivity", "reflectance",
+    "ambient",   "noise",     "gray",       "grey",      "mono",         "fisheye"};
+constexpr std::array<std::string_view, 4> kPainted{"colored", "coloured", "colorized", "colourized"};
+
+template <size_t N>
+bool among(const std::array<std::string_view, N>& words, const std::string& word) {
+    return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+// Lower-case words without digits at their end.
+std::vector<std::string> wordsOf(const std::string& topic) {
+    std::vector<std::string> words(1);
+    for (const char c : topic) {
+        if (std::isalnum(static_cast<unsigned char>(c)) != 0) {
+            words.back() += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+        } else if (!words.back().empty()) {
+            words.emplace_back();
+        }
+    }
+    for (std::string& word : words) {
+        while (word.size() > 1 && std::isdigit(static_cast<unsigned char>(word.back())) != 0) {
+            word.pop_back();
+        }
+    }
+    return words;
+}
+
+} // namespace
+
+NamedRole namedRole(const std::string& topic) {
+    NamedRole role = NamedRole::None;
+    bool target = false;
+    for (const std::string& word : wordsOf(baseTopic(topic))) {
+        if (target) { // the word after "to" is another camera
+            target = false;
+        } else if (word == "to") {
+            target = true;
+        } else if (among(kDepthWords, word) || among(kPainted, word)) {
+            role = NamedRole::Depth;
+        } else if (among(kColourWords, word)) {
+            role = NamedRole::Colour;
+        } else if (among(kInfraredWords, word)) {
+            role = NamedRole::Infrared;
+        }
+    }
+    return role;
+}
+
+bool namedRectified(const std::string& topic) {
+    const std::vector<std::string> words = wordsOf(baseTopic(topic));
+    return std::any_of(words.begin(), words.end(), [](const std::string& word) {
+        return word == "rect" || word == "rectified" || word == "undistorted";
+    });
+}
+
+bool namedRegistered(const std::string& topic) {
+    const std::vector<std::string> words = wordsOf(topic);
+    return std::any_of(words.begin(), words.end(),
+                       [](const std::string& word) { return word == "aligned" || word == "registered"; });
+}
+
+bool isSdkTopic(const std::string& topic) {
+    return topic.starts_with("/device_") && topic.ends_with("/image/data");
+}
+
+size_t sharedParts(const std::string& a, const std::string& b) {
+    size_t parts = 0;
+    for (size_t i = 0; i < std::min(a.size(), b.size()) && a[i] == b[i]; ++i) {
+        parts += a[i] == '/' && i > 0 ? 1 : 0;
+    }
+    return parts;
+}
+
+std::string parentTopic(std::string topic, int levels) {
+    for (int i = 0; i < levels; ++i) {
+        topic.erase(std::min(topic.find_last_of('/'), topic.size()));
+    }
+    return topic;
+}
+
+std::string baseTopic(const std::string& topic) {
+    for (const char* suffix : {"/compressed", "/compressedDepth", "/zstd"}) {
+        if (topic.ends_with(suffix)) {
+            return topic.substr(0, topic.size() - std::string_view(suffix).size());
+        }
+    }
+    return topic;
+}
+
+} // namespace fathom

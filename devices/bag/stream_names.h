@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the name of a topic says about its images.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+namespace fathom {
+
+enum class NamedRole { None, Depth, Colour, Infrared }; // Infrared: also confidence, amplitude and the like
+
+// By the last telling word: "/camera/ir/image" is Infrared, "/kinect2/sd/image_depth_rect" Depth. Words after
+// "to" are a target: "/aligned_depth_to_color/image_raw" is Depth.
+NamedRole namedRole(const std::string& topic);
+// "image_rect", "image_rect_raw": rectified images.
+bool namedRectified(const std::string& topic);
+// "aligned_depth...", "depth_registered": shown by another camera's lens.
+bool namedRegistered(const std::string& topic);
+// Topics of a RealSense SDK bag: /device_D/sensor_S/Stream_I/image/data.
+bool isSdkTopic(const std::string& topic);
+// Number of path parts that both topics begin with.
+size_t sharedParts(const std::string& a, const std::string& b);
+// "/a/b/image_raw" -> "/a/b", `levels` times.
+std::string parentTopic(std::string topic, int levels);
+// Without the suffix of a compressed transport: "/a/image_raw/compressed" -> "/a/image_raw".
+std::string baseTopic(const std::string& topic);
+
+} // namespace fathom

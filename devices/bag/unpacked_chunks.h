@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// Keeps the most recently used chunks of a file in memory, unpacked.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+namespace fathom {
+
+class UnpackedChunks {
+public:
+    // The chunk at this offset of the file; unpack() makes it where it is not kept. Valid until two other
+    // chunks were asked for.
+    template <class Unpack>
+    const std::vector<uint8_t>& at(uint64_t chunk, Unpack unpack) {
+        for (Kept& kept : kept_) {
+            if (kept.chunk == chunk) {
+                kept.used = ++clock_;
+                return kept.bytes;
+            }
+        }
+        Kept fresh{chunk, unpack(), ++clock_};
+        if (kept_.size() < kMost) {
+            kept_.reserve(kMost);
+            return kept_.emplace_back(std::move(fresh)).bytes;
+        }
+        auto oldest = std::min_element(kept_.begin(), kept_.end(),
+                                       [](const Kept& a, const Kept& b) { return a.used < b.used; });
+        *oldest = std::move(fresh);
+        return oldest->bytes;
+    }
+
+private:
+    static constexpr size_t kMost = 2;
+    struct Kept {
+        uint64_t chunk = 0;
+        std::vector<uint8_t> bytes;
+        uint64_t used = 0;
+    };
+    std::vector<Kept> kept_;
+    uint64_t clock_ = 0;
+};
+
+} // namespace fathom

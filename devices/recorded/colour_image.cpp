@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/recorded/colour_image.h"
+
+#include "devices/v4l2/jpeg_image.h"
+#include "engine/types/read_file.h"
+
+#include <array>
+#include <fstream>
+
+namespace fathom {
+
+namespace {
+
+constexpr size_t kMostJpeg = 64u << 20; // [bytes]
+
+bool beginsAsJpeg(const std::filesystem::path& file) {
+    std::array<char, 3> head{};
+    return isRegularFile(file) && std::ifstream(file, std::ios::binary).read(head.data(), head.size()) &&
+           isJpeg(std::as_bytes(std::span(head)));
+}
+
+} // namespace
+
+std::optional<PngSize> colourImageSize(const std::filesystem::path& file) {
+    if (!beginsAsJpeg(file)) {
+        return readPngSize(file);
+    }
+    const auto text = readFileAtMost(file, kMostJpeg);
+    const auto size = text ? jpegSize(std::as_bytes(std::span(*text))) : std::nullopt;
+    return size ? std::optional(PngSize{size->width, size->height}) : std::nullopt;
+}
+
+std::string readColourImage(const std::filesystem::path& file, PngSize size, std::span<uint32_t> target) {
+    if (!beginsAsJpeg(file)) {
+        return readColourPng(file, size, target);
+    }
+    const auto text = readFileAtMost(file, kMostJpeg);
+    return text ? readJpeg(std::as_bytes(std::span(*text)), {size.width, size.height}, target)
+                : "a JPEG of over 64 MiB";
+}
+
+} // namespace fathom

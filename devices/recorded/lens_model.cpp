@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/recorded/lens_model.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <string_view>
+
+namespace fathom {
+
+namespace {
+
+struct KnownLens {
+    std::string_view name;
+    LensModel model;
+};
+constexpr std::array kLenses{KnownLens{"plumb_bob", LensModel::Polynomial},
+                             KnownLens{"brown_conrady", LensModel::Polynomial},
+                             KnownLens{"radtan", LensModel::Polynomial},
+                             KnownLens{"opencv", LensModel::Polynomial},
+                             KnownLens{"rational_polynomial", LensModel::Polynomial},
+                             KnownLens{"inverse_brown_conrady", LensModel::ScaledTangential},
+                             KnownLens{"modified_brown_conrady", LensModel::ScaledTangential},
+                             KnownLens{"equidistant", LensModel::Equidistant},
+                             KnownLens{"kannala_brandt", LensModel::Equidistant},
+                             KnownLens{"kannala_brandt4", LensModel::Equidistant},
+                             KnownLens{"fisheye", LensModel::Equidistant},
+                             KnownLens{"opencv_fisheye", LensModel::Equidistant}};
+constexpr const char* kKnownModels =
+    "plumb_bob, Brown Conrady, rational_polynomial, inverse_brown_conrady or equidistant, unless all "
+    "coefficients are zero";
+
+std::string plainName(const std::string& name) {
+    std::string out;
+    for (const char c : name) {
+        out += c == ' ' || c == '-' ? '_' : static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    }
+    return out;
+}
+
+bool allZero(std::span<const double> values) {
+    return std::all_of(values.begin(), values.end(), [](double k) { return k == 0.0; });
+}
+
+} // namespace
+
+std::string setDistortion(Intrinsics& lens, const std::string& model, std::span<const double> coefficients) {
+    const auto known = std::find_if(kLenses.begin(), kLenses.end(), [&](const KnownLens& one) {
+        return one.name == (model.empty() ? "plumb_bob" : plainName(model));
+    });
+    const bool angles = known != kLenses.end() && known->model == LensModel::Equidistant;
+    if (coefficients.empty() || (allZero(coefficients) && !angles)) {
+        return "";
+    }
+    if (known == kLenses.end()) {
+        return kKnownModels;
+    }
+    if (!std::all_of(coefficients.begin(), coefficients.end(), [](double k) { return std::isfinite(k); })) {
+        return "finite coefficients";
+    }
+    const size_t count = coefficients.size();
+    if (angles ? count < 4 : count < 4 || (count > 5 && count < 8)) {
+        return angles ? "k1, k2, k3 and k4" : "k1, k2, p1, p2 and k3 or none, or also k4, k5 and k6";
+    }
+    const size_t used = angles ? 4 : std::min<size_t>(8, count);
+    if (!allZero(coefficients.subspan(used))) {
+        return angles ? "k1, k2, k3 and k4" : "no coefficients after k6 (thin prism, tilt) but zeros";
+    }
+    lens.model = known->model;
+    std::copy_n(coefficients.begin(), std::min<size_t>(used, 5), lens.distortion.begin());
+    std::copy(coefficients.begin() + static_cast<long>(std::min<size_t>(used, 5)),
+              coefficients.begin() + static_cast<long>(used), lens.divisor.begin());
+    return "";
+}
+
+std::string distortionModel(const Intrinsics& lens) {
+    if (lens.model == LensModel::Equidistant) {
+        return "equidistant";
+    }
+    if (lens.model == LensModel::ScaledTangential) {
+        return "inverse_brown_conrady";
+    }
+    return lens.divisor == std::array<double, 3>{} ? "plumb_bob" : "rational_polynomial";
+}
+
+std::vector<double> distortionCoefficients(const Intrinsics& lens) {
+    std::vector<double> all(lens.distortion.begin(), lens.distortion.end());
+    if (lens.model == LensModel::Equidistant) {
+        all.pop_back();
+    } else if (lens.divisor != std::array<double, 3>{}) {
+        all.insert(all.end(), lens.divisor.begin(), lens.divisor.end());
+    }
+    return all;
+}
+
+} // namespace fathom

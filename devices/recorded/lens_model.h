@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// Names and coefficients of lens distortion, as intrinsics.json and sensor_msgs/CameraInfo give them.
+#pragma once
+
+#include "engine/types/camera_info.h"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace fathom {
+
+// Sets the lens's model and coefficients. Names in any case, with spaces or underscores:
+// plumb_bob, radtan, brown_conrady: k1 k2 p1 p2 [k3]; rational_polynomial: k1 k2 p1 p2 k3 k4 k5 k6, further
+// ones zero; inverse_brown_conrady, modified_brown_conrady: as librealsense projects them, with the
+// tangential part after the radial one; equidistant, kannala_brandt4, fisheye: k1 k2 k3 k4. All zero is no
+// distortion for every model but the equidistant ones. Returns what is allowed, or empty when it was set.
+std::string setDistortion(Intrinsics& lens, const std::string& model, std::span<const double> coefficients);
+
+// The same, to be written.
+std::string distortionModel(const Intrinsics& lens);
+std::vector<double> distortionCoefficients(const Intrinsics& lens);
+
+} // namespace fathom

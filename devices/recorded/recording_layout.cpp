@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/recorded/recording_layout.h"
+
+#include "devices/recorded/json_field.h"
+#include "devices/recorded/png_image.h"
+#include "devices/recorded/text_file.h"
+#include "engine/types/error.h"
+#include "engine/types/log.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/mat3x3.hpp>
+#include <map>
+
+namespace fathom {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kPeriod = 1.0 / 30.0; // [s] of layouts without stamps
+
+// Files of these endings by the number that ends their name's stem.
+std::map<uint32_t, fs::path> numbered(const fs::path& folder,
+                                      std::initializer_list<std::string_view> endings) {
+    std::map<uint32_t, fs::path> files;
+    std::error_code failed;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, failed)) {
+        const std::string name = entry.path().filename().string();
+        for (const std::string_view ending : endings) {
+            if (!name.ends_with(ending)) {
+                continue;
+            }
+            const std::string stem = name.substr(0, name.size() - ending.size());
+            const size_t digit = stem.find_last_not_of("0123456789") + 1;
+            uint32_t number = 0;
+            if (digit < stem.size() && parseNumber(std::string_view(stem).substr(digit), number)) {
+                files.emplace(number, entry.path());
+            }
+        }
+    }
+    return files;
+}
+
+// Depth images with their colour images of the same number.
+std::vector<IndexLine> pairsOf(const std::map<uint32_t, fs::path>& depth,
+                               const std::map<uint32_t, fs::path>& colour, const fs::path& folder) {
+    std::vector<IndexLine> index;
+    for (const auto& [number, file] : depth) {
+        const double stamp = kPeriod * static_cast<double>(index.size());
+        const auto pair = colour.find(number);
+        index.push_back(
+            {stamp, stamp, file, pair == colour.end() ? fs::path() : pair->second,
+             pair == colour.end() ? "no colour image with the number " + std::to_string(number) : "",
+             std::nullopt});
+    }
+    if (index.empty()) {
+        throw BadInput(folder.string(), "depth images", "none", "at least one, with a number in its name");
+    }
+    return index;
+}
+
+Pose poseOf(const std::array<double, 9>& rows, const dvec3& position, const std::string& file) {
+    const glm::dmat3 rotation(rows[0], rows[3], rows[6], rows[1], rows[4], rows[7], rows[2], rows[5],
+                              rows[8]);
+    const dquat q = glm::quat_cast(rotation);
+    const double length = glm::length(q);
+    if (!(std::abs(length - 1.0) < 0.1) || !std::isfinite(position.x + position.y + position.z)) {
+        throw BadInput(file, "pose", "not a rigid motion", "a rotation matrix and a position");
+    }
+    return {position, q / length};
+}
+
+RecordingLayout readOpen3d(const fs::path& folder) {
+    RecordingLayout layout;
+    layout.intrinsics = readIntrinsics(folder / "camera_intrinsic.json");
+    const bool american = fs::exists(folder / "color");
+    layout.index =
+        pairsOf(numbered(folder / "depth", {".png"}),
+                numbered(folder / (american ? "color" : "rgb"), {".png", ".jpg", ".jpeg"}), folder);
+    return layout;
+}
+
+struct BopImage {
+    std::array<double, 9> k{}; // row by row
+    double unit = 0.0;         // [mm]
+    std::optional<Pose> baseTcamera;
+};
+
+std::map<uint32_t, BopImage> bopImages(const fs::path& file) {
+    const nlohmann::json document = parseJsonFile(file);
+    const JsonField root(document, file.string(), "");
+    std::map<uint32_t, BopImage> images;
+    for (const auto& [key, unused] : document.items()) {
+        uint32_t number = 0;
+        if (!parseNumber(std::string_view(key), number)) {
+            throw BadInput(file.string(), key, "not a number", "numbers of images");
+        }
+        const JsonField entry = root.at(key);
+        BopImage image;
+        const std::vector<double> k = entry.at("cam_K").numbers(9);
+        std::copy(k.begin(), k.end(), image.k.begin());
+        image.unit = entry.at("depth_scale").positive();
+        const auto rotation = entry.find("cam_R_w2c"), position = entry.find("cam_t_w2c");
+        if (rotation && position) {
+            const std::vector<double> r = rotation->numbers(9), t = position->numbers(3);
+            std::array<double, 9> rows{};
+            std::copy(r.begin(), r.end(), rows.begin());
+            image.baseTcamera =
+                inverse(poseOf(rows, dvec3(t[0], t[1], t[2]) * 1e-3, file.string())); // world to camera [mm]
+        }
+        images.emplace(number, image);
+    }
+    return images;
+}
+
+RecordingLayout readBop(const fs::path& folder) {
+    const fs::path file = folder / "scene_camera.json";
+    const std::map<uint32_t, BopImage> images = bopImages(file);
+    const auto depth = numbered(folder / "depth", {".png"});
+    RecordingLayout layout;
+    layout.index = pairsOf(depth, numbered(folder / "rgb", {".png", ".jpg"}), folder);
+    size_t line = 0;
+    std::optional<BopImage> first;
+    for (const auto& [number, path] : depth) {
+        IndexLine& entry = layout.index[line++];
+        const auto image = images.find(number);
+        if (image == images.end()) {
+            entry.fault = "scene_camera.json has no image " + std::to_string(number);
+            continue;
+        }
+        first = first ? first : std::optional(image->second);
+        if (image->second.k != first->k || image->second.unit != first->unit) {
+            entry.fault = "lens or depth_scale differs from the first image";
+        }
+        entry.baseTcamera = image->second.baseTcamera;
+    }
+    const auto size = readPngSize(layout.index.front().depth);
+    const double unit = first ? 1e-3 * first->unit : 0.0;
+    if (!first || !size || size->width > kMaxImageWidth || size->height > kMaxImageHeight ||
+        !(first->k[0] > 0.0 && first->k[4] > 0.0) || unit < kFinestUnit || unit > kCoarsestUnit) {
+        throw BadInput(file.string(), "cam_K, depth_scale", "unusable",
+                       "a lens and millimetres per unit (0.001 to 100) for the first depth image");
+    }
+    CameraInfo& camera = layout.intrinsics.camera;
+    camera.depth.width = size->width;
+    camera.depth.height = size->height;
+    camera.depth.fx = first->k[0];
+    camera.depth.fy = first->k[4];
+    camera.depth.cx = first->k[2];
+    camera.depth.cy = first->k[5];
+    camera.colour = camera.depth;
+    camera.metresPerUnit = unit;
+    return layout;
+}
+
+Pose readMatrix(const fs::path& file) {
+    std::vector<double> all;
+    for (const TextLine& line : readDataLines(file)) {
+        for (const std::string_view word : splitWords(line.text)) {
+            double value = 0.0;
+            if (!parseNumber(word, value)) {
+                throw BadInput(file.string(), "line " + std::to_string(line.number), std::string(word),
+                               "numbers");
+            }
+            all.push_back(value);
+        }
+    }
+    if (all.size() != 16) {
+        throw BadInput(file.string(), "matrix", std::to_string(all.size()) + " numbers", "4 x 4");
+    }
+    return poseOf({all[0], all[1], all[2], all[4], all[5], all[6], all[8], all[9], all[10]},
+                  {all[3], all[7], all[11]}, file.string());
+}
+
+RecordingLayout readSevenScenes(const fs::path& folder) {
+    RecordingLayout layout;
+    CameraInfo& camera = layout.intrinsics.camera;
+    // The data set's own calibration.
+    camera.depth =
+        Intrinsics{.width = 640, .height = 480, .fx = 585.0, .fy = 585.0, .cx = 320.0, .cy = 240.0};
+    camera.colour = camera.depth;
+    layout.invalid = 65535;
+    layout.index = pairsOf(numbered(folder, {".depth.png"}), numbered(folder, {".color.png"}), folder);
+    for (IndexLine& line : layout.index) {
+        std::string pose = line.depth.string();
+        pose.replace(pose.size() - std::string_view("depth.png").size(), std::string::npos, "pose.txt");
+        if (fs::exists(pose)) {
+            line.baseTcamera = readMatrix(pose);
+        }
+    }
+    return layout;
+}
+
+} // namespace
+
+RecordingLayout readLayout(const fs::path& folder, const SourceOptions& options) {
+    if (options.intrinsics.empty() && !fs::exists(folder / "intrinsics.json")) {
+        if (fs::exists(folder / "camera_intrinsic.json")) {
+            return readOpen3d(folder);
+        }
+        if (fs::exists(folder / "scene_camera.json")) {
+            return readBop(folder);
+        }
+        if (fs::exists(folder / "frame-000000.depth.png")) {
+            return readSevenScenes(folder);
+        }
+        throw BadInput(
+            (folder / "intrinsics.json").string(), "file", "missing",
+            "intrinsics.json (docs/guide/recordings.md has every field), or intrinsics=FILE behind "
+            "the folder's name, or a folder of Open3D, BOP or 7-Scenes");
+    }
+    RecordingLayout layout;
+    layout.intrinsics =
+        readIntrinsics(options.intrinsics.empty() ? folder / "intrinsics.json" : options.intrinsics);
+    layout.index = readIndex(folder, layout.intrinsics);
+    if (fs::exists(folder / "poses.txt")) {
+        layout.poses.emplace(folder / "poses.txt");
+    }
+    return layout;
+}
+
+} // namespace fathom

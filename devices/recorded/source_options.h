@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a user says about a recording: FILE,depth=TOPIC,colour=TOPIC,...
+#pragma once
+
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <string>
+
+namespace fathom {
+
+// Limits of a depth unit [m]: finer ones cannot be seen through, coarser ones protect nothing.
+inline constexpr double kFinestUnit = 1e-6, kCoarsestUnit = 0.1;
+
+struct SourceOptions {
+    std::string depth, colour, info;  // topics; empty = chosen; colour "none" = without colour
+    std::filesystem::path intrinsics; // intrinsics.json that replaces the lenses; empty = the recording's
+    std::filesystem::path extrinsics; // JSON {"t", "q_xyzw"}: depth-camera points to the colour camera
+    std::optional<double> scale;      // metres per depth unit, or per unit of a cloud
+    double start = 0.0;               // [s] after the first frame
+    double duration = std::numeric_limits<double>::infinity(); // [s] from there
+    double farthest = std::numeric_limits<double>::infinity(); // [m] of interest: the scene's far
+
+    // Throws BadInput when the scale is not between kFinestUnit and kCoarsestUnit, for 16-bit depth.
+    void checkUnit(const std::string& file) const;
+};
+
+struct SourceRequest {
+    std::string file;
+    SourceOptions options;
+};
+
+// Splits at commas that begin one of the known keys, so that file names may have commas. Throws BadInput for
+// a value that is not of its kind, and for a key given twice.
+SourceRequest parseSource(const std::string& text);
+
+} // namespace fathom

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where the pose between depth and colour of a bag comes from.
+#include "tests/devices/played_bag.h"
+
+using namespace fathom;
+using namespace fathom::test;
+
+TEST_CASE(
+    "Depth and colour that are not registered are related by the SDK's, realsense-ros' or tf's extrinsics") {
+    const TemporaryFolder folder;
+    const InfoMessage own{.frame = "depth", .k = {6.0, 6.0, 3.0, 2.0}};
+    const auto bare = [&] {
+        BagMaker maker;
+        addStream(maker, "/camera/depth/image_rect_raw", depthImage(900, "depth"), own);
+        addStream(maker, "/camera/color/image_raw", redImage("color"));
+        return maker;
+    };
+    CHECK(streamRefusal(folder, bare()).find("extrinsics: missing") != std::string::npos);
+    BagMaker topic = bare();
+    Out extrinsics{stampedHeader(1.0, "")};
+    for (const double value : {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.015, 0.0, 0.001}) {
+        extrinsics.put(value);
+    }
+    topic.add("/camera/extrinsics/depth_to_color", "realsense2_camera/Extrinsics", 1.0, extrinsics.bytes);
+    CHECK(playStreams(folder, topic).info().colourTdepth.position.x == doctest::Approx(0.015));
+    BagMaker frames = bare();
+    const auto link = [](const std::string& parent, const std::string& child, double x) {
+        return Out().put(uint32_t{1}).bytes + stampedHeader(1.0, parent) + Out().text(child).bytes +
+               transformMessage(x, 0.0, 0.0);
+    };
+    frames.add("/tf_static", "tf2_msgs/TFMessage", 1.0, link("base", "depth", 0.02));
+    frames.add("/tf_static", "tf2_msgs/TFMessage", 1.0, link("base", "color", 0.005));
+    const BagCamera camera = playStreams(folder, frames);
+    CHECK_FALSE(camera.info().registered);
+    CHECK(camera.info().colourTdepth.position.x == doctest::Approx(0.015));
+    frames.add("/tf", "tf2_msgs/TFMessage", 2.0, link("base", "color", 0.1)); // it moves: not used
+    CHECK(streamRefusal(folder, frames).find("extrinsics: missing") != std::string::npos);
+    folder.write("e.json", R"({"t": [0.03, 0, 0], "q_xyzw": [0, 0, 0, 1]})");
+    CHECK(playStreams(folder, bare(), {.extrinsics = folder.path() / "e.json"})
+              .info()
+              .colourTdepth.position.x == doctest::Approx(0.03));
+}
+
+TEST_CASE("An SDK bag whose frames are all called 0 is related by its transforms, not by that name") {
+    const TemporaryFolder folder;
+    BagMaker maker;
+    for (const char* name : {"/device_0/sensor_0/Depth_0", "/device_0/sensor_1/Color_0"}) {
+        const bool depth = std::string(name).ends_with("Depth_0");
+        maker.add(name + std::string("/info/camera_info"), "sensor_msgs/CameraInfo", 1.0,
+                  infoMessage({.frame = "0"}));
+        maker.add(name + std::string("/tf/0"), "geometry_msgs/Transform", 1.0,
+                  transformMessage(depth ? 0.0 : 0.0147, 0.0, 0.0));
+        maker.add(name + std::string("/image/data"), "sensor_msgs/Image", 1.0,
+                  imageMessage(1.0, depth ? depthImage(500, "0", "mono16") : redImage("0")));
+    }
+    const BagCamera camera = playStreams(folder, maker);
+    CHECK_FALSE(camera.info().registered);
+    CHECK(camera.info().colourTdepth.position.x == doctest::Approx(0.0147));
+}

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/bag/compressed_depth.h"
+#include "devices/bag/image_pixels.h"
+#include "tests/devices/bag_maker.h"
+#include "tests/devices/recorded_folder.h"
+
+#include <doctest/doctest.h>
+#include <turbojpeg.h>
+
+using namespace fathom;
+using namespace fathom::test;
+
+namespace {
+
+constexpr uint32_t kAcross = 8, kDown = 6, kCentre = 2 * kAcross + 3;
+
+ros::Image rawImage(const std::string& encoding, const std::string& pixels, uint32_t rows = kDown) {
+    ros::Image image;
+    image.encoding = encoding;
+    image.width = kAcross;
+    image.height = kDown;
+    image.step = static_cast<uint32_t>(pixels.size()) / rows;
+    image.data = {reinterpret_cast<const uint8_t*>(pixels.data()), pixels.size()};
+    return image;
+}
+
+ros::Image packedImage(const std::string& format, const std::string& bytes) {
+    ros::Image image;
+    image.compressed = true;
+    image.format = format;
+    image.encoding = format.substr(0, format.find(';'));
+    image.data = {reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()};
+    return image;
+}
+
+// Red, by less than 6 levels of each channel.
+bool isRed(uint32_t pixel) {
+    return (pixel & 0xff) > 244 && (pixel >> 8 & 0xff) < 6 && (pixel >> 16 & 0xff) < 6 && pixel >> 24 == 255;
+}
+
+void checkRed(const ros::Image& image, const std::string& name) {
+    std::vector<uint32_t> out(kAcross * kDown);
+    CHECK_MESSAGE(ros::content(image) == ros::Content::Colour, name);
+    CHECK_MESSAGE(ros::colourRows(image, out) == "", name);
+    CHECK_MESSAGE(isRed(out[0]), name);
+    CHECK_MESSAGE(isRed(out[kCentre]), name);
+    CHECK_MESSAGE(isRed(out.back()), name);
+}
+
+std::string repeated(const std::string& bytes, uint32_t count) {
+    std::string all;
+    for (uint32_t i = 0; i < count; ++i) {
+        all += bytes;
+    }
+    return all;
+}
+
+// Red cells of 2 x 2 pixels, `at` the place of red.
+std::string mosaic(uint32_t at, uint32_t bytes) {
+    std::string all;
+    for (uint32_t i = 0; i < kAcross * kDown; ++i) {
+        const bool red = (i / kAcross % 2) * 2 + i % 2 == at;
+        all += std::string(bytes - 1, '\0') + (red ? '\xff' : '\0');
+    }
+    return all;
+}
+
+std::string jpegOf(uint8_t r, uint8_t g, uint8_t b) {
+    const std::string pixels = filledColour(r, g, b, kAcross * kDown);
+    tjhandle encoder = tjInitCompress();
+    unsigned char* made = nullptr;
+    unsigned long size = 0;
+    tjCompress2(encoder, reinterpret_cast<const unsigned char*>(pixels.data()), kAcross, 0, kDown, TJPF_RGB,
+                &made, &size, TJSAMP_444, 100, 0);
+    std::string bytes(reinterpret_cast<const char*>(made), size);
+    tjFree(made);
+    tjDestroy(encoder);
+    return bytes;
+}
+
+std::string pngOf(const TemporaryFolder& folder, bool depth, uint16_t value) {
+    if (depth) {
+        writeDepth(folder.path() / "x.png", kAcross, kDown, value);
+    } else {
+        writeColour(folder.path() / "x.png", kAcross, kDown, 255, 0, 0);
+    }
+    return folder.read("x.png");
+}
+
+std::vector<uint16_t> depthsOf(const ros::Image& image, double metresPerUnit = 0.0001) {
+    std::vector<uint16_t> out(kAcross * kDown);
+    uint64_t beyond = 0;
+    CHECK(ros::content(image) == ros::Content::Depth);
+    CHECK(ros::depthRows(image, metresPerUnit, out, beyond) == "");
+    CHECK(beyond == 0);
+    return out;
+}
+
+} // namespace
+
+TEST_CASE("A red image is red in every colour encoding that is read") {
+    constexpr uint32_t kAll = kAcross * kDown;
+    const std::string kZero(1, '\0'), kFull = "\xff", kWide = std::string("\x12\xff", 2), kNone(2, '\0');
+    checkRed(rawImage("rgb8", repeated(kFull + kZero + kZero, kAll)), "rgb8");
+    checkRed(rawImage("bgr8", repeated(kZero + kZero + kFull, kAll)), "bgr8");
+    checkRed(rawImage("8UC3", repeated(kZero + kZero + kFull, kAll)), "8UC3");
+    checkRed(rawImage("8UC4", repeated(kZero + kZero + kFull + kZero, kAll)), "8UC4");
+    checkRed(rawImage("rgba8", repeated(kFull + kZero + kZero + kZero, kAll)), "rgba8");
+    checkRed(rawImage("bgra8", repeated(kZero + kZero + kFull + kZero, kAll)), "bgra8");
+    checkRed(rawImage("rgb16", repeated(kWide + kNone + kNone, kAll)), "rgb16");
+    checkRed(rawImage("bgr16", repeated(kNone + kNone + kWide, kAll)), "bgr16");
+    checkRed(rawImage("rgba16", repeated(kWide + kNone + kNone + kWide, kAll)), "rgba16");
+    checkRed(rawImage("bgra16", repeated(kNone + kNone + kWide + kWide, kAll)), "bgra16");
+    // BT.601, limited range: red is Y 81, U 90, V 240.
+    checkRed(rawImage("yuv422", repeated("\x5a\x51\xf0\x51", kAll / 2)), "yuv422");
+    checkRed(rawImage("uyvy", repeated("\x5a\x51\xf0\x51", kAll / 2)), "uyvy");
+    checkRed(rawImage("yuv422_yuy2", repeated("\x51\x5a\x51\xf0", kAll / 2)), "yuv422_yuy2");
+    checkRed(rawImage("YUYV", repeated("\x51\x5a\x51\xf0", kAll / 2)), "YUYV");
+    checkRed(rawImage("nv12", repeated("\x51", kAll) + repeated("\x5a\xf0", kAll / 4), kDown * 3 / 2),
+             "nv12");
+    checkRed(rawImage("nv21", repeated("\x51", kAll) + repeated("\xf0\x5a", kAll / 4), kDown * 3 / 2),
+             "nv21");
+    const char* const kOrders[] = {"rggb", "grbg", "gbrg", "bggr"}; // by the place of red
+    for (uint32_t at = 0; at < 4; ++at) {
+        checkRed(rawImage(std::string("bayer_") + kOrders[at] + "8", mosaic(at, 1)), kOrders[at]);
+        checkRed(rawImage(std::string("bayer_") + kOrders[at] + "16", mosaic(at, 2)), kOrders[at]);
+    }
+    const std::string jpeg = jpegOf(255, 0, 0);
+    checkRed(packedImage("rgb8; jpeg compressed bgr8", jpeg), "JPEG");
+    checkRed(packedImage("jpeg", jpeg), "bare JPEG");
+    const TemporaryFolder folder;
+    const std::string png = pngOf(folder, false, 0);
+    checkRed(packedImage("bgr8; png compressed bgr8", png), "PNG");
+}
+
+TEST_CASE("Too few bytes, or rows that are too short, are a fault in every encoding") {
+    std::vector<uint32_t> out(kAcross * kDown);
+    for (const char* encoding :
+         {"rgb8", "rgb16", "yuv422", "nv12", "nv21", "bayer_rggb8", "bayer_gbrg16", "mono8"}) {
+        const std::string pixels(kAcross * 8 * kDown, '\1');
+        ros::Image image = rawImage(encoding, pixels);
+        image.data = image.data.first(image.data.size() / 2);
+        CHECK_FALSE(ros::colourRows(image, out).empty());
+        image = rawImage(encoding, pixels);
+        image.step = kAcross - 1;
+        CHECK_FALSE(ros::colourRows(image, out).empty());
+    }
+}
+
+TEST_CASE("Compressed depth as PNG and RVL gives the same values as plain depth") {
+    const TemporaryFolder folder;
+    const std::string head(12, '\0'), png = pngOf(folder, true, 3124);
+    CHECK(depthsOf(packedImage("16UC1; compressedDepth png", head + png))[kCentre] == 3124);
+    CHECK(depthsOf(packedImage("16UC1; compressedDepth", head + png))[kCentre] == 3124);
+    CHECK(depthsOf(packedImage("16UC1; png compressed ", png))[kCentre] == 3124);
+    // RVL by the paper: no zeros, 48 values; +3124, then steps of 0. Nibbles of 3 bits, the fourth says more.
+    std::string nibbles = "0"
+                          "8"
+                          "6"; // 48 = 000 110, least significant group first
+    for (uint32_t value = 2 * 3124; value > 0; value >>= 3) {
+        nibbles += "0123456789abcdef"[(value & 7) | (value > 7 ? 8 : 0)];
+    }
+    nibbles += std::string(47, '0');
+    nibbles.resize((nibbles.size() + 7) / 8 * 8, '0');
+    std::string rvl = raw(kAcross) + raw(kDown);
+    for (size_t i = 0; i < nibbles.size(); i += 8) {
+        rvl += raw(static_cast<uint32_t>(std::stoul(nibbles.substr(i, 8), nullptr, 16)));
+    }
+    const auto values = depthsOf(packedImage("16UC1; compressedDepth rvl", head + rvl));
+    CHECK(values.front() == 3124);
+    CHECK(values.back() == 3124);
+    std::vector<uint16_t> out(kAcross * kDown);
+    uint64_t beyond = 0;
+    const std::string cut = head + rvl.substr(0, rvl.size() - 8);
+    CHECK_FALSE(ros::depthRows(packedImage("16UC1; compressedDepth rvl", cut), 0.001, out, beyond).empty());
+}
+
+TEST_CASE("Compressed depth of metres is inverse depth with its two factors") {
+    const TemporaryFolder folder;
+    // stored = A / z + B
+    constexpr float kA = 1000.0f, kB = 20.0f;
+    const std::string head = raw(uint32_t{1}) + raw(kA) + raw(kB);
+    const std::string png = pngOf(folder, true, 2020); // 1000 / 0.5 + 20
+    CHECK(depthsOf(packedImage("32FC1; compressedDepth png", head + png))[kCentre] == 5000);
+    const std::string none = pngOf(folder, true, 0);
+    CHECK(depthsOf(packedImage("32FC1; compressedDepth png", head + none))[kCentre] == 0);
+}

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+// Folders of other programs, scales that cannot be, and what is said behind a folder's name.
+#include "devices/recorded/recorded_camera.h"
+#include "engine/types/error.h"
+#include "tests/devices/recorded_folder.h"
+
+#include <doctest/doctest.h>
+
+using namespace fathom;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+void addPair(const TemporaryFolder& folder, const std::string& depth, const std::string& colour,
+             uint16_t value) {
+    fs::create_directories((folder.path() / depth).parent_path());
+    fs::create_directories((folder.path() / colour).parent_path());
+    writeDepth(folder.path() / depth, 7, 5, value);
+    writeColour(folder.path() / colour, 7, 5, 200, 10, 10);
+}
+
+uint32_t framesOf(RecordedCamera& camera, std::vector<double>& depths) {
+    while (const auto frame = camera.next()) {
+        depths.push_back((*frame)->depth[0] * camera.info().metresPerUnit);
+    }
+    return static_cast<uint32_t>(depths.size());
+}
+
+std::string layoutRefusal(const fs::path& folder, const SourceOptions& options = {}) {
+    try {
+        RecordedCamera camera(folder, options);
+    } catch (const BadInput& e) {
+        return e.what();
+    }
+    return "";
+}
+
+} // namespace
+
+TEST_CASE("A folder of Open3D is played with its lens, in millimetres or by the scale given") {
+    const TemporaryFolder folder;
+    folder.write("camera_intrinsic.json",
+                 R"({"width": 7, "height": 5, "intrinsic_matrix": [6, 0, 0, 0, 6.5, 0, 3, 2, 1]})");
+    addPair(folder, "depth/00000.png", "color/00000.png", 500);
+    addPair(folder, "depth/00001.png", "color/00001.png", 600);
+    RecordedCamera camera(folder.path());
+    CHECK(camera.info().depth.fy == 6.5);
+    CHECK(camera.info().depth.cx == 3.0);
+    std::vector<double> depths;
+    CHECK(framesOf(camera, depths) == 2);
+    CHECK(depths.back() == doctest::Approx(0.6));
+    CHECK(RecordedCamera(folder.path(), {.scale = 0.0002}).info().metresPerUnit == 0.0002);
+    folder.write(
+        "camera_intrinsic.json",
+        R"({"width": 7, "height": 5, "intrinsic_matrix": [6, 0, 3, 0, 6.5, 2, 0, 0, 1]})"); // by rows
+    CHECK(layoutRefusal(folder.path()).find("intrinsic_matrix") != std::string::npos);
+}
+
+TEST_CASE("A folder of BOP is played with the lens, scale and poses of scene_camera.json") {
+    const TemporaryFolder folder;
+    folder.write("scene_camera.json",
+                 R"({"3": {"cam_K": [6, 0, 3, 0, 6.5, 2, 0, 0, 1], "depth_scale": 0.1,
+                     "cam_R_w2c": [1, 0, 0, 0, 1, 0, 0, 0, 1], "cam_t_w2c": [100, 0, 0]},
+                     "10": {"cam_K": [6, 0, 3, 0, 6.5, 2, 0, 0, 1], "depth_scale": 1.0}})");
+    addPair(folder, "depth/000003.png", "rgb/000003.png", 5000);
+    addPair(folder, "depth/000010.png", "rgb/000010.png", 5000);
+    RecordedCamera camera(folder.path());
+    CHECK(camera.info().metresPerUnit == doctest::Approx(0.0001));
+    CHECK(camera.info().depth.cy == 2.0);
+    const auto frame = camera.next();
+    REQUIRE(frame);
+    REQUIRE((*frame)->baseTcamera);
+    CHECK((*frame)->baseTcamera->position.x == doctest::Approx(-0.1));
+    CHECK_FALSE(camera.next()); // another scale is never played with the first one's
+    CHECK(camera.skipped() == 1);
+}
+
+TEST_CASE("A folder of 7-Scenes is played with its poses, and 65535 is no depth") {
+    const TemporaryFolder folder;
+    writeDepth(folder.path() / "frame-000000.depth.png", 640, 480, 65535);
+    writeColour(folder.path() / "frame-000000.color.png", 640, 480, 1, 2, 3);
+    folder.write("frame-000000.pose.txt", "1 0 0 0.5\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
+    RecordedCamera camera(folder.path());
+    const auto frame = camera.next();
+    REQUIRE(frame);
+    CHECK((*frame)->depth[1000] == 0);
+    REQUIRE((*frame)->baseTcamera);
+    CHECK((*frame)->baseTcamera->position.x == 0.5);
+}
+
+TEST_CASE("A depth scale given as units per metre is rejected with the number that is meant") {
+    for (const char* scale : {"1000", "5000", "1.0", "0.5", "1e-9"}) {
+        const TemporaryFolder folder;
+        writeSmallRecording(folder, 1);
+        std::string text = folder.read("intrinsics.json");
+        text.replace(text.find("0.001"), 5, scale);
+        folder.write("intrinsics.json", text);
+        CHECK(layoutRefusal(folder.path()).find("1000 units per metre are 0.001") != std::string::npos);
+    }
+    const TemporaryFolder folder;
+    writeSmallRecording(folder, 1);
+    CHECK(layoutRefusal(folder.path(), {.scale = 1000.0}).find("1000 units per metre") != std::string::npos);
+}
+
+TEST_CASE("Stamps that are steps are no times: every frame is played, in the order of the index") {
+    const TemporaryFolder folder;
+    writeSmallRecording(folder, 8);
+    std::string index;
+    const char* const kSteps[] = {"0.0154", "0.0148", "0.0163", "0.0162",
+                                  "0.0331", "0.0057", "0.0169", "0.0172"};
+    for (int i = 0; i < 8; ++i) {
+        const std::string n = std::to_string(i) + ".png";
+        index += std::string(kSteps[i]) + " rgb/" + n + " " + kSteps[i] + " depth/" + n + "\n";
+    }
+    folder.write("associations.txt", index);
+    RecordedCamera camera(folder.path());
+    uint32_t next = 0;
+    double last = -1.0;
+    while (const auto frame = camera.next()) {
+        CHECK((*frame)->index == next++);
+        CHECK((*frame)->captureTime > last);
+        last = (*frame)->captureTime;
+    }
+    CHECK(next == 8);
+    folder.write("poses.txt", "0 0 0 0 0 0 0 1\n");
+    CHECK(layoutRefusal(folder.path()).find("poses.txt") != std::string::npos);
+}
+
+TEST_CASE("Start and duration cut a folder, and another file gives the lens") {
+    const TemporaryFolder folder;
+    writeSmallRecording(folder, 10); // 0.1 s apart
+    RecordedCamera camera(folder.path(), {.start = 0.25, .duration = 0.3});
+    std::vector<double> depths;
+    CHECK(framesOf(camera, depths) == 3);
+    CHECK(depths.front() == doctest::Approx(1.003));
+    std::string other = folder.read("intrinsics.json");
+    other.replace(other.find("0.001"), 5, "0.002");
+    folder.write("other.json", other);
+    fs::remove(folder.path() / "intrinsics.json");
+    CHECK(layoutRefusal(folder.path()).find("intrinsics=FILE") != std::string::npos);
+    CHECK(RecordedCamera(folder.path(), {.intrinsics = folder.path() / "other.json"}).info().metresPerUnit ==
+          0.002);
+}
+
+TEST_CASE("What is said behind a recording's name is split from it, and wrong values are named") {
+    const SourceRequest all =
+        parseSource("a,b.bag,depth=/d,colour=none,info=/i,intrinsics=i.json,extrinsics=e.json,"
+                    "scale=0.001,start=2,duration=3");
+    CHECK(all.file == "a,b.bag");
+    CHECK(all.options.depth == "/d");
+    CHECK(all.options.colour == "none");
+    CHECK(all.options.info == "/i");
+    CHECK(all.options.intrinsics == "i.json");
+    CHECK(all.options.extrinsics == "e.json");
+    CHECK(all.options.scale == 0.001);
+    CHECK(all.options.start == 2.0);
+    CHECK(all.options.duration == 3.0);
+    CHECK(parseSource("plain/folder").file == "plain/folder");
+    CHECK_THROWS_WITH_AS(parseSource("a,scale=x"), doctest::Contains("scale: x"), BadInput);
+    CHECK_THROWS_WITH_AS(parseSource("a,scale=0"), doctest::Contains("above 0"), BadInput);
+    CHECK_THROWS_WITH_AS(parseSource("a,start=-1"), doctest::Contains("at least 0"), BadInput);
+    CHECK_THROWS_WITH_AS(parseSource("a,depth="), doctest::Contains("depth: nothing"), BadInput);
+    CHECK_THROWS_WITH_AS(parseSource("a,depth=/x,depth=/y"), doctest::Contains("given twice"), BadInput);
+}

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// Recordings of ROS 2. The files were written by the npm packages @mcap/core and
+// @foxglove/rosmsg2-serialization, by zstd and lz4js, and by SQLite: three pairs of 8 x 6 images, 0.5, 0.6
+// and 0.7 m, red with green 0, 1 and 2.
+#include "devices/bag/bag_camera.h"
+#include "engine/types/error.h"
+#include "tests/devices/recorded_folder.h"
+
+#include <doctest/doctest.h>
+#include <fstream>
+#include <iterator>
+#include <spdlog/spdlog.h>
+
+using namespace fathom;
+
+namespace {
+
+const std::filesystem::path kFiles = "tests/fuzz/corpus";
+
+uint32_t rosPairs(const std::filesystem::path& file) {
+    BagCamera camera(file);
+    CHECK(camera.info().registered);
+    CHECK(camera.info().depth.fx == 7.0);
+    uint32_t used = 0;
+    while (const auto frame = camera.next()) {
+        CHECK((*frame)->depth[47] == 500 + 100 * used);
+        CHECK((*frame)->colour[47] == (0xff0000c8u | used << 8));
+        CHECK((*frame)->captureTime == doctest::Approx(1.0 + 0.1 * used));
+        ++used;
+    }
+    return used;
+}
+
+std::string rosBytes(const std::filesystem::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::string rosRefusal(const std::filesystem::path& file) {
+    try {
+        BagCamera camera(file);
+    } catch (const BadInput& e) {
+        return e.what();
+    }
+    return "";
+}
+
+} // namespace
+
+TEST_CASE("MCAP with every compression, with and without chunks and indexes, gives the same frames") {
+    for (const char* name : {"none", "lz4", "zstd", "unchunked", "unindexed"}) {
+        CHECK_MESSAGE(rosPairs(kFiles / "mcap" / name) == 3, name);
+    }
+}
+
+TEST_CASE("An MCAP file that was not finished is played to its last whole chunk") {
+    const auto level = spdlog::get_level();
+    spdlog::set_level(spdlog::level::off);
+    CHECK(rosPairs(kFiles / "mcap" / "unfinished") >= 1);
+    spdlog::set_level(level);
+}
+
+TEST_CASE("A ROS 2 database gives its frames, and its views are not evaluated") {
+    CHECK(rosPairs(kFiles / "database" / "small") == 3);
+    CHECK(rosRefusal(kFiles / "database" / "view").find("topics and messages") != std::string::npos);
+}
+
+TEST_CASE("A folder of ROS 2 files is played as one recording, in the order of their numbers") {
+    const TemporaryFolder folder;
+    folder.write("metadata.yaml", "rosbag2_bagfile_information: {}\n");
+    folder.write("rec_0.mcap", rosBytes(kFiles / "mcap" / "zstd"));
+    CHECK(rosPairs(folder.path()) == 3);
+    folder.write("rec_0.mcap.zstd", "x");
+    CHECK(rosRefusal(folder.path()).find("compression") != std::string::npos);
+}
+
+TEST_CASE("A damaged MCAP chunk loses its own images only, and no byte crashes the reader") {
+    const TemporaryFolder folder;
+    const auto level = spdlog::get_level();
+    spdlog::set_level(spdlog::level::off);
+    for (const char* name : {"mcap/zstd", "mcap/unchunked", "database/small"}) {
+        const std::string whole = rosBytes(kFiles / name);
+        for (size_t at = 8; at < whole.size(); at += 23) {
+            std::string changed = whole;
+            changed[at] = static_cast<char>(changed[at] ^ 0x5a);
+            folder.write("x", changed);
+            try {
+                BagCamera camera(folder.path() / "x");
+                while (camera.next()) {
+                }
+            } catch (const Error&) {
+            }
+            folder.write("x", whole.substr(0, at));
+            CHECK_FALSE((rosRefusal(folder.path() / "x").empty() && at < 100));
+        }
+    }
+    spdlog::set_level(level);
+}
