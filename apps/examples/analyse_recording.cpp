@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Analyses a recording without a clock: how near may a tool come along the optical axis, frame by frame?
-//   analyse_recording FOLDER SCENE.yaml WIDTH HEIGHT FX FY CX CY
-// FOLDER/depth has 16-bit PNG files [mm], as `fathom record` and TUM RGB-D recordings do (those in 0.2 mm).
+//   analyse_recording FOLDER SCENE.yaml WIDTH HEIGHT FX FY CX CY [METRES_PER_UNIT]
+// FOLDER/depth has 16-bit PNG files, by default in millimetres (0.001); TUM RGB-D recordings have 0.0002.
 #include <algorithm>
 #include <cstdio>
 #include <fathom/fathom.h>
@@ -29,13 +29,15 @@ static std::vector<std::uint16_t> readDepth(const std::filesystem::path& file) {
 }
 
 int main(int count, char** argument) try {
-    if (count != 9) {
-        throw std::runtime_error("usage: analyse_recording FOLDER SCENE.yaml WIDTH HEIGHT FX FY CX CY");
+    if (count != 9 && count != 10) {
+        throw std::runtime_error(
+            "usage: analyse_recording FOLDER SCENE.yaml WIDTH HEIGHT FX FY CX CY [METRES_PER_UNIT]");
     }
     const auto number = [&](int i) { return std::stod(argument[i]); };
     fathom::CameraModel camera;
     camera.depth = {
         std::uint32_t(number(3)), std::uint32_t(number(4)), number(5), number(6), number(7), number(8), {}};
+    camera.metresPerUnit = count == 10 ? number(9) : 0.001;
     fathom::Lockstep lockstep(fathom::Scene::fromFile(argument[2]), camera, {});
     std::vector<std::filesystem::path> files;
     const auto folder = std::filesystem::path(argument[1]) / "depth";
