@@ -4,6 +4,8 @@
 #include "engine/types/log.h"
 
 #include <algorithm>
+#include <fmt/core.h>
+#include <utility>
 
 namespace fathom {
 
@@ -16,6 +18,17 @@ bool isLit(uint32_t rgba) {
 
 } // namespace
 
+void SourceCheck::warn(std::string text) {
+    log::warn("{}", text);
+    warned_.push_back(std::move(text));
+}
+
+std::vector<std::string> SourceCheck::warnings() const {
+    std::vector<std::string> all = source_->warnings();
+    all.insert(all.end(), warned_.begin(), warned_.end());
+    return all;
+}
+
 SourceCheck::SourceCheck(std::unique_ptr<Camera> source, const Scene& scene)
     : source_(std::move(source))
     , nearZ_(scene.nearZ)
@@ -25,7 +38,8 @@ SourceCheck::SourceCheck(std::unique_ptr<Camera> source, const Scene& scene)
     for (const FixtureClass& fixture : scene.fixtures) {
         asked = asked || fixture.usesColour();
         if (!why.empty() && fixture.usesColour()) {
-            log::warn("fixture '{}' will have no point: it asks for colour, but {}", fixture.name, why);
+            warn(fmt::format("fixture '{}' will have no point: it asks for colour, but {}", fixture.name,
+                             why));
         }
     }
     colourSeen_ = !asked || !why.empty() || info().yuyv;
@@ -56,17 +70,19 @@ void SourceCheck::end() {
     done_ = true;
     const double unit = info().metresPerUnit;
     if (!depthSeen_ && largest_ == 0) {
-        log::warn("{}: no depth in the first second: nothing is protected", description());
+        warn(fmt::format("{}: no depth in the first second: nothing is protected", description()));
     } else if (!depthSeen_) {
-        log::warn("{}: no depth of the first second is between camera.near {} m and camera.far {} m: "
-                  "nothing is protected; it is {:.4g} to {:.4g} m, so check the unit (scale=M) or near and "
-                  "far",
-                  description(), nearZ_, farZ_, least_ * unit, largest_ * unit);
+        warn(fmt::format(
+            "{}: no depth of the first second is between camera.near {} m and camera.far {} m: "
+            "nothing is protected; it is {:.4g} to {:.4g} m, so check the unit (scale=M) or near and "
+            "far",
+            description(), nearZ_, farZ_, least_ * unit, largest_ * unit));
     }
     if (!colourSeen_) {
-        log::warn("{}: the colour images of the first second are black, so no class that asks for colour has "
-                  "a point; {}",
-                  description(), streams());
+        warn(fmt::format(
+            "{}: the colour images of the first second are black, so no class that asks for colour has "
+            "a point; {}",
+            description(), streams()));
     }
 }
 

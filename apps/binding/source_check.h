@@ -6,6 +6,8 @@
 #include "engine/scene/scene.h"
 
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace fathom {
 
@@ -28,13 +30,16 @@ public:
     std::string streams() const override { return source_->streams(); }
     std::string whyNoColour() const override { return source_->whyNoColour(); }
     std::string description() const override { return source_->description(); }
+    std::vector<std::string> warnings() const override;
 
 private:
+    void warn(std::string text);
     void look(const Frame& frame);
     void end(); // of the first second, or of the source
     bool inRange(std::span<const uint16_t> depth);
 
     std::unique_ptr<Camera> source_;
+    std::vector<std::string> warned_;
     double nearZ_, farZ_; // [m]
     bool depthSeen_ = false, colourSeen_ = false, done_ = false;
     std::optional<double> begin_;          // [s] first capture time
