@@ -148,8 +148,8 @@ std::string RecordedCamera::read(const IndexLine& line, FrameSlot& slot) const {
         return "depth stamp " + std::to_string(line.depthStamp) + " goes back from " +
                std::to_string(*lastStamp_);
     }
-    if (poses_ && !poses_->at(line.depthStamp)) {
-        return poses_->whyNone(line.depthStamp);
+    if (layout_.poses && !layout_.poses->at(line.depthStamp)) {
+        return layout_.poses->whyNone(line.depthStamp);
     }
     if (info().hasColour && !(std::abs(line.colourStamp - line.depthStamp) <= kMostApart)) {
         return "its colour is " + std::to_string(std::abs(line.colourStamp - line.depthStamp)) +

@@ -17,8 +17,8 @@ namespace fathom {
 
 // Frame index and source number = data line of the index from 0; capture time = depth stamp. Every data line
 // is either delivered or skipped: a missing or damaged image, another size or type, a depth stamp that goes
-// back or has no pose in poses.txt, or colour far from depth in time skips the frame and is logged once. Frames are read on the calling thread. The camera must
-// outlive its leases; leases may end on any thread.
+// back or has no pose in poses.txt, or colour far from depth in time skips the frame and is logged once.
+// Frames are read on the calling thread. The camera must outlive its leases; leases may end on any thread.
 class RecordedCamera final : public Camera {
 public:
     // Throws BadInput when the folder, its index, intrinsics.json or poses.txt is unusable, or when all

@@ -50,10 +50,10 @@ public:
             overflowed = true;
             if (tried > kSmallestReach) {
                 tried *= 0.5;
-            } else if (capacity_.pairs < kMostPairs || found_.size() > capacity_.spheres) {
+            } else if (capacity_.pairs < kMostPairs || out.size() > capacity_.spheres) {
                 capacity_ = next = doubled;
             } else {
-                throw Error("the tool's " + std::to_string(tool.leafCount()) +
+                throw Error("the tool's " + std::to_string(out.leafCount()) +
                             " leaf spheres touch more than " + std::to_string(kMostPairs) +
                             " pairs of leaf and region sphere (allowed: a tool "
                             "with fewer or smaller spheres, or one that starts outside of the regions)");

@@ -216,7 +216,9 @@ FrameReport FrameCycle::finish() {
         }
         lastCounts_.valid = valid;
         set.stillFrom = frozen_.apply(set.host, scene_);
-        set.describeDevice(scene_, frozen_.version(), {timeline_.handle(), ticket_});
+        if (device_) {
+            set.describeDevice(scene_, frozen_.version(), device_->landed());
+        }
         f.times.collected = Clock::now();
         if (plan_.spheres) {
             set.grid.build(set.host.spheres, &workers_);

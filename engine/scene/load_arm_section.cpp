@@ -100,7 +100,7 @@ void loadArmSection(const YamlNode& node, Scene& scene) {
     }
     if (const auto locked = node.find("locked")) {
         for (const auto& [name, value] : locked->entries()) {
-            arm.locked[name] = value.number(Range::any());
+            arm.locked[name] = value.number(Range::finite());
         }
     }
     if (const auto stray = node.find("keep_stray")) {
