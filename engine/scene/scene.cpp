@@ -28,7 +28,7 @@ double Scene::filterBound() const {
     double least = 1e6; // [m] no bound
     for (const FixtureClass& f : fixtures) {
         const bool counts = f.isPoints() && f.role == Role::Forbidden && !f.name.empty(); // not a spare class
-        least = counts ? std::min(least, 0.25 * (f.radius + 3.0 * registrationSigma)) : least;
+        least = counts ? std::min(least, 0.4 * (f.radius + 3.0 * registrationSigma)) : least;
     }
     return least;
 }

@@ -228,7 +228,7 @@ struct Scene {
     bool hasForbiddenPoints() const;
     bool hasGuidance() const; // any guidance class of points
     bool usesColour() const;  // any class that tests colour
-    // [m] Most that the filter moves a point: a quarter of the smallest forbidden radius.
+    // [m] Most that the filter moves a point: two fifths of the smallest forbidden radius.
     double filterBound() const;
 };
 
