@@ -7,6 +7,7 @@
 #include <array>
 #include <cctype>
 #include <map>
+#include <span>
 #include <string_view>
 
 namespace fathom {
@@ -22,10 +23,14 @@ constexpr std::array<std::string_view, 22> kToolNames{
     "flange",      "tool", "hand",         "hand_link", "palm_link", "gripper_base_link", "gripper_base",
     "gripper_link"};
 
-constexpr std::array<std::string_view, 7> kGripperWords{"finger", "gripper", "jaw",   "knuckle",
-                                                        "claw",   "thumb",   "pincer"};
+constexpr std::array<std::string_view, 7> kGripperWords{"gripper", "finger", "jaw",   "knuckle",
+                                                        "claw",    "thumb",  "pincer"};
+
+// In the name of a joint these say that it turns a hand and does not close it.
+constexpr std::array<std::string_view, 6> kWristWords{"wrist", "roll", "rotat", "pitch", "yaw", "swivel"};
 
 constexpr size_t kMostNamed = 6; // names in a note
+constexpr int kMostBehind = 2;   // joints of an unknown gripper behind a tool frame
 constexpr int kFingerDepth = 4;  // joints of a finger
 
 bool moves(const urdf::Joint& joint) {
@@ -52,11 +57,17 @@ size_t toolRank(const std::string& link) {
     return best;
 }
 
-bool hasGripperWord(const std::string& name, bool ofLink) {
+bool hasWord(const std::string& name, std::span<const std::string_view> words) {
     const std::string low = lowered(name);
-    return std::any_of(kGripperWords.begin(), kGripperWords.end(), [&](std::string_view word) {
-        return !(ofLink && word == "gripper") && low.find(word) != std::string::npos; // often a wrist's link
-    });
+    return std::any_of(words.begin(), words.end(),
+                       [&](std::string_view word) { return low.find(word) != std::string::npos; });
+}
+
+// The link "gripper" is often a wrist's.
+bool closesGripper(const urdf::Joint& joint) {
+    const std::span<const std::string_view> ofLinks(kGripperWords.begin() + 1, kGripperWords.end());
+    return !hasWord(joint.name, kWristWords) &&
+           (hasWord(joint.name, kGripperWords) || hasWord(joint.child_link_name, ofLinks));
 }
 
 bool isBareFrame(const urdf::Link& link) {
@@ -98,8 +109,9 @@ public:
             most = usable(s) ? std::max(most, s.moving) : most;
         }
         const Seen* best = nullptr;
-        for (const Seen& s : seen_) { // a named frame, on half of the longest chain at least
-            const bool fits = usable(s) && s.moving > 0 && 2 * s.moving > most && s.rank < kToolNames.size();
+        for (const Seen& s : seen_) { // a named frame near the end of the longest chain
+            const bool near = 2 * s.moving > most && most - s.moving <= kMostBehind;
+            const bool fits = usable(s) && s.moving > 0 && near && s.rank < kToolNames.size();
             if (fits && (best == nullptr || s.moving > best->moving ||
                          (s.moving == best->moving && s.rank < best->rank))) {
                 best = &s;
@@ -158,7 +170,7 @@ private:
         }
         const bool tiedEnd =
             moving >= 2 && tied_.count(joint.name) > 0 && depthThrough(joint) <= 2 && !tiedToChain(joint);
-        return hasGripperWord(joint.name, false) || hasGripperWord(joint.child_link_name, true) || tiedEnd;
+        return closesGripper(joint) || tiedEnd;
     }
 
     // Whether the joint mimics one above it, as in a chain with coupled joints.

@@ -81,6 +81,7 @@ std::string optionsText(const urdf::Mesh& mesh, const ShapeSource& source, uint3
 // Notes name the mesh file, whose name is no part of the content: kFile stands for it in the cache.
 constexpr const char* kFile = "\x01";
 
+// from: not empty.
 ShapeSpheres renamed(ShapeSpheres made, const std::string& from, const std::string& to) {
     for (std::string& note : made.notes) {
         for (size_t at = note.find(from); at != std::string::npos; at = note.find(from, at + to.size())) {
@@ -136,7 +137,9 @@ void cover(std::vector<LinkCover>& some, const ShapeSource& source, const CoverC
             if (!one.refused && !one.found) {
                 one.attempt(source.urdf, [&] {
                     one.made = linkSpheres(std::move(one.read), leaves);
-                    cache.store(one.key, renamed(one.made, one.file.string(), kFile));
+                    if (!one.key.empty()) {
+                        cache.store(one.key, renamed(one.made, one.file.string(), kFile));
+                    }
                 });
             }
             progress.add();

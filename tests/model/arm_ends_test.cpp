@@ -68,6 +68,15 @@ TEST_CASE("Without a usual name the tip is the end of the longest chain, or the 
               jointText("g", "fixed", "c", "s", "0 0 0.4", "0 0 1"))) == "c (the end of the longest chain)");
 }
 
+TEST_CASE("A joint that turns a gripper belongs to the chain, and a tool frame far from its end is no tip") {
+    CHECK(loadUrdf(twoJoints(ballLink("gripper") +
+                             jointText("gripper_roll", "revolute", "c", "gripper", "0 0 0.1", "0 0 1")))
+              .count() == 3);
+    CHECK(loadUrdf(sevenJoints() + "<link name='tool'/>" +
+                   jointText("f", "fixed", "4", "tool", "0 0 0.1", "0 0 1"))
+              .count() == 7);
+}
+
 TEST_CASE("Chains of the same length give a note that names the other ends") {
     const ArmModel arm = loadUrdf(twoJoints(ballLink("d") + ballLink("e") +
                                             jointText("k1", "revolute", "a", "d", "0 0.2 0", "0 1 0") +
