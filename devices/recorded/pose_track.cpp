@@ -13,7 +13,7 @@ namespace fathom {
 
 namespace {
 
-constexpr double kFarthest = 1e6; // [m]
+constexpr double kFarthestPose = 1e6; // [m]
 
 } // namespace
 
@@ -37,7 +37,7 @@ PoseTrack::PoseTrack(const std::filesystem::path& file) {
         if (!(length > 1e-6) || !std::isfinite(length)) {
             refuse("a quaternion qx qy qz qw of non-zero length");
         }
-        if (!(std::max({std::abs(v[1]), std::abs(v[2]), std::abs(v[3])}) <= kFarthest)) {
+        if (!(std::max({std::abs(v[1]), std::abs(v[2]), std::abs(v[3])}) <= kFarthestPose)) {
             refuse("a position within 1000 km of the origin");
         }
         if (!poses_.empty() && !(v[0] > poses_.back().t)) {

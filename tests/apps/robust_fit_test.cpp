@@ -12,7 +12,7 @@ using namespace fathom;
 
 namespace {
 
-const Pose kTruth{{0.4, -0.3, 1.2}, glm::normalize(dquat(0.3, 0.8, -0.4, 0.2))};
+const Pose kTrueFit{{0.4, -0.3, 1.2}, glm::normalize(dquat(0.3, 0.8, -0.4, 0.2))};
 const FitLimits kByHand{};
 
 std::vector<PointPair> pairsOf(size_t count, double noise, unsigned seed = 5) {
@@ -23,16 +23,16 @@ std::vector<PointPair> pairsOf(size_t count, double noise, unsigned seed = 5) {
     for (size_t i = 0; i < count; ++i) {
         const dvec3 p(place(random), place(random), 1.0 + place(random));
         const dvec3 e(error(random), error(random), error(random));
-        pairs.push_back({p, kTruth.apply(p) + noise * e, "line " + std::to_string(i + 2)});
+        pairs.push_back({p, kTrueFit.apply(p) + noise * e, "line " + std::to_string(i + 2)});
     }
     return pairs;
 }
 
 double offBy(const RobustFit& robust) {
-    return glm::distance(robust.fit.baseTcamera.apply({0, 0, 1}), kTruth.apply({0, 0, 1}));
+    return glm::distance(robust.fit.baseTcamera.apply({0, 0, 1}), kTrueFit.apply({0, 0, 1}));
 }
 
-bool has(const std::string& text, const std::string& part) {
+bool mentions(const std::string& text, const std::string& part) {
     CAPTURE(text);
     CAPTURE(part);
     CHECK(text.find(part) != std::string::npos);
@@ -64,8 +64,8 @@ TEST_CASE("Distances in other units are doubted with their ratio and the worst p
             pair.base *= scale;
         }
         const RobustFit robust = fitRobust(pairs, kByHand, "test");
-        has(robust.doubt, "times those in the camera frame (units?)");
-        has(robust.doubt, "; worst line ");
+        mentions(robust.doubt, "times those in the camera frame (units?)");
+        mentions(robust.doubt, "; worst line ");
     }
 }
 
@@ -80,7 +80,7 @@ TEST_CASE("A mirror image is doubted, whichever axis is negated or swapped") {
                 pair.base[axis] = -pair.base[axis];
             }
         }
-        has(fitRobust(pairs, kByHand, "test").doubt, "mirror image");
+        mentions(fitRobust(pairs, kByHand, "test").doubt, "mirror image");
     }
 }
 
@@ -92,15 +92,15 @@ TEST_CASE("Outliers are left out of the fit, listed farthest first, and doubted"
         const size_t outliers = count >= 10 ? 2 : 1;
         if (outliers == 2) {
             std::swap(pairs[7].base, pairs[8].base); // typed in the wrong order: two more
-            pairs[7].base = kTruth.apply(pairs[7].camera);
-            pairs[8].base = kTruth.apply(pairs[8].camera) + dvec3(0.0, 0.1, 0.0);
+            pairs[7].base = kTrueFit.apply(pairs[7].camera);
+            pairs[8].base = kTrueFit.apply(pairs[8].camera) + dvec3(0.0, 0.1, 0.0);
         }
         const RobustFit robust = fitRobust(pairs, kByHand, "test");
         REQUIRE(robust.outliers.size() == outliers);
         CHECK(robust.outliers[0].name == "line 4");
         CHECK(robust.outliers[0].distance == doctest::Approx(0.3).epsilon(0.02));
         CHECK(offBy(robust) < 0.003);
-        has(robust.doubt, std::to_string(outliers) + " of " + std::to_string(count) +
+        mentions(robust.doubt, std::to_string(outliers) + " of " + std::to_string(count) +
                               " pairs do not fit the others; worst line 4 30");
         FitLimits lenient;
         lenient.outlierShare = 0.4;
@@ -112,7 +112,7 @@ TEST_CASE("Pairs that scatter beyond the bound are doubted with their RMS distan
     const auto pairs = pairsOf(20, 0.03);
     const RobustFit robust = fitRobust(pairs, kByHand, "test");
     CHECK(robust.doubt != "");
-    has(robust.doubt, "; worst line ");
+    mentions(robust.doubt, "; worst line ");
     FitLimits wide;
     wide.residual = 0.3;
     CHECK(fitRobust(pairs, wide, "test").doubt == "");

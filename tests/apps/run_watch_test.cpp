@@ -27,8 +27,8 @@ CameraInfo camera() {
     return info;
 }
 
-struct Run {
-    explicit Run(Role role = Role::Forbidden)
+struct WatchedRun {
+    explicit WatchedRun(Role role = Role::Forbidden)
         : watch(sceneOf(role), camera()) {
         set.camera = camera();
         set.depth = {600, 610, 0, 620};
@@ -62,7 +62,7 @@ struct Run {
     double t = 0.0;
 };
 
-bool has(const std::string& text, const std::string& part) {
+bool says(const std::string& text, const std::string& part) {
     CAPTURE(text);
     CAPTURE(part);
     CHECK(text.find(part) != std::string::npos);
@@ -73,50 +73,50 @@ bool has(const std::string& text, const std::string& part) {
 
 TEST_CASE(
     "A class without a point is named once with its cause, after a second or at the end of a short run") {
-    Run run;
+    WatchedRun run;
     run.frames(0.9, 0, 0, kColoured);
     CHECK(run.quiet());
     run.frames(3.0, 0, 0, kColoured);
-    has(run.only(), "fixture 'valve' has no region from 0.00 s on for 1 s: no pixel passes its gates");
+    says(run.only(), "fixture 'valve' has no region from 0.00 s on for 1 s: no pixel passes its gates");
 
-    Run brief;
+    WatchedRun brief;
     brief.frames(0.1, 0, 0, kColoured);
     brief.watch.end();
-    has(brief.only(), "fixture 'valve' has no region in any frame");
+    says(brief.only(), "fixture 'valve' has no region in any frame");
 
-    Run sometimes;
+    WatchedRun sometimes;
     sometimes.frames(0.5, 20, 5, kColoured);
     sometimes.frames(1.3, 0, 0, kColoured);
     sometimes.frames(3.0, 20, 5, kColoured);
     sometimes.watch.end();
     CHECK(sometimes.quiet());
     sometimes.frames(4.5, 0, 0, kColoured);
-    has(sometimes.only(), "from 3.");
+    says(sometimes.only(), "from 3.");
 }
 
 TEST_CASE(
     "The cause of a missing class is grey colour, depth outside near and far, the filter or min_count") {
-    Run grey;
+    WatchedRun grey;
     grey.frames(0.1, 0, 0, kGrey);
     grey.watch.end();
-    has(grey.only(), "the colour image is grey");
+    says(grey.only(), "the colour image is grey");
 
-    Run far;
+    WatchedRun far;
     far.set.camera.metresPerUnit = 1.0;
     far.frames(0.1, 0, 0, kColoured, 0);
     far.watch.end();
-    has(far.only(), "readings are 600 to 620 m, with a depth unit of 1 m");
+    says(far.only(), "readings are 600 to 620 m, with a depth unit of 1 m");
 
-    Run flying;
+    WatchedRun flying;
     flying.frames(0.1, 3, 0, kColoured);
     flying.watch.end();
-    has(flying.only(), "flying or isolated");
+    says(flying.only(), "flying or isolated");
 
-    Run few(Role::Guidance);
+    WatchedRun few(Role::Guidance);
     few.frames(0.1, 49, 0, kColoured);
     few.watch.end();
-    has(few.only(), "no target in any frame: 49 points, min_count is 50");
-    Run enough(Role::Guidance);
+    says(few.only(), "no target in any frame: 49 points, min_count is 50");
+    WatchedRun enough(Role::Guidance);
     enough.frames(2.0, 50, 0, kColoured);
     enough.watch.end();
     CHECK(enough.quiet());
@@ -124,33 +124,33 @@ TEST_CASE(
 
 TEST_CASE(
     "A state without force that lasts over a second is named once with its cause, and a short one is not") {
-    Run none;
+    WatchedRun none;
     none.ticks(0.0, 3.0, "off", -1);
-    has(none.only(), "state 'off' from 0.00 s on for 1 s: no frame has become a set of regions");
+    says(none.only(), "state 'off' from 0.00 s on for 1 s: no frame has become a set of regions");
 
-    Run uncovered;
+    WatchedRun uncovered;
     uncovered.frames(0.1, 20, 5, kColoured);
     uncovered.ticks(0.0, 1.5, "off", -1);
-    has(uncovered.only(), "no contact answer covers the tool");
+    says(uncovered.only(), "no contact answer covers the tool");
 
-    Run switched;
+    WatchedRun switched;
     switched.frames(0.1, 20, 5, kColoured);
     switched.ticks(0.0, 0.9, "off", 0);
     switched.ticks(0.9, 1.0, "free", 0);
     switched.ticks(1.0, 1.9, "off", 0);
     CHECK(switched.quiet());
     switched.ticks(1.9, 2.5, "off", 0);
-    has(switched.only(), "state 'off' from 1.00 s on");
+    says(switched.only(), "state 'off' from 1.00 s on");
 
-    Run lags;
+    WatchedRun lags;
     lags.ticks(0.0, 1.5, "waiting", 0);
-    has(lags.only(), "the tool cannot follow the hand");
+    says(lags.only(), "the tool cannot follow the hand");
 
-    Run brief;
+    WatchedRun brief;
     brief.ticks(0.0, 0.2, "off", -1);
     brief.watch.end();
-    has(brief.only(), "state 'off'");
-    Run starts;
+    says(brief.only(), "state 'off'");
+    WatchedRun starts;
     starts.ticks(0.0, 0.2, "off", -1);
     starts.ticks(0.2, 0.4, "free", 0);
     starts.watch.end();

@@ -209,7 +209,9 @@ TEST_CASE("Arms with six and seven joints reach a reachable position and directi
 }
 
 TEST_CASE("Locked joints are excluded from an arm's singular values, also in a real arm's URDF") {
-    std::vector<ArmModel> arms{makeArm(4, 1), makeArm(7, 1)};
+    std::vector<ArmModel> arms;
+    arms.push_back(makeArm(4, 1));
+    arms.push_back(makeArm(7, 1));
     for (ArmModel& arm : arms) {
         arm.joints[1].lower = arm.joints[1].upper = 0.3;
     }
