@@ -11,6 +11,7 @@ set(floor_engine/gpu 1)
 set(floor_engine/scene 1)
 set(floor_engine/model 1)
 set(floor_shaders 2)
+set(floor_engine/reader 2)
 set(floor_engine/contact 2)
 set(floor_devices 2)
 set(floor_engine/haptics 3)
@@ -37,7 +38,7 @@ set(failed 0)
 # The longest folder of the table that `path` lies in; empty when there is none.
 function(folder_of path result)
     set(best "")
-    foreach(folder shaders/shared shaders/lib shaders engine/types engine/gpu engine/scene engine/model engine/contact
+    foreach(folder shaders/shared shaders/lib shaders engine/types engine/gpu engine/scene engine/model engine/reader engine/contact
             engine/haptics engine/cloud engine/cycle engine/run engine/front engine/include engine/reference devices apps/binding apps/verify apps/operate apps/stability apps/profile apps)
         string(LENGTH "${folder}" length)
         string(LENGTH "${best}" longest)

@@ -15,9 +15,10 @@ constexpr size_t kMostLeaves = 4096; // leaves of a Tool
 
 class RigMaker {
 public:
-    RigMaker(const Scene& scene, const SceneArm& arm)
+    RigMaker(const Scene& scene, const SceneArm& arm, const ReaderOptions& reader)
         : scene_(scene)
         , arm_(arm)
+        , reader_(reader)
         , rig_(std::make_unique<ArmRig>()) {}
 
     std::unique_ptr<ArmRig> make(std::span<const Sphere> toolLeaves) {
@@ -55,6 +56,7 @@ private:
         options.leavesPerShape = arm_.leaves;
         options.locked = arm_.locked;
         options.keepStray = arm_.keepStray;
+        options.reader = reader_;
         for (const auto& finger : arm_.grasp.fingers) {
             options.fingers.push_back({finger.joint, finger.open, finger.closed});
         }
@@ -176,6 +178,7 @@ private:
 
     const Scene& scene_;
     const SceneArm& arm_;
+    const ReaderOptions& reader_;
     std::unique_ptr<ArmRig> rig_;
 };
 
@@ -221,8 +224,9 @@ Tool ArmRig::heldTool() const {
     return Tool(buildSphereTree(held.empty() ? all : held));
 }
 
-std::unique_ptr<ArmRig> makeArmRig(const Scene& scene, std::span<const Sphere> toolLeaves) {
-    return scene.arm ? RigMaker(scene, *scene.arm).make(toolLeaves) : nullptr;
+std::unique_ptr<ArmRig> makeArmRig(const Scene& scene, std::span<const Sphere> toolLeaves,
+                                   const ReaderOptions& reader) {
+    return scene.arm ? RigMaker(scene, *scene.arm, reader).make(toolLeaves) : nullptr;
 }
 
 } // namespace fathom

@@ -2,6 +2,7 @@
 // An arm from a URDF: the chain of moving joints from base to tip, and the spheres that cover its links.
 #pragma once
 
+#include "engine/model/reader_process.h"
 #include "engine/types/sphere_tree.h"
 
 #include <array>
@@ -123,6 +124,7 @@ struct ArmOptions {
     std::filesystem::path meshes; // root of package:// paths; empty = the URDF's folder and its parents
     uint32_t leavesPerShape = 24; // for each collision box, cylinder and mesh; spheres are used as they are
     bool keepStray = false;       // keep the pieces of a mesh that lie far from the rest
+    ReaderOptions reader;         // of the processes that read the files
 };
 
 // Throws BadInput for an unknown link, finger or locked joint, more than kMostJoints moving joints, planar or

@@ -19,7 +19,8 @@ void ArmShapes::cover(const std::filesystem::path& urdf, const ArmOptions& optio
     for (const Shape& shape : shapes_) {
         all.push_back({shape.link, shape.geometry});
     }
-    const auto made = spheresOf(all, {urdf, options.meshes, options.keepStray}, options.leavesPerShape);
+    const auto made =
+        spheresOf(all, {urdf, options.meshes, options.keepStray, options.reader}, options.leavesPerShape);
     std::set<std::string> outside; // files
     for (size_t i = 0; i < shapes_.size(); ++i) {
         const Shape& shape = shapes_[i];

@@ -158,8 +158,7 @@ std::vector<ShapeSpheres> spheresOf(std::span<const LinkGeometry> shapes, const 
     const CoverCache cache;
     CoverProgress progress(shapes.size(), cache);
     while (made.size() < shapes.size()) {
-        std::vector<LinkCover> some =
-            readSome(shapes.subspan(made.size()), source, cache, leaves); // before there are threads
+        std::vector<LinkCover> some = readSome(shapes.subspan(made.size()), source, cache, leaves);
         cover(some, source, cache, leaves, progress);
         for (LinkCover& one : some) {
             if (one.refused) {

@@ -10,8 +10,8 @@
 namespace fathom {
 
 UrdfCover coverUrdf(const std::filesystem::path& file, const std::filesystem::path& meshes, uint32_t leaves,
-                    bool keepStray) {
-    const auto model = readUrdf(file);
+                    bool keepStray, const ReaderOptions& reader) {
+    const auto model = readUrdf(file, reader);
     std::vector<LinkGeometry> shapes;
     std::vector<Pose> places; // in the link
     for (const auto& [name, link] : model->links_) {
@@ -20,7 +20,7 @@ UrdfCover coverUrdf(const std::filesystem::path& file, const std::filesystem::pa
             places.push_back(poseOf(collision->origin));
         }
     }
-    const auto made = spheresOf(shapes, {file, meshes, keepStray}, leaves);
+    const auto made = spheresOf(shapes, {file, meshes, keepStray, reader}, leaves);
     UrdfCover cover;
     for (size_t i = 0; i < shapes.size(); ++i) {
         for (const std::string& note : made[i].notes) {

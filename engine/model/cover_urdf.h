@@ -18,6 +18,6 @@ struct UrdfCover {
 // meshes: root of package:// paths; empty = the URDF's folder and its parents. leaves: for each box, cylinder
 // and mesh. Throws BadInput.
 UrdfCover coverUrdf(const std::filesystem::path& file, const std::filesystem::path& meshes, uint32_t leaves,
-                    bool keepStray);
+                    bool keepStray, const ReaderOptions& reader = {});
 
 } // namespace fathom

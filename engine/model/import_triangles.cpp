@@ -1,103 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/model/import_triangles.h"
 
-#include "engine/model/reader_process.h"
-
 #include <algorithm>
 #include <array>
-#include <assimp/Importer.hpp>
-#include <assimp/config.h>
-#include <assimp/postprocess.h>
-#include <assimp/scene.h>
-#include <new>
 
 namespace fathom {
 
 namespace {
 
-constexpr size_t kMostPoints = 6'000'000;
-
-// Counts all instances, because a few bytes can reference one mesh a million times. Stops at the limit.
-size_t countPoints(const aiScene& scene, const aiNode& node) {
-    size_t count = 0;
-    for (unsigned m = 0; m < node.mNumMeshes; ++m) {
-        count += scene.mMeshes[node.mMeshes[m]]->mNumVertices;
-    }
-    for (unsigned c = 0; c < node.mNumChildren && count <= kMostPoints; ++c) {
-        count += countPoints(scene, *node.mChildren[c]);
-    }
-    return count;
-}
-
-void addNode(const aiScene& scene, const aiNode& node, const aiMatrix4x4& above, TriangleMesh& mesh) {
-    const aiMatrix4x4 here = above * node.mTransformation;
-    for (unsigned m = 0; m < node.mNumMeshes; ++m) {
-        const aiMesh& part = *scene.mMeshes[node.mMeshes[m]];
-        const auto first = static_cast<uint32_t>(mesh.points.size());
-        for (unsigned v = 0; v < part.mNumVertices; ++v) {
-            const aiVector3D p = here * part.mVertices[v];
-            mesh.points.emplace_back(static_cast<double>(p.x), static_cast<double>(p.y),
-                                     static_cast<double>(p.z));
-        }
-        for (unsigned f = 0; f < part.mNumFaces; ++f) {
-            const aiFace& face = part.mFaces[f];
-            if (face.mNumIndices == 3) {
-                mesh.triangles.push_back(
-                    {first + face.mIndices[0], first + face.mIndices[1], first + face.mIndices[2]});
-            }
-        }
-    }
-    for (unsigned c = 0; c < node.mNumChildren; ++c) {
-        addNode(scene, *node.mChildren[c], here, mesh);
-    }
-}
-
-std::string readWithAssimp(const std::filesystem::path& file, TriangleMesh& mesh) {
-    Assimp::Importer importer;
-    importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
-    importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-    const aiScene* scene = [&] {
-        const LibraryAtWork library;
-        return importer.ReadFile(file.string(), aiProcess_Triangulate | aiProcess_SortByPType);
-    }();
-    if (scene == nullptr || scene->mRootNode == nullptr) {
-        const std::string why = importer.GetErrorString();
-        return why.empty() ? "not understood" : why.substr(0, why.find('\n'));
-    }
-    if (countPoints(*scene, *scene->mRootNode) > kMostPoints) {
-        return "over " + std::to_string(kMostPoints) + " corners";
-    }
-    addNode(*scene, *scene->mRootNode, aiMatrix4x4(), mesh);
-    return "";
-}
-
-// Sent through the pipe after the text; points and triangles follow.
-struct Head {
-    uint64_t points = 0, triangles = 0;
-};
-
-bool say(const std::filesystem::path& file, int pipe, uint64_t mostMemory) {
-    TriangleMesh mesh;
-    std::string text;
-    try {
-        text = readWithAssimp(file, mesh);
-    } catch (const std::bad_alloc&) {
-        mesh = {};
-        text = "takes over " + std::to_string(mostMemory >> 20) + " MiB to read";
-    } catch (const std::exception&) {
-        mesh = {};
-        text = "not understood";
-    }
-    const Head head{mesh.points.size(), mesh.triangles.size()};
-    return writeText(pipe, text) && writeAll(pipe, &head, sizeof head) &&
-           writeAll(pipe, mesh.points.data(), mesh.points.size() * sizeof mesh.points[0]) &&
-           writeAll(pipe, mesh.triangles.data(), mesh.triangles.size() * sizeof mesh.triangles[0]);
-}
-
-bool take(int pipe, ImportedTriangles& out) {
-    Head head;
-    if (!readText(pipe, out.fault) || !readAll(pipe, &head, sizeof head) || head.points > kMostPoints ||
-        head.triangles > kMostPoints) {
+bool take(ReaderPipe& pipe, ImportedTriangles& out) {
+    TrianglesHead head;
+    if (!pipe.readText(out.fault) || !pipe.read(&head, sizeof head) || head.points > kMostImportedPoints ||
+        head.triangles > kMostImportedPoints) {
         return false;
     }
     out.mesh.points.resize(head.points);
@@ -105,17 +19,16 @@ bool take(int pipe, ImportedTriangles& out) {
     const auto sound = [&](const std::array<uint32_t, 3>& corners) {
         return std::max({corners[0], corners[1], corners[2]}) < head.points;
     };
-    return readAll(pipe, out.mesh.points.data(), head.points * sizeof(dvec3)) &&
-           readAll(pipe, out.mesh.triangles.data(), head.triangles * sizeof out.mesh.triangles[0]) &&
+    return pipe.read(out.mesh.points.data(), head.points * sizeof(dvec3)) &&
+           pipe.read(out.mesh.triangles.data(), head.triangles * sizeof out.mesh.triangles[0]) &&
            std::all_of(out.mesh.triangles.begin(), out.mesh.triangles.end(), sound);
 }
 
 } // namespace
 
-ImportedTriangles importTriangles(const std::filesystem::path& file, uint64_t mostMemory) {
+ImportedTriangles importTriangles(const std::filesystem::path& file, const ReaderOptions& options) {
     ImportedTriangles out;
-    const ReaderEnd end = runReader(file, {[&](int pipe) { return say(file, pipe, mostMemory); },
-                                           [&](int pipe) { return take(pipe, out); }, mostMemory});
+    const ReaderEnd end = runReader("mesh", file, options, [&](ReaderPipe& pipe) { return take(pipe, out); });
     if (!end.whole) {
         out.mesh = {};
         out.fault = broken("mesh reader", end);

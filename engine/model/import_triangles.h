@@ -2,6 +2,7 @@
 // Reads a mesh file in a separate process (reader_process.h).
 #pragma once
 
+#include "engine/model/reader_process.h"
 #include "engine/model/triangle_mesh.h"
 
 #include <cstdint>
@@ -16,9 +17,14 @@ struct ImportedTriangles {
     std::string fault; // one line: the reason when nothing was read
 };
 
-inline constexpr uint64_t kMostImportMemory = uint64_t{4} << 30; // [bytes] of address space
+inline constexpr uint64_t kMostImportedPoints = 6'000'000; // corners, and triangles, of one file
+
+// Sent through the pipe after the fault; points and triangles follow.
+struct TrianglesHead {
+    uint64_t points = 0, triangles = 0;
+};
 
 // Throws Error when no process can be made.
-ImportedTriangles importTriangles(const std::filesystem::path& file, uint64_t mostMemory = kMostImportMemory);
+ImportedTriangles importTriangles(const std::filesystem::path& file, const ReaderOptions& options = {});
 
 } // namespace fathom

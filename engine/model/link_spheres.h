@@ -18,6 +18,7 @@ struct ShapeSource {
     std::filesystem::path urdf;   // mesh file names are searched in its folder and the parents,
     std::filesystem::path meshes; // or here, unless empty
     bool keepStray = false;       // keep pieces far from the rest of a mesh
+    ReaderOptions reader{};       // of the processes that read them
 };
 
 // Exception: the rejected value and what is allowed. The caller adds the file and the link.
@@ -48,8 +49,7 @@ std::filesystem::path meshFileOf(const urdf::Geometry& shape, const ShapeSource&
 std::filesystem::path outsideOf(const std::filesystem::path& file, const ShapeSource& source);
 
 // A shape of size 0 gives a note and no spheres. Throws ShapeRefused for negative sizes and missing meshes,
-// and BadInput for a bad mesh file. Call it while no other thread runs: a mesh is read in a child process
-// (runReader).
+// and BadInput for a bad mesh file. Any thread.
 LinkShape readLinkShape(const urdf::Geometry& shape, const ShapeSource& source);
 
 // A sphere is kept; a box, cylinder, capsule or mesh gets at most `leaves` spheres. Throws ShapeRefused. Any

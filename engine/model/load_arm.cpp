@@ -24,7 +24,7 @@ public:
     Loader(const std::filesystem::path& file, const ArmOptions& options)
         : file_(file)
         , options_(options)
-        , urdf_(readUrdf(file)) {}
+        , urdf_(readUrdf(file, options.reader)) {}
 
     ArmModel load() {
         const ArmEnds ends = chooseEnds(*urdf_, file_, options_.base, options_.tip);

@@ -33,7 +33,7 @@ dvec3 upright(const dvec3& p, char up) {
     return up == 'x' ? dvec3(-p.z, p.y, p.x) : p;
 }
 
-TriangleMesh readTriangles(const std::filesystem::path& file) {
+TriangleMesh readTriangles(const std::filesystem::path& file, const ReaderOptions& reader) {
     const std::string kinds = "a readable STL, OBJ or COLLADA (.dae) mesh";
     if (!std::filesystem::is_regular_file(file)) {
         throw BadInput(file.string(), "mesh", "no such file", kinds);
@@ -48,7 +48,7 @@ TriangleMesh readTriangles(const std::filesystem::path& file) {
                        "at most " + std::to_string(kLargestMesh));
     }
     noteInput(file);
-    auto [mesh, fault] = importTriangles(file);
+    auto [mesh, fault] = importTriangles(file, reader);
     if (!fault.empty()) {
         throw BadInput(file.string(), "mesh", fault, kinds);
     }
@@ -89,7 +89,7 @@ LoadedMesh loadMesh(const std::filesystem::path& file, const MeshOptions& option
     if (!(scale > 0.0) || !std::isfinite(scale)) {
         throw BadInput(file.string(), "--scale", std::to_string(scale), "a positive number");
     }
-    LoadedMesh loaded{readTriangles(file), {}, {}};
+    LoadedMesh loaded{readTriangles(file, options.reader), {}, {}};
     TriangleMesh& mesh = loaded.mesh;
     for (dvec3& p : mesh.points) {
         p = upright(p * options.stretch * scale, options.up);

@@ -2,6 +2,7 @@
 // Reads STL, OBJ and COLLADA meshes.
 #pragma once
 
+#include "engine/model/reader_process.h"
 #include "engine/model/triangle_mesh.h"
 
 #include <filesystem>
@@ -16,6 +17,7 @@ struct MeshOptions {
     char up = 0;                 // 'x', 'y', 'z': the file's axis that becomes +z; 0 = no rotation
     bool dropStray = false;      // drop distant pieces instead of rejecting the file
     bool keepStray = false;      // keep them, whatever their distance
+    ReaderOptions reader;        // of the process that reads the file
 };
 
 // A mesh in metres, and facts about its file.

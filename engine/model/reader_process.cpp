@@ -3,145 +3,190 @@
 
 #include "engine/types/error.h"
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
 #include <fstream>
+#include <sstream>
 #include <stdexcept>
-#include <type_traits>
+#include <thread>
+#include <vector>
 
-#include <sys/resource.h>
+#include <fcntl.h>
+#include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-#ifdef FATHOM_SANITIZED
-#include <sanitizer/common_interface_defs.h>
-#endif
 
 namespace fathom {
 
 namespace {
 
-constexpr rlim_t kMostSeconds = 60;     // of CPU time
-constexpr unsigned kMostPatience = 300; // [s] wall time, for a reader that blocks
-constexpr uint64_t kMostText = 4096;
+constexpr const char* kProgram = "fathom-reader";
 
-constexpr int kReported = 86; // exit code of a child that a sanitizer stopped outside the library
-
-bool libraryAtWork = false; // in the child, which has one thread
-
-template <class Byte>
-bool moveAll(ssize_t (*move)(int, Byte*, size_t), int pipe, Byte* data, size_t size) {
-    auto* at = static_cast<std::conditional_t<std::is_const_v<Byte>, const char, char>*>(data);
-    while (size > 0) {
-        const ssize_t done = move(pipe, at, size);
-        if (done < 0 && errno == EINTR) {
-            continue;
+// The mapped file that contains this function: the program, or libfathom.so.
+std::filesystem::path ownFile() {
+    const auto here = reinterpret_cast<uintptr_t>(&ownFile);
+    std::ifstream maps("/proc/self/maps");
+    for (std::string line; std::getline(maps, line);) {
+        std::istringstream in(line);
+        uintptr_t first = 0, last = 0;
+        char dash = 0;
+        std::string rights, offset, device, inode, path;
+        in >> std::hex >> first >> dash >> last >> rights >> offset >> device >> inode >> std::ws;
+        if (in && here >= first && here < last && std::getline(in, path)) {
+            return path;
         }
-        if (done <= 0) {
-            return false;
-        }
-        at += done;
-        size -= static_cast<size_t>(done);
     }
-    return true;
+    return {};
 }
 
-// Limit for this process, the parent's address space included [bytes]; 0 when it is unknown, or under a
-// sanitizer, which maps terabytes.
-rlim_t mappedNow() {
-#ifdef FATHOM_SANITIZED
-    return 0;
+class Pipe {
+public:
+    explicit Pipe(const std::string& program) {
+        if (::pipe2(ends_.data(), O_CLOEXEC) != 0) {
+            throw Error(program + ": no pipe: " + std::strerror(errno));
+        }
+    }
+    ~Pipe() {
+        ::close(ends_[0]);
+        closeWriter();
+    }
+    Pipe(const Pipe&) = delete;
+    Pipe& operator=(const Pipe&) = delete;
+    void closeWriter() {
+        if (ends_[1] >= 0) {
+            ::close(ends_[1]);
+        }
+        ends_[1] = -1;
+    }
+    int reader() const { return ends_[0]; }
+    int writer() const { return ends_[1]; }
+
+private:
+    std::array<int, 2> ends_{-1, -1};
+};
+
+// Standard output is the pipe; nothing else of this process is passed on.
+class Files {
+public:
+    explicit Files(int output) {
+        ::posix_spawn_file_actions_init(&actions_);
+        ::posix_spawn_file_actions_adddup2(&actions_, output, STDOUT_FILENO);
+        ::posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+#ifndef FATHOM_SANITIZED
+        ::posix_spawn_file_actions_addopen(&actions_, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
 #endif
-    rlim_t pages = 0;
-    std::ifstream("/proc/self/statm") >> pages;
-    return pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE));
+        ::posix_spawn_file_actions_addclosefrom_np(&actions_, STDERR_FILENO + 1);
+    }
+    ~Files() {
+        ::posix_spawn_file_actions_destroy(&actions_);
+    }
+    Files(const Files&) = delete;
+    Files& operator=(const Files&) = delete;
+    const posix_spawn_file_actions_t* get() const {
+        return &actions_;
+    }
+
+private:
+    posix_spawn_file_actions_t actions_;
+};
+
+// Default actions and an empty mask, whatever the calling thread blocks or ignores.
+class Signals {
+public:
+    Signals() {
+        sigset_t none, all;
+        ::sigemptyset(&none);
+        ::sigfillset(&all);
+        ::posix_spawnattr_init(&attributes_);
+        ::posix_spawnattr_setsigmask(&attributes_, &none);
+        ::posix_spawnattr_setsigdefault(&attributes_, &all);
+        ::posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+    }
+    ~Signals() { ::posix_spawnattr_destroy(&attributes_); }
+    Signals(const Signals&) = delete;
+    Signals& operator=(const Signals&) = delete;
+    const posix_spawnattr_t* get() const { return &attributes_; }
+
+private:
+    posix_spawnattr_t attributes_;
+};
+
+pid_t spawn(const std::string& program, const std::vector<std::string>& arguments, int output) {
+    std::vector<char*> texts;
+    for (const std::string& argument : arguments) {
+        texts.push_back(const_cast<char*>(argument.c_str()));
+    }
+    texts.push_back(nullptr);
+    const Files files(output);
+    const Signals signals;
+    pid_t process = 0;
+    const int fault =
+        ::posix_spawn(&process, program.c_str(), files.get(), signals.get(), texts.data(), environ);
+    if (fault != 0) {
+        throw Error(program + ": cannot be started: " + std::strerror(fault) + " (allowed: the program " +
+                    kProgram + " of this version)");
+    }
+    return process;
 }
 
-[[noreturn]] void child(const ReaderProcess& reader, int pipe) {
-    for (const int fault : {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT, SIGINT, SIGTERM, SIGALRM}) {
-        std::signal(fault, SIG_DFL); // default action: the child ends without a message
-    }
-#ifdef FATHOM_SANITIZED
-    __sanitizer_set_death_callback([] {
-        if (!libraryAtWork) {
-            ::_exit(kReported);
+// Waits until the process has ended or its time is over, then kills it. Status 0 if another part of this
+// program has collected it.
+int awaitEnd(pid_t process, ReaderPipe::Time until) {
+    int status = 0;
+    for (;;) {
+        const pid_t ended = ::waitpid(process, &status, WNOHANG);
+        if (ended == process || (ended < 0 && errno != EINTR)) {
+            return ended == process ? status : 0;
         }
-    });
-#endif
-    ::alarm(kMostPatience);
-    const rlimit none{0, 0}, time{kMostSeconds, kMostSeconds};
-    ::setrlimit(RLIMIT_CORE, &none);
-    ::setrlimit(RLIMIT_CPU, &time);
-    if (const rlim_t mapped = mappedNow(); mapped > 0) {
-        const rlimit memory{mapped + reader.mostMemory, mapped + reader.mostMemory};
-        ::setrlimit(RLIMIT_AS, &memory);
+        if (ReaderPipe::Time::clock::now() >= until) {
+            ::kill(process, SIGKILL);
+        }
+        std::this_thread::sleep_for(std::chrono::microseconds(200));
     }
-    ::_exit(reader.read(pipe) ? 0 : 1);
 }
 
 } // namespace
 
-LibraryAtWork::LibraryAtWork() noexcept {
-    libraryAtWork = true;
-}
-
-LibraryAtWork::~LibraryAtWork() {
-    libraryAtWork = false;
-}
-
-bool writeAll(int pipe, const void* data, size_t size) {
-    return moveAll<const void>(::write, pipe, data, size);
-}
-
-bool readAll(int pipe, void* data, size_t size) {
-    return moveAll<void>(::read, pipe, data, size);
-}
-
-bool writeText(int pipe, const std::string& text) {
-    const uint64_t size = std::min<uint64_t>(text.size(), kMostText);
-    return writeAll(pipe, &size, sizeof size) && writeAll(pipe, text.data(), size);
-}
-
-bool readText(int pipe, std::string& text) {
-    uint64_t size = 0;
-    if (!readAll(pipe, &size, sizeof size) || size > kMostText) {
-        return false;
+std::filesystem::path readerProgram() {
+    const std::filesystem::path folder = ownFile().parent_path();
+    for (const char* below : {"", "../libexec/fathom", "../../libexec/fathom"}) {
+        const auto program = (folder / below / kProgram).lexically_normal();
+        if (std::error_code ignored; std::filesystem::is_regular_file(program, ignored)) {
+            return program;
+        }
     }
-    text.resize(size);
-    return readAll(pipe, text.data(), size);
+    throw Error(std::string(kProgram) + ": not found for " + folder.string() +
+                " (allowed: in that folder, ../libexec/fathom or ../../libexec/fathom)");
 }
 
-ReaderEnd runReader(const std::filesystem::path& file, const ReaderProcess& reader) {
-    std::array<int, 2> pipe{};
-    if (::pipe(pipe.data()) != 0) {
-        throw Error(file.string() + ": no pipe: " + std::strerror(errno));
-    }
-    const pid_t process = ::fork();
-    if (process == 0) {
-        ::close(pipe[0]);
-        child(reader, pipe[1]);
-    }
-    ::close(pipe[1]);
+ReaderEnd runReader(const std::string& kind, const std::filesystem::path& file, const ReaderOptions& options,
+                    const std::function<bool(ReaderPipe&)>& take) {
+    const std::string program = options.program.empty() ? readerProgram() : options.program;
+    Pipe pipe(program);
+    const pid_t process =
+        spawn(program, {kProgram, kind, file.string(), std::to_string(options.mostMemory)}, pipe.writer());
+    pipe.closeWriter();
+    const auto until = ReaderPipe::Time::clock::now() + options.patience;
+    ReaderPipe answer(pipe.reader(), until);
+    std::string mark(kReaderMark.size(), ' ');
     ReaderEnd end;
-    end.whole = process > 0 && reader.take(pipe[0]);
-    ::close(pipe[0]);
-    int status = 0;
-    while (process > 0 && ::waitpid(process, &status, 0) < 0 && errno == EINTR) {
-    }
-    if (process < 0) {
-        throw Error(file.string() + ": cannot start a reader process");
-    }
-    if (WIFEXITED(status) && WEXITSTATUS(status) == kReported) {
+    end.whole = answer.read(mark.data(), mark.size()) && mark == kReaderMark && take(answer);
+    const bool running = !end.whole && !answer.ended(); // its answer is too late or out of bounds
+    const int status = awaitEnd(process, running ? ReaderPipe::Time{} : until);
+    if (WIFEXITED(status) && WEXITSTATUS(status) == kSanitizerReport) {
         throw std::logic_error(file.string() + ": a sanitizer ended its reader in Fathom's own code");
     }
-    end.signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+    end.late = answer.late();
+    end.signal = !running && WIFSIGNALED(status) ? WTERMSIG(status) : 0;
     return end;
 }
 
 std::string broken(const std::string& reader, const ReaderEnd& end) {
+    if (end.late) {
+        return "takes too long for the " + reader;
+    }
     return "breaks the " + reader +
            (end.signal != 0 ? " (signal " + std::to_string(end.signal) + ")" : std::string());
 }

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs third-party parsers of untrusted files in a child process, so that a crash of the parser becomes a
-// rejected file.
+// Has third-party parsers read untrusted files in a process of their own, so that a crash of the parser
+// becomes a rejected file.
 #pragma once
 
-#include <cstddef>
+#include "engine/model/reader_pipe.h"
+
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -11,43 +13,36 @@
 
 namespace fathom {
 
-// Writes everything to a pipe, in as many calls as needed; false when the other end is closed.
-bool writeAll(int pipe, const void* data, size_t size);
-bool readAll(int pipe, void* data, size_t size);
-// A length-prefixed text of at most 4 KiB.
-bool writeText(int pipe, const std::string& text);
-bool readText(int pipe, std::string& text);
-
-struct ReaderProcess {
-    // Child: reads the file, writes the result to the pipe, and returns whether all was written. It reports
-    // std::bad_alloc itself.
-    std::function<bool(int pipe)> read;
-    // Parent: reads the result; false when it is incomplete.
-    std::function<bool(int pipe)> take;
-    uint64_t mostMemory = uint64_t{4} << 30; // [bytes] address space beyond that of this process
+// How that process runs.
+struct ReaderOptions {
+    std::filesystem::path program;           // empty = readerProgram()
+    uint64_t mostMemory = uint64_t{4} << 30; // [bytes] of address space beyond that of an idle reader
+    std::chrono::milliseconds patience = std::chrono::minutes(5); // until it is killed
 };
 
-// While one exists, the library runs in the child: a sanitizer report is then the library's fault and rejects
-// the file, as a crash does.
-class LibraryAtWork {
-public:
-    LibraryAtWork() noexcept;
-    ~LibraryAtWork();
-    LibraryAtWork(const LibraryAtWork&) = delete;
-    LibraryAtWork& operator=(const LibraryAtWork&) = delete;
-};
+// The program fathom-reader: in the folder of the program or library that contains this code, or in
+// ../libexec/fathom or ../../libexec/fathom from there. Throws Error when there is none.
+std::filesystem::path readerProgram();
 
-// Forks a child. Call it while no other thread runs: a lock that another thread holds at the fork stays held
-// in the child, which allocates and calls a library. The child gets at most one minute of CPU time, five
-// minutes in total, and `mostMemory` (unlimited under a sanitizer, which maps terabytes). Returns the signal
-// that ended it (0 = none) and whether take() got everything. Throws Error that names the file when no child
-// can be made, and std::logic_error when a sanitizer stopped the child in Fathom's own code.
+// How a reader ended.
 struct ReaderEnd {
-    bool whole = false;
-    int signal = 0;
+    bool whole = false; // take() got everything
+    bool late = false;  // killed because its time was over
+    int signal = 0;     // that ended it; 0 = none
 };
-ReaderEnd runReader(const std::filesystem::path& file, const ReaderProcess& reader);
-// "breaks the <reader>", with the signal.
+
+// Starts `fathom-reader KIND FILE MEMORY` and has take() read its answer. It has one minute of CPU time, no
+// open files but its own, no signals blocked, and no error output unless it is built with a sanitizer, which
+// also lifts the bound on memory. Does not fork: any thread may call it while others run. Throws Error that
+// names the program when it cannot be started, and std::logic_error when a sanitizer stopped it in Fathom's
+// own code.
+ReaderEnd runReader(const std::string& kind, const std::filesystem::path& file, const ReaderOptions& options,
+                    const std::function<bool(ReaderPipe&)>& take);
+
+// "breaks the <reader>", with the signal, or that it takes too long.
 std::string broken(const std::string& reader, const ReaderEnd& end);
+
+inline constexpr int kSanitizerReport =
+    86; // exit code of a reader that a sanitizer stopped outside the parser
 
 } // namespace fathom

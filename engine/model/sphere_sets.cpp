@@ -32,8 +32,8 @@ std::string kindOf(const std::filesystem::path& file) {
 
 } // namespace
 
-std::vector<LinkSpheres> readSpherizedUrdf(const std::filesystem::path& file) {
-    const auto model = readUrdf(file);
+std::vector<LinkSpheres> readSpherizedUrdf(const std::filesystem::path& file, const ReaderOptions& reader) {
+    const auto model = readUrdf(file, reader);
     std::vector<LinkSpheres> sets;
     for (const auto& [name, link] : model->links_) {
         LinkSpheres set{name, {}};
@@ -62,7 +62,7 @@ bool isSphereFile(const std::filesystem::path& file) {
            kind == ".json";
 }
 
-std::vector<LinkSpheres> readSets(const std::filesystem::path& file) {
+std::vector<LinkSpheres> readSets(const std::filesystem::path& file, const ReaderOptions& reader) {
     const std::string kind = kindOf(file);
     std::vector<LinkSpheres> sets;
     if (kind == ".sph") {
@@ -71,7 +71,7 @@ std::vector<LinkSpheres> readSets(const std::filesystem::path& file) {
         std::copy_if(tree.lastLevel().begin(), tree.lastLevel().end(), std::back_inserter(sets[0].spheres),
                      [](const Sphere& s) { return s.radius >= 0.0; });
     } else if (kind == ".urdf") {
-        sets = readSpherizedUrdf(file);
+        sets = readSpherizedUrdf(file, reader);
     } else if (kind == ".json") {
         sets = readFoam(file);
     } else if (isSphereFile(file)) {
@@ -99,11 +99,12 @@ std::vector<LinkSpheres> selectLink(std::vector<LinkSpheres> sets, const std::st
     return {*found};
 }
 
-SphereTree readSphereTree(const std::filesystem::path& file, const std::string& link) {
+SphereTree readSphereTree(const std::filesystem::path& file, const std::string& link,
+                          const ReaderOptions& reader) {
     if (kindOf(file) == ".sph") {
         return readSph(file);
     }
-    const auto sets = selectLink(readSets(file), link, file);
+    const auto sets = selectLink(readSets(file, reader), link, file);
     if (sets.size() > 1) {
         throw BadInput(file.string(), "link", "not named", namesOf(sets));
     }

@@ -3,6 +3,7 @@
 // of NVIDIA Isaac, and JSON of foam.
 #pragma once
 
+#include "engine/model/reader_process.h"
 #include "engine/types/sphere_tree.h"
 
 #include <filesystem>
@@ -19,7 +20,8 @@ struct LinkSpheres {
 
 // Every <collision><geometry><sphere>, at its <origin>; other geometry is ignored. Links without spheres are
 // skipped; the order is that of the link names. Throws BadInput.
-std::vector<LinkSpheres> readSpherizedUrdf(const std::filesystem::path& file);
+std::vector<LinkSpheres> readSpherizedUrdf(const std::filesystem::path& file,
+                                           const ReaderOptions& reader = {});
 
 // `collision_spheres: {LINK: [{center: [x, y, z], radius: r}]}`, at the top or under robot_cfg / kinematics;
 // links in the file's order. Entries with radius <= 0 are skipped: cuRobo disables spheres that way. Throws
@@ -43,7 +45,7 @@ bool isSphereFile(const std::filesystem::path& file);
 
 // Any kind; a .yaml with `format: xrdf` is XRDF. A .sph gives the leaves of its tree, as a link named as the
 // file. Throws BadInput, also when there is no sphere.
-std::vector<LinkSpheres> readSets(const std::filesystem::path& file);
+std::vector<LinkSpheres> readSets(const std::filesystem::path& file, const ReaderOptions& reader = {});
 
 // Only the named link; all of them without a name. Throws BadInput that lists the available links.
 std::vector<LinkSpheres> selectLink(std::vector<LinkSpheres> sets, const std::string& link,
@@ -51,6 +53,7 @@ std::vector<LinkSpheres> selectLink(std::vector<LinkSpheres> sets, const std::st
 
 // Loads any kind: .sph as it is; the others as a top-down tree of the named link (may be empty when only one
 // link has spheres). Throws BadInput that lists the available links.
-SphereTree readSphereTree(const std::filesystem::path& file, const std::string& link = "");
+SphereTree readSphereTree(const std::filesystem::path& file, const std::string& link = "",
+                          const ReaderOptions& reader = {});
 
 } // namespace fathom

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parses URDF files with urdfdom.
+// Reads URDF files in a separate process (reader_process.h).
 #pragma once
 
+#include "engine/model/reader_process.h"
 #include "engine/types/pose.h"
 
 #include <filesystem>
@@ -11,9 +12,11 @@
 
 namespace fathom {
 
-// Never null. Capsules, which the parser does not know, are readable with capsuleOf(). Throws BadInput with
-// the parser's message, and for xacro files, which must be expanded first.
-std::shared_ptr<const urdf::ModelInterface> readUrdf(const std::filesystem::path& file);
+// Never null; a tree below one root. Of materials, visuals, inertia and sensors it has nothing. Capsules,
+// which the parser does not know, are readable with capsuleOf(). Throws BadInput with the parser's message,
+// and for xacro files, which must be expanded first.
+std::shared_ptr<const urdf::ModelInterface> readUrdf(const std::filesystem::path& file,
+                                                     const ReaderOptions& options = {});
 
 // A cylinder of `length` along z with a half sphere at each end [m].
 struct CapsuleSize {

@@ -38,10 +38,10 @@ Scene openSceneText(const std::string& text) {
 
 namespace {
 
-Tool writtenTool(const Scene& scene) {
+Tool writtenTool(const Scene& scene, const ReaderOptions& reader) {
     try {
         if (!scene.tool.file.empty()) {
-            return Tool(readSphereTree(scene.tool.file));
+            return Tool(readSphereTree(scene.tool.file, "", reader));
         }
         std::vector<Sphere> leaves;
         for (const auto& [x, y, z, r] : scene.tool.spheres) {
@@ -58,9 +58,10 @@ Tool writtenTool(const Scene& scene) {
 
 } // namespace
 
-std::unique_ptr<ArmRig> openArm(const Scene& scene) {
+std::unique_ptr<ArmRig> openArm(const Scene& scene, const ReaderOptions& reader) {
     const bool tool = scene.arm && scene.tool.given();
-    auto arm = tool ? makeArmRig(scene, writtenTool(scene).leaves()) : makeArmRig(scene, {});
+    auto arm =
+        makeArmRig(scene, tool ? writtenTool(scene, reader).leaves() : std::span<const Sphere>(), reader);
     for (const std::string& line : arm ? describeArm(*arm) : std::vector<std::string>{}) {
         log::info("arm: {}", line);
     }
@@ -74,8 +75,8 @@ std::unique_ptr<ArmRig> openArm(const Scene& scene) {
     return arm;
 }
 
-Tool openTool(const Scene& scene, const ArmRig* arm) {
-    return arm != nullptr ? arm->heldTool() : writtenTool(scene);
+Tool openTool(const Scene& scene, const ArmRig* arm, const ReaderOptions& reader) {
+    return arm != nullptr ? arm->heldTool() : writtenTool(scene, reader);
 }
 
 } // namespace fathom

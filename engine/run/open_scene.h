@@ -17,10 +17,10 @@ Scene openScene(const std::filesystem::path& file);
 Scene openSceneText(const std::string& text);
 
 // The scene's arm, or null without one; logs a warning for each note of its model. Throws BadInput.
-std::unique_ptr<ArmRig> openArm(const Scene& scene);
+std::unique_ptr<ArmRig> openArm(const Scene& scene, const ReaderOptions& reader = {});
 
-// The scene's tool: listed spheres or a .sph file; with an arm, what its tip carries, the scene's tool
+// The scene's tool: listed spheres or a sphere file; with an arm, what its tip carries, the scene's tool
 // included. Throws BadInput.
-Tool openTool(const Scene& scene, const ArmRig* arm = nullptr);
+Tool openTool(const Scene& scene, const ArmRig* arm = nullptr, const ReaderOptions& reader = {});
 
 } // namespace fathom

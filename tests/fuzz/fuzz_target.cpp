@@ -45,7 +45,8 @@ constexpr std::array kTargets{
     FuzzTarget{"spheres_yaml", readSpheresYaml},
     FuzzTarget{"tracks", readTracks},
     FuzzTarget{"turns", readTurns},
-    FuzzTarget{"urdf", readUrdfFile},
+    FuzzTarget{"urdf", readUrdfFile, 20}, // a process each
+    FuzzTarget{"urdf_packet", readUrdfPacket},
 };
 
 // Removed at process exit.

@@ -47,6 +47,7 @@ void readSourceText(Bytes input);
 void readSphFile(Bytes input);
 void readSpheresYaml(Bytes input);
 void readUrdfFile(Bytes input);
+void readUrdfPacket(Bytes input);
 void readMesh(Bytes input);
 void readDescriptors(Bytes input);
 void readPixels(Bytes input);

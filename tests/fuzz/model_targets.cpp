@@ -4,11 +4,13 @@
 #include "engine/model/mesh_file.h"
 #include "engine/model/sph_file.h"
 #include "engine/model/sphere_sets.h"
+#include "engine/model/urdf_packet.h"
 #include "engine/types/error.h"
 #include "tests/fuzz/fuzz_target.h"
 
 #include <array>
 #include <cstdlib>
+#include <vector>
 
 namespace fathom::testing {
 
@@ -56,6 +58,24 @@ void readUrdfFile(Bytes input) {
             std::abort();
         }
     }
+}
+
+// What fathom-reader sends: a tree below one root, or nothing.
+void readUrdfPacket(Bytes input) {
+    const auto model = unpackUrdf({reinterpret_cast<const char*>(input.data()), input.size()});
+    if (!model) {
+        throw Error("not a packet");
+    }
+    std::vector<const urdf::Link*> open{model->getRoot().get()};
+    size_t reached = 0;
+    for (; !open.empty() && reached <= kMostLinks; ++reached) {
+        const urdf::Link* const link = open.back();
+        open.pop_back();
+        for (const auto& child : link->child_links) {
+            open.push_back(child.get());
+        }
+    }
+    need(reached == model->links_.size());
 }
 
 // The first byte selects the kind of file.

@@ -20,7 +20,7 @@ endmacro()
 execute_process(COMMAND mktemp -d OUTPUT_VARIABLE stage OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
 if(DEFINED PREFIX)
     set(root ${PREFIX})
-    set(ours bin/fathom share/fathom/* share/doc/fathom/* share/man/*/fathom* share/bash-completion/completions/fathom lib/udev/rules.d/70-fathom.rules
+    set(ours bin/fathom libexec/fathom/* share/fathom/* share/doc/fathom/* share/man/*/fathom* share/bash-completion/completions/fathom lib/udev/rules.d/70-fathom.rules
         include/fathom/* lib/*/libfathom.so* lib/*/pkgconfig/fathom.pc lib/*/cmake/fathom/*)
 else()
     set(root ${stage}/installed)
@@ -32,10 +32,10 @@ endif()
 # What is where.
 list(TRANSFORM ours PREPEND ${root}/)
 file(GLOB_RECURSE files RELATIVE ${root} ${ours})
-foreach(wanted bin/fathom share/fathom/scenes/demo.yaml share/fathom/scenes/task1.csv share/fathom/scenes/arm41.urdf lib/udev/rules.d/70-fathom.rules
+foreach(wanted bin/fathom libexec/fathom/fathom-reader share/fathom/scenes/demo.yaml share/fathom/scenes/task1.csv share/fathom/scenes/arm41.urdf lib/udev/rules.d/70-fathom.rules
         share/fathom/limits.d/fathom-limits.conf share/bash-completion/completions/fathom share/man/man1/fathom.1.gz
         share/man/man5/fathom-scene.5.gz share/doc/fathom/copyright include/fathom/fathom.h include/fathom/engine.h
-        include/fathom/fathom_door.h)
+        include/fathom/device_socket.h)
     check("${wanted} is not installed" wanted IN_LIST files)
 endforeach()
 set(headers ${files})
@@ -51,7 +51,10 @@ string(REGEX REPLACE "[^\n]*fathom::v0::[^\n]*\n" "" others "${symbols}")
 check("libfathom.so exports what is not public: ${others}" result EQUAL 0 AND NOT others)
 check("libfathom.so exports its insides" NOT symbols MATCHES "::Impl::")
 execute_process(COMMAND nm -D --undefined-only ${library} OUTPUT_VARIABLE symbols)
-check("libfathom.so changes the process: ${CMAKE_MATCH_1}" NOT symbols MATCHES " (mlockall|setenv|putenv|sigaction)@")
+check("libfathom.so changes the process: ${CMAKE_MATCH_1}" NOT symbols MATCHES
+      " (mlockall|setenv|putenv|sigaction|signal|alarm|setrlimit|v?fork|execv?[pe]*|system|popen)@")
+execute_process(COMMAND ${CMAKE_COMMAND} -E env LC_ALL=C readelf -d ${library} OUTPUT_VARIABLE needed)
+check("libfathom.so loads the parsers of meshes and URDFs: ${CMAKE_MATCH_1}" NOT needed MATCHES "(assimp|urdfdom|console_bridge)")
 list(FILTER files INCLUDE REGEX "(cmake|pc|conf|rules|h|yaml)$")
 string(REGEX REPLACE "([][+.*()^$?\\])" "\\\\\\1" sources "${SOURCE}/") # at the start of a path, because the sources may be in /fathom
 foreach(file ${files})

@@ -185,12 +185,13 @@ TEST_CASE("A mesh that needs too much memory is rejected, and copies are counted
     CHECK(importTriangles(file).mesh.triangles.size() == 333'330);
     if (!kSanitized) {         // a sanitizer has no memory limit
         writeCopies(file, 55); // 130 MB of corners
-        const ImportedTriangles large = importTriangles(file, 16 << 20);
+        const ImportedTriangles large = importTriangles(file, {.mostMemory = 16 << 20});
         CHECK(large.mesh.triangles.empty());
         CHECK(large.fault == "takes over 16 MiB to read");
     }
     writeCopies(file, 1000);
-    const ImportedTriangles many = importTriangles(file, 200 << 20); // the copies would take 2400 MB
+    const ImportedTriangles many =
+        importTriangles(file, {.mostMemory = 200 << 20}); // the copies would take 2400 MB
     CHECK(many.fault == "over 6000000 corners");
     CHECK(many.mesh.points.empty());
     std::filesystem::remove(file);

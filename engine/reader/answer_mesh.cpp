@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// Meshes by Assimp.
+#include "engine/model/import_triangles.h"
+#include "engine/reader/answers.h"
+
+#include <assimp/Importer.hpp>
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <new>
+
+namespace fathom {
+
+namespace {
+
+// Counts all instances, because a few bytes can reference one mesh a million times. Stops at the limit.
+size_t countPoints(const aiScene& scene, const aiNode& node) {
+    size_t count = 0;
+    for (unsigned m = 0; m < node.mNumMeshes; ++m) {
+        count += scene.mMeshes[node.mMeshes[m]]->mNumVertices;
+    }
+    for (unsigned c = 0; c < node.mNumChildren && count <= kMostImportedPoints; ++c) {
+        count += countPoints(scene, *node.mChildren[c]);
+    }
+    return count;
+}
+
+void addNode(const aiScene& scene, const aiNode& node, const aiMatrix4x4& above, TriangleMesh& mesh) {
+    const aiMatrix4x4 here = above * node.mTransformation;
+    for (unsigned m = 0; m < node.mNumMeshes; ++m) {
+        const aiMesh& part = *scene.mMeshes[node.mMeshes[m]];
+        const auto first = static_cast<uint32_t>(mesh.points.size());
+        for (unsigned v = 0; v < part.mNumVertices; ++v) {
+            const aiVector3D p = here * part.mVertices[v];
+            mesh.points.emplace_back(static_cast<double>(p.x), static_cast<double>(p.y),
+                                     static_cast<double>(p.z));
+        }
+        for (unsigned f = 0; f < part.mNumFaces; ++f) {
+            const aiFace& face = part.mFaces[f];
+            if (face.mNumIndices == 3) {
+                mesh.triangles.push_back(
+                    {first + face.mIndices[0], first + face.mIndices[1], first + face.mIndices[2]});
+            }
+        }
+    }
+    for (unsigned c = 0; c < node.mNumChildren; ++c) {
+        addNode(scene, *node.mChildren[c], here, mesh);
+    }
+}
+
+std::string readWithAssimp(const std::filesystem::path& file, TriangleMesh& mesh) {
+    Assimp::Importer importer;
+    importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
+    importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+    const aiScene* scene = [&] {
+        const ParserAtWork parser;
+        return importer.ReadFile(file.string(), aiProcess_Triangulate | aiProcess_SortByPType);
+    }();
+    if (scene == nullptr || scene->mRootNode == nullptr) {
+        const std::string why = importer.GetErrorString();
+        return why.empty() ? "not understood" : why.substr(0, why.find('\n'));
+    }
+    if (countPoints(*scene, *scene->mRootNode) > kMostImportedPoints) {
+        return "over " + std::to_string(kMostImportedPoints) + " corners";
+    }
+    addNode(*scene, *scene->mRootNode, aiMatrix4x4(), mesh);
+    return "";
+}
+
+} // namespace
+
+bool answerMesh(const std::filesystem::path& file, int pipe, uint64_t mostMemory) {
+    TriangleMesh mesh;
+    std::string text;
+    try {
+        text = readWithAssimp(file, mesh);
+    } catch (const std::bad_alloc&) {
+        mesh = {};
+        text = "takes over " + std::to_string(mostMemory >> 20) + " MiB to read";
+    } catch (const std::exception&) {
+        mesh = {};
+        text = "not understood";
+    }
+    const TrianglesHead head{mesh.points.size(), mesh.triangles.size()};
+    return writeText(pipe, text) && writeAll(pipe, &head, sizeof head) &&
+           writeAll(pipe, mesh.points.data(), mesh.points.size() * sizeof mesh.points[0]) &&
+           writeAll(pipe, mesh.triangles.data(), mesh.triangles.size() * sizeof mesh.triangles[0]);
+}
+
+} // namespace fathom

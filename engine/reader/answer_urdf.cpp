@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+// URDFs by urdfdom.
+#include "engine/model/reader_pipe.h"
+#include "engine/model/urdf_packet.h"
+#include "engine/model/xml_text.h"
+#include "engine/reader/answers.h"
+#include "engine/types/error.h"
+#include "engine/types/read_file.h"
+
+#include <algorithm>
+#include <console_bridge/console.h>
+#include <iterator>
+#include <set>
+#include <urdf_parser/urdf_parser.h>
+#include <vector>
+
+namespace fathom {
+
+namespace {
+
+constexpr size_t kLargestUrdf = 16u << 20;
+constexpr const char* kTree = "a tree of links below one root";
+
+// Captures the parser's first error.
+class Listener : public console_bridge::OutputHandler {
+public:
+    Listener() { console_bridge::useOutputHandler(this); }
+    Listener(const Listener&) = delete;
+    Listener& operator=(const Listener&) = delete;
+    ~Listener() override { console_bridge::restorePreviousOutputHandler(); }
+    void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
+        if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR && first_.empty()) {
+            first_ = text.substr(0, text.find('\n'));
+        }
+    }
+    const std::string& first() const { return first_; }
+
+private:
+    std::string first_;
+};
+
+// The parser requires only one root: links in a loop of joints have no root above them, and links of several
+// joints would be visited once per path from the root.
+void checkLinks(const urdf::ModelInterface& model, const std::string& file) {
+    if (model.links_.size() > kMostLinks) {
+        throw BadInput(file, "robot", std::to_string(model.links_.size()) + " links",
+                       std::to_string(kMostLinks) + " at most");
+    }
+    std::set<std::string> carried;
+    for (const auto& [name, joint] : model.joints_) {
+        if (!carried.insert(joint->child_link_name).second) {
+            throw BadInput(file, "link " + joint->child_link_name, "the child of several joints", kTree);
+        }
+    }
+    std::set<const urdf::Link*> below;
+    std::vector<const urdf::Link*> open{model.getRoot().get()};
+    while (!open.empty()) {
+        const urdf::Link* const link = open.back();
+        open.pop_back();
+        if (below.insert(link).second) {
+            std::ranges::transform(link->child_links, std::back_inserter(open),
+                                   [](const auto& child) { return child.get(); });
+        }
+    }
+    const auto stray = std::ranges::find_if(
+        model.links_, [&](const auto& link) { return below.count(link.second.get()) == 0; });
+    if (stray == model.links_.end()) {
+        return;
+    }
+    throw BadInput(file, "link " + stray->first, "in a loop of joints", kTree);
+}
+
+// <capsule radius length/> becomes a mesh whose file name holds the sizes, which the parser passes on.
+std::string hideCapsules(const std::string& text) {
+    std::string out;
+    for (XmlPieces pieces(text); pieces.next();) {
+        const XmlPiece& piece = pieces.piece();
+        if (piece.name != "capsule") {
+            out += piece.text;
+        } else if (piece.closes) {
+            out += "</mesh>";
+        } else {
+            out += "<mesh filename=\"" + std::string(kCapsuleFile) +
+                   xmlEscaped(xmlAttribute(piece.text, "radius") + " " + xmlAttribute(piece.text, "length")) +
+                   (piece.isEmpty ? "\"/>" : "\">");
+        }
+    }
+    return out;
+}
+
+void refuseXacro(const std::filesystem::path& file, const std::string& text) {
+    if (text.find("<xacro:") != std::string::npos) {
+        throw BadInput(file.string(), "robot", "a xacro file",
+                       "a URDF; expand it with: xacro " + file.filename().string() + " > " +
+                           file.stem().stem().string() + ".urdf");
+    }
+}
+
+std::string packetOf(const std::filesystem::path& file) {
+    std::string text = readWholeFile(file, kLargestUrdf, "a readable URDF file");
+    if (text.empty()) {
+        throw BadInput(file.string(), "file", "empty", "a readable URDF file");
+    }
+    refuseXacro(file, text);
+    if (text.find("<capsule") != std::string::npos) {
+        text = hideCapsules(text);
+    }
+    const Listener listener;
+    const std::shared_ptr<const urdf::ModelInterface> model = [&] {
+        const ParserAtWork parser;
+        return urdf::parseURDF(text);
+    }();
+    if (!model) {
+        throw BadInput(file.string(), "robot", listener.first().empty() ? "not understood" : listener.first(),
+                       "a URDF robot");
+    }
+    checkLinks(*model, file.string());
+    return packUrdf(*model);
+}
+
+} // namespace
+
+// The parser and the model's destructor are recursive: tens of thousands of nested links overflow the stack.
+bool answerUrdf(const std::filesystem::path& file, int pipe, uint64_t mostMemory) {
+    std::string fault, packet;
+    try {
+        packet = packetOf(file);
+    } catch (const std::bad_alloc&) {
+        fault = file.string() + ": takes over " + std::to_string(mostMemory >> 20) + " MiB to read";
+    } catch (const std::exception& e) {
+        fault = e.what();
+    }
+    const uint64_t size = packet.size();
+    return writeText(pipe, fault) && writeAll(pipe, &size, sizeof size) &&
+           writeAll(pipe, packet.data(), size);
+}
+
+} // namespace fathom
