@@ -25,15 +25,7 @@ function release(documents,    i, line) {
     held = 0
 }
 
-FNR == 1 { inHead = 1; own = typeName(); ofC = /^\/\*/ }
-ofC { # its comments are of the other kind; the first goes on below the licence
-    if (FNR == 1) $0 = "/** @file"
-    else if (FNR == 2) sub(/^\/\*/, " *")
-    else if (/^ *\/\* /) sub(/\/\*/, "/**")
-    else sub(/\/\* /, "/**< ")
-    print
-    next
-}
+FNR == 1 { inHead = 1; own = typeName() }
 inHead && isComment($0) {
     if ($0 ~ /SPDX-License-Identifier/) { print "/// @file"; next }
     about = about plain($0) " "

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// One end of a device socket (fathom_door.h): owns an AF_UNIX SOCK_SEQPACKET descriptor, sends and receives
+// One end of a device socket (fathom/device_socket.h): owns an AF_UNIX SOCK_SEQPACKET descriptor, sends and receives
 // whole packets, never blocks.
 #pragma once
 
-#include "devices/bridge/fathom_door.h"
+#include "engine/include/fathom/device_socket.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -4,7 +4,7 @@
  * drive() and keep the rest. cc -O2 -o example_bridge example_bridge.c && ./example_bridge
  * /run/user/1000/example.door */
 #define _GNU_SOURCE
-#include "fathom_door.h"
+#include <fathom/device_socket.h>
 
 #include <math.h>
 #include <signal.h>

@@ -3,7 +3,7 @@
 // zero.
 #pragma once
 
-#include "devices/bridge/fathom_door.h"
+#include "engine/include/fathom/device_socket.h"
 #include "engine/types/wrench.h"
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/haply/haply_message.h"
 
-#include "devices/bridge/fathom_door.h"
+#include "engine/include/fathom/device_socket.h"
 #include "engine/types/error.h"
 
 #include <cmath>
