@@ -5,16 +5,13 @@
 
 #include "devices/camera.h"
 #include "devices/frame_slots.h"
-#include "devices/water/flat_port.h"
+#include "engine/types/flat_port.h"
 
 #include <memory>
 
 namespace fathom {
 
-// For stereo and structured light along the image rows; not for time of flight. Depth is rewritten, in
-// the source's unit (65535 units are the farthest); colour is the source's own. A lens's own distortion is
-// taken as in air and straightened only in the model of the rays, so the source must deliver images without
-// distortion. What the model leaves wrong between nearZ and farZ is info().sigma, a third of its largest.
+// Depth is rewritten (PortCorrection); colour is the source's own.
 class WaterCamera final : public Camera {
 public:
     // Throws BadInput for lenses with distortion or too wide a view.
@@ -34,8 +31,7 @@ public:
 private:
     std::unique_ptr<Camera> source_;
     CameraInfo info_;
-    std::vector<float> factor_;
-    float distance_ = 0.0f; // [units]
+    PortCorrection correction_; // has changed info_
     FrameSlots slots_;
 };
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "devices/water/flat_port.h"
+#include "engine/types/flat_port.h"
 
 #include "engine/types/error.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace fathom {
 
@@ -110,6 +111,35 @@ WaterLens inWater(const Intrinsics& air, const FlatPort& port, double nearZ, dou
         }
     }
     return water;
+}
+
+PortCorrection::PortCorrection(const FlatPort& port, CameraInfo& camera, double nearZ, double farZ,
+                               const std::string& name) {
+    if (!camera.depth.pinhole() || (camera.hasColour && !camera.colour.pinhole())) {
+        throw BadInput(name, "camera.port", "a lens with distortion",
+                       "images without lens distortion, or intrinsics calibrated in water and no port");
+    }
+    try {
+        WaterLens depth = inWater(camera.depth, port, nearZ, farZ);
+        const bool own = camera.hasColour && !camera.registered;
+        camera.colour = own ? inWater(camera.colour, port, nearZ, farZ).lens : depth.lens;
+        camera.depth = depth.lens;
+        camera.sigma = std::hypot(camera.sigma, depth.worst / 3.0);
+        camera.inWater = true;
+        factor_ = std::move(depth.factor);
+    } catch (const BadInput&) {
+        throw;
+    } catch (const Error& e) {
+        throw BadInput(name, "camera.port", e.what(), "at most 120 degrees in air");
+    }
+    distance_ = static_cast<float>(port.distance / camera.metresPerUnit);
+}
+
+void PortCorrection::apply(std::span<const uint16_t> in, std::span<uint16_t> out) const noexcept {
+    for (size_t i = 0; i < factor_.size(); ++i) {
+        const float z = distance_ + factor_[i] * (static_cast<float>(in[i]) - distance_);
+        out[i] = in[i] == 0 ? uint16_t{0} : static_cast<uint16_t>(std::clamp(z + 0.5f, 1.0f, 65535.0f));
+    }
 }
 
 } // namespace fathom

@@ -5,6 +5,8 @@
 
 #include "engine/types/camera_info.h"
 
+#include <span>
+#include <string>
 #include <vector>
 
 namespace fathom {
@@ -31,5 +33,24 @@ struct WaterLens {
 // the index, and by more off the axis. The lens has its own distortion removed first. Throws Error for a lens
 // that sees flatter rays than the fit holds (a field of view of more than 120 degrees in air).
 WaterLens inWater(const Intrinsics& air, const FlatPort& port, double nearZ, double farZ);
+
+// Adapts a camera that was calibrated in air. For stereo and structured light along the image rows; not for
+// time of flight. Depth keeps its unit (65535 units are the farthest). A lens's own distortion is taken as in
+// air and straightened only in the model of the rays, so images must come without distortion. Immutable.
+class PortCorrection {
+public:
+    // Changes the lenses, sigma and inWater of `camera`: what the model leaves wrong between nearZ and farZ
+    // is sigma, a third of its largest. name: of the camera, for messages. Throws BadInput for lenses with
+    // distortion or too wide a view.
+    PortCorrection(const FlatPort& port, CameraInfo& camera, double nearZ, double farZ,
+                   const std::string& name);
+
+    // Depth values in water; `out` may be `in`. Both have one value per pixel. 0 stays 0.
+    void apply(std::span<const uint16_t> in, std::span<uint16_t> out) const noexcept;
+
+private:
+    std::vector<float> factor_;
+    float distance_ = 0.0f; // [units]
+};
 
 } // namespace fathom
