@@ -9,8 +9,6 @@ namespace fathom::v0 {
 
 namespace {
 
-constexpr Nanoseconds kAhead = 5'000'000; // [ns] by which a stamp may be ahead of now
-
 bool aligned(const void* data, size_t to) {
     return data != nullptr && reinterpret_cast<uintptr_t>(data) % to == 0;
 }
@@ -21,7 +19,7 @@ SubmitStatus CameraPort::Impl::checkStamp(const Frame& frame) const noexcept {
     if (frame.stamp <= 0) {
         return SubmitStatus::MissingStamp;
     }
-    if (frame.stamp > now() + kAhead) {
+    if (frame.stamp > now() + front::kMostAhead) {
         return SubmitStatus::StampAhead;
     }
     return frame.stamp <= last ? SubmitStatus::StampBack : SubmitStatus::Accepted;
@@ -51,10 +49,17 @@ CameraPort::Impl::Copy& CameraPort::Impl::unused() {
 
 void CameraPort::Impl::copyDepth(const Frame& frame, Copy& copy) const {
     copy.depth.resize(info.depth.pixels());
-    if (model.depthFormat == DepthFormat::Uint16) {
+    if (model.depthFormat == DepthFormat::Metres) {
+        copyMetres(frame, copy);
+    } else {
         std::memcpy(copy.depth.data(), frame.depth, copy.depth.size() * sizeof(uint16_t));
-        return;
     }
+    if (side.correction) {
+        side.correction->apply(copy.depth, copy.depth);
+    }
+}
+
+void CameraPort::Impl::copyMetres(const Frame& frame, Copy& copy) const {
     const auto* metres = static_cast<const float*>(frame.depth);
     const auto perMetre = static_cast<float>(1.0 / info.metresPerUnit);
     for (size_t i = 0; i < copy.depth.size(); ++i) {
@@ -84,9 +89,10 @@ fathom::Frame CameraPort::Impl::contentOf(const Frame& frame, std::function<void
     content.sourceNumber = content.index;
     content.captureTime = static_cast<double>(frame.stamp) * 1e-9;
     content.baseTcamera = front::internal(frame.baseTcamera);
-    content.baseTcamera->rotation = glm::normalize(content.baseTcamera->rotation);
-    const bool converted =
-        model.depthFormat == DepthFormat::Metres || model.colourFormat == ColourFormat::Rgb;
+    dquat& rotation = content.baseTcamera->rotation; // a unit quaternion stays the same to the last bit
+    rotation = std::abs(glm::dot(rotation, rotation) - 1.0) < 1e-14 ? rotation : glm::normalize(rotation);
+    const bool converted = model.depthFormat == DepthFormat::Metres ||
+                           model.colourFormat == ColourFormat::Rgb || side.correction.has_value();
     std::span<const uint32_t> colour;
     std::function<void()> giveBack;
     if (release && !converted) {

@@ -2,7 +2,7 @@
 // The mailbox behind a CameraPort: the camera thread puts in frames, the frame thread takes the newest.
 #pragma once
 
-#include "engine/front/public.h"
+#include "engine/front/core.h"
 #include "engine/types/frame.h"
 
 #include <array>
@@ -15,9 +15,8 @@
 namespace fathom::v0 {
 
 struct CameraPort::Impl {
-    Impl(const CameraModel& given, const CameraInfo& made)
-        : model(given)
-        , info(made) {}
+    explicit Impl(front::CameraSide made)
+        : side(std::move(made)) {}
 
     // Camera thread. Copies the frame if `release` is empty; otherwise borrows it if the formats allow. Calls
     // release() exactly once.
@@ -31,8 +30,9 @@ struct CameraPort::Impl {
     // Any thread. Drops the waiting frame; take() returns nothing from now on.
     void close();
 
-    const CameraModel model;
-    const CameraInfo info;
+    const front::CameraSide side;
+    const CameraModel& model = side.model;
+    const CameraInfo& info = side.info;
     std::atomic<uint64_t> dropped{0}, processed{0};
     Nanoseconds last = 0; // camera thread: stamp of the newest frame; 0 = any stamp may follow
 
@@ -46,6 +46,7 @@ private:
     SubmitStatus checkImages(const Frame& frame) const noexcept;
     Copy& unused();
     void copyDepth(const Frame& frame, Copy& copy) const;
+    void copyMetres(const Frame& frame, Copy& copy) const;
     void copyColour(const Frame& frame, Copy& copy) const;
     fathom::Frame contentOf(const Frame& frame, std::function<void()> release);
 

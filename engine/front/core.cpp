@@ -3,45 +3,42 @@
 
 #include "engine/run/open_scene.h"
 
-#include <algorithm>
-#include <string_view>
+#include <cmath>
 
 namespace fathom::front {
 
 namespace {
 
-CameraInfo infoOf(const v0::CameraModel& camera, const fathom::Scene& scene) {
-    CameraInfo info = internal(camera);
-    if (scene.beam) {
-        info.beam = BeamSigma{scene.beam->range, scene.beam->perMetre, scene.beam->width};
-    }
-    return info;
+// Regions grow by the camera's uncertainty as they do by the registration's.
+fathom::Scene withSigma(fathom::Scene scene, const CameraInfo& camera) {
+    scene.registrationSigma = std::hypot(scene.registrationSigma, camera.sigma);
+    return scene;
+}
+
+ReaderOptions readerOf(const v0::EngineOptions& given) {
+    ReaderOptions reader;
+    reader.program = given.reader;
+    return reader;
 }
 
 } // namespace
 
-void requireSupported(const fathom::Scene& scene) {
-    if (scene.arm) {
-        throw v0::BadInput(scene.file.string() +
-                           ": arm: a scene with an arm (allowed: none in the library yet; use "
-                           "`fathom operate`)");
-    }
-    const std::filesystem::path& tool = scene.tool.file;
-    if (!tool.empty() &&
-        tool.extension() == ".urdf") { // read in a forked process, which a library must not start
-        throw v0::BadInput(scene.file.string() + ": tool.file: " + tool.string() +
-                           " (allowed: a .sph file in the library; `fathom spheres` converts)");
+CameraSide::CameraSide(const v0::CameraModel& given, const fathom::Scene& scene)
+    : model(given)
+    , info(internal(given)) {
+    if (scene.beam) {
+        info.beam = BeamSigma{scene.beam->range, scene.beam->perMetre, scene.beam->width};
     }
     if (scene.port) {
-        throw v0::BadInput(scene.file.string() +
-                           ": camera.port: a flat port (allowed: none in the library yet; "
-                           "correct the depth yourself)");
+        const FlatPort port{scene.port->distance, scene.port->index};
+        correction.emplace(port, info, scene.nearZ, scene.farZ, "camera " + model.name);
     }
 }
 
-HapticSide::HapticSide(const fathom::Scene& from)
-    : scene(from)
-    , tool(openTool(scene))
+HapticSide::HapticSide(const fathom::Scene& from, const CameraInfo& camera, const v0::EngineOptions& given)
+    : scene(withSigma(from, camera))
+    , arm(openArm(scene, readerOf(given)))
+    , tool(openTool(scene, arm.get(), readerOf(given)))
     , shapes(shapesOf(scene))
     , options(makeHapticOptions(scene, tool)) {}
 
@@ -53,15 +50,31 @@ std::unique_ptr<HapticCycle> HapticSide::cycle(const v0::HandStart& start) const
             "hand: start: a pose that is not finite (allowed: finite numbers, a unit quaternion)");
     }
     return std::make_unique<HapticCycle>(tool, shapes, options, hand,
-                                         start.baseTtool != nullptr ? &begin : nullptr);
+                                         start.baseTtool != nullptr ? &begin : nullptr, arm.get());
 }
 
-ComputeSide::ComputeSide(const HapticSide& haptic, const v0::CameraModel& camera, const std::string& device)
-    : instance(haptic.scene.hasPoints() ? std::make_unique<gpu::Instance>() : nullptr)
-    , cycles({instance.get(), device, haptic.scene, infoOf(camera, haptic.scene), haptic.tool},
+ComputeSide::ComputeSide(const HapticSide& side, const CameraInfo& camera, const std::string& device)
+    : haptic(side)
+    , instance(haptic.scene.hasPoints() ? std::make_unique<gpu::Instance>() : nullptr)
+    , cycles({instance.get(), device, haptic.scene, camera, haptic.tool, haptic.arm.get()},
              [&](const DeviceFacts& facts) {
-                 return makePlan(haptic.scene, infoOf(camera, haptic.scene),
-                                 static_cast<uint32_t>(haptic.tool.leafCount()), facts);
-             }) {}
+                 return makePlan(haptic.scene, camera, static_cast<uint32_t>(haptic.tool.leafCount()), facts);
+             }) {
+    if (haptic.arm) {
+        setArm(haptic.arm->startPosture());
+    }
+}
+
+void ComputeSide::setArm(const ArmPosture& posture) {
+    posture_ = posture;
+    if (cycles.plan().selfFilter) {
+        cycles.frames().setArm(haptic.arm->inImage(posture));
+    }
+}
+
+void ComputeSide::renew() {
+    cycles.renew();
+    setArm(posture_);
+}
 
 } // namespace fathom::front

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// The parts of Engine and Lockstep: scene, tool, haptic options, and the device with its cycles.
+// The parts of Engine and Lockstep: camera, scene with tool and arm, and the device with its cycles.
 #pragma once
 
 #include "engine/contact/shapes.h"
 #include "engine/cycle/device_cycles.h"
 #include "engine/cycle/haptic_cycle.h"
 #include "engine/front/public.h"
+#include "engine/types/flat_port.h"
 
 #include <memory>
+#include <optional>
 
 namespace fathom::v0 {
 
@@ -19,12 +21,22 @@ struct Scene::Data {
 
 namespace fathom::front {
 
+// A camera in the scene. Immutable.
+struct CameraSide {
+    CameraSide(const v0::CameraModel& given, const fathom::Scene& scene);
+
+    v0::CameraModel model;
+    CameraInfo info;                          // with the scene's beam and flat port
+    std::optional<PortCorrection> correction; // of depth, if the scene has a flat port
+};
+
 // Data for the haptic thread. Immutable after construction.
 struct HapticSide {
-    explicit HapticSide(const fathom::Scene& from);
+    HapticSide(const fathom::Scene& from, const CameraInfo& camera, const v0::EngineOptions& given);
     std::unique_ptr<HapticCycle> cycle(const v0::HandStart& start) const;
 
-    fathom::Scene scene;
+    fathom::Scene scene;         // its uncertainty includes the camera's
+    std::unique_ptr<ArmRig> arm; // null without one
     Tool tool;
     std::vector<Shape> shapes;
     HapticOptions options;
@@ -32,13 +44,18 @@ struct HapticSide {
 
 // Data for the frame and contact threads. `haptic` must outlive it.
 struct ComputeSide {
-    ComputeSide(const HapticSide& haptic, const v0::CameraModel& camera, const std::string& device);
+    ComputeSide(const HapticSide& haptic, const CameraInfo& camera, const std::string& device);
 
+    // Frame thread, before a frame: where the arm is in its image. No effect without a self-filter.
+    void setArm(const ArmPosture& posture);
+    void renew(); // frame thread, after a loss of the device
+
+    const HapticSide& haptic;
     std::unique_ptr<gpu::Instance> instance; // null: the scene has no passes
     DeviceCycles cycles;
-};
 
-// Throws v0::BadInput for the parts of a scene that the library does not support.
-void requireSupported(const fathom::Scene& scene);
+private:
+    ArmPosture posture_;
+};
 
 } // namespace fathom::front

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "engine/front/arm_port.h"
 #include "engine/front/camera_port.h"
 #include "engine/front/float_mode.h"
 #include "engine/front/hand_port.h"
+#include "engine/front/observer_port.h"
 #include "engine/run/contact_loop.h"
 #include "engine/run/frame_loop.h"
 #include "engine/types/log.h"
 
+#include <cmath>
 #include <thread>
 
 namespace fathom::front {
@@ -13,15 +16,15 @@ namespace fathom::front {
 // Feeds submitted frames to the frame loop. Frame thread only, except `lost`.
 class SubmittedFeed final : public FrameFeed {
 public:
-    SubmittedFeed(v0::CameraPort::Impl& camera, DeviceCycles& cycles, Channels& channels)
+    SubmittedFeed(v0::CameraPort::Impl& camera, ComputeSide& compute, Shared& shared)
         : camera_(camera)
-        , cycles_(cycles)
-        , channels_(channels) {}
+        , compute_(compute)
+        , shared_(shared) {}
 
     std::optional<uint32_t> fetch() override {
         for (PublishedFrame* done = nullptr;
-             channels_.frames.pop(done);) { // not recorded: return them at once
-            channels_.emptied.push(done);
+             shared_.channels.frames.pop(done);) { // not recorded: return them at once
+            shared_.channels.emptied.push(done);
         }
         next_ = camera_.take();
         return next_ ? std::optional((*next_)->index) : std::nullopt;
@@ -29,35 +32,46 @@ public:
     std::optional<RunClock::Time> captured() const override {
         return next_ ? std::optional(RunClock::sinceBoot((*next_)->captureTime)) : std::nullopt;
     }
+    void armAtCapture(const ToolState& place) override { compute_.setArm(place.arm); }
     void publish(double t, PublishedFrame& out) override {
+        const double captured = (*next_)->captureTime;
         next_->retime(t);
         std::optional<fathom::Frame> frame = std::exchange(next_, std::nullopt);
         try {
-            out.report = cycles_.frames().process(std::move(*frame));
+            out.report = compute_.cycles.frames().process(std::move(*frame));
         } catch (const DeviceFailed&) {
             lost.store(true);
             throw;
         }
         out.changed = !out.report.unchanged;
-        if (const auto set = cycles_.frames().sets().newest(); out.changed && set) {
+        if (const auto set = compute_.cycles.frames().sets().newest(); out.changed && set) {
             out.fixtures.frame = set->host.frame;
             out.fixtures.generation = set->host.generation;
             out.fixtures.guidance = set->host.guidance;
+            show(set->host, captured);
         }
         ++camera_.processed;
     }
     bool renewable() const override { return true; }
     void renew(const std::atomic<bool>&) override {
-        cycles_.renew();
+        compute_.renew();
         lost.store(false);
     }
 
     std::atomic<bool> lost{false}; // the device is lost
 
 private:
+    void show(const Fixtures& set, double captured) {
+        if (shared_.observed.load()) {
+            fill(shared_.regions.back(), set);
+            shared_.regions.back().stamp = std::llround(captured * 1e9);
+            shared_.regions.publish();
+        }
+    }
+
     v0::CameraPort::Impl& camera_;
-    DeviceCycles& cycles_;
-    Channels& channels_;
+    ComputeSide& compute_;
+    Shared& shared_;
     std::optional<fathom::Frame> next_;
 };
 
@@ -89,10 +103,10 @@ const CameraModel& onlyOne(std::span<const CameraModel> cameras) {
 
 struct Engine::Impl {
     Impl(const Scene& scene, const CameraModel& model, const EngineOptions& options)
-        : shared(std::make_shared<front::Shared>(scene.data().scene))
-        , compute(shared->haptic, model, options.device)
-        , camera(std::make_shared<CameraPort::Impl>(model, compute.cycles.camera()))
-        , feed(*camera, compute.cycles, shared->channels)
+        : camera(std::make_shared<CameraPort::Impl>(front::CameraSide(model, scene.data().scene)))
+        , shared(std::make_shared<front::Shared>(scene.data().scene, camera->info, options))
+        , compute(shared->haptic, camera->info, options.device)
+        , feed(*camera, compute, *shared)
         , answers(compute.cycles)
         , frames(feed, shared->channels, shared->clock, kFramePeriod, nullptr)
         , contacts(answers, shared->channels, shared->clock, 0.5 * shared->haptic.options.period, nullptr) {
@@ -126,9 +140,9 @@ struct Engine::Impl {
 
     static constexpr double kFramePeriod = 1.0 / 30.0; // [s] nominal: submitted frames have their own times
 
+    std::shared_ptr<CameraPort::Impl> camera;
     std::shared_ptr<front::Shared> shared;
     front::ComputeSide compute;
-    std::shared_ptr<CameraPort::Impl> camera;
     front::SubmittedFeed feed;
     front::CycleAnswers answers;
     FrameLoop frames;
@@ -171,6 +185,27 @@ HandPort Engine::openHand(const HandStart& start) {
             throw Error("hand: it is open already (allowed: one hand per engine)");
         }
         return HandPort(std::make_unique<HandPort::Impl>(impl_->shared, start));
+    });
+}
+
+ArmPort Engine::openArm() {
+    return front::translated([&] {
+        if (impl_->shared->channels.arm == nullptr) {
+            throw BadInput("options: measuredArm: false (allowed: true, for a real arm)");
+        }
+        if (impl_->shared->armOpen.exchange(true)) {
+            throw Error("arm: it is open already (allowed: one arm per engine)");
+        }
+        return ArmPort(std::make_unique<ArmPort::Impl>(impl_->shared));
+    });
+}
+
+ObserverPort Engine::openObserver() {
+    return front::translated([&] {
+        if (impl_->shared->observed.exchange(true)) {
+            throw Error("observer: it is open already (allowed: one observer per engine)");
+        }
+        return ObserverPort(std::make_unique<ObserverPort::Impl>(impl_->shared));
     });
 }
 

@@ -15,6 +15,10 @@ HandPort::Impl::Impl(std::shared_ptr<front::Shared> from, const HandStart& start
     shared->channels.proxy.publish(); // the contact thread begins
 }
 
+HandPort::Impl::~Impl() {
+    stepper.releaseArm(shared->clock.now()); // a real arm stands still
+}
+
 Step HandPort::Impl::step(const Hand& hand, Nanoseconds now) noexcept {
     const front::FloatMode mode;
     const bool back = now < last;
@@ -23,7 +27,10 @@ Step HandPort::Impl::step(const Hand& hand, Nanoseconds now) noexcept {
     const StepRecord& record = stepper.step(front::internal(hand), t);
     Step step = front::external(record, shared->haptic.options.staleAfter);
     step.warnings |= (stepper.scene().frame < 0 ? NoScene : 0u) | (stepper.scene().gone ? LostDevice : 0u) |
-                     (back ? TimeBack : 0u) | (shared->failed.load() ? EngineFailed : 0u);
+                     (back ? TimeBack : 0u) | (shared->failed.load() ? EngineFailed : 0u) |
+                     (stepper.row().driven && isFault(stepper.row().armStatus.state) ? ArmStill : 0u);
+    shared->steps.back() = {step, hand, last};
+    shared->steps.publish();
     return step;
 }
 

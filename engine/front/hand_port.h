@@ -1,28 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
-// State of a HandPort that outlives its engine: the haptic cycle, its inputs, and the channels that the
-// engine's threads fill.
+// State of the ports that outlives their engine: the haptic cycle, its inputs, and the channels between the
+// threads.
 #pragma once
 
 #include "engine/front/core.h"
 #include "engine/run/haptic_stepper.h"
+#include "engine/types/triple_buffer.h"
 
 #include <atomic>
 #include <memory>
 
 namespace fathom::front {
 
-// Shared by the engine's threads and the hand port.
+// Shared by the engine's threads and the ports.
 struct Shared {
-    explicit Shared(const fathom::Scene& scene)
-        : haptic(scene)
+    Shared(const fathom::Scene& scene, const CameraInfo& camera, const v0::EngineOptions& options)
+        : haptic(scene, camera, options)
         , channels(kRows) {
         clock.start(-kPast);
+        if (options.measuredArm && !haptic.arm) {
+            throw v0::BadInput("options: measuredArm: true (allowed: false: the scene has no arm)");
+        }
+        channels.arm = options.measuredArm ? &arm : nullptr;
     }
     HapticSide haptic;
     RunClock clock; // t = 0 is in the past, so that frames older than the engine keep their age
     Channels channels;
+    ArmLink arm;                          // of a real arm, if channels.arm points to it
+    TripleBuffer<v0::Regions> regions;    // frame thread -> display, once `observed`
+    TripleBuffer<v0::StepSnapshot> steps; // haptic thread -> display
     std::atomic<bool> failed{false};
-    std::atomic<bool> handOpen{false};
+    std::atomic<bool> handOpen{false}, armOpen{false}, observed{false};
 
     static constexpr uint64_t kRows = 16;  // capacity of queues that are never read
     static constexpr double kPast = 100.0; // [s]
@@ -35,6 +43,7 @@ namespace fathom::v0 {
 // Haptic thread only.
 struct HandPort::Impl {
     Impl(std::shared_ptr<front::Shared> from, const HandStart& start);
+    ~Impl();
     Step step(const Hand& hand, Nanoseconds now) noexcept;
 
     std::shared_ptr<front::Shared> shared;

@@ -11,17 +11,21 @@ namespace fathom::v0 {
 
 struct Lockstep::Impl {
     Impl(const Scene& scene, const CameraModel& model, const HandStart& start, const EngineOptions& options)
-        : haptic(scene.data().scene)
-        , compute(haptic, model, options.device)
-        , camera(model, compute.cycles.camera())
-        , cycle(haptic.cycle(start)) {}
+        : camera(front::CameraSide(model, scene.data().scene))
+        , haptic(scene.data().scene, camera.info, options)
+        , compute(haptic, camera.info, options.device)
+        , cycle(haptic.cycle(start)) {
+        if (options.measuredArm) {
+            throw BadInput("options: measuredArm: true (allowed: false in lockstep)");
+        }
+    }
 
     void process(const Frame& frame);
     bool answer();
 
+    CameraPort::Impl camera;
     front::HapticSide haptic;
     front::ComputeSide compute;
-    CameraPort::Impl camera;
     std::unique_ptr<HapticCycle> cycle;
     ActiveContacts<std::unique_ptr<ContactSet>> contacts;
     std::deque<std::unique_ptr<ContactSet>> answers; // not yet on offer, oldest first
@@ -40,6 +44,7 @@ void Lockstep::Impl::process(const Frame& frame) {
     fathom::Frame taken = camera.copy(frame);
     const double t = seconds(frame.stamp);
     taken.retime(t);
+    compute.setArm(cycle->place().arm);
     const FrameReport report = compute.cycles.frames().process(std::move(taken));
     update.captureTime = t;
     if (const auto set = compute.cycles.frames().sets().newest(); set && !report.unchanged) {

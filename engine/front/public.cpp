@@ -66,6 +66,8 @@ Intrinsics internal(const v0::Intrinsics& lens, const char* field) {
 v0::Step external(const StepRecord& record, double staleAfter) noexcept {
     v0::Step step;
     step.wrench = {external(record.deviceWrench.force), external(record.deviceWrench.torque)};
+    step.residual = {external(record.residual.force), external(record.residual.torque)};
+    step.arm = external(record.arm.posture);
     step.baseTtool = external(record.tool);
     step.baseTdevice = external(record.device);
     step.state = external(record.state);

@@ -22,9 +22,18 @@ inline v0::Vec3 external(const dvec3& v) noexcept {
 inline v0::Pose external(const Pose& p) noexcept {
     return {external(p.position), {p.rotation.w, p.rotation.x, p.rotation.y, p.rotation.z}};
 }
+static_assert(v0::kMaxArmJoints == kMostJoints);
+inline ArmPosture internal(const v0::ArmPosture& arm) noexcept {
+    return {arm.joints, arm.grasp};
+}
+inline v0::ArmPosture external(const ArmPosture& arm) noexcept {
+    return {arm.q, arm.grasp};
+}
 inline HandSample internal(const v0::Hand& hand) noexcept {
     return {internal(hand.deviceThandle), hand.buttons};
 }
+
+inline constexpr v0::Nanoseconds kMostAhead = 5'000'000; // [ns] by which a stamp may be ahead of now
 
 // staleAfter [s]: scene age from which forces fade.
 v0::Step external(const StepRecord& record, double staleAfter) noexcept;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/front/core.h"
+#include "engine/front/float_mode.h"
 #include "engine/run/open_scene.h"
 
 namespace fathom::v0 {
 
 namespace {
 
-std::shared_ptr<const Scene::Data> checked(fathom::Scene scene) {
-    front::requireSupported(scene);
+std::shared_ptr<const Scene::Data> shared(fathom::Scene scene) {
     return std::make_shared<const Scene::Data>(Scene::Data{std::move(scene)});
 }
 
@@ -17,11 +17,17 @@ Scene::Scene(std::shared_ptr<const Data> data)
     : data_(std::move(data)) {}
 
 Scene Scene::fromFile(const std::filesystem::path& file) {
-    return front::translated([&] { return Scene(checked(openScene(file))); });
+    return front::translated([&] {
+        const front::FloatMode mode;
+        return Scene(shared(openScene(file)));
+    });
 }
 
 Scene Scene::fromText(const std::string& yaml) {
-    return front::translated([&] { return Scene(checked(openSceneText(yaml))); });
+    return front::translated([&] {
+        const front::FloatMode mode; // numbers of the text are rounded
+        return Scene(shared(openSceneText(yaml)));
+    });
 }
 
 } // namespace fathom::v0

@@ -144,6 +144,58 @@ TEST_CASE("A step does not allocate and keeps the caller's floating-point mode")
     CHECK(threadAllocationCount() == before + 1); // the counter works
 }
 
+#if defined(__SSE2__)
+namespace {
+
+constexpr unsigned kCoarse = 0xffc0; // round towards zero, denormals are zero, flush to zero, no traps
+
+// Presses into the wall and slides along it.
+std::vector<Hand> slide() {
+    std::vector<Hand> hands(600);
+    for (size_t i = 0; i < hands.size(); ++i) {
+        const double way = 0.0001 * static_cast<double>(i);
+        hands[i].deviceThandle.position = {way / 3.0, 0.0, 0.5 + way};
+    }
+    return hands;
+}
+
+// In lockstep, with every call in the given floating-point mode.
+std::vector<Step> stepsIn(unsigned mode, const std::vector<Hand>& hands) {
+    std::vector<Step> steps(hands.size());
+    const Wall wall;
+    _mm_setcsr(mode);
+    Lockstep lockstep(wallScene(), smallCamera(), startAt(0.5));
+    bool kept = true;
+    for (size_t i = 0; i < hands.size(); ++i) {
+        const Nanoseconds t = 1'000'000 * static_cast<Nanoseconds>(i + 1);
+        if (i % 100 == 0) {
+            lockstep.process(wall.at(t));
+        }
+        lockstep.answer();
+        steps[i] = lockstep.step(hands[i], t);
+        kept = kept && (_mm_getcsr() & 0xffc0u) == (mode & 0xffc0u);
+    }
+    _mm_setcsr(0x1f80);
+    CHECK(kept);
+    return steps;
+}
+
+} // namespace
+
+TEST_CASE("The caller's floating-point mode changes no result and is kept by every call") {
+    const std::vector<Hand> hands = slide();
+    const std::vector<Step> usual = stepsIn(0x1f80, hands), coarse = stepsIn(kCoarse, hands);
+    REQUIRE(usual.back().state == State::Contact);
+    REQUIRE(usual.size() == coarse.size());
+    for (size_t i = 0; i < usual.size(); ++i) {
+        CAPTURE(i);
+        REQUIRE(usual[i].wrench.force == coarse[i].wrench.force);
+        REQUIRE(usual[i].baseTtool.position == coarse[i].baseTtool.position);
+        REQUIRE(usual[i].state == coarse[i].state);
+    }
+}
+#endif
+
 TEST_CASE("A step reports a missing scene, an old scene and time that goes back") {
     Engine engine(wallScene(), smallCamera());
     CameraPort port = engine.camera();

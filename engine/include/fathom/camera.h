@@ -31,18 +31,22 @@ enum class ColourFormat {
 
 /// Pinhole lens with Brown-Conrady distortion. Pixel (0, 0) is the centre of the first pixel.
 struct Intrinsics {
-    std::uint32_t width = 0, height = 0;           ///< [pixels]
-    double fx = 0.0, fy = 0.0, cx = 0.0, cy = 0.0; ///< [pixels]
-    std::array<double, 5> distortion{};            ///< k1 k2 p1 p2 k3; all zero = none
+    std::uint32_t width = 0;            ///< [pixels]
+    std::uint32_t height = 0;           ///< [pixels]
+    double fx = 0.0;                    ///< [pixels] focal length along x
+    double fy = 0.0;                    ///< [pixels] focal length along y
+    double cx = 0.0;                    ///< [pixels] principal point
+    double cy = 0.0;                    ///< [pixels] principal point
+    std::array<double, 5> distortion{}; ///< k1 k2 p1 p2 k3; all zero = none
 };
 
 /// Camera frames have z forward, x right, y down.
 struct CameraModel {
-    std::string name = "camera";
-    Intrinsics depth;
-    DepthFormat depthFormat = DepthFormat::Uint16;
-    double metresPerUnit = 0.001; ///< of DepthFormat::Uint16
-    ColourFormat colourFormat = ColourFormat::None;
+    std::string name = "camera";                    ///< for Engine::camera() and messages
+    Intrinsics depth;                               ///< lens of the depth images
+    DepthFormat depthFormat = DepthFormat::Uint16;  ///< of Frame::depth
+    double metresPerUnit = 0.001;                   ///< of DepthFormat::Uint16
+    ColourFormat colourFormat = ColourFormat::None; ///< of Frame::colour
     /// The colour lens, if colour is not registered to depth. Empty: colour pixel (u, v) shows depth pixel
     /// (u, v).
     std::optional<Intrinsics> colour;
@@ -73,12 +77,14 @@ enum class SubmitStatus {
 class FATHOM_API CameraPort {
 public:
     /// Copies the frame and returns. The newest frame wins: one that still waits is dropped and counted.
+    /// Takes a lock that only the frame thread takes, too, for the swap of a few words when it fetches a
+    /// frame. A step takes no lock: it never waits for submit(), and submit() never waits for a step.
     [[nodiscard]] SubmitStatus submit(const Frame& frame);
 
     /// Lends the frame instead of copying it. Its memory must stay valid and unchanged until release() is
     /// called, exactly once per call of lend(), from this call, a later submit() or lend(), the frame thread
-    /// or the engine's destructor. Formats that the engine converts (DepthFormat::Metres, ColourFormat::Rgb)
-    /// are copied.
+    /// or the engine's destructor. Depth that the engine changes (DepthFormat::Metres, scenes with
+    /// `camera.port`) and ColourFormat::Rgb are copied. Takes the lock of submit().
     [[nodiscard]] SubmitStatus lend(const Frame& frame, std::function<void()> release);
 
     /// The camera's clock was set: the next stamp may be earlier than the last one.

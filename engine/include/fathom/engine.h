@@ -3,9 +3,11 @@
 /// The engine: frames in from camera threads, forces out to a haptic thread.
 #pragma once
 
+#include <fathom/arm.h>
 #include <fathom/camera.h>
 #include <fathom/error.h>
 #include <fathom/hand.h>
+#include <fathom/observer.h>
 #include <fathom/scene.h>
 
 #include <functional>
@@ -16,6 +18,7 @@
 
 namespace fathom::v0 {
 
+/// How important a log line is.
 enum class LogLevel { Debug, Info, Warning, Error };
 
 /// Receives log lines of the whole process's engines, one line each, from any of their threads but never from
@@ -25,17 +28,25 @@ using LogCallback = std::function<void(LogLevel, std::string_view)>;
 /// Sets the receiver. Empty: log lines are discarded, which is the default.
 FATHOM_API void setLogCallback(LogCallback callback);
 
+/// How an engine runs. The defaults suit most programs.
 struct EngineOptions {
     std::string device; ///< part of a Vulkan device's name, or its index; empty = the best one
+    /// Path of the program fathom-reader, which reads URDFs and meshes of a scene in a process of its own.
+    /// Empty = the one that is installed with the library, or lies beside it.
+    std::string reader;
+    /// A real arm follows the scene's arm: the tool stands still until Engine::openArm() and its reports.
+    bool measuredArm = false;
 };
 
 /// Owns a compute device, a frame thread and a contact thread, and hands out ports. Each port belongs to one
-/// thread. Installs no signal handler, locks no memory and changes no environment.
+/// thread. Installs no signal handler, locks no memory, changes no environment and does not fork; the
+/// constructor starts the program fathom-reader for scenes with URDFs or meshes.
 class FATHOM_API Engine {
 public:
     /// Opens the device and compiles the passes; takes up to seconds. One camera is supported.
     /// @throws BadInput, DeviceLost, Error
     Engine(const Scene& scene, const CameraModel& camera, const EngineOptions& options = {});
+    /// The same for a list of cameras.
     Engine(const Scene& scene, std::span<const CameraModel> cameras, const EngineOptions& options = {});
     ~Engine();
     Engine(const Engine&) = delete;
@@ -43,11 +54,18 @@ public:
 
     /// The camera's port. @throws BadInput if there is none of that index or name
     CameraPort camera(std::size_t index = 0);
-    CameraPort camera(std::string_view name);
+    CameraPort camera(std::string_view name); ///< the same by CameraModel::name
 
     /// Opens the hand's port, once per engine. Allocates; call it before the haptic loop. @throws Error if it
     /// is open already, BadInput for a pose that is not finite
     HandPort openHand(const HandStart& start);
+
+    /// Opens the port of the real arm, once per engine. @throws BadInput without EngineOptions::measuredArm,
+    /// Error if it is open already
+    ArmPort openArm();
+
+    /// Opens the port of a display, once per engine. @throws Error if it is open already
+    ObserverPort openObserver();
 
     bool deviceLost() const noexcept; ///< it is being opened again. Any thread.
     std::string failure() const;      ///< what ended a thread of the engine; empty = nothing. Any thread.

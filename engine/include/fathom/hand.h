@@ -3,6 +3,7 @@
 /// The haptic device: its pose in, the wrench out, once per tick of your 1 kHz loop.
 #pragma once
 
+#include <fathom/arm.h>
 #include <fathom/types.h>
 
 #include <memory>
@@ -22,6 +23,7 @@ struct Hand {
     std::uint32_t buttons = 0; ///< bits of Button, by level
 };
 
+/// What the forces do.
 enum class State {
     Off,     ///< no fixtures yet, or forces are off: the wrench is zero
     Free,    ///< nothing pushes
@@ -34,13 +36,14 @@ enum class State {
 
 /// Bits of Step::warnings.
 enum Warning : std::uint32_t {
-    NoScene = 1,      ///< no fixture set yet
-    OldScene = 2,     ///< the newest frame is too old: forces fade
-    LostDevice = 4,   ///< the compute device is lost; the engine opens it again
-    NotFinite = 8,    ///< the hand sample or a result is not finite: the wrench is zero
-    TimeBack = 16,    ///< `now` is before the last step; the last time was used
-    Stalled = 32,     ///< contact answers are late: the tool moved less than the hand
-    EngineFailed = 64 ///< a thread of the engine ended; Engine::failure() says why
+    NoScene = 1,       ///< no fixture set yet
+    OldScene = 2,      ///< the newest frame is too old: forces fade
+    LostDevice = 4,    ///< the compute device is lost; the engine opens it again
+    NotFinite = 8,     ///< the hand sample or a result is not finite: the wrench is zero
+    TimeBack = 16,     ///< `now` is before the last step; the last time was used
+    Stalled = 32,      ///< contact answers are late: the tool moved less than the hand
+    EngineFailed = 64, ///< a thread of the engine ended; Engine::failure() says why
+    ArmStill = 128     ///< the real arm is silent or not ready: the tool stands still, without force
 };
 
 /// A contact that pushed in the last solve. Base frame.
@@ -53,23 +56,28 @@ struct Contact {
 
 /// The result of one step.
 struct Step {
-    Wrench wrench;    ///< for the device: device axes, about the handle
+    Wrench wrench;    ///< for the device: device axes, about the handle, zero on axes that the scene's device
+                      ///< does not drive
+    Wrench residual;  ///< for a display: what these axes would have got. Base axes, about the tool
+    ArmPosture arm;   ///< the scene's arm; zeros without one
     Pose baseTtool;   ///< the tool, which never enters a forbidden region
     Pose baseTdevice; ///< where the hand commands the tool
-    State state = State::Off;
-    std::uint32_t warnings = 0;     ///< bits of Warning
-    double sceneAge = 0.0;          ///< [s] of the newest frame; NaN before the first
-    double minGap = 0.0;            ///< [m] smallest gap to a forbidden region; NaN if unknown
-    double guidance = 0.0;          ///< weight of the guidance, 0..1
-    std::int64_t frame = -1;        ///< number of the frame behind the active fixtures; -1 = none
-    std::uint32_t contactCount = 0; ///< entries of `contacts` that are valid
-    std::array<Contact, 8> contacts{};
+    State state = State::Off;          ///< what the forces do
+    std::uint32_t warnings = 0;        ///< bits of Warning
+    double sceneAge = 0.0;             ///< [s] of the newest frame; NaN before the first
+    double minGap = 0.0;               ///< [m] smallest gap to a forbidden region; NaN if unknown
+    double guidance = 0.0;             ///< weight of the guidance, 0..1
+    std::int64_t frame = -1;           ///< number of the frame behind the active fixtures; -1 = none
+    std::uint32_t contactCount = 0;    ///< entries of `contacts` that are valid
+    std::array<Contact, 8> contacts{}; ///< the first `contactCount` are valid
 };
 
 /// Where hand and tool are at the start.
 struct HandStart {
     Pose deviceThandle;              ///< the handle's pose now
-    const Pose* baseTtool = nullptr; ///< where the tool starts; null = where the hand commands it
+    const Pose* baseTtool = nullptr; ///< where the tool starts; null = where the hand commands it.
+                                     ///< An arm's tip starts where the scene says; a pose here makes the
+                                     ///< hand's motion begin there
 };
 
 /// Computes the forces. Use it from one thread, the haptic thread. It may outlive its engine: the scene then
@@ -82,8 +90,8 @@ public:
 
     double period() const noexcept; ///< [s] between steps that the scene asks for
 
-    HandPort(HandPort&&) noexcept;
-    HandPort& operator=(HandPort&&) noexcept;
+    HandPort(HandPort&&) noexcept;            ///< leaves the other one unusable
+    HandPort& operator=(HandPort&&) noexcept; ///< leaves the other one unusable
     ~HandPort();
 
     struct FATHOM_LOCAL Impl;

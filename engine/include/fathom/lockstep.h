@@ -11,6 +11,7 @@ namespace fathom::v0 {
 /// Use it from one thread. Times are yours: any steady sequence that frames and steps share.
 class FATHOM_API Lockstep {
 public:
+    /// EngineOptions::measuredArm must be false: an arm is where the tool is.
     /// @throws BadInput, DeviceLost, Error
     Lockstep(const Scene& scene, const CameraModel& camera, const HandStart& start,
              const EngineOptions& options = {});

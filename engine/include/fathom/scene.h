@@ -11,8 +11,9 @@
 
 namespace fathom::v0 {
 
-/// A scene, read and checked. Immutable; any thread. A scene with an `arm` section is not supported by
-/// fathom::Engine yet; its camera source is ignored because you submit the frames.
+/// A scene, read and checked. Immutable; any thread. Its camera source, hand and arm driver are ignored,
+/// because you submit the frames, the hand and the measured arm. Files that it names are read by Engine and
+/// Lockstep.
 class FATHOM_API Scene {
 public:
     /// Reads a scene file. @throws BadInput naming file, field, value and the allowed values

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// What a display draws: copies of the newest protected regions and of the newest step.
+#pragma once
+
+#include <fathom/hand.h>
+
+#include <memory>
+#include <vector>
+
+namespace fathom::v0 {
+
+/// A sphere of a protected region.
+struct RegionSphere {
+    std::array<float, 3> centre{}; ///< [m] base axes, relative to Regions::origin
+    float radius = 0.0f;           ///< [m]
+    std::uint32_t fixture = 0;     ///< index into the scene's fixtures
+};
+
+/// A guidance target as one frame shows it.
+struct GuidanceTarget {
+    std::uint32_t fixture = 0; ///< index into the scene's fixtures
+    bool present = false;      ///< seen in this frame; else `baseTtool` is meaningless
+    Pose baseTtool;            ///< where the tool is pulled to
+};
+
+/// All regions of one frame.
+struct Regions {
+    std::int64_t frame = -1;             ///< number of the frame; -1 = none
+    Nanoseconds stamp = 0;               ///< of the frame
+    Vec3 origin{};                       ///< [m] base frame
+    std::vector<RegionSphere> spheres;   ///< their union is protected
+    std::vector<GuidanceTarget> targets; ///< one per guidance fixture of the camera's points
+};
+
+/// One step of the hand.
+struct StepSnapshot {
+    Step step;           ///< its result
+    Hand hand;           ///< its input
+    Nanoseconds now = 0; ///< its time
+};
+
+/// Copies the newest results for a display. Use it from one thread. It may outlive its engine. No thread of
+/// the engine, and no step, ever waits for it; what it does not fetch in time is replaced by newer results.
+class FATHOM_API ObserverPort {
+public:
+    /// Copies the regions of the newest frame into `out`, whose memory is used again. False, and `out` as it
+    /// was, if there is no newer frame than at the last call. Throws std::bad_alloc only.
+    bool regions(Regions& out);
+
+    /// Copies the newest step. False, and `out` as it was, if there is no newer one. Never allocates or
+    /// throws.
+    bool step(StepSnapshot& out) noexcept;
+
+    ObserverPort(ObserverPort&&) noexcept;            ///< leaves the other one unusable
+    ObserverPort& operator=(ObserverPort&&) noexcept; ///< leaves the other one unusable
+    ~ObserverPort();
+
+    struct FATHOM_LOCAL Impl;
+    explicit ObserverPort(std::unique_ptr<Impl> impl) noexcept; ///< for the library itself
+
+private:
+    std::unique_ptr<Impl> impl_;
+};
+
+} // namespace fathom::v0

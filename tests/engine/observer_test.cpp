@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copies of regions and steps for a display.
+#include "tests/engine/wall_world.h"
+#include "tests/haptics/allocation_count.h"
+
+#include <cmath>
+#include <doctest/doctest.h>
+#include <optional>
+
+using namespace fathom;
+using namespace fathom::testing;
+
+TEST_CASE("An observer gets the newest regions once, as they protect the wall") {
+    Engine engine(wallScene(), smallCamera());
+    CameraPort camera = engine.camera();
+    ObserverPort observer = engine.openObserver();
+    CHECK_THROWS_AS(engine.openObserver(), Error);
+    Regions regions;
+    CHECK_FALSE(observer.regions(regions));
+    CHECK(regions.frame == -1);
+    const Wall wall;
+    const Nanoseconds stamp = now();
+    CHECK(camera.submit(wall.at(stamp)) == SubmitStatus::Accepted);
+    CHECK(eventually([&] { return observer.regions(regions); }));
+    CHECK(regions.frame == 0);
+    CHECK(regions.stamp == stamp);
+    REQUIRE(regions.spheres.size() > 100);
+    for (const RegionSphere& sphere : regions.spheres) {
+        CHECK(regions.origin[2] + sphere.centre[2] == doctest::Approx(0.6).epsilon(0.001));
+        CHECK(sphere.radius >= 0.04f);
+        CHECK(sphere.fixture == 0);
+    }
+    const size_t before = regions.spheres.size();
+    CHECK_FALSE(observer.regions(regions)); // not again
+    CHECK(regions.spheres.size() == before);
+    for (int i = 0; i < 50; ++i) {
+        CHECK(camera.submit(wall.at(now())) == SubmitStatus::Accepted);
+    }
+    CHECK(eventually([&] { return camera.processed() + camera.dropped() == 51; }));
+    CHECK(observer.regions(regions)); // the newest alone
+    CHECK_FALSE(observer.regions(regions));
+    CHECK(regions.frame == 50);
+}
+
+TEST_CASE("An observer gets the newest step once, without allocation") {
+    std::optional<Engine> engine(std::in_place, wallScene(), smallCamera());
+    HandPort hand = engine->openHand(startAt(0.5));
+    ObserverPort observer = engine->openObserver();
+    StepSnapshot seen;
+    CHECK_FALSE(observer.step(seen));
+    Nanoseconds last = 0;
+    for (int i = 0; i < 10; ++i) {
+        last = now();
+        hand.step(handAt(0.5 + 0.001 * i), last);
+    }
+    const uint64_t before = threadAllocationCount();
+    CHECK(observer.step(seen));
+    CHECK_FALSE(observer.step(seen));
+    CHECK(threadAllocationCount() == before);
+    CHECK(seen.now == last);
+    CHECK(seen.hand.deviceThandle.position[2] == 0.509);
+    CHECK((seen.step.warnings & NoScene) != 0);
+    engine.reset(); // the ports live on
+    const Step step = hand.step(handAt(0.52), now());
+    CHECK(observer.step(seen));
+    CHECK(seen.step.baseTdevice.position[2] == step.baseTdevice.position[2]);
+    Regions regions;
+    CHECK_FALSE(observer.regions(regions));
+}
