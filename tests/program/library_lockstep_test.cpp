@@ -68,7 +68,7 @@ void stageArmValve(const fathom::Stage& stage) {
     const std::string source = "{simulated: wetmate}";
     REQUIRE(scene.find(source) != std::string::npos);
     scene.replace(scene.find(source), source.size(),
-                  "{simulated: wetmate, images: " + std::to_string(kArmFrames) + "}");
+                  "{simulated: wetmate, pictures: " + std::to_string(kArmFrames) + "}");
     stage.write("scene.yaml", scene);
     stage.write("arm41.urdf", {std::istreambuf_iterator<char>(urdf), {}});
     for (int i = 0; std::getline(path, line) && (i == 0 || std::stod(line) <= 4.0); ++i) {
