@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One end of a device socket (fathom/device_socket.h): owns an AF_UNIX SOCK_SEQPACKET descriptor, sends and receives
-// whole packets, never blocks.
+// One end of a device socket (fathom/device_socket.h): owns an AF_UNIX SOCK_SEQPACKET descriptor, sends and
+// receives whole packets, never blocks.
 #pragma once
 
 #include "engine/include/fathom/device_socket.h"
