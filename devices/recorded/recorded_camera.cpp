@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kMostApart = 0.1;   // [s] depth and colour of a pair
+constexpr double kMostApart = 0.1;   // [s] depth and colour of a pair, or half of the time between frames
 constexpr size_t kMostWarnings = 20; // skipped frames that are named in the summary, too
 
 const fs::path& existingFolder(const fs::path& folder) {
@@ -48,6 +48,10 @@ RecordedCamera::RecordedCamera(const fs::path& folder, const SourceOptions& opti
              layout_.intrinsics.camera.hasColour, kFramesInFlight + 2) {
     checkStamps();
     useOptions(options);
+    const std::vector<IndexLine>& index = layout_.index;
+    const double whole = index.back().depthStamp - index.front().depthStamp;
+    mostApart_ =
+        std::max(kMostApart, 0.5 * whole / static_cast<double>(std::max<size_t>(1, index.size() - 1)));
     if (info().hasColour) {
         checkColourSize();
     }
@@ -80,7 +84,7 @@ void RecordedCamera::checkStamps() {
     log::warn("{}: {}: stamps are ignored, frames are played in the order of the index at 30 per second",
               folder_.string(), told);
     for (size_t i = 0; i < layout_.index.size(); ++i) {
-        layout_.index[i].depthStamp = static_cast<double>(i) / 30.0;
+        layout_.index[i].depthStamp = layout_.index[i].colourStamp = static_cast<double>(i) / 30.0;
     }
 }
 
@@ -151,9 +155,9 @@ std::string RecordedCamera::read(const IndexLine& line, FrameSlot& slot) const {
     if (layout_.poses && !layout_.poses->at(line.depthStamp)) {
         return layout_.poses->whyNone(line.depthStamp);
     }
-    if (info().hasColour && !(std::abs(line.colourStamp - line.depthStamp) <= kMostApart)) {
+    if (info().hasColour && !(std::abs(line.colourStamp - line.depthStamp) <= mostApart_)) {
         return "its colour is " + std::to_string(std::abs(line.colourStamp - line.depthStamp)) +
-               " s from its depth, over " + std::to_string(kMostApart) + " s";
+               " s from its depth, over " + std::to_string(mostApart_) + " s";
     }
     const CameraInfo& camera = info();
     std::string fault =

@@ -51,6 +51,7 @@ private:
     std::filesystem::path folder_;
     RecordingLayout layout_;
     FrameSlots slots_;
+    double mostApart_ = 0.0;       // [s] depth and colour of a pair
     std::vector<float> axisShare_; // z of a unit step along each ray; empty = images hold z
     uint32_t cursor_ = 0;          // next data line
     uint32_t skipped_ = 0;

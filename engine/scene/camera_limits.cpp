@@ -42,7 +42,7 @@ public:
 
     void lens(const std::string& name, const Intrinsics& lens) const {
         const double size = std::max(lens.width, lens.height);
-        const Range focal = Range::between(1.0, kNarrowest * std::max(size, 1.0));
+        const Range focal = Range::between(1e-3, kNarrowest * std::max(size, 64.0));
         number(name + " fx", lens.fx, focal);
         number(name + " fy", lens.fy, focal);
         slope(name + " cx", lens.cx, lens.width, lens.fx);

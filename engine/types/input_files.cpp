@@ -7,13 +7,14 @@
 #include <optional>
 #include <set>
 #include <sys/stat.h>
-#include <utility>
+#include <tuple>
 
 namespace fathom {
 
 namespace {
 
-using Identity = std::pair<dev_t, ino_t>;
+// With the time of the last change, because a deleted file's inode is used again.
+using Identity = std::tuple<dev_t, ino_t, time_t, long>;
 constexpr size_t kMost = 100'000; // bounds the memory of a long run
 
 std::mutex mutex; // of inputs
@@ -21,8 +22,10 @@ std::set<Identity> inputs;
 
 std::optional<Identity> identityOf(const std::filesystem::path& file) {
     struct stat status {};
-    return ::stat(file.c_str(), &status) == 0 ? std::optional<Identity>({status.st_dev, status.st_ino})
-                                              : std::nullopt;
+    return ::stat(file.c_str(), &status) == 0
+               ? std::optional<Identity>(
+                     {status.st_dev, status.st_ino, status.st_mtim.tv_sec, status.st_mtim.tv_nsec})
+               : std::nullopt;
 }
 
 } // namespace

@@ -6,7 +6,7 @@
 
 namespace fathom {
 
-// Any thread. Remembers device and inode; no effect when the file does not exist.
+// Any thread. Remembers device, inode and time of change; no effect when the file does not exist.
 void noteInput(const std::filesystem::path& file);
 // Whether the file, links followed, is one that was noted.
 bool isInput(const std::filesystem::path& file);

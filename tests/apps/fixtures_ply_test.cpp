@@ -43,6 +43,7 @@ TEST_CASE(
     for (const size_t count : {size_t{0}, size_t{1}, size_t{37}}) {
         const Fixtures set = setOf(count);
         const auto path = folder.path() / "set.ply";
+        std::filesystem::remove(path); // read below, and inputs are never replaced
         writeFixturesPly(path, set);
         const std::string text = textOf(path);
         const std::string end = "end_header\n";

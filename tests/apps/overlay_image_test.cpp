@@ -193,6 +193,7 @@ TEST_CASE(
     scene.input.tick.device.position = {0, 0, -1.0}; // behind the camera
     scene.input.tick.wrench.force = {0, std::nan(""), 0};
     scene.input.tick.guidance = std::nan("");
+    std::filesystem::remove(path); // read above, and inputs are never replaced
     writeOverlay(path, scene.input);
     scene.input.camera = CameraInfo{};
     CHECK_THROWS_AS(writeOverlay(path, scene.input), Error);

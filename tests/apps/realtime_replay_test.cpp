@@ -131,5 +131,5 @@ TEST_CASE("SIGINT ends a realtime replay early and leaves every file complete") 
     for (const char* name : {"summary.json", "haptics.csv", "frames.csv", "traces.png", "overlay.png"}) {
         CHECK(std::filesystem::file_size(out.path() / name) > 0);
     }
-    CHECK(out.files() == 5); // no temporary file remains
+    CHECK(out.files() == 6); // with the lock; no temporary file remains
 }

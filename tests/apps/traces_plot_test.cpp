@@ -162,6 +162,7 @@ TEST_CASE("The force trace follows the scale of its axis over 1 tick, 1 s and 1 
         for (int i = 0; i < count; ++i) {
             history.add(tickAt(i, 2 * i < count - 1 ? 4.0 : i % 2 == 0 ? 8.0 : 6.0)); // axis to 10 N
         }
+        std::filesystem::remove(path); // read below, and inputs are never replaced
         writeTraces(path, history, {"title", "subtitle", 20.0, 0.9});
         const PngImage image(path);
         REQUIRE(image.width() == traces::kWidth);
@@ -190,6 +191,7 @@ TEST_CASE("An empty run, a run of zeros and a run of NaN give an image without a
     }
     for (const TraceHistory& history : {TraceHistory{}, zeros, nothing}) {
         const auto path = folder.path() / "traces.png";
+        std::filesystem::remove(path); // read below, and inputs are never replaced
         writeTraces(path, history, {"t", "bad \xff byte", std::nullopt, std::nan("")});
         const PngImage image(path);
         CHECK(image.width() == 1600);

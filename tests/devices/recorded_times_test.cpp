@@ -26,7 +26,7 @@ TEST_CASE("A frame without a pose in poses.txt is skipped and named: before it, 
     using Indices = std::vector<uint32_t>;
     CHECK(indices("0" + end + "0.5" + end) == Indices{0, 1, 2, 3, 4, 5});
     CHECK(indices("0.26" + end + "1" + end) == Indices{3, 4, 5});
-    CHECK(indices("-1" + end + "0.14" + end) == Indices{0, 1});
+    CHECK(indices("-0.8" + end + "0.14" + end) == Indices{0, 1});
     CHECK(indices("0.1" + end + "1000" + end) == Indices{1}); // a gap
     CHECK(indices("-600" + end + "-599.9" + end + "0.2" + end + "0.6" + end) == Indices{2, 3, 4, 5});
     for (const char* poses : {"100 0 0 0 0 0 0 1\n200 0 0 0 0 0 0 1\n", "1700000000 0 0 0 0 0 0 1\n"}) {
