@@ -187,7 +187,7 @@ TEST_CASE("A class without a region and a run without an active set raise alarms
     run.row.record.state = StepState::Off;
     run.row.record.frame = -1;
     pass(1100);
-    CHECK(run.step() == Words{"CAUTION active off", "CAUTION active region valve"});
+    CHECK(run.step() == Words{"CAUTION active region valve", "CAUTION active off"});
 }
 
 TEST_CASE("The alarm names the cause of an old scene: the camera or a lost GPU") {

@@ -48,7 +48,7 @@ std::string dead(const std::string& fixture, const std::function<void(CameraInfo
 TEST_CASE("Lenses of absurd or non-finite numbers are rejected with source, field, value and range") {
     CHECK(fault([](CameraInfo&) {}) == "");
     CHECK(fault([](CameraInfo& c) { c.depth.fx = 1e300; }) ==
-          "recorded here: depth fx: 1e+300 (allowed: a number from 1 to 64000)");
+          "recorded here: depth fx: 1e+300 (allowed: a number from 0.001 to 64000)");
     for (const double bad : {1e300, 1e-300, 0.0, -525.0, std::nan(""), HUGE_VAL, 1e6}) {
         CAPTURE(bad);
         CHECK(fault([&](CameraInfo& c) { c.depth.fx = bad; }).find("depth fx: ") != std::string::npos);
