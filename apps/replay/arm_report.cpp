@@ -36,7 +36,7 @@ ArmReport::ArmReport(const std::filesystem::path& file, const ArmRig& rig, const
         header += column(joint.name);
         sums_.joints.push_back({joint.name, joint.lower, joint.upper, joint.speed, HUGE_VAL, -HUGE_VAL, 0.0});
     }
-    header += ",grasp,residual_m,manipulability,at_limits,limit_violation,singular,grasp_held,flipped";
+    header += ",grasp,residual_m,manipulability,at_limits,limit_violation,singular,grasp_held";
     if (!realArm.empty()) {
         sums_.driven = ReplaySummary::Arm::Driven{};
         sums_.driven->description = realArm;
@@ -45,7 +45,7 @@ ArmReport::ArmReport(const std::filesystem::path& file, const ArmRig& rig, const
             header += ",measured_" + column(joint.name);
         }
     }
-    file_.write(header + "\n");
+    file_.write(header + ",flipped\n");
     for (const std::string& link : rig.model.links) {
         sums_.links.push_back({link, 0, std::nullopt});
     }
@@ -99,10 +99,10 @@ void ArmReport::add(const TickRow& row) {
     row_.add(wrong);
     row_.add(int64_t{arm.singular});
     row_.add(int64_t{arm.graspHeld});
-    row_.add(int64_t{arm.flipped});
     if (sums_.driven) {
         addDriven(row);
     }
+    row_.add(int64_t{arm.flipped});
     file_.write(row_.end());
     sums_.limitViolation = std::max(sums_.limitViolation, wrong);
     sums_.limitedTicks += arm.atLimits > 0 ? 1 : 0;

@@ -133,10 +133,10 @@ private:
 
     std::vector<double> leafRadius_; // [m]
     Pose tool_;                      // base_T_tool after the last step
-    Pose springEnd_;       // base_T_tool that the solver aims at: device pose moved by the guidance lead
-    Pose allowed_;         // base_T_tool that the active rows allow
-    Pose device_, handle_; // last good sample: mapped, raw
-    double time_ = 0.0;    // [s] of the last step
+    Pose springEnd_;          // base_T_tool that the solver aims at: device pose moved by the guidance lead
+    Pose allowed_;            // base_T_tool that the active rows allow
+    Pose device_, handle_;    // last good sample: mapped, raw
+    double time_ = kNotKnown; // [s] of the last step
 
     struct Scene { // what the active regions are
         uint64_t generation = 0;

@@ -2,6 +2,7 @@
 #include "engine/cycle/query_ahead.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace fathom {
 
@@ -27,6 +28,9 @@ void QueryAhead::moved(const ToolState& now) noexcept {
 }
 
 void QueryAhead::answered(double asked, double now) noexcept {
+    if (!std::isfinite(now - asked)) { // asked before the first step
+        return;
+    }
     const double age = std::clamp(now - asked, 0.0, kMostLead);
     age_ = std::max(age, age_ - period_ * std::min(1.0, age_ / kForgetAge));
 }

@@ -80,8 +80,8 @@ inline constexpr size_t kMostTouches = 8;
 struct ToolState {
     Pose pose; // base_T_tool
     ArmPosture arm;
-    double asked = 0.0;     // [s] of the step that asks
-    double moreReach = 0.0; // [m] beyond the scene's reach, for late answers
+    double asked = std::numeric_limits<double>::quiet_NaN(); // [s] of the step that asks; NaN: before any
+    double moreReach = 0.0;                                  // [m] beyond the scene's reach, for late answers
 };
 
 // Status of the real arm that follows the tool's arm, before a step.

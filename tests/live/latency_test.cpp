@@ -68,7 +68,7 @@ TEST_CASE("latency measures with a window, which draws offscreen without a displ
     CHECK(ticks > 5);
     CHECK(part.at("woken_late").at("count") == ticks);
     CHECK(ticks + part.at("periods_missed").get<uint64_t>() >= 690);
-    CHECK(run.out.find("window turn") != std::string::npos);
+    CHECK(run.out.find("window step") != std::string::npos);
 }
 
 TEST_CASE("A soak test exits with code 0 when it meets its limits, and with 1 when it misses one") {

@@ -40,7 +40,7 @@ TEST_CASE("A GPU that is lost or out of memory is opened again while the hand co
         REQUIRE(run.exitCode == 0);
         CHECK(run.err.find("GPU is ") != std::string::npos);
         CHECK(run.err.find("GPU is back") != std::string::npos);
-        CHECK(run.out.find("lost and made anew 1 times") != std::string::npos);
+        CHECK(run.out.find("lost and reopened 1 times") != std::string::npos);
         const Replay replay = readReplay(stage / "out", run);
         CHECK(deepest(replay) <= 1e-5);
         REQUIRE(!replay.frames.empty());
@@ -59,7 +59,7 @@ TEST_CASE(
     const ProgramRun run = runFathom(stage.command({"--realtime", "--device", "llvmpipe"}));
     CAPTURE(run.err);
     REQUIRE(run.exitCode == 0);
-    CHECK(run.out.find("lost and made anew 1 times") != std::string::npos);
+    CHECK(run.out.find("lost and reopened 1 times") != std::string::npos);
     const Replay replay = readReplay(stage / "out", run);
     CHECK(deepest(replay) <= 1e-5);
     std::set<int64_t> told;

@@ -42,7 +42,7 @@ Driven readDriven(const Stage& stage, const ProgramRun& run) {
         for (std::string cell; std::getline(text, cell, ',');) {
             cells.push_back(cell);
         }
-        REQUIRE(cells.size() == 15);
+        REQUIRE(cells.size() == 16);
         driven.states.emplace_back(std::strtod(cells[0].c_str(), nullptr), cells[11]);
     }
     return driven;

@@ -51,7 +51,8 @@ void checkColumn(const json& times, std::vector<double> column) {
 
 void checkSummaryKeys(const json& s) {
     const std::set<std::string> three{"p50", "p99", "max"};
-    checkKeys(s, {"frames", "haptic", "contact", "fixtures", "guidance", "device", "lockstep", "digest"});
+    checkKeys(s, {"frames", "haptic", "contact", "fixtures", "guidance", "device", "lockstep", "digest",
+                  "warnings"});
     checkKeys(s.at("frames"), {"count", "skipped", "gpu_ms", "upload_ms", "latency_ms"});
     checkTimes(s.at("frames").at("latency_ms"), three, s.at("frames").at("count") > 0);
     checkKeys(s.at("haptic"), {"ticks",
