@@ -31,7 +31,8 @@ void QueryAhead::answered(double asked, double now) noexcept {
     if (!std::isfinite(now - asked)) { // asked before the first step
         return;
     }
-    const double age = std::clamp(now - asked, 0.0, kMostLead);
+    // In whole ticks, so that the rounding of a clock changes nothing.
+    const double age = period_ * std::round(std::clamp(now - asked, 0.0, kMostLead) / period_);
     age_ = std::max(age, age_ - period_ * std::min(1.0, age_ / kForgetAge));
 }
 

@@ -136,9 +136,10 @@ bool ConstrainedProxy<Kinematics>::linearise(bool first, Step& out) noexcept {
     ++out.solves;
     Answer answer;
     if (!kinematics_.solve(answer, false, rows_, out)) {
-        out.trapped =
-            out.solves == 1; // later solves of a tick keep their progress; the next tick tries again
-        rows_.clearActive();
+        out.trapped = out.solves == 1; // later solves of a tick keep their progress and their rows
+        if (out.trapped) {
+            rows_.clearActive();
+        }
         return false;
     }
     const bool fits = fitsExactly(answer, out);

@@ -16,7 +16,7 @@ struct ProxyOptions {
     uint32_t solves = 4;          // linearisations per tick, at most
     double escapePerTick = 0.001; // [m] depth reduced per tick where new data overlaps a leaf
     double period = 0.001;        // [s] tick
-    // [m/s] how much faster than the target a free tool may approach it. A tool that lags (late contact
+    // [m/s] how much faster than the target a tool without an active row may approach it. A tool that lags (late contact
     // answers, a region that vanished) so never lunges at the hand.
     double catchUp = 0.2;
     // mu of the friction between a free tool and the regions: the tool stays while the distance that it could

@@ -153,7 +153,8 @@ bool ToolKinematics::fit(Answer& answer, LeafContacts& contacts, const ProxyRows
         escapeBound = bound * answer.escapeShare;
     }
     const Motion first = answer.escapeShare * answer.escape;
-    const double follow = escapeBound + budget_.follow;
+    // Along a region the tool may have to travel farther than the hand.
+    const double follow = rows.active().empty() ? escapeBound + budget_.follow : stepCap_;
     answer.towards = shareToCap(first, answer.full - first, escapeBound, std::min(stepCap_, follow), leaves);
     answer.whole = answer.towards == 1.0 && answer.full.a == wanted_.a && answer.full.alpha == wanted_.alpha;
     answer.stalled = false;
@@ -213,7 +214,9 @@ StepOutcome ToolKinematics::judge(const Answer& answer, double part, const LeafS
     if (isNothing(taken) && rows.escaping() &&
         part < 1.0) { // only a far motion would satisfy the rows: no way out
         out.trapped = out.solves == 1;
-        rows.clearActive();
+        if (out.trapped) {
+            rows.clearActive();
+        }
     }
     if (part == 0.0 || (!newData_ && !comesNearer(taken))) {
         return StepOutcome::None;

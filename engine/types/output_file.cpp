@@ -72,6 +72,7 @@ void OutputFile::write(const void* bytes, size_t count) {
 }
 
 void OutputFile::commit() {
+    refuseInput(path_); // also one that was read since
     flush();
     if (!isMine()) {
         ::close(std::exchange(descriptor_, -1));

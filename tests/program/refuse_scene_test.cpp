@@ -96,14 +96,16 @@ TEST_CASE("An empty depth range, an impossible filter and invalid numbers are re
         camera("near: 0", {"camera.near", "0", "from 0.001 to 10000"}),
         camera("near: .nan", {"camera.near", ".nan"}),
         camera("registration_sigma: -1", {"camera.registration_sigma", "-1", "from 0 to 1"}),
-        camera("base_T_camera: {xyz: [0, .nan, 0]}", {"camera.base_T_camera.xyz[1]", ".nan", "from -1e+06 to 1e+06"}),
+        camera("base_T_camera: {xyz: [0, .nan, 0]}",
+               {"camera.base_T_camera.xyz[1]", ".nan", "from -1e+06 to 1e+06"}),
         camera("base_T_camera: {quat_xyzw: [0, 0, 0, 0]}",
                {"camera.base_T_camera.quat_xyzw", "[0, 0, 0, 0]"}),
         {[](SceneText& s) { s.filter = "radius: 17"; }, {"filter.radius", "17", "0 to 16"}},
         {[](SceneText& s) { s.filter = "radius: -1"; }, {"filter.radius", "-1", "0 to 16"}},
         {[](SceneText& s) { s.filter = "radius: 2.5"; }, {"filter.radius", "2.5", "whole number"}},
         {[](SceneText& s) { s.filter = "sigma: 0"; }, {"filter.sigma", "from 1e-05 to 10"}},
-        {[](SceneText& s) { s.more = "error_budget: -0.1\n"; }, {"error_budget", "-0.1", "from 1e-07 to 0.1"}},
+        {[](SceneText& s) { s.more = "error_budget: -0.1\n"; },
+         {"error_budget", "-0.1", "from 1e-07 to 0.1"}},
         {[](SceneText& s) { s.more = "hold_s: .nan\n"; }, {"hold_s", ".nan"}},
     });
 }

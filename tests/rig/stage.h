@@ -30,8 +30,8 @@ struct Replay {
 struct Terms {
     double rate = 1000.0;                         // [Hz]
     double forceLimit = 20.0, torqueLimit = 2.0;  // [N], [N m]
-    double slewForce = 2000.0, slewTorque = 50.0; // [N/s], [N m/s]
     bool calm = true;                             // no force before the first contact, stall or guidance
+    double slewForce = 2000.0, slewTorque = 50.0; // [N/s], [N m/s]
 };
 
 // Reads a finished replay and checks files, keys, columns, counts, times and invariants.
