@@ -170,7 +170,7 @@ void HapticCycle::report(const Situation& now, const ProxyStep& moved, bool hasS
                          StepRecord& out) const noexcept {
     out.device = device_;
     out.tool = tool_;
-    out.contacts = static_cast<uint32_t>(moved.active.size());
+    out.contacts = static_cast<uint32_t>(moved.active.size()) + (moved.blocked ? 1 : 0);
     out.minGap = hasSet ? moved.minGap : kNotKnown;
     out.state = stateOf(now, moved, out.lag > kLagLength);
     out.guidance = guidance_.weight();
@@ -198,7 +198,8 @@ void HapticCycle::makeWrench(const StepInput& input, const Situation& now, const
     tick.baseRhandle = map_.baseRhandle(handle_);
     tick.springs = watch_.springs();
     tick.pull = guidancePull();
-    tick.pushes = (moved.active.empty() ? 0 : cause::kRow) | (jointEnds_ == 0 ? 0 : cause::kJoint);
+    tick.pushes =
+        (moved.active.empty() && !moved.blocked ? 0 : cause::kRow) | (jointEnds_ == 0 ? 0 : cause::kJoint);
     tick.mayRise = !moved.stale && !input.doubtful;
     tick.newData = newData;
     tick.vanished = vanished;

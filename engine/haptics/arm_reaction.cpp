@@ -34,6 +34,7 @@ void ArmKinematics::recordAllowed(const Answer& answer, bool blocked, const Leaf
     if (out.contacts == 0 && out.atEnds == 0 && !blocked) {
         return;
     }
+    out.blocked = blocked && out.contacts == 0;
     Motion whole;
     if (!blocked) {
         whole = motionOf(uncutAnswer(answer, rows));

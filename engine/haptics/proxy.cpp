@@ -14,6 +14,9 @@ ProxyStep Proxy::step(const ProxyInput& input) noexcept {
     ProxyStep out;
     if (begin(input)) {
         finish(input, out);
+    } else { // no set that fits the tool: it waits, without a force
+        out.cut = true;
+        out.allowed = input.target;
     }
     report(out);
     return out;

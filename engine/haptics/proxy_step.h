@@ -16,8 +16,8 @@ struct ProxyOptions {
     uint32_t solves = 4;          // linearisations per tick, at most
     double escapePerTick = 0.001; // [m] depth reduced per tick where new data overlaps a leaf
     double period = 0.001;        // [s] tick
-    // [m/s] how much faster than the target a tool without an active row may approach it. A tool that lags (late contact
-    // answers, a region that vanished) so never lunges at the hand.
+    // [m/s] how much faster than the target a tool without an active row may approach it. A tool that lags
+    // (late contact answers, a region that vanished) so never lunges at the hand.
     double catchUp = 0.2;
     // mu of the friction between a free tool and the regions: the tool stays while the distance that it could
     // still slide is at most mu times the one that the regions keep it from. 0 = none.
@@ -48,8 +48,9 @@ struct ProxyStep {
     // cut it. Equal to `pose` when nothing was cut. The distance from here to the target is the reaction of
     // the regions; the distance from `pose` to here is lag, which has no force.
     Pose allowed;
-    bool cut = false;   // `allowed` was not reached
-    bool stale = false; // `allowed` is farther away than the tangents of the active rows are accurate
+    bool cut = false;     // `allowed` was not reached
+    bool blocked = false; // only the exact check keeps the tool from the target: counts as a row
+    bool stale = false;   // `allowed` is farther away than the tangents of the active rows are accurate
     std::span<const ActiveContact> active; // valid until the next tick
     double minGap = 0.0;     // [m] smallest gap in the contact set, or its certified reach if none is smaller
     bool contact = false;    // some row had a positive multiplier in the last solve

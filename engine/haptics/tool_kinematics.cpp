@@ -232,6 +232,13 @@ StepOutcome ToolKinematics::judge(const Answer& answer, double part, const LeafS
     return isNothing(taken) ? StepOutcome::Last : StepOutcome::More;
 }
 
+void ToolKinematics::report(ProxyStep& out) const noexcept {
+    const Motion left = remaining(pose_, target_);
+    const bool apart = glm::length(left.a) > kSettling || glm::length(left.alpha) * metricRadius_ > kSettling;
+    out.blocked = apart && out.active.empty() && !out.cut && !out.trapped;
+    out.contact = !out.active.empty() || out.blocked;
+}
+
 void ToolKinematics::recordAllowed(const Answer& answer, bool blocked, const LeafContacts& contacts,
                                    const ProxyRows& rows, ProxyStep& out) noexcept {
     const bool shortened = answer.towards < 1.0 || answer.share < 1.0;

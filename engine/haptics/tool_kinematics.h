@@ -32,7 +32,7 @@ public:
     void place(LeafState& leaves) const noexcept { places_.place(pose_, leaves.origin, leaves.now); }
 
     void begin(const ProxyInput& input, ProxyRows& rows) noexcept;
-    void report(ProxyStep& out) const noexcept { out.contact = !out.active.empty(); }
+    void report(ProxyStep& out) const noexcept;
 
     // Rows.
     void addLimits(ProxyRows&) const noexcept {}

@@ -71,7 +71,7 @@ TEST_CASE("The window is measured against the same run without it") {
     rig.key("a");
     REQUIRE(rig.await([](const json& s) { return s["run"]["turns"] > 5000; }, 60.0));
     REQUIRE(rig.close() == 0);
-    const double with = figureIn(rig.output(), "turn         p50 ");
+    const double with = figureIn(rig.output(), "step         p50 ");
     const ProgramRun plain = runFathom({"replay", (rig.folder() / "scene.yaml").string(), "--realtime",
                                         "--device", "llvmpipe", "--out", out.string()});
     REQUIRE_MESSAGE(plain.exitCode == 0, plain.err);
@@ -80,7 +80,7 @@ TEST_CASE("The window is measured against the same run without it") {
     const double without = summary.at("haptic").at("turn_us").at("p50").get<double>();
     REQUIRE(with > 0.0);
     REQUIRE(without > 0.0);
-    MESSAGE("turn p50 with the window "
+    MESSAGE("step p50 with the window "
             << with << " us, without " << without << " us: ratio " << with / without
-            << "; late with it: " << rig.output().substr(rig.output().find("turn  ")));
+            << "; late with it: " << rig.output().substr(rig.output().find("step  ")));
 }
