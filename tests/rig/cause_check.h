@@ -65,7 +65,7 @@ public:
         if (((tick.cause & cause::kRow) != 0) != (tick.contacts > 0)) {
             return "cause and contacts disagree";
         }
-        if ((force > 0.0 || torque > 0.0) && tick.cause == 0) {
+        if ((force > 1e-9 || torque > 1e-9) && tick.cause == 0) {
             return "a wrench without a cause";
         }
         return felt && !caused && !tail && !damping ? "a force in free space" : "";
