@@ -42,7 +42,6 @@ public:
     int descriptor() const noexcept {
         return endpoint_.descriptor();
     } // for poll(2): readable on a new connection
-    int engineDescriptor() const noexcept { return engine_.descriptor(); } // for poll(2); -1 = none
     uint64_t dropped() const noexcept { return dropped_; }                 // engines that broke the contract
     const std::filesystem::path& path() const noexcept { return path_; }
 

@@ -6,7 +6,6 @@
 #include "engine/types/colour_copy.h"
 #include "engine/types/error.h"
 
-#include <chrono>
 #include <cstdio>
 
 namespace fathom {
@@ -73,10 +72,7 @@ void RecordingWriter::add(const Frame& frame) {
 
 void RecordingWriter::add(Image image) {
     std::unique_lock lock(mutex_);
-    const auto begin = std::chrono::steady_clock::now();
     room_.wait(lock, [this] { return waiting_.size() < kWaiting || failure_; });
-    const std::chrono::duration<double> held = std::chrono::steady_clock::now() - begin;
-    longestWait_ = std::max(longestWait_, held.count());
     if (failure_) {
         std::rethrow_exception(failure_);
     }

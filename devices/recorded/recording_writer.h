@@ -51,7 +51,6 @@ public:
     void finish();
 
     uint32_t frames() const { return added_; }
-    double longestWait() const { return longestWait_; } // [s] longest wait in add()
 
 private:
     struct Job {
@@ -71,7 +70,6 @@ private:
     std::deque<Job> waiting_;
     std::map<uint32_t, std::string> indexLines_, poseLines_; // done, waiting for an earlier one
     uint32_t added_ = 0, indexed_ = 0, underWay_ = 0;
-    double longestWait_ = 0.0;
     bool ending_ = false;
     std::exception_ptr failure_;
     std::vector<std::thread> threads_;

@@ -37,7 +37,6 @@ public:
     void step(double now, const ArmCommand& command) noexcept override;
     const ArmFeedback& feedback() const noexcept override { return feedback_; }
     void reset() noexcept override { feedback_.overloaded = false; }
-    size_t homedJoints() const { return homing_; }
 
     static double radiansPerCount(size_t joint) noexcept;
 

@@ -177,7 +177,6 @@ double CaptureStream::stampOf(long seconds, long micros, uint32_t flags) {
     if ((flags & V4L2_BUF_FLAG_TIMESTAMP_MASK) != V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC) {
         return monotonicNow();
     }
-    exposureStamps_ = (flags & V4L2_BUF_FLAG_TSTAMP_SRC_MASK) == V4L2_BUF_FLAG_TSTAMP_SRC_SOE;
     return static_cast<double>(seconds) + 1e-6 * static_cast<double>(micros);
 }
 

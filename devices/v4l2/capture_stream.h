@@ -61,11 +61,10 @@ public:
 
     const VideoNode& node() const { return node_; }
     const StreamRequest& request() const { return request_; }
-    uint32_t stride() const { return stride_; }             // [bytes] from row to row; 0 when compressed
-    double period() const { return period_; }               // [s] as the driver set it
-    uint32_t queued() const { return queued_.load(); }      // buffers that the driver can fill
-    uint64_t missing() const { return missing_; }           // frames lost before take(): sequence gaps
-    bool exposureStamps() const { return exposureStamps_; } // stamps mark the start of exposure
+    uint32_t stride() const { return stride_; }        // [bytes] from row to row; 0 when compressed
+    double period() const { return period_; }          // [s] as the driver set it
+    uint32_t queued() const { return queued_.load(); } // buffers that the driver can fill
+    uint64_t missing() const { return missing_; }      // frames lost before take(): sequence gaps
     uint32_t taken() const { return kBuffers - queued_.load(); }
 
 private:
@@ -75,7 +74,7 @@ private:
     bool queue(uint32_t index) noexcept;
     void start();
     [[noreturn]] void fail(const char* what) const;
-    double stampOf(long seconds, long micros, uint32_t flags);
+    static double stampOf(long seconds, long micros, uint32_t flags);
 
     VideoNode node_;
     StreamRequest request_;
@@ -90,7 +89,6 @@ private:
     std::atomic<uint32_t> queued_{0};
     std::optional<uint32_t> lastSequence_;
     uint64_t missing_ = 0;
-    bool exposureStamps_ = false;
 };
 
 } // namespace fathom

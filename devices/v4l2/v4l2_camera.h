@@ -42,7 +42,6 @@ public:
     uint64_t lostColour() const; // gaps in the driver's counter of colour
     std::optional<double> framePeriod() const override { return depthPeriod_; }
 
-    uint64_t overtaken() const { return overtaken_; }
     uint64_t copied() const { return copied_; }     // frames whose depth was not leased in place
     uint64_t restarts() const { return restarts_; } // restarts of silent streams
     // Frames whose capture time is the start of exposure as the camera's own metadata tell it.

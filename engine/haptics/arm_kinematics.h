@@ -88,7 +88,7 @@ public:
                       const ArmStep& out) noexcept;
     void take() noexcept { now_ = next_; }
     // Before take(): fills out.allowed, cut and stale. An arm reports `allowed` in every tick, because it may
-    // not reach a target for reasons that push nobody: joint speeds, the workspace, a singular posture.
+    // not reach a target for reasons without a force: joint speeds, the workspace, a singular posture.
     // blocked: the exact check shortened the motion.
     void recordAllowed(const Answer& answer, bool blocked, const LeafContacts& contacts, ProxyRows& rows,
                        ArmStep& out) const noexcept;

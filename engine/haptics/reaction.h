@@ -31,7 +31,6 @@ public:
     void vanish() noexcept;
     // The hand's end of the spring was moved by `by` [m], not by the hand.
     void shift(const dvec3& by) noexcept { end_.position += by; }
-    void reset() noexcept { *this = {}; }
 
     double size() const noexcept { return size_; }      // [N] of the last tick, torque counted as torque / k
     bool fades() const noexcept { return left_ > 0.0; } // the tail after vanish()
