@@ -96,7 +96,7 @@ bool HapticCycle::lossesHoldForces(const StepInput& input) noexcept {
 }
 
 void HapticCycle::takeSample(const StepInput& input, const Situation& now) noexcept {
-    if (!now.sane || input.doubtful) {
+    if (!now.sane || (input.doubtful && input.present)) {
         return;
     }
     handle_ = {input.deviceThandle.position, glm::normalize(input.deviceThandle.rotation)};

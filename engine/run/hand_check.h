@@ -10,9 +10,9 @@ namespace fathom {
 
 // A hand does not move faster than kFastest. A sample that says so is either an outlier or the truth after a
 // gap: it is doubted, for at most kDoubt, while hand and tool stay and the force may only fall. Once the
-// samples agree with each other for that time they are believed, wherever they are, and the hand is
-// re-indexed there. So one wrong sample moves nothing, and a lasting offset traps nobody. Haptic thread;
-// noexcept.
+// samples agree with each other for that time they are believed, and the hand is re-indexed there. So one
+// wrong sample moves nothing, and a lasting offset is accepted. Samples that contradict each other for
+// longer, or lie beyond kFarthest, mean that the device is gone. Haptic thread; noexcept.
 class HandCheck {
 public:
     // Sets StepInput::doubtful and reindex for the pose in `input`. A device that is away, or a pose that is
@@ -27,10 +27,15 @@ public:
         since_ = agrees ? since_ : input.time;
         last_ = pose;
         lastAt_ = input.time;
-        const bool plausible = !started_ || reaches(believed_, pose, input.time - believedAt_);
-        input.reindex = !plausible && agrees && input.time - since_ >= kDoubt - kSlack;
-        doubting_ = input.doubtful = !plausible && !input.reindex;
-        if (!doubting_) {
+        const bool near = glm::length(pose.position) <= kFarthest; // false for what overflows
+        const bool plausible = near && (!started_ || reaches(believed_, pose, input.time - believedAt_));
+        input.reindex = !plausible && near && agrees && input.time - since_ >= kDoubt - kSlack;
+        input.doubtful = !plausible && !input.reindex;
+        doubtSince_ = doubting_ ? doubtSince_ : input.time;
+        doubting_ = input.doubtful;
+        if (doubting_) {
+            input.present = input.time - doubtSince_ < kDoubt + kSlack;
+        } else {
             believed_ = pose;
             believedAt_ = input.time;
             started_ = true;
@@ -40,6 +45,7 @@ public:
     static constexpr double kFastest = 5.0;      // [m/s]
     static constexpr double kFastestTurn = 50.0; // [rad/s]
     static constexpr double kDoubt = 0.004;      // [s]: five samples at 1 kHz
+    static constexpr double kFarthest = 1000.0;  // [m] from the device's origin; re-indexing keeps 1e-13 m
 
 private:
     static constexpr double kSlack = 1e-4;     // [s] of timing
@@ -52,7 +58,7 @@ private:
     }
 
     Pose believed_, last_;
-    double believedAt_ = 0.0, lastAt_ = 0.0, since_ = 0.0; // [s]
+    double believedAt_ = 0.0, lastAt_ = 0.0, since_ = 0.0, doubtSince_ = 0.0; // [s]
     bool started_ = false, doubting_ = false;
 };
 

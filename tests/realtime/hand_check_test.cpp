@@ -78,3 +78,20 @@ TEST_CASE("A device that was away is believed where it comes back") {
     CHECK_FALSE(input.doubtful);
     CHECK_FALSE(input.reindex);
 }
+
+TEST_CASE("A device that stays beyond belief counts as gone after 5 ms, and is never re-indexed far away") {
+    for (const double far : {1e9, 1e30, 1e200}) {
+        CAPTURE(far);
+        Samples samples;
+        samples.next(0.0);
+        for (int i = 0; i < 50; ++i) {
+            const StepInput input = samples.next(far);
+            CHECK(input.doubtful);
+            CHECK_FALSE(input.reindex);
+            CHECK(input.present == (i <= 4));
+        }
+        const StepInput back = samples.next(0.0);
+        CHECK(back.present);
+        CHECK_FALSE(back.doubtful);
+    }
+}
