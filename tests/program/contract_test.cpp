@@ -94,7 +94,9 @@ TEST_CASE("A guidance class that is never seen has null for its pose, and a scen
     scene.fixtures = {"name: blue, role: guidance, hue: [200, 250], saturation: [0.4, 1]"};
     stage.scene(scene);
     stage.hand({{0.0, {0.0, 0.0, 0.4}}, {0.1, {0.0, 0.0, 0.7}}});
-    const Replay replay = stage.replay();
+    Terms terms;
+    terms.empty = "blue";
+    const Replay replay = stage.replay({}, terms);
     const nlohmann::json& row = replay.summary.at("guidance").at(0);
     for (const char* key : {"position_m", "normal", "target_m", "target_qwxyz"}) {
         CHECK(row.at(key).is_null());

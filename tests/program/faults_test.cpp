@@ -99,7 +99,9 @@ TEST_CASE("Frames without valid depth, with every pixel selected and with none s
     scene.more = "hold_s: 0\nerror_budget: 0\n";
     stage.scene(scene);
     stage.hand({{0.0, {0.0, 0.0, 0.5}}, {0.17, {0.0, 0.0, 0.57}}});
-    const Replay replay = stage.replay({"--save-fixtures"});
+    Terms terms;
+    terms.empty = "yellow";
+    const Replay replay = stage.replay({"--save-fixtures"}, terms);
     const uint64_t whole = kWidth * kHeight;
     const std::vector<uint64_t> valid{whole, 0, whole, 0, whole}, forbidden{whole, 0, 0, 0, whole};
     for (size_t i = 0; i < 5; ++i) {
@@ -163,7 +165,9 @@ TEST_CASE("Frames of odd sizes run, from one pixel on") {
         stage.recording(
             {Image(width, height, 500).paint({0, 0, width, height}, kRed), Image(width, height, 500)});
         stage.hand({{0.0, {0.0, 0.0, 0.4}}, {0.05, {0.0, 0.0, 0.47}}});
-        const Replay replay = stage.replay({"--save-fixtures"});
+        Terms terms;
+        terms.empty = across == 1 ? "red" : ""; // a single pixel is isolated
+        const Replay replay = stage.replay({"--save-fixtures"}, terms);
         CHECK(replay.frames.at(0).forbidden == width * height);
         CHECK(replay.frames.at(1).forbidden == 0);
     }
