@@ -219,7 +219,9 @@ TEST_CASE("plan, and replay in one line, report a link with a visual but no coll
     CHECK(plan.out.find("        " + note + "\n") != std::string::npos);
     const ProgramRun run = runFathom(stage.command());
     CHECK(run.exitCode == 0);
-    REQUIRE(run.errorLines().size() >= 2);
+    INFO(run.err);
+    REQUIRE(run.errorLines().size() == 3);
+    CHECK(run.err.find("fixture 'red' has no region in any frame") != std::string::npos);
     CHECK(
         run.err.find("arm41.urdf: tip fore (the end of the longest chain); base base (the root); arm.tip and "
                      "arm.base name others") != std::string::npos);
