@@ -3,6 +3,7 @@
 
 #include "devices/recorded/png_image.h"
 
+#include <cmath>
 #include <cstring>
 
 namespace fathom {
@@ -106,7 +107,8 @@ double CompressedDepth::metres(uint16_t stored) const {
     float quantum[2]; // stored = quantum[0] / metres + quantum[1]
     std::memcpy(quantum, data.data() + 4, sizeof quantum);
     const double inverse = static_cast<double>(stored) - double{quantum[1]};
-    return stored == 0 || !(inverse > 0.0) || !(quantum[0] > 0.0f) ? 0.0 : double{quantum[0]} / inverse;
+    const bool sound = inverse > 0.0 && quantum[0] > 0.0f && std::isfinite(quantum[0]);
+    return stored == 0 || !sound ? 0.0 : double{quantum[0]} / inverse;
 }
 
 } // namespace fathom
