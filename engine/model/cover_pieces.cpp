@@ -19,19 +19,57 @@ CoverPiece pieceOf(const Corners& t, const dvec3& inwards) {
     return piece;
 }
 
+// The same triangle with a-b as its longest edge.
+Corners turned(Corners t) {
+    const auto rest = [](const Corners& c) {
+        return std::max(glm::distance(c.b, c.c), glm::distance(c.c, c.a));
+    };
+    while (glm::distance(t.a, t.b) < rest(t)) {
+        t = {t.b, t.c, t.a};
+    }
+    return t;
+}
+
+// Cuts a triangle narrower than half an edge across its longest side, into slices of at most three pieces.
+// Halving would need (length / edge)^1.6 pieces, because both halves of a needle stay needles.
+void slice(const Corners& t, double edge, const dvec3& inwards, std::vector<CoverPiece>& out) {
+    const dvec3 along = t.b - t.a;
+    const double length = glm::length(along), foot = glm::dot(t.c - t.a, along) / (length * length);
+    const auto side = [&](double x) { // on a-c-b
+        return x <= foot && foot > 0.0 ? t.a + (t.c - t.a) * (x / foot)
+                                       : t.b + (t.c - t.b) * ((1.0 - x) / (1.0 - foot));
+    };
+    const double count = std::ceil(length / (0.7 * edge));
+    for (double i = 0.0; i < count; ++i) {
+        const double from = i / count, to = (i + 1.0) / count;
+        const dvec3 start = t.a + from * along, far = side(to);
+        const bool apex = from < foot && foot < to;
+        out.push_back(pieceOf({start, t.a + to * along, far}, inwards));
+        out.push_back(pieceOf({start, far, apex ? t.c : side(from)}, inwards));
+        if (apex) {
+            out.push_back(pieceOf({start, t.c, side(from)}, inwards));
+        }
+    }
+}
+
+bool isNeedle(const Corners& t, double edge) { // of a turned triangle
+    const double length = glm::distance(t.a, t.b);
+    return length > 8.0 * edge && glm::length(glm::cross(t.b - t.a, t.c - t.a)) < 0.5 * edge * length;
+}
+
 // Halves the longest edge until none is too long.
 void cut(const Corners& whole, double edge, const dvec3& inwards, std::vector<CoverPiece>& out) {
+    if (const Corners t = turned(whole); isNeedle(t, edge)) {
+        slice(t, edge, inwards, out);
+        return;
+    }
     std::vector<Corners> left{whole};
     while (!left.empty()) {
-        Corners t = left.back();
+        const Corners t = turned(left.back());
         left.pop_back();
-        const double ab = glm::distance(t.a, t.b), bc = glm::distance(t.b, t.c), ca = glm::distance(t.c, t.a);
-        if (std::max({ab, bc, ca}) <= edge) {
+        if (glm::distance(t.a, t.b) <= edge) {
             out.push_back(pieceOf(t, inwards));
             continue;
-        }
-        while (glm::distance(t.a, t.b) < std::max({ab, bc, ca})) {
-            t = {t.b, t.c, t.a};
         }
         const dvec3 half = 0.5 * (t.a + t.b);
         left.push_back({t.a, half, t.c});

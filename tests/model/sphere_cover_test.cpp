@@ -94,6 +94,15 @@ TEST_CASE("Two intersecting parts are covered as one") {
     CHECK(made.cover.protrusionBound < 0.01);
 }
 
+TEST_CASE("Thin blades of any aspect are cut into few pieces and stay inside of the cover") {
+    for (const double thickness : {1e-9, 1e-6, 1e-4, 1e-3}) {
+        CAPTURE(thickness);
+        const Made made = make(boxMesh({0.0, 0.0, 0.0}, {0.5, thickness, 0.013}), true, leaves(40));
+        CHECK(made.measure.outside == 0);
+        CHECK(made.cover.pieces < 250'000);
+    }
+}
+
 TEST_CASE("A cover is deterministic") {
     const TriangleMesh mesh = boxMesh(dvec3(0.0), {0.1, 0.05, 0.02});
     const Made a = make(mesh, true, leaves(12)), b = make(mesh, true, leaves(12));
