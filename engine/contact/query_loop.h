@@ -67,7 +67,7 @@ public:
     const QueryCapacity& capacity() const { return capacity_; }
 
 private:
-    static constexpr size_t kMostPairs = size_t{4} << 20; // 150 MB a set
+    static constexpr size_t kMostPairs = size_t{1} << 20; // 38 MB per set; a tick takes 0.2 s with as many
     static constexpr double kSmallestReach =
         2e-5; // [m] below this the trust region is only margin, so halving gains nothing
 
