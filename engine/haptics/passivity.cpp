@@ -103,6 +103,19 @@ void PassivityController::observe(const PassivityStep& tick) noexcept {
         std::clamp(kept * (slow_ + (tick.appears ? std::max(0.0, spring) : 0.0)), 0.0, std::max(0.0, debt_));
 }
 
+// What a hand that moves out gets back from the springs is dissipated in proportion [W], so that the debt is
+// repaid when they are empty: the hand never leaves faster than it came.
+double PassivityController::release(const PassivityStep& tick, const dvec3& v, const dvec3& w,
+                                    double owed) const noexcept {
+    const Wrench& held = applied_[(writes_ + options_.delayTicks) % (options_.delayTicks + 1)].contact;
+    const double returned = workOf(held, v, w);
+    const double owes = owed / std::max(owed, stored_), share = std::min(owes, 2.0 * (owes - kLeastShare));
+    const double kk = options_.metricRadius * options_.metricRadius;
+    const double most = kMostRelease / (tick.period * (1.0 + 2.0 * options_.delayTicks)) *
+                        (glm::dot(v, v) + kk * glm::dot(w, w));
+    return std::clamp(share * returned, 0.0, most);
+}
+
 Wrench PassivityController::control(const PassivityStep& tick) const noexcept {
     const double owed = debt_ - kTolerance;
     if (!(owed > 0.0)) {
@@ -120,7 +133,7 @@ Wrench PassivityController::control(const PassivityStep& tick) const noexcept {
                                  kMostImpulse / (tick.period * (1.0 + 2.0 * options_.delayTicks)));
     const double slow = std::min(slow_, owed);
     const double power = (owed - slow) / tick.period + slow / std::max(tick.period, tick.repay);
-    double alpha = tick.share * std::min(power / speed, most);
+    double alpha = tick.share * std::max(std::min(power / speed, most), release(tick, v, w, owed) / speed);
     if (!tick.rows) {
         alpha = std::min(alpha, kFreeDamper / std::sqrt(speed));
     }

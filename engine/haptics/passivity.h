@@ -55,8 +55,9 @@ public:
 
     // Observes the interval that ends now and returns the damping wrench to add: -alpha v and -alpha k^2 w
     // with alpha = debt / (T (v.v + k^2 w.w)), where what appeared is divided by `repay` instead of T, capped
-    // (kMostDamping, kMostImpulse); zero below kSlow, kSlowTurn. Without an active row it is at most
-    // kFreeDamper and ends after kFreeTime: what is not repaid by then is given up.
+    // (kMostDamping, kMostImpulse); more while the springs push the hand out (release()); zero below kSlow,
+    // kSlowTurn. Without an active row it is at most kFreeDamper and ends after kFreeTime: what is not repaid
+    // by then is given up.
     Wrench step(const PassivityStep& tick) noexcept;
     // The wrench sent to the device from now on: the springs' part and the part that step() added.
     void delivered(const Wrench& contact, const Wrench& damper) noexcept;
@@ -76,11 +77,14 @@ public:
     // damping becomes unstable near 1.
     static constexpr double kMostDamping = 40.0;
     static constexpr double kMostImpulse = 0.02;
+    // The same for a hand that moves out. It only weakens the springs' push, so it can be larger. Debts below
+    // this share of the stored energy, as of noise from frame to frame, are left to `repay`.
+    static constexpr double kMostRelease = 0.08, kLeastShare = 0.25;
     static constexpr double kFreeDamper = 0.99; // [N] largest damping force without an active row
     static constexpr double kFreeTime = 0.09;   // [s] longest time of it
     static constexpr double kTolerance = 1e-6;  // [J] smaller debts are rounding of the solver
     static constexpr double kForget =
-        0.5; // [s] time constant to forget a debt that damping could not dissipate
+        2.0; // [s] time constant to forget a debt that damping could not dissipate
     static constexpr size_t kWindow = 30; // ticks whose dissipation can offset later generation
 
 private:
@@ -92,6 +96,7 @@ private:
     double storedIn(const PassivityStep& tick) const noexcept;
     void observe(const PassivityStep& tick) noexcept;
     void giveUpWithoutRows(const PassivityStep& tick) noexcept;
+    double release(const PassivityStep& tick, const dvec3& v, const dvec3& w, double owed) const noexcept;
     Wrench control(const PassivityStep& tick) const noexcept;
 
     PassivityOptions options_;

@@ -74,6 +74,33 @@ TEST_CASE("With answers 50 and 100 ms late or lost at random there is no force w
     }
 }
 
+TEST_CASE("A hand that is thrown at regions never leaves faster than it came, however late the answers are") {
+    for (const size_t late : {0u, 1u, 5u, 20u, 50u, 100u}) {
+        for (const double mass : {0.1, 0.4, 2.0}) { // [kg] light, default and firm hands
+            for (const double speed : {0.1, 0.3, 0.5}) {
+                CAPTURE(late);
+                CAPTURE(mass);
+                CAPTURE(speed);
+                HapticRig rig(handScene(), at(0, 0, 0.03));
+                rig.show(wallSet());
+                rig.age = false;
+                rig.ticks(250);
+                rig.late = late;
+                double v = -speed, fastest = 0.0;
+                for (int i = 0; i < 1200; ++i) {
+                    const double force = rig.step().wrench.force.z;
+                    v += (force - 0.5 * v) * 0.001 / mass; // 0.5 N s/m: the damping of the ideal device
+                    rig.hand.position.z += v * 0.001;
+                    fastest = std::max(fastest, v);
+                    REQUIRE(rig.gap() >= 0.0);
+                }
+                CHECK(fastest <= speed);
+                CHECK((fastest > 0.3 * speed || mass * speed < 0.02)); // thrown back, unless damping stops it
+            }
+        }
+    }
+}
+
 TEST_CASE("Regions that disappear while they press leave the tool where it is, and their force fades out") {
     auto rig = pressedRig();
     const StepRecord held = rig.step();

@@ -79,10 +79,10 @@ TEST_CASE("Force and its change stay within their limits however the hand jumps,
     rig.age = false;
     dvec3 before(0.0);
     double largest = 0.0;
-    for (int i = 0; i < 1500; ++i) {
-        const int step = i / 50, otherStep = i / 70;
+    for (int i = 0; i < 3000; ++i) {
+        const int step = i / 150, otherStep = i / 210;
         rig.hand = at(0.03 * std::sin(0.5 * step), 0.02 * std::cos(0.9 * otherStep),
-                      i / 100 % 2 == 0 ? -0.08 : 0.03);
+                      i / 300 % 2 == 0 ? -0.08 : 0.03);
         const auto record = rig.step();
         CHECK(glm::distance(record.wrench.force, before) <= 2.0 * (1.0 + 1e-12));
         CHECK(forceOf(record) <= 20.0 * (1.0 + 1e-12));
