@@ -46,11 +46,17 @@ inline std::string faultOf(const Tick& tick, const Terms& terms, double allowanc
 // every tick, and damping of at most 1 N for 0.1 s.
 class CauseCheck {
 public:
+    // A device that is lost gets zero at once, whatever it felt.
+    explicit CauseCheck(bool mayLose = false)
+        : mayLose_(mayLose) {}
+
     // The fault of the row; empty = none.
     std::string add(const Tick& tick, const Terms& terms) {
         const double force = glm::length(tick.force), torque = glm::length(tick.torque);
-        const bool steep = glm::length(tick.force - force_) > terms.slewForce / terms.rate * (1.0 + 1e-9) ||
-                           glm::length(tick.torque - torque_) > terms.slewTorque / terms.rate * (1.0 + 1e-9);
+        const bool lost = mayLose_ && force == 0.0 && torque == 0.0;
+        const bool steep =
+            !lost && (glm::length(tick.force - force_) > terms.slewForce / terms.rate * (1.0 + 1e-9) ||
+                      glm::length(tick.torque - torque_) > terms.slewTorque / terms.rate * (1.0 + 1e-9));
         const bool caused = tick.contacts > 0 || tick.guidance > 0.0 || (tick.cause & cause::kJoint) != 0;
         since_ = caused ? tick.t : since_;
         const bool felt = force > 0.05 || torque > 0.005;
@@ -72,6 +78,7 @@ public:
     }
 
 private:
+    bool mayLose_;
     dvec3 force_{0.0}, torque_{0.0};
     double since_ = -1e9; // [s] the last tick with a cause
 };
