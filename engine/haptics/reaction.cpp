@@ -44,27 +44,26 @@ Wrench Reaction::tail(double size, double period) noexcept {
     return scaled(faded_, share);
 }
 
-// How far the hand moved against a reaction [m]: the distance to the surface of a convex body grows
-// by at most that along the old direction, and the distance to a convex free space along the new one.
-double Reaction::inwards(const Wrench& reaction, double k, const Pose& end) const noexcept {
-    const double size = sizeOf(reaction, k);
-    if (!started_ || !(size > 0.0)) {
-        return 0.0;
-    }
+// How far the hand moved along the wanted reaction since the tick before, which is out of the regions [m].
+double Reaction::outwards(const Wrench& wanted, double size, const Pose& end) const noexcept {
     const dvec3 turned = rotationLog(end.rotation * glm::conjugate(end_.rotation));
-    return -(glm::dot(end.position - end_.position, reaction.force) + glm::dot(turned, reaction.torque)) /
-           size;
+    return size > 0.0
+               ? (glm::dot(end.position - end_.position, wanted.force) + glm::dot(turned, wanted.torque)) /
+                     size
+               : 0.0;
 }
 
 Wrench Reaction::step(const ReactionInput& input) noexcept {
     const double k = std::max(1e-6, input.springs.metricRadius);
     Wrench wrench = couple(input.springs, input.allowed, input.end, dvec3(0.0), dvec3(0.0));
     const double wanted = sizeOf(wrench, k);
-    const double before = inwards(before_, k, input.end), now = inwards(wrench, k, input.end);
-    const double compressed = input.springs.stiffness * std::max({before, now, 0.0});
-    const double calm = std::clamp(1.0 + now / (kLeaves * input.period), 0.0, 1.0);
+    const dvec3 moved = input.end.position - end_.position,
+                turned = k * rotationLog(input.end.rotation * glm::conjugate(end_.rotation));
+    const double travel = started_ ? std::sqrt(glm::dot(moved, moved) + glm::dot(turned, turned)) : 0.0;
+    const double out = started_ ? outwards(wrench, wanted, input.end) : 0.0;
+    const double compressed = out > 0.0 ? 0.0 : input.springs.stiffness * travel;
+    const double calm = std::clamp(1.0 - out / (kLeaves * input.period), 0.0, 1.0);
     const double grows = compressed + calm * rate(wanted, input) * input.period;
-    before_ = wrench;
     const double most = size_ + (input.mayRise ? grows : 0.0);
     appears_ = wanted > size_ + compressed * (1.0 + 1e-9) + kRoundingForce;
     if (wanted > most) {

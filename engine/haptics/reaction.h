@@ -18,7 +18,7 @@ struct ReactionInput {
 };
 
 // One thread; noexcept, no allocation. In a region at rest the reaction grows by no more than the spring that
-// the hand compresses by moving against it, because the tool only ever moves nearer to the hand. Any faster
+// the hand's own motion compresses, because the tool only ever moves nearer to the hand. Any faster
 // growth has another cause: a row appeared, new data moved a surface, a lag ended. It then rises by at most
 // kAppear, and after new data evenly over the time between frames, so that no frame is felt as a click.
 // Falls are immediate.
@@ -45,11 +45,11 @@ public:
 
 private:
     double rate(double wanted, const ReactionInput& input) noexcept;
-    double inwards(const Wrench& reaction, double k, const Pose& end) const noexcept;
+    double outwards(const Wrench& wanted, double size, const Pose& end) const noexcept;
     Wrench tail(double size, double period) noexcept;
 
     Pose end_;
-    Wrench before_, last_, faded_; // wanted and rendered in the last tick; when the regions vanished
+    Wrench last_, faded_; // of the last tick; when the regions vanished
     double size_ = 0.0;
     double fadedSize_ = 0.0, left_ = 0.0;                     // [N], [s] of the tail
     double since_ = kLongestFrame, interval_ = kLongestFrame; // [s] since the newest data; between data

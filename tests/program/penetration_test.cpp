@@ -133,7 +133,8 @@ TEST_CASE("There is no penetration with late answers and a reach so short that t
     stage.hand({{0.0, {0.0, 0.0, 0.44}},
                 {0.06, {0.01, 0.0, 0.53}},
                 {0.15, {-0.02, 0.01, 0.54}},
-                {0.2, {0.0, 0.0, 0.44}}});
+                {0.25, {-0.02, 0.01, 0.54}},
+                {0.3, {0.0, 0.0, 0.44}}});
     const Replay replay = stage.replay({"--save-fixtures"});
     Depths depths;
     checkPromise(replay, kGripper, depths);
