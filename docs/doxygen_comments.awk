@@ -1,11 +1,13 @@
-# Doxygen's INPUT_FILTER: gives it the comments of a header, which are plain //, as documentation, in lines of the same numbers.
-# The head of a file speaks of the file, and of the type that has the file's name (with Pass or not) and no comment of its own. A
-# comment above declarations speaks of those right below it, up to the next comment or empty line; behind a declaration or a type's
-# brace, of that. A comment with nothing below it speaks of no declaration and stays what it is.
+# Doxygen's INPUT_FILTER. Turns plain // comments into documentation and keeps the line numbers.
+# - The comment at the head of a file documents the file. It also documents the type with the file's name (with
+#   or without Pass), if that type has no comment of its own.
+# - A comment above declarations documents those right below it, up to the next comment or empty line.
+# - A comment behind a declaration, or behind a type's brace, documents that declaration or type.
+# - A comment with nothing below it stays a plain comment.
 function isComment(text) { return text ~ /^[ \t]*\/\// }
 function plain(text) { sub(/^[ \t]*\/\/+ ?/, "", text); return escaped(text) }
-function escaped(text) { gsub(/</, "\\<", text); return text } # no tag of HTML
-# The name of this file as a type has it.
+function escaped(text) { gsub(/</, "\\<", text); return text } # so that it is no HTML tag
+# The name of the type that belongs to this file: wrench_stage.h gives WrenchStage.
 function typeName(    parts, n, i, name) {
     n = split(FILENAME, parts, "/")
     name = parts[n]
@@ -15,7 +17,7 @@ function typeName(    parts, n, i, name) {
     for (i = 1; i <= n; i++) name = name toupper(substr(parts[i], 1, 1)) substr(parts[i], 2)
     return name
 }
-# Gives out the comment that was held, as documentation or as it was.
+# Prints the pending comment, as documentation or unchanged.
 function release(documents,    i, line) {
     for (i = 1; i <= held; i++) {
         line = hold[i]
@@ -35,7 +37,7 @@ inHead && isComment($0) {
 inHead { inHead = 0 }
 isComment($0) {
     match($0, /\/\//)
-    if (RSTART == trailing) { print substr($0, 1, RSTART - 1) "///< " plain($0); next } # goes on with the comment behind the line above
+    if (RSTART == trailing) { print substr($0, 1, RSTART - 1) "///< " plain($0); next } # continues the comment of the line above
     trailing = 0
     hold[++held] = $0
     next

@@ -24,6 +24,7 @@ struct ColourLayout {
 // Null when the encoding is not colour. Upper and lower case are the same.
 const ColourLayout* colourLayout(std::string encoding);
 
+// The pixels of one message.
 struct ColourImage {
     uint32_t width = 0, height = 0, step = 0; // [pixels], [bytes] per row
     std::span<const uint8_t> bytes;

@@ -20,6 +20,7 @@ struct StreamChoice {
     std::string unread; // image topics that may be colour but whose encoding is not read
 };
 
+// Chooses the streams of a bag. One thread.
 class StreamChooser {
 public:
     StreamChooser(MessageFile& file, const SourceOptions& options);

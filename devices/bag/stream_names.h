@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the name of a topic says about its images.
+// Guesses from the name of a topic what its images hold.
 #pragma once
 
 #include <cstddef>
@@ -7,10 +7,11 @@
 
 namespace fathom {
 
+// What the images of a topic hold, by its name.
 enum class NamedRole { None, Depth, Colour, Infrared }; // Infrared: also confidence, amplitude and the like
 
-// By the last telling word: "/camera/ir/image" is Infrared, "/kinect2/sd/image_depth_rect" Depth. Words after
-// "to" are a target: "/aligned_depth_to_color/image_raw" is Depth.
+// By the last word that decides: "/camera/ir/image" is Infrared, "/kinect2/sd/image_depth_rect" Depth. Words
+// after "to" are a target: "/aligned_depth_to_color/image_raw" is Depth.
 NamedRole namedRole(const std::string& topic);
 // "image_rect", "image_rect_raw": rectified images.
 bool namedRectified(const std::string& topic);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a user says about a recording: FILE,depth=TOPIC,colour=TOPIC,...
+// Options behind the name of a recording: FILE,depth=TOPIC,colour=TOPIC,...
 #pragma once
 
 #include <filesystem>
@@ -9,8 +9,9 @@
 
 namespace fathom {
 
-// Limits of a depth unit [m]: finer ones cannot be seen through, coarser ones protect nothing.
-inline constexpr double kFinestUnit = 1e-6, kCoarsestUnit = 0.1;
+// Limits of a depth unit [m]. In finer units 16 bits end below 66 mm.
+inline constexpr double kFinestUnit = 1e-6, // finest
+    kCoarsestUnit = 0.1;                    // coarsest: a larger step protects nothing
 
 struct SourceOptions {
     std::string depth, colour, info;  // topics; empty = chosen; colour "none" = without colour
@@ -25,6 +26,7 @@ struct SourceOptions {
     void checkUnit(const std::string& file) const;
 };
 
+// A recording, and how to play it.
 struct SourceRequest {
     std::string file;
     SourceOptions options;

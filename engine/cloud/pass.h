@@ -28,6 +28,7 @@ struct PassBinding {
     VkFormat texels; // undefined: FrameParams is bound as a uniform buffer, all others as storage buffers
 };
 
+// Number of groups along x, y and z.
 using Groups = std::array<uint32_t, 3>;
 // The device reads the number of groups from FrameCounters, at this offset [bytes].
 struct GroupsCounted {
@@ -41,6 +42,7 @@ enum class After {
     Nothing,         // the next pass is independent of this one
 };
 
+// Descriptor of a pass: what `Pass` builds and records.
 struct PassInfo {
     const char* name; // consecutive passes of the same name are timed together
     std::span<const uint32_t> spirv;

@@ -9,7 +9,7 @@
 
 namespace fathom {
 
-// Why there is a force in a tick: bits of StepRecord::cause.
+// Why a tick has a force: bits of StepRecord::cause.
 namespace cause {
 inline constexpr uint32_t kRow = 1;      // a region or shape pushes
 inline constexpr uint32_t kJoint = 2;    // a limit of an arm's joint pushes
@@ -48,6 +48,7 @@ class WrenchStage {
 public:
     explicit WrenchStage(const HapticOptions& options);
 
+    // Result of one step.
     struct Output {
         Wrench wrench;    // on the hand, after all limits, before projection
         Wrench delivered; // on the actuated axes

@@ -20,7 +20,8 @@ struct BindingKind {
         VK_FORMAT_UNDEFINED; // for texel buffers; a format that every device supports in buffers
     bool operator==(const BindingKind&) const = default;
 };
-inline constexpr BindingKind kStorage{}, kUniform{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER};
+inline constexpr BindingKind kStorage{},         // a storage buffer
+    kUniform{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER}; // a uniform buffer
 
 // Value of a specialisation constant; ids are in shaders/shared/constants.h.
 struct Constant {

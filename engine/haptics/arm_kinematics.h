@@ -42,6 +42,7 @@ class ArmKinematics {
 public:
     using Step = ArmStep;
     static constexpr bool kSolvesLastRound = true; // bisect the result of the last tightening
+    // The motion that the solver found, and how much of it is taken.
     struct Answer {
         JointVector dq{};     // of the free joints
         double share = 1.0;   // of the solution, within the step cap

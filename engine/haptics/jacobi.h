@@ -13,6 +13,7 @@ namespace fathom {
 // Relative criterion for a Gram matrix: Demmel and Veselic, "Jacobi's method is more accurate than QR", 1992.
 inline constexpr double kRotated2 = 1e-34; // squared
 
+// The first m rows and columns are in use.
 template <size_t kMost>
 using SquareMatrix = std::array<std::array<double, kMost>, kMost>;
 

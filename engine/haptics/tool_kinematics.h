@@ -12,6 +12,7 @@ class ToolKinematics {
 public:
     using Step = ProxyStep;
     static constexpr bool kSolvesLastRound = false; // bisect the last checked motion
+    // The motions that the solver found, and how much of them is taken.
     struct Answer {
         Motion escape; // smallest motion that satisfies every row (zero unless some row requests motion)
         Motion full;   // nearest to the target

@@ -21,7 +21,7 @@ inline constexpr size_t kMostFreeJoints = 8; // of these, the ones that follow n
 inline constexpr size_t kMostFingers = 16;   // moving joints off the chain
 inline constexpr double kUnknownTurn = 1.0;  // [rad/s] speed of a revolute joint whose URDF states none
 inline constexpr double kUnknownSlide = 0.1; // [m/s] the same for a prismatic joint
-inline constexpr const char* kNoSpeed = "default, the URDF states none";
+inline constexpr const char* kNoSpeed = "default, the URDF states none"; // their source, for messages
 
 // A joint at offset + multiplier * (another joint).
 struct ArmMimic {
@@ -41,8 +41,8 @@ struct ArmJoint {
     std::string limitsFrom = "URDF", speedFrom = "URDF"; // for the user
 };
 
-// A moving joint off the chain: a gripper's, at `open` when grasp is 0 and at `closed` when grasp is 1, or
-// one that follows a joint of the chain.
+// A moving joint off the chain. A gripper joint is at `open` when grasp is 0 and at `closed` when grasp is 1;
+// others follow a joint of the chain.
 struct ArmFinger {
     std::string name;
     uint32_t joint = 0; // number of chain joints between it and the base

@@ -10,6 +10,7 @@
 
 namespace fathom {
 
+// The spheres that cover the shapes of a URDF.
 struct UrdfCover {
     std::vector<LinkSpheres> links; // with spheres, in the order of names
     std::vector<std::string> notes; // doubts, one line each

@@ -12,6 +12,7 @@
 
 namespace fathom {
 
+// What moves a joint: nothing, the solver, another joint or the grasp.
 struct JointDrive {
     enum class Kind { Held, Free, Follows, Grasps } kind = Kind::Held;
     double value = 0.0;              // Held: [rad], [m]

@@ -16,6 +16,7 @@ struct XmlPiece {
     bool isEmpty = false;  // <name/>
 };
 
+// Splits a text into its pieces. `text` must outlive it.
 class XmlPieces {
 public:
     explicit XmlPieces(std::string_view text)

@@ -48,10 +48,14 @@ FATHOM_CONST kSpecRounds = 33; // rounds of four multiply-adds per chain
 FATHOM_CONST kSpecCopy = 34;   // 1: `stream` copies; 0: it sums
 
 // Values of kSpecColour.
-FATHOM_CONST kColourNone = 0, kColourRegistered = 1, kColourLookedUp = 2;
+FATHOM_CONST kColourNone = 0, // no colour
+    kColourRegistered = 1,    // registered to depth
+    kColourLookedUp = 2;      // of a colour camera with its own lens
 // Values of kSpecHold for `spheres`. On CPU devices, patches whose memory holds points have a dispatch of
 // their own.
-FATHOM_CONST kHoldNone = 0, kHoldQuiet = 1, kHoldHolding = 2;
+FATHOM_CONST kHoldNone = 0, // nothing is held
+    kHoldQuiet = 1,         // patches that hold no point
+    kHoldHolding = 2;       // patches that hold points
 
 FATHOM_SHARED_END
 #endif

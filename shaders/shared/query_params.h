@@ -5,11 +5,13 @@
 #include "shaders/shared/interop.h"
 FATHOM_SHARED_BEGIN
 
-// A block is 256 slots of spheres with one bound: a patch of an image, or part of a list. Most leaves that one
-// group tests, and results per word of a slot.
-FATHOM_CONST kBlockSlots = 256, kSliceLeaves = 512;
-// FoundSphere::slot: 4 x slot + layer.
-FATHOM_CONST kLayerSeen = 0, kLayerHeld = 1, kLayerStill = 2;
+// A block is 256 slots of spheres with one bound: a patch of an image, or part of a list.
+FATHOM_CONST kBlockSlots = 256, // slots per block
+    kSliceLeaves = 512;         // most leaves that one group tests
+// FoundSphere::slot is 4 x slot + layer.
+FATHOM_CONST kLayerSeen = 0, // spheres of this frame
+    kLayerHeld = 1,          // held spheres
+    kLayerStill = 2;         // spheres of classes that are held still
 
 // Push constants. q = rows * (s - t) transforms a sphere's centre into the frame of the leaves.
 struct QueryParams {
