@@ -38,7 +38,7 @@ haptics: { device: ideal, stiffness: 1000 }
         }
     });
 
-    // The tool touches the wall at z = 0.6 - 0.04 - 0.01 = 0.55 m. The hand goes on to 0.56 m.
+    // The tool touches the wall at z = 0.6 - 0.04 - 0.01 = 0.55 m. The hand continues to 0.56 m.
     fathom::Hand hand;
     hand.deviceThandle.position = {0, 0, 0.5};
     auto port = engine.openHand({.deviceThandle = hand.deviceThandle});
