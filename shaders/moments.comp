@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Moments of each guidance class in each guided patch: count, mean, and sums of products about the mean.
 // Moments of sub-patches are merged in a fixed order (Chan, Golub, LeVeque 1979). One invocation per patch;
-// with kShared a group of 16, one invocation per sub-patch, of which the first merges.
+// with kShared a group of 16, one invocation per sub-patch; the first one merges.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "shaders/shared/constants.h"

@@ -35,7 +35,7 @@ set(sources h cpp comp vert frag glsl cmake)
 set(passed 0)
 set(failed 0)
 
-# The longest folder of the table that `path` lies in; empty when there is none.
+# The longest folder of the table that contains `path`; empty when there is none.
 function(folder_of path result)
     set(best "")
     foreach(folder shaders/shared shaders/lib shaders engine/types engine/gpu engine/scene engine/model engine/reader engine/contact
@@ -53,7 +53,7 @@ function(folder_of path result)
     set(${result} "${best}" PARENT_SCOPE)
 endfunction()
 
-# Why `file`, which lies in folder `from`, must not include `path`; empty when it may.
+# Why a file of folder `from` must not include `path`; empty when it may.
 function(why_not_include from path result)
     set(${result} "" PARENT_SCOPE)
     if(path MATCHES "^shaders/([a-z_]+)[.]h$")
@@ -153,12 +153,12 @@ foreach(file ${files})
     if(file MATCHES "^(engine|devices|apps|shaders)/.*[.](h|cpp|comp|vert|frag|glsl)$")
         folder_of(${file} from)
         if(from STREQUAL "")
-            list(APPEND faults "lies in a folder without a floor")
+            list(APPEND faults "is in a folder without a floor")
         else()
             includes_faults(${file} ${from} more)
             list(APPEND faults ${more})
         endif()
-    elseif(file MATCHES "(CMakeLists[.]txt|[.]cmake)$" AND NOT file MATCHES "^third_party/" AND NOT file MATCHES "floors_test|^tests/install/") # the latter is a project of somebody else
+    elseif(file MATCHES "(CMakeLists[.]txt|[.]cmake)$" AND NOT file MATCHES "^third_party/" AND NOT file MATCHES "floors_test|^tests/install/") # the latter is a separate project
         links_faults(${file} more)
         list(APPEND faults ${more})
         if(text MATCHES "(find_package|pkg_check_modules|pkg_search_module|find_library|find_path|FetchContent|ExternalProject)[A-Za-z_]*[ \t]*\\(")

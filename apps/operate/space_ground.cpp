@@ -101,7 +101,7 @@ void SpaceGround::splatPoints(const SceneSnapshot& scene) {
 
 namespace {
 
-// Calls put(pixel, facing, depth) for each pixel of a sphere: facing 1 = towards the eye, depth in [m].
+// Calls put(pixel, facing, depth) for the pixels of a sphere: facing 1 = towards the eye, depth in [m].
 template <class Put>
 void splat(const Intrinsics& lens, const dvec3& c, double radius, Put&& put) {
     const auto width = static_cast<int>(lens.width), height = static_cast<int>(lens.height);

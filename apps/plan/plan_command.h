@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `fathom plan SCENE`: the passes, buffers and threads of a scene on a device, which are skipped, and why.
+// `fathom plan SCENE`: which passes, buffers and threads a scene gets on a device, which are skipped, and
+// why.
 #pragma once
 
 #include "apps/global_options.h"

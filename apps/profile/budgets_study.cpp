@@ -221,7 +221,7 @@ void addStep(const StudyContext& context, Study& study) {
         std::to_string(run.spheres) + " spheres, " + std::to_string(d.leaves) + " leaves";
     const double share = static_cast<double>(run.contacts) / d.ticks;
     verify(run.deepest <= 1e-9, "budgets", "step, " + size,
-           "a leaf entered a sphere by " + digits(run.deepest * 1e6) + " um");
+           "a leaf entered region spheres by " + digits(run.deepest * 1e6) + " um");
     verify(share >= 0.95, "budgets", "step, " + size,
            "the tool touches the wall in " + digits(share * 100.0) + " % of the ticks only");
     addRow(study, "haptic turn pressed 2 mm, up to 4 solves with the full check", size, run.steps.cost(),

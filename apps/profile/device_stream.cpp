@@ -135,7 +135,7 @@ void readAll(gpu::Device& device, TimedSubmissions& submissions, const Repeats& 
     for (const StreamShape& shape : shapesOf(device)) {
         const StreamPass pass(device, shape, from, {});
         const double ms = submissions.best(repeats, [&](gpu::Commands& c) { pass.record(c); });
-        verify(pass.sum(submissions) == onesIn(from.front()), "limit", "reading", "the sum of what was read");
+        verify(pass.sum(submissions) == onesIn(from.front()), "limit", "reading", "the sum of values read");
         keepBetter(best, totalBytes(from), ms, wayOf("reads", from));
     }
 }

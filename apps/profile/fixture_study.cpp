@@ -113,11 +113,9 @@ Study fixtureStudy(const StudyContext& context) {
     study.timeName = "upload until published, p50";
     study.moreNames = {"error_rms_mm", "publish_p50_ms", "upload_to_published_p50_ms", "query_p50_ms",
                        "spheres"};
-    study.rankBy.reason = "0.1 mm is a fifth of the sensor noise, so nobody can feel what a smaller budget "
-                          "keeps; where the noise "
-                          "itself lets few points go, leaving them out costs the pass and gains little, "
-                          "elsewhere the query and "
-                          "the publishing gain (query_p50_ms, spheres)";
+    study.rankBy.reason = "0.1 mm is a fifth of the sensor noise, so the points that a smaller budget keeps "
+                          "cannot be felt; where noise keeps most points, thinning costs time in the pass "
+                          "and gains little, elsewhere the query and publishing gain (query_p50_ms, spheres)";
     const bool quick = context.settings.quick;
     const std::vector<double> radii = quick ? std::vector{0.04} : std::vector{0.003, 0.01, 0.04, 0.06};
     const std::vector<double> budgets =

@@ -18,7 +18,7 @@ StudyRow lateRow(uint32_t delay, double reach, uint32_t ticks) {
         queryRow("answers " + std::to_string(delay) + " ticks late", "reach " + digits(reach * 1e3) + " mm");
     row.isDefault = reach == 0.01;
     verify(run.deepest <= 1e-9, "query", row.setting,
-           "a leaf entered a sphere by " + digits(run.deepest * 1e6) + " um");
+           "a leaf entered region spheres by " + digits(run.deepest * 1e6) + " um");
     row.error = run.lagRms * 1e3;
     row.cost = run.queries.cost();
     row.more[kToolLeaves] = setting.leaves;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compares each step of a frame, and the device's contact query, with the machine's limit: the bytes and
-// operations that are unavoidable, over the measured bandwidth and arithmetic rate.
+// Compares the steps of a frame, and the device's contact query, with the machine's limit: the unavoidable
+// bytes and operations, divided by the measured bandwidth and arithmetic rate.
 #include "apps/profile/ceilings.h"
 #include "apps/profile/frame_sequence.h"
 #include "apps/profile/query_limit.h"
@@ -256,7 +256,7 @@ void addCase(const StudyContext& context, const LimitCase& each, const Ceilings&
 Study limitStudy(const StudyContext& context) {
     Study study;
     study.name = "limit";
-    study.title = "Limit: each step of a frame, and a query, against what the machine allows";
+    study.title = "Limit: steps of a frame, and a query, against what the machine allows";
     study.verified = "what the ceilings copied, read and computed, class bits and points of a frame against "
                      "the float64 twins, the device's query against brute force";
     study.errorName = "error", study.errorUnit = "none";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Draws one panel of a study's plot.
+// Draws the panels of study plots.
 #pragma once
 
 #include "apps/profile/panel_colours.h"

@@ -171,8 +171,8 @@ Study peersStudy(const StudyContext& context) {
     study.errorName = "answers that differ";
     study.errorUnit = "count";
     study.rankBy.reason =
-        "ours needs no library, gives the same bits on every machine and is the part of a tick "
-        "or a frame that the rest goes on from";
+        "ours needs no library, gives the same bits on every machine, and later steps of the tick "
+        "or frame use its result directly";
     study.timeName = "p50";
     study.moreNames = {"ratio_to_ours",    "ratio_to_ours_submit", "build_p50_ms",    "build_ratio",
                        "threads",          "found_mean",           "ties_within_1um", "rms_from_ours_mm",

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Half, single and double precision in a frame and a tick: depth pixels, the filter's weights and sums, and
-// pair gaps.
+// Half, single and double precision in frames and ticks: depth pixels, the filter's weights and sums, pair
+// gaps.
 #include "apps/profile/half_number.h"
 #include "apps/profile/precision.h"
 #include "engine/types/pose.h"

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kLimitReach = 0.01;     // [m]
 constexpr double kTestOperations = 12.0; // per test: d^2 takes 8, the squared limit 3, the comparison 1
-constexpr double kSphereBytes = 16.0;    // bytes of a sphere, a bound or a leaf
+constexpr double kSphereBytes = 16.0;    // of one sphere, bound or leaf
 
 // The patch of each sphere.
 std::vector<uint32_t> patchesOf(const Fixtures& host, const std::vector<uint32_t>& source,

@@ -123,7 +123,7 @@ StudyRow rowOf(const std::string& source, const std::string& name, const SolverS
     row.setting = name;
     row.isDefault = s.solves == 4 && s.cap == 0.002 && s.deadline == 0.0 && rowsOf(s.rows) == "all rows";
     verify(run.deepest <= 1e-9, "solver", row.setting,
-           "a leaf entered a sphere by " + digits(run.deepest * 1e6) + " um");
+           "a leaf entered region spheres by " + digits(run.deepest * 1e6) + " um");
     const Apart error = apartAll(run, optimum);
     const double ticks = static_cast<double>(run.poses.size());
     row.error = error.rms * 1e3;

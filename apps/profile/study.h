@@ -75,9 +75,9 @@ struct PlotPanel {
     bool signedLog = false;
 };
 
-// Extracts a number from a row.
+// Extracts one field of StudyRow.
 using RowValue = std::function<double(const StudyRow&)>;
-// p50 [ms] of one clock of a row. gpuTime uses submission to result if the device has no timestamps.
+// p50 [ms] of a row by that clock. gpuTime uses submission to result if the device has no timestamps.
 double gpuTime(const StudyRow& row);
 double submitTime(const StudyRow& row);
 double cpuTime(const StudyRow& row);

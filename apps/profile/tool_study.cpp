@@ -36,7 +36,7 @@ StudyRow rowOf(const StudyContext& context, const std::string& source, const std
     const DragResult run = pressed(context, tool);
     const double share = static_cast<double>(run.contacts) / static_cast<double>(run.poses.size());
     verify(run.deepest <= 1e-9, "tool", row.setting,
-           "a leaf entered a sphere by " + digits(run.deepest * 1e6) + " um");
+           "a leaf entered region spheres by " + digits(run.deepest * 1e6) + " um");
     verify(share >= 0.9, "tool", row.setting,
            "the tool touches the wall in " + digits(share * 100.0) + " % of the ticks only");
     row.error = std::max(fit.protrusion, fit.gap) * 1e3;

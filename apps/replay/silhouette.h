@@ -20,7 +20,7 @@ public:
     explicit Silhouette(const ImageView& view);
 
     void add(const dvec3& baseCentre, double radius); // [m]
-    // 1 where a sphere covers the centre of the pixel; width x height, row-major.
+    // 1 for pixels whose centre is covered by a sphere; width x height, row-major.
     std::vector<uint8_t> mask() const;
 
 private:

@@ -265,7 +265,7 @@ void addSpheresCommand(CLI::App& app) {
         ->check(CLI::IsMember({"x", "y", "z"}));
     command->add_flag("--drop-stray", options->file.dropStray, "drop pieces far from the rest");
     command->add_option("--link", options->link, "link of a .urdf, .yaml, .xrdf or .json");
-    command->add_option("--meshes", options->meshes, "folder that package:// stands for in a .urdf");
+    command->add_option("--meshes", options->meshes, "folder to use for package:// in a .urdf");
     command->add_flag("--keep-stray", options->file.keepStray, "keep pieces far from the rest");
     command->add_flag("--compare", options->compare,
                       "compare with the same number of octree and grid spheres");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The closed loop in lockstep: a hand on a device, the haptic cycle and its fixtures. Accounts for the energy
-// that passes between hand and fixtures.
+// The closed loop in lockstep: hand, device, haptic cycle, fixtures. Accounts for the energy that passes
+// between hand and fixtures.
 #pragma once
 
 #include "devices/simulated/simulated_hand.h"

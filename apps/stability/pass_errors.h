@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Largest errors of each pass of a frame against its float64 twin. Each twin gets the same input as its pass,
+// Largest error of each frame pass against its float64 twin. Each twin gets the same input as its pass,
 // so errors of one pass do not count in the next.
 #pragma once
 

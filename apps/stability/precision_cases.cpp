@@ -98,7 +98,7 @@ Outcome occlusion(const DeviceSource& device, RunLength runLength) {
                                rotationExp({0.002, 0.004, -0.003})};
     };
     return rangeOutcome(overRanges(device, runLength, kNoises, occlusionError, apart), kShare, "1",
-                        "Occlusion, a colour camera beside the depth camera: nearest depth of a cell against "
+                        "Occlusion, a colour camera next to the depth camera: nearest depth per cell against "
                         "the twin's bounds, over the range.");
 }
 
@@ -138,7 +138,7 @@ Outcome hold(const DeviceSource& device, RunLength runLength) {
     }
     return errorOutcome(
         sweep, kShare, "1",
-        "Hold, six frames with noise and changing holes: centre and radius of what is held over the range.");
+        "Hold, six frames with noise and changing holes: centre and radius of held points over the range.");
 }
 
 Outcome moments(const DeviceSource& device, RunLength runLength) {

@@ -12,7 +12,7 @@ namespace fathom::ros {
 // What an image may be used as, by its encoding alone.
 enum class Content { None, Depth, Colour, Grey };
 Content content(const Image& image);
-// Names of what is read, for messages.
+// Encodings that are read, for messages.
 inline constexpr const char* kDepthEncodings = "16UC1, mono16, 32FC1, or these as compressedDepth or PNG";
 inline constexpr const char* kColourEncodings = "rgb8, bgr8, rgba8, bgra8, the same with 16 bits, 8UC3, "
                                                 "8UC4, yuv422, uyvy, yuyv, nv12, nv21, bayer_*, JPEG, "

@@ -15,7 +15,7 @@ std::string streamSize(uint32_t width, uint32_t height) {
     return std::to_string(width) + "x" + std::to_string(height);
 }
 
-// The camera_info beside the topic, else one of the same camera frame.
+// The camera_info next to the topic, else one of the same camera frame.
 const MessageTopic* infoOf(const MessageFile& file, const ImageStream& stream, const std::string& info) {
     const std::string base = baseTopic(stream.name);
     if (!info.empty()) {

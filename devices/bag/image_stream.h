@@ -27,8 +27,8 @@ struct ImageStream {
     std::string noLens; // why there is no lens
 };
 
-// Every topic of sensor_msgs/Image or CompressedImage that has messages, by its first message. Its lens is
-// that of the topic `info`, or where that is empty of the camera_info beside the images.
+// Every topic of sensor_msgs/Image or CompressedImage that has messages, by its first message. The lens comes
+// from the topic `info`; if that is empty, from the camera_info next to the images.
 std::vector<ImageStream> imageStreams(MessageFile& file, const std::string& info);
 
 } // namespace fathom

@@ -29,7 +29,7 @@ public:
     ~OpenNi2Camera() override;
 
     const CameraInfo& info() const override { return info_; }
-    std::optional<Frame> next() override; // throws DeviceLost after two seconds without a frame
+    std::optional<Frame> next() override; // throws DeviceLost if none arrives for 2 s
     uint32_t skipped() const override { return skipped_; }
     bool live() const override { return !file_; }
     uint64_t lost() const override { return lost_; }

@@ -47,7 +47,7 @@ public:
     std::vector<Pixel> take() { return std::move(pixels_); }
 
 private:
-    // Takes one pixel row of the patch that begins in column u. A word holds four pixels of a sub-patch.
+    // Takes one pixel row of the patch that begins in column u. A word holds four sub-patch pixels.
     void takeRow(uint32_t patch, uint32_t u, uint32_t v) {
         for (uint32_t sub = 0; sub < 4; ++sub) {
             const uint32_t slot = patch * 256 + (v % 16 / 4 * 4 + sub) * 16 + v % 4 * 4;

@@ -148,7 +148,7 @@ PassInfo thin(const CloudContext& c) {
 }
 
 PassInfo moments(const CloudContext& c) {
-    // Without shared memory one invocation handles a patch; `guidedGroups` counts groups of subGroup / 16
+    // Without shared memory: one invocation per patch; `guidedGroups` counts groups of subGroup / 16
     // patches.
     const uint32_t group = c.plan.byPixel ? 16u : std::max(8u, c.plan.subGroup / 16u);
     return {"moments",

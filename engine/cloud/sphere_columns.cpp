@@ -11,7 +11,7 @@ namespace fathom::cloud {
 namespace {
 
 constexpr uint32_t kEveryClass = (1u << shared::kMaxClasses) - 1;
-static_assert(shared::kMaxClasses <= 8); // classes take three bits per layer in `classOf` and a byte in a run
+static_assert(shared::kMaxClasses <= 8); // `classOf` has three bits per layer; runs have bytes
 
 // The indices of the set bits of a byte, lowest first; later entries are unused.
 constexpr std::array<std::array<uint8_t, 8>, 256> bitsOfBytes() {

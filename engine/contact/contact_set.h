@@ -58,7 +58,7 @@ struct ContactSet {
     size_t size() const { return x.size(); }
     size_t leafCount() const { return leafAtQuery.size(); }
 
-    // Band of a gap at the query [m]; monotone, so every pair with gap <= g lies in the bands 0..bandOf(g).
+    // Band of a gap at the query [m]; monotone, so every pair with gap <= g is in the bands 0..bandOf(g).
     uint32_t bandOf(double gap) const noexcept {
         const double band = gap * (kGapBands / reach);
         if (!(band > 0.0)) { // touching, or NaN where reach is 0

@@ -13,11 +13,11 @@
 
 namespace fathom {
 
-// Which rows a solve gets. No choice lets a leaf enter per sphere, because the exact check tests every listed
-// pair before a pose is accepted and a violated pair gets a row. A reduction can only cost lag.
+// Which rows a solve gets. No choice lets a leaf enter a region sphere, because the exact check tests every
+// listed pair before a pose is accepted and a violated pair gets a row. A reduction can only cost lag.
 struct RowReduction {
     double reach = 2.0; // pairs farther than this many step caps get no row; below 1 counts as 1
-    // [rad] 0..pi/2: a leaf's row stands for its farther pairs within this angle.
+    // [rad] 0..pi/2: a leaf's row represents its farther pairs within this angle.
     double cone = NarrowPhase::kCone;
     // The solver starts with this many of the rows that the target violates most; 0 = all rows. Free tool
     // only. checked: add rows that the solution violates until none is left, which gives the optimum over all

@@ -175,7 +175,7 @@ private:
 
     // Whether the joint mimics one above it, as in a chain with coupled joints.
     bool tiedToChain(const urdf::Joint& joint) const {
-        if (!joint.mimic) { // followed: by a joint below it, or by one beside it as in a gripper
+        if (!joint.mimic) { // followed: by a joint below it, or on another branch as in a gripper
             return std::any_of(model_.joints_.begin(), model_.joints_.end(), [&](const auto& entry) {
                 return entry.second->mimic && entry.second->mimic->joint_name == joint.name &&
                        isAbove(joint, *entry.second);
@@ -206,7 +206,7 @@ private:
         }
     }
 
-    // Other ends with as many joints that do not lie on the same branch.
+    // Other ends with as many joints, on other branches.
     void noteOthers(ArmEnds& ends, const Seen& best, bool any) const {
         std::vector<std::string> others;
         const urdf::Joint* before = best.last;

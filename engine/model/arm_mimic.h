@@ -17,8 +17,8 @@ struct JointTie {
     double multiplier = 1.0, offset = 0.0;
 };
 
-// One tie per joint; a joint that follows none is tied to itself. Throws BadInput for a mimic joint that
-// follows itself, in a circle or a joint that does not exist, or whose numbers are not finite.
+// One tie per joint; a joint that follows none is tied to itself. Throws BadInput for mimic joints in a
+// cycle, a mimic joint of a missing joint, and numbers that are not finite.
 std::map<std::string, JointTie> tieJoints(const urdf::ModelInterface& model,
                                           const std::filesystem::path& file);
 

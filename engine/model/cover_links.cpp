@@ -78,7 +78,7 @@ std::string optionsText(const urdf::Mesh& mesh, const ShapeSource& source, uint3
     return text;
 }
 
-// Notes name the mesh file, whose name is no part of the content: kFile stands for it in the cache.
+// Notes name the mesh file, whose name is no part of the content: the cache stores kFile instead.
 constexpr const char* kFile = "\x01";
 
 // from: not empty.

@@ -36,8 +36,8 @@ TriangleMesh prism(uint32_t sides, const std::array<double, 2>& half, double len
     return mesh;
 }
 
-// The file that a URDF's mesh name stands for: below arm.meshes, or the URDF's folder and the three above it,
-// with the package's name as a folder and without it.
+// The file that a URDF's mesh name refers to. Searched below arm.meshes, or in the URDF's folder and the
+// three above it, with and without the package's name as a folder.
 std::filesystem::path pathOf(const std::string& name, const ShapeSource& source) {
     constexpr std::string_view kPackage = "package://", kFile = "file://";
     const bool package = name.rfind(kPackage, 0) == 0;
@@ -69,7 +69,7 @@ std::filesystem::path pathOf(const std::string& name, const ShapeSource& source)
         }
     }
     throw ShapeRefused{"mesh '" + excerpt(name) + "' not found; looked for " + excerpt(looked, 1000),
-                       "an existing file; arm.meshes names the folder that package:// stands for"};
+                       "an existing file; arm.meshes names the folder to use for package://"};
 }
 
 LoadedMesh readMesh(const urdf::Mesh& mesh, const ShapeSource& source, ShapeSpheres& made) {

@@ -210,8 +210,8 @@ private:
         model_.fingers.push_back(finger);
     }
 
-    // The rest of the robot, which the base hangs on or which hangs beside it. It stays where it is, seen
-    // from the base.
+    // The rest of the robot: links that carry the base, and other branches. It does not move relative to the
+    // base.
     void addAbove(const LinkPtr& base) {
         Pose baseTlink;
         for (LinkPtr link = base; link->parent_joint;) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The range check of what a camera states about itself, whatever file or device it comes from.
+// Checks the ranges of a camera's own description, whichever file or device it comes from.
 #pragma once
 
 #include "engine/types/camera_info.h"

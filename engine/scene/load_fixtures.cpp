@@ -10,7 +10,7 @@ namespace fathom {
 namespace {
 
 constexpr size_t kMaxRows = 64;
-constexpr size_t kMaxPointClasses = 8; // one bit each in a pixel's class byte
+constexpr size_t kMaxPointClasses = 8; // one bit per class in a pixel's class byte
 constexpr uint32_t kMaxPixels = 3840u * 2160u;
 
 constexpr std::array<std::string_view, 12> kPointKeys{"hue",       "saturation", "lightness",    "intensity",

@@ -12,7 +12,7 @@ namespace fathom {
 // Follows links. False for missing files, folders, pipes, sockets and devices. Readers check this before they
 // open a file, because opening or reading a pipe or device may never end.
 bool isRegularFile(const std::filesystem::path& file);
-// The reason why a file is not readable: "a pipe or a device", else "cannot be read".
+// Why a file is not readable, for messages.
 std::string whyUnreadable(const std::filesystem::path& file);
 
 // Reads at most `most` + 1 bytes, so size() > most means that the file is larger. Memory grows with the bytes

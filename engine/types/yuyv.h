@@ -9,7 +9,7 @@
 
 namespace fathom {
 
-// The two pixels of a word as 0xAABBGGRR: BT.601 in steps of 1/256, rounded and clamped to bytes.
+// Both pixels of a word as 0xAABBGGRR: BT.601 in steps of 1/256, rounded and clamped to bytes.
 // shaders/lib/yuyv.glsl gives the same bytes.
 std::array<uint32_t, 2> rgbaOfYuyv(uint32_t word) noexcept;
 

@@ -6,8 +6,8 @@
 
 const uint kSide = 21u; // points per row: the patch's 4x4 cells, the cells left and above, and the corners of the next cells
 const uint kCells = 25u, kQuarters = 4u * kCells;
-// R'^2 - R^2 of a cell, from each of the four invocations that test it; then the growth of each quarter; -1 =
-// not thinned.
+// R'^2 - R^2 per cell, from each of the four invocations that test it; then the growth per quarter; -1 = not
+// thinned.
 shared float asked[kThin != 0 ? 2u * kQuarters : 1u];
 shared vec4 cells[kThin != 0 ? kCells : 1u];          // decisions, encoded as `growth`; 5 per row
 

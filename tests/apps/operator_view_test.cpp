@@ -165,7 +165,7 @@ TEST_CASE("Alarms are sorted by level, highest first, and an acknowledged one is
     CHECK(run.step().end()[-2] == "ADVISORY latched note"); // before acknowledged alarms
 }
 
-TEST_CASE("A class without a region and a run without an active set raise alarms after a second") {
+TEST_CASE("A class without a region, or a run without an active set, raises an alarm after 1 s") {
     ViewedRun run;
     FixtureClass valve;
     valve.name = "valve";

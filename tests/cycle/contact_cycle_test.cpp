@@ -136,7 +136,7 @@ TEST_CASE("A GPU answer that does not fit grows and keeps its whole reach") {
     large.setTool(tool);
     NearPairs a, b;
     DecideScratch scratch;
-    for (const double reach : {0.5, 0.001, 0.6}) { // the last one also needs a second copy
+    for (const double reach : {0.5, 0.001, 0.6}) { // the last one also needs another copy
         CHECK(small.list(*set, pose, reach, a));
         CHECK(large.list(*set, pose, reach, b));
         CHECK(a.spheres.size() == b.spheres.size());

@@ -194,7 +194,7 @@ TEST_CASE("Both queries agree while a class is frozen, while two are, and after 
 TEST_CASE("Both queries agree for all links of an arm at several postures") {
     const CameraInfo camera = pinholeCamera(160, 120);
     Scene scene = plainScene();
-    scene.baseTcamera.position = {0.5, 0.0, -1.03}; // looks along z at a plane beside the arm
+    scene.baseTcamera.position = {0.5, 0.0, -1.03}; // looks along z at a plane next to the arm
     CloudRig rig(scene, camera, onDevice(true));
     rig.run(drawnImage(camera, [](int, int) { return 1.0; }));
     ArmRig arm;

@@ -79,7 +79,7 @@ std::string filled(T pixel, uint32_t count = 48) {
 }
 std::string filledColour(uint8_t r, uint8_t g, uint8_t b, uint32_t count = 48);
 
-// An image topic with its camera_info beside it; images at the given times, all alike.
+// An image topic and its camera_info; images at the given times, all alike.
 void addStream(BagMaker& maker, const std::string& topic, const ImageMessage& image,
                const InfoMessage& info = {}, const std::vector<double>& times = {1.0, 1.1, 1.2});
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr uint32_t kWidth = 9, kHeight = 7;
 
-// A wall at 1 m, tilted, seen by a pinhole; pixel 0 without a point.
+// A wall at 1 m, tilted, seen by a pinhole; pixel 0 has no point.
 std::string cloudText(const std::string& data, bool up = false) {
     std::string text =
         "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z rgb\nSIZE 4 4 4 4\nTYPE F F F U\nCOUNT 1 1 1 1\nWIDTH 9\n"

@@ -25,7 +25,7 @@ std::vector<std::pair<uint32_t, uint16_t>> play(RecordedCamera& camera) {
 
 using Frames = std::vector<std::pair<uint32_t, uint16_t>>;
 
-// A recording of four frames of which frame 1 is damaged so: three are delivered and one is skipped.
+// A recording of four frames, frame 1 damaged in that way: three are delivered and one is skipped.
 template <class Damage>
 void checkSkipsFrameOne(const char* what, Damage&& damage) {
     CAPTURE(what);

@@ -184,7 +184,7 @@ TEST_CASE(
     info.depth.height = info.colour.height = 480;
     Image image{std::vector<uint16_t>(info.depth.pixels()), std::vector<uint32_t>(info.depth.pixels())};
     std::mt19937 random(3);
-    for (uint32_t i = 0; i < info.depth.pixels(); ++i) { // a slope and a wall with a camera's noise
+    for (uint32_t i = 0; i < info.depth.pixels(); ++i) { // a slope, with a camera's noise
         image.depth[i] = static_cast<uint16_t>(900 + i % 640 / 4 + random() % 5);
         image.colour[i] = 0xff000000u | static_cast<uint32_t>(120 + i / 640 / 8 + random() % 8) * 0x010101u;
     }

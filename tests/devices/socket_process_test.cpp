@@ -26,8 +26,8 @@ int serve(const std::filesystem::path& endpoint) {
     }
 }
 
-// [s] from now on until the device had a force for the last time: by the clock of who asks, so that one that
-// is not let run sees no force for longer than there was. Until there has been none for 0.3 s.
+// [s] from the call until the device's last force. Polls until there was none for 0.3 s. Uses this process's
+// clock, so a delayed process never reports a longer force than there was.
 double forceLasts(const std::function<double()>& tick) {
     const auto began = std::chrono::steady_clock::now();
     double last = 0.0;

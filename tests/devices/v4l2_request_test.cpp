@@ -94,7 +94,7 @@ TEST_CASE("A RealSense table of a wrong length, number or checksum is refused") 
     CHECK(realsense::crc32({reinterpret_cast<const uint8_t*>(nine), 9}) == 0xcbf43926u);
 }
 
-TEST_CASE("A RealSense colour table with a lens and a pose or distortion that is no number is refused") {
+TEST_CASE("A RealSense colour table whose pose or distortion is no number is rejected") {
     std::vector<uint8_t> table(16 + 240, 0);
     table[2] = 32;
     table[4] = 240;
@@ -145,8 +145,8 @@ TEST_CASE(
         VideoSize size;
         double fx, fy, cx, cy;
     };
-    // 640x480: 1280x800 by 0.6015625 is 770 x 481.25; 65 columns go on each side, 0.625 rows.
-    // 848x480: 1280x720 by 2/3 is 853.33 x 480; 2.67 columns go on each side.
+    // 640x480: 1280x800 by 0.6015625 is 770 x 481.25; 65 columns are cut per side, 0.625 rows.
+    // 848x480: 1280x720 by 2/3 is 853.33 x 480; 2.67 columns are cut per side.
     for (const Case& c :
          {Case{{1280, 720}, 640.0, 648.0, 704.0, 342.0}, Case{{640, 480}, 385.0, 389.8125, 358.5, 229.171875},
           Case{{848, 480}, 426.6666667, 432.0, 466.6666667, 228.0}}) {
@@ -163,7 +163,7 @@ TEST_CASE(
     CHECK(std::abs(realsense::colourLens(table, {640, 480}).lens.fx - 1280.0 / 3.0) < 1e-4);
 }
 
-TEST_CASE("Inverse distortion coefficients are converted to forward ones within a tenth of a pixel") {
+TEST_CASE("Inverse distortion coefficients are converted to forward ones within 0.1 pixels") {
     Intrinsics lens{.width = 1280, .height = 720, .fx = 910, .fy = 909, .cx = 640, .cy = 360};
     const std::array<double, 5> undistorting{-0.05, 0.06, 0.0005, -0.0003, -0.01};
     lens.distortion = forwardDistortion(lens, undistorting);

@@ -97,7 +97,7 @@ TEST_CASE("Points seen by stereo through a flat port are recovered within the er
             }
         }
         CHECK(worst <= water.worst + 1e-4);
-        CHECK(worst > 0.3 * water.worst - 1e-4); // and not by telling of far too much
+        CHECK(worst > 0.3 * water.worst - 1e-4); // and the estimate is not far too large
         CHECK(water.worst < 0.02);
         CHECK(uncorrected > 0.3);
         MESSAGE("port " << distance << " m: off by " << 1e3 * worst << " mm of " << 1e3 * water.worst

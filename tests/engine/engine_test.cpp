@@ -63,7 +63,7 @@ TEST_CASE("Every accepted frame is processed or counted as dropped, and the newe
     CHECK(port.processed() >= 1);
 }
 
-TEST_CASE("A second camera, an unknown one and a second hand are rejected with one clear line") {
+TEST_CASE("Two cameras, an unknown camera and another hand are rejected with one clear line") {
     const std::vector<CameraModel> two{smallCamera(), smallCamera()};
     CHECK_THROWS_WITH_AS(Engine(wallScene(), two),
                          "cameras: 2 (allowed: 1; several cameras are not supported yet)", BadInput);

@@ -21,7 +21,7 @@ struct FuzzTarget {
 // All targets, sorted by name.
 std::span<const FuzzTarget> fuzzTargets();
 
-// Runs one input through a target. Ends the process with a message on anything other than a one-line Error.
+// Runs a target on an input. Ends the process with a message on anything other than a one-line Error.
 // True when the input was accepted, false when it was rejected.
 bool runFuzzTarget(const FuzzTarget& target, Bytes input);
 

@@ -67,7 +67,7 @@ Pose handAt(const Walls& w, int tick) {
 
 struct Against {
     double apart = 0.0;    // [m], 1 rad = 50 mm: largest difference after one tick from the same pose
-    double deepest = -1.0; // [m] of a leaf in a sphere
+    double deepest = -1.0; // [m] largest depth of any leaf
     uint32_t contact = 0, several = 0; // ticks; several: with more than one active row
     uint32_t otherRounds = 0;          // ticks that passed the exact check after a different number of rounds
 };

@@ -54,7 +54,7 @@ public:
         return proxy_.step({target, metricRadius, &inForce_, {}});
     }
 
-    // The two halves of a tick without delay.
+    // A tick without delay, in halves.
     void query() { answer(inForce_); }
     ProxyStep turnOnly(const Pose& target) { return proxy_.step({target, metricRadius, &inForce_, {}}); }
 

@@ -220,7 +220,7 @@ std::vector<Robot> robots() {
              branch("inner", "knuckle", r, kTurn + mimicText("b_knuckle", "multiplier='-1' offset='0.2'")) +
              branch("pad", "inner", r, kTurn + mimicText("b_inner", "multiplier='0.5'")),
          robotiq},
-        {"a crank beside the chain",
+        {"a crank off the chain",
          four + branch("crank", "l0", r, kTurn + mimicText("j2", "multiplier='2'")),
          {}},
         {"a wheel and a head", four + branch("wheel", "l0", c, "") + branch("head", "l1", p, kSlide), {}}};

@@ -85,7 +85,7 @@ TEST_CASE("Chains of the same length give a note that names the other ends") {
     CHECK(arm.notes[0] == "tip c is one of several ends of chains with 2 joints; arm.tip selects another: e");
 }
 
-TEST_CASE("Links that the base hangs on, and those beside it, stay where they are and have leaves") {
+TEST_CASE("Links that carry the base, and those of other branches, stay where they are and have leaves") {
     ArmOptions options;
     options.base = "b";
     const ArmModel arm = loadUrdf(

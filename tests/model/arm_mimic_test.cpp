@@ -69,7 +69,7 @@ TEST_CASE("A mimic joint of a mimic joint follows the joint that follows none") 
     CHECK(q[2] == doctest::Approx(2.0 * 0.2 + 0.1));
 }
 
-TEST_CASE("Two joints of the chain that mimic a joint beside it stay tied to each other") {
+TEST_CASE("Two joints of the chain that mimic a joint off the chain stay tied to each other") {
     const std::string off =
         ballLink("crank") + jointText("motor", "revolute", "a", "crank", "0 0.1 0", "1 0 0");
     const ArmModel arm = loadUrdf(ballLink("a") + ballLink("b") + ballLink("c") + ballLink("d") + off +

@@ -75,7 +75,7 @@ TEST_CASE("Every library finds a sphere within the reach and none beyond it") {
     CHECK(checkAll(world, 0.01f).empty());
 }
 
-TEST_CASE("A sphere in a corner of a leaf's bounding box is not within reach") {
+TEST_CASE("A sphere in the corner of a leaf's bounding box is not within reach") {
     World world;
     world.sphere(0.03f, 0.03f, 0.03f, 0.02f); // 52 mm away, boxes overlap
     world.leaf(0.0f, 0.0f, 0.0f, 0.01f);

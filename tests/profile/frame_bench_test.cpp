@@ -41,7 +41,7 @@ TEST_CASE("A frame equals its twins over all and over few patches, and a wrong d
         found += rig.bench.differsFromTwins(wrong, 5).empty() ? 0 : 1;
     }
     CHECK(found >= 5);
-    CHECK(found <= 30); // a window crosses a patch's border
+    CHECK(found <= 30); // filter windows cross patch borders
     SampleFrame grey = image;
     grey.colour[60 * 203 + 100] = 0xff808080u; // class bits are compared everywhere
     CHECK(rig.bench.differsFromTwins(grey, 1) == "class bits of pixel " + std::to_string(60 * 203 + 100));

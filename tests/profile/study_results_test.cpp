@@ -237,7 +237,7 @@ TEST_CASE("More leaves fit the gripper better, and covering spheres leave no gap
     CHECK(rows.at("smaller spheres, with gaps").rbegin()->second["gap_mm"].get<double>() > 0.1);
 }
 
-TEST_CASE("Every pass of a frame has a row in the limit study, including those of a second camera and the "
+TEST_CASE("Every frame pass has a row in the limit study, including those of another camera and the "
           "device query") {
     std::map<std::string, std::set<std::string>> steps;
     for (const auto& row : quickRun().study("limit")["rows"]) {

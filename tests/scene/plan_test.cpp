@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The plan: the passes, buffers and threads of a scene on a device, with reasons. Pure data.
+// The plan: which passes, buffers and threads a scene gets on a device, with reasons. Pure data.
 #include "engine/scene/plan.h"
 
 #include "engine/types/error.h"

@@ -53,7 +53,7 @@ TEST_CASE("YUYV unpacks to BT.601 red, green and blue within one step, for every
     MESSAGE("largest distance from the formula: ", worst, " of 255");
 }
 
-TEST_CASE("The two pixels of a word have their own luma and one chroma") {
+TEST_CASE("Both pixels of a word have their own luma and share one chroma") {
     const auto pair = rgbaOfYuyv(16u | 128u << 8 | 235u << 16 | 128u << 24);
     CHECK(pair[0] == 0xff000000u);
     CHECK(pair[1] == 0xffffffffu);

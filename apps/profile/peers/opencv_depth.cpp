@@ -12,7 +12,7 @@ namespace fathom::peers {
 
 namespace {
 
-// OpenCV gets 0 for a pixel without a measurement and treats it like any other depth.
+// A pixel without a measurement is 0 for OpenCV, which treats it like any other depth.
 class OpencvBilateral : public FilterPeer {
 public:
     OpencvBilateral(uint32_t radius, double pixels, double metres, uint32_t threads)

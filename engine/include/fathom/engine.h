@@ -31,8 +31,8 @@ FATHOM_API void setLogCallback(LogCallback callback);
 /// How an engine runs. The defaults suit most programs.
 struct EngineOptions {
     std::string device; ///< part of a Vulkan device's name, or its index; empty = the best one
-    /// Path of the program fathom-reader, which reads URDFs and meshes of a scene in a process of its own.
-    /// Empty = the one that is installed with the library, or lies beside it.
+    /// Path of the program fathom-reader, which reads the scene's URDFs and meshes in a separate process.
+    /// Empty = the one installed with the library, or in the library's folder.
     std::string reader;
     /// A real arm follows the scene's arm: the tool stands still until Engine::openArm() and its reports.
     bool measuredArm = false;
