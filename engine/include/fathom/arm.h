@@ -14,7 +14,7 @@ namespace fathom::v0 {
 /// Largest number of moving joints, those that follow another joint included.
 inline constexpr std::size_t kMaxArmJoints = 12;
 
-/// Positions of all joints of the scene's arm, from base to tip, and of its gripper.
+/// Positions of all joints of the scene's arm, from base to tip, and of the gripper.
 struct ArmPosture {
     std::array<double, kMaxArmJoints> joints{}; ///< [rad], of sliding joints [m]; unused entries are 0
     double grasp = 0.0;                         ///< 0 open .. 1 closed; NaN in a measured posture = unknown

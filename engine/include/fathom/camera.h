@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Depth cameras: what they look like, the frames that they give, and the port that takes the frames.
+/// Depth cameras: lenses and formats, frames, and the port that takes the frames.
 #pragma once
 
 #include <fathom/types.h>

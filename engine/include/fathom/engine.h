@@ -21,8 +21,8 @@ namespace fathom::v0 {
 /// How important a log line is.
 enum class LogLevel { Debug, Info, Warning, Error };
 
-/// Receives log lines of the whole process's engines, one line each, from any of their threads but never from
-/// step(). Must not throw.
+/// Receives the log lines of all engines of the process, one line per call. Called from any of their threads,
+/// but never from step(). Must not throw.
 using LogCallback = std::function<void(LogLevel, std::string_view)>;
 
 /// Sets the receiver. Empty: log lines are discarded, which is the default.
@@ -34,7 +34,8 @@ struct EngineOptions {
     /// Path of the program fathom-reader, which reads the scene's URDFs and meshes in a separate process.
     /// Empty = the one installed with the library, or in the library's folder.
     std::string reader;
-    /// A real arm follows the scene's arm: the tool stands still until Engine::openArm() and its reports.
+    /// A real arm follows the scene's arm. The tool stands still until Engine::openArm() and its first
+    /// report.
     bool measuredArm = false;
 };
 
@@ -67,9 +68,9 @@ public:
     /// Opens the port of a display, once per engine. @throws Error if it is open already
     ObserverPort openObserver();
 
-    bool deviceLost() const noexcept; ///< it is being opened again. Any thread.
-    std::string failure() const;      ///< what ended a thread of the engine; empty = nothing. Any thread.
-    std::string deviceName() const;   ///< Any thread.
+    bool deviceLost() const noexcept; ///< true while the engine reopens a lost device. Any thread.
+    std::string failure() const;      ///< why a thread of the engine ended; empty = none ended. Any thread.
+    std::string deviceName() const;   ///< of the Vulkan device. Any thread.
 
 private:
     struct FATHOM_LOCAL Impl;

@@ -20,7 +20,7 @@ enum Button : std::uint32_t {
 /// One sample of the haptic device.
 struct Hand {
     Pose deviceThandle;        ///< raw pose of the handle in the device's frame
-    std::uint32_t buttons = 0; ///< bits of Button, by level
+    std::uint32_t buttons = 0; ///< bits of Button that are down
 };
 
 /// What the forces do.
@@ -28,7 +28,7 @@ enum class State {
     Off,     ///< no fixtures yet, or forces are off: the wrench is zero
     Free,    ///< nothing pushes
     Contact, ///< at least one fixture pushes
-    Escape,  ///< new fixtures cover the tool, which is on its way out
+    Escape,  ///< new fixtures cover the tool; it moves out
     Trapped, ///< no motion obeys every fixture: the tool is held and the force ramps out
     Fading,  ///< the scene is too old, or forces were switched off: the force ramps out
     Waiting  ///< nothing pushes, and the tool lags behind the hand (late contact answers): no force
@@ -58,7 +58,7 @@ struct Contact {
 struct Step {
     Wrench wrench;    ///< for the device: device axes, about the handle, zero on axes that the scene's device
                       ///< does not drive
-    Wrench residual;  ///< for a display: what these axes would have got. Base axes, about the tool
+    Wrench residual;  ///< for a display: what the device cannot render. Base axes, about the tool
     ArmPosture arm;   ///< the scene's arm; zeros without one
     Pose baseTtool;   ///< the tool, which never enters a forbidden region
     Pose baseTdevice; ///< where the hand commands the tool

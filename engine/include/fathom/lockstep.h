@@ -11,7 +11,7 @@ namespace fathom::v0 {
 /// Use it from one thread. Times are yours: any steady sequence that frames and steps share.
 class FATHOM_API Lockstep {
 public:
-    /// EngineOptions::measuredArm must be false: an arm is where the tool is.
+    /// EngineOptions::measuredArm must be false: an arm follows the tool exactly.
     /// @throws BadInput, DeviceLost, Error
     Lockstep(const Scene& scene, const CameraModel& camera, const HandStart& start,
              const EngineOptions& options = {});
@@ -23,8 +23,8 @@ public:
     /// step() only. @throws DeviceLost, Error; BadInput for a missing image or pose
     void process(const Frame& frame);
 
-    /// Answers one contact query at the current tool pose. The answer is on offer to steps after as many
-    /// further calls as the scene's `contact.delay` says. False before the first frame.
+    /// Answers one contact query at the current tool pose. Steps may use the answer after `contact.delay` (a
+    /// key of the scene) further calls. False before the first frame.
     bool answer();
 
     /// One haptic step at `now`.

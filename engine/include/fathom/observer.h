@@ -40,16 +40,16 @@ struct StepSnapshot {
     Nanoseconds now = 0; ///< its time
 };
 
-/// Copies the newest results for a display. Use it from one thread. It may outlive its engine. No thread of
-/// the engine, and no step, ever waits for it; what it does not fetch in time is replaced by newer results.
+/// Copies the newest results for a display. Use it from one thread. It may outlive its engine. Neither the
+/// engine nor a step ever waits for it: newer results replace those that it did not fetch.
 class FATHOM_API ObserverPort {
 public:
-    /// Copies the regions of the newest frame into `out`, whose memory is used again. False, and `out` as it
-    /// was, if there is no newer frame than at the last call. Throws std::bad_alloc only.
+    /// Copies the regions of the newest frame into `out` and reuses its memory. Returns false and leaves
+    /// `out` unchanged if there is no newer frame than at the last call. Throws std::bad_alloc only.
     bool regions(Regions& out);
 
-    /// Copies the newest step. False, and `out` as it was, if there is no newer one. Never allocates or
-    /// throws.
+    /// Copies the newest step. Returns false and leaves `out` unchanged if there is no newer one. Never
+    /// allocates or throws.
     bool step(StepSnapshot& out) noexcept;
 
     ObserverPort(ObserverPort&&) noexcept;            ///< leaves the other one unusable
