@@ -16,7 +16,7 @@ namespace fathom {
 
 // Help text of --arm.
 inline constexpr const char* kArmHelp =
-    "serial port of the real arm in the scene's arm.driver; the arm moves";
+    "serial port of the real arm that the scene's arm.driver describes; the arm moves";
 
 class ArmThread;
 

@@ -81,10 +81,11 @@ void addGuardCommand(CLI::App& app) {
         ->required()
         ->check(CLI::IsMember({"falcon", "haply"}));
     command->add_option("--door", options->endpoint,
-                        "socket to listen at (default $XDG_RUNTIME_DIR/fathom-DEVICE.door)");
+                        "socket to listen on (default: $XDG_RUNTIME_DIR/fathom-DEVICE.door)");
     command->add_option("--firmware", options->firmware,
                         "Falcon firmware file, needed after power-on; not included");
-    command->add_option("--service", options->service, "HOST:PORT of Haply's Inverse Service");
+    command->add_option("--service", options->service,
+                        "HOST:PORT of Haply's Inverse Service (default: localhost:10001)");
     command->add_option("--device", options->device, "id of the Inverse3 (default: the first)");
     command->callback([options] { guardDevice(*options); });
 }

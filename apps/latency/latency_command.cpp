@@ -60,19 +60,18 @@ int measure(const Request& request, const GlobalOptions& global, const WindowLoa
 void addLatencyCommand(CLI::App& app, const GlobalOptions& global, WindowLoad windowLoad, int& result) {
     auto request = std::make_shared<Request>();
     CLI::App* command =
-        app.add_subcommand("latency", "measure how late the haptic thread wakes, and its tick");
+        app.add_subcommand("latency", "measure how late the haptic thread wakes, and how long a step takes");
     command->add_option("SCENE", request->run.scene, "scene file (YAML)")->required();
     command->add_option("--source", request->run.source, "recording folder instead of the scene's camera");
-    command->add_option("--seconds", request->run.seconds, "length of each part (10)")
+    command->add_option("--seconds", request->run.seconds, "length of each part [s] (10)")
         ->check(numberIn(Range::between(0.5, 86400.0)));
-    command
-        ->add_option("--load", request->loads, "idle, frames or window; may be given again; all when none is")
+    command->add_option("--load", request->loads, "idle, frames or window; may be repeated (default: all)")
         ->check(CLI::IsMember({"idle", "frames", "window"}));
     command
         ->add_option("--soak", request->soakMinutes,
-                     "one run of so many minutes with frames: memory flat, no frame lost")
+                     "one run of this many minutes with frames; fails if a frame is lost or memory grows")
         ->check(numberIn(Range::between(0.01, 1440.0)));
-    command->add_option("--out", request->out, "the same as JSON, with every bin that counted");
+    command->add_option("--out", request->out, "write the report as JSON, with all non-empty histogram bins");
     command->callback([request, &global, &result, windowLoad = std::move(windowLoad)] {
         result = measure(*request, global, windowLoad);
     });

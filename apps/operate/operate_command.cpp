@@ -2,6 +2,7 @@
 #include "apps/operate/operate_command.h"
 
 #include "apps/binding/open_hand.h"
+#include "apps/binding/open_source.h"
 #include "apps/binding/view_publisher.h"
 #include "apps/number_option.h"
 #include "apps/operate/operator_run.h"
@@ -21,23 +22,24 @@ void addOperateCommand(CLI::App& app, const GlobalOptions& global) {
         ->add_option("scene", options->scene,
                      "scene file (YAML), or the folder of a recording with its scene.yaml")
         ->required();
-    command->add_option("--recording", options->recording, "look back at this recording, by a time line");
-    command->add_option("--source", options->source, "recording folder instead of the scene's camera");
+    command->add_option("--recording", options->recording, "show this recording on a time line");
+    command->add_option("--source", options->source, kSourceHelp);
     command->add_option("--hand-device", options->handDevice, kHandHelp);
-    command->add_flag("--path", options->path, "the scene's hand path drives, not mouse and keyboard")
+    command->add_flag("--path", options->path, "the scene's hand path moves the tool, not mouse and keyboard")
         ->excludes("--hand-device");
     command->add_option("--arm", options->arm, kArmHelp);
     command->add_option("--view-door", options->viewEndpoint, kViewEndpointHelp);
     command->add_option("--offscreen", options->offscreen,
-                        "WxH: draw without a display; with --folder, ends with a screenshot");
-    command->add_option("--seconds", options->seconds, "end after so long; 0: when the window is closed")
+                        "WxH: draw without a display; with --folder, end with a screenshot");
+    command
+        ->add_option("--seconds", options->seconds, "end after this time [s] (0: when the window is closed)")
         ->check(numberIn(Range::between(0.0, 604800.0)));
     command->add_option("--pilot", options->pilot,
-                        "whose stiffness, limits and scale: one of the scene's pilots");
-    command->add_option("--text-scale", options->textScale, "size of letters")
+                        "use stiffness, limits and scale of this pilot of the scene");
+    command->add_option("--text-scale", options->textScale, "text size, 0.75 to 2")
         ->check(numberIn(Range::between(0.75, 2.0)));
     command->add_option("--state", options->state,
-                        "write what the window shows to this file, a JSON object per line");
+                        "write what the window shows to this file, one JSON object per line");
     command->add_option("--folder", options->shots, "where screenshots, traces and recordings go");
     command->callback([options, &global] {
         if (std::filesystem::is_directory(options->scene)) {

@@ -121,10 +121,10 @@ void runProfile(const Settings& settings, const GlobalOptions& global) {
 void addProfileCommand(CLI::App& app, const GlobalOptions& global) {
     auto settings = std::make_shared<Settings>();
     CLI::App* command = app.add_subcommand("profile", "measure error against run time");
-    command->add_option("STUDY", settings->studies, "studies to run (" + studyNames() + "); none = all");
-    command->add_option("--source", settings->source, "recording folder in place of the analytic scenes");
+    command->add_option("STUDY", settings->studies, "studies to run (" + studyNames() + "); default: all");
+    command->add_option("--source", settings->source, "recording folder instead of the analytic scenes");
     command->add_option("--scene", settings->scene,
-                        "scene file in place of the built-in classes and settings");
+                        "scene file instead of the built-in classes and settings");
     command->add_flag("--quick", settings->quick,
                       "few settings, small frames, few repeats: under two minutes");
     command->add_option("--out", settings->out, "output folder; its files are replaced")->required();

@@ -133,7 +133,7 @@ void addRegisterCommand(CLI::App& app, const GlobalOptions&) {
                         "AprilTags 36h11 in the base frame: CSV id,size_m,x,y,z,qx,qy,qz,qw");
     command->add_option(
         "--board", options->board,
-        "a chessboard in the base frame: CSV columns,rows,square_m,x,y,z,qx,qy,qz,qw; inner corners");
+        "a chessboard in the base frame: CSV columns,rows,square_m,x,y,z,qx,qy,qz,qw; counts inner corners");
     command->add_option(
         "--points", options->points,
         "the same points in both frames: CSV camera_x,camera_y,camera_z,base_x,base_y,base_z [m]");
@@ -142,7 +142,7 @@ void addRegisterCommand(CLI::App& app, const GlobalOptions&) {
         ->add_option("--bound", options->bound,
                      "[m] largest RMS distance of the pairs (0.02); beyond it, the exit code is 1")
         ->check(numberIn(Range::between(1e-4, 1.0)));
-    command->add_option("--out", options->out, "output file for the two lines of YAML");
+    command->add_option("--out", options->out, "write the two lines of YAML to this file");
     command->callback([options] { runRegister(*options); });
 }
 

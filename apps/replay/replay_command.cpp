@@ -234,15 +234,21 @@ void addReplayCommand(CLI::App& app, const GlobalOptions& global, int& result) {
         ->required();
     command->add_option("--source", options->source, kSourceHelp);
     command->add_option("--operator", options->operatorCsv, "hand path: CSV t_s,x,y,z,qw,qx,qy,qz[,button]");
-    command->add_flag("--hand", options->hand, "close the loop with the simulated hand of hand.loop");
+    command->add_flag("--hand", options->hand,
+                      "the hand yields to the force: the simulated hand of hand.loop");
     command->add_option("--hand-device", options->handDevice, kHandHelp)->excludes("--operator", "--hand");
     command->add_option("--view-door", options->viewEndpoint, kViewEndpointHelp);
     command->add_option("--arm", options->arm, kArmHelp);
-    command->add_option("--seconds", options->seconds, "with --hand-device: go on so long on the last frame")
+    command
+        ->add_option("--seconds", options->seconds,
+                     "with --hand-device: run for this time [s], on the last frame once the source has ended")
         ->check(numberIn(Range::between(0.0, 604800.0)));
-    command->add_option("--query", options->query, "where contacts are found")
+    command
+        ->add_option("--query", options->query,
+                     "device that finds contacts (default: the scene's contact.where)")
         ->check(CLI::IsMember({"cpu", "gpu"}));
-    command->add_flag("--realtime", options->realtime, "by the clock, on threads, in place of lockstep");
+    command->add_flag("--realtime", options->realtime,
+                      "run on threads and the real clock instead of in lockstep");
     command
         ->add_option("--picture-rate", options->frameRate,
                      "with --realtime: frames per second of a recording or simulated camera (default 30)")
@@ -250,7 +256,7 @@ void addReplayCommand(CLI::App& app, const GlobalOptions& global, int& result) {
     command->add_flag(
         "--strict", options->strict,
         "exit code 1 if the run had warnings: a class without points, skipped frames, no force");
-    command->add_flag("--save-fixtures", options->saveFixtures, "write fixtures/NNNNNN.ply of every frame");
+    command->add_flag("--save-fixtures", options->saveFixtures, "write fixtures/NNNNNN.ply for every frame");
     command->add_option("--out", options->out, "output folder; its files are replaced")->required();
     command->callback([options, &global, &result] { result = runReplay(*options, global); });
 }

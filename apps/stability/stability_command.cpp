@@ -70,10 +70,9 @@ int runStability(const StabilityOptions& options, const GlobalOptions& global) {
 void addStabilityCommand(CLI::App& app, const GlobalOptions& global, int& result) {
     auto options = std::make_shared<StabilityOptions>();
     CLI::App* command =
-        app.add_subcommand("stability", "measure the stiff and extreme cases against their limits");
-    command->add_option("CASE", options->cases, "cases or groups; all when none is named");
-    command->add_flag("--short", options->brief,
-                      "the shortened form that the tests run, with the same limits");
+        app.add_subcommand("stability", "measure stiff and extreme cases against stated limits");
+    command->add_option("CASE", options->cases, "cases or groups of cases (default: all)");
+    command->add_flag("--short", options->brief, "run the shortened form of the tests, with the same limits");
     command->add_option("--out", options->out, "output folder; its files are replaced")->required();
     command->callback([options, &global, &result] { result = runStability(*options, global); });
 }
