@@ -146,11 +146,11 @@ void addCull(const StudyContext& context, Study& study, const TouchRig& rig) {
 void verifyGrid(const TouchRig& rig, const RegionGrid& grid, const std::string& who) {
     std::vector<uint32_t> order(grid.order().begin(), grid.order().end());
     verify(std::equal(order.begin(), order.end(), rig.grid.order().begin(), rig.grid.order().end()),
-           "budgets", "grid, " + who, "its order is not that of a grid built alone");
+           "budgets", "grid, " + who, "its order differs from that of a grid built by one thread");
     for (size_t slot = 0; slot < order.size(); ++slot) {
         verify(grid.x()[slot] == rig.wall.spheres.x[order[slot]] &&
                    grid.radius()[slot] == rig.wall.spheres.radius[order[slot]],
-               "budgets", "grid, " + who, "a slot holds another sphere than it says");
+               "budgets", "grid, " + who, "a slot holds the wrong sphere");
     }
     std::sort(order.begin(), order.end());
     for (size_t i = 0; i < order.size(); ++i) {
@@ -182,7 +182,7 @@ void addGrid(const StudyContext& context, Study& study, const TouchRig& rig, dou
 void addSolver(const StudyContext& context, Study& study, const TouchRig& rig) {
     const std::vector<ContactProblem> problems = contactProblems(rig);
     const std::string size = "64 rows in each of " + std::to_string(problems.size()) + " poses";
-    verify(problems.size() >= 8, "budgets", "solver, " + size, "too few poses have so many contacts");
+    verify(problems.size() >= 8, "budgets", "solver, " + size, "too few poses have enough contacts");
     ConstraintSolver solver(6, ContactProblem::kRows);
     std::array<double, 6> x{};
     SolveStatus status = SolveStatus::Optimal;
@@ -202,7 +202,7 @@ void addSolver(const StudyContext& context, Study& study, const TouchRig& rig) {
         verify(status == SolveStatus::Optimal, "budgets", "solver, " + size, "no optimum was found");
         const double worst = checkKkt(problems[i].view(), x, solver.multipliers()).worst();
         verify(worst <= 1e-9, "budgets", "solver, " + size,
-               "the conditions of an optimum are off by " + digits(worst));
+               "the optimality conditions are violated by " + digits(worst));
         pushed += solver.activeRows() > 0 ? 1 : 0;
     }
     const double share = static_cast<double>(pushed) / static_cast<double>(problems.size());
@@ -240,7 +240,7 @@ std::string shortName(const StudyRow& row) {
 
 PlotPanel budgetPanel(const Study& study) {
     PlotPanel panel{
-        "p50 and p99 over their budgets", "measured / budget (1 = just kept)", "", false, false, true, {}};
+        "p50 and p99 over their budgets", "measured / budget (1 = just met)", "", false, false, true, {}};
     PlotSeries middle{"p50", {}, false}, late{"p99", {}, false};
     for (const StudyRow& row : study.rows) {
         for (const auto& [series, rank, measured, budget] :
@@ -260,13 +260,12 @@ PlotPanel budgetPanel(const Study& study) {
 Study budgetsStudy(const StudyContext& context) {
     Study study;
     study.name = "budgets";
-    study.title = "Budgets: what the CPU is given by the plan";
-    study.verified =
-        "nearest spheres against all in float64; culls equal to brute force; grids hold each "
-        "sphere once, in one order; solutions by the conditions of an optimum to 1e-9; no leaf in a "
-        "sphere; tools as deep in the wall as said";
+    study.title = "Budgets: the CPU's work against its budgets";
+    study.verified = "nearest spheres against brute force in float64; culls equal to brute force; grids hold "
+                     "each sphere once, in the same order; solutions satisfy the optimality conditions to "
+                     "1e-9; no leaf enters a sphere; tools are at the stated depth in the wall";
     study.errorName = "error", study.errorUnit = "none";
-    study.noDefault = "its rows are pieces of work, each with a time of its own";
+    study.noDefault = "its rows are different work, each with its own budget";
     study.timeName = "wall time p50";
     study.moreNames = {"budget_p50_ms", "budget_p99_ms", "kept", "share_in_contact"};
     const size_t poses = amountOf(context).poses;

@@ -226,11 +226,9 @@ Study filterStudy(const StudyContext& context) {
     study.rankBy.time = gpuTime;
     study.timeName = "surface pass, GPU time p50";
     study.moreNames = {"edge_error_p90_mm", "all_passes_p50_ms", "upload_to_published_p50_ms"};
-    study.rankBy.reason =
-        "no setting wins on every scene: narrow windows and sigmas serve thin things, wide ones broad "
-        "surfaces "
-        "(compare the scenes, and edge_error_p90_mm); rows of one window and sigma do the same work but for "
-        "what their names say";
+    study.rankBy.reason = "no setting is best on every scene: narrow windows and sigmas suit thin objects, "
+                          "wide ones suit large surfaces (compare the scenes, and edge_error_p90_mm); rows "
+                          "of one window and sigma differ only as their names say";
     const uint32_t frames = context.settings.quick ? 2 : 6;
     for (const FrameSequence& source : studySources(context.settings, {"torus", "corner", "tank"}, frames)) {
         addSource(context, study, source);

@@ -53,8 +53,8 @@ void addLateAnswers(const StudyContext& context, Study& study) {
     Study late; // separate, so that fronts use only these rows
     late.name = study.name;
     late.errorName = study.errorName, late.errorUnit = study.errorUnit, late.timeName = study.timeName;
-    late.rankBy.reason = "with answers in time a shorter reach does as well; 10 mm is what still serves when "
-                         "they come 10 ticks late";
+    late.rankBy.reason =
+        "a shorter reach is enough when answers are in time; 10 mm is enough when they come 10 ticks late";
     const bool quick = context.settings.quick;
     const uint32_t ticks = quick ? 300 : 1500;
     for (uint32_t delay : quick ? std::vector<uint32_t>{0, 10} : std::vector<uint32_t>{0, 5, 10, 20}) {

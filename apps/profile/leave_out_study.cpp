@@ -157,7 +157,7 @@ Verified verified(const StudyContext& context, const Setup& setup, const Images&
     const std::string wrong = v.bench->differsFromTwins(v.frames.front());
     verify(wrong.empty(), "leave_out", name, wrong + " differs from the float64 twin");
     const std::string sphere = v.bench->spheresDiffer();
-    verify(sphere.empty(), "leave_out", name, sphere + " is not about a forbidden point of its own");
+    verify(sphere.empty(), "leave_out", name, sphere + " is not around its own forbidden point");
     const std::string pose = v.bench->guidanceDiffers();
     verify(pose.empty(), "leave_out", name, pose + " differs from the float64 twin");
     v.heap = heapOf(context, setup, v.frames);
@@ -224,7 +224,7 @@ StudyRow stageRow(const StudyContext& context, const Stage& stage, const Verifie
 void sayRow(Study& study, const StudyRow& row) {
     study.findings.push_back("without " + row.setting + ": " + digits(row.more[1]) + " ms less (" +
                              digits(row.more[2]) + " % of the frame), " + digits(row.more[4]) +
-                             " MiB of the plan's buffers less, " + digits(row.more[5]) + " MiB of heap");
+                             " MiB less of the plan's buffers, " + digits(row.more[5]) + " MiB of heap");
 }
 
 PlotPanel bars(const Study& study, size_t column, const std::string& title, const std::string& label) {
@@ -242,13 +242,11 @@ PlotPanel bars(const Study& study, size_t column, const std::string& title, cons
 Study leaveOutStudy(const StudyContext& context) {
     Study study;
     study.name = "leave_out";
-    study.title = "Leave out: what each optional stage costs a scene that asks for everything";
-    study.verified =
-        "of every row: occlusion cells, class bits, points and guidance against the float64 twins, "
-        "every region sphere about a forbidden point of its own";
+    study.title = "Leave out: what each optional stage costs a scene that uses all of them";
+    study.verified = "every row: occlusion cells, class bits, points and guidance against the float64 twins; "
+                     "every region sphere is around its own forbidden point";
     study.errorName = "error", study.errorUnit = "none";
-    study.noDefault =
-        "its rows are scenes that ask for less; what a scene does not ask for is left out by itself";
+    study.noDefault = "its rows are scenes with fewer features; the plan skips what a scene does not use";
     study.timeName = "upload to published p50";
     study.moreNames = {"upload_to_published_p50_ms", "saved_ms",
                        "share_of_frame_percent",     "gpu_saved_ms",

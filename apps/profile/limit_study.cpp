@@ -203,9 +203,9 @@ void sayCeilings(Study& study, const Ceilings& c) {
     study.findings.push_back("host: copies " + digits(c.hostBytes * 1e-9) + " GB/s on one thread, " +
                              digits(c.workerBytes * 1e-9) + " on the " + std::to_string(c.hostThreads) +
                              " that publish (read + written)");
-    study.findings.push_back("ceilings: " + c.how +
-                             ", the host's copies of 64 MiB; a step whose data stay in a cache may take "
-                             "less than its floor");
+    study.findings.push_back(
+        "ceilings: " + c.how +
+        ", the host's copies of 64 MiB; a step whose data stay in a cache may be faster than its floor");
 }
 
 PlotPanel panelOf(const Study& study, const std::string& source) {
@@ -246,7 +246,7 @@ void addCase(const StudyContext& context, const LimitCase& each, const Ceilings&
         study.findings.push_back(each.name + ", tree_query: " + std::to_string(query.leaves) +
                                  " leaves in touch, " + std::to_string(query.found) + " of " +
                                  std::to_string(query.spheres) +
-                                 " spheres within 10 mm; its floor is what leads to these alone");
+                                 " spheres within 10 mm; its floor counts only the tests that lead to these");
     }
     study.panels.push_back(panelOf(study, each.name));
 }
@@ -257,11 +257,11 @@ Study limitStudy(const StudyContext& context) {
     Study study;
     study.name = "limit";
     study.title = "Limit: steps of a frame, and a query, against what the machine allows";
-    study.verified = "what the ceilings copied, read and computed, class bits and points of a frame against "
-                     "the float64 twins, the device's query against brute force";
+    study.verified = "results of the bandwidth and compute measurements; class bits and points of a frame "
+                     "against the float64 twins; the device's query against brute force";
     study.errorName = "error", study.errorUnit = "none";
-    study.noDefault = "its rows are the steps of one frame, and its query, at the default settings";
-    study.timeName = "GPU time p50 of a pass, wall time p50 of a step of the host's";
+    study.noDefault = "its rows are the steps of one frame and one query, at the default settings";
+    study.timeName = "GPU time p50 of passes, wall time p50 of host steps";
     study.moreNames = {"MB_that_must_move", "million_operations", "moving_ms",
                        "computing_ms",      "floor_ms",           "ratio"};
     Settings plain = context.settings;

@@ -45,11 +45,9 @@ void judgeOurs(Study& study) {
 // One sentence per source: Fathom's time, and every other time as a multiple of it.
 void sayRatios(Study& study) {
     study.findings.push_back(
-        "xN: N times the time of ours on that source, in brackets that of the build. Filter and points: ours "
-        "by "
-        "device time of the pass, others by wall time. Contact: CPU time of the one thread that asks, which "
-        "other "
-        "work on the machine does not stretch; the GPU by wall time from submission to result");
+        "xN: N times Fathom's time on that source, in brackets for the build. Filter and points: device time "
+        "of Fathom's pass, wall time of the others. Contact: CPU time of the calling thread, which does not "
+        "depend on other work; for the GPU, wall time from submission to result");
     for (const std::string& source : sourcesOf(study)) {
         std::string said;
         for (const StudyRow& row : study.rows) {
@@ -126,8 +124,13 @@ std::string shortLabel(const StudyRow& row) { // little space next to a bar
 }
 
 PlotPanel depthPanel(const Study& study) {
-    PlotPanel panel{
-        "filter and points: p50, ours by device time of the pass", "p50 [ms]", "", false, false, true, {}};
+    PlotPanel panel{"filter and points: p50, Fathom's by device time of the pass",
+                    "p50 [ms]",
+                    "",
+                    false,
+                    false,
+                    true,
+                    {}};
     for (const std::string& source : sourcesOf(study)) {
         PlotSeries series{source, {}, false};
         for (const StudyRow& row : study.rows) {
@@ -163,16 +166,14 @@ void fillRatios(std::vector<StudyRow>& rows, size_t first, size_t ours, size_t g
 Study peersStudy(const StudyContext& context) {
     Study study;
     study.name = "peers";
-    study.title = "Peers: the same work beside OpenCV, PCL, Embree, FCL and Bullet";
-    study.verified =
-        "ours against float64: points to 20 um, every sphere within reach; what others answer is "
-        "compared with the same and counted, smoothed depths by their distance only, because "
-        "each filter means another average";
+    study.title = "Peers: the same work by OpenCV, PCL, Embree, FCL and Bullet";
+    study.verified = "Fathom's results against float64: points to 20 um, every sphere within reach. "
+                     "Different answers of the others are counted; of smoothed depths only the distance is "
+                     "given, because each filter computes another average";
     study.errorName = "answers that differ";
     study.errorUnit = "count";
-    study.rankBy.reason =
-        "ours needs no library, gives the same bits on every machine, and later steps of the tick "
-        "or frame use its result directly";
+    study.rankBy.reason = "Fathom's needs no library, gives the same bits on every machine, and later steps "
+                          "of the tick or frame use its result directly";
     study.timeName = "p50";
     study.moreNames = {"ratio_to_ours",    "ratio_to_ours_submit", "build_p50_ms",    "build_ratio",
                        "threads",          "found_mean",           "ties_within_1um", "rms_from_ours_mm",

@@ -148,7 +148,7 @@ double growthOf(const Wall& wall, const std::vector<Node>& nodes, const std::str
         for (size_t k = n * kChildren; k < (n + 1) * kChildren; ++k) {
             const double out = glm::distance(wall.spheres[k], b.centre) + kSphere - b.radius;
             verify(out <= 1e-15, "precision", name,
-                   "a sphere leaves its node by " + digits(out * 1e6) + " um");
+                   "a sphere protrudes from its node by " + digits(out * 1e6) + " um");
         }
         most =
             std::max(most, b.radius + glm::distance(b.centre, wall.nodes[n].centre) - wall.nodes[n].radius);

@@ -47,18 +47,16 @@ PlotPanel panelOf(const Study& study, const std::string& title, const std::strin
 Study precisionStudy(const StudyContext& context) {
     Study study;
     study.name = "precision";
-    study.title = "Precision: half, single and double for what is stored and computed most";
-    study.verified =
-        "every format within its own rounding of the double result; no region sphere outside its "
-        "node, whatever the format; culls find every node that the double nodes find";
+    study.title = "Precision: half, single and double for the most frequent values and sums";
+    study.verified = "every format agrees with double within its own rounding; no region sphere is outside "
+                     "its node in any format; culls find every node that the double nodes find";
     study.errorName = "largest error";
     study.errorUnit = "mm";
     study.rankBy.time = cpuTime;
     study.timeName = "the whole loop, CPU time p50";
     study.moreNames = {"bytes_an_element", "elements", "nodes_found"};
-    study.rankBy.reason =
-        "what is in half precision errs by more than the error budget allows or costs its "
-        "conversion; single keeps every bit that the sensor gives, at half the memory of double";
+    study.rankBy.reason = "half precision exceeds the error budget or costs time for conversion; single "
+                          "precision keeps every bit of the sensor, in half the memory of double";
     for (const auto part : {centreRows, nodeRows, depthRows, weightRows, gapRows}) {
         timeLoops(context, part(context), study);
     }

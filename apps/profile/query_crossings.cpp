@@ -197,12 +197,11 @@ std::string autoDecision(const DeviceFacts& device, const std::vector<uint32_t>&
             : "the device with tools of " + listOf(asked) + " leaves, the CPU with the others";
     const std::string why = device.kind == DeviceKind::Cpu ? "this device is a CPU, which it never asks"
                             : device.gpuQueryLeaves == gpu::kNeverOnGpu
-                                ? "no tool is known with which the device is faster in every set measured"
+                                ? "no tool is known for which the device is faster in every set measured"
                                 : "the device is faster in every set measured from " +
                                       countOf(device.gpuQueryLeaves) + " leaves on";
-    return "'where: auto' decides by the tool's leaves before the first frame, so by the worst set; it "
-           "asks " +
-           who + ": " + why + "; brute force it never chooses";
+    return "'where: auto' decides before the first frame, by the tool's leaves and the worst set; it asks " +
+           who + ": " + why + "; it never uses brute force";
 }
 
 } // namespace fathom::profile

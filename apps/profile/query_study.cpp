@@ -67,9 +67,9 @@ void concludeCrossings(const StudyContext& context, const std::vector<uint32_t>&
 Study queryStudy(const StudyContext& context) {
     Study study;
     study.name = "query";
-    study.title = "Query: time over tool leaves and region spheres, and what the reach costs";
-    study.verified = "contact sets of CPU and GPU equal bit by bit, culls equal to brute force; no leaf in a "
-                     "sphere in any run";
+    study.title = "Query: time over tool leaves and region spheres, and the cost of the reach";
+    study.verified = "contact sets of CPU and GPU equal to the last bit; culls equal to brute force; no leaf "
+                     "enters a sphere in any run";
     study.errorName = "lag of the tool behind the hand RMS";
     study.errorUnit = "mm";
     study.timeName = "query p50";

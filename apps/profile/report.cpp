@@ -19,11 +19,11 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 #ifdef FATHOM_SANITIZED
-constexpr const char* kBuild = "sanitized: no time below means anything";
+constexpr const char* kBuild = "sanitized build: the times below are meaningless";
 #elif defined(NDEBUG)
 constexpr const char* kBuild = "release";
 #else
-constexpr const char* kBuild = "not optimised: no time below means anything";
+constexpr const char* kBuild = "build without optimisation: the times below are meaningless";
 #endif
 
 std::string firstMatch(const std::string& file, const std::string& key) {

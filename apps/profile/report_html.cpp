@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/profile/report.h"
-#include "engine/types/output_file.h"
 #include "engine/types/error.h"
+#include "engine/types/output_file.h"
 
 #include <fstream>
 #include <iterator>
@@ -118,10 +118,10 @@ void writeReportHtml(const Facts& facts, const std::vector<Study>& studies,
     out.write(
         "<!doctype html><html lang=en><meta charset=utf-8><title>fathom profile</title>" +
         std::string(kStyle) +
-        "<h1>Error against run time</h1>\n<p class=why>The clocks stand apart, none subtracted from another: "
-        "GPU by "
-        "timestamps, submission until the result is known to the host, CPU time of the calling thread; wall "
-        "time where a step has none of these. p50, p90, p99 by nearest rank; p99 from 100 repeats on.</p>"
+        "<h1>Error against run time</h1>\n<p class=why>Each clock has its own columns, and none is "
+        "subtracted from another: device timestamps, submission until the result is known to the host, CPU "
+        "time of the calling thread, and wall time for steps with none of these. p50, p90, p99 by nearest "
+        "rank; p99 needs 100 repeats.</p>"
         "<table>");
     for (const auto& [name, value] : facts) {
         out.write("<tr><td>" + escaped(name) + "</td><td>" + escaped(value) + "</td></tr>\n");

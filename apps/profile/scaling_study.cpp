@@ -116,7 +116,7 @@ private:
         const std::string wrong = bench.differsFromTwins(frames.frames.front(), kTwinPatches);
         verify(wrong.empty(), "scaling", setting, wrong + " differs from the float64 twin");
         const std::string sphere = bench.spheresDiffer();
-        verify(sphere.empty(), "scaling", setting, sphere + " is not about a forbidden point of its own");
+        verify(sphere.empty(), "scaling", setting, sphere + " is not around its own forbidden point");
         const FrameReport report = bench.run(frames.frames.front());
         verify(report.counts.valid == frames.camera.depth.pixels(), "scaling", setting,
                "valid pixels are missing");
@@ -176,12 +176,11 @@ Study scalingStudy(const StudyContext& context) {
     study.name = "scaling";
     study.title = "Scaling: frame size, selected pixels, classes";
     study.verified =
-        "at every size: class bits of every pixel and points of up to 300 patches, corners among them, "
-        "against "
-        "the float64 twins; every region sphere about a forbidden point of its own; every pixel counted";
-    study.findings.push_back("colours are YUYV, as USB cameras send them, where a row does not say RGBA");
+        "at every size: class bits of every pixel and points of up to 300 patches, corners included, against "
+        "the float64 twins; every region sphere is around its own forbidden point; every pixel is counted";
+    study.findings.push_back("colours are YUYV, as USB cameras send them, unless a row says RGBA");
     study.errorName = "error", study.errorUnit = "none";
-    study.noDefault = "its rows are sizes and scenes, which the camera and the scene file give";
+    study.noDefault = "its rows are sizes and scenes, which camera and scene file determine";
     study.timeName = "upload to published p50";
     study.moreNames = {"pixels",
                        "forbidden_percent",

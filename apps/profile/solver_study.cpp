@@ -149,7 +149,7 @@ std::vector<DragResult> dragInterleaved(const StudyContext& context, double spee
             return;
         }
         verify(settings[i].deadline > 0.0 || apartAll(run, runs[i]).max == 0.0, "solver", nameOf(settings[i]),
-               "the same run again leads elsewhere");
+               "a repeated run has another result");
         runs[i].addTimes(run);
     });
     return runs;
@@ -159,7 +159,7 @@ void addSpeed(const StudyContext& context, Study& study, double speed) {
     const DragResult optimum = drag(dragOf(context, speed, {64, 0.002}));
     const Apart change = apartAll(optimum, drag(dragOf(context, speed, {128, 0.002})));
     verify(change.max <= kConverged, "solver", "64 solves",
-           "not converged: twice as many move the tool by " + digits(change.max * 1e6) + " um");
+           "not converged: twice as many solves move the tool by " + digits(change.max * 1e6) + " um");
     std::vector<SolverSetting> settings = settingsOf(context.settings.quick);
     const size_t plain = settings.size(); // later settings have reduced rows
     for (const RowReduction& rows : reductionsOf(context.settings.quick)) {
@@ -182,9 +182,9 @@ Study solverStudy(const StudyContext& context) {
     Study study;
     study.name = "solver";
     study.title = "Solver: pose error to the converged optimum against the time of a tick";
-    study.verified = "64 solves per tick are converged (128 change nothing beyond 0.1 um); few rows with a "
-                     "look at the rest "
-                     "lead where all rows do, tick by tick; no leaf in a sphere in any run";
+    study.verified =
+        "64 solves per tick are converged (128 change less than 0.1 um); few rows with a check of the others "
+        "give the same pose as all rows, in every tick; no leaf enters a sphere in any run";
     study.errorName = "pose error RMS to the converged optimum, a radian as 50 mm";
     study.errorUnit = "mm";
     study.rankBy.time = cpuTime;
@@ -192,10 +192,9 @@ Study solverStudy(const StudyContext& context) {
     study.moreNames = {"error_max_mm",        "lag_rms_mm",    "solves_a_turn",
                        "strengthened_a_turn", "stalled_turns", "share_in_contact"};
     study.rankBy.reason =
-        "the cap of 2 mm and 4 solves let the hand move at 8 m/s, slower hands need less; "
-        "rows up to 1 cap take less time and lead to the same poses along this wall, but elsewhere between "
-        "walls (suite haptics); other rows that are reduced cost and gain within what repeats of the same "
-        "work differ by, so all rows up to 2 caps stay";
+        "a cap of 2 mm and 4 solves allow hands of 8 m/s; slower hands need less. Rows within 1 cap take "
+        "less time and give the same poses along this wall, but other poses between walls (suite haptics). "
+        "Other reductions change the time by less than repeats differ, so all rows within 2 caps stay";
     for (double speed : context.settings.quick ? std::vector{2.0} : std::vector{0.3, 2.0, 6.0}) {
         addSpeed(context, study, speed);
     }
@@ -208,7 +207,7 @@ Study solverStudy(const StudyContext& context) {
     study.panels.push_back(frontPanel(study, "pose error", timeIf(false)));
     study.panels.push_back(frontPanel(study, "lag along the wall", timeIf(false),
                                       [](const StudyRow& row) { return row.more[1]; }));
-    study.panels.push_back(frontPanel(study, "4 solves, cap 2 mm: rows that a solve gets", timeIf(true)));
+    study.panels.push_back(frontPanel(study, "4 solves, cap 2 mm: choice of rows per solve", timeIf(true)));
     for (PlotPanel& panel : study.panels) {
         panel.yLabel = "pose error RMS [mm], a radian as 50 mm";
     }

@@ -81,8 +81,8 @@ Study toolStudy(const StudyContext& context) {
     Study study;
     study.name = "tool";
     study.title = "Tool: how well spheres fit a gripper against the time of a tick";
-    study.verified = "covering spheres leave no gap, made covers hold the mesh's points; no leaf in a sphere "
-                     "in any run, in contact in nine of ten ticks";
+    study.verified = "covers leave no gap, and generated covers contain the points of the mesh; no leaf "
+                     "enters a sphere in any run; nine of ten ticks are in contact";
     study.errorName = "protrusion or gap, the larger";
     study.errorUnit = "mm";
     study.rankBy.time = cpuTime;
@@ -103,7 +103,7 @@ Study toolStudy(const StudyContext& context) {
     }
     addMadeCovers(context, study, shape, counts);
     markFront(study);
-    study.noDefault = "no count is a default: the scene file gives the tool's spheres";
+    study.noDefault = "no leaf count is a default: the scene file determines the tool's spheres";
     study.findings.push_back(study.noDefault);
     study.panels.push_back(frontPanel(study, "protrusion or gap, the larger"));
     study.panels.push_back(frontPanel(study, "gaps that the spheres leave", {},
