@@ -107,11 +107,12 @@ Outcome insideManyCase(RunLength runLength) {
         growth = std::max({growth, f.growth, rig.audit().maxPenetration()});
         stuck += f.out ? 0 : 1;
     }
-    Outcome out =
-        outcomeOf(worst, 1.2, "1",
-                  "Ticks x 1 mm until three leaves inside 800 spheres are out, over the straight way out; " +
-                      num(uint64_t(trials)) +
-                      " trials. The limit leaves a fifth for ways that bend from dimple to dimple.");
+    Outcome out = outcomeOf(
+        worst, 1.2, "1",
+        "Ticks x 1 mm until three leaves inside 800 spheres are out, divided by the straight distance; " +
+            num(uint64_t(trials)) +
+            " trials. The limit allows paths that are a fifth longer, because they bend from dimple to "
+            "dimple.");
     require(out, stuck == 0, num(stuck) + " never out");
     require(out, growth <= kNanometre, "a depth grew by " + num(growth) + " m");
     return out;
@@ -219,7 +220,7 @@ Outcome farCase(RunLength runLength, double distance) {
         b.audit().maxPenetration(), kNanometre, "m",
         "Deepest penetration beyond the allowance in rubble " + num(distance / 1000.0) +
             " km from the base origin over " + num(uint64_t(ticks)) + " ticks, " + num(b.figures.contact) +
-            " in contact; the way differs from the same run at the origin by at most " + num(apart) +
+            " in contact; the path differs from the same run at the origin by at most " + num(apart) +
             " m (rounding of the base frame is " + num(distance * 2.2e-16) + " m).");
     require(out, b.figures.contact > 0, "the tool never touched");
     require(out, apart <= 5e-3, "the ways part by more than 5 mm");
@@ -257,9 +258,10 @@ std::vector<Case> geometryCases() {
                         "1024 leaves flat on a wall: more contacts than rows.");
     });
     put("overflowing-answers", [](RunLength e) {
-        return handRuns(rubbleWorld(), e, 6000,
-                        "Answers that hold 64 spheres and 256 pairs at first: the reach shrinks instead.",
-                        {0.05, {64, 256}});
+        return handRuns(
+            rubbleWorld(), e, 6000,
+            "Contact sets with room for 64 spheres and 256 pairs at first: the reach shrinks instead.",
+            {0.05, {64, 256}});
     });
     put("origin-1km", [](RunLength e) { return farCase(e, 1e3); });
     put("origin-100km", [](RunLength e) { return farCase(e, 1e5); });

@@ -103,7 +103,7 @@ std::vector<Case> guaranteeCases() {
                          [=](RunLength runLength) { return anyWorld(motion, faults, runLength, what); }});
     };
     const HandMotion plain{};
-    put("speed-005", {0.05, 2.0, 0.0, 0.0, 8.0, 0.0}, {}, "Hand of 0.05 m/s that hops about the arena.");
+    put("speed-005", {0.05, 2.0, 0.0, 0.0, 8.0, 0.0}, {}, "Hand of 0.05 m/s that jumps to random places.");
     put("speed-05", {0.5, 5.0, 0.0, 0.0, 4.0, 0.0}, {}, "Hand of 0.5 m/s.");
     put("speed-5", {5.0, 20.0, 0.0, 0.0, 4.0, 0.0}, {}, "Hand of 5 m/s.");
     put("leaps-10m", {0.5, 5.0, 20.0, 10.0, 20.0, 0.0}, {}, "20 leaps of up to 10 m per second.");
@@ -115,7 +115,8 @@ std::vector<Case> guaranteeCases() {
         put("answers-late-" + std::to_string(late) + "ms", plain, {late, false, 0.0},
             "Answers late by " + std::to_string(late) + " ms.");
     }
-    put("answers-jitter-100ms", plain, {100, true, 0.0}, "Answers late by 0 to 100 ms, drawn anew for each.");
+    put("answers-jitter-100ms", plain, {100, true, 0.0},
+        "Answers late by 0 to 100 ms, at random for each answer.");
     put("answers-lost-half", plain, {0, false, 0.5}, "Half of the answers lost.");
     put("answers-lost-95", plain, {20, true, 0.95}, "95 % of the answers lost, the rest late by 0 to 20 ms.");
     addWorldCases(cases);

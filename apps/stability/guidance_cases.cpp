@@ -47,9 +47,8 @@ Outcome farTarget(RunLength runLength) {
                           glm::length(pull.torque) - limits.torque});
     }
     return outcomeOf(worst, 1e-9, "N",
-                     "Targets 10 mm to 1000 km away, any orientation: how far the pull is off F_g = 2 N in "
-                     "size and direction, or beyond 0.1 N m, in both "
-                     "modes; " +
+                     "Targets 10 mm to 1000 km away, any orientation: error of the pull against F_g = 2 N in "
+                     "size and direction, or its excess over 0.1 N m, in both modes; " +
                          num(uint64_t(targets)) + " targets.");
 }
 

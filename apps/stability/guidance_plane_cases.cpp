@@ -88,9 +88,8 @@ Outcome fewPoints(RunLength) {
         }
     }
     return outcomeOf(wrong, 0.0, "1",
-                     "None, one, two, three and a thousand points at one place, the camera's own among them: "
-                     "answers that were a plane, not finite, or not "
-                     "at that place; 250 sets.");
+                     "None, one, two, three and a thousand points at one place, also at the camera itself: "
+                     "results that are a plane, not finite, or not at that place; 250 sets.");
 }
 
 Outcome exactPlane(RunLength runLength) {
@@ -168,9 +167,8 @@ Outcome decisions(RunLength runLength) {
         wrong += !cloud.planar && cloud.target.rotation == guided().orientation ? 0 : 1;
     }
     return outcomeOf(wrong, 0.0, "1",
-                     "Discs 20 % thinner and 25 % thicker than the bound of a plane (3 mm or a tenth of the "
-                     "spread): wrong decisions, or a roll commanded "
-                     "where there is no long axis, of " +
+                     "Discs 20 % thinner and 25 % thicker than the limit for a plane (3 mm or a tenth of the "
+                     "spread): wrong decisions, or a roll commanded without a long axis, of " +
                          std::to_string(tried) + ".");
 }
 
@@ -204,8 +202,7 @@ Outcome eigenvectors(RunLength runLength) {
     }
     return outcomeOf(worst, 1e-14, "1",
                      "Covariances whose eigenvalues differ by 1e-17 to 1 of their size, 1e-12 to 1e6 m^2: "
-                     "how far V L V^T is off the matrix and V V^T off 1, "
-                     "relative, largest.");
+                     "largest relative error of V L V^T against the matrix, and of V V^T against 1.");
 }
 
 } // namespace

@@ -47,10 +47,10 @@ void runHand(const World& world, const HandRun& handRun, HandRunFigures& figures
 }
 
 Outcome penetrationOutcome(const HandRunFigures& figures, double limit, const std::string& what) {
-    Outcome out = outcomeOf(
-        figures.penetration, limit, "m",
-        "Deepest penetration of any leaf beyond its allowance, by an audit that sees the poses alone. " +
-            what + figures.words());
+    Outcome out =
+        outcomeOf(figures.penetration, limit, "m",
+                  "Deepest penetration of any leaf beyond its allowance, by an audit of the poses only. " +
+                      what + figures.words());
     require(out, figures.rig.contact > 0 && figures.rig.path > 0.0, "the tool never touched");
     require(out, figures.rig.notFinite == 0, "a wrench that is not finite");
     return out;

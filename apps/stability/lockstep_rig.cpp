@@ -97,7 +97,7 @@ const LockstepRig::Published* LockstepRig::published(uint64_t generation) const 
             return p.get();
         }
     }
-    throw Error("stability: a contact set names a fixture set that is gone");
+    throw Error("stability: a contact set refers to a fixture set that was released");
 }
 
 void LockstepRig::judge(const Pose& before, const StepRecord& record) {

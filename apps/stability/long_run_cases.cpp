@@ -105,15 +105,15 @@ LongRun roam(uint64_t ticks) {
 
 std::string storyOf(const LongRun& run, uint64_t ticks) {
     return num(ticks) +
-           " ticks of a closed loop in lockstep: frames at 30 Hz, a hand that roams, turns over and presses "
-           "its buttons (" +
+           " ticks of a closed loop in lockstep: frames at 30 Hz, a hand that moves about, turns over and "
+           "presses its buttons (" +
            num(run.contacts) + " ticks in contact, " + num(run.escapes) + " escaping, " + num(run.guided) +
            " guided). ";
 }
 
 void requireContact(Outcome& out, const LongRun& run, uint64_t ticks) {
     require(out, run.contacts > ticks / 50 && run.guided > ticks / 50 && run.escapes > 10,
-            "contact, guidance and escapes were expected");
+            "contact, guidance and escapes should occur");
     require(out, run.notFinite == 0, "some tick was not finite");
 }
 
@@ -143,7 +143,7 @@ Outcome digests(RunLength runLength) {
                             storyOf(first, ticksFor(runLength)) +
                                 "Digests that differ between two equal runs: " + first.digest + ".");
     requireContact(out, first, ticksFor(runLength));
-    require(out, other.digest != first.digest, "half the run was expected to have another digest");
+    require(out, other.digest != first.digest, "half of the run should have another digest");
     return out;
 }
 

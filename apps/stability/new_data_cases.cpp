@@ -99,11 +99,12 @@ JumpFigures jumps(RunLength runLength, double jump, uint32_t late) {
 
 Outcome jumpCase(RunLength runLength, double jump) {
     const JumpFigures f = jumps(runLength, jump, 0);
-    Outcome out = outcomeOf(
-        f.ratio, 1.0, "1",
-        "Ticks until the tool is out over way / 1 mm + 3: wall 500 mm away jumps " + num(jump * 1e3) +
-            " mm over a ball of 10 mm with regions of 40 mm, pressed or not, noise 0 or 0.5 mm. " +
-            wordsOf(f));
+    Outcome out =
+        outcomeOf(f.ratio, 1.0, "1",
+                  "Ticks until the tool is out, divided by distance / 1 mm + 3: a wall 500 mm away jumps " +
+                      num(jump * 1e3) +
+                      " mm over a ball of 10 mm with regions of 40 mm, pressed or not, noise 0 or 0.5 mm. " +
+                      wordsOf(f));
     requireJump(out, f);
     return out;
 }
@@ -184,15 +185,15 @@ Outcome sweepCase(RunLength runLength, double speed) {
         forceStep = std::max(forceStep, rig.figures.forceStep);
         stuck += e.out ? 0 : 1;
     }
-    Outcome out =
-        outcomeOf(ratio, 1.0, "1",
-                  "Ticks from the start of the sweep until out over the longer of the sweep and 250 mm at 1 "
-                  "mm per tick, and a "
-                  "frame: wall at " +
-                      num(speed) + " m/s, 30 Hz, with and without hold and noise, " + num(uint64_t(trials)) +
-                      " runs. At over 1 m/s the surface outruns the 1 mm per tick and the tool is out "
-                      "after it has stopped, still on the camera's side (" +
-                      num(front * 1e3) + " mm in front).");
+    Outcome out = outcomeOf(
+        ratio, 1.0, "1",
+        "Ticks from the start of the sweep until out over the longer of the sweep and 250 mm at 1 "
+        "mm per tick, and a "
+        "frame: wall at " +
+            num(speed) + " m/s, 30 Hz, with and without held points and noise, " + num(uint64_t(trials)) +
+            " runs. At over 1 m/s the surface outruns the 1 mm per tick and the tool is out "
+            "after it has stopped, still on the camera's side (" +
+            num(front * 1e3) + " mm in front).");
     require(out, stuck == 0, num(stuck) + " runs never out");
     require(out, growth <= 1e-5, "a depth grew by " + num(growth) + " m");
     require(out, front > 0.5 * kStand, "a tool came out on the far side");

@@ -104,13 +104,13 @@ Outcome dropoutCase(RunLength runLength, bool hold) {
         stuck += e.out ? 0 : 1;
         worst = std::max(worst, hold ? sunk : e.ticks / (std::ceil(std::max(0.0, sunk) / 1e-3) + 3.0));
     }
-    Outcome out = hold ? outcomeOf(worst, 1e-6, "m",
-                                   "How far a pressed tool sinks in five blind frames (0.17 s) with a hold "
-                                   "of 0.5 s: it must not. ")
-                       : outcomeOf(worst, 1.0, "1",
-                                   "Without hold the tool follows the hand 15 mm into the wall in five blind "
-                                   "frames; ticks until it is "
-                                   "out again over way / 1 mm + 3. ");
+    Outcome out =
+        hold ? outcomeOf(worst, 1e-6, "m",
+                         "How far a pressed tool sinks in five blind frames (0.17 s) with a hold of 0.5 s; "
+                         "it must not sink. ")
+             : outcomeOf(worst, 1.0, "1",
+                         "Without held points the tool follows the hand 15 mm into the wall in five blind "
+                         "frames; ticks until it is out, over distance / 1 mm + 3. ");
     out.note += wordsOf(rig);
     requireSound(out, rig);
     require(out, stuck == 0, num(stuck) + " times never out");
@@ -210,7 +210,7 @@ Outcome viceCase(RunLength runLength, ViceFigure what) {
                 "force step of " + num(rig.figures.forceStep) + " N");
         require(out, rig.audit().maxPenetration() <= 1e-5, "a depth grew");
     }
-    const std::string vices = " Two walls close on the ball, 0.5 to 20 mm too near on either side; " +
+    const std::string vices = " Two walls close on the ball, too near by 0.5 to 20 mm on each side; " +
                               num(uint64_t(trials)) + " runs. The tool moved by at most " + num(moved) +
                               " m while held.";
     const std::string failed = out.note;
@@ -220,11 +220,11 @@ Outcome viceCase(RunLength runLength, ViceFigure what) {
         out = outcomeOf(worst, 3.0, "turns", "Ticks until the state says trapped." + vices);
         break;
     case ViceFigure::ForceOut:
-        out = outcomeOf(worst, 1e-9, "N", "Force from 0.2 s after being trapped on: it ramps out." + vices);
+        out = outcomeOf(worst, 1e-9, "N", "Force 0.2 s and more after being trapped: it ramps out." + vices);
         break;
     case ViceFigure::Left:
         out = outcomeOf(worst, 1.0, "1",
-                        "Ticks until out once one wall is gone, over depth / 1 mm + 4." + vices);
+                        "Ticks until out after one wall is removed, over depth / 1 mm + 4." + vices);
         break;
     }
     require(out, sound, failed);
@@ -283,7 +283,7 @@ void addStreamCases(std::vector<Case>& cases) {
     put("dropout-frames", [](RunLength e) { return dropoutCase(e, false); });
     put("dropout-frames-hold", [](RunLength e) { return dropoutCase(e, true); });
     put("noise-5mm", [](RunLength e) {
-        return restlessCase(e, {0.005, 0.0, 33, true, 0.16}, "noise of 5 mm drawn anew in every frame.");
+        return restlessCase(e, {0.005, 0.0, 33, true, 0.16}, "new noise of 5 mm in every frame.");
     });
     put("every-turn", [](RunLength e) {
         return restlessCase(e, {0.001, 0.0, 1, false, 1.4}, "a new set with noise of 1 mm in every tick.");

@@ -69,9 +69,9 @@ const std::vector<double> kNoises{0.0, 0.0005, 0.005};
 Outcome classify(const DeviceSource& device, RunLength runLength) {
     const Sweep sweep = overRanges(device, runLength, kNoises,
                                    [](const PrecisionRig& rig, double) { return classifyError(rig); });
-    Outcome out = rangeOutcome(
-        sweep, 0.0, "1",
-        "Classify, colour gates and boxes, noise off and on: class bits that differ where the twin is sure.");
+    Outcome out = rangeOutcome(sweep, 0.0, "1",
+                               "Classify, colour gates and boxes, noise off and on: class bits that differ "
+                               "although the twin's decision is not on a threshold.");
     out.figure = out.figure == out.figure ? static_cast<double>(sweep.all.wrong) : out.figure;
     out.curves.clear();
     return out;
@@ -104,7 +104,7 @@ Outcome occlusion(const DeviceSource& device, RunLength runLength) {
 
 Outcome thin(const DeviceSource& device, RunLength runLength) {
     return rangeOutcome(overRanges(device, runLength, {0.0, 0.0002}, thinError), kShare, "1",
-                        "Thin: growth of the kept spheres, but for a step outward, over the range.");
+                        "Thin: growth of the kept spheres, apart from one step outward, over the range.");
 }
 
 Outcome spheres(const DeviceSource& device, RunLength runLength) {
@@ -156,7 +156,7 @@ Outcome guidance(const DeviceSource& device, RunLength runLength) {
                 scene.fixtures[1].box = Box{centre - dvec3(0.12 * range), centre + dvec3(0.12 * range)};
             }),
         1e-5, "rad",
-        "Guidance: the normal of a class that is a plane, against the twin's by another eigen solver.");
+        "Guidance: the normal of a planar class, against a twin with another eigenvalue solver.");
 }
 
 // Filter widths at 1 m, from far below the pixel spacing to far wider than the image.

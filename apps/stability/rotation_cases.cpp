@@ -78,12 +78,10 @@ Outcome wholeTurns(RunLength runLength) {
         stored = 0.5 * stepTimer.options().springs.rotationalStiffness * std::numbers::pi * std::numbers::pi;
         drawn = std::max(drawn, work);
     }
-    return outcomeOf(
-        drawn / stored, 1e-3, "1",
-        "Whole turns of the hand against a held axis: work that one turn gives over what the spring holds at "
-        "the half turn (" +
-            num(stored) +
-            " J); the change of sides falls between two ticks of the cycle, which is all that is left.");
+    return outcomeOf(drawn / stored, 1e-3, "1",
+                     "Whole turns of the hand against a held axis: work gained per turn, divided by the "
+                     "spring's energy at the half turn (" +
+                         num(stored) + " J); the rest comes from the change of sides between two ticks.");
 }
 
 // Guidance without a roll target gives no torque about the axis that it aligns, for any orientation of the
@@ -110,11 +108,10 @@ Outcome noRoll(RunLength runLength) {
         }
     }
     Outcome out = outcomeOf(worst, 1e-9, "N m",
-                            "A guidance target without roll, hands that point anywhere, one in five the very "
-                            "other way: largest torque about the axis of the "
-                            "target; across it " +
+                            "A guidance target without roll, hands that point anywhere, one in five exactly "
+                            "the other way: largest torque about the axis of the target; across it " +
                                 num(felt) + " N m (0.1 is the limit).");
-    require(out, felt > 0.09 && felt < 0.1001, "guidance was expected to pull with 0.1 N m");
+    require(out, felt > 0.09 && felt < 0.1001, "guidance should pull with 0.1 N m");
     return out;
 }
 
@@ -175,8 +172,8 @@ Outcome leverSettles(RunLength runLength) {
         worst = std::max(worst, late / early);
     });
     return outcomeOf(worst, 0.9, "1",
-                     "A tilted cross of nine balls pressed into a wall, all six ways of the loop closed: "
-                     "fastest spin of the hand late over early, worst of " +
+                     "A tilted cross of nine balls pressed into a wall, closed loop in all six axes: fastest "
+                     "spin of the hand late in the run divided by early, worst of " +
                          num(uint64_t{runs}) + " loops with the automatic stiffness.");
 }
 

@@ -36,9 +36,9 @@ Outcome anyLength(RunLength runLength) {
         }
     }
     return outcomeOf(worst, 1e-9, "N",
-                     "Orientations as quaternions of length 1e-6 to 1e6, another at every tick: largest "
-                     "difference of wrench [N, N m] and tool [m] to the "
-                     "same motion with unit ones; a device with all axes and one without roll.");
+                     "Orientations as quaternions of length 1e-6 to 1e6, a new length at every tick: largest "
+                     "difference of wrench [N, N m] and tool [m] to the same motion with unit quaternions; a "
+                     "device with all axes and one without roll.");
 }
 
 struct Leak {
@@ -70,8 +70,8 @@ Leak leakOf(const char* device, const std::function<dvec3(const Wrench&, const P
 Outcome leakOutcome(const Leak& leak, const std::string& what) {
     Outcome out = outcomeOf(std::max(leak.wrong, leak.broken), 1e-12, "N m",
                             what +
-                                " Largest torque on what is not there, and largest gap between the parts and "
-                                "the whole; the whole reached " +
+                                " Largest torque on an axis that is not actuated, and largest difference "
+                                "between the sum of both parts and the whole wrench; the whole reached " +
                                 num(leak.felt) + " N m.");
     require(out, leak.felt > 0.05, "some torque was expected");
     return out;

@@ -129,11 +129,11 @@ Outcome iterationCase(RunLength runLength) {
         curve.y.push_back(some.changes);
         tally.add(some);
     }
-    Outcome out =
-        outcomeOf(tally.changes, 0.9, "1",
-                  "Most rows taken in or dropped in one solve, as a share of the guard 16 n + 64 + rows/4: " +
-                      num(tally.sets) + " sets of every family, tools of 1 mm to 10 m; " + num(tally.cycled) +
-                      " ended by the guard.");
+    Outcome out = outcomeOf(
+        tally.changes, 0.9, "1",
+        "Largest number of rows added or dropped in one solve, as a share of the guard 16 n + 64 + rows/4: " +
+            num(tally.sets) + " sets of every family, tools of 1 mm to 10 m; " + num(tally.cycled) +
+            " ended by the guard.");
     require(out, tally.cycled == 0, "the guard ended a solve");
     out.curves.push_back(std::move(curve));
     return out;
@@ -147,12 +147,12 @@ Outcome conditioned(SolverTally tally, const std::string& what) {
     tally.distance = 0.0;
     tally.byRows = {};
     Outcome out = judged(
-        tally,
-        what + "Figure: KKT residual and violated row alone; the distance to the exact optimum, up to " +
-            num(distance) + ", is below 1e-9 or at most " + num(ofRounding) +
-            " times what one rounding of the rows moves that optimum, so that no float64 method is much "
-            "nearer; demanded: 64 times. ");
-    require(out, ofRounding <= 64.0, "an optimum missed by more than 64 times what rounding does");
+        tally, what +
+                   "Figure: KKT residual and violated row only; the distance to the exact optimum, up to " +
+                   num(distance) + ", is below 1e-9 or at most " + num(ofRounding) +
+                   " times the distance by which one rounding of the rows moves that optimum, so no float64 "
+                   "method is much nearer; required: 64 times. ");
+    require(out, ofRounding <= 64.0, "an optimum missed by more than 64 times the effect of rounding");
     out.curves.clear();
     return out;
 }
@@ -176,7 +176,7 @@ Outcome leaningCase(RunLength runLength) {
         set.target = {wanted.x, wanted.y, wanted.z, 0.0, 0.0, 0.0};
         trial.judge(set, tally);
     }
-    return conditioned(tally, "Corners of two planes that lean by 1e-9 to 1e-3 rad. ");
+    return conditioned(tally, "Corners of two planes that differ by 1e-9 to 1e-3 rad. ");
 }
 
 Outcome mismatchedCase(RunLength runLength) {

@@ -66,7 +66,7 @@ void writeMargins(const std::filesystem::path& file, const std::vector<CaseResul
         kTop + kRow * (static_cast<double>(results.size()) + 1.6 * static_cast<double>(groups)) + 30.0;
     const fathom::Image image(kWidth, static_cast<int>(height), kPaper);
     const PlotAxis axis{kAxisBegin, kAxisEnd, kLeft, kRight};
-    image.text(24.0, 36.0, "Stability suite: how much of its limit each case uses", 20.0, kInk, Align::Left,
+    image.text(24.0, 36.0, "Stability suite: share of its limit that each case uses", 20.0, kInk, Align::Left,
                true);
     image.text(24.0, 60.0,
                "figure / limit (limit / figure where the figure must be large), pure number; figure and "

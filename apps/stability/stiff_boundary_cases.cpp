@@ -110,8 +110,8 @@ Outcome virtualDamping(RunLength runLength) {
         grid.masses = {0.25}, grid.dampings = {0.5}, grid.virtualDampings = {2.0}, grid.delays = {0};
     }
     return against(measure(grid), true, 0.01,
-                   "With virtual damping B up to ten times b: stable well above what is passive (b > KT/2 + "
-                   "|B|), as the margins report apart.");
+                   "With virtual damping B up to ten times b: stable well above the passive bound (b > KT/2 "
+                   "+ |B|); the two margins report them separately.");
 }
 
 Outcome rotation(RunLength runLength) {
@@ -150,8 +150,8 @@ Outcome hands(RunLength runLength) {
     Outcome out = outcomeOf(least, 0.98, "1",
                             "Measured boundary over the passive bound, least of " + std::to_string(runs) +
                                 " loops from a free device to a firm grip (" + worst +
-                                "): b > KT(1 + 2n)/2 holds whoever holds the device; 2 % for the light "
-                                "device's own deviation (b T/(6 m)) and the bisection.");
+                                "): b > KT(1 + 2n)/2 is enough in any hand; 2 % for the light device's own "
+                                "deviation (b T/(6 m)) and the bisection.");
     out.relation = ">=";
     return out;
 }

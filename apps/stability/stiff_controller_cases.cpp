@@ -97,13 +97,12 @@ Outcome jumpBurst(RunLength) {
         on = std::max(on, with.excess);
         off = std::max(off, without.excess);
     }
-    return outcomeOf(worst, 0.5, "1",
-                     "A wall jumps by 2 mm under a hand 3 mm deep: energy that the hand gets beyond the work "
-                     "of lifting it to its new rest, with the "
-                     "controller over without it, worst of four hands (" +
-                         num(on * 1e3) + " against " + num(off * 1e3) +
-                         " mJ of 8 mJ). That work is restated, not forbidden: a wall that comes nearer and "
-                         "stays a wall has to lift the hand.");
+    return outcomeOf(
+        worst, 0.5, "1",
+        "A wall jumps by 2 mm under a hand 3 mm deep: energy that the hand gets beyond the work of lifting "
+        "it to its new rest, with the controller divided by without it, worst of four hands (" +
+            num(on * 1e3) + " against " + num(off * 1e3) +
+            " mJ of 8 mJ). That work is allowed: a wall that comes nearer has to lift the hand.");
 }
 
 // The wall moves up and down by 2 mm: at 15 Hz (a jump per frame at 30 Hz), or at the hand's own frequency.
@@ -133,9 +132,8 @@ Outcome shakenWall(RunLength runLength) {
     }
     return outcomeOf(worst, 2.0, "1",
                      "A wall that jumps 2 mm up and down at 15 Hz and at the hand's own frequency: highest "
-                     "rise of the hand over that at which the jump "
-                     "alone would hold it (one jump throws an undamped hand to 2, more is resonance); "
-                     "without the controller " +
+                     "rise of the hand, divided by the rise at which a single jump would hold it (a single "
+                     "jump throws an undamped hand to 2, more is resonance); without the controller " +
                          num(worstOff) + " (energy into the hand at most " + num(energyOn * 1e3) +
                          " against " + num(energyOff * 1e3) + " mJ). Four hands.");
 }
@@ -173,7 +171,7 @@ Outcome beyondBound(RunLength runLength) {
                             "worst of " +
                                 num(uint64_t{runs}) + " loops with the controller; without it " +
                                 num(worstOff * 1e3) + " mJ.");
-    require(out, worstOff > 1e-4, "without the controller energy was expected");
+    require(out, worstOff > 1e-4, "without the controller there should be energy");
     return out;
 }
 
@@ -216,7 +214,7 @@ Outcome slowTicks(RunLength runLength) {
                       num(margin) +
                       " b), late over early speed of the hand; with the stiffness kept and no controller " +
                       num(fixed) + ".");
-    require(out, margin > -1e-6, "the live margin was expected to come back to 0");
+    require(out, margin > -1e-6, "the measured margin should return to 0");
     return out;
 }
 
@@ -249,7 +247,7 @@ Outcome fastHits(RunLength runLength) {
                   "energy out of the wall at any time after "
                   "the hit, worst of " +
                       num(uint64_t{runs}) + " loops; fastest left at the end " + num(left * 1e3) + " mm/s.");
-    require(out, left < 2e-3, "the hand was expected to come to rest");
+    require(out, left < 2e-3, "the hand should come to rest");
     return out;
 }
 

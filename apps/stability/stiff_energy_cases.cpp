@@ -67,9 +67,9 @@ Outcome staticGrounds(RunLength runLength) {
         });
     }
     return outcomeOf(all.net, kTolerance, "J",
-                     "Wall, corner, slot and a wall of spheres, pressed, slid along and left: the fixture's "
-                     "energy into the hand less what the "
-                     "device's own damping took, largest at any time from the first touch on of " +
+                     "Wall, corner, slot and a wall of spheres, pressed, slid along and left: energy from "
+                     "the fixture into the hand minus the energy that the device's own damping took, largest "
+                     "at any time after the first touch of " +
                          num(uint64_t{all.runs}) + " loops (" + all.who + "); without that damping up to " +
                          num(all.given * 1e3) + " mJ (the sampled spring's). Controller on; it took " +
                          num(all.taken * 1e6) + " uJ.");
@@ -87,12 +87,11 @@ Outcome withEncoders(RunLength runLength) {
         });
     }
     return outcomeOf(all.net, kTolerance, "J",
-                     "The same wall by encoders of 1 um to 0.1 mm: net energy beyond sqrt(3) K step / 2 a "
-                     "metre of path, worst of " +
+                     "The same wall with encoders of 1 um to 0.1 mm: net energy beyond sqrt(3) K step / 2 "
+                     "per metre of path, worst of " +
                          num(uint64_t{all.runs}) + " loops (" + all.who +
-                         "). The restated part is physics: a position is known to half a step on each axis, "
-                         "the force is wrong by up to K times that, "
-                         "and no controller can see it.");
+                         "). The allowed part is physics: a position is known to half a step on each axis, "
+                         "the force is wrong by up to K times that, and no controller can detect it.");
 }
 
 // The same loop with the controller on and off is bit-identical unless the controller acted.
@@ -116,8 +115,8 @@ Outcome controllerIdle(RunLength runLength) {
         });
     }
     return outcomeOf(largest, 1e-9, "N",
-                     "The passivity controller changes nothing where nothing is generated: largest "
-                     "difference of the wrench with it and without it over " +
+                     "The passivity controller changes no force if no energy is generated: largest "
+                     "difference of the wrench with and without it over " +
                          num(uint64_t{runs}) +
                          " loops with static fixtures, delays of 0, 1 and 3 ticks included.");
 }

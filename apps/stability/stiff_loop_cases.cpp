@@ -158,17 +158,17 @@ Drawn walkLoops(RunLength runLength, double metricError) {
 
 Outcome closedLoops(RunLength runLength) {
     const Drawn tied = walkLoops(runLength, 1.0), off = walkLoops(runLength, 1.6);
-    Outcome out = outcomeOf(tied.most / tied.stored, 1e-4, "1",
-                            "Closed 6-axis paths of the hand round a wall, a corner, a groove, a ball, a box "
-                            "and a bar with a cross of nine balls: most "
-                            "energy drawn in one loop of " +
-                                num(uint64_t{tied.loops}) + " over what the springs held at most, " +
-                                num(tied.stored * 1e3) + " mJ: " + num(tied.most * 1e3) +
-                                " mJ drawn (one loop took " + num(-tied.least * 1e3) +
-                                " mJ; both halve with the length of a tick). With a metric 1.6 times off the "
-                                "springs' own up to " +
-                                num(off.most * 1e3) + " mJ are drawn.");
-    require(out, off.most > 1e-3, "a wrong metric was expected to be seen");
+    Outcome out =
+        outcomeOf(tied.most / tied.stored, 1e-4, "1",
+                  "Closed 6-axis paths of the hand around a wall, a corner, a groove, a ball, a box and a "
+                  "bar with a cross of nine balls: most energy drawn in one loop of " +
+                      num(uint64_t{tied.loops}) + " divided by the largest energy of the springs, " +
+                      num(tied.stored * 1e3) + " mJ: " + num(tied.most * 1e3) + " mJ drawn (one loop took " +
+                      num(-tied.least * 1e3) +
+                      " mJ; both halve with the length of a tick). With a metric 1.6 times off the "
+                      "springs' own up to " +
+                      num(off.most * 1e3) + " mJ are drawn.");
+    require(out, off.most > 1e-3, "a wrong metric should be detected");
     return out;
 }
 

@@ -47,7 +47,7 @@ Outcome settles(Ground ground, const LoopGrid& grid, const std::string& where) {
     return outcomeOf(worst, 0.9, "1",
                      where + " Fastest speed of the hand in a later window over an earlier one, worst of " +
                          num(uint64_t{runs}) + " loops (" + who + "); fastest left at the end " +
-                         num(residual * 1e3) + " mm/s. 1 would be an oscillation that stays.");
+                         num(residual * 1e3) + " mm/s. 1 would be a sustained oscillation.");
 }
 
 LoopGrid settlingGrid(RunLength runLength, size_t every) {
@@ -105,7 +105,7 @@ Outcome bounces(RunLength runLength) {
     });
     return outcomeOf(worst, 1.001, "1",
                      "A free device pushed by a spring of 50 N/m without damping: height of the bounces "
-                     "after 2.75 s over that before 1.5 s, worst of " +
+                     "after 2.75 s divided by that before 1.5 s, worst of " +
                          num(uint64_t{runs}) + " (0.05-1 kg, 0.1-2 N s/m, 0-3 ticks).");
 }
 
@@ -146,9 +146,8 @@ Outcome encoders(RunLength runLength) {
                             "Encoder steps of 1 um to 0.1 mm: peak-to-peak motion of the hand, in encoder "
                             "steps, when it should be at rest; worst of " +
                                 num(uint64_t{runs}) + " loops (" + who +
-                                "). Information theory forbids 0: without friction nothing tells the loop "
-                                "where inside a step the hand is; it may roam one "
-                                "step to either side of a border.");
+                                "). 0 is impossible: without friction the loop cannot know where inside a "
+                                "step the hand is; it may move one step to either side of a border.");
     out.curves.push_back(std::move(curve));
     return out;
 }
@@ -169,7 +168,7 @@ Outcome lowPass(RunLength runLength) {
     }
     return outcomeOf(worst, 0.9, "1",
                      "Low-pass of 30, 100 and 300 Hz in the chain, with and without a tick of delay: late "
-                     "over early speed, worst of " +
+                     "speed divided by early speed, worst of " +
                          num(uint64_t{runs}) + " loops.");
 }
 
