@@ -150,7 +150,7 @@ void OperatorRun::followPilot() {
     display_.view.rewind();
     editor_.keep(console.settings(), name);
     live_.restart(editor_.shapes(), stays ? &last : nullptr);
-    console.notify(name + " flies now: arm the forces");
+    console.notify(name + " is the pilot now: switch forces on");
 }
 
 // Window and frame thread each detect a lost device; only the window knows when it no longer draws on it.

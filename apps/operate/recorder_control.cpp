@@ -22,7 +22,7 @@ void RecorderControl::start(Console& console, FixtureEditor& editor) {
         recorder_.start(folder, editor.text(), session_.camera->info(), recordedScene(editor));
         folder_ = folder.string();
         console.notify("recording to " + folder_ +
-                       (left.empty() ? "" : ", without " + left + ": beyond the scene file's folder"));
+                       (left.empty() ? "" : ", without " + left + ": outside the scene file's folder"));
     } catch (const std::exception& e) {
         console.recording = false;
         console.notify(e.what());

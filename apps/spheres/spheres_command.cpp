@@ -182,7 +182,7 @@ void convert(const SpheresOptions& options) {
                        "a mesh; of the options only --scale applies to spheres");
     }
     if (covers && options.file.scale) {
-        throw BadInput(options.mesh.string(), "--scale", "given with a URDF", "its own unit, metres");
+        throw BadInput(options.mesh.string(), "--scale", "given with a URDF", "none: a URDF is in metres");
     }
     holdsLinks(options.out) ? convertSets(options) : convertTree(options);
 }

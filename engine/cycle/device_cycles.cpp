@@ -51,7 +51,7 @@ void DeviceCycles::renew() {
         device_ = openDevice();
         if (device_->facts().name != facts_.name) {
             throw DeviceLost(facts_.name + " is not there; " + device_->facts().name +
-                             " would need another plan");
+                             " would need a different plan");
         }
         auto frames = openFrames();
         const std::lock_guard lock(mutex_);

@@ -79,7 +79,8 @@ void FrameCycle::forget() {
 
 void FrameCycle::setScene(const Scene& scene) {
     if (cloud::classRows(scene) != cloud::classRows(scene_)) {
-        throw Error("a scene in force keeps its classes of points: only their gates, radii and roles change");
+        throw Error(
+            "an active scene keeps its classes of points: only their gates, radii and roles may change");
     }
     scene_ = scene;
     updateParams();

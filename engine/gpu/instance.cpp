@@ -81,7 +81,7 @@ VkDebugUtilsMessengerCreateInfoEXT messengerInfo() {
 Instance::Instance(Validation validation, std::span<const char* const> extensions)
     : validation_(validation) {
     if (validation.enabled && !layerPresent()) {
-        throw Error("the validation layer was asked for and is not installed (vulkan-validationlayers)");
+        throw Error("the requested validation layer is not installed (package vulkan-validationlayers)");
     }
     VkApplicationInfo app{VK_STRUCTURE_TYPE_APPLICATION_INFO};
     app.pApplicationName = "fathom";

@@ -13,7 +13,7 @@ namespace fathom {
 struct ArmEnds {
     std::shared_ptr<const urdf::Link> base, tip;
     std::string baseWhy, tipWhy;    // "named by the scene", "the root", ...
-    std::vector<std::string> notes; // doubts
+    std::vector<std::string> notes; // doubtful choices, for a warning
 };
 
 // base, tip: names of links; empty = chosen. The base is the root, or the link below the last planar or

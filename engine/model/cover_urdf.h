@@ -13,7 +13,7 @@ namespace fathom {
 // The spheres that cover the shapes of a URDF.
 struct UrdfCover {
     std::vector<LinkSpheres> links; // with spheres, in the order of names
-    std::vector<std::string> notes; // doubts, one line each
+    std::vector<std::string> notes; // warnings, one line each
 };
 
 // meshes: root of package:// paths; empty = the URDF's folder and its parents. leaves: for each box, cylinder

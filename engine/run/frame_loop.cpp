@@ -55,7 +55,7 @@ std::optional<uint32_t> FrameLoop::fetch(const std::atomic<bool>& stop) {
                 publishUpdate();
             }
             if (feed_.lost()) {
-                log::warn("GPU is gone, too: it is looked for");
+                log::warn("GPU is gone, too: reopening it");
                 renew(stop);
             }
             clock_.sleepUntil(clock_.now() + pause, stop);
@@ -102,7 +102,7 @@ void FrameLoop::publishOrRenew(double t, const std::atomic<bool>& stop) {
         if (!feed_.renewable()) {
             throw;
         }
-        log::warn("GPU is gone ({}): the scene ages, forces fade; it is looked for", e.what());
+        log::warn("GPU is gone ({}): the scene ages, forces fade; reopening it", e.what());
     }
     renew(stop);
 }

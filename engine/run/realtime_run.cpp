@@ -75,7 +75,7 @@ public:
         if (broken && !broken_ && row.record.t >= quietUntil_) {
             const bool fromHand = !isFinite(row.hand.deviceThandle);
             log::warn("at {:.2f} s {} not finite: no force in such ticks", row.record.t,
-                      fromHand ? "the hand's sample is" : "some number of the tick is");
+                      fromHand ? "the hand's sample is" : "a number of the tick is");
             quietUntil_ = row.record.t + kQuiet;
         }
         broken_ = broken;

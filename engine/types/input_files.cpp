@@ -47,7 +47,7 @@ bool isInput(const std::filesystem::path& file) {
 
 void refuseInput(const std::filesystem::path& file) {
     if (isInput(file)) {
-        throw BadInput(file.string(), "output", "the input itself", "another file than those that are read");
+        throw BadInput(file.string(), "output", "the input itself", "a file that the program does not read");
     }
 }
 
