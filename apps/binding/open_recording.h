@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Opens a recording by what it is.
+// Opens a recording of any supported format.
 #pragma once
 
 #include "devices/camera.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Warns when a source cannot give a scene what it asks for.
+// Warns when a source lacks depth or colour that the scene needs.
 #pragma once
 
 #include "devices/camera.h"

@@ -34,7 +34,7 @@ public:
     uint64_t setScene(const Scene& scene);
     // While frozen, frames are captured and shown, but the active set stays the same for all fixtures.
     void freeze(bool frozen) { frozen_.store(frozen); }
-    // True while passes run on the device: whoever shares its queue waits.
+    // True while passes run on the device. Threads that share its queue wait.
     bool busy() const { return busy_.load(std::memory_order_acquire); }
 
 private:

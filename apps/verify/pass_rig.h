@@ -34,7 +34,7 @@ reference::CellImage cellsOf(gpu::Device& device, const FrameCycle& cycle);
 class PassRig {
 public:
     using Change = std::function<void(Plan&)>;
-    // change: what is altered of the plan before anything is built. readers 0: nothing may be leased while
+    // change: alters the plan before anything is built. readers 0: nothing may be leased while
     // a frame runs.
     PassRig(gpu::Device& device, Scene scene, const CameraInfo& camera, const Change& change = {},
             uint32_t readers = 1);
@@ -63,7 +63,7 @@ public:
     std::vector<reference::CellThinning> thinning() const;
     // A pixel, as published: of points seen now, or of those held for their pixels.
     std::vector<reference::RegionSphere> spheres(bool held = false) const;
-    // The same from the device's slots: whole with Plan::tree, else radii beside points; not there with
+    // The same from the device's slots: whole spheres with Plan::tree, else radii and points; none with
     // Plan::pack alone. Classes are -1 with pack.
     std::vector<reference::RegionSphere> slotSpheres(bool held = false) const;
     std::vector<std::vector<reference::Bound>> tree() const; // needs Plan::tree

@@ -30,11 +30,10 @@ public:
 
     // Leaf centres are about set.origin [m], one per leaf of the tool. Finds for each leaf, among listed
     // pairs with gap <= rowLimit, the nearest and the nearest in each further cone of normals: rows().
-    // Remembers all pairs with gap
-    // <= checkLimit for check(); checkLimit <= rowLimit. anew: false when the set is identical to that of the
-    // last call. Then the pairs found before are searched instead of the whole set, until a leaf has moved so
-    // far that a pair within checkLimit could be missing. (Rows with a gap above rowLimit minus that motion
-    // may be missing.)
+    // Remembers all pairs with gap <= checkLimit for check(); checkLimit <= rowLimit. anew: false if the set
+    // is identical to that of the last call. Then the pairs found before are searched instead of the whole
+    // set, until a leaf has moved so far that a pair within checkLimit could be missing. (Rows with a gap
+    // above rowLimit minus that motion may be missing.)
     void gather(const ContactSet& set, const LeafCentres& leaves, const dvec3& toolCentre, double rowLimit,
                 double checkLimit, bool anew) noexcept;
 

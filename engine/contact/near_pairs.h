@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The deciding step of every contact query. A query may list too many pairs of region sphere and leaf, but
 // never too few; float64 arithmetic on the host decides which of them are in the contact set, and in which
-// order. So contact sets do not depend on who listed the pairs.
+// order. So contact sets do not depend on which device listed the pairs.
 #pragma once
 
 #include "engine/contact/contact_set.h"

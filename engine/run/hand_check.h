@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether a sample of a live hand can be believed.
+// Rejects samples of a live hand that no hand can make.
 #pragma once
 
 #include "engine/cycle/step_record.h"
@@ -8,11 +8,11 @@
 
 namespace fathom {
 
-// A hand does not move faster than kFastest. A sample that says so is either an outlier or the truth after a
-// gap: it is doubted, for at most kDoubt, while hand and tool stay and the force may only fall. Once the
-// samples agree with each other for that time they are believed, and the hand is re-indexed there. So one
-// wrong sample moves nothing, and a lasting offset is accepted. Samples that contradict each other for
-// longer, or lie beyond kFarthest, mean that the device is gone. Haptic thread; noexcept.
+// A hand does not move faster than kFastest. A faster sample is either an outlier or correct after a gap. It
+// is doubted for at most kDoubt: hand and tool stay, and the force may only fall. If the samples agree with
+// each other for that time, they are accepted and the hand is re-indexed there. So a single wrong sample
+// moves nothing, and a lasting offset is accepted. If samples contradict each other for longer, or are beyond
+// kFarthest, the device counts as gone. Haptic thread; noexcept.
 class HandCheck {
 public:
     // Sets StepInput::doubtful and reindex for the pose in `input`. A device that is away, or a pose that is

@@ -57,7 +57,7 @@ std::array<double, 3> fitRadial(const FlatPort& port, double scale, double most,
     return {m[0][3] / m[0][0], m[1][3] / m[1][1], m[2][3] / m[2][2]};
 }
 
-// What stereo along x tells for a true z: the inverse of how far the point's slope moves a unit of x.
+// z that stereo along x measures for a true z: the inverse of the change of the ray's slope per unit of x.
 double toldZ(const FlatPort& port, double air, double cosine2, double z) {
     const double beyond = z - port.distance;
     const double along = port.distance + beyond * waterSlopeRate(port, air);

@@ -24,19 +24,20 @@ double waterSlope(const FlatPort& port, double air) noexcept;
 struct WaterLens {
     Intrinsics lens; // rays in water, from the centre of projection, nearest to the true ones
     std::vector<float>
-        factor;         // per pixel: true z = distance + factor x (told z - distance), for stereo along x
+        factor;         // per pixel: true z = distance + factor x (measured z - distance), for stereo along x
     double worst = 0.0; // [m] largest error that is left, sideways and in depth together
 };
 
-// A ray in water does not pass through the lens's centre: one slope per pixel is exact at one z only (taken
-// so that near and far are off alike). Stereo tells z by the angle between two rays: it is too near by about
-// the index, and by more off the axis. The lens has its own distortion removed first. Throws Error for a lens
-// that sees flatter rays than the fit holds (a field of view of more than 120 degrees in air).
+// A ray in water does not pass through the lens's centre, so one slope per pixel is exact at one z only. That
+// z is chosen so that nearZ and farZ have equal errors. Stereo measures z by the angle between two rays: the
+// result is too near by about the index, and by more off the axis. The lens's own distortion is removed
+// first. Throws Error for a field of view of more than 120 degrees in air, whose rays are too flat for the
+// fit.
 WaterLens inWater(const Intrinsics& air, const FlatPort& port, double nearZ, double farZ);
 
 // Adapts a camera that was calibrated in air. For stereo and structured light along the image rows; not for
-// time of flight. Depth keeps its unit (65535 units are the farthest). A lens's own distortion is taken as in
-// air and straightened only in the model of the rays, so images must come without distortion. Immutable.
+// time of flight. Depth keeps its unit (65535 units are the farthest). A lens's own distortion is that in air
+// and is corrected only in the model of the rays, so images must have no distortion. Immutable.
 class PortCorrection {
 public:
     // Changes the lenses, sigma and inWater of `camera`: what the model leaves wrong between nearZ and farZ

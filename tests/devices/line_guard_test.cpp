@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What holds an arm whose engine was killed: when it writes, and that what it writes is understood wherever
-// the engine was cut off.
+// The watchdog of an arm whose engine was killed: when it writes, and that the arm understands it wherever
+// the engine's last message was cut off.
 #include "devices/serial/line_guard.h"
 #include "devices/simulated/arm_simulator.h"
 
@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kPeriod = 0.05;
 
-// How often the guard tells the arm from..to [s], looked at every millisecond.
+// Number of writes of the guard in from..to [s], checked every millisecond.
 int tells(LineGuard& guard, double from, double to) {
     int count = 0;
     for (int ms = static_cast<int>(from * 1e3); ms < static_cast<int>(to * 1e3); ++ms) {

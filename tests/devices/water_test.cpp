@@ -35,7 +35,7 @@ glm::dvec2 seen(const FlatPort& port, const dvec3& p, double eye) {
     return across > 0.0 ? sideways * (slopeInAir(port, across, p.z) / across) : glm::dvec2(0.0);
 }
 
-// z that stereo tells: baseline over difference of slopes, the eyes left and right of the camera.
+// z that stereo measures: baseline over difference of slopes, with the eyes left and right of the camera.
 double told(const FlatPort& port, const dvec3& p) {
     return kBaseline / (seen(port, p, -0.5 * kBaseline).x - seen(port, p, 0.5 * kBaseline).x);
 }

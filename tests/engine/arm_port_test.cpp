@@ -128,7 +128,7 @@ TEST_CASE("The tool starts where the arm was measured, leads it to the wall and 
     CHECK(run.step.state == State::Contact);
     CHECK(run.q == doctest::Approx(0.25).epsilon(0.005)); // the ball rests at z = 0.55 m
     CHECK(run.step.wrench.force[2] < -5.0);
-    // A fault: no force, and the arm is told to stand still.
+    // A fault: no force, and the arm is commanded to stop.
     CHECK(run.until(z, true, false, [&] { return run.step.wrench.force[2] == 0.0; }));
     CHECK((run.step.warnings & ArmStill) != 0);
     CHECK(run.setpoint.hold);

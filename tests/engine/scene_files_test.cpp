@@ -101,7 +101,7 @@ haptics: { device: ideal, stiffness: 1000 }
     Regions regions;
     REQUIRE(eventually([&] { return observer.regions(regions); }));
     REQUIRE(!regions.spheres.empty());
-    // On the axis stereo tells 0.6 m where the water has 0.02 + 1.33 x 0.58 m.
+    // On the axis stereo measures 0.6 m for a true distance of 0.02 + 1.33 x 0.58 m.
     const RegionSphere* middle = &regions.spheres[0];
     for (const RegionSphere& sphere : regions.spheres) {
         middle =
