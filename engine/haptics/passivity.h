@@ -56,8 +56,8 @@ public:
     // Observes the interval that ends now and returns the damping wrench to add: -alpha v and -alpha k^2 w
     // with alpha = debt / (T (v.v + k^2 w.w)), where what appeared is divided by `repay` instead of T, capped
     // (kMostDamping, kMostImpulse); more while the springs push the hand out (release()); zero below kSlow,
-    // kSlowTurn. Without an active row it is at most kFreeDamper and ends after kFreeTime: what is not repaid
-    // by then is given up.
+    // kSlowTurn. Without an active row it is at most kFreeDamper and ends after kFreeTime; energy that
+    // remains then is not removed.
     Wrench step(const PassivityStep& tick) noexcept;
     // The wrench sent to the device from now on: the springs' part and the part that step() added.
     void delivered(const Wrench& contact, const Wrench& damper) noexcept;
