@@ -102,6 +102,7 @@ Wrench WrenchStage::passivityWrench(const WrenchInput& input, const Wrench& cont
     PassivityStep tick;
     tick.device = input.device;
     tick.end = input.end;
+    tick.baseRhandle = input.baseRhandle;
     tick.contact = onActuatedAxes(input, contact);
     tick.share = ramps_.gain();
     tick.springs = input.springs;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/haptics/passivity.h"
 
+#include "engine/haptics/limits.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -39,6 +41,7 @@ PassivityOptions makePassivity(const DevicePreset& preset, const Springs& spring
                                                          : springs.rotationalStiffness * coupling.period *
                                                                (1.0 + 2.0 * coupling.delayTicks) / 2.0;
     options.metricRadius = springs.metricRadius;
+    options.actuated = preset.actuated;
     return options;
 }
 
@@ -73,6 +76,12 @@ void PassivityController::giveUpWithoutRows(const PassivityStep& tick) noexcept 
     }
 }
 
+// The part of a motion along actuated axes: `force` its translation, `torque` its rotation.
+Wrench PassivityController::actuated(const PassivityStep& tick, const dvec3& moved,
+                                     const dvec3& turned) const noexcept {
+    return projectOnAxes({moved, turned}, tick.baseRhandle, options_.actuated).delivered;
+}
+
 void PassivityController::observe(const PassivityStep& tick) noexcept {
     const dvec3 endMoved = tick.end.position - end_.position, endTurned = turnBetween(end_, tick.end);
     moved_ = tick.device.position - device_.position;
@@ -81,9 +90,11 @@ void PassivityController::observe(const PassivityStep& tick) noexcept {
     const Applied& held = applied_[writes_ % (options_.delayTicks + 1)];
     const double damped = -workOf(held.damper, moved_, turned_);
     const double stored = storedIn(tick);
-    const double credit = (options_.damping * glm::dot(endMoved, endMoved) +
-                           options_.rotationalDamping * glm::dot(endTurned, endTurned)) /
-                          tick.period;
+    const auto [way, turn] =
+        actuated(tick, endMoved, endTurned); // a wrist without a motor dissipates nothing
+    const double credit =
+        (options_.damping * glm::dot(way, way) + options_.rotationalDamping * glm::dot(turn, turn)) /
+        tick.period;
     const double spring = workOf(held.contact, endMoved, endTurned) + stored - stored_ - credit;
     generated_ += std::max(0.0, spring);
     taken_ += damped;
@@ -97,10 +108,10 @@ void PassivityController::observe(const PassivityStep& tick) noexcept {
         recent_ += c;
     }
     debt_ = std::max(debt_ + spring - damped, -recent_);
-    const double kept = debt_ > 0.0 ? std::exp(-tick.period / kForget) : 1.0;
-    debt_ *= kept;
-    slow_ =
-        std::clamp(kept * (slow_ + (tick.appears ? std::max(0.0, spring) : 0.0)), 0.0, std::max(0.0, debt_));
+    const double excess = std::max(0.0, debt_ - stored), kept = std::exp(-tick.period / kForget);
+    debt_ -= (1.0 - kept) * excess;
+    slow_ = std::clamp((excess > 0.0 ? kept : 1.0) * (slow_ + (tick.appears ? std::max(0.0, spring) : 0.0)),
+                       0.0, std::max(0.0, debt_));
 }
 
 // What a hand that moves out gets back from the springs is dissipated in proportion [W], so that the debt is
@@ -121,7 +132,7 @@ Wrench PassivityController::control(const PassivityStep& tick) const noexcept {
     if (!(owed > 0.0)) {
         return {};
     }
-    dvec3 v = moved_ / tick.period, w = turned_ / tick.period;
+    auto [v, w] = actuated(tick, moved_ / tick.period, turned_ / tick.period);
     v = glm::length(v) < kSlow ? dvec3(0.0) : v;
     w = glm::length(w) < kSlowTurn ? dvec3(0.0) : w;
     const double kk = options_.metricRadius * options_.metricRadius;

@@ -26,6 +26,7 @@ struct PassivityOptions {
     double rotationalDamping = 0.0; // b_r [N m s/rad]
     double metricRadius = 0.1;      // k [m]: weight of rotation against translation, as in the springs
     uint32_t delayTicks = 0;        // whole ticks from a wrench to the hand, 0..64
+    AxisMask actuated{true, true, true, true, true, true}; // only these are credited with b, and damped
 };
 
 // b from the preset. If b is unknown, the value at which the preset's stiffness is just passive at 1 kHz,
@@ -35,11 +36,12 @@ PassivityOptions makePassivity(const DevicePreset& preset, const Springs& spring
 
 // Input of the observer for one tick, after the proxy has moved.
 struct PassivityStep {
-    Pose device;          // base_T_tool that the hand commands
-    Pose end;             // hand's end of the spring: device pose plus the guidance lead
-    Wrench contact;       // reaction of the regions, unscaled, on actuated axes
-    bool rows = true;     // some row is active, or the reaction still fades
-    bool appears = false; // the reaction grew without the hand: new data moved a surface
+    Pose device;                           // base_T_tool that the hand commands
+    Pose end;                              // hand's end of the spring: device pose plus the guidance lead
+    dquat baseRhandle{1.0, 0.0, 0.0, 0.0}; // frame of the actuated axes
+    Wrench contact;                        // reaction of the regions, unscaled, on actuated axes
+    bool rows = true;                      // some row is active, or the reaction still fades
+    bool appears = false;                  // the reaction grew without the hand: new data moved a surface
     double repay = 0.033; // [s] in which the energy of such growth is dissipated: the time between frames
     double forceLimit = 20.0, torqueLimit = 2.0; // [N], [N m] in force: a spring beyond them stores less
     double share = 1.0;                          // of the wrench that the fades pass; 0 resets the observer
@@ -79,12 +81,12 @@ public:
     static constexpr double kMostImpulse = 0.02;
     // The same for a hand that moves out. It only weakens the springs' push, so it can be larger. Debts below
     // this share of the stored energy, as of noise from frame to frame, are left to `repay`.
-    static constexpr double kMostRelease = 0.08, kLeastShare = 0.25;
+    static constexpr double kMostRelease = 0.1, kLeastShare = 0.25;
     static constexpr double kFreeDamper = 0.99; // [N] largest damping force without an active row
     static constexpr double kFreeTime = 0.09;   // [s] longest time of it
     static constexpr double kTolerance = 1e-6;  // [J] smaller debts are rounding of the solver
-    static constexpr double kForget =
-        2.0; // [s] time constant to forget a debt that damping could not dissipate
+    // [s] time constant to forget a debt beyond the energy that the springs hold: it cannot come back.
+    static constexpr double kForget = 0.5;
     static constexpr size_t kWindow = 30; // ticks whose dissipation can offset later generation
 
 private:
@@ -95,6 +97,7 @@ private:
 
     double storedIn(const PassivityStep& tick) const noexcept;
     void observe(const PassivityStep& tick) noexcept;
+    Wrench actuated(const PassivityStep& tick, const dvec3& moved, const dvec3& turned) const noexcept;
     void giveUpWithoutRows(const PassivityStep& tick) noexcept;
     double release(const PassivityStep& tick, const dvec3& v, const dvec3& w, double owed) const noexcept;
     Wrench control(const PassivityStep& tick) const noexcept;

@@ -28,6 +28,20 @@ Pose slidingHand(double t, double speed) {
     return at(-0.12 + speed * (t - kStart * (1.0 - std::exp(-t / kStart))), 0.0, 0.006);
 }
 
+// A bar of 50 mm across the roll axis, which lies along the wall.
+HapticRig barRig(const char* device) {
+    std::vector<Sphere> leaves;
+    for (int i = 0; i <= 10; ++i) {
+        leaves.push_back({{0.0, 0.005 * i, 0.0}, 0.01});
+    }
+    HapticRig rig(handScene(device), {{0.0, 0.0, 0.012}, rotationExp({0.0, 0.5 * M_PI, 0.0})},
+                  Tool(buildSphereTree(leaves)));
+    rig.show(wallSet());
+    rig.age = false;
+    rig.ticks(300);
+    return rig;
+}
+
 } // namespace
 
 TEST_CASE("With answers up to 20 ms late a hand of 0.5 m/s never waits, and feels what it would feel without "
@@ -98,6 +112,31 @@ TEST_CASE("A hand that is thrown at regions never leaves faster than it came, ho
                 CHECK((fastest > 0.3 * speed || mass * speed < 0.02)); // thrown back, unless damping stops it
             }
         }
+    }
+}
+
+TEST_CASE(
+    "A wrist turned in contact costs nothing on a device without that torque, and gives at most 1 mJ back") {
+    for (const char* device : {"touch", "w5d"}) {
+        CAPTURE(device);
+        HapticRig rig = barRig(device);
+        const dquat start = rig.hand.rotation;
+        for (int i = 1; i <= 500; ++i) { // the hand stays where it is, so it gives no energy
+            rig.hand.rotation = rotationExp({-0.001 * i, 0.0, 0.0}) * start;
+            rig.step();
+        }
+        const double pressed = forceOf(rig.ticks(100));
+        CHECK(pressed > 2.0);
+        constexpr double kMass = 0.4; // [kg] let go
+        double v = 0.0, most = 0.0;
+        for (int i = 0; i < 1500; ++i) {
+            v += rig.step().wrench.force.z * 0.001 / kMass;
+            rig.hand.position.z += v * 0.001;
+            most = std::max(most, 0.5 * kMass * v * v);
+            REQUIRE(rig.gap() >= 0.0);
+        }
+        CHECK(rig.hand.position.z > 0.02); // it came out
+        CHECK(most <= 1e-3);
     }
 }
 
