@@ -7,6 +7,7 @@
 #include "apps/global_options.h"
 #include "apps/guard/arm_watchdog_command.h"
 #include "apps/guard/guard_command.h"
+#include "apps/inspect/inspect_command.h"
 #include "apps/latency/latency_command.h"
 #include "apps/operate/operate_command.h"
 #include "apps/operate/window_latency.h"
@@ -78,6 +79,7 @@ int run(int argc, char** argv) {
     app.parse_complete_callback(
         [&global] { spdlog::set_level(global.verbose ? spdlog::level::debug : spdlog::level::warn); });
     fathom::addPlanCommand(app, global);
+    fathom::addInspectCommand(app);
     fathom::addRegisterCommand(app, global);
     fathom::addGuardCommand(app);
     fathom::addArmWatchdogCommand(app);

@@ -57,7 +57,17 @@ bool isRos2Folder(const std::filesystem::path& folder) {
            !std::filesystem::exists(folder / "intrinsics.json");
 }
 
+bool isMessages(const std::filesystem::path& file) {
+    std::error_code failed;
+    return std::filesystem::is_directory(file, failed) ? isRos2Folder(file) : kindOf(file) == Kind::Messages;
+}
+
 } // namespace
+
+std::unique_ptr<MessageFile> openMessages(const std::string& source) {
+    const std::string file = parseSource(source).file;
+    return isMessages(file) ? openMessageFile(file) : nullptr;
+}
 
 std::unique_ptr<Camera> openRecording(const SourceRequest& request) {
     const std::filesystem::path file = request.file;

@@ -53,37 +53,25 @@ std::unique_ptr<Camera> openLive(CameraRequest request, Images images) {
 }
 
 // Says once which streams a recording is played from.
-void sayStreams(const Camera& camera, const std::string& file) {
+std::unique_ptr<Camera> openAndSay(const std::string& source, Images images, double farthest) {
     static std::set<std::string> said; // one thread opens cameras
-    if (const std::string streams = camera.streams(); !streams.empty() && said.insert(file).second) {
-        std::fprintf(stderr, "fathom: %s: %s\n", file.c_str(), streams.c_str());
+    std::unique_ptr<Camera> camera = openSource(source, images, farthest);
+    if (const std::string streams = camera->streams(); !streams.empty() && said.insert(source).second) {
+        std::fprintf(stderr, "fathom: %s: %s\n", parseSource(source).file.c_str(), streams.c_str());
     }
-}
-
-std::unique_ptr<Camera> openNamed(const std::string& source, Images images, double farthest) {
-    if (isCameraRequest(source)) {
-        return openLive(parseCameraRequest(source), images);
-    }
-    if (isOpenNi2Request(source)) {
-        return openOpenNi2(source);
-    }
-    SourceRequest request = parseSource(source);
-    request.options.farthest = farthest;
-    std::unique_ptr<Camera> camera = openRecording(request);
-    sayStreams(*camera, request.file);
     return camera;
 }
 
 std::unique_ptr<Camera> openDry(const Scene& scene, const std::optional<std::filesystem::path>& source,
                                 Images images) {
     if (source) {
-        return openNamed(source->string(), images, scene.farZ);
+        return openAndSay(source->string(), images, scene.farZ);
     }
     switch (scene.source.kind) {
     case CameraSource::Kind::Simulated:
         return openSimulated(scene);
     case CameraSource::Kind::Recorded:
-        return openNamed(scene.source.value, images, scene.farZ);
+        return openAndSay(scene.source.value, images, scene.farZ);
     case CameraSource::Kind::V4l2:
         break;
     }
@@ -99,6 +87,18 @@ std::unique_ptr<Camera> openDry(const Scene& scene, const std::optional<std::fil
 }
 
 } // namespace
+
+std::unique_ptr<Camera> openSource(const std::string& source, Images images, double farthest) {
+    if (isCameraRequest(source)) {
+        return openLive(parseCameraRequest(source), images);
+    }
+    if (isOpenNi2Request(source)) {
+        return openOpenNi2(source);
+    }
+    SourceRequest request = parseSource(source);
+    request.options.farthest = farthest;
+    return openRecording(request);
+}
 
 std::unique_ptr<Camera> openCamera(const Scene& scene, const std::optional<std::filesystem::path>& source,
                                    Images images) {

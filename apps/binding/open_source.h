@@ -6,6 +6,7 @@
 #include "engine/run/open_scene.h"
 
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -19,6 +20,11 @@ inline constexpr const char* kSourceHelp =
 
 // For a live camera: the newest frame at each call, or every frame in order (for recordings).
 enum class Images { Newest, Every };
+
+// A recording or a live camera ("v4l2:..."), as --source names it. farthest [m]: beyond, readings do not
+// matter. Throws BadInput.
+std::unique_ptr<Camera> openSource(const std::string& source, Images images,
+                                   double farthest = std::numeric_limits<double>::infinity());
 
 // The scene's camera, or `source` when given: a recording, or a live camera ("v4l2:..."). Throws BadInput.
 std::unique_ptr<Camera> openCamera(const Scene& scene, const std::optional<std::filesystem::path>& source,

@@ -31,6 +31,7 @@ public:
     std::string description() const override { return "bag " + file_->file().string(); }
     std::string streams() const override { return choice_.said; }
     std::string whyNoColour() const override;
+    const StreamChoice& choice() const { return choice_; }
 
 private:
     using Image = ros::Image;

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/inspect/inspect_command.h"
+
+#include "apps/binding/open_recording.h"
+#include "apps/binding/open_source.h"
+#include "apps/inspect/frame_study.h"
+#include "apps/inspect/stream_report.h"
+#include "devices/bag/bag_camera.h"
+#include "engine/scene/camera_limits.h"
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+
+namespace fathom {
+
+namespace {
+
+void describe(const Camera& camera, std::ostream& out) {
+    const CameraInfo& info = camera.info();
+    out << "depth     " << lensText(info.depth) << "; " << info.metresPerUnit << " m per unit\n";
+    if (info.hasColour) {
+        const dvec3 t = info.colourTdepth.position;
+        out << "colour    " << lensText(info.colour) << (info.yuyv ? "; YUYV" : "") << "; ";
+        if (info.registered) {
+            out << "registered to depth\n";
+        } else {
+            out << "by extrinsics, " << 1000.0 * glm::length(t) << " mm from depth\n";
+        }
+    }
+}
+
+// What to write behind --source to get the same streams again.
+std::string sourceLine(const std::string& source, const Camera& camera) {
+    const auto* bag = dynamic_cast<const BagCamera*>(&camera);
+    if (bag == nullptr || source.find(",depth=") != std::string::npos) {
+        return source;
+    }
+    const StreamChoice& choice = bag->choice();
+    return source + ",depth=" + choice.depth.name +
+           ",colour=" + (choice.colour ? choice.colour->name : "none");
+}
+
+void inspect(const std::string& source, const std::optional<std::filesystem::path>& folder) {
+    if (const auto file = openMessages(source)) { // shown although the source may be rejected
+        writeStreams(*file, parseSource(source).options.info, std::cout);
+        std::cout << std::flush;
+    }
+    const std::unique_ptr<Camera> camera = openSource(source, Images::Newest);
+    checkCamera(camera->info(), camera->description());
+    std::cout << "source    " << source << "\n";
+    std::cout << "taken     " << (camera->streams().empty() ? camera->description() : camera->streams())
+              << "\n";
+    describe(*camera, std::cout);
+    FrameStudy(*camera, folder).write(std::cout);
+    for (const std::string& warning : camera->warnings()) {
+        std::cout << "warning   " << warning << "\n";
+    }
+    std::cout << "use       --source '" << sourceLine(source, *camera) << "'\n";
+    if (folder) {
+        std::cout << "written   " << folder->string() << "\n";
+    }
+}
+
+} // namespace
+
+void addInspectCommand(CLI::App& app) {
+    CLI::App* command =
+        app.add_subcommand("inspect", "say what a recording or camera holds, and what is taken of it");
+    const auto source = std::make_shared<std::string>();
+    const auto out = std::make_shared<std::string>();
+    command->add_option("source", *source, "a recording or a live camera, as for --source")->required();
+    command->add_option("--out", *out, "folder for the first frame as depth.png and colour.png");
+    command->callback([source, out] {
+        inspect(*source, out->empty() ? std::nullopt : std::optional<std::filesystem::path>(*out));
+    });
+}
+
+} // namespace fathom

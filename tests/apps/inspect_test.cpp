@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+// `fathom inspect`: what is printed of streams, lenses, times, depth and colour.
+#include "apps/inspect/frame_study.h"
+#include "apps/inspect/stream_report.h"
+#include "engine/types/error.h"
+#include "tests/apps/scratch_folder.h"
+#include "tests/devices/bag_maker.h"
+
+#include <deque>
+#include <doctest/doctest.h>
+#include <fstream>
+#include <sstream>
+
+using namespace fathom;
+
+namespace {
+
+bool reports(const std::string& text, const std::string& part) {
+    CAPTURE(text);
+    CAPTURE(part);
+    CHECK(text.find(part) != std::string::npos);
+    return text.find(part) != std::string::npos;
+}
+
+std::vector<MessageEntry> messagesAt(const std::vector<double>& seconds) {
+    std::vector<MessageEntry> messages;
+    for (const double t : seconds) {
+        messages.push_back({1'700'000'000'000'000'000u + static_cast<uint64_t>(t * 1e9), 0, 0});
+    }
+    return messages;
+}
+
+// Frames of one depth and one colour.
+class PlainCamera final : public Camera {
+public:
+    PlainCamera(uint32_t frames, uint16_t depth, uint32_t colour)
+        : frames_(frames)
+        , depth_(35, depth)
+        , colour_(35, colour) {
+        info_.depth = {7, 5, 10.0, 10.0, 3.0, 2.0, {}, false, LensModel::Polynomial, {}};
+        info_.colour = info_.depth;
+        depth_[0] = 0;
+    }
+    const CameraInfo& info() const override { return info_; }
+    std::optional<Frame> next() override {
+        if (next_ == frames_) {
+            return std::nullopt;
+        }
+        Frame::Content content;
+        content.index = next_;
+        content.captureTime = 100.0 + 0.1 * next_++;
+        content.depth = depth_;
+        content.colour = colour_;
+        return Frame(content, [] {});
+    }
+    uint32_t skipped() const override { return 2; }
+    std::string description() const override { return "plain"; }
+
+private:
+    CameraInfo info_;
+    uint32_t frames_, next_ = 0;
+    std::vector<uint16_t> depth_;
+    std::vector<uint32_t> colour_;
+};
+
+std::string reportOf(Camera& camera, const std::optional<std::filesystem::path>& folder = {}) {
+    std::ostringstream out;
+    FrameStudy(camera, folder).write(out);
+    return out.str();
+}
+
+} // namespace
+
+TEST_CASE("The rate of a stream is that of its intervals, and a gap is an interval over 1.5 medians") {
+    const Rate steady = Rate::of(messagesAt({0.0, 0.1, 0.2, 0.3}));
+    CHECK(steady.perSecond == doctest::Approx(10.0));
+    CHECK(steady.gaps == 0);
+    const Rate torn = Rate::of(messagesAt({0.0, 0.1, 0.2, 1.2, 1.3}));
+    CHECK(torn.gaps == 1);
+    CHECK(torn.longestGap == doctest::Approx(1.0));
+    CHECK(torn.at == doctest::Approx(0.2));
+    CHECK(Rate::of(messagesAt({})).perSecond == 0.0);
+    CHECK(Rate::of(messagesAt({5.0})).perSecond == 0.0);
+    CHECK(Rate::of(messagesAt({5.0, 5.0})).perSecond == 0.0); // two messages at one time
+}
+
+TEST_CASE("Streams of a bag are listed with type, count, encoding, size, frame and lens, also unread ones") {
+    test::BagMaker maker;
+    test::ImageMessage depth;
+    depth.pixels.assign(8 * 6 * 2, '\1');
+    for (int i = 0; i < 3; ++i) {
+        maker.add("/camera/depth/image_raw", "sensor_msgs/Image", 1.0 + 0.5 * i,
+                  test::imageMessage(1.0 + 0.5 * i, depth));
+        maker.add("/odd", "std_msgs/String", 1.0, test::Out().text("x").bytes);
+    }
+    const testing::ScratchFolder folder;
+    std::ofstream(folder.path() / "a.bag", std::ios::binary) << maker.bag();
+    std::ostringstream out;
+    writeStreams(*openMessageFile(folder.path() / "a.bag"), "", out);
+    reports(out.str(), "/camera/depth/image_raw");
+    reports(out.str(), "sensor_msgs/Image");
+    reports(out.str(), "2/s");
+    reports(out.str(), "8x6 16UC1, frame 'camera', lens: ");
+    reports(out.str(), "/odd");
+    CHECK(out.str().find("camera_info") != std::string::npos); // why there is no lens
+}
+
+TEST_CASE("The frames of a camera are counted, timed and measured, and its first frame is saved") {
+    const testing::ScratchFolder folder;
+    PlainCamera camera(11, 500, 0xff0000ff);
+    const std::string text = reportOf(camera, folder.path() / "pictures");
+    reports(text, "11 read; 2 skipped; 0 with the camera's pose");
+    reports(text, "from 100.000 s, 1.000 s long, 10.00 frames/s; longest gap 0.100 s");
+    reports(text, "97.1 % of the pixels measured; 0.500 m nearest, 0.500 m median, 0.500 m farthest");
+    reports(text, "100.0 % of the pixels have a saturation over 0.1");
+    CHECK(std::filesystem::file_size(folder.path() / "pictures/depth.png") > 0);
+    CHECK(std::filesystem::file_size(folder.path() / "pictures/colour.png") > 0);
+}
+
+TEST_CASE("A camera without a frame, without depth and without colour is described, too") {
+    PlainCamera none(0, 500, 0);
+    reports(reportOf(none), "0 read");
+    PlainCamera blind(1, 0, 0xff808080);
+    const std::string text = reportOf(blind);
+    reports(text, "0.0 % of the pixels measured\n");
+    reports(text, "0.0 % of the pixels have a saturation over 0.1");
+    PlainCamera more(FrameStudy::kMostFrames + 1, 65535, 0);
+    reports(reportOf(more), "300 read, the first ones");
+}
