@@ -2,6 +2,7 @@
 #include "engine/contact/narrow_phase.h"
 
 #include "engine/contact/pair_gaps.h"
+#include "engine/contact/smooth_plane.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,6 +19,7 @@ constexpr float kNowhere = 1e18f;     // [m] position of padding; its square is 
 // [m] Closer centres have no direction. Above this the difference of two centres is exact, and only a step
 // along it makes no pair deeper on its path.
 constexpr double kCoincident = 1e-150;
+constexpr uint64_t kSmoothKey = uint64_t{1} << 63; // set in keys of smooth rows only
 
 } // namespace
 
@@ -63,10 +65,11 @@ void NarrowPhase::PairList::endRun(uint32_t ofLeaf) noexcept {
     begin[runs] = count;
 }
 
-NarrowPhase::NarrowPhase(const Tool& tool, size_t maxRows, double cone)
+NarrowPhase::NarrowPhase(const Tool& tool, size_t maxRows, double cone, bool smooth)
     : maxRows_(maxRows)
     , cosCone_(std::cos(cone))
     , rows_(tool.leafCount() * kMostRowsOfLeaf)
+    , smooth_(smooth)
     , leaves_(tool.leafCount())
     , wideLeaves_(tool.leafCount())
     , lastNormal_(tool.leafCount(), dvec3(0.0))
@@ -86,7 +89,7 @@ void NarrowPhase::gather(const ContactSet& set, const LeafCentres& leaves, const
     farthest_ = leafDisplacements(set.leafAtQuery, leaves_, moved_);
     toolCentre_ = toolCentre;
     checkLimit_ = checkLimit;
-    rowCount_ = 0;
+    rowCount_ = smoothCount_ = 0;
     smallestGap_ = rowLimit;
     if (anew || !wideStillServes(rowLimit - checkLimit)) {
         findWide(set, rowLimit);
@@ -176,6 +179,25 @@ void NarrowPhase::gatherLeaf(const ContactSet& set, uint32_t leaf, const PairArr
                           [](const ContactRow& a, const ContactRow& b) { return a.gap < b.gap; });
     lastNormal_[leaf] = deepest.normal;
     smallestGap_ = std::min(smallestGap_, deepest.gap);
+    if (smooth_ && close_.complete && close_.runs > 0 && close_.leaf[close_.runs - 1] == leaf) {
+        addSmoothRow(deepest, radius_[leaf] + static_cast<double>(set.pairRadius[deepest.pair]));
+    }
+}
+
+// From the leaf's run of close pairs, the last one of close_. touch: R + r of the nearest pair [m].
+void NarrowPhase::addSmoothRow(const ContactRow& nearest, double touch) noexcept {
+    const double depth = std::min(patchDepth(touch), 0.5 * checkLimit_);
+    if (smoothCount_ == kMostSmooth || !(nearest.gap >= 0.0) || nearest.gap + depth > checkLimit_) {
+        return;
+    }
+    SmoothPlane plane;
+    if (smoothPlane(close_.of(close_.runs - 1), leaves_[nearest.leaf], radius_[nearest.leaf], nearest.gap,
+                    depth, chosen_, plane)) {
+        ContactRow& row = smoothRows_[smoothCount_++] = nearest;
+        row.normal = plane.normal;
+        row.gap = plane.gap;
+        row.key |= kSmoothKey;
+    }
 }
 
 // When a sphere's centre coincides with the leaf's, every direction leads out and rowOf() picked an arbitrary

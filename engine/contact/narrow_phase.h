@@ -8,6 +8,7 @@
 #include "engine/contact/leaf_centres.h"
 #include "engine/contact/pair_gaps.h"
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -25,8 +26,8 @@ public:
     static constexpr double kCone = 0.52359877559829887; // [rad] 30 degrees
 
     // Only the `maxRows` deepest rows are kept. cone [rad], 0..pi/2: smallest angle between the normals of a
-    // leaf's rows.
-    NarrowPhase(const Tool& tool, size_t maxRows, double cone = kCone);
+    // leaf's rows. smooth: also make smoothRows().
+    NarrowPhase(const Tool& tool, size_t maxRows, double cone = kCone, bool smooth = false);
 
     // Leaf centres are about set.origin [m], one per leaf of the tool. Finds for each leaf, among listed
     // pairs with gap <= rowLimit, the nearest and the nearest in each further cone of normals: rows().
@@ -38,6 +39,13 @@ public:
                 double checkLimit, bool anew) noexcept;
 
     std::span<const ContactRow> rows() const { return {rows_.data(), rowCount_}; }
+    // Planes over the spheres near the leaves that almost touch (smooth_plane.h), for at most kMostSmooth
+    // leaves. `gap` is at most that of the leaf's nearest pair and may be negative where that is not; `pair`
+    // is the nearest pair. Empty unless asked for at construction, or while a leaf overlaps a sphere.
+    std::span<const ContactRow> smoothRows() const {
+        return {smoothRows_.data(), smallestGap_ < 0.0 ? 0 : smoothCount_};
+    }
+    static constexpr size_t kMostSmooth = 16;
     // Distance of each leaf from its position at the query [m], at the last gather().
     std::span<const double> moved() const { return moved_; }
     double farthest() const { return farthest_; } // [m] largest of moved()
@@ -95,6 +103,7 @@ private:
     size_t choose(size_t count, double limit) noexcept;
     void chooseRows(const ContactSet& set, uint32_t leaf, const PairArrays& run, uint32_t firstPair,
                     const uint32_t* pairs, size_t firstRow, double limit) noexcept;
+    void addSmoothRow(const ContactRow& nearest, double touch) noexcept;
     void agreeOnNormal(const ContactSet& set, uint32_t leaf, size_t firstRow) noexcept;
     ContactRow rowOf(const ContactSet& set, uint32_t leaf, const dvec3& delta, double gap,
                      uint32_t pair) noexcept;
@@ -106,6 +115,9 @@ private:
     double cosCone_;
     std::vector<ContactRow> rows_;
     size_t rowCount_ = 0;
+    std::array<ContactRow, kMostSmooth> smoothRows_;
+    size_t smoothCount_ = 0;
+    bool smooth_;
     LeafCentres leaves_;            // at the last gather()
     LeafCentres wideLeaves_;        // at the search that filled wide_
     std::vector<dvec3> lastNormal_; // normal of each leaf's deepest row; zero = none yet

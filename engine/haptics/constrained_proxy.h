@@ -75,6 +75,7 @@ private:
 
     bool linearise(bool first, Step& out) noexcept;
     void collectRows(bool first, Step& out) noexcept;
+    void addSmoothRows() noexcept;
     void addShapeRows(Step& out) noexcept;
     void addEqualityRows(const Shape& shape, uint32_t index) noexcept;
     bool addRow(ContactRow row) noexcept { return kinematics_.addRow(row, contacts_.leaves, rows_); }

@@ -34,7 +34,19 @@ void ConstrainedProxy<Kinematics>::collectRows(bool first, Step& out) noexcept {
         row.offset = kinematics_.escapeOffset(-row.gap);
         addRow(row);
     }
+    if (!anyBehind) {
+        addSmoothRows();
+    }
     addShapeRows(out);
+}
+
+// A leaf inside of its plane, because that turned as the leaf slid, may stay: only spheres push a tool out.
+template <class Kinematics>
+void ConstrainedProxy<Kinematics>::addSmoothRows() noexcept {
+    for (ContactRow row : contacts_.smoothRows()) {
+        row.offset = std::min(0.0, -row.gap);
+        addRow(row);
+    }
 }
 
 template <class Kinematics>

@@ -20,7 +20,7 @@ LeafContacts::LeafContacts(const Tool& tool, std::span<const Shape> shapes, doub
     , shapes_(shapes.begin(), shapes.end())
     // Larger than the cap by rounding only: the check must include every pair that one step can reach.
     , checkLimit_(stepCap * (1.0 + 1e-6) + proxy::kSkin)
-    , narrow_(tool, proxy::kMostPairRows, reduction.cone)
+    , narrow_(tool, proxy::kMostPairRows, reduction.cone, reduction.smooth)
     , trust_(tool.leafCount())
     , exempt_(tool.leafCount(), dvec3(0.0))
     , clearance_(tool.leafCount(), 0.0)
@@ -68,6 +68,10 @@ void LeafContacts::flagBehind() noexcept {
 
 std::span<const ContactRow> LeafContacts::pairRows() const noexcept {
     return set_ != nullptr ? narrow_.rows() : std::span<const ContactRow>{};
+}
+
+std::span<const ContactRow> LeafContacts::smoothRows() const noexcept {
+    return set_ != nullptr ? narrow_.smoothRows() : std::span<const ContactRow>{};
 }
 
 bool LeafContacts::anyBehind() const noexcept {

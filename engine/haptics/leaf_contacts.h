@@ -38,6 +38,7 @@ public:
     // frame. anew: false when the set is the same as in the last call.
     void gather(const dvec3& centre, bool anew) noexcept;
     std::span<const ContactRow> pairRows() const noexcept;
+    std::span<const ContactRow> smoothRows() const noexcept;
     bool anyBehind() const noexcept;
     // The pair would hold a leaf behind its surface.
     bool holdsBehind(const ContactRow& row) const noexcept;

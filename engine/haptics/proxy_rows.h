@@ -24,6 +24,8 @@ struct RowReduction {
     // rows.
     uint32_t first = 0;
     bool checked = true;
+    // Leaves slide on smooth planes just outside of the spheres (smooth_plane.h), not over each sphere's top.
+    bool smooth = false;
 };
 
 // A row with a positive multiplier in the last solve.

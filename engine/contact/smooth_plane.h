@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// The plane that a leaf slides on where many region spheres form a surface. The spheres' union has cusps
+// between neighbours; a tool that slides over them feels a sawtooth of slope spacing / 2 (R + r). The plane
+// has the mean normal of the nearest spheres and lies outside of all of them.
+#pragma once
+
+#include "engine/contact/pair_gaps.h"
+
+#include <span>
+
+namespace fathom {
+
+struct SmoothPlane {
+    dvec3 normal{0.0}; // unit, out of the region
+    double gap = 0.0;  // [m] from the leaf; at most the nearest pair's gap
+};
+
+// Half width L of the patch of surface that one plane stands for, in units of R + r: 10 degrees of the
+// sphere.
+inline constexpr double kPatch = 0.18;
+// The plane curves like a sphere of radius (R + r) / kBend, so that the patch's border is never felt.
+inline constexpr double kBend = 0.01;
+
+// Plane for a leaf at `centre` whose nearest pair has this gap [m] >= 0. run: its pairs, complete up to gap +
+// patchDepth(). `scratch` limits the spheres of a patch. False where there is no plane outside of the nearest
+// sphere: at an edge, or for too many spheres; the spheres' own rows then suffice. Identical bits everywhere.
+bool smoothPlane(const PairArrays& run, const dvec3& centre, double leafRadius, double nearest, double depth,
+                 std::span<uint32_t> scratch, SmoothPlane& plane) noexcept;
+
+// [m] how much farther than the nearest the spheres of a patch may be; reach = R + r of the nearest.
+constexpr double patchDepth(double reach) noexcept {
+    return 0.5 * kPatch * kPatch * reach;
+}
+
+} // namespace fathom

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// The plane over neighbouring spheres: outside of all of them, smooth where the spheres' union has cusps.
+#include "engine/contact/smooth_plane.h"
+
+#include "tests/contact/clouds.h"
+
+#include <doctest/doctest.h>
+
+using namespace fathom;
+using namespace fathom::testing;
+
+namespace {
+
+constexpr double kLeaf = 0.01, kBall = 0.04, kTouch = kLeaf + kBall; // [m]
+
+struct Patch {
+    RegionSpheres spheres;
+    std::vector<uint32_t> scratch = std::vector<uint32_t>(2048);
+
+    void add(const dvec3& centre) {
+        spheres.x.push_back(static_cast<float>(centre.x));
+        spheres.y.push_back(static_cast<float>(centre.y));
+        spheres.z.push_back(static_cast<float>(centre.z));
+        spheres.radius.push_back(static_cast<float>(kBall));
+    }
+    PairArrays run() const {
+        return {spheres.x.data(), spheres.y.data(), spheres.z.data(), spheres.radius.data(),
+                spheres.x.size()};
+    }
+    double nearest(const dvec3& leaf) const {
+        double least = HUGE_VAL;
+        for (size_t k = 0; k < spheres.x.size(); ++k) {
+            least = std::min(least, gapOf(run(), k, leaf, kLeaf));
+        }
+        return least;
+    }
+    bool plane(const dvec3& leaf, SmoothPlane& out) {
+        return smoothPlane(run(), leaf, kLeaf, std::max(0.0, nearest(leaf)), patchDepth(kTouch), scratch,
+                           out);
+    }
+};
+
+Patch wallOf(double spacing, double noise) {
+    Patch patch;
+    std::mt19937_64 random(5);
+    std::normal_distribution<double> n(0.0, 1.0);
+    for (int i = -20; i <= 20; ++i) {
+        for (int j = -20; j <= 20; ++j) {
+            patch.add({spacing * i, spacing * j, -kBall + noise * n(random)});
+        }
+    }
+    return patch;
+}
+
+} // namespace
+
+TEST_CASE(
+    "Over a lattice of spheres the plane is flat to 0.002 of slope, where the spheres' own slope is 0.04") {
+    for (const double spacing : {0.001, 0.002, 0.0042}) {
+        Patch wall = wallOf(spacing, 0.0);
+        double steepest = 0.0, own = 0.0;
+        for (double x = spacing / 74.0; x < spacing; x += spacing / 37.0) {
+            const dvec3 leaf(x, 0.3 * x, kLeaf + 2e-4);
+            SmoothPlane plane;
+            REQUIRE(wall.plane(leaf, plane));
+            steepest = std::max(steepest, std::hypot(plane.normal.x, plane.normal.y));
+            own = std::max(own, std::abs(std::remainder(x, spacing)) / kTouch);
+            CHECK(plane.gap == doctest::Approx(2e-4).epsilon(0.02));
+        }
+        CAPTURE(spacing);
+        CHECK(steepest < 0.002);
+        CHECK(own > 0.45 * spacing / kTouch);
+    }
+}
+
+TEST_CASE("A leaf that moves along the plane, by as much as its gap, enters no sphere of the patch") {
+    std::mt19937_64 random(6);
+    std::uniform_real_distribution<double> u(-0.01, 0.01);
+    Patch wall = wallOf(0.002, 2e-4);
+    for (int trial = 0; trial < 200; ++trial) {
+        dvec3 leaf(u(random), u(random), kLeaf + 0.002);
+        leaf.z -= wall.nearest(leaf) - 1e-4; // nearly in touch
+        leaf.z += std::max(0.0, 1e-5 - wall.nearest(leaf));
+        SmoothPlane plane;
+        if (!wall.plane(leaf, plane)) {
+            continue;
+        }
+        CHECK(plane.gap <= wall.nearest(leaf));
+        CHECK(plane.gap >= wall.nearest(leaf) - patchDepth(kTouch));
+        const dvec3 onto = leaf - std::max(0.0, plane.gap) * plane.normal;
+        CHECK(wall.nearest(onto) >= (plane.gap > 0.0 ? -1e-9 : -1.0));
+    }
+}
+
+TEST_CASE("One sphere alone, two opposite ones and too many for the scratch give no plane") {
+    SmoothPlane plane;
+    Patch one;
+    one.add({0.0, 0.0, -kBall});
+    CHECK_FALSE(one.plane({0.0, 0.0, kLeaf}, plane));
+    Patch slot;
+    slot.add({0.0, 0.0, -kTouch - 1e-4});
+    slot.add({0.0, 0.0, kTouch + 1e-4});
+    CHECK_FALSE(slot.plane(dvec3(0.0), plane));
+    Patch wall = wallOf(0.001, 1e-5);
+    wall.scratch.resize(4);
+    CHECK_FALSE(wall.plane({0.0, 0.0, kLeaf + 1e-4}, plane));
+}

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a tool does while it slides: friction as a play, and smooth planes over the spheres.
+#include "tests/haptics/proxy_rig.h"
+
+#include <doctest/doctest.h>
+
+using namespace fathom;
+using namespace fathom::testing;
+
+namespace {
+
+Fixtures lattice() {
+    Fixtures wall = emptySet();
+    addWall(wall, {0.0, 0.0, -0.04}, {1, 0, 0}, {0, 1, 0}, 0.06, 0.004, 0.04);
+    return wall;
+}
+
+Tool ball() {
+    const Sphere sphere{{0.0, 0.0, 0.0}, 0.01};
+    return Tool(buildSphereTree({&sphere, 1}));
+}
+
+Pose handAt(double x) {
+    return {{x, 0.001, -0.01}, kUpright}; // 20 mm below the resting place
+}
+
+ProxyOptions sliding(double friction, bool smooth) {
+    ProxyOptions options;
+    options.friction = friction;
+    options.rows.smooth = smooth;
+    return options;
+}
+
+// Half of the peak-to-peak lateral distance between hand and tool [m] along 20 mm at 0.1 m/s.
+double sawtooth(ProxyRig& rig) {
+    double low = 1.0, high = -1.0;
+    for (int k = 0; k < 400; ++k) {
+        const Pose hand = handAt(-0.02 + 1e-4 * k);
+        const double lateral = rig.step(hand).allowed.position.x - hand.position.x;
+        REQUIRE(rig.depth() <= 0.0);
+        low = k < 100 ? low : std::min(low, lateral);
+        high = k < 100 ? high : std::max(high, lateral);
+    }
+    return 0.5 * (high - low);
+}
+
+} // namespace
+
+TEST_CASE(
+    "A ball that slides 20 mm deep over a lattice of spheres feels a sawtooth, and none on smooth planes") {
+    ProxyRig bumpy(ball(), lattice(), handAt(-0.02), sliding(0.0, false));
+    ProxyRig smooth(ball(), lattice(), handAt(-0.02), sliding(0.0, true));
+    for (ProxyRig* rig : {&bumpy, &smooth}) {
+        rig->proxy().setPose({{-0.02, 0.001, 0.02}, kUpright});
+    }
+    const double before = sawtooth(bumpy), after = sawtooth(smooth);
+    CHECK(before > 5e-4); // 0.5 N at 1000 N/m
+    CHECK(after < 3e-5);  // 0.03 N
+}
+
+TEST_CASE("With friction the tool stays behind the hand by mu times its depth, either way, and at rest") {
+    ProxyRig rig(ball(), lattice(), {{0.0, 0.001, 0.02}, kUpright}, sliding(0.2, true));
+    for (int k = 0; k < 100; ++k) {
+        rig.step(handAt(0.0));
+    }
+    const double depth = rig.proxy().pose().position.z - handAt(0.0).position.z;
+    double there = 0.0, back = 0.0, rest = 0.0;
+    for (int k = 1; k <= 150; ++k) {
+        there = handAt(1e-4 * k).position.x - rig.step(handAt(1e-4 * k)).allowed.position.x;
+    }
+    for (int k = 1; k <= 50; ++k) { // a still hand: nothing moves
+        rest = handAt(0.015).position.x - rig.step(handAt(0.015)).allowed.position.x;
+    }
+    for (int k = 1; k <= 150; ++k) {
+        back = handAt(0.015 - 1e-4 * k).position.x - rig.step(handAt(0.015 - 1e-4 * k)).allowed.position.x;
+    }
+    CHECK(there == doctest::Approx(0.2 * depth).epsilon(0.05));
+    CHECK(rest == doctest::Approx(there).epsilon(0.02));
+    CHECK(back == doctest::Approx(-0.2 * depth).epsilon(0.05));
+}
