@@ -202,6 +202,7 @@ void HapticCycle::makeWrench(const StepInput& input, const Situation& now, const
         (moved.active.empty() && !moved.blocked ? 0 : cause::kRow) | (jointEnds_ == 0 ? 0 : cause::kJoint);
     tick.mayRise = !moved.stale && !input.doubtful;
     tick.newData = newData;
+    tick.escape = moved.escape;
     tick.vanished = vanished;
     tick.power = now.running && !now.off && !now.clutch;
     tick.off = now.off;

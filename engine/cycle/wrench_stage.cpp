@@ -57,21 +57,17 @@ void WrenchStage::stepRamps(const WrenchInput& input) noexcept {
                 arming_ ? options_.armTime : ForceRamps::kRampTime);
 }
 
-// Acts along the reaction only: a hand that moves freely along a region is not braked.
+// Acts along the reaction only: a hand that moves freely beside a region is not braked. It brakes the hand
+// against the ground, not against the tool, which new data may move by 1 mm in a tick.
 Wrench WrenchStage::damping(const WrenchInput& input, const Wrench& reaction) noexcept {
     const Springs& springs = input.springs;
     Wrench wrench;
     if (springs.damping != 0.0 || springs.rotationalDamping != 0.0) {
-        const auto turned = [](const Pose& now, const Pose& before) {
-            return rotationLog(now.rotation * glm::conjugate(before.rotation));
-        };
-        const dvec3 slip =
-            (input.tool.position - toolBefore_.position) - (input.device.position - deviceBefore_.position);
-        const dvec3 spin = turned(input.tool, toolBefore_) - turned(input.device, deviceBefore_);
-        wrench.force = along(slip, reaction.force) * (springs.damping / options_.period);
-        wrench.torque = along(spin, reaction.torque) * (springs.rotationalDamping / options_.period);
+        const dvec3 moved = input.device.position - deviceBefore_.position;
+        const dvec3 spun = rotationLog(input.device.rotation * glm::conjugate(deviceBefore_.rotation));
+        wrench.force = along(-moved, reaction.force) * (springs.damping / options_.period);
+        wrench.torque = along(-spun, reaction.torque) * (springs.rotationalDamping / options_.period);
     }
-    toolBefore_ = input.tool;
     deviceBefore_ = input.device;
     return wrench;
 }
@@ -108,7 +104,8 @@ Wrench WrenchStage::passivityWrench(const WrenchInput& input, const Wrench& cont
     tick.springs = input.springs;
     tick.period = input.period;
     tick.rows = input.pushes != 0 || reaction_.fades();
-    tick.appears = reaction_.appears();
+    // Whatever a tick generates in which new data moves the tool comes from the new data.
+    tick.appears = reaction_.appears() || input.newData || input.escape;
     tick.repay = reaction_.frameInterval();
     tick.forceLimit = ramps_.share() * options_.forceLimit;
     tick.torqueLimit = ramps_.share() * options_.torqueLimit;

@@ -31,6 +31,7 @@ struct WrenchInput {
     uint32_t pushes = 0;   // cause::kRow and kJoint of the solver's answer
     bool mayRise = true;   // as ReactionInput
     bool newData = false;  // as ReactionInput
+    bool escape = false;   // new data covers the tool, which is on its way out
     bool vanished = false; // the regions that pressed are gone although nothing moved
     bool power = false;    // forces are on, nothing holds them back
     bool off = false;      // forces off or dead-man open: the next rise takes HapticOptions::armTime
@@ -61,7 +62,7 @@ public:
     // The hand's end of the spring was moved by `by` [m], not by the hand.
     void shift(const dvec3& by) noexcept;
     // Tool and hand start anew at `pose`, without force.
-    void restart(const Pose& pose) noexcept { toolBefore_ = deviceBefore_ = pose; }
+    void restart(const Pose& pose) noexcept { deviceBefore_ = pose; }
 
     bool off() const noexcept { return ramps_.off(); }            // ramped out, or never on
     double reaction() const noexcept { return reaction_.size(); } // [N] of the last tick
@@ -84,10 +85,10 @@ private:
     Reaction reaction_;
     PassivityController passivity_;
     ForceRamps ramps_;
-    Wrench smooth_;                  // low-pass
-    Wrench previous_;                // rendered, for the slew limit
-    Pose toolBefore_, deviceBefore_; // at the end of the previous tick, for the damping
-    bool arming_ = true;             // forces return after they were off: within HapticOptions::armTime
+    Wrench smooth_;      // low-pass
+    Wrench previous_;    // rendered, for the slew limit
+    Pose deviceBefore_;  // at the end of the previous tick, for the damping
+    bool arming_ = true; // forces return after they were off: within HapticOptions::armTime
     uint64_t notFinite_ = 0;
 };
 

@@ -12,6 +12,8 @@ namespace {
 
 constexpr double kSlowest = 10.0;       // [N/s] of a rise after new data
 constexpr double kRoundingForce = 1e-6; // [N] rounding
+constexpr double kTurns = 1e-3;         // [N] a smaller reaction has no direction that is felt
+constexpr double kLeastMix = 0.3;       // directions that differ more than that are not mixed
 
 // sqrt(|f|^2 + |tau / k|^2) [N]: the norm in which the spring wrench is K_t times the metric distance.
 double sizeOf(const Wrench& wrench, double k) noexcept {
@@ -53,6 +55,25 @@ double Reaction::outwards(const Wrench& wanted, double size, const Pose& end) co
                : 0.0;
 }
 
+// A mix of the old and the new direction, as large as `wrench`.
+Wrench Reaction::turning(const Wrench& wrench, const ReactionInput& input) noexcept {
+    const double k = std::max(1e-6, input.springs.metricRadius);
+    if (input.newData) {
+        const double before = sizeOf(last_, k);
+        turn_ = before > kTurns ? interval_ : 0.0;
+        from_ = turn_ > 0.0 ? scaled(last_, 1.0 / before) : Wrench{};
+    }
+    turn_ = std::max(0.0, turn_ - input.period);
+    const double size = sizeOf(wrench, k), share = turn_ / interval_;
+    if (!(share > 0.0) || !(size > kTurns)) {
+        return wrench;
+    }
+    const Wrench old = scaled(from_, share * size), now = scaled(wrench, 1.0 - share);
+    const Wrench mix{old.force + now.force, old.torque + now.torque};
+    const double length = sizeOf(mix, k);
+    return length > kLeastMix * size ? scaled(mix, size / length) : wrench;
+}
+
 Wrench Reaction::step(const ReactionInput& input) noexcept {
     const double k = std::max(1e-6, input.springs.metricRadius);
     Wrench wrench = couple(input.springs, input.allowed, input.end, dvec3(0.0), dvec3(0.0));
@@ -70,6 +91,7 @@ Wrench Reaction::step(const ReactionInput& input) noexcept {
         wrench = scaled(wrench, most / wanted);
     }
     size_ = std::min(wanted, most);
+    wrench = turning(wrench, input);
     end_ = input.end;
     started_ = true;
     if (left_ > 0.0) {

@@ -21,7 +21,7 @@ struct ReactionInput {
 // the hand's own motion compresses, because the tool only ever moves nearer to the hand. Any faster
 // growth has another cause: a row appeared, new data moved a surface, a lag ended. It then rises by at most
 // kAppear, and after new data evenly over the time between frames, so that no frame is felt as a click.
-// Falls are immediate.
+// Falls are immediate. After new data the direction, too, turns evenly over the time between frames.
 class Reaction {
 public:
     // Wrench on the hand, base axes, before limits; without damping.
@@ -47,9 +47,12 @@ private:
     double rate(double wanted, const ReactionInput& input) noexcept;
     double outwards(const Wrench& wanted, double size, const Pose& end) const noexcept;
     Wrench tail(double size, double period) noexcept;
+    Wrench turning(const Wrench& wrench, const ReactionInput& input) noexcept;
 
     Pose end_;
     Wrench last_, faded_; // of the last tick; when the regions vanished
+    Wrench from_;         // per newton: the direction before the newest data; zero = none
+    double turn_ = 0.0;   // [s] left until the new direction is reached
     double size_ = 0.0;
     double fadedSize_ = 0.0, left_ = 0.0;                     // [N], [s] of the tail
     double since_ = kLongestFrame, interval_ = kLongestFrame; // [s] since the newest data; between data

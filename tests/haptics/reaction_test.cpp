@@ -143,3 +143,30 @@ TEST_CASE("Forces fade out by a factor and return by their limit, from what the 
     ticks(1, {true, true, true}, 0.0);
     CHECK(ramps.share() == doctest::Approx(kPeriod / 1.5));
 }
+
+TEST_CASE(
+    "New data that turns a reaction is felt as an even turn over a frame, as large as the new reaction") {
+    Reaction reaction = pressed(0.005);
+    ReactionInput tick = tickAt(0.0, -0.005);
+    for (int frame = 0; frame < 3; ++frame) { // 20 ms between frames
+        for (int k = 0; k < 20; ++k) {
+            tick.newData = k == 0;
+            reaction.step(tick);
+        }
+    }
+    tick.allowed.position = {0.003, 0.0, -0.001}; // 5 mm from the hand, turned by 37 degrees
+    double before = 0.0;
+    for (int k = 0; k < 20; ++k) {
+        tick.newData = k == 0;
+        const Wrench wrench = reaction.step(tick);
+        const double turn = std::atan2(wrench.force.x, wrench.force.z);
+        CHECK(forceOf(wrench) == doctest::Approx(5.0));
+        CHECK(turn - before > 0.0);
+        CHECK(turn - before < 0.05);
+        before = turn;
+    }
+    CHECK(before == doctest::Approx(std::atan2(3.0, 4.0)));
+    tick.allowed.position = tick.end.position; // no row any more: no force, whatever was before
+    tick.newData = true;
+    CHECK(forceOf(reaction.step(tick)) == 0.0);
+}
