@@ -48,8 +48,11 @@ void loadFeel(const YamlNode& node, Scene::Haptics& haptics) {
     if (const auto friction = node.find("friction")) {
         haptics.friction = friction->number(Range::between(0.0, 1.0));
     }
+    if (const auto smooth = node.find("smooth")) {
+        haptics.smooth = smooth->choice<bool>({{"true", true}, {"false", false}});
+    }
     if (const auto damping = node.find("damping")) {
-        haptics.damping = damping->number(Range::between(0.0, 100.0));
+        haptics.damping = loadUnless(*damping, "auto", Range::between(0.0, 100.0));
     }
     if (const auto margin = node.find("margin")) {
         haptics.margin = margin->number(Range::between(0.05, 1.0));
@@ -70,7 +73,7 @@ void loadFeel(const YamlNode& node, Scene::Haptics& haptics) {
 
 void loadHaptics(const YamlNode& node, Scene& scene) {
     node.checkKeys({"rate_hz", "device", "stiffness", "rotational_stiffness", "guidance", "step_cap",
-                    "solves", "delay", "limits", "guidance_pull", "friction", "damping", "margin"});
+                    "solves", "delay", "limits", "guidance_pull", "friction", "damping", "margin", "smooth"});
     Scene::Haptics& haptics = scene.haptics;
     if (const auto rate = node.find("rate_hz")) {
         haptics.rateHz = rate->number(Range::between(100.0, 10000.0));

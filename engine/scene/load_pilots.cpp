@@ -12,7 +12,7 @@ constexpr size_t kMostPilots = 32;
 
 Scene::Pilot loadPilot(const YamlNode& row, const Scene& scene) {
     row.checkKeys({"name", "stiffness", "rotational_stiffness", "limits", "guidance_pull", "friction",
-                   "damping", "margin", "scale"});
+                   "damping", "margin", "smooth", "scale"});
     Scene::Pilot pilot{row.at("name").text(), scene.haptics, scene.hand.scale};
     const auto sameName = [&](const Scene::Pilot& other) { return other.name == pilot.name; };
     if (std::any_of(scene.pilots.begin(), scene.pilots.end(), sameName)) {

@@ -194,9 +194,10 @@ struct Scene {
         double lowpassHz = 0.0;                        // 0 = off
         uint32_t delay = 0;                            // whole ticks from a wrench to the hand
         double pullForce = 2.0, pullTorque = 0.1;      // [N], [N m] largest guidance pull
-        double friction = 0.0;                         // mu between tool and regions
-        double damping = 0.0;                          // [N s/m] rendered along the reaction
-        double margin = 1.0; // share of the passive bound that automatic stiffness uses
+        double friction = 0.1;                         // mu between tool and regions
+        bool smooth = true;                            // slides on planes over the spheres of a region
+        std::optional<double> damping;                 // [N s/m] rendered along the reaction; empty = auto
+        double margin = 0.6; // share of the passive bound that automatic stiffness uses
     } haptics;
 
     // A pilot's profile: the scene's haptics and scale with overrides.

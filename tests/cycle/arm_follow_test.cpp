@@ -57,7 +57,7 @@ struct FollowRig {
 
     ArmRig rig;
     World world;
-    HapticOptions options = makeHapticOptions(handScene(), ballTool());
+    HapticOptions options = makeHapticOptions(springsAlone(handScene()), ballTool());
     Pose hand = at(0, 0, 0);
     ArmFollow status{true, true, {}};
     ToolState asked, start;

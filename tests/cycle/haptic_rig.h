@@ -32,11 +32,21 @@ inline Fixtures wallSet(uint64_t generation = 1) {
     return fixtures;
 }
 
+// The scene with springs alone: 1000 N/m for device `ideal`, no friction or damping, each sphere for itself.
+// The figures of the tests are those of the springs.
+inline Scene springsAlone(Scene scene) {
+    scene.haptics.friction = 0.0;
+    scene.haptics.damping = 0.0;
+    scene.haptics.margin = 1.0;
+    scene.haptics.smooth = false;
+    return scene;
+}
+
 class HapticRig {
 public:
     explicit HapticRig(const Scene& scene, const Pose& start, Tool made = ballTool())
         : tool(std::move(made))
-        , options(makeHapticOptions(scene, tool))
+        , options(makeHapticOptions(springsAlone(scene), tool))
         , hand(start) {
         restart();
     }

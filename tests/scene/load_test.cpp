@@ -33,6 +33,7 @@ hand:
   map: {base_R_device: [0,1,0,0], scale: 2.5, clutch: 8}
   loop: {mass: 0.3, damping: 0, stiffness: 400}
 haptics: { rate_hz: 2000, device: w5d, stiffness: 800, rotational_stiffness: 1.5, guidance: paper, step_cap: 0.001,
+  friction: 0.3, damping: 2, margin: 0.9, smooth: false,
   solves: 16, delay: 2, limits: {force: 5, torque: 0.2, slew_N_per_s: 1000, slew_Nm_per_s: 20, lowpass_hz: 300} }
 contact: { where: gpu, reach: 0.02, delay: 1000 }
 )";
@@ -59,6 +60,10 @@ TEST_CASE("A scene with only fixtures and a tool has the documented default ever
     CHECK(scene.hand.builtIn);
     CHECK(scene.hand.clutchBit == 4);
     CHECK_FALSE(scene.haptics.stiffness.has_value());
+    CHECK(scene.haptics.friction == 0.1);
+    CHECK_FALSE(scene.haptics.damping.has_value());
+    CHECK(scene.haptics.margin == 0.6);
+    CHECK(scene.haptics.smooth);
     CHECK_FALSE(scene.haptics.forceLimit.has_value());
     CHECK(scene.contact.where == Scene::Contact::Where::Auto);
     CHECK(scene.contact.reach == 0.01);
@@ -160,6 +165,10 @@ TEST_CASE("Hand, haptics and contact are loaded as written") {
     CHECK(scene.haptics.rotationalStiffness == 1.5);
     CHECK(scene.haptics.guidance == Scene::Haptics::GuidanceMode::Paper);
     CHECK(scene.haptics.stepCap == 0.001);
+    CHECK(scene.haptics.friction == 0.3);
+    CHECK(scene.haptics.damping == 2.0);
+    CHECK(scene.haptics.margin == 0.9);
+    CHECK_FALSE(scene.haptics.smooth);
     CHECK(scene.haptics.solves == 16);
     CHECK(scene.haptics.delay == 2);
     CHECK(scene.haptics.forceLimit == 5.0);
