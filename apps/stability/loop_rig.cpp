@@ -50,6 +50,8 @@ HapticOptions loopOptions(const LoopSpec& spec, const Tool& tool) {
     options.coupling.slewTorque = options.slewTorque;
     options.springs = makeSprings(options.device, options.coupling);
     options.passivityController = spec.controller;
+    options.proxy.friction = spec.friction;
+    options.proxy.rows.smooth = spec.smooth;
     options.needsContacts = spec.fixtures.has_value();
     return options;
 }

@@ -41,6 +41,8 @@ struct LoopSpec {
     std::optional<double> rotationalStiffness; // [N m/rad]
     double virtualDamping = 0.0;               // B [N s/m]
     double lowPassHz = 0.0;
+    double friction = 0.0;  // mu
+    bool smooth = false;    // planes over spheres
     bool controller = true; // passivity controller
     bool limited = true;    // 20 N, 2 N m and slew limits; false: no limits, a linear loop
     std::vector<Sphere> leaves{{dvec3(0.0), 0.01}};

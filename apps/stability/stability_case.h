@@ -15,7 +15,7 @@ class Device;
 
 namespace fathom::stability {
 
-// The nine groups, in the order of stability.json.
+// The ten groups, in the order of stability.json.
 enum class Group : uint8_t {
     Solver,
     Geometry,
@@ -25,10 +25,11 @@ enum class Group : uint8_t {
     Rotation,
     Guidance,
     Precision,
-    LongRun
+    LongRun,
+    Feel
 };
 inline constexpr const char* kGroupNames[] = {"solver",   "geometry", "guarantee", "new-data", "stiff",
-                                              "rotation", "guidance", "precision", "long-run"};
+                                              "rotation", "guidance", "precision", "long-run", "feel"};
 
 // Full is the whole case (`fathom stability`). Short has fewer trials with the same limits (`./run test`).
 enum class RunLength : uint8_t { Full, Short };
@@ -72,5 +73,6 @@ std::vector<Case> rotationCases();
 std::vector<Case> guidanceCases();
 std::vector<Case> precisionCases(const DeviceSource& device);
 std::vector<Case> longRunCases();
+std::vector<Case> feelCases();
 
 } // namespace fathom::stability

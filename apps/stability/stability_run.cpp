@@ -34,7 +34,7 @@ std::string knownNames(const std::vector<Case>& all) {
 
 std::vector<Case> allCases(const DeviceSource& device) {
     std::array groups{solverCases(),   geometryCases(), guaranteeCases(),       newDataCases(), stiffCases(),
-                      rotationCases(), guidanceCases(), precisionCases(device), longRunCases()};
+                      rotationCases(), guidanceCases(), precisionCases(device), longRunCases(), feelCases()};
     std::vector<Case> all;
     std::set<std::string> names;
     for (std::vector<Case>& group : groups) {

@@ -44,35 +44,44 @@ LoopGrid gridFor(RunLength runLength, size_t every) {
     return grid;
 }
 
+// What shapes the feel at a surface: none of it, or all of it.
+enum class Feel { Bare, Shaped };
+
 // Pushes in, slides and pulls out again.
-LoopSpec inAndOut(Ground ground) {
+LoopSpec inAndOut(Ground ground, Feel feel = Feel::Bare) {
     LoopSpec spec = pressedSpec(ground, 1.2);
+    spec.friction = feel == Feel::Shaped ? 0.2 : 0.0;
+    spec.smooth = feel == Feel::Shaped;
     const HandWaypoint start = spec.path.front();
     spec.path.push_back(wayAt(1.5, start.deviceThandle.position));
     spec.path.push_back(wayAt(2.0, start.deviceThandle.position));
     return spec;
 }
 
-Outcome staticGrounds(RunLength runLength) {
+Outcome staticGrounds(RunLength runLength, Feel feel) {
     EnergyFigures all;
     for (const Ground ground : kGrounds) {
         LoopGrid grid = gridFor(runLength, 23);
         if (ground == Ground::Spheres) {
             grid.masses = {0.2};
         }
-        all.runs += forEachLoop(grid, inAndOut(ground), [&](LoopSpec spec) {
+        all.runs += forEachLoop(grid, inAndOut(ground, feel), [&](LoopSpec spec) {
             // A spring throws the free device at the wall at 0.1 m/s and releases it inside.
             spec.hand.stiffness = std::max(spec.hand.stiffness, 10.0);
+            // Damping takes a fifth of the device's own, and the spring the rest.
+            spec.virtualDamping = feel == Feel::Shaped ? 0.2 * spec.damping : 0.0;
             pressAndWatch(spec, 0.0, all);
         });
     }
-    return outcomeOf(all.net, kTolerance, "J",
-                     "Wall, corner, slot and a wall of spheres, pressed, slid along and left: energy from "
-                     "the fixture into the hand minus the energy that the device's own damping took, largest "
-                     "at any time after the first touch of " +
-                         num(uint64_t{all.runs}) + " loops (" + all.who + "); without that damping up to " +
-                         num(all.given * 1e3) + " mJ (the sampled spring's). Controller on; it took " +
-                         num(all.taken * 1e6) + " uJ.");
+    return outcomeOf(
+        all.net, kTolerance, "J",
+        std::string(feel == Feel::Shaped ? "With friction 0.2, smooth planes and damping: " : "") +
+            "Wall, corner, slot and a wall of spheres, pressed, slid along and left: energy from "
+            "the fixture into the hand minus the energy that the device's own damping took, largest "
+            "at any time after the first touch of " +
+            num(uint64_t{all.runs}) + " loops (" + all.who + "); without that damping up to " +
+            num(all.given * 1e3) + " mJ (the sampled spring's). Controller on; it took " +
+            num(all.taken * 1e6) + " uJ.");
 }
 
 Outcome withEncoders(RunLength runLength) {
@@ -124,7 +133,10 @@ Outcome controllerIdle(RunLength runLength) {
 } // namespace
 
 std::vector<Case> energyCases() {
-    return {{"static-fixtures-give-no-energy", Group::Stiff, staticGrounds},
+    return {{"static-fixtures-give-no-energy", Group::Stiff,
+             [](RunLength e) { return staticGrounds(e, Feel::Bare); }},
+            {"static-fixtures-give-no-energy-shaped", Group::Stiff,
+             [](RunLength e) { return staticGrounds(e, Feel::Shaped); }},
             {"static-fixtures-by-encoders", Group::Stiff, withEncoders},
             {"controller-leaves-static-fixtures-alone", Group::Stiff, controllerIdle}};
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The coupling, rotation, guidance, precision and long-run groups: every case of `fathom stability` in its
-// short form.
+// The coupling, rotation, guidance, precision, long-run and feel groups: every case of `fathom stability` in
+// its short form.
 #include "tests/stability/group_check.h"
 #include "tests/support/sanitized.h"
 #include "tests/support/vulkan.h"
@@ -32,4 +32,10 @@ TEST_CASE("Every case of group precision holds: float32 shaders against their fl
 TEST_CASE("Every case of group long-run holds: no drift, no growth of memory, the same digest" *
           doctest::skip(kSanitized)) {
     checkGroup(longRunCases(), Group::LongRun, 1);
+}
+
+TEST_CASE(
+    "Every case of group feel holds: still, sliding, leaving, turning and yielding hands at noisy and clean "
+    "surfaces") {
+    checkGroup(feelCases(), Group::Feel, 20);
 }
