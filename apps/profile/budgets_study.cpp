@@ -214,6 +214,7 @@ void addStep(const StudyContext& context, Study& study) {
     DragSetting d;
     d.ticks = static_cast<uint32_t>(amountOf(context).samples);
     d.spacing = 0.2 / 122.5; // 60 025 spheres
+    d.proxy.rows.smooth = true; // as in scenes
     d.press = kDepth;
     d.follow = true;
     const DragResult run = drag(d);

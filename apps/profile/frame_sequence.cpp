@@ -31,7 +31,7 @@ void take(Camera& camera, uint32_t frames, FrameSequence& source) {
 
 // firstFrame: none = a static camera.
 SimulatedCamera cameraOn(const std::string& scene, uint32_t width, uint32_t height,
-                         std::optional<uint32_t> firstFrame) {
+                         std::optional<uint32_t> firstFrame, bool noise = true) {
     const auto solids = analyticScene(scene);
     if (!solids) {
         throw Error("no analytic scene '" + scene + "'");
@@ -40,6 +40,7 @@ SimulatedCamera cameraOn(const std::string& scene, uint32_t width, uint32_t heig
     options.width = width, options.height = height;
     options.motion = firstFrame.has_value();
     options.firstFrame = firstFrame.value_or(0);
+    options.noise = options.water = noise;
     options.metresPerUnit = 0.0001;
     return SimulatedCamera(*solids, options);
 }
@@ -64,6 +65,13 @@ FrameSequence analyticFrames(const std::string& scene, uint32_t width, uint32_t 
     for (SampleFrame& image : source.frames) {
         image.truth = exact.depth;
     }
+    return source;
+}
+
+FrameSequence exactFrame(const std::string& scene, uint32_t width, uint32_t height) {
+    SimulatedCamera camera = cameraOn(scene, width, height, {}, false);
+    FrameSequence source{scene, camera.info(), {}};
+    take(camera, 1, source);
     return source;
 }
 

@@ -12,7 +12,10 @@ namespace fathom::profile {
 // name.
 FrameSequence analyticFrames(const std::string& scene, uint32_t width, uint32_t height, uint32_t frames);
 
-// The same with colour from a second camera with the same lens, offset by 25 mm and rotated by 2 degrees.
+// One frame of the same scene without noise and water, its depth rounded to 0.1 mm.
+FrameSequence exactFrame(const std::string& scene, uint32_t width, uint32_t height);
+
+// Frames with colour from a second camera with the same lens, offset by 25 mm and rotated by 2 degrees.
 // Some points appear at other pixels, some are hidden.
 FrameSequence twoCameraFrames(const std::string& scene, uint32_t width, uint32_t height, uint32_t frames);
 

@@ -4,13 +4,13 @@
 namespace fathom::profile {
 
 const std::vector<StudyEntry>& allStudies() {
-    static const std::vector<StudyEntry> kStudies{{"filter", filterStudy},   {"fixture", fixtureStudy},
-                                                  {"query", queryStudy},     {"solver", solverStudy},
-                                                  {"tool", toolStudy},       {"precision", precisionStudy},
-                                                  {"scaling", scalingStudy}, {"leave_out", leaveOutStudy},
-                                                  {"limit", limitStudy},     {"budgets", budgetsStudy},
+    static const std::vector<StudyEntry> kStudies{
+        {"filter", filterStudy},   {"fixture", fixtureStudy},    {"query", queryStudy},
+        {"solver", solverStudy},   {"tool", toolStudy},          {"precision", precisionStudy},
+        {"scaling", scalingStudy}, {"leave_out", leaveOutStudy}, {"limit", limitStudy},
+        {"budgets", budgetsStudy}, {"feel", feelStudy},
 #ifdef FATHOM_PEERS
-                                                  {"peers", peersStudy}
+        {"peers", peersStudy}
 #endif
     };
     return kStudies;

@@ -19,6 +19,7 @@ Study scalingStudy(const StudyContext& context);
 Study leaveOutStudy(const StudyContext& context);
 Study limitStudy(const StudyContext& context);
 Study budgetsStudy(const StudyContext& context);
+Study feelStudy(const StudyContext& context);
 Study peersStudy(const StudyContext& context); // only in builds with -DFATHOM_PEERS=ON
 
 struct StudyEntry {
