@@ -170,7 +170,7 @@ TEST_CASE("Searching the pairs found before gives the same rows and check as a n
 
 TEST_CASE("All touching pairs are checked, also when they exceed the lists") {
     Fixtures fixtures = emptySet();
-    addWall(fixtures, dvec3(0.0), dvec3(1, 0, 0), dvec3(0, 1, 0), 0.05, 0.0005, 0.04);
+    addWall(fixtures, dvec3(0.0), dvec3(1, 0, 0), dvec3(0, 1, 0), 0.05, 0.0007, 0.04);
     std::mt19937_64 random(54);
     const Pose pose{dvec3(0, 0, 0.02), kUpright};
     Bench bench(randomTool(random, 40, 0.01, 0.02), std::move(fixtures), pose);
