@@ -167,7 +167,7 @@ private:
         }
     }
 
-    // False when the connection is to be closed.
+    // False when the bridge closes the connection.
     bool tick() {
         fathom_door_hand hand{};
         hand.header = {FATHOM_DOOR_MAGIC,
