@@ -13,6 +13,8 @@ namespace {
 constexpr double kSlowest = 10.0;       // [N/s] of a rise after new data
 constexpr double kRoundingForce = 1e-6; // [N] rounding
 constexpr double kTurns = 1e-3;         // [N] a smaller reaction has no direction that is felt
+constexpr double kPushed = 0.3;         // of a frame, in which new data pushes a tool out
+constexpr double kLate = 1.25;          // of a frame, until which the next one is waited for
 constexpr double kLeastMix = 0.3;       // directions that differ more than that are not mixed
 
 // sqrt(|f|^2 + |tau / k|^2) [N]: the norm in which the spring wrench is K_t times the metric distance.
@@ -23,14 +25,17 @@ double sizeOf(const Wrench& wrench, double k) noexcept {
 
 } // namespace
 
-double Reaction::rate(double wanted, const ReactionInput& input) noexcept {
+double Reaction::rate(double appeared, const ReactionInput& input) noexcept {
     since_ += input.period;
     if (input.newData) {
         interval_ = std::clamp(since_, input.period, kLongestFrame);
         since_ = 0.0;
-        rate_ = std::clamp((wanted - size_) / interval_, kSlowest, kAppear);
+        rate_ = kSlowest;
     }
-    return since_ < interval_ ? rate_ : kAppear;
+    if (since_ < kPushed * interval_) { // the tool may still be on its way out
+        rate_ = std::clamp(appeared / (interval_ - since_), rate_, kAppear);
+    }
+    return since_ < kLate * interval_ ? rate_ : kAppear;
 }
 
 void Reaction::vanish() noexcept {
@@ -55,21 +60,25 @@ double Reaction::outwards(const Wrench& wanted, double size, const Pose& end) co
                : 0.0;
 }
 
-// A mix of the old and the new direction, as large as `wrench`.
+// The change of direction that new data made at its adoption is taken back by a share that falls to zero.
+// What the hand turns meanwhile is felt at once: a lag of it would feed energy into a light hand.
 Wrench Reaction::turning(const Wrench& wrench, const ReactionInput& input) noexcept {
     const double k = std::max(1e-6, input.springs.metricRadius);
+    const double size = sizeOf(wrench, k);
     if (input.newData) {
         const double before = sizeOf(last_, k);
-        turn_ = before > kTurns ? interval_ : 0.0;
-        from_ = turn_ > 0.0 ? scaled(last_, 1.0 / before) : Wrench{};
+        turn_ = before > kTurns && size > kTurns ? interval_ : 0.0;
+        if (turn_ > 0.0) {
+            const Wrench old = scaled(last_, 1.0 / before), now = scaled(wrench, 1.0 / size);
+            from_ = {old.force - now.force, old.torque - now.torque};
+        }
     }
     turn_ = std::max(0.0, turn_ - input.period);
-    const double size = sizeOf(wrench, k), share = turn_ / interval_;
+    const double share = turn_ / interval_;
     if (!(share > 0.0) || !(size > kTurns)) {
         return wrench;
     }
-    const Wrench old = scaled(from_, share * size), now = scaled(wrench, 1.0 - share);
-    const Wrench mix{old.force + now.force, old.torque + now.torque};
+    const Wrench mix{wrench.force + share * size * from_.force, wrench.torque + share * size * from_.torque};
     const double length = sizeOf(mix, k);
     return length > kLeastMix * size ? scaled(mix, size / length) : wrench;
 }
@@ -84,7 +93,7 @@ Wrench Reaction::step(const ReactionInput& input) noexcept {
     const double out = started_ ? outwards(wrench, wanted, input.end) : 0.0;
     const double compressed = out > 0.0 ? 0.0 : input.springs.stiffness * travel;
     const double calm = std::clamp(1.0 - out / (kLeaves * input.period), 0.0, 1.0);
-    const double grows = compressed + calm * rate(wanted, input) * input.period;
+    const double grows = compressed + calm * rate(wanted - compressed - size_, input) * input.period;
     const double most = size_ + (input.mayRise ? grows : 0.0);
     appears_ = wanted > size_ + compressed * (1.0 + 1e-9) + kRoundingForce;
     if (wanted > most) {

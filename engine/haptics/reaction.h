@@ -44,15 +44,15 @@ public:
     static constexpr double kLongestFrame = 0.033; // [s]
 
 private:
-    double rate(double wanted, const ReactionInput& input) noexcept;
+    double rate(double appeared, const ReactionInput& input) noexcept;
     double outwards(const Wrench& wanted, double size, const Pose& end) const noexcept;
     Wrench tail(double size, double period) noexcept;
     Wrench turning(const Wrench& wrench, const ReactionInput& input) noexcept;
 
     Pose end_;
     Wrench last_, faded_; // of the last tick; when the regions vanished
-    Wrench from_;         // per newton: the direction before the newest data; zero = none
-    double turn_ = 0.0;   // [s] left until the new direction is reached
+    Wrench from_;         // per newton: change of direction that the newest data made
+    double turn_ = 0.0;   // [s] for which a share of it is still taken back
     double size_ = 0.0;
     double fadedSize_ = 0.0, left_ = 0.0;                     // [N], [s] of the tail
     double since_ = kLongestFrame, interval_ = kLongestFrame; // [s] since the newest data; between data
