@@ -151,11 +151,11 @@ Outcome pivotCase(RunLength runLength) {
     felt.forget();
     felt.run(t - kSettled);
     const FeltTrace& felts = felt.trace();
-    Outcome out = outcomeOf(felts.torqueStep(), 0.045, "N m",
-                            "Largest step of the torque while a gripper that presses 8 mm deep rolls by 0.7 "
-                            "and tilts by 0.4 rad; slew limit 0.05 N m. Force: " +
-                                num(felts.reversals(kReversal)) + " reversals, step at most " +
-                                num(felts.forceStep()) + " N.");
+    Outcome out = outcomeOf(
+        felts.forceBand(100.0, 500.0), 0.1, "N",
+        "Force above 100 Hz while a gripper that presses 8 mm deep rolls by 0.7 and tilts by "
+        "0.4 rad. Force step at most " +
+            num(felts.forceStep()) + " N, torque step at most " + num(felts.torqueStep()) + " N m.");
     requireFelt(out, felt);
     require(out, felts.reversals(kReversal) == 0, "the force reverses");
     return out;
@@ -167,6 +167,8 @@ Outcome slideCase(RunLength runLength, double errorBudget) {
     spec.scene = "wall";
     spec.noise = false;
     spec.errorBudget = errorBudget;
+    spec.focal = 600.0; // 1 mm per pixel
+    spec.haptics.stiffness = 1000.0;
     spec.haptics.friction = 0.0; // only the shape of the surface
     spec.ball = true;
     FeelRig felt(spec);
@@ -208,8 +210,8 @@ std::vector<Case> feelCases() {
     };
     put("still-5mm", [](RunLength e) { return stillCase(e, 0.005, StillFigure::Rms, 0.3); });
     put("still-20mm", [](RunLength e) { return stillCase(e, 0.02, StillFigure::Rms, 0.6); });
-    put("still-20mm-10-35-hz", [](RunLength e) { return stillCase(e, 0.02, StillFigure::Band, 0.3); });
-    put("still-20mm-torque", [](RunLength e) { return stillCase(e, 0.02, StillFigure::Torque, 0.02); });
+    put("still-20mm-10-35-hz", [](RunLength e) { return stillCase(e, 0.02, StillFigure::Band, 0.13); });
+    put("still-20mm-torque", [](RunLength e) { return stillCase(e, 0.02, StillFigure::Torque, 0.009); });
     put("rim", rimCase);
     put("rim-clicks", rimClicksCase);
     put("leave", leaveCase);

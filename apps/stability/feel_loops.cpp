@@ -35,6 +35,7 @@ Outcome restCase(const FeltHand& hand, double after, double limit) {
     FeelSpec spec;
     spec.scene = "wall";
     spec.noise = false;
+    spec.ball = true;
     FeelRig felt = pressedHand(spec, hand.loop, 0.02);
     felt.run(after);
     felt.forget();

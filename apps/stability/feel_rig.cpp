@@ -11,7 +11,6 @@ namespace fathom::stability {
 namespace {
 
 constexpr uint32_t kWide = 160, kHigh = 120; // [pixels]
-constexpr double kFocal = 350.0;             // [pixels] 2 mm per pixel at 0.7 m
 constexpr uint32_t kMostFrames = 1000000;
 constexpr double kFrameRate = 30.0; // [Hz]
 constexpr double kWall = 0.6;       // [m] scene "wall"
@@ -53,7 +52,7 @@ FeelRig::FeelRig(const FeelSpec& spec)
 SimulatedCamera FeelRig::cameraOf(bool noise) const {
     SimulatedCameraOptions options;
     options.width = kWide, options.height = kHigh;
-    options.focal = kFocal;
+    options.focal = spec_.focal;
     options.frames = kMostFrames;
     options.metresPerUnit = 0.0001;
     options.noise = noise;
@@ -118,6 +117,7 @@ void FeelRig::follow(std::vector<HandWaypoint> path) {
     if (spec_.loop) {
         SimulatedHandOptions hand;
         hand.loop = *spec_.loop;
+        hand.armLength = std::sqrt(*options_.device.rotationalDamping / *options_.device.damping);
         hand_ = std::make_unique<SimulatedHand>(HandPath(std::move(path)), hand);
     } else {
         hand_ = std::make_unique<ScriptedHand>(HandPath(std::move(path)));

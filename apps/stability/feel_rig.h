@@ -16,6 +16,7 @@ namespace fathom::stability {
 struct FeelSpec {
     std::string scene = "torus";  // of analytic_scene.h, or "wall": flat, across the axis
     bool noise = true;            // of the camera, drawn anew for every frame
+    double focal = 350.0;         // [pixels] of the camera: 2 mm per pixel at 0.7 m
     double errorBudget = 0.0001;  // [m]
     Scene::Haptics haptics;       // friction, margin, damping, smooth and stiffness of the case
     std::optional<HandLoop> loop; // a hand that yields; empty = one that follows its path exactly
