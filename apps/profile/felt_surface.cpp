@@ -91,11 +91,19 @@ private:
 Pose restingPose(const Tool& tool, const Fixtures& truth, size_t sphere) {
     const RegionSpheres& s = truth.spheres;
     const dvec3 towards = glm::normalize(dvec3(s.x[sphere], s.y[sphere], s.z[sphere]));
-    double low = 0.1, high = 3.0;
-    for (int k = 0; k < 26; ++k) {
+    const auto touches = [&](double away) {
+        return oracleSmallestGap(tool, {truth.origin + away * towards, dquat(1.0, 0.0, 0.0, 0.0)}, truth) <
+               0.0;
+    };
+    constexpr double kMarch = 0.02; // [m] less than a region is thick
+    double low = 0.2;
+    while (low < 3.0 && !touches(low + kMarch)) {
+        low += kMarch;
+    }
+    double high = low + kMarch;
+    for (int k = 0; k < 18; ++k) {
         const double middle = 0.5 * (low + high);
-        const Pose pose{truth.origin + middle * towards, dquat(1.0, 0.0, 0.0, 0.0)};
-        (oracleSmallestGap(tool, pose, truth) < 0.0 ? high : low) = middle;
+        (touches(middle) ? high : low) = middle;
     }
     return {truth.origin + low * towards, dquat(1.0, 0.0, 0.0, 0.0)};
 }
