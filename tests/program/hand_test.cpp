@@ -133,7 +133,7 @@ TEST_CASE("An open dead-man takes the force away within 0.2 s while the tool sti
                 {0.6, {0.0, 0.0, 0.57}},
                 {0.9, {0.0, 0.0, 0.57}}});
     const Replay replay = stage.replay();
-    CHECK(replay.at(0.299).force.z < -5.0);
+    CHECK(replay.at(0.299).force.z < -4.0);
     CHECK(replay.at(0.299).state == "contact");
     CHECK(replay.at(0.35).state == "fading");
     CHECK(replay.at(0.52).state == "off");
