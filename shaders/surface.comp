@@ -31,6 +31,7 @@ layout(std430, binding = 5) writeonly buffer Points { vec4 points[]; };
 #include "shaders/lib/depth.glsl"
 #include "shaders/lib/lens.glsl"
 #include "shaders/lib/masks.glsl"
+#include "shaders/lib/pixel_point.glsl"
 #include "shaders/lib/slots.glsl"
 #include "shaders/lib/bilateral.glsl"
 
@@ -48,13 +49,6 @@ float depthOfPixel(ivec2 at) {
     bool beyond = outside(at);
     float z = depthAt(beyond ? 0u : uint(at.y) * params.size.x + uint(at.x));
     return beyond ? 0.0 : z;
-}
-
-// Rounded here, so that a difference of points is the same whether they come from shared memory, registers or
-// directly.
-vec3 pointAt(ivec2 at, float z) {
-    precise vec2 beside = rayOf(uvec2(at)) * z;
-    return vec3(beside, z);
 }
 
 void fillTile(ivec2 patchOrigin) {
@@ -132,10 +126,6 @@ float filtered(ivec2 at, vec3 p, ivec2 patchOrigin) {
 bool isRejected(vec3 around[9]) {
     bool flying = kEdge != 0 ? isFlying(depthsOf(around)) : false;
     return any(bvec2(flying, isIsolated(around)));
-}
-
-vec4 basePoint(ivec2 at, float z) {
-    return vec4(transformPoint(params.baseTcamera, pointAt(at, z)), z);
 }
 
 void filterPixel(uint slot, ivec2 patchOrigin) {

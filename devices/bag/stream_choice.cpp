@@ -198,6 +198,7 @@ void StreamChooser::replaceLenses(StreamChoice& choice) const {
         fits(*choice.colour, given.camera.colour);
     }
     choice.camera = given.camera;
+    choice.camera.poseless = true;
     choice.camera.hasColour = colour;
     if (!options_.extrinsics.empty()) {
         choice.camera.registered = false;
@@ -255,6 +256,7 @@ StreamChoice StreamChooser::choose() {
         colour = nullptr;
     }
     CameraInfo& camera = choice.camera;
+    camera.poseless = true;
     camera.hasColour = colour != nullptr;
     camera.depth = camera.colour = depth->lens.value_or(Intrinsics{});
     if (colour != nullptr) {

@@ -127,6 +127,7 @@ void OpenNi2Camera::openDepth() {
 // Colour that the device does not register to depth is skipped, because OpenNI2 has no extrinsics.
 void OpenNi2Camera::openColour(bool registered) {
     info_.hasColour = false;
+    info_.poseless = true;
     if (!device_.hasSensor(openni::SENSOR_COLOR) ||
         colour_.stream.create(device_, openni::SENSOR_COLOR) != openni::STATUS_OK) {
         return;

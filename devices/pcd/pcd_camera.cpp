@@ -133,6 +133,7 @@ PcdCamera::PcdCamera(const std::filesystem::path& file, const SourceOptions& opt
         cloud_.colour = greyOf(cloud_.intensity);
     }
     info_.depth = info_.colour = fit.lens;
+    info_.poseless = true;
     info_.hasColour = !cloud_.colour.empty();
     slots_.emplace(info_.depth.pixels(), info_.hasColour, 1);
 }

@@ -92,6 +92,8 @@ void RecordedCamera::useOptions(const SourceOptions& options) {
     CameraInfo& camera = layout_.intrinsics.camera;
     options.checkUnit(folder_.string());
     camera.metresPerUnit = options.scale.value_or(camera.metresPerUnit);
+    const auto posed = [](const IndexLine& line) { return line.baseTcamera.has_value(); };
+    camera.poseless = !layout_.poses && std::ranges::none_of(layout_.index, posed);
     camera.hasColour = camera.hasColour && options.colour != "none";
     if (!options.extrinsics.empty()) {
         camera.registered = false;

@@ -39,6 +39,7 @@ V4l2Camera::V4l2Camera(const CameraRequest& request)
         "camera " + nodes.depth.card() + " (" + nodes.depth.file().string() + ", " + calibration.origin + ")";
     depthRequest_ = {nodes.depthFormat, {info_.depth.width, info_.depth.height}, request.rate};
     colourRequest_ = {nodes.colourFormat, {info_.colour.width, info_.colour.height}, request.rateOfColour()};
+    info_.poseless = true;
     info_.yuyv = info_.hasColour && isYuyv(nodes.colourFormat) && info_.colour.width % 2 == 0;
     known_ = KnownCamera{nodes.depth.identity(), nodes.colour ? nodes.colour->identity() : ""};
     slots_ = std::make_unique<FrameSlots>(std::max(info_.depth.pixels(), info_.colour.pixels()),

@@ -54,6 +54,9 @@ WorkBuffers::WorkBuffers(const gpu::Device& device, const Plan& plan, const Patc
         keptTime = Buffer(device, slots * 4, MemoryKind::Device, "keptTime");
         live = Buffer(device, patches * 4, MemoryKind::Device, "live");
     }
+    if (plan.estimates) {
+        estimates = Buffer(device, slots * 32, MemoryKind::Device, "estimates");
+    }
     if (plan.occlusion) {
         // Cells are 1.5 times as wide as the distance between neighbouring depth pixels in the colour image.
         // A surface that faces the colour camera is stretched there, and gaps would show the points that it

@@ -36,13 +36,6 @@ vec4 moreOf(const Intrinsics& lens) {
     return {k4, k5, k6, model};
 }
 
-void setRows(vec4 (&rows)[3], const Pose& pose) {
-    const glm::dmat3 r = glm::mat3_cast(pose.rotation); // column-major
-    for (int i = 0; i < 3; ++i) {
-        rows[i] = vec4(r[0][i], r[1][i], r[2][i], pose.position[i]);
-    }
-}
-
 // Bounds for insideGates (shaders/lib/colour.glsl), widened by the float32 rounding of bounds and products. A
 // missing gate gets bounds that every colour passes.
 void setGates(shared::ClassParams& c, const FixtureClass& f) {
@@ -93,7 +86,21 @@ uint32_t forbiddenOrder(const shared::FrameParams& params) {
     return packed;
 }
 
+// Limits of estimates (estimate.glsl). With the filter's, they move no point out of the smallest region
+// sphere.
+void setMemoryGates(shared::FrameParams& p, double bound) {
+    p.memoryGates = {1.0, std::min(0.0004, bound), 0.6, std::min(0.0006, bound)};
+    p.memoryMore = {0.2, std::min(0.0002, 0.25 * bound), 1e-8, 0.0};
+}
+
 } // namespace
+
+void setRows(vec4 (&rows)[3], const Pose& pose) {
+    const glm::dmat3 r = glm::mat3_cast(pose.rotation); // column-major
+    for (int i = 0; i < 3; ++i) {
+        rows[i] = vec4(r[0][i], r[1][i], r[2][i], pose.position[i]);
+    }
+}
 
 std::pair<uint32_t, uint32_t> depthBand(const Scene& scene, double metresPerUnit) {
     const double lo = std::ceil(scene.nearZ / metresPerUnit - 1e-9),
@@ -149,6 +156,7 @@ shared::FrameParams sceneParams(const Scene& scene, const CameraInfo& camera, co
     setRows(p.colourTdepth, camera.colourTdepth);
     const double step = scene.errorBudget / shared::kGrowthSteps;
     p.steps = {1.0 / camera.depth.fx, 1.0 / camera.depth.fy, step, step > 0.0 ? 1.0 / step : 0.0};
+    setMemoryGates(p, scene.filterBound());
     return p;
 }
 

@@ -25,6 +25,9 @@ std::pair<uint32_t, uint32_t> depthBand(const Scene& scene, double metresPerUnit
 shared::FrameParams sceneParams(const Scene& scene, const CameraInfo& camera, const PatchLayout& layout,
                                 const dvec3& origin, uint32_t cellEdge, uint32_t cellsAcross);
 
+// Sets the rows of [R | t] of a pose.
+void setRows(glm::vec4 (&rows)[3], const Pose& pose);
+
 // Sets the pose and the times of one frame. Times wrap at 2^32 us, which keeps ages correct.
 void setFrame(shared::FrameParams& params, const Pose& baseTcamera, const dvec3& origin, double captureTime,
               double previousTime);

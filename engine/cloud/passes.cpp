@@ -2,6 +2,7 @@
 #include "engine/cloud/passes.h"
 
 #include "shaders/classify.h"
+#include "shaders/estimate.h"
 #include "shaders/list.h"
 #include "shaders/moments.h"
 #include "shaders/occlusion.h"
@@ -130,6 +131,25 @@ PassInfo surface(const CloudContext& c) {
              {kSpecFour, four},
              {kSpecPolynomial, plan.polynomialWeights},
              {kSpecPair, plan.filterPairs()}},
+            GroupsCounted{offsetof(FrameCounters, patchGroups)}};
+}
+
+PassInfo estimate(const CloudContext& c) {
+    const bool four = c.camera.depth.width % 4 == 0;
+    return {"estimate",
+            estimate_spv,
+            {&Up::params,
+             depthOf(c.plan, four ? kFourDepths : kDepthTexels),
+             &Work::rays,
+             &Work::masks,
+             &Work::list,
+             &Work::points,
+             {&Work::estimates, VK_FORMAT_R32G32B32A32_UINT},
+             &Work::estimates},
+            {{kSpecGroupSize, std::min(c.plan.pixelGroup, 64u)},
+             {kSpecRays, c.plan.rays},
+             {kSpecFour, four},
+             {kSpecMoves, !c.camera.poseless}},
             GroupsCounted{offsetof(FrameCounters, patchGroups)}};
 }
 
@@ -272,6 +292,7 @@ std::vector<PassInfo> framePasses(const CloudContext& c) {
     add(c.plan.cloud, classify);
     add(c.plan.lists(), list);
     add(c.plan.cloud, surface);
+    add(c.plan.estimates, estimate);
     add(c.plan.thins(), thin);
     add(c.plan.moments, moments);
     if (c.plan.spheres) {

@@ -73,6 +73,7 @@ void FrameCycle::forget() {
     if (device_) {
         device_->clearMemory();
     }
+    estimateFrames_.forget();
     lastSource_.reset();
     lastCapture_.reset();
 }
@@ -84,6 +85,7 @@ void FrameCycle::setScene(const Scene& scene) {
     }
     scene_ = scene;
     updateParams();
+    estimateFrames_.forget();
     lastSource_.reset(); // the same frame gives a different set now
 }
 
@@ -140,6 +142,7 @@ void FrameCycle::upload(Frame frame) {
         f.slot = device_->slotFor(frame, busy ? std::optional(submitted_->slot) : std::nullopt);
         cloud::setFrame(params_, f.pose, *origin_, frame->captureTime,
                         lastCapture_.value_or(frame->captureTime));
+        estimateFrames_.next(params_, scene_, frame->baseTcamera, *origin_, frame->captureTime);
         cloud::uploadFrame(device_->upload(f.slot), frame, params_);
         f.params = params_;
         uploadArm(f.slot, *origin_);

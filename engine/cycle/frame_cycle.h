@@ -4,6 +4,7 @@
 #pragma once
 
 #include "engine/cloud/collect.h"
+#include "engine/cloud/estimate_frames.h"
 #include "engine/cloud/frozen_classes.h"
 #include "engine/cloud/self_filter.h"
 #include "engine/cycle/frame_device.h"
@@ -115,6 +116,7 @@ private:
 
     cloud::LinkSpheres arm_;
     cloud::FrozenClasses frozen_;
+    cloud::EstimateFrames estimateFrames_;
     std::optional<dvec3> origin_;
     shared::FrameParams params_{};
     std::optional<InFlight> uploaded_, submitted_;

@@ -57,7 +57,8 @@ void FrameDevice::clearMemory() {
     gpu::Commands commands(device_);
     commands.begin();
     cloud::clearCounters(commands, work_);
-    for (const gpu::Buffer* buffer : {&work_.seen, &work_.kept, &work_.keptTime, &work_.live}) {
+    for (const gpu::Buffer* buffer :
+         {&work_.seen, &work_.kept, &work_.keptTime, &work_.live, &work_.estimates}) {
         if (*buffer) {
             commands.fill(*buffer, 0);
         }

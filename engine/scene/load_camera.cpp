@@ -103,8 +103,11 @@ void loadBeam(const YamlNode& node, Scene& scene) {
 } // namespace
 
 void loadCamera(const YamlNode& camera, Scene& scene) {
-    camera.checkKeys(
-        {"source", "near", "far", "base_T_camera", "registration_sigma", "port", "beam", "attenuation"});
+    camera.checkKeys({"source", "near", "far", "base_T_camera", "registration_sigma", "port", "beam",
+                      "attenuation", "static"});
+    if (const auto isStatic = camera.find("static")) {
+        scene.cameraStatic = isStatic->boolean();
+    }
     if (const auto attenuation = camera.find("attenuation")) {
         scene.attenuation = attenuation->vec3(Range::between(0.0, 20.0));
     }
@@ -127,7 +130,10 @@ void loadCamera(const YamlNode& camera, Scene& scene) {
 }
 
 void loadFilter(const YamlNode& filter, Scene& scene) {
-    filter.checkKeys({"radius", "sigma", "edge", "weights"});
+    filter.checkKeys({"radius", "sigma", "edge", "weights", "memory"});
+    if (const auto memory = filter.find("memory")) {
+        scene.filter.memory = memory->integer(0, 120);
+    }
     if (const auto radius = filter.find("radius")) {
         scene.filter.radius = radius->integer(0, 16);
     }

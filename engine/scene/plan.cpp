@@ -30,6 +30,15 @@ uint64_t bytesOfTile(uint32_t radius) {
     return 3 * sizeof(float) * edge * edge;
 }
 
+// Why depths cannot be averaged over frames; null when they can.
+const char* whyNoEstimates(const Scene& scene, const CameraInfo& camera) {
+    return !scene.hasPoints()                       ? "the scene has no point class"
+           : scene.filter.memory == 0               ? "filter.memory is 0"
+           : camera.beam || camera.depth.fan        ? "not for sensors that measure along beams"
+           : camera.poseless && !scene.cameraStatic ? "frames have no poses, and camera.static is not set"
+                                                    : nullptr;
+}
+
 // Sets the parts of the plan that depend on the scene and the camera.
 void decideByScene(const Scene& scene, const CameraInfo& camera, Plan& plan) {
     plan.spheres = scene.hasForbiddenPoints();
@@ -57,6 +66,7 @@ void decideByScene(const Scene& scene, const CameraInfo& camera, Plan& plan) {
     plan.fan = plan.cloud && camera.depth.fan;
     plan.filterRadius = scene.filter.radius;
     plan.edge = scene.filter.edge > 0.0;
+    plan.estimates = plan.cloud && whyNoEstimates(scene, camera) == nullptr;
     plan.polynomialWeights = scene.filter.weights == Scene::Filter::Weights::Polynomial;
 }
 
@@ -141,6 +151,11 @@ void explainPasses(Plan& plan, const Scene& scene, const CameraInfo& camera) {
                                       (plan.polynomialWeights ? ", polynomial weights" : "")
                                 : "no filter: points as measured",
          "the scene has no point class");
+    const char* const noEstimates = whyNoEstimates(scene, camera);
+    pass("estimate", plan.estimates,
+         "depths averaged over at most " + std::to_string(scene.filter.memory) + " frames" +
+             (camera.poseless ? ", static camera" : ", camera poses known"),
+         noEstimates != nullptr ? noEstimates : "");
     pass("thin", plan.thin, budgetSentence(plan, scene), noBudgetSentence(plan));
     pass("spheres", plan.spheres,
          std::string("forbidden classes") + (plan.beam ? ", 3 sigma of range and beam added" : "") +
@@ -156,7 +171,6 @@ void explainPasses(Plan& plan, const Scene& scene, const CameraInfo& camera) {
          "the scene has no point class");
     pass("tree_query", plan.query == Plan::Query::Gpu, "contact query on the GPU",
          plan.query == Plan::Query::Cpu ? "contact query on the CPU" : "no contact constraints");
-    (void)camera;
 }
 
 void explainBuffer(Plan& plan, const char* name, bool in, uint64_t bytes, std::string why) {
@@ -185,10 +199,12 @@ void explainImages(Plan& plan, const CameraInfo& camera) {
                                       : "no lens distortion: computed from the pixel");
 }
 
-void explainResults(Plan& plan, const CameraInfo& camera) {
+void explainResults(Plan& plan, const Scene& scene, const CameraInfo& camera) {
     const PatchLayout layout = patchLayout(camera.depth.width, camera.depth.height);
     const uint64_t slots = layout.slots();
     explainBuffer(plan, "masks and points", plan.cloud, 17 * slots, "class bits and base-frame points");
+    explainBuffer(plan, "depth estimates", plan.estimates, 32 * slots,
+                  plan.estimates ? "of this frame and the one before" : whyNoEstimates(scene, camera));
     explainBuffer(plan, "thinning cells", plan.thin, slots,
                   plan.thin ? "one decision per 4x4 cell" : "no thinning");
     explainBuffer(plan, "memory of points", plan.hold, 36 * slots,
@@ -256,8 +272,8 @@ uint32_t Plan::dispatchesPerFrame() const {
     // classify and surface; patches that hold nothing, then those that do; the tree's patches, then all above
     // them in one group
     return (occlusion ? 1u : 0u) + (cloud ? 2u : 0u) + (delivers() ? 1u : 0u) + (lists() ? 1u : 0u) +
-           (thins() ? 1u : 0u) + (spheres ? (hold && lists() ? 2u : 1u) : 0u) + (tree ? 2u : 0u) +
-           (moments ? 1u : 0u);
+           (estimates ? 1u : 0u) + (thins() ? 1u : 0u) + (spheres ? (hold && lists() ? 2u : 1u) : 0u) +
+           (tree ? 2u : 0u) + (moments ? 1u : 0u);
 }
 
 Plan makePlan(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, const DeviceFacts& device) {
@@ -269,7 +285,7 @@ Plan makePlan(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves,
     Plan plan = decide(scene, camera, toolLeaves, device);
     explainPasses(plan, scene, camera);
     explainImages(plan, camera);
-    explainResults(plan, camera);
+    explainResults(plan, scene, camera);
     const auto thread = [&](const char* name, bool in, const char* why) {
         plan.items.push_back({"thread", name, in, why, 0});
     };

@@ -30,6 +30,7 @@ struct PlannedPasses {
     bool leaks = false; // somewhere in near..far neighbours may be a region radius apart: leaks are detected
     uint32_t filterRadius = 0;
     bool edge = false;
+    bool estimates = false;         // depths are averaged over frames
     bool polynomialWeights = false; // of the filter, instead of exp
     bool arm = false;               // an arm carries the tool: joints are the unknowns, and all links collide
     bool water = false;             // colours are corrected for attenuation in water

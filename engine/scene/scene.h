@@ -131,6 +131,7 @@ struct Scene {
     CameraSource source;
     double nearZ = 0.1, farZ = 3.0; // [m] along the optical axis, inclusive
     Pose baseTcamera;
+    bool cameraStatic = false;      // it never moves, though its frames have no poses
     double registrationSigma = 0.0; // [m]; regions grow by 3 of them
     // A flat window between the camera and the water.
     struct Port {
@@ -154,6 +155,7 @@ struct Scene {
         double edge = 0.03;  // relative depth jump of a flying pixel; 0 = off
         // phi of paper eq. 2: exp(-t) itself, or (1 - t / 16.68)^16 down to 0, which is at most 0.008 off.
         enum class Weights { Exact, Polynomial } weights = Weights::Exact;
+        uint32_t memory = 0; // [frames] most that the estimate of a pixel's depth averages; 0 = no estimate
     } filter;
     double errorBudget = 0.0001; // [m]; 0 keeps every point
     double holdSeconds = 0.5;    // [s]; 0 = paper

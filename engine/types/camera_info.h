@@ -66,9 +66,10 @@ struct CameraInfo {
     Pose colourTdepth;            // maps depth-camera points to the colour camera; identity when registered
     double metresPerUnit = 0.001; // depth value 1 in metres; depth value 0 = no measurement
     bool hasColour = true;
-    bool yuyv = false;    // colour is YUYV (yuyv.h); its width must be even
-    double sigma = 0.0;   // [m] systematic error of points that a correction leaves; regions grow by 3 sigma
-    bool inWater = false; // depth is already corrected for a flat port; sigma is the remaining error
+    bool yuyv = false;     // colour is YUYV (yuyv.h); its width must be even
+    double sigma = 0.0;    // [m] systematic error of points that a correction leaves; regions grow by 3 sigma
+    bool poseless = false; // no frame has a pose
+    bool inWater = false;  // depth is already corrected for a flat port; sigma is the remaining error
     std::optional<BeamSigma> beam; // per-point uncertainty; each sphere grows by 3 sigma
 
     uint64_t colourBytes() const { return (yuyv ? 2ull : 4ull) * colour.pixels(); } // of one frame

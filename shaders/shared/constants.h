@@ -43,6 +43,7 @@ FATHOM_CONST kSpecTexels = 29;   // the memory of points is read as texels
 FATHOM_CONST kSpecPack = 30;     // the host reads packed runs
 FATHOM_CONST kSpecShared = 31;   // moments of sub-patches are merged in shared memory
 FATHOM_CONST kSpecPatches = 32;  // `tree` builds the level of patches
+FATHOM_CONST kSpecMoves = 35;   // the camera may move
 // Measurements of the device.
 FATHOM_CONST kSpecRounds = 33; // rounds of four multiply-adds per chain
 FATHOM_CONST kSpecCopy = 34;   // 1: `stream` copies; 0: it sums

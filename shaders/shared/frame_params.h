@@ -49,8 +49,17 @@ struct FrameParams {
     vec4 lensMore;       // depth k4, k5, k6; kLensPlain or the other models
     vec4 colourLensMore; // the same of colour
     vec4 steps;     // ray increments per pixel 1 / fx, 1 / fy; growth step of spheres [m]; its reciprocal
+    uvec4 memory;     // number of this frame and of the frame that the estimates come from (0 = none); most
+                      // frames that an estimate averages, and that it outlasts its pixel
+    vec4 memoryGates; // largest jump and drift of an estimate: in sigma, x and z, but at most y and w [m]
+    vec4 memoryMore;  // change that is not shown: in sigma, x, but at most y [m]; z: variance of a moved pose,
+                      // [m^2]; w: 1 = the camera has moved since the frame that the estimates come from
+    vec4 beforeTbase[3]; // rows of the pose of that frame, as cameraTbase
 };
-FATHOM_SIZE(FrameParams, 64 + 112 + 144 + 640 + 208);
+FATHOM_SIZE(FrameParams, 64 + 112 + 144 + 640 + 208 + 96);
+
+// Numbers of frames in the memory of estimates wrap here.
+FATHOM_CONST kMemoryFrames = 0x1000000;
 
 // Growth steps in the error budget: a packed sphere stores its growth in 8 bits.
 FATHOM_CONST kGrowthSteps = 255;
