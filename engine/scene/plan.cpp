@@ -2,6 +2,7 @@
 #include "engine/scene/plan.h"
 
 #include "engine/scene/camera_limits.h"
+#include "engine/scene/plan_items.h"
 #include "engine/types/error.h"
 
 #include <algorithm>
@@ -28,15 +29,6 @@ bool mayLeak(const Scene& scene, const Intrinsics& lens) {
 uint64_t bytesOfTile(uint32_t radius) {
     const uint64_t edge = 16 + 2 * radius;
     return 3 * sizeof(float) * edge * edge;
-}
-
-// Why depths cannot be averaged over frames; null when they can.
-const char* whyNoEstimates(const Scene& scene, const CameraInfo& camera) {
-    return !scene.hasPoints()                       ? "the scene has no point class"
-           : scene.filter.memory == 0               ? "filter.memory is 0"
-           : camera.beam || camera.depth.fan        ? "not for sensors that measure along beams"
-           : camera.poseless && !scene.cameraStatic ? "frames have no poses, and camera.static is not set"
-                                                    : nullptr;
 }
 
 // Sets the parts of the plan that depend on the scene and the camera.
@@ -117,121 +109,6 @@ Plan decide(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, c
     return plan;
 }
 
-std::string budgetSentence(const Plan& plan, const Scene& scene) {
-    return "error budget " + std::to_string(scene.errorBudget * 1e3) + " mm" +
-           (plan.byPixel ? ", within the pass spheres" : "");
-}
-
-const char* noBudgetSentence(const Plan& plan) {
-    return plan.beam      ? "each point's sphere has its own radius"
-           : plan.spheres ? "error budget 0 keeps every point"
-                          : "no forbidden point class";
-}
-
-void explainPasses(Plan& plan, const Scene& scene, const CameraInfo& camera) {
-    const auto pass = [&](const char* name, bool in, std::string yes, std::string no) {
-        plan.items.push_back({"pass", name, in, in ? std::move(yes) : std::move(no), 0});
-    };
-    pass("occlusion", plan.occlusion,
-         "colour is not registered to depth: parallax hides points from the colour camera",
-         !scene.usesColour() ? "no class uses colour" : "colour is registered to depth");
-    pass("classify", plan.cloud,
-         std::string("the scene has point classes") +
-             (plan.water ? ", colours corrected for water before the gates" : ""),
-         "the scene has no point class");
-    pass("list", plan.lists(), "lists patches with work, and those with points or guidance",
-         plan.cloud ? "classify writes the list" : "the scene has no point class");
-    pass("surface", plan.cloud,
-         plan.filterRadius != 0 ? "bilateral filter " + std::to_string(2 * plan.filterRadius + 1) + "x" +
-                                      std::to_string(2 * plan.filterRadius + 1) +
-                                      (plan.filterBlock     ? ", 4x4 blocks from registers"
-                                       : plan.filterPairs() ? ", shared-memory tiles, two pixels at a time"
-                                       : plan.tiled         ? ", shared-memory tiles"
-                                                            : ", direct reads") +
-                                      (plan.polynomialWeights ? ", polynomial weights" : "")
-                                : "no filter: points as measured",
-         "the scene has no point class");
-    const char* const noEstimates = whyNoEstimates(scene, camera);
-    pass("estimate", plan.estimates,
-         "depths averaged over at most " + std::to_string(scene.filter.memory) + " frames" +
-             (camera.poseless ? ", static camera" : ", camera poses known"),
-         noEstimates != nullptr ? noEstimates : "");
-    pass("thin", plan.thin, budgetSentence(plan, scene), noBudgetSentence(plan));
-    pass("spheres", plan.spheres,
-         std::string("forbidden classes") + (plan.beam ? ", 3 sigma of range and beam added" : "") +
-             (plan.hold ? ", unseen points held" : "") +
-             (plan.leaks ? ", checked for holes between points"
-                         : ", near enough to exclude holes between points") +
-             (plan.pack ? ", packed for transfer to the host" : ""),
-         "no forbidden point class");
-    pass("tree", plan.tree, "bounds up to one root for the query",
-         plan.spheres ? "the CPU query uses a grid" : "no forbidden point class");
-    pass("moments", plan.moments, "mean and covariance of the guidance classes", "no guidance class");
-    pass("deliver", plan.cloud, "sends patch counters and marks to the host and clears them",
-         "the scene has no point class");
-    pass("tree_query", plan.query == Plan::Query::Gpu, "contact query on the GPU",
-         plan.query == Plan::Query::Cpu ? "contact query on the CPU" : "no contact constraints");
-}
-
-void explainBuffer(Plan& plan, const char* name, bool in, uint64_t bytes, std::string why) {
-    plan.items.push_back({"buffer", name, in, std::move(why), in ? bytes : 0});
-}
-
-void explainImages(Plan& plan, const CameraInfo& camera) {
-    const uint64_t pixels = camera.depth.pixels();
-    const char* copies = plan.inPlace
-                             ? "double-buffered, for frames that are not in whole pages of host memory"
-                             : "double-buffered";
-    explainBuffer(plan, "depth upload", plan.cloud, 2 * 2 * pixels, copies);
-    explainBuffer(plan, "colour upload", plan.colour, 2 * camera.colourBytes(),
-                  !plan.colour ? "no class uses colour"
-                  : plan.yuyv  ? std::string(copies) + "; YUYV, unconverted"
-                               : copies);
-    explainBuffer(plan, "depth on the device", plan.keepDepth, 2 * pixels,
-                  plan.keepDepth ? "read across the bus once" : "passes read the upload");
-    explainBuffer(plan, "rays", plan.rays, 8 * pixels,
-                  plan.fan    ? "beams at equal angles"
-                  : plan.rays ? "distorted lens"
-                              : "no lens distortion: computed from the pixel");
-    explainBuffer(plan, "rays on the host", plan.rays && plan.packsDepths(), 8 * pixels,
-                  !plan.packsDepths() ? "the host receives points, not depths"
-                  : plan.rays         ? "the host computes points from depths"
-                                      : "no lens distortion: computed from the pixel");
-}
-
-void explainResults(Plan& plan, const Scene& scene, const CameraInfo& camera) {
-    const PatchLayout layout = patchLayout(camera.depth.width, camera.depth.height);
-    const uint64_t slots = layout.slots();
-    explainBuffer(plan, "masks and points", plan.cloud, 17 * slots, "class bits and base-frame points");
-    explainBuffer(plan, "depth estimates", plan.estimates, 32 * slots,
-                  plan.estimates ? "of this frame and the one before" : whyNoEstimates(scene, camera));
-    explainBuffer(plan, "thinning cells", plan.thin, slots,
-                  plan.thin ? "one decision per 4x4 cell" : "no thinning");
-    explainBuffer(plan, "memory of points", plan.hold, 36 * slots,
-                  plan.hold ? "points that can be held" : "hold_s is 0");
-    const uint64_t bytesOfSlot = (plan.hold ? 32u : 16u) + (plan.classes > 1 ? 1u : 0u);
-    explainBuffer(plan, "sphere slots", plan.tree, slots * bytesOfSlot,
-                  plan.tree ? "of one fixture set, for the GPU query" : "no GPU query");
-    explainBuffer(plan, "radii", plan.spheres && !plan.pack, slots * (plan.hold ? 8u : 4u),
-                  !plan.spheres ? "no forbidden point class"
-                  : plan.pack   ? "the host reads packed spheres"
-                                : "the host reads them with the points");
-    const bool packedClasses = plan.pack && plan.classes > 1;
-    explainBuffer(plan, "classes of spheres", plan.spheres && (!plan.pack || packedClasses), slots,
-                  !plan.spheres   ? "no forbidden point class"
-                  : packedClasses ? "for patches with several classes"
-                  : plan.pack     ? "only one class"
-                                  : "the host reads them with the points");
-    explainBuffer(plan, "packed spheres", plan.pack, slots * plan.packedBytes() + 72ull * layout.patches(),
-                  !plan.spheres        ? "no forbidden point class"
-                  : plan.packsDepths() ? "of one fixture set; one depth per seen sphere"
-                  : plan.pack          ? "of one fixture set"
-                                       : "the host reads radii with the points");
-    explainBuffer(plan, "tree nodes", plan.tree, 20ull * layout.nodes(),
-                  plan.tree ? "of one fixture set" : "no query traverses a tree");
-    explainBuffer(plan, "moments", plan.moments, 64ull * 8 * layout.patches(), "of one fixture set");
-}
-
 } // namespace
 
 // Points are z (rho, 1), rho of neighbours at most 1 / f apart. With a the distance of two, |dz| <= 0.7 a:
@@ -283,29 +160,7 @@ Plan makePlan(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves,
     }
     checkCamera(camera, "camera");
     Plan plan = decide(scene, camera, toolLeaves, device);
-    explainPasses(plan, scene, camera);
-    explainImages(plan, camera);
-    explainResults(plan, scene, camera);
-    const auto thread = [&](const char* name, bool in, const char* why) {
-        plan.items.push_back({"thread", name, in, why, 0});
-    };
-    thread("camera", true, "frames, uploads, passes (realtime)");
-    thread("contact", plan.query != Plan::Query::None,
-           plan.query != Plan::Query::None ? "contact sets (realtime)" : "no contact constraints");
-    thread("haptic", true, "ticks (realtime)");
-    thread("publishers", plan.publishers > 1,
-           plan.publishers > 1 ? "additional threads help the camera thread to publish each set"
-                               : "the camera thread alone publishes each set");
-    const auto arm = [&](const char* name, bool in, const char* why) {
-        plan.items.push_back({"arm", name, in, why, 0});
-    };
-    arm("joint space", plan.arm,
-        plan.arm ? "joint increments are the unknowns; every link is checked against the fixtures"
-                 : "no arm: the tool moves freely");
-    arm("self_filter", plan.selfFilter,
-        plan.selfFilter ? "in classify: removes points inside the arm's spheres"
-        : plan.arm      ? "no arm.self_filter: the arm stays in the cloud"
-                        : "no arm");
+    explainPlan(plan, scene, camera);
     return plan;
 }
 
