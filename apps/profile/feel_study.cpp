@@ -51,6 +51,11 @@ std::vector<FeelSetting> feelSettings() {
                         budget == 0.001});
     }
     list.push_back({"no smooth planes", [](Scene& scene) { scene.haptics.smooth = false; }});
+    for (const uint32_t frames : {8u, 30u}) {
+        list.push_back({"memory " + std::to_string(frames),
+                        [=](Scene& scene) { scene.filter.memory = frames; }, kUsualRate, false,
+                        frames == 30});
+    }
     for (const double rate : {15.0, 60.0, 90.0}) {
         list.push_back({digits(rate) + " Hz", plain, rate, false, rate == 60.0});
     }

@@ -226,6 +226,7 @@ TEST_CASE("Every item has a reason; skipped items take no memory and others take
     Scene all = sceneOf({points(Role::Forbidden), points(Role::Guidance)});
     all.fixtures[0].hue = Band{0, 10};
     all.contact.where = Scene::Contact::Where::Gpu;
+    all.filter.memory = 30;
     CameraInfo camera = cameraOf(428, 240);
     camera.depth.distortion[0] = 0.1;
     camera.registered = false;
