@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Causes faults while the hand presses on a region, and checks the forces in the files of the run.
+#include "tests/rig/cause_check.h"
 #include "tests/rig/played_device.h"
 #include "tests/rig/stage.h"
 
@@ -138,6 +139,7 @@ TEST_CASE("A device that is unplugged while it presses gets no force, the tool s
     ::kill(engine, SIGINT);
     CHECK(exitCodeOf(engine) == 0);
     const Replay replay = readReplay(stage / "out", {});
+    checkForces(replay.ticks, {}, 1e-5, true);
     REQUIRE(!replay.ticks.empty());
     // Off for at least as long as it was unplugged, minus the 0.2 s that the loss may take. Only the length
     // is compared, because the clocks of test and run have different origins.
@@ -220,6 +222,7 @@ TEST_CASE("A realtime replay that is stopped for 1.2 s while it presses counts t
     ::kill(engine, SIGCONT);
     CHECK(exitCodeOf(engine) == 0);
     const Replay replay = readReplay(stage / "out", {});
+    checkForces(replay.ticks, {}, 1e-5, true);
     const std::vector<Tick>& ticks = replay.ticks;
     REQUIRE(ticks.size() > 100);
     double longest = 0.0, resumed = 0.0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // `replay --realtime` with a live hand on a bridge socket, and an observer on the view socket.
+#include "tests/rig/cause_check.h"
 #include "tests/rig/played_device.h"
 #include "tests/rig/refusal.h"
 #include "tests/rig/stage.h"
@@ -119,6 +120,7 @@ TEST_CASE("A live hand on a bridge socket drives a realtime replay, and an obser
     CHECK(run.out.find("(preset falcon): x y z sensed, x y z driven; torque is shown, not felt") !=
           std::string::npos);
     const Replay replay = readReplay(stage / "out", run);
+    checkForces(replay.ticks, {}, 1e-5, true);
     REQUIRE(replay.ticks.size() > 100);
     CHECK(replay.ticks.back().t > 0.9);
     double moved = 0.0;

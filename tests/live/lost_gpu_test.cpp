@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The GPU is lost while the program runs (a Vulkan layer simulates it): the haptic thread continues with the
 // last set, the device is opened again, and frames resume.
+#include "tests/rig/cause_check.h"
 #include "tests/rig/losing.h"
 #include "tests/rig/stage.h"
 
@@ -42,6 +43,7 @@ TEST_CASE("A GPU that is lost or out of memory is opened again while the hand co
         CHECK(run.err.find("GPU is back") != std::string::npos);
         CHECK(run.out.find("lost and reopened 1 times") != std::string::npos);
         const Replay replay = readReplay(stage / "out", run);
+        checkForces(replay.ticks, {}, 1e-5, true);
         CHECK(deepest(replay) <= 1e-5);
         REQUIRE(!replay.frames.empty());
         CHECK(replay.frames.back().index == 119); // up to the last one
@@ -61,6 +63,7 @@ TEST_CASE(
     REQUIRE(run.exitCode == 0);
     CHECK(run.out.find("lost and reopened 1 times") != std::string::npos);
     const Replay replay = readReplay(stage / "out", run);
+    checkForces(replay.ticks, {}, 1e-5, true);
     CHECK(deepest(replay) <= 1e-5);
     std::set<int64_t> told;
     for (const FrameRow& row : replay.frames) {
@@ -81,6 +84,7 @@ TEST_CASE("A GPU that never comes back leaves the hand without force, outside th
     CAPTURE(run.err);
     REQUIRE(run.exitCode == 0);
     const Replay replay = readReplay(stage / "out", run);
+    checkForces(replay.ticks, {}, 1e-5, true);
     CHECK(deepest(replay) <= 1e-5);
     CHECK(replay.frames.back().index < 30);
     CHECK(replay.ticks.back().t > 3.9);

@@ -6,9 +6,12 @@
 #include "tests/rig/stage.h"
 
 #include <cmath>
+#include <doctest/doctest.h>
 #include <glm/geometric.hpp>
+#include <map>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace fathom {
 
@@ -82,5 +85,21 @@ private:
     dvec3 force_{0.0}, torque_{0.0};
     double since_ = -1e9; // [s] the last tick with a cause
 };
+
+// Checks every row of a run, and names each kind of fault once, with its first time.
+inline void checkForces(const std::vector<Tick>& ticks, const Terms& terms, double allowance, bool mayLose) {
+    CauseCheck causes(mayLose);
+    std::map<std::string, std::vector<double>> faults; // times [s] of each kind
+    for (const Tick& tick : ticks) {
+        for (const std::string& fault : {faultOf(tick, terms, allowance), causes.add(tick, terms)}) {
+            if (!fault.empty()) {
+                faults[fault].push_back(tick.t);
+            }
+        }
+    }
+    for (const auto& [fault, times] : faults) {
+        FAIL_CHECK(times.size() << " ticks, the first at " << times.front() << " s: " << fault);
+    }
+}
 
 } // namespace fathom
