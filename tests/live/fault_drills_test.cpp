@@ -247,5 +247,5 @@ TEST_CASE("A realtime replay that is stopped for 1.2 s while it presses counts t
     CHECK(static_cast<double>(ticks.size()) + missed >= 0.99 * ticks.back().t * 1000.0);
     // On a busy machine the frame may come first; then no tick has an old scene.
     CHECK((said.find("ms old: forces fade") != std::string::npos) == stale);
-    CHECK(glm::length(replay.at(resumed + 1.0).force) > 5.0); // the force is back
+    CHECK(glm::length(replay.at(resumed + 1.0).force) > 3.0); // it returns as the stiffness rises again
 }
