@@ -74,15 +74,13 @@ void requireDisplay() {
 
 WindowRig::WindowRig(const std::vector<std::string>& extra) {
     requireDisplay();
-    Image image = bumpImage();
-    image.set({50, 36, 64, 48}, 0); // a corner without depth
+    const Image image = bumpImage().set({50, 36, 64, 48}, 0); // a corner without depth
     writeRecording(folder_.path() / "recording", std::vector<Image>(4, image));
     SceneText scene;
     scene.camera = "source: {recorded: recording}, near: 0.1, far: 3.0";
     scene.fixtures.push_back(SceneText::kGuideYellow);
     scene.tool = "spheres: [[0, 0, 0, 0.01], [0, 0, -0.03, 0.012]]";
-    // Over smooth planes a tool slides off the bump; the cusps between its spheres hold the tool.
-    scene.haptics = "friction: 0, damping: 0, margin: 1, smooth: false";
+    scene.haptics = "friction: 0, damping: 0, margin: 1, smooth: false"; // smooth, a tool slides off the bump
     folder_.write("scene.yaml", "# a comment that saving must keep\n" + scene.text());
     startDisplay();
     startProgram(folder_.path() / "scene.yaml", extra);
