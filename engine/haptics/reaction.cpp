@@ -51,15 +51,6 @@ Wrench Reaction::tail(double size, double period) noexcept {
     return scaled(faded_, share);
 }
 
-// How far the hand moved along the wanted reaction since the tick before, which is out of the regions [m].
-double Reaction::outwards(const Wrench& wanted, double size, const Pose& end) const noexcept {
-    const dvec3 turned = rotationLog(end.rotation * glm::conjugate(end_.rotation));
-    return size > 0.0
-               ? (glm::dot(end.position - end_.position, wanted.force) + glm::dot(turned, wanted.torque)) /
-                     size
-               : 0.0;
-}
-
 // The change of direction that new data made at its adoption is taken back by a share that falls to zero.
 // What the hand turns meanwhile is felt at once: a lag of it would feed energy into a light hand.
 Wrench Reaction::turning(const Wrench& wrench, const ReactionInput& input) noexcept {
@@ -87,10 +78,13 @@ Wrench Reaction::step(const ReactionInput& input) noexcept {
     const double k = std::max(1e-6, input.springs.metricRadius);
     Wrench wrench = couple(input.springs, input.allowed, input.end, dvec3(0.0), dvec3(0.0));
     const double wanted = sizeOf(wrench, k);
-    const dvec3 moved = input.end.position - end_.position,
-                turned = k * rotationLog(input.end.rotation * glm::conjugate(end_.rotation));
-    const double travel = started_ ? std::sqrt(glm::dot(moved, moved) + glm::dot(turned, turned)) : 0.0;
-    const double out = started_ ? outwards(wrench, wanted, input.end) : 0.0;
+    const Pose& before = started_ ? end_ : input.end;
+    const dvec3 moved = input.end.position - before.position,
+                turned = rotationLog(input.end.rotation * glm::conjugate(before.rotation));
+    const double travel = std::sqrt(glm::dot(moved, moved) + glm::dot(k * turned, k * turned));
+    // Along the wanted reaction, which is out of the regions.
+    const double out =
+        wanted > 0.0 ? (glm::dot(moved, wrench.force) + glm::dot(turned, wrench.torque)) / wanted : 0.0;
     const double compressed = out > 0.0 ? 0.0 : input.springs.stiffness * travel;
     const double calm = std::clamp(1.0 - out / (kLeaves * input.period), 0.0, 1.0);
     const double grows = compressed + calm * rate(wanted - compressed - size_, input) * input.period;

@@ -45,7 +45,6 @@ public:
 
 private:
     double rate(double appeared, const ReactionInput& input) noexcept;
-    double outwards(const Wrench& wanted, double size, const Pose& end) const noexcept;
     Wrench tail(double size, double period) noexcept;
     Wrench turning(const Wrench& wrench, const ReactionInput& input) noexcept;
 
