@@ -34,6 +34,11 @@ struct BufferIn {
 
 } // namespace
 
+PassBinding depthOf(const Plan& plan, VkFormat texels) {
+    return plan.keepDepth ? PassBinding(&WorkBuffers::depth, texels)
+                          : PassBinding(&UploadBuffers::depth, texels);
+}
+
 Pass::Pass(const CloudContext& context, PassInfo info)
     : context_(context)
     , info_(std::move(info))

@@ -28,6 +28,9 @@ struct PassBinding {
     VkFormat texels; // undefined: FrameParams is bound as a uniform buffer, all others as storage buffers
 };
 
+// Depth for the passes after classify.
+PassBinding depthOf(const Plan& plan, VkFormat texels);
+
 // Number of groups along x, y and z.
 using Groups = std::array<uint32_t, 3>;
 // The device reads the number of groups from FrameCounters, at this offset [bytes].

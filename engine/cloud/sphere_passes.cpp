@@ -79,10 +79,6 @@ PassInfo spheresBySub(const CloudContext& c, uint32_t hold, size_t counted) {
 
 } // namespace
 
-PassBinding depthOf(const Plan& plan, VkFormat texels) {
-    return plan.keepDepth ? PassBinding(&Work::depth, texels) : PassBinding(&Up::depth, texels);
-}
-
 std::vector<PassInfo> spherePasses(const CloudContext& c) {
     if (c.plan.byPixel) {
         return {spheresByPatch(c)};

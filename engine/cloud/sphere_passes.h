@@ -9,6 +9,4 @@ namespace fathom::cloud {
 // One pass on GPUs; on CPU devices a second one for patches that hold points, when the scene holds.
 std::vector<PassInfo> spherePasses(const CloudContext& context);
 
-// Depth for the passes after classify.
-PassBinding depthOf(const Plan& plan, VkFormat texels);
 } // namespace fathom::cloud
