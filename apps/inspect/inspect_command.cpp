@@ -5,7 +5,6 @@
 #include "apps/binding/open_source.h"
 #include "apps/inspect/frame_study.h"
 #include "apps/inspect/stream_report.h"
-#include "devices/bag/bag_camera.h"
 #include "engine/scene/camera_limits.h"
 
 #include <CLI/CLI.hpp>
@@ -29,17 +28,6 @@ void describe(const Camera& camera, std::ostream& out) {
     }
 }
 
-// What to write behind --source to get the same streams again.
-std::string sourceLine(const std::string& source, const Camera& camera) {
-    const auto* bag = dynamic_cast<const BagCamera*>(&camera);
-    if (bag == nullptr || source.find(",depth=") != std::string::npos) {
-        return source;
-    }
-    const StreamChoice& choice = bag->choice();
-    return source + ",depth=" + choice.depth.name +
-           ",colour=" + (choice.colour ? choice.colour->name : "none");
-}
-
 void inspect(const std::string& source, const std::optional<std::filesystem::path>& folder) {
     if (const auto file = openMessages(source)) { // shown although the source may be rejected
         writeStreams(*file, parseSource(source).options.info, std::cout);
@@ -55,7 +43,8 @@ void inspect(const std::string& source, const std::optional<std::filesystem::pat
     for (const std::string& warning : camera->warnings()) {
         std::cout << "warning   " << warning << "\n";
     }
-    std::cout << "use       --source '" << sourceLine(source, *camera) << "'\n";
+    const bool chosen = source.find(",depth=") != std::string::npos; // by the user
+    std::cout << "use       --source '" << source << (chosen ? "" : camera->streamOptions()) << "'\n";
     if (folder) {
         std::cout << "written   " << folder->string() << "\n";
     }

@@ -43,6 +43,10 @@ BagCamera::BagCamera(const std::filesystem::path& file, SourceOptions options)
                    kFramesInFlight + 1);
 }
 
+std::string BagCamera::streamOptions() const {
+    return ",depth=" + choice_.depth.name + ",colour=" + (choice_.colour ? choice_.colour->name : "none");
+}
+
 std::string BagCamera::whyNoColour() const {
     if (!choice_.colour) {
         return choice_.unread.empty() ? "the recording has no colour stream"

@@ -30,8 +30,8 @@ public:
     bool seek(uint32_t index) override;
     std::string description() const override { return "bag " + file_->file().string(); }
     std::string streams() const override { return choice_.said; }
+    std::string streamOptions() const override;
     std::string whyNoColour() const override;
-    const StreamChoice& choice() const { return choice_; }
 
 private:
     using Image = ros::Image;
