@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a hand feels against the time from camera to force: error of the felt surface and ripple of the force,
-// for filter, friction, error budget, smooth planes and frame rate.
+// for filter, memory, friction, error budget, smooth planes and frame rate.
 #include "apps/profile/felt_surface.h"
 #include "apps/profile/frame_sequence.h"
 #include "apps/profile/interleave.h"
 #include "apps/profile/studies.h"
-
-#include <array>
+#include "apps/verify/pressed_gripper.h"
 
 namespace fathom::profile {
 
@@ -62,19 +61,6 @@ std::vector<FeelSetting> feelSettings() {
     return list;
 }
 
-// The gripper of the built-in scene, along the optical axis.
-Tool gripperTool() {
-    const std::array<Sphere, 8> leaves{{{{0.0, 0.0, -0.14}, 0.020},
-                                        {{0.0, 0.0, -0.10}, 0.020},
-                                        {{0.0, 0.0, -0.06}, 0.020},
-                                        {{0.0, 0.0, -0.02}, 0.018},
-                                        {{0.022, 0.0, 0.010}, 0.012},
-                                        {{-0.022, 0.0, 0.010}, 0.012},
-                                        {{0.028, 0.0, 0.035}, 0.010},
-                                        {{-0.028, 0.0, 0.035}, 0.010}}};
-    return Tool(buildSphereTree(leaves));
-}
-
 // Regions around every pixel of the exact surface.
 Fixtures exactRegions(const StudyContext& context, const FrameSequence& exact) {
     Scene scene = studyScene(context.settings);
@@ -97,8 +83,8 @@ StudyRow feltRow(const StudyContext& context, const FrameSequence& source, const
         }
         frames.push_back(bench.set().host);
     }
-    const FeltSurface felt = feelSurface(bench.scene(), gripperTool(), truth, frames, setting.rateHz,
-                                         context.settings.quick ? 0.4 : 1.6);
+    const FeltSurface felt = feelSurface(bench.scene(), Tool(buildSphereTree(gripperLeaves())), truth, frames,
+                                         setting.rateHz, context.settings.quick ? 0.4 : 1.6);
     StudyRow row;
     row.source = source.name;
     row.setting = setting.name;

@@ -2,6 +2,7 @@
 #include "apps/profile/felt_surface.h"
 
 #include "apps/verify/felt_trace.h"
+#include "apps/verify/pressed_gripper.h"
 #include "engine/contact/behind.h"
 #include "engine/contact/cull_cpu.h"
 #include "engine/reference/contact_oracle.h"
@@ -95,17 +96,7 @@ Pose restingPose(const Tool& tool, const Fixtures& truth, size_t sphere) {
         return oracleSmallestGap(tool, {truth.origin + away * towards, dquat(1.0, 0.0, 0.0, 0.0)}, truth) <
                0.0;
     };
-    constexpr double kMarch = 0.02; // [m] less than a region is thick
-    double low = 0.2;
-    while (low < 3.0 && !touches(low + kMarch)) {
-        low += kMarch;
-    }
-    double high = low + kMarch;
-    for (int k = 0; k < 18; ++k) {
-        const double middle = 0.5 * (low + high);
-        (touches(middle) ? high : low) = middle;
-    }
-    return {truth.origin + low * towards, dquat(1.0, 0.0, 0.0, 0.0)};
+    return {truth.origin + firstTouch(0.2, 3.0, touches) * towards, dquat(1.0, 0.0, 0.0, 0.0)};
 }
 
 } // namespace

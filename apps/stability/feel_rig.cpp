@@ -2,6 +2,7 @@
 #include "apps/stability/feel_rig.h"
 
 #include "apps/stability/worlds.h"
+#include "apps/verify/pressed_gripper.h"
 #include "engine/reference/contact_oracle.h"
 
 #include <cmath>
@@ -17,12 +18,6 @@ constexpr double kWall = 0.6;       // [m] scene "wall"
 
 bool isWall(const FeelSpec& spec) {
     return spec.scene == "wall";
-}
-
-std::vector<Sphere> gripperLeaves() {
-    return {{{0.0, 0.0, -0.14}, 0.020},   {{0.0, 0.0, -0.10}, 0.020},   {{0.0, 0.0, -0.06}, 0.020},
-            {{0.0, 0.0, -0.02}, 0.018},   {{0.022, 0.0, 0.010}, 0.012}, {{-0.022, 0.0, 0.010}, 0.012},
-            {{0.028, 0.0, 0.035}, 0.010}, {{-0.028, 0.0, 0.035}, 0.010}};
 }
 
 Scene feltScene(const FeelSpec& spec) {
@@ -83,17 +78,7 @@ double FeelRig::restingPlace(double x, double y, const dquat& rotation) const {
     const auto touches = [&](double z) {
         return oracleSmallestGap(tool_, {dvec3(x, y, z), rotation}, truth_) < 0.0;
     };
-    constexpr double kMarch = 0.02; // [m] less than a region is thick
-    double low = 0.4;
-    while (low < 1.0 && !touches(low + kMarch)) {
-        low += kMarch;
-    }
-    double high = low + kMarch;
-    for (int k = 0; k < 18; ++k) {
-        const double middle = 0.5 * (low + high);
-        (touches(middle) ? high : low) = middle;
-    }
-    return low;
+    return firstTouch(0.4, 1.0, touches);
 }
 
 Pose FeelRig::at(double x, double y, double depth, const dvec3& rotation) const {
