@@ -193,7 +193,6 @@ Outcome slideCase(RunLength runLength, double errorBudget) {
 
 // A set that comes nearer by v every frame must be felt as a ramp.
 Outcome approachCase(RunLength runLength, double speed) {
-    FeelSpec spec;
     const double reach = 0.012; // [m]
     const double rise = approachRise(speed, reach, some(runLength, 3, 1));
     return outcomeOf(rise / speed, 2.0, "K v",

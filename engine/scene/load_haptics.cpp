@@ -49,7 +49,7 @@ void loadFeel(const YamlNode& node, Scene::Haptics& haptics) {
         haptics.friction = friction->number(Range::between(0.0, 1.0));
     }
     if (const auto smooth = node.find("smooth")) {
-        haptics.smooth = smooth->choice<bool>({{"true", true}, {"false", false}});
+        haptics.smooth = smooth->boolean();
     }
     if (const auto damping = node.find("damping")) {
         haptics.damping = loadUnless(*damping, "auto", Range::between(0.0, 100.0));

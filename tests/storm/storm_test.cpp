@@ -165,8 +165,6 @@ std::string recordFault(const std::vector<WirePacket>& packets, const std::vecto
 } // namespace
 
 TEST_CASE("Under a storm of faults every wrench on the wire has a cause, a limit and a row in the record") {
-    const char* const more = std::getenv("FATHOM_STORM");
-    const double seconds = more != nullptr ? std::atof(more) : 60.0;
     Stage stage;
     stage.recording(std::vector<Image>(3, Image(kWidth, kHeight, 600).paint({0, 0, kWidth, kHeight}, kRed)));
     SceneText scene;
@@ -179,7 +177,7 @@ TEST_CASE("Under a storm of faults every wrench on the wire has a cause, a limit
         stage.command({"--realtime", "--hand-device", (stage / "hand.door").string(), "--seconds", "3600"}),
         stage / "said");
     waitMillis(3000);
-    storm(engine, bridge, seconds, 31);
+    storm(engine, bridge, 60.0, 31);
     CHECK(endOf(engine, SIGINT) == 0);
     waitMillis(100);
     REQUIRE(endOf(bridge, SIGTERM) == 0);
