@@ -120,7 +120,8 @@ double PassivityController::release(const PassivityStep& tick, const dvec3& v, c
                                     double owed) const noexcept {
     const Wrench& held = applied_[(writes_ + options_.delayTicks) % (options_.delayTicks + 1)].contact;
     const double returned = workOf(held, v, w);
-    const double owes = owed / std::max(owed, stored_), share = std::min(owes, 2.0 * (owes - kLeastShare));
+    const double owes = owed / std::max(owed, stored_),
+                 share = std::clamp(2.0 * (owes - kLeastShare), 0.0, owes);
     const double kk = options_.metricRadius * options_.metricRadius;
     const double most = kMostRelease / (tick.period * (1.0 + 2.0 * options_.delayTicks)) *
                         (glm::dot(v, v) + kk * glm::dot(w, w));

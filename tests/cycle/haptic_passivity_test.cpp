@@ -24,10 +24,9 @@ HapticRig restingRig(bool controller) {
     return rig;
 }
 
-// The wall, raised by 2 mm.
-Fixtures raisedWall() {
+Fixtures raisedWall(double height = 0.002) { // [m]
     Fixtures fixtures = wallSet(2);
-    fixtures.origin.z = 0.002;
+    fixtures.origin.z = height;
     return fixtures;
 }
 
@@ -86,6 +85,23 @@ TEST_CASE(
     CHECK(weaker > 0.3); // the debt over 33 ms, at most 20 N s/m at 0.03 m/s; more while the springs push out
     CHECK(weaker <= PassivityController::kMostRelease / 0.001 * 0.03 * 1.01);
     CHECK(rig.cycle->passivity().taken() > 0.0);
+}
+
+TEST_CASE("A hand that pushes on after a small jump of the wall is not braked by more than 20 N s/m") {
+    auto rig = restingRig(true), off = restingRig(false);
+    for (HapticRig* r : {&rig, &off}) {
+        r->show(raisedWall(0.0001)); // a small part of the stored energy
+        r->age = false;
+        r->ticks(40);
+    }
+    CHECK(rig.cycle->passivity().debt() > 0.0);
+    double stronger = 0.0;
+    for (int i = 0; i < 60; ++i) {
+        rig.hand.position.z -= 3e-5; // 30 mm/s
+        off.hand.position.z -= 3e-5;
+        stronger = std::max(stronger, std::abs(forceOf(rig.step()) - forceOf(off.step())));
+    }
+    CHECK(stronger <= 20.0 * 0.03 * 1.01);
 }
 
 TEST_CASE("With forces off the wrench stays zero, and an old energy debt is forgotten") {
