@@ -65,6 +65,29 @@ Outcome stillCase(RunLength runLength, double depth, StillFigure what, double li
     return out;
 }
 
+// Small debts of noisy frames must not brake a hand that moves in.
+Outcome landingCase(RunLength runLength) {
+    double worst = 0.0;
+    Outcome out = outcomeOf(0.0, 0.5, "N", "");
+    const int places = some(runLength, 4, 1);
+    for (int place = 0; place < places; ++place) {
+        FeelRig felt({});
+        const double angle = 1.5 * place + 2.0;
+        felt.follow(landOn(felt.onRing(angle, -0.02), felt.onRing(angle, 0.02)));
+        felt.run(kSettled);
+        worst = std::max(worst, felt.trace().forceStep());
+        requireFelt(out, felt);
+    }
+    const std::string failed = out.note;
+    out =
+        outcomeOf(worst, 0.5, "N",
+                  "Largest change of the force from tick to tick while a hand moves 20 mm into a noisy ring "
+                  "at 80 mm/s. " +
+                      num(uint64_t(places)) + " places.");
+    require(out, failed.empty(), failed);
+    return out;
+}
+
 FeelRig alongRim(RunLength runLength) {
     FeelRig felt({});
     constexpr double kDepth = 0.012, kSpeed = 0.11; // [m], [m/s]
@@ -211,6 +234,7 @@ std::vector<Case> feelCases() {
     put("still-20mm", [](RunLength e) { return stillCase(e, 0.02, StillFigure::Rms, 0.6); });
     put("still-20mm-10-35-hz", [](RunLength e) { return stillCase(e, 0.02, StillFigure::Band, 0.13); });
     put("still-20mm-torque", [](RunLength e) { return stillCase(e, 0.02, StillFigure::Torque, 0.009); });
+    put("landing", landingCase);
     put("rim", rimCase);
     put("rim-clicks", rimClicksCase);
     put("leave", leaveCase);
