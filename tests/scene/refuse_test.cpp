@@ -226,7 +226,7 @@ TEST_CASE("Hand, haptics and contact values outside their range are rejected") {
         section("haptics: {friction: 1.1}", "haptics.friction: 1.1", "from 0 to 1"),
         section("haptics: {damping: much}", "haptics.damping: much", "auto or a number from 0 to 100"),
         section("haptics: {margin: 0}", "haptics.margin: 0", "from 0.05 to 1"),
-        section("haptics: {smooth: yes}", "haptics.smooth: yes", "true, false"),
+        section("haptics: {smooth: yes}", "haptics.smooth: yes", "true or false"),
         section("haptics: {guidance: spring}", "haptics.guidance: spring", "target, paper"),
         section("haptics: {step_cap: 1e-6}", "haptics.step_cap: 1e-6", "from 1e-05 to 0.05"),
         section("haptics: {step_cap: 0.051}", "haptics.step_cap: 0.051", "from 1e-05 to 0.05"),
