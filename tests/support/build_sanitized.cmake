@@ -5,7 +5,6 @@ separate_arguments(TARGETS)
 set(openni2 ON)
 if(SANITIZE MATCHES thread)
     set(openni2 OFF)
-    set(BATCHES OFF) # without OpenNI2 other files would share a batch
 endif()
 execute_process(COMMAND ${CMAKE_COMMAND} -G Ninja -S ${SOURCE} -B ${BINARY} -DCMAKE_BUILD_TYPE=None -DCMAKE_C_FLAGS=-O1 -DCMAKE_CXX_FLAGS=-O1
                 -DFATHOM_SANITIZE=${SANITIZE} -DFATHOM_OPENNI2=${openni2} -DFATHOM_BATCHES=${BATCHES} COMMAND_ERROR_IS_FATAL ANY)
