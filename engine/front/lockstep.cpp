@@ -2,6 +2,7 @@
 #include "engine/front/camera_port.h"
 #include "engine/front/core.h"
 #include "engine/front/float_mode.h"
+#include "engine/front/observer_port.h"
 #include "engine/run/active_contacts.h"
 #include "engine/run/scene_update.h"
 
@@ -20,7 +21,7 @@ struct Lockstep::Impl {
         }
     }
 
-    void process(const Frame& frame);
+    FrameTimes process(const Frame& frame);
     bool answer();
 
     CameraPort::Impl camera;
@@ -30,6 +31,7 @@ struct Lockstep::Impl {
     ActiveContacts<std::unique_ptr<ContactSet>> contacts;
     std::deque<std::unique_ptr<ContactSet>> answers; // not yet on offer, oldest first
     SceneUpdate update;
+    Nanoseconds stamp = 0; // of the newest frame
 };
 
 namespace {
@@ -38,9 +40,14 @@ double seconds(Nanoseconds time) {
     return static_cast<double>(time) / 1e9;
 }
 
+FrameTimes frameTimes(const FrameReport& report) {
+    const std::chrono::duration<double> device = report.times.landed - report.times.submitted;
+    return {report.uploadMs / 1e3, report.unchanged ? 0.0 : device.count(), report.latencyMs / 1e3};
+}
+
 } // namespace
 
-void Lockstep::Impl::process(const Frame& frame) {
+FrameTimes Lockstep::Impl::process(const Frame& frame) {
     fathom::Frame taken = camera.copy(frame);
     const double t = seconds(frame.stamp);
     taken.retime(t);
@@ -50,6 +57,8 @@ void Lockstep::Impl::process(const Frame& frame) {
     if (const auto set = compute.cycles.frames().sets().newest(); set && !report.unchanged) {
         update.show(set->host);
     }
+    stamp = frame.stamp;
+    return frameTimes(report);
 }
 
 bool Lockstep::Impl::answer() {
@@ -77,11 +86,20 @@ Lockstep::Lockstep(const Scene& scene, const CameraModel& camera, const HandStar
 
 Lockstep::~Lockstep() = default;
 
-void Lockstep::process(const Frame& frame) {
-    front::translated([&] {
+FrameTimes Lockstep::process(const Frame& frame) {
+    return front::translated([&] {
         const front::FloatMode mode;
-        impl_->process(frame);
+        return impl_->process(frame);
     });
+}
+
+bool Lockstep::regions(Regions& out) const {
+    const auto set = impl_->compute.cycles.frames().sets().newest();
+    if (set) {
+        front::fill(out, set->host);
+        out.stamp = impl_->stamp;
+    }
+    return static_cast<bool>(set);
 }
 
 bool Lockstep::answer() {

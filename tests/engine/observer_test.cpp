@@ -67,3 +67,22 @@ TEST_CASE("An observer gets the newest step once, without allocation") {
     Regions regions;
     CHECK_FALSE(observer.regions(regions));
 }
+
+TEST_CASE("Lockstep gives the regions of its newest frame and the times of each") {
+    Lockstep run(wallScene(), smallCamera(), startAt(0.5));
+    Regions regions;
+    CHECK_FALSE(run.regions(regions));
+    CHECK(regions.frame == -1);
+    const Wall wall;
+    for (Nanoseconds stamp : {10, 20}) {
+        const FrameTimes times = run.process(wall.at(stamp));
+        CHECK(times.upload > 0.0);
+        CHECK(times.device > 0.0);
+        CHECK(times.published >= times.upload + times.device);
+        REQUIRE(run.regions(regions));
+        CHECK(regions.stamp == stamp);
+    }
+    CHECK(regions.frame == 1);
+    CHECK(regions.spheres.size() == 80 * 60);
+    CHECK(regions.origin[2] + regions.spheres[0].centre[2] == doctest::Approx(0.6).epsilon(0.001));
+}

@@ -8,6 +8,13 @@
 
 namespace fathom::v0 {
 
+/// How long one frame took [s].
+struct FrameTimes {
+    double upload = 0.0;    ///< copy of the images to the device
+    double device = 0.0;    ///< from submission until the device has finished
+    double published = 0.0; ///< from the start until steps can use the set; includes the two before
+};
+
 /// Use it from one thread. Times are yours: any steady sequence that frames and steps share.
 class FATHOM_API Lockstep {
 public:
@@ -20,8 +27,12 @@ public:
     Lockstep& operator=(const Lockstep&) = delete;
 
     /// Computes the fixture set of a frame and makes it the newest. The stamp is compared with `now` of
-    /// step() only. @throws DeviceLost, Error; BadInput for a missing image or pose
-    void process(const Frame& frame);
+    /// step() only. Returns how long it took. @throws DeviceLost, Error; BadInput for a missing image or pose
+    FrameTimes process(const Frame& frame);
+
+    /// Copies the regions of the newest frame into `out` and reuses its memory. False, and `out` unchanged,
+    /// before the first frame. Throws std::bad_alloc only.
+    bool regions(Regions& out) const;
 
     /// Answers one contact query at the current tool pose. Steps may use the answer after `contact.delay` (a
     /// key of the scene) further calls. False before the first frame.
