@@ -107,6 +107,17 @@ execute_process(COMMAND ${CXX} -std=c++20 -O1 ${stage}/consumer/hello.cpp -o ${s
 check("the consumer does not build by pkg-config: ${log}" result EQUAL 0)
 must_feel("the consumer built by pkg-config" ${stage}/by_pkg_config)
 
+# By Python, where the module is built.
+if(EXISTS "${BINARY}/python")
+    get_filename_component(libraries "${library}" DIRECTORY)
+    execute_process(COMMAND ${CMAKE_COMMAND} -E env LD_LIBRARY_PATH=${libraries} PYTHONPATH=${root}/lib/python3/dist-packages /usr/bin/python3 -c
+                            "import fathom; print(fathom.__version__, fathom.__file__)" OUTPUT_VARIABLE said ERROR_VARIABLE said)
+    check("import fathom says '${said}'" said MATCHES "^${VERSION} ${root}/")
+    foreach(wanted __init__.py _fathom.pyi py.typed)
+        check("${wanted} of the Python module is not installed" EXISTS ${root}/lib/python3/dist-packages/fathom/${wanted})
+    endforeach()
+endif()
+
 # Manual page and completion know every subcommand and every long option that the program lists.
 execute_process(COMMAND gzip -dc ${root}/share/man/man1/fathom.1.gz OUTPUT_VARIABLE manual)
 string(REPLACE "\\-" "-" manual "${manual}")

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+// Engine and Lockstep. Long calls run without the interpreter's lock, so that other Python threads go on.
+#include "apps/python/bind.h"
+
+#include <pybind11/stl/filesystem.h>
+
+#include <optional>
+
+namespace py = pybind11;
+
+namespace fathom::python {
+
+namespace {
+
+// Destructors wait for threads of the engine, which may wait for the interpreter's lock to log a line.
+struct WithoutLock {
+    template <typename T>
+    void operator()(T* object) const {
+        const py::gil_scoped_release others;
+        delete object;
+    }
+};
+
+// An engine that close() ends.
+class LiveEngine {
+public:
+    LiveEngine(const Scene& scene, const CameraModel& model, const EngineOptions& options)
+        : model_(model)
+        , engine_(std::make_unique<Engine>(scene, model, options)) {}
+
+    Camera camera() { return {open().camera(), model_}; }
+    HandPort openHand(const Pose& handle, const std::optional<Pose>& tool) {
+        return open().openHand({handle, tool ? &*tool : nullptr});
+    }
+    void close() {
+        const py::gil_scoped_release others;
+        engine_.reset();
+    }
+    Engine& open() {
+        if (!engine_) {
+            throw Error("the engine is closed");
+        }
+        return *engine_;
+    }
+
+private:
+    CameraModel model_;
+    std::unique_ptr<Engine> engine_;
+};
+
+// A lockstep run and what its images must look like.
+struct LockstepRun {
+    LockstepRun(const Scene& scene, const CameraModel& cameraModel, const HandStart& start,
+                const EngineOptions& options)
+        : model(cameraModel)
+        , run(scene, cameraModel, start, options) {}
+
+    FrameTimes process(const py::array& depth, const py::object& colour, const Pose& baseTcamera,
+                       Nanoseconds stamp) {
+        const Images both = images(model, depth, colour);
+        const py::gil_scoped_release others;
+        return run.process({both.depth, both.colour, baseTcamera, stamp});
+    }
+    std::optional<Regions> regions() const {
+        Regions out;
+        const py::gil_scoped_release others;
+        return run.regions(out) ? std::optional(std::move(out)) : std::nullopt;
+    }
+
+    CameraModel model;
+    Lockstep run;
+};
+
+EngineOptions optionsOf(const std::string& device, const std::string& reader, bool measuredArm) {
+    return {device, reader, measuredArm};
+}
+
+void bindLive(py::module_& module) {
+    py::class_<LiveEngine, std::unique_ptr<LiveEngine, WithoutLock>>(
+        module, "Engine",
+        "Owns a compute device and two threads, and hands out ports, each of which belongs to one thread.\n"
+        "Use it in a `with` block, or call close().")
+        .def(py::init([](const Scene& scene, const CameraModel& camera, const std::string& device,
+                         const std::string& reader, bool measuredArm) {
+                 const py::gil_scoped_release others;
+                 return std::unique_ptr<LiveEngine, WithoutLock>(
+                     new LiveEngine(scene, camera, optionsOf(device, reader, measuredArm)));
+             }),
+             py::arg("scene"), py::arg("camera"), py::kw_only(), py::arg("device") = "",
+             py::arg("reader") = "", py::arg("measured_arm") = false,
+             "device: part of a Vulkan device's name, or its index; empty = the best one.\n"
+             "reader: path of fathom-reader, for scenes with meshes or arms; empty = the installed one.\n"
+             "measured_arm: a real arm follows the scene's arm; see open_arm().")
+        .def("camera", &LiveEngine::camera, "The Camera that takes your frames.")
+        .def(
+            "open_hand", &LiveEngine::openHand, py::arg("device_T_handle") = Pose{},
+            py::arg("base_T_tool") = py::none(),
+            "Opens the HandPort, once per engine. base_T_tool: where the tool starts; None = where the hand\n"
+            "commands it.")
+        .def(
+            "open_arm", [](LiveEngine& engine) { return engine.open().openArm(); },
+            "Opens the ArmPort of the real arm, once per engine.")
+        .def(
+            "open_observer", [](LiveEngine& engine) { return engine.open().openObserver(); },
+            "Opens the ObserverPort, once per engine.")
+        .def_property_readonly("device_lost", [](LiveEngine& engine) { return engine.open().deviceLost(); })
+        .def_property_readonly("device_name", [](LiveEngine& engine) { return engine.open().deviceName(); })
+        .def_property_readonly(
+            "failure", [](LiveEngine& engine) { return engine.open().failure(); },
+            "why a thread of the engine ended; empty = none ended")
+        .def("close", &LiveEngine::close, "Ends the engine's threads. Ports stay usable: forces fade.")
+        .def("__enter__", [](py::object self) { return self; })
+        .def("__exit__", [](LiveEngine& engine, const py::args&) { engine.close(); });
+}
+
+void bindLockstep(py::module_& module) {
+    py::class_<FrameTimes>(module, "FrameTimes", "How long one frame took [s].")
+        .def_readonly("upload", &FrameTimes::upload, "copy of the images to the device")
+        .def_readonly("device", &FrameTimes::device, "from submission until the device has finished")
+        .def_readonly("published", &FrameTimes::published,
+                      "until steps can use the set; includes both others");
+    py::class_<LockstepRun, std::unique_ptr<LockstepRun, WithoutLock>>(
+        module, "Lockstep",
+        "The same computation on one thread without a clock. Equal input gives equal output to the last bit.")
+        .def(py::init([](const Scene& scene, const CameraModel& camera, const Pose& handle,
+                         const std::optional<Pose>& tool, const std::string& device,
+                         const std::string& reader) {
+                 const py::gil_scoped_release others;
+                 return std::unique_ptr<LockstepRun, WithoutLock>(new LockstepRun(
+                     scene, camera, {handle, tool ? &*tool : nullptr}, optionsOf(device, reader, false)));
+             }),
+             py::arg("scene"), py::arg("camera"), py::arg("device_T_handle") = Pose{},
+             py::arg("base_T_tool") = py::none(), py::kw_only(), py::arg("device") = "",
+             py::arg("reader") = "")
+        .def("process", &LockstepRun::process, py::arg("depth"), py::arg("colour") = py::none(),
+             py::kw_only(), py::arg("base_T_camera") = Pose{}, py::arg("stamp"),
+             "Computes the fixture set of a frame and makes it the newest; returns FrameTimes. Arrays as in\n"
+             "Camera.submit(); stamp [ns] on the clock of step().")
+        .def(
+            "answer",
+            [](LockstepRun& lockstep) {
+                const py::gil_scoped_release others;
+                return lockstep.run.answer();
+            },
+            "Answers one contact query at the current tool pose. False before the first frame.")
+        .def(
+            "step",
+            [](LockstepRun& lockstep, const Pose& hand, uint32_t buttons, Nanoseconds time) {
+                return lockstep.run.step({hand, buttons}, time);
+            },
+            py::arg("device_T_handle"), py::arg("buttons") = 0u, py::kw_only(), py::arg("now"),
+            "One haptic step at time `now` [ns]; returns a Step.")
+        .def(
+            "end_frames", [](LockstepRun& lockstep) { lockstep.run.endFrames(); },
+            "No frame will follow: the last one does not age.")
+        .def("regions", &LockstepRun::regions, "The Regions of the newest frame; None before the first.")
+        .def_property_readonly(
+            "period", [](const LockstepRun& lockstep) { return lockstep.run.period(); },
+            "[s] between steps that the scene asks for");
+}
+
+} // namespace
+
+void bindScene(py::module_& module) {
+    py::class_<Scene>(module, "Scene", "A scene, read and checked: Scene.from_file() or Scene.from_text().")
+        .def_static("from_file", &Scene::fromFile, py::arg("file"), "Reads a scene file (YAML).")
+        .def_static("from_text", &Scene::fromText, py::arg("yaml"),
+                    "The same from text. Relative paths start at the working directory.");
+}
+
+void bindEngine(py::module_& module) {
+    bindLive(module);
+    bindLockstep(module);
+}
+
+} // namespace fathom::python

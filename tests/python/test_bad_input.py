@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Invalid arguments: ValueError names the argument, what it is and what is allowed."""
+
+import math
+import unittest
+
+import fathom
+import numpy
+import wall
+
+
+class BadInput(unittest.TestCase):
+    def refused(self, *parts):
+        return self.assertRaisesRegex(ValueError, ".*".join(parts))
+
+    def test_depth_of_another_type_shape_or_stride_is_refused_by_name(self):
+        run = wall.lockstep()
+        with self.refused("depth: float64", "allowed: uint16"):
+            run.process(wall.depth().astype(float), stamp=1)
+        with self.refused("depth: uint16 of shape \\(80, 61\\)", "\\(61, 80\\)"):
+            run.process(numpy.zeros((80, 61), numpy.uint16), stamp=1)
+        with self.refused("depth: strides", "ascontiguousarray"):
+            run.process(numpy.zeros((wall.HEIGHT, 2 * wall.WIDTH), numpy.uint16)[:, ::2], stamp=1)
+        with self.refused("depth: >u2", "uint16"):
+            run.process(wall.depth().astype(">u2"), stamp=1)
+        with self.assertRaises(TypeError):
+            run.process(None, stamp=1)
+
+    def test_colour_that_the_camera_does_not_have_or_lacks_is_refused(self):
+        pixels = numpy.zeros((wall.HEIGHT, wall.WIDTH, 3), numpy.uint8)
+        with self.refused("colour: an image", "None"):
+            wall.lockstep().process(wall.depth(), pixels, stamp=1)
+        run = wall.lockstep(colour_format=fathom.ColourFormat.RGB)
+        with self.refused("colour: .*NoneType", "colour_format"):
+            run.process(wall.depth(), stamp=1)
+        with self.refused("colour: uint8 of shape", "\\(61, 80, 3\\)"):
+            run.process(wall.depth(), pixels[..., :2].copy(), stamp=1)
+
+    def test_a_lens_that_is_not_finite_is_refused_by_field(self):
+        for field in ("fx", "fy", "cx", "cy"):
+            values = {"width": 80, "height": 60, "fx": 70, "fy": 70, "cx": 40, "cy": 30, field: math.nan}
+            with self.refused(f"depth.{field}: nan"):
+                fathom.CameraModel(fathom.Intrinsics(**values))
+        with self.refused("distortion: inf"):
+            fathom.CameraModel(fathom.Intrinsics(80, 60, 70, 70, 40, 30, [0, 0, math.inf, 0, 0]))
+        with self.refused("metres_per_unit: nan"):
+            wall.camera(metres_per_unit=math.nan)
+
+    def test_a_focal_length_of_zero_is_refused_by_the_engine(self):
+        model = fathom.CameraModel(fathom.Intrinsics(80, 60, 0, 70, 40, 30))
+        with self.assertRaisesRegex(fathom.BadInput, "fx") as raised:
+            fathom.Lockstep(fathom.Scene.from_text(wall.SCENE), model, device="llvmpipe")
+        self.assertIsInstance(raised.exception, fathom.Error)
+        self.assertIsInstance(raised.exception, ValueError)
+
+    def test_poses_that_are_no_poses_are_refused(self):
+        with self.refused("position: nan"):
+            fathom.Pose((0, math.nan, 0))
+        with self.refused("rotation: norm 0"):
+            fathom.Pose((0, 0, 0), (0, 0, 0, 0))
+        with self.refused("pose: array of shape \\(3, 3\\)"):
+            fathom.Pose(numpy.eye(3))
+        for matrix in (numpy.diag([1.0, 1.0, -1.0, 1.0]), numpy.diag([2.0, 2.0, 2.0, 1.0])):
+            with self.refused("pose: the upper left", "a rotation matrix"):
+                fathom.Pose(matrix)
+
+    def test_a_scene_with_a_wrong_key_is_refused_in_one_line(self):
+        with self.assertRaises(fathom.BadInput) as raised:
+            fathom.Scene.from_text("fixturs: []")
+        self.assertIn("fixturs", str(raised.exception))
+        self.assertNotIn("\n", str(raised.exception))
+
+    def test_a_device_that_does_not_exist_is_refused(self):
+        with self.assertRaisesRegex(fathom.Error, "no such gpu"):
+            fathom.Lockstep(fathom.Scene.from_text(wall.SCENE), wall.camera(), device="no such gpu")

@@ -1,0 +1,145 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Threads: frames of a camera thread, forces of a haptic thread."""
+
+import gc
+import subprocess
+import sys
+import textwrap
+import threading
+import time
+import unittest
+
+import fathom
+import numpy
+import wall
+
+
+def engine(**options):
+    return fathom.Engine(fathom.Scene.from_text(wall.SCENE), wall.camera(), device="llvmpipe", **options)
+
+
+class Live(unittest.TestCase):
+    def test_forces_come_from_frames_of_another_thread(self):
+        with engine() as made:
+            images, hand, observer = made.camera(), made.open_hand(fathom.Pose((0, 0, 0.5))), made.open_observer()
+            stop = threading.Event()
+
+            def run_camera():
+                while not stop.wait(0.02):
+                    self.assertEqual(images.submit(wall.depth()), fathom.SubmitStatus.ACCEPTED)
+
+            thread = threading.Thread(target=run_camera)
+            thread.start()
+            written, z = [], 0.5
+            end = time.monotonic() + 30
+
+            def pose():
+                nonlocal z
+                z = min(z + 0.0002, wall.TOUCH + 0.01) if images.processed > 0 else z
+                return fathom.Pose((0, 0, z))
+
+            def running():
+                pressed = len(written) > 5 and all(f < -9.9 for f in written[-5:])
+                return not pressed and time.monotonic() < end
+
+            fathom.haptic_loop(hand, pose, lambda force, torque: written.append(force[2]), running=running)
+            stop.set()
+            thread.join()
+            regions = observer.regions()
+            self.assertAlmostEqual(written[-2], -10.0, delta=0.1)
+            self.assertEqual(written[-1], 0.0)  # the loop leaves the device without force
+            self.assertEqual(regions.centres.shape, (wall.WIDTH * wall.HEIGHT, 3))
+            self.assertIsNotNone(observer.step())
+            self.assertEqual(made.failure, "")
+
+    def test_other_threads_go_on_while_an_engine_starts_and_ends(self):
+        counted, stop = 0, threading.Event()
+
+        def count():
+            nonlocal counted
+            while not stop.wait(0.001):
+                counted += 1
+
+        thread = threading.Thread(target=count)
+        thread.start()
+        begin, before = time.monotonic(), counted
+        engine().close()
+        duration, after = time.monotonic() - begin, counted
+        stop.set()
+        thread.join()
+        self.assertGreater(after - before, 50 * duration)  # of at most 1000 a second
+
+    def test_stamps_are_checked(self):
+        with engine() as made:
+            images = made.camera()
+            ahead = fathom.now() + 1_000_000_000
+            self.assertEqual(images.submit(wall.depth(), stamp=0), fathom.SubmitStatus.MISSING_STAMP)
+            self.assertEqual(images.submit(wall.depth(), stamp=ahead), fathom.SubmitStatus.STAMP_AHEAD)
+            stamp = fathom.now()
+            self.assertEqual(images.submit(wall.depth(), stamp=stamp), fathom.SubmitStatus.ACCEPTED)
+            self.assertEqual(images.submit(wall.depth(), stamp=stamp), fathom.SubmitStatus.STAMP_BACK)
+
+    def test_ports_outlive_their_engine(self):
+        made = engine()
+        images, hand = made.camera(), made.open_hand()
+        made.close()
+        self.assertEqual(images.submit(wall.depth()), fathom.SubmitStatus.CLOSED)
+        self.assertFalse(hand.step(fathom.Pose()).force.any())
+        with self.assertRaisesRegex(fathom.Error, "closed"):
+            made.camera()
+
+    def test_log_lines_reach_the_receiver_from_the_engine_s_threads(self):
+        lines = []
+        fathom.set_log(lambda level, line: lines.append((level, line)))
+        try:
+            with engine():
+                pass
+        finally:
+            fathom.set_log(None)
+        self.assertTrue(all(level in ("debug", "info", "warning", "error") for level, _ in lines))
+
+    def test_a_receiver_that_raises_does_not_end_the_engine(self):
+        def receiver(level, line):
+            raise RuntimeError("receiver")
+
+        fathom.set_log(receiver)
+        try:
+            with engine() as made:
+                self.assertEqual(made.failure, "")
+        finally:
+            fathom.set_log(None)
+            gc.collect()
+
+
+class Exit(unittest.TestCase):
+    def ends_with_zero(self, end):
+        script = textwrap.dedent("""
+            import os, sys, threading, time
+            sys.path.insert(0, "tests/python")
+            import fathom, wall
+            made = fathom.Engine(fathom.Scene.from_text(wall.SCENE), wall.camera(), device="llvmpipe")
+            images, hand = made.camera(), made.open_hand(fathom.Pose((0, 0, 0.5)))
+            z, felt = 0.5, threading.Event()
+            def pose():
+                global z
+                images.submit(wall.depth())
+                z = min(z + 0.0005, wall.TOUCH + 0.01) if images.processed > 0 else z
+                return fathom.Pose((0, 0, z))
+            def write(force, torque):
+                os.write(1, b"%.3f\\n" % force[2])
+                if force[2] < -5: felt.set()
+            loop = threading.Thread(target=lambda: fathom.haptic_loop(hand, pose, write), daemon=True)
+            loop.start()
+            assert felt.wait(60)
+        """) + end
+        done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=120, check=False)
+        forces = [float(line) for line in done.stdout.split()]
+        self.assertLess(min(forces), -5.0, done.stderr)
+        self.assertEqual(forces[-1], 0.0, done.stderr)
+        return done
+
+    def test_an_interpreter_that_ends_in_a_run_leaves_zero_force(self):
+        self.assertEqual(self.ends_with_zero("").returncode, 0)
+
+    def test_an_exception_in_the_main_thread_leaves_zero_force(self):
+        self.assertIn("lost", self.ends_with_zero("raise RuntimeError('lost')").stderr)
