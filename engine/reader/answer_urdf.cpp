@@ -4,6 +4,7 @@
 #include "engine/model/urdf_packet.h"
 #include "engine/model/xml_text.h"
 #include "engine/reader/answers.h"
+#include "engine/reader/mjcf.h"
 #include "engine/types/error.h"
 #include "engine/types/read_file.h"
 
@@ -102,6 +103,7 @@ std::string packetOf(const std::filesystem::path& file) {
         throw BadInput(file.string(), "file", "empty", "a readable URDF file");
     }
     refuseXacro(file, text);
+    text = isMjcf(text) ? urdfOfMjcf(file, text) : text;
     if (text.find("<capsule") != std::string::npos) {
         text = hideCapsules(text);
     }

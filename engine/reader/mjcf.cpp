@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/reader/mjcf.h"
+
+#include "engine/model/xml_text.h"
+#include "engine/reader/answers.h"
+#include "engine/reader/mjcf_body.h"
+#include "engine/types/read_file.h"
+
+namespace fathom {
+
+namespace {
+
+constexpr size_t kLargestFile = 16u << 20; // [bytes]
+constexpr int kMostIncludes = 64;
+
+const tinyxml2::XMLElement& parse(tinyxml2::XMLDocument& document, const std::string& file,
+                                  const std::string& text) {
+    const ParserAtWork parser;
+    if (document.Parse(text.c_str(), text.size()) != tinyxml2::XML_SUCCESS ||
+        document.RootElement() == nullptr) {
+        throw BadInput(file, "line " + std::to_string(document.ErrorLineNum()),
+                       std::string("not understood (") + document.ErrorName() + ")", "an MJCF file");
+    }
+    return *document.RootElement();
+}
+
+// Replaces each <include> by the content of its file, which may include others.
+class Includes {
+public:
+    Includes(const std::filesystem::path& file, tinyxml2::XMLDocument& document)
+        : file_(file)
+        , document_(document) {}
+
+    void expand(tinyxml2::XMLElement& element) {
+        for (auto* child = element.FirstChildElement(); child != nullptr;) {
+            auto* next = child->NextSiblingElement();
+            if (std::string(child->Name()) == "include") {
+                tinyxml2::XMLElement* const first = replace(element, *child);
+                next = first != nullptr ? first : next;
+            } else {
+                expand(*child);
+            }
+            child = next;
+        }
+    }
+
+private:
+    // Returns the first element that came, null when there was none.
+    tinyxml2::XMLElement* replace(tinyxml2::XMLElement& parent, tinyxml2::XMLElement& include) {
+        const char* const named = include.Attribute("file");
+        const std::string line = "line " + std::to_string(include.GetLineNum()) + ": <include>";
+        if (named == nullptr || ++count_ > kMostIncludes) {
+            throw BadInput(file_.string(), line, named == nullptr ? "without file" : "one more",
+                           "a file, " + std::to_string(kMostIncludes) + " at most");
+        }
+        const std::filesystem::path path = file_.parent_path() / named;
+        tinyxml2::XMLDocument other;
+        const auto& root =
+            parse(other, path.string(), readWholeFile(path, kLargestFile, "a readable MJCF file"));
+        tinyxml2::XMLNode* after = &include;
+        tinyxml2::XMLElement* first = nullptr;
+        for (auto* child = root.FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
+            after = parent.InsertAfterChild(after, child->DeepClone(&document_));
+            first = first == nullptr ? after->ToElement() : first;
+        }
+        parent.DeleteChild(&include);
+        return first;
+    }
+
+    const std::filesystem::path file_;
+    tinyxml2::XMLDocument& document_;
+    int count_ = 0;
+};
+
+} // namespace
+
+bool isMjcf(const std::string& text) {
+    for (XmlPieces pieces(text); pieces.next();) {
+        if (!pieces.piece().name.empty()) {
+            return pieces.piece().name == "mujoco";
+        }
+    }
+    return false;
+}
+
+std::string urdfOfMjcf(const std::filesystem::path& file, const std::string& text) {
+    tinyxml2::XMLDocument document;
+    parse(document, file.string(), text);
+    Includes(file, document).expand(*document.RootElement());
+    return MjcfBodies(file.string(), *document.RootElement()).urdf();
+}
+
+} // namespace fathom

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bodies of an MJCF file as links and joints of a URDF.
+#pragma once
+
+#include "engine/reader/mjcf_geom.h"
+#include "engine/reader/mjcf_pose.h"
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace fathom {
+
+class MjcfBodies {
+public:
+    // file: for messages. All <include> are expanded.
+    MjcfBodies(const std::string& file, const tinyxml2::XMLElement& root);
+
+    std::string urdf(); // throws BadInput
+
+private:
+    // An element below a body, possibly inside of <frame>, which gives it a pose and a class.
+    struct Part {
+        const tinyxml2::XMLElement* element;
+        std::string childClass;
+        Pose at; // of the frame in the body
+    };
+    struct Contents {
+        std::vector<Part> joints, geoms, bodies;
+    };
+
+    void readEqualities();
+    void collect(const tinyxml2::XMLElement& element, const std::string& childClass, const Pose& at,
+                 Contents& out) const;
+    void addBody(const Part& body, const std::string& parent);
+    // Adds a joint from `parent` to `child`; before: pose of the joint's body in the parent. Returns the
+    // pose of that body in the child: the anchor's offset.
+    Pose addJoint(const Part& joint, const std::string& name, const std::string& parent,
+                  const std::string& child, const Pose& before);
+    Pose anchorOf(const Part& joint) const;
+    std::string limitsOf(const Part& joint, const std::string& name, bool slides, bool& continuous) const;
+    void addLink(const std::string& name, const std::vector<Part>& geoms);
+    std::string nameOf(const tinyxml2::XMLElement& element, const char* otherwise);
+
+    const tinyxml2::XMLElement& root_;
+    MjcfClasses classes_;
+    MjcfAngles angles_;
+    MjcfGeoms geoms_;
+    bool autoLimits_ = true;
+    struct Equality {
+        std::string other; // empty = the joint is held
+        double offset, multiplier;
+    };
+    std::map<std::string, Equality> equalities_;
+    std::string out_;
+    int unnamed_ = 0;
+};
+
+} // namespace fathom

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/reader/mjcf_class.h"
+
+#include <cmath>
+#include <cstdlib>
+
+namespace fathom {
+
+namespace {
+
+constexpr const char* kMainClass = "main";
+
+std::string attribute(const tinyxml2::XMLElement& element, const char* name) {
+    const char* const text = element.Attribute(name);
+    return text != nullptr ? text : "";
+}
+
+} // namespace
+
+MjcfClasses::MjcfClasses(const std::string& file, const tinyxml2::XMLElement& root)
+    : file_(file)
+    , main_(kMainClass) {
+    for (auto* all = root.FirstChildElement("default"); all != nullptr;
+         all = all->NextSiblingElement("default")) {
+        read(*all, "", true);
+    }
+}
+
+// Several <default> elements of the root, for example of included files, add to the main class.
+void MjcfClasses::read(const tinyxml2::XMLElement& element, const std::string& above, bool main) {
+    std::string name = attribute(element, "class");
+    if (main) {
+        main_ = classes_.empty() && !name.empty() ? name : main_;
+        name = main_;
+    } else if (name.empty()) {
+        refuse(element, "without a class", "a class for each inner default");
+    }
+    Class& made = classes_[name];
+    made.above = above;
+    for (auto* child = element.FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
+        const std::string kind = child->Name();
+        if (kind == "default") {
+            read(*child, name, false);
+        } else {
+            made.elements[kind] = child;
+        }
+    }
+}
+
+const char* MjcfClasses::find(const tinyxml2::XMLElement& element, const std::string& childClass,
+                              const char* name) const {
+    if (const char* const own = element.Attribute(name)) {
+        return own;
+    }
+    std::string at = attribute(element, "class");
+    at = !at.empty() ? at : !childClass.empty() ? childClass : main_;
+    if (at != main_ && classes_.count(at) == 0) {
+        refuse(element, "class '" + at + "'", "a class of <default>");
+    }
+    for (size_t depth = 0; !at.empty() && depth <= classes_.size(); ++depth) {
+        const auto known = classes_.find(at);
+        if (known == classes_.end()) {
+            return nullptr;
+        }
+        const auto stated = known->second.elements.find(element.Name());
+        if (stated != known->second.elements.end()) {
+            if (const char* const text = stated->second->Attribute(name)) {
+                return text;
+            }
+        }
+        at = known->second.above;
+    }
+    return nullptr;
+}
+
+std::vector<double> MjcfClasses::numbers(const tinyxml2::XMLElement& element, const std::string& childClass,
+                                         const char* name, std::vector<double> absent, size_t least,
+                                         size_t most) const {
+    const char* const text = find(element, childClass, name);
+    if (text == nullptr) {
+        return absent;
+    }
+    std::vector<double> all;
+    for (const char* at = text;;) {
+        char* end = nullptr;
+        const double value = std::strtod(at, &end);
+        if (end == at) {
+            at += std::string_view(at).find_first_not_of(" \t\r\n") == std::string_view::npos
+                      ? std::string_view(at).size()
+                      : 0;
+            if (*at != '\0' || all.size() < least || all.size() > most) {
+                break;
+            }
+            return all;
+        }
+        if (!std::isfinite(value) || all.size() > most) {
+            break;
+        }
+        all.push_back(value);
+        at = end;
+    }
+    refuse(element, std::string(name) + "=\"" + std::string(text).substr(0, 60) + "\"",
+           std::to_string(least) + (most > least ? ".." + std::to_string(most) : "") + " finite numbers");
+}
+
+void MjcfClasses::refuse(const tinyxml2::XMLElement& element, const std::string& value,
+                         const std::string& allowed) const {
+    const std::string name = attribute(element, "name");
+    throw BadInput(file_,
+                   "line " + std::to_string(element.GetLineNum()) + ": <" + element.Name() +
+                       (name.empty() ? "" : " name=\"" + name + "\"") + ">",
+                   value, allowed);
+}
+
+} // namespace fathom

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// Elements of an MJCF file with the defaults of their class, and numbers out of their attributes.
+#pragma once
+
+#include "engine/types/error.h"
+
+#include <map>
+#include <string>
+#include <tinyxml2.h>
+#include <vector>
+
+namespace fathom {
+
+// One file while it is read. Functions throw BadInput naming the element, the attribute and its value.
+class MjcfClasses {
+public:
+    // Reads <default> elements of the root; file: for messages.
+    MjcfClasses(const std::string& file, const tinyxml2::XMLElement& root);
+
+    // An attribute of the element, else of its class (attribute `class`, else childClass), else of the
+    // classes above that. Null when none states it. childClass: empty = the main class.
+    const char* find(const tinyxml2::XMLElement& element, const std::string& childClass,
+                     const char* name) const;
+
+    // Numbers of an attribute; `absent` when it is not stated. most: more numbers are refused.
+    std::vector<double> numbers(const tinyxml2::XMLElement& element, const std::string& childClass,
+                                const char* name, std::vector<double> absent, size_t least,
+                                size_t most) const;
+
+    [[noreturn]] void refuse(const tinyxml2::XMLElement& element, const std::string& value,
+                             const std::string& allowed) const;
+
+private:
+    struct Class {
+        std::string above; // empty = the main class has none
+        std::map<std::string, const tinyxml2::XMLElement*> elements;
+    };
+    void read(const tinyxml2::XMLElement& element, const std::string& above, bool main);
+
+    std::string file_, main_;
+    std::map<std::string, Class> classes_;
+};
+
+} // namespace fathom
