@@ -107,8 +107,9 @@ private:
 };
 
 std::unique_ptr<ArmSimulator> simulatorOf(const std::string& protocol) {
-    if (protocol == "reach_alpha5") {
-        return std::make_unique<ReachSimulator>();
+    if (protocol != "eca_5e") {
+        return std::make_unique<ReachSimulator>(protocol == "reach_alpha5" ? ReachKind::Alpha5
+                                                                           : ReachKind::Bravo7);
     }
     auto eca = std::make_unique<EcaSimulator>();
     eca->upper.fill(kEcaRange);
@@ -143,9 +144,9 @@ void addArmSimulatorCommand(CLI::App& app) {
         app.add_subcommand("arm-simulator", "simulate an arm on a pseudo-terminal, for use with --arm");
     command
         ->add_option("PROTOCOL", options->protocol,
-                     "protocol, as in the scene's arm.driver: reach_alpha5 or eca_5e")
+                     "protocol, as in the scene's arm.driver: reach_alpha5, reach_bravo7 or eca_5e")
         ->required()
-        ->check(CLI::IsMember({"reach_alpha5", "eca_5e"}));
+        ->check(CLI::IsMember({"reach_alpha5", "reach_bravo7", "eca_5e"}));
     command->add_option("--link", options->link, "symbolic link to the terminal while the command runs");
     command->add_option("--seconds", options->seconds, "end after this time [s] (0: until Ctrl-C)")
         ->check(numberIn(Range::between(0.0, 86400.0)));

@@ -17,10 +17,15 @@ using Driver = SceneArm::Driver;
 constexpr double kSlidingLag = 0.05; // [m]
 // In the drivers' order; the last axis drives the jaws.
 constexpr std::array<const char*, 5> kReachAxes{"base", "shoulder", "elbow", "wrist", "jaws"};
+constexpr std::array<const char*, 7> kBravoAxes{"axis_g", "axis_f", "axis_e", "axis_d",
+                                                "axis_c", "axis_b", "jaws"};
 constexpr std::array<const char*, 5> kEcaAxes{"shoulder", "slew", "elbow", "wrist", "gripper"};
 
 std::span<const char* const> namesOf(Driver::Protocol protocol) {
-    return protocol == Driver::Protocol::ReachAlpha5 ? kReachAxes : kEcaAxes;
+    using Names = std::span<const char* const>;
+    return protocol == Driver::Protocol::ReachAlpha5   ? Names(kReachAxes)
+           : protocol == Driver::Protocol::ReachBravo7 ? Names(kBravoAxes)
+                                                       : Names(kEcaAxes);
 }
 
 [[noreturn]] void refuse(const Scene& scene, size_t row, const char* field, const std::string& value,

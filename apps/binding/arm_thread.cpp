@@ -28,10 +28,12 @@ double secondsAt(Clock::time_point time) {
 }
 
 std::unique_ptr<ArmDevice> deviceFor(const SceneArm::Driver& driver, SerialPort& port) {
-    if (driver.protocol == SceneArm::Driver::Protocol::ReachAlpha5) {
+    using Protocol = SceneArm::Driver::Protocol;
+    if (driver.protocol != Protocol::Eca5e) {
         ReachOptions options;
         options.mostCurrent = driver.current.value_or(options.mostCurrent);
-        return std::make_unique<ReachArm>(port, options);
+        return std::make_unique<ReachArm>(
+            port, options, driver.protocol == Protocol::ReachAlpha5 ? ReachKind::Alpha5 : ReachKind::Bravo7);
     }
     EcaOptions options;
     if (driver.current) {
@@ -80,8 +82,11 @@ void ArmThread::open() {
 }
 
 std::string ArmThread::description() const {
-    const bool reach = driver_.protocol == SceneArm::Driver::Protocol::ReachAlpha5;
-    return std::string(reach ? "Reach Alpha 5" : "ECA 5E Micro") + " on " + port_;
+    using Protocol = SceneArm::Driver::Protocol;
+    const char* const arm = driver_.protocol == Protocol::ReachAlpha5   ? "Reach Alpha 5"
+                            : driver_.protocol == Protocol::ReachBravo7 ? "Reach Bravo 7"
+                                                                        : "ECA 5E Micro";
+    return std::string(arm) + " on " + port_;
 }
 
 ArmPosture ArmThread::inLimits(ArmPosture posture) const {

@@ -25,7 +25,10 @@ constexpr auto kPatience = std::chrono::seconds(1); // time for it to end
 } // namespace
 
 std::string protocolName(SceneArm::Driver::Protocol protocol) {
-    return protocol == SceneArm::Driver::Protocol::ReachAlpha5 ? "reach_alpha5" : "eca_5e";
+    using Protocol = SceneArm::Driver::Protocol;
+    return protocol == Protocol::ReachAlpha5   ? "reach_alpha5"
+           : protocol == Protocol::ReachBravo7 ? "reach_bravo7"
+                                               : "eca_5e";
 }
 
 ArmWatchdog::ArmWatchdog(const SerialPort& port, SceneArm::Driver::Protocol protocol) {

@@ -28,8 +28,11 @@ void guardArm(const std::string& protocol) {
         ::isatty(kWatchdogLine) == 0) {
         throw BadInput(kArmWatchdogCommand, "started by", "a user", "this program, for a real arm");
     }
-    const bool reach = protocol == protocolName(Protocol::ReachAlpha5);
-    const int found = guardLine(kWatchdogEngine, kWatchdogLine, reach ? reachStandStill() : ecaStandStill());
+    const StandStill still = protocol == protocolName(Protocol::ReachAlpha5) ? reachStandStill()
+                             : protocol == protocolName(Protocol::ReachBravo7)
+                                 ? reachStandStill(ReachKind::Bravo7)
+                                 : ecaStandStill();
+    const int found = guardLine(kWatchdogEngine, kWatchdogLine, still);
     if (found > 0) {
         log::warn("arm watchdog: the engine ended or was silent for {} s, {} times: the arm was stopped",
                   LineGuard::kSilence, found);
@@ -45,6 +48,7 @@ void addArmWatchdogCommand(CLI::App& app) {
     command->add_option("PROTOCOL", *protocol)
         ->required()
         ->check(CLI::IsMember({protocolName(SceneArm::Driver::Protocol::ReachAlpha5),
+                               protocolName(SceneArm::Driver::Protocol::ReachBravo7),
                                protocolName(SceneArm::Driver::Protocol::Eca5e)}));
     command->callback([protocol] { guardArm(*protocol); });
 }

@@ -11,21 +11,32 @@ namespace {
 
 constexpr double kNever = -1e9;
 constexpr uint8_t kPosition = 0x03, kCurrent = 0x05, kRequest = 0x60;
-constexpr size_t kJaws = 4;
-
-double perUnit(size_t axis) noexcept { // SI to line units: the jaws use millimetres
-    return axis == kJaws ? 1e3 : 1.0;
-}
+// Base, shoulder, elbow, wrist, jaws.
+constexpr std::array<uint8_t, 5> kAlpha{5, 4, 3, 2, 1};
+// Axes g to a: base, shoulder, elbow, turn of the elbow, forearm, wrist, jaws.
+constexpr std::array<uint8_t, 7> kBravo{7, 6, 5, 4, 3, 2, 1};
 
 } // namespace
 
-ReachArm::ReachArm(SerialPort& port, const ReachOptions& options)
+std::span<const uint8_t> reachDevices(ReachKind kind) noexcept {
+    return kind == ReachKind::Alpha5 ? std::span<const uint8_t>(kAlpha) : std::span<const uint8_t>(kBravo);
+}
+
+ReachArm::ReachArm(SerialPort& port, const ReachOptions& options, ReachKind kind)
     : port_(port)
-    , options_(options) {
+    , options_(options)
+    , devices_(reachDevices(kind)) {
+    if (options_.period <= 0.0) {
+        options_.period = kind == ReachKind::Alpha5 ? 0.02 : 0.03;
+    }
     heardAt_.fill(kNever);
     overSince_.fill(std::numeric_limits<double>::infinity());
     feedback_.homed = true;
     feedback_.age = std::numeric_limits<double>::infinity();
+}
+
+double ReachArm::perUnit(size_t axis) const noexcept { // the jaws use millimetres
+    return axis == jaws() ? 1e3 : 1.0;
 }
 
 // The echo of a half-duplex line looks like an answer, so each sent packet cancels one equal received packet.
@@ -52,11 +63,11 @@ bool ReachArm::isEcho(const ReachPacket& packet, double now) noexcept {
 void ReachArm::heard(const ReachPacket& packet, double now) noexcept {
     const bool echo = isEcho(packet, now);
     const auto value = packet.asFloat();
-    const auto device = std::find(kDevice.begin(), kDevice.end(), packet.device);
-    if (echo || !value || !std::isfinite(*value) || device == kDevice.end()) {
+    const auto device = std::find(devices_.begin(), devices_.end(), packet.device);
+    if (echo || !value || !std::isfinite(*value) || device == devices_.end()) {
         return;
     }
-    const auto axis = static_cast<size_t>(device - kDevice.begin());
+    const auto axis = static_cast<size_t>(device - devices_.begin());
     if (packet.id == kPosition) {
         feedback_.position[axis] = static_cast<double>(*value) / perUnit(axis);
         heardAt_[axis] = now;
@@ -78,10 +89,11 @@ void ReachArm::receive(double now) noexcept {
 }
 
 void ReachArm::watch(double now, const ArmCommand& command) noexcept {
-    const double oldest = *std::min_element(heardAt_.begin(), heardAt_.end());
+    const double oldest =
+        *std::min_element(heardAt_.begin(), heardAt_.begin() + static_cast<std::ptrdiff_t>(devices_.size()));
     feedback_.age = oldest == kNever ? std::numeric_limits<double>::infinity() : now - oldest;
     feedback_.stale = !(feedback_.age <= options_.staleAfter);
-    for (size_t k = 0; k < kAxes; ++k) {
+    for (size_t k = 0; k < devices_.size(); ++k) {
         const bool over = std::abs(feedback_.current[k]) > options_.mostCurrent;
         overSince_[k] = over ? std::min(overSince_[k], now) : std::numeric_limits<double>::infinity();
         feedback_.overloaded = feedback_.overloaded || now - overSince_[k] > options_.overloadTime;
@@ -98,16 +110,16 @@ void ReachArm::send(const ReachPacket& packet, double now) noexcept {
 }
 
 void ReachArm::sendAll(double now, const ArmCommand& command) noexcept {
-    for (size_t k = 0; k < kAxes; ++k) {
-        const double most = k == kJaws ? options_.jawLead : options_.lead;
+    for (size_t k = 0; k < devices_.size(); ++k) {
+        const double most = k == jaws() ? options_.jawLead : options_.lead;
         const double ahead = std::clamp(command.position[k] - feedback_.position[k], -most, most);
         if (feedback_.holding || !std::isfinite(ahead)) {
-            send(ReachPacket::ofFloat(kVelocity, kDevice[k], 0.0f), now);
+            send(ReachPacket::ofFloat(kVelocity, devices_[k], 0.0f), now);
         } else {
             const double setpoint = (feedback_.position[k] + ahead) * perUnit(k);
-            send(ReachPacket::ofFloat(kPosition, kDevice[k], static_cast<float>(setpoint)), now);
+            send(ReachPacket::ofFloat(kPosition, devices_[k], static_cast<float>(setpoint)), now);
         }
-        ReachPacket request{kRequest, kDevice[k], 2, {}};
+        ReachPacket request{kRequest, devices_[k], 2, {}};
         request.data[0] = kPosition;
         request.data[1] = kCurrent;
         send(request, now);

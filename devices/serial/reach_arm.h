@@ -1,20 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
-// A Reach Alpha 5 on a serial line (RS-232 or RS-485, 115200 8N1). Facts from the public driver alpha
-// (evan-palmer, MIT). Not verified on hardware: signs and zeros of its joints, its own current limits (the
-// host's limits apply), its behaviour when setpoints stop.
+// A Reach Alpha 5 or Bravo 7 on a serial line (RS-232 or RS-485, 115200 8N1); both speak one protocol. Facts
+// from the public drivers alpha and pybravo (evan-palmer, MIT). Not verified on hardware: signs and zeros of
+// the joints, the arms' own current limits (the host's limits apply), their behaviour when setpoints stop.
 #pragma once
 
 #include "devices/arm.h"
 #include "devices/serial/reach_packet.h"
 #include "devices/serial/serial_port.h"
 
+#include <span>
 #include <vector>
 
 namespace fathom {
 
+enum class ReachKind { Alpha5, Bravo7 };
+
+// Device ids of the axes, from the base to the jaws.
+std::span<const uint8_t> reachDevices(ReachKind kind) noexcept;
+
 // Control parameters.
 struct ReachOptions {
-    double period = 0.02;    // [s] between commands
+    // [s] between commands; 0 = 0.02, and 0.03 for seven axes: commands and answers share an RS-485 line, and
+    // take 82 % and 77 % of it
+    double period = 0.0;
     double staleAfter = 0.1; // [s] age of feedback that stops the arm
     double lead = 0.05; // [rad] setpoints lead the measurement by at most this, which bounds the motion after
                         // a lost line
@@ -25,15 +33,13 @@ struct ReachOptions {
         0.05; // [s] window in which, on a line that echoes, a packet equal to a sent one is its echo
 };
 
-// Axes: base, shoulder, elbow, wrist [rad], jaws [m]. Absolute sensors: no homing. Sends positions, each at
-// most `lead` ahead of the measurement; on hold, velocity 0.
+// Axes [rad], the last one the jaws [m]. Absolute sensors: no homing. Sends positions, each at most `lead`
+// ahead of the measurement; on hold, velocity 0.
 class ReachArm final : public ArmDevice {
 public:
-    static constexpr size_t kAxes = 5;
-    static constexpr std::array<uint8_t, kAxes> kDevice{5, 4, 3, 2, 1}; // id of each axis
-    static constexpr uint8_t kVelocity = 0x02;                          // packet id
+    static constexpr uint8_t kVelocity = 0x02; // packet id
 
-    ReachArm(SerialPort& port, const ReachOptions& options = {});
+    ReachArm(SerialPort& port, const ReachOptions& options = {}, ReachKind kind = ReachKind::Alpha5);
 
     void step(double now, const ArmCommand& command) noexcept override;
     const ArmFeedback& feedback() const noexcept override { return feedback_; }
@@ -51,13 +57,17 @@ private:
     void sendAll(double now, const ArmCommand& command) noexcept;
     void send(const ReachPacket& packet, double now) noexcept;
 
+    size_t jaws() const noexcept { return devices_.size() - 1; }
+    double perUnit(size_t axis) const noexcept; // SI to line units
+
     SerialPort& port_;
     ReachOptions options_;
+    std::span<const uint8_t> devices_;
     ReachReader reader_;
     ArmFeedback feedback_;
-    std::array<double, kAxes> heardAt_{};   // [s] of each position; -1e9 = never
-    std::array<double, kAxes> overSince_{}; // [s]; infinite = not over
-    std::array<Sent, 32> sent_{};           // ring buffer
+    std::array<double, kMostArmAxes> heardAt_{};   // [s] of each position; -1e9 = never
+    std::array<double, kMostArmAxes> overSince_{}; // [s]; infinite = not over
+    std::array<Sent, 48> sent_{};                  // ring buffer
     size_t nextSent_ = 0;
     bool echoes_ = false;       // a request was echoed
     double nextCommand_ = -1e9; // [s]

@@ -2,16 +2,14 @@
 #include "devices/serial/stand_still.h"
 
 #include "devices/serial/eca_arm.h"
-#include "devices/serial/reach_arm.h"
 
 #include <algorithm>
 
 namespace fathom {
 
-StandStill reachStandStill() {
-    StandStill still{
-        {0}, ReachOptions{}.period}; // a zero ends any packet; the arm drops a truncated one as damaged
-    for (uint8_t device : ReachArm::kDevice) {
+StandStill reachStandStill(ReachKind kind) {
+    StandStill still{{0}, 0.02}; // a zero ends any packet; the arm drops a truncated one as damaged
+    for (uint8_t device : reachDevices(kind)) {
         ReachFrame frame;
         const size_t size = encodeReach(ReachPacket::ofFloat(ReachArm::kVelocity, device, 0.0f), frame);
         still.bytes.insert(still.bytes.end(), frame.begin(),

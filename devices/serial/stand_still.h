@@ -2,6 +2,8 @@
 // Telegrams that stop an arm, even when the previous sender was cut off within a telegram.
 #pragma once
 
+#include "devices/serial/reach_arm.h"
+
 #include <cstdint>
 #include <vector>
 
@@ -13,7 +15,7 @@ struct StandStill {
     double period = 0.0;        // [s] repetition period
 };
 
-StandStill reachStandStill(); // velocity 0, like the driver's hold
-StandStill ecaStandStill();   // a frame of hold commands
+StandStill reachStandStill(ReachKind kind = ReachKind::Alpha5); // velocity 0, like the driver's hold
+StandStill ecaStandStill();                                     // a frame of hold commands
 
 } // namespace fathom

@@ -18,7 +18,7 @@ void ReachSimulator::receive(std::span<const uint8_t> bytes, std::vector<uint8_t
 
 void ReachSimulator::handle(const ReachPacket& packet, std::vector<uint8_t>& out) {
     const size_t d = packet.device;
-    if (d == 0 || d >= kDevices) {
+    if (d == 0 || d > axes_) {
         return;
     }
     const auto value = packet.asFloat();

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Simulates the protocols of a Reach Alpha 5 and an ECA 5E Micro, as far as public sources describe them, for
-// tests and dry runs. Pure functions of bytes and time.
+// Simulates the protocols of a Reach Alpha 5 or Bravo 7 and an ECA 5E Micro, as far as public sources
+// describe them, for tests and dry runs. Pure functions of bytes and time.
 #pragma once
 
 #include "devices/serial/eca_frame.h"
-#include "devices/serial/reach_packet.h"
+#include "devices/serial/reach_arm.h"
 
 #include <array>
 #include <cstdint>
@@ -24,10 +24,13 @@ public:
 // Position setpoints are followed at `speed`, velocities kept; answers requests of position and current.
 class ReachSimulator final : public ArmSimulator {
 public:
-    static constexpr size_t kDevices = 6;                  // by device id; 0 is none
-    std::array<double, kDevices> position{};               // [rad], jaws [mm]
-    std::array<double, kDevices> current{};                // [mA]
-    std::array<double, kDevices> speed{0, 20, 1, 1, 1, 1}; // [rad/s], jaws [mm/s]
+    static constexpr size_t kDevices = 8;                        // by device id; 0 is none
+    std::array<double, kDevices> position{};                     // [rad], jaws [mm]
+    std::array<double, kDevices> current{};                      // [mA]
+    std::array<double, kDevices> speed{0, 20, 1, 1, 1, 1, 1, 1}; // [rad/s], jaws [mm/s]
+
+    explicit ReachSimulator(ReachKind kind = ReachKind::Alpha5)
+        : axes_(reachDevices(kind).size()) {}
 
     void receive(std::span<const uint8_t> bytes, std::vector<uint8_t>& out) override;
     void step(double dt) override;
@@ -35,6 +38,7 @@ public:
 private:
     void handle(const ReachPacket& packet, std::vector<uint8_t>& out);
 
+    size_t axes_; // devices 1 to this answer
     ReachReader reader_;
     std::array<double, kDevices> setpoint_{}, velocity_{};
     std::array<bool, kDevices> toSetpoint_{};

@@ -41,8 +41,9 @@ SceneArm::Driver loadArmDriver(const YamlNode& node) {
     Driver driver;
     driver.protocol = node.at("protocol")
                           .choice<Driver::Protocol>({{"reach_alpha5", Driver::Protocol::ReachAlpha5},
+                                                     {"reach_bravo7", Driver::Protocol::ReachBravo7},
                                                      {"eca_5e", Driver::Protocol::Eca5e}});
-    const bool reach = driver.protocol == Driver::Protocol::ReachAlpha5;
+    const bool reach = driver.protocol != Driver::Protocol::Eca5e;
     if (const auto baud = node.find("baud")) {
         driver.baud = baud->integer(9600, 230400);
     }

@@ -104,7 +104,7 @@ struct SceneArm {
         double seconds = 1.0; // from open to closed
     } grasp;
     struct Driver { // the real arm; it moves only when a command names its serial port
-        enum class Protocol { ReachAlpha5, Eca5e } protocol = Protocol::ReachAlpha5;
+        enum class Protocol { ReachAlpha5, ReachBravo7, Eca5e } protocol = Protocol::ReachAlpha5;
         uint32_t baud = 115200;
         bool rs485 = false; // the kernel switches the transmit direction
         struct Axis {       // q = zero + sign * axis reading

@@ -4,6 +4,7 @@
 #include "devices/serial/line_guard.h"
 #include "devices/simulated/arm_simulator.h"
 
+#include <algorithm>
 #include <doctest/doctest.h>
 #include <memory>
 #include <sys/socket.h>
@@ -173,4 +174,20 @@ TEST_CASE(
         }
         CHECK(farewell == (writes == 0));
     }
+}
+
+TEST_CASE("The watchdog of a Bravo 7 stops each of its seven axes") {
+    ReachSimulator arm(ReachKind::Bravo7);
+    std::vector<uint8_t> answers;
+    for (uint8_t device = 1; device <= 7; ++device) {
+        ReachFrame frame;
+        const size_t size = encodeReach(ReachPacket::ofFloat(ReachArm::kVelocity, device, 0.5f), frame);
+        arm.receive({frame.data(), size}, answers);
+    }
+    arm.step(0.1);
+    const auto moved = arm.position;
+    CHECK(std::count_if(moved.begin(), moved.end(), [](double q) { return q > 0.0; }) == 7);
+    arm.receive(reachStandStill(ReachKind::Bravo7).bytes, answers);
+    arm.step(1.0);
+    CHECK(arm.position == moved);
 }

@@ -51,6 +51,7 @@ public:
     PtyLine& operator=(const PtyLine&) = delete;
 
     LineFaults faults;
+    size_t carried = 0; // bytes that both ends sent
     const std::string& name() const { return name_; }
 
     // Passes the host's bytes to the arm, and the arm's due answers to the host.
@@ -64,12 +65,15 @@ public:
             }
             std::vector<uint8_t> sent(bytes, bytes + got);
             spoil(sent);
+            carried += static_cast<size_t>(got);
             if (faults.echo) {
                 answers.insert(answers.end(), bytes, bytes + got);
             }
+            const size_t before = answers.size();
             if (!faults.deaf) {
                 arm_.receive(sent, answers);
             }
+            carried += answers.size() - before;
         }
         spoil(answers);
         for (uint8_t byte : answers) {

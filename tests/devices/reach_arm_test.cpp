@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The Reach Alpha 5 driver against a simulated arm on a pseudo-terminal, on good lines and bad ones.
+// The driver of Reach arms against a simulated arm on a pseudo-terminal, on good lines and bad ones.
 #include "devices/serial/reach_arm.h"
 #include "engine/types/error.h"
 #include "tests/devices/pty_line.h"
@@ -19,8 +19,12 @@ struct Rig {
     ReachArm driver;
     double now = 0.0;
 
-    explicit Rig(const ReachOptions& options = {})
-        : driver(port, options) {}
+    ReachKind kind;
+
+    explicit Rig(const ReachOptions& options = {}, ReachKind is = ReachKind::Alpha5)
+        : arm(is)
+        , driver(port, options, is)
+        , kind(is) {}
 
     void run(double seconds, const ArmCommand& command) {
         constexpr double kStep = 0.01;
@@ -33,17 +37,18 @@ struct Rig {
     }
     // Of what was commanded, in the line's units [rad], jaws [mm].
     double error(const ArmCommand& command) const {
-        const std::array<size_t, 5> device{5, 4, 3, 2, 1};
+        const size_t axes = kind == ReachKind::Alpha5 ? 5 : 7;
         double worst = 0.0;
-        for (size_t k = 0; k < 5; ++k) {
-            worst = std::max(worst,
-                             std::abs(arm.position[device[k]] - command.position[k] * (k == 4 ? 1e3 : 1.0)));
+        for (size_t k = 0; k < axes; ++k) {
+            const double wanted = command.position[k] * (k + 1 == axes ? 1e3 : 1.0);
+            worst = std::max(worst, std::abs(arm.position[axes - k] - wanted));
         }
         return worst;
     }
 };
 
 const ArmCommand kGo{{0.3, -0.2, 0.4, 0.1, 0.01}, false};
+const ArmCommand kBravoGo{{0.3, -0.2, 0.4, 0.1, -0.3, 0.2, 0.01}, false};
 const ArmCommand kHold{{9.0, 9.0, 9.0, 9.0, 9.0}, true};
 
 } // namespace
@@ -60,6 +65,34 @@ TEST_CASE("A Reach arm follows setpoints and reports its position") {
     CHECK(f.damaged == 0);
     for (size_t k = 0; k < 5; ++k) {
         CHECK(f.position[k] == doctest::Approx(kGo.position[k]).epsilon(1e-4));
+    }
+}
+
+TEST_CASE("A Bravo 7 follows its seven axes, on bad lines, too, and an Alpha 5 does not answer for one") {
+    for (const LineFaults& faults : {LineFaults{}, LineFaults{0.003, 0.003, true, 0.02, false}}) {
+        Rig rig({}, ReachKind::Bravo7);
+        rig.line.faults = faults;
+        rig.run(faults.echo ? 4.0 : 2.0, kBravoGo);
+        CHECK(rig.error(kBravoGo) < 1e-4);
+        const ArmFeedback& f = rig.driver.feedback();
+        for (size_t k = 0; k < 7; ++k) {
+            CHECK(f.position[k] == doctest::Approx(kBravoGo.position[k]).epsilon(1e-3));
+        }
+    }
+    Rig mixed({}, ReachKind::Bravo7);
+    mixed.arm = ReachSimulator(ReachKind::Alpha5);
+    mixed.run(1.0, kBravoGo);
+    CHECK(mixed.driver.feedback().stale); // axes f and g never answer
+    CHECK(mixed.driver.feedback().holding);
+    CHECK(mixed.arm.position == ReachSimulator().position);
+}
+
+TEST_CASE("Commands and answers of a Reach arm fit on a half-duplex line of 115200 baud") {
+    for (const ReachKind kind : {ReachKind::Alpha5, ReachKind::Bravo7}) {
+        Rig rig({}, kind);
+        rig.run(2.0, kind == ReachKind::Alpha5 ? kGo : kBravoGo);
+        CAPTURE(rig.line.carried);
+        CHECK(static_cast<double>(rig.line.carried) / 2.0 < 0.85 * 11520.0); // bytes a second, ten bits each
     }
 }
 

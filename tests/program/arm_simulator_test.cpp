@@ -58,21 +58,24 @@ double now() {
 
 TEST_CASE("A simulated Reach moves where its driver commands, and a simulated ECA finds its stops") {
     Stage stage;
-    {
-        const Simulator simulator("reach_alpha5", stage / "reach", stage / "said");
-        SerialPort port((stage / "reach").string(), 115200);
-        ReachArm arm(port);
-        const ArmCommand go{{0.1, -0.1, 0.2, 0.05, 0.002}, false};
-        CHECK(Simulator::until([&] {
-            arm.step(now(), go);
-            double off = 0.0;
-            for (size_t k = 0; k < 5; ++k) {
-                off = std::max(off, std::abs(arm.feedback().position[k] - go.position[k]));
-            }
-            return !arm.feedback().stale && off < 1e-4;
-        }));
+    for (const ReachKind kind : {ReachKind::Alpha5, ReachKind::Bravo7}) {
+        const std::string name = kind == ReachKind::Alpha5 ? "reach_alpha5" : "reach_bravo7";
+        {
+            const Simulator simulator(name, stage / "reach", stage / "said");
+            SerialPort port((stage / "reach").string(), 115200);
+            ReachArm arm(port, {}, kind);
+            const ArmCommand go{{0.1, -0.1, 0.2, 0.05, 0.002, 0.01, 0.001}, false};
+            CHECK(Simulator::until([&] {
+                arm.step(now(), go);
+                double off = 0.0;
+                for (size_t k = 0; k < reachDevices(kind).size(); ++k) {
+                    off = std::max(off, std::abs(arm.feedback().position[k] - go.position[k]));
+                }
+                return !arm.feedback().stale && off < 1e-4;
+            }));
+        }
+        CHECK(stage.read("said").find(name + " simulated at /dev/pts/") == 0);
     }
-    CHECK(stage.read("said").find("reach_alpha5 simulated at /dev/pts/") == 0);
     const Simulator simulator("eca_5e", stage / "eca", stage / "said");
     SerialPort port((stage / "eca").string(), 115200);
     EcaArm arm(port);
