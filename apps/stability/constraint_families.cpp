@@ -128,26 +128,25 @@ RowSet makeRowSet(RowFamily family, size_t rows, const RowScale& scale, Rng& rng
     return set;
 }
 
-RowSet makeArmSet(size_t rows, double floor, Rng& rng) {
-    constexpr size_t kUnknowns = 8;
+RowSet makeArmSet(size_t unknowns, size_t rows, double floor, Rng& rng) {
     RowSet set;
-    set.unknowns = kUnknowns;
-    std::array<double, kUnknowns * kUnknowns> a{};
+    set.unknowns = unknowns;
+    std::vector<double> a(unknowns * unknowns);
     for (double& value : a) {
         value = rng.normal();
     }
-    set.metric.assign(kUnknowns * kUnknowns, 0.0);
-    for (size_t i = 0; i < kUnknowns; ++i) {
+    set.metric.assign(unknowns * unknowns, 0.0);
+    for (size_t i = 0; i < unknowns; ++i) {
         for (size_t j = 0; j <= i; ++j) {
             double sum = i == j ? floor : 0.0;
-            for (size_t k = 0; k < kUnknowns; ++k) {
-                sum += a[i * kUnknowns + k] * a[j * kUnknowns + k];
+            for (size_t k = 0; k < unknowns; ++k) {
+                sum += a[i * unknowns + k] * a[j * unknowns + k];
             }
-            set.metric[i * kUnknowns + j] = set.metric[j * kUnknowns + i] = sum;
+            set.metric[i * unknowns + j] = set.metric[j * unknowns + i] = sum;
         }
     }
-    std::array<double, kUnknowns> row{}, inside{};
-    for (size_t i = 0; i < kUnknowns; ++i) {
+    std::vector<double> row(unknowns), inside(unknowns);
+    for (size_t i = 0; i < unknowns; ++i) {
         set.target.push_back(rng.uniform(-0.1, 0.1));
         inside[i] = rng.uniform(-0.01, 0.01);
     }

@@ -53,9 +53,9 @@ struct RowSet {
 
 RowSet makeRowSet(RowFamily family, size_t rows, const RowScale& scale, Rng& rng);
 
-// Rows over an arm's joint increments: eight unknowns and a full metric A A^T + floor I, with a condition
+// Rows over an arm's joint increments: `unknowns` of them and a full metric A A^T + floor I, with a condition
 // number up to about 10 / floor.
-RowSet makeArmSet(size_t rows, double floor, Rng& rng);
+RowSet makeArmSet(size_t unknowns, size_t rows, double floor, Rng& rng);
 
 // Rows with a known answer. Feasible: some point satisfies all rows by at least `margin` [m]. Infeasible by a
 // Farkas certificate: positive weights with sum(w_i) = 1, sum(w_i n_i) = 0 and sum(w_i d_i) = margin.

@@ -76,15 +76,15 @@ Outcome scaleCase(RunLength runLength, const RowScale& scale, const std::string&
     return judged(tally, what);
 }
 
-Outcome armCase(RunLength runLength) {
+Outcome armCase(RunLength runLength, size_t unknowns) {
     Rng rng(8);
-    SolverTrial trial(8);
+    SolverTrial trial(static_cast<int>(unknowns));
     SolverTally tally;
     const size_t sets = sizeOf(runLength, 5000);
     for (size_t i = 0; i < sets; ++i) {
-        trial.judge(makeArmSet(someRows(rng), rng.logUniform(1e-6, 1e-2), rng), tally);
+        trial.judge(makeArmSet(unknowns, someRows(rng), rng.logUniform(1e-6, 1e-2), rng), tally);
     }
-    return judged(tally, "Eight unknowns, full metric of condition up to about 1e7. ");
+    return judged(tally, std::to_string(unknowns) + " unknowns, full metric of condition up to about 1e7. ");
 }
 
 // Sets whose feasibility is known by construction, down to a margin of 1e-9 of the step.
@@ -262,7 +262,8 @@ std::vector<Case> solverCases() {
     scaled("solver-metric-1mm", scaleOf(0.1, 0.001), "Gyration radius 1 mm, every family. ");
     scaled("solver-metric-1m", scaleOf(0.1, 1.0), "Gyration radius 1 m, every family. ");
     cases.push_back({"solver-tool-10m-metric-1mm", Group::Solver, mismatchedCase});
-    cases.push_back({"solver-eight-unknowns", Group::Solver, armCase});
+    cases.push_back({"solver-eight-unknowns", Group::Solver, [](RunLength l) { return armCase(l, 8); }});
+    cases.push_back({"solver-twelve-unknowns", Group::Solver, [](RunLength l) { return armCase(l, 12); }});
     cases.push_back({"solver-infeasible-recognised", Group::Solver, feasibilityCase});
     cases.push_back({"solver-bounded-changes", Group::Solver, iterationCase});
     cases.push_back({"solver-leaning-planes", Group::Solver, leaningCase});

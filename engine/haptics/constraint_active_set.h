@@ -14,7 +14,8 @@ inline double dot(const ScaledVector& a, const ScaledVector& b) noexcept {
     // Pairwise to shorten the chain of additions, in a fixed order so that the result is reproducible.
     const double even = (a[0] * b[0] + a[2] * b[2]) + (a[4] * b[4] + a[6] * b[6]);
     const double odd = (a[1] * b[1] + a[3] * b[3]) + (a[5] * b[5] + a[7] * b[7]);
-    return even + odd;
+    const double rest = (a[8] * b[8] + a[10] * b[10]) + (a[9] * b[9] + a[11] * b[11]);
+    return (even + odd) + rest;
 }
 
 // At most kMaxUnknowns unit rows, linearly independent. One thread, noexcept, no allocation.

@@ -141,8 +141,20 @@ inline void putLane(double* lane, const double* normal, double offset) noexcept 
     case 7:                                                                                                  \
         CALL(7);                                                                                             \
         break;                                                                                               \
-    default:                                                                                                 \
+    case 8:                                                                                                  \
         CALL(8);                                                                                             \
+        break;                                                                                               \
+    case 9:                                                                                                  \
+        CALL(9);                                                                                             \
+        break;                                                                                               \
+    case 10:                                                                                                 \
+        CALL(10);                                                                                            \
+        break;                                                                                               \
+    case 11:                                                                                                 \
+        CALL(11);                                                                                            \
+        break;                                                                                               \
+    default:                                                                                                 \
+        CALL(12);                                                                                            \
         break;                                                                                               \
     }
 
@@ -174,8 +186,8 @@ void ConstraintRows::clear() noexcept {
     scaledBlocks_ = 0;
 }
 
-// Not inlined: for a caller whose row is an array of 7, GCC would warn about 8 unknowns, which cannot occur
-// there.
+// Not inlined: for a caller whose row is an array of 7, GCC would warn about more unknowns, which cannot
+// occur there.
 [[gnu::noinline]] bool ConstraintRows::add(std::span<const double> normal, double offset) noexcept {
     if (size_ == maxRows_) {
         return false;

@@ -11,7 +11,7 @@
 namespace fathom {
 
 // Most unknowns of a problem: the six of a free tool, or the joints of an arm.
-inline constexpr int kMaxUnknowns = 8;
+inline constexpr int kMaxUnknowns = 12;
 
 // Lower Cholesky factor of the metric, row-major with kMaxUnknowns columns, and the reciprocals of its
 // diagonal.

@@ -17,7 +17,6 @@
 namespace fathom {
 
 inline constexpr size_t kMostJoints = 12;    // moving joints of a chain, mimic joints included
-inline constexpr size_t kMostFreeJoints = 8; // of these, the ones that follow no other: the solver's unknowns
 inline constexpr size_t kMostFingers = 16;   // moving joints off the chain
 inline constexpr double kUnknownTurn = 1.0;  // [rad/s] speed of a revolute joint whose URDF states none
 inline constexpr double kUnknownSlide = 0.1; // [m/s] the same for a prismatic joint

@@ -108,19 +108,17 @@ private:
         return glm::normalize(axis);
     }
 
-    void checkRoom(const urdf::Joint& joint, const JointDrive& drive) {
-        free_ += drive.kind == Kind::Free ? 1 : 0;
-        const bool all = model_.joints.size() == kMostJoints;
-        if (all || free_ > kMostFreeJoints) {
+    void checkRoom(const urdf::Joint& joint) const {
+        if (model_.joints.size() == kMostJoints) {
             refuse("joint " + joint.name, "one more moving joint",
-                   std::to_string(all ? kMostJoints : kMostFreeJoints) +
+                   std::to_string(kMostJoints) +
                        " at most from base to tip; arm.locked holds joints, arm.base and arm.tip shorten the "
                        "chain");
         }
     }
 
     void add(const urdf::Joint& joint, const Pose& before, const JointDrive& drive) {
-        checkRoom(joint, drive);
+        checkRoom(joint);
         const bool slides = joint.type == urdf::Joint::PRISMATIC;
         constexpr double kAny = std::numeric_limits<double>::infinity();
         ArmJoint out{joint.name, slides, before, axisOf(joint), -kAny, kAny, 0.0};
@@ -253,7 +251,6 @@ private:
     ArmModel model_;
     std::map<std::string, JointDrive> drives_;
     std::vector<std::string> moving_; // of the chain
-    size_t free_ = 0;                 // of these
     ArmShapes shapes_;
 };
 

@@ -49,8 +49,8 @@ TEST_CASE("A joint's motion of a point is the derivative of the point's position
     }
 }
 
-TEST_CASE("An arm with four to seven joints moves its tip to a reachable position") {
-    for (size_t joints : {4u, 5u, 6u, 7u}) {
+TEST_CASE("An arm with four to twelve joints moves its tip to a reachable position") {
+    for (size_t joints : {4u, 5u, 6u, 7u, 12u}) {
         const ArmModel arm = makeArm(joints, 3);
         ArmProxy proxy(arm, Pose{}, {}, JointVector{0.2, 0.3, -0.2, 0.4, 0.1, -0.3, 0.2});
         ArmFrames frames;
@@ -67,7 +67,7 @@ TEST_CASE("An arm with four to seven joints moves its tip to a reachable positio
 
 TEST_CASE("No joint exceeds its position or speed limits for any hand motion") {
     std::mt19937_64 random(5);
-    for (size_t joints : {1u, 4u, 7u}) {
+    for (size_t joints : {1u, 4u, 7u, 12u}) {
         const ArmModel arm = makeArm(joints, 2, 0.4);
         ArmProxy proxy(arm, Pose{}, {}, JointVector{});
         double worst = 0.0, fastest = 0.0;
@@ -93,7 +93,7 @@ TEST_CASE("No joint exceeds its position or speed limits for any hand motion") {
 
 TEST_CASE("No leaf of any link enters any of hundreds of spheres under a wild hand") {
     std::mt19937_64 random(11);
-    for (size_t joints : {4u, 5u, 6u, 7u}) {
+    for (size_t joints : {4u, 5u, 6u, 7u, 12u}) {
         if (kSanitized && joints != 6) {
             continue;
         }
