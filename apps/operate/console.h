@@ -74,6 +74,7 @@ struct Console {
     int editedRow = -1; // slider being dragged; the fixture changes when it is released
     float editedMillimetres = 0.0f;
 
+    std::string refusal;      // why forces did not come on (arming.h); shown until they do, or Esc
     std::string hovered;      // explanation of the block under the mouse
     std::string notice;       // one line about the last action
     double noticeUntil = 0.0; // [s] of ImGui's clock

@@ -87,33 +87,6 @@ void passes(const HudInput& input) {
 
 } // namespace
 
-Mode modeOf(const Console& console, const RunView& run) {
-    const StepState state = run.step().record.state;
-    if (!console.forces) {
-        return state == StepState::Fading ? Mode{"FORCES FADING", "~", colour::kCaution}
-                                          : Mode{"FORCES OFF", "\xe2\x96\xa0", colour::kQuiet};
-    }
-    switch (state) {
-    case StepState::Off:
-        return {"WAITING", "\xe2\x80\xa6", colour::kQuiet};
-    case StepState::Trapped:
-        return {"TRAPPED", "!", colour::kWarning};
-    case StepState::Fading:
-        return {"FADING", "~", colour::kCaution};
-    case StepState::Escape:
-        return {"ESCAPE", "!", colour::kCaution};
-    case StepState::Waiting:
-        return {"TOOL LAGS", "\xe2\x80\xa6", colour::kCaution};
-    default:
-        break;
-    }
-    if (run.step().record.guidance > 0.0) {
-        return {"GUIDANCE", "+", colour::kGuidance};
-    }
-    return state == StepState::Contact ? Mode{"CONTACT", "\xe2\x97\x8f", colour::kTouch}
-                                       : Mode{"ARMED", "\xe2\x97\x8f", colour::kGood};
-}
-
 namespace {
 
 // Keeps the end of a long name, which distinguishes it.
@@ -142,12 +115,12 @@ void drawHeadLine(Console& console, const HudInput& input, ImVec2 at, ImVec2 siz
     ImGui::SetNextWindowSize(size);
     ImGui::Begin("head", nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
-    const Mode mode = modeOf(console, input.run);
+    const Mode mode = modeOf({console, input.run, input.haptics});
     ImGui::BeginGroup();
     words(input.letters.large, mode.colour, std::string(mode.sign) + " " + mode.word);
     words(input.letters.small, colour::kQuiet, shortened(input.title));
     ImGui::EndGroup();
-    markPlace(console, "mode");
+    markPlace(console, "head mode");
     ImGui::SameLine(280.0f * static_cast<float>(console.textScale));
     ImGui::Dummy({0.0f, 0.0f});
     const Rates rates = input.run.rates();

@@ -4,6 +4,7 @@
 
 #include "apps/operate/console.h"
 #include "apps/operate/measured_arm.h"
+#include "apps/operate/mode.h"
 #include "apps/operate/run_view.h"
 #include "apps/operate/theme.h"
 #include "engine/cycle/haptic_options.h"
@@ -12,14 +13,6 @@
 #include <vector>
 
 namespace fathom::operate {
-
-// The state of the forces as word, sign and colour, so that it never depends on colour alone.
-struct Mode {
-    const char* word = "";
-    const char* sign = "";
-    ImU32 colour = 0;
-};
-Mode modeOf(const Console& console, const RunView& run);
 
 // [N s/m] Automatic stiffness meets the bound exactly, so a slightly longer period must not raise an alarm.
 constexpr double kMarginNoise = -0.1;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/operate/operator_run.h"
 
+#include "apps/operate/arming.h"
 #include "apps/operate/view_click.h"
 #include "engine/types/error.h"
 
@@ -50,7 +51,7 @@ OperatorRun::OperatorRun(const OperateOptions& options, const GlobalOptions& glo
     , recording_(options.shots, sinks_.recorder, session_)
     , live_(options_, session_, signals_, placement_, sinks_.snapshots, sinks_.observers.get()) {
     live_.start(editor_.shapes());
-    display_.console.forces = options_.armed;
+    display_.console.forces = armed_ = options_.armed;
     window_.onForcesOff = [this] {
         live_.forcesOff(); // at once, before the rest of this frame
         forcesOff_ = true;
@@ -124,10 +125,22 @@ void OperatorRun::listen() {
     if (std::exchange(forcesOff_, false)) { // overrides all other keys of this frame
         console.forces = console.guidance = false;
     }
+    arm();
     live_.apply(console);
     recording_.follow(console, editor_);
     followPilot();
     display_.exportTraces();
+}
+
+// Forces come on only if nothing speaks against them.
+void OperatorRun::arm() {
+    Console& console = display_.console;
+    if (console.forces && !armed_) {
+        console.refusal = whyNotArmed(
+            {display_.view, editor_.scene(), live_.haptics(), session_.handover->gone(), !live_.handThere()});
+        console.forces = console.refusal.empty();
+    }
+    armed_ = console.forces;
 }
 
 // Springs, limits and scale are constant during a run. So this turns forces off, keeps the tool where it is,

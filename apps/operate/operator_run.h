@@ -39,6 +39,7 @@ public:
 
 private:
     void changeScene(const Scene& scene, const std::vector<Shape>& shapes);
+    void arm();
     void followPilot();
     void frame();
     void show();   // shows the drawn frame if there is a device
@@ -60,6 +61,7 @@ private:
     RecorderControl recording_;
     MeasuredArm measured_;
     bool showsGone_ = false; // the window's title says that the GPU is gone
+    bool armed_ = false;     // forces were on after the last arm()
     bool forcesOff_ = false; // requested since the last listen()
     LiveRun live_;           // last, so that its threads end before what they use
 };

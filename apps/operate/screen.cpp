@@ -270,6 +270,9 @@ void Screen::draw(Console& console, FixtureEditor& editor, Alarms& alarms, const
     }
     drawTabs(console, editor, alarms, input, rooms.tabs);
     handleFixtureKeys(console, editor, input.run.scene());
+    drawMode(console, {console, input.run, input.hud.haptics}, input.hud.letters.large,
+             cornerOf(large_->where), sizeOf(large_->where));
+    drawRefusal(console, input.hud.letters.bold, cornerOf(large_->where), sizeOf(large_->where));
     drawAlarm(console, alarms);
     drawHint(console, input);
     markPlace(console, "traces room", cornerOf(rooms.traces), sizeOf(rooms.traces));

@@ -127,6 +127,14 @@ json handOf(const ShownState& s) {
                               : json(nullptr);
 }
 
+json chipsOf(const ShownState& s) {
+    json words = json::array();
+    for (const Chip& chip : operate::chipsOf({s.console, s.view, s.haptics})) {
+        words.push_back(chip.word);
+    }
+    return words;
+}
+
 std::string whyOf(const ShownState& s) {
     return s.view.blocks().empty()
                ? ""
@@ -156,7 +164,9 @@ void StateLog::write(const ShownState& s, bool now) {
     const Scene& scene = s.editor.scene();
     const json line = {{"console", consoleOf(s.console)},
                        {"run", runOf(s)},
-                       {"mode", modeOf(s.console, s.view).word},
+                       {"mode", modeOf({s.console, s.view, s.haptics}).word},
+                       {"chips", chipsOf(s)},
+                       {"refusal", s.console.refusal},
                        {"window", windowOf(s)},
                        {"hand", handOf(s)},
                        {"gpu",

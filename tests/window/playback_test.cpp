@@ -116,7 +116,8 @@ TEST_CASE("Dragging the time line of a recording shows image, regions, tool, han
     CHECK(late["run"]["force_N"].get<double>() == doctest::Approx(at->force).epsilon(1e-6));
     CHECK(late["run"]["force_N"] > 1.0);
     CHECK(late["run"]["device"][2].get<double>() > late["run"]["tool"][2].get<double>() + 0.001);
-    CHECK(late["mode"] == "CONTACT");
+    CHECK(late["mode"] == "LOOK-BACK");
+    CHECK(late["chips"][0] == "CONTACT");
     CHECK(late["why"].get<std::string>().find("'red'") != std::string::npos);
     CHECK(late["run"]["spheres"].get<int>() >= early["run"]["spheres"].get<int>() + 100);
     CHECK(rig.shoot("playback").share(square(), isRed) > 0.6);

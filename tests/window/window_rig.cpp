@@ -131,7 +131,12 @@ void WindowRig::startProgram(const std::filesystem::path& scene, const std::vect
     const int log = ::open((folder_.path() / "program.log").c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0644);
     program_ = start(words, log);
     ::close(log);
-    const bool drawn = await([](const nlohmann::json& s) { return s["window"]["frames"] > 3; }, 90.0);
+    const bool drawn = await( // before the first set of regions, forces cannot be switched on
+        [](const nlohmann::json& s) {
+            return s["window"]["frames"] > 3 &&
+                   (s["run"]["frame"] >= 0 || s["console"]["time_line"]["on"] == true);
+        },
+        90.0);
     REQUIRE_MESSAGE(drawn, output());
     const std::string found =
         "DISPLAY=" + display_ + " xdotool search --name '^Fathom' > " + (folder_.path() / "window").string();

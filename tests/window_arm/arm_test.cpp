@@ -151,6 +151,9 @@ TEST_CASE("When an arm falls silent or is unplugged, the force goes to zero, the
 
 TEST_CASE("Another pilot takes over a real arm at its present posture") {
     ArmWindow w("pilots:\n  - {name: anna, stiffness: 300}\n  - {name: ben, stiffness: 150}\n");
+    w.rig.click("pilot anna");
+    REQUIRE(
+        w.rig.await([](const json& s) { return s["pilot"]["name"] == "anna" && s["run"]["turns"] > 100; }));
     w.arms();
     w.drive("Page_Up", [](double depth) { return depth > kSurface - 0.05; });
     w.meets();

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/operate/arming.h"
+
+#include <cmath>
+#include <cstdio>
+
+namespace fathom::operate {
+
+namespace {
+
+constexpr double kSilent = 5.0; // times the age at which forces fade; a slow camera is no reason
+constexpr double kApart = 0.01; // [m] most between hand and tool
+constexpr double kRecent = 0.5; // [s] age of a contact that explains it
+constexpr double kTwist = 0.35; // [rad] most turn between them, where the device renders torque
+
+std::string thousandths(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.0f", value * 1e3);
+    return text;
+}
+
+std::string handIsOff(const ArmingInput& input) {
+    const StepRecord& record = input.run.step().record;
+    const double apart = glm::distance(record.tool.position, record.device.position);
+    if (apart > kApart) {
+        const auto& blocks = input.run.blocks();
+        const bool known = !blocks.empty() && record.t - blocks.front().last < kRecent &&
+                           blocks.front().touch.fixture < input.scene.fixtures.size();
+        return "hand is " + thousandths(apart) + " mm" +
+               (known ? " inside '" + input.scene.fixtures[blocks.front().touch.fixture].name + "'"
+                      : " from the tool") +
+               ": hold C to re-centre";
+    }
+    const double turn =
+        glm::length(rotationLog(record.device.rotation * glm::conjugate(record.tool.rotation)));
+    if (turn > kTwist && record.contacts > 0) {
+        return "hand is turned against the tool: hold C to re-centre";
+    }
+    return "";
+}
+
+} // namespace
+
+std::string whyNotArmed(const ArmingInput& input) {
+    const StepRecord& record = input.run.step().record;
+    if (input.gpuGone) {
+        return "the GPU is gone: wait until it is back";
+    }
+    if (input.handGone) {
+        return "the haptic device is gone: connect it";
+    }
+    if (!input.run.anyTick() || record.frame < 0) {
+        return "no camera frame has become a set of regions yet: wait for one";
+    }
+    if (record.sceneAge > kSilent * input.haptics.staleAfter) {
+        return "the scene is " + thousandths(record.sceneAge) + " ms old: check the camera";
+    }
+    if (!(input.haptics.forceLimit > 0.0)) {
+        return "the force limit is 0: set haptics.force_limit or choose a pilot";
+    }
+    if (input.run.step().driven && isFault(input.run.step().armStatus.state)) {
+        return std::string("the arm is ") + armStateName(input.run.step().armStatus.state) +
+               ": see the tab Alarms";
+    }
+    if (!input.scene.pilots.empty() && input.scene.pilot.empty()) {
+        return "no pilot is chosen: choose one in the tab Fixtures";
+    }
+    return handIsOff(input);
+}
+
+} // namespace fathom::operate

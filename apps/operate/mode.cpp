@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/operate/mode.h"
+
+#include "apps/operate/theme.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fathom::operate {
+
+namespace {
+
+constexpr double kFull = 0.98; // share of a limit that counts as reached
+constexpr ImU32 kPlate = IM_COL32(6, 8, 12, 245);
+constexpr const char* kDot = "\xe2\x97\x8f";
+constexpr const char* kSquare = "\xe2\x96\xa0";
+
+bool atLimit(const StepRecord& record, const HapticOptions& haptics) {
+    return glm::length(record.wrench.force) > kFull * haptics.forceLimit ||
+           glm::length(record.wrench.torque) > kFull * haptics.torqueLimit;
+}
+
+Mode armedMode(const ModeInput& input) {
+    const StepRecord& record = input.run.step().record;
+    const StepState state = record.state;
+    const bool armHeld = input.run.step().driven && input.run.step().armStatus.state != ArmState::Follows;
+    if (state == StepState::Trapped || armHeld) {
+        return {"HELD", "!", colour::kWarning, Edge::Double};
+    }
+    if (state == StepState::Fading || record.sceneAge > input.haptics.staleAfter) {
+        return {"STALE", "~", colour::kCaution, Edge::Dashed};
+    }
+    if (atLimit(record, input.haptics)) {
+        return {"AT LIMIT", "!", colour::kWarning, Edge::Hatched};
+    }
+    return state == StepState::Contact || state == StepState::Escape
+               ? Mode{"CONTACT", kDot, colour::kTouch, Edge::Thick}
+               : Mode{"ARMED", kDot, colour::kGood, Edge::Thin};
+}
+
+const char* recordedWord(StepState state) {
+    constexpr const char* kWords[]{"OFF", "FREE", "CONTACT", "ESCAPING", "TRAPPED", "FADING", "LAGS"};
+    return kWords[static_cast<size_t>(state)];
+}
+
+// A line in pieces; along is of unit length.
+void dashes(ImDrawList& list, ImVec2 from, ImVec2 to, ImU32 colour, float width) {
+    const float length = std::hypot(to.x - from.x, to.y - from.y);
+    const ImVec2 along{(to.x - from.x) / length, (to.y - from.y) / length};
+    for (float s = 0.0f; s < length; s += 8.0f * width) {
+        const float end = std::min(length, s + 4.0f * width);
+        list.AddLine({from.x + along.x * s, from.y + along.y * s},
+                     {from.x + along.x * end, from.y + along.y * end}, colour, width);
+    }
+}
+
+// Short slanted lines along the inside of a rectangle.
+void hatch(ImDrawList& list, ImVec2 a, ImVec2 b, ImU32 colour, float width) {
+    const float step = 3.0f * width;
+    for (float x = a.x; x < b.x; x += step) {
+        list.AddLine({x, a.y + 2.0f * width}, {x + 2.0f * width, a.y}, colour, 0.5f * width);
+        list.AddLine({x, b.y}, {x + 2.0f * width, b.y - 2.0f * width}, colour, 0.5f * width);
+    }
+    for (float y = a.y; y < b.y; y += step) {
+        list.AddLine({a.x, y + 2.0f * width}, {a.x + 2.0f * width, y}, colour, 0.5f * width);
+        list.AddLine({b.x - 2.0f * width, y + 2.0f * width}, {b.x, y}, colour, 0.5f * width);
+    }
+}
+
+void drawEdge(ImDrawList& list, const Mode& mode, ImVec2 corner, ImVec2 size, float scale) {
+    const float width = (mode.edge == Edge::Thin ? 3.0f : 6.0f) * scale, half = 0.5f * width;
+    const ImVec2 a{corner.x + half, corner.y + half}, b{corner.x + size.x - half, corner.y + size.y - half};
+    if (mode.edge == Edge::Dashed) {
+        for (const auto& [from, to] : {std::pair{a, ImVec2{b.x, a.y}}, std::pair{ImVec2{b.x, a.y}, b},
+                                       std::pair{b, ImVec2{a.x, b.y}}, std::pair{ImVec2{a.x, b.y}, a}}) {
+            dashes(list, from, to, mode.colour, width);
+        }
+        return;
+    }
+    list.AddRect(a, b, mode.colour, 0.0f, 0, mode.edge == Edge::Double ? 0.6f * width : width);
+    if (mode.edge == Edge::Double) {
+        list.AddRect({a.x + 1.4f * width, a.y + 1.4f * width}, {b.x - 1.4f * width, b.y - 1.4f * width},
+                     mode.colour, 0.0f, 0, 0.6f * width);
+    } else if (mode.edge == Edge::Hatched) {
+        hatch(list, {a.x + half, a.y + half}, {b.x - half, b.y - half}, mode.colour, width);
+    }
+}
+
+} // namespace
+
+Mode modeOf(const ModeInput& input) {
+    if (input.console.timeLine.on) {
+        return {"LOOK-BACK", "\xc2\xab", colour::kPicked, Edge::Dashed};
+    }
+    if (!input.console.forces) {
+        return input.run.step().record.state == StepState::Fading
+                   ? Mode{"FORCES FADING", "~", colour::kCaution, Edge::Dashed}
+                   : Mode{"FORCES OFF", kSquare, IM_COL32(255, 255, 255, 255), Edge::Double};
+    }
+    return armedMode(input);
+}
+
+std::vector<Chip> chipsOf(const ModeInput& input) {
+    const Console& console = input.console;
+    const StepRecord& record = input.run.step().record;
+    std::vector<Chip> chips;
+    if (console.timeLine.on) {
+        chips.push_back({recordedWord(record.state), colour::kText});
+    }
+    if (record.guidance > 0.0 || console.guidance) {
+        const std::vector<GuidancePose>& targets = input.run.scene().set.guidance;
+        const bool any =
+            std::any_of(targets.begin(), targets.end(), [](const GuidancePose& g) { return g.present; });
+        chips.push_back({any || record.guidance > 0.0 ? "GUIDE" : "GUIDE: no target", colour::kGuidance});
+    }
+    if (console.forces && !console.timeLine.on) {
+        const char* const word = record.state == StepState::Off       ? "WAITING for regions"
+                                 : record.state == StepState::Waiting ? "LAGS"
+                                 : record.state == StepState::Escape  ? "ESCAPING"
+                                                                      : nullptr;
+        if (word != nullptr) {
+            chips.push_back({word, colour::kCaution});
+        }
+    }
+    if (console.clutch) {
+        chips.push_back({"CLUTCH", colour::kText});
+    }
+    if (console.frozen) {
+        chips.push_back({"FROZEN", colour::kCaution});
+    }
+    if (console.recording) {
+        chips.push_back({"REC", colour::kWarning});
+    }
+    return chips;
+}
+
+void drawMode(Console& console, const ModeInput& input, ImFont* font, ImVec2 corner, ImVec2 size) {
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    const Mode mode = modeOf(input);
+    const float scale = static_cast<float>(console.textScale), pad = 8.0f * scale;
+    drawEdge(list, mode, corner, size, scale);
+    const std::string word = std::string(mode.sign) + " " + mode.word;
+    const ImVec2 wordSize = font->CalcTextSizeA(font->FontSize, 1e9f, 0.0f, word.c_str());
+    const std::vector<Chip> chips = chipsOf(input);
+    float width = wordSize.x + 2.0f * pad;
+    for (const Chip& chip : chips) {
+        width += ImGui::CalcTextSize(chip.word.c_str()).x + 3.0f * pad;
+    }
+    const ImVec2 at{corner.x + std::max(0.0f, 0.5f * (size.x - width)), corner.y};
+    const ImVec2 plate{width, wordSize.y + pad};
+    list.AddRectFilled(at, {at.x + plate.x, at.y + plate.y}, kPlate, 6.0f * scale,
+                       ImDrawFlags_RoundCornersBottom);
+    list.AddText(font, font->FontSize, {at.x + pad, at.y + 0.5f * pad}, mode.colour, word.c_str());
+    float x = at.x + wordSize.x + 3.0f * pad;
+    for (const Chip& chip : chips) {
+        const ImVec2 text = ImGui::CalcTextSize(chip.word.c_str());
+        const float y = at.y + 0.5f * (plate.y - text.y);
+        list.AddRect({x - pad, y - 0.3f * pad}, {x + text.x + pad, y + text.y + 0.3f * pad}, chip.colour,
+                     4.0f * scale);
+        list.AddText({x, y}, chip.colour, chip.word.c_str());
+        x += text.x + 3.0f * pad;
+    }
+    markPlace(console, "mode", at, plate);
+}
+
+void drawRefusal(Console& console, ImFont* font, ImVec2 corner, ImVec2 size) {
+    console.places.erase("refusal");
+    if (console.refusal.empty()) {
+        return;
+    }
+    const std::string words = "Forces stay off: " + console.refusal;
+    const float letter = font->FontSize, wrap = std::min(0.8f * size.x, 34.0f * letter);
+    const ImVec2 text = font->CalcTextSizeA(letter, wrap, wrap, words.c_str());
+    const ImVec2 a{corner.x + 0.5f * (size.x - text.x) - letter,
+                   corner.y + 0.5f * (size.y - text.y) - letter};
+    const ImVec2 b{a.x + text.x + 2.0f * letter, a.y + text.y + 2.0f * letter};
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    list.AddRectFilled(a, b, kPlate, 6.0f);
+    list.AddRect(a, b, colour::kWarning, 6.0f, 0, 3.0f);
+    list.AddText(font, letter, {a.x + letter, a.y + letter}, colour::kText, words.c_str(), nullptr, wrap);
+    markPlace(console, "refusal", a, {b.x - a.x, b.y - a.y});
+}
+
+} // namespace fathom::operate
