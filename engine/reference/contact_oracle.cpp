@@ -4,6 +4,8 @@
 #include "engine/contact/near_pairs.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 
 namespace fathom {
@@ -59,6 +61,26 @@ double oracleSmallestGap(const Tool& tool, const Pose& baseTtool, const Fixtures
         }
     }
     return smallest;
+}
+
+SmallestGap oracleSmallestPair(const Tool& tool, const Pose& baseTtool, const Fixtures& fixtures) {
+    SmallestGap best;
+    const RegionSpheres& s = fixtures.spheres;
+    for (uint32_t t = 0; t < tool.leafCount(); ++t) {
+        const dvec3 c = leafCentre(tool, t, baseTtool, fixtures.origin);
+        for (size_t i = 0; i < s.size(); ++i) {
+            const double dx = c.x - double{s.x[i]}, dy = c.y - double{s.y[i]}, dz = c.z - double{s.z[i]};
+            const double gap =
+                std::sqrt(dx * dx + dy * dy + dz * dz) - (tool.leaves()[t].radius + double{s.radius[i]});
+            const std::array<double, 4> pair{gap, double(s.source[i]), double(s.fixture[i]), double(t)};
+            const std::array<double, 4> least{best.gap, double(best.source), double(best.fixture),
+                                              double(best.leaf)};
+            if (pair < least) {
+                best = {gap, s.source[i], t, s.fixture[i]};
+            }
+        }
+    }
+    return best;
 }
 
 } // namespace fathom

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "engine/contact/contact_set.h"
+#include "engine/contact/smallest_gap.h"
 
 #include <cstdint>
 #include <vector>
@@ -29,5 +30,8 @@ std::vector<OraclePair> oraclePairs(const Tool& tool, const Pose& baseTtool, dou
 
 // Smallest gap over all pairs [m]; a negative gap is the deepest penetration. Infinity without spheres.
 double oracleSmallestGap(const Tool& tool, const Pose& baseTtool, const Fixtures& fixtures);
+
+// The same with its pair, by the definition in smallest_gap.h.
+SmallestGap oracleSmallestPair(const Tool& tool, const Pose& baseTtool, const Fixtures& fixtures);
 
 } // namespace fathom
