@@ -26,6 +26,14 @@ struct FixtureSet {
     // Fills the above, but for stillFrom.
     void describeDevice(const Scene& scene, uint64_t frozenVersion, const gpu::Device::At& written);
 
+    // The sphere that a search of the device found. slot: FoundSphere::slot. row: of Scene::fixtures; kStill
+    // = the sphere does not count.
+    struct Place {
+        uint32_t source;
+        int row;
+    };
+    Place placeOf(const PatchLayout& layout, uint32_t slot, uint32_t pointClass) const;
+
     FixtureSet() = default; // without a device side
     FixtureSet(const gpu::Device& gpu, const Plan& plan, const PatchLayout& layout)
         : device(gpu, plan, layout) {}

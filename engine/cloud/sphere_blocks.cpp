@@ -5,6 +5,7 @@
 #include "shaders/shared/query_params.h"
 
 #include <algorithm>
+#include <vector>
 
 namespace fathom::cloud {
 
@@ -36,6 +37,19 @@ bool SphereBlocks::fill(std::span<const glm::vec4> spheres) {
     }
     changed_ = count_ > 0;
     return larger;
+}
+
+bool SphereBlocks::fillStill(const FixtureSet& set) {
+    if (set.stillVersion == stillVersion_) {
+        return false;
+    }
+    stillVersion_ = set.stillVersion;
+    const RegionSpheres& s = set.host.spheres;
+    std::vector<glm::vec4> spheres;
+    for (size_t i = set.stillFrom; i < s.size(); ++i) {
+        spheres.emplace_back(s.x[i], s.y[i], s.z[i], s.radius[i]);
+    }
+    return fill(spheres);
 }
 
 void SphereBlocks::fillBlock(std::span<const glm::vec4> spheres, glm::vec4* slots, glm::vec4& bound) const {

@@ -2,6 +2,7 @@
 // A list of spheres on the device, in blocks with bounds, for the contact query.
 #pragma once
 
+#include "engine/cloud/fixture_set.h"
 #include "engine/gpu/buffer.h"
 #include "engine/gpu/commands.h"
 
@@ -18,6 +19,8 @@ public:
 
     // True when buffer() is another one than before. No submission may use it.
     bool fill(std::span<const glm::vec4> spheres);
+    // The same for the spheres of a set's frozen classes, if they changed.
+    bool fillStill(const FixtureSet& set);
     // Copies the last fill() to the device, once. False when there is nothing to copy.
     bool upload(gpu::Commands& commands);
 
@@ -31,6 +34,7 @@ private:
     const gpu::Device& device_;
     gpu::Buffer blocks_, written_; // the host writes the second one
     uint32_t count_ = 0;
+    uint64_t stillVersion_ = 0; // of the last fillStill()
     bool changed_ = false;
 };
 

@@ -39,6 +39,7 @@ TreeQuery::TreeQuery(gpu::Device& device, const Plan& plan, const PatchLayout& l
     , timeline_(device)
     , commands_(device)
     , watch_(device, 2)
+    , leaves_(device)
     , still_(device)
     , answer_(device, {capacity, kLeavesPerSphere * capacity})
     , unused_(device, 16, gpu::MemoryKind::Device, "unused") {}
@@ -49,46 +50,17 @@ void TreeQuery::makeBindings() {
     for (size_t i = 0; i < pool_.size(); ++i) {
         const SetBuffers& s = pool_.at(i).device;
         bindings_.emplace_back(device_, pipeline_,
-                               std::vector<const gpu::Buffer*>{&leaves_, &s.nodes, &s.spheres, &s.held,
-                                                               &s.classes, answer, answer},
+                               std::vector<const gpu::Buffer*>{&leaves_.buffer(), &s.nodes, &s.spheres,
+                                                               &s.held, &s.classes, answer, answer},
                                unused_);
     }
     stillBindings_ = gpu::Bindings(
-        device_, pipeline_, {&leaves_, &still_.buffer(), &still_.buffer(), nullptr, nullptr, answer, answer},
-        unused_);
+        device_, pipeline_,
+        {&leaves_.buffer(), &still_.buffer(), &still_.buffer(), nullptr, nullptr, answer, answer}, unused_);
 }
 
 void TreeQuery::setTool(const Tool& tool) {
-    const std::vector<Sphere>& leaves = tool.leaves();
-    if (leaves.size() > leaves_.bytes() / 16) {
-        leaves_ = gpu::Buffer(device_, leaves.size() * 16, gpu::MemoryKind::Device, "tool leaves");
-        leavesWritten_ = gpu::Buffer(device_, leaves.size() * 16, gpu::MemoryKind::Upload, "tool leaves");
-        bindings_.clear();
-    }
-    const auto out = leavesWritten_.as<glm::vec4>();
-    const dvec3 centre(glm::vec3(tool.tree().nodes[0].centre));
-    double radius = 0.0;
-    for (size_t i = 0; i < leaves.size(); ++i) {
-        out[i] = glm::vec4(glm::vec3(leaves[i].centre), static_cast<float>(leaves[i].radius));
-        radius = std::max(radius, glm::distance(dvec3(out[i]), centre) + double{out[i].w});
-    }
-    bound_ = glm::vec4(glm::vec3(centre), static_cast<float>(radius * 1.000001));
-    toolRadius_ = tool.boundingRadius();
-    leafCount_ = static_cast<uint32_t>(leaves.size());
-    leavesChanged_ = true;
-}
-
-void TreeQuery::uploadStill(const FixtureSet& set) {
-    if (set.stillVersion == stillVersion_) {
-        return;
-    }
-    stillVersion_ = set.stillVersion;
-    const RegionSpheres& s = set.host.spheres;
-    std::vector<glm::vec4> spheres;
-    for (size_t i = set.stillFrom; i < s.size(); ++i) {
-        spheres.emplace_back(s.x[i], s.y[i], s.z[i], s.radius[i]);
-    }
-    if (still_.fill(spheres)) {
+    if (leaves_.fill(tool)) {
         bindings_.clear();
     }
 }
@@ -105,8 +77,8 @@ QueryParams TreeQuery::paramsAt(const Pose& baseTtool, const dvec3& origin, doub
     for (int k = 0; k < 3; ++k) {
         p.rows[k] = glm::vec4(glm::vec3(rotation[k]), static_cast<float>(t[k]));
     }
-    p.tool = bound_;
-    p.reach = outwardReach(toolRadius_, glm::length(t), reach, largest);
+    p.tool = leaves_.bound();
+    p.reach = outwardReach(leaves_.radius(), glm::length(t), reach, largest);
     return p;
 }
 
@@ -115,10 +87,10 @@ void TreeQuery::dispatch(const Blocks& blocks, QueryParams p) {
     const bool cpu = device_.facts().kind == DeviceKind::Cpu;
     const uint32_t groups = cpu ? 4 * device_.facts().hostProcessors : kGroups;
     const uint32_t count = std::max(1u, blocks.count),
-                   fewest = (leafCount_ + shared::kSliceLeaves - 1) / shared::kSliceLeaves,
-                   most = cpu ? fewest : std::max(fewest, leafCount_ / kFewestLeaves);
+                   fewest = (leaves_.count() + shared::kSliceLeaves - 1) / shared::kSliceLeaves,
+                   most = cpu ? fewest : std::max(fewest, leaves_.count() / kFewestLeaves);
     const uint32_t slices = std::clamp(groups / count, fewest, most);
-    p.blocks = {blocks.count, blocks.firstBound, leafCount_, (leafCount_ + slices - 1) / slices};
+    p.blocks = {blocks.count, blocks.firstBound, leaves_.count(), (leaves_.count() + slices - 1) / slices};
     p.layer = blocks.layer, p.layers = blocks.layers;
     answer_.place(p);
     commands_.dispatch(pipeline_, *blocks.bindings, {std::clamp(2 * groups / slices, 1u, count), slices, 1},
@@ -131,15 +103,11 @@ void TreeQuery::record(std::span<const Blocks> all, const QueryParams& params) {
     if (answer_.isNew()) {
         answer_.clear(commands_);
     }
-    if (leavesChanged_) {
-        commands_.copy(leavesWritten_, leaves_, 16ull * leafCount_);
-        copied = true;
-    }
+    copied = leaves_.upload(commands_) || copied;
     copied = still_.upload(commands_) || copied;
     if (copied) {
         commands_.barrier();
     }
-    leavesChanged_ = false;
     if (timed_) {
         watch_.reset();
         watch_.mark(commands_.handle());
@@ -182,7 +150,9 @@ bool TreeQuery::list(const FixtureSet& set, const Pose& baseTtool, double reach,
     while (&pool_.at(index) != &set) {
         ++index;
     }
-    uploadStill(set);
+    if (still_.fillStill(set)) {
+        bindings_.clear();
+    }
     const QueryParams params = paramsAt(baseTtool, set.host.origin, reach, set.grid.maxRadius());
     for (;;) {
         if (bindings_.empty()) {
@@ -204,27 +174,14 @@ bool TreeQuery::list(const FixtureSet& set, const Pose& baseTtool, double reach,
 }
 
 void TreeQuery::take(const FixtureSet& set, NearPairs& near) const {
-    const auto width = static_cast<uint32_t>(set.host.camera.depth.width);
-    const auto pixels = static_cast<uint32_t>(set.host.camera.depth.pixels());
-    const RegionSpheres& host = set.host.spheres;
     near.leaves = answer_.leaves();
     near.spheres.clear();
     for (const shared::FoundSphere& f : answer_.spheres()) {
-        const uint32_t layer = f.slot & 3u, slot = f.slot >> 2;
-        NearSphere s{0, 0, f.first, f.count, f.sphere.x, f.sphere.y, f.sphere.z, f.sphere.w};
-        if (layer == shared::kLayerStill) {
-            s.source = host.source[set.stillFrom + slot];
-            s.fixture = host.fixture[set.stillFrom + slot];
-        } else if (set.rows[f.fixture] == FixtureSet::kStill) {
-            continue;
-        } else {
-            const uint32_t patch = slot / shared::kBlockSlots;
-            const uint32_t u = patch % layout_.across * 16 + (slot >> 2 & 12) + (slot & 3);
-            const uint32_t v = patch / layout_.across * 16 + (slot >> 4 & 12) + (slot >> 2 & 3);
-            s.source = v * width + u + layer * pixels;
-            s.fixture = static_cast<uint32_t>(set.rows[f.fixture]);
+        const FixtureSet::Place place = set.placeOf(layout_, f.slot, f.fixture);
+        if (place.row != FixtureSet::kStill) {
+            near.spheres.push_back({place.source, static_cast<uint32_t>(place.row), f.first, f.count,
+                                    f.sphere.x, f.sphere.y, f.sphere.z, f.sphere.w});
         }
-        near.spheres.push_back(s);
     }
 }
 

@@ -6,6 +6,7 @@
 #include "engine/cloud/fixture_set.h"
 #include "engine/cloud/query_answer.h"
 #include "engine/cloud/sphere_blocks.h"
+#include "engine/cloud/tool_leaves.h"
 #include "engine/contact/near_pairs.h"
 #include "engine/gpu/pipeline.h"
 #include "engine/gpu/stopwatch.h"
@@ -49,7 +50,6 @@ private:
         uint32_t count, firstBound, layer, layers;
     };
     void makeBindings();
-    void uploadStill(const FixtureSet& set);
     Blocks stillBlocks() const;
     shared::QueryParams paramsAt(const Pose& baseTtool, const dvec3& origin, double reach,
                                  double largest) const;
@@ -70,14 +70,8 @@ private:
     gpu::Stopwatch watch_;
     bool timed_ = false;
 
-    gpu::Buffer leaves_, leavesWritten_; // vec4 per leaf, in the tool's frame; the host writes the second one
-    bool leavesChanged_ = false;
-    uint32_t leafCount_ = 0;
-    glm::vec4 bound_{0.0f};   // of the leaves
-    double toolRadius_ = 0.0; // [m] Tool::boundingRadius()
-
+    ToolLeaves leaves_;
     SphereBlocks still_; // spheres of frozen classes
-    uint64_t stillVersion_ = 0;
     QueryAnswer answer_;
     gpu::Buffer unused_;
     std::vector<gpu::Bindings> bindings_; // one per set

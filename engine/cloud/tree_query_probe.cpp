@@ -94,7 +94,7 @@ bool TreeQuery::passesProbe(double shorter) {
         missed += probe.within.size();
     }
     still_.fill({});
-    leafCount_ = 0;
+    leaves_.drop();
     bindings_.clear();
     return missed == 0;
 }

@@ -7,6 +7,7 @@
 // The answer contains every pair within reach, and a few more: the host decides (engine/contact/near_pairs.h).
 // No test uses a root or a division, which devices may round as they like. docs/architecture/query.md proves
 // the margins. The including file defines placeOf().
+#include "shaders/lib/near_test.glsl"
 #include "shaders/shared/constants.h"
 #include "shaders/shared/query_params.h"
 
@@ -35,21 +36,11 @@ shared vec4 leafInReach[kSliceLeaves];
 shared uint idInReach[kSliceLeaves];
 
 bool within(vec4 a, vec4 b) {
-    precise float dx = a.x - b.x;
-    precise float dy = a.y - b.y;
-    precise float dz = a.z - b.z;
-    precise float d2 = dx * dx + dy * dy + dz * dz;
-    precise float limit = query.reach + a.w + b.w;
-    precise float limit2 = limit * limit;
-    return d2 <= limit2;
+    return nearerThan(query.reach, a, b);
 }
 
 vec3 inLeafFrame(vec3 s) {
-    precise vec3 d = s - vec3(query.rows[0].w, query.rows[1].w, query.rows[2].w);
-    precise vec3 q = vec3(query.rows[0].x * d.x + query.rows[0].y * d.y + query.rows[0].z * d.z,
-                          query.rows[1].x * d.x + query.rows[1].y * d.y + query.rows[1].z * d.z,
-                          query.rows[2].x * d.x + query.rows[2].y * d.y + query.rows[2].z * d.z);
-    return q;
+    return inFrameOf(query.rows, s);
 }
 
 // Group g of n has the blocks g, g + n, g + 2 n, ...: adjacent blocks, which are in reach together, have

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/cloud/gap_query.h"
+
+#include "shaders/shared/constants.h"
+#include "shaders/shared/query_params.h"
+#include "shaders/smallest_gap.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+namespace fathom::cloud {
+
+namespace {
+
+using shared::GapPair;
+using shared::GapParams;
+using shared::GapPose;
+
+constexpr double kMostAway = 20.0;           // [m] of a pose from the set's origin
+constexpr size_t kMostPosesAtOnce = 16384;   // of one submission
+constexpr uint64_t kCountBytes = 16;         // in front of the pairs
+constexpr uint32_t kLeastCopiedPairs = 1024; // in every copy: it costs less than a second one
+
+gpu::PipelineInfo gapPipeline(const Plan& plan) {
+    return {"smallest_gap",
+            smallest_gap_spv,
+            std::vector<gpu::BindingKind>(8),
+            {{shared::kSpecGroupSize, plan.pixelGroup}, {shared::kSpecClasses, plan.classes}},
+            sizeof(GapParams)};
+}
+
+uint64_t bytesOfPairs(uint32_t pairs) {
+    return kCountBytes + uint64_t{pairs} * sizeof(GapPair);
+}
+
+// The pose as the device reads it. docs/architecture/query.md derives the margin.
+GapPose gapPoseOf(const Pose& baseTtool, const dvec3& origin, double toolRadius, double largest) {
+    GapPose p{};
+    const dvec3 t = baseTtool.position - origin;
+    const glm::dmat3 rotation = glm::mat3_cast(baseTtool.rotation); // its columns are the rows of the inverse
+    for (int k = 0; k < 3; ++k) {
+        p.rows[k] = glm::vec4(glm::vec3(rotation[k]), static_cast<float>(t[k]));
+    }
+    const double margin = 0x1p-20 * (glm::length(t) + 16.0 * (toolRadius + largest));
+    p.margin.x = std::nextafter(static_cast<float>(margin), std::numeric_limits<float>::infinity());
+    return p;
+}
+
+// Bits of the classes whose spheres in the set's device side do not count.
+uint32_t stillClasses(const FixtureSet& set) {
+    uint32_t bits = 0;
+    for (size_t c = 0; c < set.rows.size(); ++c) {
+        bits |= set.rows[c] == FixtureSet::kStill ? 1u << c : 0u;
+    }
+    return bits;
+}
+
+} // namespace
+
+GapQuery::GapQuery(gpu::Device& device, const Plan& plan, const PatchLayout& layout, FixturePool& pool,
+                   uint32_t capacity)
+    : device_(device)
+    , layout_(layout)
+    , pool_(pool)
+    , hold_(plan.hold)
+    , pipeline_(device, gapPipeline(plan))
+    , timeline_(device)
+    , commands_(device)
+    , watch_(device, 2)
+    , leaves_(device)
+    , still_(device)
+    , unused_(device, 16, gpu::MemoryKind::Device, "unused") {
+    growTo(capacity);
+}
+
+void GapQuery::setTool(const Tool& tool) {
+    if (leaves_.fill(tool)) {
+        bindings_.clear();
+    }
+}
+
+const gpu::Bindings& GapQuery::bindingsOf(const FixtureSet& set) {
+    for (size_t i = bindings_.size(); i < pool_.size(); ++i) {
+        const SetBuffers& s = pool_.at(i).device;
+        bindings_.emplace_back(device_, pipeline_,
+                               std::vector<const gpu::Buffer*>{&leaves_.buffer(), &s.nodes, &s.spheres,
+                                                               &s.held, &s.classes, &still_.buffer(), &poses_,
+                                                               &answer_},
+                               unused_);
+    }
+    size_t index = 0;
+    while (&pool_.at(index) != &set) {
+        ++index;
+    }
+    return bindings_[index];
+}
+
+void GapQuery::reserve(size_t poses) {
+    if (poses * sizeof(GapPose) > poses_.bytes()) {
+        poses_ = gpu::Buffer(device_, std::bit_ceil(poses) * sizeof(GapPose), gpu::MemoryKind::Upload,
+                             "poses of a batch");
+        bindings_.clear();
+    }
+}
+
+// False when the device's buffers cannot hold that many.
+bool GapQuery::growTo(uint32_t pairs) {
+    const uint32_t most = pairs > 0x80000000u ? UINT32_MAX : std::bit_ceil(pairs);
+    if (bytesOfPairs(most) > device_.facts().maxStorageBufferBytes) {
+        return false;
+    }
+    answer_ = gpu::Buffer(device_, bytesOfPairs(most), gpu::MemoryKind::Device, "batch answer");
+    back_ = gpu::Buffer(device_, bytesOfPairs(most), gpu::MemoryKind::Readback, "batch answer on the host");
+    most_ = most;
+    bindings_.clear();
+    return true;
+}
+
+void GapQuery::writePoses(const Batch& batch, Part part) {
+    const auto out = poses_.as<GapPose>();
+    for (size_t i = 0; i < part.size(); ++i) {
+        out[i] = gapPoseOf(batch.poses[part[i]], batch.set.host.origin, leaves_.radius(),
+                           batch.set.grid.maxRadius());
+    }
+}
+
+void GapQuery::copyPairs(uint32_t pairs) {
+    const std::pair<uint64_t, uint64_t> all[] = {{0, bytesOfPairs(pairs)}};
+    commands_.copyParts(answer_, back_, all);
+    copied_ = pairs;
+}
+
+void GapQuery::record(const Batch& batch, Part part) {
+    commands_.begin();
+    constexpr std::array<uint32_t, 4> kZero{};
+    commands_.update(answer_, 0, kCountBytes, kZero.data());
+    leaves_.upload(commands_);
+    still_.upload(commands_);
+    commands_.barrier();
+    if (timed_) {
+        watch_.reset();
+        watch_.mark(commands_.handle());
+    }
+    GapParams p{};
+    p.tool = leaves_.bound();
+    p.live = {layout_.patches(), layout_.levels[1].first, hold_ ? 2u : 1u, stillClasses(batch.set)};
+    p.rest = {still_.count(), still_.firstBound(), leaves_.count(), most_};
+    commands_.dispatch(pipeline_, bindingsOf(batch.set), static_cast<uint32_t>(part.size()), &p);
+    if (timed_) {
+        watch_.mark(commands_.handle());
+    }
+    commands_.barrier();
+    copyPairs(std::min(most_, std::max(kLeastCopiedPairs, found_ + found_ / 4)));
+    commands_.end();
+}
+
+// False when the answer does not fit: then found_ says how many pairs there are.
+bool GapQuery::submit(const Batch& batch, Part part) {
+    writePoses(batch, part);
+    record(batch, part);
+    device_.submitQuery(commands_.handle(), batch.set.landed, {timeline_.handle(), ++ticket_});
+    timeline_.wait(ticket_);
+    found_ = back_.as<uint32_t>()[0];
+    if (found_ > copied_ && found_ <= most_) {
+        commands_.begin();
+        copyPairs(found_);
+        commands_.end();
+        device_.submitQuery(commands_.handle(), {}, {timeline_.handle(), ++ticket_});
+        timeline_.wait(ticket_);
+    }
+    return found_ <= most_;
+}
+
+void GapQuery::decide(const Batch& batch, Part part) {
+    const auto* const pairs = reinterpret_cast<const GapPair*>(back_.as<uint8_t>().data() + kCountBytes);
+    const dvec3& origin = batch.set.host.origin;
+    for (const GapPair& pair : std::span(pairs, found_)) {
+        const FixtureSet::Place place = batch.set.placeOf(layout_, pair.slot, pair.fixture);
+        const uint32_t pose = part[pair.pose];
+        const glm::dvec4 leaf = leafAt(batch.tool.leaves()[pair.leaf], batch.poses[pose], origin);
+        const SmallestGap gap{gapBetween(leaf, pair.sphere), place.source, pair.leaf,
+                              static_cast<uint32_t>(place.row)};
+        if (comesBefore(gap, batch.out[pose])) {
+            batch.out[pose] = gap;
+        }
+    }
+}
+
+void GapQuery::askHost(const Batch& batch, uint32_t pose) {
+    if (!hostReady_) {
+        host_.build(batch.set.host);
+        hostReady_ = true;
+    }
+    batch.out[pose] = host_.find(batch.tool, batch.poses[pose]);
+}
+
+// If an answer is larger than any buffer, because very many pairs are equally near, halves are asked.
+void GapQuery::ask(const Batch& batch, Part part) {
+    while (!submit(batch, part)) {
+        if (growTo(found_)) {
+            continue;
+        }
+        if (part.size() == 1) {
+            askHost(batch, part.front());
+        } else {
+            ask(batch, part.first(part.size() / 2));
+            ask(batch, part.subspan(part.size() / 2));
+        }
+        return;
+    }
+    decide(batch, part);
+}
+
+void GapQuery::find(const FixtureSet& set, const Tool& tool, std::span<const Pose> baseTtool,
+                    std::vector<SmallestGap>& out) {
+    out.assign(baseTtool.size(), {});
+    const Batch batch{set, tool, baseTtool, out};
+    hostReady_ = false;
+    near_.clear();
+    for (uint32_t i = 0; i < baseTtool.size(); ++i) {
+        const bool near = glm::distance(baseTtool[i].position, set.host.origin) <= kMostAway;
+        if (near && isFinite(baseTtool[i])) {
+            near_.push_back(i);
+        } else {
+            askHost(batch, i);
+        }
+    }
+    if (still_.fillStill(set)) {
+        bindings_.clear();
+    }
+    reserve(std::min(near_.size(), kMostPosesAtOnce));
+    for (size_t begin = 0; begin < near_.size(); begin += kMostPosesAtOnce) {
+        ask(batch, Part(near_).subspan(begin, std::min(kMostPosesAtOnce, near_.size() - begin)));
+    }
+}
+
+double GapQuery::gpuMs() const {
+    const std::vector<double> intervals = watch_.intervalsMs();
+    return intervals.empty() ? 0.0 : intervals.front();
+}
+
+} // namespace fathom::cloud

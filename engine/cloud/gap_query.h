@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// Batches on the GPU (shaders/smallest_gap.comp): the smallest gap of a tool at many poses in one submission.
+// The device lists a few pairs per pose, and the host decides in float64.
+#pragma once
+
+#include "engine/cloud/fixture_set.h"
+#include "engine/cloud/sphere_blocks.h"
+#include "engine/cloud/tool_leaves.h"
+#include "engine/contact/smallest_gap.h"
+#include "engine/gpu/pipeline.h"
+#include "engine/gpu/stopwatch.h"
+#include "shaders/shared/gap_params.h"
+
+#include <span>
+#include <vector>
+
+namespace fathom::cloud {
+
+// One thread. Has a timeline and a command buffer of its own, and shares the queue for contact queries.
+class GapQuery {
+public:
+    // pool: every set of it can be asked. capacity: pairs in the first answer; it grows when one does not
+    // fit.
+    GapQuery(gpu::Device& device, const Plan& plan, const PatchLayout& layout, FixturePool& pool,
+             uint32_t capacity = 4096);
+
+    // The leaves of the next batches. The device gets a copy with the next batch and keeps it.
+    void setTool(const Tool& tool);
+
+    // One answer per pose, as smallest_gap.h defines it. Blocks until the device has finished. Poses more
+    // than 20 m from the set's origin are searched on the host, because float32 leaves too many pairs there.
+    // tool: the one of setTool(). Throws DeviceFailed.
+    void find(const FixtureSet& set, const Tool& tool, std::span<const Pose> baseTtool,
+              std::vector<SmallestGap>& out);
+
+    // Enables timestamps. gpuMs(): device time of the last submission without the copy of its answer; 0 when
+    // not enabled or not supported.
+    void askForTime() { timed_ = true; }
+    double gpuMs() const;
+    uint32_t pairs() const { return found_; } // that the device listed in the last submission
+
+private:
+    // Poses of one submission: their indices in the batch.
+    using Part = std::span<const uint32_t>;
+    struct Batch {
+        const FixtureSet& set;
+        const Tool& tool;
+        std::span<const Pose> poses;
+        std::vector<SmallestGap>& out;
+    };
+    const gpu::Bindings& bindingsOf(const FixtureSet& set);
+    void reserve(size_t poses);
+    void writePoses(const Batch& batch, Part part);
+    void ask(const Batch& batch, Part part);
+    void askHost(const Batch& batch, uint32_t pose);
+    bool submit(const Batch& batch, Part part);
+    void record(const Batch& batch, Part part);
+    void copyPairs(uint32_t pairs);
+    bool growTo(uint32_t pairs);
+    void decide(const Batch& batch, Part part);
+
+    gpu::Device& device_;
+    const PatchLayout layout_;
+    FixturePool& pool_;
+    bool hold_;
+    gpu::Pipeline pipeline_;
+    gpu::Timeline timeline_;
+    gpu::Commands commands_;
+    gpu::Stopwatch watch_;
+    bool timed_ = false;
+    ToolLeaves leaves_;
+    SphereBlocks still_; // spheres of frozen classes
+    gpu::Buffer poses_;  // GapPose per pose
+    gpu::Buffer answer_, back_;
+    uint32_t most_ = 0, copied_ = 0, found_ = 0; // pairs
+    gpu::Buffer unused_;
+    std::vector<gpu::Bindings> bindings_; // one per set
+    std::vector<uint32_t> near_;          // poses for the device
+    GapSearch host_;
+    bool hostReady_ = false; // it searches the set of this batch
+    uint64_t ticket_ = 0;
+};
+
+} // namespace fathom::cloud

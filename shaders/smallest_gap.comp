@@ -1,0 +1,251 @@
+#version 460
+// SPDX-License-Identifier: Apache-2.0
+// Smallest gap between the tool and the region spheres, one group per pose.
+//   1. Seed: the sphere nearest to the tool's middle, in the block with the nearest bound, against all leaves.
+//   2. Tighten: each block whose bound is nearer than the smallest gap so far, its leaves likewise.
+//   3. List: every pair whose rounded gap exceeds the result of 2. by at most a margin. The pair with the smallest
+//      gap is one of them, whatever 2. missed or rounded, because the gap of 2. belongs to some pair. The host
+//      decides in float64 (docs/architecture/query.md).
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/lib/near_test.glsl"
+#include "shaders/shared/constants.h"
+#include "shaders/shared/gap_params.h"
+#include "shaders/shared/query_params.h"
+
+layout(local_size_x_id = kSpecGroupSize) in; // divides 256
+layout(constant_id = kSpecClasses) const uint kClasses = 1;
+
+layout(push_constant) uniform Push { GapParams batch; };
+layout(std430, binding = 0) readonly buffer Leaves { vec4 leaves[]; };   // in their own frame
+layout(std430, binding = 1) readonly buffer Bounds { vec4 bounds[]; };   // R < 0 = an empty block
+layout(std430, binding = 2) readonly buffer Spheres { vec4 spheres[]; }; // slot -> centre, R; R < 0 = none
+layout(std430, binding = 3) readonly buffer Held { vec4 held[]; };       // the same for held points
+layout(std430, binding = 4) readonly buffer Classes { uint classes[]; }; // bytes: class, held class << 4
+layout(std430, binding = 5) readonly buffer Still { vec4 still[]; };     // slots, then bounds
+layout(std430, binding = 6) readonly buffer Poses { GapPose poses[]; };
+layout(std430, binding = 7) buffer Found { uvec4 count; GapPair found[]; };
+
+const float kFar = 1e18; // [m] no gap yet; its square is a float
+const uint kNobody = 0xffffffffu;
+
+vec4 rows[3];              // of the pose
+shared uint best, nearest; // keyOf() a gap; an index
+shared uint blocksListed, leavesListed;
+shared uint blockListed[gl_WorkGroupSize.x];
+shared vec4 boundListed[gl_WorkGroupSize.x]; // in the frame of the leaves
+shared vec4 leafListed[kSliceLeaves];
+shared uint idListed[kSliceLeaves];
+
+// Unsigned numbers in the order of the floats.
+uint keyOf(float gap) {
+    uint bits = floatBitsToUint(gap);
+    return (bits & 0x80000000u) != 0u ? ~bits : bits | 0x80000000u;
+}
+float gapOf(uint key) {
+    return uintBitsToFloat((key & 0x80000000u) != 0u ? key & 0x7fffffffu : ~key);
+}
+float roughGap(vec4 a, vec4 b) {
+    return distance(a.xyz, b.xyz) - (a.w + b.w);
+}
+
+// Blocks of this frame first, then those of classes that are held still.
+uint blockCount() {
+    return batch.live.x + batch.rest.x;
+}
+vec4 boundOf(uint block) {
+    bool seen = block < batch.live.x;
+    vec4 bound = vec4(0.0, 0.0, 0.0, -1.0);
+    if (seen) {
+        bound = bounds[batch.live.y + block];
+    } else if (block < blockCount()) {
+        bound = still[batch.rest.y + block - batch.live.x];
+    }
+    return vec4(inFrameOf(rows, bound.xyz), bound.w * 1.00001); // rounding of the bound
+}
+uint layersOf(uint block) {
+    return block < batch.live.x ? batch.live.z : 1u;
+}
+
+struct Candidate {
+    vec4 sphere, here; // as in the set; in the frame of the leaves; R < 0 = none
+    uint slot, fixture;
+};
+Candidate candidateOf(uint block, uint layer, uint i) {
+    Candidate c;
+    c.fixture = 0u;
+    if (block >= batch.live.x) {
+        uint slot = (block - batch.live.x) * kBlockSlots + i;
+        c.slot = slot * 4u + kLayerStill;
+        c.sphere = still[slot];
+    } else {
+        uint slot = block * kBlockSlots + i;
+        c.slot = slot * 4u + layer;
+        c.sphere = layer == kLayerHeld ? held[slot] : spheres[slot];
+        uint both = kClasses > 1u ? classes[slot >> 2] >> 8u * (slot & 3u) & 255u : 0u;
+        c.fixture = layer == kLayerHeld ? both >> 4 : both & 15u;
+        c.sphere.w = (batch.live.w >> c.fixture & 1u) != 0u ? -1.0 : c.sphere.w;
+    }
+    c.here = vec4(inFrameOf(rows, c.sphere.xyz), c.sphere.w);
+    return c;
+}
+
+// Index with the smallest gap of all invocations; kNobody without any below kFar.
+uint nearestOf(float gap, uint index) {
+    barrier();
+    if (gl_LocalInvocationID.x == 0u) {
+        best = keyOf(kFar), nearest = kNobody;
+    }
+    barrier();
+    atomicMin(best, keyOf(gap));
+    barrier();
+    if (keyOf(gap) == best && gap < kFar) {
+        atomicMin(nearest, index);
+    }
+    barrier();
+    return nearest;
+}
+
+uint nearestBlock() {
+    float least = kFar;
+    uint which = kNobody;
+    for (uint block = gl_LocalInvocationID.x; block < blockCount(); block += gl_WorkGroupSize.x) {
+        vec4 bound = boundOf(block);
+        float gap = bound.w >= 0.0 ? roughGap(bound, batch.tool) : kFar;
+        which = gap < least ? block : which;
+        least = min(least, gap);
+    }
+    return nearestOf(least, which);
+}
+
+uint nearestSphere(uint block) {
+    float least = kFar;
+    uint which = kNobody;
+    for (uint i = gl_LocalInvocationID.x; i < layersOf(block) * kBlockSlots; i += gl_WorkGroupSize.x) {
+        vec4 here = candidateOf(block, i / kBlockSlots, i % kBlockSlots).here;
+        float gap = here.w >= 0.0 ? roughGap(here, batch.tool) : kFar;
+        which = gap < least ? i : which;
+        least = min(least, gap);
+    }
+    return nearestOf(least, which);
+}
+
+void seed() {
+    uint block = nearestBlock();
+    uint which = block != kNobody ? nearestSphere(block) : kNobody;
+    barrier();
+    if (gl_LocalInvocationID.x == 0u) {
+        best = keyOf(kFar);
+    }
+    barrier();
+    if (which != kNobody) {
+        vec4 here = candidateOf(block, which / kBlockSlots, which % kBlockSlots).here;
+        float least = kFar;
+        for (uint i = gl_LocalInvocationID.x; i < batch.rest.z; i += gl_WorkGroupSize.x) {
+            least = min(least, roughGap(here, leaves[i]));
+        }
+        atomicMin(best, keyOf(least));
+    }
+    barrier();
+}
+
+// Blocks from `first` on that are near, one per invocation. Group-uniform, like all functions below.
+void listBlocks(uint first, float limit) {
+    barrier();
+    if (gl_LocalInvocationID.x == 0u) {
+        blocksListed = 0u;
+    }
+    barrier();
+    uint block = first + gl_LocalInvocationID.x;
+    vec4 bound = boundOf(block);
+    if (bound.w >= 0.0 && nearerThan(limit, bound, batch.tool)) {
+        uint at = atomicAdd(blocksListed, 1u);
+        blockListed[at] = block;
+        boundListed[at] = bound;
+    }
+    barrier();
+}
+
+void listLeaves(uint from, vec4 bound, float limit) {
+    if (gl_LocalInvocationID.x == 0u) {
+        leavesListed = 0u;
+    }
+    barrier();
+    uint to = min(from + kSliceLeaves, batch.rest.z);
+    for (uint i = from + gl_LocalInvocationID.x; i < to; i += gl_WorkGroupSize.x) {
+        vec4 leaf = leaves[i];
+        if (nearerThan(limit, leaf, bound)) {
+            uint at = atomicAdd(leavesListed, 1u);
+            leafListed[at] = leaf;
+            idListed[at] = i;
+        }
+    }
+    barrier();
+}
+
+void tighten(uint block, uint near, float limit) {
+    float least = limit;
+    for (uint i = gl_LocalInvocationID.x; i < layersOf(block) * kBlockSlots; i += gl_WorkGroupSize.x) {
+        vec4 here = candidateOf(block, i / kBlockSlots, i % kBlockSlots).here;
+        for (uint k = 0u; k < near && here.w >= 0.0; ++k) {
+            if (nearerThan(least, here, leafListed[k])) {
+                least = min(least, roughGap(here, leafListed[k]));
+            }
+        }
+    }
+    if (least < limit) {
+        atomicMin(best, keyOf(least));
+    }
+}
+
+void list(uint block, uint near, float limit) {
+    for (uint i = gl_LocalInvocationID.x; i < layersOf(block) * kBlockSlots; i += gl_WorkGroupSize.x) {
+        Candidate c = candidateOf(block, i / kBlockSlots, i % kBlockSlots);
+        for (uint k = 0u; k < near && c.here.w >= 0.0; ++k) {
+            if (nearerThan(limit, c.here, leafListed[k])) {
+                uint at = atomicAdd(count.x, 1u);
+                if (at < batch.rest.w) {
+                    found[at] = GapPair(gl_WorkGroupID.x, idListed[k], c.slot, c.fixture, c.sphere);
+                }
+            }
+        }
+    }
+}
+
+// listed: the limit of the third step; kFar in the second, which has a limit that falls.
+void searchBlock(uint block, vec4 bound, float listed) {
+    for (uint from = 0u; from < batch.rest.z; from += kSliceLeaves) {
+        barrier(); // nobody changes `best` until the next one
+        float limit = listed < kFar ? listed : gapOf(best);
+        if (nearerThan(limit, bound, batch.tool)) {
+            listLeaves(from, bound, limit);
+            if (leavesListed != 0u && listed < kFar) {
+                list(block, leavesListed, limit);
+            } else if (leavesListed != 0u) {
+                tighten(block, leavesListed, limit);
+            }
+        }
+    }
+}
+
+void searchAll(float listed) {
+    for (uint first = 0u; first < blockCount(); first += gl_WorkGroupSize.x) {
+        barrier();
+        listBlocks(first, listed < kFar ? listed : gapOf(best));
+        uint blocks = blocksListed;
+        for (uint k = 0u; k < blocks; ++k) {
+            searchBlock(blockListed[k], boundListed[k], listed);
+        }
+    }
+    barrier();
+}
+
+void main() {
+    GapPose pose = poses[gl_WorkGroupID.x];
+    rows = pose.rows;
+    seed();
+    searchAll(kFar);
+    float gap = gapOf(best);
+    if (gap < kFar) {
+        searchAll(gap + (pose.margin.x + max(gap, 0.0) * (1.0 / float(kGapSlope))));
+    }
+}
