@@ -38,12 +38,12 @@ void addQuery(const StudyContext& context, FrameBench& bench, const SampleFrame&
     const Pose pose = touchingPose(tool, host, image.baseTcamera);
     CullCpu cull({host.spheres.size(), tool.leafCount() * host.spheres.size()}); // room for all results
     ContactSet set;
-    cull.query(tool, pose, kReach, host, bench.set().grid, set);
+    cull.query(tool, pose, kReach, host, bench.set().grid.get(), set);
     verify(set.reach > 0.99 * kReach, "fixture", row.setting, "the query answered for a shorter reach");
     verify(set.source == oracleSources(tool, pose, kReach, host), "fixture", row.setting,
            "the query differs from brute force");
     const Cost cost = timeCpu(context.settings.repeats(),
-                              [&] { cull.query(tool, pose, kReach, host, bench.set().grid, set); });
+                              [&] { cull.query(tool, pose, kReach, host, bench.set().grid.get(), set); });
     row.more.insert(row.more.end(), {cost.submit.p50, static_cast<double>(host.spheres.size())});
 }
 

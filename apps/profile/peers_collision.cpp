@@ -137,7 +137,7 @@ StudyRow ourWholeAnswer(const StudyContext& context, const Rig& rig, const Workl
     ContactSet set;
     peers::Disagreement all;
     for (size_t i = 0; i < kPoses; ++i) {
-        cull.query(work.tool, work.poses[i], kPeerReach, rig.host(), rig.bench.set().grid, set);
+        cull.query(work.tool, work.poses[i], kPeerReach, rig.host(), rig.bench.set().grid.get(), set);
         const peers::Disagreement d = wholeDisagreement(rig, work.leaves[i], set);
         all.differ += d.differ, all.ties += d.ties;
     }
@@ -147,7 +147,7 @@ StudyRow ourWholeAnswer(const StudyContext& context, const Rig& rig, const Workl
     timePoses(
         context,
         [&](size_t i) {
-            cull.query(work.tool, work.poses[i], kPeerReach, rig.host(), rig.bench.set().grid, set);
+            cull.query(work.tool, work.poses[i], kPeerReach, rig.host(), rig.bench.set().grid.get(), set);
         },
         row);
     return row;

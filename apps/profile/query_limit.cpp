@@ -67,7 +67,7 @@ QueryLimit measureQuery(const StudyContext& context, const FrameBench& bench, co
     fillContactSet(tool, pose, kLimitReach, set.host, {}, device);
     verify(query.list(set, pose, kLimitReach, near) && decidePairs(tool, near, SIZE_MAX, scratch, device),
            "limit", "tree_query", "overflow");
-    CullCpu({SIZE_MAX, SIZE_MAX}).query(tool, pose, kLimitReach, set.host, set.grid, host);
+    CullCpu({SIZE_MAX, SIZE_MAX}).query(tool, pose, kLimitReach, set.host, set.grid.get(), host);
     verify(device.source == host.source && device.pairSphere == host.pairSphere && device.size() > 0, "limit",
            "tree_query", "the contact sets of CPU and GPU differ");
     limit.leaves = tool.leafCount(), limit.found = device.size();

@@ -41,7 +41,7 @@ struct QueryRig {
         bench.run(source.frames.front());
     }
     const Fixtures& host() const { return bench.set().host; }
-    SphereSet set() const { return {host().spheres, bench.set().grid, host().origin}; }
+    SphereSet set() const { return {host().spheres, bench.set().grid.get(), host().origin}; }
 };
 
 // One tool in contact with a set, and the brute-force answer at that pose.

@@ -79,7 +79,7 @@ void LockstepReplay::processNext() {
     next_.reset();
     const auto set = session_.cycles.frames().sets().newest();
     if (!ready_->unchanged) {
-        kept_.push_back(std::make_unique<Kept>(Kept{set->host, set->grid}));
+        kept_.push_back(std::make_unique<Kept>(Kept{set->host, set->grid.get()}));
     }
 }
 

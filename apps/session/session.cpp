@@ -197,7 +197,7 @@ HandPath Session::path() {
     }
     if (approach_.empty()) {
         const auto first = cycles.frames().sets().newest();
-        approach_ = approachPath(scene, tool, first->host, first->grid);
+        approach_ = approachPath(scene, tool, first->host, first->grid.get());
     }
     return HandPath(toHand(approach_, scene.hand));
 }

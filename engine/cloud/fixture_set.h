@@ -3,8 +3,8 @@
 #pragma once
 
 #include "engine/cloud/cloud_buffers.h"
+#include "engine/cloud/host_grid.h"
 #include "engine/contact/fixtures.h"
-#include "engine/contact/region_grid.h"
 #include "engine/types/lease_pool.h"
 
 namespace fathom::cloud {
@@ -13,7 +13,7 @@ namespace fathom::cloud {
 // the device.
 struct FixtureSet {
     Fixtures host;
-    RegionGrid grid; // over host.spheres
+    HostGrid grid; // over host.spheres
     SetBuffers device;
     // For the GPU query: what the device's spheres are in host.spheres.
     std::vector<int> rows;     // per point class: its row of Scene::fixtures; kStill = see below

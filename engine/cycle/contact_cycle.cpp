@@ -63,7 +63,7 @@ void ContactCycle::ask(const Tool& tool, const cloud::FixtureSet& set, const Pos
         out.pairBandEnd.assign(tool.leafCount() * ContactSet::kGapBands, 0);
         return;
     case Plan::Query::Cpu:
-        cpu_.query(tool, baseTtool, reach, set.host, set.grid, out);
+        cpu_.query(tool, baseTtool, reach, set.host, set.grid.get(), out);
         break;
     case Plan::Query::Gpu:
         askDevice(tool, set, baseTtool, reach, out);

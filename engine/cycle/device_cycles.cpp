@@ -36,7 +36,7 @@ void DeviceCycles::close() {
         if (const auto newest = frames_->sets().newest()) {
             stale_.emplace();
             stale_->host = newest->host;
-            stale_->grid = newest->grid;
+            stale_->grid.build(stale_->host.spheres, nullptr);
         }
         mark_ = frames_->mark();
     }
@@ -68,13 +68,13 @@ void DeviceCycles::renew() {
 bool DeviceCycles::newestSet(Fixtures& set, RegionGrid& grid) {
     if (const auto newest = frames_ ? frames_->sets().newest() : cloud::FixturePool::Lease()) {
         set = newest->host;
-        grid = newest->grid;
+        grid = newest->grid.get();
         return true;
     }
     const std::lock_guard lock(mutex_); // waits for answer() to release it
     if (stale_) {
         set = stale_->host;
-        grid = stale_->grid;
+        grid = stale_->grid.get();
     }
     return stale_.has_value();
 }

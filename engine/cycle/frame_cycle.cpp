@@ -224,8 +224,10 @@ FrameReport FrameCycle::finish() {
             set.describeDevice(scene_, frozen_.version(), device_->landed());
         }
         f.times.collected = Clock::now();
-        if (plan_.spheres) {
+        if (plan_.spheres && plan_.grid) {
             set.grid.build(set.host.spheres, &workers_);
+        } else {
+            set.grid.buildLater(set.host.spheres);
         }
         pool_.publish();
         f.times.published = Clock::now();

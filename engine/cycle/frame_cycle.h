@@ -31,8 +31,8 @@ struct FrameReport {
     std::vector<double> passMs; // [ms] in the order of FrameCycle::passNames(); device time, zeros without
                                 // Plan::passTimes
     struct Times {              // on the host's monotonic clock
-        // landed: the device has finished; collected: the host has the results; published: the grid is built,
-        // too
+        // landed: the device has finished; collected: the host has the results; published: contact queries
+        // can be answered (where the CPU answers, the grid is built, too)
         std::chrono::steady_clock::time_point started, uploaded, submitted, landed, collected, published;
     } times;
 };

@@ -98,6 +98,7 @@ void decideQuery(const Scene& scene, uint32_t toolLeaves, const DeviceFacts& dev
         plan.query = gpu ? Plan::Query::Gpu : Plan::Query::Cpu;
     }
     plan.tree = plan.query == Plan::Query::Gpu;
+    plan.grid = plan.query == Plan::Query::Cpu;
 }
 
 // Decides the switches. The items that explain them depend only on these.

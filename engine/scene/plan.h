@@ -36,6 +36,7 @@ struct PlannedPasses {
     bool water = false;             // colours are corrected for attenuation in water
     bool selfFilter = false;        // points inside the arm's spheres are removed
     enum class Query { None, Cpu, Gpu } query = Query::None; // contact query
+    bool grid = false; // each set waits for the host's grid over its spheres: only where the CPU answers
 };
 
 // What is uploaded, stored and sent to the host, and in which form.

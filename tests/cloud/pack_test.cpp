@@ -93,7 +93,7 @@ TEST_CASE("A set laid out by several threads equals that of a single thread") {
         CHECK(a.counts.patches == b.counts.patches);
         CHECK(a.counts.classSpheres == b.counts.classSpheres);
         CHECK(a.counts.classPatches == b.counts.classPatches);
-        CHECK(std::ranges::equal(one.set().grid.order(), three.set().grid.order()));
+        CHECK(std::ranges::equal(one.set().grid.get().order(), three.set().grid.get().order()));
     }
 }
 

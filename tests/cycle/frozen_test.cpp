@@ -60,7 +60,7 @@ TEST_CASE(
         CHECK(depths(rig.host(), 0).second == doctest::Approx(1.0).epsilon(1e-5));
         CHECK(depths(rig.host(), 1).first == doctest::Approx(z).epsilon(1e-5));
         CHECK(rig.host().spheres.size() == all);
-        CHECK(rig.set().grid.size() == all);
+        CHECK(rig.set().grid.get().size() == all);
         const auto& sources = rig.host().spheres.source;
         CHECK(std::set<uint32_t>(sources.begin(), sources.end()).size() == all);
     }
