@@ -182,7 +182,7 @@ void GapQuery::decide(const Batch& batch, Part part) {
         const uint32_t pose = part[pair.pose];
         const glm::dvec4 leaf = leafAt(batch.tool.leaves()[pair.leaf], batch.poses[pose], origin);
         const SmallestGap gap{gapBetween(leaf, pair.sphere), place.source, pair.leaf,
-                              static_cast<uint32_t>(place.row)};
+                              static_cast<uint32_t>(place.row), pair.sphere};
         if (comesBefore(gap, batch.out[pose])) {
             batch.out[pose] = gap;
         }

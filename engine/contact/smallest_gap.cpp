@@ -81,8 +81,9 @@ void GapSearch::listBlocks(const glm::dvec4& bound) {
 
 void GapSearch::tryPair(size_t sphere, size_t leaf, SmallestGap& best) const {
     const RegionSpheres& s = set_->spheres;
-    const SmallestGap pair{gapBetween(leaves_[leaf], sphereAt(sphere)), s.source[sphere],
-                           static_cast<uint32_t>(leaf), s.fixture[sphere]};
+    const glm::vec4 at = sphereAt(sphere);
+    const SmallestGap pair{gapBetween(leaves_[leaf], at), s.source[sphere], static_cast<uint32_t>(leaf),
+                           s.fixture[sphere], at};
     if (comesBefore(pair, best)) {
         best = pair;
     }

@@ -13,7 +13,14 @@ DeviceCycles::DeviceCycles(const Parts& parts, const MakePlan& makePlan)
     , plan_(makePlan(facts_))
     , contact_(parts.tool, parts.scene.contact.reach, parts.arm) {
     frames_ = openFrames();
+    useDevice();
+}
+
+void DeviceCycles::useDevice() {
     contact_.use(device_.get(), plan_, frames_->layout(), frames_->sets());
+    if (contact_.onDevice()) {
+        gaps_.use(*device_, plan_, frames_->layout(), frames_->sets());
+    }
 }
 
 std::unique_ptr<gpu::Device> DeviceCycles::openDevice() const {
@@ -24,23 +31,26 @@ std::unique_ptr<gpu::Device> DeviceCycles::openDevice() const {
 
 std::unique_ptr<FrameCycle> DeviceCycles::openFrames() const {
     auto frames =
-        std::make_unique<FrameCycle>(device_.get(), parts_.scene, parts_.camera, plan_, parts_.readers + 1);
+        std::make_unique<FrameCycle>(device_.get(), parts_.scene, parts_.camera, plan_, parts_.readers + 2);
     frames->resumeFrom(mark_);
     return frames;
 }
 
 // Destroys users of the device before the device. The newest set is kept on the host.
 void DeviceCycles::close() {
+    const std::lock_guard noBatch(gapMutex_);
     const std::lock_guard lock(mutex_);
     if (frames_) {
         if (const auto newest = frames_->sets().newest()) {
-            stale_.emplace();
-            stale_->host = newest->host;
-            stale_->grid.build(stale_->host.spheres, nullptr);
+            auto stale = std::make_shared<cloud::FixtureSet>();
+            stale->host = newest->host;
+            stale->grid.build(stale->host.spheres, nullptr);
+            stale_ = std::move(stale);
         }
         mark_ = frames_->mark();
     }
     contact_.dropDevice();
+    gaps_.dropDevice();
     frames_.reset();
     device_.reset();
 }
@@ -54,9 +64,10 @@ void DeviceCycles::renew() {
                              " would need a different plan");
         }
         auto frames = openFrames();
+        const std::lock_guard noBatch(gapMutex_);
         const std::lock_guard lock(mutex_);
-        contact_.use(device_.get(), plan_, frames->layout(), frames->sets());
         frames_ = std::move(frames);
+        useDevice();
         ++renewals_;
     } catch (const DeviceFailed&) {
         throw;
@@ -76,7 +87,7 @@ bool DeviceCycles::newestSet(Fixtures& set, RegionGrid& grid) {
         set = stale_->host;
         grid = stale_->grid.get();
     }
-    return stale_.has_value();
+    return stale_ != nullptr;
 }
 
 bool DeviceCycles::answer(const ToolState& place, ContactSet& out) {
@@ -96,6 +107,51 @@ bool DeviceCycles::answer(const ToolState& place, ContactSet& out) {
         contact_.query(set, place, out);
     }
     return true;
+}
+
+DeviceCycles::SetInUse DeviceCycles::newestInUse() {
+    const std::lock_guard lock(mutex_);
+    return {frames_ ? frames_->sets().newest() : cloud::FixturePool::Lease(), stale_};
+}
+
+void DeviceCycles::findGaps(const cloud::FixtureSet& set, const Tool& tool, std::span<const Pose> baseTtool,
+                            std::vector<SmallestGap>& out) {
+    try {
+        gaps_.find(set, tool, baseTtool, out);
+    } catch (const DeviceFailed& e) {
+        log::warn("batch of poses: {}: the CPU answers", e.what());
+        gaps_.dropDevice();
+        gaps_.find(set, tool, baseTtool, out);
+    }
+}
+
+void DeviceCycles::smallestGaps(std::span<const Pose> baseTtool, GapBatch& out) {
+    const std::lock_guard lock(gapMutex_);
+    const SetInUse set = newestInUse();
+    out.frame = -1;
+    out.gaps.clear();
+    if (set.get() != nullptr) {
+        out.frame = set.get()->host.frame;
+        out.captureTime = set.get()->host.captureTime;
+        out.origin = set.get()->host.origin;
+        findGaps(*set.get(), parts_.tool, baseTtool, out.gaps);
+    }
+}
+
+double DeviceCycles::clearance(const ToolState& place) {
+    const std::lock_guard lock(gapMutex_);
+    const SetInUse set = newestInUse();
+    if (set.get() == nullptr) {
+        return kNotKnown;
+    }
+    std::vector<SmallestGap> gap;
+    if (parts_.arm != nullptr) { // the arm's leaves are already in the base frame
+        const Pose base;
+        findGaps(*set.get(), parts_.arm->toolAt(place.arm), {&base, 1}, gap);
+    } else {
+        findGaps(*set.get(), parts_.tool, {&place.pose, 1}, gap);
+    }
+    return gap.front().gap;
 }
 
 } // namespace fathom

@@ -5,6 +5,7 @@
 
 #include "engine/cycle/contact_cycle.h"
 #include "engine/cycle/frame_cycle.h"
+#include "engine/cycle/gap_cycle.h"
 
 #include <atomic>
 #include <functional>
@@ -16,7 +17,8 @@
 namespace fathom {
 
 // While the device is lost, answer() uses the CPU query on the host copy of the newest set. The contact
-// thread calls answer(), the frame thread everything else; the calls may overlap.
+// thread calls answer(), any thread smallestGaps() and clearance(), the frame thread everything else; the
+// calls may overlap.
 class DeviceCycles {
 public:
     // Referenced objects must outlive this. arm: null = the tool moves freely.
@@ -27,7 +29,7 @@ public:
         CameraInfo camera;
         const Tool& tool;
         const ArmRig* arm = nullptr;
-        uint32_t readers = 1; // leases on fixture sets held at once, not counting answer()
+        uint32_t readers = 1; // leases on fixture sets held at once, not counting answer() and smallestGaps()
         gpu::Drawing drawing = gpu::Drawing::None;
     };
     using MakePlan = std::function<Plan(const DeviceFacts&)>;
@@ -49,6 +51,21 @@ public:
     // memory, the CPU answers from then on until renew().
     bool answer(const ToolState& place, ContactSet& out);
 
+    // Answers of a batch, and the set that they are about.
+    struct GapBatch {
+        int64_t frame = -1;       // Fixtures::frame; -1 = no set yet
+        double captureTime = 0.0; // [s]
+        dvec3 origin{0.0};        // [m] base frame: origin of SmallestGap::sphere
+        std::vector<SmallestGap> gaps;
+    };
+    // Fills `out` for the newest fixture set and the scene's tool, an arm's tip included: one gap per pose
+    // base_T_tool, or none while there is no set. Only regions of points count, no authored shapes. Batches
+    // run one after the other and do not delay answer() on the host; on the device they share its queue. If
+    // the device fails, the CPU answers until renew().
+    void smallestGaps(std::span<const Pose> baseTtool, GapBatch& out);
+    // The smallest gap [m] of the tool, or of all links of the arm, where it is; NaN while there is no set.
+    double clearance(const ToolState& place);
+
     // Copies the newest fixture set, also after the device is lost; false when there is none yet.
     bool newestSet(Fixtures& set, RegionGrid& grid);
 
@@ -61,17 +78,28 @@ public:
 private:
     std::unique_ptr<gpu::Device> openDevice() const;
     std::unique_ptr<FrameCycle> openFrames() const;
+    void useDevice();
     void close();
+    struct SetInUse { // one of the two, or none
+        cloud::FixturePool::Lease lease;
+        std::shared_ptr<const cloud::FixtureSet> stale;
+        const cloud::FixtureSet* get() const { return lease ? &*lease : stale.get(); }
+    };
+    SetInUse newestInUse();
+    void findGaps(const cloud::FixtureSet& set, const Tool& tool, std::span<const Pose> baseTtool,
+                  std::vector<SmallestGap>& out);
 
     Parts parts_;
     std::unique_ptr<gpu::Device> device_;
     DeviceFacts facts_;
     Plan plan_;
     std::unique_ptr<FrameCycle> frames_; // null while there is no device
-    std::mutex mutex_;                   // held for an answer and while the device is replaced
+    // Held for a batch, and for an answer; both while the device is replaced. The first one is taken first.
+    std::mutex gapMutex_, mutex_;
     ContactCycle contact_;
-    FrameCycle::Mark mark_;                  // where a new frame cycle resumes
-    std::optional<cloud::FixtureSet> stale_; // host copy of the newest set of a lost device
+    GapCycle gaps_;
+    FrameCycle::Mark mark_;                          // where a new frame cycle resumes
+    std::shared_ptr<const cloud::FixtureSet> stale_; // host copy of the newest set of a lost device
     std::atomic<uint32_t> renewals_{0};
 };
 

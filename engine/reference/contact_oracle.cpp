@@ -76,7 +76,7 @@ SmallestGap oracleSmallestPair(const Tool& tool, const Pose& baseTtool, const Fi
             const std::array<double, 4> least{best.gap, double(best.source), double(best.fixture),
                                               double(best.leaf)};
             if (pair < least) {
-                best = {gap, s.source[i], t, s.fixture[i]};
+                best = {gap, s.source[i], t, s.fixture[i], glm::vec4(dvec3(sphereCentre(s, i)), s.radius[i])};
             }
         }
     }

@@ -4,6 +4,7 @@
 
 #include "devices/simulated/analytic_scene.h"
 #include "devices/simulated/simulated_camera.h"
+#include "engine/reference/contact_oracle.h"
 #include "tests/support/vulkan.h"
 
 #include <doctest/doctest.h>
@@ -125,5 +126,34 @@ TEST_CASE("Edits and frozen classes are kept when a device is opened again") {
         CHECK(after->host.spheres.x == held.x);
         CHECK(after->host.spheres.z == held.z);
         CHECK(after->host.spheres.radius == held.radius);
+    }
+}
+
+TEST_CASE(
+    "Batches are exact on the CPU and the device, before a frame, and from the last set of a lost device") {
+    const std::vector<Pose> poses{{{0.0, 0.0, 0.3}, {1, 0, 0, 0}},
+                                  {{0.4, -0.2, 1.0}, rotationExp({1, 2, 3})}};
+    for (const auto where : {Scene::Contact::Where::Cpu, Scene::Contact::Where::Gpu}) {
+        TwinRig rig(where);
+        DeviceCycles::GapBatch batch;
+        rig.cycles.smallestGaps(poses, batch);
+        CHECK(batch.frame == -1);
+        CHECK(batch.gaps.empty());
+        CHECK(std::isnan(rig.cycles.clearance({poses[0], {}})));
+        rig.next();
+        const Fixtures set = rig.cycles.frames().sets().newest()->host;
+        for (const bool anew : {false, true}) {
+            if (anew) {
+                rig.cycles.renew();
+            }
+            rig.cycles.smallestGaps(poses, batch);
+            CHECK(batch.frame == set.frame);
+            CHECK(batch.captureTime == set.captureTime);
+            REQUIRE(batch.gaps.size() == 2);
+            for (size_t i = 0; i < 2; ++i) {
+                CHECK(batch.gaps[i] == oracleSmallestPair(rig.tool, poses[i], set));
+                CHECK(batch.gaps[i].gap == rig.cycles.clearance({poses[i], {}}));
+            }
+        }
     }
 }

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/cycle/gap_cycle.h"
+
+namespace fathom {
+
+void GapCycle::use(gpu::Device& device, const Plan& plan, const PatchLayout& layout,
+                   cloud::FixturePool& pool) {
+    gpu_.reset();
+    place_.emplace(Place{device, plan, layout, pool});
+}
+
+void GapCycle::dropDevice() {
+    gpu_.reset();
+    place_.reset();
+}
+
+void GapCycle::find(const cloud::FixtureSet& set, const Tool& tool, std::span<const Pose> baseTtool,
+                    std::vector<SmallestGap>& out) {
+    const bool gone = !place_ || !set.device.nodes; // the device, or the set's device side
+    // One pose is less work than a submission to a CPU device, which would also delay contact queries.
+    if (gone || (place_->device.facts().kind == DeviceKind::Cpu && baseTtool.size() == 1)) {
+        findOnHost(set.host, tool, baseTtool, out);
+        return;
+    }
+    if (!gpu_) {
+        gpu_.emplace(place_->device, place_->plan, place_->layout, place_->pool);
+    }
+    gpu_->setTool(tool);
+    gpu_->find(set, tool, baseTtool, out);
+}
+
+void GapCycle::findOnHost(const Fixtures& set, const Tool& tool, std::span<const Pose> baseTtool,
+                          std::vector<SmallestGap>& out) {
+    if (searched_ != &set || generation_ != set.generation) {
+        cpu_.build(set);
+        searched_ = &set;
+        generation_ = set.generation;
+    }
+    out.clear();
+    for (const Pose& pose : baseTtool) {
+        out.push_back(cpu_.find(tool, pose));
+    }
+}
+
+} // namespace fathom

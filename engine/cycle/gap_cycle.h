@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// Batches: the smallest gap of a tool at each of many poses. The device answers where it also answers contact
+// queries, else the CPU; both give the same answers to the last bit.
+#pragma once
+
+#include "engine/cloud/gap_query.h"
+
+#include <optional>
+
+namespace fathom {
+
+// One thread at a time.
+class GapCycle {
+public:
+    // From the next batch on: use() works on the device, dropDevice() on the CPU. The pipeline is compiled
+    // with the first batch. Referenced objects must outlive this or the next dropDevice().
+    void use(gpu::Device& device, const Plan& plan, const PatchLayout& layout, cloud::FixturePool& pool);
+    void dropDevice();
+
+    // Fills `out` with one answer per pose. Throws DeviceFailed.
+    void find(const cloud::FixtureSet& set, const Tool& tool, std::span<const Pose> baseTtool,
+              std::vector<SmallestGap>& out);
+
+private:
+    void findOnHost(const Fixtures& set, const Tool& tool, std::span<const Pose> baseTtool,
+                    std::vector<SmallestGap>& out);
+
+    struct Place {
+        gpu::Device& device;
+        const Plan& plan;
+        const PatchLayout& layout;
+        cloud::FixturePool& pool;
+    };
+    std::optional<Place> place_;
+    std::optional<cloud::GapQuery> gpu_;
+    GapSearch cpu_;
+    const Fixtures* searched_ = nullptr; // what cpu_ was built from
+    uint64_t generation_ = 0;            // and its generation
+};
+
+} // namespace fathom
