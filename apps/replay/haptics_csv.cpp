@@ -53,6 +53,7 @@ void HapticsCsv::add(const StepRecord& tick) {
         addVector(row_, wrench.force);
         addVector(row_, wrench.torque);
     }
+    row_.add(tick.clearance);
     file_.write(row_.end());
     digest_.add(tick);
 }

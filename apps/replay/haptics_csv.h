@@ -24,7 +24,7 @@ public:
         "qz,"
         "fx,fy,fz,tx,ty,tz,contacts,min_gap_m,state,guidance,frame,scene_age_s,stalled,margin_passive,"
         "margin_uncoupled,cause,lag_m,out_fx,out_fy,out_fz,out_tx,out_ty,out_tz,rest_fx,rest_fy,rest_fz,"
-        "rest_tx,rest_ty,rest_tz";
+        "rest_tx,rest_ty,rest_tz,clearance_m";
 
 private:
     OutputFile file_;

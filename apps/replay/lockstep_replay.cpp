@@ -29,7 +29,8 @@ LockstepReplay::LockstepReplay(Session& session, const ReplayOptions& options, R
     , trace_(trace)
     , shapes_(shapesOf(session.scene))
     , haptics_(makeHapticOptions(session.scene, session.tool))
-    , audit_(session.tool, session.arm.get()) {}
+    , audit_(session.tool, session.arm.get())
+    , clearance_(haptics_.period) {}
 
 void LockstepReplay::fetch() {
     if (session_.arm) { // a frame that shows the arm is rendered now, before it is due
@@ -113,6 +114,7 @@ void LockstepReplay::query() {
             trace_->query(start, std::chrono::steady_clock::now(), answer->size());
         }
         answers_.push_back(std::move(answer));
+        clearance_.update([this] { return session_.cycles.clearance(cycle_->place()); });
     }
     if (answers_.size() > session_.scene.contact.delay) {
         contacts_.offer([this] { return std::move(answers_.front()); });
@@ -152,6 +154,7 @@ void LockstepReplay::tick(double t) {
     const auto began = std::chrono::steady_clock::now();
     TickRow row;
     row.record = contacts_.step(*cycle_, input);
+    row.record.clearance = clearance_.gap();
     row.startArm = start.arm;
     row.micros = micros(began);
     row.late = row.micros > haptics_.period * 1e6;

@@ -9,6 +9,7 @@
 #include "apps/session/session.h"
 #include "engine/cycle/cadence_trace.h"
 #include "engine/run/active_contacts.h"
+#include "engine/run/clearance.h"
 #include "engine/run/scene_update.h"
 
 #include <deque>
@@ -60,6 +61,7 @@ private:
     std::unique_ptr<HapticDevice> hand_;
     std::optional<HapticCycle> cycle_;
     ToolAudit audit_;
+    SteppedClearance clearance_;
 
     std::optional<Frame> next_;        // fetched, not yet due
     ArmPosture taken_;                 // arm posture when next_ was fetched

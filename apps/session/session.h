@@ -50,12 +50,13 @@ inline const std::atomic<bool> kNeverStop{false};
 // after all classes, so that classes keep their rows when shapes are added or removed.
 Scene withSpareClasses(Scene scene);
 
-// Contact thread: answers queries over the newest fixture set.
+// Answers queries over the newest fixture set.
 class SessionAnswers final : public ContactAnswers {
 public:
     explicit SessionAnswers(DeviceCycles& cycles)
         : cycles_(cycles) {}
     bool answer(const ToolState& place, ContactSet& out) override { return cycles_.answer(place, out); }
+    double clearance(const ToolState& place) override { return cycles_.clearance(place); }
 
 private:
     DeviceCycles& cycles_;

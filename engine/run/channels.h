@@ -71,8 +71,10 @@ struct Channels {
         , frames(kFramesInFlight)
         , emptied(2 * kFramesInFlight) {}
 
-    TripleBuffer<SceneUpdate> scene;     // frame -> haptic
-    TripleBuffer<ToolState> proxy;       // haptic -> contact
+    TripleBuffer<SceneUpdate> scene;           // frame -> haptic
+    TripleBuffer<ToolState> proxy;             // haptic -> contact
+    TripleBuffer<ToolState> clearanceAt;       // haptic -> clearance: where the tool is
+    TripleBuffer<double> clearance{kNotKnown}; // clearance -> haptic [m]
     PostureTrack postures;               // haptic -> frame: recent postures of the arm, for the self-filter
     TripleBuffer<ShapeList> shapes;      // window -> haptic
     LeasePool<ContactSet> contacts;      // contact -> haptic: two leases, active and on offer

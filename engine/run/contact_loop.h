@@ -9,12 +9,14 @@
 
 namespace fathom {
 
-// The query as the loop uses it. Contact thread only.
+// The queries as the loops use them.
 class ContactAnswers {
 public:
     virtual ~ContactAnswers() = default;
-    // Fills `out` for the newest fixture set; false when there is none yet.
+    // Contact thread. Fills `out` for the newest fixture set; false when there is none yet.
     virtual bool answer(const ToolState& place, ContactSet& out) = 0;
+    // Clearance thread. StepRecord::clearance of the tool there; NaN = not known.
+    virtual double clearance(const ToolState& /*place*/) { return kNotKnown; }
 };
 
 class ContactLoop {

@@ -62,6 +62,8 @@ const StepRecord& HapticStepper::step(const HandSample& hand, double now) noexce
     row_.startArm = start.arm;
     began_ = std::chrono::steady_clock::now();
     row_.record = contacts_.step(cycle_, input);
+    channels_.clearance.refresh();
+    row_.record.clearance = channels_.clearance.front();
     ended_ = std::chrono::steady_clock::now();
     publish(hand, now);
     before_ = now;
@@ -78,6 +80,8 @@ void HapticStepper::publish(const HandSample& hand, double now) noexcept {
     sendSetpoint(row_.record, (hand.buttons & kDeadManOpen) != 0, now);
     channels_.proxy.back() = cycle_.queryPlace();
     channels_.proxy.publish();
+    channels_.clearanceAt.back() = cycle_.place();
+    channels_.clearanceAt.publish();
     if (cycle_.onArm()) {
         channels_.postures.add(ended_, row_.record.arm.posture);
     }

@@ -118,6 +118,7 @@ RealtimeRun::RealtimeRun(FrameFeed& frames, ContactAnswers* contacts, const Real
     channels_.arm = options.arm;
     if (contacts != nullptr) {
         contact_.emplace(*contacts, channels_, clock_, 0.5 * options.hapticPeriod, options.trace);
+        clearance_.emplace(*contacts, channels_, clock_);
     }
 }
 
@@ -149,10 +150,13 @@ void RealtimeRun::run(HapticCycle& cycle, HapticDevice& hand, double pathDuratio
     {
         Joined camera(
             stop_, [this] { guarded([this] { pinThread(options_.placement.rest), frames_.run(stop_); }); });
-        std::optional<Joined> contact;
+        std::optional<Joined> contact, clearance;
         if (contact_) {
             contact.emplace(stop_, [this] {
                 guarded([this] { pinThread(options_.placement.contact), contact_->run(stop_); });
+            });
+            clearance.emplace(stop_, [this] {
+                guarded([this] { pinThread(options_.placement.rest), clearance_->run(stop_); });
             });
         }
         Joined ticks(stop_, [this, &haptic] {

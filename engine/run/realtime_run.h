@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// A run in real time: frame, contact and haptic threads over their channels, the caller's thread as the
-// writer. Knows no Vulkan: what the threads do is behind FrameFeed, ContactAnswers, HapticCycle and
+// A run in real time: frame, contact, clearance and haptic threads over their channels, the caller's thread
+// as the writer. Knows no Vulkan: what the threads do is behind FrameFeed, ContactAnswers, HapticCycle and
 // HapticDevice.
 #pragma once
 
+#include "engine/run/clearance.h"
 #include "engine/run/contact_loop.h"
 #include "engine/run/frame_loop.h"
 #include "engine/run/haptic_loop.h"
@@ -30,7 +31,7 @@ struct RealtimeOptions {
 
 class RealtimeRun {
 public:
-    // contacts: null if the scene has nothing to collide with; then there is no contact thread.
+    // contacts: null if the scene has nothing to collide with; then there is no contact or clearance thread.
     RealtimeRun(FrameFeed& frames, ContactAnswers* contacts, const RealtimeOptions& options);
 
     // Processes the first frame on this thread, before the clock starts. False when the source has none.
@@ -62,6 +63,7 @@ private:
     Channels channels_;
     FrameLoop frames_;
     std::optional<ContactLoop> contact_;
+    std::optional<ClearanceLoop> clearance_;
     std::atomic<bool> stop_{false};
     std::mutex failureMutex_; // never taken by the haptic thread
     std::exception_ptr failure_;

@@ -127,6 +127,9 @@ void explainThreads(Plan& plan) {
     thread("camera", true, "frames, uploads, passes (realtime)");
     thread("contact", plan.query != Plan::Query::None,
            plan.query != Plan::Query::None ? "contact sets (realtime)" : "no contact constraints");
+    thread("clearance", plan.query != Plan::Query::None,
+           plan.query != Plan::Query::None ? "smallest gap for logs and displays (realtime)"
+                                           : "no contact constraints");
     thread("haptic", true, "ticks (realtime)");
     thread("publishers", plan.publishers > 1,
            plan.publishers > 1 ? "additional threads help the camera thread to publish each set"

@@ -45,6 +45,7 @@ StepRecord someTick() {
     tick.lag = 0.5;
     tick.deviceWrench = {{21, 22, 23}, {24, 25, 26}};
     tick.residual = {{27, 28, 29}, {30, 31, 32}};
+    tick.clearance = 33;
     return tick;
 }
 
@@ -95,13 +96,12 @@ TEST_CASE("haptics.csv has the header of the contract and every column in its pl
           "t_s,dev_x,dev_y,dev_z,dev_qw,dev_qx,dev_qy,dev_qz,tool_x,tool_y,tool_z,tool_qw,tool_qx,"
           "tool_qy,tool_qz,fx,fy,fz,tx,ty,tz,contacts,min_gap_m,state,guidance,frame,scene_age_s,"
           "stalled,margin_passive,margin_uncoupled,cause,lag_m,out_fx,out_fy,out_fz,out_tx,out_ty,out_tz,"
-          "rest_fx,rest_fy,rest_fz,rest_tx,rest_ty,rest_tz");
+          "rest_fx,rest_fy,rest_fz,rest_tx,rest_ty,rest_tz,clearance_m");
     CHECK(lines[1] ==
           "0.10000000000000001,1,2,3,0.5,-0.5,0.5,-0.5,4,5,6,1,0,0,0,7,8,9,10,11,12,13,14,escape,0.25,"
-          "16,17,1,18,19,20,0.5,21,22,23,24,25,26,27,28,29,30,31,32");
-    CHECK(
-        lines[2] ==
-        "0,0,0,0,1,0,0,0,0,0,0,1,0,0,0,0,0,0,0,0,0,0,nan,off,0,-1,nan,0,nan,nan,0,0,0,0,0,0,0,0,0,0,0,0,0,0");
+          "16,17,1,18,19,20,0.5,21,22,23,24,25,26,27,28,29,30,31,32,33");
+    CHECK(lines[2] == "0,0,0,0,1,0,0,0,0,0,0,1,0,0,0,0,0,0,0,0,0,0,nan,off,0,-1,nan,0,nan,nan,0,0,0,0,0,0,0,"
+                      "0,0,0,0,0,0,0,nan");
 }
 
 TEST_CASE("An empty run gives a header only") {

@@ -2,6 +2,8 @@
 // The output of `replay --out`: files, keys, columns and counts. Equal runs give identical files.
 #include "tests/rig/stage.h"
 
+#include <algorithm>
+#include <cmath>
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 #include <set>
@@ -133,6 +135,27 @@ TEST_CASE("Equal runs give equal files and digests with the query on the CPU and
     CHECK(first.summary.at("digest") != other.summary.at("digest"));
 }
 
+TEST_CASE("clearance_m sees regions beyond the reach and agrees with min_gap_m within it") {
+    Stage stage;
+    stage.recording(images(4));
+    stage.scene(fullScene());
+    stage.hand({{0.0, {0.0, 0.0, 0.38}}, {0.2, {0.0, 0.0, 0.50}}, {0.6, {0.0, 0.0, 0.50}}});
+    const Replay replay = stage.replay();
+    double farthest = 0.0;
+    size_t near = 0;
+    for (size_t i = 0; i < replay.ticks.size(); ++i) {
+        const Tick& tick = replay.ticks[i];
+        REQUIRE(std::isfinite(tick.clearance));
+        farthest = std::max(farthest, tick.clearance - tick.minGap);
+        if (tick.t > 0.4 && tick.contacts > 0) { // pressed and at rest
+            CHECK(std::abs(tick.clearance - tick.minGap) < 1e-3);
+            ++near;
+        }
+    }
+    CHECK(farthest > 0.02);
+    CHECK(near > 100);
+}
+
 TEST_CASE("A second run into the same folder replaces the files of the first, including its saved sets") {
     Stage stage;
     stage.recording(images(4));
@@ -174,7 +197,7 @@ TEST_CASE("The built-in hand path pushes into every forbidden region and visits 
     scene.fixtures.pop_back();
     stage.scene(scene);
     const Replay replay = stage.replay();
-    CHECK(replay.ticks.size() >= 4000);                            // at least 2 s per fixture
+    CHECK(replay.ticks.size() >= 4000);                           // at least 2 s per fixture
     CHECK(replay.haptic().at("max_force_N").get<double>() > 8.0); // 20 mm at 480 N/m
     double mostGuidance = 0.0;
     for (const Tick& tick : replay.ticks) {

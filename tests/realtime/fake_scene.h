@@ -81,7 +81,13 @@ public:
         : pool_(pool)
         , tool_(tool) {}
 
-    std::function<void()> before = [] {};
+    std::function<void()> before = [] {}, beforeClearance = [] {};
+
+    double clearance(const ToolState&) override {
+        beforeClearance();
+        return kSomeClearance;
+    }
+    static constexpr double kSomeClearance = 0.125; // [m]
 
     bool answer(const ToolState& place, ContactSet& out) override {
         before();

@@ -63,6 +63,35 @@ TEST_CASE(
     std::filesystem::remove(file);
 }
 
+TEST_CASE("The haptic thread never waits for an answer: one that comes only after 200 more ticks comes") {
+    FakeRun fake(90, wipingPath(3.0));
+    std::atomic<uint64_t> ticks{0};
+    fake.sink.onTurn = [&](const TickRow&) { ++ticks; };
+    // False if they do not come, because they wait for what this holds up.
+    const auto moreTicksCome = [&] {
+        const uint64_t until = ticks + 200;
+        for (int i = 0; i < 20000 && ticks < until; ++i) {
+            sleepFor(0.001);
+        }
+        return ticks >= until;
+    };
+    std::atomic<int> hung{0}, answered{0};
+    const auto hang = [&](uint64_t after) {
+        if (ticks > after && hung < 4) {
+            ++hung;
+            answered += moreTicksCome() ? 1 : 0;
+        }
+    };
+    fake.answers.before = [&] { hang(300); };
+    fake.answers.beforeClearance = [&] { hang(100); };
+    fake.go();
+    checkEnded(fake);
+    CHECK(hung >= 2);
+    CHECK(answered == hung);
+    CHECK(fake.sink.rows.size() > 500);
+    CHECK(fake.sink.rows.back().record.clearance == FakeAnswers::kSomeClearance);
+}
+
 TEST_CASE("A contact thread that stalls for 100 ms and for 1 s stalls the tool and never lets it penetrate") {
     FakeRun fake(90, wipingPath(3.0));
     const auto start = std::chrono::steady_clock::now();

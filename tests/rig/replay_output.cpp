@@ -17,7 +17,7 @@ constexpr const char* kTickHeader =
     "t_s,dev_x,dev_y,dev_z,dev_qw,dev_qx,dev_qy,dev_qz,tool_x,tool_y,tool_z,tool_qw,tool_qx,tool_qy,tool_qz,"
     "fx,fy,fz,tx,ty,tz,contacts,min_gap_m,state,guidance,frame,scene_age_s,stalled,margin_passive,margin_"
     "uncoupled,cause,lag_m,out_fx,out_fy,out_fz,out_tx,out_ty,out_tz,rest_fx,rest_fy,rest_fz,rest_tx,rest_ty,"
-    "rest_tz";
+    "rest_tz,clearance_m";
 constexpr const char* kFrameHeader =
     "index,t_s,valid,forbidden_points,spheres,patches,nodes,guidance_count,upload_ms";
 
@@ -124,7 +124,7 @@ std::vector<Tick> readTicks(const std::filesystem::path& file) {
     std::vector<Tick> ticks;
     for (size_t i = 1; i < lines.size(); ++i) {
         Fields row(file, i + 1, lines[i]);
-        if (row.count() != 44) {
+        if (row.count() != 45) {
             fail(file, i + 1, std::to_string(row.count()) + " fields");
         }
         Tick tick{};
@@ -148,6 +148,7 @@ std::vector<Tick> readTicks(const std::filesystem::path& file) {
         tick.outTorque = row.vector();
         tick.restForce = row.vector();
         tick.restTorque = row.vector();
+        tick.clearance = row.number();
         ticks.push_back(tick);
     }
     return ticks;

@@ -28,7 +28,8 @@ struct Tick { // a row of haptics.csv
     uint32_t cause; // bits of wrench_stage.h
     double lag;     // [m]
     dvec3 outForce, outTorque, restForce,
-        restTorque; // delivered, in device axes; not delivered, in base axes
+        restTorque;   // delivered, in device axes; not delivered, in base axes
+    double clearance; // [m]
 };
 
 struct FrameRow { // a row of frames.csv
