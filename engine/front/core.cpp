@@ -72,6 +72,25 @@ void ComputeSide::setArm(const ArmPosture& posture) {
     }
 }
 
+double ComputeSide::clearances(std::span<const v0::Pose> baseTtool, v0::Clearances& out) {
+    std::vector<fathom::Pose> poses;
+    for (const v0::Pose& given : baseTtool) {
+        fathom::Pose pose = internal(given);
+        if (isFinite(pose)) {
+            pose.rotation = glm::normalize(pose.rotation);
+        }
+        poses.push_back(pose);
+    }
+    DeviceCycles::GapBatch batch;
+    cycles.smallestGaps(poses, batch);
+    out.frame = batch.frame;
+    out.poses.clear();
+    for (const SmallestGap& gap : batch.gaps) {
+        out.poses.push_back(external(gap, haptic.tool, batch.origin));
+    }
+    return batch.captureTime;
+}
+
 void ComputeSide::renew() {
     cycles.renew();
     setArm(posture_);

@@ -48,6 +48,9 @@ struct ComputeSide {
 
     // Frame thread, before a frame: where the arm is in its image. No effect without a self-filter.
     void setArm(const ArmPosture& posture);
+    // Any thread but the haptic one. The stamp of `out` stays as it is. Returns the capture time [s] of its
+    // frame.
+    double clearances(std::span<const v0::Pose> baseTtool, v0::Clearances& out);
     void renew(); // frame thread, after a loss of the device
 
     const HapticSide& haptic;

@@ -4,6 +4,7 @@
 #include "engine/front/float_mode.h"
 #include "engine/front/hand_port.h"
 #include "engine/front/observer_port.h"
+#include "engine/run/clearance.h"
 #include "engine/run/contact_loop.h"
 #include "engine/run/frame_loop.h"
 #include "engine/types/log.h"
@@ -80,6 +81,7 @@ public:
     explicit CycleAnswers(DeviceCycles& cycles)
         : cycles_(cycles) {}
     bool answer(const ToolState& place, ContactSet& out) override { return cycles_.answer(place, out); }
+    double clearance(const ToolState& place) override { return cycles_.clearance(place); }
 
 private:
     DeviceCycles& cycles_;
@@ -109,10 +111,12 @@ struct Engine::Impl {
         , feed(*camera, compute, *shared)
         , answers(compute.cycles)
         , frames(feed, shared->channels, shared->clock, kFramePeriod, nullptr)
-        , contacts(answers, shared->channels, shared->clock, 0.5 * shared->haptic.options.period, nullptr) {
+        , contacts(answers, shared->channels, shared->clock, 0.5 * shared->haptic.options.period, nullptr)
+        , clearance(answers, shared->channels, shared->clock) {
         threads.emplace_back([this] { guarded([this] { frames.run(stop); }); });
         if (compute.cycles.plan().query != Plan::Query::None) {
             threads.emplace_back([this] { guarded([this] { contacts.run(stop); }); });
+            threads.emplace_back([this] { guarded([this] { clearance.run(stop); }); });
         }
     }
     ~Impl() {
@@ -147,6 +151,7 @@ struct Engine::Impl {
     front::CycleAnswers answers;
     FrameLoop frames;
     ContactLoop contacts;
+    ClearanceLoop clearance;
     std::atomic<bool> stop{false};
     mutable std::mutex failureMutex;
     std::string failure;
@@ -206,6 +211,14 @@ ObserverPort Engine::openObserver() {
             throw Error("observer: it is open already (allowed: one observer per engine)");
         }
         return ObserverPort(std::make_unique<ObserverPort::Impl>(impl_->shared));
+    });
+}
+
+void Engine::clearances(std::span<const Pose> baseTtool, Clearances& out) {
+    front::translated([&] {
+        const front::FloatMode mode;
+        const double t = impl_->compute.clearances(baseTtool, out);
+        out.stamp = out.frame < 0 ? 0 : front::stampOf(impl_->shared->clock.timeAt(t));
     });
 }
 

@@ -4,6 +4,7 @@
 #include "engine/front/float_mode.h"
 #include "engine/front/observer_port.h"
 #include "engine/run/active_contacts.h"
+#include "engine/run/clearance.h"
 #include "engine/run/scene_update.h"
 
 #include <deque>
@@ -15,7 +16,8 @@ struct Lockstep::Impl {
         : camera(front::CameraSide(model, scene.data().scene))
         , haptic(scene.data().scene, camera.info, options)
         , compute(haptic, camera.info, options.device)
-        , cycle(haptic.cycle(start)) {
+        , cycle(haptic.cycle(start))
+        , clearance(haptic.options.period) {
         if (options.measuredArm) {
             throw BadInput("options: measuredArm: true (allowed: false in lockstep)");
         }
@@ -32,6 +34,7 @@ struct Lockstep::Impl {
     std::deque<std::unique_ptr<ContactSet>> answers; // not yet on offer, oldest first
     SceneUpdate update;
     Nanoseconds stamp = 0; // of the newest frame
+    SteppedClearance clearance;
 };
 
 namespace {
@@ -66,6 +69,7 @@ bool Lockstep::Impl::answer() {
     const bool any = compute.cycles.answer(cycle->queryPlace(), *set);
     if (any) {
         answers.push_back(std::move(set));
+        clearance.update([this] { return compute.cycles.clearance(cycle->place()); });
     }
     if (answers.size() > haptic.scene.contact.delay) {
         contacts.offer([this] {
@@ -112,10 +116,19 @@ bool Lockstep::answer() {
 Step Lockstep::step(const Hand& hand, Nanoseconds now) noexcept {
     const front::FloatMode mode;
     const StepInput input = stepInput(impl_->update, front::internal(hand), seconds(now));
-    const StepRecord record = impl_->contacts.step(*impl_->cycle, input);
+    StepRecord record = impl_->contacts.step(*impl_->cycle, input);
+    record.clearance = impl_->clearance.gap();
     Step step = front::external(record, impl_->haptic.options.staleAfter);
     step.warnings |= impl_->update.frame < 0 ? NoScene : 0u;
     return step;
+}
+
+void Lockstep::clearances(std::span<const Pose> baseTtool, Clearances& out) {
+    front::translated([&] {
+        const front::FloatMode mode;
+        const double t = impl_->compute.clearances(baseTtool, out);
+        out.stamp = out.frame < 0 ? 0 : std::llround(t * 1e9);
+    });
 }
 
 void Lockstep::endFrames() noexcept {

@@ -73,6 +73,7 @@ v0::Step external(const StepRecord& record, double staleAfter) noexcept {
     step.state = external(record.state);
     step.sceneAge = record.sceneAge;
     step.minGap = record.minGap;
+    step.clearance = record.clearance;
     step.guidance = record.guidance;
     step.frame = record.frame;
     step.warnings = (record.sceneAge > staleAfter ? v0::OldScene : 0u) |
@@ -83,6 +84,21 @@ v0::Step external(const StepRecord& record, double staleAfter) noexcept {
                                               touch.fixture};
     }
     return step;
+}
+
+v0::Clearance external(const SmallestGap& gap, const Tool& tool, const dvec3& origin) {
+    v0::Clearance out;
+    out.gap = gap.gap;
+    if (gap.any()) {
+        const Sphere& leaf = tool.leaves()[gap.leaf];
+        out.fixture = gap.fixture;
+        out.toolIndex = gap.leaf;
+        out.toolCentre = external(leaf.centre);
+        out.toolRadius = leaf.radius;
+        out.regionCentre = external(origin + dvec3(gap.sphere));
+        out.regionRadius = gap.sphere.w;
+    }
+    return out;
 }
 
 CameraInfo internal(const v0::CameraModel& model) {

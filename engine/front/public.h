@@ -4,11 +4,14 @@
 #pragma once
 
 #define FATHOM_BUILDING_LIBRARY
+#include "engine/contact/smallest_gap.h"
 #include "engine/cycle/step_record.h"
 #include "engine/types/camera_info.h"
 #include "engine/types/error.h"
 #include "engine/types/haptic_device.h"
 #include <fathom/fathom.h>
+
+#include <chrono>
 
 namespace fathom::front {
 
@@ -33,10 +36,17 @@ inline HandSample internal(const v0::Hand& hand) noexcept {
     return {internal(hand.deviceThandle), hand.buttons};
 }
 
+inline v0::Nanoseconds stampOf(std::chrono::steady_clock::time_point time) noexcept {
+    return std::chrono::duration_cast<std::chrono::nanoseconds>(time.time_since_epoch()).count();
+}
+
 inline constexpr v0::Nanoseconds kMostAhead = 5'000'000; // [ns] by which a stamp may be ahead of now
 
 // staleAfter [s]: scene age from which forces fade.
 v0::Step external(const StepRecord& record, double staleAfter) noexcept;
+
+// origin: of the set [m], base frame.
+v0::Clearance external(const SmallestGap& gap, const Tool& tool, const dvec3& origin);
 
 // Throws v0::BadInput for a description that no camera can have.
 CameraInfo internal(const v0::CameraModel& model);

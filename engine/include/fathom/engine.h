@@ -5,6 +5,7 @@
 
 #include <fathom/arm.h>
 #include <fathom/camera.h>
+#include <fathom/clearance.h>
 #include <fathom/error.h>
 #include <fathom/hand.h>
 #include <fathom/observer.h>
@@ -39,9 +40,9 @@ struct EngineOptions {
     bool measuredArm = false;
 };
 
-/// Owns a compute device, a frame thread and a contact thread, and hands out ports. Each port belongs to one
-/// thread. Installs no signal handler, locks no memory, changes no environment and does not fork; the
-/// constructor starts the program fathom-reader for scenes with URDFs or meshes.
+/// Owns a compute device, a frame thread, a contact thread and one for clearances, and hands out ports. Each
+/// port belongs to one thread. Installs no signal handler, locks no memory, changes no environment and does
+/// not fork; the constructor starts the program fathom-reader for scenes with URDFs or meshes.
 class FATHOM_API Engine {
 public:
     /// Opens the device and compiles the passes; takes up to seconds. One camera is supported.
@@ -67,6 +68,13 @@ public:
 
     /// Opens the port of a display, once per engine. @throws Error if it is open already
     ObserverPort openObserver();
+
+    /// The smallest gap of the scene's tool at each pose, to the regions of the newest frame; shapes that the
+    /// scene authors do not count, and an arm's links neither. Reuses the memory of `out`. Any thread but the
+    /// haptic one; calls of several threads run one after the other. Blocks until all are answered, in one
+    /// submission to the GPU where it also answers contact queries, else on the CPU. No force waits for it. A
+    /// device that is lost meanwhile costs time, no answer. @throws Error when memory is exhausted
+    void clearances(std::span<const Pose> baseTtool, Clearances& out);
 
     bool deviceLost() const noexcept; ///< true while the engine reopens a lost device. Any thread.
     std::string failure() const;      ///< why a thread of the engine ended; empty = none ended. Any thread.

@@ -62,13 +62,15 @@ struct Step {
     ArmPosture arm;   ///< the scene's arm; zeros without one
     Pose baseTtool;   ///< the tool, which never enters a forbidden region
     Pose baseTdevice; ///< where the hand commands the tool
-    State state = State::Off;          ///< what the forces do
-    std::uint32_t warnings = 0;        ///< bits of Warning
-    double sceneAge = 0.0;             ///< [s] of the newest frame; NaN before the first
-    double minGap = 0.0;               ///< [m] smallest gap to a forbidden region; NaN if unknown
-    double guidance = 0.0;             ///< weight of the guidance, 0..1
-    std::int64_t frame = -1;           ///< number of the frame behind the active fixtures; -1 = none
-    std::uint32_t contactCount = 0;    ///< entries of `contacts` that are valid
+    State state = State::Off;       ///< what the forces do
+    std::uint32_t warnings = 0;     ///< bits of Warning
+    double sceneAge = 0.0;          ///< [s] of the newest frame; NaN before the first
+    double minGap = 0.0;            ///< [m] smallest gap to a forbidden region; NaN if unknown
+    double clearance = 0.0;         ///< [m] smallest gap to the regions of points at any distance, where the
+                                    ///< tool was some 10 ms before; infinity without regions; NaN if unknown
+    double guidance = 0.0;          ///< weight of the guidance, 0..1
+    std::int64_t frame = -1;        ///< number of the frame behind the active fixtures; -1 = none
+    std::uint32_t contactCount = 0; ///< entries of `contacts` that are valid
     std::array<Contact, 8> contacts{}; ///< the first `contactCount` are valid
 };
 

@@ -38,6 +38,9 @@ public:
     /// key of the scene) further calls. False before the first frame.
     bool answer();
 
+    /// As Engine::clearances(), for the frame of the last process().
+    void clearances(std::span<const Pose> baseTtool, Clearances& out);
+
     /// One haptic step at `now`.
     Step step(const Hand& hand, Nanoseconds now) noexcept;
 
