@@ -71,6 +71,14 @@ std::string marginText(double margin) {
     return std::isfinite(margin) ? print("%+.2f N s/m", margin) : std::string("unknown");
 }
 
+// Distance from the tool to the nearest region of points, however far it is.
+std::string clearanceText(double clearance) {
+    return std::isnan(clearance)   ? std::string("unknown")
+           : std::isinf(clearance) ? std::string("no region")
+           : clearance < 1.0       ? print("%.1f mm", clearance * 1e3)
+                                   : print("%.2f m", clearance);
+}
+
 void passes(const HudInput& input) {
     double sum = 0.0;
     std::string parts;
@@ -138,6 +146,7 @@ void drawHeadLine(Console& console, const HudInput& input, ImVec2 at, ImVec2 siz
            "scene age", stale ? colour::kWarning : colour::kText);
     figure(input, print("%u", record.contacts), "contacts",
            record.contacts > 0 ? colour::kTouch : colour::kText);
+    figure(input, clearanceText(record.clearance), "clearance");
     if (input.arm != nullptr && input.arm->real) {
         armFigure(input);
         markPlace(console, "head arm");
