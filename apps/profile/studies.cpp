@@ -5,10 +5,10 @@ namespace fathom::profile {
 
 const std::vector<StudyEntry>& allStudies() {
     static const std::vector<StudyEntry> kStudies{
-        {"filter", filterStudy},   {"fixture", fixtureStudy},    {"query", queryStudy},
-        {"solver", solverStudy},   {"tool", toolStudy},          {"precision", precisionStudy},
-        {"scaling", scalingStudy}, {"leave_out", leaveOutStudy}, {"limit", limitStudy},
-        {"budgets", budgetsStudy}, {"feel", feelStudy},
+        {"filter", filterStudy},       {"fixture", fixtureStudy}, {"query", queryStudy},
+        {"batch", batchStudy},         {"solver", solverStudy},   {"tool", toolStudy},
+        {"precision", precisionStudy}, {"scaling", scalingStudy}, {"leave_out", leaveOutStudy},
+        {"limit", limitStudy},         {"budgets", budgetsStudy}, {"feel", feelStudy},
 #ifdef FATHOM_PEERS
         {"peers", peersStudy}
 #endif

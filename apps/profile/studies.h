@@ -12,6 +12,7 @@ namespace fathom::profile {
 Study filterStudy(const StudyContext& context);
 Study fixtureStudy(const StudyContext& context);
 Study queryStudy(const StudyContext& context);
+Study batchStudy(const StudyContext& context);
 Study solverStudy(const StudyContext& context);
 Study toolStudy(const StudyContext& context);
 Study precisionStudy(const StudyContext& context);

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+// Batches: the smallest gap of a tool at many poses, on the GPU and on the CPU, over poses, leaves and
+// spheres.
+#include "apps/profile/frame_bench.h"
+#include "apps/profile/frame_sequence.h"
+#include "apps/profile/studies.h"
+#include "engine/cloud/gap_query.h"
+#include "engine/reference/contact_oracle.h"
+
+#include <algorithm>
+#include <random>
+
+namespace fathom::profile {
+
+namespace {
+
+constexpr size_t kBatchPoses = 0, kBatchLeaves = 1, kBatchSpheres = 2, kListedPairs = 3; // of StudyRow::more
+constexpr size_t kMostOnCpu = 256;   // poses timed on the CPU
+constexpr double kMostPairs = 1e9;   // that the oracle compares
+constexpr double kBatchGoalMs = 1.0; // 4096 poses of 256 leaves at 60 k spheres
+const char* const kGpuBatch = "GPU";
+const char* const kCpuBatch = "CPU";
+
+// A wall as a fixture set, and poses of a tool before it.
+struct BatchRig {
+    FrameSequence source;
+    FrameBench bench;
+
+    BatchRig(gpu::Device& device, uint32_t width, uint32_t height)
+        : source(wallFrame(width, height, 1.0))
+        , bench(device, everyPointScene(), source.camera) {
+        bench.run(source.frames.front());
+    }
+    std::string name() const {
+        return digits(static_cast<double>(bench.set().host.spheres.size()) / 1000.0, 4) + " k spheres";
+    }
+    // From 5 mm inside of contact to 0.3 m before the wall, up to 0.2 m sideways, turned at random.
+    std::vector<Pose> posesOf(const Tool& tool, size_t count) const {
+        const Pose touch = touchingPose(tool, bench.set().host, Pose{});
+        std::mt19937_64 random(3);
+        std::uniform_real_distribution<double> side(-0.2, 0.2), back(-0.005, 0.3), turn(-2.0, 2.0);
+        std::vector<Pose> poses;
+        for (size_t i = 0; i < count; ++i) {
+            const dvec3 move(side(random), side(random), -back(random));
+            poses.push_back({touch.position + move, rotationExp({turn(random), turn(random), turn(random)})});
+        }
+        return poses;
+    }
+};
+
+StudyRow batchRow(const BatchRig& rig, const char* way, const Tool& tool, size_t poses) {
+    StudyRow row;
+    row.source = rig.name();
+    row.setting = std::string(way) + " " + std::to_string(poses) + " poses, " +
+                  std::to_string(tool.leafCount()) + " leaves";
+    row.more = {static_cast<double>(poses), static_cast<double>(tool.leafCount()),
+                static_cast<double>(rig.bench.set().host.spheres.size()), NAN};
+    return row;
+}
+
+// A few poses against brute force over all pairs, all others against the search on the host.
+void verifyBatch(const BatchRig& rig, const Tool& tool, const std::vector<Pose>& poses,
+                 const std::vector<SmallestGap>& gaps, const StudyRow& row) {
+    const Fixtures& set = rig.bench.set().host;
+    GapSearch search;
+    search.build(set);
+    const double pairs = static_cast<double>(tool.leafCount()) * static_cast<double>(set.spheres.size());
+    const auto brute = static_cast<size_t>(std::max(1.0, std::min(4.0, kMostPairs / pairs)));
+    for (size_t i = 0; i < poses.size(); ++i) {
+        verify(gaps[i] == (i < brute ? oracleSmallestPair(tool, poses[i], set) : search.find(tool, poses[i])),
+               "batch", row.setting, "pose " + std::to_string(i) + " has another smallest gap");
+    }
+}
+
+// Device time and time to result in separate runs, because timestamps take time.
+StudyRow gpuBatchRow(const StudyContext& context, const BatchRig& rig, const Tool& tool,
+                     const std::vector<Pose>& poses) {
+    StudyRow row = batchRow(rig, kGpuBatch, tool, poses.size());
+    std::vector<double> gpu, submit;
+    std::vector<SmallestGap> gaps;
+    for (const bool stamped : {false, true}) {
+        cloud::GapQuery query(context.device, rig.bench.plan(), rig.bench.cycle().layout(),
+                              rig.bench.cycle().sets());
+        query.setTool(tool);
+        if (stamped) {
+            query.askForTime();
+        }
+        const auto ask = [&] { query.find(rig.bench.set(), tool, poses, gaps); };
+        ask();
+        verifyBatch(rig, tool, poses, gaps, row);
+        row.more[kListedPairs] = query.pairs();
+        repeat(context.settings.repeats(), ask, [&](const Clocks& c) {
+            (stamped ? gpu : submit).push_back(stamped ? query.gpuMs() : c.wallMs());
+        });
+    }
+    row.cost.gpu = context.device.facts().timestampPeriodNs > 0.0 ? spreadOf(gpu) : Spread{};
+    row.cost.submit = spreadOf(submit);
+    return row;
+}
+
+StudyRow cpuBatchRow(const StudyContext& context, const BatchRig& rig, const Tool& tool,
+                     const std::vector<Pose>& poses) {
+    StudyRow row = batchRow(rig, kCpuBatch, tool, poses.size());
+    GapSearch search;
+    search.build(rig.bench.set().host);
+    double sum = 0.0; // so that no search is optimised away
+    row.cost = timeCpu(context.settings.repeats(), [&] {
+        for (const Pose& pose : poses) {
+            sum += search.find(tool, pose).gap;
+        }
+    });
+    verify(std::isfinite(sum), "batch", row.setting, "a pose has no gap");
+    return row;
+}
+
+void addRows(const StudyContext& context, Study& study, const BatchRig& rig,
+             const std::vector<uint32_t>& tools, const std::vector<size_t>& batches) {
+    for (const uint32_t leaves : tools) {
+        const Tool tool = ballTool(leaves);
+        const std::vector<Pose> poses = rig.posesOf(tool, batches.back());
+        for (const size_t count : batches) {
+            const std::vector<Pose> some(poses.begin(), poses.begin() + static_cast<long>(count));
+            study.rows.push_back(gpuBatchRow(context, rig, tool, some));
+            if (count <= kMostOnCpu) {
+                study.rows.push_back(cpuBatchRow(context, rig, tool, some));
+            }
+        }
+    }
+}
+
+PlotPanel batchPanel(const Study& study) {
+    PlotPanel panel;
+    panel.title = "time of a batch: GPU solid, CPU dashed";
+    panel.xLabel = "poses";
+    panel.yLabel = "submission to result p50 [ms]";
+    std::vector<std::string> names;
+    for (const StudyRow& row : study.rows) {
+        const bool gpu = row.setting.rfind(kGpuBatch, 0) == 0;
+        const std::string leaves = digits(row.more[kBatchLeaves], 5) + " leaves, " + row.source;
+        const std::string name = std::string(gpu ? kGpuBatch : kCpuBatch) + ", " + leaves;
+        auto found = std::find(names.begin(), names.end(), name);
+        if (found == names.end()) {
+            panel.series.push_back({name, {}, true, gpu ? 0.0 : 9.0, leaves});
+            found = names.insert(names.end(), name);
+        }
+        panel.series[static_cast<size_t>(found - names.begin())].points.push_back(
+            {row.more[kBatchPoses], submitTime(row), "", false, false, NAN, p90Of(row, submitTime(row))});
+    }
+    return panel;
+}
+
+void concludeBatch(Study& study) {
+    for (const StudyRow& row : study.rows) {
+        if (row.setting == "GPU 4096 poses, 256 leaves") {
+            const double ms = submitTime(row);
+            study.findings.push_back(
+                row.source + ", 4096 poses of 256 leaves: " + digits(ms) + " ms from submission to result, " +
+                digits(gpuTime(row)) +
+                " ms of it by the device's clock (goal at 60 k: " + digits(kBatchGoalMs) + " ms)");
+        }
+    }
+}
+
+} // namespace
+
+Study batchStudy(const StudyContext& context) {
+    Study study;
+    study.name = "batch";
+    study.title = "Batch: the smallest gap of a tool at many poses in one submission";
+    study.verified =
+        "every gap and its pair equal to the search on the host, some equal to brute force over all "
+        "pairs, to the last bit";
+    study.errorName = "none: the answers are exact";
+    study.errorUnit = "-";
+    study.timeName = "batch p50";
+    study.moreNames = {"poses", "leaves", "spheres", "listed_pairs"};
+    study.noDefault = "its rows are batches of different sizes";
+    using Sizes = std::vector<std::pair<uint32_t, uint32_t>>;
+    const bool quick = context.settings.quick;
+    const Sizes sizes = quick ? Sizes{{64, 48}} : Sizes{{300, 200}, {640, 480}};
+    for (const auto& [width, height] : sizes) {
+        const BatchRig rig(context.device, width, height);
+        addRows(context, study, rig, quick ? std::vector<uint32_t>{16} : std::vector<uint32_t>{16, 256, 1024},
+                quick ? std::vector<size_t>{1, 16} : std::vector<size_t>{1, 64, 256, 4096});
+    }
+    study.panels.push_back(batchPanel(study));
+    concludeBatch(study);
+    return study;
+}
+
+} // namespace fathom::profile
