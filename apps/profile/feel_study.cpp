@@ -61,18 +61,8 @@ std::vector<FeelSetting> feelSettings() {
     return list;
 }
 
-// Regions around every pixel of the exact surface.
-Fixtures exactRegions(const StudyContext& context, const FrameSequence& exact) {
-    Scene scene = studyScene(context.settings);
-    scene.filter.radius = 0;
-    scene.filter.edge = scene.errorBudget = 0.0;
-    FrameBench bench(context.device, scene, exact.camera);
-    bench.run(exact.frames.front());
-    return bench.set().host;
-}
-
 // Everything in a row except the frame's times.
-StudyRow feltRow(const StudyContext& context, const FrameSequence& source, const Fixtures& truth,
+StudyRow feltRow(const StudyContext& context, const FrameSequence& source, const FeltPlaces& places,
                  const FeelSetting& setting, FrameBench& bench) {
     std::vector<Fixtures> frames;
     for (const SampleFrame& image : source.frames) {
@@ -83,20 +73,22 @@ StudyRow feltRow(const StudyContext& context, const FrameSequence& source, const
         }
         frames.push_back(bench.set().host);
     }
-    const FeltSurface felt = feelSurface(bench.scene(), Tool(buildSphereTree(gripperLeaves())), truth, frames,
-                                         setting.rateHz, context.settings.quick ? 0.4 : 1.6);
+    const FeltSurface felt =
+        places.feel(bench.scene(), frames, setting.rateHz, context.settings.quick ? 0.4 : 1.6);
     StudyRow row;
     row.source = source.name;
     row.setting = setting.name;
     row.isDefault = setting.isDefault;
     row.error = 1e3 * felt.error;
-    row.more = {felt.ripple, felt.band, 1e3 * felt.bias, felt.query.submit.p50, felt.step.submit.p50};
+    row.more = {felt.ripple, felt.band, 1e3 * felt.bias, felt.query.submit.p50, felt.tick.submit.p50};
     return row;
 }
 
 void addFeltSource(const StudyContext& context, Study& study, const FrameSequence& source,
                    const FrameSequence& exact) {
-    const Fixtures truth = exactRegions(context, exact);
+    const Tool tool(buildSphereTree(gripperLeaves()));
+    const FeltPlaces places(
+        tool, regionsOf(context.device, studyScene(context.settings), exact.camera, exact.frames.front()));
     std::vector<std::unique_ptr<FrameBench>> benches;
     std::vector<StudyRow> rows;
     std::vector<double> rates;
@@ -107,7 +99,7 @@ void addFeltSource(const StudyContext& context, Study& study, const FrameSequenc
         Scene scene = studyScene(context.settings);
         setting.change(scene);
         benches.push_back(std::make_unique<FrameBench>(context.device, scene, source.camera));
-        rows.push_back(feltRow(context, source, truth, setting, *benches.back()));
+        rows.push_back(feltRow(context, source, places, setting, *benches.back()));
         rates.push_back(setting.rateHz);
     }
     const std::vector<FrameCost> costs =

@@ -12,14 +12,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace fathom::profile {
 
 namespace {
 
 constexpr double kDeep = 0.005, kStart = 0.02; // [m] below the surface; in front of it at the start
+constexpr double kMostForce = 0.7;             // share of the device's limit, beyond which no ripple shows
 constexpr double kLanding = 0.4;               // [s] until the figures count
 constexpr size_t kPlaces = 3;
+constexpr double kBeside = 0.05;           // [m] from the tool's path to the truth that does not matter
 constexpr double kPlainStiffness = 1000.0; // [N/m] for which the ripple is stated
 
 // A run at one place.
@@ -88,57 +91,99 @@ private:
     uint64_t ticks_ = 0, generation_ = 0;
 };
 
-// Resting place on the optical axis through a sphere of the truth.
-Pose restingPose(const Tool& tool, const Fixtures& truth, size_t sphere) {
-    const RegionSpheres& s = truth.spheres;
-    const dvec3 towards = glm::normalize(dvec3(s.x[sphere], s.y[sphere], s.z[sphere]));
-    const auto touches = [&](double away) {
-        return oracleSmallestGap(tool, {truth.origin + away * towards, dquat(1.0, 0.0, 0.0, 0.0)}, truth) <
-               0.0;
-    };
-    return {truth.origin + firstTouch(0.2, 3.0, touches) * towards, dquat(1.0, 0.0, 0.0, 0.0)};
+// The spheres that a tool can meet on its way from the camera along `in`.
+Fixtures alongPath(const Fixtures& truth, const Tool& tool, const dvec3& from, const dvec3& in) {
+    Fixtures near;
+    near.origin = truth.origin;
+    const RegionSpheres& all = truth.spheres;
+    for (size_t i = 0; i < all.size(); ++i) {
+        const dvec3 offset = truth.origin + dvec3(all.x[i], all.y[i], all.z[i]) - from;
+        const double beside = glm::length(offset - glm::dot(offset, in) * in);
+        if (beside < tool.boundingRadius() + static_cast<double>(all.radius[i]) + kBeside) {
+            RegionSpheres& s = near.spheres;
+            s.x.push_back(all.x[i]), s.y.push_back(all.y[i]), s.z.push_back(all.z[i]);
+            s.radius.push_back(all.radius[i]);
+            s.source.push_back(all.source[i]), s.fixture.push_back(all.fixture[i]);
+        }
+    }
+    return near;
 }
+
+// Sums over all places.
+struct FeltSums {
+    CpuSamples query, ticks;
+    double squares = 0.0, sum = 0.0, samples = 0.0;
+
+    void addGap(double gap) { squares += gap * gap, sum += gap, samples += 1.0; }
+};
 
 } // namespace
 
-FeltSurface feelSurface(const Scene& scene, const Tool& tool, const Fixtures& truth,
-                        const std::vector<Fixtures>& frames, double rateHz, double seconds) {
+FeltPlaces::FeltPlaces(const Tool& tool, const Fixtures& truth, const Pose& baseTcamera)
+    : tool_(tool) {
+    const RegionSpheres& s = truth.spheres;
+    for (size_t k = 0; k < kPlaces && s.size() > 0; ++k) {
+        const size_t sphere = s.size() * (2 * k + 1) / (2 * kPlaces);
+        const dvec3 towards =
+            truth.origin + dvec3(s.x[sphere], s.y[sphere], s.z[sphere]) - baseTcamera.position;
+        Place place{baseTcamera, glm::normalize(towards), {}};
+        place.truth = alongPath(truth, tool, baseTcamera.position, place.in);
+        const auto at = [&](double away) {
+            return Pose{baseTcamera.position + away * place.in, baseTcamera.rotation};
+        };
+        const auto touches = [&](double away) {
+            return oracleSmallestGap(tool, at(away), place.truth) < 0.0;
+        };
+        const double beyond = glm::length(towards) + 2.0 * tool.boundingRadius();
+        const double away = firstTouch(0.0, beyond, touches);
+        if (away > 0.0 && away < beyond) {
+            place.rest = at(away);
+            places_.push_back(std::move(place));
+        }
+    }
+    if (places_.empty()) {
+        throw Error("feel: the tool touches nothing");
+    }
+}
+
+FeltSurface FeltPlaces::feel(const Scene& scene, const std::vector<Fixtures>& frames, double rateHz,
+                             double seconds) const {
     FeltSurface felt;
-    CpuSamples query, steps;
-    double squares = 0.0, sum = 0.0, samples = 0.0;
-    for (size_t place = 0; place < kPlaces; ++place) {
-        const Pose rest = restingPose(tool, truth, truth.spheres.size() * (2 * place + 1) / (2 * kPlaces));
-        const dvec3 in = glm::normalize(rest.position - truth.origin);
-        const auto deep = [&](double depth) { return Pose{rest.position + depth * in, rest.rotation}; };
-        StillHand hand(scene, tool, frames, deep(-kStart));
+    FeltSums sums;
+    felt.passive = std::numeric_limits<double>::infinity();
+    for (const Place& place : places_) {
+        const auto deep = [&](double depth) {
+            return Pose{place.rest.position + depth * place.in, place.rest.rotation};
+        };
+        StillHand hand(scene, tool_, frames, deep(-kStart));
         FeltTrace trace(hand.options().period);
+        const double stiffness = hand.options().springs.stiffness;
+        const double deepest = std::min(kDeep, kMostForce * hand.options().forceLimit / stiffness);
         const auto ticks = static_cast<int>((kLanding + seconds) / hand.options().period);
         for (int k = 0; k < ticks; ++k) {
             const double t = k * hand.options().period;
-            const double depth = std::min(kDeep, -kStart + (kDeep + kStart) * 2.0 * t / kLanding);
+            const double depth = std::min(deepest, -kStart + (deepest + kStart) * 2.0 * t / kLanding);
             const StepRecord record = hand.step(deep(depth), rateHz);
             if (t < kLanding) {
                 continue;
             }
             trace.add(record.wrench, record.device.position);
+            felt.passive = std::min(record.marginPassive, felt.passive); // NaN stays
             if (hand.newFrameNext(rateHz)) {
-                const double gap = oracleSmallestGap(tool, record.tool, truth);
-                squares += gap * gap, sum += gap, samples += 1.0;
+                sums.addGap(oracleSmallestGap(tool_, record.tool, place.truth));
             }
         }
-        if (!(glm::length(trace.meanForce()) > 0.0)) {
-            throw Error("profile feel: the tool touches nothing");
-        }
-        const double scale = kPlainStiffness / hand.options().springs.stiffness / kPlaces;
-        felt.ripple += scale * trace.forceRms();
-        felt.band += scale * trace.forceBand(10.0, 35.0);
-        query.add(hand.query());
-        steps.add(hand.steps());
+        const double scale = kPlainStiffness / stiffness;
+        felt.ripple += scale * trace.forceRms() / static_cast<double>(count());
+        felt.band += scale * trace.forceBand(10.0, 35.0) / static_cast<double>(count());
+        felt.step = std::max(felt.step, scale * trace.forceStep());
+        sums.query.add(hand.query());
+        sums.ticks.add(hand.steps());
     }
-    felt.error = std::sqrt(squares / samples);
-    felt.bias = sum / samples;
-    felt.query = query.cost();
-    felt.step = steps.cost();
+    felt.error = std::sqrt(sums.squares / sums.samples);
+    felt.bias = sums.sum / sums.samples;
+    felt.query = sums.query.cost();
+    felt.tick = sums.ticks.cost();
     return felt;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A still hand at the surface of a static analytic scene: where the tool rests, and how the force ripples
-// while each frame brings a new set of regions.
+// A still hand at the surface of a static scene: where the tool rests, and how the force ripples while each
+// frame brings a new set of regions.
 #pragma once
 
 #include "apps/profile/spread.h"
@@ -13,17 +13,37 @@
 namespace fathom::profile {
 
 struct FeltSurface {
-    double error = 0.0;  // [m] RMS distance of the resting tool from the true resting place
-    double bias = 0.0;   // [m] mean of the same; positive: in front of it
-    double ripple = 0.0; // [N] RMS of the force about its mean, at 1000 N/m
-    double band = 0.0;   // [N] its part in 10 to 35 Hz
-    Cost query, step;    // [ms] of one contact query, of one haptic step
+    double error = 0.0;   // [m] RMS distance of the resting tool from the true resting place
+    double bias = 0.0;    // [m] mean of the same; positive: in front of it
+    double ripple = 0.0;  // [N] RMS of the force about its mean, at 1000 N/m
+    double band = 0.0;    // [N] its part in 10 to 35 Hz
+    double step = 0.0;    // [N] largest change from tick to tick, at 1000 N/m
+    double passive = 0.0; // [N s/m] smallest passive margin; NaN = the device's damping is unknown
+    Cost query, tick;     // [ms] of one contact query, of one haptic step
 };
 
-// Places the tool over several points of `truth` (regions of the exact surface), lets the hand press it 5 mm
-// deep along the optical axis of the camera at the origin, and shows it `frames` in turn at rateHz for
-// `seconds` per place. The sets need no generation. Throws Error when the tool touches nothing.
-FeltSurface feelSurface(const Scene& scene, const Tool& tool, const Fixtures& truth,
-                        const std::vector<Fixtures>& frames, double rateHz, double seconds);
+// Up to three places on a surface where a tool rests, found once for all settings.
+class FeltPlaces {
+public:
+    // truth: regions of the exact surface, as the camera at `baseTcamera` sees it. The tool, which must
+    // outlive this object, has the camera's orientation. Throws Error when it touches nothing.
+    FeltPlaces(const Tool& tool, const Fixtures& truth, const Pose& baseTcamera = {});
+
+    // Lets the hand press the tool 5 mm deep away from the camera, or less far on a device that cannot push
+    // so hard, and shows it `frames` in turn at rateHz for `seconds` per place. The sets need no generation.
+    FeltSurface feel(const Scene& scene, const std::vector<Fixtures>& frames, double rateHz,
+                     double seconds) const;
+
+    size_t count() const { return places_.size(); }
+
+private:
+    struct Place {
+        Pose rest;      // base_T_tool
+        dvec3 in;       // unit, from the camera to the surface
+        Fixtures truth; // the part near the tool's path
+    };
+    const Tool& tool_;
+    std::vector<Place> places_;
+};
 
 } // namespace fathom::profile

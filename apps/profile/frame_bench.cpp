@@ -125,6 +125,14 @@ void FrameBench::setArm(cloud::LinkSpheres arm) {
     cycle_->setArm(arm_);
 }
 
+Fixtures regionsOf(gpu::Device& device, Scene scene, const CameraInfo& camera, const SampleFrame& image) {
+    scene.filter.radius = 0;
+    scene.filter.edge = scene.errorBudget = 0.0;
+    FrameBench bench(device, std::move(scene), camera);
+    bench.run(image);
+    return bench.set().host;
+}
+
 uint64_t heapBytes() {
     const struct mallinfo2 heap = mallinfo2();
     return heap.uordblks + heap.hblkhd;
