@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/operate/recorder_control.h"
 
-#include "apps/operate/scene_files.h"
+#include "apps/binding/scene_files.h"
 
 namespace fathom::operate {
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/operate/scene_files.h"
+#include "apps/binding/scene_files.h"
 
 #include "tests/apps/scratch_folder.h"
 
 #include <doctest/doctest.h>
 
 using namespace fathom;
-using namespace fathom::operate;
 using namespace fathom::testing;
 
 TEST_CASE("Files in the folder of a scene are copied under their names, and others are listed") {

@@ -7,11 +7,11 @@
 #include <filesystem>
 #include <string>
 
-namespace fathom::operate {
+namespace fathom {
 
 // Copies the spheres of the tool, the description of the arm and the hand path into `folder`, under their
 // paths relative to the scene file. Returns a list of files outside the folder of the scene file, which are
 // skipped; empty = none. Throws std::filesystem::filesystem_error.
 std::string copySceneFiles(const Scene& scene, const std::filesystem::path& folder);
 
-} // namespace fathom::operate
+} // namespace fathom

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/operate/scene_files.h"
+#include "apps/binding/scene_files.h"
 
 #include <vector>
 
-namespace fathom::operate {
+namespace fathom {
 
 std::string copySceneFiles(const Scene& scene, const std::filesystem::path& folder) {
     namespace fs = std::filesystem;
@@ -32,4 +32,4 @@ std::string copySceneFiles(const Scene& scene, const std::filesystem::path& fold
     return left;
 }
 
-} // namespace fathom::operate
+} // namespace fathom
