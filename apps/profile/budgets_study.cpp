@@ -213,7 +213,7 @@ void addSolver(const StudyContext& context, Study& study, const TouchRig& rig) {
 void addStep(const StudyContext& context, Study& study) {
     DragSetting d;
     d.ticks = static_cast<uint32_t>(amountOf(context).samples);
-    d.spacing = 0.2 / 122.5; // 60 025 spheres
+    d.spacing = 0.2 / 122.5;    // 60 025 spheres
     d.proxy.rows.smooth = true; // as in scenes
     d.press = kDepth;
     d.follow = true;

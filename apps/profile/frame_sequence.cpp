@@ -16,19 +16,6 @@ namespace {
 
 constexpr uint32_t kRed = 0xff2020c0u, kYellow = 0xff20b0c0u, kGrey = 0xff808080u; // 0xAABBGGRR
 
-void take(Camera& camera, uint32_t frames, FrameSequence& source) {
-    for (uint32_t i = 0; i < frames; ++i) {
-        const std::optional<Frame> frame = camera.next();
-        if (!frame) {
-            break;
-        }
-        SampleFrame& image = source.frames.emplace_back();
-        image.depth.assign((*frame)->depth.begin(), (*frame)->depth.end());
-        readColours(**frame, image.colour);
-        image.baseTcamera = (*frame)->baseTcamera.value_or(Pose{});
-    }
-}
-
 // firstFrame: none = a static camera.
 SimulatedCamera cameraOn(const std::string& scene, uint32_t width, uint32_t height,
                          std::optional<uint32_t> firstFrame, bool noise = true) {
@@ -57,10 +44,26 @@ FixtureClass coloured(const std::string& name, Role role, Band hue) {
 
 } // namespace
 
+void takeFrames(Camera& camera, uint32_t frames, FrameSequence& source, const Pose& still) {
+    for (uint32_t i = 0; i < frames; ++i) {
+        const std::optional<Frame> frame = camera.next();
+        if (!frame) {
+            break;
+        }
+        SampleFrame& image = source.frames.emplace_back();
+        image.depth.assign((*frame)->depth.begin(), (*frame)->depth.end());
+        if (camera.info().hasColour) {
+            readColours(**frame, image.colour);
+        }
+        image.yuyv.assign((*frame)->yuyv.begin(), (*frame)->yuyv.end());
+        image.baseTcamera = (*frame)->baseTcamera.value_or(still);
+    }
+}
+
 FrameSequence analyticFrames(const std::string& scene, uint32_t width, uint32_t height, uint32_t frames) {
     SimulatedCamera camera = cameraOn(scene, width, height, {});
     FrameSequence source{scene, camera.info(), {}};
-    take(camera, frames, source);
+    takeFrames(camera, frames, source);
     const auto exact = camera.exactView(0); // static scene
     for (SampleFrame& image : source.frames) {
         image.truth = exact.depth;
@@ -71,7 +74,7 @@ FrameSequence analyticFrames(const std::string& scene, uint32_t width, uint32_t 
 FrameSequence exactFrame(const std::string& scene, uint32_t width, uint32_t height) {
     SimulatedCamera camera = cameraOn(scene, width, height, {}, false);
     FrameSequence source{scene, camera.info(), {}};
-    take(camera, 1, source);
+    takeFrames(camera, 1, source);
     return source;
 }
 
@@ -94,7 +97,7 @@ FrameSequence recordedFrames(const std::filesystem::path& folder, uint32_t frame
     const std::filesystem::path clean = folder.lexically_normal();
     FrameSequence source{
         (clean.has_filename() ? clean : clean.parent_path()).filename().string(), camera.info(), {}};
-    take(camera, frames, source);
+    takeFrames(camera, frames, source);
     return source;
 }
 
@@ -174,9 +177,13 @@ Scene studyScene(const Settings& settings) {
         scene.fixtures = {all};
         return scene;
     }
-    scene.fixtures = {coloured("red", Role::Forbidden, {345.0, 20.0}),
-                      coloured("yellow", Role::Guidance, {40.0, 70.0})};
+    scene.fixtures = redAndYellow();
     return scene;
+}
+
+std::vector<FixtureClass> redAndYellow() {
+    return {coloured("red", Role::Forbidden, {345.0, 20.0}),
+            coloured("yellow", Role::Guidance, {40.0, 70.0})};
 }
 
 Tool ballTool(uint32_t leaves) {

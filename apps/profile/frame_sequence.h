@@ -8,6 +8,10 @@
 
 namespace fathom::profile {
 
+// Appends the next `frames` valid frames of a camera, or all until it ends. `still`: the pose of frames that
+// have none.
+void takeFrames(Camera& camera, uint32_t frames, FrameSequence& source, const Pose& still = {});
+
 // `frames` frames of a built-in scene with sensor noise, and their exact depth. Throws Error for an unknown
 // name.
 FrameSequence analyticFrames(const std::string& scene, uint32_t width, uint32_t height, uint32_t frames);
@@ -43,6 +47,9 @@ std::vector<FrameSequence> studySources(const Settings& settings, const std::vec
 // The scene file if the command line gives one. Otherwise default settings with one forbidden class (red, or
 // every point of a recording) and one guidance class (yellow).
 Scene studyScene(const Settings& settings);
+
+// The classes of the analytic scenes: one forbidden, what is red, and one guidance class, what is yellow.
+std::vector<FixtureClass> redAndYellow();
 
 // A tool of `leaves` equal spheres that fill a ball of 6 cm radius.
 Tool ballTool(uint32_t leaves);

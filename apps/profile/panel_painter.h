@@ -218,7 +218,9 @@ private:
         }
     }
 
-    static std::string textOf(const PlotPoint& q) { return q.isDefault ? q.label + " (default)" : q.label; }
+    std::string textOf(const PlotPoint& q) const {
+        return q.isDefault ? q.label + " (" + panel_.ringed + ")" : q.label;
+    }
 
     void paintLabel(const PlotPoint& q, const LabelRequest& request, const LabelPlace& place) const {
         if (!place.beside) { // line to the nearer end of the text

@@ -73,6 +73,7 @@ struct PlotPanel {
     bool bars = false;
     std::vector<PlotSeries> series;
     bool signedLog = false;
+    std::string ringed = "default"; // what the ring around a point with isDefault means
 };
 
 // Extracts one field of StudyRow.
