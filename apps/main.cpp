@@ -18,6 +18,7 @@
 #include "apps/replay/replay_command.h"
 #include "apps/spheres/spheres_command.h"
 #include "apps/stability/stability_command.h"
+#include "apps/tune/tune_command.h"
 #include "engine/gpu/instance.h"
 #include "engine/gpu/software_threads.h"
 #include "engine/types/error.h"
@@ -92,6 +93,7 @@ int run(int argc, char** argv) {
     fathom::addSpheresCommand(app);
     fathom::addOperateCommand(app, global);
     fathom::addStabilityCommand(app, global, result);
+    fathom::addTuneCommand(app, global, result);
     fathom::addRecordCommand(app, global, result);
     fathom::addLatencyCommand(app, global, fathom::operate::measureWindow, result);
     try {

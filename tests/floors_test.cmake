@@ -27,9 +27,10 @@ set(floor_apps 7)
 set(floor_apps/operate 8)
 set(floor_apps/stability 8)
 set(floor_apps/profile 8)
-set(floor_apps/main.cpp 9)
+set(floor_apps/tune 9)
+set(floor_apps/main.cpp 10)
 
-set(with_vulkan engine/gpu engine/cloud engine/cycle engine/run engine/front apps/binding apps/verify apps apps/operate apps/stability apps/profile apps/main.cpp) # every other folder must do without the GPU
+set(with_vulkan engine/gpu engine/cloud engine/cycle engine/run engine/front apps/binding apps/verify apps apps/operate apps/stability apps/profile apps/tune apps/main.cpp) # every other folder must do without the GPU
 set(most_lines 300)
 set(sources h cpp comp vert frag glsl cmake)
 set(passed 0)
@@ -39,7 +40,7 @@ set(failed 0)
 function(folder_of path result)
     set(best "")
     foreach(folder shaders/shared shaders/lib shaders engine/types engine/gpu engine/scene engine/model engine/reader engine/contact
-            engine/haptics engine/cloud engine/cycle engine/run engine/front engine/include engine/reference devices apps/binding apps/verify apps/operate apps/stability apps/profile apps)
+            engine/haptics engine/cloud engine/cycle engine/run engine/front engine/include engine/reference devices apps/binding apps/verify apps/operate apps/stability apps/profile apps/tune apps)
         string(LENGTH "${folder}" length)
         string(LENGTH "${best}" longest)
         string(FIND "${path}" "${folder}/" at)

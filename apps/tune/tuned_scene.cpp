@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/tune/tuned_scene.h"
+
+#include "apps/binding/scene_files.h"
+#include "apps/tune/tune_words.h"
+#include "engine/types/error.h"
+#include "engine/types/inside.h"
+#include "engine/types/output_file.h"
+
+#include <charconv>
+#include <fstream>
+#include <iterator>
+#include <yaml-cpp/yaml.h>
+
+namespace fathom::tune {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// The shortest text that gives the same double again.
+std::string exactly(double value) {
+    char text[64]; // values are between 1e-7 and 1e3
+    const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::fixed).ptr;
+    return {text, end};
+}
+
+std::vector<std::string> keyOf(Vary vary) {
+    switch (vary) {
+    case Vary::Window:
+        return {"filter", "radius"};
+    case Vary::Sigma:
+        return {"filter", "sigma"};
+    case Vary::Memory:
+        return {"filter", "memory"};
+    case Vary::Budget:
+        return {"error_budget"};
+    case Vary::Friction:
+        return {"haptics", "friction"};
+    case Vary::Reach:
+        return {"contact", "reach"};
+    case Vary::Size:
+        break;
+    }
+    return {};
+}
+
+std::string yamlOf(const Setting& s, Vary vary) {
+    switch (vary) {
+    case Vary::Window:
+        return std::to_string(s.radius);
+    case Vary::Sigma:
+        return exactly(s.sigma);
+    case Vary::Memory:
+        return std::to_string(s.memory);
+    case Vary::Budget:
+        return exactly(s.errorBudget);
+    case Vary::Friction:
+        return exactly(s.friction);
+    case Vary::Reach:
+        return exactly(s.reach);
+    case Vary::Size:
+        break;
+    }
+    return "";
+}
+
+std::string quoted(const std::string& text) {
+    std::string out = "\"";
+    for (const char c : text) {
+        out += c == '"' || c == '\\' ? std::string{'\\', c} : std::string{c};
+    }
+    return out + "\"";
+}
+
+std::string wholeText(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    std::string text{std::istreambuf_iterator<char>(in), {}};
+    constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+    return text.starts_with(kByteOrderMark) ? text.substr(kByteOrderMark.size()) : text;
+}
+
+bool sameFolder(const fs::path& a, const fs::path& b) {
+    std::error_code none;
+    return fs::equivalent(a, b, none);
+}
+
+} // namespace
+
+std::vector<SceneValue> chosenValues(const TuneResult& result, const TunePoint& chosen) {
+    std::vector<SceneValue> values;
+    for (const Trial& trial : result.trials) {
+        if (const std::vector<std::string> key = keyOf(trial.vary); !key.empty() && !trial.points.empty()) {
+            values.push_back({key, yamlOf(chosen.setting, trial.vary), reasonOf(result, trial, chosen)});
+        }
+    }
+    return values;
+}
+
+std::vector<SceneValue> movedPaths(const std::string& text, const fs::path& home, const fs::path& folder) {
+    const std::vector<std::vector<std::string>> keys{{"tool", "file"},
+                                                     {"arm", "urdf"},
+                                                     {"arm", "meshes"},
+                                                     {"hand", "path"},
+                                                     {"camera", "source", "recorded"}};
+    const YAML::Node root = YAML::Load(text);
+    std::vector<SceneValue> values;
+    for (const std::vector<std::string>& key : keys) {
+        YAML::Node node = YAML::Clone(root);
+        for (const std::string& part : key) {
+            const YAML::Node next = node.IsMap() ? YAML::Node(node[part]) : YAML::Node();
+            node.reset(next);
+        }
+        if (!node.IsScalar() || (key.front() == "hand" && node.Scalar() == "approach")) {
+            continue;
+        }
+        const fs::path path(node.Scalar());
+        const bool copied = key.back() != "recorded" && staysInside(path);
+        if (!path.is_absolute() && !copied) {
+            const fs::path file = fs::absolute(home / path).lexically_normal();
+            values.push_back(
+                {key, quoted(file.lexically_proximate(fs::absolute(folder).lexically_normal()).string())});
+        }
+    }
+    return values;
+}
+
+fs::path tunedSceneFile(const Scene& scene, const fs::path& folder) {
+    fs::path file = folder / "scene.yaml";
+    if (sameFolder(file, scene.file)) {
+        throw BadInput("tune", "--out", folder.string(),
+                       "a folder without the scene itself, which is not replaced");
+    }
+    return file;
+}
+
+fs::path writeTunedScene(const Scene& scene, const Setting& chosen, const std::vector<SceneValue>& values,
+                         const std::string& head, const fs::path& folder) {
+    const fs::path file = tunedSceneFile(scene, folder), home = fs::absolute(scene.file).parent_path(),
+                   fresh = folder / "scene.new.yaml";
+    const std::string text = withoutComments(wholeText(scene.file));
+    std::vector<SceneValue> all = values;
+    if (!sameFolder(home, folder)) {
+        copySceneFiles(scene, folder);
+        const std::vector<SceneValue> moved = movedPaths(text, home, folder);
+        all.insert(all.end(), moved.begin(), moved.end());
+    }
+    OutputFile out(fresh);
+    out.write(commentLines(head) + withValues(text, all));
+    out.commit();
+    try {
+        Setting read = settingOf(loadScene(fresh));
+        read.everyNth = chosen.everyNth;
+        if (!(read == chosen)) {
+            throw Error(fresh.string() + ": the settings read back differ from the chosen ones");
+        }
+        fs::rename(fresh, file);
+    } catch (...) {
+        std::error_code ignored;
+        fs::remove(fresh, ignored);
+        throw;
+    }
+    return file;
+}
+
+} // namespace fathom::tune

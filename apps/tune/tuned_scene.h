@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// The scene file that `fathom tune` writes.
+#pragma once
+
+#include "apps/tune/scene_text.h"
+#include "apps/tune/tuner.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace fathom::tune {
+
+// Values of the settings that were varied, each with its reason as comment. One that stays as it was is
+// written, too, so that a later default does not change it.
+std::vector<SceneValue> chosenValues(const TuneResult& result, const TunePoint& chosen);
+
+// Files that the scene names, as seen from another folder: those that copySceneFiles() does not copy there,
+// and the recording of the camera.
+std::vector<SceneValue> movedPaths(const std::string& text, const std::filesystem::path& home,
+                                   const std::filesystem::path& folder);
+
+// Writes `folder`/scene.yaml: the text of the scene with these values, and `head` as comment at the top.
+// Copies the files that it names and lie in its folder. Replaces an older file only when the new one loads
+// with the chosen setting. Throws BadInput or Error.
+std::filesystem::path writeTunedScene(const Scene& scene, const Setting& chosen,
+                                      const std::vector<SceneValue>& values, const std::string& head,
+                                      const std::filesystem::path& folder);
+
+// Name of the file. Throws BadInput when `folder` has a file of this name that is the scene itself.
+std::filesystem::path tunedSceneFile(const Scene& scene, const std::filesystem::path& folder);
+
+} // namespace fathom::tune
