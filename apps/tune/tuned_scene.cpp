@@ -117,9 +117,8 @@ std::vector<SceneValue> movedPaths(const std::string& text, const fs::path& home
         const fs::path path(node.Scalar());
         const bool copied = key.back() != "recorded" && staysInside(path);
         if (!path.is_absolute() && !copied) {
-            const fs::path file = fs::absolute(home / path).lexically_normal();
-            values.push_back(
-                {key, quoted(file.lexically_proximate(fs::absolute(folder).lexically_normal()).string())});
+            const fs::path file = (fs::weakly_canonical(home) / path).lexically_normal();
+            values.push_back({key, quoted(file.lexically_proximate(fs::weakly_canonical(folder)).string())});
         }
     }
     return values;

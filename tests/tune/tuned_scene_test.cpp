@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// Words and files of a tuned scene, from made-up points.
+#include "apps/tune/tune_words.h"
+#include "apps/tune/tuned_scene.h"
+#include "tests/apps/scratch_folder.h"
+
+#include <doctest/doctest.h>
+
+using namespace fathom;
+using namespace fathom::testing;
+using namespace fathom::tune;
+
+namespace {
+
+// Two points that differ in memory; the second one is chosen.
+TuneResult madeUp() {
+    TuneResult result;
+    result.points.resize(2);
+    result.points[0].varied = "as written";
+    result.points[0].score = {0.2, 5.0, 0.08, {}};
+    result.points[1].varied = nameOf(Vary::Memory);
+    result.points[1].setting.memory = 30;
+    result.points[1].score = {0.1, 6.0, 0.001, {}};
+    result.trials = {{Vary::Window, {}, 0, "no time"}, {Vary::Memory, {0, 1}, 1, {}}};
+    result.choice = choose(result.scores(), {0.15, {}});
+    return result;
+}
+
+} // namespace
+
+TEST_CASE("A reason names the old value, what the new one is best in, and all that was measured") {
+    const TuneResult result = madeUp();
+    const TunePoint& chosen = result.points[1];
+    CHECK(reasonOf(result, result.trials[1], chosen) ==
+          "memory 30 frames, was 0 frames: least error, least vibration\n"
+          "0 frames: error 0.2 mm, vibration 0.08 N, 5 ms; 30 frames: error 0.1 mm, vibration 0.001 N, 6 ms");
+    CHECK(reasonOf(result, result.trials[0], chosen) == "filter radius 2 pixels, as before: no time");
+    CHECK(noneMeets(result, {0.05, {}}).find("(error at most 0.05 mm); nearest: error 0.1 mm") !=
+          std::string::npos);
+    CHECK(noneMeets({}, {0.05, {}}) == "no point meets the request (error at most 0.05 mm)");
+    CHECK(chosenValues(result, chosen).size() == 1); // only what was varied
+}
+
+TEST_CASE("Values to try differ from the base in one setting, and a sigma is tried only with a filter") {
+    Setting base;
+    for (const Vary vary : kVaried) {
+        for (const Setting& other : othersOf(base, vary)) {
+            CHECK(!(other == base));
+            CHECK(valueOf(other, vary) != valueOf(base, vary));
+        }
+        CHECK(!othersOf(base, vary).empty());
+    }
+    base.radius = 0;
+    CHECK(othersOf(base, Vary::Sigma).empty());
+    Setting other = base;
+    other.friction = 0.3, other.reach = 0.2;
+    CHECK(base.sameRegions(other));
+    other.errorBudget = 0.5;
+    CHECK(!base.sameRegions(other));
+}
+
+TEST_CASE("A tuned scene has the chosen values, its files beside it, and paths that lead to the same files") {
+    const ScratchFolder scratch;
+    const std::filesystem::path home = scratch.path() / "home", out = home / "deep/out";
+    std::filesystem::create_directories(out);
+    put(home / "path.csv", "t_s,x,y,z,qw,qx,qy,qz\n");
+    put(scratch.path() / "tool.sph", "tool");
+    put(home / "mine.yaml", "# mine\ncamera: {source: {recorded: 'a rec'}}\nfixtures: [{name: a, role: "
+                            "forbidden}]\ntool: {file: ../tool.sph}\nhand: {path: path.csv} # my hand\n");
+    const TuneResult result = madeUp();
+    const TunePoint& chosen = result.points[1];
+    const Scene scene = loadScene(home / "mine.yaml");
+    for (int run = 0; run < 2; ++run) { // the second one replaces the first
+        CHECK(writeTunedScene(scene, chosen.setting, chosenValues(result, chosen), "head", out) ==
+              out / "scene.yaml");
+    }
+    const Scene tuned = loadScene(out / "scene.yaml");
+    CHECK(tuned.filter.memory == 30);
+    CHECK(std::filesystem::equivalent(tuned.tool.file, scratch.path() / "tool.sph"));
+    CHECK(std::filesystem::weakly_canonical(tuned.source.value) ==
+          std::filesystem::weakly_canonical(home / "a rec"));
+    CHECK(tuned.hand.path == (out / "path.csv").string());
+    CHECK(textOf(out / "path.csv") == textOf(home / "path.csv"));
+    const std::string text = textOf(out / "scene.yaml");
+    CHECK(text.find("# tune: head\n# mine\n") == 0);
+    CHECK(text.find("# my hand") != std::string::npos);
+    CHECK(text.find("# tune: memory 30 frames") != std::string::npos);
+    Scene own = loadScene(out / "scene.yaml");
+    CHECK_THROWS(tunedSceneFile(own, out)); // never over its own input
+    CHECK_NOTHROW(tunedSceneFile(scene, home));
+    Setting wrong = chosen.setting;
+    wrong.memory = 8; // differs from what the values say
+    CHECK_THROWS(writeTunedScene(scene, wrong, chosenValues(result, chosen), "head", out));
+    CHECK(textOf(out / "scene.yaml") == text);
+    CHECK(!std::filesystem::exists(out / "scene.new.yaml"));
+}
