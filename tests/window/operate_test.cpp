@@ -27,14 +27,6 @@ double toolZ(const json& s) {
     return s["run"]["tool"][2];
 }
 
-// [m] between hand and tool.
-double apart(const json& s) {
-    const json &hand = s["run"]["device"], &tool = s["run"]["tool"];
-    return std::hypot(hand[0].get<double>() - tool[0].get<double>(),
-                      hand[1].get<double>() - tool[1].get<double>(),
-                      hand[2].get<double>() - tool[2].get<double>());
-}
-
 bool silent(WindowRig& rig) {
     const int code = rig.close();
     INFO(rig.output());
@@ -144,30 +136,6 @@ TEST_CASE("Forces armed in contact ramp up slowly, tick by tick") {
     CHECK(felt.front().force == 0.0);
     // Counts ticks, which may be late. Late ticks soften the springs, so the largest force may come early.
     CHECK(row(kFull) - row(0.01) > 450);
-    silent(rig);
-}
-
-TEST_CASE("Forces stay off while the hand is inside a region, and a card says so until C re-centres it") {
-    WindowRig rig;
-    rig.push(); // forces are off: the hand goes on, the tool stays outside
-    for (int i = 0; i < 40 && apart(rig.state()) < 0.015; ++i) {
-        rig.wheel(2);
-    }
-    REQUIRE(rig.await([](const json& s) { return apart(s) > 0.012; }));
-    rig.key("a");
-    REQUIRE(rig.await([](const json& s) { return !s["refusal"].get<std::string>().empty(); }));
-    const json refused = rig.state();
-    CHECK(refused["refusal"].get<std::string>().find("mm inside 'red': hold C to re-centre") !=
-          std::string::npos);
-    CHECK(refused["console"]["forces"] == false);
-    CHECK(refused["mode"] == "FORCES OFF");
-    rig.shoot("refusal");
-    CHECK(rig.state()["console"]["places"].contains("refusal"));
-    rig.keyDown("c");
-    REQUIRE(rig.await([](const json& s) { return apart(s) < 0.001; }));
-    rig.keyUp("c");
-    rig.key("a");
-    CHECK(rig.await([](const json& s) { return s["console"]["forces"] == true && s["refusal"] == ""; }));
     silent(rig);
 }
 

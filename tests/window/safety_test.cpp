@@ -37,7 +37,39 @@ glm::dvec3 wallAt(double u, double v) {
     return 0.6 * glm::dvec3((u * kWidth - 0.5 - kCx) / kFocal, (v * kHeight - 0.5 - kCy) / kFocal, 1.0);
 }
 
+// [m] between hand and tool.
+double handApart(const json& s) {
+    const json &hand = s["run"]["device"], &tool = s["run"]["tool"];
+    return std::hypot(hand[0].get<double>() - tool[0].get<double>(),
+                      hand[1].get<double>() - tool[1].get<double>(),
+                      hand[2].get<double>() - tool[2].get<double>());
+}
+
 } // namespace
+
+TEST_CASE("Forces stay off while the hand is inside a region, and a card says so until C re-centres it") {
+    WindowRig rig;
+    rig.push(); // forces are off: the hand goes on, the tool stays outside
+    for (int i = 0; i < 40 && handApart(rig.state()) < 0.015; ++i) {
+        rig.wheel(2);
+    }
+    REQUIRE(rig.await([](const json& s) { return handApart(s) > 0.012; }));
+    rig.key("a");
+    REQUIRE(rig.await([](const json& s) { return !s["refusal"].get<std::string>().empty(); }));
+    const json refused = rig.state();
+    CHECK(refused["refusal"].get<std::string>().find("mm inside 'red': hold C to re-centre") !=
+          std::string::npos);
+    CHECK(refused["console"]["forces"] == false);
+    CHECK(refused["mode"] == "FORCES OFF");
+    rig.shoot("refusal");
+    CHECK(rig.state()["console"]["places"].contains("refusal"));
+    rig.keyDown("c");
+    REQUIRE(rig.await([](const json& s) { return handApart(s) < 0.001; }));
+    rig.keyUp("c");
+    rig.key("a");
+    CHECK(rig.await([](const json& s) { return s["console"]["forces"] == true && s["refusal"] == ""; }));
+    closeQuietly(rig);
+}
 
 TEST_CASE("An alarm stays until it is acknowledged, and is raised again with its cause") {
     WindowRig rig;

@@ -23,10 +23,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-void pause(double seconds) {
-    std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
-}
-
 bool installed(const std::string& program) {
     return std::system(("command -v " + program + " >/dev/null 2>&1").c_str()) == 0;
 }
@@ -57,7 +53,7 @@ int ended(pid_t child, double seconds) {
             ::waitpid(child, &status, 0);
             return -1;
         }
-        pause(0.02);
+        std::this_thread::sleep_for(std::chrono::duration<double>(0.02));
     }
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
@@ -131,13 +127,10 @@ void WindowRig::startProgram(const std::filesystem::path& scene, const std::vect
     const int log = ::open((folder_.path() / "program.log").c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0644);
     program_ = start(words, log);
     ::close(log);
-    const bool drawn = await( // before the first set of regions, forces cannot be switched on
-        [](const nlohmann::json& s) {
-            return s["window"]["frames"] > 3 &&
-                   (s["run"]["frame"] >= 0 || s["console"]["time_line"]["on"] == true);
-        },
-        90.0);
-    REQUIRE_MESSAGE(drawn, output());
+    const auto ready = [](const nlohmann::json& s) { // else forces cannot be switched on
+        return s["window"]["frames"] > 3 && (s["run"]["frame"] >= 0 || s["console"]["time_line"]["on"]);
+    };
+    REQUIRE_MESSAGE(await(ready, 90.0), output());
     const std::string found =
         "DISPLAY=" + display_ + " xdotool search --name '^Fathom' > " + (folder_.path() / "window").string();
     REQUIRE(std::system(found.c_str()) == 0);
@@ -178,7 +171,7 @@ bool WindowRig::await(const std::function<bool(const nlohmann::json&)>& wanted, 
         if (!now.is_null() && wanted(now)) {
             return true;
         }
-        pause(0.01);
+        std::this_thread::sleep_for(std::chrono::duration<double>(0.01));
     } while (Clock::now() < until && ::kill(program_, 0) == 0);
     MESSAGE("the state never came; the last one: " << now.dump());
     return false;
@@ -231,7 +224,7 @@ void WindowRig::settle() const {
     const auto until = Clock::now() + std::chrono::seconds(2); // a program that has ended writes no more
     while (!before.is_null() && state()["window"]["begun"] < before["window"]["begun"].get<int>() + kFrames &&
            Clock::now() < until) {
-        pause(0.01);
+        std::this_thread::sleep_for(std::chrono::duration<double>(0.01));
     }
 }
 

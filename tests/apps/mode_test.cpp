@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+// The state of the forces in one word, and the checks before they come on.
+#include "apps/operate/arming.h"
+#include "apps/operate/mode.h"
+#include "tests/apps/viewed_run.h"
+
+#include <doctest/doctest.h>
+#include <set>
+
+using namespace fathom;
+using namespace fathom::operate;
+
+TEST_CASE(
+    "The mode is the worst state of the forces in one word, and chips say the rest without replacing it") {
+    ViewedRun run;
+    const ModeInput input{run.console, run.view, run.haptics};
+    const auto mode = [&](StepState state, double guidance = 0.0) {
+        run.row.record.state = state;
+        run.row.record.guidance = guidance;
+        run.step(0.001);
+        return std::string(modeOf(input).word);
+    };
+    const auto chips = [&] {
+        std::string all;
+        for (const Chip& chip : chipsOf(input)) {
+            all += (all.empty() ? "" : ", ") + chip.word;
+        }
+        return all;
+    };
+    CHECK(mode(StepState::Free) == "FORCES OFF");
+    CHECK(mode(StepState::Contact) == "FORCES OFF");
+    CHECK(mode(StepState::Fading) == "FORCES FADING"); // they fade over some time
+    run.console.forces = true;
+    CHECK(mode(StepState::Off) == "ARMED");
+    CHECK(chips() == "WAITING for regions");
+    CHECK(mode(StepState::Free) == "ARMED");
+    CHECK(chips().empty());
+    CHECK(mode(StepState::Waiting) == "ARMED");
+    CHECK(chips() == "LAGS");
+    CHECK(mode(StepState::Contact, 0.5) == "CONTACT");
+    CHECK(chips() == "GUIDE");
+    CHECK(mode(StepState::Escape) == "CONTACT");
+    run.row.record.wrench.force = dvec3(0.0, 0.0, 0.99 * run.haptics.forceLimit);
+    CHECK(mode(StepState::Contact, 0.5) == "AT LIMIT");
+    CHECK(chips() == "GUIDE");
+    CHECK(mode(StepState::Fading, 0.5) == "STALE");
+    CHECK(mode(StepState::Trapped, 0.5) == "HELD");
+    run.console.frozen = run.console.recording = run.console.guidance = true;
+    CHECK(mode(StepState::Free) == "AT LIMIT");
+    CHECK(chips() == "GUIDE: no target, FROZEN, REC");
+    run.row.record.wrench = {};
+    run.row.record.sceneAge = 2.0 * run.haptics.staleAfter;
+    CHECK(mode(StepState::Contact) == "STALE");
+    run.console.timeLine.on = true;
+    CHECK(mode(StepState::Contact) == "LOOK-BACK");
+    CHECK(chips().find("CONTACT") == 0);
+}
+
+TEST_CASE("Each mode has its own sign, colour or frame, and none of two looks the same without colour") {
+    ViewedRun run;
+    const ModeInput input{run.console, run.view, run.haptics};
+    run.console.forces = true;
+    std::set<std::pair<std::string, Edge>> looks;
+    const auto look = [&](StepState state) {
+        run.row.record.state = state;
+        run.step(0.001);
+        const Mode mode = modeOf(input);
+        looks.insert({mode.sign, mode.edge});
+    };
+    for (const StepState state :
+         {StepState::Free, StepState::Contact, StepState::Trapped, StepState::Fading}) {
+        look(state);
+    }
+    run.row.record.wrench.force = dvec3(run.haptics.forceLimit, 0.0, 0.0);
+    look(StepState::Contact);
+    run.console.forces = false;
+    look(StepState::Free);
+    run.console.timeLine.on = true;
+    look(StepState::Free);
+    CHECK(looks.size() == 7);
+}
+
+TEST_CASE("Forces come on only with the hand on the tool, a fresh scene and the device, and the refusal says "
+          "what to do") {
+    ViewedRun run;
+    Scene scene;
+    const auto why = [&](bool gpuGone = false, bool handGone = false) {
+        run.step(0.001);
+        return whyNotArmed({run.view, scene, run.haptics, gpuGone, handGone});
+    };
+    run.row.record.frame = -1;
+    CHECK(why() == "no camera frame has become a set of regions yet: wait for one");
+    run.row.record.frame = 3;
+    run.row.record.sceneAge = 0.01;
+    CHECK(why().empty());
+    CHECK(why(true).find("GPU is gone") != std::string::npos);
+    CHECK(why(false, true) == "the haptic device is gone: connect it");
+    run.row.record.sceneAge = 0.4; // a slow camera: forces fade between frames
+    CHECK(why().empty());
+    run.row.record.sceneAge = 0.6;
+    CHECK(why() == "the scene is 600 ms old: check the camera");
+    run.row.record.sceneAge = 0.01;
+    run.row.record.device.position = run.row.record.tool.position + dvec3(0.0, 0.0, 0.009);
+    CHECK(why().empty());
+    run.row.record.device.position = run.row.record.tool.position + dvec3(0.0, 0.0, 0.105);
+    CHECK(why() == "hand is 105 mm from the tool: hold C to re-centre");
+    scene.fixtures.resize(1);
+    scene.fixtures[0].name = "red valve";
+    run.touch(3, 0.105);
+    CHECK(why() == "hand is 105 mm inside 'red valve': hold C to re-centre");
+    run.row.record.device = run.row.record.tool;
+    scene.pilots.push_back({});
+    CHECK(why() == "no pilot is chosen: choose one in the tab Fixtures");
+}
