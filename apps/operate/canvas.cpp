@@ -90,7 +90,11 @@ void Canvas::finishFrame(Console& console, std::span<const Layer> layers, const 
         onDevice_->renewSurface(window_, instance_);
     }
     if (onDevice_ && !window_.minimised()) {
-        onDevice_->painter->draw(window_.size(), layers, ImGui::GetDrawData(), busy);
+        const auto never = [] {
+            return false;
+        }; // a screenshot shows this frame, whatever else the device has to do
+        onDevice_->painter->draw(window_.size(), layers, ImGui::GetDrawData(),
+                                 console.screenshot ? never : busy);
     }
     if (std::exchange(console.screenshot, false)) {
         shoot(console);
@@ -114,7 +118,12 @@ void Canvas::shoot(Console& console) {
     }
     const auto file = shots_ / ("screenshot-" + std::to_string(console.shots + 1) + ".png");
     try {
-        onDevice_->painter->screenshot(file);
+        std::error_code ignored; // writing says why a file cannot be made
+        std::filesystem::create_directories(shots_, ignored);
+        if (!onDevice_->painter->screenshot(file)) {
+            console.notify("no screenshot: nothing is drawn yet");
+            return;
+        }
         ++console.shots;
         console.notify("screenshot " + file.string());
     } catch (const DeviceFailed&) {

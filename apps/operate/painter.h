@@ -44,8 +44,8 @@ public:
     // on a shared queue: the frame waits up to kCourtesy for them and is skipped if they still run.
     bool draw(VkExtent2D size, std::span<const Layer> layers, ImDrawData* data,
               const std::function<bool()>& busy);
-    // Waits for the last frame and writes it as a PNG file.
-    void screenshot(const std::filesystem::path& file);
+    // Waits for the last frame and writes it as a PNG file. False: nothing was drawn yet.
+    bool screenshot(const std::filesystem::path& file);
 
     uint64_t drawn() const { return drawn_; }
     uint64_t yielded() const { return yielded_; } // frames skipped for compute passes

@@ -97,9 +97,9 @@ void Painter::recordToSurface(VkImage shown) {
     changeLayout(commands_, shown, kDestination, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
 }
 
-void Painter::screenshot(const std::filesystem::path& file) {
+bool Painter::screenshot(const std::filesystem::path& file) {
     if (!target_) {
-        return;
+        return false;
     }
     const VkExtent2D size = target_.size();
     const gpu::Buffer landing(device_, 4ull * size.width * size.height, gpu::MemoryKind::Readback,
@@ -124,6 +124,7 @@ void Painter::screenshot(const std::filesystem::path& file) {
     }
     image.endPixels();
     image.writePng(file);
+    return true;
 }
 
 } // namespace fathom::operate

@@ -110,11 +110,14 @@ void stageArmInBump(Stage& stage, const std::string& padding) {
 
 // Number of spheres in the last set that the window reports.
 size_t spheresInWindow(const Stage& stage) {
-    const ProgramRun run = runFathom({"operate", (stage / "scene.yaml").string(), "--source",
-                                      (stage / "rec").string(), "--device", "llvmpipe", "--offscreen",
-                                      "640x480", "--seconds", "2", "--state", (stage / "state").string()});
+    const ProgramRun run =
+        runFathom({"operate", (stage / "scene.yaml").string(), "--source", (stage / "rec").string(),
+                   "--device", "llvmpipe", "--offscreen", "640x480", "--seconds", "2", "--state",
+                   (stage / "state").string(), "--folder", (stage / "made/shots").string()});
     INFO(run.err);
     REQUIRE(run.exitCode == 0);
+    CHECK(std::filesystem::exists(
+        stage / "made/shots/screenshot-1.png")); // in a folder that was made, on a busy device
     const std::string text = stage.read("state");
     const size_t from = text.rfind('\n', text.size() - 2);
     return nlohmann::json::parse(text.substr(from + 1)).at("run").at("spheres").get<size_t>();
