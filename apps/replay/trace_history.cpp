@@ -20,6 +20,8 @@ void merge(TraceBin& into, const TraceBin& next) {
     into.end = next.end;
     widen(into.forceMin, into.forceMax, next.forceMin, next.forceMax);
     widen(into.torqueMin, into.torqueMax, next.torqueMin, next.torqueMax);
+    widen(into.restForceMin, into.restForceMax, next.restForceMin, next.restForceMax);
+    widen(into.restTorqueMin, into.restTorqueMax, next.restTorqueMin, next.restTorqueMax);
     into.guidance = std::max(into.guidance, next.guidance);
     for (size_t i = 0; i < into.states.size(); ++i) {
         into.states[i] += next.states[i];
@@ -34,6 +36,13 @@ void raise(TraceHistory::Peak& peak, double value, double t) {
     }
 }
 
+void take(const dvec3& v, double t, double& lo, double& hi, TraceHistory::Peak& peak) {
+    if (isFinite(v)) {
+        lo = hi = glm::length(v);
+        raise(peak, hi, t);
+    }
+}
+
 } // namespace
 
 TraceHistory::TraceHistory(size_t capacity)
@@ -44,14 +53,11 @@ TraceHistory::TraceHistory(size_t capacity)
 void TraceHistory::add(const StepRecord& tick) {
     TraceBin now;
     now.begin = now.end = tick.t;
-    if (isFinite(tick.wrench.force)) {
-        now.forceMin = now.forceMax = glm::length(tick.wrench.force);
-        raise(forcePeak_, now.forceMax, tick.t);
-    }
-    if (isFinite(tick.wrench.torque)) {
-        now.torqueMin = now.torqueMax = glm::length(tick.wrench.torque);
-        raise(torquePeak_, now.torqueMax, tick.t);
-    }
+    const Wrench &delivered = tick.deviceWrench, &rest = tick.residual;
+    take(delivered.force, tick.t, now.forceMin, now.forceMax, forcePeak_);
+    take(delivered.torque, tick.t, now.torqueMin, now.torqueMax, torquePeak_);
+    take(rest.force, tick.t, now.restForceMin, now.restForceMax, restForcePeak_);
+    take(rest.torque, tick.t, now.restTorqueMin, now.restTorqueMax, restTorquePeak_);
     now.guidance = tick.guidance > 0.0 ? tick.guidance : 0.0; // NaN counts as none
     now.states[static_cast<uint8_t>(tick.state)] = 1;
     now.ticks = 1;

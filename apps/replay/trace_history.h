@@ -14,11 +14,13 @@ inline constexpr size_t kStepStates = static_cast<size_t>(StepState::Waiting) + 
 
 // A group of consecutive ticks. A maximum below its minimum means that it has no finite value.
 struct TraceBin {
-    double begin = 0.0, end = 0.0;              // [s] times of the first and of the last tick
-    double forceMin = 0.0, forceMax = -1.0;     // [N] norm of the force
-    double torqueMin = 0.0, torqueMax = -1.0;   // [N m] norm of the torque
-    double guidance = 0.0;                      // largest guidance weight w, 0..1
-    std::array<uint32_t, kStepStates> states{}; // ticks in each state
+    double begin = 0.0, end = 0.0;                    // [s] times of the first and of the last tick
+    double forceMin = 0.0, forceMax = -1.0;           // [N] norm of the delivered force
+    double torqueMin = 0.0, torqueMax = -1.0;         // [N m] norm of the delivered torque
+    double restForceMin = 0.0, restForceMax = -1.0;   // [N] norm of what the device cannot render
+    double restTorqueMin = 0.0, restTorqueMax = -1.0; // [N m]
+    double guidance = 0.0;                            // largest guidance weight w, 0..1
+    std::array<uint32_t, kStepStates> states{};       // ticks in each state
     uint32_t ticks = 0;
     uint32_t newFrames = 0; // ticks that were the first to use a new frame
 
@@ -41,6 +43,8 @@ public:
     };
     const Peak& forcePeak() const { return forcePeak_; }
     const Peak& torquePeak() const { return torquePeak_; }
+    const Peak& restForcePeak() const { return restForcePeak_; }
+    const Peak& restTorquePeak() const { return restTorquePeak_; }
 
 private:
     void halve();
@@ -50,7 +54,7 @@ private:
     std::vector<TraceBin> bins_;
     uint64_t ticks_ = 0, newFrames_ = 0;
     int64_t lastFrame_ = -1;
-    Peak forcePeak_, torquePeak_;
+    Peak forcePeak_, torquePeak_, restForcePeak_, restTorquePeak_;
 };
 
 } // namespace fathom

@@ -117,7 +117,7 @@ BandsSeen drawBands(const Image& image, const TraceHistory& history, const PlotA
     fill(image, contact, panel, kContact.alpha(0.20), false);
     fill(image, guidance, panel, kGuidance.alpha(0.13), false);
     fill(image, alarm, panel, kAlarm.alpha(0.10), true);
-    return {!contact.empty(), !guidance.empty(), !alarm.empty(), !idle.empty()};
+    return {!contact.empty(), !guidance.empty(), !alarm.empty(), !idle.empty(), false};
 }
 
 void drawPhaseStrip(const Image& image, const TraceHistory& history, const PlotAxis& time) {
@@ -163,9 +163,15 @@ bool drawFrameTicks(const Image& image, const TraceHistory& history, const PlotA
 void drawLegend(const Image& image, const BandsSeen& seen, bool frameTicks, bool limits,
                 const std::string& remark) {
     double x = kLeft;
-    x = entry(image, x, "norm", [&](double left, double top, double w, double h) {
-        image.box(left, top + 0.5 * h - 1.1, w, 2.2, kTrace);
-    });
+    const auto line = [&](const char* words, Colour colour) {
+        x = entry(image, x, words, [&](double left, double top, double w, double h) {
+            image.box(left, top + 0.5 * h - 1.1, w, 2.2, colour);
+        });
+    };
+    line("delivered (norm)", kTrace);
+    if (seen.residual) {
+        line("residual: not on an axis of the device", kResidual);
+    }
     const auto band = [&](bool present, const char* words, Colour colour, bool hatched) {
         if (present) {
             x = entry(image, x, words, [&](double left, double top, double w, double h) {

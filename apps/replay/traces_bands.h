@@ -14,9 +14,10 @@ struct Panel {
     double top, bottom; // [pixels] in y
 };
 
-// The kinds of band that occur in a run; the legend lists only these.
+// What occurs in a run; the legend lists only this.
 struct BandsSeen {
     bool contact = false, guidance = false, alarm = false, idle = false;
+    bool residual = false; // of the wrench, not a band
 };
 
 BandsSeen drawBands(const Image& image, const TraceHistory& history, const PlotAxis& time,

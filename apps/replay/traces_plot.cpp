@@ -14,12 +14,20 @@ namespace {
 
 using namespace traces;
 
-struct Series {
-    const char* title;
-    const char* unit;
+constexpr double kFelt = 1e-6; // [N], [N m]; less is rounding error, and no hand feels it
+
+struct Line {
     double TraceBin::*min;
     double TraceBin::*max;
     TraceHistory::Peak peak;
+
+    bool seen() const { return peak.value > kFelt; }
+};
+
+struct Series {
+    const char* title;
+    const char* unit;
+    Line delivered, residual;
     std::optional<double> limit;
     Panel panel;
 };
@@ -27,13 +35,12 @@ struct Series {
 // An axis from zero to a round value above the peak. It includes the limit if the trace comes near it.
 PlotAxis valueAxis(const Series& series) {
     constexpr double kNear = 0.55;
-    const double peak = series.peak.value;
+    const double peak = std::max(series.delivered.peak.value, series.residual.peak.value);
     double top = peak > 0.0 ? 1.12 * peak : 1.0;
     if (series.limit && *series.limit > 0.0 && peak >= kNear * *series.limit) {
         top = std::max(top, 1.12 * *series.limit);
     }
-    // Keeps rounding errors from setting the scale; no hand feels less than this.
-    top = std::max(top, 1e-6);
+    top = std::max(top, kFelt); // keeps rounding errors from setting the scale
     const double step = roundStep(top, 8);
     return {0.0, step * std::ceil(top / step), series.panel.bottom, series.panel.top};
 }
@@ -71,8 +78,8 @@ void drawFrameAndGrid(const Image& image, const Series& series, const PlotAxis& 
 
 // One point per bin, or the extremes of each pixel column when there are more bins than columns. A column
 // without a finite value breaks the line.
-void traceLine(const Image& image, const TraceHistory& history, const Series& series, const PlotAxis& time,
-               const PlotAxis& value) {
+void traceLine(const Image& image, const TraceHistory& history, const Line& line, Colour colour,
+               const PlotAxis& time, const PlotAxis& value) {
     cairo_t* cr = image.cr();
     const auto& bins = history.bins();
     bool drawing = false;
@@ -81,9 +88,9 @@ void traceLine(const Image& image, const TraceHistory& history, const Series& se
         double lo = 0.0, hi = -1.0;
         const double x = time.at(bins[i].begin);
         for (; i < bins.size() && std::floor(time.at(bins[i].begin)) == column; ++i) {
-            if (bins[i].*series.max >= bins[i].*series.min) {
-                lo = hi < lo ? bins[i].*series.min : std::min(lo, bins[i].*series.min);
-                hi = std::max(hi, bins[i].*series.max);
+            if (bins[i].*line.max >= bins[i].*line.min) {
+                lo = hi < lo ? bins[i].*line.min : std::min(lo, bins[i].*line.min);
+                hi = std::max(hi, bins[i].*line.max);
             }
         }
         if (hi < lo) {
@@ -94,7 +101,7 @@ void traceLine(const Image& image, const TraceHistory& history, const Series& se
         cairo_line_to(cr, x, value.at(lo) + 0.01); // draws a single point as a dot
         drawing = true;
     }
-    image.setColour(kTrace);
+    image.setColour(colour);
     cairo_set_line_width(cr, 1.8);
     cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
     cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
@@ -128,19 +135,19 @@ bool drawLimit(const Image& image, const Series& series, const PlotAxis& value) 
 }
 
 void drawPeak(const Image& image, const Series& series, const PlotAxis& time, const PlotAxis& value) {
-    if (series.peak.value <= 0.0) {
+    if (series.delivered.peak.value <= 0.0) {
         label(image, 0.5 * (kLeft + kRight), 0.5 * (series.panel.top + series.panel.bottom),
               "zero throughout", kQuietInk, Align::Centre);
         return;
     }
-    const double x = time.at(series.peak.t), y = value.at(series.peak.value);
+    const double x = time.at(series.delivered.peak.t), y = value.at(series.delivered.peak.value);
     image.dot(x, y, 5.5, kPaper);
     image.dot(x, y, 3.8, kTrace);
     char seconds[40];
-    std::snprintf(seconds, sizeof seconds, " at %.3f s", series.peak.t);
+    std::snprintf(seconds, sizeof seconds, " at %.3f s", series.delivered.peak.t);
     const bool toLeft = x > 0.5 * (kLeft + kRight);
     label(image, toLeft ? x - 14.0 : x + 14.0, std::max(y - 6.0, series.panel.top + 18.0),
-          "peak " + shortNumber(series.peak.value) + " " + series.unit + seconds, kInk,
+          "peak " + shortNumber(series.delivered.peak.value) + " " + series.unit + seconds, kInk,
           toLeft ? Align::Right : Align::Left);
 }
 
@@ -156,16 +163,14 @@ void writeTraces(const std::filesystem::path& file, const TraceHistory& history,
     const PlotAxis time = timeAxis(history);
     const Series series[] = {{"Force",
                               "N",
-                              &TraceBin::forceMin,
-                              &TraceBin::forceMax,
-                              history.forcePeak(),
+                              {&TraceBin::forceMin, &TraceBin::forceMax, history.forcePeak()},
+                              {&TraceBin::restForceMin, &TraceBin::restForceMax, history.restForcePeak()},
                               labels.forceLimit,
                               {kForceTop, kForceBottom}},
                              {"Torque",
                               "N m",
-                              &TraceBin::torqueMin,
-                              &TraceBin::torqueMax,
-                              history.torquePeak(),
+                              {&TraceBin::torqueMin, &TraceBin::torqueMax, history.torquePeak()},
+                              {&TraceBin::restTorqueMin, &TraceBin::restTorqueMax, history.restTorquePeak()},
                               labels.torqueLimit,
                               {kTorqueTop, kTorqueBottom}}};
     image.text(kLeft, kTitleBase, labels.title, 28.0, kInk, Align::Left, true);
@@ -181,7 +186,11 @@ void writeTraces(const std::filesystem::path& file, const TraceHistory& history,
         drawFrameAndGrid(image, one, time, value, &one == &series[1]);
         frameTicks = drawFrameTicks(image, history, time, one.panel) || frameTicks;
         limits = drawLimit(image, one, value) || limits;
-        traceLine(image, history, one, time, value);
+        if (one.residual.seen()) {
+            traceLine(image, history, one.residual, kResidual, time, value);
+            seen.residual = true;
+        }
+        traceLine(image, history, one.delivered, kTrace, time, value);
         drawPeak(image, one, time, value);
     }
     image.text(0.5 * (kLeft + kRight), kTorqueBottom + 54.0, "time [s]", 17.0, kInk, Align::Centre, true);

@@ -15,6 +15,7 @@ constexpr double kTorqueTop = 526.0, kTorqueBottom = 868.0;
 constexpr double kLegendBase = 968.0;
 
 constexpr Colour kTrace{0.10, 0.16, 0.24};
+constexpr Colour kResidual{0.62, 0.24, 0.62}; // purple: what the device cannot render
 constexpr Colour kContact{0.86, 0.62, 0.30};  // sand
 constexpr Colour kGuidance{0.16, 0.42, 0.80}; // blue, as in the window
 constexpr Colour kAlarm{0.76, 0.16, 0.13};    // red, always hatched

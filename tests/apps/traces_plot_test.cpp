@@ -23,6 +23,7 @@ StepRecord tickAt(int i, double force, StepState state = StepState::Free) {
     tick.t = i * 0.001;
     tick.wrench.force = {0.0, force, 0.0};
     tick.wrench.torque = {0.1 * force, 0.0, 0.0};
+    tick.deviceWrench = tick.wrench;
     tick.state = state;
     tick.frame = i / 33;
     return tick;
@@ -88,7 +89,7 @@ TEST_CASE("Values that are not finite leave a gap and never a number") {
     TraceHistory history(4);
     for (int i = 0; i < 9; ++i) {
         StepRecord tick = tickAt(i, 1.0);
-        tick.wrench.force.x = i < 4 ? std::nan("") : 0.0;
+        tick.deviceWrench.force.x = i < 4 ? std::nan("") : 0.0;
         history.add(tick);
     }
     CHECK(history.bins().front().forceMax < history.bins().front().forceMin);
