@@ -186,7 +186,7 @@ ReplayRecorder::Ending LockstepReplay::run() {
     processNext(); // early, because the built-in path needs the first set; the set is active only from its
                    // own time on
     path_.emplace(session_.path());
-    hand_ = openPathHand(*path_, session_.scene, options_.hand);
+    hand_ = openPathHand(*path_, session_.scene, options_.yields(session_.scene));
     cycle_.emplace(session_.tool, shapes_, haptics_, hand_->read(0.0).deviceThandle, nullptr,
                    session_.arm.get());
 

@@ -95,7 +95,8 @@ ReplayRecorder::Ending RealtimeReplay::run() {
     if (session_.liveHand) {
         runLive(path);
     } else {
-        const std::unique_ptr<HapticDevice> hand = openPathHand(path, session_.scene, options_.hand);
+        const std::unique_ptr<HapticDevice> hand =
+            openPathHand(path, session_.scene, options_.yields(session_.scene));
         cycle_.emplace(session_.tool, shapes_, haptics_, hand->read(0.0).deviceThandle, nullptr,
                        session_.arm.get());
         run_->run(*cycle_, *hand, path.duration(), faults_, signals_.asked());

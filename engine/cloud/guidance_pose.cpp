@@ -151,7 +151,8 @@ GuidancePose guidancePose(const Moments& moments, const FixtureClass& fixture, u
             standoffAxis = pose.normal;
         }
     }
-    pose.target.position = pose.position + fixture.standoff * standoffAxis;
+    pose.standoff = fixture.standoff * standoffAxis;
+    pose.target.position = pose.position + pose.standoff;
     return pose;
 }
 

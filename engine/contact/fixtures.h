@@ -25,7 +25,8 @@ struct RegionSpheres {
     }
 };
 
-// Result of one guidance class in one frame. Statistics are raw (before hysteresis, slew and standoff).
+// Result of one guidance class in one frame. Count and position are of this frame alone. GuidanceEstimates
+// settles plane and target over frames.
 struct GuidancePose {
     uint32_t fixture = 0; // row of Scene::fixtures
     uint32_t count = 0;   // points in the mean
@@ -35,6 +36,7 @@ struct GuidancePose {
     bool planar = false;
     bool rollFree = true; // no long axis: the roll about the normal is free
     Pose target;          // base_T_tool: position + standoff, +z along -normal or the scene's orientation
+    dvec3 standoff{0.0};  // [m] part of target.position: along the normal, or towards the camera without one
 };
 
 struct Fixtures {

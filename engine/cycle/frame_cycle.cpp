@@ -74,6 +74,7 @@ void FrameCycle::forget() {
         device_->clearMemory();
     }
     estimateFrames_.forget();
+    guidanceEstimates_.forget();
     lastSource_.reset();
     lastCapture_.reset();
 }
@@ -86,6 +87,7 @@ void FrameCycle::setScene(const Scene& scene) {
     scene_ = scene;
     updateParams();
     estimateFrames_.forget();
+    guidanceEstimates_.forget();
     lastSource_.reset(); // the same frame gives a different set now
 }
 
@@ -218,6 +220,7 @@ FrameReport FrameCycle::finish() {
             lastCounts_ = cloud::collect(set, device_->work(), seenPoints_ ? &*seenPoints_ : nullptr, scene_,
                                          plan_, layout_, workers_);
         }
+        guidanceEstimates_.apply(set.host.guidance, scene_, f.pose.position, f.frame->captureTime);
         lastCounts_.valid = valid;
         set.stillFrom = frozen_.apply(set.host, scene_);
         if (device_) {

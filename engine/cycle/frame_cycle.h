@@ -6,6 +6,7 @@
 #include "engine/cloud/collect.h"
 #include "engine/cloud/estimate_frames.h"
 #include "engine/cloud/frozen_classes.h"
+#include "engine/cloud/guidance_estimates.h"
 #include "engine/cloud/self_filter.h"
 #include "engine/cycle/frame_device.h"
 #include "engine/types/frame.h"
@@ -117,6 +118,7 @@ private:
     cloud::LinkSpheres arm_;
     cloud::FrozenClasses frozen_;
     cloud::EstimateFrames estimateFrames_;
+    cloud::GuidanceEstimates guidanceEstimates_;
     std::optional<dvec3> origin_;
     shared::FrameParams params_{};
     std::optional<InFlight> uploaded_, submitted_;

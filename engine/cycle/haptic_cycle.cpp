@@ -65,7 +65,9 @@ StepRecord HapticCycle::step(const StepInput& input) noexcept {
     now.clutch = (input.buttons & options_.clutchBit) != 0 || now.held || !input.present;
     takeSample(input, now);
     guidance_.step(input.guidance, device_, (input.buttons & kGuidanceButton) != 0,
-                   now.off || !now.running || now.held, options_.period);
+                   now.off || !now.running || now.held, options_.period,
+                   options_.paperGuidance ? guidance_.pullReach(watch_.springs())
+                                          : guidance_.leadReach(watch_.springs()));
 
     const bool newData = regionsChanged(set);
     ProxyStep moved = stepTool(input, set, now, out);

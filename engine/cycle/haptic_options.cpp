@@ -29,6 +29,8 @@ std::optional<double> smaller(std::optional<double> value, double limit) {
 // faster than without it; the stiffness falls by the same share.
 constexpr double kDampingShare = 0.2;
 
+constexpr double kTurnPerLength = 5.0; // [rad/m] speed of turning over speed of moving, of guidance
+
 constexpr double kUsualSpeed = 1.0; // [m/s] of a fast hand
 
 void noteLimit(std::vector<std::string>& notes, const char* field, std::optional<double> asked, double device,
@@ -91,6 +93,8 @@ HapticOptions makeHapticOptions(const Scene& scene, const Tool& tool) {
         std::min(haptics.torqueLimit.value_or(device.torqueLimit), device.torqueLimit) * torqueShare;
     options.guidance.force = haptics.pullForce;
     options.guidance.torque = haptics.pullTorque;
+    options.guidance.speed = haptics.pullSpeed;
+    options.guidance.turnSpeed = kTurnPerLength * haptics.pullSpeed;
     options.needsContacts = scene.hasForbiddenPoints();
     return options;
 }

@@ -19,8 +19,8 @@ dvec3 axisTurn(const dquat& from, const dquat& to) noexcept {
     return cosine < 0.0 ? from * dvec3(3.14159265358979323846, 0.0, 0.0) : normal;
 }
 
-void Guidance::step(std::span<const GuidancePose> poses, const Pose& device, bool button, bool cut,
-                    double dt) noexcept {
+void Guidance::step(std::span<const GuidancePose> poses, const Pose& device, bool button, bool cut, double dt,
+                    const GuidanceReach& reach) noexcept {
     if (button && !button_) {
         waiting_ = true;
     }
@@ -34,6 +34,7 @@ void Guidance::step(std::span<const GuidancePose> poses, const Pose& device, boo
     const double change = limits_.easeTime > 0.0 ? dt / limits_.easeTime : 1.0;
     phase_ = cut ? 0.0 : std::clamp(phase_ + (pulls ? change : -change), 0.0, 1.0);
     weight_ = phase_ * phase_ * (3.0 - 2.0 * phase_);
+    advance(device, reach, dt);
     if (cut || (phase_ == 0.0 && !button)) {
         chosen_ = -1;
         waiting_ = false;
@@ -54,6 +55,7 @@ void Guidance::choose(std::span<const GuidancePose> poses, const Pose& device) n
         return;
     }
     chosen_ = nearest;
+    standoff_ = poses[static_cast<size_t>(nearest)].standoff;
     lost_ = 0.0;
     waiting_ = false;
 }
@@ -70,14 +72,45 @@ void Guidance::follow(std::span<const GuidancePose> poses, double dt) noexcept {
     lost_ = 0.0;
     const GuidancePose& pose = poses[index];
     rollFree_ = pose.rollFree && pose.planar; // without a plane the scene's full orientation applies
-    if (phase_ == 0.0) {                      // no force yet: start at the target itself
-        target_ = pose.target;
+    Pose wanted = pose.target;
+    if (!pose.planar) {
+        wanted.position += standoff_ - pose.standoff;
+    }
+    if (phase_ == 0.0) { // no force yet: start at the target itself
+        target_ = wanted;
         return;
     }
-    target_.position += clampLength(pose.target.position - target_.position, limits_.slew * dt);
-    const dvec3 turn = rotationLog(pose.target.rotation * glm::conjugate(target_.rotation));
+    target_.position += clampLength(wanted.position - target_.position, limits_.speed * dt);
+    const dvec3 turn = rotationLog(wanted.rotation * glm::conjugate(target_.rotation));
     target_.rotation =
-        glm::normalize(rotationExp(clampLength(turn, limits_.turnSlew * dt)) * target_.rotation);
+        glm::normalize(rotationExp(clampLength(turn, limits_.turnSpeed * dt)) * target_.rotation);
+}
+
+// The point that pulls comes no nearer to the target than its speed allows, and the hand's own approach is
+// taken off its lead. The speed eases in, so that no hand swings beyond it.
+void Guidance::advance(const Pose& device, const GuidanceReach& reach, double dt) noexcept {
+    const auto next = [&](double ahead, double before, double now, double speed, double most) {
+        const double moved = std::isfinite(before - now) ? before - now : 0.0;
+        return std::clamp(ahead + weight_ * speed * dt - moved, 0.0, weight_ * std::min(most, now));
+    };
+    if (chosen_ < 0 || weight_ == 0.0) {
+        ahead_ = aheadAngle_ = 0.0;
+    } else {
+        ahead_ = next(ahead_, glm::distance(target_.position, device_.position),
+                      glm::distance(target_.position, device.position), limits_.speed, reach.length);
+        aheadAngle_ = next(aheadAngle_, glm::length(turnFrom(device_)), glm::length(turnFrom(device)),
+                           limits_.turnSpeed, reach.angle);
+    }
+    device_ = device;
+}
+
+GuidanceReach Guidance::leadReach(const Springs& springs) const noexcept {
+    return {limits_.force / springs.stiffness, limits_.torque / springs.rotationalStiffness};
+}
+
+GuidanceReach Guidance::pullReach(const Springs& springs) const noexcept {
+    const double turnStiffness = springs.metricRadius * springs.metricRadius * springs.guidanceStiffness;
+    return {limits_.force / springs.guidanceStiffness, limits_.torque / turnStiffness};
 }
 
 dvec3 Guidance::turnFrom(const Pose& device) const noexcept {
@@ -85,24 +118,28 @@ dvec3 Guidance::turnFrom(const Pose& device) const noexcept {
                      : rotationLog(target_.rotation * glm::conjugate(device.rotation));
 }
 
+// The part of `way` to the target that is ahead of the hand. most: what the speed has allowed so far.
+dvec3 Guidance::ahead(const dvec3& way, double reach, double most) const noexcept {
+    return clampLength(weight_ * clampLength(way, reach), most);
+}
+
 Guidance::Lead Guidance::lead(const Pose& device, const Springs& springs) const noexcept {
     if (chosen_ < 0 || weight_ == 0.0) {
         return {};
     }
-    const double reach = limits_.force / springs.stiffness,
-                 turn = limits_.torque / springs.rotationalStiffness;
-    return {weight_ * clampLength(target_.position - device.position, reach),
-            weight_ * clampLength(turnFrom(device), turn)};
+    const GuidanceReach reach = leadReach(springs);
+    return {ahead(target_.position - device.position, reach.length, ahead_),
+            ahead(turnFrom(device), reach.angle, aheadAngle_)};
 }
 
 Wrench Guidance::pull(const Pose& device, const Springs& springs) const noexcept {
     if (chosen_ < 0 || weight_ == 0.0) {
         return {};
     }
+    const GuidanceReach reach = pullReach(springs);
     const double turnStiffness = springs.metricRadius * springs.metricRadius * springs.guidanceStiffness;
-    const dvec3 force = springs.guidanceStiffness * (target_.position - device.position);
-    return {weight_ * clampLength(force, limits_.force),
-            weight_ * clampLength(turnStiffness * turnFrom(device), limits_.torque)};
+    return {springs.guidanceStiffness * ahead(target_.position - device.position, reach.length, ahead_),
+            turnStiffness * ahead(turnFrom(device), reach.angle, aheadAngle_)};
 }
 
 } // namespace fathom

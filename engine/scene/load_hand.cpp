@@ -79,7 +79,7 @@ void loadTool(const YamlNode& tool, Scene& scene) {
 }
 
 void loadHand(const YamlNode& hand, Scene& scene) {
-    hand.checkKeys({"path", "map", "loop"});
+    hand.checkKeys({"path", "map", "loop", "yields"});
     if (const auto path = hand.find("path")) {
         const std::string text = path->text();
         scene.hand.builtIn = text == "approach";
@@ -93,6 +93,9 @@ void loadHand(const YamlNode& hand, Scene& scene) {
     }
     if (const auto loop = hand.find("loop")) {
         loadHandLoop(*loop, scene.hand.loop);
+    }
+    if (const auto yields = hand.find("yields")) {
+        scene.hand.yields = yields->boolean();
     }
 }
 

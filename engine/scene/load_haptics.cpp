@@ -61,12 +61,15 @@ void loadFeel(const YamlNode& node, Scene::Haptics& haptics) {
         loadLimits(*limits, haptics);
     }
     if (const auto pull = node.find("guidance_pull")) {
-        pull->checkKeys({"force", "torque"});
+        pull->checkKeys({"force", "torque", "speed"});
         if (const auto force = pull->find("force")) {
             haptics.pullForce = force->number(Range::between(0.0, 100.0));
         }
         if (const auto torque = pull->find("torque")) {
             haptics.pullTorque = torque->number(Range::between(0.0, 10.0));
+        }
+        if (const auto speed = pull->find("speed")) {
+            haptics.pullSpeed = speed->number(Range::between(0.001, 2.0));
         }
     }
 }

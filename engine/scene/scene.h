@@ -179,6 +179,7 @@ struct Scene {
         double scale = 1.0;
         uint32_t clutchBit = 4;
         HandLoop loop;
+        bool yields = false; // the path's hand yields to the force as `loop` says
     } hand;
 
     // The haptic loop.
@@ -196,6 +197,7 @@ struct Scene {
         double lowpassHz = 0.0;                        // 0 = off
         uint32_t delay = 0;                            // whole ticks from a wrench to the hand
         double pullForce = 2.0, pullTorque = 0.1;      // [N], [N m] largest guidance pull
+        double pullSpeed = 0.1;                        // [m/s] at which guidance pulls, at most
         double friction = 0.1;                         // mu between tool and regions
         bool smooth = true;                            // slides on planes over the spheres of a region
         std::optional<double> damping;                 // [N s/m] rendered along the reaction; empty = auto

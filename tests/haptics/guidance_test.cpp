@@ -69,11 +69,11 @@ TEST_CASE(
 TEST_CASE("The lead is clamped as a whole vector to F_g / K_t and tau_g / K_r") {
     Random random(8);
     const auto springs = springs1000();
-    for (int i = 0; i < 300; ++i) {
+    for (int i = 0; i < 100; ++i) {
         const dquat turned = rotationExp(random.uniform(0.0, 3.0) * random.direction());
         const std::vector<GuidancePose> poses{poseAt(random.uniform(0.0, 0.01) * random.direction(), turned)};
         Guidance guidance;
-        run(guidance, poses, {}, true, 500);
+        run(guidance, poses, {}, true, 3000);
         const auto lead = guidance.lead({}, springs);
         const dvec3 away = poses[0].target.position, turn = rotationLog(turned);
         CHECK(glm::length(lead.translation) == doctest::Approx(std::min(glm::length(away), 0.002)));
@@ -154,13 +154,13 @@ TEST_CASE("A target that jumps is followed at 0.1 m/s and 0.5 rad/s and reached 
 TEST_CASE("With free roll there is no torque about the axis, but the axis itself is aligned") {
     Random random(9);
     const auto springs = springs1000();
-    for (int i = 0; i < 300; ++i) {
+    for (int i = 0; i < 30; ++i) {
         std::vector<GuidancePose> poses{
             poseAt({0, 0, 0}, rotationExp(random.uniform(0.0, 3.0) * random.direction()))};
         poses[0].rollFree = true;
         const Pose device{{0, 0, 0}, rotationExp(random.uniform(0.0, 3.0) * random.direction())};
         Guidance guidance;
-        run(guidance, poses, device, true, 500);
+        run(guidance, poses, device, true, 8000);
         const dvec3 turn = guidance.lead(device, springs).rotation;
         const dvec3 normal = poses[0].target.rotation * dvec3(0, 0, 1),
                     axis = device.rotation * dvec3(0, 0, 1);
@@ -173,7 +173,7 @@ TEST_CASE("With free roll there is no torque about the axis, but the axis itself
         const Pose rolled{{0, 0, 0}, poses[0].target.rotation * rotationExp({0, 0, 2.0})};
         CHECK(glm::length(guidance.lead(rolled, springs).rotation) <= 1e-12);
         poses[0].planar = false; // the scene's fixed orientation includes its roll
-        run(guidance, poses, rolled, true, 1);
+        run(guidance, poses, rolled, true, 1000);
         CHECK(glm::length(guidance.lead(rolled, springs).rotation) == doctest::Approx(0.25));
     }
     // Opposite axes: half a turn about a perpendicular axis.
@@ -207,5 +207,70 @@ TEST_CASE("At rest the hand feels at most F_g, and the pull ends at the target")
         const Pose tool{device.position + lead.translation, rotationExp(lead.rotation)};
         const double force = couple(springs, tool, device, dvec3(0.0), dvec3(0.0)).force.x;
         CHECK(force == doctest::Approx(std::min(2.0, 1000.0 * (0.1 - x))));
+    }
+}
+
+TEST_CASE("Without a plane the stand-off keeps the direction that it had when guidance was switched on") {
+    GuidancePose seen = poseAt({0.1, 0, 0});
+    seen.planar = false;
+    const auto lookFrom = [&](const dvec3& camera) {
+        seen.standoff = 0.08 * glm::normalize(camera - seen.position);
+        seen.target.position = seen.position + seen.standoff;
+    };
+    lookFrom({0.1, 0, -1});
+    Guidance guidance;
+    run(guidance, {seen}, {}, true, 600);
+    CHECK(glm::distance(guidance.target().position, {0.1, 0, -0.08}) <= 1e-12);
+    lookFrom({0.6, 0, -1}); // the camera sways: nothing moves
+    run(guidance, {seen}, {}, true, 600);
+    CHECK(glm::distance(guidance.target().position, {0.1, 0, -0.08}) <= 1e-12);
+    seen.position.y = 0.01; // the valve moves: the target follows
+    lookFrom({0.6, 0, -1});
+    run(guidance, {seen}, {}, true, 600);
+    CHECK(glm::distance(guidance.target().position, {0.1, 0.01, -0.08}) <= 1e-12);
+    run(guidance, {seen}, {}, false, 600); // the next press takes the new direction
+    run(guidance, {seen}, {}, true, 600);
+    CHECK(glm::distance(guidance.target().position, seen.target.position) <= 1e-12);
+    seen.planar = true; // a plane has a direction of its own, which is followed
+    seen.target.position.z -= 0.02;
+    run(guidance, {seen}, {}, true, 600);
+    CHECK(glm::distance(guidance.target().position, seen.target.position) <= 1e-12);
+}
+
+TEST_CASE("What pulls never moves faster than the speed of the limits, however the hand moves") {
+    const auto springs = springs1000();
+    const std::vector<GuidancePose> poses{poseAt({0.5, 0.1, 0}, rotationExp({0, 0, 2.0}))};
+    for (const double speed : {0.02, 0.1}) {
+        GuidanceLimits limits;
+        limits.speed = speed;
+        Guidance guidance(limits);
+        Pose hand;
+        Random random(3);
+        double before = 1e9, fastest = 0.0;
+        for (int i = 0; i < 4000; ++i) {
+            // It rests, is slower, is faster, goes back, and shakes.
+            const double v = i < 1000   ? 0.0
+                             : i < 2000 ? 0.5 * speed
+                             : i < 2200 ? 3.0 * speed
+                             : i < 3000 ? -speed
+                                        : 0.0;
+            hand.position.x += v * kTick;
+            hand.position.y = i < 3000 ? 0.0 : random.uniform(-1e-4, 1e-4);
+            guidance.step(poses, hand, true, false, kTick, guidance.leadReach(springs));
+            const dvec3 lead = guidance.lead(hand, springs).translation;
+            const double left = glm::distance(guidance.target().position, hand.position + lead);
+            const double self = v > speed ? v : 0.0; // the hand's own
+            if (i > 0 && i < 3000) {
+                fastest = std::max(fastest, (before - left) / kTick - self);
+            }
+            before = left;
+            CHECK(glm::length(lead) <= 0.002 + 1e-12);
+            if (i == 2199) {
+                CHECK(glm::length(lead) == 0.0); // faster by itself: nothing pulls
+            }
+        }
+        CHECK(fastest <= speed * (1.0 + 1e-6));
+        CHECK(fastest >= 0.5 * speed);
+        CHECK(glm::length(guidance.lead(hand, springs).translation) == doctest::Approx(0.002));
     }
 }

@@ -64,6 +64,7 @@ std::vector<NumericKey> numericKeys() {
         {more("haptics: {limits: {lowpass_hz: %}}"), "0.1", "499"},
         {more("haptics: {guidance_pull: {force: %}}"), "0", "100"},
         {more("haptics: {guidance_pull: {torque: %}}"), "0", "10"},
+        {more("haptics: {guidance_pull: {speed: %}}"), "0.001", "2"},
         {more("contact: {reach: %}"), "0.0001", "1"},
         {more("window: {yaw: %}"), "-1000", "1000"},
         {more("window: {pitch: %}"), "-1.5", "1.5"},
