@@ -2,6 +2,7 @@
 // Group feel: what a hand feels at a surface that a camera sees with noise. Defaults of a scene, device
 // `ideal`.
 #include "apps/stability/case_text.h"
+#include "apps/stability/feel_guidance.h"
 #include "apps/stability/feel_loops.h"
 #include "apps/stability/feel_rig.h"
 
@@ -245,6 +246,7 @@ std::vector<Case> feelCases() {
     put("approach-01", [](RunLength e) { return approachCase(e, 0.1); });
     put("approach-03", [](RunLength e) { return approachCase(e, 0.3); });
     addFeelLoops(cases);
+    addFeelGuidance(cases);
     return cases;
 }
 
