@@ -4,6 +4,7 @@
 #include "apps/stability/case_text.h"
 #include "apps/stability/feel_guidance.h"
 #include "apps/stability/feel_loops.h"
+#include "apps/stability/feel_noise_model.h"
 #include "apps/stability/feel_rig.h"
 
 #include <algorithm>
@@ -247,6 +248,7 @@ std::vector<Case> feelCases() {
     put("approach-03", [](RunLength e) { return approachCase(e, 0.3); });
     addFeelLoops(cases);
     addFeelGuidance(cases);
+    addFeelNoiseModel(cases);
     return cases;
 }
 
