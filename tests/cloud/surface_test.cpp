@@ -56,12 +56,15 @@ TEST_CASE("Windows from shared memory, direct reads and blocks in registers give
             direct.run(image), tiled.run(image), blocks.run(image);
             CHECK((!onCpu() ||
                    (blocks.points().z == direct.points().z && blocks.points().at == direct.points().at)));
+            const SurfaceAgreement ofDirect = comparePoints(direct);
+            CHECK(ofDirect.wrong == 0);
+            CHECK(ofDirect.worst < 1e-6);
             const SurfaceAgreement ofBlocks = comparePoints(blocks);
             CHECK(ofBlocks.wrong == 0);
             CHECK(ofBlocks.worst < 1e-6);
             const reference::PointImage a = direct.points(), b = tiled.points();
-            CHECK(a.z == b.z);
-            CHECK(a.at == b.at);
+            CHECK((!onCpu() ||
+                   (a.z == b.z && a.at == b.at))); // a GPU's compiler rounds each variant in its own way
             const SurfaceAgreement agreement = comparePoints(tiled);
             CHECK(agreement.wrong == 0);
             CHECK(agreement.worst < 1e-6);
