@@ -186,7 +186,8 @@ void tighten(uint block, uint near, float limit) {
     float least = limit;
     for (uint i = gl_LocalInvocationID.x; i < layersOf(block) * kBlockSlots; i += gl_WorkGroupSize.x) {
         vec4 here = candidateOf(block, i / kBlockSlots, i % kBlockSlots).here;
-        for (uint k = 0u; k < near && here.w >= 0.0; ++k) {
+        bool mayBe = here.w >= 0.0 && nearerThan(least, here, batch.tool);
+        for (uint k = 0u; k < near && mayBe; ++k) {
             if (nearerThan(least, here, leafListed[k])) {
                 least = min(least, roughGap(here, leafListed[k]));
             }
@@ -200,7 +201,8 @@ void tighten(uint block, uint near, float limit) {
 void list(uint block, uint near, float limit) {
     for (uint i = gl_LocalInvocationID.x; i < layersOf(block) * kBlockSlots; i += gl_WorkGroupSize.x) {
         Candidate c = candidateOf(block, i / kBlockSlots, i % kBlockSlots);
-        for (uint k = 0u; k < near && c.here.w >= 0.0; ++k) {
+        bool mayBe = c.here.w >= 0.0 && nearerThan(limit, c.here, batch.tool);
+        for (uint k = 0u; k < near && mayBe; ++k) {
             if (nearerThan(limit, c.here, leafListed[k])) {
                 uint at = atomicAdd(count.x, 1u);
                 if (at < batch.rest.w) {
