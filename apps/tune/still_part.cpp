@@ -13,6 +13,7 @@ constexpr double kGaussianMedian = 1.4826; // sigma of a normal distribution ove
 constexpr uint32_t kStride = 2;            // pixels that are looked at for noise and stillness
 constexpr double kMostPosition = 0.0005, kMostTurn = 0.0005; // [m], [rad] of a still camera
 constexpr double kMostGrowth = 1.5; // of the change between two frames, with the time between them
+constexpr double kMostNoise = 4.0;  // of depthSigma(); more comes from images that show different things
 constexpr double kFlicker = 5.0;    // [sigma] scatter of a pixel at a border
 
 double medianOf(std::vector<double>& values) {
@@ -128,7 +129,10 @@ DepthNoise noiseOverTime(const FrameSequence& source) {
         });
         levels.push_back(kGaussianMedian * medianOf(bends) / std::sqrt(6.0));
     }
-    noise.sigma = std::max(noise.sigma, quarterOf(levels) * noise.range * noise.range);
+    const double overTime = quarterOf(levels) * noise.range * noise.range, usual = depthSigma(noise.range);
+    noise.measured = !levels.empty() && overTime <= kMostNoise * usual;
+    noise.sigma =
+        std::max(noise.sigma, noise.measured ? overTime : SimulatedCamera::kDepthSigmaShare * usual);
     return noise;
 }
 

@@ -14,8 +14,9 @@ inline constexpr size_t kLeastStill = 8; // [frames] that make a reference
 
 // Standard deviation of a depth reading at one range.
 struct DepthNoise {
-    double sigma = 0.0; // [m]
-    double range = 0.0; // [m] along the optical axis: the median of the readings
+    double sigma = 0.0;   // [m]
+    double range = 0.0;   // [m] along the optical axis: the median of the readings
+    bool measured = true; // over time; else at least that of the simulated camera is assumed
 };
 
 // The noise of one image: differences of three neighbours in a row, which a smooth surface cancels. At least
@@ -23,8 +24,9 @@ struct DepthNoise {
 DepthNoise noiseWithin(const CameraInfo& camera, const SampleFrame& image);
 
 // The noise of a pixel over time, from differences of three successive frames, which a steady motion of the
-// camera cancels; at least the noise within the first image, because neighbours of many sensors are alike.
-// There must be a frame.
+// camera cancels; at least the noise within the first image. Within an image alone it cannot be measured,
+// because neighbours of many sensors are alike: with less than three frames, or frames that show different
+// things, it is at least that of the simulated camera. There must be a frame.
 DepthNoise noiseOverTime(const FrameSequence& source);
 
 // The longest run of frames in which camera and scene stand still: equal poses, where there are poses, and

@@ -159,7 +159,7 @@ private:
             " on " + device_.facts().name + "\nmeasured: " + valuesOf(chosen.score) +
             " from camera to force; as written before: " + valuesOf(result.points.front().score) +
             "\ncamera: " + source_.camera + "; judged by " + source_.judgedBy +
-            "\nleft out: " + leftOut(plan);
+            "\nstability: " + stabilityOf(chosen) + "\nleft out: " + leftOut(plan);
         for (const Trial& trial : result.trials) {
             const bool above = trial.vary != Vary::Size && !trial.points.empty(); // the reason is at its key
             head += above ? "" : "\n" + reasonOf(result, trial, chosen);
@@ -167,8 +167,9 @@ private:
         const fs::path file =
             writeTunedScene(scene_, chosen.setting, chosenValues(result, chosen), head, settings_.out);
         std::cout << "chosen    " << wordsOf(chosen.setting) << "\n          " << valuesOf(chosen.score)
-                  << "; as written " << valuesOf(result.points.front().score) << "\nleft out  "
-                  << leftOut(plan) << "\nwritten   " << file.string() << ", points.csv, tune.png\n";
+                  << "; as written " << valuesOf(result.points.front().score) << "\nstability "
+                  << stabilityOf(chosen) << "\nleft out  " << leftOut(plan) << "\nwritten   " << file.string()
+                  << ", points.csv, tune.png\n";
     }
 
     const TuneSettings& settings_;

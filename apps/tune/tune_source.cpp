@@ -53,7 +53,8 @@ TuneSource exactSource(const Scene& scene, size_t most) {
 }
 
 std::string noiseText(const DepthNoise& noise) {
-    return "noise " + profile::digits(1e3 * noise.sigma) + " mm at " + profile::digits(noise.range) + " m";
+    return std::string(noise.measured ? "" : "assumed ") + "noise " + profile::digits(1e3 * noise.sigma) +
+           " mm at " + profile::digits(noise.range) + " m";
 }
 
 TuneSource stillSource(const Scene& scene, FrameSequence read, const StillPart& part, size_t most) {
@@ -141,9 +142,9 @@ TuneSource twinSource(const Scene& scene, const FrameSequence& read, size_t stil
     result.scene = twinScene(scene);
     result.twin = true;
     result.camera = read.name;
-    result.judgedBy = "an analytic twin, because camera and scene stand still in only " +
-                      std::to_string(still) + " successive frames of " + std::to_string(read.frames.size()) +
-                      " (" + std::to_string(kLeastStill) + " are needed): the scene '" + kTwinScene +
+    result.judgedBy = "an analytic twin, because camera and scene stand still in no more than " +
+                      std::to_string(still) + " frames in a row (" + std::to_string(kLeastStill) +
+                      " are needed): the scene '" + kTwinScene +
                       "', as this camera sees things at its median range (" + noiseText(noise) + ")";
     return result;
 }

@@ -78,6 +78,14 @@ std::string reasonOf(const TuneResult& result, const Trial& trial, const TunePoi
            measured;
 }
 
+std::string stabilityOf(const TunePoint& point) {
+    const double margin = point.felt.passive;
+    return std::isnan(margin) ? "not proven, because the damping of this device is unknown"
+           : margin >= 0.0    ? "passive, with " + digits(margin) + " N s/m to spare"
+                              : "not passive: the springs need " + digits(-margin) +
+                                 " N s/m more damping; lower haptics.stiffness or haptics.delay";
+}
+
 std::string noneMeets(const TuneResult& result, const Request& request) {
     std::string text = "no point meets the request (" + request.text() + ")";
     if (!result.choice.nearest) {

@@ -21,6 +21,9 @@ std::string lineOf(size_t number, const TunePoint& point);
 // Why `chosen` has its value of one setting: what the values of the trial measured. Two lines.
 std::string reasonOf(const TuneResult& result, const Trial& trial, const TunePoint& chosen);
 
+// Whether the springs of a point are proven stable.
+std::string stabilityOf(const TunePoint& point);
+
 // Why no point is chosen, and the nearest one.
 std::string noneMeets(const TuneResult& result, const Request& request);
 

@@ -14,6 +14,7 @@ constexpr double kRate = 30.0;     // [Hz] of the frames
 constexpr double kSeconds = 0.8;   // [s] at each place
 constexpr double kHandSpeed = 1.0; // [m/s] that a contact query must allow
 constexpr size_t kWarmUp = 2;      // [frames] before times count
+constexpr double kLeakShare = 0.4; // of the range at which neighbours are a radius apart: slanted surfaces
 constexpr size_t kPatches = 24;    // compared with the float64 twin
 
 // The scene as measured: no arm in the image, contact queries on the CPU.
@@ -214,8 +215,9 @@ bool Tuner::leaks(const Setting& setting) const {
     for (const FixtureClass& f : source_.scene.fixtures) {
         radius = f.isPoints() && f.role == Role::Forbidden ? std::min(radius, f.radius) : radius;
     }
-    const double from = leaksFrom(lens, radius);
-    return from > 0.0 && from < farthestOf(truth_, source_.truth.baseTcamera);
+    const double known = leaksFrom(lens, radius);
+    const double from = known > 0.0 ? known : kLeakShare * radius * std::min(lens.fx, lens.fy);
+    return from < farthestOf(truth_, source_.truth.baseTcamera);
 }
 
 void Tuner::vary(Vary what) {

@@ -62,6 +62,19 @@ TEST_CASE("Noise over time is found from a camera that moves steadily, and when 
     CHECK(noiseOverTime(source).sigma == doctest::Approx(0.0008).epsilon(0.1));
 }
 
+TEST_CASE("Noise is assumed when there are too few frames, or frames that show different things") {
+    FrameSequence source = sequence();
+    source.frames = {wall(0, 8.0)};
+    const double usual = 0.3 * depthSigma(noiseWithin(source.camera, source.frames.front()).range);
+    CHECK(!noiseOverTime(source).measured);
+    CHECK(noiseOverTime(source).sigma == doctest::Approx(usual));
+    for (uint32_t k = 1; k < 9; ++k) {
+        source.frames.push_back(wall(k, 8.0, k % 2 == 0 ? 0.0 : 3000.0));
+    }
+    CHECK(!noiseOverTime(source).measured);
+    CHECK(noiseOverTime(source).sigma == doctest::Approx(usual));
+}
+
 TEST_CASE("Frames that differ by noise alone stand still, and a move of two sigma ends the part") {
     FrameSequence source = sequence();
     for (uint32_t k = 0; k < 30; ++k) {

@@ -41,6 +41,16 @@ TEST_CASE("A reason names the old value, what the new one is best in, and all th
     CHECK(chosenValues(result, chosen).size() == 1); // only what was varied
 }
 
+TEST_CASE("Stability is stated for springs below and above the passive bound, and for an unknown device") {
+    TunePoint point;
+    for (const auto& [margin, words] :
+         {std::pair(0.25, "passive, with 0.25 N s/m"), std::pair(-0.5, "not passive"),
+          std::pair(std::nan(""), "not proven")}) {
+        point.felt.passive = margin;
+        CHECK(stabilityOf(point).find(words) == 0);
+    }
+}
+
 TEST_CASE("Values to try differ from the base in one setting, and a sigma is tried only with a filter") {
     Setting base;
     for (const Vary vary : kVaried) {
