@@ -91,6 +91,10 @@ private:
     uint64_t ticks_ = 0, generation_ = 0;
 };
 
+Pose moved(const Pose& pose, const dvec3& by) {
+    return {pose.position + by, pose.rotation};
+}
+
 // The spheres that a tool can meet on its way from the camera along `in`.
 Fixtures alongPath(const Fixtures& truth, const Tool& tool, const dvec3& from, const dvec3& in) {
     Fixtures near;
@@ -152,10 +156,7 @@ FeltSurface FeltPlaces::feel(const Scene& scene, const std::vector<Fixtures>& fr
     FeltSums sums;
     felt.passive = std::numeric_limits<double>::infinity();
     for (const Place& place : places_) {
-        const auto deep = [&](double depth) {
-            return Pose{place.rest.position + depth * place.in, place.rest.rotation};
-        };
-        StillHand hand(scene, tool_, frames, deep(-kStart));
+        StillHand hand(scene, tool_, frames, moved(place.rest, -kStart * place.in));
         FeltTrace trace(hand.options().period);
         const double stiffness = hand.options().springs.stiffness;
         const double deepest = std::min(kDeep, kMostForce * hand.options().forceLimit / stiffness);
@@ -163,12 +164,12 @@ FeltSurface FeltPlaces::feel(const Scene& scene, const std::vector<Fixtures>& fr
         for (int k = 0; k < ticks; ++k) {
             const double t = k * hand.options().period;
             const double depth = std::min(deepest, -kStart + (deepest + kStart) * 2.0 * t / kLanding);
-            const StepRecord record = hand.step(deep(depth), rateHz);
+            const StepRecord record = hand.step(moved(place.rest, depth * place.in), rateHz);
             if (t < kLanding) {
                 continue;
             }
             trace.add(record.wrench, record.device.position);
-            felt.passive = std::min(record.marginPassive, felt.passive); // NaN stays
+            felt.passive = std::min(record.marginPassive, felt.passive); // NaN in every step or in none
             if (hand.newFrameNext(rateHz)) {
                 sums.addGap(oracleSmallestGap(tool_, record.tool, place.truth));
             }

@@ -20,8 +20,10 @@ struct SceneValue {
 // its own comments are lost, and all of the new ones are at the top. `text` must be a scene that loads.
 std::string withValues(const std::string& text, const std::vector<SceneValue>& values);
 
-// Comment lines of at most 100 columns, each marked with kMark; line breaks of the text stay.
+// Start of the comment lines that this program writes.
 inline constexpr const char* kMark = "# tune:";
+
+// Comment lines of at most 100 columns, each marked with kMark; line breaks of the text stay.
 std::string commentLines(const std::string& text);
 
 // The text without the lines of an earlier commentLines().

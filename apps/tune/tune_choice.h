@@ -32,6 +32,7 @@ struct Score {
 inline constexpr double kSameValue = 1.10;  // ratio of two times or two errors
 inline constexpr double kSameRipple = 1.10; // ratio of two ripples
 
+// Whether a point can be chosen and is within the limit.
 bool meets(const Score& score, const Request& request);
 
 // For each point whether no other point is at most as slow and at most as wrong, and better in one of both.
@@ -40,6 +41,7 @@ std::vector<bool> frontOf(const std::vector<Score>& scores);
 // The fastest point that keeps `scores[at]` off the front; none when it is on the front or not valid.
 std::optional<size_t> dominatorOf(const std::vector<Score>& scores, size_t at);
 
+// The result of choose().
 struct Choice {
     std::optional<size_t> point; // meets the request; none when no point does
     // The point that misses the request by the smallest factor; of points that cannot be chosen, too, when

@@ -9,6 +9,7 @@
 
 namespace fathom::tune {
 
+// From the command line.
 struct TuneSettings {
     std::string scene, source, out; // files and a folder; source empty = the scene's camera
     Request request;

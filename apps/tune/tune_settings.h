@@ -24,8 +24,9 @@ struct Setting {
     bool sameRegions(const Setting& other) const;
 };
 
+// The settings of a scene, and a scene with other ones. The image size is none of a scene.
 Setting settingOf(const Scene& scene);
-Scene sceneWith(Scene scene, const Setting& setting); // not the image size
+Scene sceneWith(Scene scene, const Setting& setting);
 
 // What is varied, one after another, each with the best setting so far.
 enum class Vary { Window, Sigma, Memory, Budget, Friction, Reach, Size };

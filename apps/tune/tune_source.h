@@ -12,6 +12,7 @@
 
 namespace fathom::tune {
 
+// Equal settings see equal frames.
 struct TuneSource {
     FrameSequence frames;  // shown in turn
     CameraInfo trueCamera; // of `truth`; its depth may have finer units

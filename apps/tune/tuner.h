@@ -17,6 +17,7 @@
 
 namespace fathom::tune {
 
+// A measured setting.
 struct TunePoint {
     Setting setting;
     std::string varied;             // nameOf() what this point varies; "as written" for the first
@@ -35,6 +36,7 @@ struct Trial {
     std::string skipped;        // why points are missing; empty = none are
 };
 
+// What to measure, and whom to tell. Every function is called by the thread of run().
 struct TuneOptions {
     Request request;
     double limit = 120.0; // [s] no point is begun that would probably end later; the first always is
@@ -44,6 +46,7 @@ struct TuneOptions {
     std::function<void(size_t, const TunePoint&)> progress = [](size_t, const TunePoint&) {};
 };
 
+// All that was measured, and what was chosen.
 struct TuneResult {
     std::vector<TunePoint> points; // the scene as written first
     std::vector<Trial> trials;
