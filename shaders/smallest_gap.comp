@@ -216,7 +216,7 @@ void list(uint block, uint near, float limit) {
 // listed: the limit of the third step; kFar in the second, which has a limit that falls.
 void searchBlock(uint block, vec4 bound, float listed) {
     for (uint from = 0u; from < batch.rest.z; from += kSliceLeaves) {
-        barrier(); // nobody changes `best` until the next one
+        barrier(); // no invocation changes `best` until the next one
         float limit = listed < kFar ? listed : gapOf(best);
         if (nearerThan(limit, bound, batch.tool)) {
             listLeaves(from, bound, limit);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The state of the forces, as the window shows it: one word, the worst that applies, and chips beside it.
+// The state of the forces, as the window shows it: one word, the worst that applies, and chips for the rest.
 #pragma once
 
 #include "apps/operate/console.h"

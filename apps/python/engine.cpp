@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Engine and Lockstep. Long calls run without the interpreter's lock, so that other Python threads go on.
+// Engine and Lockstep. Long calls run without the interpreter's lock, so that other Python threads continue.
 #include "apps/python/bind.h"
 
 #include <pybind11/stl/filesystem.h>
@@ -78,7 +78,7 @@ EngineOptions optionsOf(const std::string& device, const std::string& reader, bo
 void bindLive(py::module_& module) {
     py::class_<LiveEngine, std::unique_ptr<LiveEngine, WithoutLock>>(
         module, "Engine",
-        "Owns a compute device and two threads, and hands out ports, each of which belongs to one thread.\n"
+        "Owns a compute device and two threads, and hands out ports. Each port belongs to one thread.\n"
         "Use it in a `with` block, or call close().")
         .def(py::init([](const Scene& scene, const CameraModel& camera, const std::string& device,
                          const std::string& reader, bool measuredArm) {

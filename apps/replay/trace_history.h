@@ -17,7 +17,7 @@ struct TraceBin {
     double begin = 0.0, end = 0.0;                    // [s] times of the first and of the last tick
     double forceMin = 0.0, forceMax = -1.0;           // [N] norm of the delivered force
     double torqueMin = 0.0, torqueMax = -1.0;         // [N m] norm of the delivered torque
-    double restForceMin = 0.0, restForceMax = -1.0;   // [N] norm of what the device cannot render
+    double restForceMin = 0.0, restForceMax = -1.0;   // [N] norm of the part that the device cannot render
     double restTorqueMin = 0.0, restTorqueMax = -1.0; // [N m]
     double guidance = 0.0;                            // largest guidance weight w, 0..1
     std::array<uint32_t, kStepStates> states{};       // ticks in each state

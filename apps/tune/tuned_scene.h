@@ -21,7 +21,7 @@ std::vector<SceneValue> movedPaths(const std::string& text, const std::filesyste
                                    const std::filesystem::path& folder);
 
 // Writes `folder`/scene.yaml: the text of the scene with these values, and `head` as comment at the top.
-// Copies the files that it names and lie in its folder. Replaces an older file only when the new one loads
+// Copies the files in its folder that it names. Replaces an older file only when the new one loads
 // with the chosen setting. Throws BadInput or Error.
 std::filesystem::path writeTunedScene(const Scene& scene, const Setting& chosen,
                                       const std::vector<SceneValue>& values, const std::string& head,

@@ -141,7 +141,7 @@ size_t Tuner::addPoint(const Setting& setting, const std::string& varied, const 
     return result_.points.size() - 1;
 }
 
-// Runs the settings frame by frame in turn, and beside them the best one so far. Their times are scaled to
+// Runs the settings frame by frame in turn, together with the best one so far. Their times are scaled to
 // its time, so that a change of the machine's speed affects no comparison.
 std::vector<size_t> Tuner::measureFrames(const std::vector<Setting>& settings, const std::string& varied) {
     if (settings.empty()) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Measures settings on one source and chooses among them. Varies one setting after another, each time with
 // the best setting so far, which takes about twenty points instead of thousands. The best one so far is
-// measured again beside the others, and their times are scaled to its first one.
+// measured again with the others, and their times are scaled to its first one.
 #pragma once
 
 #include "apps/profile/felt_surface.h"

@@ -17,7 +17,7 @@ public:
     void build(const RegionSpheres& spheres, ThreadPool* workers);
     void buildLater(const RegionSpheres& spheres); // only finds the largest radius now
 
-    // Any thread. Builds the grid if nobody did; concurrent callers wait for it.
+    // Any thread. Builds the grid if no call did; concurrent callers wait for it.
     const RegionGrid& get() const;
     bool built() const { return built_.load(std::memory_order_acquire); }
     double maxRadius() const { return maxRadius_; } // [m] as RegionGrid::maxRadius()

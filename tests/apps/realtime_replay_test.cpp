@@ -73,7 +73,7 @@ std::vector<std::vector<std::string>> rowsOf(const std::filesystem::path& csv, p
     return rows;
 }
 
-constexpr ptrdiff_t kColumns = 44;
+constexpr ptrdiff_t kColumns = 45;
 constexpr size_t kTime = 0, kFrame = 25, kAge = 26;
 
 } // namespace

@@ -191,7 +191,7 @@ TEST_CASE("An equality of two joints is a mimic joint, and one of a single joint
     CHECK(held.joints[1].upper == doctest::Approx(0.3));
 }
 
-TEST_CASE("Included files are read from beside the main file, also from within one another") {
+TEST_CASE("Included files are read from the main file's folder, also from within one another") {
     std::ofstream(folder() / "limbs.xml")
         << "<mujocoinclude><body name='b' pos='0 0 0.5'><joint name='j' axis='1 0 0' range='-9 9'/>" << ball()
         << "<include file='more.xml'/></body></mujocoinclude>";

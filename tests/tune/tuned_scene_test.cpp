@@ -69,7 +69,7 @@ TEST_CASE("Values to try differ from the base in one setting, and a sigma is tri
     CHECK(!base.sameRegions(other));
 }
 
-TEST_CASE("A tuned scene has the chosen values, its files beside it, and paths that lead to the same files") {
+TEST_CASE("A tuned scene has the chosen values, copies of its files, and paths that lead to the same files") {
     const ScratchFolder scratch;
     const std::filesystem::path home = scratch.path() / "home", out = home / "deep/out";
     std::filesystem::create_directories(out);

@@ -49,7 +49,7 @@ double handApart(const json& s) {
 
 TEST_CASE("Forces stay off while the hand is inside a region, and a card says so until C re-centres it") {
     WindowRig rig;
-    rig.push(); // forces are off: the hand goes on, the tool stays outside
+    rig.push(); // forces are off: the hand moves on, the tool stays outside
     for (int i = 0; i < 40 && handApart(rig.state()) < 0.015; ++i) {
         rig.wheel(2);
     }
