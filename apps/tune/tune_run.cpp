@@ -92,6 +92,12 @@ public:
         say();
         Tuner tuner(device_, source_, tool_, options());
         const TuneResult result = tuner.run();
+        for (const Trial& trial : result.trials) {
+            if (!trial.skipped.empty()) {
+                std::cout << "skipped   " << (trial.points.empty() ? "" : "some of ") << nameOf(trial.vary)
+                          << ": " << trial.skipped << "\n";
+            }
+        }
         const fs::path out(settings_.out);
         writePoints(result, settings_.request, out / "points.csv");
         const std::optional<size_t> chosen = result.choice.point;

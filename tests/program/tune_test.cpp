@@ -53,8 +53,8 @@ TEST_CASE("tune measures points, explains its choice in a scene that replay load
     CAPTURE(run.out);
     REQUIRE(run.exitCode == 0);
     CHECK(run.err == "");
-    for (const char* part :
-         {"truth     the mean of 10 frames", "8 frames each", "chosen    filter", "left out"}) {
+    for (const char* part : {"truth     the mean of 10 frames", "8 frames each",
+                             "skipped   memory: frames have no poses", "chosen    filter", "left out"}) {
         CAPTURE(part);
         CHECK(has(run.out, part));
     }
@@ -97,6 +97,7 @@ TEST_CASE("tune measures on an analytic twin when a recording shows no still sce
     CAPTURE(run.out);
     CHECK(run.exitCode == 0);
     CHECK(has(run.out, "truth     an analytic twin, because camera and scene stand still in no more than"));
+    CHECK(has(run.out, "the time limit of 1 s was reached"));
     CHECK(has(stage.read("tuned/scene.yaml"), "the time limit of 1 s was reached"));
 }
 
