@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/bag/bag_camera.h"
 
+#include "devices/images/metre_units.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
 
@@ -11,9 +12,7 @@ namespace fathom {
 
 namespace {
 
-constexpr double kMillimetre = 0.001;    // REP 118: 16-bit depth
-constexpr double kFinestOfMetres = 1e-4; // [m] unit of float depth
-constexpr double kMostUnits = 65000.0;
+constexpr double kMillimetre = 0.001; // REP 118: 16-bit depth
 constexpr size_t kUnitSamples = 9;
 
 // "Depth Units", "Depth_Units": the name changed between versions of the SDK.
@@ -162,8 +161,7 @@ void BagCamera::chooseUnit() {
     }
     const double metresPerValue = options_.scale.value_or(1.0);
     const double needed = std::min(1.5 * metresPerValue * farthestSampled(), options_.farthest);
-    camera.metresPerUnit =
-        kFinestOfMetres * std::ceil(std::max(1.0, needed / (kMostUnits * kFinestOfMetres)));
+    camera.metresPerUnit = unitForMetres(needed);
     valuesPerUnit_ = camera.metresPerUnit / metresPerValue;
 }
 

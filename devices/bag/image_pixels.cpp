@@ -3,6 +3,7 @@
 
 #include "devices/bag/colour_rows.h"
 #include "devices/bag/compressed_depth.h"
+#include "devices/images/metre_units.h"
 #include "devices/recorded/png_image.h"
 #include "devices/v4l2/jpeg_image.h"
 
@@ -32,16 +33,6 @@ std::string checkBytes(const Image& image, size_t row) {
                std::to_string(image.step);
     }
     return image.bigEndian ? "big-endian pixels" : "";
-}
-
-// Raw units of metres; 0 when there is none. Too far for 16 bits: counted.
-uint16_t unitsOf(double metres, double metresPerUnit, uint64_t& beyond) {
-    if (!(metres > 0.0) || !std::isfinite(metres)) {
-        return 0;
-    }
-    const double units = std::round(metres / metresPerUnit);
-    beyond += units > 65535.0 ? 1 : 0;
-    return units > 65535.0 ? uint16_t{0} : static_cast<uint16_t>(units);
 }
 
 float floatAt(const Image& image, uint32_t x, uint32_t y) {

@@ -185,7 +185,7 @@ std::optional<Pose> StreamChooser::topicPose(const ImageStream& depth) {
 }
 
 void StreamChooser::replaceLenses(StreamChoice& choice) const {
-    const RecordingIntrinsics given = readIntrinsics(options_.intrinsics, false);
+    const RecordingIntrinsics given = readIntrinsics(options_.intrinsics, ScaleRule::Optional);
     const auto fits = [&](const ImageStream& stream, const Intrinsics& lens) {
         if (stream.width != lens.width || stream.height != lens.height) {
             throw BadInput(options_.intrinsics.string(), "width, height", sizeText(lens.width, lens.height),

@@ -2,14 +2,12 @@
 #include "devices/recorded/recorded_camera.h"
 
 #include "devices/recorded/colour_image.h"
-#include "devices/recorded/png_image.h"
 #include "engine/types/error.h"
 #include "engine/types/inside.h"
 #include "engine/types/log.h"
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
 
 namespace fathom {
 
@@ -55,12 +53,6 @@ RecordedCamera::RecordedCamera(const fs::path& folder, const SourceOptions& opti
     if (info().hasColour) {
         checkColourSize();
     }
-    const Intrinsics& lens = info().depth;
-    for (uint32_t i = 0; layout_.intrinsics.rangeImages && i < lens.pixels(); ++i) {
-        const uint32_t column = i % lens.width, row = i / lens.width;
-        const dvec3 ray(lens.ray(column, row), 1.0);
-        axisShare_.push_back(static_cast<float>(1.0 / glm::length(ray)));
-    }
 }
 
 // Stamps that go back now and then are faults of single frames. Where most do, they are no times: all frames
@@ -90,8 +82,8 @@ void RecordedCamera::checkStamps() {
 
 void RecordedCamera::useOptions(const SourceOptions& options) {
     CameraInfo& camera = layout_.intrinsics.camera;
-    options.checkUnit(folder_.string());
-    camera.metresPerUnit = options.scale.value_or(camera.metresPerUnit);
+    depth_.emplace(folder_, layout_, options);
+    camera.metresPerUnit = depth_->metresPerUnit();
     const auto posed = [](const IndexLine& line) { return line.baseTcamera.has_value(); };
     camera.poseless = !layout_.poses && std::ranges::none_of(layout_.index, posed);
     camera.hasColour = camera.hasColour && options.colour != "none";
@@ -113,29 +105,17 @@ void RecordedCamera::useOptions(const SourceOptions& options) {
     }
 }
 
-void RecordedCamera::toDepth(std::span<uint16_t> ranges) const {
-    for (size_t i = 0; i < axisShare_.size(); ++i) {
-        ranges[i] = static_cast<uint16_t>(static_cast<float>(ranges[i]) * axisShare_[i] + 0.5f);
-    }
-}
-
-void RecordedCamera::dropInvalid(std::span<uint16_t> depth) const {
-    if (layout_.invalid != 0) {
-        std::replace(depth.begin(), depth.end(), layout_.invalid, uint16_t{0});
-    }
-}
-
 // A single image of another size is a bad frame; a colour stream that never has the stated size is a
 // recording without registration.
 void RecordedCamera::checkColourSize() const {
     const PngSize wanted = sizeOf(info().colour);
     std::optional<PngSize> other;
     for (const IndexLine& line : layout_.index) {
-        const auto depth = readPngSize(line.depth), colour = colourImageSize(line.colour);
+        const auto colour = colourImageSize(line.colour);
         if (colour == wanted) {
             return;
         }
-        if (depth == sizeOf(info().depth) && colour) {
+        if (colour && depthImageHead(line.depth).size == sizeOf(info().depth)) {
             other = colour;
         }
     }
@@ -146,7 +126,7 @@ void RecordedCamera::checkColourSize() const {
     }
 }
 
-std::string RecordedCamera::read(const IndexLine& line, FrameSlot& slot) const {
+std::string RecordedCamera::read(const IndexLine& line, FrameSlot& slot) {
     if (!line.fault.empty()) {
         return line.fault;
     }
@@ -162,13 +142,10 @@ std::string RecordedCamera::read(const IndexLine& line, FrameSlot& slot) const {
                " s from its depth, over " + std::to_string(mostApart_) + " s";
     }
     const CameraInfo& camera = info();
-    std::string fault =
-        readDepthPng(line.depth, sizeOf(camera.depth), slot.depth().first(camera.depth.pixels()));
+    std::string fault = depth_->read(line.depth, slot.depth().first(camera.depth.pixels()));
     if (!fault.empty()) {
         return line.depth.string() + ": " + fault;
     }
-    dropInvalid(slot.depth());
-    toDepth(slot.depth());
     if (!camera.hasColour) {
         return "";
     }

@@ -4,6 +4,7 @@
 
 #include "devices/camera.h"
 #include "devices/frame_slots.h"
+#include "devices/recorded/folder_depth.h"
 #include "devices/recorded/recording_layout.h"
 #include "devices/recorded/source_options.h"
 
@@ -39,9 +40,7 @@ private:
     void checkColourSize() const;
     void useOptions(const SourceOptions& options);
     void checkStamps();
-    std::string read(const IndexLine& line, FrameSlot& slot) const; // the fault; empty = read
-    void dropInvalid(std::span<uint16_t> depth) const;
-    void toDepth(std::span<uint16_t> ranges) const;
+    std::string read(const IndexLine& line, FrameSlot& slot); // the fault; empty = read
     Frame lease(uint32_t index, FrameSlot& slot) const;
     void tellOfLinks(const IndexLine& line);
     bool leadsOut(const std::filesystem::path& image);
@@ -51,9 +50,9 @@ private:
     std::filesystem::path folder_;
     RecordingLayout layout_;
     FrameSlots slots_;
-    double mostApart_ = 0.0;       // [s] depth and colour of a pair
-    std::vector<float> axisShare_; // z of a unit step along each ray; empty = images hold z
-    uint32_t cursor_ = 0;          // next data line
+    std::optional<FolderDepth> depth_;
+    double mostApart_ = 0.0; // [s] depth and colour of a pair
+    uint32_t cursor_ = 0;    // next data line
     uint32_t skipped_ = 0;
     uint32_t named_ = 0;                     // lines before this one are already counted
     bool any_ = false;                       // a valid frame was seen

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/recorded/recording_index.h"
 
+#include "devices/images/depth_image.h"
 #include "devices/recorded/text_file.h"
 #include "engine/types/error.h"
 #include "engine/types/inside.h"
@@ -70,11 +71,11 @@ std::vector<StampedFile> readStampedFiles(const fs::path& folder, const char* na
 }
 
 std::vector<StampedFile> stampFilesOf(const fs::path& folder, const std::vector<double>& stamps,
-                                      const char* field) {
+                                      const char* field, std::span<const std::string_view> endings) {
     std::vector<fs::path> names;
     std::error_code failed;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, failed)) {
-        if (entry.path().extension() == ".png") {
+        if (endsAs(entry.path(), endings)) {
             names.push_back(entry.path());
         }
     }
@@ -82,8 +83,7 @@ std::vector<StampedFile> stampFilesOf(const fs::path& folder, const std::vector<
     if (names.size() != stamps.size()) {
         throw BadInput((folder.parent_path() / "intrinsics.json").string(), field,
                        std::to_string(stamps.size()) + " stamps",
-                       std::to_string(names.size()) + ", as many as there are PNG files in " +
-                           folder.string());
+                       std::to_string(names.size()) + ", as many as there are images in " + folder.string());
     }
     std::vector<StampedFile> files;
     for (size_t i = 0; i < names.size(); ++i) {
@@ -165,9 +165,10 @@ std::vector<IndexLine> readIndex(const fs::path& folder, const RecordingIntrinsi
                           kTumTolerance);
     } else if (!intrinsics.depthStamps.empty() && !intrinsics.colourStamps.empty()) {
         source = "depth_stamps_s and color_stamps_s";
-        index = associate(stampFilesOf(folder / "depth", intrinsics.depthStamps, "depth_stamps_s"),
-                          stampFilesOf(folder / "rgb", intrinsics.colourStamps, "color_stamps_s"),
-                          intrinsics.pairWithin);
+        index =
+            associate(stampFilesOf(folder / "depth", intrinsics.depthStamps, "depth_stamps_s", kDepthEndings),
+                      stampFilesOf(folder / "rgb", intrinsics.colourStamps, "color_stamps_s", kColourEndings),
+                      intrinsics.pairWithin);
     } else {
         throw BadInput(folder.string(), source, "missing",
                        "associations.txt, or rgb.txt and depth.txt, or stamps in intrinsics.json");

@@ -137,6 +137,19 @@ void readBeams(const JsonField& root, RecordingIntrinsics& intrinsics) {
     }
 }
 
+void readScale(const JsonField& root, ScaleRule rule, RecordingIntrinsics& intrinsics) {
+    const bool need = rule == ScaleRule::Needed && !root.find("intrinsic_matrix");
+    const auto scale = need ? root.at("depth_scale_m_per_unit") : root.find("depth_scale_m_per_unit");
+    if (!scale) {
+        return;
+    }
+    const double unit = scale->positive();
+    if (rule != ScaleRule::Unchecked && (unit < kFinestUnit || unit > kCoarsestUnit)) {
+        scale->refuse("metres per unit, 0.000001 to 0.1: 1000 units per metre are 0.001");
+    }
+    intrinsics.scale = intrinsics.camera.metresPerUnit = unit;
+}
+
 void readStamps(const JsonField& root, RecordingIntrinsics& intrinsics) {
     const auto depth = root.find("depth_stamps_s");
     const auto colour = findColour(root, "color_stamps_s", "colour_stamps_s");
@@ -158,7 +171,7 @@ Pose readExtrinsics(const std::filesystem::path& file) {
     return root.find("extrinsics_topic_tf") ? readColourTdepth(root) : readPose(root);
 }
 
-RecordingIntrinsics readIntrinsics(const std::filesystem::path& file, bool needScale) {
+RecordingIntrinsics readIntrinsics(const std::filesystem::path& file, ScaleRule rule) {
     const nlohmann::json document = parseJsonFile(file);
     const JsonField root(document, file.string(), "");
     RecordingIntrinsics intrinsics;
@@ -169,14 +182,7 @@ RecordingIntrinsics readIntrinsics(const std::filesystem::path& file, bool needS
     } else {
         readOneLens(root, camera);
     }
-    needScale = needScale && !root.find("intrinsic_matrix");
-    if (const auto scale =
-            needScale ? root.at("depth_scale_m_per_unit") : root.find("depth_scale_m_per_unit")) {
-        camera.metresPerUnit = scale->positive();
-        if (camera.metresPerUnit < kFinestUnit || camera.metresPerUnit > kCoarsestUnit) {
-            scale->refuse("metres per unit, 0.000001 to 0.1: 1000 units per metre are 0.001");
-        }
-    }
+    readScale(root, rule, intrinsics);
     const auto colourThere = root.find("has_color");
     camera.hasColour = !colourThere || colourThere->boolean();
     if (!camera.hasColour && !camera.registered) {

@@ -5,6 +5,7 @@
 #include "engine/types/camera_info.h"
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 namespace fathom {
@@ -13,8 +14,12 @@ namespace fathom {
 inline constexpr uint32_t kMaxImageWidth = 3840;
 inline constexpr uint32_t kMaxImageHeight = 2160;
 
+// Whether depth_scale_m_per_unit may be missing, and is checked.
+enum class ScaleRule { Needed, Optional, Unchecked };
+
 struct RecordingIntrinsics {
     CameraInfo camera;
+    std::optional<double> scale; // [m per unit] as stated
     // Only when the file lists them: capture times [s] of the files in depth/ and rgb/ in order of their
     // names.
     std::vector<double> depthStamps, colourStamps;
@@ -30,9 +35,9 @@ struct RecordingIntrinsics {
 // has_color: false (flat only) marks a recording without colour. Sonars and laser scans (flat only):
 // projection: equal_angles (fx, fy in pixels per radian), depth_is: range, and beam {width_deg, sigma_m,
 // sigma_m_per_m}; its rgb/ images show intensity as grey. Throws BadInput naming the file and field.
-// needScale false: a missing depth_scale_m_per_unit is 0.001. Open3D's camera_intrinsic.json is read as well
-// (intrinsic_matrix, column by column; depth in millimetres).
-RecordingIntrinsics readIntrinsics(const std::filesystem::path& file, bool needScale = true);
+// A missing depth_scale_m_per_unit is 0.001 unless it is needed. Open3D's camera_intrinsic.json is read as
+// well (intrinsic_matrix, column by column; depth in millimetres).
+RecordingIntrinsics readIntrinsics(const std::filesystem::path& file, ScaleRule rule = ScaleRule::Needed);
 
 // colourTdepth of a JSON file with t [m] and q_xyzw, or with extrinsics_topic_tf. Throws as above.
 Pose readExtrinsics(const std::filesystem::path& file);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/recorded/recording_layout.h"
 
+#include "devices/images/depth_image.h"
 #include "devices/recorded/json_field.h"
-#include "devices/recorded/png_image.h"
 #include "devices/recorded/text_file.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
@@ -20,23 +20,21 @@ namespace fs = std::filesystem;
 
 constexpr double kPeriod = 1.0 / 30.0; // [s] of layouts without stamps
 
-// Files of these endings by the number that ends their name's stem.
-std::map<uint32_t, fs::path> numbered(const fs::path& folder,
-                                      std::initializer_list<std::string_view> endings) {
+// Files of these endings by the number that ends their name's stem, in front of `before`.
+std::map<uint32_t, fs::path> numbered(const fs::path& folder, std::span<const std::string_view> endings,
+                                      const std::string& before = "") {
     std::map<uint32_t, fs::path> files;
     std::error_code failed;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, failed)) {
-        const std::string name = entry.path().filename().string();
-        for (const std::string_view ending : endings) {
-            if (!name.ends_with(ending)) {
-                continue;
-            }
-            const std::string stem = name.substr(0, name.size() - ending.size());
-            const size_t digit = stem.find_last_not_of("0123456789") + 1;
-            uint32_t number = 0;
-            if (digit < stem.size() && parseNumber(std::string_view(stem).substr(digit), number)) {
-                files.emplace(number, entry.path());
-            }
+        std::string stem = entry.path().stem().string();
+        if (!endsAs(entry.path(), endings) || !stem.ends_with(before)) {
+            continue;
+        }
+        stem.resize(stem.size() - before.size());
+        const size_t digit = stem.find_last_not_of("0123456789") + 1;
+        uint32_t number = 0;
+        if (digit < stem.size() && parseNumber(std::string_view(stem).substr(digit), number)) {
+            files.emplace(number, entry.path());
         }
     }
     return files;
@@ -73,11 +71,10 @@ Pose poseOf(const std::array<double, 9>& rows, const dvec3& position, const std:
 
 RecordingLayout readOpen3d(const fs::path& folder) {
     RecordingLayout layout;
-    layout.intrinsics = readIntrinsics(folder / "camera_intrinsic.json");
+    layout.intrinsics = readIntrinsics(folder / "camera_intrinsic.json", ScaleRule::Optional);
     const bool american = fs::exists(folder / "color");
-    layout.index =
-        pairsOf(numbered(folder / "depth", {".png"}),
-                numbered(folder / (american ? "color" : "rgb"), {".png", ".jpg", ".jpeg"}), folder);
+    layout.index = pairsOf(numbered(folder / "depth", kDepthEndings),
+                           numbered(folder / (american ? "color" : "rgb"), kColourEndings), folder);
     return layout;
 }
 
@@ -117,9 +114,9 @@ std::map<uint32_t, BopImage> bopImages(const fs::path& file) {
 RecordingLayout readBop(const fs::path& folder) {
     const fs::path file = folder / "scene_camera.json";
     const std::map<uint32_t, BopImage> images = bopImages(file);
-    const auto depth = numbered(folder / "depth", {".png"});
+    const auto depth = numbered(folder / "depth", kDepthEndings);
     RecordingLayout layout;
-    layout.index = pairsOf(depth, numbered(folder / "rgb", {".png", ".jpg"}), folder);
+    layout.index = pairsOf(depth, numbered(folder / "rgb", kColourEndings), folder);
     size_t line = 0;
     std::optional<BopImage> first;
     for (const auto& [number, path] : depth) {
@@ -135,22 +132,22 @@ RecordingLayout readBop(const fs::path& folder) {
         }
         entry.baseTcamera = image->second.baseTcamera;
     }
-    const auto size = readPngSize(layout.index.front().depth);
+    const PngSize size = depthImageHead(layout.index.front().depth).size;
     const double unit = first ? 1e-3 * first->unit : 0.0;
-    if (!first || !size || size->width > kMaxImageWidth || size->height > kMaxImageHeight ||
+    if (!first || size.width < 1 || size.width > kMaxImageWidth || size.height > kMaxImageHeight ||
         !(first->k[0] > 0.0 && first->k[4] > 0.0) || unit < kFinestUnit || unit > kCoarsestUnit) {
         throw BadInput(file.string(), "cam_K, depth_scale", "unusable",
                        "a lens and millimetres per unit (0.001 to 100) for the first depth image");
     }
     CameraInfo& camera = layout.intrinsics.camera;
-    camera.depth.width = size->width;
-    camera.depth.height = size->height;
+    camera.depth.width = size.width;
+    camera.depth.height = size.height;
     camera.depth.fx = first->k[0];
     camera.depth.fy = first->k[4];
     camera.depth.cx = first->k[2];
     camera.depth.cy = first->k[5];
     camera.colour = camera.depth;
-    camera.metresPerUnit = unit;
+    layout.intrinsics.scale = camera.metresPerUnit = unit;
     return layout;
 }
 
@@ -181,7 +178,9 @@ RecordingLayout readSevenScenes(const fs::path& folder) {
         Intrinsics{.width = 640, .height = 480, .fx = 585.0, .fy = 585.0, .cx = 320.0, .cy = 240.0};
     camera.colour = camera.depth;
     layout.invalid = 65535;
-    layout.index = pairsOf(numbered(folder, {".depth.png"}), numbered(folder, {".color.png"}), folder);
+    constexpr std::array<std::string_view, 1> kPng{".png"};
+    layout.index =
+        pairsOf(numbered(folder, kPng, ".depth"), numbered(folder, kColourEndings, ".color"), folder);
     for (IndexLine& line : layout.index) {
         std::string pose = line.depth.string();
         pose.replace(pose.size() - std::string_view("depth.png").size(), std::string::npos, "pose.txt");
@@ -192,31 +191,54 @@ RecordingLayout readSevenScenes(const fs::path& folder) {
     return layout;
 }
 
-} // namespace
-
-RecordingLayout readLayout(const fs::path& folder, const SourceOptions& options) {
-    if (options.intrinsics.empty() && !fs::exists(folder / "intrinsics.json")) {
-        if (fs::exists(folder / "camera_intrinsic.json")) {
-            return readOpen3d(folder);
+// By the first depth image that can be read. Depth scales are for integers.
+bool holdsMetres(const RecordingLayout& layout) {
+    for (const IndexLine& line : layout.index) {
+        const DepthHead head = depthImageHead(line.depth);
+        if (line.fault.empty() && head.fault.empty()) {
+            return head.metres;
         }
-        if (fs::exists(folder / "scene_camera.json")) {
-            return readBop(folder);
-        }
-        if (fs::exists(folder / "frame-000000.depth.png")) {
-            return readSevenScenes(folder);
-        }
-        throw BadInput(
-            (folder / "intrinsics.json").string(), "file", "missing",
-            "intrinsics.json (docs/guide/recordings.md has every field), or intrinsics=FILE behind "
-            "the folder's name, or a folder of Open3D, BOP or 7-Scenes");
     }
+    return false;
+}
+
+RecordingLayout readTum(const fs::path& folder, const fs::path& intrinsics) {
     RecordingLayout layout;
-    layout.intrinsics =
-        readIntrinsics(options.intrinsics.empty() ? folder / "intrinsics.json" : options.intrinsics);
+    layout.intrinsics = readIntrinsics(intrinsics, ScaleRule::Unchecked);
     layout.index = readIndex(folder, layout.intrinsics);
+    if (!holdsMetres(layout)) {
+        layout.intrinsics = readIntrinsics(intrinsics);
+    }
     if (fs::exists(folder / "poses.txt")) {
         layout.poses.emplace(folder / "poses.txt");
     }
+    return layout;
+}
+
+RecordingLayout readFolder(const fs::path& folder, const SourceOptions& options) {
+    if (!options.intrinsics.empty() || fs::exists(folder / "intrinsics.json")) {
+        return readTum(folder, options.intrinsics.empty() ? folder / "intrinsics.json" : options.intrinsics);
+    }
+    if (fs::exists(folder / "camera_intrinsic.json")) {
+        return readOpen3d(folder);
+    }
+    if (fs::exists(folder / "scene_camera.json")) {
+        return readBop(folder);
+    }
+    if (fs::exists(folder / "frame-000000.depth.png")) {
+        return readSevenScenes(folder);
+    }
+    throw BadInput((folder / "intrinsics.json").string(), "file", "missing",
+                   "intrinsics.json (docs/guide/recordings.md has every field), or intrinsics=FILE behind "
+                   "the folder's name, or a folder of Open3D, BOP or 7-Scenes");
+}
+
+} // namespace
+
+RecordingLayout readLayout(const fs::path& folder, const SourceOptions& options) {
+    RecordingLayout layout = readFolder(folder, options);
+    layout.metres = holdsMetres(layout);
+    layout.statedUnit = layout.intrinsics.scale;
     return layout;
 }
 

@@ -12,14 +12,16 @@ struct RecordingLayout {
     RecordingIntrinsics intrinsics;
     std::vector<IndexLine> index;
     std::optional<PoseTrack> poses;
-    uint16_t invalid = 0; // a raw depth that means no measurement besides 0
+    uint16_t invalid = 0;             // a raw depth that means no measurement besides 0
+    bool metres = false;              // depth images hold floating point, in metres
+    std::optional<double> statedUnit; // [m] by the layout's files; nothing where none is stated
 };
 
 // With intrinsics.json, or options.intrinsics: TUM RGB-D (readIndex()), and poses.txt. Without: Open3D
 // (camera_intrinsic.json, color/ and depth/ in order of names, millimetres), BOP (scene_camera.json, rgb/ and
 // depth/ by number, lens and depth_scale of each image, one lens for all), 7-Scenes (frame-N.color.png,
 // frame-N.depth.png, frame-N.pose.txt; Kinect's nominal lens, 65535 = no measurement). Frames without stamps
-// are 1/30 s apart. Throws BadInput.
+// are 1/30 s apart. Images of floating point need no depth scale. Throws BadInput.
 RecordingLayout readLayout(const std::filesystem::path& folder, const SourceOptions& options);
 
 } // namespace fathom

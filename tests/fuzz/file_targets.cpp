@@ -2,6 +2,7 @@
 // Targets that read files: scenes, recordings, clouds, bags.
 #include "devices/bag/bag_camera.h"
 #include "devices/bag/image_pixels.h"
+#include "devices/images/depth_image.h"
 #include "devices/pcd/pcd_camera.h"
 #include "devices/recorded/hand_csv.h"
 #include "devices/recorded/png_image.h"
@@ -89,6 +90,23 @@ void readPng(Bytes input) {
                       noColour = readColourPng(file, *size, colour);
     need(!noDepth.empty() || !noColour.empty()); // never both
     need(!readDepthPng(file, {size->width + 1, size->height}, depth).empty());
+}
+
+void readDepthFile(Bytes input) {
+    const auto file = fuzzFile("depth", input);
+    const DepthHead head = depthImageHead(file);
+    if (!head.fault.empty() || uint64_t{head.size.width} * head.size.height > 1u << 16) {
+        throw Error(head.fault.empty() ? "too large to be quick" : head.fault);
+    }
+    need(head.size.width > 0 || !head.metres);
+    std::vector<uint16_t> depth(size_t{head.size.width} * head.size.height);
+    uint64_t beyond = 0;
+    const std::string fault = readDepthImage(file, head.size, {head.metres, 0.001}, depth, beyond);
+    need(beyond <= depth.size() && std::isfinite(farthestValue(file, head.size)));
+    need(!readDepthImage(file, head.size, {!head.metres, 0.001}, depth, beyond).empty()); // the other kind
+    if (!fault.empty()) {
+        throw Error(fault);
+    }
 }
 
 void readJpegImage(Bytes input) {

@@ -21,6 +21,7 @@ namespace {
 constexpr std::array kTargets{
     FuzzTarget{"bag", readBag},
     FuzzTarget{"database", readDatabase},
+    FuzzTarget{"depth_image", readDepthFile},
     FuzzTarget{"descriptors", readDescriptors},
     FuzzTarget{"door", readEndpoint},
     FuzzTarget{"eca", readEca},

@@ -37,6 +37,7 @@ void readIndexFile(Bytes input);
 void readIntrinsicsFile(Bytes input);
 void readTracks(Bytes input);
 void readPng(Bytes input);
+void readDepthFile(Bytes input);
 void readJpegImage(Bytes input);
 void readPcdFile(Bytes input);
 void readBag(Bytes input);

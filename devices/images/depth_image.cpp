@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/images/depth_image.h"
+
+#include "devices/images/exr_image.h"
+#include "devices/images/metre_units.h"
+#include "devices/images/npy_image.h"
+#include "devices/images/pgm_image.h"
+#include "devices/images/tiff_image.h"
+#include "engine/types/read_file.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <fstream>
+#include <optional>
+#include <vector>
+
+namespace fathom {
+
+namespace {
+
+constexpr size_t kMostDepthFile = 256u << 20; // [bytes]; float64 of 3840x2160 is 64 MiB
+
+struct DepthFormat {
+    bool (*is)(ImageBytes);
+    DepthHead (*head)(ImageBytes);
+    std::string (*units)(ImageBytes, std::span<uint16_t>); // null: floating point only
+    std::string (*metres)(ImageBytes, std::span<float>);   // null: 16 bits only
+};
+
+constexpr std::array kDepthFormats{
+    DepthFormat{isPgm, pgmHead, readPgm, nullptr}, DepthFormat{isTiff, tiffHead, readTiff, readTiff},
+    DepthFormat{isNpy, npyHead, readNpy, readNpy}, DepthFormat{isExr, exrHead, nullptr, readExr}};
+
+// By the first bytes; null for PNG and whatever is not known.
+const DepthFormat* formatOf(ImageBytes bytes) {
+    const auto found =
+        std::find_if(kDepthFormats.begin(), kDepthFormats.end(), [&](const auto& f) { return f.is(bytes); });
+    return found == kDepthFormats.end() ? nullptr : &*found;
+}
+
+ImageBytes asBytes(const std::string& text) {
+    return {reinterpret_cast<const uint8_t*>(text.data()), text.size()};
+}
+
+const DepthFormat* formatOf(const std::filesystem::path& file) {
+    std::string begin(16, '\0');
+    std::ifstream in(isRegularFile(file) ? std::ifstream(file, std::ios::binary) : std::ifstream());
+    in.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+    begin.resize(static_cast<size_t>(in.gcount()));
+    return formatOf(asBytes(begin));
+}
+
+// The image's bytes when its head is as wanted, else the fault.
+std::string checkedBytes(const std::filesystem::path& file, const DepthFormat& format, PngSize size,
+                         bool metres, std::string& bytes) {
+    auto text = readFileAtMost(file, kMostDepthFile);
+    if (!text || text->size() > kMostDepthFile) {
+        return text ? "over 256 MiB" : whyUnreadable(file);
+    }
+    bytes = std::move(*text);
+    const DepthHead head = format.head(asBytes(bytes));
+    if (!head.fault.empty()) {
+        return head.fault;
+    }
+    if (head.size != size) {
+        return std::to_string(head.size.width) + "x" + std::to_string(head.size.height) + " pixels, not " +
+               std::to_string(size.width) + "x" + std::to_string(size.height);
+    }
+    return head.metres == metres ? ""
+           : metres              ? "16-bit values, not metres as in the first depth image"
+                                 : "floating point, not 16-bit values as in the first depth image";
+}
+
+} // namespace
+
+bool endsAs(const std::filesystem::path& file, std::span<const std::string_view> endings) {
+    std::string ending = file.extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return std::find(endings.begin(), endings.end(), ending) != endings.end();
+}
+
+DepthHead depthImageHead(const std::filesystem::path& file) {
+    const DepthFormat* format = formatOf(file);
+    if (format == nullptr) {
+        const auto size = readPngSize(file);
+        return size ? DepthHead{*size, false, ""} : DepthHead{{}, false, "not PNG, PGM, TIFF, NPY or EXR"};
+    }
+    const auto text = readFileAtMost(file, kMostDepthFile);
+    return text && text->size() <= kMostDepthFile ? format->head(asBytes(*text))
+                                                  : DepthHead{{}, false, "over 256 MiB"};
+}
+
+std::string readDepthImage(const std::filesystem::path& file, PngSize size, const DepthUnits& units,
+                           std::span<uint16_t> out, uint64_t& beyond) {
+    const DepthFormat* format = formatOf(file);
+    if (format == nullptr) {
+        return units.metres && readPngSize(file) ? "16-bit values, not metres as in the first depth image"
+                                                 : readDepthPng(file, size, out);
+    }
+    std::string bytes;
+    const std::string fault = checkedBytes(file, *format, size, units.metres, bytes);
+    if (!fault.empty() || !units.metres) {
+        return fault.empty() ? format->units(asBytes(bytes), out) : fault;
+    }
+    std::vector<float> values(out.size());
+    std::string damaged = format->metres(asBytes(bytes), values);
+    std::transform(values.begin(), values.end(), out.begin(),
+                   [&](float v) { return unitsOf(double{v}, units.valuesPerUnit, beyond); });
+    return damaged;
+}
+
+double farthestValue(const std::filesystem::path& file, PngSize size) {
+    const DepthFormat* format = formatOf(file);
+    std::string bytes;
+    if (format == nullptr || !checkedBytes(file, *format, size, true, bytes).empty()) {
+        return 0.0;
+    }
+    std::vector<float> values(size_t{size.width} * size.height);
+    float most = 0.0f;
+    if (format->metres(asBytes(bytes), values).empty()) {
+        for (const float value : values) {
+            most = std::isfinite(value) ? std::max(most, value) : most;
+        }
+    }
+    return double{most};
+}
+
+} // namespace fathom

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// Depth images of a recording folder, by their first bytes: PNG, PGM and TIFF of 16 bits; TIFF, NPY and EXR
+// of floating point, in metres; NPY of 16 bits.
+#pragma once
+
+#include "devices/images/depth_head.h"
+
+#include <array>
+#include <filesystem>
+#include <string_view>
+
+namespace fathom {
+
+// Endings of their names, in lower case.
+inline constexpr std::array<std::string_view, 6> kDepthEndings{".png",  ".pgm", ".tif",
+                                                               ".tiff", ".npy", ".exr"};
+inline constexpr std::array<std::string_view, 3> kColourEndings{".png", ".jpg", ".jpeg"};
+// Whether the name ends in one of them, in upper or lower case.
+bool endsAs(const std::filesystem::path& file, std::span<const std::string_view> endings);
+
+// How values become those of a frame.
+struct DepthUnits {
+    bool metres = false;        // images of floating point are expected, else of 16 bits
+    double valuesPerUnit = 1.0; // of floating point: value of the frame's depth 1
+};
+
+// Reads the file, at most 256 MiB.
+DepthHead depthImageHead(const std::filesystem::path& file);
+// Raw values, 0 = no measurement; NaN and infinity become 0, and so does what is too far for 16 bits, counted
+// in `beyond`. Returns the fault, or empty when everything was read; another size or kind than asked for is a
+// fault.
+std::string readDepthImage(const std::filesystem::path& file, PngSize size, const DepthUnits& units,
+                           std::span<uint16_t> out, uint64_t& beyond);
+// The largest finite value of a floating-point image of this size; 0 when there is none or it cannot be read.
+double farthestValue(const std::filesystem::path& file, PngSize size);
+
+} // namespace fathom

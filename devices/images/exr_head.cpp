@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/images/exr_head.h"
+
+#include "devices/bag/byte_cursor.h"
+#include "devices/recorded/recording_intrinsics.h"
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+
+namespace fathom {
+
+namespace {
+
+constexpr size_t kMostExrChannels = 64, kMostExrAttributes = 1000, kMostExrName = 255;
+constexpr uint32_t kExrPlain = 2, kExrLongNames = 0x400; // version 2, and a flag that changes nothing here
+
+struct ExrChannel {
+    std::string name;
+    uint32_t kind = 0; // 0 uint32, 1 half, 2 float
+};
+
+struct ExrBox {
+    int32_t left = 0, top = 0, right = 0, bottom = 0; // all inside
+    bool operator==(const ExrBox&) const = default;
+};
+
+std::string exrName(ByteCursor& cursor) {
+    std::string name;
+    for (char c = static_cast<char>(cursor.value<uint8_t>()); c != '\0';
+         c = static_cast<char>(cursor.value<uint8_t>())) {
+        name += c;
+        if (name.size() > kMostExrName) {
+            throw Error("EXR: a name of over 255 bytes");
+        }
+    }
+    return name;
+}
+
+std::vector<ExrChannel> exrChannels(ByteCursor cursor) {
+    std::vector<ExrChannel> channels;
+    for (std::string name = exrName(cursor); !name.empty(); name = exrName(cursor)) {
+        channels.push_back({name, cursor.word()});
+        cursor.word(); // a hint on brightness
+        const uint32_t across = cursor.word(), down = cursor.word();
+        if (channels.size() > kMostExrChannels || channels.back().kind > 2 || across != 1 || down != 1) {
+            throw Error("EXR: channels (allowed: at most 64, without subsampling)");
+        }
+    }
+    return channels;
+}
+
+std::map<std::string, ImageBytes> exrAttributes(ByteCursor& cursor) {
+    std::map<std::string, ImageBytes> attributes;
+    for (std::string name = exrName(cursor); !name.empty(); name = exrName(cursor)) {
+        exrName(cursor); // its type follows from its name
+        attributes[name] = cursor.block();
+        if (attributes.size() > kMostExrAttributes) {
+            throw Error("EXR: more than 1000 attributes");
+        }
+    }
+    return attributes;
+}
+
+ImageBytes exrAttribute(const std::map<std::string, ImageBytes>& all, const char* name) {
+    const auto found = all.find(name);
+    if (found == all.end()) {
+        throw Error(std::string("EXR: no attribute ") + name);
+    }
+    return found->second;
+}
+
+// 3: names depth, down to 0: may not be it.
+int depthRank(const std::string& name, bool alone) {
+    std::string last = name.substr(name.rfind('.') + 1);
+    std::transform(last.begin(), last.end(), last.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return last == "z" || last == "depth" ? 3 : (alone || last == "y" ? 2 : (last == "r" ? 1 : 0));
+}
+
+void chooseChannel(const std::vector<ExrChannel>& channels, ExrHead& head) {
+    int best = 0;
+    std::string names;
+    uint32_t kind = 0;
+    for (const ExrChannel& channel : channels) {
+        names += (names.empty() ? "" : ", ") + channel.name;
+        if (const int rank = depthRank(channel.name, channels.size() == 1); rank > best) {
+            best = rank;
+            head.channelAt = head.rowBytes;
+            kind = channel.kind;
+        }
+        head.rowBytes += size_t{head.width} * (channel.kind == 1 ? 2 : 4);
+    }
+    if (best == 0 || kind == 0) {
+        throw Error("EXR: channels: " + names.substr(0, 80) +
+                    " (allowed: Z, depth, Y, R or a single one, of floating point)");
+    }
+    head.half = kind == 1;
+}
+
+void takeWindow(const std::map<std::string, ImageBytes>& all, ExrHead& head) {
+    const auto data = ByteCursor(exrAttribute(all, "dataWindow")).value<ExrBox>();
+    if (data != ByteCursor(exrAttribute(all, "displayWindow")).value<ExrBox>()) {
+        throw Error("EXR: dataWindow (allowed: equal to displayWindow)");
+    }
+    const int64_t width = int64_t{data.right} - data.left + 1, height = int64_t{data.bottom} - data.top + 1;
+    if (width < 1 || height < 1 || width > kMaxImageWidth || height > kMaxImageHeight) {
+        throw Error("EXR: " + std::to_string(width) + "x" + std::to_string(height) +
+                    " pixels (allowed: at most 3840x2160)");
+    }
+    head.width = static_cast<uint32_t>(width);
+    head.height = static_cast<uint32_t>(height);
+    head.firstRow = data.top;
+}
+
+void takeCompression(const std::map<std::string, ImageBytes>& all, ExrHead& head) {
+    const auto kind = ByteCursor(exrAttribute(all, "compression")).value<uint8_t>();
+    if (kind != 0 && kind != 2 && kind != 3) {
+        constexpr const char* kNames[] = {"", "RLE", "", "", "PIZ", "PXR24", "B44", "B44A", "DWAA", "DWAB"};
+        throw Error(std::string("EXR: compression: ") +
+                    (kind < std::size(kNames) ? kNames[kind] : "unknown") + " (allowed: none, ZIPS, ZIP)");
+    }
+    head.packed = kind != 0;
+    head.rowsPerChunk = kind == 3 ? 16 : 1;
+}
+
+void readExrHead(ImageBytes bytes, ExrHead& head) {
+    ByteCursor cursor(bytes);
+    cursor.word(); // magic
+    if (const uint32_t version = cursor.word(); (version & ~kExrLongNames) != kExrPlain) {
+        throw Error("EXR: tiles, deep data or several parts (allowed: one part of scan lines)");
+    }
+    const auto attributes = exrAttributes(cursor);
+    takeWindow(attributes, head);
+    takeCompression(attributes, head);
+    chooseChannel(exrChannels(ByteCursor(exrAttribute(attributes, "channels"))), head);
+    for (uint32_t row = 0; row < head.height; row += head.rowsPerChunk) {
+        head.chunks.push_back(cursor.value<uint64_t>());
+    }
+}
+
+} // namespace
+
+ExrHead parseExrHead(ImageBytes bytes) {
+    ExrHead head;
+    try {
+        readExrHead(bytes, head);
+    } catch (const Error& e) {
+        head.fault = e.what() == std::string_view("truncated") ? "EXR: truncated" : e.what();
+    }
+    return head;
+}
+
+} // namespace fathom

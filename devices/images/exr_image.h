@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// OpenEXR: scan lines, 16 or 32 bits of floating point, uncompressed, ZIP or ZIPS.
+#pragma once
+
+#include "devices/images/depth_head.h"
+
+namespace fathom {
+
+bool isExr(ImageBytes bytes);
+DepthHead exrHead(ImageBytes bytes);
+// Returns the fault, or empty when all was read. `out` has as many elements as exrHead() states.
+std::string readExr(ImageBytes bytes, std::span<float> out);
+
+} // namespace fathom

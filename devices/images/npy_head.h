@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// The head of a NumPy array: a Python dictionary as text.
+#pragma once
+
+#include "devices/images/depth_head.h"
+
+namespace fathom {
+
+struct NpyHead {
+    uint32_t width = 0, height = 0;
+    char kind = 0;      // 'u' integers without sign, 'f' floating point
+    uint32_t bytes = 0; // of one value
+    bool bigEndian = false;
+    size_t values = 0; // where they begin
+    std::string fault; // names the field, its value and what is allowed; empty = all above is set
+};
+
+// At most 64 KiB of head, images of at most 3840x2160.
+NpyHead parseNpyHead(ImageBytes bytes);
+
+} // namespace fathom

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// Arrays of NumPy (.npy, versions 1 to 3): uint16, float32 or float64, either byte order, shape (height,
+// width) or (height, width, 1), in C order. Source: numpy.lib.format.
+#pragma once
+
+#include "devices/images/depth_head.h"
+
+namespace fathom {
+
+bool isNpy(ImageBytes bytes);
+DepthHead npyHead(ImageBytes bytes);
+// Both return the fault, or empty when all was read. `out` has as many elements as npyHead() states, of the
+// kind that it states.
+std::string readNpy(ImageBytes bytes, std::span<uint16_t> out);
+std::string readNpy(ImageBytes bytes, std::span<float> out);
+
+} // namespace fathom

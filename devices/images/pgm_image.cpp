@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/images/pgm_image.h"
+
+#include <cctype>
+#include <optional>
+
+namespace fathom {
+
+namespace {
+
+struct PgmHead {
+    uint32_t width = 0, height = 0, most = 0;
+    size_t pixels = 0; // where they begin
+};
+
+// The next number, after white space and comments to the end of their line. At most six digits.
+std::optional<uint32_t> pgmNumber(ImageBytes bytes, size_t& at) {
+    bool comment = false;
+    for (; at < bytes.size() && (comment || bytes[at] == '#' || std::isspace(bytes[at]) != 0); ++at) {
+        comment = bytes[at] == '#' || (comment && bytes[at] != '\n' && bytes[at] != '\r');
+    }
+    uint32_t value = 0;
+    const size_t begin = at;
+    for (; at < bytes.size() && at < begin + 6 && std::isdigit(bytes[at]) != 0; ++at) {
+        value = 10 * value + (bytes[at] - uint32_t{'0'});
+    }
+    return at == begin ? std::nullopt : std::optional(value);
+}
+
+std::optional<PgmHead> parsePgm(ImageBytes bytes) {
+    size_t at = 2; // "P5"
+    const auto width = pgmNumber(bytes, at), height = pgmNumber(bytes, at), most = pgmNumber(bytes, at);
+    if (!width || !height || !most || at >= bytes.size() || std::isspace(bytes[at]) == 0) {
+        return std::nullopt;
+    }
+    return PgmHead{*width, *height, *most, at + 1};
+}
+
+} // namespace
+
+bool isPgm(ImageBytes bytes) {
+    return bytes.size() > 2 && bytes[0] == 'P' && bytes[1] == '5' && std::isspace(bytes[2]) != 0;
+}
+
+DepthHead pgmHead(ImageBytes bytes) {
+    const auto head = parsePgm(bytes);
+    DepthHead out;
+    if (!head) {
+        out.fault = "PGM: a head that is not 'P5 WIDTH HEIGHT MAXIMUM'";
+    } else if (head->most < 256 || head->most > 65535) {
+        out.fault = "PGM: maximum value " + std::to_string(head->most) + " (allowed: 256 to 65535, 16 bits)";
+    } else {
+        out.size = {head->width, head->height};
+    }
+    return out;
+}
+
+std::string readPgm(ImageBytes bytes, std::span<uint16_t> out) {
+    const auto head = parsePgm(bytes);
+    if (!head || size_t{head->width} * head->height != out.size()) {
+        return "PGM: another size";
+    }
+    const ImageBytes pixels = bytes.subspan(head->pixels);
+    if (pixels.size() != 2 * out.size()) {
+        return "PGM: " + std::to_string(pixels.size()) + " bytes of pixels, not " +
+               std::to_string(2 * out.size());
+    }
+    for (size_t i = 0; i < out.size(); ++i) {
+        out[i] = static_cast<uint16_t>(pixels[2 * i] << 8 | pixels[2 * i + 1]);
+        if (out[i] > head->most) {
+            return "PGM: value " + std::to_string(out[i]) + " over its maximum " + std::to_string(head->most);
+        }
+    }
+    return "";
+}
+
+} // namespace fathom

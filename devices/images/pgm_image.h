@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// Binary PGM (P5) with 16 bits per pixel, most significant byte first (netpbm's pgm(5)).
+#pragma once
+
+#include "devices/images/depth_head.h"
+
+namespace fathom {
+
+bool isPgm(ImageBytes bytes);
+// Refuses 8-bit images: a maximum value below 256.
+DepthHead pgmHead(ImageBytes bytes);
+// The values as stored; one above the stated maximum is a fault. Returns the fault, or empty when all were
+// read. `out` has as many elements as pgmHead() states.
+std::string readPgm(ImageBytes bytes, std::span<uint16_t> out);
+
+} // namespace fathom

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/recorded/folder_depth.h"
+
+#include "devices/images/metre_units.h"
+#include "engine/types/log.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace fathom {
+
+FolderDepth::FolderDepth(const std::filesystem::path& folder, const RecordingLayout& layout,
+                         const SourceOptions& options)
+    : folder_(folder.string())
+    , size_{layout.intrinsics.camera.depth.width, layout.intrinsics.camera.depth.height}
+    , metresPerUnit_(options.scale.value_or(layout.intrinsics.camera.metresPerUnit))
+    , farthest_(options.farthest)
+    , invalid_(layout.invalid) {
+    units_.metres = layout.metres;
+    if (layout.metres) {
+        chooseUnit(layout, options);
+    } else {
+        options.checkUnit(folder_);
+    }
+    const Intrinsics& lens = layout.intrinsics.camera.depth;
+    for (uint32_t i = 0; layout.intrinsics.rangeImages && i < lens.pixels(); ++i) {
+        const dvec3 ray(lens.ray(i % lens.width, i / lens.width), 1.0);
+        axisShare_.push_back(static_cast<float>(1.0 / glm::length(ray)));
+    }
+}
+
+void FolderDepth::chooseUnit(const RecordingLayout& layout, const SourceOptions& options) {
+    constexpr size_t kSamples = 9;
+    if (layout.statedUnit && *layout.statedUnit != 1.0 && !options.scale) {
+        log::warn("{}: its depth images hold floating point, read as metres: the depth scale {} is not "
+                  "applied; scale=M behind the folder's name is",
+                  folder_, *layout.statedUnit);
+    }
+    double farthest = 0.0;
+    const size_t step = std::max<size_t>(1, layout.index.size() / kSamples);
+    for (size_t i = 0; i < layout.index.size(); i += step) {
+        farthest = std::max(farthest, farthestValue(layout.index[i].depth, size_));
+    }
+    const double metresPerValue = options.scale.value_or(1.0);
+    metresPerUnit_ = unitForMetres(std::min(1.5 * metresPerValue * farthest, options.farthest));
+    units_.valuesPerUnit = metresPerUnit_ / metresPerValue;
+}
+
+void FolderDepth::dropInvalid(std::span<uint16_t> depth) const {
+    if (invalid_ != 0) {
+        std::replace(depth.begin(), depth.end(), invalid_, uint16_t{0});
+    }
+}
+
+void FolderDepth::toAxis(std::span<uint16_t> ranges) const {
+    for (size_t i = 0; i < axisShare_.size(); ++i) {
+        ranges[i] = static_cast<uint16_t>(static_cast<float>(ranges[i]) * axisShare_[i] + 0.5f);
+    }
+}
+
+std::string FolderDepth::read(const std::filesystem::path& file, std::span<uint16_t> depth) {
+    uint64_t beyond = 0;
+    std::string fault = readDepthImage(file, size_, units_, depth, beyond);
+    if (!fault.empty()) {
+        return fault;
+    }
+    const double limit = 65535.0 * metresPerUnit_;
+    if (beyond > 0 && !toldBeyond_ && limit < farthest_) {
+        toldBeyond_ = true;
+        log::warn("{}: {} pixels are farther than {:.4g} m and count as not measured", file.string(), beyond,
+                  limit);
+    }
+    dropInvalid(depth);
+    toAxis(depth);
+    return "";
+}
+
+} // namespace fathom

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reads the depth images of a recording folder as a frame's values.
+#pragma once
+
+#include "devices/images/depth_image.h"
+#include "devices/recorded/recording_layout.h"
+#include "devices/recorded/source_options.h"
+
+#include <vector>
+
+namespace fathom {
+
+// One thread.
+class FolderDepth {
+public:
+    // Images of floating point are metres, or options.scale metres per value; their unit is chosen from a few
+    // images of the index: the finest that holds one and a half times the farthest depth, or
+    // options.farthest. Throws BadInput for an absurd scale.
+    FolderDepth(const std::filesystem::path& folder, const RecordingLayout& layout,
+                const SourceOptions& options);
+
+    double metresPerUnit() const { return metresPerUnit_; }
+    // z in metresPerUnit(), 0 = no measurement. Returns the fault, or empty. Warns once of depth that is too
+    // far for 16 bits.
+    std::string read(const std::filesystem::path& file, std::span<uint16_t> depth);
+
+private:
+    void chooseUnit(const RecordingLayout& layout, const SourceOptions& options);
+    void dropInvalid(std::span<uint16_t> depth) const;
+    void toAxis(std::span<uint16_t> ranges) const;
+
+    std::string folder_;
+    PngSize size_;
+    DepthUnits units_;
+    double metresPerUnit_ = 0.0, farthest_ = 0.0; // [m]
+    uint16_t invalid_ = 0;
+    bool toldBeyond_ = false;
+    std::vector<float> axisShare_; // z of a unit step along each ray; empty = images hold z
+};
+
+} // namespace fathom
