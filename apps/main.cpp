@@ -3,6 +3,7 @@
 // violated or internal error, 2 bad input, 3 device lost.
 #include "apps/arm_simulator/arm_simulator_command.h"
 #include "apps/clock/keep_clock_command.h"
+#include "apps/convert/convert_command.h"
 #include "apps/devices/devices_command.h"
 #include "apps/global_options.h"
 #include "apps/guard/arm_watchdog_command.h"
@@ -81,6 +82,7 @@ int run(int argc, char** argv) {
         [&global] { spdlog::set_level(global.verbose ? spdlog::level::debug : spdlog::level::warn); });
     fathom::addPlanCommand(app, global);
     fathom::addInspectCommand(app);
+    fathom::addConvertCommand(app);
     fathom::addRegisterCommand(app, global);
     fathom::addGuardCommand(app);
     fathom::addArmWatchdogCommand(app);

@@ -27,7 +27,7 @@ constexpr size_t kSeeds = 12;       // seed corners of grids
 constexpr double kWindow = 2.0;     // [pixels] sigma of the quadric's weights
 constexpr int kLeastContrast = 160; // of the response: 10 grey levels at every sample
 
-struct Image {
+struct GreyView {
     std::span<const uint8_t> grey;
     int width, height;
     int at(int x, int y) const { return grey[static_cast<size_t>(y) * static_cast<size_t>(width) + x]; }
@@ -41,7 +41,7 @@ struct Image {
 };
 
 // Large where opposite samples agree and samples a quarter turn away differ.
-int response(const Image& image, int x, int y) {
+int response(const GreyView& image, int x, int y) {
     std::array<int, 16> ring{};
     int sum = 0, across = 0, along = 0;
     for (size_t k = 0; k < 16; ++k) {
@@ -59,7 +59,7 @@ int response(const Image& image, int x, int y) {
 }
 
 // Stationary point of a quadric fitted to the image around `guess`.
-std::optional<dvec2> saddle(const Image& image, dvec2 guess) {
+std::optional<dvec2> saddle(const GreyView& image, dvec2 guess) {
     const dvec2 first = guess;
     for (int round = 0; round < 4; ++round) {
         Eigen::Matrix<double, 6, 6> normal = Eigen::Matrix<double, 6, 6>::Zero();
@@ -88,7 +88,7 @@ std::optional<dvec2> saddle(const Image& image, dvec2 guess) {
     return guess;
 }
 
-std::vector<dvec2> saddles(const Image& image, size_t most) {
+std::vector<dvec2> saddles(const GreyView& image, size_t most) {
     struct Peak {
         int strength, x, y;
     };
@@ -214,7 +214,7 @@ std::vector<dvec2> rowByRow(const std::map<Cell, Grown>& grid, int columns, int 
 }
 
 // Reorders to a right-handed grid that starts at the corner whose outer square is dark.
-void putUpright(const Image& image, std::vector<dvec2>& corners, size_t columns) {
+void putUpright(const GreyView& image, std::vector<dvec2>& corners, size_t columns) {
     const dvec2 right = corners[1] - corners[0], down = corners[columns] - corners[0];
     if (right.x * down.y - right.y * down.x < 0.0) {
         for (size_t row = 0; row < corners.size(); row += columns) {
@@ -235,7 +235,7 @@ void putUpright(const Image& image, std::vector<dvec2>& corners, size_t columns)
 
 std::vector<glm::dvec2> boardCorners(std::span<const uint8_t> grey, uint32_t width, uint32_t height,
                                      uint32_t columns, uint32_t rows) {
-    const Image image{grey, static_cast<int>(width), static_cast<int>(height)};
+    const GreyView image{grey, static_cast<int>(width), static_cast<int>(height)};
     const std::vector<dvec2> points = saddles(image, 4 * size_t{columns} * rows + 64);
     for (size_t seed = 0; seed < std::min(kSeeds, points.size()); ++seed) {
         std::vector<dvec2> corners =

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 namespace fathom {
 
@@ -43,7 +44,9 @@ PoseTrack::PoseTrack(const std::filesystem::path& file) {
         if (!poses_.empty() && !(v[0] > poses_.back().t)) {
             refuse("a time later than in the previous line");
         }
-        poses_.push_back({v[0], {{v[1], v[2], v[3]}, q / length}});
+        // A unit quaternion stays as it is, so that a track that was written is read with the same bits.
+        constexpr double kUnit = 4.0 * std::numeric_limits<double>::epsilon();
+        poses_.push_back({v[0], {{v[1], v[2], v[3]}, std::abs(length - 1.0) <= kUnit ? q : q / length}});
     }
     if (poses_.empty()) {
         throw BadInput(file.string(), "poses", "none", "at least one line t tx ty tz qx qy qz qw");
@@ -61,6 +64,9 @@ std::optional<Pose> PoseTrack::at(double t) const noexcept {
     const bool hasBefore = next != poses_.begin(), hasNext = next != poses_.end();
     if (hasBefore && hasNext && next->t - (next - 1)->t <= kLongestGap + kSlack) {
         const Stamped& before = *(next - 1);
+        if (t == before.t) {
+            return before.baseTcamera;
+        }
         return interpolate(before.baseTcamera, next->baseTcamera, (t - before.t) / (next->t - before.t));
     }
     const double since = hasBefore ? t - (next - 1)->t : HUGE_VAL, until = hasNext ? next->t - t : HUGE_VAL;

@@ -6,7 +6,9 @@
 #include "engine/types/colour_copy.h"
 #include "engine/types/error.h"
 
+#include <charconv>
 #include <cstdio>
+#include <cstdlib>
 
 namespace fathom {
 
@@ -20,9 +22,14 @@ std::string numbered(const char* folder, uint32_t number) {
     return name;
 }
 
+// Nanoseconds, and all digits of a stamp that nine decimals do not restore.
 std::string text(double value) {
-    char digits[40];
+    char digits[400];
     std::snprintf(digits, sizeof digits, "%.9f", value);
+    if (std::strtod(digits, nullptr) != value) {
+        const auto end = std::to_chars(digits, digits + sizeof digits, value, std::chars_format::fixed).ptr;
+        return {digits, end};
+    }
     return digits;
 }
 

@@ -20,8 +20,8 @@ namespace {
 
 constexpr int kMostReports = 64; // per tick
 constexpr auto kSeekPause = std::chrono::milliseconds(100);
-constexpr uint32_t kGuidance = 1, kDeadManOpen = 2;     // of HandSample
-constexpr uint32_t kFirstButton = 1, kSecondButton = 2; // of the device
+constexpr uint32_t kMouseGuides = 1, kMouseOpensDeadMan = 2; // of HandSample
+constexpr uint32_t kFirstButton = 1, kSecondButton = 2;      // of the device
 
 DeviceFile choose(const std::filesystem::path& node) {
     for (const DeviceFile& file : findDeviceFiles()) {
@@ -147,11 +147,11 @@ HandSample SpaceMouseHand::read(double t) noexcept {
                                     pose_.rotation);
     HandSample sample{pose_, 0};
     if (descriptor_ < 0) {
-        sample.buttons = kDeadManOpen | options_.clutchBit;
+        sample.buttons = kMouseOpensDeadMan | options_.clutchBit;
         return sample;
     }
-    sample.buttons |= (state_.buttons & kFirstButton) != 0 ? kGuidance : 0;
-    sample.buttons |= (state_.buttons & kSecondButton) != 0 ? kDeadManOpen : 0;
+    sample.buttons |= (state_.buttons & kFirstButton) != 0 ? kMouseGuides : 0;
+    sample.buttons |= (state_.buttons & kSecondButton) != 0 ? kMouseOpensDeadMan : 0;
     return sample;
 }
 
