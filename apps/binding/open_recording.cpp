@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/binding/open_recording.h"
 
-#include "devices/bag/bag_camera.h"
+#include "devices/bag/open_bag.h"
 #include "devices/pcd/pcd_camera.h"
 #include "devices/recorded/recorded_camera.h"
 #include "engine/types/error.h"
@@ -74,13 +74,13 @@ std::unique_ptr<Camera> openRecording(const SourceRequest& request) {
     std::error_code failed;
     if (std::filesystem::is_directory(file, failed)) {
         if (isRos2Folder(file)) {
-            return std::make_unique<BagCamera>(file, request.options);
+            return openBag(file, request.options);
         }
         return std::make_unique<RecordedCamera>(file, request.options);
     }
     switch (kindOf(file)) {
     case Kind::Messages:
-        return std::make_unique<BagCamera>(file, request.options);
+        return openBag(file, request.options);
     case Kind::Cloud:
         return std::make_unique<PcdCamera>(file, request.options);
     case Kind::Unknown:

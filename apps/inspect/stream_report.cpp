@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/inspect/stream_report.h"
 
+#include "devices/bag/cloud_message.h"
 #include "engine/types/error.h"
 #include "engine/types/printable.h"
 
@@ -52,6 +53,17 @@ std::string imageText(const ImageStream& image) {
                                  : std::to_string(image.width) + "x" + std::to_string(image.height);
     return size + " " + image.encoding + ", frame '" + image.frame + "', lens: " +
            (image.lens ? lensText(*image.lens) + (image.rectified ? ", rectified" : "") : image.noLens);
+}
+
+// What a topic of clouds holds, by its first message.
+std::string cloudText(MessageFile& file, const MessageTopic& topic) {
+    try {
+        const ros::Cloud cloud = ros::cloud(file.read(topic, 0));
+        const std::string why = ros::whyNoDepth(cloud);
+        return cloud.words() + (why.empty() ? ", organised" : ": " + why);
+    } catch (const Error& e) {
+        return std::string("not readable: ") + e.what();
+    }
 }
 
 } // namespace
@@ -122,6 +134,9 @@ void writeStreams(MessageFile& file, const std::string& infoTopic, std::ostream&
             << "\n";
         if (const auto image = images.find(i); image != images.end()) {
             out << "      " << printable(imageText(image->second)) << "\n";
+        }
+        if (topic.type == ros::kCloudType && !topic.messages.empty()) {
+            out << "      " << printable(cloudText(file, topic)) << "\n";
         }
     }
 }

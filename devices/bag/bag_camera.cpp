@@ -26,8 +26,11 @@ bool isDepthUnits(std::string name) {
 } // namespace
 
 BagCamera::BagCamera(const std::filesystem::path& file, SourceOptions options)
+    : BagCamera(openMessageFile(file), std::move(options)) {}
+
+BagCamera::BagCamera(std::unique_ptr<MessageFile> file, SourceOptions options)
     : options_(std::move(options))
-    , file_(openMessageFile(file)) {
+    , file_(std::move(file)) {
     try {
         choice_ = StreamChooser(*file_, options_).choose();
         useSpan();
@@ -36,7 +39,7 @@ BagCamera::BagCamera(const std::filesystem::path& file, SourceOptions options)
     } catch (const BadInput&) {
         throw;
     } catch (const Error& e) {
-        throw BadInput(file.string(), "content", e.what(), "whole messages");
+        throw BadInput(file_->file().string(), "content", e.what(), "whole messages");
     }
     slots_.emplace(std::max(info().depth.pixels(), info().colour.pixels()), info().hasColour,
                    kFramesInFlight + 1);

@@ -22,6 +22,7 @@ class BagCamera final : public Camera {
 public:
     // Throws BadInput naming the file and the topic.
     explicit BagCamera(const std::filesystem::path& file, SourceOptions options = {});
+    BagCamera(std::unique_ptr<MessageFile> file, SourceOptions options);
 
     const CameraInfo& info() const override { return choice_.camera; }
     std::optional<Frame> next() override;

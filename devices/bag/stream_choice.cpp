@@ -72,7 +72,9 @@ std::vector<const ImageStream*> StreamChooser::depths() const {
     const std::string wanted = options_.depth.empty() ? "one of depth" : options_.depth;
     refuse("topics", seen.empty() ? "no images" : seen,
            wanted + ": sensor_msgs/Image or CompressedImage with encoding " + ros::kDepthEncodings +
-               (options_.depth.empty() ? ", whose name is not one of infrared; or depth=TOPIC" : ""));
+               (options_.depth.empty() ? ", whose name is not one of infrared; or depth=TOPIC; or organised "
+                                         "sensor_msgs/PointCloud2"
+                                       : ""));
 }
 
 std::vector<const ImageStream*> StreamChooser::colours() const {

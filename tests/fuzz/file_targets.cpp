@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Targets that read files: scenes, recordings, clouds, bags.
-#include "devices/bag/bag_camera.h"
 #include "devices/bag/image_pixels.h"
+#include "devices/bag/open_bag.h"
 #include "devices/images/depth_image.h"
 #include "devices/pcd/pcd_camera.h"
 #include "devices/recorded/hand_csv.h"
@@ -123,18 +123,15 @@ void readPcdFile(Bytes input) {
 }
 
 void readBag(Bytes input) {
-    BagCamera camera(fuzzFile("recording.bag", input));
-    drain(camera);
+    drain(*openBag(fuzzFile("recording.bag", input)));
 }
 
 void readMcap(Bytes input) {
-    BagCamera camera(fuzzFile("recording.mcap", input));
-    drain(camera);
+    drain(*openBag(fuzzFile("recording.mcap", input)));
 }
 
 void readDatabase(Bytes input) {
-    BagCamera camera(fuzzFile("recording.db3", input));
-    drain(camera);
+    drain(*openBag(fuzzFile("recording.db3", input)));
 }
 
 // The first byte selects the encoding, the second the size.

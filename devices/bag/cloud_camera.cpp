@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/bag/cloud_camera.h"
+
+#include "devices/bag/image_stream.h"
+#include "devices/images/metre_units.h"
+#include "engine/types/error.h"
+#include "engine/types/log.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fathom {
+
+namespace {
+
+constexpr size_t kLensSamples = 9; // clouds that are looked at for lens and unit
+constexpr double kMostOff = 1.0;   // [pixels] root of the mean square
+constexpr double kDoubtfulMetres = 50.0;
+
+bool hasPoint(const dvec3& p) {
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z) && p.z > 0.0;
+}
+
+// Root of the mean square distance [pixels] of the points from their pixels; 0 without points.
+double deviation(const PcdCloud& cloud, const FittedLens& fit) {
+    double sum = 0.0, count = 0.0;
+    for (size_t i = 0; i < cloud.points.size(); ++i) {
+        const dvec3 p = fit.opticalTcloud * cloud.points[i];
+        if (hasPoint(p)) {
+            const glm::dvec2 off = fit.lens.project(p) - glm::dvec2(static_cast<double>(i % cloud.width),
+                                                                    static_cast<double>(i / cloud.width));
+            sum += off.x * off.x + off.y * off.y;
+            count += 1.0;
+        }
+    }
+    return count > 0.0 ? std::sqrt(sum / count) : 0.0;
+}
+
+} // namespace
+
+bool playsClouds(MessageFile& file, const SourceOptions& options) {
+    const auto& topics = file.topics();
+    const auto isCloud = [](const MessageTopic& t) {
+        return t.type == ros::kCloudType && !t.messages.empty();
+    };
+    if (!options.depth.empty()) {
+        const MessageTopic* asked = file.find(options.depth);
+        return asked != nullptr && isCloud(*asked);
+    }
+    if (std::none_of(topics.begin(), topics.end(), isCloud)) {
+        return false;
+    }
+    const auto streams = imageStreams(file, options.info);
+    return std::none_of(streams.begin(), streams.end(), [](const ImageStream& stream) {
+        return stream.content == ros::Content::Depth && stream.role != NamedRole::Infrared;
+    });
+}
+
+CloudCamera::CloudCamera(std::unique_ptr<MessageFile> file, SourceOptions options)
+    : options_(std::move(options))
+    , file_(std::move(file))
+    , metresPerValue_(options_.scale.value_or(1.0)) {
+    checkOptions();
+    chooseTopic();
+    useSpan();
+    learnLens();
+    stamps_.emplace(*file_, topic());
+    slots_.emplace(info_.depth.pixels(), info_.hasColour, kFramesInFlight + 1);
+}
+
+void CloudCamera::refuse(const std::string& field, const std::string& value,
+                         const std::string& allowed) const {
+    throw BadInput(file_->file().string(), field, value, allowed);
+}
+
+void CloudCamera::checkOptions() const {
+    if (!options_.intrinsics.empty() || !options_.extrinsics.empty()) {
+        refuse(options_.intrinsics.empty() ? "extrinsics" : "intrinsics", "for clouds",
+               "neither: lens and colour follow from the points");
+    }
+    if (!options_.colour.empty() && options_.colour != "none") {
+        refuse("colour", options_.colour, "colour=none, or nothing: clouds hold their colour");
+    }
+}
+
+// The asked topic; else the first organised one, with colour if there is one.
+void CloudCamera::chooseTopic() {
+    std::string fault, others;
+    int best = 0;
+    for (size_t i = 0; i < file_->topics().size(); ++i) {
+        const MessageTopic& topic = file_->topics()[i];
+        if (topic.type != ros::kCloudType || topic.messages.empty() ||
+            (!options_.depth.empty() && topic.name != options_.depth)) {
+            continue;
+        }
+        std::string why;
+        int rank = 1;
+        try {
+            const ros::Cloud first = ros::cloud(file_->read(topic, 0));
+            why = ros::whyNoDepth(first);
+            rank += first.find("rgb") != nullptr || first.find("rgba") != nullptr ? 1 : 0;
+        } catch (const Error& e) {
+            why = e.what();
+        }
+        if (why.empty() && rank > best) {
+            best = rank;
+            topic_ = i;
+        }
+        fault = fault.empty() && !why.empty() ? topic.name + ": " + why : fault;
+    }
+    if (best == 0) {
+        throw BadInput(file_->file().string() + ": " + fault);
+    }
+    for (const MessageTopic& other : file_->topics()) {
+        if (other.type == ros::kCloudType && other.name != topic().name) {
+            others += (others.empty() ? "; not used: " : ", ") + other.name;
+        }
+    }
+    said_ = "depth " + topic().name + " (organised cloud)" + others;
+}
+
+// As BagCamera::useSpan().
+void CloudCamera::useSpan() {
+    const std::vector<MessageEntry>& all = topic().messages;
+    const auto place = [&](double after) {
+        const auto at = std::find_if(all.begin(), all.end(), [&](const MessageEntry& entry) {
+            return 1e-9 * static_cast<double>(entry.time - all.front().time) >= after;
+        });
+        return static_cast<uint32_t>(at - all.begin());
+    };
+    cursor_ = place(options_.start);
+    end_ = std::isfinite(options_.duration) ? place(options_.start + options_.duration)
+                                            : static_cast<uint32_t>(all.size());
+    if (cursor_ >= end_) {
+        refuse("start", std::to_string(options_.start), "a time before the last cloud");
+    }
+}
+
+// Fits lens and axes; why they do not fit, empty = they do.
+std::string CloudCamera::fit(const ros::Cloud& message, const PcdCloud& cloud) {
+    fit_ = fitLens(cloud);
+    info_.hasColour = !cloud.colour.empty() && options_.colour != "none";
+    return fit_.residual <= kMostOff ? ""
+                                     : "points of frame '" + message.frame +
+                                           "' deviate from the rays of a pinhole and of a fan by " +
+                                           std::to_string(fit_.residual) + " pixels";
+}
+
+void CloudCamera::learnLens() {
+    const size_t step = std::max<size_t>(1, (end_ - cursor_) / kLensSamples);
+    std::string fault = "no points";
+    double farthest = 0.0, nearest = HUGE_VAL;
+    for (size_t i = cursor_; i < end_; i += step) {
+        try {
+            const ros::Cloud message = cloudAt(i);
+            if (const std::string why = ros::whyNoDepth(message); !why.empty()) {
+                throw Error(why);
+            }
+            const PcdCloud cloud = ros::pointsOf(message);
+            fault = fault.empty() ? "" : fit(message, cloud);
+            for (const dvec3& point : cloud.points) {
+                const dvec3 p = metresPerValue_ * (fit_.opticalTcloud * point);
+                farthest = hasPoint(p) ? std::max(farthest, p.z) : farthest;
+                nearest = hasPoint(p) ? std::min(nearest, p.z) : nearest;
+            }
+        } catch (const Error& e) {
+            fault = fault.empty() ? "" : e.what();
+        }
+    }
+    if (!fault.empty()) {
+        refuse(topic().name, fault,
+               "clouds in the frame of their camera: x right and y down, y up and z backward, or x forward "
+               "and z up");
+    }
+    if (nearest > kDoubtfulMetres && nearest < HUGE_VAL) {
+        log::warn("{}: the nearest point is at {:.4g} m; if the clouds are in millimetres, put ,scale=0.001 "
+                  "behind its name",
+                  file_->file().string(), nearest);
+    }
+    info_.depth = info_.colour = fit_.lens;
+    info_.poseless = true;
+    info_.metresPerUnit = unitForMetres(std::min(1.5 * farthest, options_.farthest));
+}
+
+// Returns the fault; empty when the slot is filled.
+std::string CloudCamera::read(size_t index, FrameSlot& slot, double stamp) {
+    if (lastStamp_ && stamp < *lastStamp_) {
+        return "stamp " + std::to_string(stamp) + " goes back from " + std::to_string(*lastStamp_);
+    }
+    const ros::Cloud message = cloudAt(index);
+    if (message.width != info_.depth.width || message.height != info_.depth.height) {
+        return "size differs from the first cloud";
+    }
+    if (const std::string why = ros::whyNoDepth(message); !why.empty()) {
+        return why;
+    }
+    const PcdCloud cloud = ros::pointsOf(message);
+    if (info_.hasColour && cloud.colour.empty()) {
+        return "no field rgb";
+    }
+    if (const double off = deviation(cloud, fit_); off > kMostOff) {
+        return "its points deviate from the lens of the first cloud by " + std::to_string(off) + " pixels";
+    }
+    uint64_t beyond = 0;
+    const double valuesPerUnit = info_.metresPerUnit / metresPerValue_;
+    for (size_t i = 0; i < cloud.points.size(); ++i) {
+        const dvec3 p = fit_.opticalTcloud * cloud.points[i];
+        slot.depth()[i] = hasPoint(p) ? unitsOf(p.z, valuesPerUnit, beyond) : uint16_t{0};
+    }
+    if (info_.hasColour) {
+        std::copy(cloud.colour.begin(), cloud.colour.end(), slot.colour().begin());
+    }
+    return "";
+}
+
+bool CloudCamera::seek(uint32_t index) {
+    if (index >= end_) {
+        return false;
+    }
+    cursor_ = index;
+    lastStamp_.reset();
+    return true;
+}
+
+std::optional<Frame> CloudCamera::next() {
+    FrameSlot* slot = slots_->acquire();
+    if (slot == nullptr) {
+        throw Error(description() + ": all frame buffers are leased");
+    }
+    while (cursor_ < end_) {
+        const uint32_t index = cursor_++;
+        const double stamp = stamps_->stampOf(index);
+        std::string fault;
+        try {
+            fault = read(index, *slot, stamp);
+        } catch (const Error& e) {
+            fault = e.what();
+        }
+        if (fault.empty()) {
+            delivered_ = true;
+            lastStamp_ = stamp;
+            Frame::Content content;
+            content.index = index;
+            content.sourceNumber = index;
+            content.captureTime = stamp;
+            content.depth = slot->depth().first(info_.depth.pixels());
+            content.colour = slot->colour().first(info_.hasColour ? info_.depth.pixels() : 0);
+            return slot->lend(content);
+        }
+        ++skipped_;
+        firstFault_ = firstFault_.empty() ? fault : firstFault_;
+        log::warn("{}: cloud {} skipped: {}", file_->file().string(), index, fault);
+    }
+    slot->release();
+    if (!delivered_) {
+        refuse("clouds", "none is usable; first: " + firstFault_, "one usable cloud");
+    }
+    return std::nullopt;
+}
+
+} // namespace fathom
