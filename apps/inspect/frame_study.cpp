@@ -97,6 +97,10 @@ FrameStudy::FrameStudy(Camera& camera, const std::optional<std::filesystem::path
         add(*frame);
     }
     skipped_ = camera.skipped();
+    measured_ = std::accumulate(counts_.begin() + 1, counts_.end(), uint64_t{0});
+    if (out && !stamps_.empty()) {
+        drawHistograms(depthBars(), info_.hasColour ? &hues_ : nullptr, *out / "histograms.png");
+    }
 }
 
 void FrameStudy::add(const Frame& frame) {
@@ -104,9 +108,11 @@ void FrameStudy::add(const Frame& frame) {
         ++counts_[raw];
     }
     if (info_.hasColour && stamps_.size() % 30 == 0) {
-        for (const uint32_t rgba : coloursOf(frame, info_)) {
+        const std::vector<uint32_t> colours = coloursOf(frame, info_);
+        for (const uint32_t rgba : colours) {
             ++(isGrey(rgba) ? grey_ : coloured_);
         }
+        hues_.add(colours);
     }
     stamps_.push_back(frame->captureTime);
     posed_ += frame->baseTcamera ? 1 : 0;
@@ -134,37 +140,47 @@ void FrameStudy::writeTimes(std::ostream& out) const {
     out << (live_ ? " (monotonic clock)\n" : "\n");
 }
 
+double FrameStudy::quantile(double share) const {
+    auto left = static_cast<uint64_t>(share * static_cast<double>(measured_ - 1));
+    size_t raw = 1;
+    for (; counts_[raw] <= left; ++raw) {
+        left -= counts_[raw];
+    }
+    return static_cast<double>(raw) * info_.metresPerUnit;
+}
+
+DepthBars FrameStudy::depthBars() const {
+    if (measured_ == 0) {
+        return {};
+    }
+    DepthBars bars;
+    bars.low = quantile(0.0);
+    bars.width = std::max((quantile(0.99) - bars.low) / kBars, info_.metresPerUnit);
+    bars.counts.resize(kBars + 1); // the last one: beyond
+    for (size_t raw = 1; raw < counts_.size(); ++raw) {
+        const double bar = (static_cast<double>(raw) * info_.metresPerUnit - bars.low) / bars.width;
+        bars.counts[static_cast<size_t>(std::clamp(bar, 0.0, double{kBars}))] += counts_[raw];
+    }
+    return bars;
+}
+
 void FrameStudy::writeDepth(std::ostream& out) const {
-    const uint64_t all = std::accumulate(counts_.begin(), counts_.end(), uint64_t{0}),
-                   measured = all - counts_[0];
+    const uint64_t all = measured_ + counts_[0];
     out << "depth     "
-        << fixed(all > 0 ? 100.0 * static_cast<double>(measured) / static_cast<double>(all) : 0.0, 1)
+        << fixed(all > 0 ? 100.0 * static_cast<double>(measured_) / static_cast<double>(all) : 0.0, 1)
         << " % of the pixels measured";
-    if (measured == 0) {
+    if (measured_ == 0) {
         out << "\n";
         return;
     }
-    const auto quantile = [&](double share) {
-        uint64_t left = static_cast<uint64_t>(share * static_cast<double>(measured - 1));
-        size_t raw = 1;
-        for (; counts_[raw] <= left; ++raw) {
-            left -= counts_[raw];
-        }
-        return static_cast<double>(raw) * info_.metresPerUnit;
-    };
     out << "; " << fixed(quantile(0.0), 3) << " m nearest, " << fixed(quantile(0.5), 3) << " m median, "
         << fixed(quantile(1.0), 3) << " m farthest\n";
-    const double low = quantile(0.0), width = std::max((quantile(0.99) - low) / kBars, info_.metresPerUnit);
-    std::vector<uint64_t> bars(kBars + 1); // the last one: beyond
-    for (size_t raw = 1; raw < counts_.size(); ++raw) {
-        const double bar = (static_cast<double>(raw) * info_.metresPerUnit - low) / width;
-        bars[static_cast<size_t>(std::clamp(bar, 0.0, double{kBars}))] += counts_[raw];
-    }
-    const uint64_t most = *std::max_element(bars.begin(), bars.end());
-    for (size_t i = 0; i < bars.size(); ++i) {
+    const DepthBars bars = depthBars();
+    const uint64_t most = *std::max_element(bars.counts.begin(), bars.counts.end());
+    for (size_t i = 0; i < bars.counts.size(); ++i) {
         const auto length = static_cast<size_t>(
-            std::ceil(kLongestBar * static_cast<double>(bars[i]) / static_cast<double>(most)));
-        out << "  " << std::setw(9) << fixed(low + width * static_cast<double>(i), 3) << " m  "
+            std::ceil(kLongestBar * static_cast<double>(bars.counts[i]) / static_cast<double>(most)));
+        out << "  " << std::setw(9) << fixed(bars.low + bars.width * static_cast<double>(i), 3) << " m  "
             << std::string(length, '#') << "\n";
     }
 }
@@ -178,6 +194,7 @@ void FrameStudy::writeColour(std::ostream& out) const {
     out << "colour    " << fixed(all > 0.0 ? 100.0 * static_cast<double>(coloured_) / all : 0.0, 1)
         << " % of the pixels have a saturation over 0.1" << (noColour_.empty() ? "" : "; " + noColour_)
         << "\n";
+    hues_.write(out);
 }
 
 void FrameStudy::write(std::ostream& out) const {

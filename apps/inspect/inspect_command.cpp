@@ -58,7 +58,8 @@ void addInspectCommand(CLI::App& app) {
     const auto source = std::make_shared<std::string>();
     const auto out = std::make_shared<std::string>();
     command->add_option("source", *source, "a recording or a live camera, as for --source")->required();
-    command->add_option("--out", *out, "folder for the first frame as depth.png and colour.png");
+    command->add_option("--out", *out,
+                        "folder for the first frame as depth.png and colour.png, and for histograms.png");
     command->callback([source, out] {
         inspect(*source, out->empty() ? std::nullopt : std::optional<std::filesystem::path>(*out));
     });

@@ -20,6 +20,23 @@ TEST_CASE("inspect says what a recording folder holds and how to name it, and sa
     }
     CHECK(std::filesystem::exists(stage / "seen/depth.png"));
     CHECK(std::filesystem::exists(stage / "seen/colour.png"));
+    CHECK(std::filesystem::exists(stage / "seen/histograms.png"));
+    CHECK(run.out.find("of the 0.0 % of the pixels") != std::string::npos); // the wall is grey
+}
+
+TEST_CASE("inspect shows the hues of clear colours with their saturation and lightness") {
+    const Stage stage;
+    Image image(kWidth, kHeight, 600);
+    image.paint({0, 0, 32, 48}, kRed).paint({32, 0, 48, 48}, kYellow); // half, and a quarter
+    stage.recording({image});
+    const ProgramRun run = runFathom({"inspect", (stage / "rec").string()});
+    CHECK(run.exitCode == 0);
+    CHECK(run.out.find("hue       of the 75.0 % of the pixels") != std::string::npos);
+    const size_t red = run.out.find("352.5..  7.5 deg  " + std::string(40, '#')),
+                 yellow = run.out.find(" 52.5.. 67.5 deg  " + std::string(20, '#') + " ");
+    CHECK(red != std::string::npos);
+    CHECK(yellow != std::string::npos);
+    CHECK(run.out.find("saturation 0.80..0.82, lightness 0.42..0.44", red) != std::string::npos);
 }
 
 TEST_CASE("inspect rejects what is not a source in one line, after the list of streams where there is one") {
