@@ -7,6 +7,9 @@
 #include "devices/bag/ros2_messages.h"
 #include "engine/types/error.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace fathom {
 
 namespace {
@@ -62,7 +65,8 @@ void ReplayTopics::ticksUntil(double played, const Anchor& to) {
     const double length = to.played - from.played;
     const double rate = length > 0.0 ? (to.stamp - from.stamp) / length : 1.0;
     for (; tick_ && (*tick_)[0] < played; tick_ = ticks_.next()) {
-        addTick(*tick_, messageTime(from.stamp + rate * ((*tick_)[0] - from.played)));
+        const double stamp = from.stamp + rate * ((*tick_)[0] - from.played);
+        addTick(*tick_, messageTime(std::max(0.0, stamp))); // ticks before a first frame at 0 s
     }
 }
 
