@@ -14,8 +14,13 @@ namespace fathom {
 namespace {
 
 constexpr size_t kLensSamples = 9; // clouds that are looked at for lens and unit
-constexpr double kMostOff = 1.0;   // [pixels] root of the mean square
 constexpr double kDoubtfulMetres = 50.0;
+
+// Root of the mean square distance [pixels] of points from their pixels that is allowed: a pixel, and in
+// small images a hundredth of the width, where a pixel is a wide angle.
+double mostOff(const Intrinsics& lens) {
+    return std::min(1.0, 0.01 * lens.width);
+}
 
 bool hasPoint(const dvec3& p) {
     return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z) && p.z > 0.0;
@@ -140,10 +145,10 @@ void CloudCamera::useSpan() {
 std::string CloudCamera::fit(const ros::Cloud& message, const PcdCloud& cloud) {
     fit_ = fitLens(cloud);
     info_.hasColour = !cloud.colour.empty() && options_.colour != "none";
-    return fit_.residual <= kMostOff ? ""
-                                     : "points of frame '" + message.frame +
-                                           "' deviate from the rays of a pinhole and of a fan by " +
-                                           std::to_string(fit_.residual) + " pixels";
+    return fit_.residual <= mostOff(fit_.lens) ? ""
+                                               : "points of frame '" + message.frame +
+                                                     "' deviate from the rays of a pinhole and of a fan by " +
+                                                     std::to_string(fit_.residual) + " pixels";
 }
 
 void CloudCamera::learnLens() {
@@ -198,7 +203,7 @@ std::string CloudCamera::read(size_t index, FrameSlot& slot, double stamp) {
     if (info_.hasColour && cloud.colour.empty()) {
         return "no field rgb";
     }
-    if (const double off = deviation(cloud, fit_); off > kMostOff) {
+    if (const double off = deviation(cloud, fit_); off > mostOff(info_.depth)) {
         return "its points deviate from the lens of the first cloud by " + std::to_string(off) + " pixels";
     }
     uint64_t beyond = 0;
