@@ -193,7 +193,7 @@ TEST_CASE(
     CHECK_THROWS_AS(solver.setMetric(std::array<double, 3>{1, 0, 0}), Error);
     CHECK_NOTHROW(solver.setMetric(std::array<double, 4>{1, 0.5, 0.5, 1}));
     CHECK_THROWS_AS(ConstraintSolver(0, 4), Error);
-    CHECK_THROWS_AS(ConstraintSolver(9, 4), Error);
+    CHECK_THROWS_AS(ConstraintSolver(kMaxUnknowns + 1, 4), Error);
 }
 
 TEST_CASE("Loading and solving do not allocate") {

@@ -61,7 +61,7 @@ TEST_CASE("A simulated Reach moves where its driver commands, and a simulated EC
     for (const ReachKind kind : {ReachKind::Alpha5, ReachKind::Bravo7}) {
         const std::string name = kind == ReachKind::Alpha5 ? "reach_alpha5" : "reach_bravo7";
         {
-            const Simulator simulator(name, stage / "reach", stage / "said");
+            const Simulator simulator(name, stage / "reach", stage / name);
             SerialPort port((stage / "reach").string(), 115200);
             ReachArm arm(port, {}, kind);
             const ArmCommand go{{0.1, -0.1, 0.2, 0.05, 0.002, 0.01, 0.001}, false};
@@ -74,7 +74,7 @@ TEST_CASE("A simulated Reach moves where its driver commands, and a simulated EC
                 return !arm.feedback().stale && off < 1e-4;
             }));
         }
-        CHECK(stage.read("said").find(name + " simulated at /dev/pts/") == 0);
+        CHECK(stage.read(name).find(name + " simulated at /dev/pts/") == 0);
     }
     const Simulator simulator("eca_5e", stage / "eca", stage / "said");
     SerialPort port((stage / "eca").string(), 115200);
