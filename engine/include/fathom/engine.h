@@ -5,7 +5,6 @@
 
 #include <fathom/arm.h>
 #include <fathom/camera.h>
-#include <fathom/clearance.h>
 #include <fathom/error.h>
 #include <fathom/hand.h>
 #include <fathom/observer.h>

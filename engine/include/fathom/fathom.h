@@ -11,13 +11,12 @@
 /// All of it is in the inline namespace `fathom::v0`; write `fathom::Engine`.
 #pragma once
 
-#include <fathom/arm.h>       // IWYU pragma: export
-#include <fathom/camera.h>    // IWYU pragma: export
-#include <fathom/clearance.h> // IWYU pragma: export
-#include <fathom/engine.h>    // IWYU pragma: export
-#include <fathom/error.h>     // IWYU pragma: export
-#include <fathom/hand.h>      // IWYU pragma: export
-#include <fathom/lockstep.h>  // IWYU pragma: export
-#include <fathom/observer.h>  // IWYU pragma: export
-#include <fathom/scene.h>     // IWYU pragma: export
-#include <fathom/types.h>     // IWYU pragma: export
+#include <fathom/arm.h>      // IWYU pragma: export
+#include <fathom/camera.h>   // IWYU pragma: export
+#include <fathom/engine.h>   // IWYU pragma: export
+#include <fathom/error.h>    // IWYU pragma: export
+#include <fathom/hand.h>     // IWYU pragma: export
+#include <fathom/lockstep.h> // IWYU pragma: export
+#include <fathom/observer.h> // IWYU pragma: export
+#include <fathom/scene.h>    // IWYU pragma: export
+#include <fathom/types.h>    // IWYU pragma: export

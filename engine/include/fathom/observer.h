@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What a display draws: copies of the newest protected regions and of the newest step.
+/// What displays and planners use: copies of the newest protected regions and of the newest step, and
+/// distances of the tool to the regions at other poses.
 #pragma once
 
 #include <fathom/hand.h>
 
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -31,6 +33,28 @@ struct Regions {
     Vec3 origin{};                       ///< [m] base frame
     std::vector<RegionSphere> spheres;   ///< their union is protected
     std::vector<GuidanceTarget> targets; ///< one per guidance fixture of the camera's points
+};
+
+/// The smallest gap of the tool at one pose, and the pair of spheres that has it. Exact in float64: no other
+/// pair of the frame has a smaller gap, on any device. Of equal gaps the region's sphere that comes first in
+/// the image counts, then the tool's sphere with the lowest index.
+struct Clearance {
+    /// [m] between the tool's surface and the region's; negative = they overlap. Infinity: nothing is
+    /// protected. NaN: the pose is not finite. All else is meaningless then.
+    double gap = std::numeric_limits<double>::infinity();
+    std::uint32_t fixture = 0;   ///< of the region: index into the scene's fixtures
+    std::uint32_t toolIndex = 0; ///< of the tool's sphere
+    Vec3 toolCentre{};           ///< [m] of that sphere, in the tool's frame
+    double toolRadius = 0.0;     ///< [m]
+    Vec3 regionCentre{};         ///< [m] of the region's sphere, in the base frame
+    double regionRadius = 0.0;   ///< [m]
+};
+
+/// Answers for one frame.
+struct Clearances {
+    std::int64_t frame = -1;      ///< number of the frame whose regions they are about; -1 = no frame yet
+    Nanoseconds stamp = 0;        ///< of that frame, rounded to a microsecond
+    std::vector<Clearance> poses; ///< one per pose, in order; empty before the first frame
 };
 
 /// One step of the hand.
