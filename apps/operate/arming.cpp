@@ -29,12 +29,12 @@ std::string handIsOff(const ArmingInput& input) {
         return "hand is " + thousandths(apart) + " mm" +
                (known ? " inside '" + input.scene.fixtures[blocks.front().touch.fixture].name + "'"
                       : " from the tool") +
-               ": hold C to re-centre";
+               ": move it back to the tool";
     }
     const double turn =
         glm::length(rotationLog(record.device.rotation * glm::conjugate(record.tool.rotation)));
     if (turn > kTwist && record.contacts > 0) {
-        return "hand is turned against the tool: hold C to re-centre";
+        return "hand is turned against the tool: turn it back";
     }
     return "";
 }

@@ -27,7 +27,7 @@ Mode armedMode(const ModeInput& input) {
     if (state == StepState::Trapped || armHeld) {
         return {"HELD", "!", colour::kWarning, Edge::Double};
     }
-    if (state == StepState::Fading || record.sceneAge > input.haptics.staleAfter) {
+    if (state == StepState::Fading) {
         return {"STALE", "~", colour::kCaution, Edge::Dashed};
     }
     if (atLimit(record, input.haptics)) {

@@ -49,8 +49,6 @@ TEST_CASE(
     CHECK(mode(StepState::Free) == "AT LIMIT");
     CHECK(chips() == "GUIDE: no target, FROZEN, REC");
     run.row.record.wrench = {};
-    run.row.record.sceneAge = 2.0 * run.haptics.staleAfter;
-    CHECK(mode(StepState::Contact) == "STALE");
     run.console.timeLine.on = true;
     CHECK(mode(StepState::Contact) == "LOOK-BACK");
     CHECK(chips().find("CONTACT") == 0);
@@ -103,11 +101,11 @@ TEST_CASE("Forces come on only with the hand on the tool, a fresh scene and the 
     run.row.record.device.position = run.row.record.tool.position + dvec3(0.0, 0.0, 0.009);
     CHECK(why().empty());
     run.row.record.device.position = run.row.record.tool.position + dvec3(0.0, 0.0, 0.105);
-    CHECK(why() == "hand is 105 mm from the tool: hold C to re-centre");
+    CHECK(why() == "hand is 105 mm from the tool: move it back to the tool");
     scene.fixtures.resize(1);
     scene.fixtures[0].name = "red valve";
     run.touch(3, 0.105);
-    CHECK(why() == "hand is 105 mm inside 'red valve': hold C to re-centre");
+    CHECK(why() == "hand is 105 mm inside 'red valve': move it back to the tool");
     run.row.record.device = run.row.record.tool;
     scene.pilots.push_back({});
     CHECK(why() == "no pilot is chosen: choose one in the tab Fixtures");

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <doctest/doctest.h>
 #include <fstream>
+#include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <thread>
 
@@ -25,6 +26,11 @@ bool isCyan(int r, int g, int b) {
 
 double toolZ(const json& s) {
     return s["run"]["tool"][2];
+}
+
+// [m] of the hand beyond the tool.
+double depthOf(const json& s) {
+    return glm::distance(vec(s["run"]["device"]), vec(s["run"]["tool"]));
 }
 
 bool silent(WindowRig& rig) {
@@ -114,6 +120,12 @@ TEST_CASE("Forces armed in contact ramp up slowly, tick by tick") {
     REQUIRE(!rig.atRest().is_null());
     rig.key("space");
     REQUIRE(rig.await([](const json& s) { return s["run"]["force_N"] == 0.0; }));
+    for (int i = 0; i < 30 && depthOf(rig.state()) > 0.009; ++i) { // deeper, they would stay off
+        rig.wheel(-1);
+        const auto now = rig.state()["run"]["turns"].get<int>();
+        REQUIRE(rig.await([&](const json& s) { return s["run"]["turns"] > now + 100; }));
+    }
+    REQUIRE(rig.state()["run"]["contacts"] > 0);
     rig.key("r");
     REQUIRE(rig.await([](const json& s) { return s["console"]["recording"] == true; }));
     const auto begun = rig.state()["run"]["turns"].get<int>();
@@ -135,7 +147,8 @@ TEST_CASE("Forces armed in contact ramp up slowly, tick by tick") {
     };
     CHECK(felt.front().force == 0.0);
     // Counts ticks, which may be late. Late ticks soften the springs, so the largest force may come early.
-    CHECK(row(kFull) - row(0.01) > 450);
+    // The ramp rises by the limit of 20 N in 1.5 s.
+    CHECK(static_cast<double>(row(kFull) - row(0.01)) > 0.6 * 1500.0 * (kFull - 0.01) * most / 20.0);
     silent(rig);
 }
 

@@ -47,7 +47,8 @@ double handApart(const json& s) {
 
 } // namespace
 
-TEST_CASE("Forces stay off while the hand is inside a region, and a card says so until C re-centres it") {
+TEST_CASE(
+    "Forces stay off while the hand is inside a region, and a card says so until it is back at the tool") {
     WindowRig rig;
     rig.push(); // forces are off: the hand moves on, the tool stays outside
     for (int i = 0; i < 40 && handApart(rig.state()) < 0.015; ++i) {
@@ -57,15 +58,17 @@ TEST_CASE("Forces stay off while the hand is inside a region, and a card says so
     rig.key("a");
     REQUIRE(rig.await([](const json& s) { return !s["refusal"].get<std::string>().empty(); }));
     const json refused = rig.state();
-    CHECK(refused["refusal"].get<std::string>().find("mm inside 'red': hold C to re-centre") !=
+    CHECK(refused["refusal"].get<std::string>().find("mm inside 'red': move it back to the tool") !=
           std::string::npos);
     CHECK(refused["console"]["forces"] == false);
     CHECK(refused["mode"] == "FORCES OFF");
     rig.shoot("refusal");
     CHECK(rig.state()["console"]["places"].contains("refusal"));
-    rig.keyDown("c");
-    REQUIRE(rig.await([](const json& s) { return handApart(s) < 0.001; }));
-    rig.keyUp("c");
+    for (int i = 0; i < 40 && handApart(rig.state()) > 0.001; ++i) {
+        rig.wheel(-2);
+        const auto now = rig.state()["run"]["turns"].get<int>();
+        REQUIRE(rig.await([&](const json& s) { return s["run"]["turns"] > now + 100; }));
+    }
     rig.key("a");
     CHECK(rig.await([](const json& s) { return s["console"]["forces"] == true && s["refusal"] == ""; }));
     closeQuietly(rig);
