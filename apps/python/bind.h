@@ -19,6 +19,9 @@ void bindArm(pybind11::module_& module);
 void bindObserver(pybind11::module_& module);
 void bindEngine(pybind11::module_& module);
 
+// Ends the threads of every engine that was not closed.
+void closeEngines();
+
 // A copy as a NumPy array of three float64.
 pybind11::array_t<double> array(const Vec3& v);
 

@@ -64,7 +64,6 @@ CameraModel modelOf(const Intrinsics& depth, DepthFormat depthFormat, double met
 SubmitStatus submit(Camera& camera, const py::array& depth, const py::object& colour, const Pose& baseTcamera,
                     std::optional<Nanoseconds> stamp) {
     const Images both = images(camera.model, depth, colour);
-    const py::gil_scoped_release others;
     return camera.port.submit({both.depth, both.colour, baseTcamera, stamp.value_or(now())});
 }
 

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Engine and Lockstep. Long calls run without the interpreter's lock, so that other Python threads continue.
+// Engine and Lockstep.
 #include "apps/python/bind.h"
+#include "apps/python/unlocked.h"
 
 #include <pybind11/stl/filesystem.h>
 
+#include <mutex>
 #include <optional>
+#include <set>
 
 namespace py = pybind11;
 
@@ -16,24 +19,45 @@ namespace {
 struct WithoutLock {
     template <typename T>
     void operator()(T* object) const {
-        const py::gil_scoped_release others;
+        const Unlocked others;
         delete object;
     }
 };
+
+class LiveEngine;
+
+// All of them, so that none has threads when the process ends.
+struct LiveEngines {
+    std::mutex mutex;
+    std::set<LiveEngine*> all;
+};
+LiveEngines& liveEngines() {
+    static LiveEngines engines;
+    return engines;
+}
 
 // An engine that close() ends.
 class LiveEngine {
 public:
     LiveEngine(const Scene& scene, const CameraModel& model, const EngineOptions& options)
         : model_(model)
-        , engine_(std::make_unique<Engine>(scene, model, options)) {}
+        , engine_(std::make_unique<Engine>(scene, model, options)) {
+        const std::lock_guard lock(liveEngines().mutex);
+        liveEngines().all.insert(this);
+    }
+    ~LiveEngine() {
+        const std::lock_guard lock(liveEngines().mutex);
+        liveEngines().all.erase(this);
+    }
+    LiveEngine(const LiveEngine&) = delete;
+    LiveEngine& operator=(const LiveEngine&) = delete;
 
     Camera camera() { return {open().camera(), model_}; }
     HandPort openHand(const Pose& handle, const std::optional<Pose>& tool) {
         return open().openHand({handle, tool ? &*tool : nullptr});
     }
     void close() {
-        const py::gil_scoped_release others;
+        const Unlocked others;
         engine_.reset();
     }
     Engine& open() {
@@ -58,12 +82,12 @@ struct LockstepRun {
     FrameTimes process(const py::array& depth, const py::object& colour, const Pose& baseTcamera,
                        Nanoseconds stamp) {
         const Images both = images(model, depth, colour);
-        const py::gil_scoped_release others;
+        const Unlocked others;
         return run.process({both.depth, both.colour, baseTcamera, stamp});
     }
     std::optional<Regions> regions() const {
         Regions out;
-        const py::gil_scoped_release others;
+        const Unlocked others;
         return run.regions(out) ? std::optional(std::move(out)) : std::nullopt;
     }
 
@@ -82,7 +106,7 @@ void bindLive(py::module_& module) {
         "Use it in a `with` block, or call close().")
         .def(py::init([](const Scene& scene, const CameraModel& camera, const std::string& device,
                          const std::string& reader, bool measuredArm) {
-                 const py::gil_scoped_release others;
+                 const Unlocked others;
                  return std::unique_ptr<LiveEngine, WithoutLock>(
                      new LiveEngine(scene, camera, optionsOf(device, reader, measuredArm)));
              }),
@@ -125,7 +149,7 @@ void bindLockstep(py::module_& module) {
         .def(py::init([](const Scene& scene, const CameraModel& camera, const Pose& handle,
                          const std::optional<Pose>& tool, const std::string& device,
                          const std::string& reader) {
-                 const py::gil_scoped_release others;
+                 const Unlocked others;
                  return std::unique_ptr<LockstepRun, WithoutLock>(new LockstepRun(
                      scene, camera, {handle, tool ? &*tool : nullptr}, optionsOf(device, reader, false)));
              }),
@@ -139,7 +163,7 @@ void bindLockstep(py::module_& module) {
         .def(
             "answer",
             [](LockstepRun& lockstep) {
-                const py::gil_scoped_release others;
+                const Unlocked others;
                 return lockstep.run.answer();
             },
             "Answers one contact query at the current tool pose. False before the first frame.")
@@ -166,6 +190,17 @@ void bindScene(py::module_& module) {
         .def_static("from_file", &Scene::fromFile, py::arg("file"), "Reads a scene file (YAML).")
         .def_static("from_text", &Scene::fromText, py::arg("yaml"),
                     "The same from text. Relative paths start at the working directory.");
+}
+
+void closeEngines() {
+    std::set<LiveEngine*> all;
+    {
+        const std::lock_guard lock(liveEngines().mutex);
+        all = liveEngines().all;
+    }
+    for (LiveEngine* engine : all) {
+        engine->close();
+    }
 }
 
 void bindEngine(py::module_& module) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The extension module fathom._fathom. Package `fathom` (apps/python/fathom) re-exports its names.
 #include "apps/python/bind.h"
+#include "apps/python/unlocked.h"
 
 #include <pybind11/functional.h>
 
@@ -32,13 +33,13 @@ private:
 
 void setLog(const py::object& receiver) {
     if (receiver.is_none()) {
-        const py::gil_scoped_release others;
+        const fathom::python::Unlocked others;
         fathom::setLogCallback({});
         return;
     }
     // Never destroyed without the interpreter's lock: a replaced receiver is kept.
     const auto* log = new PythonLog(receiver.cast<py::function>());
-    const py::gil_scoped_release others;
+    const fathom::python::Unlocked others;
     fathom::setLogCallback([log](fathom::LogLevel level, std::string_view line) { (*log)(level, line); });
 }
 
@@ -65,4 +66,10 @@ PYBIND11_MODULE(_fathom, module) {
         "set_log", &setLog, py::arg("receiver"),
         "Sets receiver(level, line) for log lines of all engines, called from their threads; level is\n"
         "'debug', 'info', 'warning' or 'error'. None: log lines are discarded, the default.");
+    // Registered first, so called last of all: no thread of an engine enters an interpreter that ends.
+    py::module_::import("atexit").attr("register")(py::cpp_function([] {
+        setLog(py::none());
+        endInterpreter();
+        closeEngines();
+    }));
 }

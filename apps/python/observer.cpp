@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Regions as arrays. The arrays are views of the object's memory and keep it alive.
 #include "apps/python/bind.h"
+#include "apps/python/unlocked.h"
 
 #include <pybind11/stl.h>
 
@@ -75,7 +76,7 @@ void bindObserver(py::module_& module) {
             "regions",
             [](ObserverPort& port) -> std::optional<Regions> {
                 Regions out;
-                const py::gil_scoped_release others;
+                const Unlocked others;
                 return port.regions(out) ? std::optional(std::move(out)) : std::nullopt;
             },
             "The Regions of the newest frame, or None if there is no newer one than at the last call.")

@@ -2,6 +2,7 @@
 """A haptic loop in Python."""
 
 import atexit
+import threading
 import time
 
 import numpy
@@ -25,20 +26,23 @@ def haptic_loop(hand: HandPort, pose, write, *, buttons=lambda: 0, running=lambd
     scene's limits, but a C++ loop feels better.
     """
     ended = False
+    writing = threading.Lock()  # no force is written after the zeros, also if the interpreter exits meanwhile
 
     def release():
         nonlocal ended
-        ended = True
-        write(numpy.zeros(3), numpy.zeros(3))
+        with writing:
+            ended = True
+            write(numpy.zeros(3), numpy.zeros(3))
 
     atexit.register(release)
     due = time.monotonic()
     try:
         while running() and not ended:
             step = hand.step(pose(), int(buttons()))
-            if ended:
-                break
-            write(step.force, step.torque)
+            with writing:
+                if ended:
+                    break
+                write(step.force, step.torque)
             if observe is not None:
                 observe(step)
             due = max(due + hand.period, time.monotonic() - hand.period)  # late ticks are not made up for
