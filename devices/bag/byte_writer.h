@@ -2,6 +2,7 @@
 // Appends little-endian values to bytes; CDR of ROS 2 on top of it.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -18,7 +19,11 @@ public:
         const auto* first = reinterpret_cast<const uint8_t*>(&number); // host order is little-endian
         bytes_.insert(bytes_.end(), first, first + sizeof number);
     }
-    void append(std::span<const uint8_t> bytes) { bytes_.insert(bytes_.end(), bytes.begin(), bytes.end()); }
+    void append(std::span<const uint8_t> bytes) {
+        const size_t before = bytes_.size();
+        bytes_.resize(before + bytes.size()); // GCC 12 warns about insert() into an empty vector
+        std::copy(bytes.begin(), bytes.end(), bytes_.begin() + static_cast<std::ptrdiff_t>(before));
+    }
     // A count of bytes (32 bits), then the bytes.
     void text(std::string_view text) {
         value(static_cast<uint32_t>(text.size()));
