@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <sstream>
 
 namespace fathom {
 
@@ -81,26 +82,18 @@ std::vector<double> MjcfClasses::numbers(const tinyxml2::XMLElement& element, co
         return absent;
     }
     std::vector<double> all;
-    for (const char* at = text;;) {
+    bool good = true;
+    std::istringstream words(text);
+    for (std::string word; good && words >> word;) {
         char* end = nullptr;
-        const double value = std::strtod(at, &end);
-        if (end == at) {
-            at += std::string_view(at).find_first_not_of(" \t\r\n") == std::string_view::npos
-                      ? std::string_view(at).size()
-                      : 0;
-            if (*at != '\0' || all.size() < least || all.size() > most) {
-                break;
-            }
-            return all;
-        }
-        if (!std::isfinite(value) || all.size() > most) {
-            break;
-        }
-        all.push_back(value);
-        at = end;
+        all.push_back(std::strtod(word.c_str(), &end));
+        good = *end == '\0' && std::isfinite(all.back()) && all.size() <= most;
     }
-    refuse(element, std::string(name) + "=\"" + std::string(text).substr(0, 60) + "\"",
-           std::to_string(least) + (most > least ? ".." + std::to_string(most) : "") + " finite numbers");
+    if (!good || all.size() < least) {
+        refuse(element, std::string(name) + "=\"" + std::string(text).substr(0, 60) + "\"",
+               std::to_string(least) + (most > least ? ".." + std::to_string(most) : "") + " finite numbers");
+    }
+    return all;
 }
 
 void MjcfClasses::refuse(const tinyxml2::XMLElement& element, const std::string& value,
