@@ -78,7 +78,7 @@ void Steering::keys(Console& console) {
     console.recording = console.recording != pressed(GLFW_KEY_R);
     console.exportCsv = console.exportCsv || pressed(GLFW_KEY_E);
     console.acknowledge = console.acknowledge || pressed(GLFW_KEY_Q);
-    if (pressed(GLFW_KEY_ESCAPE) || pressed(GLFW_KEY_C)) {
+    if (pressed(GLFW_KEY_ESCAPE)) {
         console.refusal.clear();
     }
     if (pressed(GLFW_KEY_T)) {

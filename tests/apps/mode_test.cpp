@@ -107,6 +107,11 @@ TEST_CASE("Forces come on only with the hand on the tool, a fresh scene and the 
     run.touch(3, 0.105);
     CHECK(why() == "hand is 105 mm inside 'red valve': move it back to the tool");
     run.row.record.device = run.row.record.tool;
+    run.row.record.device.rotation = dquat(std::cos(0.25), std::sin(0.25), 0.0, 0.0); // 0.5 rad
+    CHECK(why().empty()); // in free space the tool follows
+    run.row.record.contacts = 1;
+    CHECK(why() == "hand is turned against the tool: turn it back");
+    run.row.record.device = run.row.record.tool;
     scene.pilots.push_back({});
     CHECK(why() == "no pilot is chosen: choose one in the tab Fixtures");
 }
