@@ -29,11 +29,10 @@ BagCamera::BagCamera(const std::filesystem::path& file, SourceOptions options)
     : BagCamera(openMessageFile(file), std::move(options)) {}
 
 BagCamera::BagCamera(std::unique_ptr<MessageFile> file, SourceOptions options)
-    : options_(std::move(options))
-    , file_(std::move(file)) {
+    : MessageCamera(std::move(file), std::move(options)) {
     try {
         choice_ = StreamChooser(*file_, options_).choose();
-        useSpan();
+        useSpan(topicOf(choice_.depth));
         chooseUnit();
         useClocks();
     } catch (const BadInput&) {
@@ -61,30 +60,9 @@ std::string BagCamera::whyNoColour() const {
                : "";
 }
 
-// Start and duration count from the first depth image, by the time of recording.
-void BagCamera::useSpan() {
-    const std::vector<MessageEntry>& all = topicOf(choice_.depth).messages;
-    const auto place = [&](double after) {
-        const auto at = std::find_if(all.begin(), all.end(), [&](const MessageEntry& entry) {
-            return 1e-9 * static_cast<double>(entry.time - all.front().time) >= after;
-        });
-        return static_cast<uint32_t>(at - all.begin());
-    };
-    cursor_ = place(options_.start);
-    end_ = std::isfinite(options_.duration) ? place(options_.start + options_.duration)
-                                            : static_cast<uint32_t>(all.size());
-    if (cursor_ >= end_) {
-        throw BadInput(file_->file().string(), "start", std::to_string(options_.start),
-                       "a time before the last depth image");
-    }
-}
-
 void BagCamera::useClocks() {
     const std::string file = file_->file().string();
-    depth_.emplace(*file_, topicOf(choice_.depth));
-    if (!depth_->stamped()) {
-        log::warn("{}: {}: headers have no stamps: the time of recording is used", file, choice_.depth.name);
-    }
+    useClock(topicOf(choice_.depth));
     if (!choice_.colour) {
         return;
     }
@@ -106,7 +84,6 @@ void BagCamera::useClocks() {
 // stamps.
 bool BagCamera::pairsByStamp() {
     const std::vector<MessageEntry>& all = topicOf(choice_.depth).messages;
-    const size_t count = end_ - cursor_, step = std::max<size_t>(1, count / kUnitSamples);
     const auto pairs = [&](size_t i) {
         return colour_->nearest(depth_->stampOf(i), all[i].time, tolerance_).has_value();
     };
@@ -115,12 +92,9 @@ bool BagCamera::pairsByStamp() {
             return true;
         }
     }
-    for (size_t i = cursor_; i < end_; i += step) {
-        if (pairs(i)) {
-            return true;
-        }
-    }
-    return false;
+    bool any = false;
+    sample(kUnitSamples, [&](size_t i) { any = any || pairs(i); });
+    return any;
 }
 
 // A RealSense SDK's option, else millimetres.
@@ -144,13 +118,12 @@ double BagCamera::sensorUnit() {
 
 double BagCamera::farthestSampled() {
     double most = 0.0;
-    const size_t count = end_ - cursor_, step = std::max<size_t>(1, count / kUnitSamples);
-    for (size_t i = cursor_; i < end_; i += step) {
+    sample(kUnitSamples, [&](size_t i) {
         try {
             most = std::max(most, ros::farthest(imageOf(choice_.depth, i)));
         } catch (const Error&) { // named when it is played
         }
-    }
+    });
     return most;
 }
 
@@ -175,9 +148,6 @@ ros::Image BagCamera::imageOf(const ImageStream& stream, size_t index) {
 
 // Returns the fault; empty when the slot is filled.
 std::string BagCamera::read(size_t index, FrameSlot& slot, double stamp) {
-    if (lastStamp_ && stamp < *lastStamp_) {
-        return "depth stamp " + std::to_string(stamp) + " goes back from " + std::to_string(*lastStamp_);
-    }
     const Image depth = imageOf(choice_.depth, index);
     const bool alike = (depth.compressed ? depth.format : depth.encoding) == choice_.depth.encoding;
     if (!alike || ros::sizeOf(depth) != std::pair(info().depth.width, info().depth.height)) {
@@ -201,65 +171,6 @@ std::string BagCamera::readColour(size_t depthIndex, double stamp, FrameSlot& sl
     return ros::sizeOf(colour) == std::pair(info().colour.width, info().colour.height)
                ? ros::colourRows(colour, slot.colour())
                : "colour size differs from its camera_info";
-}
-
-void BagCamera::tellBeyond(size_t index, uint64_t beyond) {
-    const double limit = 65535.0 * info().metresPerUnit;
-    if (beyond > 0 && !toldBeyond_ && limit < options_.farthest) {
-        toldBeyond_ = true;
-        log::warn("{}: frame {}: {} pixels are farther than {} m and count as not measured",
-                  file_->file().string(), index, beyond, limit);
-    }
-}
-
-bool BagCamera::seek(uint32_t index) {
-    if (index >= end_) {
-        return false;
-    }
-    cursor_ = index;
-    lastStamp_.reset();
-    return true;
-}
-
-Frame BagCamera::lease(size_t index, double stamp, FrameSlot& slot) const {
-    Frame::Content content;
-    content.index = static_cast<uint32_t>(index);
-    content.sourceNumber = index;
-    content.captureTime = stamp;
-    content.depth = slot.depth().first(info().depth.pixels());
-    content.colour = slot.colour().first(colour_ ? info().colour.pixels() : 0);
-    return slot.lend(content);
-}
-
-std::optional<Frame> BagCamera::next() {
-    FrameSlot* slot = slots_->acquire();
-    if (slot == nullptr) {
-        throw Error(description() + ": all frame buffers are leased");
-    }
-    while (cursor_ < end_) {
-        const uint32_t index = cursor_++;
-        const double stamp = depth_->stampOf(index);
-        std::string fault;
-        try {
-            fault = read(index, *slot, stamp);
-        } catch (const Error& e) {
-            fault = e.what();
-        }
-        if (fault.empty()) {
-            delivered_ = true;
-            lastStamp_ = stamp;
-            return lease(index, stamp, *slot);
-        }
-        ++skipped_;
-        firstFault_ = firstFault_.empty() ? fault : firstFault_;
-        log::warn("{}: frame {} skipped: {}", file_->file().string(), index, fault);
-    }
-    slot->release();
-    if (!delivered_) {
-        throw BadInput(file_->file().string(), "frames", "none is usable; first: " + firstFault_,
-                       "one usable frame");
-    }
-    return std::nullopt;
 }
 
 } // namespace fathom

@@ -62,14 +62,13 @@ bool playsClouds(MessageFile& file, const SourceOptions& options) {
 }
 
 CloudCamera::CloudCamera(std::unique_ptr<MessageFile> file, SourceOptions options)
-    : options_(std::move(options))
-    , file_(std::move(file))
+    : MessageCamera(std::move(file), std::move(options))
     , metresPerValue_(options_.scale.value_or(1.0)) {
     checkOptions();
     chooseTopic();
-    useSpan();
+    useSpan(topic());
     learnLens();
-    stamps_.emplace(*file_, topic());
+    useClock(topic());
     slots_.emplace(info_.depth.pixels(), info_.hasColour, kFramesInFlight + 1);
 }
 
@@ -124,23 +123,6 @@ void CloudCamera::chooseTopic() {
     said_ = "depth " + topic().name + " (organised cloud)" + others;
 }
 
-// As BagCamera::useSpan().
-void CloudCamera::useSpan() {
-    const std::vector<MessageEntry>& all = topic().messages;
-    const auto place = [&](double after) {
-        const auto at = std::find_if(all.begin(), all.end(), [&](const MessageEntry& entry) {
-            return 1e-9 * static_cast<double>(entry.time - all.front().time) >= after;
-        });
-        return static_cast<uint32_t>(at - all.begin());
-    };
-    cursor_ = place(options_.start);
-    end_ = std::isfinite(options_.duration) ? place(options_.start + options_.duration)
-                                            : static_cast<uint32_t>(all.size());
-    if (cursor_ >= end_) {
-        refuse("start", std::to_string(options_.start), "a time before the last cloud");
-    }
-}
-
 // Fits lens and axes; why they do not fit, empty = they do.
 std::string CloudCamera::fit(const ros::Cloud& message, const PcdCloud& cloud) {
     fit_ = fitLens(cloud);
@@ -152,10 +134,9 @@ std::string CloudCamera::fit(const ros::Cloud& message, const PcdCloud& cloud) {
 }
 
 void CloudCamera::learnLens() {
-    const size_t step = std::max<size_t>(1, (end_ - cursor_) / kLensSamples);
     std::string fault = "no points";
     double farthest = 0.0, nearest = HUGE_VAL;
-    for (size_t i = cursor_; i < end_; i += step) {
+    sample(kLensSamples, [&](size_t i) {
         try {
             const ros::Cloud message = cloudAt(i);
             if (const std::string why = ros::whyNoDepth(message); !why.empty()) {
@@ -171,7 +152,7 @@ void CloudCamera::learnLens() {
         } catch (const Error& e) {
             fault = fault.empty() ? "" : e.what();
         }
-    }
+    });
     if (!fault.empty()) {
         refuse(topic().name, fault,
                "clouds in the frame of their camera: x right and y down, y up and z backward, or x forward "
@@ -188,10 +169,7 @@ void CloudCamera::learnLens() {
 }
 
 // Returns the fault; empty when the slot is filled.
-std::string CloudCamera::read(size_t index, FrameSlot& slot, double stamp) {
-    if (lastStamp_ && stamp < *lastStamp_) {
-        return "stamp " + std::to_string(stamp) + " goes back from " + std::to_string(*lastStamp_);
-    }
+std::string CloudCamera::read(size_t index, FrameSlot& slot, double) {
     const ros::Cloud message = cloudAt(index);
     if (message.width != info_.depth.width || message.height != info_.depth.height) {
         return "size differs from the first cloud";
@@ -212,55 +190,11 @@ std::string CloudCamera::read(size_t index, FrameSlot& slot, double stamp) {
         const dvec3 p = fit_.opticalTcloud * cloud.points[i];
         slot.depth()[i] = hasPoint(p) ? unitsOf(p.z, valuesPerUnit, beyond) : uint16_t{0};
     }
+    tellBeyond(index, beyond);
     if (info_.hasColour) {
         std::copy(cloud.colour.begin(), cloud.colour.end(), slot.colour().begin());
     }
     return "";
-}
-
-bool CloudCamera::seek(uint32_t index) {
-    if (index >= end_) {
-        return false;
-    }
-    cursor_ = index;
-    lastStamp_.reset();
-    return true;
-}
-
-std::optional<Frame> CloudCamera::next() {
-    FrameSlot* slot = slots_->acquire();
-    if (slot == nullptr) {
-        throw Error(description() + ": all frame buffers are leased");
-    }
-    while (cursor_ < end_) {
-        const uint32_t index = cursor_++;
-        const double stamp = stamps_->stampOf(index);
-        std::string fault;
-        try {
-            fault = read(index, *slot, stamp);
-        } catch (const Error& e) {
-            fault = e.what();
-        }
-        if (fault.empty()) {
-            delivered_ = true;
-            lastStamp_ = stamp;
-            Frame::Content content;
-            content.index = index;
-            content.sourceNumber = index;
-            content.captureTime = stamp;
-            content.depth = slot->depth().first(info_.depth.pixels());
-            content.colour = slot->colour().first(info_.hasColour ? info_.depth.pixels() : 0);
-            return slot->lend(content);
-        }
-        ++skipped_;
-        firstFault_ = firstFault_.empty() ? fault : firstFault_;
-        log::warn("{}: cloud {} skipped: {}", file_->file().string(), index, fault);
-    }
-    slot->release();
-    if (!delivered_) {
-        refuse("clouds", "none is usable; first: " + firstFault_, "one usable cloud");
-    }
-    return std::nullopt;
 }
 
 } // namespace fathom

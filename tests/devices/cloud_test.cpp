@@ -5,6 +5,7 @@
 #include "devices/bag/open_bag.h"
 #include "engine/types/error.h"
 #include "tests/devices/played_bag.h"
+#include "tests/realtime/listening.h"
 
 #include <spdlog/spdlog.h>
 
@@ -39,8 +40,8 @@ std::string cloudRefusal(const std::filesystem::path& file, const SourceOptions&
     return "";
 }
 
-// A cloud in ROS 1: 9 x 7 points of x, y, z at 1 m, `width` x `height` as stated.
-std::string cloudMessage(double t, uint32_t width, uint32_t height, uint8_t type = 7) {
+// A cloud in ROS 1: 9 x 7 points of x, y, z at `distance` [m], `width` x `height` as stated.
+std::string cloudMessage(double t, uint32_t width, uint32_t height, uint8_t type = 7, float distance = 1.0f) {
     Out out;
     out.bytes = stampedHeader(t, "camera");
     out.put(height).put(width).put(uint32_t{3});
@@ -50,7 +51,7 @@ std::string cloudMessage(double t, uint32_t width, uint32_t height, uint8_t type
     std::string points;
     for (uint32_t i = 0; i < 63; ++i) {
         const auto u = static_cast<float>(i % 9), v = static_cast<float>(i / 9);
-        points += raw((u - 4.25f) / 10.0f) + raw((v - 3.5f) / 11.0f) + raw(1.0f);
+        points += raw(distance * (u - 4.25f) / 10.0f) + raw(distance * (v - 3.5f) / 11.0f) + raw(distance);
     }
     out.put(uint8_t{0}).put(uint32_t{12}).put(12 * width).text(points).put(uint8_t{1});
     return out.bytes;
@@ -127,4 +128,26 @@ TEST_CASE("A cloud that is damaged, cut off or moved is skipped and counted, and
     spdlog::set_level(level);
     CHECK(played == 2);
     CHECK(camera->skipped() == 3);
+}
+
+TEST_CASE(
+    "Points that the unit of depth cannot hold, because no sampled cloud is as far, are reported once") {
+    const TemporaryFolder folder;
+    BagMaker maker;
+    for (int i = 0; i < 18; ++i) { // every second one is sampled for lens and unit
+        const double t = 1.0 + 0.1 * i;
+        maker.add("/points", "sensor_msgs/PointCloud2", t,
+                  cloudMessage(t, 9, 7, 7, i % 2 == 0 ? 1.0f : 20.0f));
+    }
+    folder.write("a.bag", maker.bag());
+    const auto camera = openBag(folder.path() / "a.bag");
+    const testing::Listening log;
+    uint32_t played = 0, measured = 0;
+    while (const auto frame = camera->next()) {
+        ++played;
+        measured += (*frame)->depth[31] != 0 ? 1 : 0;
+    }
+    CHECK(played == 18);
+    CHECK(measured == 9);
+    CHECK(log.count("63 pixels are farther than") == 1);
 }

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/bag/message_camera.h"
+
+#include "engine/types/error.h"
+#include "engine/types/log.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fathom {
+
+void MessageCamera::useSpan(const MessageTopic& topic) {
+    const std::vector<MessageEntry>& all = topic.messages;
+    const auto place = [&](double after) {
+        const auto at = std::find_if(all.begin(), all.end(), [&](const MessageEntry& entry) {
+            return 1e-9 * static_cast<double>(entry.time - all.front().time) >= after;
+        });
+        return static_cast<uint32_t>(at - all.begin());
+    };
+    cursor_ = place(options_.start);
+    end_ = std::isfinite(options_.duration) ? place(options_.start + options_.duration)
+                                            : static_cast<uint32_t>(all.size());
+    if (cursor_ >= end_) {
+        throw BadInput(file_->file().string(), "start", std::to_string(options_.start),
+                       "a time before the last depth image");
+    }
+}
+
+void MessageCamera::useClock(const MessageTopic& topic) {
+    depth_.emplace(*file_, topic);
+    if (!depth_->stamped()) {
+        log::warn("{}: {}: headers have no stamps: the time of recording is used", file_->file().string(),
+                  topic.name);
+    }
+}
+
+void MessageCamera::tellBeyond(size_t index, uint64_t beyond) {
+    const double limit = 65535.0 * info().metresPerUnit;
+    if (beyond > 0 && !toldBeyond_ && limit < options_.farthest) {
+        toldBeyond_ = true;
+        log::warn("{}: frame {}: {} pixels are farther than {} m and count as not measured",
+                  file_->file().string(), index, beyond, limit);
+    }
+}
+
+bool MessageCamera::seek(uint32_t index) {
+    if (index >= end_) {
+        return false;
+    }
+    cursor_ = index;
+    lastStamp_.reset();
+    return true;
+}
+
+std::string MessageCamera::faultOf(size_t index, FrameSlot& slot, double stamp) {
+    if (lastStamp_ && stamp < *lastStamp_) {
+        return "depth stamp " + std::to_string(stamp) + " goes back from " + std::to_string(*lastStamp_);
+    }
+    try {
+        return read(index, slot, stamp);
+    } catch (const Error& e) {
+        return e.what();
+    }
+}
+
+std::optional<Frame> MessageCamera::next() {
+    FrameSlot* slot = slots_->acquire();
+    if (slot == nullptr) {
+        throw Error(description() + ": all frame buffers are leased");
+    }
+    while (cursor_ < end_) {
+        const uint32_t index = cursor_++;
+        const double stamp = depth_->stampOf(index);
+        const std::string fault = faultOf(index, *slot, stamp);
+        if (fault.empty()) {
+            delivered_ = true;
+            lastStamp_ = stamp;
+            Frame::Content content;
+            content.index = index;
+            content.sourceNumber = index;
+            content.captureTime = stamp;
+            content.depth = slot->depth().first(info().depth.pixels());
+            content.colour = slot->colour().first(info().hasColour ? info().colour.pixels() : 0);
+            return slot->lend(content);
+        }
+        ++skipped_;
+        firstFault_ = firstFault_.empty() ? fault : firstFault_;
+        log::warn("{}: frame {} skipped: {}", file_->file().string(), index, fault);
+    }
+    slot->release();
+    if (!delivered_) {
+        throw BadInput(file_->file().string(), "frames", "none is usable; first: " + firstFault_,
+                       "one usable frame");
+    }
+    return std::nullopt;
+}
+
+} // namespace fathom

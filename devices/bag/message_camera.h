@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// What cameras that play a file of messages share: the span that is played, the clock, faults of single
+// messages.
+#pragma once
+
+#include "devices/bag/message_file.h"
+#include "devices/bag/stamped_stream.h"
+#include "devices/camera.h"
+#include "devices/frame_slots.h"
+#include "devices/recorded/source_options.h"
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+
+namespace fathom {
+
+// Frame index and source number = message of the depth topic from 0, capture time = its header's stamp. A
+// message with a fault, and one whose stamp goes back, is skipped, counted and logged.
+class MessageCamera : public Camera {
+public:
+    std::optional<Frame> next() override;
+    uint32_t skipped() const override { return skipped_; }
+    uint32_t images() const override { return end_; }
+    bool seek(uint32_t index) override;
+
+protected:
+    MessageCamera(std::unique_ptr<MessageFile> file, SourceOptions options)
+        : options_(std::move(options))
+        , file_(std::move(file)) {}
+
+    // Start and duration of the options count from the topic's first message, by the time of recording.
+    void useSpan(const MessageTopic& topic);
+    void useClock(const MessageTopic& topic);
+    // Calls use(i) for up to `samples` messages over the whole span.
+    template <class Use>
+    void sample(size_t samples, Use&& use) const {
+        const size_t step = std::max<size_t>(1, (end_ - cursor_) / samples);
+        for (size_t i = cursor_; i < end_; i += step) {
+            use(i);
+        }
+    }
+    // Warns once of points that the unit of depth cannot hold, unless the scene's far excludes them.
+    void tellBeyond(size_t index, uint64_t beyond);
+    // Fills the slot from message `index`; returns the fault, empty when it is filled. May throw Error.
+    virtual std::string read(size_t index, FrameSlot& slot, double stamp) = 0;
+
+    SourceOptions options_;
+    std::unique_ptr<MessageFile> file_;
+    std::optional<StampedStream> depth_;
+    std::optional<FrameSlots> slots_;
+    uint32_t cursor_ = 0, end_ = 0;
+
+private:
+    std::string faultOf(size_t index, FrameSlot& slot, double stamp);
+
+    uint32_t skipped_ = 0;
+    bool delivered_ = false, toldBeyond_ = false;
+    std::optional<double> lastStamp_; // [s] of the last delivered frame
+    std::string firstFault_;
+};
+
+} // namespace fathom
