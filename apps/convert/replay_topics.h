@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a replay wrote, as topics beside the frames that it played.
+// The results of a replay, as topics of the same file as its frames.
 #pragma once
 
 #include "apps/convert/replay_csv.h"

@@ -19,7 +19,7 @@ struct GuidanceLimits {
     double torque = 0.1;    // tau_g [N m] largest torque
     double easeTime = 0.5;  // [s] for w from 0 to 1 and back, smoothstep
     double holdTime = 0.5;  // [s] a target is kept after its class fell below min_count
-    double speed = 0.1;     // [m/s] limit of the target and of what guidance pulls
+    double speed = 0.1;     // [m/s] limit of the target and of the pulled tool
     double turnSpeed = 0.5; // [rad/s]
 };
 
