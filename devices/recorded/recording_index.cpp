@@ -170,8 +170,10 @@ std::vector<IndexLine> readIndex(const fs::path& folder, const RecordingIntrinsi
                       stampFilesOf(folder / "rgb", intrinsics.colourStamps, "color_stamps_s", kColourEndings),
                       intrinsics.pairWithin);
     } else {
-        throw BadInput(folder.string(), source, "missing",
-                       "associations.txt, or rgb.txt and depth.txt, or stamps in intrinsics.json");
+        throw BadInput(
+            folder.string(), source, "missing",
+            "associations.txt, or rgb.txt and depth.txt, or stamps in intrinsics.json; without colour "
+            "depth.txt and \"has_color\": false");
     }
     if (index.empty()) {
         throw BadInput(folder.string(), source, "no pair of images", "at least one");
