@@ -13,6 +13,7 @@ import unittest
 
 import fathom
 import numpy
+import wall
 
 SCENE = """
 camera: {source: {simulated: plane, pictures: 6}}
@@ -37,10 +38,10 @@ class Results(unittest.TestCase):
 
     def test_an_observer_without_any_library_sees_the_contact(self):
         with tempfile.TemporaryDirectory() as folder:
-            scene, view = pathlib.Path(folder) / "scene.yaml", pathlib.Path(folder) / "view"
-            scene.write_text(SCENE.replace("pictures: 6", "pictures: 90"))
+            scene, view = wall.recording(pathlib.Path(folder), seconds=6), pathlib.Path(folder) / "view"
             with subprocess.Popen([fathom.program(), "--device", "llvmpipe", "replay", str(scene), "--realtime", "--out", folder + "/out",
-                                   "--view-door", str(view)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as run:
+                                   "--operator", folder + "/hand.csv", "--view-door", str(view)],
+                                  stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as run:
                 while not view.exists() and run.poll() is None:
                     time.sleep(0.01)
                 seen = subprocess.run([sys.executable, "apps/examples/python/observe.py", str(view)], capture_output=True, text=True,

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """A flat wall 0.6 m in front of the camera, protected by 40 mm, and a ball of 10 mm that presses into it."""
 
+import json
+
 import fathom
 import numpy
 
@@ -40,3 +42,16 @@ def press(run, to, ticks=1200):
         z = min(to, 0.5 + 0.0001 * tick)
         step = run.step(fathom.Pose((0, 0, z)), now=1 + tick * 1_000_000)
     return step
+
+
+def recording(folder, seconds):
+    """Writes frames at 30 Hz, few enough points for a busy machine, and a hand that presses; returns the scene."""
+    (folder / "wall.pgm").write_bytes(b"P5\n%d %d\n65535\n" % (WIDTH, HEIGHT) + depth().astype(">u2").tobytes())
+    (folder / "depth.txt").write_text("".join("%.4f wall.pgm\n" % (i / 30) for i in range(30 * seconds)))
+    (folder / "intrinsics.json").write_text(json.dumps({"width": WIDTH, "height": HEIGHT, "fx": 70, "fy": 70, "cx": 40,
+                                                        "cy": 30, "depth_scale_m_per_unit": 0.001, "has_color": False}))
+    (folder / "hand.csv").write_text("t_s,x,y,z,qw,qx,qy,qz\n" + "".join(
+        "%g,0,0,%g,1,0,0,0\n" % (t, z) for t, z in ((0, 0.5), (0.5, TOUCH + 0.01), (seconds, TOUCH + 0.01))))
+    scene = folder / "scene.yaml"
+    scene.write_text(SCENE.replace("far: 3.0", "far: 3.0, source: {recorded: %s}" % folder))
+    return scene
