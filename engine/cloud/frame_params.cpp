@@ -27,13 +27,7 @@ vec4 distortionOf(const Intrinsics& lens) {
 }
 
 vec4 moreOf(const Intrinsics& lens) {
-    const auto& [k4, k5, k6] = lens.divisor;
-    const bool plain = lens.divisor == std::array<double, 3>{};
-    const uint32_t model = lens.model == LensModel::Equidistant        ? shared::kLensEquidistant
-                           : lens.model == LensModel::ScaledTangential ? shared::kLensScaledTangential
-                           : plain                                     ? shared::kLensPlain
-                                                                       : shared::kLensRational;
-    return {k4, k5, k6, model};
+    return {lens.divisor[0], lens.divisor[1], lens.divisor[2], 0.0};
 }
 
 // Bounds for insideGates (shaders/lib/colour.glsl), widened by the float32 rounding of bounds and products. A

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/cloud/pass.h"
 
+#include "shaders/shared/constants.h"
+
 namespace fathom::cloud {
 
 namespace {
@@ -37,6 +39,21 @@ struct BufferIn {
 PassBinding depthOf(const Plan& plan, VkFormat texels) {
     return plan.keepDepth ? PassBinding(&WorkBuffers::depth, texels)
                           : PassBinding(&UploadBuffers::depth, texels);
+}
+
+uint32_t lensModelOf(const Intrinsics& lens) {
+    if (!lens.distorted()) {
+        return shared::kLensNone;
+    }
+    switch (lens.model) {
+    case LensModel::Equidistant:
+        return shared::kLensEquidistant;
+    case LensModel::ScaledTangential:
+        return shared::kLensScaledTangential;
+    case LensModel::Polynomial:
+        break;
+    }
+    return lens.divisor == std::array<double, 3>{} ? shared::kLensPlain : shared::kLensRational;
 }
 
 Pass::Pass(const CloudContext& context, PassInfo info)

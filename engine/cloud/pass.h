@@ -30,6 +30,8 @@ struct PassBinding {
 
 // Depth for the passes after classify.
 PassBinding depthOf(const Plan& plan, VkFormat texels);
+// Value of kSpecLens.
+uint32_t lensModelOf(const Intrinsics& lens);
 
 // Number of groups along x, y and z.
 using Groups = std::array<uint32_t, 3>;

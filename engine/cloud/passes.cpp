@@ -37,7 +37,9 @@ PassInfo occlusion(const CloudContext& c) {
     PassInfo pass{"occlusion",
                   occlusion_spv,
                   {&Up::params, {&Up::depth, kDepthTexels}, &Work::rays, &Work::nearest},
-                  {{kSpecGroupSize, c.plan.pixelGroup}, {kSpecRays, c.plan.rays}},
+                  {{kSpecGroupSize, c.plan.pixelGroup},
+                   {kSpecRays, c.plan.rays},
+                   {kSpecLens, lensModelOf(c.camera.colour)}},
                   groupsFor(c.camera.depth.pixels(), c.plan.pixelGroup)};
     pass.filled = &Work::nearest;
     pass.fill = 0xffffffffu;
@@ -70,6 +72,7 @@ PassInfo classify(const CloudContext& c) {
             {{kSpecGroupSize, group},
              {kSpecRays, plan.rays},
              {kSpecColour, colour},
+             {kSpecLens, lensModelOf(c.camera.colour)},
              {kSpecHold, plan.hold},
              {kSpecSubGroup, plan.subGroup},
              {kSpecClasses, plan.classes},
@@ -143,7 +146,8 @@ PassInfo estimate(const CloudContext& c) {
             {{kSpecGroupSize, std::min(c.plan.pixelGroup, 64u)},
              {kSpecRays, c.plan.rays},
              {kSpecFour, four},
-             {kSpecMoves, !c.camera.poseless}},
+             {kSpecMoves, !c.camera.poseless},
+             {kSpecLens, lensModelOf(c.camera.depth)}},
             GroupsCounted{offsetof(FrameCounters, patchGroups)}};
 }
 

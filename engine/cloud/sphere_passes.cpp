@@ -48,6 +48,7 @@ PassInfo spheresOf(const CloudContext& c, std::span<const uint32_t> spirv, size_
              {kSpecClasses, plan.classes},
              {kSpecFan, plan.fan},
              {kSpecBeam, plan.beam},
+             {kSpecLens, lensModelOf(c.camera.depth)},
              {kSpecTree, plan.tree}},
             GroupsCounted{counted}};
 }

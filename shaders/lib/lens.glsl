@@ -1,20 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lens with distortion, forward direction (point -> pixel). k = (k1, k2, p1, p2), more = (k4, k5, k6, model);
+// Lens with distortion, forward direction (point -> pixel). k = (k1, k2, p1, p2), more = (k4, k5, k6);
 // kLensEquidistant: k = (k1, k2, k3, k4). The models are those of Intrinsics (engine/types/camera_info.h).
+// kLens is a specialisation constant because lavapipe compiles a shader anew for each dispatch if a branch
+// depends on a uniform alone.
+
+layout(constant_id = kSpecLens) const uint kLens = kLensNone;
 
 vec2 projectPoint(vec3 p, vec4 lens, vec4 k, float k3, vec4 more) {
     vec2 r = p.xy / p.z;
     float rr = dot(r, r);
     float radial = 1.0 + rr * (k.x + rr * (k.y + rr * k3));
     vec2 q = r;
-    if (more.w == kLensEquidistant) {
+    if (kLens == kLensNone) {
+        return r * lens.xy + lens.zw;
+    }
+    if (kLens == kLensEquidistant) {
         float slope = sqrt(rr), t = atan(slope), tt = t * t;
         float bent = t * (1.0 + tt * (k.x + tt * (k.y + tt * (k.z + tt * k.w))));
         return (slope > 0.0 ? r * (bent / slope) : r) * lens.xy + lens.zw;
     }
-    if (more.w != kLensPlain) {
+    if (kLens != kLensPlain) {
         radial /= 1.0 + rr * (more.x + rr * (more.y + rr * more.z));
-        q = more.w == kLensScaledTangential ? r * radial : r;
+        q = kLens == kLensScaledTangential ? r * radial : r;
     }
     vec2 d = vec2(r.x * radial + 2.0 * k.z * q.x * q.y + k.w * (rr + 2.0 * q.x * q.x),
                   r.y * radial + k.z * (rr + 2.0 * q.y * q.y) + 2.0 * k.w * q.x * q.y);

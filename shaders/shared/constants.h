@@ -43,7 +43,8 @@ FATHOM_CONST kSpecTexels = 29;   // the memory of points is read as texels
 FATHOM_CONST kSpecPack = 30;     // the host reads packed runs
 FATHOM_CONST kSpecShared = 31;   // moments of sub-patches are merged in shared memory
 FATHOM_CONST kSpecPatches = 32;  // `tree` builds the level of patches
-FATHOM_CONST kSpecMoves = 35;   // the camera may move
+FATHOM_CONST kSpecMoves = 35;    // the camera may move
+FATHOM_CONST kSpecLens = 36;     // kLens value of the lens that points are projected through
 // Measurements of the device.
 FATHOM_CONST kSpecRounds = 33; // rounds of four multiply-adds per chain
 FATHOM_CONST kSpecCopy = 34;   // 1: `stream` copies; 0: it sums
@@ -52,6 +53,9 @@ FATHOM_CONST kSpecCopy = 34;   // 1: `stream` copies; 0: it sums
 FATHOM_CONST kColourNone = 0, // no colour
     kColourRegistered = 1,    // registered to depth
     kColourLookedUp = 2;      // of a colour camera with its own lens
+// Values of kSpecLens. Plain: Brown-Conrady.
+FATHOM_CONST kLensNone = 0, // no distortion
+    kLensPlain = 1, kLensRational = 2, kLensScaledTangential = 3, kLensEquidistant = 4;
 // Values of kSpecHold for `spheres`. On CPU devices, patches whose memory holds points have a dispatch of
 // their own.
 FATHOM_CONST kHoldNone = 0, // nothing is held

@@ -7,12 +7,6 @@ FATHOM_SHARED_BEGIN
 
 FATHOM_CONST kMaxClasses = 8; // point classes per scene: bits of a pixel's mask
 
-// Lens models (lens.glsl). Plain: Brown-Conrady.
-FATHOM_CONST kLensPlain = 0;
-FATHOM_CONST kLensRational = 1;
-FATHOM_CONST kLensScaledTangential = 2;
-FATHOM_CONST kLensEquidistant = 3;
-
 // One point class. Gates are inclusive; an unused gate has bounds that every point passes.
 struct ClassParams {
     vec4 hue;      // lo, hi [degree]; 1 = wraps through 0; w = 0: grey passes, -1: it fails
@@ -43,17 +37,17 @@ struct FrameParams {
     vec4 cameraTbase[3];
     vec4 colourTdepth[3];
     ClassParams classes[8];
-    vec4 beam;      // sigma along a beam = x + y r [m], across it z r [m] (BeamSigma); -
-    vec4 ranges[8]; // per class: least and largest range [m]; 1 = has a range gate; -
-    vec4 water;     // attenuation of stored red, green, blue [1/m]; -
-    vec4 lensMore;       // depth k4, k5, k6; kLensPlain or the other models
+    vec4 beam;           // sigma along a beam = x + y r [m], across it z r [m] (BeamSigma); -
+    vec4 ranges[8];      // per class: least and largest range [m]; 1 = has a range gate; -
+    vec4 water;          // attenuation of stored red, green, blue [1/m]; -
+    vec4 lensMore;       // depth k4, k5, k6; -
     vec4 colourLensMore; // the same of colour
-    vec4 steps;     // ray increments per pixel 1 / fx, 1 / fy; growth step of spheres [m]; its reciprocal
+    vec4 steps;       // ray increments per pixel 1 / fx, 1 / fy; growth step of spheres [m]; its reciprocal
     uvec4 memory;     // number of this frame and of the frame that the estimates come from (0 = none); most
                       // frames that an estimate averages, and that it outlasts its pixel
     vec4 memoryGates; // largest jump and drift of an estimate: in sigma, x and z, but at most y and w [m]
-    vec4 memoryMore;  // change that is not shown: in sigma, x, but at most y [m]; z: variance of a moved pose,
-                      // [m^2]; w: 1 = the camera has moved since the frame that the estimates come from
+    vec4 memoryMore; // change that is not shown: in sigma, x, but at most y [m]; z: variance of a moved pose,
+                     // [m^2]; w: 1 = the camera has moved since the frame that the estimates come from
     vec4 beforeTbase[3]; // rows of the pose of that frame, as cameraTbase
 };
 FATHOM_SIZE(FrameParams, 64 + 112 + 144 + 640 + 208 + 96);
