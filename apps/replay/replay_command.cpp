@@ -49,6 +49,9 @@ void print(const ReplaySummary& s, const std::filesystem::path& out) {
     std::cout << std::setprecision(4);
     std::cout << "frames       " << s.frames.count << " used, " << s.frames.skipped << " skipped on "
               << s.device << "\n";
+    if (s.frames.first) {
+        std::cout << "  first      after " << *s.frames.first << " s, start of the program included\n";
+    }
     printPart("  passes    ", s.frames.gpuMs, "ms");
     printPart("  latency   ", s.frames.latencyMs, "ms");
     std::cout << "haptic       " << s.haptic.ticks << " ticks, " << s.haptic.stalledTicks << " stalled, "

@@ -6,13 +6,39 @@
 #include "apps/replay/traces_plot.h"
 #include "engine/cloud/frame_params.h"
 
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
 #include <numeric>
+#include <sstream>
+#include <string>
+#include <time.h>
+#include <unistd.h>
 
 namespace fathom {
 
 namespace {
 
 constexpr double kMomentMargin = 1.05; // a rising force copies the frame once per 5 %
+
+// [s] since the kernel started this process, to 10 ms. Empty if /proc does not say.
+std::optional<double> sinceStart() {
+    std::ifstream stat("/proc/self/stat");
+    std::string line;
+    std::getline(stat, line);
+    std::istringstream rest(
+        line.substr(std::min(line.size(), line.rfind(')') + 1))); // the name may hold spaces
+    std::string field;
+    for (int i = 3; i <= 22 && rest >> field; ++i) {
+    }
+    timespec now{};
+    char* end = nullptr;
+    const double started = std::strtod(field.c_str(), &end) / static_cast<double>(sysconf(_SC_CLK_TCK));
+    if (!rest || *end != '\0' || clock_gettime(CLOCK_BOOTTIME, &now) != 0) {
+        return std::nullopt;
+    }
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec) - started;
+}
 
 } // namespace
 
@@ -58,7 +84,9 @@ void ReplayRecorder::frame(const FrameReport& report, double t, const Fixtures& 
         watch_.frame(t, report.counts, set, colour);
     }
     frames_.add(report, t);
-    ++frameCount_;
+    if (frameCount_++ == 0) {
+        first_ = sinceStart();
+    }
     uploadMs_.push_back(static_cast<float>(report.uploadMs));
     latencyMs_.push_back(static_cast<float>(report.latencyMs));
     gpuMs_.push_back(static_cast<float>(std::accumulate(report.passMs.begin(), report.passMs.end(), 0.0)));
@@ -166,6 +194,7 @@ ReplaySummary ReplayRecorder::finish(const Ending& ending) {
     writeImages(ending);
     summary.frames = {frameCount_,
                       ending.skipped,
+                      first_,
                       percentilesOf(std::move(gpuMs_)),
                       percentilesOf(std::move(uploadMs_)),
                       percentilesOf(std::move(latencyMs_)),

@@ -98,6 +98,7 @@ private:
         std::vector<uint32_t> colour;
     } moment_;
     uint64_t frameCount_ = 0;
+    std::optional<double> first_; // [s] ReplaySummary::Frames::first
     std::vector<ClassSums> sums_; // one per fixture row of the scene
     std::vector<ReplaySummary::GuidanceRow> guidance_;
     std::vector<float> gpuMs_, uploadMs_, latencyMs_, queryMicros_;

@@ -30,7 +30,8 @@ Json framesJson(const ReplaySummary::Frames& frames) {
               {"skipped", frames.skipped},
               {"gpu_ms", times(frames.gpuMs)},
               {"upload_ms", times(frames.uploadMs)},
-              {"latency_ms", times(frames.latencyMs)}};
+              {"latency_ms", times(frames.latencyMs)},
+              {"first_s", number(frames.first)}};
     if (frames.exposureMs) {
         json["exposure_to_published_ms"] = times(*frames.exposureMs);
     }

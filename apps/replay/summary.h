@@ -19,8 +19,9 @@ class TickTotals;
 // unknown, not zero.
 struct ReplaySummary {
     struct Frames {
-        uint64_t count = 0;   // processed frames, static ones included
-        uint64_t skipped = 0; // count + skipped = lines of associations.txt
+        uint64_t count = 0;          // processed frames, static ones included
+        uint64_t skipped = 0;        // count + skipped = lines of associations.txt
+        std::optional<double> first; // [s] from the start of the program to the first fixture set
         Percentiles gpuMs, uploadMs, latencyMs;
         std::optional<Percentiles> exposureMs; // live cameras: start of exposure to published set
     } frames;

@@ -53,7 +53,7 @@ void checkSummaryKeys(const json& s) {
     const std::set<std::string> three{"p50", "p99", "max"};
     checkKeys(s, {"frames", "haptic", "contact", "fixtures", "guidance", "device", "lockstep", "digest",
                   "warnings"});
-    checkKeys(s.at("frames"), {"count", "skipped", "gpu_ms", "upload_ms", "latency_ms"});
+    checkKeys(s.at("frames"), {"count", "skipped", "gpu_ms", "upload_ms", "latency_ms", "first_s"});
     checkTimes(s.at("frames").at("latency_ms"), three, s.at("frames").at("count") > 0);
     checkKeys(s.at("haptic"), {"ticks",
                                "late",
