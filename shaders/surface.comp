@@ -3,7 +3,7 @@
 // Points of the listed patches in the base frame: rejects flying and isolated pixels and applies the paper's
 // Cartesian bilateral filter (eq. 1-2). One group per patch, one invocation per pixel. With kPair one
 // invocation per two adjacent pixels, which share the fetches of their windows. With kBlock one per 4x4
-// sub-patch, with window and weights in registers.
+// sub-patch (kBlockSub) or per row of one (kBlockRow), with the window in registers.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "shaders/shared/constants.h"
@@ -241,10 +241,16 @@ void filterBlock(uint sub) {
     }
 }
 
+#include "shaders/lib/surface_row.glsl"
+
 void main() {
     uint patchIndex = list[gl_WorkGroupID.x];
-    if (kBlock != 0) {
+    if (kBlock == kBlockSub) {
         filterBlock(patchIndex * 16u + gl_LocalInvocationID.x);
+        return;
+    }
+    if (kBlock == kBlockRow) {
+        filterRow(patchIndex * 256u + gl_LocalInvocationID.x * 4u);
         return;
     }
     ivec2 patchOrigin = ivec2(patchIndex % params.size.z, patchIndex / params.size.z) * 16;

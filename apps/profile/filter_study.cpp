@@ -28,17 +28,11 @@ Window windowOf(const Plan& plan) {
     return plan.filterBlock ? Window::Blocks : plan.tiled ? Window::Tiles : Window::Direct;
 }
 
-// Register blocks support windows up to 5x5.
-Window windowFor(uint32_t radius, Window wanted) {
-    return wanted == Window::Blocks && radius > 2 ? Window::Direct : wanted;
-}
-
 std::string nameOf(const Setting& s, Window usual) {
     const char* windows[] = {" direct", " tiles", " blocks"};
     std::string name = std::to_string(2 * s.radius + 1) + "x" + std::to_string(2 * s.radius + 1);
     name = s.radius == 0 ? "none" : name + " s" + digits(s.sigma * 1e3) + "mm";
-    name +=
-        s.window == windowFor(s.radius, usual) || s.radius == 0 ? "" : windows[static_cast<size_t>(s.window)];
+    name += s.window == usual || s.radius == 0 ? "" : windows[static_cast<size_t>(s.window)];
     return name + (s.polynomial ? " polynomial" : "") + (s.everyPatch ? " all patches" : "");
 }
 
@@ -46,11 +40,11 @@ std::vector<Setting> settingsOf(const Scene& scene, bool quick, Window usual) {
     std::vector<Setting> list;
     const double sigma = scene.filter.sigma;
     for (uint32_t radius : quick ? std::vector<uint32_t>{0, 2} : std::vector<uint32_t>{0, 1, 2, 3, 5, 8}) {
-        list.push_back({radius, sigma, windowFor(radius, usual), false});
+        list.push_back({radius, sigma, usual, false});
     }
     for (double s : quick ? std::vector<double>{0.003} : std::vector<double>{0.003, 0.005, 0.02, 0.05}) {
         for (uint32_t radius : quick ? std::vector<uint32_t>{2} : std::vector<uint32_t>{2, 5}) {
-            list.push_back({radius, s, windowFor(radius, usual), false});
+            list.push_back({radius, s, usual, false});
         }
     }
     for (Window window : {Window::Direct, Window::Tiles, Window::Blocks}) {
@@ -60,14 +54,14 @@ std::vector<Setting> settingsOf(const Scene& scene, bool quick, Window usual) {
     }
     list.push_back({2, sigma, usual, true});
     for (uint32_t radius : quick ? std::vector<uint32_t>{2} : std::vector<uint32_t>{1, 2, 5}) {
-        list.push_back({radius, sigma, windowFor(radius, usual), false, true});
+        list.push_back({radius, sigma, usual, false, true});
     }
     for (double s : quick ? std::vector<double>{} : std::vector<double>{0.003, 0.005}) {
         list.push_back({2, s, usual, false, true});
     }
     const auto same = [&](const Setting& s) { return s.radius == scene.filter.radius && s.sigma == sigma; };
     if (std::none_of(list.begin(), list.end(), same)) {
-        list.push_back({scene.filter.radius, sigma, windowFor(scene.filter.radius, usual), false});
+        list.push_back({scene.filter.radius, sigma, usual, false});
     }
     return list;
 }
@@ -199,7 +193,7 @@ void addSource(const StudyContext& context, Study& study, const FrameSequence& s
         benches.push_back(benchOf(context, source, s));
         rows.push_back(errorRow(context, source, nameOf(s, usual), *benches.back()));
         rows.back().isDefault = s.radius == scene.filter.radius && s.sigma == scene.filter.sigma &&
-                                s.window == windowFor(s.radius, usual) && !s.everyPatch &&
+                                s.window == usual && !s.everyPatch &&
                                 s.polynomial == (scene.filter.weights == Scene::Filter::Weights::Polynomial);
     }
     const std::vector<FrameCost> costs =

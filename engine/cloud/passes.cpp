@@ -108,9 +108,12 @@ PassInfo list(const CloudContext& c) {
 PassInfo surface(const CloudContext& c) {
     const Plan& plan = c.plan;
     const bool four = plan.filterBlock && c.camera.depth.width % 4 == 0;
-    // 16 sub-patches per patch. Pairs use smaller groups, so that more of them run at once.
-    const uint32_t group =
-        plan.filterBlock ? 16u : std::min(plan.pixelGroup, plan.filterPairs() ? 64u : 256u);
+    // A patch has 16 sub-patches and 64 rows of these. Pairs use smaller groups, so that more of them run at
+    // once.
+    const uint32_t group = plan.filterRows()  ? 64u
+                           : plan.filterBlock ? 16u
+                                              : std::min(plan.pixelGroup, plan.filterPairs() ? 64u : 256u);
+    const uint32_t block = plan.filterRows() ? kBlockRow : plan.filterBlock ? kBlockSub : kBlockNone;
     return {"surface",
             surface_spv,
             {&Up::params,
@@ -124,7 +127,7 @@ PassInfo surface(const CloudContext& c) {
              {kSpecRadius, plan.filterRadius},
              {kSpecEdge, plan.edge},
              {kSpecTiled, plan.tiled && !plan.filterBlock},
-             {kSpecBlock, plan.filterBlock},
+             {kSpecBlock, block},
              {kSpecFour, four},
              {kSpecPolynomial, plan.polynomialWeights},
              {kSpecPair, plan.filterPairs()}},

@@ -87,7 +87,7 @@ void decideByDevice(const CameraInfo& camera, const DeviceFacts& device, Plan& p
     plan.manyPatches =
         plan.byPixel && patchLayout(camera.depth.width, camera.depth.height).patches() >= kManyPatches;
     // On a CPU device a load is a gather, lane by lane, so neighbouring pixels share their loads.
-    plan.filterBlock = cpu && plan.filterRadius <= 2;
+    plan.filterBlock = cpu;
 }
 
 void decideQuery(const Scene& scene, uint32_t toolLeaves, const DeviceFacts& device, Plan& plan) {

@@ -54,8 +54,10 @@ struct PlannedLayout {
 
 // How the passes are divided among invocations and threads. Changes times, never results.
 struct PlannedTuning {
-    bool tiled = false;       // the filter reads its window from shared memory
-    bool filterBlock = false; // one invocation per 4x4 sub-patch, window in registers (radius <= 2)
+    bool tiled = false; // the filter reads its window from shared memory
+    // The filter has its window in registers: one invocation per 4x4 sub-patch; above radius 2, per row of
+    // one.
+    bool filterBlock = false;
     bool groupCounts = false; // classify counts per group in shared memory first
     // With shared memory: `spheres` has one invocation per pixel, `moments` one per sub-patch. Otherwise one
     // per sub-patch and one per patch.
@@ -94,6 +96,7 @@ struct Plan : PlannedPasses, PlannedLayout, PlannedTuning {
     }
     // Two filtered pixels per invocation: a sixth faster with many groups, slower with few.
     bool filterPairs() const { return manyPatches && tiled && !filterBlock && filterRadius == 2; }
+    bool filterRows() const { return filterBlock && filterRadius > 2; }
     bool delivers() const { return cloud && byPixel; } // by a dispatch; CPU devices copy instead
     uint32_t dispatchesPerFrame() const;               // of the frame cadence, without the query
 };

@@ -32,7 +32,8 @@ void explainPasses(Plan& plan, const Scene& scene, const CameraInfo& camera) {
     pass("surface", plan.cloud,
          plan.filterRadius != 0 ? "bilateral filter " + std::to_string(2 * plan.filterRadius + 1) + "x" +
                                       std::to_string(2 * plan.filterRadius + 1) +
-                                      (plan.filterBlock     ? ", 4x4 blocks from registers"
+                                      (plan.filterRows()    ? ", rows of four from registers"
+                                       : plan.filterBlock   ? ", 4x4 blocks from registers"
                                        : plan.filterPairs() ? ", shared-memory tiles, two pixels at a time"
                                        : plan.tiled         ? ", shared-memory tiles"
                                                             : ", direct reads") +

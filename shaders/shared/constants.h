@@ -28,7 +28,7 @@ FATHOM_CONST kSpecRadius = 16;     // window (2 r + 1)^2; 0 = no filter
 FATHOM_CONST kSpecEdge = 17;       // flying pixels are rejected
 FATHOM_CONST kSpecPolynomial = 18; // weights by a polynomial instead of exp
 FATHOM_CONST kSpecTiled = 19;      // window from shared memory
-FATHOM_CONST kSpecBlock = 20;      // one invocation per 4x4 sub-patch, window in registers
+FATHOM_CONST kSpecBlock = 20;      // window in registers: a kBlock value
 FATHOM_CONST kSpecPair = 21;       // two pixels per invocation
 // The device.
 FATHOM_CONST kSpecFour =
@@ -53,6 +53,10 @@ FATHOM_CONST kSpecCopy = 34;   // 1: `stream` copies; 0: it sums
 FATHOM_CONST kColourNone = 0, // no colour
     kColourRegistered = 1,    // registered to depth
     kColourLookedUp = 2;      // of a colour camera with its own lens
+// Values of kSpecBlock.
+FATHOM_CONST kBlockNone = 0, // one invocation per pixel, window from memory
+    kBlockSub = 1,           // one per 4x4 sub-patch; radius <= 2
+    kBlockRow = 2;           // one per row of a sub-patch
 // Values of kSpecLens. Plain: Brown-Conrady.
 FATHOM_CONST kLensNone = 0, // no distortion
     kLensPlain = 1, kLensRational = 2, kLensScaledTangential = 3, kLensEquidistant = 4;

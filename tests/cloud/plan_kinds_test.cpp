@@ -12,7 +12,7 @@ namespace {
 
 void forCpu(Plan& plan) {
     plan.byPixel = plan.groupCounts = plan.tiled = plan.pack = plan.keepDepth = false;
-    plan.filterBlock = plan.filterRadius <= 2;
+    plan.filterBlock = true;
 }
 
 void forGpu(Plan& plan) {
