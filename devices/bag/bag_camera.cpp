@@ -35,6 +35,7 @@ BagCamera::BagCamera(std::unique_ptr<MessageFile> file, SourceOptions options)
         useSpan(topicOf(choice_.depth));
         chooseUnit();
         useClocks();
+        watchChanges();
     } catch (const BadInput&) {
         throw;
     } catch (const Error& e) {
@@ -69,7 +70,11 @@ void BagCamera::useClocks() {
     colour_.emplace(*file_, topicOf(*choice_.colour));
     const double slower = std::max(depth_->medianPeriod(), colour_->medianPeriod());
     tolerance_ = slower > 0.0 ? 0.5 * slower : 0.05;
-    if (depth_->stamped() == colour_->stamped() && pairsByStamp()) {
+    if (!depth_->stamped()) { // said already
+        colour_->useRecordingTime();
+        return;
+    }
+    if (colour_->stamped() && pairsByStamp()) {
         return;
     }
     log::warn(
@@ -97,34 +102,100 @@ bool BagCamera::pairsByStamp() {
     return any;
 }
 
-// A RealSense SDK's option, else millimetres.
-double BagCamera::sensorUnit() {
+// A RealSense SDK's option beside the depth stream; null = none.
+const MessageTopic* BagCamera::unitTopic() const {
     const std::string sensor = parentTopic(choice_.depth.name, 3) + "/option/";
     for (const MessageTopic& topic : file_->topics()) {
-        if (!isSdkTopic(choice_.depth.name) || !topic.name.starts_with(sensor) || !isDepthUnits(topic.name) ||
-            topic.messages.empty()) {
-            continue;
+        if (isSdkTopic(choice_.depth.name) && topic.name.starts_with(sensor) && isDepthUnits(topic.name) &&
+            !topic.messages.empty()) {
+            return &topic;
         }
-        // Stored as float: use 0.001, not 0.0010000000474974513.
-        const double unit = std::round(1e9 * static_cast<double>(ros::float32(file_->read(topic, 0)))) * 1e-9;
-        if (!(unit >= kFinestUnit && unit <= kCoarsestUnit)) {
-            throw BadInput(file_->file().string(), topic.name, std::to_string(unit),
-                           "0.000001 to 0.1 metres per unit, or scale=M behind the file's name");
-        }
-        return unit;
     }
-    return kMillimetre;
+    return nullptr;
 }
 
-double BagCamera::farthestSampled() {
-    double most = 0.0;
+// By the option, else millimetres.
+double BagCamera::sensorUnit() {
+    const MessageTopic* topic = unitTopic();
+    if (topic == nullptr) {
+        if (isSdkTopic(choice_.depth.name)) {
+            log::warn("{}: no option Depth_Units beside {}: depth is read as millimetres; scale=M behind the "
+                      "file's name gives another unit (D405: 0.0001, L515: 0.00025)",
+                      file_->file().string(), choice_.depth.name);
+            say("no option Depth_Units beside " + choice_.depth.name + ": depth is read as millimetres");
+        }
+        return kMillimetre;
+    }
+    // Stored as float: use 0.001, not 0.0010000000474974513.
+    const double unit = std::round(1e9 * static_cast<double>(ros::float32(file_->read(*topic, 0)))) * 1e-9;
+    if (!(unit >= kFinestUnit && unit <= kCoarsestUnit)) {
+        throw BadInput(file_->file().string(), topic->name, std::to_string(unit),
+                       "0.000001 to 0.1 metres per unit, or scale=M behind the file's name");
+    }
+    return unit;
+}
+
+// Options and lenses that have several messages may change.
+void BagCamera::watchChanges() {
+    const auto watch = [&](std::optional<ChangedMessages>& to, const MessageTopic* topic) {
+        if (topic != nullptr && topic->messages.size() > 1) {
+            to.emplace(*file_, *topic);
+        }
+    };
+    const auto lens = [&](const ImageStream& stream) {
+        return stream.info ? &file_->topics()[*stream.info] : nullptr;
+    };
+    if (!options_.scale && !ros::holdsMetres(imageOf(choice_.depth, cursor_))) {
+        watch(units_, unitTopic());
+    }
+    if (options_.intrinsics.empty()) {
+        watch(depthLenses_, lens(choice_.depth));
+    }
+    if (options_.intrinsics.empty() && choice_.colour) {
+        watch(colourLenses_, lens(*choice_.colour));
+    }
+}
+
+// What differs from the first frame at this time of recording; empty = nothing.
+std::string BagCamera::changed(uint64_t time) {
+    const auto lensFault = [](const ImageStream& stream) {
+        return [&stream](const MessageCursor& message) -> std::string {
+            const ros::CameraInfo info = ros::cameraInfo(message);
+            const Intrinsics& now = stream.rectified ? info.rectified : info.raw;
+            return sameLens(now, *stream.lens)
+                       ? ""
+                       : "the lens of " + stream.name + " changes from fx " +
+                             std::to_string(stream.lens->fx) + " to " + std::to_string(now.fx);
+        };
+    };
+    std::string fault;
+    if (units_) {
+        fault = units_->at(time, [&](const MessageCursor& message) -> std::string {
+            const double now = static_cast<double>(ros::float32(message)), first = info().metresPerUnit;
+            return std::abs(now - first) <= 1e-6 * first
+                       ? ""
+                       : "the depth unit changes from " + std::to_string(first) + " to " +
+                             std::to_string(now) + " m";
+        });
+    }
+    if (fault.empty() && depthLenses_) {
+        fault = depthLenses_->at(time, lensFault(choice_.depth));
+    }
+    if (fault.empty() && colourLenses_) {
+        fault = colourLenses_->at(time, lensFault(*choice_.colour));
+    }
+    return fault;
+}
+
+ValueSpan BagCamera::sampledMetres() {
+    ValueSpan seen;
     sample(kUnitSamples, [&](size_t i) {
         try {
-            most = std::max(most, ros::farthest(imageOf(choice_.depth, i)));
+            seen.add(ros::valueSpan(imageOf(choice_.depth, i)));
         } catch (const Error&) { // named when it is played
         }
     });
-    return most;
+    return seen;
 }
 
 // Metres get the finest unit that holds one and a half times the farthest depth seen, or the scene's far.
@@ -136,8 +207,10 @@ void BagCamera::chooseUnit() {
         return;
     }
     const double metresPerValue = options_.scale.value_or(1.0);
-    const double needed = std::min(1.5 * metresPerValue * farthestSampled(), options_.farthest);
-    camera.metresPerUnit = unitForMetres(needed);
+    options_.checkMetres(file_->file().string());
+    const ValueSpan seen = sampledMetres().scaled(metresPerValue);
+    say(doubtMetres(file_->file().string(), seen.nearest));
+    camera.metresPerUnit = unitForMetres(seen, options_.farthest);
     valuesPerUnit_ = camera.metresPerUnit / metresPerValue;
 }
 
@@ -152,6 +225,9 @@ std::string BagCamera::read(size_t index, FrameSlot& slot, double stamp) {
     const bool alike = (depth.compressed ? depth.format : depth.encoding) == choice_.depth.encoding;
     if (!alike || ros::sizeOf(depth) != std::pair(info().depth.width, info().depth.height)) {
         return "size or encoding differs from the first frame";
+    }
+    if (const std::string other = changed(topicOf(choice_.depth).messages[index].time); !other.empty()) {
+        return other;
     }
     uint64_t beyond = 0;
     const std::string fault = ros::depthRows(depth, valuesPerUnit_, slot.depth(), beyond);

@@ -3,6 +3,7 @@
 // camera_info topics.
 #pragma once
 
+#include "devices/bag/changed_messages.h"
 #include "devices/bag/message_camera.h"
 #include "devices/bag/stream_choice.h"
 
@@ -31,8 +32,11 @@ private:
     void useClocks();
     bool pairsByStamp();
     void chooseUnit();
+    const MessageTopic* unitTopic() const;
     double sensorUnit();
-    double farthestSampled();
+    void watchChanges();
+    std::string changed(uint64_t time);
+    ValueSpan sampledMetres();
     Image imageOf(const ImageStream& stream, size_t index);
     std::string read(size_t index, FrameSlot& slot, double stamp) override;
     std::string readColour(size_t depthIndex, double stamp, FrameSlot& slot);
@@ -40,8 +44,9 @@ private:
 
     StreamChoice choice_;
     std::optional<StampedStream> colour_;
-    double valuesPerUnit_ = 1.0; // of depth in metres
-    double tolerance_ = 0.0;     // [s]
+    std::optional<ChangedMessages> units_, depthLenses_, colourLenses_; // only where there may be several
+    double valuesPerUnit_ = 1.0;                                        // of depth in metres
+    double tolerance_ = 0.0;                                            // [s]
 };
 
 } // namespace fathom

@@ -4,7 +4,6 @@
 #include "devices/bag/image_stream.h"
 #include "devices/images/metre_units.h"
 #include "engine/types/error.h"
-#include "engine/types/log.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +13,6 @@ namespace fathom {
 namespace {
 
 constexpr size_t kLensSamples = 9; // clouds that are looked at for lens and unit
-constexpr double kDoubtfulMetres = 50.0;
 
 // Root of the mean square distance [pixels] of points from their pixels that is allowed: a pixel, and in
 // small images a hundredth of the width, where a pixel is a wide angle.
@@ -56,15 +54,14 @@ bool playsClouds(MessageFile& file, const SourceOptions& options) {
         return false;
     }
     const auto streams = imageStreams(file, options.info);
-    return std::none_of(streams.begin(), streams.end(), [](const ImageStream& stream) {
-        return stream.content == ros::Content::Depth && stream.role != NamedRole::Infrared;
-    });
+    return std::none_of(streams.begin(), streams.end(), mayBeDepth);
 }
 
 CloudCamera::CloudCamera(std::unique_ptr<MessageFile> file, SourceOptions options)
     : MessageCamera(std::move(file), std::move(options))
     , metresPerValue_(options_.scale.value_or(1.0)) {
     checkOptions();
+    options_.checkMetres(file_->file().string());
     chooseTopic();
     useSpan(topic());
     learnLens();
@@ -135,7 +132,7 @@ std::string CloudCamera::fit(const ros::Cloud& message, const PcdCloud& cloud) {
 
 void CloudCamera::learnLens() {
     std::string fault = "no points";
-    double farthest = 0.0, nearest = HUGE_VAL;
+    ValueSpan seen;
     sample(kLensSamples, [&](size_t i) {
         try {
             const ros::Cloud message = cloudAt(i);
@@ -146,8 +143,7 @@ void CloudCamera::learnLens() {
             fault = fault.empty() ? "" : fit(message, cloud);
             for (const dvec3& point : cloud.points) {
                 const dvec3 p = metresPerValue_ * (fit_.opticalTcloud * point);
-                farthest = hasPoint(p) ? std::max(farthest, p.z) : farthest;
-                nearest = hasPoint(p) ? std::min(nearest, p.z) : nearest;
+                seen.add(hasPoint(p) ? p.z : 0.0);
             }
         } catch (const Error& e) {
             fault = fault.empty() ? "" : e.what();
@@ -158,14 +154,10 @@ void CloudCamera::learnLens() {
                "clouds in the frame of their camera: x right and y down, y up and z backward, or x forward "
                "and z up");
     }
-    if (nearest > kDoubtfulMetres && nearest < HUGE_VAL) {
-        log::warn("{}: the nearest point is at {:.4g} m; if the clouds are in millimetres, put ,scale=0.001 "
-                  "behind its name",
-                  file_->file().string(), nearest);
-    }
+    say(doubtMetres(file_->file().string(), seen.nearest));
     info_.depth = info_.colour = fit_.lens;
     info_.poseless = true;
-    info_.metresPerUnit = unitForMetres(std::min(1.5 * farthest, options_.farthest));
+    info_.metresPerUnit = unitForMetres(seen, options_.farthest);
 }
 
 // Returns the fault; empty when the slot is filled.

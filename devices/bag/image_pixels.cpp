@@ -3,10 +3,10 @@
 
 #include "devices/bag/colour_rows.h"
 #include "devices/bag/compressed_depth.h"
-#include "devices/images/metre_units.h"
 #include "devices/recorded/png_image.h"
 #include "devices/v4l2/jpeg_image.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -136,34 +136,27 @@ std::string colourRows(const Image& image, std::span<uint32_t> out) {
     return unpackColours({image.width, image.height, image.step, image.data}, *layout, out);
 }
 
-double farthest(const Image& image) {
-    double most = 0.0;
+ValueSpan valueSpan(const Image& image) {
+    ValueSpan span;
     if (image.compressed) {
         const auto size = sizeOf(image);
         constexpr uint64_t kMost = 3840ull * 2160;
         if (!size || uint64_t{size->first} * size->second > kMost) {
-            return 0.0;
+            return span;
         }
         std::vector<uint16_t> stored(size_t{size->first} * size->second);
         const CompressedDepth depth = packed(image);
-        if (!depth.values(size->first, size->second, stored).empty()) {
-            return 0.0;
+        if (depth.values(size->first, size->second, stored).empty()) {
+            std::for_each(stored.begin(), stored.end(), [&](uint16_t v) { span.add(depth.metres(v)); });
         }
-        for (const uint16_t value : stored) {
-            most = std::max(most, depth.metres(value));
-        }
-        return most;
+        return span;
     }
-    if (!checkBytes(image, size_t{4} * image.width).empty()) {
-        return 0.0;
-    }
-    for (uint32_t y = 0; y < image.height; ++y) {
+    for (uint32_t y = 0; checkBytes(image, size_t{4} * image.width).empty() && y < image.height; ++y) {
         for (uint32_t x = 0; x < image.width; ++x) {
-            const double z = double{floatAt(image, x, y)};
-            most = std::isfinite(z) ? std::max(most, z) : most;
+            span.add(double{floatAt(image, x, y)});
         }
     }
-    return most;
+    return span;
 }
 
 } // namespace fathom::ros

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "devices/bag/ros_messages.h"
+#include "devices/images/metre_units.h"
 
 #include <optional>
 
@@ -31,7 +32,7 @@ bool holdsMetres(const Image& image);
 std::string depthRows(const Image& image, double metresPerUnit, std::span<uint16_t> out, uint64_t& beyond);
 // R8 G8 B8 A8 (0xAABBGGRR). YUV is BT.601, limited range. Returns as depthRows().
 std::string colourRows(const Image& image, std::span<uint32_t> out);
-// The largest finite depth [m] of an image that holds metres; 0 when it has none or cannot be read.
-double farthest(const Image& image);
+// Depth [m] of an image that holds metres; without any when it cannot be read.
+ValueSpan valueSpan(const Image& image);
 
 } // namespace fathom::ros

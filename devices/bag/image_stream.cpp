@@ -4,6 +4,8 @@
 #include "devices/recorded/recording_intrinsics.h"
 #include "engine/types/error.h"
 
+#include <cmath>
+
 namespace fathom {
 
 namespace {
@@ -55,6 +57,7 @@ void readLens(MessageFile& file, const std::string& asked, ImageStream& stream) 
         stream.noLens = told + "distortion (allowed: coefficients that can be inverted over the whole image)";
     } else {
         stream.lens = lens;
+        stream.info = static_cast<size_t>(topic - file.topics().data());
         stream.raw = info.raw;
         stream.rectified = namedRectified(stream.name);
         stream.turned = info.turned;
@@ -62,6 +65,18 @@ void readLens(MessageFile& file, const std::string& asked, ImageStream& stream) 
 }
 
 } // namespace
+
+bool sameLens(const Intrinsics& a, const Intrinsics& b) {
+    const auto equal = [](double one, double other) { return std::abs(one - other) < 1e-6; };
+    return a.width == b.width && a.height == b.height && equal(a.fx, b.fx) && equal(a.fy, b.fy) &&
+           equal(a.cx, b.cx) && equal(a.cy, b.cy) && a.distortion == b.distortion && a.divisor == b.divisor &&
+           a.model == b.model;
+}
+
+bool mayBeDepth(const ImageStream& stream) {
+    const bool named = stream.role == NamedRole::Depth || stream.encoding != "mono16";
+    return stream.content == ros::Content::Depth && stream.role != NamedRole::Infrared && named;
+}
 
 std::vector<ImageStream> imageStreams(MessageFile& file, const std::string& info) {
     std::vector<ImageStream> streams;

@@ -23,9 +23,16 @@ struct ImageStream {
     // The lens of its images, rectified or not; `raw` compares with that of another topic of the same camera.
     std::optional<Intrinsics> lens;
     Intrinsics raw;
+    std::optional<size_t> info; // topic of the lens, in MessageFile::topics()
     bool rectified = false, turned = false;
     std::string noLens; // why there is no lens
 };
+
+// Within 1e-6 pixels.
+bool sameLens(const Intrinsics& a, const Intrinsics& b);
+// Depth by its encoding, and not said to be something else by its name. mono16 is also what grey cameras of
+// 16 bits send: it is depth only under a name that says so.
+bool mayBeDepth(const ImageStream& stream);
 
 // Every topic of sensor_msgs/Image or CompressedImage that has messages, by its first message. The lens comes
 // from the topic `info`; if that is empty, from the camera_info next to the images.

@@ -31,6 +31,31 @@ void MessageCamera::useClock(const MessageTopic& topic) {
     if (!depth_->stamped()) {
         log::warn("{}: {}: headers have no stamps: the time of recording is used", file_->file().string(),
                   topic.name);
+    } else if (!stampsRise()) {
+        log::warn("{}: {}: at least half of its stamps do not rise: the time of recording is used",
+                  file_->file().string(), topic.name);
+        depth_->useRecordingTime();
+    }
+}
+
+// Single stamps that go back are faults of frames. Where half of them do not rise, they are no times: all are
+// equal, or each is the time since the frame before.
+bool MessageCamera::stampsRise() {
+    constexpr uint32_t kLooked = 30; // frames, so that a long recording is not read in advance
+    const uint32_t last = std::min(end_, cursor_ + kLooked);
+    double latest = -HUGE_VAL;
+    uint32_t still = 0;
+    for (uint32_t i = cursor_; i < last; ++i) {
+        const double stamp = depth_->stampOf(i);
+        still += stamp <= latest ? 1 : 0;
+        latest = std::isfinite(stamp) ? std::max(latest, stamp) : latest;
+    }
+    return 2 * still < std::max(3u, last - cursor_);
+}
+
+void MessageCamera::say(const std::string& warning) {
+    if (!warning.empty()) {
+        warnings_.push_back(warning);
     }
 }
 

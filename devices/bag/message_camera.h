@@ -23,6 +23,7 @@ public:
     uint32_t skipped() const override { return skipped_; }
     uint32_t images() const override { return end_; }
     bool seek(uint32_t index) override;
+    std::vector<std::string> warnings() const override { return warnings_; }
 
 protected:
     MessageCamera(std::unique_ptr<MessageFile> file, SourceOptions options)
@@ -32,6 +33,8 @@ protected:
     // Start and duration of the options count from the topic's first message, by the time of recording.
     void useSpan(const MessageTopic& topic);
     void useClock(const MessageTopic& topic);
+    // A warning that is logged already; empty = none.
+    void say(const std::string& warning);
     // Calls use(i) for up to `samples` messages over the whole span.
     template <class Use>
     void sample(size_t samples, Use&& use) const {
@@ -52,12 +55,14 @@ protected:
     uint32_t cursor_ = 0, end_ = 0;
 
 private:
+    bool stampsRise();
     std::string faultOf(size_t index, FrameSlot& slot, double stamp);
 
     uint32_t skipped_ = 0;
     bool delivered_ = false, toldBeyond_ = false;
     std::optional<double> lastStamp_; // [s] of the last delivered frame
     std::string firstFault_;
+    std::vector<std::string> warnings_;
 };
 
 } // namespace fathom

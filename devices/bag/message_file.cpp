@@ -48,10 +48,12 @@ std::unique_ptr<MessageFile> openMessageFile(const std::filesystem::path& file) 
     std::string ending = file.extension().string();
     std::transform(ending.begin(), ending.end(), ending.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    if (ending == ".mcap" || (ending != ".bag" && begin.starts_with("\x89MCAP"))) {
+    const bool bag = begin.starts_with("#ROSBAG"), database = begin.starts_with("SQLite format 3"),
+               mcap = begin.starts_with("\x89MCAP"), known = bag || database || mcap;
+    if (mcap || (!known && ending == ".mcap")) { // the first bytes decide, not the name
         return std::make_unique<McapFile>(file);
     }
-    if (ending == ".db3" || (ending != ".bag" && begin.starts_with("SQLite format 3"))) {
+    if (database || (!known && ending == ".db3")) {
         return std::make_unique<Ros2Database>(file);
     }
     return std::make_unique<BagFile>(file);

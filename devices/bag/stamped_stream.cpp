@@ -58,7 +58,8 @@ std::optional<size_t> StampedStream::nearest(double stamp, uint64_t recordedAt, 
     double least = within;
     const auto consider = [&](size_t index) {
         const double distance = std::abs(stampOf(index) - stamp);
-        if (distance < least || (distance <= least && !best)) {
+        const bool closer = best && apart(all[index].time) < apart(all[*best].time);
+        if (distance < least || (distance <= least && (!best || closer))) {
             least = distance;
             best = index;
         }

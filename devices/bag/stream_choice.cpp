@@ -4,6 +4,7 @@
 #include "devices/recorded/recording_intrinsics.h"
 #include "engine/types/error.h"
 
+#include <algorithm>
 #include <cmath>
 #include <tuple>
 
@@ -11,14 +12,15 @@ namespace fathom {
 
 namespace {
 
-bool nearlyEqual(double a, double b) {
-    return std::abs(a - b) < 1e-6;
-}
-
-bool sameLens(const Intrinsics& a, const Intrinsics& b) {
-    return a.width == b.width && a.height == b.height && nearlyEqual(a.fx, b.fx) && nearlyEqual(a.fy, b.fy) &&
-           nearlyEqual(a.cx, b.cx) && nearlyEqual(a.cy, b.cy) && a.distortion == b.distortion &&
-           a.divisor == b.divisor && a.model == b.model;
+// Of the same rays at another resolution: an image registered to a resized one of the same camera.
+bool resizedLens(const Intrinsics& a, const Intrinsics& b) {
+    const double x = static_cast<double>(b.width) / a.width, y = static_cast<double>(b.height) / a.height;
+    const auto close = [](double one, double other, double within) {
+        return std::abs(one - other) <= within;
+    };
+    return a.pinhole() && b.pinhole() && close(x, y, 1e-3 * x) && close(a.fx * x, b.fx, 1e-3 * b.fx) &&
+           close(a.fy * y, b.fy, 1e-3 * b.fy) && close(a.cx * x, b.cx, std::max(1.0, x)) &&
+           close(a.cy * y, b.cy, std::max(1.0, y));
 }
 
 bool isIdentity(const Pose& pose) {
@@ -52,7 +54,7 @@ std::vector<const ImageStream*> StreamChooser::depths() const {
     int best = 1;
     for (const ImageStream& stream : streams_) {
         const bool named = stream.name == options_.depth;
-        const bool fit = options_.depth.empty() ? stream.role != NamedRole::Infrared : named;
+        const bool fit = options_.depth.empty() ? mayBeDepth(stream) : named;
         const int how = named ? 2 : fits(stream.role, NamedRole::Depth);
         if (stream.content == ros::Content::Depth && fit && how >= best) {
             if (how > best) {
@@ -69,12 +71,14 @@ std::vector<const ImageStream*> StreamChooser::depths() const {
     for (const ImageStream& stream : streams_) {
         seen += (seen.empty() ? "" : ", ") + stream.name + " (" + stream.encoding + ")";
     }
+    seen = seen.empty() ? "no images" + otherTopics() : seen;
     const std::string wanted = options_.depth.empty() ? "one of depth" : options_.depth;
-    refuse("topics", seen.empty() ? "no images" : seen,
+    refuse("topics", seen,
            wanted + ": sensor_msgs/Image or CompressedImage with encoding " + ros::kDepthEncodings +
-               (options_.depth.empty() ? ", whose name is not one of infrared; or depth=TOPIC; or organised "
-                                         "sensor_msgs/PointCloud2"
-                                       : ""));
+               (options_.depth.empty()
+                    ? ", whose name is not one of infrared; mono16 under a name of depth; or "
+                      "depth=TOPIC; or organised sensor_msgs/PointCloud2"
+                    : ""));
 }
 
 std::vector<const ImageStream*> StreamChooser::colours() const {
@@ -86,7 +90,7 @@ std::vector<const ImageStream*> StreamChooser::colours() const {
     for (const ImageStream& stream : streams_) {
         const bool usable = stream.content == ros::Content::Colour || stream.content == ros::Content::Grey;
         const bool named = stream.name == options_.colour;
-        if (!usable || (!options_.colour.empty() && !named)) {
+        if (!usable || (!options_.colour.empty() && !named) || (!named && namedDepthImage(stream.name))) {
             continue;
         }
         // Grey comes last: it is no colour, but shows something.
@@ -128,6 +132,9 @@ StreamChooser::Relation StreamChooser::relate(const ImageStream& depth, const Im
     // The same camera, one of the two images rectified.
     if (sameFrame && depth.rectified != colour.rectified && sameLens(depth.raw, colour.raw) &&
         !depth.turned && !colour.turned) {
+        return {3, false, {}, ""};
+    }
+    if (sameFrame && !depth.frame.empty() && resizedLens(*depth.lens, *colour.lens)) {
         return {3, false, {}, ""};
     }
     return relateByPose(depth, colour);
@@ -208,20 +215,6 @@ void StreamChooser::replaceLenses(StreamChoice& choice) const {
     }
 }
 
-std::string StreamChooser::describe(const StreamChoice& choice) const {
-    const auto named = [](const ImageStream& stream) { return stream.name + " (" + stream.encoding + ")"; };
-    std::string said = "depth " + named(choice.depth);
-    said += choice.colour ? ", colour " + named(*choice.colour) : ", no colour";
-    said += !choice.colour ? "" : (choice.camera.registered ? ", registered" : ", by extrinsics");
-    std::string rest;
-    for (const ImageStream& stream : streams_) {
-        if (stream.topic != choice.depth.topic && (!choice.colour || stream.topic != choice.colour->topic)) {
-            rest += (rest.empty() ? "; not used: " : ", ") + named(stream);
-        }
-    }
-    return said + rest;
-}
-
 StreamChoice StreamChooser::choose() {
     const std::vector<const ImageStream*> ofDepth = depths(), ofColour = colours();
     using Score = std::tuple<int, size_t, bool, bool>;
@@ -270,11 +263,7 @@ StreamChoice StreamChooser::choose() {
     if (!options_.intrinsics.empty()) {
         replaceLenses(choice);
     }
-    for (const ImageStream& stream : streams_) {
-        if (stream.content == ros::Content::None) {
-            choice.unread += (choice.unread.empty() ? "" : ", ") + stream.name + " (" + stream.encoding + ")";
-        }
-    }
+    choice.unread = unreadStreams();
     choice.said = describe(choice);
     return choice;
 }

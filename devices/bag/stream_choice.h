@@ -44,6 +44,8 @@ private:
     std::optional<Pose> sdkPose(const ImageStream& depth, const ImageStream& colour);
     std::optional<Pose> topicPose(const ImageStream& depth);
     void replaceLenses(StreamChoice& choice) const;
+    std::string unreadStreams() const;
+    std::string otherTopics() const;
     std::string describe(const StreamChoice& choice) const;
     [[noreturn]] void refuse(const std::string& field, const std::string& value,
                              const std::string& allowed) const;

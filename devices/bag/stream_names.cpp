@@ -13,10 +13,12 @@ namespace {
 
 constexpr std::array<std::string_view, 2> kDepthWords{"depth", "range"};
 constexpr std::array<std::string_view, 3> kColourWords{"rgb", "color", "colour"};
-constexpr std::array<std::string_view, 18> kInfraredWords{
-    "ir",        "infra",     "infrared",   "nir",       "lwir",         "thermal",
-    "intensity", "amplitude", "confidence", "disparity", "reflectivity", "reflectance",
-    "ambient",   "noise",     "gray",       "grey",      "mono",         "fisheye"};
+constexpr std::array<std::string_view, 32> kInfraredWords{
+    "ir",     "infra",       "infrared",     "nir",        "nearir",      "lwir",      "thermal",
+    "flir",   "intensity",   "amplitude",    "confidence", "disparity",   "reflec",    "reflectivity",
+    "signal", "reflectance", "ambient",      "noise",      "uncertainty", "variance",  "temperature",
+    "label",  "labels",      "segmentation", "semantic",   "mask",        "instances", "gray",
+    "grey",   "mono",        "fisheye",      "phase"};
 constexpr std::array<std::string_view, 4> kPainted{"colored", "coloured", "colorized", "colourized"};
 
 template <size_t N>
@@ -61,6 +63,14 @@ NamedRole namedRole(const std::string& topic) {
         }
     }
     return role;
+}
+
+bool namedDepthImage(const std::string& topic) {
+    const std::vector<std::string> words = wordsOf(baseTopic(topic));
+    const auto depth = std::find(words.begin(), words.end(), "depth");
+    const bool camera = depth != words.end() && depth + 1 != words.end() &&
+                        (*(depth + 1) == "camera" || *(depth + 1) == "cam" || *(depth + 1) == "sensor");
+    return namedRole(topic) == NamedRole::Depth && !camera;
 }
 
 bool namedRectified(const std::string& topic) {

@@ -13,6 +13,8 @@ enum class NamedRole { None, Depth, Colour, Infrared }; // Infrared: also confid
 // By the last word that decides: "/camera/ir/image" is Infrared, "/kinect2/sd/image_depth_rect" Depth. Words
 // after "to" are a target: "/aligned_depth_to_color/image_raw" is Depth.
 NamedRole namedRole(const std::string& topic);
+// "/camera/depth/image_colored", but not "/depth_camera/image_raw": its colour would be painted depth.
+bool namedDepthImage(const std::string& topic);
 // "image_rect", "image_rect_raw": rectified images.
 bool namedRectified(const std::string& topic);
 // "aligned_depth...", "depth_registered": shown by another camera's lens.

@@ -10,7 +10,7 @@ namespace fathom {
 
 class UnpackedChunks {
 public:
-    // The chunk at this offset of the file; unpack() makes it where it is not kept. Valid until two other
+    // The chunk at this offset of the file; unpack() makes it where it is not kept. Valid until four other
     // chunks were asked for.
     template <class Unpack>
     const std::vector<uint8_t>& at(uint64_t chunk, Unpack unpack) {
@@ -32,7 +32,7 @@ public:
     }
 
 private:
-    static constexpr size_t kMost = 2;
+    static constexpr size_t kMost = 4; // depth, colour and the lenses of both
     struct Kept {
         uint64_t chunk = 0;
         std::vector<uint8_t> bytes;

@@ -2,7 +2,6 @@
 #include "devices/images/depth_image.h"
 
 #include "devices/images/exr_image.h"
-#include "devices/images/metre_units.h"
 #include "devices/images/npy_image.h"
 #include "devices/images/pgm_image.h"
 #include "devices/images/tiff_image.h"
@@ -111,20 +110,20 @@ std::string readDepthImage(const std::filesystem::path& file, PngSize size, cons
     return damaged;
 }
 
-double farthestValue(const std::filesystem::path& file, PngSize size) {
+ValueSpan valueSpan(const std::filesystem::path& file, PngSize size) {
     const DepthFormat* format = formatOf(file);
     std::string bytes;
+    ValueSpan span;
     if (format == nullptr || !checkedBytes(file, *format, size, true, bytes).empty()) {
-        return 0.0;
+        return span;
     }
     std::vector<float> values(size_t{size.width} * size.height);
-    float most = 0.0f;
     if (format->metres(asBytes(bytes), values).empty()) {
         for (const float value : values) {
-            most = std::isfinite(value) ? std::max(most, value) : most;
+            span.add(double{value});
         }
     }
-    return double{most};
+    return span;
 }
 
 } // namespace fathom

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "devices/images/depth_head.h"
+#include "devices/images/metre_units.h"
 
 #include <array>
 #include <filesystem>
@@ -31,7 +32,7 @@ DepthHead depthImageHead(const std::filesystem::path& file);
 // fault.
 std::string readDepthImage(const std::filesystem::path& file, PngSize size, const DepthUnits& units,
                            std::span<uint16_t> out, uint64_t& beyond);
-// The largest finite value of a floating-point image of this size; 0 when there is none or it cannot be read.
-double farthestValue(const std::filesystem::path& file, PngSize size);
+// The values of a floating-point image of this size; without any when it cannot be read.
+ValueSpan valueSpan(const std::filesystem::path& file, PngSize size);
 
 } // namespace fathom

@@ -2,13 +2,32 @@
 // Depth in metres as 16-bit values.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
+#include <string>
 
 namespace fathom {
+
+// Least and largest of measured values.
+struct ValueSpan {
+    double nearest = HUGE_VAL, farthest = 0.0; // without a value: infinity and 0
+
+    // Zero, negative values, NaN and infinity are not measured.
+    void add(double value);
+    void add(const ValueSpan& other);
+    ValueSpan scaled(double factor) const { return {factor * nearest, factor * farthest}; }
+};
 
 // The unit [m] for depth of up to `farthest` metres: 0.1 mm or the least multiple of it with which 16 bits
 // are enough, at most kCoarsestUnit.
 double unitForMetres(double farthest);
+// The unit [m] for frames of which `seen` [m] are samples: half as much more than seen, but not beyond
+// `ofInterest` [m], unless everything is.
+double unitForMetres(const ValueSpan& seen, double ofInterest);
+
+// Warns when the nearest point of a recording is farther than any camera sees: its values are no metres.
+// Returns the warning; empty when there is none.
+std::string doubtMetres(const std::string& file, double nearest);
 
 // `value` in units, rounded; 0 for what is no positive finite number. What is
 // too far for 16 bits becomes 0 and is counted in `beyond`.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/pcd/pcd_camera.h"
 
+#include "devices/images/metre_units.h"
 #include "engine/types/error.h"
-#include "engine/types/log.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kFinestStep = 1e-4;  // [m]
 constexpr double kMostResidual = 1.0; // [pixels]
+constexpr double kMostBehind = 0.01;  // share of points behind the camera: faults of single pixels
 
 // A straight line p = a s + b through many points.
 struct Line {
@@ -49,6 +50,7 @@ glm::dmat3 axes(const dvec3& right, const dvec3& down, const dvec3& forward) {
 // with too few points.
 std::optional<FittedLens> fitAs(const PcdCloud& cloud, const glm::dmat3& opticalTcloud, bool fan) {
     Line across, down;
+    size_t behind = 0;
     for (size_t i = 0; i < cloud.points.size(); ++i) {
         const dvec3 p = opticalTcloud * cloud.points[i];
         if (measured(p)) {
@@ -59,6 +61,7 @@ std::optional<FittedLens> fitAs(const PcdCloud& cloud, const glm::dmat3& optical
             across.add(x, static_cast<double>(column) - 0.5 * cloud.width);
             down.add(y, static_cast<double>(row) - 0.5 * cloud.height);
         }
+        behind += p.z < 0.0 ? 1 : 0;
     }
     FittedLens fit;
     fit.residual = HUGE_VAL;
@@ -73,7 +76,8 @@ std::optional<FittedLens> fitAs(const PcdCloud& cloud, const glm::dmat3& optical
                 .cx = across.offset() + 0.5 * cloud.width,
                 .cy = down.offset() + 0.5 * cloud.height,
                 .fan = fan};
-    if (fit.lens.fx > 0.0 && fit.lens.fy > 0.0) {
+    // No camera sees behind itself: such axes are wrong, however well the rest fits.
+    if (fit.lens.fx > 0.0 && fit.lens.fy > 0.0 && static_cast<double>(behind) < kMostBehind * across.n) {
         fit.residual = std::sqrt(across.meanSquare() + down.meanSquare());
     }
     return fit;
@@ -115,6 +119,7 @@ FittedLens fitLens(const PcdCloud& cloud) {
 PcdCamera::PcdCamera(const std::filesystem::path& file, const SourceOptions& options)
     : file_(file)
     , cloud_(readPcd(file)) {
+    options.checkMetres(file.string());
     FittedLens fit;
     try {
         fit = fitLens(cloud_);
@@ -140,19 +145,13 @@ PcdCamera::PcdCamera(const std::filesystem::path& file, const SourceOptions& opt
 
 // To the optical frame and metres; sets the depth unit.
 void PcdCamera::scalePoints(const FittedLens& fit, double scale) {
-    constexpr double kDoubtful = 50.0; // [m]
     double farthest = 0.0, nearest = HUGE_VAL;
     for (dvec3& p : cloud_.points) {
         p = fit.opticalTcloud * p * scale;
         farthest = measured(p) ? std::max(farthest, p.z) : farthest;
         nearest = measured(p) ? std::min(nearest, p.z) : nearest;
     }
-    if (nearest > kDoubtful) {
-        log::warn(
-            "{}: the nearest point is at {:.4g} m; if the cloud is in millimetres, put ,scale=0.001 behind "
-            "its name",
-            file_.string(), nearest);
-    }
+    doubtMetres(file_.string(), nearest);
     info_.metresPerUnit = kFinestStep * std::ceil(std::max(1.0, farthest / (65000.0 * kFinestStep)));
 }
 

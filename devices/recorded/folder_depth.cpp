@@ -19,6 +19,7 @@ FolderDepth::FolderDepth(const std::filesystem::path& folder, const RecordingLay
     , invalid_(layout.invalid) {
     units_.metres = layout.metres;
     if (layout.metres) {
+        options.checkMetres(folder_);
         chooseUnit(layout, options);
     } else {
         options.checkUnit(folder_);
@@ -37,13 +38,15 @@ void FolderDepth::chooseUnit(const RecordingLayout& layout, const SourceOptions&
                   "applied; scale=M behind the folder's name is",
                   folder_, *layout.statedUnit);
     }
-    double farthest = 0.0;
+    ValueSpan seen;
     const size_t step = std::max<size_t>(1, layout.index.size() / kSamples);
     for (size_t i = 0; i < layout.index.size(); i += step) {
-        farthest = std::max(farthest, farthestValue(layout.index[i].depth, size_));
+        seen.add(valueSpan(layout.index[i].depth, size_));
     }
     const double metresPerValue = options.scale.value_or(1.0);
-    metresPerUnit_ = unitForMetres(std::min(1.5 * metresPerValue * farthest, options.farthest));
+    seen = seen.scaled(metresPerValue);
+    doubtMetres(folder_, seen.nearest);
+    metresPerUnit_ = unitForMetres(seen, options.farthest);
     units_.valuesPerUnit = metresPerUnit_ / metresPerValue;
 }
 

@@ -68,6 +68,13 @@ void SourceOptions::checkUnit(const std::string& file) const {
     }
 }
 
+void SourceOptions::checkMetres(const std::string& file) const {
+    if (scale && !(*scale >= kFinestUnit && *scale <= kCoarsestValue)) {
+        throw BadInput(file, "scale", std::to_string(*scale),
+                       "metres per unit, 0.000001 to 100; 1000 units per metre are 0.001");
+    }
+}
+
 SourceRequest parseSource(const std::string& text) {
     size_t comma = nextKey(text, 0);
     SourceRequest request{text.substr(0, comma), {}};

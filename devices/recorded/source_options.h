@@ -11,7 +11,8 @@ namespace fathom {
 
 // Limits of a depth unit [m]. In finer units 16 bits end below 66 mm.
 inline constexpr double kFinestUnit = 1e-6, // finest
-    kCoarsestUnit = 0.1;                    // coarsest: a larger step protects nothing
+    kCoarsestUnit = 0.1,                    // coarsest: a larger step protects nothing
+    kCoarsestValue = 100.0;                 // of floating point, of which some files hold hundreds of metres
 
 struct SourceOptions {
     std::string depth, colour, info;  // topics; empty = chosen; colour "none" = without colour
@@ -24,6 +25,8 @@ struct SourceOptions {
 
     // Throws BadInput when the scale is not between kFinestUnit and kCoarsestUnit, for 16-bit depth.
     void checkUnit(const std::string& file) const;
+    // The same for depth in metres and for points: at most kCoarsestValue.
+    void checkMetres(const std::string& file) const;
 };
 
 // A recording, and how to play it.

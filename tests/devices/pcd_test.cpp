@@ -194,3 +194,15 @@ TEST_CASE("A real compressed cloud gives the depth image and lens of its recordi
     CHECK(differ == 0);
     CHECK(colours == 0);
 }
+
+TEST_CASE("A cloud of unknown axes is rejected, although a part of its points fits a lens") {
+    const TemporaryFolder folder;
+    std::string text = "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 64\nHEIGHT 48\nDATA ascii\n";
+    for (int i = 0; i < 64 * 48; ++i) { // x right, y forward, z up
+        const double u = i % 64, v = i / 64, z = 0.5 + 0.0005 * ((i % 64 * 7 + i / 64 * 13) % 11);
+        text += std::to_string((u - 31.5) / 60.0 * z) + " " + std::to_string(z) + " " +
+                std::to_string(-(v - 23.5) / 60.0 * z) + "\n";
+    }
+    folder.write("a.pcd", text);
+    CHECK(refusal(folder.path() / "a.pcd").find("x right and y down") != std::string::npos);
+}

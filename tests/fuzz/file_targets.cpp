@@ -102,7 +102,7 @@ void readDepthFile(Bytes input) {
     std::vector<uint16_t> depth(size_t{head.size.width} * head.size.height);
     uint64_t beyond = 0;
     const std::string fault = readDepthImage(file, head.size, {head.metres, 0.001}, depth, beyond);
-    need(beyond <= depth.size() && std::isfinite(farthestValue(file, head.size)));
+    need(beyond <= depth.size() && std::isfinite(valueSpan(file, head.size).farthest));
     need(!readDepthImage(file, head.size, {!head.metres, 0.001}, depth, beyond).empty()); // the other kind
     if (!fault.empty()) {
         throw Error(fault);
@@ -172,7 +172,7 @@ void readMessageImage(Bytes input) {
     const bool deep = ros::content(image) == ros::Content::Depth;
     const std::string fault =
         deep ? ros::depthRows(image, 0.001, depth, beyond) : ros::colourRows(image, colour);
-    need(beyond <= depth.size() && std::isfinite(ros::farthest(image)));
+    need(beyond <= depth.size() && std::isfinite(ros::valueSpan(image).farthest));
     if (!fault.empty()) {
         throw Error(fault);
     }

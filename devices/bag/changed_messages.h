@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// Finds out whether a value that applies to many images, such as a lens, changes within a recording.
+#pragma once
+
+#include "devices/bag/image_stream.h"
+
+#include <array>
+
+namespace fathom {
+
+// The messages of one topic beside a stream of images: the newest one before an image applies to it.
+class ChangedMessages {
+public:
+    ChangedMessages(MessageFile& file, const MessageTopic& topic)
+        : file_(file)
+        , topic_(topic) {}
+
+    // Calls fault(message) for the message that applies at `time` [ns], and for one that follows at once, as
+    // drivers send it behind its image. Returns the fault, empty = none. Each message is read once in a row.
+    template <class Fault>
+    std::string at(uint64_t time, Fault&& fault) {
+        constexpr uint64_t kAtOnce = 20'000'000; // [ns]
+        const std::vector<MessageEntry>& all = topic_.messages;
+        const auto next =
+            std::upper_bound(all.begin(), all.end(), time,
+                             [](uint64_t t, const MessageEntry& entry) { return t < entry.time; });
+        const auto after = static_cast<size_t>(next - all.begin());
+        const size_t first = after > 0 ? after - 1 : 0;
+        std::string found = one(first, fault);
+        if (found.empty() && after < all.size() && all[after].time - time <= kAtOnce) {
+            found = one(after, fault);
+        }
+        return found;
+    }
+
+private:
+    template <class Fault>
+    std::string one(size_t index, Fault& fault) {
+        Known& known = known_[index % 2];
+        if (known.index != index) {
+            known = {index, ""};
+            known.fault = fault(file_.read(topic_, index));
+        }
+        return known.fault;
+    }
+
+    struct Known {
+        size_t index = SIZE_MAX;
+        std::string fault;
+    };
+    MessageFile& file_;
+    const MessageTopic& topic_;
+    std::array<Known, 2> known_;
+};
+
+} // namespace fathom

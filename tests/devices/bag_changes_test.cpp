@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bags whose lens, unit or stamps change, and streams that only look like depth or colour.
+#include "devices/bag/open_bag.h"
+#include "tests/devices/played_bag.h"
+
+using namespace fathom;
+using namespace fathom::test;
+
+namespace {
+
+// Depths [m] of all frames that are played.
+std::vector<double> depthsOf(BagCamera& camera) {
+    std::vector<double> depths;
+    while (const auto frame = camera.next()) {
+        depths.push_back((*frame)->depth[0] * camera.info().metresPerUnit);
+    }
+    return depths;
+}
+
+bool says(const std::string& text, const std::string& part) {
+    CAPTURE(text);
+    return text.find(part) != std::string::npos;
+}
+
+// Three depth images of 0.5, 0.6 and 0.7 m, and red, blue and blue ones, all with these stamps.
+BagMaker stampedBag(const std::array<double, 3>& stamps) {
+    BagMaker maker;
+    for (const char* topic : {"/c/depth_registered/camera_info", "/c/rgb/camera_info"}) {
+        maker.add(topic, "sensor_msgs/CameraInfo", 1.0, infoMessage({}));
+    }
+    for (size_t i = 0; i < stamps.size(); ++i) {
+        const double t = 1.0 + 0.1 * static_cast<double>(i);
+        const auto depth = depthImage(static_cast<uint16_t>(500 + 100 * i));
+        ImageMessage colour = redImage();
+        colour.pixels = i == 0 ? colour.pixels : filledColour(10, 10, 200);
+        maker.add("/c/depth_registered/image_raw", "sensor_msgs/Image", t, imageMessage(stamps[i], depth));
+        maker.add("/c/rgb/image_raw", "sensor_msgs/Image", t, imageMessage(stamps[i], colour));
+    }
+    return maker;
+}
+
+} // namespace
+
+TEST_CASE("Frames of a bag after its lens has changed are skipped and counted, not played with the first") {
+    const TemporaryFolder folder;
+    BagMaker maker;
+    addStream(maker, "/c/depth/image_raw", depthImage(500));
+    CHECK(playStreams(folder, maker).info().depth.fx == 7.0);
+    InfoMessage other;
+    other.k = {14.0, 14.0, 3.5, 2.5};
+    maker.add("/c/depth/camera_info", "sensor_msgs/CameraInfo", 1.05, infoMessage(other));
+    BagCamera camera = playStreams(folder, maker);
+    CHECK(depthsOf(camera).size() == 1);
+    CHECK(camera.skipped() == 2);
+}
+
+TEST_CASE(
+    "Frames of an SDK bag after its depth unit has changed are skipped, and a missing unit is reported") {
+    const TemporaryFolder folder;
+    const std::string sensor = "/device_0/sensor_0/", option = sensor + "option/Depth_Units/value";
+    BagMaker maker;
+    maker.add(sensor + "Depth_0/info/camera_info", "sensor_msgs/CameraInfo", 1.0, infoMessage({}));
+    for (const double t : {1.0, 1.1, 1.2}) {
+        maker.add(sensor + "Depth_0/image/data", "sensor_msgs/Image", t,
+                  imageMessage(t, depthImage(500, "0", "mono16")));
+    }
+    BagCamera without = playStreams(folder, maker);
+    REQUIRE(without.warnings().size() == 1);
+    CHECK(says(without.warnings()[0], "Depth_Units"));
+    CHECK(depthsOf(without).size() == 3);
+    CHECK(playStreams(folder, maker, {.scale = 0.0001}).warnings().empty());
+    maker.add(option, "std_msgs/Float32", 0.9, raw(0.001f));
+    maker.add(option, "std_msgs/Float32", 1.15, raw(0.0001f));
+    BagCamera camera = playStreams(folder, maker);
+    CHECK(camera.warnings().empty());
+    CHECK(depthsOf(camera).size() == 2);
+    CHECK(camera.skipped() == 1);
+}
+
+TEST_CASE("Stamps that do not rise are no times: images are paired by the time of recording") {
+    const TemporaryFolder folder;
+    for (const auto& stamps : {std::array{1.0, 1.0, 1.0}, std::array{0.0155, 0.0154, 0.0153}}) {
+        BagCamera camera = playStreams(folder, stampedBag(stamps));
+        const auto first = camera.next(), second = camera.next();
+        REQUIRE(first);
+        REQUIRE(second);
+        CHECK((*first)->colour[0] == kRedPixel);
+        CHECK((*second)->colour[0] != kRedPixel);
+        CHECK((*second)->captureTime - (*first)->captureTime == doctest::Approx(0.1));
+    }
+    BagCamera once = playStreams(folder, stampedBag({1.0, 1.2, 1.1})); // one fault, not most
+    CHECK(depthsOf(once).size() == 2);
+}
+
+TEST_CASE("A 16-bit grey image is depth only under a name of depth, or when it is asked for") {
+    const TemporaryFolder folder;
+    BagMaker maker;
+    addStream(maker, "/boson/image_raw", depthImage(3000, "camera", "mono16"));
+    CHECK(says(streamRefusal(folder, maker), "/boson/image_raw (mono16)"));
+    BagCamera asked = playStreams(folder, maker, {.depth = "/boson/image_raw"});
+    CHECK(firstDepth(asked) == doctest::Approx(3.0));
+    BagMaker named;
+    addStream(named, "/zed/range/image", depthImage(700, "camera", "mono16"));
+    BagCamera range = playStreams(folder, named);
+    CHECK(firstDepth(range) == doctest::Approx(0.7));
+}
+
+TEST_CASE("Painted depth is not taken for colour unless it is asked for, and is named") {
+    const TemporaryFolder folder;
+    BagMaker maker;
+    addStream(maker, "/c/depth_registered/image_raw", depthImage(500));
+    addStream(maker, "/c/depth_registered/image_colored", redImage());
+    BagCamera camera = playStreams(folder, maker);
+    CHECK_FALSE(camera.info().hasColour);
+    CHECK(says(camera.whyNoColour(), "/c/depth_registered/image_colored (rgb8, named as painted depth"));
+    CHECK(playStreams(folder, maker, {.colour = "/c/depth_registered/image_colored"}).info().hasColour);
+    BagMaker real; // as Gazebo names the colour of a depth camera
+    addStream(real, "/depth_camera/depth/image_raw", depthImage(500));
+    addStream(real, "/depth_camera/image_raw", redImage());
+    CHECK(playStreams(folder, real).info().hasColour);
+}
+
+TEST_CASE("Depth registered to a resized colour image is played with it, by the same rays") {
+    const TemporaryFolder folder;
+    BagMaker maker;
+    addStream(maker, "/c/depth_registered/image_raw", depthImage(500));
+    ImageMessage colour{
+        .encoding = "rgb8", .width = 16, .height = 12, .pixels = filledColour(200, 10, 10, 192)};
+    InfoMessage lens{.width = 16, .height = 12};
+    lens.k = {14.0, 14.0, 7.5, 5.5};
+    addStream(maker, "/c/rgb/image_raw", colour, lens);
+    BagCamera camera = playStreams(folder, maker);
+    CHECK(camera.info().colour.width == 16);
+    CHECK(camera.info().colourTdepth.position == dvec3(0.0));
+}
+
+TEST_CASE("Files without images name their topics, and video that is not read is named as such") {
+    const TemporaryFolder folder;
+    BagMaker maker;
+    maker.add("/stereo/disparity", "stereo_msgs/DisparityImage", 1.0, std::string(40, '\0'));
+    CHECK(says(streamRefusal(folder, maker), "no images but /stereo/disparity (stereo_msgs/DisparityImage)"));
+    addStream(maker, "/c/depth/image_raw", depthImage(500));
+    maker.add("/c/rgb/theora", "theora_image_transport/Packet", 1.0, std::string(40, '\0'));
+    CHECK(says(playStreams(folder, maker).whyNoColour(), "/c/rgb/theora (theora_image_transport/Packet)"));
+}
+
+TEST_CASE("A recording of the Orbbec SDK is refused as such: its images have another layout") {
+    const TemporaryFolder folder;
+    BagMaker maker;
+    addStream(maker, "/cam/sensor_3/frameType_3", depthImage(500));
+    maker.add("/cam/streamProfileType_3", "custom_msg/StreamProfileInfo", 1.0, std::string(40, '\0'));
+    folder.write("a.bag", maker.bag());
+    try {
+        openBag(folder.path() / "a.bag");
+        FAIL("played");
+    } catch (const BadInput& e) {
+        CHECK(says(e.what(), "Orbbec SDK"));
+    }
+}
+
+TEST_CASE("Float depth in millimetres keeps its values, so that what is wrong can be said") {
+    const TemporaryFolder folder;
+    BagMaker maker;
+    ImageMessage image{.encoding = "32FC1", .pixels = filled(500.0f)};
+    addStream(maker, "/c/depth/image_raw", image);
+    BagCamera camera = playStreams(folder, maker, {.farthest = 10.0});
+    CHECK(firstDepth(camera) == doctest::Approx(500.0).epsilon(1e-3));
+    REQUIRE(camera.warnings().size() == 1);
+    CHECK(says(camera.warnings()[0], "scale=0.001"));
+    BagCamera scaled = playStreams(folder, maker, {.scale = 0.001, .farthest = 10.0});
+    CHECK(firstDepth(scaled) == doctest::Approx(0.5).epsilon(1e-3));
+    CHECK(says(streamRefusal(folder, maker, {.scale = 1000.0}), "scale: 1000"));
+}
+
+TEST_CASE("The first bytes of a file of messages decide its kind, not its name") {
+    const TemporaryFolder folder;
+    BagMaker maker;
+    addStream(maker, "/c/depth/image_raw", depthImage(500));
+    folder.write("a.mcap", maker.bag());
+    BagCamera camera(folder.path() / "a.mcap");
+    CHECK(firstDepth(camera) == doctest::Approx(0.5));
+}
