@@ -28,12 +28,20 @@ bool parseStamp(std::string_view word, double& stamp) {
     return parseNumber(word, stamp) && std::isfinite(stamp);
 }
 
+// Some tools write depth first: 't_depth depth/x.png t_rgb rgb/x.png'.
+bool namesDepth(std::string_view path) {
+    return path.find("depth") != std::string_view::npos;
+}
+
 std::vector<IndexLine> readAssociations(const fs::path& folder) {
     const fs::path file = folder / "associations.txt";
     std::vector<IndexLine> index;
     for (const TextLine& line : readDataLines(file)) {
-        const std::vector<std::string_view> words = splitWords(line.text);
+        std::vector<std::string_view> words = splitWords(line.text);
         IndexLine entry;
+        if (words.size() == 4 && namesDepth(words[1]) && !namesDepth(words[3])) {
+            std::rotate(words.begin(), words.begin() + 2, words.end());
+        }
         if (words.size() != 4) {
             entry.fault =
                 "line " + std::to_string(line.number) + " is not 't_rgb rgb/x.png t_depth depth/x.png'";

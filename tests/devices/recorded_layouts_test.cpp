@@ -163,3 +163,13 @@ TEST_CASE("What is said behind a recording's name is split from it, and wrong va
     CHECK_THROWS_WITH_AS(parseSource("a,depth="), doctest::Contains("depth: nothing"), BadInput);
     CHECK_THROWS_WITH_AS(parseSource("a,depth=/x,depth=/y"), doctest::Contains("given twice"), BadInput);
 }
+
+TEST_CASE("Lines of associations.txt may name depth first, as ICL-NUIM writes them") {
+    const TemporaryFolder folder;
+    writeSmallRecording(folder, 2);
+    folder.write("associations.txt", "0.0 depth/0.png 0.0 rgb/0.png\n0.1 depth/1.png 0.1 rgb/1.png\n");
+    RecordedCamera camera(folder.path());
+    CHECK(camera.next());
+    CHECK(camera.next());
+    CHECK(camera.skipped() == 0);
+}
