@@ -38,14 +38,14 @@ Kind kindOf(const std::filesystem::path& file) {
     std::string ending = file.extension().string();
     std::transform(ending.begin(), ending.end(), ending.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    for (const KnownFile& known : kFiles) {
-        if (ending == known.ending) {
-            return known.kind;
-        }
-    }
     const std::string begin = firstBytes(file);
     for (const KnownFile& known : kFiles) {
         if (begin.starts_with(known.begin)) {
+            return known.kind;
+        }
+    }
+    for (const KnownFile& known : kFiles) {
+        if (ending == known.ending) {
             return known.kind;
         }
     }
@@ -78,7 +78,11 @@ std::unique_ptr<Camera> openRecording(const SourceRequest& request) {
         }
         return std::make_unique<RecordedCamera>(file, request.options);
     }
-    switch (kindOf(file)) {
+    const Kind kind = kindOf(file);
+    if (kind != Kind::Unknown && !std::filesystem::exists(file, failed)) {
+        throw BadInput(request.file, "file", "missing", kKinds);
+    }
+    switch (kind) {
     case Kind::Messages:
         return openBag(file, request.options);
     case Kind::Cloud:
