@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Camera that plays a recording folder once, pair by pair, on request: TUM RGB-D, Open3D, BOP or 7-Scenes.
+// Camera that plays a recording folder once, pair by pair, on request: TUM RGB-D, Open3D, BOP, 7-Scenes or
+// ScanNet.
 #pragma once
 
 #include "devices/camera.h"

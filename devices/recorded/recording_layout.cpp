@@ -2,6 +2,7 @@
 #include "devices/recorded/recording_layout.h"
 
 #include "devices/images/depth_image.h"
+#include "devices/recorded/colour_image.h"
 #include "devices/recorded/json_field.h"
 #include "devices/recorded/text_file.h"
 #include "engine/types/error.h"
@@ -19,6 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kPeriod = 1.0 / 30.0; // [s] of layouts without stamps
+constexpr std::array<double, 16> kIdentity{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 
 // Files of these endings by the number that ends their name's stem, in front of `before`.
 std::map<uint32_t, fs::path> numbered(const fs::path& folder, std::span<const std::string_view> endings,
@@ -151,23 +153,73 @@ RecordingLayout readBop(const fs::path& folder) {
     return layout;
 }
 
-Pose readMatrix(const fs::path& file) {
+// A square matrix of 3 or 4 rows, as 4 x 4, row by row.
+std::array<double, 16> readMatrix(const fs::path& file) {
     std::vector<double> all;
     for (const TextLine& line : readDataLines(file)) {
         for (const std::string_view word : splitWords(line.text)) {
             double value = 0.0;
             if (!parseNumber(word, value)) {
-                throw BadInput(file.string(), "line " + std::to_string(line.number), std::string(word),
-                               "numbers");
+                throw BadInput(file.string(), "matrix", std::string(word), "numbers");
             }
             all.push_back(value);
         }
     }
-    if (all.size() != 16) {
-        throw BadInput(file.string(), "matrix", std::to_string(all.size()) + " numbers", "4 x 4");
+    if (all.size() != 16 && all.size() != 9) {
+        throw BadInput(file.string(), "matrix", std::to_string(all.size()) + " numbers", "4 x 4 or 3 x 3");
     }
-    return poseOf({all[0], all[1], all[2], all[4], all[5], all[6], all[8], all[9], all[10]},
-                  {all[3], all[7], all[11]}, file.string());
+    const size_t rows = all.size() == 16 ? 4 : 3;
+    auto out = kIdentity;
+    for (size_t k = 0; k < all.size(); ++k) {
+        out[k / rows * 4 + k % rows] = all[k];
+    }
+    return out;
+}
+
+// The camera's pose in a frame; a frame whose pose was lost (-inf) is not played.
+void usePose(IndexLine& line, const fs::path& file) {
+    if (!fs::exists(file)) {
+        return;
+    }
+    try {
+        const auto m = readMatrix(file);
+        line.baseTcamera = poseOf({m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]},
+                                  {m[3], m[7], m[11]}, file.string());
+    } catch (const BadInput& e) {
+        line.fault = e.what();
+    }
+}
+
+Intrinsics scanNetLens(const fs::path& file, std::optional<PngSize> size) {
+    const auto k = readMatrix(file);
+    if (!size || size->width > kMaxImageWidth || size->height > kMaxImageHeight ||
+        !(k[0] > 0.0 && k[5] > 0.0) || !std::isfinite(k[0] + k[2] + k[5] + k[6])) {
+        throw BadInput(file.string(), "matrix", "unusable",
+                       "fx 0 cx, 0 fy cy, 0 0 1 of images that are read");
+    }
+    return {.width = size->width, .height = size->height, .fx = k[0], .fy = k[5], .cx = k[2], .cy = k[6]};
+}
+
+RecordingLayout readScanNet(const fs::path& folder) {
+    for (const char* name : {"extrinsic_depth.txt", "extrinsic_color.txt"}) {
+        if (fs::exists(folder / "intrinsic" / name) && readMatrix(folder / "intrinsic" / name) != kIdentity) {
+            throw BadInput((folder / "intrinsic" / name).string(), "matrix", "not the identity",
+                           "the identity; or intrinsics=FILE behind the folder's name");
+        }
+    }
+    RecordingLayout layout;
+    layout.index = pairsOf(numbered(folder / "depth", kDepthEndings),
+                           numbered(folder / "color", kColourEndings), folder);
+    CameraInfo& camera = layout.intrinsics.camera;
+    camera.depth = scanNetLens(folder / "intrinsic" / "intrinsic_depth.txt",
+                               depthImageHead(layout.index.front().depth).size);
+    camera.colour = scanNetLens(folder / "intrinsic" / "intrinsic_color.txt",
+                                colourImageSize(layout.index.front().colour));
+    camera.registered = false; // two lenses at one place
+    for (IndexLine& line : layout.index) {
+        usePose(line, folder / "pose" / (line.depth.stem().string() + ".txt"));
+    }
+    return layout;
 }
 
 RecordingLayout readSevenScenes(const fs::path& folder) {
@@ -184,9 +236,7 @@ RecordingLayout readSevenScenes(const fs::path& folder) {
     for (IndexLine& line : layout.index) {
         std::string pose = line.depth.string();
         pose.replace(pose.size() - std::string_view("depth.png").size(), std::string::npos, "pose.txt");
-        if (fs::exists(pose)) {
-            line.baseTcamera = readMatrix(pose);
-        }
+        usePose(line, pose);
     }
     return layout;
 }
@@ -228,9 +278,12 @@ RecordingLayout readFolder(const fs::path& folder, const SourceOptions& options)
     if (fs::exists(folder / "frame-000000.depth.png")) {
         return readSevenScenes(folder);
     }
+    if (fs::exists(folder / "intrinsic" / "intrinsic_depth.txt")) {
+        return readScanNet(folder);
+    }
     throw BadInput((folder / "intrinsics.json").string(), "file", "missing",
                    "intrinsics.json (docs/guide/recordings.md has every field), or intrinsics=FILE behind "
-                   "the folder's name, or a folder of Open3D, BOP or 7-Scenes");
+                   "the folder's name, or a folder of Open3D, BOP, 7-Scenes or ScanNet");
 }
 
 } // namespace

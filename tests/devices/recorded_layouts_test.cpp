@@ -173,3 +173,34 @@ TEST_CASE("Lines of associations.txt may name depth first, as ICL-NUIM writes th
     CHECK(camera.next());
     CHECK(camera.skipped() == 0);
 }
+
+TEST_CASE("A ScanNet folder plays with both lenses and its poses, without the frames whose pose was lost") {
+    const TemporaryFolder folder;
+    for (const char* number : {"0", "1", "10"}) {
+        addPair(folder, std::string("depth/") + number + ".png", std::string("color/") + number + ".png",
+                500);
+        fs::create_directories(folder.path() / "pose");
+        const bool lost = std::string(number) == "1";
+        folder.write(std::string("pose/") + number + ".txt",
+                     lost ? "-inf -inf -inf -inf\n-inf -inf -inf -inf\n-inf -inf -inf -inf\n0 0 0 1\n"
+                          : "1 0 0 0.25\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
+    }
+    fs::create_directories(folder.path() / "intrinsic");
+    folder.write("intrinsic/intrinsic_depth.txt", "7 0 3 0\n0 7.5 2 0\n0 0 1 0\n0 0 0 1\n");
+    folder.write("intrinsic/intrinsic_color.txt", "14 0 3.5\n0 14 2.5\n0 0 1\n");
+    RecordedCamera camera(folder.path());
+    CHECK(camera.info().depth.fy == 7.5);
+    CHECK(camera.info().depth.cx == 3.0);
+    CHECK(camera.info().colour.fx == 14.0);
+    CHECK_FALSE(camera.info().registered);
+    const auto frame = camera.next();
+    REQUIRE(frame);
+    CHECK((*frame)->depth[0] * camera.info().metresPerUnit == doctest::Approx(0.5));
+    REQUIRE((*frame)->baseTcamera);
+    CHECK((*frame)->baseTcamera->position.x == 0.25);
+    CHECK(camera.next());
+    CHECK_FALSE(camera.next());
+    CHECK(camera.skipped() == 1);
+    folder.write("intrinsic/extrinsic_color.txt", "1 0 0 0.1\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
+    CHECK(layoutRefusal(folder.path()).find("not the identity") != std::string::npos);
+}
