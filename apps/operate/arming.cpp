@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/operate/arming.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -19,6 +20,11 @@ std::string thousandths(double value) {
     return text;
 }
 
+// How the hand comes back to the tool. Without forces, the clutch brings it there.
+std::string toTool(const ArmingInput& input) {
+    return input.haptics.clutchBit != 0 ? "hold C to re-centre" : "move it back to the tool";
+}
+
 std::string handIsOff(const ArmingInput& input) {
     const StepRecord& record = input.run.step().record;
     const double apart = glm::distance(record.tool.position, record.device.position);
@@ -29,17 +35,24 @@ std::string handIsOff(const ArmingInput& input) {
         return "hand is " + thousandths(apart) + " mm" +
                (known ? " inside '" + input.scene.fixtures[blocks.front().touch.fixture].name + "'"
                       : " from the tool") +
-               ": move it back to the tool";
+               ": " + toTool(input);
     }
     const double turn =
         glm::length(rotationLog(record.device.rotation * glm::conjugate(record.tool.rotation)));
     if (turn > kTwist && record.contacts > 0) {
-        return "hand is turned against the tool: turn it back";
+        return std::string("hand is turned against the tool: ") +
+               (input.haptics.clutchBit != 0 ? "hold C to re-centre" : "turn it back");
     }
     return "";
 }
 
 } // namespace
+
+double softStart(double forceLimit) {
+    constexpr double kLeast = 1.5;     // [s]
+    constexpr double kSteepest = 20.0; // [N/s]
+    return std::max(kLeast, forceLimit / kSteepest);
+}
 
 std::string whyNotArmed(const ArmingInput& input) {
     const StepRecord& record = input.run.step().record;

@@ -19,9 +19,12 @@ struct ArmingInput {
     bool handGone = false; // the haptic device is disconnected or silent
 };
 
-// Why forces must stay off, and what mends it: "hand is 105 mm inside 'red valve': move it back to the tool".
+// Why forces must stay off, and what mends it: "hand is 105 mm inside 'red valve': hold C to re-centre".
 // Empty: nothing speaks against them. Forces that came on with the hand deep in a region would push it at
 // once.
 std::string whyNotArmed(const ArmingInput& input);
+
+// [s] in which forces that come on rise from zero to the limit [N]: at least 1.5 s, and at most 20 N/s.
+double softStart(double forceLimit);
 
 } // namespace fathom::operate

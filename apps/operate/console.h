@@ -45,6 +45,10 @@ struct TimeLine {
     bool wholeMemory = true; // points held from earlier frames are included
 };
 
+// The way to the end: the forces fade, then a question is shown when fixtures are not saved.
+enum class Closing { No, Fades, Asks };
+enum class CloseAnswer { None, Save, Discard, Stay };
+
 struct Console {
     bool forces = false, guidance = false, clutch = false, frozen = false;
     bool grasp = false;        // the jaws of an arm close
@@ -52,7 +56,9 @@ struct Console {
     bool paused = false;       // the traces
     bool recording = false;
     bool quit = false, screenshot = false, exportCsv = false, acknowledge = false;
-    bool remake = false; // recreate the swapchain
+    Closing closing = Closing::No;
+    CloseAnswer closeAnswer = CloseAnswer::None; // button pressed in the question
+    bool remake = false;                         // recreate the swapchain
     bool undo = false, redo = false, save = false, addPicked = false;
     uint32_t shots = 0; // screenshots written
     int treeLevel = -1; // tree level shown in the 3D view; -1 = none

@@ -67,7 +67,8 @@ FixtureEditor::FixtureEditor(const Scene& scene,
                              std::function<void(const Scene&, const std::vector<Shape>&)> onChange)
     : scene_(scene)
     , shapes_(shapesOf(scene))
-    , onChange_(std::move(onChange)) {}
+    , onChange_(std::move(onChange))
+    , saved_(rows()) {}
 
 void FixtureEditor::pickAt(Console& console, const SceneSnapshot& snapshot, glm::uvec2 pixel) {
     const Intrinsics& lens = snapshot.set.camera.colour;
@@ -240,6 +241,7 @@ void FixtureEditor::showFixtures(const Scene& scene) {
     shapes_ = shapesOf(scene_);
     past_.clear();
     future_.clear();
+    saved_ = rows();
 }
 
 void FixtureEditor::notifyChange() {

@@ -38,7 +38,8 @@ public:
     // Settings of window and pilot: saved in the file, not part of the undo history.
     void keep(const Scene::Window& window, const std::string& pilot);
     // Replaces `fixtures:`, `pilot:` and `window:` in the scene file, keeps the rest, and returns a message.
-    std::string save() const;
+    std::string save();
+    bool unsaved() const { return rows() != saved_; }
     // Text of the scene file with the current fixtures. spares: includes spare rows, so that each class keeps
     // its row number.
     std::string text(bool spares = false) const;
@@ -53,6 +54,7 @@ public:
     } // of the image, 5 degrees per bin, largest bin = 1
 
 private:
+    std::string rows() const; // as in the scene file
     void apply(Scene next);
     void notifyChange();
     bool restore(std::vector<std::vector<FixtureClass>>& from, std::vector<std::vector<FixtureClass>>& to);
@@ -65,6 +67,7 @@ private:
     uint64_t selectionNumber_ = 0;
     size_t selected_ = 0;
     std::array<float, 72> hues_{};
+    std::string saved_; // rows() as last saved, loaded or shown
 };
 
 // The fixtures as a recording stores them.

@@ -2,6 +2,7 @@
 #include "apps/operate/live_run.h"
 
 #include "apps/binding/raw_path.h"
+#include "apps/operate/arming.h"
 #include "engine/types/error.h"
 
 #include <limits>
@@ -13,12 +14,11 @@ namespace fathom::operate {
 
 namespace {
 
-constexpr double kSoftStart = 1.5; // [s]
-constexpr int kNiceness = 5;       // lowers the window thread's priority below camera and contacts
+constexpr int kNiceness = 5; // lowers the window thread's priority below camera and contacts
 
 HapticOptions softly(const Session& session) {
     HapticOptions options = makeHapticOptions(session.scene, session.tool);
-    options.armTime = kSoftStart;
+    options.armTime = softStart(options.forceLimit);
     return options;
 }
 

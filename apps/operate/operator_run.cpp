@@ -125,11 +125,28 @@ void OperatorRun::listen() {
     if (std::exchange(forcesOff_, false)) { // overrides all other keys of this frame
         console.forces = console.guidance = false;
     }
+    display_.followClosing(editor_, forcesGone());
+    offWhenMinimised();
     arm();
     live_.apply(console);
     recording_.follow(console, editor_);
     followPilot();
     display_.exportTraces();
+}
+
+bool OperatorRun::forcesGone() const {
+    const StepRecord& record = display_.view.step().record;
+    return !display_.console.forces &&
+           (!display_.view.anyTick() || record.state == StepState::Off || record.wrench.force == dvec3(0.0));
+}
+
+// A pilot who does not see the scene must not be pushed by it.
+void OperatorRun::offWhenMinimised() {
+    Console& console = display_.console;
+    if (console.forces && window_.minimised()) {
+        console.forces = console.guidance = false;
+        console.notify("minimised: forces are off");
+    }
 }
 
 // Forces come on only if nothing speaks against them.

@@ -40,6 +40,8 @@ public:
 private:
     void changeScene(const Scene& scene, const std::vector<Shape>& shapes);
     void arm();
+    bool forcesGone() const;
+    void offWhenMinimised();
     void followPilot();
     void frame();
     void show();   // shows the drawn frame if there is a device

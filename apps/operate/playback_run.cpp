@@ -109,6 +109,7 @@ void PlaybackRun::frame(double dt) {
             loseDevice(e.what());
         }
     } else {
+        display_.console.quit = window_.takeClose(); // without a device there is no question
         ImGui::EndFrame();
         lookForDevice();
     }
@@ -166,6 +167,7 @@ void PlaybackRun::listen() {
         clickInView(console, editor_, display_.screen, display_.view.scene(), *at);
     }
     panel_.listen(console);
+    display_.followClosing(editor_, true);
     console.recording = console.frozen = false; // not available in playback
     display_.exportTraces();
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/operate/run_display.h"
 
+#include "apps/operate/closing.h"
 #include "engine/types/error.h"
 
 #include <algorithm>
@@ -48,12 +49,16 @@ double RunDisplay::beginFrame() {
     return dt;
 }
 
+void RunDisplay::followClosing(FixtureEditor& editor, bool forcesGone) {
+    stepClosing(console, editor, window_.takeClose(), forcesGone);
+}
+
 double RunDisplay::elapsed() const {
     return seconds() - started_;
 }
 
 bool RunDisplay::wantsToEnd() const {
-    return window_.closed() || console.quit || (options_.seconds > 0.0 && elapsed() >= options_.seconds);
+    return console.quit || (options_.seconds > 0.0 && elapsed() >= options_.seconds);
 }
 
 HudInput RunDisplay::hud(const HapticOptions& haptics) const {

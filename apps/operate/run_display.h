@@ -19,7 +19,8 @@ struct RunDisplay {
 
     void begin();        // the time of the run counts from now
     double beginFrame(); // waits for the window's next frame; returns the time since the last one [s]
-    // True when the window is closed, the pilot quits or the time is up.
+    void followClosing(FixtureEditor& editor, bool forcesGone); // the window's close button (closing.h)
+    // True when the window is closed or the time is up.
     bool wantsToEnd() const;
     double elapsed() const; // [s] since begin()
 

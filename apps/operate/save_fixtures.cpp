@@ -154,12 +154,24 @@ RecordedScene recordedScene(const FixtureEditor& editor) {
     return recorded;
 }
 
-std::string FixtureEditor::save() const {
+std::string FixtureEditor::rows() const {
+    std::ostringstream block;
+    block << std::setprecision(10);
+    for (const FixtureClass& f : scene_.fixtures) {
+        if (!isSpare(f)) {
+            putRow(block, f);
+        }
+    }
+    return block.str();
+}
+
+std::string FixtureEditor::save() {
     const std::filesystem::path fresh = scene_.file.string() + ".new";
     std::ofstream(fresh) << text();
     try {
         const Scene read = loadScene(fresh); // replaces the old file only when the new one loads
         std::filesystem::rename(fresh, scene_.file);
+        saved_ = rows();
         return std::to_string(read.fixtures.size()) + " fixtures saved to " + scene_.file.string();
     } catch (const std::exception& e) {
         std::error_code ignored;

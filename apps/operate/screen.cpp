@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/operate/screen.h"
 
+#include "apps/operate/closing.h"
 #include "apps/operate/contact_tooltip.h"
 #include "apps/operate/steering.h"
 #include "apps/operate/why_panel.h"
@@ -269,10 +270,13 @@ void Screen::draw(Console& console, FixtureEditor& editor, Alarms& alarms, const
         console.tab = Tab::Fixtures;
     }
     drawTabs(console, editor, alarms, input, rooms.tabs);
-    handleFixtureKeys(console, editor, input.run.scene());
+    if (console.closing == Closing::No) {
+        handleFixtureKeys(console, editor, input.run.scene());
+    }
     drawMode(console, {console, input.run, input.hud.haptics}, input.hud.letters.large,
              cornerOf(large_->where), sizeOf(large_->where));
     drawRefusal(console, input.hud.letters.bold, cornerOf(large_->where), sizeOf(large_->where));
+    drawClosing(console, cornerOf(large_->where), sizeOf(large_->where));
     drawAlarm(console, alarms);
     drawHint(console, input);
     markPlace(console, "traces room", cornerOf(rooms.traces), sizeOf(rooms.traces));

@@ -42,6 +42,7 @@ json consoleOf(const Console& c) {
             {"picked", c.pick.taken},
             {"notice", c.notice},
             {"shots", c.shots},
+            {"asks_to_close", c.closing == Closing::Asks},
             {"time_line",
              {{"on", c.timeLine.on},
               {"t", c.timeLine.t},

@@ -29,7 +29,7 @@ std::span<const KeyHelp> keyHelp() {
         KeyHelp{"A", "arm: forces ramp up over 1.5 s"},
         KeyHelp{"G", "guidance on or off"},
         KeyHelp{"J", "close or open the jaws of an arm"},
-        KeyHelp{"C held", "clutch: the hand moves, the tool stays"},
+        KeyHelp{"C held", "clutch: the hand moves, the tool stays; with forces off, hand to tool"},
         KeyHelp{"left drag, wheel", "move the tool; wheel: along the view"},
         KeyHelp{"right drag", "rotate the tool; in the 3D view, rotate the view"},
         KeyHelp{"arrows, PgUp, PgDn", "move the tool; with Shift rotate it"},

@@ -177,8 +177,12 @@ void Window::setTitle(const std::string& title) {
     }
 }
 
-bool Window::closed() const {
-    return window_ != nullptr && glfwWindowShouldClose(window_) == GLFW_TRUE;
+bool Window::takeClose() {
+    const bool pressed = window_ != nullptr && glfwWindowShouldClose(window_) == GLFW_TRUE;
+    if (pressed) {
+        glfwSetWindowShouldClose(window_, GLFW_FALSE);
+    }
+    return pressed;
 }
 
 bool Window::minimised() const {

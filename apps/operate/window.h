@@ -35,7 +35,7 @@ public:
     // Handles events for `patience` [s] and begins an ImGui frame.
     void beginFrame(double patience);
     void setTitle(const std::string& title);
-    bool closed() const;
+    bool takeClose(); // the close button was pressed since the last call
     bool minimised() const;
     VkExtent2D size() const; // [pixels]
 

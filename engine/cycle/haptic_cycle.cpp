@@ -62,7 +62,9 @@ StepRecord HapticCycle::step(const StepInput& input) noexcept {
     now.stale = out.sceneAge > options_.staleAfter;
     now.held =
         armState_.connected && (!armState_.follows || !now.sane || now.off || !now.running || now.stale);
-    now.clutch = (input.buttons & options_.clutchBit) != 0 || now.held || !input.present;
+    const bool button = (input.buttons & options_.clutchBit) != 0;
+    now.clutch = button || now.held || !input.present;
+    now.recentre = button && !now.held && input.present && now.running && now.off && stage_.off();
     takeSample(input, now);
     guidance_.step(input.guidance, device_, (input.buttons & kGuidanceButton) != 0,
                    now.off || !now.running || now.held, options_.period,
@@ -106,6 +108,9 @@ void HapticCycle::takeSample(const StepInput& input, const Situation& now) noexc
         map_.align(handle_, device_);
     }
     device_ = map_.map(handle_, now.clutch);
+    if (now.recentre) {
+        recentre();
+    }
 }
 
 ProxyStep HapticCycle::stepTool(const StepInput& input, const ContactSet* set, const Situation& now,

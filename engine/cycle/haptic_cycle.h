@@ -25,6 +25,7 @@ namespace fathom {
 // - Forces off or dead-man open: the guidance weight is zero in that step; the wrench ramps to zero over 0.2
 //   s while the tool follows the hand and still obeys the regions.
 // - Trapped: the tool is held and the force ramps out over 0.2 s. The clutch ramps the same way.
+// - The clutch while forces are off and ramped out moves the hand map, so that the hand is at the tool again.
 // - Scene older than staleAfter: the force fades out over 0.5 s. Fading out uses measured time, so late ticks
 //   cannot delay it.
 // - A force that returns is bounded by a share of the limits that rises from what the device renders
@@ -89,7 +90,8 @@ private:
         bool sane = true; // the hand's sample is finite
         bool off = false; // forces off, dead-man open or device lost
         bool clutch = false;
-        bool running = false; // there is a set, or none is needed
+        bool recentre = false; // the clutch's button is down, and there is no force
+        bool running = false;  // there is a set, or none is needed
         bool stale = false;
         bool held = false; // a real arm stands still
     };
@@ -107,6 +109,7 @@ private:
         return arm_ ? arm_->leafRadius(leaf) : leafRadius_[leaf];
     }
     bool lossesHoldForces(const StepInput& input) noexcept;
+    void recentre() noexcept;
     void takeSample(const StepInput& input, const Situation& now) noexcept;
     bool regionsChanged(const ContactSet* set) noexcept;
     bool regionsVanished(const ProxyStep& moved, bool newData) const noexcept;

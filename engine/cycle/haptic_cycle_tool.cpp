@@ -39,6 +39,14 @@ bool HapticCycle::follow(const ArmFollow& told) noexcept {
     return true;
 }
 
+// A region stopped the tool while the hand went on. There is no force that the shift could change.
+void HapticCycle::recentre() noexcept {
+    const dvec3 by = tool_.position - device_.position;
+    map_.align(handle_, tool_);
+    device_ = tool_;
+    stage_.shift(by);
+}
+
 double HapticCycle::sceneAge(const StepInput& input, const ContactSet* set) noexcept {
     // The active set may be older than the newest fixture set. While they are the same, the frame that
     // confirms it may be newer.

@@ -101,17 +101,25 @@ TEST_CASE("Forces come on only with the hand on the tool, a fresh scene and the 
     run.row.record.device.position = run.row.record.tool.position + dvec3(0.0, 0.0, 0.009);
     CHECK(why().empty());
     run.row.record.device.position = run.row.record.tool.position + dvec3(0.0, 0.0, 0.105);
-    CHECK(why() == "hand is 105 mm from the tool: move it back to the tool");
+    CHECK(why() == "hand is 105 mm from the tool: hold C to re-centre");
     scene.fixtures.resize(1);
     scene.fixtures[0].name = "red valve";
     run.touch(3, 0.105);
-    CHECK(why() == "hand is 105 mm inside 'red valve': move it back to the tool");
+    CHECK(why() == "hand is 105 mm inside 'red valve': hold C to re-centre");
     run.row.record.device = run.row.record.tool;
     run.row.record.device.rotation = dquat(std::cos(0.25), std::sin(0.25), 0.0, 0.0); // 0.5 rad
     CHECK(why().empty()); // in free space the tool follows
     run.row.record.contacts = 1;
+    CHECK(why() == "hand is turned against the tool: hold C to re-centre");
+    run.haptics.clutchBit = 0;
     CHECK(why() == "hand is turned against the tool: turn it back");
     run.row.record.device = run.row.record.tool;
     scene.pilots.push_back({});
     CHECK(why() == "no pilot is chosen: choose one in the tab Fixtures");
+}
+
+TEST_CASE("Forces that come on take 1.5 s, and longer where that would be more than 20 N/s") {
+    CHECK(softStart(5.0) == 1.5);
+    CHECK(softStart(20.0) == 1.5);
+    CHECK(softStart(40.0) == 2.0);
 }

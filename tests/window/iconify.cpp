@@ -1,12 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/window/iconify.h"
 
+#include "tests/window/window_rig.h"
+
 #include <X11/Xatom.h>
 #include <X11/Xlib.h>
 #include <X11/Xutil.h>
+#include <doctest/doctest.h>
 #include <string>
 
 namespace fathom::window {
+
+// ICCCM 4.2.8.1
+bool askToClose(const std::string& display, const std::string& window) {
+    Display* server = XOpenDisplay(display.c_str());
+    if (server == nullptr) {
+        return false;
+    }
+    XEvent event{};
+    event.xclient.type = ClientMessage;
+    event.xclient.window = static_cast<::Window>(std::stoul(window));
+    event.xclient.message_type = XInternAtom(server, "WM_PROTOCOLS", False);
+    event.xclient.format = 32;
+    event.xclient.data.l[0] = static_cast<long>(XInternAtom(server, "WM_DELETE_WINDOW", False));
+    XSendEvent(server, event.xclient.window, False, NoEventMask, &event);
+    XCloseDisplay(server);
+    return true;
+}
 
 // ICCCM 4.1.3.1: WM_STATE is a property of two longs, and an iconic window is unmapped.
 bool iconify(const std::string& display, const std::string& window, bool iconic) {
@@ -26,6 +46,15 @@ bool iconify(const std::string& display, const std::string& window, bool iconic)
                     reinterpret_cast<const unsigned char*>(values), 2);
     XCloseDisplay(server); // flushes all requests
     return true;
+}
+
+void WindowRig::minimise(bool on) const {
+    REQUIRE(iconify(display_, window_, on));
+}
+
+void WindowRig::askToClose() const {
+    REQUIRE(window::askToClose(display_, window_));
+    settle();
 }
 
 } // namespace fathom::window

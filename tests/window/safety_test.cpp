@@ -47,8 +47,8 @@ double handApart(const json& s) {
 
 } // namespace
 
-TEST_CASE(
-    "Forces stay off while the hand is inside a region, and a card says so until it is back at the tool") {
+TEST_CASE("Forces stay off while the hand is inside a region, a card says so, and the clutch brings the hand "
+          "to the tool") {
     WindowRig rig;
     rig.push(); // forces are off: the hand moves on, the tool stays outside
     for (int i = 0; i < 40 && handApart(rig.state()) < 0.015; ++i) {
@@ -58,17 +58,18 @@ TEST_CASE(
     rig.key("a");
     REQUIRE(rig.await([](const json& s) { return !s["refusal"].get<std::string>().empty(); }));
     const json refused = rig.state();
-    CHECK(refused["refusal"].get<std::string>().find("mm inside 'red': move it back to the tool") !=
+    CHECK(refused["refusal"].get<std::string>().find("mm inside 'red': hold C to re-centre") !=
           std::string::npos);
     CHECK(refused["console"]["forces"] == false);
     CHECK(refused["mode"] == "FORCES OFF");
     rig.shoot("refusal");
     CHECK(rig.state()["console"]["places"].contains("refusal"));
-    for (int i = 0; i < 40 && handApart(rig.state()) > 0.001; ++i) {
-        rig.wheel(-2);
-        const auto now = rig.state()["run"]["turns"].get<int>();
-        REQUIRE(rig.await([&](const json& s) { return s["run"]["turns"] > now + 100; }));
-    }
+    rig.keyDown("c");
+    REQUIRE(rig.await([](const json& s) { return handApart(s) < 1e-4; }));
+    rig.keyUp("c");
+    REQUIRE(!rig.atRest().is_null());
+    CHECK(handApart(rig.state()) < 1e-4);
+    CHECK(rig.state()["refusal"] == refused["refusal"]); // shown until forces come on, or Esc
     rig.key("a");
     CHECK(rig.await([](const json& s) { return s["console"]["forces"] == true && s["refusal"] == ""; }));
     closeQuietly(rig);

@@ -3,7 +3,6 @@
 
 #include "tests/rig/run_fathom.h"
 #include "tests/support/validation_wanted.h"
-#include "tests/window/iconify.h"
 
 #include <algorithm>
 #include <chrono>
@@ -275,15 +274,15 @@ void WindowRig::push() const {
     wheel(2);
 }
 
-void WindowRig::minimise(bool on) const {
-    REQUIRE(iconify(display_, window_, on));
+int WindowRig::awaitEnd() {
+    const int code = ended(program_, 30.0);
+    program_ = -1;
+    return code;
 }
 
 int WindowRig::close() {
     ::kill(program_, SIGTERM);
-    const int code = ended(program_, 30.0);
-    program_ = -1;
-    return code;
+    return awaitEnd();
 }
 
 std::string WindowRig::output() const {

@@ -64,6 +64,8 @@ public:
 
     // Ends the program, checks its exit code, and starts it again with this scene or recording.
     void reopen(const std::filesystem::path& scene, const std::vector<std::string>& extra = {});
+    void askToClose() const;    // like the close button of a window manager
+    int awaitEnd();             // exit code of a program that ends by itself
     int close();                // ends the program; exit code, or -1 when it crashed or had to be killed
     std::string output() const; // stdout and stderr so far
     const std::filesystem::path& folder() const { return folder_.path(); }

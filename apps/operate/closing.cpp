@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/operate/closing.h"
+
+#include "apps/operate/keys.h"
+#include "apps/operate/theme.h"
+
+#include <GLFW/glfw3.h>
+#include <utility>
+
+namespace fathom::operate {
+
+namespace {
+
+CloseAnswer answerOf(Console& console) {
+    const CloseAnswer clicked = std::exchange(console.closeAnswer, CloseAnswer::None);
+    return clicked != CloseAnswer::None        ? clicked
+           : keyPressed(GLFW_KEY_ENTER, false) ? CloseAnswer::Save
+           : keyPressed(GLFW_KEY_D, false)     ? CloseAnswer::Discard
+           : keyPressed(GLFW_KEY_ESCAPE)       ? CloseAnswer::Stay
+                                               : CloseAnswer::None;
+}
+
+void answer(Console& console, FixtureEditor& editor, CloseAnswer given) {
+    if (given == CloseAnswer::Save) {
+        editor.keep(console.settings(), editor.scene().pilot);
+        console.notify(editor.save());
+    }
+    console.quit = given == CloseAnswer::Discard || (given == CloseAnswer::Save && !editor.unsaved());
+    console.closing = Closing::No; // a file that cannot be written keeps the window open, with a notice
+}
+
+} // namespace
+
+void stepClosing(Console& console, FixtureEditor& editor, bool requested, bool forcesGone) {
+    if (console.closing == Closing::Asks) {
+        const CloseAnswer given = requested ? CloseAnswer::None : answerOf(console);
+        if (given != CloseAnswer::None) {
+            answer(console, editor, given);
+        }
+    } else if (requested) {
+        console.closing = Closing::Fades;
+        console.closeAnswer = CloseAnswer::None;
+    }
+    if (console.closing == Closing::No) {
+        return;
+    }
+    console.forces = console.guidance = false;
+    if (console.closing == Closing::Fades && forcesGone) {
+        console.quit = !editor.unsaved();
+        console.closing = Closing::Asks;
+        console.pick = Pick{}; // Enter answers the question
+        console.placing = ShapeKind::None;
+    }
+}
+
+void drawClosing(Console& console, ImVec2 corner, ImVec2 size) {
+    for (const char* place : {"closing", "close save", "close discard", "close stay"}) {
+        console.places.erase(place);
+    }
+    if (console.closing != Closing::Asks || console.quit) {
+        return;
+    }
+    ImGui::SetNextWindowPos({corner.x + 0.5f * size.x, corner.y + 0.5f * size.y}, ImGuiCond_Always,
+                            {0.5f, 0.5f});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 2.0f);
+    ImGui::PushStyleColor(ImGuiCol_Border, colour::kCaution);
+    if (ImGui::Begin("closing", nullptr,
+                     ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                         ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize)) {
+        ImGui::TextUnformatted("Forces are off. The fixtures have changes that are not saved.");
+        ImGui::Dummy({0.0f, 0.3f * ImGui::GetTextLineHeight()});
+        const auto button = [&](const char* label, const char* place, CloseAnswer meaning) {
+            console.closeAnswer = ImGui::Button(label) ? meaning : console.closeAnswer;
+            markPlace(console, place);
+        };
+        button("Save and close  (Enter)", "close save", CloseAnswer::Save);
+        ImGui::SameLine();
+        button("Discard and close  (D)", "close discard", CloseAnswer::Discard);
+        ImGui::SameLine();
+        button("Stay  (Esc)", "close stay", CloseAnswer::Stay);
+        markPlace(console, "closing", ImGui::GetWindowPos(), ImGui::GetWindowSize());
+    }
+    ImGui::End();
+    ImGui::PopStyleColor();
+    ImGui::PopStyleVar();
+}
+
+} // namespace fathom::operate
