@@ -71,7 +71,9 @@ void drawClosing(Console& console, ImVec2 corner, ImVec2 size) {
         ImGui::Dummy({0.0f, 0.3f * ImGui::GetTextLineHeight()});
         const auto button = [&](const char* label, const char* place, CloseAnswer meaning) {
             console.closeAnswer = ImGui::Button(label) ? meaning : console.closeAnswer;
-            markPlace(console, place);
+            if (!ImGui::IsWindowAppearing()) { // its size is not known in its first frame
+                markPlace(console, place);
+            }
         };
         button("Save and close  (Enter)", "close save", CloseAnswer::Save);
         ImGui::SameLine();
