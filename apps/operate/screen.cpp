@@ -3,6 +3,7 @@
 
 #include "apps/operate/closing.h"
 #include "apps/operate/contact_tooltip.h"
+#include "apps/operate/space_marks.h"
 #include "apps/operate/steering.h"
 #include "apps/operate/why_panel.h"
 #include "apps/replay/silhouette.h"
@@ -17,64 +18,11 @@ namespace {
 constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus;
 
-ImVec2 cornerOf(const PixelRect& r) {
-    return {static_cast<float>(r.x), static_cast<float>(r.y)};
-}
-
-ImVec2 sizeOf(const PixelRect& r) {
-    return {static_cast<float>(r.width), static_cast<float>(r.height)};
-}
-
 bool sameOrbit(const Orbit& a, const Orbit& b) {
     return a.yaw == b.yaw && a.pitch == b.pitch && a.distance == b.distance && a.centre == b.centre;
 }
 
-// Centre of regions and arm; without regions, the median depth of the camera on its axis.
-dvec3 middleOf(const Fixtures& set, std::span<const Sphere> arm) {
-    if (!set.spheres.x.empty()) {
-        dvec3 low(1e300), high(-1e300);
-        for (size_t i = 0; i < set.spheres.x.size(); ++i) {
-            low = glm::min(low, regionCentre(set, i)), high = glm::max(high, regionCentre(set, i));
-        }
-        for (const Sphere& s : arm) {
-            low = glm::min(low, s.centre), high = glm::max(high, s.centre);
-        }
-        return 0.5 * (low + high);
-    }
-    std::vector<uint16_t> near;
-    for (size_t i = 0; i < set.depth.size(); i += 37) {
-        if (set.depth[i] != 0) {
-            near.push_back(set.depth[i]);
-        }
-    }
-    if (near.empty()) {
-        return {0.0, 0.0, 1.0};
-    }
-    std::nth_element(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(near.size() / 2), near.end());
-    return set.baseTcamera.apply({0.0, 0.0, near[near.size() / 2] * set.camera.metresPerUnit});
-}
-
 } // namespace
-
-Screen::Rooms Screen::arrange(ImVec2 size, double scale, bool timeLine) {
-    constexpr int kGap = 6;
-    const int width = static_cast<int>(size.x), height = static_cast<int>(size.y);
-    const int head = static_cast<int>(58 * scale), right = std::min(static_cast<int>(376 * scale), width / 2);
-    const int traces = std::min(static_cast<int>(172 * scale), height / 3);
-    const int gauges = std::min(static_cast<int>(168 * scale), height / 3);
-    const int left = width - right - kGap, inset = std::max(60, std::min(right * 9 / 16, height / 3));
-    Rooms rooms;
-    rooms.head = {0, 0, width, head};
-    const int strip = timeLine ? static_cast<int>(76 * scale) + kGap : 0;
-    rooms.large = {0, head + kGap, left, height - head - traces - strip - 2 * kGap};
-    rooms.timeLine = {0, height - traces - strip, left, std::max(0, strip - kGap)};
-    rooms.traces = {0, height - traces, left, traces};
-    rooms.inset = {left + kGap, head + kGap, right, inset};
-    rooms.gauges = {left + kGap, head + inset + 2 * kGap, right, gauges};
-    const int top = rooms.gauges.y + gauges + kGap;
-    rooms.tabs = {left + kGap, top, right, std::max(40, height - top)};
-    return rooms;
-}
 
 void Screen::makeImages(const Console& console, const FixtureEditor& editor, const ScreenInput& input,
                         const Rooms& rooms) {
@@ -82,7 +30,9 @@ void Screen::makeImages(const Console& console, const FixtureEditor& editor, con
     const bool newSelection = selectionDrawn_ != editor.selectionNumber();
     const bool first = !cameraPort_ || std::exchange(redraw_, false);
     if (!centred_ && scene.any) {
-        drawnOrbit_.centre = middleOf(scene.set, input.arm);
+        const SpaceBounds bounds = boundsOf(scene.set, input.arm);
+        drawnOrbit_.centre = bounds.middle;
+        floor_ = bounds.floor;
         centred_ = true;
     }
     const bool fresh = input.freshImage || newSelection || first;
@@ -102,7 +52,7 @@ void Screen::makeImages(const Console& console, const FixtureEditor& editor, con
                        height != space_.view().lens.height ||
                        (input.freshImage && (console.spaceIsLarge || scene.number % 3 == 0));
     if (space) {
-        space_.compose(scene, orbit, width, height, console.treeLevel, input.arm);
+        space_.compose(scene, {orbit, floor_, width, height, console.treeLevel}, input.arm);
         drawnOrbit_ = orbit;
         drawnLevel_ = console.treeLevel;
         drawnLarge_ = console.spaceIsLarge;
@@ -120,6 +70,30 @@ void Screen::makeImages(const Console& console, const FixtureEditor& editor, con
                   spacePort_->where};
 }
 
+// The depth under the pixels of a view. With separate cameras, parallax is ignored.
+SurfaceDepth Screen::surfaceOf(const ViewPort& port, const Fixtures& set) const {
+    if (&port == &*spacePort_) {
+        return [this](glm::dvec2 p) { return space_.depthAt(p); };
+    }
+    const ImageView& view = port.view;
+    return [&view, &set](glm::dvec2 p) {
+        const double x = p.x / view.width(), y = p.y / view.height();
+        return surfaceAt(set, x * set.camera.depth.width, y * set.camera.depth.height);
+    };
+}
+
+void Screen::findCues(const ScreenInput& input) {
+    const StepRecord& record = input.run.step().record;
+    std::vector<Sphere> tool;
+    if (input.run.anyTick() && isFinite(record.tool)) {
+        tool.assign(input.arm.begin(), input.arm.end());
+        for (const Sphere& leaf : input.arm.empty() ? input.tool.leaves() : std::span<const Sphere>()) {
+            tool.push_back({record.tool.apply(leaf.centre), leaf.radius});
+        }
+    }
+    cues_ = depthCues(input.run.scene().set, std::move(tool), record.clearance);
+}
+
 void Screen::drawViews(Console& console, const FixtureEditor& editor, const ScreenInput& input) {
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     for (const ViewPort* port : {&*cameraPort_, &*spacePort_}) {
@@ -127,23 +101,28 @@ void Screen::drawViews(Console& console, const FixtureEditor& editor, const Scre
         const bool large = port == large_;
         const ImVec2 corner = cornerOf(w), size = sizeOf(w);
         list.PushClipRect(corner, {corner.x + size.x, corner.y + size.y});
+        const SurfaceDepth surface = surfaceOf(*port, input.run.scene().set);
         if (port == &*cameraPort_) {
             drawRegionOutlines(list, *port, camera_);
         } else {
             drawCameraFrustum(list, *port, input.run.scene().set);
             drawBounds(list, *port, space_.bounds());
+            drawAxes(list, *port, large);
+            drawScaleBar(list, *port, console.orbit.distance);
         }
-        const MarksInput marks{*port,           input.run, input.tool,     editor.scene(),
-                               editor.shapes(), input.arm, input.measured, large};
-        drawMarks(list, marks);
+        const MarksInput marks{*port,     input.run,      input.tool, editor.scene(), editor.shapes(),
+                               input.arm, input.measured, cues_,      surface,        large};
+        const double hidden = drawMarks(list, marks);
         if (large) {
+            cues_.hidden = hidden;
             drawContactTooltip(console, list, marks);
         }
         const char* name = port == &*cameraPort_    ? "camera"
                            : console.treeLevel >= 0 ? "3D, tree bounds"
                                                     : "3D";
-        drawWords(list, {corner.x + 8.0f, corner.y + 6.0f}, large ? name : std::string(name) + "   Tab: swap",
-                  colour::kQuiet);
+        const float inside = large ? 18.0f * static_cast<float>(console.textScale) : 8.0f; // of the frame
+        drawWords(list, {corner.x + inside, corner.y + inside},
+                  large ? name : std::string(name) + "   Tab: swap", colour::kQuiet);
         list.PopClipRect();
         markPlace(console, port == &*cameraPort_ ? "camera" : "space", corner, size);
     }
@@ -159,8 +138,8 @@ void Screen::drawAlarm(Console& console, const Alarms& alarms) const {
     const std::string words =
         std::string(levelSign(worst->level)) + " " + worst->words + (worst->active ? "   Q" : " (over)   Q");
     const float line = ImGui::GetTextLineHeight();
-    const ImVec2 at{static_cast<float>(large_->where.x) + 10.0f,
-                    static_cast<float>(large_->where.y) + 1.2f * line + 8.0f};
+    const ImVec2 at{static_cast<float>(large_->where.x) + 18.0f * static_cast<float>(console.textScale),
+                    static_cast<float>(large_->where.y) + 2.6f * line};
     drawWords(*ImGui::GetBackgroundDrawList(), at, words, levelColour(worst->level));
     markPlace(console, "alarm", at, {ImGui::CalcTextSize(words.c_str()).x, line});
 }
@@ -181,6 +160,11 @@ std::string hintOf(const Console& console, bool driven) {
         return "Keyboard in the panels: arrows choose, Enter presses   Space: forces off   F6, Esc: back";
     }
     const std::string moves = driven ? "" : "drag, wheel, arrows: tool   ";
+    if (console.spaceIsLarge) {
+        return "Right drag: turn the view   1 2 3: front, side, top   0: reset   Ctrl+wheel: distance   Tab: "
+               "camera"
+               "   F1: all keys";
+    }
     const std::string hint = console.forces ? "Space: forces off   G: guidance   " + moves + "F1: all keys"
                                             : "A: arm the forces   " + moves + "Tab: 3D   F1: all keys";
     return driven ? hint : "No haptic device: mouse and keyboard drive.   " + hint;
@@ -198,7 +182,9 @@ void Screen::drawHint(Console& console, const ScreenInput& input) const {
         list.AddLine({c.x, c.y - 14.0f}, {c.x, c.y + 14.0f}, colour::kPicked);
     }
     const PixelRect& w = large_->where;
-    const auto x = static_cast<float>(w.x) + 10.0f, bottom = static_cast<float>(w.y + w.height);
+    const float inside = 18.0f * static_cast<float>(console.textScale); // of the frame
+    const float x = static_cast<float>(w.x) + inside,
+                bottom = static_cast<float>(w.y + w.height) - 0.6f * inside;
     const float line = ImGui::GetTextLineHeight() + 6.0f;
     drawWords(list, {x, bottom - line}, hintOf(console, input.hud.driven), colour::kText);
     if (ImGui::GetTime() < console.noticeUntil) {
@@ -259,6 +245,7 @@ void Screen::drawTabs(Console& console, FixtureEditor& editor, Alarms& alarms, c
 void Screen::draw(Console& console, FixtureEditor& editor, Alarms& alarms, const ScreenInput& input) {
     const Rooms rooms = arrange(ImGui::GetIO().DisplaySize, console.textScale, console.timeLine.on);
     makeImages(console, editor, input, rooms);
+    findCues(input);
     drawViews(console, editor, input);
     drawHeadLine(console, input.hud, cornerOf(rooms.head), sizeOf(rooms.head));
     ImGui::SetNextWindowPos(cornerOf(rooms.gauges));
@@ -275,6 +262,7 @@ void Screen::draw(Console& console, FixtureEditor& editor, Alarms& alarms, const
     }
     drawMode(console, {console, input.run, input.hud.haptics}, input.hud.letters.large,
              cornerOf(large_->where), sizeOf(large_->where));
+    drawGapBar(console, cues_, input.hud.letters, cornerOf(large_->where), sizeOf(large_->where));
     drawRefusal(console, input.hud.letters.bold, cornerOf(large_->where), sizeOf(large_->where));
     drawClosing(console, cornerOf(large_->where), sizeOf(large_->where));
     drawAlarm(console, alarms);

@@ -6,6 +6,7 @@
 #include "apps/operate/camera_ground.h"
 #include "apps/operate/fixture_editor.h"
 #include "apps/operate/hud.h"
+#include "apps/operate/layout.h"
 #include "apps/operate/space_ground.h"
 #include "apps/operate/view_marks.h"
 
@@ -30,17 +31,16 @@ public:
     std::span<const Layer> layers() const { return layers_; }
     void redraw() { redraw_ = true; } // the next draw() composes both images; call it after a lost device
     const ViewPort& large() const { return *large_; }
+    const DepthCues& cues() const { return cues_; }
     double unknownShare() const { return camera_.unknownShare(); }
     // The pixel of the colour image at a point of the window; empty outside the camera view.
     std::optional<glm::uvec2> colourPixelAt(ImVec2 at) const;
 
 private:
-    struct Rooms {
-        PixelRect head, large, inset, gauges, tabs, traces, timeLine;
-    };
-    static Rooms arrange(ImVec2 size, double scale, bool timeLine);
     void makeImages(const Console& console, const FixtureEditor& editor, const ScreenInput& input,
                     const Rooms& rooms);
+    void findCues(const ScreenInput& input);
+    SurfaceDepth surfaceOf(const ViewPort& port, const Fixtures& set) const;
     void drawViews(Console& console, const FixtureEditor& editor, const ScreenInput& input);
     void drawAlarm(Console& console, const Alarms& alarms) const;
     void drawHint(Console& console, const ScreenInput& input) const;
@@ -53,6 +53,8 @@ private:
     const ViewPort* large_ = nullptr;
     std::array<Layer, 2> layers_;
     Orbit drawnOrbit_;
+    double floor_ = 0.0; // [m] of the grid, base y
+    DepthCues cues_;
     int drawnLevel_ = -1;
     bool centred_ = false, drawnLarge_ = false, redraw_ = false;
     uint64_t selectionDrawn_ = 0;

@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kMaxPixels = 2.5e6; // limit for all spheres of an image together
 constexpr double kNearest = 0.02;    // [m]
+constexpr float kNothing = 1e9f;     // [m] depth of a pixel without a point
 
 uint32_t dimmed(uint32_t colour) {
     const auto channel = [&](uint32_t shift) {
@@ -24,34 +25,70 @@ uint32_t dimmed(uint32_t colour) {
 
 } // namespace
 
-void SpaceGround::compose(const SceneSnapshot& scene, const Orbit& orbit, uint32_t width, uint32_t height,
-                          int treeLevel, std::span<const Sphere> arm) {
+void SpaceGround::compose(const SceneSnapshot& scene, const SpaceView& view, std::span<const Sphere> arm) {
     view_.lens = {};
-    view_.lens.width = width;
-    view_.lens.height = height;
-    view_.lens.fx = view_.lens.fy = 0.9 * width;
-    view_.lens.cx = 0.5 * width - 0.5;
-    view_.lens.cy = 0.5 * height - 0.5;
-    view_.cameraTbase = inverse(orbit.pose());
+    view_.lens.width = view.width;
+    view_.lens.height = view.height;
+    view_.lens.fx = view_.lens.fy = 0.9 * view.width;
+    view_.lens.cx = 0.5 * view.width - 0.5;
+    view_.lens.cy = 0.5 * view.height - 0.5;
+    view_.cameraTbase = inverse(view.orbit.pose());
     view_.scale = 1;
-    const size_t count = static_cast<size_t>(width) * height;
-    pixels_.resize(count);
-    for (uint32_t v = 0; v < height; ++v) { // background: a vertical gradient
-        const uint32_t level = 16 + 14 * v / height;
-        std::fill_n(pixels_.begin() + static_cast<std::ptrdiff_t>(v) * width, width,
-                    0xff000000u | (level + 10) << 16 | (level + 4) << 8 | level);
-    }
-    depth_.assign(count, 1e9f);
-    front_.assign(count, 1e9f);
-    shade_.assign(count, 0);
-    bounds_.clear();
+    clear();
+    drawGrid(view);
     splatPoints(scene);
     splatArm(arm);
     splatRegions(scene.set);
     shadeRegions();
-    if (treeLevel >= 0) {
-        boundBlocks(scene.set, treeLevel);
+    if (view.treeLevel >= 0) {
+        boundBlocks(scene.set, view.treeLevel);
     }
+}
+
+// The background is a vertical gradient.
+void SpaceGround::clear() {
+    const uint32_t width = view_.lens.width, height = view_.lens.height;
+    const size_t count = static_cast<size_t>(width) * height;
+    pixels_.resize(count);
+    for (uint32_t v = 0; v < height; ++v) {
+        const uint32_t level = 16 + 14 * v / height;
+        std::fill_n(pixels_.begin() + static_cast<std::ptrdiff_t>(v) * width, width,
+                    0xff000000u | (level + 10) << 16 | (level + 4) << 8 | level);
+    }
+    depth_.assign(count, kNothing);
+    front_.assign(count, kNothing);
+    shade_.assign(count, 0);
+    bounds_.clear();
+}
+
+// Squares of 100 mm below the scene. It has no depth: everything is drawn over it.
+void SpaceGround::drawGrid(const SpaceView& view) {
+    constexpr double kSquare = 0.1, kStep = 0.002; // [m]
+    constexpr int kReach = 7;                      // squares on each side
+    const double x0 = kSquare * std::round(view.orbit.centre.x / kSquare),
+                 z0 = kSquare * std::round(view.orbit.centre.z / kSquare);
+    const double end = kReach * kSquare;
+    for (int line = -kReach; line <= kReach; ++line) {
+        const uint32_t colour = line % 5 == 0 ? 0xff6a5a4cu : 0xff463c34u;
+        for (double along = -end; along <= end; along += kStep) {
+            for (const bool turned : {false, true}) {
+                const double a = turned ? along : line * kSquare, b = turned ? line * kSquare : along;
+                const auto p = view_.ofBase({x0 + a, view.floor, z0 + b});
+                if (p && p->x >= 0.0 && p->y >= 0.0 && p->x < view_.width() && p->y < view_.height()) {
+                    pixels_[static_cast<size_t>(p->y) * view_.lens.width + static_cast<size_t>(p->x)] =
+                        colour;
+                }
+            }
+        }
+    }
+}
+
+double SpaceGround::depthAt(glm::dvec2 p) const {
+    if (!(p.x >= 0.0) || !(p.y >= 0.0) || p.x >= view_.width() || p.y >= view_.height()) {
+        return 0.0;
+    }
+    const float z = depth_[static_cast<size_t>(p.y) * view_.lens.width + static_cast<size_t>(p.x)];
+    return z < kNothing ? double{z} : 0.0;
 }
 
 void SpaceGround::splatPoints(const SceneSnapshot& scene) {

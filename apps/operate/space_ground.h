@@ -11,19 +11,29 @@
 
 namespace fathom::operate {
 
+// What the image shows, and how large it is.
+struct SpaceView {
+    Orbit orbit;
+    double floor = 0.0; // [m] base y of the grid
+    uint32_t width = 0, height = 0;
+    int treeLevel = -1; // -1: no bounds
+};
+
 // Rendered on the CPU: points with a depth test; regions as the front of their spheres, blended where they
 // are in front of the points. With very many spheres every n-th is drawn, which bounds the time per frame.
 class SpaceGround {
 public:
-    void compose(const SceneSnapshot& scene, const Orbit& orbit, uint32_t width, uint32_t height,
-                 int treeLevel, std::span<const Sphere> arm);
+    void compose(const SceneSnapshot& scene, const SpaceView& view, std::span<const Sphere> arm);
 
     const std::vector<uint32_t>& pixels() const { return pixels_; } // 0xAABBGGRR
     const ImageView& view() const { return view_; }
+    double depthAt(glm::dvec2 pixel) const; // [m] along the eye's axis of points and arm; 0 = nothing there
     // Bounding spheres of blocks of 4x4, 16x16, ... pixels at the chosen level (base frame [m]).
     const std::vector<Sphere>& bounds() const { return bounds_; }
 
 private:
+    void clear();
+    void drawGrid(const SpaceView& view);
     void splatPoints(const SceneSnapshot& scene);
     void splatArm(std::span<const Sphere> arm);
     void splatRegions(const Fixtures& set);

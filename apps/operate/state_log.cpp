@@ -37,6 +37,7 @@ json consoleOf(const Console& c) {
             {"tree_level", c.treeLevel},
             {"text_scale", c.textScale},
             {"tab", static_cast<int>(c.shownTab)},
+            {"orbit", {{"yaw", c.orbit.yaw}, {"pitch", c.orbit.pitch}, {"distance", c.orbit.distance}}},
             {"cursor", c.cursor ? json{c.cursor->x, c.cursor->y} : json(nullptr)},
             {"picking", c.pick.active},
             {"picked", c.pick.taken},
@@ -136,6 +137,16 @@ json chipsOf(const ShownState& s) {
     return words;
 }
 
+// Depth and distance as drawn. gap_m is null while unknown or without a region.
+json cuesOf(const DepthCues& cues) {
+    return {{"gap_m", known(cues.gap)},
+            {"text", gapText(cues.gap)},
+            {"look", std::isfinite(cues.gap) ? json(gapName(lookOf(cues.gap))) : json(nullptr)},
+            {"tether", cues.nearest ? json{vec(cues.nearest->from), vec(cues.nearest->to)} : json(nullptr)},
+            {"hidden", cues.hidden},
+            {"shadow", cues.shadow.size()}};
+}
+
 std::string whyOf(const ShownState& s) {
     return s.view.blocks().empty()
                ? ""
@@ -173,6 +184,7 @@ void StateLog::write(const ShownState& s, bool now) {
                        {"gpu",
                         {{"there", s.canvas.isOpen() && !s.session.handover->gone()},
                          {"made_anew", s.session.cycles.renewals()}}},
+                       {"depth_cues", cuesOf(s.screen.cues())},
                        {"unknown_share", s.screen.unknownShare()},
                        {"alarms", s.alarms.inWords()},
                        {"fixtures", fixturesOf(scene)},

@@ -2,6 +2,7 @@
 #include "apps/operate/steering.h"
 
 #include "apps/operate/keys.h"
+#include "apps/operate/space_marks.h"
 
 #include <GLFW/glfw3.h>
 #include <algorithm>
@@ -34,6 +35,7 @@ std::span<const KeyHelp> keyHelp() {
         KeyHelp{"right drag", "rotate the tool; in the 3D view, rotate the view"},
         KeyHelp{"arrows, PgUp, PgDn", "move the tool; with Shift rotate it"},
         KeyHelp{"Tab", "swap camera and 3D view"},
+        KeyHelp{"1, 2, 3, 0", "3D view from the front, the side, the top; reset"},
         KeyHelp{"T", "bounds of the region tree, next level"},
         KeyHelp{"F", "freeze the fixtures"},
         KeyHelp{"K", "pick a colour: click, or arrows and Enter; Enter adds it"},
@@ -84,12 +86,23 @@ void Steering::keys(Console& console) {
     if (pressed(GLFW_KEY_T)) {
         console.treeLevel = console.treeLevel >= 3 ? -1 : console.treeLevel + 1;
     }
+    lookByKeys(console);
     if (pressed(GLFW_KEY_K)) {
         console.pick = Pick{};
         console.pick.active = true;
     }
     if (pressed(GLFW_KEY_W)) {
         console.tab = Tab::Why;
+    }
+}
+
+// The 3D view's standard sides.
+void Steering::lookByKeys(Console& console) {
+    for (const auto& [key, side] : {std::pair(GLFW_KEY_1, Side::Front), std::pair(GLFW_KEY_2, Side::Right),
+                                    std::pair(GLFW_KEY_3, Side::Top), std::pair(GLFW_KEY_0, Side::Reset)}) {
+        if (pressed(key)) {
+            lookFrom(console.orbit, side);
+        }
     }
 }
 

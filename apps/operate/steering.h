@@ -30,6 +30,7 @@ public:
 
 private:
     void keys(Console& console);
+    void lookByKeys(Console& console);
     void switchFocus(Console& console);
     void moveByKeys(Console& console, const ViewPort& large);
     void moveCursor(Console& console, const ViewPort& large, const dvec3& direction);

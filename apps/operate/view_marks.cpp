@@ -15,27 +15,45 @@ namespace {
 
 constexpr double kCircle = 6.283185307179586;
 
-void toolAt(ImDrawList& list, const MarksInput& input, const Pose& pose, bool ghost) {
-    std::vector<Sphere> spheres;
-    for (const Sphere& leaf : input.tool.leaves()) {
-        const dvec3 centre = pose.apply(leaf.centre);
-        spheres.push_back({centre, leaf.radius});
-        const auto at = input.port.of(centre);
-        const double z = input.port.view.cameraTbase.apply(centre).z;
-        if (at && !ghost && input.tool.leafCount() <= 96) {
+// The spheres of a small tool, where nothing hides them.
+void leavesAt(ImDrawList& list, const MarksInput& input) {
+    if (input.tool.leafCount() > 96 || !input.arm.empty()) {
+        return;
+    }
+    for (const Sphere& leaf : input.cues.tool) {
+        const auto at = input.port.of(leaf.centre);
+        const double z = input.port.view.cameraTbase.apply(leaf.centre).z;
+        const double under = at ? input.surface(input.port.toImage(*at)) : 0.0;
+        if (at && (under == 0.0 || under > z)) {
             const auto r = static_cast<float>(leaf.radius / input.port.metresPerPixel(z));
             list.AddCircleFilled(*at, r, IM_COL32(235, 240, 248, 46), 40);
             list.AddCircle(*at, r, IM_COL32(255, 255, 255, 96), 40, 1.0f);
         }
     }
-    outline(list, input.port, outlineOf(input.port.view, spheres),
-            ghost ? IM_COL32(190, 204, 224, 230) : colour::kTool, ghost ? 1.6f : 2.2f, ghost);
 }
 
-// The silhouette of the arm.
-void armAt(ImDrawList& list, const MarksInput& input) {
-    outline(list, input.port, outlineOf(input.port.view, input.arm), IM_COL32(150, 196, 235, 235), 1.8f,
-            false);
+// Where the hand is.
+void ghostAt(ImDrawList& list, const MarksInput& input) {
+    std::vector<Sphere> spheres;
+    for (const Sphere& leaf : input.tool.leaves()) {
+        spheres.push_back({input.run.step().record.device.apply(leaf.centre), leaf.radius});
+    }
+    outline(list, input.port, outlineOf(input.port.view, spheres), IM_COL32(190, 204, 224, 230), 1.6f, true);
+}
+
+// Tool, and arm if there is one. Returns the hidden share.
+double toolAt(ImDrawList& list, const MarksInput& input) {
+    leavesAt(list, input);
+    double hidden = 0.0;
+    if (!input.arm.empty()) {
+        hidden = drawBody(list, input.port, input.arm, input.surface, IM_COL32(150, 196, 235, 235), 1.8f);
+    }
+    std::vector<Sphere> spheres;
+    for (const Sphere& leaf : input.tool.leaves()) {
+        spheres.push_back({input.run.step().record.tool.apply(leaf.centre), leaf.radius});
+    }
+    const double tool = drawBody(list, input.port, spheres, input.surface, colour::kTool, 2.2f);
+    return input.arm.empty() ? tool : hidden;
 }
 
 // A real arm that is off its setpoint; grey when the last measurement is old.
@@ -199,7 +217,7 @@ void drawCameraFrustum(ImDrawList& list, const ViewPort& port, const Fixtures& s
     }
 }
 
-void drawMarks(ImDrawList& list, const MarksInput& input) {
+double drawMarks(ImDrawList& list, const MarksInput& input) {
     for (const Shape& shape : input.shapes) {
         drawShape(list, input.port, shape);
     }
@@ -219,22 +237,24 @@ void drawMarks(ImDrawList& list, const MarksInput& input) {
                        record.guidance > 0.0 && record.guidanceClass == static_cast<int>(i));
         }
     }
+    drawShadow(list, input.port, input.cues);
     if (!input.run.anyTick() || !isFinite(record.device)) {
-        return;
+        return 0.0;
     }
-    toolAt(list, input, record.device, true);
+    ghostAt(list, input);
     if (!isFinite(record.tool)) { // recordings without tool poses
-        return;
+        return 0.0;
     }
-    armAt(list, input);
     measuredAt(list, input);
-    toolAt(list, input, record.tool, false);
+    const double hidden = toolAt(list, input);
     const auto hand = input.port.of(record.device.position), tool = input.port.of(record.tool.position);
     if (hand && tool) {
         dashed(list, *hand, *tool, IM_COL32(190, 204, 224, 230), 1.4f, 4.0f);
     }
+    drawTether(list, input.port, input.cues, input.names);
     touches(list, input);
     force(list, input);
+    return hidden;
 }
 
 } // namespace fathom::operate

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "apps/operate/camera_ground.h"
+#include "apps/operate/depth_cues.h"
 #include "apps/operate/measured_arm.h"
 #include "apps/operate/run_view.h"
 #include "apps/operate/view_port.h"
@@ -25,6 +26,8 @@ struct MarksInput {
     std::span<const Shape> shapes;
     std::span<const Sphere> arm; // the arm in the base frame; empty = the tool moves freely
     const MeasuredArm& measured; // the real arm
+    const DepthCues& cues;
+    const SurfaceDepth& surface; // of this view
     bool names = true;           // labels at guidance and force; off in the small view
 };
 
@@ -34,8 +37,9 @@ std::vector<Sphere> armSpheres(const ArmRig* arm, const ArmPosture& posture);
 void drawRegionOutlines(ImDrawList& list, const ViewPort& port, const CameraGround& ground);
 void drawBounds(ImDrawList& list, const ViewPort& port, std::span<const Sphere> bounds);
 void drawCameraFrustum(ImDrawList& list, const ViewPort& port, const Fixtures& set);
-// Draws shapes, guidance, device ghost, tool, contacts and force, in this order.
-void drawMarks(ImDrawList& list, const MarksInput& input);
+// Draws shapes, guidance, shadow, device ghost, tool, tether, contacts and force, in this order. Returns the
+// share of the tool's outline that is hidden.
+double drawMarks(ImDrawList& list, const MarksInput& input);
 
 // Text on a dark background.
 void drawWords(ImDrawList& list, ImVec2 at, const std::string& words, ImU32 colour);

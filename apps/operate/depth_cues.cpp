@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/operate/depth_cues.h"
+
+#include "apps/operate/view_lines.h"
+#include "apps/operate/view_marks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+namespace fathom::operate {
+
+namespace {
+
+constexpr double kTolerance = 0.008; // [m] noise of depth; less behind a surface is not hidden
+constexpr ImU32 kWhite = IM_COL32(255, 255, 255, 255);
+
+struct Circle {
+    float x = 0.0f, y = 0.0f, r = 0.0f; // [pixels] of the window
+};
+
+// Fills the union of circles, each pixel once, so that overlaps are not darker.
+void fillUnion(ImDrawList& list, const std::vector<Circle>& circles, ImU32 colour) {
+    constexpr float kRow = 2.0f; // [pixels]
+    float top = 1e9f, bottom = -1e9f;
+    for (const Circle& c : circles) {
+        top = std::min(top, c.y - c.r), bottom = std::max(bottom, c.y + c.r);
+    }
+    std::vector<std::pair<float, float>> runs;
+    for (float y = std::floor(top); y < std::min(bottom, top + 2000.0f); y += kRow) {
+        runs.clear();
+        for (const Circle& c : circles) {
+            const float dy = y + 0.5f * kRow - c.y, square = c.r * c.r - dy * dy;
+            if (square > 0.0f) {
+                runs.emplace_back(c.x - std::sqrt(square), c.x + std::sqrt(square));
+            }
+        }
+        std::sort(runs.begin(), runs.end());
+        for (size_t i = 0; i < runs.size();) {
+            float end = runs[i].second;
+            size_t next = i + 1;
+            for (; next < runs.size() && runs[next].first <= end; ++next) {
+                end = std::max(end, runs[next].second);
+            }
+            list.AddRectFilled({runs[i].first, y}, {end, y + kRow}, colour);
+            i = next;
+        }
+    }
+}
+
+// The depth [m] of the sphere whose silhouette is nearest to a pixel of the view.
+double depthOf(const ViewPort& port, std::span<const Sphere> spheres, glm::dvec2 at) {
+    double least = 1e300, depth = 0.0;
+    for (const Sphere& s : spheres) {
+        const dvec3 eye = port.view.cameraTbase.apply(s.centre);
+        const auto p = port.view.ofCamera(eye);
+        if (p) {
+            const double r = s.radius * port.view.lens.fx * port.view.scale / eye.z;
+            const double off = std::abs(glm::distance(*p, at) - r);
+            if (off < least) {
+                least = off, depth = eye.z;
+            }
+        }
+    }
+    return depth;
+}
+
+// One run of an outline: solid, or dots.
+void run(ImDrawList& list, std::vector<ImVec2>& points, bool hidden, ImU32 colour, float width) {
+    if (points.size() < 2) {
+        return;
+    }
+    if (!hidden) {
+        thin(points);
+        list.AddPolyline(points.data(), static_cast<int>(points.size()), colour::kShade, 0, width + 2.0f);
+        list.AddPolyline(points.data(), static_cast<int>(points.size()), colour, 0, width);
+        return;
+    }
+    const float gap = 3.2f * width;
+    float since = gap;
+    for (size_t i = 1; i < points.size(); ++i) {
+        since += std::hypot(points[i].x - points[i - 1].x, points[i].y - points[i - 1].y);
+        if (since >= gap) {
+            since = 0.0f;
+            list.AddCircleFilled(points[i], 0.75f * width + 1.0f, colour::kShade, 8);
+            list.AddCircleFilled(points[i], 0.75f * width, colour, 8);
+        }
+    }
+}
+
+} // namespace
+
+GapLook lookOf(double gap) {
+    return gap < kCloseGap ? GapLook::Close : gap < kNearGap ? GapLook::Near : GapLook::Far;
+}
+
+ImU32 gapColour(GapLook look) {
+    return look == GapLook::Close ? colour::kWarning : look == GapLook::Near ? colour::kCaution : kWhite;
+}
+
+const char* gapName(GapLook look) {
+    return look == GapLook::Close ? "close" : look == GapLook::Near ? "near" : "far";
+}
+
+std::string gapText(double gap) {
+    if (!std::isfinite(gap)) {
+        return std::isnan(gap) ? "unknown" : "no region";
+    }
+    char text[32];
+    const double mm = 1e3 * std::max(0.0, gap);
+    std::snprintf(text, sizeof text,
+                  mm < 9.95    ? "%.1f mm"
+                  : mm < 999.5 ? "%.0f mm"
+                               : "%.2f m",
+                  mm < 999.5 ? mm : 1e-3 * mm);
+    return text;
+}
+
+DepthCues depthCues(const Fixtures& set, std::vector<Sphere> tool, double measured) {
+    DepthCues cues;
+    cues.tool = std::move(tool);
+    cues.nearest = nearestRegion(set, cues.tool);
+    cues.gap = measured;
+    if (std::isnan(measured) && !cues.tool.empty()) {
+        cues.gap = cues.nearest ? cues.nearest->gap : std::numeric_limits<double>::infinity();
+    }
+    cues.shadow = shadowOf(set, cues.tool);
+    return cues;
+}
+
+void drawShadow(ImDrawList& list, const ViewPort& port, const DepthCues& cues) {
+    std::vector<Circle> circles;
+    for (const Sphere& s : cues.shadow) {
+        const auto at = port.of(s.centre);
+        const double z = port.view.cameraTbase.apply(s.centre).z;
+        if (at && z > 0.02) {
+            circles.push_back({at->x, at->y, static_cast<float>(s.radius / port.metresPerPixel(z))});
+        }
+    }
+    if (!circles.empty()) {
+        fillUnion(list, circles, IM_COL32(0, 0, 0, 120));
+    }
+}
+
+double drawBody(ImDrawList& list, const ViewPort& port, std::span<const Sphere> spheres,
+                const SurfaceDepth& surface, ImU32 colour, float width) {
+    size_t hidden = 0, all = 0;
+    std::vector<ImVec2> points;
+    for (const OutlineLine& line : outlineOf(port.view, spheres)) {
+        bool before = false;
+        points.clear();
+        for (const glm::dvec2& p : line) {
+            const double under = surface(p);
+            const bool now = under > 0.0 && under < depthOf(port, spheres, p) - kTolerance;
+            points.push_back(port.ofFrame(p));
+            if (now != before) {
+                run(list, points, before, colour, width);
+                points = {port.ofFrame(p)};
+            }
+            before = now;
+            hidden += now ? 1 : 0;
+            ++all;
+        }
+        run(list, points, before, colour, width);
+    }
+    return all == 0 ? 0.0 : static_cast<double>(hidden) / static_cast<double>(all);
+}
+
+void drawTether(ImDrawList& list, const ViewPort& port, const DepthCues& cues, bool label) {
+    if (!cues.nearest) {
+        return;
+    }
+    const auto from = port.of(cues.nearest->from), to = port.of(cues.nearest->to);
+    if (!from || !to) {
+        return;
+    }
+    const GapLook look = lookOf(cues.gap);
+    const ImU32 colour = gapColour(look);
+    const float width = look == GapLook::Close ? 5.0f : look == GapLook::Near ? 3.0f : 1.6f;
+    list.AddLine(*from, *to, colour::kShade, width + 2.4f);
+    list.AddLine(*from, *to, colour, width);
+    for (const ImVec2 end : {*from, *to}) {
+        list.AddCircleFilled(end, 1.2f + width, colour::kShade, 12);
+        list.AddCircleFilled(end, 0.4f + width, colour, 12);
+    }
+    if (label && std::isfinite(cues.gap) && cues.gap > 1e-3) {
+        const std::string text = gapText(cues.gap);
+        const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+        const float x = 0.5f * (from->x + to->x) + 12.0f, y = 0.5f * (from->y + to->y) - size.y - 6.0f;
+        drawWords(list, {x, y}, text, colour);
+    }
+}
+
+} // namespace fathom::operate
