@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Alarms in three levels, each with text and a sign, latched until the pilot acknowledges them.
+// Alarms in three levels, each with text and a sign, filtered in time, latched until the pilot acknowledges
+// them.
 #pragma once
 
 #include "apps/operate/console.h"
 #include "apps/operate/run_view.h"
 #include "engine/cycle/haptic_options.h"
 
+#include <deque>
 #include <imgui.h>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -14,11 +17,20 @@ namespace fathom::operate {
 
 enum class Level { Advisory, Caution, Warning };
 
+// One line for the pilot: what happens, then what to do.
 struct Alarm {
     Level level = Level::Advisory;
-    std::string key, words;
-    double since = 0.0; // [s] of the run
+    std::string key, what, todo;
+    double since = 0.0, last = 0.0; // [s] of the run: raised, and cause seen last
     bool active = false, acknowledged = false;
+    std::string words() const { return todo.empty() ? what : what + ": " + todo; }
+};
+
+// An alarm that is over.
+struct EndedAlarm {
+    Level level = Level::Advisory;
+    std::string what;
+    double since = 0.0, end = 0.0; // [s] of the run
 };
 
 const char* levelName(Level level);
@@ -34,29 +46,57 @@ struct Health {
 
 class Alarms {
 public:
+    // settle: share of the times that filter causes which come and go; 0 = all alarms at once.
+    explicit Alarms(double settle = 1.0)
+        : settle_(settle) {}
+
     // Evaluates all rules; called once per window frame.
     void step(Console& console, const RunView& run, const HapticOptions& haptics, const Scene& scene,
               const Health& health = {});
     // Raises an alarm outside the rules.
-    void raise(Level level, const std::string& key, const std::string& words, double t);
+    void raise(Level level, const std::string& key, const std::string& what, double t);
 
     // Active alarms and latched ones that are not acknowledged. Sorted by level; within a level,
     // unacknowledged and active alarms come first.
     std::vector<const Alarm*> shown() const;
     const Alarm* worst() const; // the first unacknowledged one; null when none
     std::vector<std::string> inWords() const;
+    const std::deque<EndedAlarm>& history() const { return history_; } // newest first
 
 private:
-    void set(bool on, Level level, const char* key, const std::string& words, double t);
-    void stepProtection(const RunView& run, const Scene& scene, const StepRecord& tick);
-    void stepScene(const StepRecord& tick, const HapticOptions& haptics, bool deviceGone);
+    // A cause that may come and go within a moment.
+    struct Filter {
+        double after = 0.0; // [s] that the cause must last
+        double hold = 0.0;  // [s] without it until the alarm is over
+    };
+    struct Text {
+        std::string what, todo;
+    };
+    void set(bool on, Level level, const std::string& key, const Text& text, double t, Filter filter);
+    void set(bool on, Level level, const std::string& key, const Text& text, double t) {
+        set(on, level, key, text, t, Filter());
+    }
+    void update(Alarm& alarm, bool on, const Text& text, double t, Filter filter);
+    bool lasts(bool on, const std::string& key, double t, double after);
+    void stepProtection(const RunView& run, const Scene& scene, const StepRecord& tick, bool forces);
+    void stepScene(const StepRecord& tick, const HapticOptions& haptics, bool deviceGone, bool forces);
+    void stepForces(const RunView& run, const HapticOptions& haptics, bool forces);
+    void stepTargets(const RunView& run, const Scene& scene, double t);
+
+    double settle_;
     std::vector<Alarm> alarms_;
-    bool waits_ = false;             // true until the first frame after the GPU was lost
-    std::vector<double> regionSeen_; // [s] per fixture row: when it last had a region
-    double forcesSeen_ = 0.0;        // [s] when a set was last obeyed
-    int64_t lostFrame_ = -1;         // newest frame at that time
+    std::deque<EndedAlarm> history_;
+    std::map<std::string, double> causes_; // [s] since when a cause that is not an alarm yet lasts
+    bool waits_ = false;                   // true until the first frame after the GPU was lost
+    std::vector<double> regionSeen_;       // [s] per fixture row: when it last had a region
+    double forcesSeen_ = 0.0;              // [s] when a set was last obeyed
+    int64_t lostFrame_ = -1;               // newest frame at that time
 };
 
+// Panel: present alarms, then the history.
 void drawAlarms(Console& console, const Alarms& alarms);
+// Lines over a view, the worst first; acknowledged ones are dimmed. at: upper left corner; width: of the
+// room.
+void drawAlarmLines(Console& console, const Alarms& alarms, ImVec2 at, float width);
 
 } // namespace fathom::operate

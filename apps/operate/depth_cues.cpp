@@ -67,7 +67,7 @@ double depthOf(const ViewPort& port, std::span<const Sphere> spheres, glm::dvec2
 }
 
 // One run of an outline: solid, or dots.
-void run(ImDrawList& list, std::vector<ImVec2>& points, bool hidden, ImU32 colour, float width) {
+void outlineRun(ImDrawList& list, std::vector<ImVec2>& points, bool hidden, ImU32 colour, float width) {
     if (points.size() < 2) {
         return;
     }
@@ -155,14 +155,14 @@ double drawBody(ImDrawList& list, const ViewPort& port, std::span<const Sphere> 
             const bool now = under > 0.0 && under < depthOf(port, spheres, p) - kTolerance;
             points.push_back(port.ofFrame(p));
             if (now != before) {
-                run(list, points, before, colour, width);
+                outlineRun(list, points, before, colour, width);
                 points = {port.ofFrame(p)};
             }
             before = now;
             hidden += now ? 1 : 0;
             ++all;
         }
-        run(list, points, before, colour, width);
+        outlineRun(list, points, before, colour, width);
     }
     return all == 0 ? 0.0 : static_cast<double>(hidden) / static_cast<double>(all);
 }

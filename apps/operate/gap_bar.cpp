@@ -10,11 +10,11 @@ namespace fathom::operate {
 
 namespace {
 
-constexpr double kFull = 0.2; // [m]
-constexpr ImU32 kPlate = IM_COL32(6, 8, 12, 215), kTrack = IM_COL32(34, 43, 57, 255);
+constexpr double kBarFull = 0.2; // [m]
+constexpr ImU32 kBarPlate = IM_COL32(6, 8, 12, 215), kTrack = IM_COL32(34, 43, 57, 255);
 
 // Slanted lines: the gap is not known.
-void unknown(ImDrawList& list, ImVec2 a, ImVec2 b) {
+void hatchUnknown(ImDrawList& list, ImVec2 a, ImVec2 b) {
     list.PushClipRect(a, b, true);
     for (float y = a.y - (b.x - a.x); y < b.y; y += 7.0f) {
         list.AddLine({a.x, y + (b.x - a.x)}, {b.x, y}, colour::kQuiet, 1.4f);
@@ -22,7 +22,7 @@ void unknown(ImDrawList& list, ImVec2 a, ImVec2 b) {
     list.PopClipRect();
 }
 
-void ticks(ImDrawList& list, const Letters& letters, ImVec2 a, ImVec2 b) {
+void barTicks(ImDrawList& list, const Letters& letters, ImVec2 a, ImVec2 b) {
     for (int mm : {0, 50, 100, 150, 200}) {
         const float y = b.y - (b.y - a.y) * static_cast<float>(mm) / 200.0f;
         char text[8];
@@ -35,8 +35,8 @@ void ticks(ImDrawList& list, const Letters& letters, ImVec2 a, ImVec2 b) {
 }
 
 // The zones of the looks, as a narrow strip beside the bar.
-void zones(ImDrawList& list, ImVec2 a, ImVec2 b, float width) {
-    const auto level = [&](double gap) { return b.y - (b.y - a.y) * static_cast<float>(gap / kFull); };
+void barZones(ImDrawList& list, ImVec2 a, ImVec2 b, float width) {
+    const auto level = [&](double gap) { return b.y - (b.y - a.y) * static_cast<float>(gap / kBarFull); };
     const float left = b.x + 2.0f;
     list.AddRectFilled({left, level(kNearGap)}, {left + width, level(kCloseGap)}, gapColour(GapLook::Near));
     list.AddRectFilled({left, level(kCloseGap)}, {left + width, b.y}, gapColour(GapLook::Close));
@@ -51,21 +51,21 @@ void drawGapBar(Console& console, const DepthCues& cues, const Letters& letters,
     const float height = std::min(0.5f * size.y, 18.0f * line);
     const ImVec2 plate{corner.x + size.x - room - 1.2f * line,
                        corner.y + 0.5f * (size.y - height) - 0.4f * line};
-    list.AddRectFilled(plate, {plate.x + room, plate.y + height + 2.2f * line}, kPlate, 6.0f);
+    list.AddRectFilled(plate, {plate.x + room, plate.y + height + 2.2f * line}, kBarPlate, 6.0f);
     const ImVec2 a{plate.x + 0.5f * (room - width) + 0.4f * line, plate.y + 0.9f * line};
     const ImVec2 b{a.x + width, a.y + height - 1.0f * line};
     list.AddRectFilled(a, b, kTrack, 3.0f);
-    ticks(list, letters, a, b);
-    zones(list, a, b, 0.3f * line);
+    barTicks(list, letters, a, b);
+    barZones(list, a, b, 0.3f * line);
     const bool finite = std::isfinite(cues.gap);
     const ImU32 colour = finite ? gapColour(lookOf(cues.gap)) : colour::kQuiet;
     if (finite) {
-        const auto share = static_cast<float>(std::clamp(cues.gap / kFull, 0.0, 1.0));
+        const auto share = static_cast<float>(std::clamp(cues.gap / kBarFull, 0.0, 1.0));
         const float y = b.y - share * (b.y - a.y);
         list.AddRectFilled({a.x, y}, b, colour, 3.0f);
         list.AddRectFilled({a.x - 4.0f, y - 2.0f}, {b.x + 4.0f, y + 2.0f}, colour);
     } else if (std::isnan(cues.gap)) {
-        unknown(list, a, b);
+        hatchUnknown(list, a, b);
     }
     const std::string text = gapText(cues.gap);
     ImFont* const font = letters.bold;

@@ -149,7 +149,7 @@ void PlaybackRun::draw(double dt) {
     HudInput hud = display_.hud(haptics_);
     hud.title = options_.recording;
     hud.driven = true;
-    display_.alarms = Alarms(); // alarms of this moment only, none latched
+    display_.alarms = Alarms(0.0); // alarms of this moment only, none latched
     display_.alarms.step(display_.console, display_.view, haptics_, editor_.scene());
     const bool known = log_.poses && display_.view.anyTick();
     const auto arm =

@@ -128,22 +128,6 @@ void Screen::drawViews(Console& console, const FixtureEditor& editor, const Scre
     }
 }
 
-// The worst alarm as text, below the name of the large view.
-void Screen::drawAlarm(Console& console, const Alarms& alarms) const {
-    console.places.erase("alarm");
-    const Alarm* worst = alarms.worst();
-    if (worst == nullptr) {
-        return;
-    }
-    const std::string words =
-        std::string(levelSign(worst->level)) + " " + worst->words + (worst->active ? "   Q" : " (over)   Q");
-    const float line = ImGui::GetTextLineHeight();
-    const ImVec2 at{static_cast<float>(large_->where.x) + 18.0f * static_cast<float>(console.textScale),
-                    static_cast<float>(large_->where.y) + 2.6f * line};
-    drawWords(*ImGui::GetBackgroundDrawList(), at, words, levelColour(worst->level));
-    markPlace(console, "alarm", at, {ImGui::CalcTextSize(words.c_str()).x, line});
-}
-
 namespace {
 
 // The keys that are useful in the present state.
@@ -265,7 +249,11 @@ void Screen::draw(Console& console, FixtureEditor& editor, Alarms& alarms, const
     drawGapBar(console, cues_, input.hud.letters, cornerOf(large_->where), sizeOf(large_->where));
     drawRefusal(console, input.hud.letters.bold, cornerOf(large_->where), sizeOf(large_->where));
     drawClosing(console, cornerOf(large_->where), sizeOf(large_->where));
-    drawAlarm(console, alarms);
+    const float inside = 18.0f * static_cast<float>(console.textScale); // of the frame
+    const ImVec2 corner = cornerOf(large_->where);
+    drawAlarmLines(console, alarms,
+                   {corner.x + inside, corner.y + inside + 1.5f * ImGui::GetTextLineHeight()},
+                   0.55f * sizeOf(large_->where).x);
     drawHint(console, input);
     markPlace(console, "traces room", cornerOf(rooms.traces), sizeOf(rooms.traces));
     markPlace(console, "time line room", cornerOf(rooms.timeLine), sizeOf(rooms.timeLine));

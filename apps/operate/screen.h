@@ -42,7 +42,6 @@ private:
     void findCues(const ScreenInput& input);
     SurfaceDepth surfaceOf(const ViewPort& port, const Fixtures& set) const;
     void drawViews(Console& console, const FixtureEditor& editor, const ScreenInput& input);
-    void drawAlarm(Console& console, const Alarms& alarms) const;
     void drawHint(Console& console, const ScreenInput& input) const;
     void drawTabs(Console& console, FixtureEditor& editor, Alarms& alarms, const ScreenInput& input,
                   const PixelRect& room);

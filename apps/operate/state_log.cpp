@@ -147,6 +147,22 @@ json cuesOf(const DepthCues& cues) {
             {"shadow", cues.shadow.size()}};
 }
 
+json alarmLinesOf(const Alarms& alarms) {
+    json lines = json::array();
+    for (const Alarm* alarm : alarms.shown()) {
+        lines.push_back(alarm->words());
+    }
+    return lines;
+}
+
+json alarmsOverOf(const Alarms& alarms) {
+    json lines = json::array();
+    for (const EndedAlarm& ended : alarms.history()) {
+        lines.push_back(ended.what);
+    }
+    return lines;
+}
+
 std::string whyOf(const ShownState& s) {
     return s.view.blocks().empty()
                ? ""
@@ -187,6 +203,8 @@ void StateLog::write(const ShownState& s, bool now) {
                        {"depth_cues", cuesOf(s.screen.cues())},
                        {"unknown_share", s.screen.unknownShare()},
                        {"alarms", s.alarms.inWords()},
+                       {"alarm_lines", alarmLinesOf(s.alarms)},
+                       {"alarms_over", alarmsOverOf(s.alarms)},
                        {"fixtures", fixturesOf(scene)},
                        {"shapes", s.editor.shapes().size()},
                        {"selected", s.editor.selectedPoints()},

@@ -66,6 +66,7 @@ TEST_CASE(
 
 TEST_CASE("An alarm stays until it is over and acknowledged, and is latched again when it returns") {
     ViewedRun run;
+    run.console.forces = true;
     CHECK(run.step().empty());
     run.row.record.state = StepState::Trapped;
     CHECK(run.step() == Words{"WARNING active trapped"});
@@ -89,6 +90,7 @@ TEST_CASE("An alarm stays until it is over and acknowledged, and is latched agai
 
 TEST_CASE("Alarms are sorted by level, highest first, and an acknowledged one is not the worst") {
     ViewedRun run;
+    run.console.forces = true;
     run.console.frozen = true;
     run.row.record.wrench.force = {run.haptics.forceLimit, 0.0, 0.0};
     CHECK(run.step({.handGone = true}) ==
@@ -105,6 +107,7 @@ TEST_CASE("Alarms are sorted by level, highest first, and an acknowledged one is
 
 TEST_CASE("A class without a region, or a run without an active set, raises an alarm after 1 s") {
     ViewedRun run;
+    run.console.forces = true;
     FixtureClass valve;
     valve.name = "valve";
     run.scene.fixtures = {valve};
@@ -130,7 +133,12 @@ TEST_CASE("A class without a region, or a run without an active set, raises an a
 
 TEST_CASE("The alarm names the cause of an old scene: the camera or a lost GPU") {
     ViewedRun run;
+    run.console.forces = true;
     run.row.record.sceneAge = 2.0 * run.haptics.staleAfter;
+    CHECK(run.step().empty());
+    for (int i = 0; i < 300; ++i) {
+        run.step();
+    }
     CHECK(run.step() == Words{"CAUTION active stale"});
     run.row.record.sceneAge = 6.0 * run.haptics.staleAfter;
     CHECK(run.step() == Words{"WARNING active camera", "CAUTION active stale"});
@@ -139,7 +147,79 @@ TEST_CASE("The alarm names the cause of an old scene: the camera or a lost GPU")
     run.console.acknowledge = true;
     CHECK(run.step()[0] == "WARNING active acknowledged gpu"); // before its first frame
     run.row.record.sceneAge = 0.0;
+    CHECK(run.step() == Words{"CAUTION active acknowledged stale"}); // it may come and go
+    for (int i = 0; i < 1100; ++i) {
+        run.step();
+    }
     CHECK(run.step().empty());
+}
+
+TEST_CASE("A cause that comes and goes is one alarm, and one that lasts a moment is none") {
+    ViewedRun run;
+    run.console.forces = true;
+    const auto forTicks = [&](int ticks) {
+        for (int i = 0; i < ticks; ++i) {
+            run.step();
+        }
+    };
+    for (int i = 0; i < 50; ++i) { // 100 ms old for 20 ms, then fresh
+        run.row.record.sceneAge = i % 2 == 0 ? 2.0 * run.haptics.staleAfter : 0.0;
+        forTicks(20);
+    }
+    CHECK(run.alarms.inWords().empty());
+    const dvec3 limit(run.haptics.forceLimit, 0.0, 0.0);
+    run.row.record.sceneAge = 0.0;
+    run.row.record.wrench.force = limit;
+    CHECK(run.step() == Words{"CAUTION active force"});
+    run.console.acknowledge = true;
+    for (int i = 0; i < 10; ++i) { // the hand trembles at the limit
+        run.row.record.wrench.force = i % 2 == 0 ? limit : 0.9 * limit;
+        forTicks(100);
+        CHECK(run.alarms.inWords() == Words{"CAUTION active acknowledged force"});
+    }
+    CHECK(run.alarms.history().empty());
+    run.row.record.wrench.force = {};
+    forTicks(1100);
+    CHECK(run.alarms.inWords().empty());
+    REQUIRE(run.alarms.history().size() == 1);
+    CHECK(run.alarms.history()[0].what == "Force at its limit of 20 N");
+    CHECK(run.alarms.history()[0].end - run.alarms.history()[0].since == doctest::Approx(0.9).epsilon(0.05));
+}
+
+TEST_CASE("Forces that are off raise no alarm about what only forces can do, but lost devices do") {
+    ViewedRun run;
+    run.row.record.state = StepState::Trapped;
+    run.row.record.sceneAge = 2.0 * run.haptics.staleAfter;
+    run.row.record.wrench.force = {run.haptics.forceLimit, 0.0, 0.0};
+    run.row.record.marginPassive = -1.0;
+    run.row.record.device.position = {0.0, 0.0, 0.3};
+    run.step();
+    run.step(0.5);
+    CHECK(run.step().empty());
+    CHECK(run.step({.handGone = true}) == Words{"WARNING active hand"});
+    run.row.record.sceneAge = 6.0 * run.haptics.staleAfter;
+    CHECK(run.step({.gpuGone = true})[0] == "WARNING active gpu");
+}
+
+TEST_CASE("An alarm says what happens and then what to do") {
+    ViewedRun run;
+    run.console.forces = run.console.frozen = true;
+    run.row.record.state = StepState::Trapped;
+    run.row.record.wrench.force = {run.haptics.forceLimit, 0.0, 0.0};
+    run.row.record.sceneAge = 6.0 * run.haptics.staleAfter;
+    run.row.record.device.position = {0.0, 0.0, 0.3};
+    run.row.record.finite = false;
+    run.step();
+    run.step(0.5);
+    run.step({.gpuGone = false, .handGone = true, .recorderFailed = "the disk is full"});
+    REQUIRE(run.alarms.shown().size() >= 8);
+    for (const Alarm* alarm : run.alarms.shown()) {
+        CAPTURE(alarm->key);
+        CHECK(!alarm->what.empty());
+        CHECK(!alarm->todo.empty());
+        CHECK(alarm->words().size() < 90);
+        CHECK(alarm->what.find(':') == std::string::npos);
+    }
 }
 
 TEST_CASE("Each column of a trace covers the range of its samples and joins its neighbours") {

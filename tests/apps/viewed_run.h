@@ -44,6 +44,7 @@ struct ViewedRun {
         row.record.device.position = {0.0, 0.0, beyond};
         step(0.001);
     }
+    // A tick of the run and a frame of the window.
     std::vector<std::string> step(const Health& health = {}) {
         step(0.001);
         alarms.step(console, view, haptics, scene, health);

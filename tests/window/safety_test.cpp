@@ -101,6 +101,27 @@ TEST_CASE("An alarm stays until it is acknowledged, and is raised again with its
     closeQuietly(rig);
 }
 
+TEST_CASE("An acknowledged alarm stays in the view, dimmed, and goes to the history when it is over") {
+    WindowRig rig;
+    rig.key("f");
+    REQUIRE(rig.await([](const json& s) { return s["console"]["places"].contains("alarm"); }));
+    CHECK(rig.state()["alarm_lines"][0] == "Fixtures frozen, new images do not change them: F to release");
+    const auto place = rig.place("alarm");
+    CHECK(rig.shoot("alarm-line").share(place, isAdvisory) > 0.01);
+    rig.key("q");
+    REQUIRE(rig.await([](const json& s) { return alarm(s, "active acknowledged frozen"); }));
+    CHECK(rig.shoot("alarm-dimmed").share(place, isAdvisory) < 0.001);
+    CHECK(rig.state()["console"]["places"].contains("alarm"));
+    rig.key("f");
+    REQUIRE(rig.await([](const json& s) { return !alarm(s, "frozen"); }));
+    CHECK(rig.await([](const json& s) { return !s["console"]["places"].contains("alarm"); }));
+    CHECK(rig.state()["alarms_over"][0] == "Fixtures frozen, new images do not change them");
+    rig.click("tab Alarms");
+    REQUIRE(rig.await([](const json& s) { return s["console"]["tab"] == 2; }));
+    rig.shoot("alarm-history");
+    closeQuietly(rig);
+}
+
 TEST_CASE("The space bar turns forces off during text input, when other keys are text") {
     WindowRig rig;
     rig.key("a");

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// Alarms as lines over the view, and as a panel with their history.
+#include "apps/operate/alarms.h"
+#include "apps/operate/theme.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace fathom::operate {
+
+namespace {
+
+constexpr ImU32 kDimmed = IM_COL32(150, 162, 180, 200);
+constexpr size_t kMostLines = 3;
+
+std::string timeText(double t) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%d:%04.1f", static_cast<int>(t) / 60,
+                  t - 60.0 * (static_cast<int>(t) / 60));
+    return text;
+}
+
+// One line over a view on a dark plate; its height.
+float alarmLine(ImVec2 at, float width, const std::string& words, ImU32 colour, bool bright) {
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    ImFont* const font = ImGui::GetFont();
+    const float pad = 0.35f * font->FontSize, wrap = width - 2.0f * pad;
+    const ImVec2 size = font->CalcTextSizeA(font->FontSize, wrap, wrap, words.c_str());
+    list.AddRectFilled(at, {at.x + size.x + 3.0f * pad, at.y + size.y + 1.2f * pad},
+                       bright ? IM_COL32(6, 8, 12, 235) : colour::kShade, 4.0f);
+    if (bright) {
+        list.AddRectFilled(at, {at.x + 0.6f * pad, at.y + size.y + 1.2f * pad}, colour);
+    }
+    list.AddText(font, font->FontSize, {at.x + 1.6f * pad, at.y + 0.6f * pad}, colour, words.c_str(), nullptr,
+                 wrap);
+    return size.y + 1.2f * pad;
+}
+
+} // namespace
+
+void drawAlarmLines(Console& console, const Alarms& alarms, ImVec2 at, float width) {
+    console.places.erase("alarm");
+    const std::vector<const Alarm*> shown = alarms.shown();
+    std::vector<const Alarm*> order(shown);
+    std::stable_partition(order.begin(), order.end(), [](const Alarm* a) { return !a->acknowledged; });
+    const ImVec2 first = at;
+    size_t lines = 0;
+    for (const Alarm* alarm : order) {
+        if (lines++ == kMostLines) {
+            const std::string more = std::to_string(order.size() - kMostLines) + " more in the tab Alarms";
+            at.y += alarmLine(at, width, more, kDimmed, false) + 3.0f;
+            break;
+        }
+        const bool bright = !alarm->acknowledged;
+        const std::string words = std::string(levelSign(alarm->level)) + " " +
+                                  (alarm->active ? alarm->words() : alarm->what + " (over)") +
+                                  (bright && lines == 1 ? "   Q: seen" : "");
+        at.y += alarmLine(at, width, words, bright ? levelColour(alarm->level) : kDimmed, bright) + 3.0f;
+    }
+    if (!order.empty()) {
+        markPlace(console, "alarm", first, {width, at.y - first.y});
+    }
+}
+
+void drawAlarms(Console& console, const Alarms& alarms) {
+    if (ImGui::Button("Acknowledge all  (Q)")) {
+        console.acknowledge = true;
+    }
+    markPlace(console, "acknowledge");
+    const auto list = alarms.shown();
+    if (list.empty()) {
+        ImGui::TextDisabled("No alarm.");
+    }
+    for (const Alarm* alarm : list) {
+        colouredText(alarm->acknowledged ? kDimmed : levelColour(alarm->level),
+                     (levelSign(alarm->level) + std::string(" ") + timeText(alarm->since) + "  " +
+                      (alarm->active ? alarm->words() : alarm->what + " (over)"))
+                         .c_str());
+        if (ImGui::IsItemHovered()) {
+            ImGui::SetTooltip("%s, %s, since %.3f s", levelName(alarm->level), alarm->key.c_str(),
+                              alarm->since);
+        }
+    }
+    if (alarms.history().empty()) {
+        return;
+    }
+    ImGui::Separator();
+    ImGui::TextDisabled("Over:");
+    for (const EndedAlarm& ended : alarms.history()) {
+        char lasted[32];
+        std::snprintf(lasted, sizeof lasted, ", %.1f s", ended.end - ended.since);
+        colouredText(kDimmed, (std::string(levelSign(ended.level)) + " " + timeText(ended.since) + "  " +
+                               ended.what + lasted)
+                                  .c_str());
+    }
+}
+
+} // namespace fathom::operate

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+// When there is an alarm, and what a pilot reads. A state that cannot push because forces are off has none.
+#include "apps/binding/scene_edits.h"
+#include "apps/operate/alarms.h"
+#include "apps/operate/hud.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace fathom::operate {
+
+namespace {
+
+constexpr double kPatience = 1.0; // [s]
+constexpr double kHandApart = 0.10;   // [m] from hand to tool
+
+template <class Value>
+std::string print(const char* form, Value value) {
+    char text[128];
+    std::snprintf(text, sizeof text, form, value);
+    return text;
+}
+
+} // namespace
+
+// Names the cause when frames stop: the GPU until it has processed a frame again, otherwise the camera.
+void Alarms::stepScene(const StepRecord& tick, const HapticOptions& haptics, bool deviceGone, bool forces) {
+    const bool stale = tick.sceneAge > haptics.staleAfter;
+    lostFrame_ = deviceGone ? tick.frame : lostFrame_;
+    waits_ = deviceGone || (waits_ && stale && tick.frame == lostFrame_);
+    set(waits_, Level::Warning, "gpu", {"GPU lost, forces fade", "wait, it is opened again"}, tick.t);
+    set(!waits_ && tick.sceneAge > 5.0 * haptics.staleAfter, Level::Warning, "camera",
+        {print("No camera image for %.1f s, forces fade", tick.sceneAge),
+         "check the camera's cable and power"},
+        tick.t);
+    set(stale && forces, Level::Caution, "stale",
+        {print("Image older than %.0f ms, forces fade", haptics.staleAfter * 1e3),
+         "wait; if it stays, close other programs"},
+        tick.t, {0.25, 1.0});
+}
+
+// What replay lists as warnings (apps/session/run_watch.h), from what the window holds of the run.
+void Alarms::stepProtection(const RunView& run, const Scene& scene, const StepRecord& tick, bool forces) {
+    const Fixtures& shown = run.scene().set;
+    regionSeen_.resize(scene.fixtures.size(), tick.t);
+    for (size_t row = 0; row < scene.fixtures.size(); ++row) {
+        const FixtureClass& f = scene.fixtures[row];
+        const bool counts =
+            f.isPoints() && f.role == Role::Forbidden && !isSpare(f) && !f.frozen && shown.frame >= 0;
+        const std::vector<uint8_t>& of = shown.spheres.fixture;
+        const bool some = !counts || std::find(of.begin(), of.end(), static_cast<uint8_t>(row)) != of.end();
+        regionSeen_[row] = some ? tick.t : std::min(regionSeen_[row], tick.t); // time goes back in playback
+        set(tick.t - regionSeen_[row] > kPatience, Level::Caution, "region " + f.name,
+            {"'" + f.name + "' is not seen and not protected",
+             "point the camera at it, or pick its colour (K)"},
+            tick.t);
+    }
+    forcesSeen_ = tick.state != StepState::Off || tick.frame >= 0 ? tick.t : std::min(forcesSeen_, tick.t);
+    set(forces && tick.t - forcesSeen_ > kPatience, Level::Caution, "off",
+        shown.frame < 0 ? Text{"No force, no camera image yet", "wait, or check the camera"}
+                        : Text{"No force, the regions here are not known yet", "move the hand slowly"},
+        tick.t);
+}
+
+// What forces can do to the hand.
+void Alarms::stepForces(const RunView& run, const HapticOptions& haptics, bool forces) {
+    const StepRecord& r = run.step().record;
+    const auto on = [&](bool cause, Level level, const char* key, const Text& text, Filter filter) {
+        set(forces && cause, level, key, text, r.t, filter);
+    };
+    const double late = run.rates().worstPeriodMs, apart = glm::distance(r.tool.position, r.device.position);
+    on(r.state == StepState::Trapped, Level::Warning, "trapped",
+       {"Tool trapped between regions, force fades", "pull the hand back"}, {});
+    on(glm::length(r.wrench.force) > 0.98 * haptics.forceLimit, Level::Caution, "force",
+       {print("Force at its limit of %.3g N", haptics.forceLimit), "ease off"}, {0.0, 1.0});
+    on(glm::length(r.wrench.torque) > 0.98 * haptics.torqueLimit, Level::Caution, "torque",
+       {print("Torque at its limit of %.3g N m", haptics.torqueLimit), "turn the hand back"}, {0.0, 1.0});
+    on(late > 1e4 * haptics.period, Level::Caution, "overrun",
+       {print("Forces came %.0f ms late", late), "close other programs"}, {0.0, 1.0});
+    on(r.state == StepState::Escape, Level::Caution, "escape",
+       {"A region now covers the tool, which moves out", "let the hand follow"}, {0.15, 1.0});
+    on(r.marginPassive < kMarginNoise, Level::Caution, "passive",
+       {"Springs are stiffer than the device can hold", "lower haptics.stiffness"}, {0.25, 1.0});
+    on(apart > kHandApart, Level::Advisory, "apart",
+       {print("Hand and tool are %.0f mm apart", 1e3 * apart), "bring the hand back"}, {0.25, 1.0});
+}
+
+void Alarms::stepTargets(const RunView& run, const Scene& scene, double t) {
+    for (const GuidancePose& g : run.scene().set.guidance) {
+        if (g.fixture < scene.fixtures.size() && !isSpare(scene.fixtures[g.fixture])) {
+            const std::string& name = scene.fixtures[g.fixture].name;
+            set(!g.present, Level::Advisory, "target " + name,
+                {"No target, '" + name + "' is hardly seen", "point the camera at it"}, t);
+        }
+    }
+}
+
+void Alarms::step(Console& console, const RunView& run, const HapticOptions& haptics, const Scene& scene,
+                  const Health& health) {
+    const double now = run.anyTick() ? run.step().record.t : 0.0;
+    set(health.handGone, Level::Warning, "hand",
+        {"Haptic device lost, forces are off", "check its cable; it reconnects by itself"}, now);
+    set(!health.recorderFailed.empty(), Level::Caution, "recorder",
+        {"Recording stopped, " + health.recorderFailed, "free disk space, then press R"}, now);
+    if (run.anyTick()) {
+        const StepRecord& r = run.step().record;
+        set(!r.finite, Level::Warning, "finite",
+            {"A force was not a number and was left out", "Space, then restart"}, r.t);
+        stepScene(r, haptics, health.gpuGone, console.forces);
+        stepProtection(run, scene, r, console.forces);
+        stepForces(run, haptics, console.forces);
+        const ArmState arm = run.step().driven ? run.step().armStatus.state : ArmState::Follows;
+        set(isFault(arm), Level::Warning, "arm",
+            {print("Arm %s, arm and tool stand still", armStateName(arm)), "check the arm, then press A"},
+            r.t);
+        set(console.frozen, Level::Advisory, "frozen",
+            {"Fixtures frozen, new images do not change them", "F to release"}, r.t);
+        stepTargets(run, scene, r.t);
+    }
+    if (console.acknowledge) {
+        for (Alarm& alarm : alarms_) {
+            alarm.acknowledged = true;
+        }
+        console.acknowledge = false;
+    }
+    std::erase_if(alarms_, [](const Alarm& a) { return !a.active && a.acknowledged; });
+}
+
+} // namespace fathom::operate
