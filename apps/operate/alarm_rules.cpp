@@ -12,8 +12,8 @@ namespace fathom::operate {
 
 namespace {
 
-constexpr double kPatience = 1.0; // [s]
-constexpr double kHandApart = 0.10;   // [m] from hand to tool
+constexpr double kPatience = 1.0;   // [s]
+constexpr double kHandApart = 0.10; // [m] from hand to tool
 
 template <class Value>
 std::string print(const char* form, Value value) {

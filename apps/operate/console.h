@@ -28,9 +28,10 @@ struct Pick {
     bool active = false; // waiting for a click, or showing a preview
     bool taken = false;  // a pixel was chosen
     uint32_t u = 0, v = 0;
-    FixtureClass gates; // the class to add
-    int row = -1;       // row of the class whose gates are edited; -1 = a new class
-    bool fresh = false; // the preview has not been computed yet
+    FixtureClass gates;                // the class to add
+    int row = -1;                      // row of the class whose gates are edited; -1 = a new class
+    bool fresh = false;                // the preview has not been computed yet
+    std::vector<std::string> warnings; // what adding it would do at once (pick_ghost.h)
 };
 
 // The position in a recording. `on` is false, and the rest unused, in a live run.
@@ -74,6 +75,9 @@ struct Console {
     bool aims() const { return (pick.active && !pick.taken) || placing != ShapeKind::None; }
 
     std::string pilotWanted; // name of a pilot to switch to; empty = no request
+
+    std::string renamed;            // name of the fixture whose name is being edited; empty = none
+    std::array<char, 64> newName{}; // as typed
 
     int editedBoxRow = -1; // fixture whose box is being dragged
     Box editedBox;

@@ -151,10 +151,18 @@ bool FixtureEditor::takePicked(Console& console) {
     const int row = console.pick.row;
     const auto spare = row >= 0 ? next.fixtures.begin() + std::min(row, count)
                                 : std::find_if(next.fixtures.begin(), next.fixtures.end(), isSpare);
+    if (row < 0) { // the name may be taken or empty by now
+        const std::string wanted = console.pick.gates.name;
+        const bool free = wanted.find_first_not_of(' ') != std::string::npos &&
+                          std::none_of(next.fixtures.begin(), next.fixtures.end(),
+                                       [&](const FixtureClass& f) { return f.name == wanted; });
+        console.pick.gates.name = free ? wanted : freeName(next, "picked");
+    }
     const bool added = console.pick.taken && spare != next.fixtures.end() &&
                        (row < 0 || spare->name == console.pick.gates.name); // undo may have moved rows
     if (added) {
         *spare = console.pick.gates;
+        lastTaken_ = spare->name;
         apply(std::move(next));
     }
     console.pick = Pick{};
@@ -186,6 +194,24 @@ void FixtureEditor::change(size_t row, const FixtureClass& to) {
     Scene next = scene_;
     next.fixtures.at(row) = to;
     apply(std::move(next));
+}
+
+std::string FixtureEditor::rename(size_t row, const std::string& name) {
+    FixtureClass renamed = scene_.fixtures.at(row);
+    if (name == renamed.name) {
+        return "";
+    }
+    const bool taken = std::any_of(scene_.fixtures.begin(), scene_.fixtures.end(),
+                                   [&](const FixtureClass& f) { return f.name == name; });
+    renamed.name = name;
+    if (name.find_first_not_of(' ') == std::string::npos || isSpare(renamed)) {
+        return "not renamed: a name needs a letter or digit";
+    }
+    if (taken) {
+        return "not renamed: '" + name + "' exists already";
+    }
+    change(row, renamed);
+    return "";
 }
 
 // The row of a class of points becomes a spare row; the row of a shape is erased.

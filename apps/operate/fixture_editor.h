@@ -29,9 +29,12 @@ public:
     void preview(Console& console, const SceneSnapshot& snapshot);
     // Puts the picked class into a spare row (false when none is left), or the edited gates into their row.
     bool takePicked(Console& console);
+    const std::string& lastTaken() const { return lastTaken_; } // name of the class that it made active
     // Adds an authored shape at a point of the base frame with the normal of the surface.
     bool place(ShapeKind kind, const dvec3& base, const dvec3& normal);
     void change(size_t row, const FixtureClass& to); // makes one undo step
+    // One undo step. Returns why not, or nothing: the name is empty or another fixture's.
+    std::string rename(size_t row, const std::string& name);
     void remove(size_t row);
     bool undo();
     bool redo();
@@ -67,6 +70,7 @@ private:
     uint64_t selectionNumber_ = 0;
     size_t selected_ = 0;
     std::array<float, 72> hues_{};
+    std::string lastTaken_;
     std::string saved_; // rows() as last saved, loaded or shown
 };
 

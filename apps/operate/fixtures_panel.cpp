@@ -3,6 +3,7 @@
 #include "apps/operate/fixture_editor.h"
 #include "apps/operate/holding_panel.h"
 #include "apps/operate/keys.h"
+#include "apps/operate/pick_panel.h"
 #include "apps/operate/theme.h"
 #include "apps/session/session.h"
 
@@ -13,76 +14,6 @@
 namespace fathom::operate {
 
 namespace {
-
-bool bandSlider(const char* name, std::optional<Band>& band, float most) {
-    if (!band) {
-        return false;
-    }
-    float ends[] = {static_cast<float>(band->lo), static_cast<float>(band->hi)};
-    const bool changed = ImGui::SliderFloat2(name, ends, 0.0f, most, most > 1.0f ? "%.0f" : "%.2f");
-    if (changed) {
-        band = Band{double{ends[0]}, double{ends[1]}};
-    }
-    return changed;
-}
-
-// Histogram of the image's hues in their own colours; hues inside the gate are bright.
-void histogram(const std::array<float, 72>& hues, const FixtureClass& gates) {
-    const float width = ImGui::GetContentRegionAvail().x, height = 38.0f;
-    const ImVec2 at = ImGui::GetCursorScreenPos();
-    ImDrawList& list = *ImGui::GetWindowDrawList();
-    list.AddRectFilled(at, {at.x + width, at.y + height}, IM_COL32(12, 16, 23, 255), 3.0f);
-    for (size_t i = 0; i < hues.size(); ++i) {
-        const double hue = 5.0 * static_cast<double>(i) + 2.5;
-        const bool in = gates.hue && inBand(gates.hue, hue);
-        ImVec4 rgb(0, 0, 0, in ? 1.0f : 0.45f);
-        ImGui::ColorConvertHSVtoRGB(static_cast<float>(hue / 360.0), 0.85f, 0.95f, rgb.x, rgb.y, rgb.z);
-        const float x = at.x + width * static_cast<float>(i) / 72.0f;
-        const float tall = std::max(1.0f, std::sqrt(hues[i]) * (height - 8.0f));
-        list.AddRectFilled({x, at.y + height - 5.0f - tall}, {x + width / 72.0f - 1.0f, at.y + height - 5.0f},
-                           ImColor(rgb));
-        if (in) {
-            list.AddRectFilled({x, at.y + height - 4.0f}, {x + width / 72.0f, at.y + height},
-                               colour::kPicked);
-        }
-    }
-    ImGui::Dummy({width, height});
-}
-
-void pickPanel(Console& console, FixtureEditor& editor, const SceneSnapshot& snapshot) {
-    if (!console.pick.taken) {
-        ImGui::TextColored(ImColor(colour::kPicked),
-                           "Click on a colour in the camera view, or use arrows and Enter.  Esc: cancel");
-        return;
-    }
-    FixtureClass& gates = console.pick.gates;
-    if (std::exchange(console.pick.fresh, false)) {
-        editor.preview(console, snapshot);
-    }
-    const bool anew = console.pick.row < 0;
-    if (!anew) {
-        ImGui::TextColored(ImColor(colour::kPicked), "'%s':", gates.name.c_str());
-        ImGui::SameLine();
-    }
-    ImGui::TextColored(ImColor(colour::kPicked), "Would select %zu points (cyan)", editor.selectedPoints());
-    markPlace(console, "preview");
-    histogram(editor.hues(), gates);
-    bool changed = bandSlider("hue", gates.hue, 360.0f);
-    changed = bandSlider("saturation", gates.saturation, 1.0f) || changed;
-    changed = bandSlider("lightness", gates.lightness, 1.0f) || changed;
-    if (changed) {
-        editor.preview(console, snapshot);
-    }
-    int role = gates.role == Role::Forbidden ? 0 : 1;
-    ImGui::RadioButton("forbidden", &role, 0);
-    markPlace(console, "role forbidden");
-    ImGui::SameLine();
-    ImGui::RadioButton("guidance", &role, 1);
-    markPlace(console, "role guidance");
-    gates.role = role == 0 ? Role::Forbidden : Role::Guidance;
-    console.addPicked = ImGui::Button(anew ? "Add  (Enter)" : "Change  (Enter)");
-    markPlace(console, "add");
-}
 
 // Slider for a radius or size [m]; true when it is released at a new value. id: unique among all sliders.
 bool sizeSlider(Console& console, double& size, const char* word, const std::string& place, int id) {
@@ -128,6 +59,39 @@ bool sizes(Console& console, FixtureClass& now, int row) {
     return done;
 }
 
+// The name, or a field for a new one: Enter takes it, Esc keeps the old one.
+void nameOf(Console& console, FixtureEditor& editor, size_t i) {
+    const std::string name = editor.scene().fixtures[i].name;
+    if (console.renamed != name) {
+        ImGui::TextUnformatted(name.c_str());
+        return;
+    }
+    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - 6.0f * ImGui::GetTextLineHeight());
+    if (ImGui::IsWindowFocused(ImGuiFocusedFlags_ChildWindows) && !ImGui::IsAnyItemActive()) {
+        ImGui::SetKeyboardFocusHere();
+    }
+    const bool done =
+        ImGui::InputText("##name", console.newName.data(), console.newName.size(),
+                         ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+    markPlace(console, "new name");
+    if (done) {
+        const std::string problem = editor.rename(i, console.newName.data());
+        console.notify(problem.empty() ? "'" + std::string(console.newName.data()) + "' is its name now"
+                                       : problem);
+    }
+    if (done || ImGui::IsItemDeactivated()) {
+        console.renamed.clear();
+    }
+}
+
+void renameButton(Console& console, const std::string& name) {
+    if (markedButton(console, "Rename", "rename " + name)) {
+        console.renamed = name;
+        console.newName.fill(0);
+        name.copy(console.newName.data(), console.newName.size() - 1);
+    }
+}
+
 // One fixture: name, role, sizes. Releasing a slider makes one undo step.
 void row(Console& console, FixtureEditor& editor, size_t i, const SceneSnapshot& snapshot) {
     const FixtureClass before = editor.scene().fixtures[i];
@@ -136,8 +100,11 @@ void row(Console& console, FixtureEditor& editor, size_t i, const SceneSnapshot&
     const bool guides = now.role == Role::Guidance;
     ImGui::TextColored(ImColor(guides ? colour::kGuidance : colour::kRegionSoft), "%s", guides ? "+" : "#");
     ImGui::SameLine();
-    ImGui::TextUnformatted(now.name.c_str());
-    ImGui::SameLine(ImGui::GetContentRegionAvail().x - 22.0f);
+    nameOf(console, editor, i);
+    const float line = ImGui::GetTextLineHeight();
+    ImGui::SameLine(ImGui::GetContentRegionMax().x - 6.2f * line);
+    renameButton(console, before.name);
+    ImGui::SameLine(ImGui::GetContentRegionMax().x - 1.7f * line);
     const bool removed = markedButton(console, "x", "remove " + now.name);
     bool done = false;
     if (now.isPoints()) {
@@ -197,8 +164,7 @@ void handleFixtureKeys(Console& console, FixtureEditor& editor, const SceneSnaps
     const bool adds =
         console.pick.taken && !console.panels && !io.WantTextInput && keyPressed(GLFW_KEY_ENTER);
     if (adds || console.addPicked) {
-        const std::string name = console.pick.gates.name;
-        console.notify(editor.takePicked(console) ? "'" + name + "' is active"
+        console.notify(editor.takePicked(console) ? "'" + editor.lastTaken() + "' is active"
                                                   : "not added: at most 8 classes of points");
     }
     if ((control(GLFW_KEY_Z) || console.undo) && editor.undo()) {
@@ -230,7 +196,7 @@ void drawFixtures(Console& console, FixtureEditor& editor, const SceneSnapshot& 
     console.frozen = console.frozen != button(console.frozen ? "Unfreeze" : "Freeze");
     ImGui::NewLine();
     if (console.pick.active) {
-        pickPanel(console, editor, snapshot);
+        drawPick(console, editor, snapshot);
     }
     placeButtons(console);
     drawPilots(console, editor.scene());

@@ -94,6 +94,21 @@ void Screen::findCues(const ScreenInput& input) {
     cues_ = depthCues(input.run.scene().set, std::move(tool), record.clearance);
 }
 
+void Screen::findGhost(Console& console, const FixtureEditor& editor, const SceneSnapshot& scene) {
+    const FixtureClass& gates = console.pick.gates;
+    const bool shown = console.pick.taken && gates.role == Role::Forbidden;
+    if (shown && (ghostNumber_ != editor.selectionNumber() || ghostRadius_ != gates.radius)) {
+        ghost_ = ghostOf(scene.set, editor.selection(), gates.radius);
+        ghostNumber_ = editor.selectionNumber();
+        ghostRadius_ = gates.radius;
+    }
+    if (!shown) {
+        ghost_.clear();
+        ghostNumber_ = 0;
+    }
+    console.pick.warnings = coverWarnings(ghost_, cues_.tool, scene.set.guidance, editor.scene());
+}
+
 void Screen::drawViews(Console& console, const FixtureEditor& editor, const ScreenInput& input) {
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     for (const ViewPort* port : {&*cameraPort_, &*spacePort_}) {
@@ -112,6 +127,7 @@ void Screen::drawViews(Console& console, const FixtureEditor& editor, const Scre
         }
         const MarksInput marks{*port,     input.run,      input.tool, editor.scene(), editor.shapes(),
                                input.arm, input.measured, cues_,      surface,        large};
+        drawGhost(list, *port, ghost_);
         const double hidden = drawMarks(list, marks);
         if (large) {
             cues_.hidden = hidden;
@@ -230,6 +246,7 @@ void Screen::draw(Console& console, FixtureEditor& editor, Alarms& alarms, const
     const Rooms rooms = arrange(ImGui::GetIO().DisplaySize, console.textScale, console.timeLine.on);
     makeImages(console, editor, input, rooms);
     findCues(input);
+    findGhost(console, editor, input.run.scene());
     drawViews(console, editor, input);
     drawHeadLine(console, input.hud, cornerOf(rooms.head), sizeOf(rooms.head));
     ImGui::SetNextWindowPos(cornerOf(rooms.gauges));

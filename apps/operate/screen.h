@@ -7,6 +7,7 @@
 #include "apps/operate/fixture_editor.h"
 #include "apps/operate/hud.h"
 #include "apps/operate/layout.h"
+#include "apps/operate/pick_ghost.h"
 #include "apps/operate/space_ground.h"
 #include "apps/operate/view_marks.h"
 
@@ -39,6 +40,7 @@ public:
 private:
     void makeImages(const Console& console, const FixtureEditor& editor, const ScreenInput& input,
                     const Rooms& rooms);
+    void findGhost(Console& console, const FixtureEditor& editor, const SceneSnapshot& scene);
     void findCues(const ScreenInput& input);
     SurfaceDepth surfaceOf(const ViewPort& port, const Fixtures& set) const;
     void drawViews(Console& console, const FixtureEditor& editor, const ScreenInput& input);
@@ -54,6 +56,9 @@ private:
     Orbit drawnOrbit_;
     double floor_ = 0.0; // [m] of the grid, base y
     DepthCues cues_;
+    std::vector<Sphere> ghost_; // of the picked colour
+    double ghostRadius_ = 0.0;  // [m]
+    uint64_t ghostNumber_ = 0;  // selection that it shows
     int drawnLevel_ = -1;
     bool centred_ = false, drawnLarge_ = false, redraw_ = false;
     uint64_t selectionDrawn_ = 0;

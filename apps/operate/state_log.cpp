@@ -41,6 +41,8 @@ json consoleOf(const Console& c) {
             {"cursor", c.cursor ? json{c.cursor->x, c.cursor->y} : json(nullptr)},
             {"picking", c.pick.active},
             {"picked", c.pick.taken},
+            {"pick_warnings", c.pick.warnings},
+            {"renaming", c.renamed},
             {"notice", c.notice},
             {"shots", c.shots},
             {"asks_to_close", c.closing == Closing::Asks},

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/operate/pick_ghost.h"
+
+#include "apps/operate/view_lines.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace fathom::operate {
+
+namespace {
+
+constexpr size_t kMostGhosts = 1500; // spheres
+
+// How far [m] the spheres reach over a sphere; negative: they do not touch it.
+double coverOf(std::span<const Sphere> ghost, const Sphere& what) {
+    double deepest = -1.0;
+    for (const Sphere& g : ghost) {
+        deepest = std::max(deepest, g.radius + what.radius - glm::distance(g.centre, what.centre));
+    }
+    return deepest;
+}
+
+} // namespace
+
+std::vector<Sphere> ghostOf(const Fixtures& set, std::span<const uint8_t> selection, double radius) {
+    const Intrinsics& lens = set.camera.depth;
+    std::vector<Sphere> ghost;
+    if (selection.size() != lens.pixels() || set.depth.size() != selection.size()) {
+        return ghost;
+    }
+    const auto points = static_cast<size_t>(std::count(selection.begin(), selection.end(), uint8_t{1}));
+    const auto step = static_cast<uint32_t>(
+        std::ceil(std::sqrt(static_cast<double>(points) / static_cast<double>(kMostGhosts))));
+    for (uint32_t v = 0; v < lens.height; v += std::max(1u, step)) {
+        for (uint32_t u = 0; u < lens.width; u += std::max(1u, step)) {
+            const size_t i = static_cast<size_t>(v) * lens.width + u;
+            if (selection[i] != 0 && set.depth[i] != 0) {
+                const double z = set.depth[i] * set.camera.metresPerUnit;
+                ghost.push_back({set.baseTcamera.apply(z * dvec3(lens.ray(u, v), 1.0)), radius});
+            }
+        }
+    }
+    return ghost;
+}
+
+std::vector<std::string> coverWarnings(std::span<const Sphere> ghost, std::span<const Sphere> tool,
+                                       std::span<const GuidancePose> targets, const Scene& scene) {
+    std::vector<std::string> warnings;
+    double deepest = -1.0;
+    for (const Sphere& s : tool) {
+        deepest = std::max(deepest, coverOf(ghost, s));
+    }
+    if (deepest > 0.0) {
+        char text[80];
+        std::snprintf(text, sizeof text, "covers the tool: it will be pushed out %.0f mm", 1e3 * deepest);
+        warnings.emplace_back(text);
+    }
+    for (const GuidancePose& g : targets) {
+        if (g.present && g.fixture < scene.fixtures.size() &&
+            coverOf(ghost, {g.target.position, 0.0}) > 0.0) {
+            warnings.push_back("covers the target '" + scene.fixtures[g.fixture].name + "'");
+        }
+    }
+    return warnings;
+}
+
+void drawGhost(ImDrawList& list, const ViewPort& port, std::span<const Sphere> ghost) {
+    if (!ghost.empty()) {
+        outline(list, port, outlineOf(port.view, ghost), colour::kPicked, 2.4f, true);
+    }
+}
+
+} // namespace fathom::operate

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// The panel of a picked colour: name, role, radius, and the gates with the hues of the image.
+#include "apps/operate/pick_panel.h"
+
+#include "apps/operate/theme.h"
+
+#include <cmath>
+#include <utility>
+
+namespace fathom::operate {
+
+namespace {
+
+bool bandSlider(const char* name, std::optional<Band>& band, float most) {
+    if (!band) {
+        return false;
+    }
+    float ends[] = {static_cast<float>(band->lo), static_cast<float>(band->hi)};
+    const bool changed = ImGui::SliderFloat2(name, ends, 0.0f, most, most > 1.0f ? "%.0f" : "%.2f");
+    if (changed) {
+        band = Band{double{ends[0]}, double{ends[1]}};
+    }
+    return changed;
+}
+
+// Histogram of the image's hues in their own colours; hues inside the gate are bright.
+void histogram(const std::array<float, 72>& hues, const FixtureClass& gates) {
+    const float width = ImGui::GetContentRegionAvail().x, height = 38.0f;
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddRectFilled(at, {at.x + width, at.y + height}, IM_COL32(12, 16, 23, 255), 3.0f);
+    for (size_t i = 0; i < hues.size(); ++i) {
+        const double hue = 5.0 * static_cast<double>(i) + 2.5;
+        const bool in = gates.hue && inBand(gates.hue, hue);
+        ImVec4 rgb(0, 0, 0, in ? 1.0f : 0.45f);
+        ImGui::ColorConvertHSVtoRGB(static_cast<float>(hue / 360.0), 0.85f, 0.95f, rgb.x, rgb.y, rgb.z);
+        const float x = at.x + width * static_cast<float>(i) / 72.0f;
+        const float tall = std::max(1.0f, std::sqrt(hues[i]) * (height - 8.0f));
+        list.AddRectFilled({x, at.y + height - 5.0f - tall}, {x + width / 72.0f - 1.0f, at.y + height - 5.0f},
+                           ImColor(rgb));
+        if (in) {
+            list.AddRectFilled({x, at.y + height - 4.0f}, {x + width / 72.0f, at.y + height},
+                               colour::kPicked);
+        }
+    }
+    ImGui::Dummy({width, height});
+}
+
+void nameField(Console& console, FixtureClass& gates) {
+    std::array<char, 64> name{};
+    gates.name.copy(name.data(), name.size() - 1);
+    if (ImGui::InputText("name", name.data(), name.size())) {
+        gates.name = name.data();
+    }
+    markPlace(console, "pick name");
+}
+
+void pickedRadius(Console& console, FixtureClass& gates) {
+    float millimetres = static_cast<float>(1e3 * gates.radius);
+    if (ImGui::SliderFloat("radius", &millimetres, 2.0f, 150.0f, "%.0f mm")) {
+        gates.radius = 1e-3 * static_cast<double>(millimetres);
+    }
+    markPlace(console, "pick radius");
+}
+
+// Name, role, radius and the button that makes it active.
+void card(Console& console, FixtureClass& gates, bool anew) {
+    if (anew) {
+        nameField(console, gates);
+    }
+    int role = gates.role == Role::Forbidden ? 0 : 1;
+    ImGui::RadioButton("forbidden", &role, 0);
+    markPlace(console, "role forbidden");
+    ImGui::SameLine();
+    ImGui::RadioButton("guidance", &role, 1);
+    markPlace(console, "role guidance");
+    gates.role = role == 0 ? Role::Forbidden : Role::Guidance;
+    if (gates.role == Role::Forbidden) {
+        pickedRadius(console, gates);
+    }
+    console.addPicked = ImGui::Button(anew ? "Add  (Enter)" : "Change  (Enter)");
+    markPlace(console, "add");
+}
+
+} // namespace
+
+void drawPick(Console& console, FixtureEditor& editor, const SceneSnapshot& snapshot) {
+    if (!console.pick.taken) {
+        ImGui::PushTextWrapPos(0.0f);
+        ImGui::TextColored(ImColor(colour::kPicked),
+                           "Click on a colour in the camera view, or use arrows and Enter.  Esc: cancel");
+        ImGui::PopTextWrapPos();
+        return;
+    }
+    FixtureClass& gates = console.pick.gates;
+    if (std::exchange(console.pick.fresh, false)) {
+        editor.preview(console, snapshot);
+    }
+    const bool anew = console.pick.row < 0;
+    if (!anew) {
+        ImGui::TextColored(ImColor(colour::kPicked), "'%s':", gates.name.c_str());
+        ImGui::SameLine();
+    }
+    ImGui::TextColored(ImColor(colour::kPicked), "Would select %zu points (cyan)", editor.selectedPoints());
+    markPlace(console, "preview");
+    for (const std::string& warning : console.pick.warnings) {
+        colouredText(colour::kCaution, ("! " + warning).c_str());
+    }
+    card(console, gates, anew);
+    histogram(editor.hues(), gates);
+    bool changed = bandSlider("hue", gates.hue, 360.0f);
+    changed = bandSlider("saturation", gates.saturation, 1.0f) || changed;
+    changed = bandSlider("lightness", gates.lightness, 1.0f) || changed;
+    if (changed) {
+        editor.preview(console, snapshot);
+    }
+}
+
+} // namespace fathom::operate
