@@ -38,16 +38,18 @@ float alarmLine(ImVec2 at, float width, const std::string& words, ImU32 colour, 
 
 } // namespace
 
-void drawAlarmLines(Console& console, const Alarms& alarms, ImVec2 at, float width) {
+void drawAlarmLines(Console& console, const Alarms& alarms, ImVec2 at, ImVec2 room) {
     console.places.erase("alarm");
     const std::vector<const Alarm*> shown = alarms.shown();
     std::vector<const Alarm*> order(shown);
     std::stable_partition(order.begin(), order.end(), [](const Alarm* a) { return !a->acknowledged; });
     const ImVec2 first = at;
+    const float width = room.x,
+                bottom = at.y + room.y - 2.2f * ImGui::GetTextLineHeight(); // one more line fits
     size_t lines = 0;
     for (const Alarm* alarm : order) {
-        if (lines++ == kMostLines) {
-            const std::string more = std::to_string(order.size() - kMostLines) + " more in the tab Alarms";
+        if (lines++ == kMostLines || (lines > 1 && at.y > bottom)) {
+            const std::string more = std::to_string(order.size() - lines + 1) + " more in the tab Alarms";
             at.y += alarmLine(at, width, more, kDimmed, false) + 3.0f;
             break;
         }

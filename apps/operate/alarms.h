@@ -95,8 +95,8 @@ private:
 
 // Panel: present alarms, then the history.
 void drawAlarms(Console& console, const Alarms& alarms);
-// Lines over a view, the worst first; acknowledged ones are dimmed. at: upper left corner; width: of the
-// room.
-void drawAlarmLines(Console& console, const Alarms& alarms, ImVec2 at, float width);
+// Lines over a view, the worst first, as many as there is room for; acknowledged ones are dimmed. at: upper
+// left corner; room: width and height.
+void drawAlarmLines(Console& console, const Alarms& alarms, ImVec2 at, ImVec2 room);
 
 } // namespace fathom::operate

@@ -99,8 +99,8 @@ void Canvas::finishFrame(Console& console, std::span<const Layer> layers, const 
     if (std::exchange(console.screenshot, false)) {
         shoot(console);
     }
-    if (scale_ != console.textScale) {
-        scale_ = console.textScale;
+    if (scale_ != console.drawnScale) {
+        scale_ = console.drawnScale;
         letters_ = loadLetters(scale_);
         applyTheme(scale_);
         if (onDevice_) {

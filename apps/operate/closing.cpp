@@ -67,18 +67,22 @@ void drawClosing(Console& console, ImVec2 corner, ImVec2 size) {
     if (ImGui::Begin("closing", nullptr,
                      ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                          ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize)) {
+        ImGui::PushTextWrapPos(0.9f * size.x);
         ImGui::TextUnformatted("Forces are off. The fixtures have changes that are not saved.");
+        ImGui::PopTextWrapPos();
         ImGui::Dummy({0.0f, 0.3f * ImGui::GetTextLineHeight()});
+        const bool narrow = size.x < 36.0f * ImGui::GetTextLineHeight(); // one below the other
         const auto button = [&](const char* label, const char* place, CloseAnswer meaning) {
             console.closeAnswer = ImGui::Button(label) ? meaning : console.closeAnswer;
             if (!ImGui::IsWindowAppearing()) { // its size is not known in its first frame
                 markPlace(console, place);
             }
+            if (!narrow && meaning != CloseAnswer::Stay) {
+                ImGui::SameLine();
+            }
         };
         button("Save and close  (Enter)", "close save", CloseAnswer::Save);
-        ImGui::SameLine();
         button("Discard and close  (D)", "close discard", CloseAnswer::Discard);
-        ImGui::SameLine();
         button("Stay  (Esc)", "close stay", CloseAnswer::Stay);
         markPlace(console, "closing", ImGui::GetWindowPos(), ImGui::GetWindowSize());
     }

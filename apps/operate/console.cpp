@@ -20,13 +20,14 @@ void Console::takeSettings(const Scene& scene, double chosenTextScale) {
     const Scene::Window kept = scene.window.value_or(Scene::Window{});
     textScale = chosenTextScale > 0.0 ? chosenTextScale : kept.textScale;
     spaceIsLarge = kept.spaceIsLarge;
+    pilotLayout = kept.pilotLayout;
     orbit.yaw = kept.yaw;
     orbit.pitch = kept.pitch;
     orbit.distance = kept.distance;
 }
 
 Scene::Window Console::settings() const {
-    return {textScale, spaceIsLarge, orbit.yaw, orbit.pitch, orbit.distance};
+    return {textScale, spaceIsLarge, orbit.yaw, orbit.pitch, orbit.distance, pilotLayout};
 }
 
 void markPlace(Console& console, const std::string& name) {

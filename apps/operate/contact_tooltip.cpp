@@ -83,7 +83,7 @@ void drawContactTooltip(Console& console, ImDrawList& list, const MarksInput& in
     console.hovered = whyBlocked(*block, input.scene, input.run.scene().set);
     drawRegion(list, input, block->touch);
     ImGui::BeginTooltip();
-    ImGui::PushTextWrapPos(340.0f * static_cast<float>(console.textScale));
+    ImGui::PushTextWrapPos(340.0f * console.scale());
     ImGui::TextColored(ImColor(colour::kTouch), "Stops the tool");
     ImGui::TextUnformatted(console.hovered.c_str());
     ImGui::PopTextWrapPos();

@@ -42,7 +42,7 @@ void drawShadow(ImDrawList& list, const ViewPort& port, const DepthCues& cues);
 double drawBody(ImDrawList& list, const ViewPort& port, std::span<const Sphere> spheres,
                 const SurfaceDepth& surface, ImU32 colour, float width);
 void drawTether(ImDrawList& list, const ViewPort& port, const DepthCues& cues, bool label);
-// From 0 to 200 mm, at the right edge of a rectangle of the window.
-void drawGapBar(Console& console, const DepthCues& cues, const Letters& letters, ImVec2 corner, ImVec2 size);
+// From 0 to 200 mm, in the middle of a rectangle of the window.
+void drawGapBar(Console& console, const DepthCues& cues, const Letters& letters, const PixelRect& place);
 
 } // namespace fathom::operate

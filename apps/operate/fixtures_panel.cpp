@@ -75,9 +75,9 @@ void nameOf(Console& console, FixtureEditor& editor, size_t i) {
                          ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
     markPlace(console, "new name");
     if (done) {
-        const std::string problem = editor.rename(i, console.newName.data());
-        console.notify(problem.empty() ? "'" + std::string(console.newName.data()) + "' is its name now"
-                                       : problem);
+        const std::string wanted(console.newName.data());
+        const std::string problem = editor.rename(i, wanted);
+        console.notify(problem.empty() ? "renamed to " + wanted : problem);
     }
     if (done || ImGui::IsItemDeactivated()) {
         console.renamed.clear();
@@ -109,7 +109,7 @@ void row(Console& console, FixtureEditor& editor, size_t i, const SceneSnapshot&
     bool done = false;
     if (now.isPoints()) {
         int role = guides ? 1 : 0;
-        ImGui::SetNextItemWidth(110.0f * static_cast<float>(console.textScale));
+        ImGui::SetNextItemWidth(110.0f * console.scale());
         done = ImGui::Combo("##role", &role, "forbidden\0guidance\0");
         now.role = role == 0 ? Role::Forbidden : Role::Guidance;
         ImGui::SameLine();

@@ -23,7 +23,8 @@ void hatchUnknown(ImDrawList& list, ImVec2 a, ImVec2 b) {
 }
 
 void barTicks(ImDrawList& list, const Letters& letters, ImVec2 a, ImVec2 b) {
-    for (int mm : {0, 50, 100, 150, 200}) {
+    const bool dense = b.y - a.y < 6.0f * letters.small->FontSize;
+    for (int mm = 0; mm <= 200; mm += dense ? 100 : 50) {
         const float y = b.y - (b.y - a.y) * static_cast<float>(mm) / 200.0f;
         char text[8];
         std::snprintf(text, sizeof text, "%d", mm);
@@ -44,13 +45,18 @@ void barZones(ImDrawList& list, ImVec2 a, ImVec2 b, float width) {
 
 } // namespace
 
-void drawGapBar(Console& console, const DepthCues& cues, const Letters& letters, ImVec2 corner, ImVec2 size) {
+void drawGapBar(Console& console, const DepthCues& cues, const Letters& letters, const PixelRect& place) {
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    console.places.erase("gap bar");
     const float line = letters.body->FontSize, width = 1.1f * line;
     const float room = 5.6f * line; // for the widest value
-    const float height = std::min(0.5f * size.y, 18.0f * line);
-    const ImVec2 plate{corner.x + size.x - room - 1.2f * line,
-                       corner.y + 0.5f * (size.y - height) - 0.4f * line};
+    const float height = std::min(static_cast<float>(place.height) - 2.2f * line, 18.0f * line);
+    if (height < 5.0f * line) {
+        return; // no room for its figures
+    }
+    const ImVec2 plate{static_cast<float>(place.x) + 0.5f * (static_cast<float>(place.width) - room),
+                       static_cast<float>(place.y) +
+                           0.5f * (static_cast<float>(place.height) - height - 2.2f * line)};
     list.AddRectFilled(plate, {plate.x + room, plate.y + height + 2.2f * line}, kBarPlate, 6.0f);
     const ImVec2 a{plate.x + 0.5f * (room - width) + 0.4f * line, plate.y + 0.9f * line};
     const ImVec2 b{a.x + width, a.y + height - 1.0f * line};

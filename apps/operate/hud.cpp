@@ -9,6 +9,8 @@ namespace fathom::operate {
 
 namespace {
 
+constexpr float kBetweenFigures = 22.0f; // [pixels]
+
 template <class... Values>
 std::string print(const char* form, Values... values) {
     char text[160];
@@ -24,9 +26,17 @@ void words(ImFont* font, ImU32 colour, const std::string& text) {
     ImGui::PopFont();
 }
 
-// A value with its name below.
+// A value with its name below; nothing where the row has no room for it.
 void figure(const HudInput& input, const std::string& value, const char* name, ImU32 colour = colour::kText) {
-    ImGui::SameLine(0.0f, 22.0f);
+    const float value0 =
+        input.letters.bold->CalcTextSizeA(input.letters.bold->FontSize, 1e9f, 0.0f, value.c_str()).x;
+    const float name0 = input.letters.small->CalcTextSizeA(input.letters.small->FontSize, 1e9f, 0.0f, name).x;
+    const float end =
+        ImGui::GetItemRectMax().x - ImGui::GetWindowPos().x + kBetweenFigures + std::max(value0, name0);
+    if (end > ImGui::GetWindowContentRegionMax().x) {
+        return;
+    }
+    ImGui::SameLine(0.0f, kBetweenFigures);
     ImGui::BeginGroup();
     words(input.letters.bold, colour, value);
     words(input.letters.small, colour::kQuiet, name);
@@ -129,24 +139,16 @@ void drawHeadLine(Console& console, const HudInput& input, ImVec2 at, ImVec2 siz
     words(input.letters.small, colour::kQuiet, shortened(input.title));
     ImGui::EndGroup();
     markPlace(console, "head mode");
-    ImGui::SameLine(280.0f * static_cast<float>(console.textScale));
+    ImGui::SameLine(280.0f * console.scale());
     ImGui::Dummy({0.0f, 0.0f});
     const Rates rates = input.run.rates();
     const StepRecord& record = input.run.step().record;
     const double period = input.haptics.period;
     const bool slow = rates.worstPeriodMs > 2.5e3 * period;
-    figure(input, print("%.0f Hz", rates.hapticHz), "haptic rate");
-    figure(input, print("%.2f ms", rates.worstPeriodMs), "worst period, 1 s",
-           slow ? colour::kCaution : colour::kText);
-    if (!console.timeLine.on) { // playback has no camera rate
-        figure(input, print("%.1f Hz", rates.cameraHz), "camera rate");
-    }
     const bool stale = record.sceneAge > input.haptics.staleAfter;
-    figure(input, std::isfinite(record.sceneAge) ? print("%.0f ms", record.sceneAge * 1e3) : "none",
-           "scene age", stale ? colour::kWarning : colour::kText);
-    figure(input, print("%u", record.contacts), "contacts",
-           record.contacts > 0 ? colour::kTouch : colour::kText);
-    figure(input, clearanceText(record.clearance), "clearance");
+    if (input.handGone) {
+        figure(input, "LOST", "haptic device", colour::kWarning);
+    }
     if (input.arm != nullptr && input.arm->real) {
         armFigure(input);
         markPlace(console, "head arm");
@@ -155,12 +157,20 @@ void drawHeadLine(Console& console, const HudInput& input, ImVec2 at, ImVec2 siz
         figure(input, "HELD", "by the arm (W: why)", colour::kCaution);
         markPlace(console, "head arm held");
     }
-    if (input.handGone) {
-        figure(input, "LOST", "haptic device", colour::kWarning);
+    figure(input, std::isfinite(record.sceneAge) ? print("%.0f ms", record.sceneAge * 1e3) : "none",
+           "scene age", stale ? colour::kWarning : colour::kText);
+    figure(input, print("%u", record.contacts), "contacts",
+           record.contacts > 0 ? colour::kTouch : colour::kText);
+    figure(input, clearanceText(record.clearance), "clearance");
+    recorderFigure(console, input);
+    figure(input, print("%.0f Hz", rates.hapticHz), "haptic rate");
+    if (!console.timeLine.on) { // playback has no camera rate
+        figure(input, print("%.1f Hz", rates.cameraHz), "camera rate");
     }
+    figure(input, print("%.2f ms", rates.worstPeriodMs), "worst period, 1 s",
+           slow ? colour::kCaution : colour::kText);
     figure(input, print("%.0f %%", 100.0 * input.unknownShare), "unobserved");
     figure(input, print("%.0f Hz", input.windowHz), "window");
-    recorderFigure(console, input);
     if (console.frozen) {
         figure(input, "FROZEN", "fixtures", colour::kCaution);
     }

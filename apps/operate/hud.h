@@ -3,6 +3,7 @@
 #pragma once
 
 #include "apps/operate/console.h"
+#include "apps/operate/layout.h"
 #include "apps/operate/measured_arm.h"
 #include "apps/operate/mode.h"
 #include "apps/operate/run_view.h"
@@ -34,6 +35,8 @@ struct HudInput {
 };
 
 void drawHeadLine(Console& console, const HudInput& input, ImVec2 at, ImVec2 size);
+// The pilot's row of bars: force and torque with their limits.
+void drawForceStrip(Console& console, const HudInput& input, const PixelRect& room);
 void drawGauges(Console& console, const HudInput& input); // call inside the open ImGui window
 
 } // namespace fathom::operate

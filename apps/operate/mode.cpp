@@ -137,24 +137,29 @@ std::vector<Chip> chipsOf(const ModeInput& input) {
 void drawMode(Console& console, const ModeInput& input, ImFont* font, ImVec2 corner, ImVec2 size) {
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     const Mode mode = modeOf(input);
-    const float scale = static_cast<float>(console.textScale), pad = 8.0f * scale;
+    const float scale = console.scale(), pad = 8.0f * scale;
     drawEdge(list, mode, corner, size, scale);
     const std::string word = std::string(mode.sign) + " " + mode.word;
     const ImVec2 wordSize = font->CalcTextSizeA(font->FontSize, 1e9f, 0.0f, word.c_str());
     const std::vector<Chip> chips = chipsOf(input);
-    float width = wordSize.x + 2.0f * pad;
+    float chipsWide = 0.0f;
     for (const Chip& chip : chips) {
-        width += ImGui::CalcTextSize(chip.word.c_str()).x + 3.0f * pad;
+        chipsWide += ImGui::CalcTextSize(chip.word.c_str()).x + 3.0f * pad;
     }
-    const ImVec2 at{corner.x + std::max(0.0f, 0.5f * (size.x - width)), corner.y};
-    const ImVec2 plate{width, wordSize.y + pad};
+    const bool below = !chips.empty() && wordSize.x + 3.0f * pad + chipsWide > 0.9f * size.x; // a second row
+    const float row = ImGui::GetTextLineHeight() + 1.2f * pad;
+    const ImVec2 plate{below ? std::max(wordSize.x + 2.0f * pad, chipsWide)
+                             : wordSize.x + 2.0f * pad + chipsWide,
+                       wordSize.y + pad + (below ? row : 0.0f)};
+    const ImVec2 at{corner.x + std::max(0.0f, 0.5f * (size.x - plate.x)), corner.y};
     list.AddRectFilled(at, {at.x + plate.x, at.y + plate.y}, kPlate, 6.0f * scale,
                        ImDrawFlags_RoundCornersBottom);
     list.AddText(font, font->FontSize, {at.x + pad, at.y + 0.5f * pad}, mode.colour, word.c_str());
-    float x = at.x + wordSize.x + 3.0f * pad;
+    float x = at.x + (below ? 2.0f * pad : wordSize.x + 3.0f * pad);
+    const float middle = below ? at.y + wordSize.y + pad + 0.5f * row : at.y + 0.5f * plate.y;
     for (const Chip& chip : chips) {
         const ImVec2 text = ImGui::CalcTextSize(chip.word.c_str());
-        const float y = at.y + 0.5f * (plate.y - text.y);
+        const float y = middle - 0.5f * text.y;
         list.AddRect({x - pad, y - 0.3f * pad}, {x + text.x + pad, y + text.y + 0.3f * pad}, chip.colour,
                      4.0f * scale);
         list.AddText({x, y}, chip.colour, chip.word.c_str());
@@ -174,7 +179,7 @@ void drawRefusal(Console& console, ImFont* font, ImVec2 corner, ImVec2 size) {
     const ImVec2 a{corner.x + 0.5f * (size.x - text.x) - letter,
                    corner.y + 0.5f * (size.y - text.y) - letter};
     const ImVec2 b{a.x + text.x + 2.0f * letter, a.y + text.y + 2.0f * letter};
-    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    ImDrawList& list = *ImGui::GetForegroundDrawList(); // over the marks
     list.AddRectFilled(a, b, kPlate, 6.0f);
     list.AddRect(a, b, colour::kWarning, 6.0f, 0, 3.0f);
     list.AddText(font, letter, {a.x + letter, a.y + letter}, colour::kText, words.c_str(), nullptr, wrap);

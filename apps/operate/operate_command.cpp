@@ -36,8 +36,8 @@ void addOperateCommand(CLI::App& app, const GlobalOptions& global) {
         ->check(numberIn(Range::between(0.0, 604800.0)));
     command->add_option("--pilot", options->pilot,
                         "use stiffness, limits and scale of this pilot of the scene");
-    command->add_option("--text-scale", options->textScale, "text size, 0.75 to 2")
-        ->check(numberIn(Range::between(0.75, 2.0)));
+    command->add_option("--text-scale", options->textScale, "text size, 0.75 to 2.5")
+        ->check(numberIn(Range::between(0.75, 2.5)));
     command->add_option("--state", options->state,
                         "write what the window shows to this file, one JSON object per line");
     command->add_option("--folder", options->shots, "where screenshots, traces and recordings go");

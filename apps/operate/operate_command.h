@@ -19,7 +19,7 @@ struct OperateOptions : SessionOptions {
     std::string offscreen;    // WxH: draws without a surface; empty = a window
     double seconds = 0.0;     // ends after this time; 0 = when the window is closed
     double ticks = 0.0;       // [s] ends after this much run time in ticks; 0 = never
-    double textScale = 0.0;   // 0.75 to 2; 0 = the scene's
+    double textScale = 0.0;   // 0.75 to 2.5; 0 = the scene's
     std::string state;        // file of JSON lines with the state of the window, for other programs
     std::string shots; // folder for screenshots (F12), recordings and exports; empty = the working directory
 };

@@ -46,6 +46,7 @@ double RunDisplay::beginFrame() {
     const double now = seconds(), dt = now - lastFrame_;
     windowHz_ += 0.05 * (1.0 / std::max(1e-3, dt) - windowHz_);
     lastFrame_ = now;
+    console.drawnScale = scaleThatFits(ImGui::GetIO().DisplaySize, console.textScale, console.pilotLayout);
     return dt;
 }
 
@@ -75,6 +76,9 @@ HudInput RunDisplay::hud(const HapticOptions& haptics) const {
 void RunDisplay::draw(FixtureEditor& editor, const ScreenInput& input) {
     screen.draw(console, editor, alarms, input);
     const auto& room = console.places["traces room"];
+    if (room[3] <= 0.0f) {
+        return; // not in the pilot's layout
+    }
     traces_.draw(console, input.hud, {room[0], room[1]}, {room[2], room[3]});
 }
 

@@ -115,7 +115,8 @@ std::string windowBlock(const Scene::Window& window) {
     std::ostringstream out;
     out << std::setprecision(6) << "window: {text_scale: " << window.textScale
         << ", large: " << (window.spaceIsLarge ? "space" : "camera") << ", yaw: " << window.yaw
-        << ", pitch: " << window.pitch << ", distance: " << window.distance << "}\n";
+        << ", pitch: " << window.pitch << ", distance: " << window.distance
+        << (window.pilotLayout ? ", layout: pilot" : "") << "}\n";
     return out.str();
 }
 

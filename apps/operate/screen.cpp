@@ -4,8 +4,8 @@
 #include "apps/operate/closing.h"
 #include "apps/operate/contact_tooltip.h"
 #include "apps/operate/space_marks.h"
-#include "apps/operate/steering.h"
-#include "apps/operate/why_panel.h"
+#include "apps/operate/stop_plate.h"
+#include "apps/operate/tabs.h"
 #include "apps/replay/silhouette.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace fathom::operate {
 
 namespace {
 
-constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+constexpr ImGuiWindowFlags kPanel = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus;
 
 bool sameOrbit(const Orbit& a, const Orbit& b) {
@@ -28,7 +28,7 @@ void Screen::makeImages(const Console& console, const FixtureEditor& editor, con
                         const Rooms& rooms) {
     const SceneSnapshot& scene = input.run.scene();
     const bool newSelection = selectionDrawn_ != editor.selectionNumber();
-    const bool first = !cameraPort_ || std::exchange(redraw_, false);
+    const bool first = !cameraPort_ || std::exchange(redraw_, false) || drawnLarge_ != console.spaceIsLarge;
     if (!centred_ && scene.any) {
         const SpaceBounds bounds = boundsOf(scene.set, input.arm);
         drawnOrbit_.centre = bounds.middle;
@@ -61,13 +61,16 @@ void Screen::makeImages(const Console& console, const FixtureEditor& editor, con
     cameraPort_ =
         ViewPort{camera_.view(), fitted(cameraRoom, camera_.view().width(), camera_.view().height())};
     spacePort_ = ViewPort{space_.view(), fitted(spaceRoom, width, height)};
-    large_ = console.spaceIsLarge ? &*spacePort_ : &*cameraPort_;
+    ViewPort& large = console.spaceIsLarge ? *spacePort_ : *cameraPort_;
+    large.where.x = rooms.large.x; // what its shape leaves free is at the right
+    large_ = &large;
     const auto none = std::span<const uint32_t>();
-    layers_[0] = {fresh ? std::span<const uint32_t>(camera_.pixels()) : none,
-                  static_cast<uint32_t>(camera_.view().width()),
-                  static_cast<uint32_t>(camera_.view().height()), cameraPort_->where};
-    layers_[1] = {space ? std::span<const uint32_t>(space_.pixels()) : none, width, height,
-                  spacePort_->where};
+    const size_t under = console.spaceIsLarge ? 1 : 0; // the inset is drawn over the large view
+    layers_[under] = {fresh ? std::span<const uint32_t>(camera_.pixels()) : none,
+                      static_cast<uint32_t>(camera_.view().width()),
+                      static_cast<uint32_t>(camera_.view().height()), cameraPort_->where};
+    layers_[1 - under] = {space ? std::span<const uint32_t>(space_.pixels()) : none, width, height,
+                          spacePort_->where};
 }
 
 // The depth under the pixels of a view. With separate cameras, parallax is ignored.
@@ -136,7 +139,7 @@ void Screen::drawViews(Console& console, const FixtureEditor& editor, const Scre
         const char* name = port == &*cameraPort_    ? "camera"
                            : console.treeLevel >= 0 ? "3D, tree bounds"
                                                     : "3D";
-        const float inside = large ? 18.0f * static_cast<float>(console.textScale) : 8.0f; // of the frame
+        const float inside = large ? 18.0f * console.scale() : 8.0f; // of the frame
         drawWords(list, {corner.x + inside, corner.y + inside},
                   large ? name : std::string(name) + "   Tab: swap", colour::kQuiet);
         list.PopClipRect();
@@ -144,134 +147,62 @@ void Screen::drawViews(Console& console, const FixtureEditor& editor, const Scre
     }
 }
 
-namespace {
-
-// The keys that are useful in the present state.
-std::string hintOf(const Console& console, bool driven) {
-    if (console.timeLine.on) {
-        return "Recording.   Drag the time line   Space: play   arrows: frames, with Shift ticks   [ ]: "
-               "speed   "
-               "Tab: 3D   F1: all keys";
+void Screen::drawOver(Console& console, const Alarms& alarms, const ScreenInput& input, const Rooms& rooms) {
+    const ImVec2 corner = cornerOf(large_->where), size = sizeOf(large_->where);
+    drawMode(console, {console, input.run, input.hud.haptics}, input.hud.letters.large, corner, size);
+    drawGapBar(console, cues_, input.hud.letters, rooms.gap);
+    if (!console.timeLine.on) { // nothing is live
+        drawStop(console, input.hud.letters, rooms.stop);
     }
-    if (console.aims()) {
-        return "Click, or use arrows (Shift: slowly) and Enter   Esc: cancel";
-    }
-    if (console.panels) {
-        return "Keyboard in the panels: arrows choose, Enter presses   Space: forces off   F6, Esc: back";
-    }
-    const std::string moves = driven ? "" : "drag, wheel, arrows: tool   ";
-    if (console.spaceIsLarge) {
-        return "Right drag: turn the view   1 2 3: front, side, top   0: reset   Ctrl+wheel: distance   Tab: "
-               "camera"
-               "   F1: all keys";
-    }
-    const std::string hint = console.forces ? "Space: forces off   G: guidance   " + moves + "F1: all keys"
-                                            : "A: arm the forces   " + moves + "Tab: 3D   F1: all keys";
-    return driven ? hint : "No haptic device: mouse and keyboard drive.   " + hint;
+    drawRefusal(console, input.hud.letters.bold, corner, size);
+    drawClosing(console, corner, size);
+    const float inside = 18.0f * console.scale(); // of the frame
+    const auto& mode = console.places["mode"];
+    const float below =
+        std::max(corner.y + inside + 1.5f * ImGui::GetTextLineHeight(), mode[1] + mode[3] + 4.0f);
+    drawAlarmLines(console, alarms, {corner.x + inside, below},
+                   {0.6f * size.x, corner.y + size.y - below - 5.0f * ImGui::GetTextLineHeight()});
+    drawHint(console, input.hud.driven, large_->where, rooms.stop);
 }
 
-} // namespace
-
-// The keyboard cursor, and the hint at the lower edge of the large view.
-void Screen::drawHint(Console& console, const ScreenInput& input) const {
-    ImDrawList& list = *ImGui::GetBackgroundDrawList();
-    if (console.cursor) {
-        const ImVec2 c = *console.cursor;
-        list.AddCircle(c, 9.0f, colour::kPicked, 0, 2.0f);
-        list.AddLine({c.x - 14.0f, c.y}, {c.x + 14.0f, c.y}, colour::kPicked);
-        list.AddLine({c.x, c.y - 14.0f}, {c.x, c.y + 14.0f}, colour::kPicked);
-    }
-    const PixelRect& w = large_->where;
-    const float inside = 18.0f * static_cast<float>(console.textScale); // of the frame
-    const float x = static_cast<float>(w.x) + inside,
-                bottom = static_cast<float>(w.y + w.height) - 0.6f * inside;
-    const float line = ImGui::GetTextLineHeight() + 6.0f;
-    drawWords(list, {x, bottom - line}, hintOf(console, input.hud.driven), colour::kText);
-    if (ImGui::GetTime() < console.noticeUntil) {
-        drawWords(list, {x, bottom - 2.2f * line}, console.notice, colour::kPicked);
-    }
-}
-
-void Screen::drawTabs(Console& console, FixtureEditor& editor, Alarms& alarms, const ScreenInput& input,
-                      const PixelRect& room) {
-    ImGui::SetNextWindowPos(cornerOf(room));
-    ImGui::SetNextWindowSize(sizeOf(room));
-    ImGui::Begin("panels", nullptr, kFixed);
-    constexpr const char* kNames[] = {"Fixtures", "Why?", "Alarms", "Keys"};
-    if (ImGui::BeginTabBar("tabs")) {
-        for (Tab tab : {Tab::Fixtures, Tab::Why, Tab::Alarms, Tab::Help}) {
-            const bool wanted = console.tab == tab && console.shownTab != tab;
-            const Alarm* worst = alarms.worst();
-            const bool calls = tab == Tab::Alarms && worst != nullptr;
-            const std::string name = std::string(kNames[static_cast<int>(tab)]) +
-                                     (calls ? std::string(" ") + levelSign(worst->level) : "") + "###" +
-                                     kNames[static_cast<int>(tab)];
-            if (calls) {
-                ImGui::PushStyleColor(ImGuiCol_Text, levelColour(worst->level));
-            }
-            const bool open =
-                ImGui::BeginTabItem(name.c_str(), nullptr, wanted ? ImGuiTabItemFlags_SetSelected : 0);
-            markPlace(console, std::string("tab ") + kNames[static_cast<int>(tab)]);
-            if (calls) {
-                ImGui::PopStyleColor();
-            }
-            if (!open) {
-                continue;
-            }
-            console.tab = wanted || console.tab == console.shownTab ? tab : console.tab;
-            console.shownTab = tab;
-            ImGui::BeginChild("inside", ImVec2(0.0f, 0.0f), false, ImGuiWindowFlags_NavFlattened);
-            if (tab == Tab::Fixtures) {
-                drawFixtures(console, editor, input.run.scene());
-            } else if (tab == Tab::Why) {
-                drawWhy(input.run, editor.scene(), input.hud.armHolds);
-            } else if (tab == Tab::Alarms) {
-                drawAlarms(console, alarms);
-            } else {
-                for (const KeyHelp& help : keyHelp()) {
-                    ImGui::TextColored(ImColor(colour::kGuidance), "%s", help.keys);
-                    ImGui::SameLine(150.0f * static_cast<float>(console.textScale));
-                    ImGui::TextUnformatted(help.what);
-                }
-            }
-            ImGui::EndChild();
-            ImGui::EndTabItem();
-        }
-        ImGui::EndTabBar();
-    }
+// The parts that only the engineer's layout has.
+void Screen::drawFigures(Console& console, const ScreenInput& input, const Rooms& rooms) {
+    drawHeadLine(console, input.hud, cornerOf(rooms.head), sizeOf(rooms.head));
+    ImGui::SetNextWindowPos(cornerOf(rooms.gauges));
+    ImGui::SetNextWindowSize(sizeOf(rooms.gauges));
+    ImGui::Begin("gauges", nullptr, kPanel);
+    drawGauges(console, input.hud);
     ImGui::End();
 }
 
 void Screen::draw(Console& console, FixtureEditor& editor, Alarms& alarms, const ScreenInput& input) {
-    const Rooms rooms = arrange(ImGui::GetIO().DisplaySize, console.textScale, console.timeLine.on);
+    Rooms rooms =
+        arrange({ImGui::GetIO().DisplaySize, console.drawnScale, console.pilotLayout, console.timeLine.on});
     makeImages(console, editor, input, rooms);
+    if (!console.pilotLayout) {
+        besideView(rooms, large_->where, console.scale());
+    }
     findCues(input);
     findGhost(console, editor, input.run.scene());
     drawViews(console, editor, input);
-    drawHeadLine(console, input.hud, cornerOf(rooms.head), sizeOf(rooms.head));
-    ImGui::SetNextWindowPos(cornerOf(rooms.gauges));
-    ImGui::SetNextWindowSize(sizeOf(rooms.gauges));
-    ImGui::Begin("gauges", nullptr, kFixed);
-    drawGauges(console, input.hud);
-    ImGui::End();
+    if (console.pilotLayout) {
+        drawForceStrip(console, input.hud, rooms.strip);
+    } else {
+        drawFigures(console, input, rooms);
+    }
     if (console.pick.active && console.shownTab != Tab::Fixtures) {
         console.tab = Tab::Fixtures;
     }
-    drawTabs(console, editor, alarms, input, rooms.tabs);
+    const bool tabs =
+        !console.pilotLayout || console.panelOpen || console.aims() || console.pick.active || console.panels;
+    if (tabs) {
+        drawTabs(console, editor, alarms, {input.run, input.hud}, rooms.tabs);
+    }
     if (console.closing == Closing::No) {
         handleFixtureKeys(console, editor, input.run.scene());
     }
-    drawMode(console, {console, input.run, input.hud.haptics}, input.hud.letters.large,
-             cornerOf(large_->where), sizeOf(large_->where));
-    drawGapBar(console, cues_, input.hud.letters, cornerOf(large_->where), sizeOf(large_->where));
-    drawRefusal(console, input.hud.letters.bold, cornerOf(large_->where), sizeOf(large_->where));
-    drawClosing(console, cornerOf(large_->where), sizeOf(large_->where));
-    const float inside = 18.0f * static_cast<float>(console.textScale); // of the frame
-    const ImVec2 corner = cornerOf(large_->where);
-    drawAlarmLines(console, alarms,
-                   {corner.x + inside, corner.y + inside + 1.5f * ImGui::GetTextLineHeight()},
-                   0.55f * sizeOf(large_->where).x);
-    drawHint(console, input);
+    rooms.gap = tabs && console.pilotLayout ? PixelRect() : rooms.gap; // the tabs are over it
+    drawOver(console, alarms, input, rooms);
     markPlace(console, "traces room", cornerOf(rooms.traces), sizeOf(rooms.traces));
     markPlace(console, "time line room", cornerOf(rooms.timeLine), sizeOf(rooms.timeLine));
 }

@@ -44,9 +44,8 @@ private:
     void findCues(const ScreenInput& input);
     SurfaceDepth surfaceOf(const ViewPort& port, const Fixtures& set) const;
     void drawViews(Console& console, const FixtureEditor& editor, const ScreenInput& input);
-    void drawHint(Console& console, const ScreenInput& input) const;
-    void drawTabs(Console& console, FixtureEditor& editor, Alarms& alarms, const ScreenInput& input,
-                  const PixelRect& room);
+    void drawOver(Console& console, const Alarms& alarms, const ScreenInput& input, const Rooms& rooms);
+    void drawFigures(Console& console, const ScreenInput& input, const Rooms& rooms);
 
     CameraGround camera_;
     SpaceGround space_;

@@ -52,6 +52,9 @@ std::span<const KeyHelp> keyHelp() {
         KeyHelp{"F12", "screenshot"},
         KeyHelp{"Ctrl +, Ctrl -", "larger or smaller text"},
         KeyHelp{"F1", "this list"},
+        KeyHelp{"F2", "pilot's layout: large views; engineer's layout: figures and traces"},
+        KeyHelp{"Esc", "close a card, a panel or a pick"},
+        KeyHelp{"D, Enter, Esc", "answer the question when the window closes"},
     };
     return kHelp;
 }
@@ -82,6 +85,7 @@ void Steering::keys(Console& console) {
     console.acknowledge = console.acknowledge || pressed(GLFW_KEY_Q);
     if (pressed(GLFW_KEY_ESCAPE)) {
         console.refusal.clear();
+        console.panelOpen = false;
     }
     if (pressed(GLFW_KEY_T)) {
         console.treeLevel = console.treeLevel >= 3 ? -1 : console.treeLevel + 1;
@@ -92,6 +96,7 @@ void Steering::keys(Console& console) {
         console.pick.active = true;
     }
     if (pressed(GLFW_KEY_W)) {
+        console.panelOpen = !console.panelOpen || console.shownTab != Tab::Why;
         console.tab = Tab::Why;
     }
 }
@@ -190,13 +195,18 @@ std::optional<ImVec2> Steering::step(Console& console, const ViewPort& large, do
         keys(console);
     }
     if (pressed(GLFW_KEY_F1)) {
+        console.panelOpen = !console.panelOpen || console.shownTab != Tab::Help;
         console.tab = Tab::Help;
+    }
+    if (pressed(GLFW_KEY_F2)) {
+        console.pilotLayout = !console.pilotLayout;
+        console.panelOpen = false;
     }
     switchFocus(console);
     console.remake = console.remake || pressed(GLFW_KEY_F11);
     console.screenshot = console.screenshot || pressed(GLFW_KEY_F12);
     if (io.KeyCtrl && (pressed(GLFW_KEY_EQUAL) || pressed(GLFW_KEY_KP_ADD))) {
-        console.textScale = std::min(2.0, console.textScale + 0.125);
+        console.textScale = std::min(2.5, console.textScale + 0.125);
     }
     if (io.KeyCtrl && (pressed(GLFW_KEY_MINUS) || pressed(GLFW_KEY_KP_SUBTRACT))) {
         console.textScale = std::max(0.75, console.textScale - 0.125);

@@ -170,9 +170,11 @@ void TracesPanel::drawControls(Console& console) {
         ImGui::TextColored(ImColor(kAxes[axis]), "%c", "xyz"[axis]);
     }
     ImGui::SameLine();
-    ImGui::TextDisabled(
-        "base axes, bold: norm; torque about the tool centre; ticks below: new fixture set; 10 s%s",
-        console.paused ? ", PAUSED" : "");
+    const std::string span = console.paused ? "10 s, PAUSED" : "10 s";
+    const std::string full =
+        "base axes, bold: norm; torque about the tool centre; ticks below: new fixture set; " + span;
+    const bool fits = ImGui::CalcTextSize(full.c_str()).x < ImGui::GetContentRegionAvail().x;
+    ImGui::TextDisabled("%s", (fits ? full : span).c_str());
 }
 
 void TracesPanel::drawCurves(const std::deque<TraceSample>& trace, const HapticOptions& limits) {

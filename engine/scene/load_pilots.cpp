@@ -39,14 +39,17 @@ void loadPilots(const YamlNode& pilots, Scene& scene) {
 }
 
 void loadWindow(const YamlNode& window, Scene& scene) {
-    window.checkKeys({"text_scale", "large", "yaw", "pitch", "distance"});
+    window.checkKeys({"text_scale", "large", "yaw", "pitch", "distance", "layout"});
     scene.window = Scene::Window{};
     Scene::Window& w = *scene.window;
     if (const auto scale = window.find("text_scale")) {
-        w.textScale = scale->number(Range::between(0.75, 2.0));
+        w.textScale = scale->number(Range::between(0.75, 2.5));
     }
     if (const auto large = window.find("large")) {
         w.spaceIsLarge = large->choice<bool>({{"camera", false}, {"space", true}});
+    }
+    if (const auto layout = window.find("layout")) {
+        w.pilotLayout = layout->choice<bool>({{"engineer", false}, {"pilot", true}});
     }
     if (const auto yaw = window.find("yaw")) {
         w.yaw = yaw->number(Range::between(-1e3, 1e3));

@@ -219,6 +219,7 @@ struct Scene {
         double textScale = 1.0;
         bool spaceIsLarge = false;                       // the 3D view is the large one
         double yaw = 0.55, pitch = 0.45, distance = 1.3; // [rad], [m] viewpoint of the 3D view
+        bool pilotLayout = false;                        // few figures, large views
     };
     std::optional<Window> window;
 

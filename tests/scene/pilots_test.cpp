@@ -51,11 +51,13 @@ TEST_CASE("A scene without pilots has no active pilot") {
 }
 
 TEST_CASE("Window settings and attenuation are read") {
-    const Scene scene = load("window: {text_scale: 1.25, large: space, yaw: -7, pitch: 0.1, distance: 2}\n"
+    const Scene scene = load("window: {text_scale: 1.25, large: space, yaw: -7, pitch: 0.1, distance: 2, "
+                             "layout: pilot}\n"
                              "camera: {attenuation: [0.6, 0.1, 0.05]}\n");
     REQUIRE(scene.window.has_value());
     CHECK(scene.window->textScale == 1.25);
     CHECK(scene.window->spaceIsLarge);
+    CHECK(scene.window->pilotLayout);
     CHECK(scene.window->yaw == -7.0);
     CHECK(scene.attenuation == dvec3(0.6, 0.1, 0.05));
 }
@@ -73,6 +75,7 @@ TEST_CASE("Invalid pilots, settings and water are rejected in one line") {
         {"pilot: b\n", "pilot: b (allowed: none"},
         {"window: {text_scale: 3}\n", "window.text_scale: 3"},
         {"window: {large: both}\n", "window.large: both"},
+        {"window: {layout: wide}\n", "window.layout: wide"},
         {"camera: {attenuation: [1, 2]}\n", "camera.attenuation"},
         {"camera: {attenuation: [-1, 0, 0]}\n", "camera.attenuation"},
     };
