@@ -41,19 +41,21 @@ void ghostAt(ImDrawList& list, const MarksInput& input) {
     outline(list, input.port, outlineOf(input.port.view, spheres), IM_COL32(190, 204, 224, 230), 1.6f, true);
 }
 
-// Tool, and arm if there is one. Returns the hidden share.
+// The hidden share of the arm's outline; 0 without an arm.
+double armAt(ImDrawList& list, const MarksInput& input) {
+    return input.arm.empty()
+               ? 0.0
+               : drawBody(list, input.port, input.arm, input.surface, IM_COL32(150, 196, 235, 235), 1.8f);
+}
+
+// The hidden share of the tool's outline.
 double toolAt(ImDrawList& list, const MarksInput& input) {
     leavesAt(list, input);
-    double hidden = 0.0;
-    if (!input.arm.empty()) {
-        hidden = drawBody(list, input.port, input.arm, input.surface, IM_COL32(150, 196, 235, 235), 1.8f);
-    }
     std::vector<Sphere> spheres;
     for (const Sphere& leaf : input.tool.leaves()) {
         spheres.push_back({input.run.step().record.tool.apply(leaf.centre), leaf.radius});
     }
-    const double tool = drawBody(list, input.port, spheres, input.surface, colour::kTool, 2.2f);
-    return input.arm.empty() ? tool : hidden;
+    return drawBody(list, input.port, spheres, input.surface, colour::kTool, 2.2f);
 }
 
 // A real arm that is off its setpoint; grey when the last measurement is old.
@@ -245,8 +247,9 @@ double drawMarks(ImDrawList& list, const MarksInput& input) {
     if (!isFinite(record.tool)) { // recordings without tool poses
         return 0.0;
     }
+    const double armHidden = armAt(list, input);
     measuredAt(list, input);
-    const double hidden = toolAt(list, input);
+    const double toolHidden = toolAt(list, input);
     const auto hand = input.port.of(record.device.position), tool = input.port.of(record.tool.position);
     if (hand && tool) {
         dashed(list, *hand, *tool, IM_COL32(190, 204, 224, 230), 1.4f, 4.0f);
@@ -254,7 +257,7 @@ double drawMarks(ImDrawList& list, const MarksInput& input) {
     drawTether(list, input.port, input.cues, input.names);
     touches(list, input);
     force(list, input);
-    return hidden;
+    return input.arm.empty() ? toolHidden : armHidden;
 }
 
 } // namespace fathom::operate
