@@ -13,6 +13,7 @@ namespace fathom::operate {
 namespace {
 
 constexpr double kMaxPixels = 2.5e6; // limit for all spheres of an image together
+constexpr double kMostLayers = 12.0; // spheres over each other, on average
 constexpr double kNearest = 0.02;    // [m]
 constexpr float kNothing = 1e9f;     // [m] depth of a pixel without a point
 
@@ -102,8 +103,9 @@ void SpaceGround::splatPoints(const SceneSnapshot& scene) {
     const glm::mat3 rotation = glm::mat3(glm::mat3_cast(eyeTcamera.rotation));
     const glm::vec3 shift(eyeTcamera.position);
     const auto width = static_cast<int>(view_.lens.width), height = static_cast<int>(view_.lens.height);
-    for (uint32_t v = 0; v < lens.height; ++v) {
-        for (uint32_t u = 0; u < lens.width; ++u) {
+    const uint32_t step = std::clamp(lens.width / std::max(1u, view_.lens.width), 1u, 3u); // small view
+    for (uint32_t v = 0; v < lens.height; v += step) {
+        for (uint32_t u = 0; u < lens.width; u += step) {
             const size_t i = v * lens.width + u;
             if (set.depth[i] == 0) {
                 continue;
@@ -185,7 +187,8 @@ void SpaceGround::splatRegions(const Fixtures& set) {
         const double r = view_.lens.fx * double{set.spheres.radius[i]} / z;
         cost += 8.0 * 3.14 * r * r;
     }
-    const size_t step = std::max<size_t>(1, static_cast<size_t>(std::ceil(cost / kMaxPixels)));
+    const double most = std::min(kMaxPixels, kMostLayers * static_cast<double>(pixels_.size()));
+    const size_t step = std::max<size_t>(1, static_cast<size_t>(std::ceil(cost / most)));
     for (size_t i = 0; i < set.spheres.size(); i += step) {
         const dvec3 c = view_.cameraTbase.apply(regionCentre(set, i));
         const double radius = double{set.spheres.radius[i]};

@@ -90,19 +90,34 @@ void Silhouette::addRow(int v, double from, double to) {
     int32_t* row = steps_.data() + static_cast<size_t>(v) * static_cast<size_t>(width_ + 1);
     ++row[static_cast<size_t>(first)];
     --row[static_cast<size_t>(end)];
+    box_ = {std::min(box_.u0, static_cast<int>(first)), std::min(box_.v0, v),
+            std::max(box_.u1, static_cast<int>(end)), std::max(box_.v1, v + 1)};
+}
+
+Silhouette::Box Silhouette::covered() const {
+    constexpr int kMargin = 2; // so that a border inside the image stays one
+    if (box_.u1 <= box_.u0) {
+        return {};
+    }
+    return {std::max(0, box_.u0 - kMargin), std::max(0, box_.v0 - kMargin),
+            std::min(width_, box_.u1 + kMargin), std::min(height_, box_.v1 + kMargin)};
 }
 
 std::vector<uint8_t> Silhouette::mask() const {
-    std::vector<uint8_t> mask(static_cast<size_t>(width_) * static_cast<size_t>(height_));
-    const int32_t* step = steps_.data();
+    return mask({0, 0, width_, height_});
+}
+
+std::vector<uint8_t> Silhouette::mask(const Box& box) const {
+    std::vector<uint8_t> mask(static_cast<size_t>(box.width()) * static_cast<size_t>(box.height()));
     uint8_t* pixel = mask.data();
-    for (int v = 0; v < height_; ++v) {
+    for (int v = box.v0; v < box.v1; ++v) {
+        const int32_t* step = steps_.data() + static_cast<size_t>(v) * static_cast<size_t>(width_ + 1) +
+                              static_cast<size_t>(box.u0); // no run starts left of the box
         int32_t open = 0;
-        for (int u = 0; u < width_; ++u) {
+        for (int u = box.u0; u < box.u1; ++u) {
             open += *step++;
             *pixel++ = open > 0;
         }
-        ++step;
     }
     return mask;
 }
@@ -127,7 +142,15 @@ std::vector<OutlineLine> outlineOf(const ImageView& view, std::span<const Sphere
     for (const Sphere& sphere : spheres) {
         silhouette.add(sphere.centre, sphere.radius);
     }
-    return traceOutline(silhouette.mask(), view.width(), view.height(), 0);
+    // Only the part around them: a tool covers a few per cent of an image.
+    const Silhouette::Box box = silhouette.covered();
+    std::vector<OutlineLine> lines = traceOutline(silhouette.mask(box), box.width(), box.height(), 0);
+    for (OutlineLine& line : lines) {
+        for (glm::dvec2& p : line) {
+            p += glm::dvec2(box.u0, box.v0);
+        }
+    }
+    return lines;
 }
 
 } // namespace fathom

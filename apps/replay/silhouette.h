@@ -6,6 +6,7 @@
 #include "engine/contact/fixtures.h"
 #include "engine/types/sphere_tree.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -23,12 +24,22 @@ public:
     // 1 for pixels whose centre is covered by a sphere; width x height, row-major.
     std::vector<uint8_t> mask() const;
 
+    // Pixels [u0, u1) x [v0, v1).
+    struct Box {
+        int u0 = 0, v0 = 0, u1 = 0, v1 = 0;
+        int width() const { return std::max(0, u1 - u0); }
+        int height() const { return std::max(0, v1 - v0); }
+    };
+    Box covered() const; // all covered pixels and a margin, inside the image; empty without any
+    std::vector<uint8_t> mask(const Box& box) const;
+
 private:
     void addRow(int v, double from, double to);
 
     const ImageView view_;
     int width_, height_;
-    std::vector<int32_t> steps_; // rows of width + 1 counts: runs that start minus runs that end here
+    Box box_{1 << 30, 1 << 30, 0, 0}; // of the covered pixels
+    std::vector<int32_t> steps_;      // rows of width + 1 counts: runs that start minus runs that end here
 };
 
 // Centre of a region sphere in the base frame [m].

@@ -227,3 +227,29 @@ TEST_CASE("An overlay of 60 thousand spheres is timed") {
     MESSAGE("overlay of 60000 spheres at 1280 x 960: ", took.count(), " ms");
     CHECK(PngImage(folder.path() / "overlay.png").width() == 1280);
 }
+
+TEST_CASE("The outline of spheres is the border of their mask, also at the edges of the image") {
+    ImageView view;
+    view.lens.width = 160, view.lens.height = 120;
+    view.lens.fx = view.lens.fy = 150.0;
+    view.lens.cx = 79.5, view.lens.cy = 59.5;
+    const std::vector<std::vector<Sphere>> all{{{{0.0, 0.0, 1.0}, 0.1}, {{0.15, 0.05, 1.2}, 0.05}},
+                                               {{{0.5, 0.0, 1.0}, 0.1}},
+                                               {{{-0.5, -0.4, 1.0}, 0.2}, {{0.2, 0.2, 0.9}, 0.02}},
+                                               {{{0.0, 0.0, 0.1}, 0.2}},
+                                               {{{3.0, 0.0, 1.0}, 0.1}}};
+    for (const std::vector<Sphere>& spheres : all) {
+        Silhouette silhouette(view);
+        for (const Sphere& s : spheres) {
+            silhouette.add(s.centre, s.radius);
+        }
+        const auto cropped = outlineOf(view, spheres), whole = traceOutline(silhouette.mask(), 160, 120, 0);
+        REQUIRE(cropped.size() == whole.size());
+        for (size_t line = 0; line < whole.size(); ++line) {
+            REQUIRE(cropped[line].size() == whole[line].size());
+            for (size_t k = 0; k < whole[line].size(); ++k) {
+                CHECK(glm::distance(cropped[line][k], whole[line][k]) < 1e-9);
+            }
+        }
+    }
+}
