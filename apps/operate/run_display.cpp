@@ -74,6 +74,7 @@ HudInput RunDisplay::hud(const HapticOptions& haptics) const {
 }
 
 void RunDisplay::draw(FixtureEditor& editor, const ScreenInput& input) {
+    screen.noteDrawn(canvas.counts().drawn);
     screen.draw(console, editor, alarms, input);
     const auto& room = console.places["traces room"];
     if (room[3] <= 0.0f) {

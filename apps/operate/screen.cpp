@@ -66,10 +66,11 @@ void Screen::makeImages(const Console& console, const FixtureEditor& editor, con
     large_ = &large;
     const auto none = std::span<const uint32_t>();
     const size_t under = console.spaceIsLarge ? 1 : 0; // the inset is drawn over the large view
-    layers_[under] = {fresh ? std::span<const uint32_t>(camera_.pixels()) : none,
+    waiting_ = {waiting_[0] || fresh, waiting_[1] || space};
+    layers_[under] = {waiting_[0] ? std::span<const uint32_t>(camera_.pixels()) : none,
                       static_cast<uint32_t>(camera_.view().width()),
                       static_cast<uint32_t>(camera_.view().height()), cameraPort_->where};
-    layers_[1 - under] = {space ? std::span<const uint32_t>(space_.pixels()) : none, width, height,
+    layers_[1 - under] = {waiting_[1] ? std::span<const uint32_t>(space_.pixels()) : none, width, height,
                           spacePort_->where};
 }
 

@@ -30,6 +30,11 @@ public:
     void draw(Console& console, FixtureEditor& editor, Alarms& alarms, const ScreenInput& input);
 
     std::span<const Layer> layers() const { return layers_; }
+    // drawn: number of frames that were drawn so far. An image of a frame that was skipped is offered again.
+    void noteDrawn(uint64_t drawn) {
+        waiting_ = drawn == drawn_ ? waiting_ : std::array<bool, 2>();
+        drawn_ = drawn;
+    }
     void redraw() { redraw_ = true; } // the next draw() composes both images; call it after a lost device
     const ViewPort& large() const { return *large_; }
     const DepthCues& cues() const { return cues_; }
@@ -60,7 +65,8 @@ private:
     uint64_t ghostNumber_ = 0;  // selection that it shows
     int drawnLevel_ = -1;
     bool centred_ = false, drawnLarge_ = false, redraw_ = false;
-    uint64_t selectionDrawn_ = 0;
+    uint64_t selectionDrawn_ = 0, drawn_ = 0;
+    std::array<bool, 2> waiting_{}; // images of camera and 3D view that no drawn frame has shown
 };
 
 } // namespace fathom::operate
