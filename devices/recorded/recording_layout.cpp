@@ -153,8 +153,8 @@ RecordingLayout readBop(const fs::path& folder) {
     return layout;
 }
 
-// A square matrix of 3 or 4 rows, as 4 x 4, row by row.
-std::array<double, 16> readMatrix(const fs::path& file) {
+// A matrix of 4 rows, or of 3 where a lens may have so many, as 4 x 4, row by row.
+std::array<double, 16> readMatrix(const fs::path& file, bool orThree = false) {
     std::vector<double> all;
     for (const TextLine& line : readDataLines(file)) {
         for (const std::string_view word : splitWords(line.text)) {
@@ -165,8 +165,9 @@ std::array<double, 16> readMatrix(const fs::path& file) {
             all.push_back(value);
         }
     }
-    if (all.size() != 16 && all.size() != 9) {
-        throw BadInput(file.string(), "matrix", std::to_string(all.size()) + " numbers", "4 x 4 or 3 x 3");
+    if (all.size() != 16 && !(orThree && all.size() == 9)) {
+        throw BadInput(file.string(), "matrix", std::to_string(all.size()) + " numbers",
+                       orThree ? "4 x 4 or 3 x 3" : "4 x 4");
     }
     const size_t rows = all.size() == 16 ? 4 : 3;
     auto out = kIdentity;
@@ -191,7 +192,7 @@ void usePose(IndexLine& line, const fs::path& file) {
 }
 
 Intrinsics scanNetLens(const fs::path& file, std::optional<PngSize> size) {
-    const auto k = readMatrix(file);
+    const auto k = readMatrix(file, true);
     if (!size || size->width > kMaxImageWidth || size->height > kMaxImageHeight ||
         !(k[0] > 0.0 && k[5] > 0.0) || !std::isfinite(k[0] + k[2] + k[5] + k[6])) {
         throw BadInput(file.string(), "matrix", "unusable",

@@ -81,12 +81,18 @@ TEST_CASE("A folder of 7-Scenes is played with its poses, and 65535 is no depth"
     writeDepth(folder.path() / "frame-000000.depth.png", 640, 480, 65535);
     writeColour(folder.path() / "frame-000000.color.png", 640, 480, 1, 2, 3);
     folder.write("frame-000000.pose.txt", "1 0 0 0.5\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
+    writeDepth(folder.path() / "frame-000001.depth.png", 640, 480, 1000);
+    writeColour(folder.path() / "frame-000001.color.png", 640, 480, 1, 2, 3);
+    folder.write("frame-000001.pose.txt", "1 0 0\n0 1 0\n0 0 1\n"); // no position
     RecordedCamera camera(folder.path());
     const auto frame = camera.next();
     REQUIRE(frame);
     CHECK((*frame)->depth[1000] == 0);
     REQUIRE((*frame)->baseTcamera);
     CHECK((*frame)->baseTcamera->position.x == 0.5);
+    CHECK_FALSE(camera.next());
+    REQUIRE(camera.warnings().size() == 1);
+    CHECK(camera.warnings()[0].find("matrix: 9 numbers (allowed: 4 x 4)") != std::string::npos);
 }
 
 TEST_CASE("A depth scale given as units per metre is rejected with the number that is meant") {
