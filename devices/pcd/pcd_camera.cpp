@@ -145,14 +145,17 @@ PcdCamera::PcdCamera(const std::filesystem::path& file, const SourceOptions& opt
 
 // To the optical frame and metres; sets the depth unit.
 void PcdCamera::scalePoints(const FittedLens& fit, double scale) {
-    double farthest = 0.0, nearest = HUGE_VAL;
+    ValueSpan seen;
     for (dvec3& p : cloud_.points) {
         p = fit.opticalTcloud * p * scale;
-        farthest = measured(p) ? std::max(farthest, p.z) : farthest;
-        nearest = measured(p) ? std::min(nearest, p.z) : nearest;
+        seen.add(measured(p) ? p.z : 0.0);
     }
-    doubtMetres(file_.string(), nearest);
-    info_.metresPerUnit = kFinestStep * std::ceil(std::max(1.0, farthest / (65000.0 * kFinestStep)));
+    doubt_ = doubtMetres(file_.string(), seen.nearest);
+    info_.metresPerUnit = kFinestStep * std::ceil(std::max(1.0, seen.farthest / (65000.0 * kFinestStep)));
+}
+
+std::vector<std::string> PcdCamera::warnings() const {
+    return doubt_.empty() ? std::vector<std::string>() : std::vector<std::string>{doubt_};
 }
 
 std::optional<Frame> PcdCamera::next() {

@@ -37,6 +37,7 @@ public:
     const CameraInfo& info() const override { return info_; }
     std::optional<Frame> next() override;
     uint32_t skipped() const override { return 0; }
+    std::vector<std::string> warnings() const override;
     std::string description() const override { return "cloud " + file_.string(); }
 
 private:
@@ -46,6 +47,7 @@ private:
     CameraInfo info_;
     std::optional<FrameSlots> slots_;
     PcdCloud cloud_;
+    std::string doubt_; // of doubtMetres()
     bool done_ = false;
 };
 

@@ -45,7 +45,7 @@ void FolderDepth::chooseUnit(const RecordingLayout& layout, const SourceOptions&
     }
     const double metresPerValue = options.scale.value_or(1.0);
     seen = seen.scaled(metresPerValue);
-    doubtMetres(folder_, seen.nearest);
+    doubt_ = doubtMetres(folder_, seen.nearest);
     metresPerUnit_ = unitForMetres(seen, options.farthest);
     units_.valuesPerUnit = metresPerUnit_ / metresPerValue;
 }

@@ -20,6 +20,7 @@ public:
                 const SourceOptions& options);
 
     double metresPerUnit() const { return metresPerUnit_; }
+    const std::string& doubt() const { return doubt_; } // warning that values may be no metres; empty = none
     // z in metresPerUnit(), 0 = no measurement. Returns the fault, or empty. Warns once of depth that is too
     // far for 16 bits.
     std::string read(const std::filesystem::path& file, std::span<uint16_t> depth);
@@ -29,7 +30,7 @@ private:
     void dropInvalid(std::span<uint16_t> depth) const;
     void toAxis(std::span<uint16_t> ranges) const;
 
-    std::string folder_;
+    std::string folder_, doubt_;
     PngSize size_;
     DepthUnits units_;
     double metresPerUnit_ = 0.0, farthest_ = 0.0; // [m]

@@ -197,6 +197,9 @@ std::vector<std::string> RecordedCamera::warnings() const {
     if (skipped_ > all.size()) {
         all.push_back(std::to_string(skipped_ - all.size()) + " more frames skipped");
     }
+    if (!depth_->doubt().empty()) {
+        all.push_back(depth_->doubt());
+    }
     return all;
 }
 

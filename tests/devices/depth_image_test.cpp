@@ -137,6 +137,10 @@ TEST_CASE("Metres of a folder stay metres, whatever depth scale is stated, and g
     const auto frame = camera.next();
     REQUIRE(frame);
     CHECK((*frame)->depth[34] * camera.info().metresPerUnit == doctest::Approx(14.6).epsilon(1e-4));
+    CHECK(camera.warnings().empty());
+    const RecordedCamera far(folder.path(), {.scale = 100.0});
+    REQUIRE(far.warnings().size() == 1); // no camera sees so far
+    CHECK(far.warnings()[0].find("scale=0.001") != std::string::npos);
 }
 
 TEST_CASE("Sixteen bits of a folder need a scale in every format, and one folder holds one kind") {

@@ -159,6 +159,9 @@ TEST_CASE("A cloud with fields r, g, b has colour, and one in millimetres is sca
     CHECK((*frame)->colour[5] == 0xff140ac8u);
     PcdCamera metres(folder.path() / "mm.pcd");
     CHECK((*metres.next())->depth[0] * metres.info().metresPerUnit == doctest::Approx(500.0).epsilon(1e-3));
+    REQUIRE(metres.warnings().size() == 1); // which --strict counts
+    CHECK(metres.warnings()[0].find("scale=0.001") != std::string::npos);
+    CHECK(scaled.warnings().empty());
     std::string floats = text;
     floats.replace(floats.find("4 4 4 1 1 1"), 11, "4 4 4 4 4 4");
     floats.replace(floats.find("F F F U U U"), 11, "F F F F F F");
