@@ -102,7 +102,7 @@ bool BagCamera::pairsByStamp() {
     return any;
 }
 
-// A RealSense SDK's option beside the depth stream; null = none.
+// A RealSense SDK's option of the depth stream; null = none.
 const MessageTopic* BagCamera::unitTopic() const {
     const std::string sensor = parentTopic(choice_.depth.name, 3) + "/option/";
     for (const MessageTopic& topic : file_->topics()) {

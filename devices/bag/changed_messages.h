@@ -4,11 +4,13 @@
 
 #include "devices/bag/image_stream.h"
 
+#include <algorithm>
 #include <array>
+#include <string>
 
 namespace fathom {
 
-// The messages of one topic beside a stream of images: the newest one before an image applies to it.
+// The messages of a topic that apply to a stream of images: the newest one before an image applies to it.
 class ChangedMessages {
 public:
     ChangedMessages(MessageFile& file, const MessageTopic& topic)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What StreamChooser says of the streams of a file.
+// Sentences of StreamChooser about the streams of a file.
 #include "devices/bag/stream_choice.h"
 
 #include <algorithm>

@@ -21,8 +21,8 @@ struct ValueSpan {
 // The unit [m] for depth of up to `farthest` metres: 0.1 mm or the least multiple of it with which 16 bits
 // are enough, at most kCoarsestUnit.
 double unitForMetres(double farthest);
-// The unit [m] for frames of which `seen` [m] are samples: half as much more than seen, but not beyond
-// `ofInterest` [m], unless everything is.
+// The unit [m] for frames, from the depths [m] in samples of them. It allows for depths half as large again,
+// but for none beyond `ofInterest` [m], unless all samples are beyond it.
 double unitForMetres(const ValueSpan& seen, double ofInterest);
 
 // Warns when the nearest point of a recording is farther than any camera sees: its values are no metres.

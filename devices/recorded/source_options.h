@@ -12,7 +12,7 @@ namespace fathom {
 // Limits of a depth unit [m]. In finer units 16 bits end below 66 mm.
 inline constexpr double kFinestUnit = 1e-6, // finest
     kCoarsestUnit = 0.1,                    // coarsest: a larger step protects nothing
-    kCoarsestValue = 100.0;                 // of floating point, of which some files hold hundreds of metres
+    kCoarsestValue = 100.0;                 // of floating-point values; some files are in units of 100 m
 
 struct SourceOptions {
     std::string depth, colour, info;  // topics; empty = chosen; colour "none" = without colour
