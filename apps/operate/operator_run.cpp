@@ -137,10 +137,11 @@ void OperatorRun::listen() {
 bool OperatorRun::forcesGone() const {
     const StepRecord& record = display_.view.step().record;
     return !display_.console.forces &&
-           (!display_.view.anyTick() || record.state == StepState::Off || record.wrench.force == dvec3(0.0));
+           (!display_.view.anyTick() || record.state == StepState::Off ||
+            (record.wrench.force == dvec3(0.0) && record.wrench.torque == dvec3(0.0)));
 }
 
-// A pilot who does not see the scene must not be pushed by it.
+// Forces without a view of the scene would surprise the pilot.
 void OperatorRun::offWhenMinimised() {
     Console& console = display_.console;
     if (console.forces && window_.minimised()) {
