@@ -35,7 +35,7 @@ void barTicks(ImDrawList& list, const Letters& letters, ImVec2 a, ImVec2 b) {
     }
 }
 
-// The zones of the looks, as a narrow strip beside the bar.
+// The ranges of the colours, as a narrow strip at the right of the bar.
 void barZones(ImDrawList& list, ImVec2 a, ImVec2 b, float width) {
     const auto level = [&](double gap) { return b.y - (b.y - a.y) * static_cast<float>(gap / kBarFull); };
     const float left = b.x + 2.0f;

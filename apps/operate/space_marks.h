@@ -25,7 +25,7 @@ void lookFrom(Orbit& orbit, Side side);
 // The base frame's axes in the lower left corner of the view.
 // large: above the hint and inside the frame of the large view.
 void drawAxes(ImDrawList& list, const ViewPort& port, bool large);
-// A length of 1, 2 or 5 times a power of ten, at the distance [m] of what the eye looks at.
+// A length of 1, 2 or 5 times a power of ten, at the distance [m] of the point that the eye looks at.
 void drawScaleBar(ImDrawList& list, const ViewPort& port, double distance);
 
 } // namespace fathom::operate

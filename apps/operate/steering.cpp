@@ -27,7 +27,7 @@ bool pressed(int key) {
 std::span<const KeyHelp> keyHelp() {
     static constexpr std::array kHelp = {
         KeyHelp{"Space", "forces off, always"},
-        KeyHelp{"A", "arm: forces ramp up over 1.5 s"},
+        KeyHelp{"A", "arm: forces ramp up in 1.5 s or more"},
         KeyHelp{"G", "guidance on or off"},
         KeyHelp{"J", "close or open the jaws of an arm"},
         KeyHelp{"C held", "clutch: the hand moves, the tool stays; with forces off, hand to tool"},

@@ -14,9 +14,8 @@ constexpr const char* kBetween = "   ";
 // The keys that are useful in the present state.
 std::string hintOf(const Console& console, bool driven) {
     if (console.timeLine.on) {
-        return "Recording.   Drag the time line   Space: play   arrows: frames, with Shift ticks   [ ]: "
-               "speed   "
-               "Tab: 3D   F1: all keys";
+        return "Recording.   Drag the time line   Space: play   arrows: frames, with Shift ticks   "
+               "[ ]: speed   Tab: 3D   F1: all keys";
     }
     if (console.aims()) {
         return "Click, or use arrows (Shift: slowly) and Enter   Esc: cancel";
@@ -26,9 +25,8 @@ std::string hintOf(const Console& console, bool driven) {
     }
     const std::string moves = driven ? "" : "drag, wheel, arrows: tool   ";
     if (console.spaceIsLarge) {
-        return "Right drag: turn the view   1 2 3: front, side, top   0: reset   Ctrl+wheel: distance   Tab: "
-               "camera"
-               "   F1: all keys";
+        return "Right drag: turn the view   1 2 3: front, side, top   0: reset   "
+               "Ctrl+wheel: distance   Tab: camera   F1: all keys";
     }
     const std::string hint = console.forces ? "Space: forces off   G: guidance   " + moves + "F1: all keys"
                                             : "A: arm the forces   " + moves + "Tab: 3D   F1: all keys";

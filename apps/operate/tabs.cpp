@@ -8,10 +8,6 @@ namespace fathom::operate {
 
 namespace {
 
-constexpr ImGuiWindowFlags kTabsPanel = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                                        ImGuiWindowFlags_NoSavedSettings |
-                                        ImGuiWindowFlags_NoBringToFrontOnFocus;
-
 void drawKeys(const Console& console) {
     for (const KeyHelp& help : keyHelp()) {
         ImGui::TextColored(ImColor(colour::kGuidance), "%s", help.keys);
@@ -28,7 +24,7 @@ void drawTabs(Console& console, FixtureEditor& editor, Alarms& alarms, const Tab
               const PixelRect& room) {
     ImGui::SetNextWindowPos(cornerOf(room));
     ImGui::SetNextWindowSize(sizeOf(room));
-    ImGui::Begin("panels", nullptr, kTabsPanel);
+    ImGui::Begin("panels", nullptr, kPanel);
     constexpr const char* kNames[] = {"Fixtures", "Why?", "Alarms", "Keys"};
     if (ImGui::BeginTabBar("tabs")) {
         for (Tab tab : {Tab::Fixtures, Tab::Why, Tab::Alarms, Tab::Help}) {

@@ -24,6 +24,10 @@ constexpr ImU32 kWarning = IM_COL32(255, 92, 84, 255);
 constexpr ImU32 kPicked = IM_COL32(40, 220, 235, 255);
 } // namespace colour
 
+// A panel at a fixed place.
+constexpr ImGuiWindowFlags kPanel = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus;
+
 // The fonts of the window, owned by ImGui's atlas.
 struct Letters {
     ImFont* body = nullptr;
