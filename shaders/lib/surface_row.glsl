@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The surface at four adjacent pixels, with one row of their windows in registers at a time. Makes the same
+// The surface at four adjacent pixels, with one row of their windows in registers at a time (radius > 2). Makes the same
 // decisions and sums in the same order as the form with one invocation per pixel. Needs what surface.comp
 // defines before it.
 
@@ -51,7 +51,7 @@ void filterRow(uint slot) {
     }
     [[unroll]] for (int k = 0; k < 4; ++k) {
         bool shown = all(bvec2(maskInRow(word, uint(k)) != 0u, !rejected[k]));
-        vec4 result = basePoint(at + ivec2(k, 0), kRadius != 0u ? filteredDepth(mean[k], p[k]) : p[k].z);
+        vec4 result = basePoint(at + ivec2(k, 0), filteredDepth(mean[k], p[k]));
         points[slot + uint(k)] = shown ? result : vec4(0.0);
     }
 }
