@@ -50,7 +50,7 @@ void print(const ReplaySummary& s, const std::filesystem::path& out) {
     std::cout << "frames       " << s.frames.count << " used, " << s.frames.skipped << " skipped on "
               << s.device << "\n";
     if (s.frames.first) {
-        std::cout << "  first      after " << *s.frames.first << " s, start of the program included\n";
+        std::cout << "  first      " << *s.frames.first << " s after the start of the program\n";
     }
     printPart("  passes    ", s.frames.gpuMs, "ms");
     printPart("  latency   ", s.frames.latencyMs, "ms");
