@@ -39,7 +39,7 @@ bool HapticCycle::follow(const ArmFollow& told) noexcept {
     return true;
 }
 
-// A region stopped the tool while the hand went on. There is no force that the shift could change.
+// A region stopped the tool, and the hand moved farther. The shift changes no force, because there is none.
 void HapticCycle::recentre() noexcept {
     const dvec3 by = tool_.position - device_.position;
     map_.align(handle_, tool_);
