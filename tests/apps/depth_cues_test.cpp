@@ -3,6 +3,7 @@
 #include "apps/operate/depth_cues.h"
 #include "apps/operate/space_marks.h"
 #include "apps/replay/silhouette.h"
+#include "tests/apps/flat_wall.h"
 
 #include <cmath>
 #include <doctest/doctest.h>
@@ -20,17 +21,6 @@ void addRegion(Fixtures& set, const dvec3& centre, double radius, uint8_t fixtur
     s.x.back() = static_cast<float>(centre.x), s.y.back() = static_cast<float>(centre.y);
     s.z.back() = static_cast<float>(centre.z), s.radius.back() = static_cast<float>(radius);
     s.fixture.back() = fixture;
-}
-
-// A wall 1 m in front of a camera of 64 x 48 pixels with a focal length of 60 pixels.
-Fixtures wall() {
-    Fixtures set;
-    set.camera.depth.width = 64, set.camera.depth.height = 48;
-    set.camera.depth.fx = set.camera.depth.fy = 60.0;
-    set.camera.depth.cx = 31.5, set.camera.depth.cy = 23.5;
-    set.camera.metresPerUnit = 0.001;
-    set.depth.assign(size_t{64} * 48, 1000);
-    return set;
 }
 
 } // namespace
@@ -83,7 +73,7 @@ TEST_CASE(
 
 TEST_CASE(
     "The shadow lies on the surface behind the tool, below and right of it, and a hidden tool has none") {
-    const Fixtures set = wall();
+    const Fixtures set = flatWall();
     const std::vector<Sphere> tool{{{0.0, 0.0, 0.8}, 0.02}};
     const auto shadow = shadowOf(set, tool);
     REQUIRE(shadow.size() == 1);
@@ -92,19 +82,19 @@ TEST_CASE(
     CHECK(shadow[0].centre.y == doctest::Approx(0.10).epsilon(0.1));
     CHECK(shadow[0].radius == 0.02);
     CHECK(shadowOf(set, std::vector<Sphere>{{{0.0, 0.0, 1.2}, 0.02}}).empty());
-    Fixtures blind = wall();
+    Fixtures blind = flatWall();
     blind.depth.assign(blind.depth.size(), 0);
     CHECK(shadowOf(blind, tool).empty());
 }
 
 TEST_CASE("The gap is the measured clearance, or without one the distance of the nearest pair") {
-    Fixtures set = wall();
+    Fixtures set = flatWall();
     addRegion(set, {0.0, 0.0, 1.0}, 0.05, 0);
     const std::vector<Sphere> tool{{{0.0, 0.0, 0.9}, 0.02}};
     const double unknown = std::numeric_limits<double>::quiet_NaN();
     CHECK(depthCues(set, tool, 0.031).gap == 0.031);
     CHECK(depthCues(set, tool, unknown).gap == doctest::Approx(0.03));
-    CHECK(std::isinf(depthCues(wall(), tool, unknown).gap));
+    CHECK(std::isinf(depthCues(flatWall(), tool, unknown).gap));
     CHECK(std::isnan(depthCues(set, {}, unknown).gap));
 }
 

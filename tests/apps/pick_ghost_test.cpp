@@ -2,26 +2,12 @@
 // The ghost of a picked colour's regions, what they cover, and new names.
 #include "apps/operate/fixture_editor.h"
 #include "apps/operate/pick_ghost.h"
+#include "tests/apps/flat_wall.h"
 
 #include <doctest/doctest.h>
 
 using namespace fathom;
 using namespace fathom::operate;
-
-namespace {
-
-// A wall 1 m in front of a camera of 64 x 48 pixels with a focal length of 60 pixels.
-Fixtures flatWall() {
-    Fixtures set;
-    set.camera.depth.width = 64, set.camera.depth.height = 48;
-    set.camera.depth.fx = set.camera.depth.fy = 60.0;
-    set.camera.depth.cx = 31.5, set.camera.depth.cy = 23.5;
-    set.camera.metresPerUnit = 0.001;
-    set.depth.assign(size_t{64} * 48, 1000);
-    return set;
-}
-
-} // namespace
 
 TEST_CASE("The ghost has a sphere of the radius at each selected point, and fewer of very many points") {
     Fixtures set = flatWall();
