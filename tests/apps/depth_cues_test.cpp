@@ -61,6 +61,7 @@ TEST_CASE(
     "Distances are white and thin, amber from 50 mm, red and thick from 10 mm, and rounded for a pilot") {
     CHECK(lookOf(0.051) == GapLook::Far);
     CHECK(lookOf(0.049) == GapLook::Near);
+    CHECK(lookOf(0.0101) == GapLook::Near);
     CHECK(lookOf(0.0099) == GapLook::Close);
     CHECK(lookOf(-0.001) == GapLook::Close);
     CHECK(gapText(0.00421) == "4.2 mm");
