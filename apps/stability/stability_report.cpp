@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/stability/stability_report.h"
 
-#include "engine/types/output_file.h"
 #include "apps/stability/case_text.h"
 #include "engine/gpu/instance.h"
 #include "engine/gpu/physical_device.h"
 #include "engine/types/error.h"
+#include "engine/types/output_file.h"
 
 #include <algorithm>
 #include <cmath>

@@ -10,10 +10,12 @@
 
 namespace fathom::ros {
 
+// Type name of the message.
 inline constexpr const char* kCloudType = "sensor_msgs/PointCloud2";
 
 // A view into the message.
 struct Cloud {
+    // One value of each point, for example x.
     struct Field {
         std::string name;
         uint32_t offset = 0, count = 0; // [bytes] in a point, values

@@ -24,8 +24,8 @@ public:
     // The engine has closed its end or announced it.
     void close() noexcept;
 
-    // The wrench to render now: zero when closed or when the newest is older than 10 ms; afterwards its limits
-    // rise from zero over kRamp.
+    // The wrench to render now: zero when closed or when the newest is older than 10 ms; afterwards its
+    // limits rise from zero over kRamp.
     Wrench at(uint64_t now) const noexcept;
     bool silent(uint64_t now) const noexcept { return !open_ || now - newest_ > kSilence; }
     uint64_t silences() const noexcept { return silences_; } // gaps over 10 ms between two wrenches

@@ -39,10 +39,9 @@ public:
     Wrench wrench() const noexcept { return gate_.at(socketClock()); }
     bool hasEngine() const noexcept { return engine_.open(); }
     const ForceGate& gate() const noexcept { return gate_; }
-    int descriptor() const noexcept {
-        return endpoint_.descriptor();
-    } // for poll(2): readable on a new connection
-    uint64_t dropped() const noexcept { return dropped_; }                 // engines that broke the contract
+    // For poll(2): readable on a new connection.
+    int descriptor() const noexcept { return endpoint_.descriptor(); }
+    uint64_t dropped() const noexcept { return dropped_; } // engines that broke the contract
     const std::filesystem::path& path() const noexcept { return path_; }
 
 private:

@@ -16,6 +16,7 @@ struct DepthHead {
     std::string fault;
 };
 
+// The whole content of an image file.
 using ImageBytes = std::span<const uint8_t>;
 
 } // namespace fathom

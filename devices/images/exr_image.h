@@ -6,7 +6,9 @@
 
 namespace fathom {
 
+// True if the first bytes are those of OpenEXR.
 bool isExr(ImageBytes bytes);
+// Reads the header only.
 DepthHead exrHead(ImageBytes bytes);
 // Returns the fault, or empty when all was read. `out` has as many elements as exrHead() states.
 std::string readExr(ImageBytes bytes, std::span<float> out);

@@ -7,7 +7,9 @@
 
 namespace fathom {
 
+// True if the first bytes are those of NumPy.
 bool isNpy(ImageBytes bytes);
+// Reads the header only.
 DepthHead npyHead(ImageBytes bytes);
 // Both return the fault, or empty when all was read. `out` has as many elements as npyHead() states, of the
 // kind that it states.

@@ -6,6 +6,7 @@
 
 namespace fathom {
 
+// True if the first bytes are those of PGM.
 bool isPgm(ImageBytes bytes);
 // Refuses 8-bit images: a maximum value below 256.
 DepthHead pgmHead(ImageBytes bytes);

@@ -6,6 +6,7 @@
 
 namespace fathom {
 
+// True if the first bytes are those of TIFF.
 bool isTiff(ImageBytes bytes);
 // The first image of the file. Uncompressed, LZW, PackBits or Deflate.
 DepthHead tiffHead(ImageBytes bytes);

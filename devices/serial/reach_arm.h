@@ -13,6 +13,7 @@
 
 namespace fathom {
 
+// Arms of Reach Robotics that share one serial protocol.
 enum class ReachKind { Alpha5, Bravo7 };
 
 // Device ids of the axes, from the base to the jaws.

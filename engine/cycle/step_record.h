@@ -130,10 +130,10 @@ struct StepRecord {
     std::array<Touch, kMostTouches> touches; // the first touchCount entries are valid
     uint32_t touchCount = 0;
     uint32_t cause = 0; // why there is a force: bits of wrench_stage.h
-    double clearance =
-        kNotKnown;    // [m] smallest gap to the regions of points at any distance, measured up to some 10 ms
-                      // before, in another thread; infinity without such regions
-    double lag = 0.0; // [m] tool to the pose that the rows alone allow
+    // [m] Smallest gap to the regions of points at any distance, measured up to some 10 ms before, in another
+    // thread; infinity without such regions.
+    double clearance = kNotKnown;
+    double lag = 0.0;      // [m] tool to the pose that the rows alone allow
     dvec3 indexShift{0.0}; // [m] total by which lags moved the hand map
     uint32_t vanished = 0; // times that regions disappeared while they pressed
 };

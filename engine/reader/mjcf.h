@@ -10,8 +10,8 @@ namespace fathom {
 // Whether the root element of the text is <mujoco>.
 bool isMjcf(const std::string& text);
 
-// The URDF text of an MJCF file whose content is `text`, with included files from its folder. The world is the
-// root link. Joint positions are those of MJCF minus `ref`. A body of several joints gets a link between
+// The URDF text of an MJCF file whose content is `text`, with included files from its folder. The world is
+// the root link. Joint positions are those of MJCF minus `ref`. A body of several joints gets a link between
 // each two. Geoms that touch nothing (contype and conaffinity 0) become visuals; an ellipsoid becomes the box
 // around it. Ignored: actuators, tendons, sensors, contacts, geoms of the world. Throws BadInput naming line,
 // element, attribute and value.

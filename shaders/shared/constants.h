@@ -57,9 +57,12 @@ FATHOM_CONST kColourNone = 0, // no colour
 FATHOM_CONST kBlockNone = 0, // one invocation per pixel, window from memory
     kBlockSub = 1,           // one per 4x4 sub-patch; radius <= 2
     kBlockRow = 2;           // one per row of a sub-patch
-// Values of kSpecLens. Plain: Brown-Conrady.
-FATHOM_CONST kLensNone = 0, // no distortion
-    kLensPlain = 1, kLensRational = 2, kLensScaledTangential = 3, kLensEquidistant = 4;
+// Values of kSpecLens.
+FATHOM_CONST kLensNone = 0,    // no distortion
+    kLensPlain = 1,            // Brown-Conrady
+    kLensRational = 2,         // a quotient of two polynomials
+    kLensScaledTangential = 3, // p1 and p2 applied after the radial factor
+    kLensEquidistant = 4;      // Kannala-Brandt
 // Values of kSpecHold for `spheres`. On CPU devices, patches whose memory holds points have a dispatch of
 // their own.
 FATHOM_CONST kHoldNone = 0, // nothing is held
