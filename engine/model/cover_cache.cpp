@@ -17,7 +17,7 @@ namespace fathom {
 
 namespace {
 
-constexpr const char* kHead = "fathom cover 2"; // raise the number when covers or this format change
+constexpr const char* kHead = "fathom cover 3"; // raise the number when covers or this format change
 constexpr size_t kLargest = 4u << 20;
 constexpr size_t kLargestMesh = 512u << 20;
 

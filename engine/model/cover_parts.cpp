@@ -52,8 +52,9 @@ std::map<Cell, CoverShare> cellsOf(const std::vector<CoverPiece>& pieces, const 
     return cells;
 }
 
-// The share's middles on both sides of a plane across the longest side; empty second when there is none.
-std::pair<CoverShare, CoverShare> halves(const std::vector<CoverPiece>& pieces, const CoverShare& share) {
+} // namespace
+
+std::pair<CoverShare, CoverShare> halvesOf(const std::vector<CoverPiece>& pieces, const CoverShare& share) {
     const Span3 span = spanOf(pieces, share);
     const dvec3 size = span.high - span.low, middle = 0.5 * (span.low + span.high);
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
@@ -63,8 +64,6 @@ std::pair<CoverShare, CoverShare> halves(const std::vector<CoverPiece>& pieces, 
     }
     return parts;
 }
-
-} // namespace
 
 dvec3 middleOf(const std::vector<CoverPiece>& pieces, const CoverShare& share) {
     const Span3 span = spanOf(pieces, share);
@@ -98,7 +97,7 @@ std::vector<CoverShare> splitShares(const std::vector<CoverPiece>& pieces, size_
     while (shares.size() < most && !worst.empty()) {
         const size_t at = worst.top().second;
         worst.pop();
-        auto [first, second] = halves(pieces, shares[at]);
+        auto [first, second] = halvesOf(pieces, shares[at]);
         if (first.empty() || second.empty()) {
             continue;
         }

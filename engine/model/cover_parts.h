@@ -5,6 +5,7 @@
 #include "engine/model/cover_pieces.h"
 
 #include <functional>
+#include <utility>
 
 namespace fathom {
 
@@ -17,6 +18,10 @@ std::vector<CoverShare> gridShares(const std::vector<CoverPiece>& pieces, size_t
 // `badness` ranks the parts.
 std::vector<CoverShare> splitShares(const std::vector<CoverPiece>& pieces, size_t most,
                                     const std::function<double(const CoverShare&)>& badness);
+
+// Pieces with their middles on either side of a plane across the longest side of the part's box; the second
+// is empty if it cannot be split.
+std::pair<CoverShare, CoverShare> halvesOf(const std::vector<CoverPiece>& pieces, const CoverShare& share);
 
 // Centre of the bounding box of a part's corners [m].
 dvec3 middleOf(const std::vector<CoverPiece>& pieces, const CoverShare& share);

@@ -9,12 +9,15 @@ namespace fathom {
 
 namespace {
 
+constexpr size_t kMostHalves = 100'000; // pieces more than triangles
+
 struct Corners {
     dvec3 a, b, c;
 };
 
-CoverPiece pieceOf(const Corners& t, const dvec3& inwards) {
-    CoverPiece piece{{t.a, t.b, t.c}, (t.a + t.b + t.c) / 3.0, 0.0, 0.0, 0.0, inwards};
+CoverPiece pieceOf(const Corners& t, size_t triangle) {
+    CoverPiece piece{
+        {t.a, t.b, t.c}, (t.a + t.b + t.c) / 3.0, 0.0, 0.0, 0.0, static_cast<uint32_t>(triangle)};
     piece.reach = piece.radiusFrom(piece.middle);
     return piece;
 }
@@ -32,7 +35,7 @@ Corners turned(Corners t) {
 
 // Cuts a triangle narrower than half an edge across its longest side, into slices of at most three pieces.
 // Halving would need (length / edge)^1.6 pieces, because both halves of a needle stay needles.
-void slice(const Corners& t, double edge, const dvec3& inwards, std::vector<CoverPiece>& out) {
+void slice(const Corners& t, double edge, size_t triangle, std::vector<CoverPiece>& out) {
     const dvec3 along = t.b - t.a;
     const double length = glm::length(along), foot = glm::dot(t.c - t.a, along) / (length * length);
     const auto side = [&](double x) { // on a-c-b
@@ -44,10 +47,10 @@ void slice(const Corners& t, double edge, const dvec3& inwards, std::vector<Cove
         const double from = i / count, to = (i + 1.0) / count;
         const dvec3 start = t.a + from * along, far = side(to);
         const bool apex = from < foot && foot < to;
-        out.push_back(pieceOf({start, t.a + to * along, far}, inwards));
-        out.push_back(pieceOf({start, far, apex ? t.c : side(from)}, inwards));
+        out.push_back(pieceOf({start, t.a + to * along, far}, triangle));
+        out.push_back(pieceOf({start, far, apex ? t.c : side(from)}, triangle));
         if (apex) {
-            out.push_back(pieceOf({start, t.c, side(from)}, inwards));
+            out.push_back(pieceOf({start, t.c, side(from)}, triangle));
         }
     }
 }
@@ -57,29 +60,39 @@ bool isNeedle(const Corners& t, double edge) { // of a turned triangle
     return length > 8.0 * edge && glm::length(glm::cross(t.b - t.a, t.c - t.a)) < 0.5 * edge * length;
 }
 
-// Halves the longest edge until none is too long.
-void cut(const Corners& whole, double edge, const dvec3& inwards, std::vector<CoverPiece>& out) {
-    if (const Corners t = turned(whole); isNeedle(t, edge)) {
-        slice(t, edge, inwards, out);
-        return;
-    }
+// Halves the longest edge until none is too long; calls `done` with each piece until that returns false.
+template <typename Done>
+void halve(const Corners& whole, double edge, Done done) {
     std::vector<Corners> left{whole};
     while (!left.empty()) {
         const Corners t = turned(left.back());
         left.pop_back();
-        if (glm::distance(t.a, t.b) <= edge) {
-            out.push_back(pieceOf(t, inwards));
-            continue;
+        if (glm::distance(t.a, t.b) > edge) {
+            const dvec3 half = 0.5 * (t.a + t.b);
+            left.push_back({t.a, half, t.c});
+            left.push_back({half, t.b, t.c});
+        } else if (!done(t)) {
+            return;
         }
-        const dvec3 half = 0.5 * (t.a + t.b);
-        left.push_back({t.a, half, t.c});
-        left.push_back({half, t.b, t.c});
     }
 }
 
+Corners cornersOf(const TriangleMesh& mesh, size_t t) {
+    return {mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)};
+}
+
+// Halves of needles are rounder than slices, so that their spheres protrude less, but there are more.
+bool canHalveNeedles(const TriangleMesh& mesh, double edge) {
+    size_t left = kMostHalves + mesh.triangles.size();
+    for (size_t t = 0; t < mesh.triangles.size() && left > 0; ++t) {
+        halve(cornersOf(mesh, t), edge, [&left](const Corners&) { return --left > 0; });
+    }
+    return left > 0;
+}
+
 // Inward direction, tested just off the surface; zero when both sides or neither side is inside.
-dvec3 inwardsAt(const TriangleMesh& mesh, const MeshDistance& distance, size_t t, double hair) {
-    if (!distance.solid()) {
+dvec3 inwardsAt(const TriangleMesh& mesh, const MeshDistance& distance, uint32_t t, double hair) {
+    if (!distance.solid() || t == CoverPiece::kNoTriangle) {
         return dvec3(0.0);
     }
     const dvec3 n = mesh.normal(t),
@@ -98,9 +111,9 @@ void addCells(const TriangleMesh& mesh, const MeshDistance& distance, double cel
                 const dvec3 p(x, y, z);
                 // Closer to the surface, the spheres that contain the surface also contain the cell, or it
                 // protrudes.
-                const double depth = -distance.signedDistance(p);
-                if (depth >= half) {
-                    out.push_back({{p, p, p}, p, half, half, depth, dvec3(0.0)});
+                const double depth = distance.nearest(p).distance;
+                if (depth >= half && distance.isInside(p)) {
+                    out.push_back({{p, p, p}, p, half, half, depth});
                 }
             }
         }
@@ -152,10 +165,15 @@ double countOfPieces(const TriangleMesh& mesh, double edge) {
 std::vector<CoverPiece> cutToPieces(const TriangleMesh& mesh, const MeshDistance& distance, double edge,
                                     double cell) {
     std::vector<CoverPiece> pieces;
-    const double hair = 1e-5 * glm::distance(mesh.low(), mesh.high());
+    const bool halves = canHalveNeedles(mesh, edge);
     for (size_t t = 0; t < mesh.triangles.size(); ++t) {
-        cut({mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)}, edge,
-            inwardsAt(mesh, distance, t, hair), pieces);
+        const Corners whole = turned(cornersOf(mesh, t));
+        if (!halves && isNeedle(whole, edge)) {
+            slice(whole, edge, t, pieces);
+        } else {
+            halve(whole, edge,
+                  [&](const Corners& piece) { return pieces.push_back(pieceOf(piece, t)), true; });
+        }
     }
     if (distance.solid()) {
         addCells(mesh, distance, cell, pieces);
@@ -166,7 +184,7 @@ std::vector<CoverPiece> cutToPieces(const TriangleMesh& mesh, const MeshDistance
 std::vector<CoverSeat> findSeats(const TriangleMesh& mesh, const MeshDistance& distance,
                                  const std::vector<CoverPiece>& pieces, size_t count) {
     const dvec3 low = mesh.low(), high = mesh.high();
-    const double largest = 0.5 * glm::distance(low, high);
+    const double largest = 0.5 * glm::distance(low, high), hair = 2e-5 * largest;
     std::vector<CoverSeat> seats;
     const auto add = [&](const dvec3& c) { seats.push_back({c, -distance.signedDistance(c)}); };
     add(0.5 * (low + high));
@@ -174,11 +192,12 @@ std::vector<CoverSeat> findSeats(const TriangleMesh& mesh, const MeshDistance& d
         std::max(1.0, 2.0 * static_cast<double>(pieces.size()) / static_cast<double>(count));
     for (double at = 0.0; at < static_cast<double>(pieces.size()); at += stride) {
         const CoverPiece& piece = pieces[static_cast<size_t>(at)];
-        if (piece.inwards == dvec3(0.0)) {
+        const dvec3 inwards = inwardsAt(mesh, distance, piece.triangle, hair);
+        if (inwards == dvec3(0.0)) {
             add(piece.middle);
             continue;
         }
-        const dvec3 centre = largestBall(distance, piece.middle, piece.inwards, largest);
+        const dvec3 centre = largestBall(distance, piece.middle, inwards, largest);
         add(centre);
         add(piece.middle + (0.15 + 0.75 * golden(seats.size())) * (centre - piece.middle));
     }

@@ -11,12 +11,14 @@ namespace fathom {
 
 // A small triangle of the surface, or a cell of the interior (all corners equal, `margin` = half diagonal).
 struct CoverPiece {
+    static constexpr uint32_t kNoTriangle = ~0u;
+
     dvec3 corner[3];
     dvec3 middle{0.0};
-    double reach = 0.0;  // [m] from the middle to the farthest corner, margin included
-    double margin = 0.0; // [m]
-    double depth = 0.0;  // [m] of the middle inside the mesh; 0 on the surface
-    dvec3 inwards{0.0};  // unit; zero for cells and meshes without an inside
+    double reach = 0.0;              // [m] from the middle to the farthest corner, margin included
+    double margin = 0.0;             // [m]
+    double depth = 0.0;              // [m] of the middle inside the mesh; 0 on the surface
+    uint32_t triangle = kNoTriangle; // of the mesh
 
     // Radius that a sphere about c needs to contain the piece [m].
     double radiusFrom(const dvec3& c) const;

@@ -31,6 +31,13 @@ public:
         const double d = nearest(p).distance;
         return isInside(p) ? -d : d;
     }
+    // The same for a point at `p`, near `about`, whose signed distance is `known`: a shorter step does not
+    // cross the surface, so the sign stays.
+    double signedDistance(const dvec3& p, const dvec3& about, double known) const {
+        const double d = nearest(p).distance;
+        const bool stays = glm::distance(p, about) < std::abs(known);
+        return (stays ? known < 0.0 : isInside(p)) ? -d : d;
+    }
     bool solid() const { return solid_; }
 
 private:
