@@ -125,7 +125,7 @@ dvec3 largestBall(const MeshDistance& distance, const dvec3& p, const dvec3& n, 
     double radius = largest;
     for (int k = 0; k < 30; ++k) {
         const dvec3 centre = p + radius * n;
-        const MeshDistance::Nearest q = distance.nearest(centre);
+        const MeshDistance::Nearest q = distance.nearest(centre, radius);
         if (q.distance >= radius * (1.0 - 1e-6)) {
             break;
         }

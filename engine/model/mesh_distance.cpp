@@ -145,8 +145,13 @@ void MeshDistance::search(uint32_t index, const dvec3& p, Nearest& best, double&
 }
 
 MeshDistance::Nearest MeshDistance::nearest(const dvec3& p) const {
+    return nearest(p, std::numeric_limits<double>::infinity());
+}
+
+MeshDistance::Nearest MeshDistance::nearest(const dvec3& p, double most) const {
+    constexpr double kRounding = 1e-9; // of the distance and of the coordinates
     Nearest best;
-    double square = std::numeric_limits<double>::infinity();
+    double square = std::pow(most * (1.0 + kRounding) + kRounding * glm::length(p), 2.0);
     if (!nodes_.empty()) {
         search(0, p, best, square);
     }

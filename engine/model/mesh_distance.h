@@ -21,6 +21,8 @@ public:
         double distance = 0.0; // [m] >= 0
     };
     Nearest nearest(const dvec3& p) const;
+    // The same when it is known to be at most `most` [m] away, which takes less time.
+    Nearest nearest(const dvec3& p, double most) const;
 
     // About 1 inside, 0 outside; 2 where two closed parts overlap. Accurate to about 0.01.
     double winding(const dvec3& p) const;
@@ -34,8 +36,9 @@ public:
     // The same for a point at `p`, near `about`, whose signed distance is `known`: a shorter step does not
     // cross the surface, so the sign stays.
     double signedDistance(const dvec3& p, const dvec3& about, double known) const {
-        const double d = nearest(p).distance;
-        const bool stays = glm::distance(p, about) < std::abs(known);
+        const double step = glm::distance(p, about);
+        const double d = nearest(p, step + std::abs(known)).distance;
+        const bool stays = step < std::abs(known);
         return (stays ? known < 0.0 : isInside(p)) ? -d : d;
     }
     bool solid() const { return solid_; }
