@@ -84,6 +84,13 @@ void wholeSub(uint sub) {
     }
     putBound(sub, centre, radius, count, notes);
     classes[sub] = notes.classes;
+    for (uint c = 0; kTree != 0 && c < kClasses; ++c) {
+        uint largest = 0;
+        [[unroll]] for (uint k = 0; k < 16u * kLayers; ++k) {
+            largest = max(largest, classIn(notes, k & 15u, k >> 4) == c ? radiusBits(mine[k]) : 0u);
+        }
+        noteLargest(c, largest);
+    }
     if (count != 0) {
         atomicAdd(counters.nodes, 1u);
     }

@@ -41,8 +41,23 @@ shared uint notesOfPatch[256];                     // PixelResult::note of each 
 const bool kByDepth = kPack != 0 && kBeam == 0;     // seen spheres are packed as depths
 shared float zOfPatch[kByDepth ? 256 : 1];
 shared uint rememberedOfPatch;                     // same encoding as `live`
+shared uint largestOfPatch[kTree != 0 ? kClasses : 1u]; // as FrameCounters::largestRadius
 #include "shaders/lib/thin_patch.glsl"
 #include "shaders/lib/packing.glsl"
+
+// Of sub-patch s.
+void largestOfGroup(uint s, Notes notes) {
+    for (uint c = 0; c < kClasses; ++c) {
+        uint largest = 0;
+        for (uint k = 0; k < 16u * kLayers; ++k) {
+            uint bits = radiusBits(ofPatch[(k >> 4) * 256u + s * 16u + (k & 15u)]);
+            largest = max(largest, classIn(notes, k & 15u, k >> 4) == c ? bits : 0u);
+        }
+        if (largest != 0) {
+            atomicMax(largestOfPatch[kTree != 0 ? c : 0u], largest);
+        }
+    }
+}
 
 void boundOfGroup(uint patchIndex, uint s) {
     vec3 sum = vec3(0.0);
@@ -68,6 +83,9 @@ void boundOfGroup(uint patchIndex, uint s) {
         notes = noted(notes, p, notesOfPatch[s * 16u + p]);
     }
     putBound(patchIndex * 16u + s, centre, radius, count, notes);
+    if (kTree != 0) {
+        largestOfGroup(s, notes);
+    }
     if (kPack == 0 || (kClasses > 1 && bitCount(classesOfPatch & 0xffu) > 1)) { // with one class, the run itself names it
         classes[patchIndex * 16u + s] = notes.classes;
     }
@@ -82,6 +100,9 @@ void prepareGroup(uint patchIndex, ivec2 patchAt) {
     }
     if (gl_LocalInvocationID.x == 0) {
         rememberedOfPatch = 0, classesOfPatch = 0, wideOfPatch = 0;
+    }
+    for (uint c = gl_LocalInvocationID.x; kTree != 0 && c < kClasses; c += gl_WorkGroupSize.x) {
+        largestOfPatch[c] = 0;
     }
     if (kThin != 0) {
         decideCells(patchIndex, patchAt); // ends with a barrier
@@ -122,8 +143,11 @@ void wholePatch(uint patchIndex) {
     for (uint s = gl_LocalInvocationID.x; s < 16u; s += gl_WorkGroupSize.x) {
         boundOfGroup(patchIndex, s);
     }
-    if (kPack != 0 || kHold != 0) {
+    if (kPack != 0 || kHold != 0 || kTree != 0) {
         barrier();
+    }
+    for (uint c = gl_LocalInvocationID.x; kTree != 0 && c < kClasses; c += gl_WorkGroupSize.x) {
+        noteLargest(c, largestOfPatch[c]);
     }
     if (kPack != 0) {
         packPatch(patchIndex);

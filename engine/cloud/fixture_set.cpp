@@ -4,21 +4,52 @@
 #include "engine/cloud/frame_params.h"
 #include "shaders/shared/query_params.h"
 
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
 namespace fathom::cloud {
 
-void FixtureSet::describeDevice(const Scene& scene, uint64_t frozenVersion, const gpu::Device::At& written) {
+namespace {
+
+// [m] of the finite spheres; 0 without any.
+float largestOf(const RegionSpheres& s) {
+    float largest = 0.0f;
+    for (size_t i = 0; i < s.size(); ++i) {
+        const bool finite = std::isfinite(s.x[i] + s.y[i] + s.z[i] + s.radius[i]);
+        largest = finite ? std::max(largest, s.radius[i]) : largest;
+    }
+    return largest;
+}
+
+} // namespace
+
+void FixtureSet::describeDevice(const Scene& scene, const FrozenClasses& frozen,
+                                const gpu::Device::At& written) {
     rows.clear();
     for (const uint32_t row : classRows(scene)) {
         rows.push_back(scene.fixtures[row].frozen ? kStill : static_cast<int>(row));
     }
-    stillVersion = frozenVersion;
+    still = frozen.spheres();
+    stillVersion = frozen.version();
     landed = written;
+    float largest = still ? largestOf(*still) : 0.0f;
+    const auto& counters = device.counters.as<shared::FrameCounters>()[0];
+    for (size_t c = 0; c < rows.size(); ++c) {
+        largest =
+            rows[c] == kStill ? largest : std::max(largest, std::bit_cast<float>(counters.largestRadius[c]));
+    }
+    largestRadius = double{largest};
+}
+
+PatchBits FixtureSet::forbidden(const PatchLayout& layout) const {
+    return {device.listed.as<uint32_t>(), device.bits.as<uint32_t>(), layout.across};
 }
 
 FixtureSet::Place FixtureSet::placeOf(const PatchLayout& layout, uint32_t slot, uint32_t pointClass) const {
     const uint32_t layer = slot & 3u, at = slot >> 2;
     if (layer == shared::kLayerStill) {
-        return {host.spheres.source[stillFrom + at], host.spheres.fixture[stillFrom + at]};
+        return {still->source[at], still->fixture[at]};
     }
     const auto width = static_cast<uint32_t>(host.camera.depth.width);
     const auto pixels = static_cast<uint32_t>(host.camera.depth.pixels());

@@ -3,7 +3,9 @@
 #pragma once
 
 #include "engine/cloud/cloud_buffers.h"
+#include "engine/cloud/frozen_classes.h"
 #include "engine/cloud/host_grid.h"
+#include "engine/contact/behind.h"
 #include "engine/contact/fixtures.h"
 #include "engine/types/lease_pool.h"
 
@@ -15,16 +17,17 @@ struct FixtureSet {
     Fixtures host;
     HostGrid grid; // over host.spheres
     SetBuffers device;
-    // For the GPU query: what the device's spheres are in host.spheres.
-    std::vector<int> rows;     // per point class: its row of Scene::fixtures; kStill = see below
-    size_t stillFrom = 0;      // host.spheres from here on are not in `device`: spheres of frozen classes
-    uint64_t stillVersion = 0; // changes with those spheres; 0 = none so far
-    gpu::Device::At landed;    // the passes have written `device`
+    // For the GPU query.
+    std::vector<int> rows; // per point class: its row of Scene::fixtures; kStill = see below
+    std::shared_ptr<const RegionSpheres> still; // spheres of frozen classes, about host.origin; null = none
+    uint64_t stillVersion = 0;                  // changes with them; 0 = none so far
+    gpu::Device::At landed;                     // the passes have written `device`
+    double largestRadius = 0.0; // [m] of the finite spheres, those of frozen classes included; 0 = none
 
     static constexpr int kStill = -1; // a frozen class: its spheres in `device` do not count
 
-    // Fills the above, but for stillFrom.
-    void describeDevice(const Scene& scene, uint64_t frozenVersion, const gpu::Device::At& written);
+    // Fills the above. Call after the passes have landed.
+    void describeDevice(const Scene& scene, const FrozenClasses& frozen, const gpu::Device::At& written);
 
     // The sphere that a search of the device found. slot: FoundSphere::slot. row: of Scene::fixtures; kStill
     // = the sphere does not count.
@@ -33,6 +36,8 @@ struct FixtureSet {
         int row;
     };
     Place placeOf(const PatchLayout& layout, uint32_t slot, uint32_t pointClass) const;
+
+    PatchBits forbidden(const PatchLayout& layout) const; // in `device`, after the passes have landed
 
     FixtureSet() = default; // without a device side
     FixtureSet(const gpu::Device& gpu, const Plan& plan, const PatchLayout& layout)

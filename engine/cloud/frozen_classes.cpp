@@ -16,11 +16,22 @@ void copySphere(RegionSpheres& to, size_t at, const RegionSpheres& from, size_t 
     to.fixture[at] = from.fixture[i];
 }
 
+void append(RegionSpheres& to, const RegionSpheres& from) {
+    const size_t begin = to.size();
+    to.resize(begin + from.size());
+    for (size_t i = 0; i < from.size(); ++i) {
+        copySphere(to, begin + i, from, i);
+    }
+}
+
+bool isFrozen(const Scene& scene, uint32_t row) {
+    return row < scene.fixtures.size() && scene.fixtures[row].isPoints() && scene.fixtures[row].frozen;
+}
+
 } // namespace
 
 FrozenClasses::Kept FrozenClasses::take(const Fixtures& set, uint32_t row) {
     Kept kept;
-    kept.origin = set.origin;
     const uint32_t moved = 2u * set.camera.depth.pixels();
     for (size_t i = 0; i < set.spheres.size(); ++i) {
         if (set.spheres.fixture[i] == row) {
@@ -38,43 +49,52 @@ FrozenClasses::Kept FrozenClasses::take(const Fixtures& set, uint32_t row) {
     return kept;
 }
 
-size_t FrozenClasses::apply(Fixtures& set, const Scene& scene) {
-    const auto frozen = [&](uint32_t row) {
-        return row < scene.fixtures.size() && scene.fixtures[row].isPoints() && scene.fixtures[row].frozen;
-    };
-    version_ += std::erase_if(kept_, [&](const auto& kept) { return !frozen(kept.first); });
+// After any change of kept_.
+void FrozenClasses::join() {
+    auto all = std::make_shared<RegionSpheres>();
+    for (const auto& [row, kept] : kept_) {
+        append(*all, kept.spheres);
+    }
+    spheres_ = kept_.empty() ? nullptr : std::move(all);
+    ++version_;
+}
+
+bool FrozenClasses::covers(const Scene& scene) {
+    if (std::erase_if(kept_, [&](const auto& kept) { return !isFrozen(scene, kept.first); }) > 0) {
+        join();
+    }
+    bool all = true;
     for (uint32_t row = 0; row < scene.fixtures.size(); ++row) {
-        if (frozen(row) && !kept_.contains(row)) {
-            kept_.emplace(row, take(set, row));
-            ++version_;
+        all = all && (!isFrozen(scene, row) || kept_.contains(row));
+    }
+    return all;
+}
+
+void FrozenClasses::apply(Fixtures& set, const Scene& scene) {
+    if (!covers(scene)) {
+        for (uint32_t row = 0; row < scene.fixtures.size(); ++row) {
+            if (isFrozen(scene, row) && !kept_.contains(row)) {
+                kept_.emplace(row, take(set, row));
+            }
         }
+        join();
     }
     if (kept_.empty()) {
-        return set.spheres.size();
+        return;
     }
     RegionSpheres& spheres = set.spheres;
-    size_t at = 0;
+    size_t live = 0;
     for (size_t i = 0; i < spheres.size(); ++i) {
         if (!kept_.contains(spheres.fixture[i])) {
-            copySphere(spheres, at++, spheres, i);
+            copySphere(spheres, live++, spheres, i);
         }
     }
-    const size_t first = at;
-    spheres.resize(at);
-    for (const auto& [row, kept] : kept_) {
-        const glm::vec3 shift(kept.origin - set.origin);
-        spheres.resize(at + kept.spheres.size());
-        for (size_t i = 0; i < kept.spheres.size(); ++i, ++at) {
-            copySphere(spheres, at, kept.spheres, i);
-            spheres.x[at] += shift.x;
-            spheres.y[at] += shift.y;
-            spheres.z[at] += shift.z;
-        }
-        for (GuidancePose& guidance : set.guidance) {
-            guidance = guidance.fixture == row && kept.guidance ? *kept.guidance : guidance;
-        }
+    spheres.resize(live);
+    append(spheres, *spheres_);
+    for (GuidancePose& guidance : set.guidance) {
+        const auto kept = kept_.find(guidance.fixture);
+        guidance = kept != kept_.end() && kept->second.guidance ? *kept->second.guidance : guidance;
     }
-    return first;
 }
 
 } // namespace fathom::cloud

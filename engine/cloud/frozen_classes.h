@@ -6,30 +6,37 @@
 #include "engine/scene/scene.h"
 
 #include <map>
+#include <memory>
 #include <optional>
 
 namespace fathom::cloud {
 
-// Changes the host copy of a set. The GPU query has a copy of the fixed spheres of its own (TreeQuery). Frame
+// The GPU query has a copy of the fixed spheres of its own (TreeQuery). All sets have one origin. Frame
 // thread only.
 class FrozenClasses {
 public:
-    // Replaces spheres and targets of classes with FixtureClass::frozen by those of the first set since the
-    // class was frozen. Other classes are unchanged. Sources of frozen spheres are offset by twice the number
-    // of pixels, so that every source in a set is unique. Returns the index of the first frozen sphere: they
-    // are the last ones.
-    size_t apply(Fixtures& set, const Scene& scene);
-    uint64_t version() const { return version_; } // changes with the frozen spheres
+    // Drops the classes that are no longer frozen. False when one has just been frozen: then apply() must
+    // come first.
+    bool covers(const Scene& scene);
+    // Replaces spheres and targets of classes with FixtureClass::frozen in the host copy of a set by those of
+    // the first set since the class was frozen. Other classes are unchanged. The fixed spheres come last.
+    // Their sources are offset by twice the number of pixels, so that every source in a set is unique.
+    void apply(Fixtures& set, const Scene& scene);
+
+    // The fixed spheres, which no one changes; null = none. version(): changes with them; 0 = none so far.
+    const std::shared_ptr<const RegionSpheres>& spheres() const { return spheres_; }
+    uint64_t version() const { return version_; }
 
 private:
     struct Kept {
-        dvec3 origin{0.0};
         RegionSpheres spheres;
         std::optional<GuidancePose> guidance;
     };
     static Kept take(const Fixtures& set, uint32_t row);
+    void join();
 
-    std::map<uint32_t, Kept> kept_; // by row of Scene::fixtures
+    std::map<uint32_t, Kept> kept_;                // by row of Scene::fixtures
+    std::shared_ptr<const RegionSpheres> spheres_; // all of them, by row
     uint64_t version_ = 0;
 };
 

@@ -122,8 +122,8 @@ bool GapQuery::growTo(uint32_t pairs) {
 void GapQuery::writePoses(const Batch& batch, Part part) {
     const auto out = poses_.as<GapPose>();
     for (size_t i = 0; i < part.size(); ++i) {
-        out[i] = gapPoseOf(batch.poses[part[i]], batch.set.host.origin, leaves_.radius(),
-                           batch.set.grid.maxRadius());
+        out[i] =
+            gapPoseOf(batch.poses[part[i]], batch.set.host.origin, leaves_.radius(), batch.set.largestRadius);
     }
 }
 

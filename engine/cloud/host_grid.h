@@ -15,19 +15,17 @@ public:
     // Frame thread, while no reader leases the set. `spheres` must stay unchanged until the next call of
     // either.
     void build(const RegionSpheres& spheres, ThreadPool* workers);
-    void buildLater(const RegionSpheres& spheres); // only finds the largest radius now
+    void buildLater(const RegionSpheres& spheres);
 
     // Any thread. Builds the grid if no call did; concurrent callers wait for it.
     const RegionGrid& get() const;
     bool built() const { return built_.load(std::memory_order_acquire); }
-    double maxRadius() const { return maxRadius_; } // [m] as RegionGrid::maxRadius()
 
 private:
     mutable std::mutex mutex_; // held while a reader builds
     mutable RegionGrid grid_;
     mutable std::atomic<bool> built_{true};
     const RegionSpheres* spheres_ = nullptr;
-    double maxRadius_ = 0.0;
 };
 
 } // namespace fathom::cloud

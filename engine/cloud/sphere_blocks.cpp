@@ -44,9 +44,9 @@ bool SphereBlocks::fillStill(const FixtureSet& set) {
         return false;
     }
     stillVersion_ = set.stillVersion;
-    const RegionSpheres& s = set.host.spheres;
     std::vector<glm::vec4> spheres;
-    for (size_t i = set.stillFrom; i < s.size(); ++i) {
+    for (size_t i = 0; set.still && i < set.still->size(); ++i) {
+        const RegionSpheres& s = *set.still;
         spheres.emplace_back(s.x[i], s.y[i], s.z[i], s.radius[i]);
     }
     return fill(spheres);

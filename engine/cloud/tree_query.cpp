@@ -153,7 +153,7 @@ bool TreeQuery::list(const FixtureSet& set, const Pose& baseTtool, double reach,
     if (still_.fillStill(set)) {
         bindings_.clear();
     }
-    const QueryParams params = paramsAt(baseTtool, set.host.origin, reach, set.grid.maxRadius());
+    const QueryParams params = paramsAt(baseTtool, set.host.origin, reach, set.largestRadius);
     for (;;) {
         if (bindings_.empty()) {
             makeBindings();

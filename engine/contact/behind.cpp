@@ -29,8 +29,8 @@ double overlapOf(const ContactSet& set, uint32_t leaf, double radius) {
 
 } // namespace
 
-BehindTracker::DepthSample BehindTracker::sampleAt(const Fixtures& fixtures, const Pose& cameraTbase,
-                                                   const dvec3& point) {
+BehindTracker::DepthSample BehindTracker::sampleAt(const Fixtures& fixtures, const PatchBits* bits,
+                                                   const Pose& cameraTbase, const dvec3& point) {
     DepthSample sample;
     const Intrinsics& lens = fixtures.camera.depth;
     const dvec3 p = cameraTbase.apply(point);
@@ -49,7 +49,7 @@ BehindTracker::DepthSample BehindTracker::sampleAt(const Fixtures& fixtures, con
     }
     const double z = raw * fixtures.camera.metresPerUnit;
     sample.known = true;
-    sample.forbidden = fixtures.forbiddenAt(column, line);
+    sample.forbidden = bits != nullptr ? bits->at(column, line) : fixtures.forbiddenAt(column, line);
     sample.before = z - p.z;
     sample.sigma = fixtures.camera.sigmaAt(p * (z / p.z));
     sample.range = glm::length(p) * z / p.z;
@@ -83,7 +83,8 @@ void BehindTracker::follow(Leaf& leaf, const DepthSample& sample, const LeafDist
     leaf.inFront = !leaf.behind && sample.known && sample.forbidden && sample.before > -margin;
 }
 
-void BehindTracker::update(const Tool& tool, const Fixtures& fixtures, double regionRadius, ContactSet& set) {
+void BehindTracker::update(const Tool& tool, const Fixtures& fixtures, double regionRadius, ContactSet& set,
+                           const PatchBits* bits) {
     leaves_.resize(tool.leafCount());
     const bool newSet = any_ && fixtures.generation != generation_;
     any_ = true;
@@ -96,7 +97,7 @@ void BehindTracker::update(const Tool& tool, const Fixtures& fixtures, double re
         const double ownRange = glm::length(toCamera);
         LeafDistance distance{regionRadius + tool.leaves()[i].radius, ownRange, 0.0};
         distance.overlap = leaves_[i].behind ? overlapOf(set, i, tool.leaves()[i].radius) : 0.0;
-        follow(leaves_[i], sampleAt(fixtures, cameraTbase, centre), distance, newSet);
+        follow(leaves_[i], sampleAt(fixtures, bits, cameraTbase, centre), distance, newSet);
         if (leaves_[i].behind && ownRange > kNearest) {
             const double left = ownRange - leaves_[i].range + distance.resting;
             set.behind.push_back({i, toCamera / ownRange, std::max(left, distance.overlap)});

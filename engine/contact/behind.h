@@ -6,9 +6,23 @@
 #include "engine/contact/contact_set.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace fathom {
+
+// Pixels with a forbidden class as the passes leave them, before the host has its copy
+// (Fixtures::forbiddenBits). Both give the same answers.
+struct PatchBits {
+    std::span<const uint32_t> listed; // per patch of 16x16 pixels; 0 = no such pixel, whatever its bits are
+    std::span<const uint32_t> bits;   // per sub-patch of 4x4 pixels, 16 per patch: one bit per pixel
+    uint32_t across = 0;              // patches
+
+    bool at(uint32_t u, uint32_t v) const {
+        const uint32_t patch = v / 16 * across + u / 16, sub = v % 16 / 4 * 4 + u % 16 / 4;
+        return listed[patch] != 0 && (bits[patch * 16 + sub] >> (v % 4 * 4 + u % 4) & 1u) != 0;
+    }
+};
 
 // Runs at contact cadence, once per query, after the set is filled. Allocates at first use only.
 //
@@ -25,8 +39,10 @@ namespace fathom {
 class BehindTracker {
 public:
     // regionRadius: largest radius of the set's spheres [m] (RegionGrid::maxRadius()). The pairs of the set
-    // must be listed already (or be empty). Fills set.behind.
-    void update(const Tool& tool, const Fixtures& fixtures, double regionRadius, ContactSet& set);
+    // must be listed already (or be empty). Fills set.behind. Reads no spheres of the fixtures, and with
+    // `bits` no forbiddenBits, so that their host copy may still be incomplete.
+    void update(const Tool& tool, const Fixtures& fixtures, double regionRadius, ContactSet& set,
+                const PatchBits* bits = nullptr);
 
 private:
     // The depth frame sampled at one point.
@@ -38,7 +54,8 @@ private:
         double sigma = 0.0; // [m] of the depth there
         double range = 0.0; // [m] from the camera to the surface on the point's own ray
     };
-    static DepthSample sampleAt(const Fixtures& fixtures, const Pose& cameraTbase, const dvec3& point);
+    static DepthSample sampleAt(const Fixtures& fixtures, const PatchBits* bits, const Pose& cameraTbase,
+                                const dvec3& point);
 
     struct Leaf {
         bool inFront = false;       // in front of a forbidden surface at the last query

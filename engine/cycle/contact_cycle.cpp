@@ -30,6 +30,7 @@ ContactCycle::ContactCycle(gpu::Device& device, const Plan& plan, const PatchLay
 void ContactCycle::use(gpu::Device* device, const Plan& plan, const PatchLayout& layout,
                        cloud::FixturePool& pool) {
     where_ = plan.query;
+    layout_ = layout;
     if (where_ != Plan::Query::Gpu) {
         return;
     }
@@ -64,12 +65,14 @@ void ContactCycle::ask(const Tool& tool, const cloud::FixtureSet& set, const Pos
         return;
     case Plan::Query::Cpu:
         cpu_.query(tool, baseTtool, reach, set.host, set.grid.get(), out);
-        break;
+        behind_.update(tool, set.host, set.largestRadius, out);
+        return;
     case Plan::Query::Gpu:
         askDevice(tool, set, baseTtool, reach, out);
-        break;
+        const PatchBits forbidden = set.forbidden(layout_);
+        behind_.update(tool, set.host, set.largestRadius, out, &forbidden);
+        return;
     }
-    behind_.update(tool, set.host, set.grid.maxRadius(), out);
 }
 
 void ContactCycle::askDevice(const Tool& tool, const cloud::FixtureSet& set, const Pose& baseTtool,

@@ -49,6 +49,7 @@ private:
     const ArmRig* arm_;
     double reach_;
     Plan::Query where_ = Plan::Query::Cpu;
+    PatchLayout layout_;
     CullCpu cpu_;
     QueryLoop gpuLoop_;
     std::optional<cloud::TreeQuery> gpu_;

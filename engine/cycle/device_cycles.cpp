@@ -44,6 +44,7 @@ void DeviceCycles::close() {
         if (const auto newest = frames_->sets().newest()) {
             auto stale = std::make_shared<cloud::FixtureSet>();
             stale->host = newest->host;
+            stale->largestRadius = newest->largestRadius;
             stale->grid.build(stale->host.spheres, nullptr);
             stale_ = std::move(stale);
         }

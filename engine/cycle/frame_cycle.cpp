@@ -222,15 +222,18 @@ FrameReport FrameCycle::finish() {
         }
         guidanceEstimates_.apply(set.host.guidance, scene_, f.pose.position, f.frame->captureTime);
         lastCounts_.valid = valid;
-        set.stillFrom = frozen_.apply(set.host, scene_);
+        frozen_.apply(set.host, scene_);
         if (device_) {
-            set.describeDevice(scene_, frozen_.version(), device_->landed());
+            set.describeDevice(scene_, frozen_, device_->landed());
         }
         f.times.collected = Clock::now();
         if (plan_.spheres && plan_.grid) {
             set.grid.build(set.host.spheres, &workers_);
         } else {
             set.grid.buildLater(set.host.spheres);
+        }
+        if (plan_.grid && !plan_.tree) { // no pass finds it
+            set.largestRadius = set.grid.get().maxRadius();
         }
         pool_.publish();
         f.times.published = Clock::now();

@@ -113,6 +113,25 @@ void putBound(uint sub, vec3 centre, float radius, uint count, Notes notes) {
     }
 }
 
+// Float bits of the radius; 0 = no sphere, or one with a number that is not finite, which no query finds. Such bits
+// have the order of their radii.
+uint radiusBits(vec4 sphere) {
+    bool finite = all(notEqual(floatBitsToUint(sphere) & uvec4(0x7f800000u), uvec4(0x7f800000u)));
+    return finite && sphere.w > 0.0 ? floatBitsToUint(sphere.w) : 0u;
+}
+
+// Class of a pixel's sphere in its sub-patch. layer: 0 = seen, 1 = held.
+uint classIn(Notes notes, uint p, uint layer) {
+    return notes.classes[p >> 2] >> ((p & 3u) * 8u + layer * 4u) & 15u;
+}
+
+// bits: largest radiusBits() of some spheres of class c.
+void noteLargest(uint c, uint bits) {
+    if (bits != 0) {
+        atomicMax(counters.largestRadius[c], bits);
+    }
+}
+
 // Writes the radii of row k of a sub-patch: seen and held points.
 void putRadii(uint sub, uint k, vec4 seenHere, vec4 heldHere) {
     if (kPack == 0) {

@@ -86,8 +86,10 @@ struct FrameCounters {
     uint leakSpacing[8]; // per class: float bits of the largest spacing [m] between neighbours that is >= R;
                          // 0 = none
     uint leakRange[8];   // per class: float bits of the largest range [m] of such neighbours
+    uint largestRadius[8]; // per class: float bits of the largest radius [m] of its finite spheres; 0 = none. Only
+                           // with a tree
 };
-FATHOM_SIZE(FrameCounters, 192);
+FATHOM_SIZE(FrameCounters, 224);
 
 // Moments of one guidance class in one patch, about their mean = anchor + offset. A single float32 mean would
 // lose digits that the covariance of a small class needs.

@@ -65,10 +65,12 @@ void checkHost(const CloudRig& rig, const FrameReport& report) {
     CHECK(report.counts.spheres == host.size());
     const std::vector<uint32_t> masks = rig.masks();
     uint32_t marked = 0, wrongBits = 0;
+    const PatchBits onDevice = rig.set().forbidden(rig.layout());
     for (uint32_t i = 0; i < masks.size(); ++i) {
         const bool is = reference::forbiddenClass(rig.scene(), masks[i]) >= 0;
         marked += is;
         wrongBits += is != rig.host().forbiddenAt(i % width, i / width);
+        wrongBits += is != onDevice.at(i % width, i / width);
     }
     CHECK(wrongBits == 0);
     CHECK(report.counts.forbidden == marked);

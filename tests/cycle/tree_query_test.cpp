@@ -72,6 +72,7 @@ struct Both {
         cpu->query(rig.set(), place, a);
         gpu->query(rig.set(), place, b);
         checkSame(a, b);
+        CHECK(rig.set().largestRadius == rig.set().grid.get().maxRadius());
         return b.size();
     }
 };
