@@ -12,6 +12,9 @@ namespace fathom {
 
 // Holds readers + 2 values: the newest, one per reader, one to write. Each reader holds at most one lease at
 // a time and drops it before it takes the next. One writer. Lock-free; the writer is wait-free.
+//
+// A value can be published in two steps. After publishEarly() the writer may still write those parts of it
+// that no reader of newestEarly() reads; publish() ends that.
 template <class T>
 class LeasePool {
     struct Entry {
@@ -56,24 +59,12 @@ public:
     }
 
     // Reader. Leases the newest published value; empty before the first publish().
-    Lease newest() noexcept {
-        for (;;) {
-            const int32_t index = newest_.load(std::memory_order_acquire);
-            if (index < 0) {
-                return Lease();
-            }
-            Entry& entry = entries_[static_cast<size_t>(index)];
-            int32_t count = entry.readers.load(std::memory_order_relaxed);
-            // The writer may have reused the entry since newest_ was read; then a newer one exists.
-            while (count != kWriting) {
-                if (entry.readers.compare_exchange_weak(count, count + 1, std::memory_order_acquire)) {
-                    return Lease(&entry);
-                }
-            }
-        }
-    }
+    Lease newest() noexcept { return leaseOf(newest_); }
+    // Reader. The same after either step: never older than newest().
+    Lease newestEarly() noexcept { return leaseOf(early_); }
 
-    // Writer. A value that is neither the newest nor leased; stays the same until publish().
+    // Writer. A value that is neither the newest nor leased; stays the same until publish(), also after
+    // publishEarly().
     T& back() noexcept {
         if (writing_ < 0) {
             for (size_t i = 0; writing_ < 0; i = (i + 1) % entries_.size()) {
@@ -88,9 +79,16 @@ public:
     }
     uint32_t backIndex() const noexcept { return static_cast<uint32_t>(writing_); } // after back()
 
+    // Writer. The value of back() becomes the newest for newestEarly(). At most once before publish().
+    void publishEarly() noexcept {
+        entries_[static_cast<size_t>(writing_)].readers.store(0, std::memory_order_release);
+        early_.store(writing_, std::memory_order_release);
+    }
     // Writer. The value of back() becomes the newest.
     void publish() noexcept {
-        entries_[static_cast<size_t>(writing_)].readers.store(0, std::memory_order_release);
+        if (early_.load(std::memory_order_relaxed) != writing_) {
+            publishEarly();
+        }
         newest_.store(writing_, std::memory_order_release);
         writing_ = -1;
     }
@@ -100,9 +98,31 @@ public:
     T& at(size_t i) { return *entries_[i].value; }
 
 private:
+    Lease leaseOf(const std::atomic<int32_t>& which) noexcept {
+        for (;;) {
+            const int32_t index = which.load(std::memory_order_acquire);
+            if (index < 0) {
+                return Lease();
+            }
+            Entry& entry = entries_[static_cast<size_t>(index)];
+            int32_t count = entry.readers.load(std::memory_order_relaxed);
+            while (count != kWriting) {
+                if (entry.readers.compare_exchange_weak(count, count + 1, std::memory_order_acquire)) {
+                    Lease lease(&entry);
+                    // The writer may have reused the entry before it was leased. Then a newer one exists, and
+                    // this one may be published early only.
+                    if (which.load(std::memory_order_acquire) == index) {
+                        return lease;
+                    }
+                    break;
+                }
+            }
+        }
+    }
+
     static constexpr int32_t kWriting = -1;
     std::vector<Entry> entries_;
-    std::atomic<int32_t> newest_{-1};
+    std::atomic<int32_t> newest_{-1}, early_{-1};
     int32_t writing_ = -1;
 };
 
