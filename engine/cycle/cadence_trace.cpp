@@ -24,6 +24,7 @@ void CadenceTrace::frame(const FrameReport& report) noexcept {
     }
     frames_.span("device", at.submitted, at.landed, index);
     frames_.span("publish", at.landed, at.published, index);
+    frames_.instant("answerable", at.answerable, index);
     frames_.span("grid", at.collected, at.published, index); // inside the span of publish
     auto begin = at.submitted;
     for (size_t i = 0; i < passes_.size() && i < report.passMs.size(); ++i) {

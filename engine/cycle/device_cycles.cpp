@@ -91,22 +91,36 @@ bool DeviceCycles::newestSet(Fixtures& set, RegionGrid& grid) {
     return stale_ != nullptr;
 }
 
-bool DeviceCycles::answer(const ToolState& place, ContactSet& out) {
-    const std::lock_guard lock(mutex_);
-    const auto newest = frames_ ? frames_->sets().newest() : cloud::FixturePool::Lease();
-    if (newest) {
-        stale_.reset();
-    } else if (!stale_) {
+// The set may not have its host copy yet.
+bool DeviceCycles::answerOnDevice(const ToolState& place, ContactSet& out) {
+    const auto landed =
+        frames_ && contact_.onDevice() ? frames_->sets().newestEarly() : cloud::FixturePool::Lease();
+    if (!landed) {
         return false;
     }
-    const cloud::FixtureSet& set = newest ? *newest : *stale_;
     try {
-        contact_.query(set, place, out);
+        contact_.query(*landed, place, out);
+        return true;
     } catch (const DeviceFailed& e) {
         log::warn("contact query: {}: the CPU answers", e.what());
         contact_.dropDevice();
-        contact_.query(set, place, out);
+        return false;
     }
+}
+
+bool DeviceCycles::answer(const ToolState& place, ContactSet& out) {
+    const std::lock_guard lock(mutex_);
+    if (stale_ && frames_ && frames_->sets().newest()) { // not earlier: the device may be lost again
+        stale_.reset();
+    }
+    if (answerOnDevice(place, out)) {
+        return true;
+    }
+    const auto newest = frames_ ? frames_->sets().newest() : cloud::FixturePool::Lease();
+    if (!newest && !stale_) {
+        return false;
+    }
+    contact_.query(newest ? *newest : *stale_, place, out);
     return true;
 }
 

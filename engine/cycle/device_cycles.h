@@ -16,7 +16,9 @@
 
 namespace fathom {
 
-// While the device is lost, answer() uses the CPU query on the host copy of the newest set. The contact
+// The device answers about the newest set whose passes have landed, the CPU about the newest one with a host
+// copy. While the device is lost, answer() uses the CPU query on the newest host copy, which may be older
+// than the device's last answer; sets and answers carry their own generation and capture time. The contact
 // thread calls answer(), any thread smallestGaps() and clearance(), the frame thread everything else; the
 // calls may overlap.
 class DeviceCycles {
@@ -47,8 +49,9 @@ public:
     const FrameCycle& frames() const { return *frames_; }
     QueryStatistics queryStatistics() const { return contact_.statistics(); } // after the run
 
-    // Fills `out` for the newest fixture set; false when there is none yet. If the device is lost or out of
-    // memory, the CPU answers from then on until renew().
+    // Fills `out` for the newest fixture set, which may lack its host copy where the device answers; false
+    // when there is none yet. If the device is lost or out of memory, the CPU answers from then on until
+    // renew().
     bool answer(const ToolState& place, ContactSet& out);
 
     // Answers of a batch, and the set that they are about.
@@ -58,15 +61,16 @@ public:
         dvec3 origin{0.0};        // [m] base frame: origin of SmallestGap::sphere
         std::vector<SmallestGap> gaps;
     };
-    // Fills `out` for the newest fixture set and the scene's tool, an arm's tip included: one gap per pose
-    // base_T_tool, or none while there is no set. Only regions of points count, no authored shapes. Batches
-    // run one after the other and do not delay answer() on the host; on the device they share its queue. If
-    // the device fails, the CPU answers until renew().
+    // Fills `out` for the newest fixture set with a host copy and the scene's tool, an arm's tip included:
+    // one gap per pose base_T_tool, or none while there is no set. Only regions of points count, no authored
+    // shapes. Batches run one after the other and do not delay answer() on the host; on the device they share
+    // its queue. If the device fails, the CPU answers until renew().
     void smallestGaps(std::span<const Pose> baseTtool, GapBatch& out);
     // The smallest gap [m] of the tool, or of all links of the arm, where it is; NaN while there is no set.
     double clearance(const ToolState& place);
 
-    // Copies the newest fixture set, also after the device is lost; false when there is none yet.
+    // Copies the newest fixture set with a host copy, also after the device is lost; false when there is none
+    // yet.
     bool newestSet(Fixtures& set, RegionGrid& grid);
 
     // Call after frames() threw DeviceFailed: closes the device and opens it again. Origin, generations and
@@ -86,6 +90,7 @@ private:
         const cloud::FixtureSet* get() const { return lease ? &*lease : stale.get(); }
     };
     SetInUse newestInUse();
+    bool answerOnDevice(const ToolState& place, ContactSet& out);
     void findGaps(const cloud::FixtureSet& set, const Tool& tool, std::span<const Pose> baseTtool,
                   std::vector<SmallestGap>& out);
 

@@ -38,8 +38,7 @@ FrameCycle::FrameCycle(gpu::Device* device, const Scene& scene, const CameraInfo
                                    : std::make_unique<cloud::FixtureSet>();
             })
     , device_(plan_.cloud ? std::make_unique<FrameDevice>(*device, plan_, layout_, camera_, pool_) : nullptr)
-    , workers_(plan.publishers, spinTimeOf(plan))
-    , leakWarned_(shared::kMaxClasses, 0) {
+    , workers_(plan.publishers, spinTimeOf(plan)) {
     if (plan.packsDepths()) {
         seenPoints_.emplace(camera.depth, layout_);
     }
@@ -172,8 +171,12 @@ void FrameCycle::submit() {
     device_->submit(commands);
 }
 
-// The parts of the host copy that need no device.
-void FrameCycle::fillHost(const InFlight& f) {
+// The parts of the host copy that need no device, while it works. A CPU device uses the same processors.
+void FrameCycle::fillHost(InFlight& f) {
+    ThreadPool* const meanwhile = plan_.pack ? &workers_ : nullptr;
+    if (meanwhile != nullptr && workers_.size() > 1) {
+        workers_.wake();
+    }
     Fixtures& host = pool_.back().host;
     host.frame = f.frame->index;
     host.captureTime = f.frame->captureTime;
@@ -181,6 +184,16 @@ void FrameCycle::fillHost(const InFlight& f) {
     host.origin = *origin_;
     host.camera = camera_;
     host.baseTcamera = f.pose;
+    if (seenPoints_) {
+        seenPoints_->setFrame(f.params);
+    }
+    f.valid = cloud::copyDepth(host, f.frame->depth, scene_, meanwhile);
+}
+
+void FrameCycle::describe(cloud::FixtureSet& set) const {
+    if (device_) {
+        set.describeDevice(scene_, frozen_, device_->landed());
+    }
 }
 
 FrameReport FrameCycle::without(uint32_t index) const {
@@ -191,7 +204,55 @@ FrameReport FrameCycle::without(uint32_t index) const {
     return report;
 }
 
+void FrameCycle::land() {
+    InFlight& f = *submitted_;
+    if (f.unchanged || f.landed) {
+        return;
+    }
+    fillHost(f);
+    if (device_) {
+        device_->wait();
+    }
+    f.times.landed = Clock::now();
+    f.landed = true;
+    // Spheres of a class that has just been frozen come from the host's copy of this set.
+    if (plan_.query == Plan::Query::Gpu && frozen_.covers(scene_)) {
+        describe(pool_.back());
+        pool_.publishEarly();
+        f.times.answerable = Clock::now();
+    }
+}
+
+// Readers may lease the set already, so only parts are written that no answer of the device reads.
+void FrameCycle::copyToHost(InFlight& f) {
+    cloud::FixtureSet& set = pool_.back();
+    const bool early = f.times.answerable != Clock::time_point();
+    if (device_) {
+        lastCounts_ = cloud::collect(set, device_->work(), seenPoints_ ? &*seenPoints_ : nullptr, scene_,
+                                     plan_, layout_, workers_);
+    }
+    guidanceEstimates_.apply(set.host.guidance, scene_, f.pose.position, f.frame->captureTime);
+    lastCounts_.valid = f.valid;
+    frozen_.apply(set.host, scene_);
+    if (!early) {
+        describe(set);
+    }
+    f.times.collected = Clock::now();
+    if (plan_.spheres && plan_.grid) {
+        set.grid.build(set.host.spheres, &workers_);
+    } else {
+        set.grid.buildLater(set.host.spheres);
+    }
+    if (plan_.grid && !plan_.tree) { // no pass finds it
+        set.largestRadius = set.grid.get().maxRadius();
+    }
+    pool_.publish();
+    f.times.published = Clock::now();
+    f.times.answerable = early ? f.times.answerable : f.times.published;
+}
+
 FrameReport FrameCycle::finish() {
+    land();
     InFlight f = std::move(*submitted_);
     submitted_.reset();
     FrameReport report;
@@ -200,46 +261,12 @@ FrameReport FrameCycle::finish() {
     report.uploadMs = f.uploadMs;
     report.passMs.assign(passNames().size(), 0.0);
     if (!f.unchanged) {
-        ThreadPool* const meanwhile =
-            plan_.pack ? &workers_ : nullptr; // a CPU device uses the same processors
-        if (meanwhile != nullptr && workers_.size() > 1) {
-            workers_.wake();
-        }
-        fillHost(f); // while the device works
-        if (seenPoints_) {
-            seenPoints_->setFrame(f.params);
-        }
-        const uint32_t valid = cloud::copyDepth(pool_.back().host, f.frame->depth, scene_, meanwhile);
-        if (device_) {
-            report.inPlace = device_->upload(f.slot).depth.imported();
-            device_->wait();
-        }
-        f.times.landed = Clock::now();
-        cloud::FixtureSet& set = pool_.back();
-        if (device_) {
-            lastCounts_ = cloud::collect(set, device_->work(), seenPoints_ ? &*seenPoints_ : nullptr, scene_,
-                                         plan_, layout_, workers_);
-        }
-        guidanceEstimates_.apply(set.host.guidance, scene_, f.pose.position, f.frame->captureTime);
-        lastCounts_.valid = valid;
-        frozen_.apply(set.host, scene_);
-        if (device_) {
-            set.describeDevice(scene_, frozen_, device_->landed());
-        }
-        f.times.collected = Clock::now();
-        if (plan_.spheres && plan_.grid) {
-            set.grid.build(set.host.spheres, &workers_);
-        } else {
-            set.grid.buildLater(set.host.spheres);
-        }
-        if (plan_.grid && !plan_.tree) { // no pass finds it
-            set.largestRadius = set.grid.get().maxRadius();
-        }
-        pool_.publish();
-        f.times.published = Clock::now();
+        report.inPlace = device_ && device_->upload(f.slot).depth.imported();
+        copyToHost(f);
         readTimes(f, report);
         report.publishMs = millis(f.times.landed, f.times.published);
-        warnLeaks(lastCounts_);
+        report.answerableMs = millis(f.times.started, f.times.answerable);
+        leaks_.check(lastCounts_, scene_);
     }
     report.counts = lastCounts_;
     const std::vector<uint32_t> rows = cloud::classRows(scene_);
@@ -263,18 +290,6 @@ void FrameCycle::readTimes(const InFlight& f, FrameReport& report) const {
         report.passMs = device_->passMs(f.slot);
     } catch (const DeviceFailed& e) {
         log::debug("the times of frame {}: {}", report.index, e.what());
-    }
-}
-
-void FrameCycle::warnLeaks(const cloud::FrameCounts& counts) {
-    for (size_t c = 0; c < counts.leakSpacing.size(); ++c) {
-        if (counts.leakSpacing[c] > 0.0f && leakWarned_[c] == 0) {
-            leakWarned_[c] = 1;
-            const FixtureClass& f = scene_.fixtures[cloud::classRows(scene_)[c]];
-            log::warn("fixture '{}' leaks: at {:.2f} m its points are {:.1f} mm apart and its spheres "
-                      "have a radius of {:.1f} mm",
-                      f.name, counts.leakRange[c], counts.leakSpacing[c] * 1e3, f.radius * 1e3);
-        }
     }
 }
 

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The frame cadence: from a frame to a published fixture set. Owns the passes and the pool of sets; knows no
 // cameras or threads.
+//
+// Where the device answers contact queries, a set is published early, once its passes have landed
+// (sets().newestEarly()). The host's copy follows: spheres, guidance, forbiddenBits and grid. Only
+// sets().newest() has it. Elsewhere both are the same.
 #pragma once
 
 #include "engine/cloud/collect.h"
@@ -9,6 +13,7 @@
 #include "engine/cloud/guidance_estimates.h"
 #include "engine/cloud/self_filter.h"
 #include "engine/cycle/frame_device.h"
+#include "engine/cycle/leak_warnings.h"
 #include "engine/types/frame.h"
 #include "engine/types/thread_pool.h"
 
@@ -29,12 +34,14 @@ struct FrameReport {
     cloud::FrameCounts counts;
     uint32_t guidanceCount = 0; // pixels in guidance classes, as counted by `classify`
     double uploadMs = 0.0, publishMs = 0.0, latencyMs = 0.0; // [ms]
+    double answerableMs = 0.0;  // [ms] from the start of the upload until contact queries can be answered
     std::vector<double> passMs; // [ms] in the order of FrameCycle::passNames(); device time, zeros without
                                 // Plan::passTimes
     struct Times {              // on the host's monotonic clock
-        // landed: the device has finished; collected: the host has the results; published: contact queries
-        // can be answered (where the CPU answers, the grid is built, too)
-        std::chrono::steady_clock::time_point started, uploaded, submitted, landed, collected, published;
+        // landed: the device has finished; answerable: contact queries can be answered; collected: the host
+        // has the results; published: the host's copy is complete (where the CPU answers, with the grid)
+        std::chrono::steady_clock::time_point started, uploaded, submitted, landed, collected, published,
+            answerable;
     } times;
 };
 
@@ -70,9 +77,12 @@ public:
     // Sets the arm's spheres for the self-filter from the next upload() on. No effect without a self-filter
     // in the plan.
     void setArm(cloud::LinkSpheres arm) { arm_ = std::move(arm); }
-    // process() in three steps: upload() may run while the device works on the previous frame.
+    // process() in steps: upload() may run while the device works on the previous frame.
     void upload(Frame frame);
     void submit();
+    // Waits for the device, and publishes the set early. finish() must follow: it makes the host's copy and
+    // publishes the set. It calls land() unless the caller did, and no longer needs the device then.
+    void land();
     FrameReport finish();
 
     cloud::FixturePool& sets() { return pool_; }
@@ -90,7 +100,8 @@ private:
     struct InFlight {
         Frame frame;
         uint32_t slot = 0;
-        bool unchanged = false;
+        bool unchanged = false, landed = false;
+        uint32_t valid = 0; // readings in near..far
         double uploadMs = 0.0;
         FrameReport::Times times;
         Pose pose;
@@ -102,9 +113,10 @@ private:
     void updateParams();
     void warmUp();
     void uploadArm(uint32_t slot, const dvec3& origin) const;
-    void fillHost(const InFlight& f);
+    void fillHost(InFlight& f);
+    void copyToHost(InFlight& f);
+    void describe(cloud::FixtureSet& set) const;
     void readTimes(const InFlight& f, FrameReport& report) const;
-    void warnLeaks(const cloud::FrameCounts& counts);
 
     Scene scene_;
     CameraInfo camera_;
@@ -127,7 +139,7 @@ private:
     std::optional<double> lastCapture_; // [s]
     cloud::FrameCounts lastCounts_;
     uint32_t dispatches_ = 0;
-    std::vector<uint8_t> leakWarned_;
+    LeakWarnings leaks_;
     std::atomic<double> captureTime_{0.0};
 };
 

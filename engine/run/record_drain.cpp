@@ -59,7 +59,8 @@ void RecordDrain::takeQueries() {
 }
 
 void RecordDrain::pass(const TickRow& row) {
-    while (kept_.size() > 1 && kept_.front()->fixtures.generation < row.generation) {
+    // The set before the obeyed one stays: if the device is lost, the CPU may answer about it again.
+    while (kept_.size() > 2 && kept_[1]->fixtures.generation < row.generation) {
         giveBack(0);
     }
     while (!notes_.empty() && notes_.front().query < row.query) {
@@ -68,8 +69,11 @@ void RecordDrain::pass(const TickRow& row) {
     const PublishedFrame* obeyed = nullptr;
     bool known = row.generation == 0;
     std::span<const uint32_t> behind;
-    if (row.generation != 0 && !kept_.empty() && kept_.front()->fixtures.generation == row.generation) {
-        obeyed = kept_.front();
+    const auto found = std::find_if(kept_.begin(), kept_.end(), [&](const PublishedFrame* frame) {
+        return frame->fixtures.generation == row.generation;
+    });
+    if (row.generation != 0 && found != kept_.end()) {
+        obeyed = *found;
         known = !notes_.empty() && notes_.front().query == row.query;
         behind = known ? std::span<const uint32_t>(notes_.front().behind) : behind;
     }

@@ -49,7 +49,7 @@ private:
 
     Channels& channels_;
     RunSink& sink_;
-    std::deque<PublishedFrame*> kept_; // by generation
+    std::deque<PublishedFrame*> kept_; // by generation, from the one before the obeyed one on
     std::deque<QueryNote> notes_;      // by query; the front is the one that the last step obeyed
     std::optional<TickRow> waiting_;
     uint64_t newestGeneration_ = 0;

@@ -185,6 +185,26 @@ TEST_CASE("A tick whose set has not reached the writer waits for it, and passes 
     CHECK(fake.sink.unknown == 1); // cannot be audited
 }
 
+TEST_CASE("A tick that obeys the set before the last obeyed one is audited, as after the loss of a device") {
+    FakeRun fake(4, pressingPath(1.0));
+    Channels channels(16);
+    RecordDrain drain(channels, fake.sink);
+    RunClock clock;
+    FrameLoop frames(fake.feed, channels, clock, 0.0, nullptr);
+    TickRow row;
+    for (const uint64_t generation : {1u, 2u, 3u, 2u, 3u, 1u}) {
+        if (generation > fake.sink.frames) {
+            REQUIRE(frames.first());
+        }
+        row.generation = generation;
+        channels.queries.push({++row.query, 5.0, {}});
+        channels.ticks.push(row);
+        drain.drain();
+    }
+    CHECK(fake.sink.rows.size() == 6);
+    CHECK(fake.sink.unknown == 1); // the set before that one is no longer kept
+}
+
 TEST_CASE("Sets that no tick can use any more go back to the frame cycle") {
     FakeRun fake(400, pressingPath(1.0));
     Channels channels(16);
