@@ -10,7 +10,7 @@ FramesCsv::FramesCsv(const std::filesystem::path& file, const std::vector<std::s
     for (const std::string& pass : passes) {
         header += "," + pass + "_ms";
     }
-    file_.write(header + ",publish_ms\n");
+    file_.write(header + ",publish_ms,answerable_ms\n");
 }
 
 void FramesCsv::add(const FrameReport& report, double t) {
@@ -26,6 +26,7 @@ void FramesCsv::add(const FrameReport& report, double t) {
         row_.add(i < report.passMs.size() ? report.passMs[i] : kNotKnown);
     }
     row_.add(report.publishMs);
+    row_.add(report.answerableMs);
     file_.write(row_.end());
 }
 

@@ -82,6 +82,7 @@ void ReplayRecorder::frame(const FrameReport& report, double t, const Fixtures& 
                            std::span<const uint32_t> colour) {
     if (!report.unchanged) {
         watch_.frame(t, report.counts, set, colour);
+        answerableMs_.push_back(static_cast<float>(report.answerableMs));
     }
     frames_.add(report, t);
     if (frameCount_++ == 0) {
@@ -198,7 +199,8 @@ ReplaySummary ReplayRecorder::finish(const Ending& ending) {
                       percentilesOf(std::move(gpuMs_)),
                       percentilesOf(std::move(uploadMs_)),
                       percentilesOf(std::move(latencyMs_)),
-                      ending.exposureMs};
+                      ending.exposureMs,
+                      percentilesOf(std::move(answerableMs_))};
     summary.haptic.take(std::move(totals_));
     summary.haptic.maxPenetration = ending.maxPenetration;
     summary.haptic.maxEscapeDepth = ending.maxEscapeDepth;

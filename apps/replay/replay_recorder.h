@@ -101,7 +101,7 @@ private:
     std::optional<double> first_; // [s] ReplaySummary::Frames::first
     std::vector<ClassSums> sums_; // one per fixture row of the scene
     std::vector<ReplaySummary::GuidanceRow> guidance_;
-    std::vector<float> gpuMs_, uploadMs_, latencyMs_, queryMicros_;
+    std::vector<float> gpuMs_, uploadMs_, latencyMs_, answerableMs_, queryMicros_;
 };
 
 } // namespace fathom

@@ -35,6 +35,7 @@ Json framesJson(const ReplaySummary::Frames& frames) {
     if (frames.exposureMs) {
         json["exposure_to_published_ms"] = times(*frames.exposureMs);
     }
+    json["answerable_ms"] = times(frames.answerableMs);
     return json;
 }
 

@@ -24,6 +24,7 @@ struct ReplaySummary {
         std::optional<double> first; // [s] from the start of the program to the first fixture set
         Percentiles gpuMs, uploadMs, latencyMs;
         std::optional<Percentiles> exposureMs; // live cameras: start of exposure to published set
+        Percentiles answerableMs; // of new sets: start of the upload to the first possible contact answer
     } frames;
 
     struct Haptic {

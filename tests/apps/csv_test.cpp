@@ -110,7 +110,8 @@ TEST_CASE("An empty run gives a header only") {
     FramesCsv(folder.path() / "f.csv", {}).commit();
     CHECK(split(textOf(folder.path() / "h.csv"), '\n').size() == 1);
     CHECK(textOf(folder.path() / "f.csv") ==
-          "index,t_s,valid,forbidden_points,spheres,patches,nodes,guidance_count,upload_ms,publish_ms\n");
+          "index,t_s,valid,forbidden_points,spheres,patches,nodes,guidance_count,upload_ms,publish_ms,"
+          "answerable_ms\n");
 }
 
 TEST_CASE("frames.csv has one column per pass in the order of the plan, and nan for a missing time") {
@@ -121,13 +122,14 @@ TEST_CASE("frames.csv has one column per pass in the order of the plan, and nan 
     frame.counts.valid = 100, frame.counts.forbidden = 40;
     frame.counts.spheres = 30, frame.counts.patches = 7, frame.counts.nodes = 9;
     frame.guidanceCount = 11;
-    frame.uploadMs = 0.25, frame.publishMs = 4.0;
+    frame.uploadMs = 0.25, frame.publishMs = 4.0, frame.answerableMs = 4.5;
     frame.passMs = {1.0, 3.0};
     csv.add(frame, 0.5);
     csv.commit();
-    CHECK(textOf(folder.path() / "f.csv") == "index,t_s,valid,forbidden_points,spheres,patches,nodes,"
-                                             "guidance_count,upload_ms,classify_ms,surface_ms,"
-                                             "tree_ms,publish_ms\n5,0.5,100,40,30,7,9,11,0.25,1,3,nan,4\n");
+    CHECK(textOf(folder.path() / "f.csv") ==
+          "index,t_s,valid,forbidden_points,spheres,patches,nodes,"
+          "guidance_count,upload_ms,classify_ms,surface_ms,"
+          "tree_ms,publish_ms,answerable_ms\n5,0.5,100,40,30,7,9,11,0.25,1,3,nan,4,4.5\n");
 }
 
 TEST_CASE("The digest is FNV-1a with 128 bits as published") {

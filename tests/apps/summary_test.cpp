@@ -61,7 +61,8 @@ TEST_CASE("summary.json has the contract's keys in the contract's order") {
     const Ordered json = Ordered::parse(toJson(summary));
     CHECK(keysOf(json) == Keys{"frames", "haptic", "contact", "fixtures", "guidance", "device", "lockstep",
                                "digest", "warnings"});
-    CHECK(keysOf(json["frames"]) == Keys{"count", "skipped", "gpu_ms", "upload_ms", "latency_ms", "first_s"});
+    CHECK(keysOf(json["frames"]) ==
+          Keys{"count", "skipped", "gpu_ms", "upload_ms", "latency_ms", "first_s", "answerable_ms"});
     CHECK(keysOf(json["frames"]["gpu_ms"]) == Keys{"p50", "p99", "max"});
     CHECK(keysOf(json["haptic"]) == Keys{"ticks",
                                          "late",

@@ -34,7 +34,7 @@ Replay tryShape(const std::string& row, const std::vector<HandRow>& hand,
     CHECK(least < 1e-4); // it touched the shape
     CHECK(replay.haptic().at("max_force_N").get<double>() > 5.0);
     // Nothing is needed from the frame: no pass, no sphere, no query.
-    CHECK(replay.timeColumns == std::vector<std::string>{"upload_ms", "publish_ms"});
+    CHECK(replay.timeColumns == std::vector<std::string>{"upload_ms", "publish_ms", "answerable_ms"});
     CHECK(replay.summary.at("contact").at("where") == "none");
     CHECK(replay.frames.at(0).spheres == 0);
     CHECK(readPly(replay.ply(0)).empty());

@@ -157,7 +157,7 @@ std::vector<Tick> readTicks(const std::filesystem::path& file) {
 std::vector<FrameRow> readFrames(const std::filesystem::path& file, std::vector<std::string>* timeColumns) {
     const std::vector<std::string> lines = linesOf(file);
     const std::string& header = lines.at(0);
-    if (header.rfind(kFrameHeader, 0) != 0 || !header.ends_with(",publish_ms")) {
+    if (header.rfind(kFrameHeader, 0) != 0 || !header.ends_with(",publish_ms,answerable_ms")) {
         fail(file, 1, "another header than the contract's");
     }
     const std::vector<std::string> all = split(header);

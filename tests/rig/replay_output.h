@@ -36,7 +36,7 @@ struct FrameRow { // a row of frames.csv
     uint32_t index;
     double t;
     uint64_t valid, forbidden, spheres, patches, nodes, guidance;
-    std::map<std::string, double> times; // upload_ms, <pass>_ms.., publish_ms
+    std::map<std::string, double> times; // upload_ms, <pass>_ms.., publish_ms, answerable_ms
 };
 
 struct SavedSphere { // a vertex of fixtures/NNNNNN.ply

@@ -53,7 +53,8 @@ void checkSummaryKeys(const json& s) {
     const std::set<std::string> three{"p50", "p99", "max"};
     checkKeys(s, {"frames", "haptic", "contact", "fixtures", "guidance", "device", "lockstep", "digest",
                   "warnings"});
-    checkKeys(s.at("frames"), {"count", "skipped", "gpu_ms", "upload_ms", "latency_ms", "first_s"});
+    checkKeys(s.at("frames"),
+              {"count", "skipped", "gpu_ms", "upload_ms", "latency_ms", "first_s", "answerable_ms"});
     checkTimes(s.at("frames").at("latency_ms"), three, s.at("frames").at("count") > 0);
     checkKeys(s.at("haptic"), {"ticks",
                                "late",
@@ -174,24 +175,25 @@ void checkTicks(const Replay& replay, const Terms& terms) {
 
 // Passes have times exactly when the frame makes a set; upload, passes and publication fit the latency.
 void checkFrameTimes(const Replay& replay) {
-    std::vector<double> upload, passes;
+    std::vector<double> upload, passes, answerable;
     double longest = 0.0;
     for (const FrameRow& row : replay.frames) {
         CAPTURE(row.index);
         const double publish = row.times.at("publish_ms");
-        upload.push_back(row.times.at("upload_ms"));
-        passes.push_back(0.0);
+        upload.push_back(row.times.at("upload_ms")), passes.push_back(0.0);
         for (const auto& [column, time] : row.times) {
             CAPTURE(column);
             if (column != "upload_ms" && column != "publish_ms") {
                 CHECK((time > 0.0) == (publish > 0.0));
-                passes.back() += time;
+                passes.back() += column == "answerable_ms" ? 0.0 : time;
             }
         }
         longest = std::max(longest, upload.back() + passes.back() + publish);
+        answerable.insert(answerable.end(), publish > 0.0 ? 1 : 0, row.times.at("answerable_ms"));
     }
     checkColumn(replay.summary.at("frames").at("upload_ms"), upload);
     checkColumn(replay.summary.at("frames").at("gpu_ms"), passes);
+    checkColumn(replay.summary.at("frames").at("answerable_ms"), answerable);
     CHECK(longest * (1.0 - 1e-6) <= replay.summary.at("frames").at("latency_ms").at("max").get<double>());
 }
 
