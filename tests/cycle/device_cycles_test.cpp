@@ -5,9 +5,13 @@
 #include "devices/simulated/analytic_scene.h"
 #include "devices/simulated/simulated_camera.h"
 #include "engine/reference/contact_oracle.h"
+#include "tests/rig/losing.h"
 #include "tests/support/vulkan.h"
 
 #include <doctest/doctest.h>
+#include <filesystem>
+#include <fstream>
+#include <unistd.h>
 
 using namespace fathom;
 using fathom::test::vulkan;
@@ -41,9 +45,9 @@ struct TwinRig {
     Tool tool{buildSphereTree(std::vector<Sphere>{{dvec3(0.0), 0.01}, {dvec3(0.02, 0.0, 0.0), 0.01}})};
     DeviceCycles cycles;
 
-    explicit TwinRig(Scene::Contact::Where where)
+    explicit TwinRig(Scene::Contact::Where where, const gpu::Instance& instance = vulkan().instance)
         : scene(redValve(where))
-        , cycles({&vulkan().instance, vulkan().device.facts().name, scene, camera.info(), tool, nullptr, 1},
+        , cycles({&instance, vulkan().device.facts().name, scene, camera.info(), tool, nullptr, 1},
                  [this](const DeviceFacts& facts) { return makePlan(scene, camera.info(), 2, facts); }) {}
 
     FrameReport next() { return cycles.frames().process(std::move(*camera.next())); }
@@ -155,5 +159,90 @@ TEST_CASE(
                 CHECK(batch.gaps[i].gap == rig.cycles.clearance({poses[i], {}}));
             }
         }
+    }
+}
+
+namespace {
+
+// A device that is lost at the next submission after lose().
+struct LosingRig {
+    const std::string trigger =
+        std::filesystem::temp_directory_path() / ("fathom-device-cycles-" + std::to_string(::getpid()));
+    const Losing losing{trigger, 0};
+    const gpu::Instance instance{fathom::test::Vulkan::validation()};
+    TwinRig twin{Scene::Contact::Where::Gpu, instance};
+
+    void lose() const { std::ofstream(trigger) << "passes"; }
+    void landNext() {
+        twin.cycles.frames().upload(std::move(*twin.camera.next()));
+        twin.cycles.frames().submit();
+        twin.cycles.frames().land();
+    }
+};
+
+} // namespace
+
+TEST_CASE("After a loss between landing and the host's copy, the CPU answers about the newest complete copy "
+          "with its own generation and time") {
+    for (const bool copied : {false, true}) { // whether the host's copy is made after all
+        CAPTURE(copied);
+        LosingRig rig;
+        DeviceCycles& cycles = rig.twin.cycles;
+        rig.twin.next();
+        const ToolState place = rig.twin.place();
+        ContactSet first, given, late, after;
+        REQUIRE(cycles.answer(place, first));
+        REQUIRE(first.size() > 0);
+        rig.landNext();
+        REQUIRE(cycles.answer(place, given));
+        CHECK(given.generation == 2);
+        CHECK(given.captureTime > first.captureTime);
+        rig.lose();
+        REQUIRE(cycles.answer(place, late));
+        CHECK_FALSE(std::filesystem::exists(rig.trigger)); // lost
+        CHECK(late.query > given.query);
+        CHECK(late.generation == 1);
+        CHECK(late.captureTime == first.captureTime);
+        CHECK(late.x == first.x);
+        CHECK(late.pairSphere == first.pairSphere);
+        if (copied) {
+            cycles.frames().finish(); // needs no device
+        }
+        for (const bool renewed : {false, true}) {
+            if (renewed) {
+                cycles.renew();
+            }
+            REQUIRE(cycles.answer(place, after));
+            const ContactSet& expected = copied ? given : first;
+            CHECK(after.generation == expected.generation);
+            CHECK(after.captureTime == expected.captureTime);
+            CHECK(after.x == expected.x);
+            CHECK(after.pairSphere == expected.pairSphere);
+        }
+        rig.landNext();
+        REQUIRE(cycles.answer(place, after));
+        CHECK(after.generation == 3); // the new device, again before the host's copy
+    }
+}
+
+TEST_CASE("A device that is lost again before its first host copy leaves the CPU the copy of the first one") {
+    LosingRig rig;
+    DeviceCycles& cycles = rig.twin.cycles;
+    rig.twin.next();
+    const ToolState place = rig.twin.place();
+    ContactSet first, set;
+    REQUIRE(cycles.answer(place, first));
+    cycles.renew();
+    rig.landNext();
+    REQUIRE(cycles.answer(place, set));
+    CHECK(set.generation == 2);
+    rig.lose();
+    for (const bool renewed : {false, true}) {
+        if (renewed) {
+            cycles.renew();
+        }
+        REQUIRE(cycles.answer(place, set));
+        CHECK(set.generation == 1);
+        CHECK(set.x == first.x);
     }
 }
