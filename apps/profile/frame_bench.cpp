@@ -31,6 +31,7 @@ void FrameSamples::add(const FrameReport& report, const Clocks& clocks) {
     total.push_back(millis(report.times.published - report.times.started));
     upload.push_back(report.uploadMs);
     collected.push_back(millis(report.times.collected - report.times.started));
+    answerable.push_back(report.answerableMs);
     publish.push_back(report.publishMs);
     collect.push_back(millis(report.times.collected - report.times.landed));
     grid.push_back(millis(report.times.published - report.times.collected));
@@ -111,6 +112,7 @@ FrameCost FrameBench::costOf(const FrameSamples& samples) const {
     cost.total = spreadOf(samples.total);
     cost.upload = spreadOf(samples.upload);
     cost.collected = spreadOf(samples.collected);
+    cost.answerable = spreadOf(samples.answerable);
     cost.publish = spreadOf(samples.publish);
     cost.collect = spreadOf(samples.collect);
     cost.grid = spreadOf(samples.grid);

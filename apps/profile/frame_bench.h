@@ -35,6 +35,7 @@ struct FrameCost {
     Cost frame;             // gpu = sum of the passes, submit = submission to result, cpu = calling thread
     Spread total;           // upload to published [ms]; for an unchanged image, until that is known
     Spread collected;       // upload until the host has the device's results, before the grid [ms]
+    Spread answerable;      // upload until contact queries can be answered [ms]
     Spread upload, publish; // on the host [ms]; publish = collect, then grid
     Spread collect, grid;   // copying the device's results; building the grid over the spheres
     std::map<std::string, Spread> passes; // device time [ms]
@@ -42,7 +43,7 @@ struct FrameCost {
 
 // Samples of each step [ms], one per frame.
 struct FrameSamples {
-    std::vector<double> gpu, submit, cpu, total, collected, upload, publish, collect, grid;
+    std::vector<double> gpu, submit, cpu, total, collected, answerable, upload, publish, collect, grid;
     std::vector<std::vector<double>> passes;
 
     void add(const FrameReport& report, const Clocks& clocks);

@@ -24,12 +24,13 @@ struct ScaledCost {
 
 using Curve = std::vector<ScaledCost>;
 
-Scene sceneWith(const Settings& settings, uint32_t classes) {
+// where: who answers contact queries. Only the frame is measured; the `query` study measures queries.
+Scene sceneWith(const Settings& settings, uint32_t classes, Scene::Contact::Where where) {
     Settings plain = settings;
     plain.source.clear();
     Scene scene = studyScene(plain);
-    scene.contact.where = Scene::Contact::Where::Cpu; // frame only; the `query` study measures queries
-    for (uint32_t c = 2; c < classes; ++c) {          // extra hues that do not occur in the image
+    scene.contact.where = where;
+    for (uint32_t c = 2; c < classes; ++c) { // extra hues that do not occur in the image
         FixtureClass f = scene.fixtures.front();
         f.name = "class " + std::to_string(c + 1);
         f.role = c % 2 == 0 ? Role::Forbidden : Role::Guidance;
@@ -47,8 +48,9 @@ public:
         , study_(study) {}
 
     ScaledCost take(const std::string& source, const std::string& setting, Grows by, double x,
-                    const FrameSequence& frames, uint32_t classes) {
-        FrameBench bench(context_.device, sceneWith(context_.settings, classes), frames.camera);
+                    const FrameSequence& frames, uint32_t classes,
+                    Scene::Contact::Where where = Scene::Contact::Where::Cpu) {
+        FrameBench bench(context_.device, sceneWith(context_.settings, classes, where), frames.camera);
         const uint32_t guided = bench.run(frames.frames.front()).guidanceCount;
         check(bench, setting, frames);
         ScaledCost m{x, bench.measure(frames.frames, context_.settings.repeats())};
@@ -73,6 +75,7 @@ public:
             const auto it = m.cost.passes.find(pass);
             row.more.push_back(it != m.cost.passes.end() ? it->second.p50 : NAN);
         }
+        row.more.push_back(m.cost.answerable.p50);
         study_.rows.push_back(std::move(row));
         return m;
     }
@@ -150,6 +153,17 @@ void unpackedSizes(ScalingRun& run, bool quick) {
     }
 }
 
+// Where the device answers contact queries, it answers before the host has its copy of a set.
+void answeredByDevice(ScalingRun& run, bool quick) {
+    for (const auto& [w, h] : quick ? Sizes{{160, 120}} : Sizes{{640, 480}, {1280, 720}, {3840, 2160}}) {
+        for (const double share : {0.1, 1.0}) {
+            const FrameSequence frames = inYuyv(wallFrame(w, h, share, WallNoise::Sensor));
+            run.take("size, " + digits(share * 100.0) + " % forbidden, GPU answers contacts", frames.name,
+                     Grows::Pixels, w * static_cast<double>(h), frames, 2, Scene::Contact::Where::Gpu);
+        }
+    }
+}
+
 Curve sharesOf(ScalingRun& run, uint32_t w, uint32_t h, bool quick) {
     Curve shares;
     for (double share : quick ? std::vector{0.0, 0.5, 1.0} : std::vector{0.0, 0.1, 0.25, 0.5, 0.75, 1.0}) {
@@ -179,6 +193,7 @@ Study scalingStudy(const StudyContext& context) {
         "at every size: class bits of every pixel and points of up to 300 patches, corners included, against "
         "the float64 twins; every region sphere is around its own forbidden point; every pixel is counted";
     study.findings.push_back("colours are YUYV, as USB cameras send them, unless a row says RGBA");
+    study.findings.push_back("where the GPU answers contacts, the grid is built only to measure it");
     study.errorName = "error", study.errorUnit = "none";
     study.noDefault = "its rows are sizes and scenes, which camera and scene file determine";
     study.timeName = "upload to published p50";
@@ -196,7 +211,8 @@ Study scalingStudy(const StudyContext& context) {
                        "surface_p50_ms",
                        "thin_p50_ms",
                        "spheres_p50_ms",
-                       "moments_p50_ms"};
+                       "moments_p50_ms",
+                       "upload_to_answerable_p50_ms"};
     const bool quick = context.settings.quick;
     const uint32_t w = quick ? 160 : 640, h = quick ? 120 : 480;
     const std::string size = std::to_string(w) + "x" + std::to_string(h);
@@ -204,6 +220,7 @@ Study scalingStudy(const StudyContext& context) {
     const Curve sizes = sizesOf(run, WallNoise::Sensor, quick), smooth = sizesOf(run, WallNoise::None, quick),
                 shares = sharesOf(run, w, h, quick), classes = classesOf(run, w, h, quick);
     unpackedSizes(run, quick);
+    answeredByDevice(run, quick);
     run.draw(sizes, "every point forbidden", "pixels", true);
     run.draw(smooth, "every point forbidden, noise-free", "pixels", true);
     run.draw(shares, size + ", forbidden share", "forbidden pixels [%]", false);
