@@ -28,6 +28,17 @@ double deepest(const Replay& replay) {
     return replay.haptic().at("max_penetration_m").get<double>();
 }
 
+// Every set that a tick obeys has a row in frames.csv.
+void checkRecorded(const Replay& replay) {
+    std::set<int64_t> told;
+    for (const FrameRow& row : replay.frames) {
+        told.insert(row.index);
+    }
+    for (const Tick& tick : replay.ticks) {
+        CHECK((tick.frame < 0 || told.count(tick.frame) == 1));
+    }
+}
+
 } // namespace
 
 TEST_CASE("A GPU that is lost or out of memory is opened again while the hand continues, and frames resume") {
@@ -54,6 +65,26 @@ TEST_CASE("A GPU that is lost or out of memory is opened again while the hand co
 }
 
 TEST_CASE(
+    "A GPU that is lost once a set's passes have landed leaves the CPU the host's copies, and every set "
+    "that a tick obeys is recorded") {
+    Stage stage;
+    setPressing(stage, "gpu");
+    const Losing losing(40, "lost", 2, "LANDED");
+    const ProgramRun run = runFathom(stage.command({"--realtime", "--device", "llvmpipe"}));
+    CAPTURE(run.err);
+    REQUIRE(run.exitCode == 0);
+    CHECK(run.err.find("the CPU answers") != std::string::npos);
+    CHECK(run.out.find("lost and reopened 1 times") != std::string::npos);
+    const Replay replay = readReplay(stage / "out", run);
+    checkForces(replay.ticks, {}, 1e-5, true);
+    CHECK(deepest(replay) <= 1e-5);
+    checkRecorded(replay);
+    CHECK(replay.frames.size() == 119); // all except the one after the loss
+    CHECK(replay.frames.back().spheres == replay.frames.front().spheres);
+    CHECK(replay.ticks.back().t > 3.9);
+}
+
+TEST_CASE(
     "A GPU that is lost after a frame's set is published leaves no tick with a set that frames.csv lacks") {
     Stage stage;
     setPressing(stage);
@@ -65,13 +96,7 @@ TEST_CASE(
     const Replay replay = readReplay(stage / "out", run);
     checkForces(replay.ticks, {}, 1e-5, true);
     CHECK(deepest(replay) <= 1e-5);
-    std::set<int64_t> told;
-    for (const FrameRow& row : replay.frames) {
-        told.insert(row.index);
-    }
-    for (const Tick& tick : replay.ticks) {
-        CHECK((tick.frame < 0 || told.count(tick.frame) == 1));
-    }
+    checkRecorded(replay);
     CHECK(replay.ticks.back().t > 3.9);
 }
 

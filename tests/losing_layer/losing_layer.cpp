@@ -3,6 +3,8 @@
 // VK_ERROR_DEVICE_LOST (or VK_ERROR_OUT_OF_DEVICE_MEMORY), and some later openings fail. It can also
 // invalidate a window's images or surface. The tested program is unmodified, because the layer is below it.
 //   FATHOM_LOSE_AT       number, from 1, of the first submission of the first device that fails
+//   FATHOM_LOSE_LANDED   instead: number, from 1, of the successful wait for the first device's passes after
+//                        which it is lost (the semaphore that is waited for first)
 //   FATHOM_LOSE_TIMES    instead: number, from 1, of the failing read of its timestamps
 //   FATHOM_LOSE_FILE     instead: a file with one word. The first matching call removes the file and fails:
 //                        passes (submission with a timeline), drawing (other submission) and presenting lose
@@ -12,6 +14,7 @@
 //   FATHOM_LOSE_BY       "memory": out of memory instead of lost
 //   FATHOM_LOSE_OPENINGS number of failed attempts to open a device after each loss
 #include "tests/losing_layer/asked.h"
+#include "tests/losing_layer/next_device.h"
 #include "tests/losing_layer/ours.h"
 
 #include <cstring>
@@ -23,22 +26,6 @@
 namespace {
 
 using namespace losing;
-
-struct NextDevice {
-    VkDevice handle = VK_NULL_HANDLE;
-    PFN_vkDeviceWaitIdle idle = nullptr;
-    PFN_vkGetDeviceProcAddr address = nullptr;
-    PFN_vkDestroyDevice destroy = nullptr;
-    PFN_vkQueueSubmit submit = nullptr;
-    PFN_vkWaitSemaphores wait = nullptr;
-    PFN_vkWaitForFences waitFences = nullptr;
-    PFN_vkGetQueryPoolResults times = nullptr;
-    PFN_vkQueuePresentKHR present = nullptr; // null: no swapchains
-    PFN_vkAcquireNextImageKHR acquire = nullptr;
-    PFN_vkCreateSwapchainKHR createSwapchain = nullptr;
-    bool first = false, lost = false;
-    long submissions = 0, timings = 0;
-};
 
 std::mutex mutex;
 std::map<void*, NextDevice> devices; // key: the loader's dispatch table, which queues share with their device
@@ -149,17 +136,35 @@ VKAPI_ATTR VkResult VKAPI_CALL submit(VkQueue queue, uint32_t count, const VkSub
     return pass(queue, count, infos, fence);
 }
 
-VKAPI_ATTR VkResult VKAPI_CALL waitSemaphores(VkDevice device, const VkSemaphoreWaitInfo* info,
+// Requires the mutex, after a successful wait.
+void landed(NextDevice& device, VkSemaphore semaphore) {
+    device.passes = device.passes == VK_NULL_HANDLE ? semaphore : device.passes;
+    const long at = number("FATHOM_LOSE_LANDED");
+    if (device.first && at > 0 && semaphore == device.passes && ++device.landings == at) {
+        device.lost = device.working = true;
+        refused = 0;
+    }
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL waitSemaphores(VkDevice handle, const VkSemaphoreWaitInfo* info,
                                               uint64_t timeout) {
     PFN_vkWaitSemaphores pass = nullptr;
+    bool lost = false;
     {
         const std::lock_guard lock(mutex);
-        if (devices[keyOf(device)].lost && lossOf() == VK_ERROR_DEVICE_LOST) {
+        const NextDevice& device = devices[keyOf(handle)];
+        lost = device.lost && lossOf() == VK_ERROR_DEVICE_LOST;
+        if (lost && !device.working) {
             return VK_ERROR_DEVICE_LOST;
         }
-        pass = devices[keyOf(device)].wait;
+        pass = device.wait;
     }
-    return pass(device, info, timeout);
+    const VkResult result = pass(handle, info, timeout);
+    const std::lock_guard lock(mutex);
+    if (!lost && result == VK_SUCCESS) {
+        landed(devices[keyOf(handle)], info->pSemaphores[0]);
+    }
+    return lost ? VK_ERROR_DEVICE_LOST : result;
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL waitFences(VkDevice device, uint32_t count, const VkFence* fences,
