@@ -4,6 +4,8 @@
 #include "devices/recorded/recording_intrinsics.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cstring>
 
 namespace fathom::ros {
@@ -24,10 +26,10 @@ const Cloud::Field* colourField(const Cloud& cloud) {
                                                                                                    : nullptr;
 }
 
-double coordinate(const uint8_t* point, uint32_t offset) {
-    float value = 0.0f;
-    std::memcpy(&value, point + offset, sizeof value);
-    return double{value};
+double coordinate(const uint8_t* point, uint32_t offset, bool bigEndian) {
+    uint32_t bits = 0;
+    std::memcpy(&bits, point + offset, sizeof bits);
+    return double{std::bit_cast<float>(bigEndian ? __builtin_bswap32(bits) : bits)};
 }
 
 } // namespace
@@ -100,7 +102,7 @@ std::string whyNoDepth(const Cloud& cloud) {
                std::to_string(cloud.rowStep) + " (allowed: " + std::to_string(cloud.height) + " rows of " +
                std::to_string(row) + ")";
     }
-    return cloud.bigEndian ? "big-endian points (allowed: little-endian)" : "";
+    return "";
 }
 
 PcdCloud pointsOf(const Cloud& cloud) {
@@ -113,11 +115,15 @@ PcdCloud pointsOf(const Cloud& cloud) {
     for (uint32_t v = 0; v < cloud.height; ++v) {
         const uint8_t* point = cloud.data.data() + size_t{v} * cloud.rowStep;
         for (uint32_t u = 0; u < cloud.width; ++u, point += cloud.pointStep) {
-            out.points.push_back({coordinate(point, x), coordinate(point, y), coordinate(point, z)});
+            out.points.push_back({coordinate(point, x, cloud.bigEndian),
+                                  coordinate(point, y, cloud.bigEndian),
+                                  coordinate(point, z, cloud.bigEndian)});
             if (colour != nullptr) {
                 const uint8_t* c = point + colour->offset;
-                out.colour.push_back(0xff000000u | uint32_t{c[0]} << 16 | uint32_t{c[1]} << 8 |
-                                     uint32_t{c[2]});
+                const std::array<uint8_t, 3> rgb =
+                    cloud.bigEndian ? std::array{c[1], c[2], c[3]} : std::array{c[2], c[1], c[0]};
+                out.colour.push_back(0xff000000u | uint32_t{rgb[2]} << 16 | uint32_t{rgb[1]} << 8 |
+                                     uint32_t{rgb[0]});
             }
         }
     }

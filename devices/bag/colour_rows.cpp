@@ -92,8 +92,8 @@ private:
         const auto inside = [](uint32_t i, uint32_t count) {
             return i == UINT32_MAX ? std::min(1u, count - 1) : (i >= count ? (count < 2 ? 0 : count - 2) : i);
         };
-        const size_t column =
-            size_t{inside(x, image_.width)} * layout_.bytes + layout_.bytes - 1; // high byte
+        const size_t high = image_.bigEndian ? 0 : layout_.bytes - 1;
+        const size_t column = size_t{inside(x, image_.width)} * layout_.bytes + high;
         return image_.bytes[size_t{inside(y, image_.height)} * image_.step + column];
     }
     const ColourImage& image_;
@@ -105,9 +105,11 @@ size_t rowBytes(const ColourLayout& layout, uint32_t width) {
     return size_t{layout.bytes} * (pairs ? (width + 1) / 2 * 2 : width);
 }
 
-void plainRow(const uint8_t* in, const ColourLayout& layout, uint32_t width, uint32_t* out) {
+// Offsets are those of the high bytes in little-endian channels; in big-endian ones they lie one lower.
+void plainRow(const uint8_t* in, const ColourLayout& layout, bool bigEndian, uint32_t width, uint32_t* out) {
+    const size_t lower = bigEndian && layout.wide() ? 1 : 0;
     for (uint32_t x = 0; x < width; ++x, in += layout.bytes) {
-        out[x] = rgba(in[layout.rgb[0]], in[layout.rgb[1]], in[layout.rgb[2]]);
+        out[x] = rgba(in[layout.rgb[0] - lower], in[layout.rgb[1] - lower], in[layout.rgb[2] - lower]);
     }
 }
 
@@ -135,7 +137,7 @@ std::string unpackColours(const ColourImage& image, const ColourLayout& layout, 
         uint32_t* to = out.data() + size_t{y} * image.width;
         switch (layout.packing) {
         case Packing::Plain:
-            plainRow(in, layout, image.width, to);
+            plainRow(in, layout, image.bigEndian, image.width, to);
             break;
         case Packing::Uyvy:
         case Packing::Yuyv:

@@ -19,6 +19,9 @@ struct ColourLayout {
     std::array<uint8_t, 3> rgb; // channel offsets [bytes]; Bayer: places of red and blue in a cell of 2 x 2
     Packing packing = Packing::Plain;
 
+    bool wide() const { // channels of 16 bits
+        return (packing == Packing::Plain && bytes >= 6) || (packing == Packing::Bayer && bytes == 2);
+    }
     bool grey() const { return packing == Packing::Plain && bytes == 1; }
 };
 // Null when the encoding is not colour. Upper and lower case are the same.
@@ -28,6 +31,7 @@ const ColourLayout* colourLayout(std::string encoding);
 struct ColourImage {
     uint32_t width = 0, height = 0, step = 0; // [pixels], [bytes] per row
     std::span<const uint8_t> bytes;
+    bool bigEndian = false; // channels of 16 bits
 };
 // YUV is BT.601, limited range; Bayer images are interpolated bilinearly. Returns the fault, or empty when
 // everything was converted.

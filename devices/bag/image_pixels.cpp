@@ -7,6 +7,7 @@
 #include "devices/v4l2/jpeg_image.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 
@@ -32,13 +33,13 @@ std::string checkBytes(const Image& image, size_t row) {
         return "an image of " + std::to_string(image.data.size()) + " bytes in rows of " +
                std::to_string(image.step);
     }
-    return image.bigEndian ? "big-endian pixels" : "";
+    return "";
 }
 
 float floatAt(const Image& image, uint32_t x, uint32_t y) {
-    float z = 0.0f;
-    std::memcpy(&z, image.data.data() + size_t{y} * image.step + size_t{4} * x, 4);
-    return z;
+    uint32_t bits = 0;
+    std::memcpy(&bits, image.data.data() + size_t{y} * image.step + size_t{4} * x, 4);
+    return std::bit_cast<float>(image.bigEndian ? __builtin_bswap32(bits) : bits);
 }
 
 std::string compressedDepthRows(const Image& image, double metresPerUnit, std::span<uint16_t> out,
@@ -112,6 +113,9 @@ std::string depthRows(const Image& image, double metresPerUnit, std::span<uint16
         uint16_t* to = out.data() + size_t{y} * image.width;
         if (!metres) {
             std::memcpy(to, image.data.data() + size_t{y} * image.step, size_t{2} * image.width);
+            if (image.bigEndian) {
+                std::transform(to, to + image.width, to, [](uint16_t v) { return __builtin_bswap16(v); });
+            }
         }
         for (uint32_t x = 0; metres && x < image.width; ++x) {
             to[x] = unitsOf(double{floatAt(image, x, y)}, metresPerUnit, beyond);
@@ -130,10 +134,7 @@ std::string colourRows(const Image& image, std::span<uint32_t> out) {
     if (layout == nullptr) {
         return "encoding " + image.encoding;
     }
-    if (image.bigEndian && image.encoding.find("16") != std::string::npos) {
-        return "big-endian pixels";
-    }
-    return unpackColours({image.width, image.height, image.step, image.data}, *layout, out);
+    return unpackColours({image.width, image.height, image.step, image.data, image.bigEndian}, *layout, out);
 }
 
 ValueSpan valueSpan(const Image& image) {

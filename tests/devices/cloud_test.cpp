@@ -106,6 +106,38 @@ TEST_CASE("A bag of ROS 1 plays its depth images before its clouds, unless a clo
     CHECK(openBag(folder.path() / "clouds.bag")->info().depth.width == 9);
 }
 
+TEST_CASE("A big-endian cloud gives the same depth and colour") {
+    const auto swapped = [](auto value) {
+        std::string bytes = raw(value);
+        std::reverse(bytes.begin(), bytes.end());
+        return bytes;
+    };
+    Out out;
+    out.bytes = stampedHeader(1.0, "camera");
+    out.put(uint32_t{7}).put(uint32_t{9}).put(uint32_t{4});
+    for (const char* field : {"x", "y", "z", "rgb"}) {
+        out.text(field).put(*field == 'r' ? 12u : 4u * static_cast<uint32_t>(*field - 'x'));
+        out.put(uint8_t{7}).put(uint32_t{1});
+    }
+    std::string points;
+    for (uint32_t i = 0; i < 63; ++i) {
+        const auto u = static_cast<float>(i % 9), v = static_cast<float>(i / 9);
+        points +=
+            swapped((u - 4.25f) / 10.0f) + swapped((v - 3.5f) / 11.0f) + swapped(1.0f) + swapped(0x00c8140au);
+    }
+    out.put(uint8_t{1}).put(uint32_t{16}).put(uint32_t{144}).text(points).put(uint8_t{1});
+    BagMaker maker;
+    maker.add("/points", "sensor_msgs/PointCloud2", 1.0, out.bytes);
+    const TemporaryFolder folder;
+    folder.write("a.bag", maker.bag());
+    const auto camera = openBag(folder.path() / "a.bag");
+    CHECK(camera->info().depth.fx == doctest::Approx(10.0).epsilon(1e-3));
+    const auto frame = camera->next();
+    REQUIRE(frame);
+    CHECK((*frame)->depth[30] * camera->info().metresPerUnit == doctest::Approx(1.0));
+    CHECK((*frame)->colour[30] == 0xff0a14c8u);
+}
+
 TEST_CASE("A cloud that is damaged, cut off or moved is skipped and counted, and the others are played") {
     const TemporaryFolder folder;
     BagMaker maker;

@@ -133,6 +133,39 @@ TEST_CASE("A red image is red in every colour encoding that is read") {
     checkRed(packedImage("bgr8; png compressed bgr8", png), "PNG");
 }
 
+TEST_CASE("Big-endian images give the same depth, metres and colours as little-endian ones") {
+    constexpr uint32_t kAll = kAcross * kDown;
+    const std::string units = repeated(std::string("\x03\xe8", 2), kAll); // 1000
+    ros::Image depth = rawImage("16UC1", units);
+    depth.bigEndian = true;
+    CHECK(depthsOf(depth) == std::vector<uint16_t>(kAll, 1000));
+    const std::string metres = repeated(std::string("\x3f\x80\x00\x00", 4), kAll); // 1.0f
+    ros::Image reals = rawImage("32FC1", metres);
+    reals.bigEndian = true;
+    CHECK(depthsOf(reals) == std::vector<uint16_t>(kAll, 10000));
+    CHECK(ros::valueSpan(reals).farthest == 1.0);
+    const std::string kWide = std::string("\xff\x12", 2), kNone(2, '\0');
+    for (const auto& [encoding, pixel] :
+         {std::pair("rgb16", kWide + kNone + kNone), std::pair("bgr16", kNone + kNone + kWide),
+          std::pair("bgra16", kNone + kNone + kWide + kWide)}) {
+        const std::string pixels = repeated(pixel, kAll);
+        ros::Image image = rawImage(encoding, pixels);
+        image.bigEndian = true;
+        checkRed(image, encoding);
+    }
+    std::string cells = mosaic(0, 2);
+    for (size_t i = 0; i < cells.size(); i += 2) {
+        std::swap(cells[i], cells[i + 1]);
+    }
+    ros::Image bayer = rawImage("bayer_rggb16", cells);
+    bayer.bigEndian = true;
+    checkRed(bayer, "bayer_rggb16");
+    const std::string bytes = repeated(std::string("\xff\x00\x00", 3), kAll);
+    ros::Image narrow = rawImage("rgb8", bytes); // bytes have no order
+    narrow.bigEndian = true;
+    checkRed(narrow, "rgb8");
+}
+
 TEST_CASE("Too few bytes, or rows that are too short, are a fault in every encoding") {
     std::vector<uint32_t> out(kAcross * kDown);
     for (const char* encoding :
