@@ -17,15 +17,18 @@ namespace {
 enum class Kind { Unknown, Messages, Cloud };
 
 constexpr const char* kKinds = "a recording folder, a ROS bag (.bag), MCAP (.mcap), a ROS 2 database (.db3) "
-                               "or an organised cloud (.pcd)";
+                               "or an organised cloud (.pcd, .ply)";
 
 struct KnownFile {
     std::string_view ending, begin;
     Kind kind;
 };
-constexpr std::array kFiles{
-    KnownFile{".bag", "#ROSBAG", Kind::Messages}, KnownFile{".mcap", "\x89MCAP0\r\n", Kind::Messages},
-    KnownFile{".db3", "SQLite format 3", Kind::Messages}, KnownFile{".pcd", "# .PCD", Kind::Cloud}};
+constexpr std::array kFiles{KnownFile{".bag", "#ROSBAG", Kind::Messages},
+                            KnownFile{".mcap", "\x89MCAP0\r\n", Kind::Messages},
+                            KnownFile{".db3", "SQLite format 3", Kind::Messages},
+                            KnownFile{".pcd", "# .PCD", Kind::Cloud},
+                            KnownFile{".ply", "ply\n", Kind::Cloud},
+                            KnownFile{".ply", "ply\r\n", Kind::Cloud}};
 
 std::string firstBytes(const std::filesystem::path& file) {
     std::string bytes(16, '\0');

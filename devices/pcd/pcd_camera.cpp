@@ -2,10 +2,13 @@
 #include "devices/pcd/pcd_camera.h"
 
 #include "devices/images/metre_units.h"
+#include "devices/pcd/ply_file.h"
 #include "engine/types/error.h"
+#include "engine/types/read_file.h"
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <glm/matrix.hpp>
 
 namespace fathom {
@@ -36,6 +39,15 @@ struct Line {
                         (pp - 2.0 * a * sp - 2.0 * b * p + a * a * ss + 2.0 * a * b * s + n * b * b) / n);
     }
 };
+
+PcdCloud readCloud(const std::filesystem::path& file) {
+    std::string begin(4, ' '); // "ply" and the end of its line
+    if (isRegularFile(file)) {
+        std::ifstream(file, std::ios::binary).read(begin.data(), static_cast<std::streamsize>(begin.size()));
+    }
+    const bool ply = begin == "ply\n" || begin == "ply\r" || file.extension() == ".ply";
+    return ply ? readPly(file) : readPcd(file);
+}
 
 bool measured(const dvec3& p) {
     return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z) && p.z > 0.0;
@@ -118,7 +130,7 @@ FittedLens fitLens(const PcdCloud& cloud) {
 
 PcdCamera::PcdCamera(const std::filesystem::path& file, const SourceOptions& options)
     : file_(file)
-    , cloud_(readPcd(file)) {
+    , cloud_(readCloud(file)) {
     options.checkMetres(file.string());
     FittedLens fit;
     try {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Camera that plays one organised PCD file: reconstructs the depth image and the lens.
+// Camera that plays one organised PCD or PLY file: reconstructs the depth image and the lens.
 #pragma once
 
 #include "devices/camera.h"

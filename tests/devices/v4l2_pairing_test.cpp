@@ -20,7 +20,7 @@ CapturedBuffer at(double stamp, uint32_t index = 0) {
     return buffer;
 }
 
-struct Event {
+struct PairedImage {
     bool depth;
     double stamp;
     double arrival;
@@ -31,12 +31,12 @@ struct Run {
     std::vector<double> distances;
     size_t unpaired = 0, mostHeld = 0;
 };
-Run run(FramePairing& pairing, std::vector<Event> events) {
+Run run(FramePairing& pairing, std::vector<PairedImage> events) {
     std::stable_sort(events.begin(), events.end(),
-                     [](const Event& a, const Event& b) { return a.arrival < b.arrival; });
+                     [](const PairedImage& a, const PairedImage& b) { return a.arrival < b.arrival; });
     Run result;
     size_t held = 0;
-    for (const Event& e : events) {
+    for (const PairedImage& e : events) {
         e.depth ? pairing.depth(at(e.stamp)) : pairing.colour(at(e.stamp));
         ++held;
         result.mostHeld = std::max(result.mostHeld, held);
@@ -51,9 +51,9 @@ Run run(FramePairing& pairing, std::vector<Event> events) {
     return result;
 }
 
-std::vector<Event> streams(double phase, double depthRate, double colourRate, double colourDelay,
-                           int seconds) {
-    std::vector<Event> events;
+std::vector<PairedImage> streams(double phase, double depthRate, double colourRate, double colourDelay,
+                                 int seconds) {
+    std::vector<PairedImage> events;
     for (int i = 0; i < seconds * depthRate; ++i) {
         events.push_back({true, i / depthRate, i / depthRate + 0.005});
     }
@@ -129,7 +129,7 @@ TEST_CASE("Streams with jitter and dropped frames lose no more pairs than frames
     std::mt19937 random(7);
     std::uniform_real_distribution<double> jitter(0.0, 0.004);
     FramePairing pairing(kPeriod);
-    std::vector<Event> events = streams(0.010, 30, 30, 0.008, 20);
+    std::vector<PairedImage> events = streams(0.010, 30, 30, 0.008, 20);
     size_t kept = 0, depth = 0;
     for (size_t i = 0; i < events.size(); ++i) {
         events[i].stamp += jitter(random);

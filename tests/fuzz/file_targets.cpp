@@ -122,6 +122,11 @@ void readPcdFile(Bytes input) {
     drain(camera);
 }
 
+void readPlyFile(Bytes input) {
+    PcdCamera camera(fuzzFile("cloud.ply", input));
+    drain(camera);
+}
+
 void readBag(Bytes input) {
     drain(*openBag(fuzzFile("recording.bag", input)));
 }
@@ -156,6 +161,7 @@ void readMessageImage(Bytes input) {
     }
     ros::Image image;
     image.format = kEncodings[input[0] % kEncodings.size()];
+    image.bigEndian = input[0] >= 240;
     image.compressed = image.format.find(';') != std::string::npos;
     image.encoding = image.format.substr(0, image.format.find(';'));
     image.width = 1 + input[1] % 16;

@@ -37,6 +37,7 @@ constexpr std::array kTargets{
     FuzzTarget{"pairs", readPairs},
     FuzzTarget{"pcd", readPcdFile},
     FuzzTarget{"pixels", readPixels},
+    FuzzTarget{"ply", readPlyFile},
     FuzzTarget{"png", readPng},
     FuzzTarget{"reach", readReach},
     FuzzTarget{"scene", readScene},

@@ -40,6 +40,7 @@ void readPng(Bytes input);
 void readDepthFile(Bytes input);
 void readJpegImage(Bytes input);
 void readPcdFile(Bytes input);
+void readPlyFile(Bytes input);
 void readBag(Bytes input);
 void readMcap(Bytes input);
 void readDatabase(Bytes input);
