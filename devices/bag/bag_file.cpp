@@ -128,19 +128,26 @@ void BagFile::readIndex(uint64_t indexAt) {
 // A chunk is followed by its index records, one per connection, with time and offset of each message.
 void BagFile::readChunkIndex(uint64_t chunkAt, std::map<uint32_t, size_t>& topicOf) {
     in_.seekg(static_cast<std::streamoff>(chunkAt));
-    if (number<uint8_t>(readRecord().fields, "op") != kChunk) {
+    if (number<uint8_t>(parseFields(readBlock()), "op") != kChunk) {
         throw Error("the index does not point to a chunk");
     }
+    uint32_t size = 0; // of the chunk, which is not read
+    in_.read(reinterpret_cast<char*>(&size), sizeof size);
+    in_.seekg(size, std::ios::cur);
+    if (!in_ || static_cast<uint64_t>(in_.tellg()) > size_) {
+        throw Error("truncated");
+    }
     while (static_cast<uint64_t>(in_.tellg()) < size_) {
-        const Record record = readRecord();
-        if (number<uint8_t>(record.fields, "op") != kIndexData) {
-            return;
+        const Fields fields = parseFields(readBlock());
+        if (number<uint8_t>(fields, "op") != kIndexData) {
+            return; // the next chunk, which is not read either
         }
-        const auto topic = topicOf.find(number<uint32_t>(record.fields, "conn"));
+        const std::vector<uint8_t> index = readBlock();
+        const auto topic = topicOf.find(number<uint32_t>(fields, "conn"));
         if (topic == topicOf.end()) {
             throw Error("the index names a missing connection");
         }
-        for (ByteCursor cursor(record.data); !cursor.empty();) {
+        for (ByteCursor cursor(index); !cursor.empty();) {
             const uint32_t seconds = cursor.word(), nanos = cursor.word(), offset = cursor.word();
             topics_[topic->second].messages.push_back({seconds * 1000000000ull + nanos, chunkAt, offset});
         }

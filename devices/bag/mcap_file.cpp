@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/bag/mcap_file.h"
 
+#include "devices/bag/mcap_records.h"
 #include "devices/bag/unpack_chunk.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
@@ -14,10 +15,6 @@ namespace fathom {
 
 namespace {
 
-constexpr std::array<char, 8> kMcapMagic{'\x89', 'M', 'C', 'A', 'P', '0', '\r', '\n'};
-constexpr uint8_t kMcapFooter = 2, kMcapSchema = 3, kMcapChannel = 4, kMcapMessage = 5, kMcapChunk = 6,
-                  kMcapIndex = 7;
-constexpr uint64_t kRecordHead = 9;            // kind and length [bytes]
 constexpr uint64_t kMcapBytes = 1u << 30;      // of one record that is read, or of one unpacked chunk
 constexpr uint64_t kMcapMessages = 20'000'000; // of a file
 constexpr size_t kMcapTopics = 10'000;
@@ -34,7 +31,7 @@ struct Inner {
 };
 
 bool nextInner(std::span<const uint8_t> bytes, size_t& at, Inner& inner) {
-    if (bytes.size() - at < kRecordHead) {
+    if (bytes.size() - at < mcap::kRecordHead) {
         return false;
     }
     ByteCursor cursor(bytes.subspan(at));
@@ -45,7 +42,7 @@ bool nextInner(std::span<const uint8_t> bytes, size_t& at, Inner& inner) {
     }
     inner.at = at;
     inner.content = cursor.take(size);
-    at += kRecordHead + size;
+    at += mcap::kRecordHead + size;
     return true;
 }
 
@@ -53,83 +50,30 @@ bool nextInner(std::span<const uint8_t> bytes, size_t& at, Inner& inner) {
 
 McapFile::McapFile(const std::filesystem::path& file)
     : MessageFile(file)
-    , in_(isRegularFile(file) ? std::ifstream(file, std::ios::binary) : std::ifstream()) {
-    std::error_code failed;
-    size_ = std::filesystem::file_size(file, failed);
-    std::array<char, kMcapMagic.size()> magic{};
-    if (failed || !in_.is_open() || !in_.read(magic.data(), magic.size()) || magic != kMcapMagic) {
-        throw BadInput(file.string(), "format", in_.is_open() ? "not MCAP" : whyUnreadable(file),
+    , in_(file) {
+    std::array<uint8_t, mcap::kMagic.size()> magic{};
+    if (in_.size() >= magic.size()) {
+        in_.read(0, magic);
+    }
+    if (magic != mcap::kMagic) {
+        throw BadInput(file.string(), "format", in_.open() ? "not MCAP" : whyUnreadable(file),
                        "an MCAP file of version 0");
     }
     try {
-        scan();
+        in_.readAhead(false);
+        if (!useSummary()) {
+            scan();
+        }
         readUnindexed();
         resolve();
+        in_.readAhead(true);
     } catch (const Error& e) {
         throw BadInput(file.string(), "content", e.what(), "whole MCAP records");
     }
 }
 
-// Heads of all records, in sequence. Chunks are not unpacked.
-void McapFile::scan() {
-    for (uint64_t at = kMcapMagic.size(); at < size_;) {
-        std::array<uint8_t, kRecordHead> head{};
-        in_.clear();
-        in_.seekg(static_cast<std::streamoff>(at));
-        in_.read(reinterpret_cast<char*>(head.data()), head.size());
-        uint64_t size = 0;
-        std::memcpy(&size, head.data() + 1, sizeof size);
-        if (!in_ || size > size_ - at - kRecordHead) {
-            break;
-        }
-        if (!record(head[0], at + kRecordHead, size)) {
-            return; // the footer
-        }
-        at += kRecordHead + size;
-    }
-    if (!chunks_.empty()) {
-        chunks_.back().indexed = false; // its indexes may be incomplete
-    }
-    for (auto& [channel, entries] : found_) {
-        messages_ -= std::erase_if(
-            entries, [&](const MessageEntry& e) { return !chunks_.empty() && e.chunk == chunks_.back().at; });
-    }
-    log::warn("{}: ends early: it was not finished; {} whole chunks are used", file().string(),
-              chunks_.size());
-}
-
-bool McapFile::record(uint8_t kind, uint64_t at, uint64_t size) {
-    if (kind == kMcapSchema) {
-        readSchema(content(at, size));
-    } else if (kind == kMcapChannel) {
-        readChannel(content(at, size));
-    } else if (kind == kMcapChunk) {
-        chunks_.push_back({at, size, false});
-    } else if (kind == kMcapIndex && !chunks_.empty()) {
-        chunks_.back().indexed = true;
-        readIndex(content(at, size));
-    } else if (kind == kMcapMessage) {
-        const std::vector<uint8_t> head = content(at, std::min<uint64_t>(size, 22));
-        ByteCursor cursor(head);
-        const auto channel = cursor.value<uint16_t>();
-        cursor.word(); // sequence
-        add(channel, {cursor.value<uint64_t>(), 0, at});
-    }
-    return kind != kMcapFooter;
-}
-
 std::vector<uint8_t> McapFile::content(uint64_t at, uint64_t size) {
-    if (at > size_ || size > size_ - at || size > kMcapBytes) {
-        throw Error("a record of " + std::to_string(size) + " bytes");
-    }
-    std::vector<uint8_t> bytes(size);
-    in_.clear();
-    in_.seekg(static_cast<std::streamoff>(at));
-    in_.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
-    if (!in_) {
-        throw Error("truncated");
-    }
-    return bytes;
+    return in_.read(at, size, kMcapBytes);
 }
 
 void McapFile::readSchema(std::span<const uint8_t> content) {
@@ -198,11 +142,11 @@ void McapFile::scanChunk(const Chunk& chunk, bool messages) {
     const std::vector<uint8_t>& bytes = unpack(chunk.at);
     Inner inner;
     for (size_t at = 0; nextInner(bytes, at, inner);) {
-        if (inner.kind == kMcapSchema) {
+        if (inner.kind == mcap::kSchema) {
             readSchema(inner.content);
-        } else if (inner.kind == kMcapChannel) {
+        } else if (inner.kind == mcap::kChannel) {
             readChannel(inner.content);
-        } else if (inner.kind == kMcapMessage && messages) {
+        } else if (inner.kind == mcap::kMessage && messages) {
             ByteCursor cursor(inner.content);
             const auto channel = cursor.value<uint16_t>();
             cursor.word();
@@ -262,7 +206,7 @@ std::span<const uint8_t> McapFile::bytes(const MessageEntry& entry) {
         const std::vector<uint8_t>& chunk = unpack(entry.chunk);
         Inner inner;
         size_t at = entry.offset;
-        if (at > chunk.size() || !nextInner(chunk, at, inner) || inner.kind != kMcapMessage) {
+        if (at > chunk.size() || !nextInner(chunk, at, inner) || inner.kind != mcap::kMessage) {
             throw Error("the index does not point to a message");
         }
         all = inner.content;

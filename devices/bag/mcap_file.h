@@ -2,21 +2,23 @@
 // An MCAP file, with or without chunks. Source: mcap.dev/spec.
 #pragma once
 
+#include "devices/bag/file_bytes.h"
 #include "devices/bag/message_file.h"
 #include "devices/bag/unpacked_chunks.h"
 
-#include <fstream>
 #include <map>
 
 namespace fathom {
 
-// Chunks are uncompressed, LZ4 frames or zstd. A file that was not finished is read to its last whole record,
-// with a warning. The indexes behind chunks are used; the summary's offsets are not.
+// Chunks are uncompressed, LZ4 frames or zstd. Opening reads the summary and the indexes behind chunks; a
+// file without a summary that agrees with them is read record by record, to its last whole record where it
+// was not finished, with a warning. Chunks are read when their messages are.
 class McapFile final : public MessageFile {
 public:
     // Throws BadInput that names the file.
     explicit McapFile(const std::filesystem::path& file);
     std::span<const uint8_t> bytes(const MessageEntry& entry) override;
+    uint64_t bytesRead() const { return in_.bytesRead(); } // of the file, so far
 
 private:
     struct Chunk {
@@ -24,6 +26,8 @@ private:
         uint64_t size = 0;
         bool indexed = false;
     };
+    bool useSummary();
+    void readIndexes(uint64_t at, uint64_t size);
     void scan();
     bool record(uint8_t kind, uint64_t at, uint64_t size);
     std::vector<uint8_t> content(uint64_t at, uint64_t size);
@@ -36,8 +40,8 @@ private:
     void resolve();
     const std::vector<uint8_t>& unpack(uint64_t chunkAt);
 
-    std::ifstream in_;
-    uint64_t size_ = 0, messages_ = 0;
+    FileBytes in_;
+    uint64_t messages_ = 0;
     std::map<uint16_t, std::string> schemas_;
     std::map<uint16_t, size_t> channels_; // topics
     std::map<uint16_t, std::vector<MessageEntry>> found_;

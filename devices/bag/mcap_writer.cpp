@@ -12,7 +12,6 @@ namespace fathom {
 namespace {
 
 constexpr std::array<uint8_t, 8> kMcapBegin{0x89, 'M', 'C', 'A', 'P', '0', '\r', '\n'};
-constexpr size_t kChunkBytes = 4u << 20;
 constexpr int kMcapEffort = 1; // zstd level: images of a camera do not shrink much more
 constexpr uint8_t kHeaderOp = 1, kFooterOp = 2, kSchemaOp = 3, kChannelOp = 4, kMessageOp = 5, kChunkOp = 6,
                   kMessageIndexOp = 7, kChunkIndexOp = 8, kStatisticsOp = 11, kSummaryOffsetOp = 14,
@@ -41,8 +40,9 @@ void McapWriter::Span::add(uint64_t time) {
     last = std::max(last, time);
 }
 
-McapWriter::McapWriter(const std::filesystem::path& file)
-    : file_(file) {
+McapWriter::McapWriter(const std::filesystem::path& file, size_t chunkBytes)
+    : file_(file)
+    , chunkBytes_(chunkBytes) {
     ByteWriter head, begin;
     head.text("ros2");
     head.text("fathom");
@@ -94,7 +94,7 @@ void McapWriter::add(uint16_t channel, uint64_t time, std::span<const uint8_t> m
     chunk_.append(message);
     chunkSpan_.add(time);
     ++messages_;
-    if (chunk_.size() >= kChunkBytes) {
+    if (chunk_.size() >= chunkBytes_) {
         endChunk();
     }
 }

@@ -13,11 +13,12 @@
 
 namespace fathom {
 
-// Holds one chunk, 4 MiB or one message, and 30 bytes per message. Every call throws Error that names the
+// Holds one chunk (4 MiB, or one message), and 30 bytes per message. Every call throws Error that names the
 // file when it cannot be written. Without finish(), there is no file. One thread.
 class McapWriter {
 public:
-    explicit McapWriter(const std::filesystem::path& file);
+    // chunkBytes: of messages that fill a chunk.
+    explicit McapWriter(const std::filesystem::path& file, size_t chunkBytes = size_t{4} << 20);
 
     // type: "sensor_msgs/msg/Image"; definition: its text with those of the types that it uses.
     uint16_t addChannel(const std::string& topic, const std::string& type, const std::string& definition);
@@ -39,6 +40,7 @@ private:
     void statistics(ByteWriter& summary) const;
 
     OutputFile file_;
+    size_t chunkBytes_;
     uint64_t at_ = 0; // [bytes] written
     ByteWriter chunk_, schemas_, channels_, chunkIndexes_;
     Index index_;
