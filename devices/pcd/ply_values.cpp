@@ -74,11 +74,11 @@ double PlyValues::binary(PlyType type, const std::string& element, uint64_t inde
     if (text_.size() - at_ < size) {
         cutOff(element, index);
     }
-    std::memcpy(bytes.data(), text_.data() + at_, size);
-    at_ += size;
-    if (format_ == PlyFormat::BigEndian) {
-        std::reverse(bytes.begin(), bytes.begin() + static_cast<long>(size));
+    for (size_t i = 0; i < size; ++i) {
+        const size_t to = format_ == PlyFormat::BigEndian ? size - 1 - i : i;
+        bytes[to] = static_cast<uint8_t>(text_[at_ + i]);
     }
+    at_ += size;
     switch (type) {
     case PlyType::Int8:
         return plyNumber<int8_t>(bytes.data());
