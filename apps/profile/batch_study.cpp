@@ -14,7 +14,7 @@ namespace fathom::profile {
 
 namespace {
 
-constexpr size_t kBatchPoses = 0, kBatchLeaves = 1, kBatchSpheres = 2, kListedPairs = 3; // of StudyRow::more
+constexpr size_t kBatchPoses = 0, kBatchLeaves = 1, kListedPairs = 3; // of StudyRow::more
 constexpr double kMostPairs = 1e8;    // that the oracle compares per tool and set
 constexpr size_t kFirstVerified = 16; // poses, then some more, evenly spread
 constexpr size_t kMoreVerified = 48;
