@@ -4,6 +4,7 @@
 #include "apps/binding/open_recording.h"
 #include "apps/binding/source_check.h"
 #include "devices/openni2/open_openni2.h"
+#include "devices/ros2/open_ros2.h"
 #include "devices/simulated/analytic_scene.h"
 #include "devices/simulated/simulated_camera.h"
 #include "devices/simulated/simulated_sonar.h"
@@ -52,12 +53,22 @@ std::unique_ptr<Camera> openLive(CameraRequest request, Images images) {
     return std::make_unique<V4l2Camera>(request);
 }
 
+// Scenes may leave the prefix out.
+std::string withRos2(const std::string& text) {
+    return isRos2Request(text) ? text : "ros2:" + text;
+}
+
+// A recording's file, or "ros2".
+std::string nameOf(const std::string& source) {
+    return isRos2Request(source) ? "ros2" : parseSource(source).file;
+}
+
 // Says once which streams a recording is played from.
 std::unique_ptr<Camera> openAndSay(const std::string& source, Images images, double farthest) {
     static std::set<std::string> said; // one thread opens cameras
     std::unique_ptr<Camera> camera = openSource(source, images, farthest);
     if (const std::string streams = camera->streams(); !streams.empty() && said.insert(source).second) {
-        std::fprintf(stderr, "fathom: %s: %s\n", parseSource(source).file.c_str(), streams.c_str());
+        std::fprintf(stderr, "fathom: %s: %s\n", nameOf(source).c_str(), streams.c_str());
     }
     return camera;
 }
@@ -72,6 +83,8 @@ std::unique_ptr<Camera> openDry(const Scene& scene, const std::optional<std::fil
         return openSimulated(scene);
     case CameraSource::Kind::Recorded:
         return openAndSay(scene.source.value, images, scene.farZ);
+    case CameraSource::Kind::Ros2:
+        return openAndSay(withRos2(scene.source.value), images, scene.farZ);
     case CameraSource::Kind::V4l2:
         break;
     }
@@ -94,6 +107,9 @@ std::unique_ptr<Camera> openSource(const std::string& source, Images images, dou
     }
     if (isOpenNi2Request(source)) {
         return openOpenNi2(source);
+    }
+    if (isRos2Request(source)) {
+        return openRos2(source, images == Images::Every, farthest);
     }
     SourceRequest request = parseSource(source);
     request.options.farthest = farthest;

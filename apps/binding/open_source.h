@@ -15,9 +15,8 @@ namespace fathom {
 // Help text of --source.
 inline constexpr const char* kSourceHelp =
     "instead of the scene's camera: a recording folder, a ROS bag, MCAP or .db3 file, "
-    "an organised PCD or PLY, an .oni file, or a live camera as v4l2:auto or openni2; append to a "
-    "recording's "
-    "name any of "
+    "an organised PCD or PLY, an .oni file, or a live camera as v4l2:auto, openni2 or ros2:depth=TOPIC; "
+    "append to a recording's name any of "
     ",depth=TOPIC,colour=TOPIC,info=TOPIC,intrinsics=FILE,extrinsics=FILE,scale=M,start=S,duration=S";
 
 // For a live camera: the newest frame at each call, or every frame in order (for recordings).

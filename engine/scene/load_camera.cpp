@@ -31,11 +31,13 @@ CameraSource simulatedSource(const YamlNode& node, const YamlNode& simulated) {
 }
 
 CameraSource loadSource(const YamlNode& node, Scene& scene) {
-    node.checkKeys({"simulated", "recorded", "v4l2", "arm", "pictures", "colour"});
-    const auto simulated = node.find("simulated"), recorded = node.find("recorded"), v4l2 = node.find("v4l2");
-    const int given = int(simulated.has_value()) + int(recorded.has_value()) + int(v4l2.has_value());
+    node.checkKeys({"simulated", "recorded", "v4l2", "ros2", "arm", "pictures", "colour"});
+    const auto simulated = node.find("simulated"), recorded = node.find("recorded"), v4l2 = node.find("v4l2"),
+               ros2 = node.find("ros2");
+    const int given = int(simulated.has_value()) + int(recorded.has_value()) + int(v4l2.has_value()) +
+                      int(ros2.has_value());
     if (given != 1) {
-        node.refuse(std::to_string(given) + " sources", "exactly one of simulated, recorded, v4l2");
+        node.refuse(std::to_string(given) + " sources", "exactly one of simulated, recorded, v4l2, ros2");
     }
     if (simulated) {
         return simulatedSource(node, *simulated);
@@ -51,6 +53,9 @@ CameraSource loadSource(const YamlNode& node, Scene& scene) {
     }
     if (recorded) {
         return {CameraSource::Kind::Recorded, besideScene(scene, recorded->text()).string()};
+    }
+    if (ros2) {
+        return {CameraSource::Kind::Ros2, ros2->text()};
     }
     return {CameraSource::Kind::V4l2, v4l2->text()};
 }

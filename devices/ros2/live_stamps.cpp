@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/ros2/live_stamps.h"
+
+#include "engine/types/log.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace fathom {
+
+bool LiveStamps::forward(double stamp) {
+    if (last_ && stamp <= *last_ && ++back_ < kResigned) {
+        return false;
+    }
+    if (back_ >= kResigned) {
+        log::warn("ros2:{}: its clock was set back by {:.3f} s", topic_, *last_ - stamp);
+        restarted_ = true;
+    }
+    back_ = 0;
+    last_ = stamp;
+    return true;
+}
+
+bool LiveStamps::restarted() {
+    return std::exchange(restarted_, false);
+}
+
+double LiveStamps::captureTime(double stamp, const RawMessage& message) {
+    constexpr double kAhead = 0.005; // [s] by which clocks of machines in step may differ
+    const double age = message.arrivalUtc - stamp;
+    const bool agrees = age >= -kAhead && age <= kOldest;
+    if (!agrees && !byArrival_) {
+        log::warn(
+            "ros2:{}: a stamp is {:.3f} s from this machine's clock: such frames are dated by their arrival",
+            topic_, -age);
+        byArrival_ = true;
+    }
+    const double capture = agrees ? message.arrival - std::max(age, 0.0) : message.arrival;
+    lastCapture_ = std::max(lastCapture_, capture);
+    return lastCapture_;
+}
+
+} // namespace fathom

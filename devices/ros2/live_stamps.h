@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// Turns the stamps of live messages, which any clock may have made, into capture times of this machine.
+#pragma once
+
+#include "devices/ros2/raw_message.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace fathom {
+
+// One topic, one thread.
+class LiveStamps {
+public:
+    // topic: for log lines.
+    explicit LiveStamps(std::string topic)
+        : topic_(std::move(topic)) {}
+
+    // Whether a message with that stamp [s] comes after the one before. One that goes back is no fault any
+    // more when kResigned messages in a row do: then a clock was set back, restarted() is true once.
+    bool forward(double stamp);
+    bool restarted();
+    // [s] CLOCK_MONOTONIC. Stamps that agree with this machine's UTC to kOldest count; others, of a
+    // simulation or of a machine with another clock, do not: then it is the arrival. Never goes back.
+    double captureTime(double stamp, const RawMessage& message);
+
+    static constexpr uint32_t kResigned = 5;
+    static constexpr double kOldest = 1.0; // [s]
+
+private:
+    std::string topic_;
+    std::optional<double> last_;
+    uint32_t back_ = 0;
+    bool restarted_ = false, byArrival_ = false;
+    double lastCapture_ = 0.0;
+};
+
+} // namespace fathom

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// Replaces open_ros2.cpp in builds without Cyclone DDS.
+#include "devices/ros2/open_ros2.h"
+#include "engine/types/error.h"
+
+namespace fathom {
+
+std::unique_ptr<Camera> openRos2(const std::string& source, bool, double) {
+    throw BadInput("--source", "ros2", source,
+                   "none: this program was built without Cyclone DDS (install cyclonedds-dev and rebuild)");
+}
+
+} // namespace fathom

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/ros2/ros2_camera.h"
+
+#include "engine/types/error.h"
+#include "engine/types/log.h"
+
+#include <algorithm>
+#include <chrono>
+
+namespace fathom {
+
+namespace {
+
+constexpr double kSecondPublisherAfter = 1.0; // [s] of silence of the first one
+constexpr double kLongestWait = 0.1;          // [s]
+
+double monotonicNow() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+} // namespace
+
+ros::Image Ros2Camera::imageOf(const ImageStream& stream, const RawMessage& message) const {
+    const MessageCursor cursor(message.bytes(), true);
+    return stream.compressed ? ros::compressedImage(cursor) : ros::image(cursor);
+}
+
+void Ros2Camera::skip(const std::string& fault, uint32_t frames) {
+    constexpr size_t kMostFaults = 32;
+    skipped_ += frames;
+    lastFault_ = fault;
+    if (faults_.size() < kMostFaults && faults_.insert(fault).second) {
+        log::warn("{}: frame skipped: {} (logged once)", description(), fault);
+    }
+}
+
+// The first publisher that is heard has the topic, until it falls silent.
+bool Ros2Camera::ours(Topic& topic, const Ros2Message& message, const std::string& name) {
+    const double now = message.message->arrival;
+    if (topic.publisher == 0 ||
+        (topic.publisher != message.publisher && now > topic.heard + kSecondPublisherAfter)) {
+        topic.publisher = message.publisher;
+    }
+    if (topic.publisher != message.publisher) {
+        if (topic.foreign++ == 0) {
+            log::warn("{}: {} has a second publisher, whose messages are ignored", description(), name);
+        }
+        return false;
+    }
+    topic.heard = now;
+    return true;
+}
+
+void Ros2Camera::receive(Topic& topic, const ImageStream& stream, LiveStamps& stamps, bool depth) {
+    for (const Ros2Message& taken : inbox_.take(topic.place)) {
+        if (!ours(topic, taken, stream.name)) {
+            continue;
+        }
+        try {
+            const double stamp = ros::stamp(MessageCursor(taken.message->bytes(), true));
+            if (!stamps.forward(stamp)) {
+                skip(stream.name + ": a stamp goes back", depth ? 1 : 0);
+                continue;
+            }
+            if (depth && stamps.restarted()) {
+                pairs_->clear();
+            }
+            depth ? pairs_->depth({stamp, taken.message}) : pairs_->colour({stamp, taken.message});
+            lastDepth_ = depth ? taken.message->arrival : lastDepth_;
+        } catch (const Error& e) {
+            skip(stream.name + ": " + e.what(), depth ? 1 : 0);
+        }
+    }
+}
+
+// Colour first: it may be what a depth image waits for.
+void Ros2Camera::receive() {
+    if (choice_.colour) {
+        receive(colour_, *choice_.colour, *colourStamps_, false);
+    }
+    receive(depth_, choice_.depth, *depthStamps_, true);
+}
+
+std::string Ros2Camera::fillDepth(const RawMessage& message, FrameSlot& slot) {
+    const ros::Image image = imageOf(choice_.depth, message);
+    const bool alike = (image.compressed ? image.format : image.encoding) == choice_.depth.encoding;
+    if (!alike || ros::sizeOf(image) != std::pair(info().depth.width, info().depth.height)) {
+        return "size or encoding differs from the first image";
+    }
+    uint64_t beyond = 0;
+    const std::string fault = ros::depthRows(image, valuesPerUnit_, slot.depth(), beyond);
+    const double limit = 65535.0 * info().metresPerUnit;
+    if (fault.empty() && beyond > 0 && limit < request_.options.farthest) {
+        skip(choice_.depth.name + ": pixels farther than " + std::to_string(limit) +
+                 " m count as not measured",
+             0);
+    }
+    return fault;
+}
+
+std::string Ros2Camera::fillColour(const RawMessage& message, FrameSlot& slot) {
+    const ros::Image image = imageOf(*choice_.colour, message);
+    return ros::sizeOf(image) == std::pair(info().colour.width, info().colour.height)
+               ? ros::colourRows(image, slot.colour())
+               : "size differs from its camera_info";
+}
+
+// Returns the fault; empty when the slot is filled.
+std::string Ros2Camera::fill(const LivePairs::Pair& pair, FrameSlot& slot) {
+    const auto named = [](const std::string& topic, const std::string& fault) {
+        return fault.empty() ? "" : topic + ": " + fault;
+    };
+    const std::string* topic = &choice_.depth.name;
+    try {
+        const std::string fault = named(*topic, fillDepth(*pair.depth.message, slot));
+        if (!fault.empty() || !pair.colour) {
+            return fault;
+        }
+        topic = &choice_.colour->name;
+        return named(*topic, fillColour(*pair.colour->message, slot));
+    } catch (const Error& e) {
+        return named(*topic, e.what());
+    }
+}
+
+std::optional<Frame> Ros2Camera::deliver() {
+    const double now = monotonicNow();
+    std::optional<LivePairs::Pair> pair = pairs_->next(now);
+    while (pair && !request_.everyFrame) {
+        std::optional<LivePairs::Pair> newer = pairs_->next(now);
+        if (!newer) {
+            break;
+        }
+        ++overtaken_;
+        pair = std::move(newer);
+    }
+    if (const size_t unpaired = pairs_->takeUnpaired()) {
+        skip(choice_.depth.name + ": no colour image with a stamp that near",
+             static_cast<uint32_t>(unpaired));
+    }
+    if (!pair) {
+        return std::nullopt;
+    }
+    FrameSlot* slot = slots_->acquire();
+    if (slot == nullptr) {
+        throw Error(description() + ": all frame buffers are leased");
+    }
+    if (const std::string fault = fill(*pair, *slot); !fault.empty()) {
+        slot->release();
+        skip(fault);
+        return std::nullopt;
+    }
+    Frame::Content content;
+    content.index = delivered_++;
+    content.sourceNumber = delivered_;
+    content.captureTime = depthStamps_->captureTime(pair->depth.stamp, *pair->depth.message);
+    content.depth = slot->depth().first(info().depth.pixels());
+    content.colour = slot->colour().first(info().hasColour ? info().colour.pixels() : 0);
+    return slot->lend(content);
+}
+
+std::optional<Frame> Ros2Camera::next() {
+    const double called = monotonicNow();
+    for (;;) {
+        receive();
+        if (std::optional<Frame> frame = deliver()) {
+            return frame;
+        }
+        const double now = monotonicNow();
+        if (now - std::max(lastDepth_, called - 0.5 * request_.silence) > request_.silence) {
+            throw DeviceLost(description() + ": no depth image for " + std::to_string(now - lastDepth_) +
+                             " s");
+        }
+        if (now - called > request_.silence) {
+            throw DeviceLost(description() + ": images arrive, but none is usable; last: " + lastFault_);
+        }
+        inbox_.wait(pairs_->patience(now, kLongestWait));
+    }
+}
+
+} // namespace fathom

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+// Finds the streams of ros2_camera.h and their lenses.
+#include "devices/images/metre_units.h"
+#include "devices/ros2/ros2_camera.h"
+#include "engine/types/error.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace fathom {
+
+namespace {
+
+constexpr const char* kRos2Image = "sensor_msgs/msg/Image";
+constexpr const char* kRos2Compressed = "sensor_msgs/msg/CompressedImage";
+
+bool isCompressedTopic(const std::string& topic) {
+    return topic.ends_with("/compressed") || topic.ends_with("/compressedDepth");
+}
+
+// Where camera drivers publish the lens of an image topic.
+std::vector<std::string> infoTopics(const std::string& image) {
+    const std::string base = baseTopic(image);
+    return {parentTopic(base, 1) + "/camera_info", base + "/camera_info", base + "_info"};
+}
+
+} // namespace
+
+Ros2Camera::Ros2Camera(const Ros2Request& request)
+    : request_(request)
+    , graph_(Ros2Graph::join(request.place))
+    , inbox_(graph_)
+    , messages_("ros2") {
+    depth_ = subscribeImages(request_.options.depth);
+    if (request_.options.colour != "none") {
+        colour_ = subscribeImages(request_.options.colour);
+    }
+    subscribeOthers();
+    awaitStreams();
+    chooseUnit();
+    pairs_.emplace(choice_.colour.has_value());
+    depthStamps_.emplace(choice_.depth.name);
+    if (choice_.colour) {
+        colourStamps_.emplace(choice_.colour->name);
+    }
+    slots_.emplace(std::max(info().depth.pixels(), info().colour.pixels()), info().hasColour,
+                   kFramesInFlight + 1);
+}
+
+Ros2Camera::Topic Ros2Camera::subscribeImages(const std::string& topic) {
+    Topic out;
+    out.compressed = isCompressedTopic(topic);
+    const char* type = out.compressed ? kRos2Compressed : kRos2Image;
+    out.place = inbox_.subscribe(topic, type, Ros2Qos::Sensor);
+    messages_.add(topic, type, 1);
+    return out;
+}
+
+void Ros2Camera::subscribeOthers() {
+    constexpr size_t kMostTransforms = 200;
+    const SourceOptions& options = request_.options;
+    std::set<std::string> infos;
+    for (const std::string& image : {options.depth, options.colour}) {
+        for (const std::string& topic : image == "none" ? std::vector<std::string>{} : infoTopics(image)) {
+            infos.insert(topic);
+        }
+    }
+    infos = options.info.empty() ? infos : std::set<std::string>{options.info};
+    const auto add = [&](const std::string& topic, const std::string& type, Ros2Qos qos, size_t most) {
+        inbox_.subscribe(topic, type, qos);
+        messages_.add(topic, type, most);
+    };
+    for (const std::string& topic : infos) {
+        add(topic, "sensor_msgs/msg/CameraInfo", Ros2Qos::Sensor, 1);
+    }
+    add("/tf_static", "tf2_msgs/msg/TFMessage", Ros2Qos::Latched, kMostTransforms);
+    add(parentTopic(options.depth, 2) + "/extrinsics/depth_to_color", "realsense2_camera_msgs/msg/Extrinsics",
+        Ros2Qos::Latched, 1);
+}
+
+// Keeps the newest messages of all topics. Returns whether there are any.
+bool Ros2Camera::gather() {
+    bool any = false;
+    for (size_t topic = 0; topic < messages_.topics().size(); ++topic) {
+        for (Ros2Message& taken : inbox_.take(topic)) {
+            messages_.keep(topic, std::move(taken.message));
+            any = true;
+        }
+    }
+    return any;
+}
+
+// The choice is repeated with each new message until it succeeds: lenses and transforms may come late.
+void Ros2Camera::awaitStreams() {
+    using Clock = std::chrono::steady_clock;
+    const auto end = Clock::now() + std::chrono::duration<double>(request_.wait);
+    std::string why = "no message";
+    for (;;) {
+        if (gather()) {
+            try {
+                choice_ = StreamChooser(messages_, request_.options).choose();
+                return;
+            } catch (const Error& e) {
+                why = e.what();
+            }
+        }
+        const double left = std::chrono::duration<double>(end - Clock::now()).count();
+        if (left <= 0.0) {
+            throw BadInput(missing(why));
+        }
+        inbox_.wait(std::min(left, 0.1));
+    }
+}
+
+std::string Ros2Camera::missing(const std::string& why) const {
+    std::string seen;
+    for (const std::string& topic : graph_->publications()) {
+        seen += (seen.empty() ? "" : ", ") + topic;
+    }
+    return request_.text + ": after " + std::to_string(std::lround(request_.wait)) + " s in domain " +
+           std::to_string(request_.place.domain) + " on network " + request_.place.network + ": " + why +
+           "; topics seen: " + (seen.empty() ? "none" : seen);
+}
+
+// Metres get the finest unit that holds the scene's far; without one, one and a half times the farthest depth
+// of the first image, and at least 6.5 m.
+void Ros2Camera::chooseUnit() {
+    constexpr double kMillimetre = 0.001, kFinest = 0.0001; // REP 118: 16-bit depth is in millimetres
+    const MessageCursor message = messages_.read(messages_.topics()[choice_.depth.topic], 0);
+    const ros::Image first = choice_.depth.compressed ? ros::compressedImage(message) : ros::image(message);
+    CameraInfo& camera = choice_.camera;
+    if (!ros::holdsMetres(first)) {
+        request_.options.checkUnit(request_.text);
+        camera.metresPerUnit = request_.options.scale.value_or(kMillimetre);
+        return;
+    }
+    const double metresPerValue = request_.options.scale.value_or(1.0), farthest = request_.options.farthest;
+    const double needed =
+        std::isfinite(farthest)
+            ? farthest
+            : std::max(65535.0 * kFinest, 1.5 * metresPerValue * ros::valueSpan(first).farthest);
+    camera.metresPerUnit = unitForMetres(needed);
+    valuesPerUnit_ = camera.metresPerUnit / metresPerValue;
+}
+
+} // namespace fathom

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/ros2/ros2_graph.h"
+
+#include "engine/types/error.h"
+#include "engine/types/printable.h"
+
+#include <dds/dds.h>
+#include <mutex>
+#include <set>
+
+namespace fathom {
+
+namespace {
+
+// Multicast and unicast discovery, because rmw implementations that are confined to one machine use the one
+// or the other. Data goes by unicast.
+std::string configuration(const Ros2Place& place) {
+    std::string peers;
+    if (place.network == "lo") {
+        peers = "<Peers><Peer address=\"127.0.0.1\"/></Peers>";
+    }
+    return "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"" + place.network +
+           "\" multicast=\"true\"/></Interfaces><AllowMulticast>spdp</AllowMulticast>"
+           "<MaxMessageSize>65500B</MaxMessageSize></General>"
+           "<Discovery><ParticipantIndex>auto</ParticipantIndex>"
+           "<MaxAutoParticipantIndex>32</MaxAutoParticipantIndex>" +
+           peers + "</Discovery><Internal><MaxSampleSize>" + std::to_string(kMostMessage) +
+           "B</MaxSampleSize><SocketReceiveBufferSize min=\"default\" max=\"16MB\"/></Internal>"
+           "<Tracing><Verbosity>none</Verbosity></Tracing></Domain></CycloneDDS>";
+}
+
+std::string ros2TypeName(std::string name) { // "a::msg::dds_::B_" to "a/msg/B"
+    for (const auto& [from, to] : {std::pair("::dds_::", "/"), std::pair("::", "/")}) {
+        for (size_t at = name.find(from); at != std::string::npos; at = name.find(from)) {
+            name.replace(at, std::string_view(from).size(), to);
+        }
+    }
+    if (name.ends_with('_')) {
+        name.pop_back();
+    }
+    return printable(name);
+}
+
+} // namespace
+
+std::shared_ptr<Ros2Graph> Ros2Graph::join(const Ros2Place& place) {
+    static std::mutex mutex;
+    static std::weak_ptr<Ros2Graph> joined;
+    const std::lock_guard lock(mutex);
+    std::shared_ptr<Ros2Graph> graph = joined.lock();
+    if (graph && graph->place_ != place) {
+        throw BadInput("ros2", "domain, network", std::to_string(place.domain) + ", " + place.network,
+                       "domain " + std::to_string(graph->place_.domain) + " and network " +
+                           graph->place_.network + ", which this program uses already");
+    }
+    if (!graph) {
+        graph.reset(new Ros2Graph(place));
+        joined = graph;
+    }
+    return graph;
+}
+
+Ros2Graph::Ros2Graph(const Ros2Place& place)
+    : place_(place) {
+    if (place.network != "any") {
+        domain_ = dds_create_domain(place.domain, configuration(place).c_str());
+    }
+    participant_ = domain_ < 0 ? domain_ : dds_create_participant(place.domain, nullptr, nullptr);
+    if (participant_ < 0) {
+        const std::string why = dds_strretcode(participant_);
+        dds_delete(domain_);
+        throw BadInput(
+            "ros2", "network", place.network + " (" + why + ")",
+            "a network interface of this machine that is up: lo, or as `ip link` lists them; or any");
+    }
+}
+
+Ros2Graph::~Ros2Graph() {
+    dds_delete(participant_);
+    if (domain_ > 0) {
+        dds_delete(domain_);
+    }
+}
+
+std::vector<std::string> Ros2Graph::publications() const {
+    std::set<std::string> names;
+    const dds_entity_t reader =
+        dds_create_reader(participant_, DDS_BUILTIN_TOPIC_DCPSPUBLICATION, nullptr, nullptr);
+    constexpr size_t kMostSeen = 256;
+    void* samples[kMostSeen] = {};
+    dds_sample_info_t infos[kMostSeen];
+    const dds_return_t count = reader < 0 ? 0 : dds_take(reader, samples, infos, kMostSeen, kMostSeen);
+    for (dds_return_t i = 0; i < count; ++i) {
+        const auto* seen = static_cast<const dds_builtintopic_endpoint_t*>(samples[i]);
+        const std::string topic = infos[i].valid_data ? seen->topic_name : "";
+        if (topic.starts_with("rt/")) {
+            names.insert(printable(topic.substr(2)) + " (" + ros2TypeName(seen->type_name) + ")");
+        }
+    }
+    if (count > 0) {
+        dds_return_loan(reader, samples, count);
+    }
+    if (reader > 0) {
+        dds_delete(reader);
+    }
+    return {names.begin(), names.end()};
+}
+
+} // namespace fathom

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+// Subscriptions and publications of ros2_graph.h.
+#include "devices/ros2/raw_type.h"
+#include "devices/ros2/ros2_graph.h"
+#include "engine/types/error.h"
+
+#include <array>
+
+namespace fathom {
+
+namespace {
+
+using QosPtr = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
+
+constexpr int32_t kSensorDepth = 8, kReliableDepth = 10, kLatchedDepth = 100;
+
+QosPtr qosOf(Ros2Qos kind) {
+    QosPtr qos(dds_create_qos(), dds_delete_qos);
+    const bool sensor = kind == Ros2Qos::Sensor, latched = kind == Ros2Qos::Latched;
+    dds_qset_reliability(qos.get(), sensor ? DDS_RELIABILITY_BEST_EFFORT : DDS_RELIABILITY_RELIABLE,
+                         DDS_MSECS(10));
+    dds_qset_durability(qos.get(), latched ? DDS_DURABILITY_TRANSIENT_LOCAL : DDS_DURABILITY_VOLATILE);
+    dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST,
+                     sensor ? kSensorDepth : (latched ? kLatchedDepth : kReliableDepth));
+    const dds_data_representation_id_t cdr = DDS_DATA_REPRESENTATION_XCDR1;
+    dds_qset_data_representation(qos.get(), 1, &cdr);
+    return qos;
+}
+
+// "sensor_msgs/msg/Image" to "sensor_msgs::msg::dds_::Image_".
+std::string ddsTypeName(const std::string& type) {
+    const size_t first = type.find('/'), last = type.rfind('/');
+    return type.substr(0, first) + "::msg::dds_::" + type.substr(last + 1) + "_";
+}
+
+void checkMade(dds_return_t made, const std::string& topic, const std::string& type) {
+    if (made < 0) {
+        throw Error("ros2:" + topic + " (" + type + "): " + dds_strretcode(made));
+    }
+}
+
+// A topic belongs to its reader or writer once those are made.
+dds_entity_t makeTopic(const Ros2Graph& graph, const std::string& topic, const std::string& type,
+                       ddsi_sertype*& raw) {
+    raw = newRawType(ddsTypeName(type));
+    ddsi_sertype* const own = raw;
+    const dds_entity_t made = dds_create_topic_sertype(graph.participant(), ("rt" + topic).c_str(), &raw,
+                                                       nullptr, nullptr, nullptr);
+    if (made < 0) {
+        ddsi_sertype_unref(own);
+    }
+    checkMade(made, topic, type);
+    return made;
+}
+
+} // namespace
+
+Ros2Inbox::Ros2Inbox(std::shared_ptr<Ros2Graph> graph)
+    : graph_(std::move(graph))
+    , waiting_(dds_create_waitset(graph_->participant())) {
+    checkMade(waiting_, "", "waitset");
+}
+
+Ros2Inbox::~Ros2Inbox() {
+    dds_delete(waiting_);
+    for (const dds_entity_t reader : readers_) {
+        dds_delete(reader);
+    }
+}
+
+size_t Ros2Inbox::subscribe(const std::string& topic, const std::string& type, Ros2Qos qos) {
+    ddsi_sertype* raw = nullptr;
+    const dds_entity_t made = makeTopic(*graph_, topic, type, raw);
+    const dds_entity_t reader = dds_create_reader(graph_->participant(), made, qosOf(qos).get(), nullptr);
+    dds_delete(made);
+    checkMade(reader, topic, type);
+    readers_.push_back(reader);
+    dds_set_status_mask(reader, DDS_DATA_AVAILABLE_STATUS);
+    checkMade(dds_waitset_attach(waiting_, reader, static_cast<dds_attach_t>(readers_.size())), topic, type);
+    return readers_.size() - 1;
+}
+
+bool Ros2Inbox::wait(double seconds) {
+    dds_attach_t which = 0;
+    return dds_waitset_wait(waiting_, &which, 1, static_cast<dds_duration_t>(1e9 * seconds)) > 0;
+}
+
+std::vector<Ros2Message> Ros2Inbox::take(size_t topic) {
+    std::array<ddsi_serdata*, 32> samples{};
+    std::array<dds_sample_info_t, 32> infos;
+    const dds_return_t count =
+        dds_takecdr(readers_[topic], samples.data(), samples.size(), infos.data(), DDS_ANY_STATE);
+    std::vector<Ros2Message> taken;
+    for (dds_return_t i = 0; i < count; ++i) {
+        const std::shared_ptr<ddsi_serdata> sample(samples[i], ddsi_serdata_unref);
+        const RawMessage* content = infos[i].valid_data ? rawContent(samples[i]) : nullptr;
+        if (content != nullptr) {
+            taken.push_back({RawMessagePtr(sample, content), infos[i].publication_handle});
+        }
+    }
+    return taken;
+}
+
+uint64_t Ros2Inbox::lost(size_t topic) const {
+    dds_sample_lost_status_t status{};
+    return dds_get_sample_lost_status(readers_[topic], &status) == DDS_RETCODE_OK ? status.total_count : 0;
+}
+
+Ros2Writer::Ros2Writer(std::shared_ptr<Ros2Graph> graph, const std::string& topic, const std::string& type,
+                       Ros2Qos qos)
+    : graph_(std::move(graph)) {
+    ddsi_sertype* raw = nullptr;
+    const dds_entity_t made = makeTopic(*graph_, topic, type, raw);
+    writer_ = dds_create_writer(graph_->participant(), made, qosOf(qos).get(), nullptr);
+    dds_delete(made);
+    checkMade(writer_, topic, type);
+    type_ = raw;
+}
+
+Ros2Writer::~Ros2Writer() {
+    dds_delete(writer_);
+}
+
+bool Ros2Writer::write(std::span<const uint8_t> message) noexcept {
+    try {
+        return dds_writecdr(writer_, newRawSample(type_, message)) == DDS_RETCODE_OK;
+    } catch (const std::bad_alloc&) {
+        return false;
+    }
+}
+
+bool Ros2Writer::watched() const noexcept {
+    dds_publication_matched_status_t status{};
+    return dds_get_publication_matched_status(writer_, &status) == DDS_RETCODE_OK && status.current_count > 0;
+}
+
+} // namespace fathom

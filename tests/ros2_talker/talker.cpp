@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: Apache-2.0
+// A ROS 2 camera driver for tests: a process of its own that publishes 8 x 6 images with the messages that
+// idlc generated. Lines on its standard input change what it does, and each is answered by "ok".
+//   ros2_talker DOMAIN
+//   KEY VALUE: a number or a word of `Settings`; "quit" ends it.
+#include "messages.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <dds/dds.h>
+#include <iostream>
+#include <map>
+#include <poll.h>
+#include <string>
+#include <unistd.h>
+#include <vector>
+
+namespace {
+
+using Clock = std::chrono::system_clock;
+
+dds_entity_t participant = 0;
+
+// rate [1/s]; on: publishes depth; shift [s]: added to the stamps; encoding 0: 16UC1, 1: 32FC1, 2: "64FC1";
+// broken: that many malformed messages; width, height [pixels]; value: of depth, in millimetres.
+std::map<std::string, double> settings{{"rate", 30}, {"on", 1},          {"colour", 1},  {"info", 1},
+                                       {"tf", 0},    {"encoding", 0},    {"shift", 0},   {"broken", 0},
+                                       {"width", 8}, {"height", 6},      {"value", 500}, {"fx", 7},
+                                       {"claim", 0}, {"colour_shift", 0}};
+
+int setting(const std::string& key) {
+    return static_cast<int>(settings.at(key));
+}
+
+dds_entity_t writerOf(const char* topic, const dds_topic_descriptor_t& type, bool latched = false) {
+    dds_qos_t* qos = dds_create_qos();
+    dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, DDS_MSECS(100));
+    dds_qset_durability(qos, latched ? DDS_DURABILITY_TRANSIENT_LOCAL : DDS_DURABILITY_VOLATILE);
+    dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, 5);
+    const dds_entity_t made = dds_create_topic(participant, &type, topic, nullptr, nullptr);
+    const dds_entity_t writer = dds_create_writer(participant, made, qos, nullptr);
+    dds_delete_qos(qos);
+    if (writer < 0) {
+        std::fprintf(stderr, "ros2_talker: %s: %s\n", topic, dds_strretcode(writer));
+        std::exit(1);
+    }
+    return writer;
+}
+
+std_msgs_msg_dds__Header_ header(double shift, const char* frame) {
+    const double now = std::chrono::duration<double>(Clock::now().time_since_epoch()).count() + shift;
+    std_msgs_msg_dds__Header_ out{};
+    out.stamp.sec = static_cast<int32_t>(now);
+    out.stamp.nanosec = static_cast<uint32_t>(1e9 * (now - out.stamp.sec));
+    out.frame_id = const_cast<char*>(frame);
+    return out;
+}
+
+void publishImage(dds_entity_t writer, const char* frame, const char* encoding, double shift,
+                  std::vector<uint8_t> bytes, uint32_t perPixel) {
+    sensor_msgs_msg_dds__Image_ image{};
+    image.header = header(shift, frame);
+    image.width = static_cast<uint32_t>(setting("width"));
+    image.height = static_cast<uint32_t>(setting("height"));
+    image.encoding = const_cast<char*>(encoding);
+    image.step = perPixel * image.width;
+    if (settings.at("claim") > 0) { // more pixels than there are bytes
+        image.height = static_cast<uint32_t>(settings.at("claim"));
+    }
+    image.data = {static_cast<uint32_t>(bytes.size()), static_cast<uint32_t>(bytes.size()), bytes.data(),
+                  false};
+    dds_write(writer, &image);
+}
+
+void publishDepth(dds_entity_t writer) {
+    const auto pixels = static_cast<size_t>(setting("width")) * static_cast<size_t>(setting("height"));
+    const bool metres = setting("encoding") == 1;
+    std::vector<uint8_t> bytes(pixels * (metres ? 4 : 2));
+    const auto millimetres = static_cast<uint16_t>(setting("value"));
+    const float value = 0.001f * static_cast<float>(millimetres);
+    for (size_t i = 0; i < pixels; ++i) {
+        metres ? std::memcpy(bytes.data() + 4 * i, &value, 4)
+               : std::memcpy(bytes.data() + 2 * i, &millimetres, 2);
+    }
+    const char* names[] = {"16UC1", "32FC1", "64FC1"};
+    publishImage(writer, "depth_frame", names[setting("encoding")], settings.at("shift"), bytes,
+                 metres ? 4 : 2);
+}
+
+void publishColour(dds_entity_t writer) {
+    const auto pixels = static_cast<size_t>(setting("width")) * static_cast<size_t>(setting("height"));
+    std::vector<uint8_t> bytes(3 * pixels);
+    for (size_t i = 0; i < pixels; ++i) {
+        bytes[3 * i] = 200;
+    }
+    publishImage(writer, setting("tf") != 0 ? "colour_frame" : "depth_frame", "rgb8",
+                 settings.at("shift") + settings.at("colour_shift"), bytes, 3);
+}
+
+void publishInfo(dds_entity_t writer) {
+    sensor_msgs_msg_dds__CameraInfo_ info{};
+    info.header = header(settings.at("shift"), "depth_frame");
+    info.width = static_cast<uint32_t>(setting("width"));
+    info.height = static_cast<uint32_t>(setting("height"));
+    info.distortion_model = const_cast<char*>("plumb_bob");
+    double d[5] = {};
+    info.d = {5, 5, d, false};
+    const double k[9] = {settings.at("fx"), 0, 3.5, 0, settings.at("fx"), 2.5, 0, 0, 1},
+                 r[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+    const double p[12] = {settings.at("fx"), 0, 3.5, 0, 0, settings.at("fx"), 2.5, 0, 0, 0, 1, 0};
+    std::copy_n(k, 9, info.k);
+    std::copy_n(r, 9, info.r);
+    std::copy_n(p, 12, info.p);
+    dds_write(writer, &info);
+}
+
+// 25 mm between the cameras.
+void publishTransform(dds_entity_t writer) {
+    geometry_msgs_msg_dds__TransformStamped_ link{};
+    link.header = header(0.0, "depth_frame");
+    link.child_frame_id = const_cast<char*>("colour_frame");
+    link.transform.translation.x = 0.025;
+    link.transform.rotation.w = 1.0;
+    tf2_msgs_msg_dds__TFMessage_ message{};
+    message.transforms = {1, 1, &link, false};
+    dds_write(writer, &message);
+}
+
+// Another type of few bytes under the name of an image: its bytes end within the header.
+dds_topic_descriptor_t brokenType() {
+    const dds_topic_descriptor_t& time = builtin_interfaces_msg_dds__Time__desc;
+    return {time.m_size,
+            time.m_align,
+            DDS_TOPIC_FIXED_SIZE,
+            0,
+            "sensor_msgs::msg::dds_::Image_",
+            nullptr,
+            time.m_nops,
+            time.m_ops,
+            "",
+            {},
+            {},
+            0};
+}
+
+void obey(const std::string& line) {
+    if (line == "quit") {
+        std::exit(0);
+    }
+    const size_t space = line.find(' ');
+    settings.at(line.substr(0, space)) = std::strtod(line.c_str() + std::min(space, line.size()), nullptr);
+    std::cout << "ok" << std::endl;
+}
+
+// Until the next image is due.
+void listen() {
+    static std::string rest;
+    const auto due = std::chrono::steady_clock::now() +
+                     std::chrono::microseconds(static_cast<int>(1e6 / settings.at("rate")));
+    for (;;) {
+        const auto left =
+            std::chrono::duration_cast<std::chrono::milliseconds>(due - std::chrono::steady_clock::now())
+                .count();
+        pollfd in{STDIN_FILENO, POLLIN, 0};
+        if (left <= 0 || ::poll(&in, 1, static_cast<int>(left)) <= 0) {
+            return;
+        }
+        char bytes[256];
+        const ssize_t count = ::read(STDIN_FILENO, bytes, sizeof bytes);
+        if (count <= 0) {
+            std::exit(0); // the test has ended
+        }
+        rest.append(bytes, static_cast<size_t>(count));
+        for (size_t end = rest.find('\n'); end != std::string::npos; end = rest.find('\n')) {
+            obey(rest.substr(0, end));
+            rest.erase(0, end + 1);
+        }
+    }
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    const auto domain = static_cast<dds_domainid_t>(argc > 1 ? std::atoi(argv[1]) : 0);
+    dds_create_domain(
+        domain, "<General><Interfaces><NetworkInterface name=\"lo\" multicast=\"false\"/></Interfaces>"
+                "</General><Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>32"
+                "</MaxAutoParticipantIndex><Peers><Peer "
+                "address=\"127.0.0.1\"/></Peers></Discovery><Tracing><Verbosity>none</Verbosity></Tracing>");
+    participant = dds_create_participant(domain, nullptr, nullptr);
+    const dds_topic_descriptor_t broken = brokenType();
+    const dds_entity_t depth = writerOf("rt/camera/depth/image_rect_raw", sensor_msgs_msg_dds__Image__desc),
+                       colour = writerOf("rt/camera/color/image_raw", sensor_msgs_msg_dds__Image__desc),
+                       depthInfo =
+                           writerOf("rt/camera/depth/camera_info", sensor_msgs_msg_dds__CameraInfo__desc),
+                       colourInfo =
+                           writerOf("rt/camera/color/camera_info", sensor_msgs_msg_dds__CameraInfo__desc),
+                       transforms = writerOf("rt/tf_static", tf2_msgs_msg_dds__TFMessage__desc, true);
+    std::cout << "ok" << std::endl;
+    for (int i = 0;; ++i) {
+        listen();
+        if (setting("tf") == 1) {
+            publishTransform(transforms);
+            settings["tf"] = 2;
+        }
+        if (setting("broken") > 0) {
+            static const dds_entity_t brokenWriter = writerOf("rt/camera/depth/image_rect_raw", broken);
+            const builtin_interfaces_msg_dds__Time_ few{1, 2};
+            dds_write(brokenWriter, &few);
+        }
+        if (setting("colour") != 0) {
+            publishColour(colour);
+        }
+        if (setting("on") != 0) {
+            publishDepth(depth);
+        }
+        if (setting("info") != 0) {
+            publishInfo(depthInfo);
+            publishInfo(colourInfo);
+        }
+    }
+}
