@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/ros2/raw_type.h"
 
+#include "devices/ros2/dds_library.h"
+
 #include <algorithm>
 #include <chrono>
 #include <cstring>
@@ -28,7 +30,7 @@ RawSample* newSample(const ddsi_sertype* type, ddsi_serdata_kind kind, size_t si
     if (sample == nullptr) {
         return nullptr;
     }
-    ddsi_serdata_init(sample, type, kind);
+    dds().initSample(sample, type, kind);
     const size_t padded = (size + 3) / 4 * 4;
     sample->content.memory.reset(new (std::nothrow) uint8_t[padded]);
     if (!sample->content.memory) {
@@ -131,9 +133,9 @@ ddsi_serdata_ops sampleOperations() {
 
 ddsi_sertype_ops typeOperations() {
     ddsi_sertype_ops ops{};
-    ops.version = ddsi_sertype_v0;
+    ops.version = dds().typeVersion;
     ops.free = [](ddsi_sertype* type) {
-        ddsi_sertype_fini(type);
+        dds().endType(type);
         delete type;
     };
     ops.zero_samples = [](const ddsi_sertype*, void*, size_t) {};
@@ -154,7 +156,7 @@ ddsi_sertype* newRawType(const std::string& name) {
     static const ddsi_serdata_ops samples = sampleOperations();
     static const ddsi_sertype_ops types = typeOperations();
     auto* type = new ddsi_sertype{};
-    ddsi_sertype_init_flags(type, name.c_str(), &types, &samples, DDSI_SERTYPE_FLAG_TOPICKIND_NO_KEY);
+    dds().initType(type, name.c_str(), &types, &samples, DDSI_SERTYPE_FLAG_TOPICKIND_NO_KEY);
     type->allowed_data_representation = DDS_DATA_REPRESENTATION_FLAG_XCDR1;
     return type;
 }

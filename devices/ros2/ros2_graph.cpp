@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/ros2/ros2_graph.h"
 
+#include "devices/ros2/dds_library.h"
 #include "engine/types/error.h"
 #include "engine/types/printable.h"
 
-#include <dds/dds.h>
 #include <mutex>
 #include <set>
 
@@ -63,12 +63,12 @@ std::shared_ptr<Ros2Graph> Ros2Graph::join(const Ros2Place& place) {
 Ros2Graph::Ros2Graph(const Ros2Place& place)
     : place_(place) {
     if (place.network != "any") {
-        domain_ = dds_create_domain(place.domain, configuration(place).c_str());
+        domain_ = dds().createDomain(place.domain, configuration(place).c_str());
     }
-    participant_ = domain_ < 0 ? domain_ : dds_create_participant(place.domain, nullptr, nullptr);
+    participant_ = domain_ < 0 ? domain_ : dds().createParticipant(place.domain, nullptr, nullptr);
     if (participant_ < 0) {
-        const std::string why = dds_strretcode(participant_);
-        dds_delete(domain_);
+        const std::string why = dds().text(participant_);
+        dds().destroy(domain_);
         throw BadInput(
             "ros2", "network", place.network + " (" + why + ")",
             "a network interface of this machine that is up: lo, or as `ip link` lists them; or any");
@@ -76,20 +76,20 @@ Ros2Graph::Ros2Graph(const Ros2Place& place)
 }
 
 Ros2Graph::~Ros2Graph() {
-    dds_delete(participant_);
+    dds().destroy(participant_);
     if (domain_ > 0) {
-        dds_delete(domain_);
+        dds().destroy(domain_);
     }
 }
 
 std::vector<std::string> Ros2Graph::publications() const {
     std::set<std::string> names;
     const dds_entity_t reader =
-        dds_create_reader(participant_, DDS_BUILTIN_TOPIC_DCPSPUBLICATION, nullptr, nullptr);
+        dds().createReader(participant_, DDS_BUILTIN_TOPIC_DCPSPUBLICATION, nullptr, nullptr);
     constexpr size_t kMostSeen = 256;
     void* samples[kMostSeen] = {};
     dds_sample_info_t infos[kMostSeen];
-    const dds_return_t count = reader < 0 ? 0 : dds_take(reader, samples, infos, kMostSeen, kMostSeen);
+    const dds_return_t count = reader < 0 ? 0 : dds().take(reader, samples, infos, kMostSeen, kMostSeen);
     for (dds_return_t i = 0; i < count; ++i) {
         const auto* seen = static_cast<const dds_builtintopic_endpoint_t*>(samples[i]);
         const std::string topic = infos[i].valid_data ? seen->topic_name : "";
@@ -98,10 +98,10 @@ std::vector<std::string> Ros2Graph::publications() const {
         }
     }
     if (count > 0) {
-        dds_return_loan(reader, samples, count);
+        dds().returnLoan(reader, samples, count);
     }
     if (reader > 0) {
-        dds_delete(reader);
+        dds().destroy(reader);
     }
     return {names.begin(), names.end()};
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Subscriptions and publications of ros2_graph.h.
+#include "devices/ros2/dds_library.h"
 #include "devices/ros2/raw_type.h"
 #include "devices/ros2/ros2_graph.h"
 #include "engine/types/error.h"
@@ -10,20 +11,20 @@ namespace fathom {
 
 namespace {
 
-using QosPtr = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
+using QosPtr = std::unique_ptr<dds_qos_t, void (*)(dds_qos_t*)>;
 
 constexpr int32_t kSensorDepth = 8, kReliableDepth = 10, kLatchedDepth = 100;
 
 QosPtr qosOf(Ros2Qos kind) {
-    QosPtr qos(dds_create_qos(), dds_delete_qos);
+    QosPtr qos(dds().createQos(), dds().deleteQos);
     const bool sensor = kind == Ros2Qos::Sensor, latched = kind == Ros2Qos::Latched;
-    dds_qset_reliability(qos.get(), sensor ? DDS_RELIABILITY_BEST_EFFORT : DDS_RELIABILITY_RELIABLE,
+    dds().setReliability(qos.get(), sensor ? DDS_RELIABILITY_BEST_EFFORT : DDS_RELIABILITY_RELIABLE,
                          DDS_MSECS(10));
-    dds_qset_durability(qos.get(), latched ? DDS_DURABILITY_TRANSIENT_LOCAL : DDS_DURABILITY_VOLATILE);
-    dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST,
+    dds().setDurability(qos.get(), latched ? DDS_DURABILITY_TRANSIENT_LOCAL : DDS_DURABILITY_VOLATILE);
+    dds().setHistory(qos.get(), DDS_HISTORY_KEEP_LAST,
                      sensor ? kSensorDepth : (latched ? kLatchedDepth : kReliableDepth));
     const dds_data_representation_id_t cdr = DDS_DATA_REPRESENTATION_XCDR1;
-    dds_qset_data_representation(qos.get(), 1, &cdr);
+    dds().setRepresentation(qos.get(), 1, &cdr);
     return qos;
 }
 
@@ -35,7 +36,7 @@ std::string ddsTypeName(const std::string& type) {
 
 void checkMade(dds_return_t made, const std::string& topic, const std::string& type) {
     if (made < 0) {
-        throw Error("ros2:" + topic + " (" + type + "): " + dds_strretcode(made));
+        throw Error("ros2:" + topic + " (" + type + "): " + dds().text(made));
     }
 }
 
@@ -44,10 +45,10 @@ dds_entity_t makeTopic(const Ros2Graph& graph, const std::string& topic, const s
                        ddsi_sertype*& raw) {
     raw = newRawType(ddsTypeName(type));
     ddsi_sertype* const own = raw;
-    const dds_entity_t made = dds_create_topic_sertype(graph.participant(), ("rt" + topic).c_str(), &raw,
-                                                       nullptr, nullptr, nullptr);
+    const dds_entity_t made =
+        dds().createTopic(graph.participant(), ("rt" + topic).c_str(), &raw, nullptr, nullptr, nullptr);
     if (made < 0) {
-        ddsi_sertype_unref(own);
+        dds().releaseType(own);
     }
     checkMade(made, topic, type);
     return made;
@@ -57,39 +58,39 @@ dds_entity_t makeTopic(const Ros2Graph& graph, const std::string& topic, const s
 
 Ros2Inbox::Ros2Inbox(std::shared_ptr<Ros2Graph> graph)
     : graph_(std::move(graph))
-    , waiting_(dds_create_waitset(graph_->participant())) {
+    , waiting_(dds().createWaitset(graph_->participant())) {
     checkMade(waiting_, "", "waitset");
 }
 
 Ros2Inbox::~Ros2Inbox() {
-    dds_delete(waiting_);
+    dds().destroy(waiting_);
     for (const dds_entity_t reader : readers_) {
-        dds_delete(reader);
+        dds().destroy(reader);
     }
 }
 
 size_t Ros2Inbox::subscribe(const std::string& topic, const std::string& type, Ros2Qos qos) {
     ddsi_sertype* raw = nullptr;
     const dds_entity_t made = makeTopic(*graph_, topic, type, raw);
-    const dds_entity_t reader = dds_create_reader(graph_->participant(), made, qosOf(qos).get(), nullptr);
-    dds_delete(made);
+    const dds_entity_t reader = dds().createReader(graph_->participant(), made, qosOf(qos).get(), nullptr);
+    dds().destroy(made);
     checkMade(reader, topic, type);
     readers_.push_back(reader);
-    dds_set_status_mask(reader, DDS_DATA_AVAILABLE_STATUS);
-    checkMade(dds_waitset_attach(waiting_, reader, static_cast<dds_attach_t>(readers_.size())), topic, type);
+    dds().setStatusMask(reader, DDS_DATA_AVAILABLE_STATUS);
+    checkMade(dds().attach(waiting_, reader, static_cast<dds_attach_t>(readers_.size())), topic, type);
     return readers_.size() - 1;
 }
 
 bool Ros2Inbox::wait(double seconds) {
     dds_attach_t which = 0;
-    return dds_waitset_wait(waiting_, &which, 1, static_cast<dds_duration_t>(1e9 * seconds)) > 0;
+    return dds().wait(waiting_, &which, 1, static_cast<dds_duration_t>(1e9 * seconds)) > 0;
 }
 
 std::vector<Ros2Message> Ros2Inbox::take(size_t topic) {
     std::array<ddsi_serdata*, 32> samples{};
     std::array<dds_sample_info_t, 32> infos;
     const dds_return_t count =
-        dds_takecdr(readers_[topic], samples.data(), samples.size(), infos.data(), DDS_ANY_STATE);
+        dds().takeCdr(readers_[topic], samples.data(), samples.size(), infos.data(), DDS_ANY_STATE);
     std::vector<Ros2Message> taken;
     for (dds_return_t i = 0; i < count; ++i) {
         const std::shared_ptr<ddsi_serdata> sample(samples[i], ddsi_serdata_unref);
@@ -103,7 +104,7 @@ std::vector<Ros2Message> Ros2Inbox::take(size_t topic) {
 
 uint64_t Ros2Inbox::lost(size_t topic) const {
     dds_sample_lost_status_t status{};
-    return dds_get_sample_lost_status(readers_[topic], &status) == DDS_RETCODE_OK ? status.total_count : 0;
+    return dds().lostStatus(readers_[topic], &status) == DDS_RETCODE_OK ? status.total_count : 0;
 }
 
 Ros2Writer::Ros2Writer(std::shared_ptr<Ros2Graph> graph, const std::string& topic, const std::string& type,
@@ -111,19 +112,19 @@ Ros2Writer::Ros2Writer(std::shared_ptr<Ros2Graph> graph, const std::string& topi
     : graph_(std::move(graph)) {
     ddsi_sertype* raw = nullptr;
     const dds_entity_t made = makeTopic(*graph_, topic, type, raw);
-    writer_ = dds_create_writer(graph_->participant(), made, qosOf(qos).get(), nullptr);
-    dds_delete(made);
+    writer_ = dds().createWriter(graph_->participant(), made, qosOf(qos).get(), nullptr);
+    dds().destroy(made);
     checkMade(writer_, topic, type);
     type_ = raw;
 }
 
 Ros2Writer::~Ros2Writer() {
-    dds_delete(writer_);
+    dds().destroy(writer_);
 }
 
 bool Ros2Writer::write(std::span<const uint8_t> message) noexcept {
     try {
-        return dds_writecdr(writer_, newRawSample(type_, message)) == DDS_RETCODE_OK;
+        return dds().writeCdr(writer_, newRawSample(type_, message)) == DDS_RETCODE_OK;
     } catch (const std::bad_alloc&) {
         return false;
     }
@@ -131,7 +132,7 @@ bool Ros2Writer::write(std::span<const uint8_t> message) noexcept {
 
 bool Ros2Writer::watched() const noexcept {
     dds_publication_matched_status_t status{};
-    return dds_get_publication_matched_status(writer_, &status) == DDS_RETCODE_OK && status.current_count > 0;
+    return dds().publicationStatus(writer_, &status) == DDS_RETCODE_OK && status.current_count > 0;
 }
 
 } // namespace fathom

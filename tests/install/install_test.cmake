@@ -63,6 +63,10 @@ foreach(file ${files})
     check("${file} names the folder that it was built from" NOT named)
 endforeach()
 
+# Optional libraries are loaded at run time.
+execute_process(COMMAND ${CMAKE_COMMAND} -E env LC_ALL=C readelf -d ${root}/bin/fathom OUTPUT_VARIABLE needed RESULT_VARIABLE result)
+check("the program does not start without Cyclone DDS" result EQUAL 0 AND NOT needed MATCHES "libddsc")
+
 # The program, from there.
 execute_process(COMMAND ${root}/bin/fathom --version OUTPUT_VARIABLE said OUTPUT_STRIP_TRAILING_WHITESPACE)
 check("fathom --version says '${said}'" said STREQUAL "fathom ${VERSION}")
