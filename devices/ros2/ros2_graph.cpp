@@ -5,6 +5,7 @@
 #include "engine/types/error.h"
 #include "engine/types/printable.h"
 
+#include <cstdlib>
 #include <mutex>
 #include <set>
 
@@ -12,9 +13,24 @@ namespace fathom {
 
 namespace {
 
+// Limits the size of messages. Cyclone's own default is 2 GiB.
+std::string limits() {
+    return "<Internal><MaxSampleSize>" + std::to_string(kMostMessage) + "B</MaxSampleSize></Internal>";
+}
+
+// The user's own configuration, with our limits. Later parts override earlier ones.
+std::string userConfiguration() {
+    const char* given = std::getenv("CYCLONEDDS_URI");
+    return (given != nullptr && *given != '\0' ? std::string(given) + "," : "") + "<CycloneDDS><Domain>" +
+           limits() + "</Domain></CycloneDDS>";
+}
+
 // Multicast and unicast discovery, because rmw implementations that are confined to one machine use the one
 // or the other. Data goes by unicast.
 std::string configuration(const Ros2Place& place) {
+    if (place.network == "any") {
+        return userConfiguration();
+    }
     std::string peers;
     if (place.network == "lo") {
         peers = "<Peers><Peer address=\"127.0.0.1\"/></Peers>";
@@ -24,8 +40,8 @@ std::string configuration(const Ros2Place& place) {
            "<MaxMessageSize>65500B</MaxMessageSize></General>"
            "<Discovery><ParticipantIndex>auto</ParticipantIndex>"
            "<MaxAutoParticipantIndex>32</MaxAutoParticipantIndex>" +
-           peers + "</Discovery><Internal><MaxSampleSize>" + std::to_string(kMostMessage) +
-           "B</MaxSampleSize><SocketReceiveBufferSize min=\"default\" max=\"16MB\"/></Internal>"
+           peers + "</Discovery>" + limits() +
+           "<Internal><SocketReceiveBufferSize min=\"default\" max=\"16MB\"/></Internal>"
            "<Tracing><Verbosity>none</Verbosity></Tracing></Domain></CycloneDDS>";
 }
 
@@ -62,9 +78,7 @@ std::shared_ptr<Ros2Graph> Ros2Graph::join(const Ros2Place& place) {
 
 Ros2Graph::Ros2Graph(const Ros2Place& place)
     : place_(place) {
-    if (place.network != "any") {
-        domain_ = dds().createDomain(place.domain, configuration(place).c_str());
-    }
+    domain_ = dds().createDomain(place.domain, configuration(place).c_str());
     participant_ = domain_ < 0 ? domain_ : dds().createParticipant(place.domain, nullptr, nullptr);
     if (participant_ < 0) {
         const std::string why = dds().text(participant_);
@@ -77,9 +91,7 @@ Ros2Graph::Ros2Graph(const Ros2Place& place)
 
 Ros2Graph::~Ros2Graph() {
     dds().destroy(participant_);
-    if (domain_ > 0) {
-        dds().destroy(domain_);
-    }
+    dds().destroy(domain_);
 }
 
 std::vector<std::string> Ros2Graph::publications() const {
