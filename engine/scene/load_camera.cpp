@@ -30,6 +30,20 @@ CameraSource simulatedSource(const YamlNode& node, const YamlNode& simulated) {
     return source;
 }
 
+// "NAME=VALUE,NAME=VALUE": files are relative to the scene's folder.
+std::string withFilesBesideScene(Scene& scene, std::string text) {
+    for (const std::string_view key : {"intrinsics=", "extrinsics="}) {
+        const size_t comma = text.find("," + std::string(key));
+        if (comma == std::string::npos) {
+            continue;
+        }
+        const size_t begin = comma + 1 + key.size(), length = text.find(',', begin) - begin;
+        const std::string file = text.substr(begin, length);
+        text.replace(begin, file.size(), besideScene(scene, file).string());
+    }
+    return text;
+}
+
 CameraSource loadSource(const YamlNode& node, Scene& scene) {
     node.checkKeys({"simulated", "recorded", "v4l2", "ros2", "arm", "pictures", "colour"});
     const auto simulated = node.find("simulated"), recorded = node.find("recorded"), v4l2 = node.find("v4l2"),
@@ -55,7 +69,7 @@ CameraSource loadSource(const YamlNode& node, Scene& scene) {
         return {CameraSource::Kind::Recorded, besideScene(scene, recorded->text()).string()};
     }
     if (ros2) {
-        return {CameraSource::Kind::Ros2, ros2->text()};
+        return {CameraSource::Kind::Ros2, withFilesBesideScene(scene, ros2->text())};
     }
     return {CameraSource::Kind::V4l2, v4l2->text()};
 }

@@ -238,3 +238,14 @@ TEST_CASE("Only paths of a scene that leave its folder are reported") {
     std::filesystem::create_symlink(outside.path(), inside.folder() / "way.csv");
     CHECK(loadScene(inside.path()).outside == std::vector<std::string>{"sub/../way.csv"});
 }
+
+TEST_CASE("Files that a camera of ROS 2 names are relative to the scene, topics are not paths") {
+    const SceneFile file(kMinimal + "camera: {source: {ros2: \"depth=/a/b,intrinsics=lens.json,extrinsics="
+                                    "../x.json,wait=5\"}}\n");
+    const Scene scene = loadScene(file.path());
+    const std::string folder = file.path().parent_path().string();
+    CHECK(scene.source.kind == CameraSource::Kind::Ros2);
+    CHECK(scene.source.value == "depth=/a/b,intrinsics=" + folder + "/lens.json,extrinsics=" +
+                                    file.path().parent_path().parent_path().string() + "/x.json,wait=5");
+    CHECK(scene.outside == std::vector<std::string>{"../x.json"});
+}
