@@ -2,8 +2,12 @@
 #include "tests/ros2/talker.h"
 
 #include <csignal>
+#include <cstddef>
+#include <cstdio>
 #include <doctest/doctest.h>
-#include <random>
+#include <stdexcept>
+#include <sys/socket.h>
+#include <sys/un.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -56,8 +60,31 @@ void Talker::set(const std::string& key, double value) {
     awaitOk();
 }
 
+namespace {
+
+// The first domain that no other test program holds. An abstract socket is like loopback: one per network
+// namespace, and gone when its process ends.
+uint32_t reserveDomain() {
+    constexpr uint32_t kMostTried = 100; // the ports of higher ones are also given to programs at random
+    for (uint32_t domain = 1; domain <= kMostTried; ++domain) {
+        sockaddr_un name{AF_UNIX, {}};
+        const int length =
+            std::snprintf(name.sun_path + 1, sizeof name.sun_path - 1, "fathom-test-ros2-domain-%u", domain);
+        const int held = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
+        const auto size =
+            static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1) + static_cast<socklen_t>(length);
+        if (::bind(held, reinterpret_cast<const sockaddr*>(&name), size) == 0) {
+            return domain;
+        }
+        ::close(held);
+    }
+    throw std::runtime_error("no domain of DDS is free for this test");
+}
+
+} // namespace
+
 uint32_t testDomain() {
-    static const uint32_t domain = 1 + std::random_device()() % 200;
+    static const uint32_t domain = reserveDomain();
     return domain;
 }
 

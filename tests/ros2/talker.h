@@ -27,7 +27,7 @@ private:
     int in_ = -1, out_ = -1;
 };
 
-// A domain of this process: by its number, so that test programs that run at once do not meet.
+// A domain that this process holds until it ends, so that test programs that run at once do not meet.
 uint32_t testDomain();
 
 // A request for the talker's camera; `more` begins with a comma.
