@@ -14,13 +14,13 @@ constexpr uint16_t kOlder[] = {0xc603, 0xc605, 0xc606, 0xc621, 0xc623, 0xc625,
 constexpr uint16_t kNewer[] = {0xc62e, 0xc62f, 0xc631, 0xc632, 0xc633, 0xc635, 0xc636, 0xc638, 0xc63a};
 constexpr double kFull = 350.0, kDead = 8.0; // counts
 
-int16_t wordAt(std::span<const uint8_t> bytes, size_t at) {
+int16_t axisAt(std::span<const uint8_t> bytes, size_t at) {
     return static_cast<int16_t>(bytes[at] | bytes[at + 1] << 8);
 }
 
 void takeThree(std::span<const uint8_t> bytes, std::array<int16_t, 3>& out) {
     for (size_t i = 0; i < 3; ++i) {
-        out[i] = wordAt(bytes, 2 * i);
+        out[i] = axisAt(bytes, 2 * i);
     }
 }
 
