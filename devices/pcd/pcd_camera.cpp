@@ -46,7 +46,7 @@ PcdCloud readCloud(const std::filesystem::path& file) {
         std::ifstream(file, std::ios::binary).read(begin.data(), static_cast<std::streamsize>(begin.size()));
     }
     const bool ply = begin == "ply\n" || begin == "ply\r" || file.extension() == ".ply";
-    return ply ? readPly(file) : readPcd(file);
+    return ply ? readPlyCloud(file) : readPcd(file);
 }
 
 bool measured(const dvec3& p) {

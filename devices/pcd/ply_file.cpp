@@ -202,7 +202,7 @@ private:
 
 } // namespace
 
-PcdCloud readPly(const std::filesystem::path& file) {
+PcdCloud readPlyCloud(const std::filesystem::path& file) {
     const std::string text = readWholeFile(file, kPlyFileBytes, "an organised PLY file");
     return PlyReader(file.string(), text).read();
 }
