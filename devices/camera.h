@@ -36,6 +36,8 @@ public:
     // Recordings: number of frames, invalid ones included; 0 when the source cannot seek. seek() makes next()
     // continue at `index`; false when that is impossible.
     virtual uint32_t images() const { return 0; }
+    // Recordings that are played from a later time on: index of the frame that begins there.
+    virtual uint32_t firstImage() const { return 0; }
     virtual bool seek(uint32_t) { return false; }
     // [s] frame period, when the source knows it.
     virtual std::optional<double> framePeriod() const { return std::nullopt; }

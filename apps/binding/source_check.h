@@ -25,6 +25,7 @@ public:
     uint64_t lost() const override { return source_->lost(); }
     void showArm(std::span<const Sphere> spheres) override { source_->showArm(spheres); }
     uint32_t images() const override { return source_->images(); }
+    uint32_t firstImage() const override { return source_->firstImage(); }
     bool seek(uint32_t index) override { return source_->seek(index); }
     std::optional<double> framePeriod() const override { return source_->framePeriod(); }
     std::string streams() const override { return source_->streams(); }

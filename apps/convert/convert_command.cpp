@@ -5,6 +5,7 @@
 #include "apps/convert/mcap_recording.h"
 #include "apps/convert/tum_folder.h"
 #include "apps/replay/output_folder.h"
+#include "apps/replay/progress.h"
 #include "engine/scene/camera_limits.h"
 #include "engine/types/error.h"
 
@@ -50,11 +51,17 @@ void convert(const ConvertOptions& options) {
     const OutputLock lock(options.out);
     const std::unique_ptr<FrameSink> sink = openSink(options, camera->info());
     uint64_t frames = 0;
+    const uint64_t first = camera->firstImage(), end = camera->images();
+    Progress progress;
     for (auto frame = camera->next(); frame; frame = camera->next()) {
         sink->add(*frame);
         ++frames;
+        progress.update({.framesDone = (*frame)->index + 1 - first,
+                         .framesTotal = end > first ? end - first : 0,
+                         .framesOnly = true});
     }
     sink->finish();
+    progress.finish();
     std::cout << "converted    " << frames << " frames, " << camera->skipped() << " skipped\n"
               << "from         " << (camera->streams().empty() ? camera->description() : camera->streams())
               << "\nwritten to   " << options.out << (options.format == "mcap" ? "/recording.mcap" : "")

@@ -41,7 +41,7 @@ void LockstepReplay::fetch() {
     }
     next_ = session_.camera->next();
     if (next_) {
-        nextTime_ = (*next_)->index * kFramePeriod;
+        nextTime_ = ((*next_)->index - session_.camera->firstImage()) * kFramePeriod;
         next_->retime(nextTime_);
     } else {
         scene_.sourceEnded = true;
@@ -102,6 +102,12 @@ void LockstepReplay::takeDueFrames(double t) {
 bool LockstepReplay::ended(double t) const {
     const double frames = scene_.sourceEnded ? scene_.captureTime + kFramePeriod : t + 1.0;
     return t >= std::max(frames, pathStart_ + path_->duration()) - kClockSlack;
+}
+
+// A run ends with the hand's path or with its recording, whichever is later. 0 = not known beforehand.
+double LockstepReplay::expectedEnd(uint64_t frames) const {
+    return frames > 0 ? std::max(static_cast<double>(frames) * kFramePeriod, pathStart_ + path_->duration())
+                      : 0.0;
 }
 
 void LockstepReplay::query() {
@@ -179,6 +185,8 @@ void LockstepReplay::tick(double t) {
 ReplayRecorder::Ending LockstepReplay::run() {
     fetch();
     session_.requireFrame(next_.has_value());
+    const uint64_t images = session_.camera->images(), first = session_.camera->firstImage();
+    const uint64_t frames = images > first ? images - first : 0;
     // The built-in path starts when the first set is ready; the times of a CSV path count from the start of
     // the run.
     const bool builtIn = session_.options.operatorCsv.empty() && session_.scene.hand.builtIn;
@@ -190,12 +198,13 @@ ReplayRecorder::Ending LockstepReplay::run() {
     cycle_.emplace(session_.tool, shapes_, haptics_, hand_->read(0.0).deviceThandle, nullptr,
                    session_.arm.get());
 
+    const double total = expectedEnd(frames);
     Progress progress;
     for (double t = 0.0; !ended(t); t = static_cast<double>(ticks_) * haptics_.period) {
         takeDueFrames(t);
         query();
         tick(t);
-        progress.update({framesDone_, 0, ticks_, t});
+        progress.update({framesDone_, frames, ticks_, t, total});
     }
     progress.finish();
 

@@ -45,6 +45,7 @@ private:
     void takeEdit(uint32_t image);
     void takeDueFrames(double t);
     bool ended(double t) const;
+    double expectedEnd(uint64_t frames) const;
     void query();
     void tick(double t);
     void audit(const StepRecord& record, const ToolState& start);

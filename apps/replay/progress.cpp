@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/replay/progress.h"
 
+#include <algorithm>
 #include <unistd.h>
 
 namespace fathom {
@@ -21,6 +22,27 @@ std::string rate(double count, double seconds) {
     return text;
 }
 
+// ", 12 min 05 s left"; empty where it cannot be known yet.
+std::string timeLeft(const ProgressCounts& counts, double wallSeconds) {
+    const bool byRun = counts.runTotal > 0.0;
+    const double done = byRun ? counts.runSeconds : static_cast<double>(counts.framesDone);
+    const double all = byRun ? counts.runTotal : static_cast<double>(counts.framesTotal);
+    if (!(done > 0.0 && all >= done && wallSeconds >= 1.0)) {
+        return "";
+    }
+    const double left = std::min(wallSeconds * (all - done) / done, 3.6e6);
+    const auto seconds = static_cast<unsigned>(left + 0.5);
+    char text[48];
+    if (seconds < 60) {
+        std::snprintf(text, sizeof text, ", %u s left", seconds);
+    } else if (seconds < 3600) {
+        std::snprintf(text, sizeof text, ", %u min %02u s left", seconds / 60, seconds % 60);
+    } else {
+        std::snprintf(text, sizeof text, ", %u h %02u min left", seconds / 3600, seconds / 60 % 60);
+    }
+    return text;
+}
+
 } // namespace
 
 std::string progressText(const ProgressCounts& counts, double wallSeconds) {
@@ -28,7 +50,12 @@ std::string progressText(const ProgressCounts& counts, double wallSeconds) {
     if (counts.framesTotal > 0) {
         text += " of " + std::to_string(counts.framesTotal);
     }
-    text += ", " + rate(static_cast<double>(counts.framesDone), wallSeconds) + "frames/s, ";
+    text += timeLeft(counts, wallSeconds);
+    text += ", " + rate(static_cast<double>(counts.framesDone), wallSeconds) + "frames/s";
+    if (counts.framesOnly) {
+        return text;
+    }
+    text += ", ";
     text += rate(static_cast<double>(counts.ticksDone), wallSeconds) + "ticks/s";
     char tail[64];
     const double pace = wallSeconds > 0.0 ? counts.runSeconds / wallSeconds : 0.0;
@@ -45,7 +72,7 @@ Progress::Progress(std::FILE* out, bool terminal)
 
 void Progress::update(const ProgressCounts& counts) noexcept {
     // Reads the clock only every kCallsAClockReading calls, because ticks are microseconds apart.
-    if (!terminal_ || (shown_ && ++calls_ % kCallsAClockReading != 0)) {
+    if (!terminal_ || (shown_ && !counts.framesOnly && ++calls_ % kCallsAClockReading != 0)) {
         return;
     }
     const auto now = Clock::now();

@@ -13,13 +13,16 @@ struct ProgressCounts {
     uint64_t framesDone = 0, framesTotal = 0; // total 0 = unknown
     uint64_t ticksDone = 0;
     double runSeconds = 0.0; // [s] run time so far, on the run's own clock
+    double runTotal = 0.0;   // [s] when it will end; 0 = unknown
+    bool framesOnly = false; // no ticks, and no clock of a run
 };
 
-// "frame 12 of 60, 31 frames/s, 8.4 k ticks/s, 2.1 s of run, 1.40 x real time".
+// "frame 12 of 60, 5 s left, 31 frames/s, 8.4 k ticks/s, 2.1 s of run, 1.40 x real time". The time left is
+// shown from the first second on, by the run's time, else by its frames.
 std::string progressText(const ProgressCounts& counts, double wallSeconds);
 
 // Writes only when `out` is a terminal, and at most ten times per second, so update() may be called every
-// tick. Never throws: a closed terminal must not fail a run.
+// tick and every frame. Never throws: a closed terminal must not fail a run.
 class Progress {
 public:
     explicit Progress(std::FILE* out = stderr);

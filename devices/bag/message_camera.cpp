@@ -17,7 +17,7 @@ void MessageCamera::useSpan(const MessageTopic& topic) {
         });
         return static_cast<uint32_t>(at - all.begin());
     };
-    cursor_ = place(options_.start);
+    cursor_ = first_ = place(options_.start);
     end_ = std::isfinite(options_.duration) ? place(options_.start + options_.duration)
                                             : static_cast<uint32_t>(all.size());
     if (cursor_ >= end_) {

@@ -22,6 +22,7 @@ public:
     std::optional<Frame> next() override;
     uint32_t skipped() const override { return skipped_; }
     uint32_t images() const override { return end_; }
+    uint32_t firstImage() const override { return first_; }
     bool seek(uint32_t index) override;
     std::vector<std::string> warnings() const override { return warnings_; }
 
@@ -58,7 +59,7 @@ private:
     bool stampsRise();
     std::string faultOf(size_t index, FrameSlot& slot, double stamp);
 
-    uint32_t skipped_ = 0;
+    uint32_t skipped_ = 0, first_ = 0;
     bool delivered_ = false, toldBeyond_ = false;
     std::optional<double> lastStamp_; // [s] of the last delivered frame
     std::string firstFault_;

@@ -23,6 +23,7 @@ public:
     uint32_t skipped() const override { return source_->skipped(); }
     std::vector<std::string> warnings() const override { return source_->warnings(); }
     uint32_t images() const override { return source_->images(); }
+    uint32_t firstImage() const override { return source_->firstImage(); }
     bool seek(uint32_t index) override { return source_->seek(index); }
     bool live() const override { return source_->live(); }
     uint64_t lost() const override { return source_->lost(); }

@@ -23,6 +23,7 @@ public:
     std::vector<std::string> warnings() const override { return source_->warnings(); }
     std::string description() const override { return source_->description() + " behind a flat port"; }
     uint32_t images() const override { return source_->images(); }
+    uint32_t firstImage() const override { return source_->firstImage(); }
     bool seek(uint32_t index) override { return source_->seek(index); }
     bool live() const override { return source_->live(); }
     uint64_t lost() const override { return source_->lost(); }

@@ -77,6 +77,31 @@ TEST_CASE("A recording that is converted to a TUM folder and to MCAP replays wit
     CHECK(digestOf(stage, "mcap/recording.mcap", "out_mcap") == digestOf(stage, "rec", "out_still"));
 }
 
+TEST_CASE(
+    "A run that starts late in a recording begins with its first frame, and not at the recording's start") {
+    const Stage stage;
+    stage.recording(movingWall());
+    stage.scene({});
+    stage.hand({{0.0, {0.0, 0.0, 0.3}}, {0.1, {0.0, 0.0, 0.6}}});
+    convertStage(stage, "mcap", {"--format", "mcap"});
+    const auto firstSet = [&](const std::string& options) {
+        const ProgramRun run = runFathom({"replay", (stage / "scene.yaml").string(), "--source",
+                                          (stage / "mcap/recording.mcap").string() + options, "--operator",
+                                          (stage / "hand.csv").string(), "--device", "llvmpipe", "--out",
+                                          (stage / ("out" + options)).string()});
+        CHECK_MESSAGE(run.exitCode == 0, run.err);
+        const Replay replay = readReplay(stage / ("out" + options), run);
+        const auto tick = std::find_if(replay.ticks.begin(), replay.ticks.end(),
+                                       [](const auto& row) { return row.frame >= 0; });
+        REQUIRE(tick != replay.ticks.end());
+        return std::pair(tick - replay.ticks.begin(), tick->frame);
+    };
+    const auto whole = firstSet(""), late = firstSet(",start=0.001");
+    CHECK(whole.second == 0);
+    CHECK(late.second == 1);
+    CHECK(late.first == whole.first);
+}
+
 TEST_CASE("MCAP of a folder keeps unregistered lenses, another depth unit and frames without colour") {
     const Stage stage;
     stage.recording(movingWall());
