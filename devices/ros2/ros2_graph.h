@@ -41,7 +41,7 @@ private:
 enum class Ros2Qos {
     Sensor,   // best effort, the newest few
     Reliable, // reliable, the newest ten
-    Latched,  // reliable, kept for those who come later
+    Latched,  // reliable, kept for readers that come later
 };
 
 // A message, and the publisher that it is from.

@@ -73,7 +73,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "The shadow lies on the surface behind the tool, below and right of it, and a hidden tool has none") {
+    "The shadow is on the surface behind the tool, below and right of it, and a hidden tool has none") {
     const Fixtures set = flatWall();
     const std::vector<Sphere> tool{{{0.0, 0.0, 0.8}, 0.02}};
     const auto shadow = shadowOf(set, tool);
