@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Frozen classes keep their spheres while the others follow the frame.
 #include "engine/types/error.h"
-#include "tests/support/cloud_rig.h"
+#include "tests/cycle/red_and_blue.h"
 
 #include <doctest/doctest.h>
 #include <set>
@@ -10,25 +10,6 @@ using namespace fathom;
 using namespace fathom::test;
 
 namespace {
-
-// Left half red, right half blue, at one depth.
-Image halves(const CameraInfo& camera, double z) {
-    Image image = drawnImage(
-        camera, [&](int, int) { return z; }, 0xff2020c0);
-    for (size_t i = 0; i < image.colour.size(); ++i) {
-        image.colour[i] = i % camera.depth.width < camera.depth.width / 2 ? 0xff2020c0 : 0xffc02020;
-    }
-    return image;
-}
-
-Scene redAndBlue() {
-    Scene scene = plainScene();
-    scene.fixtures[0].hue = Band{345, 15};
-    FixtureClass blue = forbiddenClass("blue", 0.03);
-    blue.hue = Band{225, 255};
-    scene.fixtures.push_back(blue);
-    return scene;
-}
 
 // Smallest and largest z [m] of the spheres of a scene row.
 std::pair<double, double> depths(const Fixtures& set, uint8_t row) {
@@ -47,14 +28,14 @@ std::pair<double, double> depths(const Fixtures& set, uint8_t row) {
 TEST_CASE(
     "A frozen class keeps its spheres while another follows the frame, and follows again when released") {
     const CameraInfo camera = pinholeCamera(100, 60);
-    Scene scene = redAndBlue();
+    Scene scene = redAndBlueScene();
     CloudRig rig(scene, camera);
-    rig.run(halves(camera, 1.0));
+    rig.run(redAndBlueImage(camera, 1.0, 1.0));
     const size_t all = rig.host().spheres.size();
     scene.fixtures[0].frozen = true;
     rig.cycle().setScene(scene);
     for (double z : {1.0, 1.1, 1.3}) {
-        rig.run(halves(camera, z));
+        rig.run(redAndBlueImage(camera, z, z));
         CAPTURE(z);
         CHECK(depths(rig.host(), 0).first == doctest::Approx(1.0).epsilon(1e-5));
         CHECK(depths(rig.host(), 0).second == doctest::Approx(1.0).epsilon(1e-5));
@@ -66,20 +47,20 @@ TEST_CASE(
     }
     scene.fixtures[0].frozen = false;
     rig.cycle().setScene(scene);
-    rig.run(halves(camera, 1.3));
+    rig.run(redAndBlueImage(camera, 1.3, 1.3));
     CHECK(depths(rig.host(), 0).first == doctest::Approx(1.3).epsilon(1e-5));
 }
 
 TEST_CASE("A frozen guidance class keeps its target") {
     const CameraInfo camera = pinholeCamera(100, 60);
-    Scene scene = redAndBlue();
+    Scene scene = redAndBlueScene();
     scene.fixtures[1].role = Role::Guidance;
     CloudRig rig(scene, camera);
-    rig.run(halves(camera, 1.0));
+    rig.run(redAndBlueImage(camera, 1.0, 1.0));
     scene.fixtures[1].frozen = true;
     rig.cycle().setScene(scene);
-    rig.run(halves(camera, 1.0));
-    rig.run(halves(camera, 1.4));
+    rig.run(redAndBlueImage(camera, 1.0, 1.0));
+    rig.run(redAndBlueImage(camera, 1.4, 1.4));
     REQUIRE(rig.host().guidance.size() == 1);
     CHECK(rig.host().guidance[0].position.z == doctest::Approx(1.0).epsilon(1e-4));
 }

@@ -2,7 +2,7 @@
 // Where the device answers contact queries, it answers about a set whose passes have landed, before the host
 // has its copy.
 #include "engine/cycle/contact_cycle.h"
-#include "tests/support/cloud_rig.h"
+#include "tests/cycle/red_and_blue.h"
 
 #include <algorithm>
 #include <doctest/doctest.h>
@@ -12,31 +12,10 @@ using namespace fathom::test;
 
 namespace {
 
-constexpr int kSplit = 80; // [pixels] where the left half ends
-
-// The left half has the first of the scene's classes, the right half the second one.
-Image wallsAt(const CameraInfo& camera, double left, double right) {
-    Image image = drawnImage(
-        camera, [&](int u, int) { return u < kSplit ? left : right; }, 0xff2020c0);
-    for (size_t i = 0; i < image.colour.size(); ++i) {
-        image.colour[i] = static_cast<int>(i % camera.depth.width) < kSplit ? 0xff2020c0 : 0xffc02020;
-    }
-    return image;
-}
-
-Scene twoWallScene() {
-    Scene scene = plainScene();
-    scene.fixtures[0].hue = Band{345, 15};
-    FixtureClass blue = forbiddenClass("blue", 0.03);
-    blue.hue = Band{225, 255};
-    scene.fixtures.push_back(blue);
-    return scene;
-}
-
 // Frames in steps, and the same questions to the device and to the CPU.
 struct StepRig {
     const CameraInfo camera = pinholeCamera(160, 90);
-    Scene scene = twoWallScene();
+    Scene scene = redAndBlueScene();
     CloudRig rig;
     Tool tool{buildSphereTree(
         std::vector<Sphere>{{dvec3(-0.06, 0, 0), 0.01}, {dvec3(0.06, 0, 0), 0.01}, {dvec3(0.0), 0.02}})};
@@ -116,7 +95,7 @@ TEST_CASE("The device answers about a landed set without its host copy, as the C
             {0.6, 0.6}, {0.47, 0.55}, {0.47, 0.55}, {0.52, 0.46}, {0.8, 0.9}};
         size_t found = 0, behind = 0;
         for (const auto& [left, right] : walls) {
-            rig.land(wallsAt(rig.camera, left, right));
+            rig.land(redAndBlueImage(rig.camera, left, right));
             const auto complete = rig.sets().newest();
             CHECK((complete ? complete->host.generation : 0) + 1 == rig.frames);
             const ContactSet early = rig.onDevice();
@@ -136,16 +115,16 @@ TEST_CASE("The device answers about a landed set without its host copy, as the C
 
 TEST_CASE("A set with a class that has just been frozen waits for its host copy, later ones do not") {
     StepRig rig(Plan::Query::Gpu);
-    rig.land(wallsAt(rig.camera, 0.53, 0.52));
+    rig.land(redAndBlueImage(rig.camera, 0.53, 0.52));
     rig.rig.cycle().finish();
     rig.scene.fixtures[0].frozen = true;
     rig.rig.cycle().setScene(rig.scene);
-    rig.land(wallsAt(rig.camera, 0.54, 0.52));
+    rig.land(redAndBlueImage(rig.camera, 0.54, 0.52));
     CHECK(rig.sets().newestEarly()->host.generation == 1);
     const FrameReport report = rig.rig.cycle().finish();
     CHECK(report.times.answerable == report.times.published);
     checkSameAnswer(rig.onDevice(), rig.onHost());
-    rig.land(wallsAt(rig.camera, 0.8, 0.51));
+    rig.land(redAndBlueImage(rig.camera, 0.8, 0.51));
     const ContactSet early = rig.onDevice();
     CHECK(early.generation == 3);
     rig.rig.cycle().finish();
@@ -153,7 +132,7 @@ TEST_CASE("A set with a class that has just been frozen waits for its host copy,
     CHECK(std::count(early.fixture.begin(), early.fixture.end(), 0) > 0); // from the second frame
     rig.scene.fixtures[0].frozen = false;
     rig.rig.cycle().setScene(rig.scene);
-    rig.land(wallsAt(rig.camera, 0.8, 0.51));
+    rig.land(redAndBlueImage(rig.camera, 0.8, 0.51));
     const ContactSet released = rig.onDevice();
     CHECK(released.generation == 4);
     CHECK(std::count(released.fixture.begin(), released.fixture.end(), 0) == 0);
@@ -163,7 +142,7 @@ TEST_CASE("A set with a class that has just been frozen waits for its host copy,
 
 TEST_CASE("Where the CPU answers, no set is published before its host copy is complete") {
     StepRig rig(Plan::Query::Cpu);
-    rig.land(wallsAt(rig.camera, 0.53, 0.52));
+    rig.land(redAndBlueImage(rig.camera, 0.53, 0.52));
     CHECK_FALSE(rig.sets().newestEarly());
     const FrameReport report = rig.rig.cycle().finish();
     CHECK(rig.sets().newestEarly()->host.generation == 1);

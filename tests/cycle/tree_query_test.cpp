@@ -3,8 +3,8 @@
 // frozen classes and for arms.
 #include "engine/cycle/arm_rig.h"
 #include "engine/cycle/contact_cycle.h"
+#include "tests/cycle/red_and_blue.h"
 #include "tests/haptics/arm_rig.h"
-#include "tests/support/cloud_rig.h"
 
 #include <doctest/doctest.h>
 #include <random>
@@ -77,25 +77,6 @@ struct Both {
     }
 };
 
-// Left half red, right half blue, at one depth.
-Image redAndBlueAt(const CameraInfo& camera, double z) {
-    Image image = drawnImage(
-        camera, [&](int, int) { return z; }, 0xff2020c0);
-    for (size_t i = 0; i < image.colour.size(); ++i) {
-        image.colour[i] = i % camera.depth.width < camera.depth.width / 2 ? 0xff2020c0 : 0xffc02020;
-    }
-    return image;
-}
-
-Scene redAndBlueScene() {
-    Scene scene = plainScene();
-    scene.fixtures[0].hue = Band{345, 15};
-    FixtureClass blue = forbiddenClass("blue", 0.03);
-    blue.hue = Band{225, 255};
-    scene.fixtures.push_back(blue);
-    return scene;
-}
-
 } // namespace
 
 TEST_CASE("Both queries agree on full, sparse and empty images of odd sizes, with several classes and held "
@@ -159,7 +140,7 @@ TEST_CASE("Both queries agree while a class is frozen, while two are, and after 
     const Tool tool = someTool(40, 0.2);
     Both both(rig, tool, 0.02);
     const auto ask = [&](double z) { return both.check({Pose{{0.0, 0.0, z}, {1, 0, 0, 0}}, {}}); };
-    const auto show = [&](double depth) { rig.run(redAndBlueAt(camera, depth)); };
+    const auto show = [&](double depth) { rig.run(redAndBlueImage(camera, depth, depth)); };
     const auto freeze = [&](bool red, bool blue) {
         scene.fixtures[0].frozen = red;
         scene.fixtures[1].frozen = blue;
