@@ -3,6 +3,7 @@
 
 #include "devices/recorded/recorded_camera.h"
 #include "engine/types/error.h"
+#include "tests/devices/organised_cloud.h"
 #include "tests/devices/recorded_folder.h"
 
 #include <cmath>
@@ -38,21 +39,6 @@ std::string cloudText(const std::string& data, bool up = false) {
     return text;
 }
 
-void checkCloud(const std::filesystem::path& file) {
-    PcdCamera camera(file);
-    const CameraInfo& info = camera.info();
-    CHECK(info.depth.fx == doctest::Approx(10.0).epsilon(1e-3));
-    CHECK(info.depth.fy == doctest::Approx(11.0).epsilon(1e-3));
-    CHECK(info.depth.cx == doctest::Approx(4.25).epsilon(1e-3));
-    CHECK(info.depth.cy == doctest::Approx(3.5).epsilon(1e-3));
-    const auto frame = camera.next();
-    REQUIRE(frame);
-    CHECK((*frame)->depth[0] == 0);
-    CHECK((*frame)->depth[8] == 14000);
-    CHECK((*frame)->colour[1] == 0xff312010u);
-    CHECK_FALSE(camera.next());
-}
-
 std::string refusal(const std::filesystem::path& file) {
     try {
         PcdCamera camera(file);
@@ -70,7 +56,7 @@ TEST_CASE("An organised cloud gives back its lens and depth: ascii, binary, and 
     folder.write("b.pcd", cloudText("binary"));
     folder.write("c.pcd", cloudText("binary", true));
     for (const char* name : {"a.pcd", "b.pcd", "c.pcd"}) {
-        checkCloud(folder.path() / name);
+        testing::checkOrganisedCloud(folder.path() / name);
     }
 }
 

@@ -2,6 +2,7 @@
 // Organised PLY files, with headers as the Point Cloud Library writes them.
 #include "devices/pcd/pcd_camera.h"
 #include "engine/types/error.h"
+#include "tests/devices/organised_cloud.h"
 #include "tests/devices/recorded_folder.h"
 
 #include <algorithm>
@@ -108,21 +109,6 @@ std::string withCamera(const std::string& format) {
            values.text();
 }
 
-void checkPly(const std::filesystem::path& file) {
-    PcdCamera camera(file);
-    const CameraInfo& info = camera.info();
-    CHECK(info.depth.width == 9);
-    CHECK(info.depth.fx == doctest::Approx(10.0).epsilon(1e-3));
-    CHECK(info.depth.fy == doctest::Approx(11.0).epsilon(1e-3));
-    CHECK(info.depth.cx == doctest::Approx(4.25).epsilon(1e-3));
-    CHECK(info.depth.cy == doctest::Approx(3.5).epsilon(1e-3));
-    const auto frame = camera.next();
-    REQUIRE(frame);
-    CHECK((*frame)->depth[0] == 0);
-    CHECK((*frame)->depth[8] == 14000);
-    CHECK((*frame)->colour[1] == 0xff312010u);
-}
-
 std::string plyRefusal(const std::string& text) {
     const TemporaryFolder folder;
     folder.write("x.ply", text);
@@ -147,7 +133,7 @@ TEST_CASE("An organised PLY gives its lens, depth and colour in every format, by
                                         whole(format, "comment width: 9\ncomment height: 7\n"),
                                         whole(format, "comment Width=9\ncomment Height=7\n")}) {
             folder.write("cloud", text); // its first bytes say that it is PLY
-            checkPly(folder.path() / "cloud");
+            testing::checkOrganisedCloud(folder.path() / "cloud");
         }
     }
 }
