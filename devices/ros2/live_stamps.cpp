@@ -9,10 +9,10 @@
 namespace fathom {
 
 bool LiveStamps::forward(double stamp) {
-    if (last_ && stamp <= *last_ && ++back_ < kResigned) {
+    if (last_ && stamp <= *last_ && ++back_ < kMostBackward) {
         return false;
     }
-    if (back_ >= kResigned) {
+    if (back_ >= kMostBackward) {
         log::warn("ros2:{}: its clock was set back by {:.3f} s", topic_, *last_ - stamp);
         restarted_ = true;
     }

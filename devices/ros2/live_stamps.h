@@ -17,15 +17,15 @@ public:
     explicit LiveStamps(std::string topic)
         : topic_(std::move(topic)) {}
 
-    // Whether a message with that stamp [s] comes after the one before. One that goes back is no fault any
-    // more when kResigned messages in a row do: then a clock was set back, restarted() is true once.
+    // Whether a message with that stamp [s] comes after the one before. After kMostBackward earlier stamps in
+    // a row the clock was set back: the last of them counts, and restarted() is true once.
     bool forward(double stamp);
     bool restarted();
     // [s] CLOCK_MONOTONIC. Stamps that agree with this machine's UTC to kOldest count; others, of a
     // simulation or of a machine with another clock, do not: then it is the arrival. Never goes back.
     double captureTime(double stamp, const RawMessage& message);
 
-    static constexpr uint32_t kResigned = 5;
+    static constexpr uint32_t kMostBackward = 5;
     static constexpr double kOldest = 1.0; // [s]
 
 private:
