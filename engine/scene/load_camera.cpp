@@ -2,6 +2,7 @@
 // Sections `camera` and `filter` of a scene file.
 #include "engine/scene/load.h"
 
+#include <algorithm>
 #include <numbers>
 
 namespace fathom {
@@ -32,14 +33,13 @@ CameraSource simulatedSource(const YamlNode& node, const YamlNode& simulated) {
 
 // "NAME=VALUE,NAME=VALUE": files are relative to the scene's folder.
 std::string withFilesBesideScene(Scene& scene, std::string text) {
-    for (const std::string_view key : {"intrinsics=", "extrinsics="}) {
-        const size_t comma = text.find("," + std::string(key));
-        if (comma == std::string::npos) {
+    for (const std::string key : {"intrinsics=", "extrinsics="}) {
+        const size_t found = text.starts_with(key) ? 0 : text.find("," + key);
+        if (found == std::string::npos) {
             continue;
         }
-        const size_t begin = comma + 1 + key.size(), length = text.find(',', begin) - begin;
-        const std::string file = text.substr(begin, length);
-        text.replace(begin, file.size(), besideScene(scene, file).string());
+        const size_t begin = text.find('=', found) + 1, end = std::min(text.find(',', begin), text.size());
+        text.replace(begin, end - begin, besideScene(scene, text.substr(begin, end - begin)).string());
     }
     return text;
 }

@@ -72,8 +72,7 @@ TEST_CASE(
     CHECK(gapText(std::numeric_limits<double>::quiet_NaN()) == "unknown");
 }
 
-TEST_CASE(
-    "The shadow is on the surface behind the tool, below and right of it, and a hidden tool has none") {
+TEST_CASE("The shadow is on the surface behind the tool, below and right of it, and a hidden tool has none") {
     const Fixtures set = flatWall();
     const std::vector<Sphere> tool{{{0.0, 0.0, 0.8}, 0.02}};
     const auto shadow = shadowOf(set, tool);

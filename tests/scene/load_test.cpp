@@ -248,4 +248,7 @@ TEST_CASE("Files that a camera of ROS 2 names are relative to the scene, topics 
     CHECK(scene.source.value == "depth=/a/b,intrinsics=" + folder + "/lens.json,extrinsics=" +
                                     file.path().parent_path().parent_path().string() + "/x.json,wait=5");
     CHECK(scene.outside == std::vector<std::string>{"../x.json"});
+    const SceneFile first(kMinimal + "camera: {source: {ros2: \"intrinsics=lens.json,depth=/a\"}}\n");
+    CHECK(loadScene(first.path()).source.value ==
+          "intrinsics=" + first.path().parent_path().string() + "/lens.json,depth=/a");
 }
