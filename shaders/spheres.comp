@@ -82,7 +82,7 @@ void wholeSub(uint sub) {
         float reach = distance(mine[k].xyz, centre) + mine[k].w;
         radius = mine[k].w >= 0.0 ? max(radius, reach) : radius;
     }
-    putBound(sub, centre, radius, count, notes);
+    putBound(sub, outward(centre, radius), count, notes);
     classes[sub] = notes.classes;
     for (uint c = 0; kTree != 0 && c < kClasses; ++c) {
         uint largest = 0;
@@ -92,7 +92,7 @@ void wholeSub(uint sub) {
         noteLargest(c, largest);
     }
     if (count != 0) {
-        atomicAdd(counters.nodes, 1u);
+        atomicAdd(counters.subs, 1u);
     }
     if (kHold != 0 && notes.remembered != 0) {
         atomicAdd(live[sub >> 4], notes.remembered); // zeroed before this pass

@@ -41,38 +41,66 @@ shared uint notesOfPatch[256];                     // PixelResult::note of each 
 const bool kByDepth = kPack != 0 && kBeam == 0;     // seen spheres are packed as depths
 shared float zOfPatch[kByDepth ? 256 : 1];
 shared uint rememberedOfPatch;                     // same encoding as `live`
-shared uint largestOfPatch[kTree != 0 ? kClasses : 1u]; // as FrameCounters::largestRadius
+shared uint largestOfPatch[kTree != 0 ? kMaxClasses : 1u]; // as FrameCounters::largestRadius
+shared vec4 sumOfColumn[kTree != 0 ? 64 : 1]; // of a column of a sub-patch: sum of the centres, w = their number
+shared vec4 nodeOfSub[kTree != 0 ? 16 : 1];      // as Nodes
+shared vec4 centreOfPatch;                       // w = number of spheres (integer bits)
+shared uint reachOfPatch;                        // float bits
+shared uint countOfSub[kTree != 0 ? 16 : 1];     // as NodeCounts
+shared float reachOfColumn[kTree != 0 ? 64 : 1]; // largest distance of a sphere's far side from the mean; < 0 = no sphere
 #include "shaders/lib/thin_patch.glsl"
 #include "shaders/lib/packing.glsl"
 
-// Of sub-patch s.
-void largestOfGroup(uint s, Notes notes) {
-    for (uint c = 0; c < kClasses; ++c) {
-        uint largest = 0;
-        for (uint k = 0; k < 16u * kLayers; ++k) {
-            uint bits = radiusBits(ofPatch[(k >> 4) * 256u + s * 16u + (k & 15u)]);
-            largest = max(largest, classIn(notes, k & 15u, k >> 4) == c ? bits : 0u);
-        }
-        if (largest != 0) {
-            atomicMax(largestOfPatch[kTree != 0 ? c : 0u], largest);
+// The tree's bounds are computed by four lanes per sub-patch: lane q takes column q % 4 of sub-patch q / 4.
+uint placeOf(uint q, uint k) {
+    return (k >> 2) * 256u + (q >> 2) * 16u + (k & 3u) * 4u + (q & 3u);
+}
+
+void sumColumn(uint q) {
+    vec4 sum = vec4(0.0);
+    [[unroll]] for (uint k = 0; k < 4u * kLayers; ++k) {
+        vec4 sphere = ofPatch[placeOf(q, k)];
+        sum += sphere.w >= 0.0 ? vec4(sphere.xyz, 1.0) : vec4(0.0);
+        uint note = notesOfPatch[placeOf(q, k) & 255u], c = note >> (k < 4u ? 8 : 12) & 15u, bits = radiusBits(sphere);
+        if (bits > largestOfPatch[c]) {
+            atomicMax(largestOfPatch[c], bits);
         }
     }
+    sumOfColumn[q] = sum;
+}
+
+// Mean of the sub-patch's centres, and their number.
+vec4 centreOf(uint s) {
+    vec4 sum = vec4(0.0);
+    [[unroll]] for (uint q = 4u * s; q < 4u * s + 4u; ++q) {
+        sum += sumOfColumn[q];
+    }
+    return sum.w != 0.0 ? vec4(sum.xyz / sum.w, sum.w) : vec4(0.0);
+}
+
+void reachColumn(uint q) {
+    vec3 centre = centreOf(q >> 2).xyz;
+    float radius = -1.0;
+    [[unroll]] for (uint k = 0; k < 4u * kLayers; ++k) {
+        vec4 sphere = ofPatch[placeOf(q, k)];
+        radius = sphere.w >= 0.0 ? max(radius, distance(sphere.xyz, centre) + sphere.w) : radius;
+    }
+    reachOfColumn[q] = radius;
+}
+
+// Called by the whole group after a barrier; ends with one.
+void prepareBounds() {
+    for (uint q = gl_LocalInvocationID.x; q < 64u; q += gl_WorkGroupSize.x) {
+        sumColumn(q);
+    }
+    barrier();
+    for (uint q = gl_LocalInvocationID.x; q < 64u; q += gl_WorkGroupSize.x) {
+        reachColumn(q);
+    }
+    barrier();
 }
 
 void boundOfGroup(uint patchIndex, uint s) {
-    vec3 sum = vec3(0.0);
-    uint count = 0;
-    for (uint k = 0; k < 16u * kLayers; ++k) {
-        vec4 sphere = ofPatch[(k >> 4) * 256u + s * 16u + (k & 15u)];
-        sum += sphere.w >= 0.0 ? sphere.xyz : vec3(0.0);
-        count += sphere.w >= 0.0 ? 1u : 0u;
-    }
-    vec3 centre = count != 0 ? sum / float(count) : vec3(0.0);
-    float radius = -1.0;
-    for (uint k = 0; k < 16u * kLayers; ++k) {
-        vec4 sphere = ofPatch[(k >> 4) * 256u + s * 16u + (k & 15u)];
-        radius = sphere.w >= 0.0 ? max(radius, distance(sphere.xyz, centre) + sphere.w) : radius;
-    }
     for (uint k = 0; k < 4u; ++k) {
         uint a = s * 16u + 4u * k, b = 256u * (kLayers - 1u) + a;
         putRadii(patchIndex * 16u + s, k, vec4(ofPatch[a].w, ofPatch[a + 1u].w, ofPatch[a + 2u].w, ofPatch[a + 3u].w),
@@ -82,9 +110,17 @@ void boundOfGroup(uint patchIndex, uint s) {
     [[unroll]] for (uint p = 0; p < 16u; ++p) {
         notes = noted(notes, p, notesOfPatch[s * 16u + p]);
     }
-    putBound(patchIndex * 16u + s, centre, radius, count, notes);
+    vec4 centre = vec4(0.0);
+    float radius = -1.0;
     if (kTree != 0) {
-        largestOfGroup(s, notes);
+        centre = centreOf(s);
+        radius = max(max(reachOfColumn[4u * s], reachOfColumn[4u * s + 1u]), max(reachOfColumn[4u * s + 2u], reachOfColumn[4u * s + 3u]));
+    }
+    vec4 bound = outward(centre.xyz, radius);
+    putBound(patchIndex * 16u + s, bound, uint(centre.w), notes);
+    if (kTree != 0) {
+        nodeOfSub[s] = bound;
+        countOfSub[s] = uint(centre.w);
     }
     if (kPack == 0 || (kClasses > 1 && bitCount(classesOfPatch & 0xffu) > 1)) { // with one class, the run itself names it
         classes[patchIndex * 16u + s] = notes.classes;
@@ -94,12 +130,43 @@ void boundOfGroup(uint patchIndex, uint s) {
     }
 }
 
+// Mean of the patch's centres, and their number. A loop, because registers for 16 nodes would let fewer groups
+// run at a time.
+vec4 centreOfSubs() {
+    vec3 sum = vec3(0.0);
+    uint count = 0;
+    [[dont_unroll]] for (uint s = 0; s < 16u; ++s) {
+        sum += nodeOfSub[s].xyz * float(countOfSub[s]);
+        count += countOfSub[s];
+    }
+    return count != 0 ? vec4(sum / float(count), uintBitsToFloat(count)) : vec4(0.0);
+}
+
+// Bound of the patch's sub-patches. Called by the whole group after a barrier.
+void boundOfPatch(uint patchIndex) {
+    for (uint s = gl_LocalInvocationID.x; s < 16u; s += gl_WorkGroupSize.x) {
+        vec4 centre = centreOfSubs();
+        if (countOfSub[s] != 0) {
+            atomicMax(reachOfPatch, floatBitsToUint(distance(nodeOfSub[s].xyz, centre.xyz) + nodeOfSub[s].w));
+        }
+        if (s == 0) {
+            centreOfPatch = centre;
+        }
+    }
+    barrier();
+    if (gl_LocalInvocationID.x == 0) {
+        uint node = params.size.z * params.size.w * 16u + patchIndex, count = floatBitsToUint(centreOfPatch.w);
+        nodes[node] = outward(centreOfPatch.xyz, count != 0 ? uintBitsToFloat(reachOfPatch) : -1.0);
+        nodeCounts[node] = count;
+    }
+}
+
 void prepareGroup(uint patchIndex, ivec2 patchAt) {
     for (uint w = gl_LocalInvocationID.x; w < 16u; w += gl_WorkGroupSize.x) {
         present[w] = 0;
     }
     if (gl_LocalInvocationID.x == 0) {
-        rememberedOfPatch = 0, classesOfPatch = 0, wideOfPatch = 0;
+        rememberedOfPatch = 0, classesOfPatch = 0, wideOfPatch = 0, reachOfPatch = 0;
     }
     for (uint c = gl_LocalInvocationID.x; kTree != 0 && c < kClasses; c += gl_WorkGroupSize.x) {
         largestOfPatch[c] = 0;
@@ -140,6 +207,9 @@ void wholePatch(uint patchIndex) {
         countSubs();
         placeRun();
     }
+    if (kTree != 0) {
+        prepareBounds();
+    }
     for (uint s = gl_LocalInvocationID.x; s < 16u; s += gl_WorkGroupSize.x) {
         boundOfGroup(patchIndex, s);
     }
@@ -148,6 +218,9 @@ void wholePatch(uint patchIndex) {
     }
     for (uint c = gl_LocalInvocationID.x; kTree != 0 && c < kClasses; c += gl_WorkGroupSize.x) {
         noteLargest(c, largestOfPatch[c]);
+    }
+    if (kTree != 0) {
+        boundOfPatch(patchIndex);
     }
     if (kPack != 0) {
         packPatch(patchIndex);

@@ -164,7 +164,7 @@ void collectSpheres(FixtureSet& set, const WorkBuffers& work, const SeenPoints* 
     const SphereCounts all = spheres.counts();
     counts.spheres = all.all;
     counts.patches = all.patches;
-    counts.nodes += plan.tree ? 0 : spheres.nodesAbove();
+    counts.nodes += spheres.nodesAbove();
     counts.forbidden = forbidden;
     std::copy_n(all.ofClass.begin(), rows.size(), counts.classSpheres.begin());
     std::copy_n(all.patchesOfClass.begin(), rows.size(), counts.classPatches.begin());
@@ -182,7 +182,7 @@ FrameCounts collect(FixtureSet& set, const WorkBuffers& work, const SeenPoints* 
     }
     const shared::FrameCounters& c = set.device.counters.as<shared::FrameCounters>()[0];
     FrameCounts counts = countsOf(c, rows.size());
-    counts.nodes = c.nodes;
+    counts.nodes = c.subs;
     if (plan.spheres) {
         collectSpheres(set, work, seen, scene, plan, rows, layout, workers, counts);
     } else {

@@ -6,18 +6,24 @@
 #include "shaders/shared/constants.h"
 
 #include <algorithm>
+#include <cstddef>
 
 namespace fathom::cloud {
 
 using namespace shared;
 
 PassInfo deliverPass(const CloudContext& c) {
+    static_assert(offsetof(FrameCounters, delivered) == kDeliveredWord * sizeof(uint32_t));
     const uint32_t words = std::max<uint32_t>(sizeof(FrameCounters) / sizeof(uint32_t), c.layout.patches());
+    const uint32_t group = c.plan.tree ? std::max(c.plan.subGroup, c.plan.pixelGroup) : c.plan.subGroup;
     return {"deliver",
             deliver_spv,
-            {&WorkBuffers::counters, &WorkBuffers::listed, &SetBuffers::counters, &SetBuffers::listed},
-            {{kSpecGroupSize, c.plan.subGroup}},
-            Groups{(words + c.plan.subGroup - 1) / c.plan.subGroup, 1, 1}};
+            {&WorkBuffers::counters, &WorkBuffers::listed, &SetBuffers::counters, &SetBuffers::listed,
+             &SetBuffers::nodes, &SetBuffers::nodeCounts},
+            {{kSpecGroupSize, group}, {kSpecTree, c.plan.tree}},
+            Groups{(words + group - 1) / group, 1, 1},
+            After::Barrier,
+            treeParams(c.layout)};
 }
 
 void deliverByCopies(gpu::Commands& commands, const WorkBuffers& work, const SetBuffers& set) {

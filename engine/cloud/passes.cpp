@@ -24,7 +24,7 @@ using Up = UploadBuffers;
 using Work = WorkBuffers;
 using Set = SetBuffers;
 
-static_assert(offsetof(FrameCounters, nodes) == kArgumentWords * sizeof(uint32_t));
+static_assert(offsetof(FrameCounters, subs) == kArgumentWords * sizeof(uint32_t));
 
 constexpr VkFormat kFourDepths = VK_FORMAT_R16G16B16A16_UINT;
 constexpr VkFormat kVector = VK_FORMAT_R32G32B32A32_SFLOAT;
@@ -185,32 +185,33 @@ PassInfo moments(const CloudContext& c) {
             c.plan.spheres ? After::Nothing : After::Barrier}; // `spheres` does not read its results
 }
 
-// Builds the level of patches, or all levels above it in one group. GPUs use a larger group, so that memory
-// latencies overlap.
+// Builds the level of patches, or all levels above it in one group.
 PassInfo treeLevels(const CloudContext& c, bool patches) {
-    const uint32_t group =
-        !patches && c.plan.byPixel ? std::max(c.plan.subGroup, c.plan.pixelGroup) : c.plan.subGroup;
-    TreeParams params{};
-    const auto levels = static_cast<uint32_t>(c.layout.levels.size());
-    for (uint32_t l = 0; l < levels; ++l) {
-        params.levels[l] = {c.layout.levels[l].across, c.layout.levels[l].down, c.layout.levels[l].first, 0};
-    }
-    params.run = patches ? uvec4(1, 1, levels, 0) : uvec4(2, levels - 1, levels, 0);
+    const uint32_t group = c.plan.subGroup;
     return {"tree",
             tree_spv,
             {&Work::listed,
              &Set::nodes,
              &Set::nodeCounts,
-             &Work::counters,
              {&Set::nodes, kVector},
              {&Set::nodeCounts, VK_FORMAT_R32G32B32A32_UINT}},
             {{kSpecGroupSize, group}, {kSpecPatches, patches}},
             groupsFor(patches ? c.layout.patches() : 1, group),
             After::Barrier,
-            params};
+            treeParams(c.layout)};
 }
 
 } // namespace
+
+shared::TreeParams treeParams(const PatchLayout& layout) {
+    TreeParams params{};
+    const auto levels = static_cast<uint32_t>(layout.levels.size());
+    for (uint32_t l = 0; l < levels; ++l) {
+        params.levels[l] = {layout.levels[l].across, layout.levels[l].down, layout.levels[l].first, 0};
+    }
+    params.run.x = levels;
+    return params;
+}
 
 std::vector<PassInfo> framePasses(const CloudContext& c) {
     std::vector<PassInfo> passes;
@@ -229,7 +230,7 @@ std::vector<PassInfo> framePasses(const CloudContext& c) {
     if (c.plan.spheres) {
         std::ranges::move(spherePasses(c), std::back_inserter(passes));
     }
-    if (c.plan.tree) {
+    if (c.plan.tree && !c.plan.byPixel) {
         passes.push_back(treeLevels(c, true));
         passes.push_back(treeLevels(c, false));
     }

@@ -148,10 +148,10 @@ bool Plan::has(const std::string& name) const {
 
 uint32_t Plan::dispatchesPerFrame() const {
     // classify and surface; patches that hold nothing, then those that do; the tree's patches, then all above
-    // them in one group
+    // them in one group, unless `spheres` and `deliver` build them
     return (occlusion ? 1u : 0u) + (cloud ? 2u : 0u) + (delivers() ? 1u : 0u) + (lists() ? 1u : 0u) +
            (estimates ? 1u : 0u) + (thins() ? 1u : 0u) + (spheres ? (hold && lists() ? 2u : 1u) : 0u) +
-           (tree ? 2u : 0u) + (moments ? 1u : 0u);
+           (tree && lists() ? 2u : 0u) + (moments ? 1u : 0u);
 }
 
 Plan makePlan(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, const DeviceFacts& device) {

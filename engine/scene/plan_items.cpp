@@ -53,7 +53,9 @@ void explainPasses(Plan& plan, const Scene& scene, const CameraInfo& camera) {
                          : ", near enough to exclude holes between points") +
              (plan.pack ? ", packed for transfer to the host" : ""),
          "no forbidden point class");
-    pass("tree", plan.tree, "bounds up to one root for the query",
+    pass("tree", plan.tree,
+         std::string("bounds up to one root for the query") +
+             (plan.byPixel ? ", within the passes spheres and deliver" : ""),
          plan.spheres ? "the CPU query uses a grid" : "no forbidden point class");
     pass("moments", plan.moments, "mean and covariance of the guidance classes", "no guidance class");
     pass("deliver", plan.cloud, "sends patch counters and marks to the host and clears them",

@@ -47,7 +47,7 @@ void countSubs() {
         subs += ((here & 0xffffu) != 0 ? 1u : 0u) + (here >> 16 != 0 ? 1u : 0u);
     }
     if (subs != 0) {
-        atomicAdd(counters.nodes, subs);
+        atomicAdd(counters.subs, subs);
     }
 }
 

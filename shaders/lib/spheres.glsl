@@ -101,11 +101,16 @@ Notes noted(Notes n, const uint p, uint note) {
     return n;
 }
 
-// Paper eq. 3: centre = mean, radius = max(|s_k - centre| + r_k), rounded outward. Sums in fixed order.
-void putBound(uint sub, vec3 centre, float radius, uint count, Notes notes) {
+// Paper eq. 3: centre = mean, radius = max(|s_k - centre| + r_k), rounded outward; < 0 = empty. Sums in fixed
+// order.
+vec4 outward(vec3 centre, float radius) {
+    return vec4(centre, radius >= 0.0 ? radius * 1.000001 + 1e-7 : -1.0);
+}
+
+void putBound(uint sub, vec4 bound, uint count, Notes notes) {
     bits[sub] = notes.marks;
     if (kTree != 0) {
-        nodes[sub] = vec4(centre, radius >= 0.0 ? radius * 1.000001 + 1e-7 : -1.0);
+        nodes[sub] = bound;
         nodeCounts[sub] = count;
         if (kClasses > 1) {
             setClasses[sub] = notes.classes;

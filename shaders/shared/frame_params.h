@@ -79,9 +79,10 @@ struct FrameCounters {
                          // patches
     uvec4 quietGroups;   // as subGroups, for listed patches without held points; w = their number
     uvec4 holdingGroups; // the same for listed patches with held points
-    uint nodes;          // used nodes of the tree
+    uint subs;           // 4x4 sub-patches with a sphere
     uint packedWords;    // words in all runs (packing.glsl)
-    uint pad[2];
+    uint delivered;      // groups of `deliver` that are done; that pass alone uses it
+    uint pad;
     uint classPixels[8]; // marked pixels per class
     uint leakSpacing[8]; // per class: float bits of the largest spacing [m] between neighbours that is >= R;
                          // 0 = none
@@ -90,6 +91,7 @@ struct FrameCounters {
                            // with a tree
 };
 FATHOM_SIZE(FrameCounters, 224);
+FATHOM_CONST kDeliveredWord = 22; // FrameCounters::delivered
 
 // Moments of one guidance class in one patch, about their mean = anchor + offset. A single float32 mean would
 // lose digits that the covariance of a small class needs.
@@ -106,7 +108,7 @@ FATHOM_SIZE(PatchMoments, 64);
 FATHOM_CONST kMaxLevels = 6;
 struct TreeParams {
     uvec4 levels[6]; // nodes across, down; index of the first node; -
-    uvec4 run;       // first level and last level of this dispatch; number of levels; -
+    uvec4 run;       // number of levels; -, -, -
 };
 FATHOM_SIZE(TreeParams, 112);
 
