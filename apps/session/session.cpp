@@ -20,7 +20,6 @@ namespace {
 
 constexpr const char* kSpare = ""; // the name of a spare class; a scene file's names are never empty
 constexpr size_t kShuttled = 48;   // frames of a simulated camera, repeated for ever
-constexpr uint32_t kReaders = 2;   // the camera feed, and the start of the run
 
 FixtureClass spareClass(Role role) {
     FixtureClass spare;
@@ -145,13 +144,12 @@ Session::Session(const SessionOptions& asked, const GlobalOptions& global, const
     , instance(needsDevice(scene, window)
                    ? std::make_unique<gpu::Instance>(global.validation(), window.extensions)
                    : nullptr)
-    , cycles(
-          {instance.get(), global.device, scene, camera->info(), tool, arm.get(), kReaders, window.drawing},
-          [this](const DeviceFacts& facts) {
-              return options.endless || !edits.empty()
-                         ? planToEdit(scene, camera->info(), tool, facts)
-                         : makePlan(scene, camera->info(), static_cast<uint32_t>(tool.leafCount()), facts);
-          })
+    , cycles({instance.get(), global.device, scene, camera->info(), tool, arm.get(), window.drawing},
+             [this](const DeviceFacts& facts) {
+                 return options.endless || !edits.empty()
+                            ? planToEdit(scene, camera->info(), tool, facts)
+                            : makePlan(scene, camera->info(), static_cast<uint32_t>(tool.leafCount()), facts);
+             })
     , passNames(cycles.frames().passNames())
     , handover(window.drawing != gpu::Drawing::None ? std::make_unique<DeviceHandover>() : nullptr)
     , answers(cycles) {

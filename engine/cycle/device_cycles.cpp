@@ -31,7 +31,7 @@ std::unique_ptr<gpu::Device> DeviceCycles::openDevice() const {
 
 std::unique_ptr<FrameCycle> DeviceCycles::openFrames() const {
     auto frames =
-        std::make_unique<FrameCycle>(device_.get(), parts_.scene, parts_.camera, plan_, parts_.readers + 2);
+        std::make_unique<FrameCycle>(device_.get(), parts_.scene, parts_.camera, plan_, kFixtureSets - 2);
     frames->resumeFrom(mark_);
     return frames;
 }

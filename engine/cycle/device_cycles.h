@@ -31,7 +31,6 @@ public:
         CameraInfo camera;
         const Tool& tool;
         const ArmRig* arm = nullptr;
-        uint32_t readers = 1; // leases on fixture sets held at once, not counting answer() and smallestGaps()
         gpu::Drawing drawing = gpu::Drawing::None;
     };
     using MakePlan = std::function<Plan(const DeviceFacts&)>;

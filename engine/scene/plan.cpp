@@ -14,6 +14,7 @@ namespace {
 
 constexpr uint32_t kMaxWidth = 3840, kMaxHeight = 2160;
 constexpr uint32_t kManyPatches = 6000; // measured on an H100; 1280x720 has 3600 patches, 1920x1080 has 8160
+constexpr uint64_t kCounterBytes = 224; // of FrameCounters
 constexpr uint32_t kManyProcessors = 8, kMostPublishers = 12;
 constexpr uint32_t kOtherThreads = 4;    // haptic, contact, writer or window, and one for the system
 constexpr uint64_t kSmallestPage = 4096; // [bytes] on any host: camera memory consists of whole pages
@@ -152,6 +153,16 @@ uint32_t Plan::dispatchesPerFrame() const {
     return (occlusion ? 1u : 0u) + (cloud ? 2u : 0u) + (delivers() ? 1u : 0u) + (lists() ? 1u : 0u) +
            (estimates ? 1u : 0u) + (thins() ? 1u : 0u) + (spheres ? (hold && lists() ? 2u : 1u) : 0u) +
            (tree && lists() ? 2u : 0u) + (moments ? 1u : 0u);
+}
+
+uint64_t Plan::setBytes(const PatchLayout& layout) const {
+    const uint64_t slots = layout.slots(), patches = layout.patches();
+    const uint64_t spheresOfTree = slots * ((hold ? 32u : 16u) + (classes > 1 ? 1u : 0u));
+    return !cloud ? 0
+                  : kCounterBytes + 4 * patches + (spheres ? 64 * patches : 0) +
+                        (spheres && tree ? spheresOfTree : 0) + (tree ? 20ull * layout.nodes() : 0) +
+                        (pack ? slots * packedBytes() + 72 * patches : 0) + (moments ? 64 * 8 * patches : 0) +
+                        (guidancePoints ? 17 * slots : 0);
 }
 
 Plan makePlan(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, const DeviceFacts& device) {

@@ -71,6 +71,12 @@ struct PlannedTuning {
     uint32_t publishers = 1;   // threads that lay out a set for the host, including the frame thread
 };
 
+// Fixture sets of a program: one that is written, the newest, and four that are leased: by the contact query,
+// by batches of poses, by the camera feed, and at the start of a run (engine/types/lease_pool.h).
+inline constexpr uint32_t kFixtureSets = 6;
+
+struct PatchLayout;
+
 // Pure data. Code that builds pipelines and buffers only follows it.
 struct Plan : PlannedPasses, PlannedLayout, PlannedTuning {
     // A part that is in the plan or skipped, with the reason.
@@ -97,8 +103,9 @@ struct Plan : PlannedPasses, PlannedLayout, PlannedTuning {
     // Two filtered pixels per invocation: a sixth faster with many groups, slower with few.
     bool filterPairs() const { return manyPatches && tiled && !filterBlock && filterRadius == 2; }
     bool filterRows() const { return filterBlock && filterRadius > 2; }
-    bool delivers() const { return cloud && byPixel; } // by a dispatch; CPU devices copy instead
-    uint32_t dispatchesPerFrame() const;               // of the frame cadence, without the query
+    bool delivers() const { return cloud && byPixel; }  // by a dispatch; CPU devices copy instead
+    uint32_t dispatchesPerFrame() const;                // of the frame cadence, without the query
+    uint64_t setBytes(const PatchLayout& layout) const; // buffers of one fixture set (cloud::SetBuffers)
 };
 
 // Range [m] below which neighbouring points of one surface (|dz| <= 0.7 of their distance) are nearer to each

@@ -121,6 +121,9 @@ void explainResults(Plan& plan, const Scene& scene, const CameraInfo& camera) {
     explainBuffer(plan, "tree nodes", plan.tree, 20ull * layout.nodes(),
                   plan.tree ? "of one fixture set" : "no query traverses a tree");
     explainBuffer(plan, "moments", plan.moments, 64ull * 8 * layout.patches(), "of one fixture set");
+    explainBuffer(plan, "fixture sets", plan.cloud, kFixtureSets * plan.setBytes(layout),
+                  plan.cloud ? std::to_string(kFixtureSets) + " sets, with the buffers of each; never more"
+                             : "the scene has no point class");
 }
 
 void explainThreads(Plan& plan) {

@@ -47,7 +47,7 @@ struct TwinRig {
 
     explicit TwinRig(Scene::Contact::Where where, const gpu::Instance& instance = vulkan().instance)
         : scene(redValve(where))
-        , cycles({&instance, vulkan().device.facts().name, scene, camera.info(), tool, nullptr, 1},
+        , cycles({&instance, vulkan().device.facts().name, scene, camera.info(), tool, nullptr},
                  [this](const DeviceFacts& facts) { return makePlan(scene, camera.info(), 2, facts); }) {}
 
     FrameReport next() { return cycles.frames().process(std::move(*camera.next())); }
