@@ -34,7 +34,9 @@ public:
 
     double size() const noexcept { return size_; }      // [N] of the last tick, torque counted as torque / k
     bool fades() const noexcept { return left_ > 0.0; } // the tail after vanish()
-    bool appears() const noexcept { return appears_; }  // the last tick grew by more than the hand compressed
+    // In the last tick the reaction grew by more than the hand compressed, or new data still turns it: both
+    // are work that the hand did not do.
+    bool appears() const noexcept { return appears_ || turn_ > 0.0; }
     // [s] between the last two changes of the regions, at most kLongestFrame.
     double frameInterval() const noexcept { return interval_; }
 
