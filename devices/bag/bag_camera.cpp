@@ -102,11 +102,11 @@ bool BagCamera::pairsByStamp() {
     return any;
 }
 
-// A RealSense SDK's option of the depth stream; null = none.
+// An SDK's option of the depth stream; null = none.
 const MessageTopic* BagCamera::unitTopic() const {
-    const std::string sensor = parentTopic(choice_.depth.name, 3) + "/option/";
+    const std::string options = optionsPrefix(choice_.depth.name);
     for (const MessageTopic& topic : file_->topics()) {
-        if (isSdkTopic(choice_.depth.name) && topic.name.starts_with(sensor) && isDepthUnits(topic.name) &&
+        if (!options.empty() && topic.name.starts_with(options) && isDepthUnits(topic.name) &&
             !topic.messages.empty()) {
             return &topic;
         }
@@ -119,10 +119,14 @@ double BagCamera::sensorUnit() {
     const MessageTopic* topic = unitTopic();
     if (topic == nullptr) {
         if (isSdkTopic(choice_.depth.name)) {
-            log::warn("{}: no option Depth_Units beside {}: depth is read as millimetres; scale=M behind the "
-                      "file's name gives another unit (D405: 0.0001, L515: 0.00025)",
-                      file_->file().string(), choice_.depth.name);
-            say("no option Depth_Units beside " + choice_.depth.name + ": depth is read as millimetres");
+            const bool orbbec = !orbbecSensor(choice_.depth.name).empty();
+            const std::string missing = std::string("no ") +
+                                        (orbbec ? "depth unit in /cam/property (75 or 176)"
+                                                : "option Depth_Units beside " + choice_.depth.name) +
+                                        ": depth is read as millimetres";
+            log::warn("{}: {}; scale=M behind the file's name gives another unit{}", file_->file().string(),
+                      missing, orbbec ? "" : " (D405: 0.0001, L515: 0.00025)");
+            say(missing);
         }
         return kMillimetre;
     }

@@ -18,9 +18,11 @@ constexpr std::array kLayouts{
     ColourLayout{"bgr16", 6, {5, 3, 1}}, ColourLayout{"16uc3", 6, {5, 3, 1}},
     ColourLayout{"rgba16", 8, {1, 3, 5}}, ColourLayout{"bgra16", 8, {5, 3, 1}},
     ColourLayout{"mono8", 1, {0, 0, 0}}, ColourLayout{"8uc1", 1, {0, 0, 0}},
-    ColourLayout{"yuv422", 2, {}, Packing::Uyvy}, ColourLayout{"uyvy", 2, {}, Packing::Uyvy},
-    ColourLayout{"yuv422_yuy2", 2, {}, Packing::Yuyv}, ColourLayout{"yuyv", 2, {}, Packing::Yuyv},
+    ColourLayout{"gray", 1, {0, 0, 0}}, ColourLayout{"yuv422", 2, {}, Packing::Uyvy},
+    ColourLayout{"uyvy", 2, {}, Packing::Uyvy}, ColourLayout{"yuv422_yuy2", 2, {}, Packing::Yuyv},
+    ColourLayout{"yuyv", 2, {}, Packing::Yuyv}, ColourLayout{"yuy2", 2, {}, Packing::Yuyv},
     ColourLayout{"nv12", 1, {}, Packing::Nv12}, ColourLayout{"nv21", 1, {}, Packing::Nv21},
+    ColourLayout{"i420", 1, {}, Packing::I420}, ColourLayout{"yv12", 1, {}, Packing::Yv12},
     // Offsets of red and blue in a cell of 2 x 2 pixels, row by row.
     ColourLayout{"bayer_rggb8", 1, {0, 0, 3}, Packing::Bayer},
     ColourLayout{"bayer_bggr8", 1, {3, 0, 0}, Packing::Bayer},
@@ -53,13 +55,41 @@ void packedRow(const uint8_t* in, const ColourLayout& layout, uint32_t width, ui
     }
 }
 
-void planarRow(const uint8_t* luma, const uint8_t* chroma, bool blueFirst, uint32_t width, uint32_t* out) {
-    for (uint32_t x = 0; x < width; x += 2) {
-        const uint32_t second = x + 1 < width ? luma[x + 1] : luma[x];
-        const uint32_t u = chroma[x + (blueFirst ? 0 : 1)], v = chroma[x + (blueFirst ? 1 : 0)];
-        putPair(luma[x] | u << 8 | second << 16 | v << 24, x, width, out);
+// Luma, then chroma of every 2 x 2 pixels: one plane of pairs, or two planes with rows of half the length.
+class Planes {
+public:
+    Planes(const ColourImage& image, const ColourLayout& layout)
+        : image_(image)
+        , chromaRows_((size_t{image.height} + 1) / 2)
+        , chromaStep_(layout.interleaved() ? image.step : (image.step + 1) / 2)
+        , apart_(layout.interleaved() ? 2 : 1) {
+        const size_t other = layout.interleaved() ? 1 : chromaRows_ * chromaStep_;
+        const bool blueFirst = layout.packing == Packing::Nv12 || layout.packing == Packing::I420;
+        blue_ = blueFirst ? 0 : other;
+        red_ = blueFirst ? other : 0;
     }
-}
+
+    // `row`: bytes of the last one, behind which nothing is needed.
+    size_t bytes(size_t row) const {
+        const size_t luma = size_t{image_.height} * image_.step;
+        return luma + (apart_ == 2 ? (chromaRows_ - 1) * chromaStep_ + row : 2 * chromaRows_ * chromaStep_);
+    }
+    void row(uint32_t y, uint32_t* out) const {
+        const uint8_t* luma = image_.bytes.data() + size_t{y} * image_.step;
+        const uint8_t* chroma =
+            image_.bytes.data() + size_t{image_.height} * image_.step + (y / 2) * chromaStep_;
+        for (uint32_t x = 0; x < image_.width; x += 2, chroma += apart_) {
+            const uint32_t second = x + 1 < image_.width ? luma[x + 1] : luma[x];
+            putPair(luma[x] | uint32_t{chroma[blue_]} << 8 | second << 16 | uint32_t{chroma[red_]} << 24, x,
+                    image_.width, out);
+        }
+    }
+
+private:
+    const ColourImage& image_;
+    size_t chromaRows_, chromaStep_, apart_; // [rows], [bytes] per row, [bytes] per sample
+    size_t blue_ = 0, red_ = 0;              // [bytes] from the chroma's start
+};
 
 // Bilinear: the mean of the nearest samples of each colour. Edges repeat the pixel two columns or rows
 // inside, which has the same filter.
@@ -113,6 +143,15 @@ void plainRow(const uint8_t* in, const ColourLayout& layout, bool bigEndian, uin
     }
 }
 
+// The Orbbec SDK counts the bytes of all planes per row.
+ColourImage withLumaStep(ColourImage image, const ColourLayout& layout) {
+    const uint64_t all = (uint64_t{3} * image.width + 1) / 2;
+    if (layout.planar() && image.step == all && image.bytes.size() == all * image.height) {
+        image.step = image.width;
+    }
+    return image;
+}
+
 } // namespace
 
 const ColourLayout* colourLayout(std::string encoding) {
@@ -123,11 +162,13 @@ const ColourLayout* colourLayout(std::string encoding) {
     return layout == kLayouts.end() ? nullptr : &*layout;
 }
 
-std::string unpackColours(const ColourImage& image, const ColourLayout& layout, std::span<uint32_t> out) {
+std::string unpackColours(const ColourImage& given, const ColourLayout& layout, std::span<uint32_t> out) {
+    const ColourImage image = withLumaStep(given, layout);
     const size_t row = rowBytes(layout, image.width);
-    const bool planar = layout.packing == Packing::Nv12 || layout.packing == Packing::Nv21;
-    const uint64_t rows = uint64_t{image.height} + (planar ? (image.height + 1) / 2 : 0);
-    if (rows == 0 || image.step < row || image.bytes.size() < (rows - 1) * image.step + row) {
+    const Planes planes(image, layout);
+    const uint64_t needed =
+        layout.planar() ? planes.bytes(row) : (uint64_t{image.height} - 1) * image.step + row;
+    if (image.height == 0 || image.step < row || image.bytes.size() < needed) {
         return "an image of " + std::to_string(image.bytes.size()) + " bytes in rows of " +
                std::to_string(image.step);
     }
@@ -145,8 +186,9 @@ std::string unpackColours(const ColourImage& image, const ColourLayout& layout, 
             break;
         case Packing::Nv12:
         case Packing::Nv21:
-            planarRow(in, image.bytes.data() + (size_t{image.height} + y / 2) * image.step,
-                      layout.packing == Packing::Nv12, image.width, to);
+        case Packing::I420:
+        case Packing::Yv12:
+            planes.row(y, to);
             break;
         case Packing::Bayer:
             for (uint32_t x = 0; x < image.width; ++x) {

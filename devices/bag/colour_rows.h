@@ -10,7 +10,7 @@
 namespace fathom::ros {
 
 // How a row holds its pixels.
-enum class Packing : uint8_t { Plain, Uyvy, Yuyv, Nv12, Nv21, Bayer };
+enum class Packing : uint8_t { Plain, Uyvy, Yuyv, Nv12, Nv21, I420, Yv12, Bayer };
 
 // One encoding of sensor_msgs/image_encodings. Of channels with 16 bits the high byte is used.
 struct ColourLayout {
@@ -23,6 +23,11 @@ struct ColourLayout {
         return (packing == Packing::Plain && bytes >= 6) || (packing == Packing::Bayer && bytes == 2);
     }
     bool grey() const { return packing == Packing::Plain && bytes == 1; }
+    bool planar() const { // chroma of 2 x 2 pixels behind the luma
+        return packing == Packing::Nv12 || packing == Packing::Nv21 || packing == Packing::I420 ||
+               packing == Packing::Yv12;
+    }
+    bool interleaved() const { return packing == Packing::Nv12 || packing == Packing::Nv21; }
 };
 // Null when the encoding is not colour. Upper and lower case are the same.
 const ColourLayout* colourLayout(std::string encoding);

@@ -16,7 +16,8 @@ namespace fathom::ros {
 namespace {
 
 bool isDepthEncoding(const std::string& encoding) {
-    return encoding == "16UC1" || encoding == "mono16" || encoding == "32FC1";
+    return encoding == "16UC1" || encoding == "mono16" || encoding == "32FC1" || encoding == "z16" ||
+           encoding == "rvl";
 }
 
 bool isCompressedDepth(const Image& image) {
@@ -106,6 +107,9 @@ bool holdsMetres(const Image& image) {
 std::string depthRows(const Image& image, double metresPerUnit, std::span<uint16_t> out, uint64_t& beyond) {
     if (image.compressed) {
         return compressedDepthRows(image, metresPerUnit, out, beyond);
+    }
+    if (image.encoding == "rvl") { // the values alone
+        return unpackRvl(image.data, out.first(size_t{image.width} * image.height)) ? "" : "RVL: damaged";
     }
     const bool metres = holdsMetres(image);
     const std::string fault = checkBytes(image, size_t{image.width} * (metres ? 4 : 2));

@@ -14,10 +14,11 @@ namespace fathom::ros {
 enum class Content { None, Depth, Colour, Grey };
 Content content(const Image& image);
 // Encodings that are read, for messages.
-inline constexpr const char* kDepthEncodings = "16UC1, mono16, 32FC1, or these as compressedDepth or PNG";
-inline constexpr const char* kColourEncodings = "rgb8, bgr8, rgba8, bgra8, the same with 16 bits, 8UC3, "
-                                                "8UC4, yuv422, uyvy, yuyv, nv12, nv21, bayer_*, JPEG, "
-                                                "PNG";
+inline constexpr const char* kDepthEncodings =
+    "16UC1, mono16, 32FC1, or these as compressedDepth or PNG, z16, rvl";
+inline constexpr const char* kColourEncodings =
+    "rgb8, bgr8, rgba8, bgra8, the same with 16 bits, 8UC3, 8UC4, yuv422, uyvy, yuyv, yuy2, nv12, nv21, "
+    "i420, yv12, bayer_*, JPEG (mjpg), PNG";
 
 // Width and height [pixels]; of a compressed image as its head states them, empty when it has no readable
 // head.

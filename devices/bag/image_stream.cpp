@@ -17,15 +17,10 @@ std::string streamSize(uint32_t width, uint32_t height) {
     return std::to_string(width) + "x" + std::to_string(height);
 }
 
-// The camera_info next to the topic, else one of the same camera frame.
-const MessageTopic* infoOf(const MessageFile& file, const ImageStream& stream, const std::string& info) {
-    const std::string base = baseTopic(stream.name);
-    if (!info.empty()) {
-        return file.find(info);
-    }
-    for (const std::string& name : {isSdkTopic(base) ? parentTopic(base, 2) + "/info/camera_info"
-                                                     : parentTopic(base, 1) + "/camera_info",
-                                    base + "/camera_info", base + "_info"}) {
+// The camera_info of the camera, or the one that is asked for; null = none.
+const MessageTopic* infoOf(const MessageFile& file, const ImageStream& stream, const std::string& asked) {
+    for (const std::string& name :
+         asked.empty() ? lensTopics(stream.name) : std::vector<std::string>{asked}) {
         if (const MessageTopic* topic = file.find(name); topic != nullptr && !topic->messages.empty()) {
             return topic;
         }
@@ -35,12 +30,9 @@ const MessageTopic* infoOf(const MessageFile& file, const ImageStream& stream, c
 
 void readLens(MessageFile& file, const std::string& asked, ImageStream& stream) {
     const MessageTopic* topic = infoOf(file, stream, asked);
-    if (topic == nullptr || topic->messages.empty()) {
-        const std::string base = baseTopic(stream.name);
-        const std::string beside = !asked.empty()     ? asked
-                                   : isSdkTopic(base) ? parentTopic(base, 2) + "/info/camera_info"
-                                                      : parentTopic(base, 1) + "/camera_info";
-        stream.noLens = beside + ": missing (allowed: sensor_msgs/CameraInfo beside " + stream.name +
+    if (topic == nullptr) {
+        stream.noLens = (asked.empty() ? lensTopics(stream.name).front() : asked) +
+                        ": missing (allowed: sensor_msgs/CameraInfo beside " + stream.name +
                         ", or info=TOPIC or intrinsics=FILE behind the file's name)";
         return;
     }

@@ -3,6 +3,7 @@
 
 #include "devices/bag/bag_file.h"
 #include "devices/bag/mcap_file.h"
+#include "devices/bag/orbbec_recording.h"
 #include "devices/bag/ros2_database.h"
 #include "devices/bag/split_recording.h"
 #include "engine/types/read_file.h"
@@ -37,6 +38,25 @@ void MessageFile::sortByTime() {
     }
 }
 
+namespace {
+
+// The file, or its messages as those of ROS where a camera maker's SDK recorded it.
+std::unique_ptr<MessageFile> asRos(std::unique_ptr<MessageFile> file) {
+    const std::string name = file->file().string();
+    try {
+        if (OrbbecRecording::recognises(*file)) {
+            return std::make_unique<OrbbecRecording>(std::move(file));
+        }
+    } catch (const BadInput&) {
+        throw;
+    } catch (const Error& e) {
+        throw BadInput(name, "content", e.what(), "whole messages");
+    }
+    return file;
+}
+
+} // namespace
+
 std::unique_ptr<MessageFile> openMessageFile(const std::filesystem::path& file) {
     std::error_code failed;
     if (std::filesystem::is_directory(file, failed)) {
@@ -51,12 +71,12 @@ std::unique_ptr<MessageFile> openMessageFile(const std::filesystem::path& file) 
     const bool bag = begin.starts_with("#ROSBAG"), database = begin.starts_with("SQLite format 3"),
                mcap = begin.starts_with("\x89MCAP"), known = bag || database || mcap;
     if (mcap || (!known && ending == ".mcap")) { // the first bytes decide, not the name
-        return std::make_unique<McapFile>(file);
+        return asRos(std::make_unique<McapFile>(file));
     }
     if (database || (!known && ending == ".db3")) {
-        return std::make_unique<Ros2Database>(file);
+        return asRos(std::make_unique<Ros2Database>(file));
     }
-    return std::make_unique<BagFile>(file);
+    return asRos(std::make_unique<BagFile>(file));
 }
 
 } // namespace fathom

@@ -79,6 +79,28 @@ Message transform(const Header& header, const ros::FrameLink& link) {
     return out.bytes();
 }
 
+Message transform(const Pose& pose) {
+    CdrWriter out;
+    put(out, pose);
+    return out.bytes();
+}
+
+Message extrinsics(const Pose& pose) {
+    CdrWriter out;
+    const glm::dmat3 rotation = glm::mat3_cast(pose.rotation);
+    for (int column = 0; column < 3; ++column) {
+        put(out, rotation[column]);
+    }
+    put(out, pose.position);
+    return out.bytes();
+}
+
+Message float32(float number) {
+    CdrWriter out;
+    out.value(number);
+    return out.bytes();
+}
+
 Message pose(const Header& header, const Pose& pose) {
     CdrWriter out = begun(header);
     put(out, pose);

@@ -26,6 +26,9 @@ struct Picture {
 Message image(const Header& header, const Picture& picture);         // sensor_msgs/msg/Image
 Message cameraInfo(const Header& header, const Intrinsics& lens);    // sensor_msgs/msg/CameraInfo
 Message transform(const Header& header, const ros::FrameLink& link); // tf2_msgs/msg/TFMessage
+Message transform(const Pose& pose);                                 // geometry_msgs/msg/Transform
+Message extrinsics(const Pose& pose);                                // realsense2_camera_msgs/msg/Extrinsics
+Message float32(float number);                                       // std_msgs/msg/Float32
 Message pose(const Header& header, const Pose& pose);                // geometry_msgs/msg/PoseStamped
 Message wrench(const Header& header, const dvec3& force, const dvec3& torque); // .../msg/WrenchStamped
 

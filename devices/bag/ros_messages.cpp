@@ -92,6 +92,7 @@ Image image(MessageCursor cursor) {
     out.bigEndian = cursor.value<uint8_t>() != 0;
     out.step = cursor.word();
     out.data = cursor.block();
+    out.compressed = out.encoding == "mjpg" || out.encoding == "mjpeg" || out.encoding == "MJPEG";
     return out;
 }
 
@@ -143,6 +144,24 @@ CameraInfo cameraInfo(MessageCursor cursor) {
     return info;
 }
 
+void skipHeader(MessageCursor& cursor) {
+    header(cursor);
+}
+
+Pose rigidPose(const std::array<double, 9>& r, const dvec3& translation) {
+    constexpr double kMostOff = 1e-2; // of an entry of R R^T from the identity's
+    const glm::dmat3 rotation(r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8]);
+    const glm::dmat3 product = rotation * glm::transpose(rotation);
+    bool rigid = glm::determinant(rotation) > 0.0 && std::isfinite(glm::dot(translation, translation));
+    for (int i = 0; i < 9; ++i) {
+        rigid = rigid && std::abs(product[i / 3][i % 3] - (i % 4 == 0 ? 1.0 : 0.0)) < kMostOff;
+    }
+    if (!rigid) {
+        throw Error("an invalid transform");
+    }
+    return {translation, glm::normalize(glm::quat_cast(rotation))};
+}
+
 Pose transform(MessageCursor cursor) {
     return poseOf(cursor);
 }
@@ -152,15 +171,9 @@ Pose extrinsics(MessageCursor cursor) {
     if (cursor.left() != kBare) {
         header(cursor);
     }
-    const auto r = reals<9>(cursor); // column by column
+    const auto rotation = reals<9>(cursor);
     const auto [x, y, z] = reals<3>(cursor);
-    const glm::dmat3 rotation(r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8]);
-    const dquat q = glm::quat_cast(rotation);
-    const double length = glm::length(q);
-    if (!(std::abs(length - 1.0) < 0.1) || !std::isfinite(x + y + z)) {
-        throw Error("an invalid transform");
-    }
-    return {{x, y, z}, q / length};
+    return rigidPose(rotation, {x, y, z});
 }
 
 float float32(MessageCursor cursor) {

@@ -6,6 +6,7 @@
 #include "devices/bag/message_cursor.h"
 #include "engine/types/camera_info.h"
 
+#include <array>
 #include <vector>
 
 namespace fathom::ros {
@@ -17,7 +18,8 @@ struct Image {
     double stamp = 0.0; // [s]
     std::string frame, encoding;
     uint32_t width = 0, height = 0, step = 0; // [pixels], [bytes] per row; 0: compressed
-    bool bigEndian = false, compressed = false;
+    bool bigEndian = false;
+    bool compressed = false;       // also of an Image whose encoding is mjpg, as the SDKs write it
     std::string format;            // of a compressed image, e.g. "16UC1; compressedDepth png"
     std::span<const uint8_t> data; // of the message's bytes
 };
@@ -33,6 +35,11 @@ struct CameraInfo {
     bool turned = false;  // rectification turns the camera (R)
 };
 CameraInfo cameraInfo(MessageCursor message);
+
+// Reads over a std_msgs/Header.
+void skipHeader(MessageCursor& cursor);
+// From a rotation matrix, column by column. Throws Error when it is none.
+Pose rigidPose(const std::array<double, 9>& rotation, const dvec3& translation);
 
 Pose transform(MessageCursor message);  // geometry_msgs/Transform
 Pose extrinsics(MessageCursor message); // realsense2_camera_msgs/Extrinsics

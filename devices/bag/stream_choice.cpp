@@ -142,7 +142,7 @@ StreamChooser::Relation StreamChooser::relate(const ImageStream& depth, const Im
 
 StreamChooser::Relation StreamChooser::relateByPose(const ImageStream& depth, const ImageStream& colour) {
     std::optional<Pose> pose = sdkPose(depth, colour);
-    if (!pose && !isSdkTopic(depth.name)) {
+    if (!pose && !isRealSenseTopic(depth.name)) {
         pose = topicPose(depth);
         pose = pose || depth.frame == colour.frame ? pose : frames_.pose(depth.frame, colour.frame);
     }
@@ -150,7 +150,7 @@ StreamChooser::Relation StreamChooser::relateByPose(const ImageStream& depth, co
         const bool registered = isIdentity(*pose) && sameLens(*depth.lens, *colour.lens);
         return {2, registered, registered ? Pose{} : *pose, ""};
     }
-    const std::string topic = isSdkTopic(depth.name)
+    const std::string topic = isRealSenseTopic(depth.name)
                                   ? parentTopic(colour.name, 2) + "/tf/0"
                                   : "tf_static between the frames, .../extrinsics/depth_to_color";
     return {0,
@@ -162,7 +162,7 @@ StreamChooser::Relation StreamChooser::relateByPose(const ImageStream& depth, co
 
 // Maps points of the common reference to the stream, as in a recording folder (recording_intrinsics.cpp).
 std::optional<Pose> StreamChooser::sdkPose(const ImageStream& depth, const ImageStream& colour) {
-    if (!isSdkTopic(depth.name) || !isSdkTopic(colour.name)) {
+    if (!isRealSenseTopic(depth.name) || !isRealSenseTopic(colour.name)) {
         return std::nullopt;
     }
     const std::string ofDepth = parentTopic(depth.name, 2) + "/tf/",

@@ -47,6 +47,11 @@ std::vector<std::string> wordsOf(const std::string& topic) {
 } // namespace
 
 NamedRole namedRole(const std::string& topic) {
+    if (const std::string sensor = orbbecSensor(topic); !sensor.empty()) {
+        return sensor == "3"                                       ? NamedRole::Depth
+               : sensor == "2" || sensor == "11" || sensor == "12" ? NamedRole::Colour
+                                                                   : NamedRole::Infrared;
+    }
     NamedRole role = NamedRole::None;
     bool target = false;
     for (const std::string& word : wordsOf(baseTopic(topic))) {
@@ -86,8 +91,39 @@ bool namedRegistered(const std::string& topic) {
                        [](const std::string& word) { return word == "aligned" || word == "registered"; });
 }
 
-bool isSdkTopic(const std::string& topic) {
+bool isRealSenseTopic(const std::string& topic) {
     return topic.starts_with("/device_") && topic.ends_with("/image/data");
+}
+
+std::string orbbecSensor(const std::string& topic) {
+    constexpr std::string_view kSensor = "/cam/sensor_", kFrame = "/frameType_";
+    const size_t end = topic.find(kFrame);
+    return topic.starts_with(kSensor) && end != std::string::npos
+               ? topic.substr(kSensor.size(), end - kSensor.size())
+               : "";
+}
+
+bool isSdkTopic(const std::string& topic) {
+    return isRealSenseTopic(topic) || !orbbecSensor(topic).empty();
+}
+
+std::string optionsPrefix(const std::string& topic) {
+    return isRealSenseTopic(topic)        ? parentTopic(topic, 3) + "/option/"
+           : !orbbecSensor(topic).empty() ? parentTopic(topic, 1) + "/option/"
+                                          : "";
+}
+
+std::vector<std::string> lensTopics(const std::string& topic) {
+    const std::string base = baseTopic(topic), sensor = orbbecSensor(base);
+    if (!sensor.empty()) {
+        return {"/cam/streamProfileType_" + sensor};
+    }
+    std::vector<std::string> topics{parentTopic(base, 1) + "/camera_info", base + "/camera_info",
+                                    base + "_info"};
+    if (isRealSenseTopic(base)) {
+        topics[0] = parentTopic(base, 2) + "/info/camera_info";
+    }
+    return topics;
 }
 
 size_t sharedParts(const std::string& a, const std::string& b) {

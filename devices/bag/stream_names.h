@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 namespace fathom {
 
@@ -19,8 +20,16 @@ bool namedDepthImage(const std::string& topic);
 bool namedRectified(const std::string& topic);
 // "aligned_depth...", "depth_registered": shown by another camera's lens.
 bool namedRegistered(const std::string& topic);
-// Topics of a RealSense SDK bag: /device_D/sensor_S/Stream_I/image/data.
+// Images of the RealSense SDK: /device_D/sensor_S/Stream_I/image/data.
+bool isRealSenseTopic(const std::string& topic);
+// The sensor of images of the Orbbec SDK, /cam/sensor_S/frameType_F: "S"; empty for another topic.
+std::string orbbecSensor(const std::string& topic);
+// Of one of these SDKs: the frames that its headers name mean nothing.
 bool isSdkTopic(const std::string& topic);
+// Where an SDK has the options of the sensor: "/device_D/sensor_S/option/"; empty for another topic.
+std::string optionsPrefix(const std::string& topic);
+// Where a camera has the lens of these images, the likeliest topic first.
+std::vector<std::string> lensTopics(const std::string& topic);
 // Number of path parts that both topics begin with.
 size_t sharedParts(const std::string& a, const std::string& b);
 // "/a/b/image_raw" -> "/a/b", `levels` times.

@@ -144,20 +144,6 @@ TEST_CASE("Files without images name their topics, and video that is not read is
     CHECK(says(playStreams(folder, maker).whyNoColour(), "/c/rgb/theora (theora_image_transport/Packet)"));
 }
 
-TEST_CASE("A recording of the Orbbec SDK is refused as such: its images have another layout") {
-    const TemporaryFolder folder;
-    BagMaker maker;
-    addStream(maker, "/cam/sensor_3/frameType_3", depthImage(500));
-    maker.add("/cam/streamProfileType_3", "custom_msg/StreamProfileInfo", 1.0, std::string(40, '\0'));
-    folder.write("a.bag", maker.bag());
-    try {
-        openBag(folder.path() / "a.bag");
-        FAIL("played");
-    } catch (const BadInput& e) {
-        CHECK(says(e.what(), "Orbbec SDK"));
-    }
-}
-
 TEST_CASE("Float depth in millimetres keeps its values, so that what is wrong can be said") {
     const TemporaryFolder folder;
     BagMaker maker;

@@ -120,6 +120,12 @@ TEST_CASE("A red image is red in every colour encoding that is read") {
              "nv12");
     checkRed(rawImage("nv21", repeated("\x51", kAll) + repeated("\xf0\x5a", kAll / 4), kDown * 3 / 2),
              "nv21");
+    checkRed(rawImage("yuy2", repeated("\x51\x5a\x51\xf0", kAll / 2)), "yuy2");
+    const std::string luma = repeated("\x51", kAll), blue = repeated("\x5a", kAll / 4),
+                      red = repeated("\xf0", kAll / 4);
+    checkRed(rawImage("i420", luma + blue + red, kDown * 3 / 2), "i420");
+    checkRed(rawImage("yv12", luma + red + blue, kDown * 3 / 2), "yv12");
+    checkRed(rawImage("i420", luma + blue + red, kDown), "i420, rows that count all planes");
     const char* const kOrders[] = {"rggb", "grbg", "gbrg", "bggr"}; // by the place of red
     for (uint32_t at = 0; at < 4; ++at) {
         checkRed(rawImage(std::string("bayer_") + kOrders[at] + "8", mosaic(at, 1)), kOrders[at]);
@@ -128,6 +134,9 @@ TEST_CASE("A red image is red in every colour encoding that is read") {
     const std::string jpeg = jpegOf(255, 0, 0);
     checkRed(packedImage("rgb8; jpeg compressed bgr8", jpeg), "JPEG");
     checkRed(packedImage("jpeg", jpeg), "bare JPEG");
+    const std::string mjpg =
+        imageMessage(1.0, {.encoding = "mjpg", .width = kAcross, .height = kDown, .pixels = jpeg});
+    checkRed(ros::image({{reinterpret_cast<const uint8_t*>(mjpg.data()), mjpg.size()}, false}), "mjpg");
     const TemporaryFolder folder;
     const std::string png = pngOf(folder, false, 0);
     checkRed(packedImage("bgr8; png compressed bgr8", png), "PNG");
@@ -168,8 +177,8 @@ TEST_CASE("Big-endian images give the same depth, metres and colours as little-e
 
 TEST_CASE("Too few bytes, or rows that are too short, are a fault in every encoding") {
     std::vector<uint32_t> out(kAcross * kDown);
-    for (const char* encoding :
-         {"rgb8", "rgb16", "yuv422", "nv12", "nv21", "bayer_rggb8", "bayer_gbrg16", "mono8"}) {
+    for (const char* encoding : {"rgb8", "rgb16", "yuv422", "nv12", "nv21", "i420", "yv12", "bayer_rggb8",
+                                 "bayer_gbrg16", "mono8"}) {
         const std::string pixels(kAcross * 8 * kDown, '\1');
         ros::Image image = rawImage(encoding, pixels);
         image.data = image.data.first(image.data.size() / 2);
@@ -202,6 +211,7 @@ TEST_CASE("Compressed depth as PNG and RVL gives the same values as plain depth"
     const auto values = depthsOf(packedImage("16UC1; compressedDepth rvl", head + rvl));
     CHECK(values.front() == 3124);
     CHECK(values.back() == 3124);
+    CHECK(depthsOf(rawImage("rvl", rvl.substr(8))) == values); // without the size, as the Orbbec SDK has it
     std::vector<uint16_t> out(kAcross * kDown);
     uint64_t beyond = 0;
     const std::string cut = head + rvl.substr(0, rvl.size() - 8);
