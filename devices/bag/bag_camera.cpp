@@ -15,14 +15,6 @@ namespace {
 constexpr double kMillimetre = 0.001; // REP 118: 16-bit depth
 constexpr size_t kUnitSamples = 9;
 
-// "Depth Units", "Depth_Units": the name changed between versions of the SDK.
-bool isDepthUnits(std::string name) {
-    std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) {
-        return c == ' ' || c == '-' ? '_' : static_cast<char>(std::tolower(c));
-    });
-    return name.ends_with("/option/depth_units/value");
-}
-
 } // namespace
 
 BagCamera::BagCamera(const std::filesystem::path& file, SourceOptions options)
@@ -106,7 +98,7 @@ bool BagCamera::pairsByStamp() {
 const MessageTopic* BagCamera::unitTopic() const {
     const std::string options = optionsPrefix(choice_.depth.name);
     for (const MessageTopic& topic : file_->topics()) {
-        if (!options.empty() && topic.name.starts_with(options) && isDepthUnits(topic.name) &&
+        if (!options.empty() && topic.name.starts_with(options) && namedDepthUnits(topic.name) &&
             !topic.messages.empty()) {
             return &topic;
         }

@@ -4,6 +4,7 @@
 #include "devices/bag/bag_file.h"
 #include "devices/bag/mcap_file.h"
 #include "devices/bag/orbbec_recording.h"
+#include "devices/bag/realsense_recording.h"
 #include "devices/bag/ros2_database.h"
 #include "devices/bag/split_recording.h"
 #include "engine/types/read_file.h"
@@ -46,6 +47,9 @@ std::unique_ptr<MessageFile> asRos(std::unique_ptr<MessageFile> file) {
     try {
         if (OrbbecRecording::recognises(*file)) {
             return std::make_unique<OrbbecRecording>(std::move(file));
+        }
+        if (RealSenseRecording::recognises(*file)) {
+            return std::make_unique<RealSenseRecording>(std::move(file));
         }
     } catch (const BadInput&) {
         throw;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/bag/ros2_database.h"
 
+#include "devices/bag/unpack_chunk.h"
 #include "engine/types/error.h"
 #include "engine/types/read_file.h"
 
@@ -12,6 +13,7 @@ namespace fathom {
 namespace {
 
 constexpr int kDatabaseBytes = 1 << 30;            // of one message
+constexpr uint64_t kMostUnpacked = 1 << 28;        // [bytes] of one that is compressed
 constexpr uint64_t kDatabaseMessages = 20'000'000; // of a file
 constexpr size_t kDatabaseTopics = 10'000;
 constexpr int kStepsPerCall = 100'000;  // of SQLite's machine
@@ -119,8 +121,10 @@ void Ros2Database::readIndex() {
         }
         const auto topic = topicOf.find(sqlite3_column_int64(messages.get(), 1));
         if (topic != topicOf.end()) {
+            // The RealSense SDK gives what holds for the whole recording the earliest time that there is.
+            const int64_t time = std::max<int64_t>(0, sqlite3_column_int64(messages.get(), 2));
             topics_[topic->second].messages.push_back(
-                {static_cast<uint64_t>(sqlite3_column_int64(messages.get(), 2)), 0,
+                {static_cast<uint64_t>(time), 0,
                  static_cast<uint64_t>(sqlite3_column_int64(messages.get(), 0))});
         }
     }
@@ -138,6 +142,9 @@ std::span<const uint8_t> Ros2Database::bytes(const MessageEntry& entry) {
     const auto size = static_cast<size_t>(sqlite3_column_bytes(one_.get(), 0));
     message_.assign(data, data + (data == nullptr ? 0 : size));
     sqlite3_reset(one_.get());
+    if (isZstd(message_)) { // no message in CDR begins so
+        message_ = unpackZstdFrame(message_, kMostUnpacked);
+    }
     return message_;
 }
 

@@ -9,6 +9,7 @@ struct sqlite3_stmt;
 
 namespace fathom {
 
+// Messages may be compressed one by one (zstd).
 class Ros2Database final : public MessageFile {
 public:
     // Opens it for reading only. Throws BadInput that names the file: not a database, or one without the

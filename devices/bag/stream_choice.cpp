@@ -151,7 +151,7 @@ StreamChooser::Relation StreamChooser::relateByPose(const ImageStream& depth, co
         return {2, registered, registered ? Pose{} : *pose, ""};
     }
     const std::string topic = isRealSenseTopic(depth.name)
-                                  ? parentTopic(colour.name, 2) + "/tf/0"
+                                  ? parentTopic(baseTopic(colour.name), 2) + "/tf/0"
                                   : "tf_static between the frames, .../extrinsics/depth_to_color";
     return {0,
             false,
@@ -165,8 +165,8 @@ std::optional<Pose> StreamChooser::sdkPose(const ImageStream& depth, const Image
     if (!isRealSenseTopic(depth.name) || !isRealSenseTopic(colour.name)) {
         return std::nullopt;
     }
-    const std::string ofDepth = parentTopic(depth.name, 2) + "/tf/",
-                      ofColour = parentTopic(colour.name, 2) + "/tf/";
+    const std::string ofDepth = parentTopic(baseTopic(depth.name), 2) + "/tf/",
+                      ofColour = parentTopic(baseTopic(colour.name), 2) + "/tf/";
     for (const MessageTopic& topic : file_.topics()) {
         if (!topic.name.starts_with(ofDepth) || topic.messages.empty()) {
             continue;

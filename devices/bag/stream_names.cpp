@@ -92,7 +92,7 @@ bool namedRegistered(const std::string& topic) {
 }
 
 bool isRealSenseTopic(const std::string& topic) {
-    return topic.starts_with("/device_") && topic.ends_with("/image/data");
+    return topic.starts_with("/device_") && baseTopic(topic).ends_with("/image/data");
 }
 
 std::string orbbecSensor(const std::string& topic) {
@@ -108,7 +108,7 @@ bool isSdkTopic(const std::string& topic) {
 }
 
 std::string optionsPrefix(const std::string& topic) {
-    return isRealSenseTopic(topic)        ? parentTopic(topic, 3) + "/option/"
+    return isRealSenseTopic(topic)        ? parentTopic(baseTopic(topic), 3) + "/option/"
            : !orbbecSensor(topic).empty() ? parentTopic(topic, 1) + "/option/"
                                           : "";
 }
@@ -118,12 +118,18 @@ std::vector<std::string> lensTopics(const std::string& topic) {
     if (!sensor.empty()) {
         return {"/cam/streamProfileType_" + sensor};
     }
-    std::vector<std::string> topics{parentTopic(base, 1) + "/camera_info", base + "/camera_info",
-                                    base + "_info"};
-    if (isRealSenseTopic(base)) {
-        topics[0] = parentTopic(base, 2) + "/info/camera_info";
+    if (isRealSenseTopic(base)) { // of its bags, and of its databases
+        return {parentTopic(base, 2) + "/info/camera_info", parentTopic(base, 2) + "/camera_info"};
     }
-    return topics;
+    return {parentTopic(base, 1) + "/camera_info", base + "/camera_info", base + "_info"};
+}
+
+bool namedDepthUnits(const std::string& topic) {
+    std::string name = topic;
+    std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) {
+        return c == ' ' || c == '-' ? '_' : static_cast<char>(std::tolower(c));
+    });
+    return name.ends_with("/option/depth_units/value");
 }
 
 size_t sharedParts(const std::string& a, const std::string& b) {

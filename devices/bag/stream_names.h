@@ -20,7 +20,7 @@ bool namedDepthImage(const std::string& topic);
 bool namedRectified(const std::string& topic);
 // "aligned_depth...", "depth_registered": shown by another camera's lens.
 bool namedRegistered(const std::string& topic);
-// Images of the RealSense SDK: /device_D/sensor_S/Stream_I/image/data.
+// Images of the RealSense SDK: /device_D/sensor_S/Stream_I/image/data, also with the suffix of a transport.
 bool isRealSenseTopic(const std::string& topic);
 // The sensor of images of the Orbbec SDK, /cam/sensor_S/frameType_F: "S"; empty for another topic.
 std::string orbbecSensor(const std::string& topic);
@@ -28,6 +28,8 @@ std::string orbbecSensor(const std::string& topic);
 bool isSdkTopic(const std::string& topic);
 // Where an SDK has the options of the sensor: "/device_D/sensor_S/option/"; empty for another topic.
 std::string optionsPrefix(const std::string& topic);
+// "Depth Units", "Depth_Units" among such options: the name changed between versions of the SDK.
+bool namedDepthUnits(const std::string& topic);
 // Where a camera has the lens of these images, the likeliest topic first.
 std::vector<std::string> lensTopics(const std::string& topic);
 // Number of path parts that both topics begin with.

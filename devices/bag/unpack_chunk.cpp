@@ -3,6 +3,8 @@
 
 #include "engine/types/error.h"
 
+#include <algorithm>
+#include <array>
 #include <bzlib.h>
 #include <lz4frame.h>
 #include <memory>
@@ -88,6 +90,20 @@ std::vector<uint8_t> unpackChunk(const std::string& compression, std::span<const
                     " are told");
     }
     return out;
+}
+
+bool isZstd(std::span<const uint8_t> bytes) {
+    constexpr std::array<uint8_t, 4> kZstdMagic{0x28, 0xb5, 0x2f, 0xfd};
+    return bytes.size() >= kZstdMagic.size() &&
+           std::equal(kZstdMagic.begin(), kZstdMagic.end(), bytes.begin());
+}
+
+std::vector<uint8_t> unpackZstdFrame(std::span<const uint8_t> packed, uint64_t most) {
+    const unsigned long long size = ZSTD_getFrameContentSize(packed.data(), packed.size());
+    if (size == ZSTD_CONTENTSIZE_UNKNOWN || size == ZSTD_CONTENTSIZE_ERROR || size > most) {
+        throw Error("zstd: no size, or one over " + std::to_string(most) + " bytes");
+    }
+    return unpackChunk("zstd", packed, static_cast<uint32_t>(size));
 }
 
 } // namespace fathom

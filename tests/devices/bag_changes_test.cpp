@@ -17,11 +17,6 @@ std::vector<double> depthsOf(BagCamera& camera) {
     return depths;
 }
 
-bool says(const std::string& text, const std::string& part) {
-    CAPTURE(text);
-    return text.find(part) != std::string::npos;
-}
-
 // Three depth images of 0.5, 0.6 and 0.7 m, and red, blue and blue ones, all with these stamps.
 BagMaker stampedBag(const std::array<double, 3>& stamps) {
     BagMaker maker;
@@ -66,7 +61,7 @@ TEST_CASE(
     }
     BagCamera without = playStreams(folder, maker);
     REQUIRE(without.warnings().size() == 1);
-    CHECK(says(without.warnings()[0], "Depth_Units"));
+    CHECK(lineSays(without.warnings()[0], "Depth_Units"));
     CHECK(depthsOf(without).size() == 3);
     CHECK(playStreams(folder, maker, {.scale = 0.0001}).warnings().empty());
     maker.add(option, "std_msgs/Float32", 0.9, raw(0.001f));
@@ -96,7 +91,7 @@ TEST_CASE("A 16-bit grey image is depth only under a name of depth, or when it i
     const TemporaryFolder folder;
     BagMaker maker;
     addStream(maker, "/boson/image_raw", depthImage(3000, "camera", "mono16"));
-    CHECK(says(streamRefusal(folder, maker), "/boson/image_raw (mono16)"));
+    CHECK(lineSays(streamRefusal(folder, maker), "/boson/image_raw (mono16)"));
     BagCamera asked = playStreams(folder, maker, {.depth = "/boson/image_raw"});
     CHECK(firstDepth(asked) == doctest::Approx(3.0));
     BagMaker named;
@@ -112,7 +107,7 @@ TEST_CASE("Painted depth is not taken for colour unless it is asked for, and is 
     addStream(maker, "/c/depth_registered/image_colored", redImage());
     BagCamera camera = playStreams(folder, maker);
     CHECK_FALSE(camera.info().hasColour);
-    CHECK(says(camera.whyNoColour(), "/c/depth_registered/image_colored (rgb8, named as painted depth"));
+    CHECK(lineSays(camera.whyNoColour(), "/c/depth_registered/image_colored (rgb8, named as painted depth"));
     CHECK(playStreams(folder, maker, {.colour = "/c/depth_registered/image_colored"}).info().hasColour);
     BagMaker real; // as Gazebo names the colour of a depth camera
     addStream(real, "/depth_camera/depth/image_raw", depthImage(500));
@@ -138,10 +133,12 @@ TEST_CASE("Files without images name their topics, and video that is not read is
     const TemporaryFolder folder;
     BagMaker maker;
     maker.add("/stereo/disparity", "stereo_msgs/DisparityImage", 1.0, std::string(40, '\0'));
-    CHECK(says(streamRefusal(folder, maker), "no images but /stereo/disparity (stereo_msgs/DisparityImage)"));
+    CHECK(lineSays(streamRefusal(folder, maker),
+                   "no images but /stereo/disparity (stereo_msgs/DisparityImage)"));
     addStream(maker, "/c/depth/image_raw", depthImage(500));
     maker.add("/c/rgb/theora", "theora_image_transport/Packet", 1.0, std::string(40, '\0'));
-    CHECK(says(playStreams(folder, maker).whyNoColour(), "/c/rgb/theora (theora_image_transport/Packet)"));
+    CHECK(
+        lineSays(playStreams(folder, maker).whyNoColour(), "/c/rgb/theora (theora_image_transport/Packet)"));
 }
 
 TEST_CASE("Float depth in millimetres keeps its values, so that what is wrong can be said") {
@@ -152,10 +149,10 @@ TEST_CASE("Float depth in millimetres keeps its values, so that what is wrong ca
     BagCamera camera = playStreams(folder, maker, {.farthest = 10.0});
     CHECK(firstDepth(camera) == doctest::Approx(500.0).epsilon(1e-3));
     REQUIRE(camera.warnings().size() == 1);
-    CHECK(says(camera.warnings()[0], "scale=0.001"));
+    CHECK(lineSays(camera.warnings()[0], "scale=0.001"));
     BagCamera scaled = playStreams(folder, maker, {.scale = 0.001, .farthest = 10.0});
     CHECK(firstDepth(scaled) == doctest::Approx(0.5).epsilon(1e-3));
-    CHECK(says(streamRefusal(folder, maker, {.scale = 1000.0}), "scale: 1000"));
+    CHECK(lineSays(streamRefusal(folder, maker, {.scale = 1000.0}), "scale: 1000"));
 }
 
 TEST_CASE("The first bytes of a file of messages decide its kind, not its name") {
