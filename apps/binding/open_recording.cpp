@@ -16,8 +16,8 @@ namespace {
 
 enum class Kind { Unknown, Messages, Cloud };
 
-constexpr const char* kKinds = "a recording folder, a ROS bag (.bag), MCAP (.mcap), a ROS 2 database (.db3) "
-                               "or an organised cloud (.pcd, .ply)";
+constexpr const char* kKinds = "a recording folder, a ROS bag (.bag), MCAP (.mcap), a ROS 2 database (.db3), "
+                               "a recording of an Azure Kinect (.mkv) or an organised cloud (.pcd, .ply)";
 
 struct KnownFile {
     std::string_view ending, begin;
@@ -26,6 +26,7 @@ struct KnownFile {
 constexpr std::array kFiles{KnownFile{".bag", "#ROSBAG", Kind::Messages},
                             KnownFile{".mcap", "\x89MCAP0\r\n", Kind::Messages},
                             KnownFile{".db3", "SQLite format 3", Kind::Messages},
+                            KnownFile{".mkv", "\x1a\x45\xdf\xa3", Kind::Messages},
                             KnownFile{".pcd", "# .PCD", Kind::Cloud},
                             KnownFile{".ply", "ply\n", Kind::Cloud},
                             KnownFile{".ply", "ply\r\n", Kind::Cloud}};

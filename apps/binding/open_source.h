@@ -14,7 +14,7 @@ namespace fathom {
 
 // Help text of --source.
 inline constexpr const char* kSourceHelp =
-    "instead of the scene's camera: a recording folder, a ROS bag, MCAP or .db3 file, "
+    "instead of the scene's camera: a recording folder, a ROS bag, MCAP, .db3 or .mkv file, "
     "an organised PCD or PLY, an .oni file, or a live camera as v4l2:auto, openni2 or ros2:depth=TOPIC; "
     "append to a recording's name any of "
     ",depth=TOPIC,colour=TOPIC,info=TOPIC,intrinsics=FILE,extrinsics=FILE,scale=M,start=S,duration=S";

@@ -17,23 +17,25 @@ std::string streamSize(uint32_t width, uint32_t height) {
     return std::to_string(width) + "x" + std::to_string(height);
 }
 
-// The camera_info of the camera, or the one that is asked for; null = none.
-const MessageTopic* infoOf(const MessageFile& file, const ImageStream& stream, const std::string& asked) {
-    for (const std::string& name :
-         asked.empty() ? lensTopics(stream.name) : std::vector<std::string>{asked}) {
+// The camera_info of the camera, or the one that is asked for; null = none, for the reason in stream.noLens.
+const MessageTopic* infoOf(const MessageFile& file, const std::string& asked, ImageStream& stream) {
+    const auto names = asked.empty() ? lensTopics(stream.name) : std::vector<std::string>{asked};
+    std::string why = names.front() + ": missing";
+    for (const std::string& name : names) {
         if (const MessageTopic* topic = file.find(name); topic != nullptr && !topic->messages.empty()) {
             return topic;
         }
+        const std::string fault = file.faultOf(name);
+        why = fault.empty() ? why : name + ": " + fault;
     }
+    stream.noLens = why + " (allowed: sensor_msgs/CameraInfo beside " + stream.name +
+                    ", or info=TOPIC or intrinsics=FILE behind the file's name)";
     return nullptr;
 }
 
 void readLens(MessageFile& file, const std::string& asked, ImageStream& stream) {
-    const MessageTopic* topic = infoOf(file, stream, asked);
+    const MessageTopic* topic = infoOf(file, asked, stream);
     if (topic == nullptr) {
-        stream.noLens = (asked.empty() ? lensTopics(stream.name).front() : asked) +
-                        ": missing (allowed: sensor_msgs/CameraInfo beside " + stream.name +
-                        ", or info=TOPIC or intrinsics=FILE behind the file's name)";
         return;
     }
     const ros::CameraInfo info = ros::cameraInfo(file.read(*topic, 0));

@@ -2,6 +2,7 @@
 #include "devices/bag/message_file.h"
 
 #include "devices/bag/bag_file.h"
+#include "devices/bag/matroska_file.h"
 #include "devices/bag/mcap_file.h"
 #include "devices/bag/orbbec_recording.h"
 #include "devices/bag/realsense_recording.h"
@@ -17,6 +18,11 @@ const MessageTopic* MessageFile::find(const std::string& name) const {
     const auto topic =
         std::find_if(topics_.begin(), topics_.end(), [&](const MessageTopic& t) { return t.name == name; });
     return topic == topics_.end() ? nullptr : &*topic;
+}
+
+std::string MessageFile::faultOf(const std::string& topic) const {
+    const auto fault = faults_.find(topic);
+    return fault == faults_.end() ? "" : fault->second;
 }
 
 size_t MessageFile::topicAt(const std::string& name, std::string type, bool cdr) {
@@ -73,8 +79,12 @@ std::unique_ptr<MessageFile> openMessageFile(const std::filesystem::path& file) 
     std::transform(ending.begin(), ending.end(), ending.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     const bool bag = begin.starts_with("#ROSBAG"), database = begin.starts_with("SQLite format 3"),
-               mcap = begin.starts_with("\x89MCAP"), known = bag || database || mcap;
-    if (mcap || (!known && ending == ".mcap")) { // the first bytes decide, not the name
+               mcap = begin.starts_with("\x89MCAP"), matroska = begin.starts_with("\x1a\x45\xdf\xa3"),
+               known = bag || database || mcap || matroska;
+    if (matroska || (!known && ending == ".mkv")) { // the first bytes decide, not the name
+        return std::make_unique<MatroskaFile>(file);
+    }
+    if (mcap || (!known && ending == ".mcap")) {
         return asRos(std::make_unique<McapFile>(file));
     }
     if (database || (!known && ending == ".db3")) {

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -36,6 +37,8 @@ public:
     MessageCursor read(const MessageTopic& topic, size_t index) {
         return {bytes(topic.messages[index]), topic.cdr};
     }
+    // What was wrong with a message of the topic when the file was opened; empty = nothing.
+    std::string faultOf(const std::string& topic) const;
     const std::filesystem::path& file() const { return file_; }
     virtual std::span<const uint8_t> bytes(const MessageEntry& entry) = 0; // as read()
 
@@ -47,6 +50,7 @@ protected:
     void sortByTime();
 
     std::vector<MessageTopic> topics_;
+    std::map<std::string, std::string> faults_; // by topic
 
 private:
     std::filesystem::path file_;

@@ -146,7 +146,7 @@ TEST_CASE("The lens models of an Orbbec recording are those of its numbers") {
     CHECK(lens(5).model == LensModel::Equidistant);
     CHECK(lens(5).distortion[3] == doctest::Approx(0.04));
     CHECK(lineSays(streamRefusal(folder, depthOnly({.distortion = k, .model = 6})),
-                   "/cam/streamProfileType_3: missing"));
+                   "/cam/streamProfileType_3: distortion model 6"));
     CHECK(lineSays(streamRefusal(folder, depthOnly({.width = 8})), "8x5 where the images"));
 }
 
@@ -201,7 +201,7 @@ TEST_CASE("An Orbbec recording without colour's pose, images or whole messages i
     CHECK(lineSays(streamRefusal(folder, poseless), "extrinsics: missing"));
     CHECK_FALSE(playStreams(folder, poseless, {.colour = "none"}).info().hasColour);
     BagMaker sheared = depthOnly({.rotation = {1, 1, 0, 0, 1, 0, 0, 0, 1}}); // no rotation
-    CHECK(lineSays(streamRefusal(folder, sheared), "/cam/streamProfileType_3: missing"));
+    CHECK(lineSays(streamRefusal(folder, sheared), "/cam/streamProfileType_3: an invalid transform"));
     BagMaker empty;
     addProfile(empty, 3, {});
     CHECK(lineSays(streamRefusal(folder, empty), "no images but /cam/streamProfileType_3"));
@@ -222,6 +222,6 @@ TEST_CASE("An Orbbec recording without colour's pose, images or whole messages i
         short_.add("/cam/streamProfileType_3", "custom_msg/OBStreamProfileInfo", 1.0,
                    profile.substr(0, size));
         addImages(short_, kDepthTopic, "mono16", filled(uint16_t{500}, kColumns * kRows));
-        CHECK(lineSays(streamRefusal(folder, short_), "/cam/streamProfileType_3: missing"));
+        CHECK(lineSays(streamRefusal(folder, short_), "/cam/streamProfileType_3: truncated"));
     }
 }

@@ -122,7 +122,7 @@ TEST_CASE("Messages of a database that are compressed one by one give the same f
     for (DatabaseMessage& message : all) {
         message.bytes = message.topic == kDepthStream + "/camera_info" ? bomb : message.bytes;
     }
-    CHECK(lineSays(databaseRefusal(folder, all), "camera_info: missing"));
+    CHECK(lineSays(databaseRefusal(folder, all), "camera_info: zstd: no size"));
 }
 
 TEST_CASE("Without the option, the depth unit is that of the first image's metadata, else it is said") {
@@ -154,19 +154,21 @@ TEST_CASE("Every lens model of the RealSense SDK is read by its name") {
     const std::string four = "0.01,0.02,0.003,0.004,0";
     CHECK(playDatabase(folder, recorded(lensWords("6.25", "Kannala Brandt4", four))).info().depth.model ==
           LensModel::Equidistant);
-    CHECK(
-        lineSays(databaseRefusal(folder, recorded(lensWords("6.25", "Ftheta", k))), "camera_info: missing"));
+    CHECK(lineSays(databaseRefusal(folder, recorded(lensWords("6.25", "Ftheta", k))),
+                   "camera_info: model: Ftheta"));
 }
 
 TEST_CASE("A damaged text of a RealSense database is named, and never read as another value") {
     const TemporaryFolder folder;
-    for (const char* lens :
-         {"", "width=7", "width=7;height=5;fx=;ppx=3;fy=6;ppy=2;model=None;coeffs=0,0,0,0,0",
-          "width=7;height=5;fx=6,25;ppx=3;fy=6;ppy=2;model=None;coeffs=0,0,0,0,0",
-          "width=7;height=5;fx=6;ppx=3;fy=6;ppy=2;model=None;coeffs=0,0,0,0",
-          "width=7.5;height=5;fx=6;ppx=3;fy=6;ppy=2;model=None;coeffs=0,0,0,0,0",
-          "width=7;height=5;fx=nan;ppx=3;fy=6;ppy=2;model=None;coeffs=0,0,0,0,0"}) {
-        CHECK(lineSays(databaseRefusal(folder, recorded(lens)), "camera_info: missing"));
+    const std::string size = "width=7;height=5;", rest = ";ppx=3;fy=6;ppy=2;model=None;coeffs=0,0,0,0",
+                      whole = rest + ",0";
+    for (const auto& [lens, fault] :
+         {std::pair(std::string(), "width: missing"), std::pair(std::string("width=7"), "height: missing"),
+          std::pair(size + "fx=" + whole, "fx: ''"), std::pair(size + "fx=6,25" + whole, "fx: '6,25'"),
+          std::pair(size + "fx=6" + rest, "coeffs: 4 numbers"),
+          std::pair("width=7.5;height=5;fx=6" + whole, "width: 7.5"),
+          std::pair(size + "fx=nan" + whole, "fx: 'nan'")}) {
+        CHECK(lineSays(databaseRefusal(folder, recorded(lens)), std::string("camera_info: ") + fault));
     }
     CHECK(lineSays(databaseRefusal(folder, without(recorded(), "/tf/")), "extrinsics: missing"));
     Messages sheared = without(recorded(), "Color_0/tf/");
