@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // `fathom inspect`: what is printed of streams, lenses, times, depth and colour.
+#include "apps/binding/open_recording.h"
 #include "apps/inspect/frame_study.h"
 #include "apps/inspect/stream_report.h"
 #include "engine/types/error.h"
@@ -10,6 +11,7 @@
 #include <doctest/doctest.h>
 #include <fstream>
 #include <sstream>
+#include <tuple>
 
 using namespace fathom;
 
@@ -103,6 +105,23 @@ TEST_CASE("Streams of a bag are listed with type, count, encoding, size, frame a
     reports(out.str(), "8x6 16UC1, frame 'camera', lens: ");
     reports(out.str(), "/odd");
     CHECK(out.str().find("camera_info") != std::string::npos); // why there is no lens
+}
+
+TEST_CASE("Recordings of cameras' SDKs are recognised by their first bytes, and listed with their lenses") {
+    const std::filesystem::path corpus = "tests/fuzz/corpus";
+    for (const auto& [file, image, lens] :
+         {std::tuple("bag/orbbec", "5x3 mono16, frame '', lens: 5x3, fx 4.5", "/cam/streamProfileType_3"),
+          std::tuple("database/realsense", "5x3 mono16, frame 'Depth', lens: 5x3, fx 4.5",
+                     "/device_0/sensor_0/Depth_0/camera_info"),
+          std::tuple("matroska/libmatroska", "16x9 bgra8, frame 'COLOR', lens: 16x9, fx 8 fy 6 cx 7.5 cy 4",
+                     "COLOR/camera_info")}) {
+        const auto messages = openMessages((corpus / file).string());
+        REQUIRE(messages != nullptr);
+        std::ostringstream out;
+        writeStreams(*messages, "", out);
+        reports(out.str(), image);
+        reports(out.str(), lens);
+    }
 }
 
 TEST_CASE("The frames of a camera are counted, timed and measured, and its first frame is saved") {

@@ -278,6 +278,16 @@ TEST_CASE("Sizes in a Matroska file that its bytes cannot hold are refused befor
     std::string large = whole;
     large.replace(whole.find(data) + 2, 8, "\x01\x00\x00\x10\x00\x00\x00\x00", 8); // 64 GiB
     CHECK_FALSE(mkvRefusal(folder, large).empty());
+    std::string nested; // 100,000 tags in each other
+    for (uint32_t inner = 100'000; inner-- > 0;) {
+        const uint32_t size = 10 * inner;
+        nested += std::string("\x67\xc8\x01\0\0\0", 6) + static_cast<char>(size >> 24) +
+                  static_cast<char>(size >> 16) + static_cast<char>(size >> 8) + static_cast<char>(size);
+    }
+    file.sized = false;
+    std::string deep = file.bytes();
+    deep.insert(deep.find(file.cluster(0)), ebml(0x1254C367, ebml(0x7373, nested)));
+    CHECK(playMkv(folder, deep).next());
     file.tracks[1].width = 0xFFFFFFFF;
     CHECK(lineSays(mkvRefusal(folder, file.bytes()), "IR (mono16) (allowed: one of depth"));
 }

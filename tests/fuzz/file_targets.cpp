@@ -25,6 +25,8 @@ namespace {
 
 constexpr uint32_t kMostFrames = 8; // per input
 
+} // namespace
+
 void drain(Camera& camera) {
     const CameraInfo& info = camera.info();
     need(info.depth.width > 0 && info.depth.width <= kMaxImageWidth && info.depth.height <= kMaxImageHeight);
@@ -36,8 +38,6 @@ void drain(Camera& camera) {
         need((*frame)->depth.size() >= size_t{info.depth.width} * info.depth.height);
     }
 }
-
-} // namespace
 
 void readScene(Bytes input) {
     const Scene scene = loadScene(fuzzFile("scene.yaml", input));

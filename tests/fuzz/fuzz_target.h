@@ -8,6 +8,10 @@
 #include <span>
 #include <string>
 
+namespace fathom {
+class Camera;
+}
+
 namespace fathom::testing {
 
 using Bytes = std::span<const uint8_t>;
@@ -32,6 +36,9 @@ std::filesystem::path fuzzFile(const std::string& name, Bytes content);
 // Ends the process when a guarantee of a reader is violated.
 void need(bool holds);
 
+// Plays a camera's first frames and checks what it promises.
+void drain(Camera& camera);
+
 void readScene(Bytes input);
 void readIndexFile(Bytes input);
 void readIntrinsicsFile(Bytes input);
@@ -44,6 +51,10 @@ void readPlyFile(Bytes input);
 void readBag(Bytes input);
 void readMcap(Bytes input);
 void readDatabase(Bytes input);
+void readMatroska(Bytes input);
+void readKinectCalibration(Bytes input);
+void readSdkMessages(Bytes input);
+void readMessage(Bytes input);
 void readMessageImage(Bytes input);
 void readSourceText(Bytes input);
 void readSphFile(Bytes input);
