@@ -25,7 +25,7 @@ HapticOptions softly(const Session& session) {
 } // namespace
 
 LiveRun::LiveRun(const OperateOptions& options, Session& session, const StopSignals& signals,
-                 const ThreadPlacement& placement, RunSink& sink, ViewPublisher* observers)
+                 const ThreadPlacement& placement, RunSink& sink, RunObserver& observers)
     : options_(options)
     , session_(session)
     , signals_(signals)
@@ -71,10 +71,8 @@ void LiveRun::makeEngine(const std::vector<Shape>& shapes, const Pose& start, co
         }
         o.arm = &session_.realArm->link();
     }
-    if (observers_ != nullptr) { // their set belongs to the previous run
-        observers_->forget();
-        observers_->setShapes(shapes);
-    }
+    observers_.forget(); // their set belongs to the previous run
+    observers_.setShapes(shapes);
     engine_ = std::make_unique<RealtimeRun>(feed_, session_.contacts(), o);
     feed_.begin();
     session_.requireFrame(engine_->firstFrame());
@@ -145,9 +143,7 @@ uint32_t LiveRun::buttonsOf(const Console& console) const {
 
 void LiveRun::setShapes(const std::vector<Shape>& shapes) {
     engine_->setShapes(shapes);
-    if (observers_ != nullptr) {
-        observers_->setShapes(shapes);
-    }
+    observers_.setShapes(shapes);
 }
 
 } // namespace fathom::operate

@@ -4,7 +4,6 @@
 #pragma once
 
 #include "apps/binding/stop_signals.h"
-#include "apps/binding/view_publisher.h"
 #include "apps/operate/operate_command.h"
 #include "apps/operate/pilot_hand.h"
 #include "apps/operate/run_thread.h"
@@ -21,9 +20,8 @@ namespace fathom::operate {
 // the window. Everything given to the constructor outlives this.
 class LiveRun {
 public:
-    // observers: null = no view socket.
     LiveRun(const OperateOptions& options, Session& session, const StopSignals& signals,
-            const ThreadPlacement& placement, RunSink& sink, ViewPublisher* observers);
+            const ThreadPlacement& placement, RunSink& sink, RunObserver& observers);
 
     // Starts the first run, with forces off. Throws BadInput, Error, DeviceLost.
     void start(const std::vector<Shape>& shapes);
@@ -59,7 +57,7 @@ private:
     const StopSignals& signals_;
     const ThreadPlacement& placement_;
     RunSink& sink_;
-    ViewPublisher* observers_;
+    RunObserver& observers_;
     HapticOptions haptics_;
     SessionFeed feed_;
     std::unique_ptr<RealtimeRun> engine_;

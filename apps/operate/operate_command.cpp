@@ -3,7 +3,6 @@
 
 #include "apps/binding/open_hand.h"
 #include "apps/binding/open_source.h"
-#include "apps/binding/view_publisher.h"
 #include "apps/number_option.h"
 #include "apps/operate/operator_run.h"
 #include "apps/operate/playback_run.h"
@@ -28,7 +27,8 @@ void addOperateCommand(CLI::App& app, const GlobalOptions& global) {
     command->add_flag("--path", options->path, "the scene's hand path moves the tool, not mouse and keyboard")
         ->excludes("--hand-device");
     command->add_option("--arm", options->arm, kArmHelp);
-    command->add_option("--view-door", options->viewEndpoint, kViewEndpointHelp);
+    command->add_option("--view-door", options->observers.viewEndpoint, kViewEndpointHelp);
+    command->add_option("--ros2", options->observers.ros2, kRos2Help);
     command->add_option("--offscreen", options->offscreen,
                         "WxH: draw without a display; with --folder, end with a screenshot");
     command
@@ -48,7 +48,8 @@ void addOperateCommand(CLI::App& app, const GlobalOptions& global) {
         }
         for (const auto& [name, value] :
              {std::pair("--source", &options->source), std::pair("--hand-device", &options->handDevice),
-              std::pair("--arm", &options->arm), std::pair("--view-door", &options->viewEndpoint)}) {
+              std::pair("--arm", &options->arm), std::pair("--view-door", &options->observers.viewEndpoint),
+              std::pair("--ros2", &options->observers.ros2)}) {
             if (!options->recording.empty() && !value->empty()) {
                 throw BadInput("operate", name, *value, "nothing beside a recording");
             }

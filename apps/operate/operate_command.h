@@ -2,6 +2,7 @@
 // `fathom operate SCENE`: the operator's window over a realtime run.
 #pragma once
 
+#include "apps/binding/run_observers.h"
 #include "apps/session/session.h"
 
 namespace CLI {
@@ -13,9 +14,9 @@ namespace fathom {
 struct OperateOptions : SessionOptions {
     OperateOptions() { endless = true; }
 
+    ObserverOptions observers;
     bool armed = false;       // forces on from the start: for `latency` and `--offscreen --path`
     bool path = false;        // the scene's hand path drives instead of mouse and keyboard
-    std::string viewEndpoint; // socket for observers (devices/bridge); empty = none
     std::string offscreen;    // WxH: draws without a surface; empty = a window
     double seconds = 0.0;     // ends after this time; 0 = when the window is closed
     double ticks = 0.0;       // [s] ends after this much run time in ticks; 0 = never

@@ -29,10 +29,9 @@ std::string title(const OperateOptions& options) {
 
 } // namespace
 
-LiveSinks::LiveSinks(const OperateOptions& options, double period)
-    : observers(options.viewEndpoint.empty() ? nullptr
-                                             : std::make_unique<ViewPublisher>(options.viewEndpoint))
-    , published(recorder, observers.get())
+LiveSinks::LiveSinks(const OperateOptions& options, double period, const ArmRig* arm)
+    : observers(options.observers, arm)
+    , published(recorder, observers)
     , faults(options.shots, period, published)
     , snapshots(faults) {}
 
@@ -44,12 +43,12 @@ OperatorRun::OperatorRun(const OperateOptions& options, const GlobalOptions& glo
     , session_(options, global,
                {window_.offscreen() ? gpu::Drawing::Offscreen : gpu::Drawing::Surface, window_.extensions()},
                signals_.asked())
-    , sinks_(options, makeHapticOptions(session_.scene, session_.tool).period)
+    , sinks_(options, makeHapticOptions(session_.scene, session_.tool).period, session_.arm.get())
     , display_(options_, window_, session_, sinks_.snapshots)
     , editor_(session_.scene,
               [this](const Scene& scene, const std::vector<Shape>& shapes) { changeScene(scene, shapes); })
     , recording_(options.shots, sinks_.recorder, session_)
-    , live_(options_, session_, signals_, placement_, sinks_.snapshots, sinks_.observers.get()) {
+    , live_(options_, session_, signals_, placement_, sinks_.snapshots, sinks_.observers) {
     live_.start(editor_.shapes());
     display_.console.forces = armed_ = options_.armed;
     window_.onForcesOff = [this] {

@@ -13,9 +13,10 @@ namespace fathom::operate {
 
 // Receivers of a live run's records, from the first (`snapshots`) to the last (`recorder`).
 struct LiveSinks {
-    LiveSinks(const OperateOptions& options, double period);
+    // arm: null = the tool moves freely.
+    LiveSinks(const OperateOptions& options, double period, const ArmRig* arm);
 
-    std::unique_ptr<ViewPublisher> observers; // null = no view socket
+    RunObservers observers;
     Recorder recorder;
     PublishedSink published;
     FaultTrace faults;

@@ -21,11 +21,6 @@ void addPose(CsvRow& row, const Pose& pose) {
 
 } // namespace
 
-const char* stateName(StepState state) {
-    constexpr const char* kNames[] = {"off", "free", "contact", "escape", "trapped", "fading", "waiting"};
-    return kNames[static_cast<size_t>(state)];
-}
-
 HapticsCsv::HapticsCsv(const std::filesystem::path& file)
     : file_(file) {
     file_.write(kHeader);

@@ -9,9 +9,6 @@
 
 namespace fathom {
 
-// The state as written in haptics.csv.
-const char* stateName(StepState state);
-
 class HapticsCsv {
 public:
     explicit HapticsCsv(const std::filesystem::path& file); // every call throws Error that names the file

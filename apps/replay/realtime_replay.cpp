@@ -37,12 +37,10 @@ RealtimeReplay::RealtimeReplay(Session& session, const ReplayOptions& options, R
     , haptics_(makeHapticOptions(session.scene, session.tool))
     , audit_(session.tool, session.arm.get())
     , faults_(recorder.folder(), haptics_.period, *this)
-    , view_(options.viewEndpoint.empty() ? nullptr : std::make_unique<ViewPublisher>(options.viewEndpoint))
+    , observers_(options.observers, session.arm.get())
     , feed_(std::make_unique<Feed>(session, [this](const std::vector<Shape>& shapes) { takeShapes(shapes); }))
     , run_(std::make_unique<RealtimeRun>(*feed_, session.contacts(), runOptions(trace))) {
-    if (view_) {
-        view_->setShapes(shapes_);
-    }
+    observers_.setShapes(shapes_);
     if (options.source.empty() && session.scene.source.kind == CameraSource::Kind::Simulated) {
         spool();
     }
@@ -55,9 +53,7 @@ void RealtimeReplay::takeShapes(const std::vector<Shape>& shapes) {
     if (run_) {
         run_->setShapes(shapes);
     }
-    if (view_) {
-        view_->setShapes(shapes);
-    }
+    observers_.setShapes(shapes);
 }
 
 RealtimeOptions RealtimeReplay::runOptions(CadenceTrace* trace) {
@@ -150,9 +146,7 @@ void RealtimeReplay::rethrowFailure() const {
 void RealtimeReplay::frame(const PublishedFrame& frame, const Fixtures& set) {
     recorder_.frame(frame.report, frame.t, set, frame.colour);
     figures_.framesInPlace += frame.report.inPlace ? 1 : 0;
-    if (view_) {
-        view_->frame(set);
-    }
+    observers_.frame(set);
 }
 
 void RealtimeReplay::query(const QueryNote& note) {
@@ -163,9 +157,7 @@ void RealtimeReplay::step(const TickRow& row, const PublishedFrame* obeyed, bool
                           std::span<const uint32_t> behind) {
     wokenLateMicros_.push_back(static_cast<float>(row.wokenLate * 1e6));
     recorder_.tick(row);
-    if (view_) {
-        view_->step(row);
-    }
+    observers_.step(row);
     if (const std::string change = watched_ ? watched_->change() : ""; !change.empty()) {
         log::warn("{}", change);
     }

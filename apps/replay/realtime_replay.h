@@ -4,7 +4,6 @@
 #pragma once
 
 #include "apps/binding/stop_signals.h"
-#include "apps/binding/view_publisher.h"
 #include "apps/binding/watched_hand.h"
 #include "apps/replay/fault_trace.h"
 #include "apps/replay/percentiles.h"
@@ -81,7 +80,7 @@ private:
     ToolAudit audit_;
     bool audited_ = true;                 // every step so far was audited
     FaultTrace faults_;                   // receives every tick first
-    std::unique_ptr<ViewPublisher> view_; // null = no view socket
+    RunObservers observers_;
     std::unique_ptr<Feed> feed_;
     std::unique_ptr<RealtimeRun> run_;
     std::optional<HapticCycle> cycle_;

@@ -4,7 +4,6 @@
 #include "apps/binding/arm_thread.h"
 #include "apps/binding/open_hand.h"
 #include "apps/binding/open_source.h"
-#include "apps/binding/view_publisher.h"
 #include "apps/number_option.h"
 #include "apps/replay/budgets.h"
 #include "apps/replay/lockstep_replay.h"
@@ -200,14 +199,13 @@ ReplayOptions withFolder(ReplayOptions options) {
 
 int runReplay(const ReplayOptions& asked, const GlobalOptions& global) {
     const ReplayOptions options = withFolder(asked);
-    if (!options.handDevice.empty() && !options.realtime) {
-        throw BadInput("replay", "--hand-device", options.handDevice, "together with --realtime");
-    }
-    if (!options.viewEndpoint.empty() && !options.realtime) {
-        throw BadInput("replay", "--view-door", options.viewEndpoint, "together with --realtime");
-    }
-    if (!options.arm.empty() && !options.realtime) {
-        throw BadInput("replay", "--arm", options.arm, "together with --realtime");
+    for (const auto& [name, value] :
+         {std::pair("--hand-device", &options.handDevice),
+          std::pair("--view-door", &options.observers.viewEndpoint),
+          std::pair("--ros2", &options.observers.ros2), std::pair("--arm", &options.arm)}) {
+        if (!value->empty() && !options.realtime) {
+            throw BadInput("replay", name, *value, "together with --realtime");
+        }
     }
     if (options.frameRate > 0.0 && !options.realtime) {
         throw BadInput("replay", "--picture-rate", std::to_string(options.frameRate),
@@ -240,7 +238,8 @@ void addReplayCommand(CLI::App& app, const GlobalOptions& global, int& result) {
     command->add_flag("--hand", options->hand,
                       "the hand yields to the force: the simulated hand of hand.loop");
     command->add_option("--hand-device", options->handDevice, kHandHelp)->excludes("--operator", "--hand");
-    command->add_option("--view-door", options->viewEndpoint, kViewEndpointHelp);
+    command->add_option("--view-door", options->observers.viewEndpoint, kViewEndpointHelp);
+    command->add_option("--ros2", options->observers.ros2, kRos2Help);
     command->add_option("--arm", options->arm, kArmHelp);
     command
         ->add_option("--seconds", options->seconds,

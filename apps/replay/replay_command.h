@@ -3,6 +3,7 @@
 // results to files.
 #pragma once
 
+#include "apps/binding/run_observers.h"
 #include "apps/session/session.h"
 
 namespace CLI {
@@ -17,9 +18,9 @@ struct ReplayOptions : SessionOptions {
     bool hand = false; // closes the loop with a simulated hand
     // Whether it is closed: on request, or because the scene's own path has a hand that yields.
     bool yields(const Scene& asked) const { return hand || (asked.hand.yields && operatorCsv.empty()); }
-    std::string viewEndpoint; // socket for observers (devices/bridge); empty = none
-    double seconds = 0.0;     // [s] minimum length of a run with a live device
-    double frameRate = 0.0;   // [Hz] frame rate of a camera that is not live; 0 = 30
+    ObserverOptions observers;
+    double seconds = 0.0;   // [s] minimum length of a run with a live device
+    double frameRate = 0.0; // [Hz] frame rate of a camera that is not live; 0 = 30
     bool saveFixtures = false;
     bool strict = false; // warnings give exit code 1
     std::filesystem::path out;

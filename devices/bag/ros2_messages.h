@@ -4,8 +4,10 @@
 
 #include "devices/bag/ros_messages.h"
 
+#include <array>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace fathom::ros2 {
@@ -38,6 +40,38 @@ struct RegionPoint {
     float fixture = 0.0f;                              // class of the scene, from 0
 };
 Message regions(const Header& header, std::span<const RegionPoint> points);
+
+Message twist(const Header& header, const dvec3& linear, const dvec3& angular); // geometry_msgs TwistStamped
+
+// Positions [rad] or [m] of joints in the order of their names: sensor_msgs/msg/JointState, and
+// trajectory_msgs/msg/JointTrajectory of one point that is reached after `seconds`.
+using Names = std::span<const std::string>;
+Message jointState(const Header& header, Names names, std::span<const double> positions);
+Message trajectory(const Header& header, Names names, std::span<const double> positions, double seconds);
+
+// Of diagnostic_msgs/msg/DiagnosticArray.
+struct Diagnosis {
+    enum class Level : uint8_t { Ok, Warning, Error, Stale };
+    Level level = Level::Ok;
+    std::string name, message;
+    std::vector<std::pair<std::string, std::string>> values;
+};
+Message diagnostics(const Header& header, std::span<const Diagnosis> parts);
+
+// Of visualization_msgs/msg/MarkerArray as it is since ROS 2 Galactic.
+struct Marker {
+    enum class Kind : int32_t { Arrow, Cube, Sphere, Cylinder, SphereList = 7 };
+    enum class Action : int32_t { Add = 0, DeleteAll = 3 };
+    std::string space; // id counts within it
+    int32_t id = 0;
+    Kind kind = Kind::Sphere;
+    Action action = Action::Add;
+    Pose pose;
+    dvec3 scale{1.0};               // [m]
+    std::array<float, 4> colour{};  // red, green, blue, alpha: 0 to 1
+    std::vector<dvec3> points = {}; // [m] centres of a list, relative to `pose`
+};
+Message markers(const Header& header, std::span<const Marker> markers);
 
 // The definition of "sensor_msgs/msg/Image" and the like as the ros2msg encoding of MCAP has it, with those
 // of the types that it uses. Of the types above.

@@ -10,6 +10,10 @@
 
 namespace fathom {
 
+// What is allowed in builds without Cyclone DDS.
+inline constexpr const char* kWithoutRos2 =
+    "none: this program was built without Cyclone DDS (install cyclonedds-dev and rebuild)";
+
 // "ros2:depth=TOPIC,..." (ros2_request.h).
 bool isRos2Request(const std::string& source);
 

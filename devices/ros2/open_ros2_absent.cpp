@@ -6,8 +6,7 @@
 namespace fathom {
 
 std::unique_ptr<Camera> openRos2(const std::string& source, bool, double) {
-    throw BadInput("--source", "ros2", source,
-                   "none: this program was built without Cyclone DDS (install cyclonedds-dev and rebuild)");
+    throw BadInput("--source", "ros2", source, kWithoutRos2);
 }
 
 } // namespace fathom

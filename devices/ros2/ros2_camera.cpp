@@ -11,8 +11,7 @@ namespace fathom {
 
 namespace {
 
-constexpr double kSecondPublisherAfter = 1.0; // [s] of silence of the first one
-constexpr double kLongestWait = 0.1;          // [s]
+constexpr double kLongestWait = 0.1; // [s]
 
 double monotonicNow() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -34,26 +33,9 @@ void Ros2Camera::skip(const std::string& fault, uint32_t frames) {
     }
 }
 
-// The first publisher that is heard has the topic, until it falls silent.
-bool Ros2Camera::ours(Topic& topic, const Ros2Message& message, const std::string& name) {
-    const double now = message.message->arrival;
-    if (topic.publisher == 0 ||
-        (topic.publisher != message.publisher && now > topic.heard + kSecondPublisherAfter)) {
-        topic.publisher = message.publisher;
-    }
-    if (topic.publisher != message.publisher) {
-        if (topic.foreign++ == 0) {
-            log::warn("{}: {} has a second publisher, whose messages are ignored", description(), name);
-        }
-        return false;
-    }
-    topic.heard = now;
-    return true;
-}
-
 void Ros2Camera::receive(Topic& topic, const ImageStream& stream, LiveStamps& stamps, bool depth) {
     for (const Ros2Message& taken : inbox_.take(topic.place)) {
-        if (!ours(topic, taken, stream.name)) {
+        if (!topic.publisher->accepts(taken)) {
             continue;
         }
         try {

@@ -5,10 +5,12 @@
 #include "devices/bag/stream_choice.h"
 #include "devices/camera.h"
 #include "devices/frame_slots.h"
+#include "devices/ros2/first_publisher.h"
 #include "devices/ros2/live_pairs.h"
 #include "devices/ros2/live_stamps.h"
 #include "devices/ros2/newest_messages.h"
 #include "devices/ros2/ros2_graph.h"
+#include "devices/ros2/ros2_request.h"
 
 #include <optional>
 #include <set>
@@ -40,22 +42,21 @@ public:
     std::string streams() const override { return choice_.said; }
     std::string description() const override { return "ros2 " + request_.options.depth; }
 
-    uint64_t foreign() const { return depth_.foreign + colour_.foreign; } // messages of second publishers
+    uint64_t foreign() const { // messages of second publishers
+        return depth_.publisher->foreign() + (colour_.publisher ? colour_.publisher->foreign() : 0);
+    }
 
 private:
     struct Topic {
         size_t place = 0; // in the inbox and in messages_
         bool compressed = false;
-        uint64_t publisher = 0; // 0 = none yet
-        double heard = 0.0;     // [s] CLOCK_MONOTONIC, its last message
-        uint64_t foreign = 0;
+        std::optional<FirstPublisher> publisher = {};
     };
     Topic subscribeImages(const std::string& topic);
     void subscribeOthers();
     void awaitStreams();
     bool gather();
     void chooseUnit();
-    bool ours(Topic& topic, const Ros2Message& message, const std::string& name);
     void receive();
     void receive(Topic& topic, const ImageStream& stream, LiveStamps& stamps, bool depth);
     ros::Image imageOf(const ImageStream& stream, const RawMessage& message) const;

@@ -51,6 +51,7 @@ Ros2Camera::Ros2Camera(const Ros2Request& request)
 Ros2Camera::Topic Ros2Camera::subscribeImages(const std::string& topic) {
     Topic out;
     out.compressed = isCompressedTopic(topic);
+    out.publisher.emplace(description(), topic);
     const char* type = out.compressed ? kRos2Compressed : kRos2Image;
     out.place = inbox_.subscribe(topic, type, Ros2Qos::Sensor);
     messages_.add(topic, type, 1);

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "devices/ros2/raw_message.h"
-#include "devices/ros2/ros2_request.h"
+#include "devices/ros2/ros2_place.h"
 
 #include <memory>
 #include <span>

@@ -3,27 +3,11 @@
 #pragma once
 
 #include "devices/recorded/source_options.h"
+#include "devices/ros2/ros2_place.h"
 
-#include <cstdint>
 #include <string>
 
 namespace fathom {
-
-// Where a ROS 2 graph is.
-struct Ros2Place {
-    uint32_t domain = 0; // 0 to 232
-    // An interface's name, e.g. "eth0". "lo" is this machine only. "any": as CYCLONEDDS_URI or Cyclone
-    // choose.
-    std::string network = "lo";
-
-    bool operator==(const Ros2Place&) const = default;
-};
-
-// The domain that the environment variable ROS_DOMAIN_ID gives, else 0. Throws BadInput.
-uint32_t ros2Domain();
-
-// "/camera/depth/image_raw" and the like. A leading slash is added where there is none. Throws BadInput.
-std::string ros2Topic(const std::string& field, const std::string& name);
 
 struct Ros2Request {
     std::string text; // as given, for messages

@@ -16,7 +16,6 @@
 
 namespace fathom {
 
-// Names in haptics.csv: off, free, contact, escape, trapped, fading, waiting.
 enum class StepState : uint8_t {
     Off,     // no contact set yet, or forces off and ramped out: the wrench is zero
     Free,    // no row pushes
@@ -26,6 +25,12 @@ enum class StepState : uint8_t {
     Fading,  // scene too old, or forces off and not yet ramped out
     Waiting, // no row pushes, and the tool lags behind the hand: no force
 };
+
+// Its name in haptics.csv.
+constexpr const char* stateName(StepState state) {
+    constexpr const char* kNames[] = {"off", "free", "contact", "escape", "trapped", "fading", "waiting"};
+    return kNames[static_cast<size_t>(state)];
+}
 
 // Bits of a hand's buttons.
 inline constexpr uint32_t kGuidanceButton = 1;

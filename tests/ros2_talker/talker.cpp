@@ -4,6 +4,7 @@
 //   ros2_talker DOMAIN
 //   KEY VALUE: a number or a word of `Settings`; "quit" ends it.
 #include "messages.h"
+#include "tests/ros2_talker/join_loopback.h"
 
 #include <algorithm>
 #include <chrono>
@@ -185,12 +186,7 @@ void listen() {
 
 int main(int argc, char** argv) {
     const auto domain = static_cast<dds_domainid_t>(argc > 1 ? std::atoi(argv[1]) : 0);
-    dds_create_domain(
-        domain, "<General><Interfaces><NetworkInterface name=\"lo\" multicast=\"false\"/></Interfaces>"
-                "</General><Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>32"
-                "</MaxAutoParticipantIndex><Peers><Peer "
-                "address=\"127.0.0.1\"/></Peers></Discovery><Tracing><Verbosity>none</Verbosity></Tracing>");
-    participant = dds_create_participant(domain, nullptr, nullptr);
+    participant = joinLoopback(domain);
     const dds_topic_descriptor_t broken = brokenType();
     const dds_entity_t depth = writerOf("rt/camera/depth/image_rect_raw", sensor_msgs_msg_dds__Image__desc),
                        colour = writerOf("rt/camera/color/image_raw", sensor_msgs_msg_dds__Image__desc),

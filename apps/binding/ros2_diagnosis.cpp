@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/binding/ros2_diagnosis.h"
+
+#include <cmath>
+#include <cstdio>
+#include <glm/geometric.hpp>
+
+namespace fathom {
+
+namespace {
+
+using ros2::Diagnosis;
+using Level = Diagnosis::Level;
+
+std::string number(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.4g", value);
+    return text;
+}
+
+Level levelOf(StepState state) {
+    switch (state) {
+    case StepState::Trapped:
+        return Level::Error;
+    case StepState::Escape:
+    case StepState::Fading:
+        return Level::Warning;
+    case StepState::Off:
+    case StepState::Free:
+    case StepState::Contact:
+    case StepState::Waiting:
+        break;
+    }
+    return Level::Ok;
+}
+
+Diagnosis forcesOf(const StepRecord& r) {
+    return {r.finite ? levelOf(r.state) : Level::Error,
+            "fathom: forces",
+            r.finite ? stateName(r.state) : "a number is not finite: no force",
+            {{"force_n", number(glm::length(r.wrench.force))},
+             {"torque_nm", number(glm::length(r.wrench.torque))},
+             {"contacts", std::to_string(r.contacts)},
+             {"min_gap_m", number(r.minGap)},
+             {"clearance_m", number(r.clearance)},
+             {"lag_m", number(r.lag)},
+             {"guidance", number(r.guidance)},
+             {"margin_passive", number(r.marginPassive)},
+             {"margin_uncoupled", number(r.marginUncoupled)}}};
+}
+
+Diagnosis cameraOf(const StepRecord& r, double setRate) {
+    const bool known = std::isfinite(r.sceneAge), old = r.sceneAge > Ros2Diagnosis::kOld;
+    return {!known ? Level::Stale : (old ? Level::Warning : Level::Ok),
+            "fathom: camera",
+            !known ? "no set of regions yet" : (old ? "the scene is old" : "ok"),
+            {{"sets_per_s", number(setRate)},
+             {"scene_age_s", number(r.sceneAge)},
+             {"frame", std::to_string(r.frame)}}};
+}
+
+Diagnosis armOf(const Ros2Tick& tick) {
+    return {isFault(tick.armState) ? Level::Error : Level::Ok,
+            "fathom: arm",
+            armStateName(tick.armState),
+            {{"at_limits", std::to_string(tick.record.arm.atLimits)},
+             {"residual_m", number(tick.record.arm.residual)}}};
+}
+
+} // namespace
+
+std::vector<Diagnosis> Ros2Diagnosis::of(const Ros2Tick& tick, uint64_t unsent) {
+    const RunTotals& now = tick.totals;
+    const double seconds =
+        time_ != 0 && tick.time > time_ ? 1e-9 * static_cast<double>(tick.time - time_) : 0.0;
+    const auto rate = [&](uint64_t count, uint64_t before) {
+        return seconds > 0.0 ? static_cast<double>(count - before) / seconds : 0.0;
+    };
+    const uint64_t missed = now.missed - before_.missed;
+    std::vector<Diagnosis> parts{forcesOf(tick.record), cameraOf(tick.record, rate(now.sets, before_.sets))};
+    parts.push_back({missed > 0 ? Level::Warning : Level::Ok,
+                     "fathom: haptic",
+                     missed > 0 ? "periods without a step" : "ok",
+                     {{"ticks_per_s", number(rate(now.ticks, before_.ticks))},
+                      {"late", std::to_string(now.late - before_.late)},
+                      {"missed", std::to_string(missed)},
+                      {"worst_step_us", number(now.worstMicros)},
+                      {"messages_not_sent", std::to_string(unsent)}}});
+    if (tick.driven) {
+        parts.push_back(armOf(tick));
+    }
+    before_ = now;
+    time_ = tick.time;
+    return parts;
+}
+
+} // namespace fathom

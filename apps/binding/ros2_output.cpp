@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/binding/ros2_output.h"
+
+#include "apps/binding/ros2_topics.h"
+#include "engine/types/log.h"
+#include "engine/types/spsc_queue.h"
+#include "engine/types/triple_buffer.h"
+
+#include <algorithm>
+#include <atomic>
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
+namespace fathom {
+
+namespace {
+
+// The writer thread copies what is due into mailboxes; the thread of this class makes and sends messages.
+class Ros2Output final : public RunObserver {
+public:
+    Ros2Output(const Ros2OutputRequest& request, std::vector<std::string> joints)
+        : topics_(request, std::move(joints))
+        , period_(1.0 / request.rate)
+        , thread_([this] { run(); }) {}
+    ~Ros2Output() override {
+        wake(true);
+        thread_.join();
+    }
+
+    void step(const TickRow& row) override;
+    void frame(const Fixtures& set) override {
+        set_ = &set;
+        totals_.sets += 1;
+    }
+    void setShapes(std::span<const Shape> shapes) override {
+        const std::lock_guard lock(mutex_);
+        shapes_.assign(shapes.begin(), shapes.end());
+        shapesChanged_ = true;
+    }
+    void forget() noexcept override { set_ = nullptr; }
+
+private:
+    bool due(double t);
+    void offerRegions(const TickRow& row, uint64_t time);
+    void wake(bool stop);
+    void run();
+    void publish();
+
+    // Regions are sent when they change, at most so often, and again for whoever subscribes later [s].
+    static constexpr double kRegionPause = 0.1, kRegionRepeat = 1.0;
+    static constexpr uint64_t kQueue = 256;                       // steps
+    static constexpr double kRateSlack = 1e-4;                    // [s] of a step's time
+    static constexpr auto kLook = std::chrono::milliseconds(100); // for subscribers of regions
+
+    Ros2Topics topics_;
+    double period_; // [s] of messages
+    // Writer thread.
+    TickStamps stamps_;
+    RunTotals totals_;
+    const Fixtures* set_ = nullptr;
+    double next_ = 0.0, last_ = 0.0, regionsAt_ = -1e9; // [s] times of the run
+    uint64_t generation_ = 0;                           // of the regions handed over
+    // Between the threads.
+    SpscQueue<Ros2Tick> ticks_{kQueue};
+    TripleBuffer<Ros2Regions> regions_;
+    std::atomic<bool> watched_{false};
+    std::mutex mutex_; // guards the members below
+    std::condition_variable woken_;
+    bool fresh_ = false, stop_ = false, shapesChanged_ = false;
+    std::vector<Shape> shapes_;
+    std::thread thread_; // last, so that it ends before what it uses
+};
+
+void Ros2Output::wake(bool stop) {
+    {
+        const std::lock_guard lock(mutex_);
+        fresh_ = true;
+        stop_ = stop;
+    }
+    woken_.notify_one();
+}
+
+// Keeps the average rate though steps have a raster of their own. Time begins again with each run.
+bool Ros2Output::due(double t) {
+    if (t < last_) {
+        next_ = t;
+        regionsAt_ = t - kRegionRepeat;
+    }
+    last_ = t;
+    if (t < next_ - kRateSlack) {
+        return false;
+    }
+    next_ = std::max(next_ + period_, t);
+    return true;
+}
+
+void Ros2Output::step(const TickRow& row) {
+    totals_.ticks += 1;
+    totals_.late += row.late ? 1 : 0;
+    totals_.missed += row.missed;
+    totals_.worstMicros = std::max(totals_.worstMicros, row.micros);
+    const uint64_t time = stamps_.at(row.record.t);
+    if (!due(row.record.t)) {
+        return;
+    }
+    ticks_.push({time, row.record, row.driven, row.armStatus.state, totals_});
+    offerRegions(row, time);
+    wake(false);
+}
+
+void Ros2Output::offerRegions(const TickRow& row, uint64_t time) {
+    const double pause = row.record.t - regionsAt_;
+    if (!watched_.load(std::memory_order_relaxed) || pause < kRegionPause) {
+        return;
+    }
+    static const Fixtures kEmpty; // of a scene with shapes only
+    const Fixtures& set = set_ != nullptr ? *set_ : kEmpty;
+    Ros2Regions& out = regions_.back();
+    {
+        const std::lock_guard lock(mutex_);
+        if (set.generation == generation_ && !shapesChanged_ && pause < kRegionRepeat) {
+            return;
+        }
+        shapesChanged_ = false;
+        out.shapes = shapes_;
+    }
+    const RegionSpheres& spheres = set.spheres;
+    const dvec3& origin = set.origin;
+    out.time = time;
+    out.points.resize(spheres.size());
+    for (size_t i = 0; i < spheres.size(); ++i) {
+        out.points[i] = {static_cast<float>(origin.x + static_cast<double>(spheres.x[i])),
+                         static_cast<float>(origin.y + static_cast<double>(spheres.y[i])),
+                         static_cast<float>(origin.z + static_cast<double>(spheres.z[i])), spheres.radius[i],
+                         static_cast<float>(spheres.fixture[i])};
+    }
+    regions_.publish();
+    generation_ = set.generation;
+    regionsAt_ = row.record.t;
+}
+
+void Ros2Output::run() {
+    try {
+        for (std::unique_lock lock(mutex_); !stop_; lock.lock()) {
+            woken_.wait_for(lock, kLook, [this] { return fresh_; });
+            fresh_ = false;
+            lock.unlock();
+            publish();
+        }
+    } catch (const std::exception& e) { // out of memory
+        log::error("ros2: {}: nothing more is published", e.what());
+    }
+}
+
+void Ros2Output::publish() {
+    watched_.store(topics_.regionsWatched(), std::memory_order_relaxed);
+    for (Ros2Tick tick; ticks_.pop(tick);) {
+        topics_.tick(tick);
+    }
+    if (regions_.refresh()) {
+        topics_.regions(regions_.front());
+    }
+}
+
+} // namespace
+
+std::unique_ptr<RunObserver> openRos2Output(const Ros2OutputRequest& request,
+                                            std::vector<std::string> joints) {
+    return std::make_unique<Ros2Output>(request, std::move(joints));
+}
+
+} // namespace fathom

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// Replaces ros2_output.cpp in builds without Cyclone DDS.
+#include "apps/binding/ros2_output.h"
+
+#include "devices/ros2/open_ros2.h"
+#include "engine/types/error.h"
+
+namespace fathom {
+
+std::unique_ptr<RunObserver> openRos2Output(const Ros2OutputRequest& request, std::vector<std::string>) {
+    throw BadInput("--ros2", "PREFIX", request.prefix, kWithoutRos2);
+}
+
+} // namespace fathom

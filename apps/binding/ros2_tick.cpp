@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/binding/ros2_tick.h"
+
+#include <algorithm>
+#include <chrono>
+
+namespace fathom {
+
+uint64_t TickStamps::at(double t) noexcept {
+    const double now =
+        std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+    const auto utc = std::chrono::system_clock::now().time_since_epoch();
+    zero_ = any_ && t >= last_ ? std::min(zero_, now - t) : now - t;
+    last_ = t;
+    any_ = true;
+    const auto age = static_cast<int64_t>(1e9 * (now - t - zero_));
+    return static_cast<uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(utc).count() - age);
+}
+
+} // namespace fathom

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the writer thread of a run hands to the thread that publishes.
+#pragma once
+
+#include "devices/bag/ros2_messages.h"
+#include "engine/contact/shapes.h"
+#include "engine/run/channels.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace fathom {
+
+// Sums since the start.
+struct RunTotals {
+    uint64_t ticks = 0, late = 0, missed = 0; // missed: periods without a step
+    uint64_t sets = 0;                        // fixture sets
+    double worstMicros = 0.0;                 // [us] longest step
+};
+
+struct Ros2Tick {
+    uint64_t time = 0; // [ns] UTC of the step
+    StepRecord record;
+    bool driven = false; // a real arm follows
+    ArmState armState = ArmState::Silent;
+    RunTotals totals;
+};
+
+// Regions and shapes that are active now.
+struct Ros2Regions {
+    uint64_t time = 0;                     // [ns] UTC, when they were handed over
+    std::vector<ros2::RegionPoint> points; // base frame
+    std::vector<Shape> shapes;
+};
+
+// Dates the steps of a run by UTC. Steps arrive late by varying times, so the earliest arrival counts.
+class TickStamps {
+public:
+    // t [s]: of the run; it begins again with each run. Returns [ns].
+    uint64_t at(double t) noexcept;
+
+private:
+    double last_ = 0.0, zero_ = 0.0; // [s] zero_: CLOCK_MONOTONIC at t = 0
+    bool any_ = false;
+};
+
+} // namespace fathom

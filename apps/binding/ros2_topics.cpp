@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/binding/ros2_topics.h"
+
+#include "apps/binding/ros2_markers.h"
+
+namespace fathom {
+
+namespace {
+
+constexpr const char* kPoseType = "geometry_msgs/msg/PoseStamped";
+constexpr const char* kWrenchType = "geometry_msgs/msg/WrenchStamped";
+constexpr const char* kDeviceFrame = "fathom_device";
+
+} // namespace
+
+Ros2Topics::Ros2Topics(const Ros2OutputRequest& request, std::vector<std::string> joints)
+    : graph_(Ros2Graph::join(request.place))
+    , frame_(request.frame)
+    , joints_(std::move(joints))
+    , wrench_(graph_, request.prefix + "/wrench", kWrenchType, Ros2Qos::Reliable)
+    , deviceWrench_(graph_, request.prefix + "/device_wrench", kWrenchType, Ros2Qos::Reliable)
+    , tool_(graph_, request.prefix + "/tool_pose", kPoseType, Ros2Qos::Reliable)
+    , device_(graph_, request.prefix + "/device_pose", kPoseType, Ros2Qos::Reliable)
+    , target_(graph_, request.prefix + "/target_pose", kPoseType, Ros2Qos::Reliable)
+    , cloud_(graph_, request.prefix + "/regions", "sensor_msgs/msg/PointCloud2", Ros2Qos::Reliable)
+    , markers_(graph_, request.prefix + "/markers", "visualization_msgs/msg/MarkerArray", Ros2Qos::Reliable)
+    , diagnostics_(graph_, "/diagnostics", "diagnostic_msgs/msg/DiagnosticArray", Ros2Qos::Reliable) {
+    if (!joints_.empty()) {
+        jointState_ = std::make_unique<Ros2Writer>(graph_, request.prefix + "/joint_states",
+                                                   "sensor_msgs/msg/JointState", Ros2Qos::Reliable);
+    }
+}
+
+void Ros2Topics::send(Ros2Writer& writer, const ros2::Message& message) noexcept {
+    unsent_ += writer.write(message) ? 0 : 1;
+}
+
+void Ros2Topics::tick(const Ros2Tick& tick) {
+    const StepRecord& r = tick.record;
+    const ros2::Header header{tick.time, frame_};
+    if (wrench_.watched()) {
+        send(wrench_, ros2::wrench(header, r.wrench.force, r.wrench.torque));
+    }
+    if (deviceWrench_.watched()) {
+        send(deviceWrench_,
+             ros2::wrench({tick.time, kDeviceFrame}, r.deviceWrench.force, r.deviceWrench.torque));
+    }
+    if (tool_.watched()) {
+        send(tool_, ros2::pose(header, r.tool));
+    }
+    if (device_.watched()) {
+        send(device_, ros2::pose(header, r.device));
+    }
+    if (r.guidanceClass >= 0 && target_.watched()) {
+        send(target_, ros2::pose(header, r.guidanceTarget));
+    }
+    if (jointState_ && jointState_->watched()) {
+        send(*jointState_,
+             ros2::jointState(header, joints_, std::span(r.arm.posture.q).first(joints_.size())));
+    }
+    if (tick.time - diagnosed_ >= kDiagnosisPeriod) {
+        diagnose(tick);
+    }
+}
+
+void Ros2Topics::diagnose(const Ros2Tick& tick) {
+    diagnosed_ = tick.time;
+    const std::vector<ros2::Diagnosis> parts = diagnosis_.of(tick, unsent_);
+    if (diagnostics_.watched()) {
+        send(diagnostics_, ros2::diagnostics({tick.time, ""}, parts));
+    }
+}
+
+void Ros2Topics::regions(const Ros2Regions& regions) {
+    const ros2::Header header{regions.time, frame_};
+    if (cloud_.watched()) {
+        send(cloud_, ros2::regions(header, regions.points));
+    }
+    if (markers_.watched()) {
+        send(markers_, ros2::markers(header, ros2Markers(regions)));
+    }
+}
+
+} // namespace fathom

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// The topics of ros2_output.h.
+#pragma once
+
+#include "apps/binding/ros2_diagnosis.h"
+#include "devices/ros2/ros2_graph.h"
+#include "devices/ros2/ros2_output_request.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace fathom {
+
+// One thread. A message that no one subscribes is not made.
+class Ros2Topics {
+public:
+    // Throws BadInput, Error.
+    Ros2Topics(const Ros2OutputRequest& request, std::vector<std::string> joints);
+
+    void tick(const Ros2Tick& tick);
+    void regions(const Ros2Regions& regions);
+    // Whether regions() would send anything.
+    bool regionsWatched() const noexcept { return cloud_.watched() || markers_.watched(); }
+
+private:
+    void send(Ros2Writer& writer, const ros2::Message& message) noexcept;
+    void diagnose(const Ros2Tick& tick);
+
+    static constexpr uint64_t kDiagnosisPeriod = 1'000'000'000; // [ns]
+
+    std::shared_ptr<Ros2Graph> graph_;
+    std::string frame_;
+    std::vector<std::string> joints_;
+    Ros2Writer wrench_, deviceWrench_, tool_, device_, target_, cloud_, markers_, diagnostics_;
+    std::unique_ptr<Ros2Writer> jointState_; // null = no arm
+    Ros2Diagnosis diagnosis_;
+    uint64_t diagnosed_ = 0; // [ns] time of the last diagnostics
+    uint64_t unsent_ = 0;    // messages
+};
+
+} // namespace fathom

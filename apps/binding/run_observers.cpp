@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/binding/run_observers.h"
+
+#include "apps/binding/ros2_output.h"
+#include "apps/binding/view_publisher.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace fathom {
+
+namespace {
+
+std::vector<std::string> jointNames(const ArmRig* arm) {
+    std::vector<std::string> names;
+    if (arm != nullptr) {
+        std::transform(arm->model.joints.begin(), arm->model.joints.end(), std::back_inserter(names),
+                       [](const ArmJoint& joint) { return joint.name; });
+    }
+    return names;
+}
+
+} // namespace
+
+RunObservers::RunObservers(const ObserverOptions& options, const ArmRig* arm) {
+    if (!options.viewEndpoint.empty()) {
+        all_.push_back(std::make_unique<ViewPublisher>(options.viewEndpoint));
+    }
+    if (!options.ros2.empty()) {
+        all_.push_back(openRos2Output(parseRos2OutputRequest(options.ros2), jointNames(arm)));
+    }
+}
+
+void RunObservers::step(const TickRow& row) {
+    for (const auto& observer : all_) {
+        observer->step(row);
+    }
+}
+
+void RunObservers::frame(const Fixtures& set) {
+    for (const auto& observer : all_) {
+        observer->frame(set);
+    }
+}
+
+void RunObservers::setShapes(std::span<const Shape> shapes) {
+    for (const auto& observer : all_) {
+        observer->setShapes(shapes);
+    }
+}
+
+void RunObservers::forget() noexcept {
+    for (const auto& observer : all_) {
+        observer->forget();
+    }
+}
+
+} // namespace fathom

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// The observers that a realtime run is asked for.
+#pragma once
+
+#include "apps/binding/run_observer.h"
+#include "engine/cycle/arm_rig.h"
+#include "engine/run/record_drain.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace fathom {
+
+inline constexpr const char* kViewEndpointHelp =
+    "socket that sends every tick and fixture set to observers (devices/bridge)";
+inline constexpr const char* kRos2Help = "publish the run as topics of ROS 2 below this name: "
+                                         "/NAME[,KEY=VALUE]... (docs/guide/ros2.md)";
+
+struct ObserverOptions {
+    std::string viewEndpoint; // socket for observers (devices/bridge); empty = none
+    std::string ros2;         // parseRos2OutputRequest(); empty = none
+};
+
+// All of them as one; may be none. Threads as for one.
+class RunObservers final : public RunObserver {
+public:
+    // arm: null = the tool moves freely. Throws BadInput.
+    RunObservers(const ObserverOptions& options, const ArmRig* arm);
+
+    void step(const TickRow& row) override;
+    void frame(const Fixtures& set) override;
+    void setShapes(std::span<const Shape> shapes) override;
+    void forget() noexcept override;
+
+private:
+    std::vector<std::unique_ptr<RunObserver>> all_;
+};
+
+// Forwards everything to one sink, and to the observers.
+class PublishedSink final : public RunSink {
+public:
+    // Both outlive this.
+    PublishedSink(RunSink& next, RunObserver& observers)
+        : next_(next)
+        , observers_(observers) {}
+    void frame(const PublishedFrame& frame, const Fixtures& set) override {
+        next_.frame(frame, set);
+        observers_.frame(set);
+    }
+    void query(const QueryNote& note) override { next_.query(note); }
+    void step(const TickRow& row, const PublishedFrame* obeyed, bool known,
+              std::span<const uint32_t> behind) override {
+        next_.step(row, obeyed, known, behind);
+        observers_.step(row);
+    }
+
+private:
+    RunSink& next_;
+    RunObserver& observers_;
+};
+
+} // namespace fathom

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/ros2/ros2_output_request.h"
+
+#include "engine/types/error.h"
+
+#include <algorithm>
+#include <cctype>
+
+namespace fathom {
+
+namespace {
+
+constexpr const char* kOutputOption = "--ros2";
+
+std::string frameOf(const Ros2Word& word) {
+    constexpr size_t kLongest = 100;
+    const auto fits = [](unsigned char c) {
+        return std::isalnum(c) != 0 || c == '_' || c == '/' || c == '-';
+    };
+    const std::string& name = word.value;
+    if (name.empty() || name.size() > kLongest || !std::all_of(name.begin(), name.end(), fits)) {
+        throw BadInput(kOutputOption, word.name, name, "a frame's name of letters, digits, _, - and /");
+    }
+    return name;
+}
+
+} // namespace
+
+Ros2OutputRequest parseRos2OutputRequest(const std::string& text) {
+    Ros2OutputRequest request;
+    request.place.domain = ros2Domain();
+    const std::vector<Ros2Word> words = ros2Words(text);
+    request.prefix = ros2Topic(kOutputOption, {"", "PREFIX", words.front().text}, request.kAllowed);
+    for (size_t i = 1; i < words.size(); ++i) {
+        const Ros2Word& word = words[i];
+        if (word.name == "frame") {
+            request.frame = frameOf(word);
+        } else if (word.name == "rate") {
+            request.rate = ros2Number(kOutputOption, word, request.kMostRate, "1/s");
+        } else if (!takePlace(kOutputOption, word, request.place)) {
+            throw BadInput(kOutputOption, word.name, word.value, request.kAllowed);
+        }
+    }
+    return request;
+}
+
+} // namespace fathom
