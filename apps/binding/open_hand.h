@@ -13,9 +13,9 @@ namespace fathom {
 
 // Help text of --hand-device.
 inline constexpr const char* kHandHelp =
-    "a live hand: falcon, haply, spacemouse[:/dev/hidrawN], or the socket of a bridge";
+    "a live hand: falcon, haply, ros2, spacemouse[:/dev/hidrawN], or the socket of a bridge";
 
-// name: "falcon" or "haply" (the default socket of its `fathom guard`), "spacemouse",
+// name: "falcon", "haply" or "ros2" (the default socket of its `fathom guard`), "spacemouse",
 // "spacemouse:/dev/hidrawN", or the path of a bridge's socket. The device's own preset replaces the scene's
 // haptics.device. Throws BadInput.
 std::unique_ptr<LiveHand> openLiveHand(const std::string& name, Scene& scene);

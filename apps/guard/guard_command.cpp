@@ -3,7 +3,9 @@
 
 #include "apps/binding/stop_signals.h"
 #include "devices/haply/haply_guard.h"
+#include "devices/ros2/ros2_guard.h"
 #include "devices/usb/falcon_guard.h"
+#include "engine/haptics/device_preset.h"
 #include "engine/run/thread_placement.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
@@ -23,6 +25,7 @@ struct GuardOptions {
     std::string firmware;
     std::string service = "localhost:10001"; // of Haply
     std::string device;                      // its id; empty = the first
+    std::string topics;                      // of ROS 2
 };
 
 // Real-time priority on any CPU: the engine's haptic thread has its own CPU, and the two alternate.
@@ -66,6 +69,11 @@ void guardDevice(const GuardOptions& options) {
     if (options.kind == "haply") {
         HaplyGuard guard(haplyOptions(options, endpoint));
         runGuard(guard, options, signals);
+    } else if (options.kind == "ros2") {
+        const Ros2HandRequest request = parseRos2HandRequest(options.topics);
+        const DevicePreset& preset = devicePreset(request.preset);
+        const auto guard = openRos2Guard(request, endpoint, preset.forceLimit, preset.torqueLimit);
+        runGuard(*guard, options, signals);
     } else {
         FalconGuard guard({endpoint, options.firmware});
         runGuard(guard, options, signals);
@@ -79,7 +87,7 @@ void addGuardCommand(CLI::App& app) {
     CLI::App* command = app.add_subcommand("guard", "drive a haptic device and share it through a socket");
     command->add_option("DEVICE", options->kind, "device to drive")
         ->required()
-        ->check(CLI::IsMember({"falcon", "haply"}));
+        ->check(CLI::IsMember({"falcon", "haply", "ros2"}));
     command->add_option("--door", options->endpoint,
                         "socket to listen on (default: $XDG_RUNTIME_DIR/fathom-DEVICE.door)");
     command->add_option("--firmware", options->firmware,
@@ -87,6 +95,8 @@ void addGuardCommand(CLI::App& app) {
     command->add_option("--service", options->service,
                         "HOST:PORT of Haply's Inverse Service (default: localhost:10001)");
     command->add_option("--device", options->device, "id of the Inverse3 (default: the first)");
+    command->add_option("--topics", options->topics,
+                        "pose=TOPIC[,KEY=VALUE]... of the node of ROS 2 that drives the device");
     command->callback([options] { guardDevice(*options); });
 }
 

@@ -43,6 +43,7 @@ constexpr std::array kTargets{
     FuzzTarget{"ply", readPlyFile},
     FuzzTarget{"png", readPng},
     FuzzTarget{"reach", readReach},
+    FuzzTarget{"ros2_hand", readRos2Hand},
     FuzzTarget{"scene", readScene},
     FuzzTarget{"sdk_messages", readSdkMessages},
     FuzzTarget{"source", readSourceText},

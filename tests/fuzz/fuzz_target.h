@@ -70,6 +70,7 @@ void readReach(Bytes input);
 void readEca(Bytes input);
 void readEndpoint(Bytes input);
 void readHaply(Bytes input);
+void readRos2Hand(Bytes input);
 void readTurns(Bytes input);
 void readPairs(Bytes input);
 void readFirmware(Bytes input);

@@ -5,6 +5,7 @@
 #include "devices/bridge/socket_hand.h"
 #include "devices/haply/haply_message.h"
 #include "devices/haply/web_socket.h"
+#include "devices/ros2/hand_messages.h"
 #include "devices/usb/falcon_kinematics.h"
 #include "devices/usb/falcon_packet.h"
 #include "devices/usb/space_mouse.h"
@@ -19,6 +20,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <glm/geometric.hpp>
 
 #include <sys/socket.h>
 
@@ -173,6 +175,20 @@ void readHaply(Bytes input) {
                 event == WebSocketFrames::Event::Text ? readHaplyState(text, "") : std::nullopt;
             need(!state || (isFinite(state->sample.deviceThandle) && !state->device.empty()));
         }
+    }
+}
+
+// The first byte selects a pose or buttons.
+void readRos2Hand(Bytes input) {
+    if (input.empty()) {
+        return;
+    }
+    if (input[0] % 2 == 0) {
+        const ros2::HandPose hand = ros2::handPose(input.subspan(1));
+        need(isFinite(hand.pose) && std::abs(glm::length(hand.pose.rotation) - 1.0) < 1e-9);
+        need(glm::length(hand.pose.position) <= ros2::kFarthestHand);
+    } else {
+        need(ros2::joyButtons(input.subspan(1)).size() <= ros2::kMostJoy);
     }
 }
 

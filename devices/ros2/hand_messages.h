@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reads what a haptic device of ROS 2 publishes. Untrusted input.
+#pragma once
+
+#include "engine/types/pose.h"
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace fathom::ros2 {
+
+struct HandPose {
+    std::string frame;
+    Pose pose; // [m]; the rotation is of unit length
+};
+
+// geometry_msgs/msg/PoseStamped in CDR. Throws Error: truncated, a number that is not finite, a position
+// beyond kFarthestHand, a rotation that is not of unit length within kUnitSlack.
+HandPose handPose(std::span<const uint8_t> message);
+
+inline constexpr double kFarthestHand = 10.0; // [m] from the origin of the device frame
+inline constexpr double kUnitSlack = 0.05;
+
+// The buttons of sensor_msgs/msg/Joy in CDR, true while down. Throws Error: truncated, or more than kMostJoy
+// axes or buttons.
+std::vector<bool> joyButtons(std::span<const uint8_t> message);
+
+inline constexpr uint32_t kMostJoy = 256;
+
+} // namespace fathom::ros2

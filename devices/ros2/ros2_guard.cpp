@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/ros2/ros2_guard.h"
+
+#include "devices/bag/ros2_messages.h"
+#include "devices/ros2/first_publisher.h"
+#include "devices/ros2/hand_messages.h"
+#include "engine/types/error.h"
+#include "engine/types/log.h"
+
+#include <chrono>
+#include <set>
+
+namespace fathom {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point time) {
+    return std::chrono::duration<double>(Clock::now() - time).count();
+}
+
+uint64_t utcNanoseconds() {
+    const auto now = std::chrono::system_clock::now().time_since_epoch();
+    return static_cast<uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(now).count());
+}
+
+class GuardOfTopics final : public Ros2Guard {
+public:
+    GuardOfTopics(const Ros2HandRequest& request, const SocketServer::Options& options)
+        : request_(request)
+        , graph_(Ros2Graph::join(request.place))
+        , inbox_(graph_)
+        , pose_(inbox_.subscribe(request.pose, "geometry_msgs/msg/PoseStamped", Ros2Qos::Sensor))
+        , wrench_(graph_, request.wrench, "geometry_msgs/msg/WrenchStamped", Ros2Qos::Reliable)
+        , posePublisher_("guard ros2", request.pose)
+        , joyPublisher_("guard ros2", request.joy)
+        , endpoint_(options) {
+        if (!request.joy.empty()) {
+            joy_ = inbox_.subscribe(request.joy, "sensor_msgs/msg/Joy", Ros2Qos::Sensor);
+        }
+    }
+    ~GuardOfTopics() override { publish({}); }
+
+    void run(const std::atomic<bool>& stop) override;
+    std::string place() const override {
+        return request_.pose + " in domain " + std::to_string(request_.place.domain) + " on network " +
+               request_.place.network;
+    }
+    const Ros2GuardFigures& figures() const noexcept override { return figures_; }
+    const SocketServer& endpoint() const noexcept override { return endpoint_; }
+
+private:
+    void takePoses();
+    void takeButtons();
+    void watch();
+    uint32_t buttons() const;
+    void skip(const std::string& topic, const Error& fault);
+    void publish(const Wrench& wrench) noexcept;
+
+    Ros2HandRequest request_;
+    std::shared_ptr<Ros2Graph> graph_;
+    Ros2Inbox inbox_;
+    size_t pose_;
+    std::optional<size_t> joy_;
+    Ros2Writer wrench_;
+    FirstPublisher posePublisher_, joyPublisher_;
+    HandSample sample_;
+    std::string frame_;
+    std::vector<bool> joyDown_;
+    bool there_ = false;
+    Clock::time_point heardAt_ = Clock::now(), joyAt_{};
+    std::set<std::string> faults_;
+    Ros2GuardFigures figures_;
+    SocketServer endpoint_;
+};
+
+void GuardOfTopics::skip(const std::string& topic, const Error& fault) {
+    constexpr size_t kMostFaults = 32;
+    ++figures_.faults;
+    const std::string text = topic + ": " + fault.what();
+    if (faults_.size() < kMostFaults && faults_.insert(text).second) {
+        log::warn("guard ros2: message skipped: {} (logged once)", text);
+    }
+}
+
+void GuardOfTopics::takePoses() {
+    for (const Ros2Message& taken : inbox_.take(pose_)) {
+        if (!posePublisher_.accepts(taken)) {
+            continue;
+        }
+        try {
+            ros2::HandPose hand = ros2::handPose(taken.message->bytes());
+            sample_.deviceThandle = hand.pose;
+            frame_ = std::move(hand.frame);
+            figures_.late += there_ && secondsSince(heardAt_) > kLate ? 1 : 0;
+            heardAt_ = Clock::now();
+            ++figures_.replies;
+            if (!there_ && figures_.losses > 0) {
+                log::warn("{}: poses again", request_.pose);
+            }
+            there_ = true;
+        } catch (const Error& e) {
+            skip(request_.pose, e);
+        }
+    }
+}
+
+void GuardOfTopics::takeButtons() {
+    if (!joy_) {
+        return;
+    }
+    for (const Ros2Message& taken : inbox_.take(*joy_)) {
+        if (!joyPublisher_.accepts(taken)) {
+            continue;
+        }
+        try {
+            joyDown_ = ros2::joyButtons(taken.message->bytes());
+            joyAt_ = Clock::now();
+        } catch (const Error& e) {
+            skip(request_.joy, e);
+        }
+    }
+}
+
+uint32_t GuardOfTopics::buttons() const {
+    const bool fresh = joyDown_.size() > 0 && secondsSince(joyAt_) <= kJoySilence;
+    const auto down = [&](uint32_t button) { return fresh && button < joyDown_.size() && joyDown_[button]; };
+    const bool open = request_.deadMan && !down(*request_.deadMan);
+    return (down(request_.guidance) ? FATHOM_DOOR_GUIDANCE : 0) |
+           (down(request_.clutch) ? FATHOM_DOOR_CLUTCH : 0) | (open ? FATHOM_DOOR_DEAD_MAN_OPEN : 0);
+}
+
+void GuardOfTopics::watch() {
+    if (there_ && secondsSince(heardAt_) > kSilence) {
+        there_ = false;
+        ++figures_.losses;
+        log::warn("{}: no pose for {} s: reported to the engine", request_.pose, kSilence);
+    }
+}
+
+void GuardOfTopics::publish(const Wrench& wrench) noexcept {
+    try {
+        wrench_.write(ros2::wrench({utcNanoseconds(), frame_}, wrench.force, wrench.torque));
+    } catch (const std::bad_alloc&) { // the node then stops the force
+    }
+}
+
+void GuardOfTopics::run(const std::atomic<bool>& stop) {
+    auto due = Clock::now();
+    while (!stop.load()) {
+        inbox_.wait(std::max(0.0, -secondsSince(due)));
+        takePoses();
+        takeButtons();
+        watch();
+        endpoint_.poll();
+        if (Clock::now() >= due) {
+            due = std::max(
+                due + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(kPeriod)),
+                Clock::now());
+            sample_.buttons = buttons();
+            endpoint_.send(sample_, there_ ? FATHOM_DOOR_PRESENT | FATHOM_DOOR_HOMED : 0);
+            publish(there_ ? endpoint_.wrench() : Wrench{});
+        }
+    }
+    publish({});
+}
+
+} // namespace
+
+std::unique_ptr<Ros2Guard> openRos2Guard(const Ros2HandRequest& request,
+                                         const std::filesystem::path& endpoint, double forceLimit,
+                                         double torqueLimit) {
+    return std::make_unique<GuardOfTopics>(
+        request,
+        SocketServer::Options{endpoint, request.preset, "ROS 2 " + request.pose, forceLimit, torqueLimit});
+}
+
+} // namespace fathom

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/ros2/ros2_hand_request.h"
+
+#include "devices/recorded/text_file.h"
+#include "devices/ros2/hand_messages.h"
+#include "engine/types/error.h"
+
+namespace fathom {
+
+namespace {
+
+constexpr const char* kHandOption = "--topics";
+
+uint32_t buttonOf(const Ros2Word& word) {
+    uint32_t button = 0;
+    if (!parseNumber(std::string_view(word.value), button) || button >= ros2::kMostJoy) {
+        throw BadInput(kHandOption, word.name, word.value,
+                       "a button's number, 0 to " + std::to_string(ros2::kMostJoy - 1));
+    }
+    return button;
+}
+
+bool takeTopic(const Ros2Word& word, Ros2HandRequest& request) {
+    for (const auto& [name, topic] : {std::pair("pose", &request.pose), std::pair("wrench", &request.wrench),
+                                      std::pair("joy", &request.joy)}) {
+        if (word.name == name) {
+            *topic = ros2Topic(kHandOption, word, Ros2HandRequest::kAllowed);
+            return true;
+        }
+    }
+    return false;
+}
+
+bool takeButton(const Ros2Word& word, Ros2HandRequest& request) {
+    if (word.name == "guidance") {
+        request.guidance = buttonOf(word);
+    } else if (word.name == "clutch") {
+        request.clutch = buttonOf(word);
+    } else if (word.name == "dead_man") {
+        request.deadMan = buttonOf(word);
+    } else {
+        return false;
+    }
+    return true;
+}
+
+} // namespace
+
+Ros2HandRequest parseRos2HandRequest(const std::string& text) {
+    Ros2HandRequest request;
+    request.place.domain = ros2Domain();
+    for (const Ros2Word& word : ros2Words(text)) {
+        if (word.name == "preset") {
+            request.preset = word.value;
+        } else if (!takeTopic(word, request) && !takeButton(word, request) &&
+                   !takePlace(kHandOption, word, request.place)) {
+            throw BadInput(kHandOption, word.name, word.value, request.kAllowed);
+        }
+    }
+    if (request.pose.empty()) {
+        throw BadInput(kHandOption, "pose", text, request.kAllowed);
+    }
+    if (request.deadMan && request.joy.empty()) {
+        throw BadInput(kHandOption, "dead_man", std::to_string(*request.deadMan), "together with joy=TOPIC");
+    }
+    if (request.wrench.empty()) {
+        request.wrench = request.pose.substr(0, request.pose.rfind('/')) + "/wrench";
+    }
+    return request;
+}
+
+} // namespace fathom
