@@ -19,7 +19,7 @@ namespace {
 // The writer thread copies what is due into mailboxes; the thread of this class makes and sends messages.
 class Ros2Output final : public RunObserver {
 public:
-    Ros2Output(const Ros2OutputRequest& request, std::vector<std::string> joints)
+    Ros2Output(const Ros2OutputRequest& request, std::vector<Ros2Joint> joints)
         : topics_(request, std::move(joints))
         , period_(1.0 / request.rate)
         , thread_([this] { run(); }) {}
@@ -39,6 +39,7 @@ public:
         shapesChanged_ = true;
     }
     void forget() noexcept override { set_ = nullptr; }
+    RemoteRequests takeRequests() override { return topics_.takeRequests(); }
 
 private:
     bool due(double t);
@@ -104,7 +105,8 @@ void Ros2Output::step(const TickRow& row) {
     if (!due(row.record.t)) {
         return;
     }
-    ticks_.push({time, row.record, row.driven, row.armStatus.state, totals_});
+    ticks_.push({time, row.record, row.driven, row.armStatus.state, totals_,
+                 set_ != nullptr ? std::optional(set_->baseTcamera) : std::nullopt});
     offerRegions(row, time);
     wake(false);
 }
@@ -154,6 +156,7 @@ void Ros2Output::run() {
 }
 
 void Ros2Output::publish() {
+    topics_.receive();
     watched_.store(topics_.regionsWatched(), std::memory_order_relaxed);
     for (Ros2Tick tick; ticks_.pop(tick);) {
         topics_.tick(tick);
@@ -165,8 +168,7 @@ void Ros2Output::publish() {
 
 } // namespace
 
-std::unique_ptr<RunObserver> openRos2Output(const Ros2OutputRequest& request,
-                                            std::vector<std::string> joints) {
+std::unique_ptr<RunObserver> openRos2Output(const Ros2OutputRequest& request, std::vector<Ros2Joint> joints) {
     return std::make_unique<Ros2Output>(request, std::move(joints));
 }
 

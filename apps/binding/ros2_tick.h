@@ -7,6 +7,8 @@
 #include "engine/run/channels.h"
 
 #include <cstdint>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace fathom {
@@ -24,6 +26,13 @@ struct Ros2Tick {
     bool driven = false; // a real arm follows
     ArmState armState = ArmState::Silent;
     RunTotals totals;
+    std::optional<Pose> baseTcamera; // of the newest set
+};
+
+// A joint of the tool's arm.
+struct Ros2Joint {
+    std::string name;
+    bool slides = false; // prismatic
 };
 
 // Regions and shapes that are active now.

@@ -3,6 +3,9 @@
 
 #include "apps/binding/ros2_markers.h"
 
+#include <algorithm>
+#include <iterator>
+
 namespace fathom {
 
 namespace {
@@ -13,10 +16,9 @@ constexpr const char* kDeviceFrame = "fathom_device";
 
 } // namespace
 
-Ros2Topics::Ros2Topics(const Ros2OutputRequest& request, std::vector<std::string> joints)
+Ros2Topics::Ros2Topics(const Ros2OutputRequest& request, const std::vector<Ros2Joint>& joints)
     : graph_(Ros2Graph::join(request.place))
     , frame_(request.frame)
-    , joints_(std::move(joints))
     , wrench_(graph_, request.prefix + "/wrench", kWrenchType, Ros2Qos::Reliable)
     , deviceWrench_(graph_, request.prefix + "/device_wrench", kWrenchType, Ros2Qos::Reliable)
     , tool_(graph_, request.prefix + "/tool_pose", kPoseType, Ros2Qos::Reliable)
@@ -25,6 +27,17 @@ Ros2Topics::Ros2Topics(const Ros2OutputRequest& request, std::vector<std::string
     , cloud_(graph_, request.prefix + "/regions", "sensor_msgs/msg/PointCloud2", Ros2Qos::Reliable)
     , markers_(graph_, request.prefix + "/markers", "visualization_msgs/msg/MarkerArray", Ros2Qos::Reliable)
     , diagnostics_(graph_, "/diagnostics", "diagnostic_msgs/msg/DiagnosticArray", Ros2Qos::Reliable) {
+    if (request.commands) {
+        commands_ = std::make_unique<Ros2Commands>(graph_, request.prefix);
+    }
+    if (request.frames) {
+        frames_ = std::make_unique<Ros2Writer>(graph_, "/tf", "tf2_msgs/msg/TFMessage", Ros2Qos::Reliable);
+    }
+    if (!request.twist.empty() || !request.trajectory.empty()) {
+        servo_ = std::make_unique<Ros2Servo>(graph_, request, joints);
+    }
+    std::transform(joints.begin(), joints.end(), std::back_inserter(joints_),
+                   [](const Ros2Joint& joint) { return joint.name; });
     if (!joints_.empty()) {
         jointState_ = std::make_unique<Ros2Writer>(graph_, request.prefix + "/joint_states",
                                                    "sensor_msgs/msg/JointState", Ros2Qos::Reliable);
@@ -58,6 +71,12 @@ void Ros2Topics::tick(const Ros2Tick& tick) {
         send(*jointState_,
              ros2::jointState(header, joints_, std::span(r.arm.posture.q).first(joints_.size())));
     }
+    if (frames_ && frames_->watched()) {
+        sendFrames(tick);
+    }
+    if (servo_) {
+        servo_->tick(tick);
+    }
     if (tick.time - diagnosed_ >= kDiagnosisPeriod) {
         diagnose(tick);
     }
@@ -65,9 +84,26 @@ void Ros2Topics::tick(const Ros2Tick& tick) {
 
 void Ros2Topics::diagnose(const Ros2Tick& tick) {
     diagnosed_ = tick.time;
-    const std::vector<ros2::Diagnosis> parts = diagnosis_.of(tick, unsent_);
+    std::vector<ros2::Diagnosis> parts = diagnosis_.of(tick, unsent_);
+    if (servo_ && servo_->sendsJoints()) {
+        const bool held = !servo_->held().empty();
+        parts.push_back({held ? ros2::Diagnosis::Level::Warning : ros2::Diagnosis::Level::Ok,
+                         "fathom: robot",
+                         held ? servo_->held() : "gets joints",
+                         {}});
+    }
     if (diagnostics_.watched()) {
         send(diagnostics_, ros2::diagnostics({tick.time, ""}, parts));
+    }
+}
+
+void Ros2Topics::sendFrames(const Ros2Tick& tick) {
+    const auto sendFrame = [&](const char* child, const Pose& baseTchild) {
+        send(*frames_, ros2::transform({tick.time, frame_}, {frame_, child, baseTchild}));
+    };
+    sendFrame("fathom_tool", tick.record.tool);
+    if (tick.baseTcamera) {
+        sendFrame("fathom_camera", *tick.baseTcamera);
     }
 }
 

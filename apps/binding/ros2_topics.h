@@ -2,7 +2,9 @@
 // The topics of ros2_output.h.
 #pragma once
 
+#include "apps/binding/ros2_commands.h"
 #include "apps/binding/ros2_diagnosis.h"
+#include "apps/binding/ros2_servo.h"
 #include "devices/ros2/ros2_graph.h"
 #include "devices/ros2/ros2_output_request.h"
 
@@ -16,16 +18,23 @@ namespace fathom {
 class Ros2Topics {
 public:
     // Throws BadInput, Error.
-    Ros2Topics(const Ros2OutputRequest& request, std::vector<std::string> joints);
+    Ros2Topics(const Ros2OutputRequest& request, const std::vector<Ros2Joint>& joints);
 
     void tick(const Ros2Tick& tick);
     void regions(const Ros2Regions& regions);
+    void receive() {
+        if (commands_) {
+            commands_->receive();
+        }
+    }
+    RemoteRequests takeRequests() { return commands_ ? commands_->take() : RemoteRequests{}; } // any thread
     // Whether regions() would send anything.
     bool regionsWatched() const noexcept { return cloud_.watched() || markers_.watched(); }
 
 private:
     void send(Ros2Writer& writer, const ros2::Message& message) noexcept;
     void diagnose(const Ros2Tick& tick);
+    void sendFrames(const Ros2Tick& tick);
 
     static constexpr uint64_t kDiagnosisPeriod = 1'000'000'000; // [ns]
 
@@ -34,6 +43,9 @@ private:
     std::vector<std::string> joints_;
     Ros2Writer wrench_, deviceWrench_, tool_, device_, target_, cloud_, markers_, diagnostics_;
     std::unique_ptr<Ros2Writer> jointState_; // null = no arm
+    std::unique_ptr<Ros2Writer> frames_;     // null = none
+    std::unique_ptr<Ros2Servo> servo_;       // null = no robot
+    std::unique_ptr<Ros2Commands> commands_; // null = none are obeyed
     Ros2Diagnosis diagnosis_;
     uint64_t diagnosed_ = 0; // [ns] time of the last diagnostics
     uint64_t unsent_ = 0;    // messages

@@ -2,6 +2,7 @@
 // Whoever receives the state of a realtime run, outside of this process.
 #pragma once
 
+#include "apps/binding/remote_requests.h"
 #include "engine/run/channels.h"
 
 #include <span>
@@ -19,6 +20,8 @@ public:
     virtual void setShapes(std::span<const Shape> shapes) = 0;
     // Drops the last set. Call it only while no run is active.
     virtual void forget() noexcept = 0;
+    // What it has asked for since the last call. Any thread.
+    virtual RemoteRequests takeRequests() { return {}; }
 };
 
 } // namespace fathom

@@ -11,13 +11,15 @@ namespace fathom {
 
 namespace {
 
-std::vector<std::string> jointNames(const ArmRig* arm) {
-    std::vector<std::string> names;
+std::vector<Ros2Joint> jointsOf(const ArmRig* arm) {
+    std::vector<Ros2Joint> joints;
     if (arm != nullptr) {
-        std::transform(arm->model.joints.begin(), arm->model.joints.end(), std::back_inserter(names),
-                       [](const ArmJoint& joint) { return joint.name; });
+        std::transform(arm->model.joints.begin(), arm->model.joints.end(), std::back_inserter(joints),
+                       [](const ArmJoint& joint) {
+                           return Ros2Joint{joint.name, joint.slides};
+                       });
     }
-    return names;
+    return joints;
 }
 
 } // namespace
@@ -27,7 +29,7 @@ RunObservers::RunObservers(const ObserverOptions& options, const ArmRig* arm) {
         all_.push_back(std::make_unique<ViewPublisher>(options.viewEndpoint));
     }
     if (!options.ros2.empty()) {
-        all_.push_back(openRos2Output(parseRos2OutputRequest(options.ros2), jointNames(arm)));
+        all_.push_back(openRos2Output(parseRos2OutputRequest(options.ros2), jointsOf(arm)));
     }
 }
 
@@ -47,6 +49,17 @@ void RunObservers::setShapes(std::span<const Shape> shapes) {
     for (const auto& observer : all_) {
         observer->setShapes(shapes);
     }
+}
+
+RemoteRequests RunObservers::takeRequests() {
+    RemoteRequests all;
+    for (const auto& observer : all_) {
+        const RemoteRequests asked = observer->takeRequests();
+        all.forcesOff = all.forcesOff || asked.forcesOff;
+        all.guidance = asked.guidance ? asked.guidance : all.guidance;
+        all.frozen = asked.frozen ? asked.frozen : all.frozen;
+    }
+    return all;
 }
 
 void RunObservers::forget() noexcept {

@@ -32,6 +32,7 @@ public:
     void frame(const Fixtures& set) override;
     void setShapes(std::span<const Shape> shapes) override;
     void forget() noexcept override;
+    RemoteRequests takeRequests() override;
 
 private:
     std::vector<std::unique_ptr<RunObserver>> all_;

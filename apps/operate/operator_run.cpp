@@ -126,6 +126,7 @@ void OperatorRun::listen() {
     }
     display_.followClosing(editor_, forcesGone());
     offWhenMinimised();
+    obeyRequests();
     arm();
     live_.apply(console);
     recording_.follow(console, editor_);
@@ -146,6 +147,19 @@ void OperatorRun::offWhenMinimised() {
     if (console.forces && window_.minimised()) {
         console.forces = console.guidance = false;
         console.notify("minimised: forces are off");
+    }
+}
+
+void OperatorRun::obeyRequests() {
+    Console& console = display_.console;
+    const RemoteRequests asked = sinks_.observers.takeRequests();
+    console.guidance = asked.guidance.value_or(console.guidance);
+    console.frozen = asked.frozen.value_or(console.frozen);
+    if (asked.forcesOff) {
+        console.forces = console.guidance = false;
+        console.notify("forces off: another program asked for it");
+    } else if (asked.guidance || asked.frozen) {
+        console.notify("another program switched guidance or freezing");
     }
 }
 

@@ -41,6 +41,7 @@ public:
 private:
     void changeScene(const Scene& scene, const std::vector<Shape>& shapes);
     void arm();
+    void obeyRequests(); // of observers
     bool forcesGone() const;
     void offWhenMinimised();
     void followPilot();

@@ -8,6 +8,7 @@
 #include "apps/replay/budgets.h"
 #include "apps/replay/lockstep_replay.h"
 #include "apps/replay/realtime_replay.h"
+#include "devices/ros2/ros2_output_request.h"
 #include "engine/types/error.h"
 
 #include <CLI/CLI.hpp>
@@ -206,6 +207,9 @@ int runReplay(const ReplayOptions& asked, const GlobalOptions& global) {
         if (!value->empty() && !options.realtime) {
             throw BadInput("replay", name, *value, "together with --realtime");
         }
+    }
+    if (!options.observers.ros2.empty() && parseRos2OutputRequest(options.observers.ros2).commands) {
+        throw BadInput("replay", "--ros2", options.observers.ros2, "commands=on only with operate");
     }
     if (options.frameRate > 0.0 && !options.realtime) {
         throw BadInput("replay", "--picture-rate", std::to_string(options.frameRate),

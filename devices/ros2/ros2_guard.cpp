@@ -3,7 +3,7 @@
 
 #include "devices/bag/ros2_messages.h"
 #include "devices/ros2/first_publisher.h"
-#include "devices/ros2/hand_messages.h"
+#include "devices/ros2/received_messages.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
 

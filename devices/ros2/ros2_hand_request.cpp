@@ -2,7 +2,7 @@
 #include "devices/ros2/ros2_hand_request.h"
 
 #include "devices/recorded/text_file.h"
-#include "devices/ros2/hand_messages.h"
+#include "devices/ros2/received_messages.h"
 #include "engine/types/error.h"
 
 namespace fathom {

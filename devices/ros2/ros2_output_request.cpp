@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <utility>
 
 namespace fathom {
 
@@ -24,6 +25,18 @@ std::string frameOf(const Ros2Word& word) {
     return name;
 }
 
+bool takeRobot(const Ros2Word& word, Ros2OutputRequest& request) {
+    for (const auto& [name, topic] :
+         {std::pair("twist", &request.twist), std::pair("trajectory", &request.trajectory),
+          std::pair("measured", &request.measured)}) {
+        if (word.name == name) {
+            *topic = ros2Topic(kOutputOption, word, Ros2OutputRequest::kAllowed);
+            return true;
+        }
+    }
+    return false;
+}
+
 } // namespace
 
 Ros2OutputRequest parseRos2OutputRequest(const std::string& text) {
@@ -37,9 +50,18 @@ Ros2OutputRequest parseRos2OutputRequest(const std::string& text) {
             request.frame = frameOf(word);
         } else if (word.name == "rate") {
             request.rate = ros2Number(kOutputOption, word, request.kMostRate, "1/s");
+        } else if (word.text == "commands=on") {
+            request.commands = true;
+        } else if (word.text == "tf=on") {
+            request.frames = true;
+        } else if (takeRobot(word, request)) {
+            continue;
         } else if (!takePlace(kOutputOption, word, request.place)) {
             throw BadInput(kOutputOption, word.name, word.value, request.kAllowed);
         }
+    }
+    if (request.trajectory.empty() != request.measured.empty()) {
+        throw BadInput(kOutputOption, "trajectory, measured", text, "both or neither");
     }
     return request;
 }

@@ -28,6 +28,7 @@ Fixtures someSet() {
     set.frame = 3;
     set.generation = 1;
     set.origin = {10.0, 0.0, 0.0};
+    set.baseTcamera.position = {0.0, 0.5, 0.0};
     set.spheres.x = {0.5f, 0.6f, 0.7f};
     set.spheres.y = {-0.25f, 0.0f, 0.0f};
     set.spheres.z = {1.0f, 1.0f, 1.0f};
@@ -51,7 +52,7 @@ std::vector<Shape> someShapes() {
 
 } // namespace
 
-FedRun::FedRun(const std::string& request, std::vector<std::string> joints)
+FedRun::FedRun(const std::string& request, std::vector<Ros2Joint> joints)
     : output_(openRos2Output(parseRos2OutputRequest(request + ",domain=" + std::to_string(testDomain())),
                              std::move(joints)))
     , set_(someSet()) {
@@ -70,6 +71,11 @@ void FedRun::change(const std::function<void(TickRow&)>& how) {
     how(row_);
 }
 
+void FedRun::each(const std::function<void(TickRow&)>& how) {
+    const std::lock_guard lock(mutex_);
+    each_ = how;
+}
+
 void FedRun::feed() {
     output_->frame(set_);
     for (uint64_t i = 0; !stop_; ++i) {
@@ -78,8 +84,11 @@ void FedRun::feed() {
         {
             const std::lock_guard lock(mutex_);
             row = row_;
+            row.record.t = 1e-3 * static_cast<double>(i);
+            if (each_) {
+                each_(row);
+            }
         }
-        row.record.t = 1e-3 * static_cast<double>(i);
         output_->step(row);
         t_ = row.record.t;
         std::this_thread::sleep_for(std::chrono::milliseconds(1));

@@ -2,7 +2,7 @@
 // A haptic device that is a node of ROS 2: its poses come from tests/ros2_speaker, its force goes to
 // tests/ros2_listener.
 #include "devices/bridge/socket_hand.h"
-#include "devices/ros2/hand_messages.h"
+#include "devices/ros2/received_messages.h"
 #include "devices/ros2/ros2_guard.h"
 #include "engine/types/error.h"
 #include "tests/devices/socket_rig.h"

@@ -94,7 +94,7 @@ TEST_CASE("Diagnostics name the state, the age of the scene, the rates, and a fa
 }
 
 TEST_CASE("The joints of an arm are published with their names") {
-    FedRun run("/fathom", {"shoulder", "elbow"});
+    FedRun run("/fathom", {{"shoulder", false}, {"elbow", false}});
     Heard joints("/fathom/joint_states", "JointState");
     CHECK(joints.next().is("base shoulder 0.5 elbow -0.25"));
 }

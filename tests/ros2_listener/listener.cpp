@@ -111,6 +111,17 @@ void tell(const trajectory_msgs_msg_dds__JointTrajectory_& m) {
     line.print();
 }
 
+void tell(const tf2_msgs_msg_dds__TFMessage_& m) {
+    for (uint32_t i = 0; i < m.transforms._length; ++i) {
+        const geometry_msgs_msg_dds__TransformStamped_& link = m.transforms._buffer[i];
+        Said line = said(link.header);
+        line.word(link.child_frame_id);
+        vector(line, link.transform.translation);
+        vector(line, link.transform.rotation);
+        line.number(link.transform.rotation.w).print();
+    }
+}
+
 struct Type {
     const dds_topic_descriptor_t* descriptor;
     void (*tell)(const void* message);
@@ -131,6 +142,7 @@ const std::map<std::string, Type> kTypes{
      typeOf<visualization_msgs_msg_dds__MarkerArray_>(visualization_msgs_msg_dds__MarkerArray__desc)},
     {"DiagnosticArray",
      typeOf<diagnostic_msgs_msg_dds__DiagnosticArray_>(diagnostic_msgs_msg_dds__DiagnosticArray__desc)},
+    {"TFMessage", typeOf<tf2_msgs_msg_dds__TFMessage_>(tf2_msgs_msg_dds__TFMessage__desc)},
     {"JointState", typeOf<sensor_msgs_msg_dds__JointState_>(sensor_msgs_msg_dds__JointState__desc)},
     {"JointTrajectory",
      typeOf<trajectory_msgs_msg_dds__JointTrajectory_>(trajectory_msgs_msg_dds__JointTrajectory__desc)}};

@@ -2,8 +2,9 @@
 // A publisher of ROS 2 for tests: a process of its own that publishes one message for each line of its
 // standard input, written with the code that idlc generated. It has the QoS of rmw's default publishers.
 //   ros2_speaker DOMAIN TOPIC TYPE
-// PoseStamped: x y z qx qy qz qw; Joy: one number per button; Bool: 0 or 1; Empty: nothing; "short": a
-// message that ends within its header. It writes "ready", and then "ok" after each line.
+// PoseStamped: x y z qx qy qz qw; Joy: one number per button; JointState: NAME POSITION...; Bool: 0 or 1;
+// Empty: nothing; "short": a message that ends within its header. It writes "ready", and then "ok" after each
+// line.
 #include "messages.h"
 #include "tests/ros2_talker/join_loopback.h"
 
@@ -33,7 +34,8 @@ std_msgs_msg_dds__Header_ header() {
     return out;
 }
 
-void sayPose(dds_entity_t writer, const std::vector<double>& n) {
+void sayPose(dds_entity_t writer, const std::string& line) {
+    const std::vector<double> n = numbersOf(line);
     geometry_msgs_msg_dds__PoseStamped_ m{};
     m.header = header();
     m.pose.position = {n.at(0), n.at(1), n.at(2)};
@@ -41,7 +43,8 @@ void sayPose(dds_entity_t writer, const std::vector<double>& n) {
     dds_write(writer, &m);
 }
 
-void sayJoy(dds_entity_t writer, const std::vector<double>& n) {
+void sayJoy(dds_entity_t writer, const std::string& line) {
+    const std::vector<double> n = numbersOf(line);
     std::vector<int32_t> buttons(n.begin(), n.end());
     float axes[2] = {0.5f, -0.5f};
     sensor_msgs_msg_dds__Joy_ m{};
@@ -52,23 +55,46 @@ void sayJoy(dds_entity_t writer, const std::vector<double>& n) {
     dds_write(writer, &m);
 }
 
-void sayBool(dds_entity_t writer, const std::vector<double>& n) {
+// NAME POSITION NAME POSITION ...
+void sayJoints(dds_entity_t writer, const std::string& line) {
+    std::istringstream words(line);
+    std::vector<std::string> names;
+    std::vector<double> positions;
+    for (std::string name, position; words >> name >> position;) {
+        names.push_back(name);
+        positions.push_back(std::strtod(position.c_str(), nullptr));
+    }
+    std::vector<char*> texts;
+    for (std::string& name : names) {
+        texts.push_back(name.data());
+    }
+    const auto count = static_cast<uint32_t>(names.size());
+    sensor_msgs_msg_dds__JointState_ m{};
+    m.header = header();
+    m.name = {count, count, texts.data(), false};
+    m.position = {count, count, positions.data(), false};
+    dds_write(writer, &m);
+}
+
+void sayBool(dds_entity_t writer, const std::string& line) {
+    const std::vector<double> n = numbersOf(line);
     const std_msgs_msg_dds__Bool_ m{n.at(0) != 0.0};
     dds_write(writer, &m);
 }
 
-void sayEmpty(dds_entity_t writer, const std::vector<double>&) {
+void sayEmpty(dds_entity_t writer, const std::string&) {
     const std_msgs_msg_dds__Empty_ m{0};
     dds_write(writer, &m);
 }
 
 struct Type {
     const dds_topic_descriptor_t* descriptor;
-    void (*say)(dds_entity_t writer, const std::vector<double>& numbers);
+    void (*say)(dds_entity_t writer, const std::string& line);
 };
 
 const std::map<std::string, Type> kTypes{
     {"PoseStamped", {&geometry_msgs_msg_dds__PoseStamped__desc, sayPose}},
+    {"JointState", {&sensor_msgs_msg_dds__JointState__desc, sayJoints}},
     {"Joy", {&sensor_msgs_msg_dds__Joy__desc, sayJoy}},
     {"Bool", {&std_msgs_msg_dds__Bool__desc, sayBool}},
     {"Empty", {&std_msgs_msg_dds__Empty__desc, sayEmpty}}};
@@ -107,7 +133,7 @@ int main(int argc, char** argv) {
             const builtin_interfaces_msg_dds__Time_ few{1, 2};
             dds_write(shortWriter, &few);
         } else {
-            type.say(writer, numbersOf(line));
+            type.say(writer, line);
         }
         std::cout << "ok" << std::endl;
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads what a haptic device of ROS 2 publishes. Untrusted input.
+// Reads what haptic devices and robots of ROS 2 publish. Untrusted input.
 #pragma once
 
 #include "engine/types/pose.h"
@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace fathom::ros2 {
@@ -28,5 +29,11 @@ inline constexpr double kUnitSlack = 0.05;
 std::vector<bool> joyButtons(std::span<const uint8_t> message);
 
 inline constexpr uint32_t kMostJoy = 256;
+
+// Positions of sensor_msgs/msg/JointState in CDR, [rad] or [m]. Throws Error: truncated, more than
+// kMostJoints, another count of positions than of names, or a position that is not finite.
+std::vector<std::pair<std::string, double>> jointPositions(std::span<const uint8_t> message);
+
+inline constexpr uint32_t kMostJoints = 1000;
 
 } // namespace fathom::ros2

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "devices/ros2/hand_messages.h"
+#include "devices/ros2/received_messages.h"
 
 #include "devices/bag/message_cursor.h"
 
+#include <cmath>
 #include <glm/geometric.hpp>
 
 namespace fathom::ros2 {
@@ -16,11 +17,10 @@ std::string frameIn(MessageCursor& cursor) {
     return cursor.name();
 }
 
-uint32_t countIn(MessageCursor& cursor, const char* what) {
+uint32_t countIn(MessageCursor& cursor, const char* what, uint32_t most) {
     const uint32_t count = cursor.word();
-    if (count > kMostJoy) {
-        throw Error(std::to_string(count) + " " + what + " (allowed: at most " + std::to_string(kMostJoy) +
-                    ")");
+    if (count > most) {
+        throw Error(std::to_string(count) + " " + what + " (allowed: at most " + std::to_string(most) + ")");
     }
     return count;
 }
@@ -52,14 +52,33 @@ HandPose handPose(std::span<const uint8_t> message) {
 std::vector<bool> joyButtons(std::span<const uint8_t> message) {
     MessageCursor cursor(message, true);
     frameIn(cursor);
-    for (uint32_t left = countIn(cursor, "axes"); left > 0; --left) {
+    for (uint32_t left = countIn(cursor, "axes", kMostJoy); left > 0; --left) {
         cursor.value<float>();
     }
-    std::vector<bool> buttons(countIn(cursor, "buttons"));
+    std::vector<bool> buttons(countIn(cursor, "buttons", kMostJoy));
     for (size_t i = 0; i < buttons.size(); ++i) {
         buttons[i] = cursor.value<int32_t>() != 0;
     }
     return buttons;
+}
+
+std::vector<std::pair<std::string, double>> jointPositions(std::span<const uint8_t> message) {
+    MessageCursor cursor(message, true);
+    frameIn(cursor);
+    std::vector<std::pair<std::string, double>> joints(countIn(cursor, "joints", kMostJoints));
+    for (auto& joint : joints) {
+        joint.first = cursor.name();
+    }
+    if (countIn(cursor, "positions", kMostJoints) != joints.size()) {
+        throw Error("another number of positions than of names");
+    }
+    for (auto& joint : joints) {
+        joint.second = cursor.real();
+        if (!std::isfinite(joint.second)) {
+            throw Error("position of " + joint.first + " is not finite");
+        }
+    }
+    return joints;
 }
 
 } // namespace fathom::ros2

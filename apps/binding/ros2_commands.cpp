@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/binding/ros2_commands.h"
+
+#include "devices/bag/message_cursor.h"
+#include "engine/types/log.h"
+
+#include <utility>
+
+namespace fathom {
+
+namespace {
+
+constexpr const char* kSwitch = "std_msgs/msg/Bool";
+
+} // namespace
+
+Ros2Commands::Ros2Commands(std::shared_ptr<Ros2Graph> graph, const std::string& prefix)
+    : inbox_(std::move(graph))
+    , forcesOff_(inbox_.subscribe(prefix + "/forces_off", "std_msgs/msg/Empty", Ros2Qos::Reliable))
+    , guidance_(inbox_.subscribe(prefix + "/guidance", kSwitch, Ros2Qos::Reliable))
+    , freeze_(inbox_.subscribe(prefix + "/freeze", kSwitch, Ros2Qos::Reliable)) {}
+
+std::optional<bool> Ros2Commands::newest(size_t topic, const char* name) {
+    std::optional<bool> value;
+    for (const Ros2Message& taken : inbox_.take(topic)) {
+        try {
+            value = MessageCursor(taken.message->bytes(), true).value<uint8_t>() != 0;
+        } catch (const Error& e) {
+            if (!std::exchange(logged_, true)) {
+                log::warn("ros2: {}: message skipped: {} (logged once)", name, e.what());
+            }
+        }
+    }
+    return value;
+}
+
+// Whatever a request to stop contains, it stops.
+void Ros2Commands::receive() {
+    const bool off = !inbox_.take(forcesOff_).empty();
+    const std::optional<bool> guidance = newest(guidance_, "guidance"), freeze = newest(freeze_, "freeze");
+    const std::lock_guard lock(mutex_);
+    requests_.forcesOff = requests_.forcesOff || off;
+    requests_.guidance = guidance ? guidance : requests_.guidance;
+    requests_.frozen = freeze ? freeze : requests_.frozen;
+}
+
+RemoteRequests Ros2Commands::take() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(requests_, {});
+}
+
+} // namespace fathom

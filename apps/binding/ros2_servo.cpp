@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/binding/ros2_servo.h"
+
+#include "devices/ros2/received_messages.h"
+#include "engine/types/error.h"
+#include "engine/types/log.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+namespace fathom {
+
+namespace {
+
+constexpr double kLongestGap = 0.1; // [s] between two steps of one velocity
+constexpr double kReachedIn = 2.0;  // periods from a message to its joints
+
+double bootSeconds() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+uint64_t utcNow() {
+    const auto now = std::chrono::system_clock::now().time_since_epoch();
+    return static_cast<uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(now).count());
+}
+
+} // namespace
+
+Ros2Servo::Ros2Servo(std::shared_ptr<Ros2Graph> graph, const Ros2OutputRequest& request,
+                     std::vector<Ros2Joint> joints)
+    : frame_(request.frame)
+    , period_(1.0 / request.rate)
+    , joints_(std::move(joints))
+    , measured_(joints_.size(), std::nan("")) {
+    std::transform(joints_.begin(), joints_.end(), std::back_inserter(names_),
+                   [](const Ros2Joint& joint) { return joint.name; });
+    if (!request.twist.empty()) {
+        twist_ = std::make_unique<Ros2Writer>(graph, request.twist, "geometry_msgs/msg/TwistStamped",
+                                              Ros2Qos::Reliable);
+    }
+    if (request.trajectory.empty()) {
+        return;
+    }
+    if (joints_.empty()) {
+        throw BadInput("--ros2", "trajectory", request.trajectory, "only with a scene that has an arm");
+    }
+    trajectory_ = std::make_unique<Ros2Writer>(graph, request.trajectory,
+                                               "trajectory_msgs/msg/JointTrajectory", Ros2Qos::Reliable);
+    measuredInbox_ = std::make_unique<Ros2Inbox>(graph);
+    measuredInbox_->subscribe(request.measured, "sensor_msgs/msg/JointState", Ros2Qos::Sensor);
+}
+
+Ros2Servo::~Ros2Servo() {
+    if (twist_) {
+        twist_->write(ros2::twist({utcNow(), frame_}, dvec3(0.0), dvec3(0.0)));
+    }
+}
+
+void Ros2Servo::tick(const Ros2Tick& tick) {
+    if (twist_) {
+        sendTwist(tick);
+    }
+    if (trajectory_) {
+        sendJoints(tick);
+    }
+    before_ = tick;
+}
+
+// The mean velocity since the message before: a controller that integrates it does not drift.
+void Ros2Servo::sendTwist(const Ros2Tick& tick) {
+    dvec3 linear(0.0), angular(0.0);
+    const StepRecord& now = tick.record;
+    const double time = before_ ? now.t - before_->record.t : 0.0;
+    if (time > 0.0 && time < kLongestGap && !now.armHold && !before_->record.armHold) {
+        const Pose& from = before_->record.tool;
+        linear = (now.tool.position - from.position) / time;
+        angular = rotationLog(now.tool.rotation * glm::conjugate(from.rotation)) / time;
+    }
+    twist_->write(ros2::twist({tick.time, frame_}, linear, angular));
+}
+
+void Ros2Servo::receive() {
+    for (const Ros2Message& taken : measuredInbox_->take(0)) {
+        try {
+            for (const auto& [name, position] : ros2::jointPositions(taken.message->bytes())) {
+                const auto found = std::find(names_.begin(), names_.end(), name);
+                if (found != names_.end()) {
+                    measured_[static_cast<size_t>(found - names_.begin())] = position;
+                }
+            }
+            measuredAt_ = taken.message->arrival;
+        } catch (const Error& e) {
+            if (!std::exchange(logged_, true)) {
+                log::warn("ros2: measured joints: message skipped: {} (logged once)", e.what());
+            }
+        }
+    }
+}
+
+std::string Ros2Servo::whyHeld(const Ros2Tick& tick) const {
+    if (tick.record.armHold) {
+        return "held: forces are off, the scene is old, or the tool is trapped";
+    }
+    if (bootSeconds() - measuredAt_ > kOld) {
+        return "held: no measured joints";
+    }
+    for (size_t i = 0; i < joints_.size(); ++i) {
+        const double apart = std::abs(measured_[i] - tick.record.arm.posture.q[i]);
+        if (!(apart <= (joints_[i].slides ? kFarSlide : kFarJoint))) { // also when it is not known
+            return "held: joint " + joints_[i].name + " of the robot is elsewhere";
+        }
+    }
+    return "";
+}
+
+void Ros2Servo::sendJoints(const Ros2Tick& tick) {
+    receive();
+    held_ = whyHeld(tick);
+    if (held_.empty()) { // a stamp of 0: from now on
+        trajectory_->write(ros2::trajectory({0, frame_}, names_,
+                                            std::span(tick.record.arm.posture.q).first(joints_.size()),
+                                            kReachedIn * period_));
+    }
+}
+
+} // namespace fathom
