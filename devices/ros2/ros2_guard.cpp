@@ -16,6 +16,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr auto kQuiet = std::chrono::seconds(5); // after a loss was logged
+
 double secondsSince(Clock::time_point time) {
     return std::chrono::duration<double>(Clock::now() - time).count();
 }
@@ -68,8 +70,8 @@ private:
     HandSample sample_;
     std::string frame_;
     std::vector<bool> joyDown_;
-    bool there_ = false;
-    Clock::time_point heardAt_ = Clock::now(), joyAt_{};
+    bool there_ = false, toldLost_ = false;
+    Clock::time_point heardAt_ = Clock::now(), joyAt_{}, quietUntil_{};
     std::set<std::string> faults_;
     Ros2GuardFigures figures_;
     SocketServer endpoint_;
@@ -96,8 +98,9 @@ void GuardOfTopics::takePoses() {
             figures_.late += there_ && secondsSince(heardAt_) > kLate ? 1 : 0;
             heardAt_ = Clock::now();
             ++figures_.replies;
-            if (!there_ && figures_.losses > 0) {
+            if (!there_ && toldLost_) {
                 log::warn("{}: poses again", request_.pose);
+                toldLost_ = false;
             }
             there_ = true;
         } catch (const Error& e) {
@@ -135,7 +138,11 @@ void GuardOfTopics::watch() {
     if (there_ && secondsSince(heardAt_) > kSilence) {
         there_ = false;
         ++figures_.losses;
-        log::warn("{}: no pose for {} s: reported to the engine", request_.pose, kSilence);
+        if (Clock::now() >= quietUntil_) {
+            log::warn("{}: no pose for {} s: reported to the engine", request_.pose, kSilence);
+            toldLost_ = true;
+            quietUntil_ = Clock::now() + kQuiet;
+        }
     }
 }
 

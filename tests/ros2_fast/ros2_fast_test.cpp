@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+// Topics of ROS 2 with a program on Fast DDS, which reads and writes messages with Fast CDR
+// (tests/ros2_fast_peer).
+#include "devices/bridge/socket_hand.h"
+#include "devices/ros2/ros2_camera.h"
+#include "devices/ros2/ros2_guard.h"
+#include "engine/types/error.h"
+#include "tests/devices/socket_rig.h"
+#include "tests/ros2/fed_run.h"
+#include "tests/ros2/heard.h"
+
+#include <doctest/doctest.h>
+
+using namespace fathom;
+using namespace fathom::testing;
+
+namespace {
+
+const std::string kPose = "/haptic/pose";
+
+// Publishes lines of one topic.
+class FastSpeaker {
+public:
+    FastSpeaker(const std::string& topic, const std::string& type)
+        : peer_(ROS2_LISTENER, {std::to_string(testDomain()), topic, type, "say"}) {
+        REQUIRE(peer_.line() == "ready");
+    }
+    void say(const std::string& line) {
+        peer_.send(line);
+        REQUIRE(peer_.line() == "ok");
+    }
+
+private:
+    Peer peer_;
+};
+
+// The bridge of a haptic device on a thread of its own, and its engine.
+struct FastLoop {
+    FastLoop()
+        : guard(openRos2Guard(
+              parseRos2HandRequest("pose=" + kPose + ",preset=falcon,domain=" + std::to_string(testDomain())),
+              folder.endpoint(), 8.0, 0.2))
+        , thread([this] { guard->run(stop); })
+        , hand(folder.endpoint(), 4) {}
+    ~FastLoop() {
+        stop = true;
+        thread.join();
+    }
+    // The node says `line`, and the engine steps, until `wanted`.
+    bool until(FastSpeaker* node, const std::string& line,
+               const std::function<bool(const HandSample&)>& wanted) {
+        return eventually(
+            [&] {
+                if (node != nullptr) {
+                    node->say(line);
+                }
+                const HandSample sample = hand.read(t += 0.001);
+                hand.write({{0.0, 0.0, 2.0}, {}}, 0.001);
+                pauseMs(1);
+                return wanted(sample);
+            },
+            60);
+    }
+
+    SocketFolder folder;
+    std::unique_ptr<Ros2Guard> guard;
+    std::atomic<bool> stop{false};
+    std::thread thread;
+    SocketHand hand;
+    double t = 0.0;
+};
+
+bool isAt(const HandSample& sample, double x) {
+    return sample.present && sample.deviceThandle.position.x == x;
+}
+
+} // namespace
+
+TEST_CASE("Fast DDS subscribers read wrenches, poses, velocities, regions and diagnostics of a run") {
+    FedRun run("/fathom,twist=/twist");
+    Heard wrench("/fathom/wrench", "WrenchStamped"), tool("/fathom/tool_pose", "PoseStamped"),
+        twist("/twist", "TwistStamped"), cloud("/fathom/regions", "PointCloud2"),
+        diagnostics("/diagnostics", "DiagnosticArray");
+    const Line first = wrench.next();
+    CHECK(first.is("base 1 2 3 0.1 0.2 0.3"));
+    CHECK(std::abs(first.stamp() - utcNow()) < 60.0);
+    CHECK(tool.next().is("base 0.25 -0.5 0.75 0.5 0.5 0.5 0.5"));
+    CHECK(twist.next().is("base 0 0 0 0 0 0"));
+    CHECK(cloud.next().is("base x,y,z,radius,class 3 1 20 60 10.5 -0.25 1 0.0625 2"));
+    CHECK(diagnostics
+              .until([](const Line& line) { return line.holds(" 0 fathom: forces contact force_n=3.742"); })
+              .any());
+}
+
+TEST_CASE("Fast DDS subscribers that are late or killed do not keep messages from others") {
+    FedRun run("/fathom");
+    Heard wrench("/fathom/wrench", "WrenchStamped");
+    REQUIRE(wrench.next().any());
+    {
+        Heard late("/fathom/wrench", "WrenchStamped"), cloud("/fathom/regions", "PointCloud2");
+        CHECK(late.next().any());
+        CHECK(cloud.next().any()); // of a set that was made long before
+    }
+    run.change([](TickRow& row) { row.record.wrench.force.x = 7.0; });
+    CHECK(wrench.until([](const Line& line) { return line.number(2) == 7.0; }).any());
+}
+
+TEST_CASE("A Fast DDS node moves the hand and gets its force; killed, it counts as gone, and its successor "
+          "is used") {
+    FastLoop loop;
+    Heard force("/haptic/wrench", "WrenchStamped");
+    auto node = std::make_unique<FastSpeaker>(kPose, "PoseStamped");
+    CHECK(loop.until(node.get(), "0.1 0 0 0 0 0 1",
+                     [](const HandSample& sample) { return isAt(sample, 0.1); }));
+    loop.until(node.get(), "0.1 0 0 0 0 0 1", [n = 0](const HandSample&) mutable { return ++n == 300; });
+    CHECK(force.until([](const Line& line) { return line.words(1, 4) == "handle_base 0 0 2"; }).any());
+    node.reset();
+    CHECK(loop.until(nullptr, "", [](const HandSample& sample) { return !sample.present; }));
+    CHECK(force.until([](const Line& line) { return line.number(4) == 0.0; }).any());
+    FastSpeaker successor(kPose, "PoseStamped");
+    CHECK(loop.until(&successor, "0.2 0 0 0 0 0 1",
+                     [](const HandSample& sample) { return isAt(sample, 0.2); }));
+}
+
+TEST_CASE("Another type on the topic, messages that end early and big-endian ones do not move the hand") {
+    FastLoop loop;
+    FastSpeaker stranger(kPose, "TwistStamped");
+    bool moved = false;
+    loop.until(&stranger, "0.3 0 0 0 0 1", [&, n = 0](const HandSample& sample) mutable {
+        moved = moved || sample.present;
+        return ++n == 300;
+    });
+    CHECK_FALSE(moved);
+    CHECK(loop.guard->figures().faults == 0);
+    FastSpeaker node(kPose, "PoseStamped");
+    REQUIRE(loop.until(&node, "0.1 0 0 0 0 0 1", [](const HandSample& sample) { return isAt(sample, 0.1); }));
+    for (const std::string broken : {"short", "big 0.3 0 0 0 0 0 1", "0.3 0 0"}) {
+        const uint64_t before = loop.guard->figures().faults;
+        CHECK(loop.until(&node, broken, [&](const HandSample& sample) {
+            moved = moved || (sample.present && sample.deviceThandle.position.x == 0.3);
+            return loop.guard->figures().faults >= before + 3;
+        }));
+    }
+    CHECK_FALSE(moved);
+    CHECK(loop.until(&node, "0.2 0 0 0 0 0 1", [](const HandSample& sample) { return isAt(sample, 0.2); }));
+}
+
+TEST_CASE("A camera reads images of a Fast DDS driver, which are larger than a packet of the network") {
+    FastSpeaker depth("/camera/depth/image_raw", "Image"), info("/camera/depth/camera_info", "CameraInfo");
+    std::atomic<bool> stop{false};
+    std::thread driver([&] {
+        for (int i = 0; !stop; ++i) {
+            info.say("640 480 600");
+            depth.say("640 480 " + std::to_string(i % 2 == 0 ? 700 : 900));
+            pauseMs(20);
+        }
+    });
+    {
+        Ros2Camera camera(parseRos2Request("ros2:depth=/camera/depth/image_raw,wait=60,domain=" +
+                                           std::to_string(testDomain())));
+        CHECK(camera.info().depth.width == 640);
+        CHECK(camera.info().depth.fx == 600.0);
+        bool whole = true;
+        std::set<uint16_t> values;
+        for (int i = 0; i < 20; ++i) {
+            const auto frame = camera.next();
+            REQUIRE(frame);
+            const auto& pixels = (*frame)->depth;
+            values.insert(pixels[0]);
+            whole = whole && pixels.size() == 640 * 480 &&
+                    std::all_of(pixels.begin(), pixels.end(), [&](uint16_t v) { return v == pixels[0]; });
+        }
+        CHECK(whole);
+        CHECK(values == std::set<uint16_t>{700, 900});
+    }
+    stop = true;
+    driver.join();
+}
