@@ -106,7 +106,10 @@ TEST_CASE("The force is zero while the engine is silent") {
 TEST_CASE("A node without poses counts as gone and gets no force, and its hand is used when poses return") {
     TopicLoop loop;
     REQUIRE(loop.until(kRest, [](const HandSample& sample) { return sample.present; }));
-    CHECK(loop.until("", [](const HandSample& sample) { return !sample.present; }));
+    CHECK(loop.until("", [silent = 0](const HandSample& sample) mutable { // not only for a moment
+        silent = sample.present ? 0 : silent + 1;
+        return silent == 100;
+    }));
     CHECK(loop.until("0.2 0.2 0.3 0 0 0 1", [](const HandSample& sample) {
         return near(sample, {0.2, 0.2, 0.3});
     }));

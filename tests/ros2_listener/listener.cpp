@@ -1,18 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 // A subscriber of ROS 2 for tests: a process of its own that prints each message of one topic as a line, read
 // with the code that idlc generated. It has the QoS of rmw's default subscribers.
-//   ros2_listener DOMAIN TOPIC TYPE
-// "ready" is its first line; it ends with its standard input.
+//   ros2_listener DOMAIN TOPIC TYPE [N]
+// "ready" is its first line; it ends with its standard input. With a fourth argument N it prints instead,
+// after N messages, how old they are on arrival by their stamps, and how far apart.
 #include "messages.h"
 #include "tests/ros2_listener/said.h"
 #include "tests/ros2_talker/join_loopback.h"
 
+#include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <cstring>
 #include <dds/dds.h>
 #include <map>
 #include <poll.h>
 #include <unistd.h>
+#include <vector>
 
 namespace {
 
@@ -163,6 +167,43 @@ dds_entity_t readerOf(dds_entity_t participant, const std::string& topic, const 
     return reader;
 }
 
+// Of messages that begin with a header.
+class Ages {
+public:
+    explicit Ages(size_t count)
+        : left_(count) {}
+    // False once there are enough.
+    bool add(const void* message) {
+        const auto& stamp = static_cast<const std_msgs_msg_dds__Header_*>(message)->stamp;
+        const double now =
+            std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
+        ages_.push_back(1e3 * (now - stamp.sec - 1e-9 * stamp.nanosec));
+        if (last_ > 0.0) {
+            gaps_.push_back(1e3 * (now - last_));
+        }
+        last_ = now;
+        return --left_ > 0;
+    }
+    void print() {
+        printOne("age", ages_);
+        printOne("gap", gaps_);
+    }
+
+private:
+    static void printOne(const char* what, std::vector<double>& millis) {
+        std::sort(millis.begin(), millis.end());
+        const auto at = [&](double share) {
+            return millis[static_cast<size_t>(share * static_cast<double>(millis.size() - 1))];
+        };
+        std::printf("%s p50 %.2f p99 %.2f max %.2f ms of %zu\n", what, at(0.5), at(0.99), at(1.0),
+                    millis.size());
+    }
+
+    size_t left_;
+    double last_ = 0.0; // [s]
+    std::vector<double> ages_, gaps_;
+};
+
 bool inputEnded() {
     pollfd in{STDIN_FILENO, POLLIN, 0};
     char byte = 0;
@@ -172,7 +213,7 @@ bool inputEnded() {
 } // namespace
 
 int main(int argc, char** argv) {
-    if (argc != 4 || kTypes.count(argv[3]) == 0) {
+    if (argc < 4 || kTypes.count(argv[3]) == 0) {
         return 2;
     }
     const Type& type = kTypes.at(argv[3]);
@@ -182,14 +223,18 @@ int main(int argc, char** argv) {
     const dds_entity_t waiting = dds_create_waitset(participant);
     dds_set_status_mask(reader, DDS_DATA_AVAILABLE_STATUS);
     dds_waitset_attach(waiting, reader, 0);
+    Ages ages(argc > 4 ? static_cast<size_t>(std::max(2, std::atoi(argv[4]))) : 0);
     while (!inputEnded()) {
         dds_attach_t which = 0;
         dds_waitset_wait(waiting, &which, 1, DDS_MSECS(100));
         void* sample[1] = {};
         dds_sample_info_t info[1];
         while (dds_take(reader, sample, info, 1, 1) > 0) {
-            if (info[0].valid_data) {
+            if (info[0].valid_data && argc == 4) {
                 type.tell(sample[0]);
+            } else if (info[0].valid_data && !ages.add(sample[0])) {
+                ages.print();
+                return 0;
             }
             dds_return_loan(reader, sample, 1);
         }
