@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an observer of a run may ask for.
+// Requests that an observer of a run may make.
 #pragma once
 
 #include <optional>

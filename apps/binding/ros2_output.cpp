@@ -16,15 +16,64 @@ namespace fathom {
 
 namespace {
 
+// Wakes the publishing thread.
+class Bell {
+public:
+    void ring(bool stop = false) {
+        {
+            const std::lock_guard lock(mutex_);
+            rung_ = true;
+            stop_ = stop_ || stop;
+        }
+        woken_.notify_one();
+    }
+    // Waits for a ring, at most that long. False: stop.
+    bool wait(std::chrono::milliseconds most) {
+        std::unique_lock lock(mutex_);
+        woken_.wait_for(lock, most, [this] { return rung_; });
+        rung_ = false;
+        return !stop_;
+    }
+
+private:
+    std::mutex mutex_;
+    std::condition_variable woken_;
+    bool rung_ = false, stop_ = false;
+};
+
+// The authored shapes, from any thread to the writer.
+class ShapeBox {
+public:
+    void set(std::span<const Shape> shapes) {
+        const std::lock_guard lock(mutex_);
+        shapes_.assign(shapes.begin(), shapes.end());
+        changed_ = true;
+    }
+    bool changed() {
+        const std::lock_guard lock(mutex_);
+        return changed_;
+    }
+    void copyTo(std::vector<Shape>& out) {
+        const std::lock_guard lock(mutex_);
+        out = shapes_;
+        changed_ = false;
+    }
+
+private:
+    std::mutex mutex_;
+    std::vector<Shape> shapes_;
+    bool changed_ = false;
+};
+
 // The writer thread copies what is due into mailboxes; the thread of this class makes and sends messages.
 class Ros2Output final : public RunObserver {
 public:
-    Ros2Output(const Ros2OutputRequest& request, std::vector<Ros2Joint> joints)
-        : topics_(request, std::move(joints))
-        , period_(1.0 / request.rate)
+    Ros2Output(const Ros2OutputRequest& request, const std::vector<Ros2Joint>& joints)
+        : topics_(request, joints)
+        , pace_(1.0 / request.rate)
         , thread_([this] { run(); }) {}
     ~Ros2Output() override {
-        wake(true);
+        bell_.ring(true);
         thread_.join();
     }
 
@@ -33,82 +82,52 @@ public:
         set_ = &set;
         totals_.sets += 1;
     }
-    void setShapes(std::span<const Shape> shapes) override {
-        const std::lock_guard lock(mutex_);
-        shapes_.assign(shapes.begin(), shapes.end());
-        shapesChanged_ = true;
-    }
+    void setShapes(std::span<const Shape> shapes) override { shapes_.set(shapes); }
     void forget() noexcept override { set_ = nullptr; }
     RemoteRequests takeRequests() override { return topics_.takeRequests(); }
 
 private:
-    bool due(double t);
     void offerRegions(const TickRow& row, uint64_t time);
-    void wake(bool stop);
     void run();
     void publish();
 
     // Regions are sent when they change, at most so often, and again for whoever subscribes later [s].
     static constexpr double kRegionPause = 0.1, kRegionRepeat = 1.0;
     static constexpr uint64_t kQueue = 256;                       // steps
-    static constexpr double kRateSlack = 1e-4;                    // [s] of a step's time
     static constexpr auto kLook = std::chrono::milliseconds(100); // for subscribers of regions
 
     Ros2Topics topics_;
-    double period_; // [s] of messages
     // Writer thread.
+    MessagePace pace_;
     TickStamps stamps_;
     RunTotals totals_;
     const Fixtures* set_ = nullptr;
-    double next_ = 0.0, last_ = 0.0, regionsAt_ = -1e9; // [s] times of the run
-    uint64_t generation_ = 0;                           // of the regions handed over
+    double regionsAt_ = -kRegionRepeat; // [s] time of the run
+    uint64_t generation_ = 0;           // of the regions handed over
     // Between the threads.
     SpscQueue<Ros2Tick> ticks_{kQueue};
     TripleBuffer<Ros2Regions> regions_;
     std::atomic<bool> watched_{false};
-    std::mutex mutex_; // guards the members below
-    std::condition_variable woken_;
-    bool fresh_ = false, stop_ = false, shapesChanged_ = false;
-    std::vector<Shape> shapes_;
+    Bell bell_;
+    ShapeBox shapes_;
     std::thread thread_; // last, so that it ends before what it uses
 };
-
-void Ros2Output::wake(bool stop) {
-    {
-        const std::lock_guard lock(mutex_);
-        fresh_ = true;
-        stop_ = stop;
-    }
-    woken_.notify_one();
-}
-
-// Keeps the average rate though steps have a raster of their own. Time begins again with each run.
-bool Ros2Output::due(double t) {
-    if (t < last_) {
-        next_ = t;
-        regionsAt_ = t - kRegionRepeat;
-    }
-    last_ = t;
-    if (t < next_ - kRateSlack) {
-        return false;
-    }
-    next_ = std::max(next_ + period_, t);
-    return true;
-}
 
 void Ros2Output::step(const TickRow& row) {
     totals_.ticks += 1;
     totals_.late += row.late ? 1 : 0;
     totals_.missed += row.missed;
     totals_.worstMicros = std::max(totals_.worstMicros, row.micros);
-    const uint64_t time = stamps_.at(row.record.t);
-    if (!due(row.record.t)) {
+    const double t = row.record.t;
+    const uint64_t time = stamps_.at(t);
+    if (!pace_.due(t)) {
         return;
     }
+    regionsAt_ = std::min(regionsAt_, t); // a new run begins at 0
     ticks_.push({time, row.record, row.driven, row.armStatus.state, totals_,
                  set_ != nullptr ? std::optional(set_->baseTcamera) : std::nullopt});
     offerRegions(row, time);
-    wake(false);
+    bell_.ring();
 }
 
 void Ros2Output::offerRegions(const TickRow& row, uint64_t time) {
@@ -118,15 +137,11 @@ void Ros2Output::offerRegions(const TickRow& row, uint64_t time) {
     }
     static const Fixtures kEmpty; // of a scene with shapes only
     const Fixtures& set = set_ != nullptr ? *set_ : kEmpty;
-    Ros2Regions& out = regions_.back();
-    {
-        const std::lock_guard lock(mutex_);
-        if (set.generation == generation_ && !shapesChanged_ && pause < kRegionRepeat) {
-            return;
-        }
-        shapesChanged_ = false;
-        out.shapes = shapes_;
+    if (set.generation == generation_ && !shapes_.changed() && pause < kRegionRepeat) {
+        return;
     }
+    Ros2Regions& out = regions_.back();
+    shapes_.copyTo(out.shapes);
     const RegionSpheres& spheres = set.spheres;
     const dvec3& origin = set.origin;
     out.time = time;
@@ -144,10 +159,7 @@ void Ros2Output::offerRegions(const TickRow& row, uint64_t time) {
 
 void Ros2Output::run() {
     try {
-        for (std::unique_lock lock(mutex_); !stop_; lock.lock()) {
-            woken_.wait_for(lock, kLook, [this] { return fresh_; });
-            fresh_ = false;
-            lock.unlock();
+        while (bell_.wait(kLook)) {
             publish();
         }
     } catch (const std::exception& e) { // out of memory
@@ -168,8 +180,9 @@ void Ros2Output::publish() {
 
 } // namespace
 
-std::unique_ptr<RunObserver> openRos2Output(const Ros2OutputRequest& request, std::vector<Ros2Joint> joints) {
-    return std::make_unique<Ros2Output>(request, std::move(joints));
+std::unique_ptr<RunObserver> openRos2Output(const Ros2OutputRequest& request,
+                                            const std::vector<Ros2Joint>& joints) {
+    return std::make_unique<Ros2Output>(request, joints);
 }
 
 } // namespace fathom

@@ -7,7 +7,7 @@
 
 namespace fathom {
 
-std::unique_ptr<RunObserver> openRos2Output(const Ros2OutputRequest& request, std::vector<Ros2Joint>) {
+std::unique_ptr<RunObserver> openRos2Output(const Ros2OutputRequest& request, const std::vector<Ros2Joint>&) {
     throw BadInput("--ros2", "PREFIX", request.prefix, kWithoutRos2);
 }
 

@@ -6,6 +6,16 @@
 
 namespace fathom {
 
+bool MessagePace::due(double t) noexcept {
+    next_ = t < last_ ? t : next_;
+    last_ = t;
+    if (t < next_ - kSlack) {
+        return false;
+    }
+    next_ = std::max(next_ + period_, t);
+    return true;
+}
+
 uint64_t TickStamps::at(double t) noexcept {
     const double now =
         std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();

@@ -53,4 +53,18 @@ private:
     bool any_ = false;
 };
 
+// Chooses the steps that are published. Keeps the average rate, though steps have a raster of their own.
+class MessagePace {
+public:
+    // period [s]: from one message to the next.
+    explicit MessagePace(double period)
+        : period_(period) {}
+    // t [s]: of the run; it begins again with each run.
+    bool due(double t) noexcept;
+
+private:
+    static constexpr double kSlack = 1e-4; // [s]
+    double period_, next_ = 0.0, last_ = 0.0;
+};
+
 } // namespace fathom

@@ -19,13 +19,13 @@ constexpr const char* kDeviceFrame = "fathom_device";
 Ros2Topics::Ros2Topics(const Ros2OutputRequest& request, const std::vector<Ros2Joint>& joints)
     : graph_(Ros2Graph::join(request.place))
     , frame_(request.frame)
-    , wrench_(graph_, request.prefix + "/wrench", kWrenchType, Ros2Qos::Reliable)
-    , deviceWrench_(graph_, request.prefix + "/device_wrench", kWrenchType, Ros2Qos::Reliable)
-    , tool_(graph_, request.prefix + "/tool_pose", kPoseType, Ros2Qos::Reliable)
-    , device_(graph_, request.prefix + "/device_pose", kPoseType, Ros2Qos::Reliable)
-    , target_(graph_, request.prefix + "/target_pose", kPoseType, Ros2Qos::Reliable)
-    , cloud_(graph_, request.prefix + "/regions", "sensor_msgs/msg/PointCloud2", Ros2Qos::Reliable)
-    , markers_(graph_, request.prefix + "/markers", "visualization_msgs/msg/MarkerArray", Ros2Qos::Reliable)
+    , wrenches_{{graph_, request.prefix + "/wrench", kWrenchType, Ros2Qos::Reliable},
+                {graph_, request.prefix + "/device_wrench", kWrenchType, Ros2Qos::Reliable}}
+    , poses_{{graph_, request.prefix + "/tool_pose", kPoseType, Ros2Qos::Reliable},
+             {graph_, request.prefix + "/device_pose", kPoseType, Ros2Qos::Reliable},
+             {graph_, request.prefix + "/target_pose", kPoseType, Ros2Qos::Reliable}}
+    , regions_{{graph_, request.prefix + "/regions", "sensor_msgs/msg/PointCloud2", Ros2Qos::Reliable},
+               {graph_, request.prefix + "/markers", "visualization_msgs/msg/MarkerArray", Ros2Qos::Reliable}}
     , diagnostics_(graph_, "/diagnostics", "diagnostic_msgs/msg/DiagnosticArray", Ros2Qos::Reliable) {
     if (request.commands) {
         commands_ = std::make_unique<Ros2Commands>(graph_, request.prefix);
@@ -51,21 +51,21 @@ void Ros2Topics::send(Ros2Writer& writer, const ros2::Message& message) noexcept
 void Ros2Topics::tick(const Ros2Tick& tick) {
     const StepRecord& r = tick.record;
     const ros2::Header header{tick.time, frame_};
-    if (wrench_.watched()) {
-        send(wrench_, ros2::wrench(header, r.wrench.force, r.wrench.torque));
+    if (wrenches_.hand.watched()) {
+        send(wrenches_.hand, ros2::wrench(header, r.wrench.force, r.wrench.torque));
     }
-    if (deviceWrench_.watched()) {
-        send(deviceWrench_,
+    if (wrenches_.device.watched()) {
+        send(wrenches_.device,
              ros2::wrench({tick.time, kDeviceFrame}, r.deviceWrench.force, r.deviceWrench.torque));
     }
-    if (tool_.watched()) {
-        send(tool_, ros2::pose(header, r.tool));
+    if (poses_.tool.watched()) {
+        send(poses_.tool, ros2::pose(header, r.tool));
     }
-    if (device_.watched()) {
-        send(device_, ros2::pose(header, r.device));
+    if (poses_.device.watched()) {
+        send(poses_.device, ros2::pose(header, r.device));
     }
-    if (r.guidanceClass >= 0 && target_.watched()) {
-        send(target_, ros2::pose(header, r.guidanceTarget));
+    if (r.guidanceClass >= 0 && poses_.target.watched()) {
+        send(poses_.target, ros2::pose(header, r.guidanceTarget));
     }
     if (jointState_ && jointState_->watched()) {
         send(*jointState_,
@@ -109,11 +109,11 @@ void Ros2Topics::sendFrames(const Ros2Tick& tick) {
 
 void Ros2Topics::regions(const Ros2Regions& regions) {
     const ros2::Header header{regions.time, frame_};
-    if (cloud_.watched()) {
-        send(cloud_, ros2::regions(header, regions.points));
+    if (regions_.cloud.watched()) {
+        send(regions_.cloud, ros2::regions(header, regions.points));
     }
-    if (markers_.watched()) {
-        send(markers_, ros2::markers(header, ros2Markers(regions)));
+    if (regions_.markers.watched()) {
+        send(regions_.markers, ros2::markers(header, ros2Markers(regions)));
     }
 }
 

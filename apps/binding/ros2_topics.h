@@ -29,7 +29,7 @@ public:
     }
     RemoteRequests takeRequests() { return commands_ ? commands_->take() : RemoteRequests{}; } // any thread
     // Whether regions() would send anything.
-    bool regionsWatched() const noexcept { return cloud_.watched() || markers_.watched(); }
+    bool regionsWatched() const noexcept { return regions_.cloud.watched() || regions_.markers.watched(); }
 
 private:
     void send(Ros2Writer& writer, const ros2::Message& message) noexcept;
@@ -38,10 +38,23 @@ private:
 
     static constexpr uint64_t kDiagnosisPeriod = 1'000'000'000; // [ns]
 
+    struct Wrenches {
+        Ros2Writer hand, device;
+    };
+    struct Poses {
+        Ros2Writer tool, device, target;
+    };
+    struct RegionWriters {
+        Ros2Writer cloud, markers;
+    };
+
     std::shared_ptr<Ros2Graph> graph_;
     std::string frame_;
     std::vector<std::string> joints_;
-    Ros2Writer wrench_, deviceWrench_, tool_, device_, target_, cloud_, markers_, diagnostics_;
+    Wrenches wrenches_;
+    Poses poses_;
+    RegionWriters regions_;
+    Ros2Writer diagnostics_;
     std::unique_ptr<Ros2Writer> jointState_; // null = no arm
     std::unique_ptr<Ros2Writer> frames_;     // null = none
     std::unique_ptr<Ros2Servo> servo_;       // null = no robot

@@ -33,13 +33,13 @@ public:
         : request_(request)
         , graph_(Ros2Graph::join(request.place))
         , inbox_(graph_)
-        , pose_(inbox_.subscribe(request.pose, "geometry_msgs/msg/PoseStamped", Ros2Qos::Sensor))
         , wrench_(graph_, request.wrench, "geometry_msgs/msg/WrenchStamped", Ros2Qos::Reliable)
-        , posePublisher_("guard ros2", request.pose)
-        , joyPublisher_("guard ros2", request.joy)
+        , poses_{inbox_.subscribe(request.pose, "geometry_msgs/msg/PoseStamped", Ros2Qos::Sensor),
+                 {"guard ros2", request.pose}}
+        , joy_{{}, {"guard ros2", request.joy}, {}, {}}
         , endpoint_(options) {
         if (!request.joy.empty()) {
-            joy_ = inbox_.subscribe(request.joy, "sensor_msgs/msg/Joy", Ros2Qos::Sensor);
+            joy_.topic = inbox_.subscribe(request.joy, "sensor_msgs/msg/Joy", Ros2Qos::Sensor);
         }
     }
     ~GuardOfTopics() override { publish({}); }
@@ -60,18 +60,29 @@ private:
     void skip(const std::string& topic, const Error& fault);
     void publish(const Wrench& wrench) noexcept;
 
+    struct Poses {
+        size_t topic;
+        FirstPublisher publisher;
+        bool there = false;                     // they come
+        Clock::time_point heard = Clock::now(); // the newest
+        bool lossLogged = false;
+        Clock::time_point quietUntil = {}; // of the log
+    };
+    struct Joy {
+        std::optional<size_t> topic; // none: no buttons
+        FirstPublisher publisher;
+        std::vector<bool> down;
+        Clock::time_point heard;
+    };
+
     Ros2HandRequest request_;
     std::shared_ptr<Ros2Graph> graph_;
     Ros2Inbox inbox_;
-    size_t pose_;
-    std::optional<size_t> joy_;
     Ros2Writer wrench_;
-    FirstPublisher posePublisher_, joyPublisher_;
+    Poses poses_;
+    Joy joy_;
     HandSample sample_;
     std::string frame_;
-    std::vector<bool> joyDown_;
-    bool there_ = false, toldLost_ = false;
-    Clock::time_point heardAt_ = Clock::now(), joyAt_{}, quietUntil_{};
     std::set<std::string> faults_;
     Ros2GuardFigures figures_;
     SocketServer endpoint_;
@@ -87,22 +98,22 @@ void GuardOfTopics::skip(const std::string& topic, const Error& fault) {
 }
 
 void GuardOfTopics::takePoses() {
-    for (const Ros2Message& taken : inbox_.take(pose_)) {
-        if (!posePublisher_.accepts(taken)) {
+    for (const Ros2Message& taken : inbox_.take(poses_.topic)) {
+        if (!poses_.publisher.accepts(taken)) {
             continue;
         }
         try {
             ros2::HandPose hand = ros2::handPose(taken.message->bytes());
             sample_.deviceThandle = hand.pose;
             frame_ = std::move(hand.frame);
-            figures_.late += there_ && secondsSince(heardAt_) > kLate ? 1 : 0;
-            heardAt_ = Clock::now();
+            figures_.late += poses_.there && secondsSince(poses_.heard) > kLate ? 1 : 0;
+            poses_.heard = Clock::now();
             ++figures_.replies;
-            if (!there_ && toldLost_) {
+            if (!poses_.there && poses_.lossLogged) {
                 log::warn("{}: poses again", request_.pose);
-                toldLost_ = false;
+                poses_.lossLogged = false;
             }
-            there_ = true;
+            poses_.there = true;
         } catch (const Error& e) {
             skip(request_.pose, e);
         }
@@ -110,16 +121,16 @@ void GuardOfTopics::takePoses() {
 }
 
 void GuardOfTopics::takeButtons() {
-    if (!joy_) {
+    if (!joy_.topic) {
         return;
     }
-    for (const Ros2Message& taken : inbox_.take(*joy_)) {
-        if (!joyPublisher_.accepts(taken)) {
+    for (const Ros2Message& taken : inbox_.take(*joy_.topic)) {
+        if (!joy_.publisher.accepts(taken)) {
             continue;
         }
         try {
-            joyDown_ = ros2::joyButtons(taken.message->bytes());
-            joyAt_ = Clock::now();
+            joy_.down = ros2::joyButtons(taken.message->bytes());
+            joy_.heard = Clock::now();
         } catch (const Error& e) {
             skip(request_.joy, e);
         }
@@ -127,21 +138,23 @@ void GuardOfTopics::takeButtons() {
 }
 
 uint32_t GuardOfTopics::buttons() const {
-    const bool fresh = joyDown_.size() > 0 && secondsSince(joyAt_) <= kJoySilence;
-    const auto down = [&](uint32_t button) { return fresh && button < joyDown_.size() && joyDown_[button]; };
+    const bool fresh = joy_.down.size() > 0 && secondsSince(joy_.heard) <= kJoySilence;
+    const auto down = [&](uint32_t button) {
+        return fresh && button < joy_.down.size() && joy_.down[button];
+    };
     const bool open = request_.deadMan && !down(*request_.deadMan);
     return (down(request_.guidance) ? FATHOM_DOOR_GUIDANCE : 0) |
            (down(request_.clutch) ? FATHOM_DOOR_CLUTCH : 0) | (open ? FATHOM_DOOR_DEAD_MAN_OPEN : 0);
 }
 
 void GuardOfTopics::watch() {
-    if (there_ && secondsSince(heardAt_) > kSilence) {
-        there_ = false;
+    if (poses_.there && secondsSince(poses_.heard) > kSilence) {
+        poses_.there = false;
         ++figures_.losses;
-        if (Clock::now() >= quietUntil_) {
+        if (Clock::now() >= poses_.quietUntil) {
             log::warn("{}: no pose for {} s: reported to the engine", request_.pose, kSilence);
-            toldLost_ = true;
-            quietUntil_ = Clock::now() + kQuiet;
+            poses_.lossLogged = true;
+            poses_.quietUntil = Clock::now() + kQuiet;
         }
     }
 }
@@ -166,8 +179,8 @@ void GuardOfTopics::run(const std::atomic<bool>& stop) {
                 due + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(kPeriod)),
                 Clock::now());
             sample_.buttons = buttons();
-            endpoint_.send(sample_, there_ ? FATHOM_DOOR_PRESENT | FATHOM_DOOR_HOMED : 0);
-            publish(there_ ? endpoint_.wrench() : Wrench{});
+            endpoint_.send(sample_, poses_.there ? FATHOM_DOOR_PRESENT | FATHOM_DOOR_HOMED : 0);
+            publish(poses_.there ? endpoint_.wrench() : Wrench{});
         }
     }
     publish({});

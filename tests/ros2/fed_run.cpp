@@ -52,9 +52,9 @@ std::vector<Shape> someShapes() {
 
 } // namespace
 
-FedRun::FedRun(const std::string& request, std::vector<Ros2Joint> joints)
-    : output_(openRos2Output(parseRos2OutputRequest(request + ",domain=" + std::to_string(testDomain())),
-                             std::move(joints)))
+FedRun::FedRun(const std::string& request, const std::vector<Ros2Joint>& joints)
+    : output_(
+          openRos2Output(parseRos2OutputRequest(request + ",domain=" + std::to_string(testDomain())), joints))
     , set_(someSet()) {
     row_.record = someRecord();
     output_->setShapes(someShapes());

@@ -13,7 +13,7 @@
 class FedRun {
 public:
     // request: as of --ros2, without the domain.
-    explicit FedRun(const std::string& request, std::vector<fathom::Ros2Joint> joints = {});
+    explicit FedRun(const std::string& request, const std::vector<fathom::Ros2Joint>& joints = {});
     ~FedRun();
 
     void change(const std::function<void(fathom::TickRow&)>& how);

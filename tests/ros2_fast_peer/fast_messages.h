@@ -75,7 +75,7 @@ inline void tellDiagnostics(Cdr& cdr) {
 }
 
 inline void putHeader(Cdr& cdr, const std::vector<double>& n) {
-    static int32_t second = 17; // long ago: who reads must not depend on it
+    static int32_t second = 17; // long ago: readers must not depend on it
     cdr << second++ << uint32_t{0} << std::string("handle_base");
     for (const double number : n) {
         cdr << number;

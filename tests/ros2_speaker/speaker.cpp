@@ -26,7 +26,7 @@ std::vector<double> numbersOf(const std::string& line) {
     return numbers;
 }
 
-// A stamp of long ago: who reads must not depend on it.
+// A stamp of long ago: readers must not depend on it.
 std_msgs_msg_dds__Header_ header() {
     std_msgs_msg_dds__Header_ out{};
     out.stamp.sec = 17;
