@@ -43,24 +43,34 @@ void figure(const HudInput& input, const std::string& value, const char* name, I
     ImGui::EndGroup();
 }
 
-// A bar from 0 to the limit, with the limit as a mark and as text.
-void bar(const HudInput& input, const char* name, double value, double limit, const char* unit,
-         ImU32 colour) {
+std::string valueText(const WrenchFigures& f) {
+    return f.renderedInPart() ? print("%s %.2f of %.2f %s", f.name, f.delivered, f.whole, f.unit)
+                              : print("%s %.2f %s", f.name, f.delivered, f.unit);
+}
+
+// A bar from 0 to the limit: what is delivered, in outline what is not rendered, and marks of limit and peak.
+void bar(Console& console, const HudInput& input, const WrenchFigures& f) {
     const float width = ImGui::GetContentRegionAvail().x, height = ImGui::GetTextLineHeight() * 0.72f;
-    const double share = limit > 0.0 ? value / limit : 0.0;
-    words(input.letters.body, colour::kText, print("%s %.2f %s", name, value, unit));
-    const std::string right = print("limit %.3g %s%s", limit, unit, share > 0.98 ? "  SATURATED" : "");
+    const auto along = [&](double value) {
+        const double share = f.limit > 0.0 ? value / f.limit : 0.0;
+        return width * kLimitShare * static_cast<float>(std::clamp(share, 0.0, 1.1));
+    };
+    words(input.letters.body, colour::kText, valueText(f));
+    const std::string right = f.saturated() ? "SATURATED" : print("limit %.3g %s", f.limit, f.unit);
     ImGui::SameLine(std::max(0.0f, width - ImGui::CalcTextSize(right.c_str()).x));
-    words(input.letters.small, share > 0.98 ? colour::kWarning : colour::kQuiet, right);
+    words(input.letters.small, f.saturated() ? colour::kWarning : colour::kQuiet, right);
     const ImVec2 at = ImGui::GetCursorScreenPos();
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    const float limitAt = width * 0.9f; // leaves room beyond the limit, so that its mark stays visible
     list.AddRectFilled(at, {at.x + width, at.y + height}, IM_COL32(34, 43, 57, 255), 3.0f);
-    list.AddRectFilled(at, {at.x + limitAt * static_cast<float>(std::clamp(share, 0.0, 1.1)), at.y + height},
-                       colour, 3.0f);
-    list.AddLine({at.x + limitAt, at.y - 2.0f}, {at.x + limitAt, at.y + height + 2.0f}, colour::kWarning,
-                 2.0f);
+    list.AddRectFilled(at, {at.x + along(f.delivered), at.y + height}, f.colour, 3.0f);
+    if (f.renderedInPart()) {
+        list.AddRect(at, {at.x + along(f.whole), at.y + height}, colour::kText, 3.0f);
+    }
+    const float peak = at.x + along(f.peak), limit = at.x + along(f.limit);
+    list.AddLine({peak, at.y}, {peak, at.y + height}, colour::kText, 2.0f);
+    list.AddLine({limit, at.y - 2.0f}, {limit, at.y + height + 2.0f}, colour::kWarning, 2.0f);
     ImGui::Dummy({width, height + 2.0f});
+    markPlace(console, std::string("bar ") + f.name, at, {width, height});
 }
 
 // The state of the arm and the largest deviation of a joint from its setpoint.
@@ -179,9 +189,9 @@ void drawHeadLine(Console& console, const HudInput& input, ImVec2 at, ImVec2 siz
 
 void drawGauges(Console& console, const HudInput& input) {
     const StepRecord& record = input.run.step().record;
-    bar(input, "Force", glm::length(record.wrench.force), input.haptics.forceLimit, "N", colour::kForce);
-    bar(input, "Torque", glm::length(record.wrench.torque), input.haptics.torqueLimit, "N m",
-        IM_COL32(186, 140, 255, 255));
+    for (const WrenchFigures& f : figuresOf(input.run.trace(), input.run.ripple(), input.haptics)) {
+        bar(console, input, f);
+    }
     const bool passive = !(record.marginPassive < kMarginNoise);
     words(input.letters.body, passive ? colour::kText : colour::kWarning,
           "Stability margin, passive " + marginText(record.marginPassive) + (passive ? "" : "  NOT PASSIVE"));
@@ -189,7 +199,6 @@ void drawGauges(Console& console, const HudInput& input) {
           "uncoupled " + marginText(record.marginUncoupled) + ", device preset " +
               input.scene.haptics.device + (input.scene.pilot.empty() ? "" : ", pilot " + input.scene.pilot));
     passes(input);
-    (void)console;
 }
 
 } // namespace fathom::operate

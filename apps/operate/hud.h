@@ -8,6 +8,7 @@
 #include "apps/operate/mode.h"
 #include "apps/operate/run_view.h"
 #include "apps/operate/theme.h"
+#include "apps/operate/wrench_figures.h"
 #include "engine/cycle/haptic_options.h"
 
 #include <string>

@@ -2,6 +2,7 @@
 #include "apps/operate/run_view.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace fathom::operate {
 
@@ -12,6 +13,32 @@ constexpr size_t kMaxBlocks = 12;
 constexpr size_t kMaxTimedTicks = 1'000'000; // ticks whose times are kept; bounds the memory of long sessions
 
 } // namespace
+
+TraceWrench TraceSample::delivered() const {
+    const bool known = std::isfinite(residual.force.x);
+    return known ? TraceWrench{whole.force - residual.force, whole.torque - residual.torque} : whole;
+}
+
+TraceSample sampleOf(const TickRow& row) {
+    const StepRecord& r = row.record;
+    return {r.t,
+            {glm::vec3(r.wrench.force), glm::vec3(r.wrench.torque)},
+            {glm::vec3(r.residual.force), glm::vec3(r.residual.torque)},
+            r.frame,
+            r.state,
+            r.guidance > 0.0,
+            row.late};
+}
+
+Peaks peaksOf(const std::deque<TraceSample>& trace) {
+    float force = 0.0f, torque = 0.0f; // squares
+    for (const TraceSample& sample : trace) {
+        const TraceWrench w = sample.delivered();
+        force = std::max(force, glm::dot(w.force, w.force));
+        torque = std::max(torque, glm::dot(w.torque, w.torque));
+    }
+    return {double{std::sqrt(force)}, double{std::sqrt(torque)}};
+}
 
 bool RunView::refresh() {
     TickRow row;
@@ -36,6 +63,7 @@ void RunView::rewind() {
     measured_.reset();
     ticks_ = late_ = 0;
     trace_.clear();
+    ripple_.clear();
     images_.clear();
     blocks_.clear();
     micros_.clear();
@@ -56,8 +84,9 @@ void RunView::take(const TickRow& row) {
     if (row.driven && row.armStatus.known) {
         measured_ = Measured{r.t - row.armStatus.age, row.armStatus.posture};
     }
-    trace_.push_back({r.t, glm::vec3(r.wrench.force), glm::vec3(r.wrench.torque), r.frame, r.state,
-                      r.guidance > 0.0, row.late});
+    trace_.push_back(sampleOf(row));
+    const TraceWrench felt = trace_.back().delivered();
+    ripple_.add(r.t, r.frame, {dvec3(felt.force), dvec3(felt.torque)});
     while (r.t - trace_.front().t > kSpan) {
         trace_.pop_front();
     }

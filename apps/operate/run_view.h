@@ -2,6 +2,7 @@
 // The window's view of the run: newest frame and tick, ten seconds of trace, rates.
 #pragma once
 
+#include "apps/operate/frame_ripple.h"
 #include "apps/operate/snapshots.h"
 
 #include <cstddef>
@@ -11,15 +12,30 @@
 
 namespace fathom::operate {
 
+// Base axes; torque about the tool's centre.
+struct TraceWrench {
+    glm::vec3 force{0.0f};  // [N]
+    glm::vec3 torque{0.0f}; // [N m]
+};
+
 // One tick in the traces.
 struct TraceSample {
-    double t = 0.0;         // [s]
-    glm::vec3 force{0.0f};  // [N] base axes
-    glm::vec3 torque{0.0f}; // [N m]
-    int64_t frame = -1;     // frame whose set was used
+    double t = 0.0;       // [s]
+    TraceWrench whole;    // after all limits
+    TraceWrench residual; // the part that the device cannot render; NaN: not recorded
+    int64_t frame = -1;   // frame whose set was used
     StepState state = StepState::Off;
     bool guided = false, late = false;
+    // What the hand gets; without a known residual, all of it.
+    TraceWrench delivered() const;
 };
+TraceSample sampleOf(const TickRow& row);
+
+// The largest delivered force and torque.
+struct Peaks {
+    double force = 0.0, torque = 0.0; // [N], [N m]
+};
+Peaks peaksOf(const std::deque<TraceSample>& trace);
 
 struct Rates { // over the last second
     double hapticHz = 0.0, worstPeriodMs = 0.0, cameraHz = 0.0;
@@ -64,6 +80,7 @@ public:
     bool anyTick() const { return ticks_ > 0; }
     uint64_t ticks() const { return ticks_; }
     const std::deque<TraceSample>& trace() const { return trace_; }
+    const FrameRipple& ripple() const { return ripple_; }
     const std::deque<Block>& blocks() const {
         return blocks_;
     } // newest first; one per kind, fixture and leaf
@@ -82,6 +99,7 @@ private:
     std::optional<Measured> measured_;
     uint64_t ticks_ = 0, late_ = 0;
     std::deque<TraceSample> trace_;
+    FrameRipple ripple_;
     std::deque<double> images_; // [s] capture times of the last second
     std::deque<Block> blocks_;
     std::vector<float> micros_, wokenLate_;

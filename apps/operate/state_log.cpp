@@ -152,6 +152,20 @@ json cuesOf(const DepthCues& cues) {
             {"shadow", cues.shadow.size()}};
 }
 
+// Force and torque as bars and traces show them; null: unknown.
+json figuresOf(const ShownState& s) {
+    json parts = json::array();
+    for (const WrenchFigures& f : operate::figuresOf(s.view.trace(), s.view.ripple(), s.haptics)) {
+        parts.push_back({{"name", f.name},
+                         {"delivered", f.delivered},
+                         {"residual", known(f.residual)},
+                         {"peak", f.peak},
+                         {"ripple", known(f.ripple)},
+                         {"limit", f.limit}});
+    }
+    return parts;
+}
+
 json alarmLinesOf(const Alarms& alarms) {
     json lines = json::array();
     for (const Alarm* alarm : alarms.shown()) {
@@ -218,7 +232,8 @@ void StateLog::write(const ShownState& s, bool now) {
                         {{"name", scene.pilot},
                          {"stiffness", s.haptics.springs.stiffness},
                          {"force_limit", s.haptics.forceLimit}}},
-                       {"hovered", s.console.hovered}};
+                       {"hovered", s.console.hovered},
+                       {"figures", figuresOf(s)}};
     out_ << line.dump(-1, ' ', false, json::error_handler_t::replace) << "\n" << std::flush;
     if (!out_) {
         throw Error(name_ + ": cannot be written");

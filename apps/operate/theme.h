@@ -13,6 +13,7 @@ constexpr ImU32 kGuidance = IM_COL32(64, 153, 255, 255);
 constexpr ImU32 kTool = IM_COL32(255, 255, 255, 255);
 constexpr ImU32 kMeasured = IM_COL32(255, 120, 220, 255); // a real arm that is off its setpoint
 constexpr ImU32 kForce = IM_COL32(255, 194, 51, 255);
+constexpr ImU32 kTorque = IM_COL32(186, 140, 255, 255);
 constexpr ImU32 kTouch = IM_COL32(255, 236, 120, 255);
 constexpr ImU32 kShade = IM_COL32(8, 10, 15, 165);
 constexpr ImU32 kQuiet = IM_COL32(150, 162, 180, 255);

@@ -16,7 +16,9 @@ constexpr const char* kShortHead = "t_s,fx,fy,fz,tx,ty,tz,contacts,state";
 constexpr size_t kShort = 9, kSevenJoints = 37, kTouchColumns = 13;
 constexpr size_t kFirstJoints = 7; // before the grasp; the others follow it
 constexpr const char* kMoreJoints = ",q8";
-constexpr size_t kAll = kSevenJoints + kMostJoints - kFirstJoints;
+constexpr size_t kTwelveJoints = kSevenJoints + kMostJoints - kFirstJoints;
+constexpr const char* kResidual = ",residual_fx";
+constexpr size_t kAll = kTwelveJoints + 6;
 constexpr size_t kMaxLoggedTicks = 4'000'000, kMaxTouchRows = kMaxLoggedTicks * kMostTouches;
 
 void put(std::ostream& out, const dvec3& v) {
@@ -102,8 +104,11 @@ Moment momentFrom(const NumberRows& row, size_t columns) {
             m.arm.q[k] = row[29 + k];
         }
         m.arm.grasp = row[36];
-        for (size_t i = kSevenJoints; i < columns; ++i) {
+        for (size_t i = kSevenJoints; i < std::min(columns, kTwelveJoints); ++i) {
             m.arm.q[kFirstJoints + i - kSevenJoints] = row[i];
+        }
+        if (columns == kAll) {
+            m.residual = {row.vec(kTwelveJoints), row.vec(kTwelveJoints + 3)};
         }
     }
     return m;
@@ -152,7 +157,7 @@ const char* wrenchHead() {
            "uncoupled,"
            "device_x,device_y,device_z,device_qw,device_qx,device_qy,device_qz,"
            "tool_x,tool_y,tool_z,tool_qw,tool_qx,tool_qy,tool_qz,q1,q2,q3,q4,q5,q6,q7,grasp,q8,q9,q10,q11,"
-           "q12";
+           "q12,residual_fx,residual_fy,residual_fz,residual_tx,residual_ty,residual_tz";
 }
 
 const char* touchesHead() {
@@ -175,6 +180,8 @@ void writeTick(std::ostream& wrench, std::ostream& touches, double t, int64_t fr
     for (size_t k = kFirstJoints; k < kMostJoints; ++k) {
         wrench << "," << tick.arm.posture.q[k];
     }
+    put(wrench, tick.residual.force);
+    put(wrench, tick.residual.torque);
     wrench << "\n";
     for (uint32_t i = 0; i < tick.touchCount; ++i) {
         const Touch& touch = tick.touches[i];
@@ -186,19 +193,36 @@ void writeTick(std::ostream& wrench, std::ostream& touches, double t, int64_t fr
     }
 }
 
+namespace {
+
+// Older versions have fewer columns.
+size_t columnsOf(const NumberRows& row) {
+    const std::string all = wrenchHead(), head = row.head();
+    if (head == kShortHead) {
+        return kShort;
+    }
+    for (const auto& [next, columns] :
+         {std::pair(kMoreJoints, kSevenJoints), std::pair(kResidual, kTwelveJoints)}) {
+        if (head == all.substr(0, all.find(next))) {
+            return columns;
+        }
+    }
+    if (head != all) {
+        row.refuse("", head, std::string("header ") + kShortHead + ",...");
+    }
+    return kAll;
+}
+
+} // namespace
+
 TickLog readTickLog(const std::filesystem::path& folder) {
     TickLog log;
     if (!std::filesystem::exists(folder / kWrenchFile)) {
         return log;
     }
     NumberRows row(folder / kWrenchFile);
-    const std::string head = wrenchHead();
-    const bool sevenJoints = row.head() == head.substr(0, head.find(kMoreJoints)); // up to version 0.2
-    log.poses = row.head() == head || sevenJoints;
-    const size_t columns = sevenJoints ? kSevenJoints : log.poses ? kAll : kShort;
-    if (!log.poses && row.head() != kShortHead) {
-        row.refuse("", row.head(), std::string("header ") + kShortHead + ",...");
-    }
+    const size_t columns = columnsOf(row);
+    log.poses = columns > kShort;
     while (row.next(columns)) {
         if (!std::isfinite(row[0]) || (!log.moments.empty() && !(row[0] > log.moments.back().t))) {
             row.refuse(", t_s", std::to_string(row[0]), "later than the row before");
@@ -222,6 +246,7 @@ StepRecord TickLog::recordAt(size_t i) const {
     r.tool = m.tool;
     r.arm.posture = m.arm;
     r.wrench = m.wrench;
+    r.residual = m.residual;
     r.contacts = m.contacts;
     r.state = m.state;
     r.guidance = m.guidance;

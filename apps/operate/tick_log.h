@@ -13,8 +13,9 @@ namespace fathom::operate {
 
 // One recorded tick. Values missing in older recordings are NaN.
 struct Moment {
-    double t = 0.0; // [s] in the recording
-    Wrench wrench;  // on the hand, base axes
+    double t = 0.0;                                      // [s] in the recording
+    Wrench wrench;                                       // on the hand, base axes
+    Wrench residual{dvec3(kNotKnown), dvec3(kNotKnown)}; // the part that the device could not render
     uint32_t contacts = 0;
     StepState state = StepState::Off;
     double guidance = 0.0;  // w
@@ -47,7 +48,7 @@ const char* touchesHead();
 void writeTick(std::ostream& wrench, std::ostream& touches, double t, int64_t frame, const StepRecord& tick);
 
 // Reads both files of a folder; empty without wrench.csv. Throws BadInput with file, line and column. Accepts
-// the old wrench.csv without poses. At most four million ticks.
+// older versions of wrench.csv with fewer columns. At most four million ticks.
 TickLog readTickLog(const std::filesystem::path& folder);
 
 } // namespace fathom::operate

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ten seconds of force and torque with their limits, frame ticks and marks; also exported as CSV.
+// Ten seconds of force and torque with their limits, figures and events; also exported as CSV.
 #pragma once
 
 #include "apps/operate/hud.h"
@@ -9,11 +9,12 @@
 
 namespace fathom::operate {
 
-// Draws the minimum and maximum of each pixel column. Keeps a copy of the trace while paused.
+// Keeps a copy of the trace while paused.
 class TracesPanel {
 public:
     void draw(Console& console, const HudInput& input, ImVec2 at, ImVec2 size);
-    // Writes the shown trace: t_s,fx,fy,fz,tx,ty,tz,frame,state. Throws Error that names the file.
+    // Writes the shown trace: t_s,fx,fy,fz,tx,ty,tz,frame,state and the six values of the residual, which is
+    // the part of the wrench that the device does not render. Throws Error that names the file.
     void exportCsv(const RunView& run, const std::filesystem::path& file) const;
 
 private:
@@ -21,9 +22,13 @@ private:
         return held_.empty() ? run.trace() : held_;
     }
     static void drawControls(Console& console);
-    static void drawCurves(const std::deque<TraceSample>& trace, const HapticOptions& limits);
+    const FrameRipple& shownRipple(const RunView& run) const {
+        return held_.empty() ? run.ripple() : heldRipple_;
+    }
+    void drawCurves(Console& console, const HudInput& input) const;
 
-    std::deque<TraceSample> held_;
+    std::deque<TraceSample> held_; // while paused
+    FrameRipple heldRipple_;
 };
 
 } // namespace fathom::operate

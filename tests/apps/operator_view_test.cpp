@@ -227,12 +227,12 @@ TEST_CASE("Each column of a trace covers the range of its samples and joins its 
     for (int i = 0; i < 10000; ++i) {
         TraceSample sample;
         sample.t = 0.001 * i;
-        sample.force.x = i == 4321 ? 9.0f : i < 5000 ? 1.0f : 2.0f; // a spike of one tick, and a step
+        sample.whole.force.x = i == 4321 ? 9.0f : i < 5000 ? 1.0f : 2.0f; // a spike of one tick, and a step
         trace.push_back(sample);
     }
     std::map<int, std::pair<float, float>> columns;
     const auto at = [](const TraceSample& s) { return static_cast<int>(s.t * 64.0); };
-    const auto force = [](const TraceSample& s) { return s.force.x; };
+    const auto force = [](const TraceSample& s) { return s.whole.force.x; };
     int strokes = 0;
     const auto keep = [&](int first, int last, float low, float high) {
         ++strokes;

@@ -18,6 +18,7 @@ namespace {
 StepRecord step(double seed, uint32_t touches) {
     StepRecord r;
     r.wrench = {dvec3(seed, -seed, 0.1), dvec3(0.01 * seed, 0.0, -1e-9)};
+    r.residual = {dvec3(0.0), dvec3(0.01 * seed, 0.0, -1e-9)};
     r.contacts = touches;
     r.state = touches > 0 ? StepState::Contact : StepState::Free;
     r.guidance = 0.25;
@@ -75,6 +76,8 @@ TEST_CASE("Ticks are read back exactly, with no touch, one or eight") {
         CHECK(read.frame == static_cast<int64_t>(i) - 1);
         CHECK(read.wrench.force == wrote.wrench.force);
         CHECK(read.wrench.torque == wrote.wrench.torque);
+        CHECK(read.residual.force == wrote.residual.force);
+        CHECK(read.residual.torque == wrote.residual.torque);
         CHECK(read.contacts == wrote.contacts);
         CHECK(read.state == wrote.state);
         CHECK(read.guidanceClass == wrote.guidanceClass);
@@ -103,6 +106,28 @@ TEST_CASE("A folder without ticks is empty, and an old recording is read without
     CHECK_FALSE(log.poses);
     CHECK(log.recordAt(0).wrench.force == dvec3(1, 2, 3));
     CHECK(log.recordAt(0).state == StepState::Contact);
+    CHECK(std::isnan(log.recordAt(0).residual.force.x));
+}
+
+TEST_CASE("A recording from before the columns of the residual is read without it") {
+    const ScratchFolder folder;
+    write(folder.path(), {1});
+    std::ifstream in(folder.path() / kWrenchFile);
+    std::string head, row;
+    std::getline(in, head);
+    std::getline(in, row);
+    const auto without = [](std::string line) {
+        for (int i = 0; i < 6; ++i) {
+            line.erase(line.rfind(','));
+        }
+        return line + "\n";
+    };
+    CHECK(without(head).ends_with(",q12\n"));
+    put(folder.path() / kWrenchFile, without(head) + without(row));
+    const StepRecord read = readTickLog(folder.path()).recordAt(0);
+    CHECK(read.wrench.force == step(0.3, 1).wrench.force);
+    CHECK(read.arm.posture.q == step(0.3, 1).arm.posture.q);
+    CHECK(std::isnan(read.residual.torque.z));
 }
 
 TEST_CASE("Damaged ticks are rejected with line and column") {

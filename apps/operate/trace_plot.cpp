@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/operate/trace_plot.h"
+
+#include "apps/operate/trace_columns.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace fathom::operate {
+
+namespace {
+
+constexpr ImU32 kPlotGround = IM_COL32(12, 16, 23, 255), kResidualInk = IM_COL32(200, 206, 216, 220);
+constexpr ImU32 kZeroLine = IM_COL32(70, 84, 106, 255), kLimitLine = IM_COL32(255, 92, 84, 150);
+
+template <class... Values>
+std::string figureText(const char* form, Values... values) {
+    char text[96];
+    std::snprintf(text, sizeof text, form, values...);
+    return text;
+}
+
+// Curves of one plot.
+class Curves {
+public:
+    Curves(const TraceArea& area, double limit, const std::deque<TraceSample>& trace)
+        : area_(area)
+        , most_(std::max(limit, 1e-9) / double{kLimitShare})
+        , trace_(trace) {}
+
+    float y(double v) const {
+        return area_.at.y + 0.5f * area_.size.y * static_cast<float>(1.0 - std::clamp(v / most_, -1.0, 1.0));
+    }
+
+    // Strokes of trace_columns.h; dash [pixels]: 0 = a solid line.
+    template <class Value>
+    void draw(ImU32 colour, float width, int dash, Value&& value) const {
+        ImDrawList& list = *ImGui::GetWindowDrawList();
+        const auto column = [&](const TraceSample& s) { return static_cast<int>(area_.x(s.t) - area_.at.x); };
+        const auto stroke = [&](int first, int last, float low, float high) {
+            const float x = area_.at.x + 0.5f;
+            list.AddRectFilled({x + static_cast<float>(first) - 0.5f * width, y(high) - 0.5f * width},
+                               {x + static_cast<float>(last) + 0.5f * width, y(low) + 0.5f * width}, colour);
+        };
+        eachColumn(trace_, column, value, [&](int first, int last, float low, float high) {
+            for (int i = first; i <= last && dash > 0; ++i) {
+                if (i / dash % 2 == 0) {
+                    stroke(i, i, low, high);
+                }
+            }
+            if (dash == 0) {
+                stroke(first, last, low, high);
+            }
+        });
+    }
+
+private:
+    const TraceArea& area_;
+    double most_;
+    const std::deque<TraceSample>& trace_;
+};
+
+// Background, seconds, the limits and their numbers.
+void drawScale(const WrenchFigures& plot, const TraceArea& area, const Curves& curves) {
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const float right = area.at.x + area.size.x, bottom = area.at.y + area.size.y;
+    list.AddRectFilled(area.at, {right, bottom}, kPlotGround, 4.0f);
+    for (double s = std::ceil(area.from); s <= area.to; s += 1.0) {
+        list.AddLine({area.x(s), area.at.y}, {area.x(s), bottom}, IM_COL32(40, 50, 66, 255));
+    }
+    for (const double share : {1.0, 0.0, -1.0}) {
+        const float y = curves.y(share * plot.limit);
+        list.AddLine({area.at.x, y}, {right, y}, share == 0.0 ? kZeroLine : kLimitLine,
+                     share == 0.0 ? 1.0f : 1.5f);
+        const std::string text = figureText("%.3g", share * plot.limit);
+        const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+        const float top = std::clamp(y - 0.5f * size.y, area.at.y, std::max(area.at.y, bottom - size.y));
+        list.AddText({area.at.x - 4.0f - size.x, top}, colour::kQuiet, text.c_str());
+    }
+}
+
+// The names and values right of the curves, as many lines as there is room for.
+void drawFigures(const WrenchFigures& plot, const TraceArea& area) {
+    const std::pair<ImU32, std::string> lines[] = {
+        {plot.colour, figureText("%s [%s]", plot.name, plot.unit)},
+        {colour::kText, figureText("now %.2f  peak %.2f", plot.delivered, plot.peak)},
+        {kResidualInk,
+         std::isfinite(plot.residual) ? figureText("residual %.2f", plot.residual) : "residual unknown"},
+        {colour::kText,
+         std::isfinite(plot.ripple) ? figureText("ripple/frame %.3f", plot.ripple) : "ripple/frame -"}};
+    const float x = area.at.x + area.size.x + ImGui::GetFontSize(), step = ImGui::GetTextLineHeight();
+    float y = area.at.y;
+    for (const auto& [colour, text] : lines) {
+        if (y + step > area.at.y + area.size.y + 1.0f) {
+            break;
+        }
+        ImGui::GetWindowDrawList()->AddText({x, y}, colour, text.c_str());
+        y += step;
+    }
+}
+
+// The largest delivered value, as an arrow right of the curves.
+void drawPeak(const WrenchFigures& plot, const TraceArea& area, float y) {
+    const float x = area.at.x + area.size.x;
+    ImGui::GetWindowDrawList()->AddTriangleFilled({x + 9.0f, y - 4.5f}, {x + 9.0f, y + 4.5f}, {x + 1.0f, y},
+                                                  plot.colour);
+}
+
+const char* eventWord(StepState state) {
+    switch (state) {
+    case StepState::Escape:
+        return "escape";
+    case StepState::Trapped:
+        return "trapped";
+    case StepState::Fading:
+        return "fading";
+    case StepState::Waiting:
+        return "lags";
+    default:
+        return "";
+    }
+}
+
+} // namespace
+
+float scaleColumn() {
+    return ImGui::CalcTextSize("-0.25").x + 6.0f;
+}
+
+float figuresColumn() {
+    return ImGui::CalcTextSize("now 00.00  peak 00.00").x + 1.2f * ImGui::GetFontSize();
+}
+
+void drawTracePlot(const WrenchFigures& plot, const TraceArea& area, const std::deque<TraceSample>& trace) {
+    const Curves curves(area, plot.limit, trace);
+    drawScale(plot, area, curves);
+    for (int axis = 0; axis < 3; ++axis) {
+        curves.draw(kAxisColours[axis], 1.0f, 0,
+                    [&](const TraceSample& s) { return (s.delivered().*plot.part)[axis]; });
+    }
+    if (!trace.empty() && std::isfinite(trace.back().residual.force.x)) {
+        constexpr int kDash = 5;
+        curves.draw(kResidualInk, 1.5f, kDash,
+                    [&](const TraceSample& s) { return glm::length(s.residual.*plot.part); });
+    }
+    curves.draw(plot.colour, 2.0f, 0,
+                [&](const TraceSample& s) { return glm::length(s.delivered().*plot.part); });
+    if (plot.peak > 0.0) {
+        drawPeak(plot, area, curves.y(plot.peak));
+    }
+    drawFigures(plot, area);
+}
+
+void drawEvents(const TraceArea& lane, const std::deque<TraceSample>& trace) {
+    constexpr float kRoom = 12.0f; // [pixels] between marks, more with a name
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const float top = lane.at.y, bottom = lane.at.y + lane.size.y, right = lane.at.x + lane.size.x;
+    list.AddRectFilled(lane.at, {right, bottom}, kPlotGround, 3.0f);
+    float free = -1e9f;
+    const auto mark = [&](float x, ImU32 colour, const char* word) {
+        list.AddTriangleFilled({x - 4.0f, bottom}, {x + 4.0f, bottom}, {x, bottom - 8.0f}, colour);
+        const float end = x + 6.0f + ImGui::CalcTextSize(word).x;
+        if (x > free && end < right) {
+            list.AddText({x + 6.0f, bottom - ImGui::GetTextLineHeight()}, colour, word);
+            free = end + kRoom;
+        }
+    };
+    for (size_t i = 1; i < trace.size(); ++i) {
+        const TraceSample &now = trace[i], &before = trace[i - 1];
+        const float x = lane.x(now.t);
+        if (now.frame != before.frame) {
+            list.AddLine({x, bottom - 3.0f}, {x, bottom}, IM_COL32(120, 134, 156, 200));
+        }
+        if (now.late) {
+            list.AddLine({x, top + 2.0f}, {x, bottom}, colour::kWarning);
+        }
+        if (now.guided != before.guided) {
+            mark(x, colour::kGuidance, now.guided ? "guide" : "");
+        } else if (now.state != before.state && now.state >= StepState::Escape) {
+            mark(x, colour::kCaution, eventWord(now.state));
+        }
+    }
+}
+
+} // namespace fathom::operate

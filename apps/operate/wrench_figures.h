@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// The figures of force and torque that bars, traces and state file share.
+#pragma once
+
+#include "apps/operate/run_view.h"
+#include "apps/operate/theme.h"
+#include "engine/cycle/haptic_options.h"
+
+#include <array>
+
+namespace fathom::operate {
+
+// Share of a bar or of half a plot at which the limit is; what is beyond it stays visible.
+inline constexpr float kLimitShare = 0.9f;
+
+// Force or torque at the end of a trace; sizes of vectors, in the unit.
+struct WrenchFigures {
+    const char* name = "";
+    const char* unit = "";
+    glm::vec3 TraceWrench::*part = nullptr;
+    ImU32 colour = 0;
+    double limit = 0.0;
+    double delivered = 0.0, whole = 0.0;
+    double residual = 0.0; // what the device does not render; NaN: not recorded
+    double peak = 0.0;     // largest delivered one of the trace
+    double ripple = 0.0;   // frame_ripple.h; NaN: unknown
+
+    // 0.98 of the limit counts as reached.
+    bool saturated() const { return whole > 0.98 * limit; }
+    bool renderedInPart() const { return residual > 0.005 * limit; }
+};
+
+// Force, then torque.
+std::array<WrenchFigures, 2> figuresOf(const std::deque<TraceSample>& trace, const FrameRipple& ripple,
+                                       const HapticOptions& limits);
+
+} // namespace fathom::operate
