@@ -69,6 +69,7 @@ void drawAlarms(Console& console, const Alarms& alarms) {
         console.acknowledge = true;
     }
     markPlace(console, "acknowledge");
+    explain(console, "Q: dim the alarms that you have seen. Those that are over go to the history");
     const auto list = alarms.shown();
     if (list.empty()) {
         ImGui::TextDisabled("No alarm.");

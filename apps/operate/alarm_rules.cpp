@@ -3,10 +3,10 @@
 #include "apps/binding/scene_edits.h"
 #include "apps/operate/alarms.h"
 #include "apps/operate/hud.h"
+#include "apps/operate/printed.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace fathom::operate {
 
@@ -14,13 +14,6 @@ namespace {
 
 constexpr double kPatience = 1.0;   // [s]
 constexpr double kHandApart = 0.10; // [m] from hand to tool
-
-template <class Value>
-std::string print(const char* form, Value value) {
-    char text[128];
-    std::snprintf(text, sizeof text, form, value);
-    return text;
-}
 
 } // namespace
 
@@ -31,11 +24,11 @@ void Alarms::stepScene(const StepRecord& tick, const HapticOptions& haptics, boo
     waits_ = deviceGone || (waits_ && stale && tick.frame == lostFrame_);
     set(waits_, Level::Warning, "gpu", {"GPU lost, forces fade", "wait, it is opened again"}, tick.t);
     set(!waits_ && tick.sceneAge > 5.0 * haptics.staleAfter, Level::Warning, "camera",
-        {print("No camera image for %.1f s, forces fade", tick.sceneAge),
+        {printed("No camera image for %.1f s, forces fade", tick.sceneAge),
          "check the camera's cable and power"},
         tick.t);
     set(stale && forces, Level::Caution, "stale",
-        {print("Image older than %.0f ms, forces fade", haptics.staleAfter * 1e3),
+        {printed("Image older than %.0f ms, forces fade", haptics.staleAfter * 1e3),
          "wait; if it stays, close other programs"},
         tick.t, {0.25, 1.0});
 }
@@ -73,17 +66,17 @@ void Alarms::stepForces(const RunView& run, const HapticOptions& haptics, bool f
     on(r.state == StepState::Trapped, Level::Warning, "trapped",
        {"Tool trapped between regions, force fades", "pull the hand back"}, {});
     on(glm::length(r.wrench.force) > 0.98 * haptics.forceLimit, Level::Caution, "force",
-       {print("Force at its limit of %.3g N", haptics.forceLimit), "ease off"}, {0.0, 1.0});
+       {printed("Force at its limit of %.3g N", haptics.forceLimit), "ease off"}, {0.0, 1.0});
     on(glm::length(r.wrench.torque) > 0.98 * haptics.torqueLimit, Level::Caution, "torque",
-       {print("Torque at its limit of %.3g N m", haptics.torqueLimit), "turn the hand back"}, {0.0, 1.0});
+       {printed("Torque at its limit of %.3g N m", haptics.torqueLimit), "turn the hand back"}, {0.0, 1.0});
     on(late > 1e4 * haptics.period, Level::Caution, "overrun",
-       {print("Forces came %.0f ms late", late), "close other programs"}, {0.0, 1.0});
+       {printed("Forces came %.0f ms late", late), "close other programs"}, {0.0, 1.0});
     on(r.state == StepState::Escape, Level::Caution, "escape",
        {"A region now covers the tool, which moves out", "let the hand follow"}, {0.15, 1.0});
     on(r.marginPassive < kMarginNoise, Level::Caution, "passive",
        {"Springs are stiffer than the device can hold", "lower haptics.stiffness"}, {0.25, 1.0});
     on(apart > kHandApart, Level::Advisory, "apart",
-       {print("Hand and tool are %.0f mm apart", 1e3 * apart), "bring the hand back"}, {0.25, 1.0});
+       {printed("Hand and tool are %.0f mm apart", 1e3 * apart), "bring the hand back"}, {0.25, 1.0});
 }
 
 void Alarms::stepTargets(const RunView& run, const Scene& scene, double t) {
@@ -112,7 +105,7 @@ void Alarms::step(Console& console, const RunView& run, const HapticOptions& hap
         stepForces(run, haptics, console.forces);
         const ArmState arm = run.step().driven ? run.step().armStatus.state : ArmState::Follows;
         set(isFault(arm), Level::Warning, "arm",
-            {print("Arm %s, arm and tool stand still", armStateName(arm)), "check the arm, then press A"},
+            {printed("Arm %s, arm and tool stand still", armStateName(arm)), "check the arm, then press A"},
             r.t);
         set(console.frozen, Level::Advisory, "frozen",
             {"Fixtures frozen, new images do not change them", "F to release"}, r.t);

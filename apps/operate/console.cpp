@@ -38,16 +38,65 @@ void markPlace(Console& console, const std::string& name, ImVec2 corner, ImVec2 
     console.places[name] = {corner.x, corner.y, size.x, size.y};
 }
 
-bool markedButton(Console& console, const char* label, const std::string& name) {
+bool markedButton(Console& console, const char* label, const std::string& name, const char* tip) {
     const bool pressed = ImGui::SmallButton(label);
     markPlace(console, name);
+    explain(console, tip);
     return pressed;
+}
+
+namespace {
+
+void showTip(Console& console, const char* tip) {
+    constexpr double kAfter = 0.4; // [s]
+    auto& pointed = console.pointed;
+    if (pointed.tip != tip || ImGui::GetFrameCount() > pointed.frame + 1) {
+        pointed.tip = tip;
+        pointed.since = ImGui::GetTime();
+    }
+    pointed.frame = ImGui::GetFrameCount();
+    if (ImGui::GetTime() - pointed.since < kAfter) {
+        return;
+    }
+    console.tooltip = tip;
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(26.0f * ImGui::GetFontSize());
+    ImGui::TextUnformatted(tip);
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+}
+
+} // namespace
+
+void explain(Console& console, const char* tip) {
+    if (ImGui::IsItemHovered()) {
+        showTip(console, tip);
+    }
+}
+
+bool explainArea(Console& console, ImVec2 corner, ImVec2 size, const char* tip) {
+    const ImGuiIO& io = ImGui::GetIO();
+    const bool held = ImGui::IsMouseDown(0) || ImGui::IsMouseDown(1);
+    const bool inside = ImGui::IsMouseHoveringRect(corner, {corner.x + size.x, corner.y + size.y}, false);
+    const bool there = inside && !held && !io.WantCaptureMouse;
+    if (there) {
+        showTip(console, tip);
+    }
+    return there;
 }
 
 void colouredText(ImU32 colour, const char* text) {
     ImGui::PushStyleColor(ImGuiCol_Text, colour);
     ImGui::TextWrapped("%s", text);
     ImGui::PopStyleColor();
+}
+
+void fontText(ImFont* font, ImU32 colour, const std::string& text) {
+    ImGui::PushFont(font);
+    ImGui::PushStyleColor(ImGuiCol_Text, colour);
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopStyleColor();
+    ImGui::PopFont();
 }
 
 } // namespace fathom::operate

@@ -61,10 +61,11 @@ struct Console {
     CloseAnswer closeAnswer = CloseAnswer::None; // button pressed in the question
     bool remake = false;                         // recreate the swapchain
     bool undo = false, redo = false, save = false, addPicked = false;
-    uint32_t shots = 0;      // screenshots written
-    int treeLevel = -1;      // tree level shown in the 3D view; -1 = none
-    double textScale = 1.0;  // as the pilot wants it
-    double drawnScale = 1.0; // textScale, or less where the window has no room (layout.h)
+    uint32_t shots = 0;        // screenshots written
+    int treeLevel = -1;        // tree level shown in the 3D view; -1 = none
+    double textScale = 1.0;    // as the pilot wants it
+    double monitorScale = 1.0; // of the monitor (monitor_scale.h)
+    double drawnScale = 1.0;   // the product, or less where the window has no room (layout.h)
     float scale() const { return static_cast<float>(drawnScale); }
     bool pilotLayout = false; // the pilot's layout (F2), otherwise the engineer's
     bool panelOpen = false;   // in the pilot's layout: the tabs are over the right column
@@ -88,8 +89,15 @@ struct Console {
     int editedRow = -1; // slider being dragged; the fixture changes when it is released
     float editedMillimetres = 0.0f;
 
-    std::string refusal;      // why forces did not come on (arming.h); shown until they do, or Esc
-    std::string hovered;      // explanation of the block under the mouse
+    std::string refusal; // why forces did not come on (arming.h); shown until they do, or Esc
+    std::string hovered; // explanation of the block under the mouse
+    std::string tooltip; // of the item under the mouse, while it is shown
+    // Tooltips are shown after a moment, so that a mouse on its way does not show all of them.
+    struct {
+        const char* tip = nullptr; // under the mouse
+        double since = 0.0;        // [s] of ImGui's clock
+        int frame = 0;             // of ImGui, when it was there last
+    } pointed;
     std::string notice;       // one line about the last action
     double noticeUntil = 0.0; // [s] of ImGui's clock
     void notify(std::string text);
@@ -104,8 +112,14 @@ struct Console {
 // Records the rectangle of the last ImGui item, or of a view.
 void markPlace(Console& console, const std::string& name, ImVec2 corner, ImVec2 size);
 void markPlace(Console& console, const std::string& name);
-// A small button whose rectangle is recorded under `name`; true when pressed.
-bool markedButton(Console& console, const char* label, const std::string& name);
+// A small button whose rectangle is recorded under `name`, with a tooltip; true when pressed.
+bool markedButton(Console& console, const char* label, const std::string& name, const char* tip);
+// A tooltip for the last ImGui item.
+void explain(Console& console, const char* tip);
+// The same for a rectangle of a view that is no item; true while the mouse is there. Nothing while a window
+// is over it or a button is down.
+bool explainArea(Console& console, ImVec2 corner, ImVec2 size, const char* tip);
 void colouredText(ImU32 colour, const char* text);
+void fontText(ImFont* font, ImU32 colour, const std::string& text); // one line
 
 } // namespace fathom::operate

@@ -28,6 +28,8 @@ bool sizeSlider(Console& console, double& size, const char* word, const std::str
     }
     ImGui::PopID();
     markPlace(console, place);
+    explain(console,
+            "Drag, or Ctrl and click to type millimetres. It applies when released; Ctrl Z takes it back");
     const bool done = ImGui::IsItemDeactivatedAfterEdit();
     if (done) {
         size = 1e-3 * static_cast<double>(millimetres);
@@ -74,6 +76,7 @@ void nameOf(Console& console, FixtureEditor& editor, size_t i) {
         ImGui::InputText("##name", console.newName.data(), console.newName.size(),
                          ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
     markPlace(console, "new name");
+    explain(console, "Enter: take this name. Esc: keep the old one");
     if (done) {
         const std::string wanted(console.newName.data());
         const std::string problem = editor.rename(i, wanted);
@@ -85,7 +88,7 @@ void nameOf(Console& console, FixtureEditor& editor, size_t i) {
 }
 
 void renameButton(Console& console, const std::string& name) {
-    if (markedButton(console, "Rename", "rename " + name)) {
+    if (markedButton(console, "Rename", "rename " + name, "Give this fixture another name")) {
         console.renamed = name;
         console.newName.fill(0);
         name.copy(console.newName.data(), console.newName.size() - 1);
@@ -102,15 +105,18 @@ void row(Console& console, FixtureEditor& editor, size_t i, const SceneSnapshot&
     ImGui::SameLine();
     nameOf(console, editor, i);
     const float line = ImGui::GetTextLineHeight();
-    ImGui::SameLine(ImGui::GetContentRegionMax().x - 6.2f * line);
+    ImGui::SameLine(ImGui::GetContentRegionMax().x - 6.6f * line);
     renameButton(console, before.name);
     ImGui::SameLine(ImGui::GetContentRegionMax().x - 1.7f * line);
-    const bool removed = markedButton(console, "x", "remove " + now.name);
+    const bool removed =
+        markedButton(console, "x", "remove " + now.name, "Remove this fixture; Ctrl Z brings it back");
     bool done = false;
     if (now.isPoints()) {
         int role = guides ? 1 : 0;
         ImGui::SetNextItemWidth(110.0f * console.scale());
         done = ImGui::Combo("##role", &role, "forbidden\0guidance\0");
+        markPlace(console, "role " + now.name);
+        explain(console, "forbidden: the tool is kept out. guidance: the tool is pulled there while G is on");
         now.role = role == 0 ? Role::Forbidden : Role::Guidance;
         ImGui::SameLine();
     }
@@ -133,13 +139,23 @@ void row(Console& console, FixtureEditor& editor, size_t i, const SceneSnapshot&
 }
 
 void placeButtons(Console& console) {
-    constexpr std::pair<const char*, ShapeKind> kKinds[] = {
-        {"sphere", ShapeKind::Sphere}, {"box", ShapeKind::Box},   {"plane", ShapeKind::Plane},
-        {"cyl.", ShapeKind::Cylinder}, {"line", ShapeKind::Line}, {"axis", ShapeKind::Axis}};
+    struct Kind {
+        const char* name;
+        ShapeKind kind;
+        const char* tip;
+    };
+    constexpr Kind kKinds[] = {
+        {"sphere", ShapeKind::Sphere, "Click on a surface: a sphere there that the tool cannot enter"},
+        {"box", ShapeKind::Box, "Click on a surface: a box there that the tool cannot enter"},
+        {"plane", ShapeKind::Plane, "Click on a surface: the tool stays on this side of it"},
+        {"cyl.", ShapeKind::Cylinder, "Click on a surface: a cylinder there that the tool cannot enter"},
+        {"line", ShapeKind::Line, "Click on its start and its end: the tool slides along this line"},
+        {"axis", ShapeKind::Axis,
+         "Click on its start and its end: the tool keeps to this axis and its direction"}};
     ImGui::TextDisabled("Place:");
-    for (const auto& [name, kind] : kKinds) {
+    for (const auto& [name, kind, tip] : kKinds) {
         ImGui::SameLine(0.0f, 5.0f);
-        if (markedButton(console, name, std::string("place ") + name)) {
+        if (markedButton(console, name, std::string("place ") + name, tip)) {
             console.placing = console.placing == kind ? ShapeKind::None : kind;
             console.placedFrom.reset();
         }
@@ -181,19 +197,21 @@ void handleFixtureKeys(Console& console, FixtureEditor& editor, const SceneSnaps
 }
 
 void drawFixtures(Console& console, FixtureEditor& editor, const SceneSnapshot& snapshot) {
-    const auto button = [&](const char* name) {
-        const bool hit = markedButton(console, name, name);
+    const auto button = [&](const char* name, const char* tip) {
+        const bool hit = markedButton(console, name, name, tip);
         ImGui::SameLine();
         return hit;
     };
-    if (button("Pick (K)")) {
+    if (button("Pick (K)", "K, then click on a colour in the camera view: a new fixture of its points")) {
         console.pick = Pick{};
         console.pick.active = true;
     }
-    console.undo = button("Undo");
-    console.redo = button("Redo");
-    console.save = button("Save");
-    console.frozen = console.frozen != button(console.frozen ? "Unfreeze" : "Freeze");
+    console.undo = button("Undo", "Ctrl Z: take back the last change of a fixture");
+    console.redo = button("Redo", "Ctrl Y: make it again");
+    console.save = button("Save", "Ctrl S: write fixtures, pilot and window settings to the scene file");
+    console.frozen =
+        console.frozen != button(console.frozen ? "Unfreeze" : "Freeze",
+                                 "F: hold all fixtures as they are; new images do not change them");
     ImGui::NewLine();
     if (console.pick.active) {
         drawPick(console, editor, snapshot);

@@ -31,7 +31,9 @@ void stripBar(const HudInput& input, ImVec2 at, ImVec2 size, const WrenchFigures
     if (f.renderedInPart()) {
         list.AddRect(a, {along(f.whole), b.y}, colour::kText, 4.0f, 0, 1.5f);
     }
-    list.AddLine({along(f.peak), a.y}, {along(f.peak), b.y}, colour::kText, 2.0f);
+    if (f.peak > 0.0) {
+        list.AddLine({along(f.peak), a.y}, {along(f.peak), b.y}, colour::kText, 2.0f);
+    }
     list.AddLine({b.x, a.y - 3.0f}, {b.x, b.y + 3.0f}, colour::kWarning, 3.0f);
     list.AddText(font, letter, {b.x + 0.5f * letter, at.y + line},
                  f.saturated() ? colour::kWarning : colour::kText, text);
@@ -50,6 +52,8 @@ void drawForceStrip(Console& console, const HudInput& input, const PixelRect& ro
     stripBar(input, {x + edge, y}, {force, height}, first);
     stripBar(input, {x + 2.0f * edge + force, y}, {torque, height}, second);
     markPlace(console, "force strip", {x, y}, {width, height});
+    explainArea(console, {x, y}, {2.0f * edge + force, height}, kForceTip);
+    explainArea(console, {x + 2.0f * edge + force, y}, {width - force - 2.0f * edge, height}, kTorqueTip);
 }
 
 } // namespace fathom::operate

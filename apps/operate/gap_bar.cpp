@@ -79,6 +79,9 @@ void drawGapBar(Console& console, const DepthCues& cues, const Letters& letters,
     list.AddText(font, font->FontSize, {plate.x + 0.5f * (room - words.x), b.y + 0.55f * line}, colour,
                  text.c_str());
     markPlace(console, "gap bar", plate, {room, height + 2.2f * line});
+    explainArea(console, plate, {room, height + 2.2f * line},
+                "Distance from the tool to the nearest region of points [mm]: amber below 50, red below 10; "
+                "hatched while it is unknown");
 }
 
 } // namespace fathom::operate

@@ -39,6 +39,7 @@ bool corner(Console& console, const char* name, const std::string& place, dvec3&
         dragged = true;
     }
     markPlace(console, place);
+    explain(console, "Corner of the box in the base frame: drag, or double click to type metres");
     return ImGui::IsItemDeactivatedAfterEdit();
 }
 
@@ -62,18 +63,22 @@ bool boxCorners(Console& console, FixtureClass& now, int row) {
 
 bool drawHolding(Console& console, FixtureClass& now, int row, const SceneSnapshot& snapshot) {
     bool done = false;
-    if (markedButton(console, now.frozen ? "Release" : "Freeze", "hold " + now.name)) {
+    if (markedButton(console, now.frozen ? "Release" : "Freeze", "hold " + now.name,
+                     "Hold this fixture as it is; new images do not change it")) {
         now.frozen = !now.frozen;
         done = true;
     }
     ImGui::SameLine();
-    if (markedButton(console, now.box ? "No box" : "Box", "box " + now.name)) {
+    if (markedButton(console, now.box ? "No box" : "Box", "box " + now.name,
+                     "Only points inside a box belong to this fixture")) {
         now.box = now.box ? std::nullopt : std::optional(boxAbout(snapshot.set, row));
         console.editedBoxRow = -1;
         done = true;
     }
     ImGui::SameLine();
-    if (markedButton(console, "Colour", "colour " + now.name)) { // edits the gates of this class
+    if (markedButton(
+            console, "Colour", "colour " + now.name,
+            "Change the colours whose points belong to this fixture")) { // edits the gates of this class
         console.pick = Pick{};
         console.pick.active = console.pick.taken = true;
         console.pick.gates = now;
@@ -101,7 +106,9 @@ void drawPilots(Console& console, const Scene& scene) {
         if (chosen) {
             ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyle().Colors[ImGuiCol_TabActive]);
         }
-        if (markedButton(console, pilot.name.c_str(), "pilot " + pilot.name) && !chosen) {
+        if (markedButton(console, pilot.name.c_str(), "pilot " + pilot.name,
+                         "Stiffness, limits and scale of this pilot. Forces go off first") &&
+            !chosen) {
             console.pilotWanted = pilot.name;
         }
         if (chosen) {

@@ -28,7 +28,8 @@ struct LayoutInput {
 // large view, the tabs of the pilot's over the right column.
 Rooms arrange(const LayoutInput& input);
 
-// The largest scale, in steps of an eighth and at most `wanted`, at which the text of a layout has room.
+// The largest scale, in steps of an eighth and at most `wanted`, at which the text of a layout has room. From
+// 0.75 to 4.
 double scaleThatFits(ImVec2 size, double wanted, bool pilot);
 
 inline ImVec2 cornerOf(const PixelRect& r) {

@@ -25,17 +25,21 @@ Mode armedMode(const ModeInput& input) {
     const StepState state = record.state;
     const bool armHeld = input.run.step().driven && input.run.step().armStatus.state != ArmState::Follows;
     if (state == StepState::Trapped || armHeld) {
-        return {"HELD", "!", colour::kWarning, Edge::Double};
+        return {"HELD", "!", colour::kWarning, Edge::Double,
+                "The tool is trapped between regions, or a real arm stands still: forces fade. W says why"};
     }
     if (state == StepState::Fading) {
-        return {"STALE", "~", colour::kCaution, Edge::Dashed};
+        return {"STALE", "~", colour::kCaution, Edge::Dashed,
+                "The newest image is too old: forces fade until the next one"};
     }
     if (atLimit(record, input.haptics)) {
-        return {"AT LIMIT", "!", colour::kWarning, Edge::Hatched};
+        return {"AT LIMIT", "!", colour::kWarning, Edge::Hatched,
+                "Force or torque is at its limit: the hand can press through. Ease off"};
     }
     return state == StepState::Contact || state == StepState::Escape
-               ? Mode{"CONTACT", kDot, colour::kTouch, Edge::Thick}
-               : Mode{"ARMED", kDot, colour::kGood, Edge::Thin};
+               ? Mode{"CONTACT", kDot, colour::kTouch, Edge::Thick, "A fixture pushes the hand"}
+               : Mode{"ARMED", kDot, colour::kGood, Edge::Thin,
+                      "Forces are on; nothing pushes now. Space: forces off"};
 }
 
 const char* recordedWord(StepState state) {
@@ -90,12 +94,15 @@ void drawEdge(ImDrawList& list, const Mode& mode, ImVec2 corner, ImVec2 size, fl
 
 Mode modeOf(const ModeInput& input) {
     if (input.console.timeLine.on) {
-        return {"LOOK-BACK", "\xc2\xab", colour::kPicked, Edge::Dashed};
+        return {"LOOK-BACK", "\xc2\xab", colour::kPicked, Edge::Dashed,
+                "A recording is shown; nothing is live"};
     }
     if (!input.console.forces) {
         return input.run.step().record.state == StepState::Fading
-                   ? Mode{"FORCES FADING", "~", colour::kCaution, Edge::Dashed}
-                   : Mode{"FORCES OFF", kSquare, IM_COL32(255, 255, 255, 255), Edge::Double};
+                   ? Mode{"FORCES FADING", "~", colour::kCaution, Edge::Dashed,
+                          "Forces are being switched off"}
+                   : Mode{"FORCES OFF", kSquare, IM_COL32(255, 255, 255, 255), Edge::Double,
+                          "The device gets no force. A: arm"};
     }
     return armedMode(input);
 }
@@ -105,31 +112,36 @@ std::vector<Chip> chipsOf(const ModeInput& input) {
     const StepRecord& record = input.run.step().record;
     std::vector<Chip> chips;
     if (console.timeLine.on) {
-        chips.push_back({recordedWord(record.state), colour::kText});
+        chips.push_back({recordedWord(record.state), colour::kText, "State at this moment of the recording"});
     }
     if (record.guidance > 0.0 || console.guidance) {
         const std::vector<GuidancePose>& targets = input.run.scene().set.guidance;
         const bool any =
             std::any_of(targets.begin(), targets.end(), [](const GuidancePose& g) { return g.present; });
-        chips.push_back({any || record.guidance > 0.0 ? "GUIDE" : "GUIDE: no target", colour::kGuidance});
+        chips.push_back({any || record.guidance > 0.0 ? "GUIDE" : "GUIDE: no target", colour::kGuidance,
+                         "Guidance is on: the tool is pulled to the nearest target. G: off"});
     }
     if (console.forces && !console.timeLine.on) {
-        const char* const word = record.state == StepState::Off       ? "WAITING for regions"
-                                 : record.state == StepState::Waiting ? "LAGS"
-                                 : record.state == StepState::Escape  ? "ESCAPING"
-                                                                      : nullptr;
+        constexpr std::pair<const char*, const char*> kWaiting{"WAITING for regions",
+                                                               "No force before regions are known"},
+            kLags{"LAGS", "Contacts come late: no force until the tool has caught up"},
+            kEscaping{"ESCAPING", "A region now covers the tool, which moves out"}, kNone{nullptr, ""};
+        const auto [word, tip] = record.state == StepState::Off       ? kWaiting
+                                 : record.state == StepState::Waiting ? kLags
+                                 : record.state == StepState::Escape  ? kEscaping
+                                                                      : kNone;
         if (word != nullptr) {
-            chips.push_back({word, colour::kCaution});
+            chips.push_back({word, colour::kCaution, tip});
         }
     }
     if (console.clutch) {
-        chips.push_back({"CLUTCH", colour::kText});
+        chips.push_back({"CLUTCH", colour::kText, "The hand moves, the tool stays"});
     }
     if (console.frozen) {
-        chips.push_back({"FROZEN", colour::kCaution});
+        chips.push_back({"FROZEN", colour::kCaution, "New images do not change the fixtures. F: release"});
     }
     if (console.recording) {
-        chips.push_back({"REC", colour::kWarning});
+        chips.push_back({"REC", colour::kWarning, "A recording runs. R: stop"});
     }
     return chips;
 }
@@ -157,15 +169,22 @@ void drawMode(Console& console, const ModeInput& input, ImFont* font, ImVec2 cor
     list.AddText(font, font->FontSize, {at.x + pad, at.y + 0.5f * pad}, mode.colour, word.c_str());
     float x = at.x + (below ? 2.0f * pad : wordSize.x + 3.0f * pad);
     const float middle = below ? at.y + wordSize.y + pad + 0.5f * row : at.y + 0.5f * plate.y;
+    bool over = false; // a chip
     for (const Chip& chip : chips) {
         const ImVec2 text = ImGui::CalcTextSize(chip.word.c_str());
         const float y = middle - 0.5f * text.y;
         list.AddRect({x - pad, y - 0.3f * pad}, {x + text.x + pad, y + text.y + 0.3f * pad}, chip.colour,
                      4.0f * scale);
         list.AddText({x, y}, chip.colour, chip.word.c_str());
+        over = explainArea(console, {x - pad, y - 0.3f * pad}, {text.x + 2.0f * pad, text.y + 0.6f * pad},
+                           chip.meaning) ||
+               over;
         x += text.x + 3.0f * pad;
     }
     markPlace(console, "mode", at, plate);
+    if (!over) {
+        explainArea(console, at, plate, mode.meaning);
+    }
 }
 
 void drawRefusal(Console& console, ImFont* font, ImVec2 corner, ImVec2 size) {

@@ -21,6 +21,7 @@ struct Mode {
     const char* sign = "";
     ImU32 colour = 0;
     Edge edge = Edge::Thin;
+    const char* meaning = "";
 };
 
 // Valid during the call only.
@@ -38,6 +39,7 @@ Mode modeOf(const ModeInput& input);
 struct Chip {
     std::string word;
     ImU32 colour = 0;
+    const char* meaning = "";
 };
 std::vector<Chip> chipsOf(const ModeInput& input);
 

@@ -36,7 +36,9 @@ void addOperateCommand(CLI::App& app, const GlobalOptions& global) {
         ->check(numberIn(Range::between(0.0, 604800.0)));
     command->add_option("--pilot", options->pilot,
                         "use stiffness, limits and scale of this pilot of the scene");
-    command->add_option("--text-scale", options->textScale, "text size, 0.75 to 2.5")
+    command
+        ->add_option("--text-scale", options->textScale,
+                     "text size, 0.75 to 2.5 (1: as the monitor's resolution needs it)")
         ->check(numberIn(Range::between(0.75, 2.5)));
     command->add_option("--state", options->state,
                         "write what the window shows to this file, one JSON object per line");

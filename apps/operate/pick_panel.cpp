@@ -11,12 +11,16 @@ namespace fathom::operate {
 
 namespace {
 
-bool bandSlider(const char* name, std::optional<Band>& band, float most) {
+bool bandSlider(Console& console, const char* name, std::optional<Band>& band, float most) {
     if (!band) {
         return false;
     }
     float ends[] = {static_cast<float>(band->lo), static_cast<float>(band->hi)};
     const bool changed = ImGui::SliderFloat2(name, ends, 0.0f, most, most > 1.0f ? "%.0f" : "%.2f");
+    markPlace(console, std::string("pick ") + name);
+    explain(
+        console,
+        "Least and greatest value of the colours that belong to it; of hues, from the first to the second");
     if (changed) {
         band = Band{double{ends[0]}, double{ends[1]}};
     }
@@ -53,6 +57,7 @@ void nameField(Console& console, FixtureClass& gates) {
         gates.name = name.data();
     }
     markPlace(console, "pick name");
+    explain(console, "Name of the new fixture");
 }
 
 void pickedRadius(Console& console, FixtureClass& gates) {
@@ -61,6 +66,7 @@ void pickedRadius(Console& console, FixtureClass& gates) {
         gates.radius = 1e-3 * static_cast<double>(millimetres);
     }
     markPlace(console, "pick radius");
+    explain(console, "How far from each point the tool is kept");
 }
 
 // Name, role, radius and the button that makes it active.
@@ -71,15 +77,18 @@ void card(Console& console, FixtureClass& gates, bool anew) {
     int role = gates.role == Role::Forbidden ? 0 : 1;
     ImGui::RadioButton("forbidden", &role, 0);
     markPlace(console, "role forbidden");
+    explain(console, "The tool is kept out");
     ImGui::SameLine();
     ImGui::RadioButton("guidance", &role, 1);
     markPlace(console, "role guidance");
+    explain(console, "The tool is pulled there while G is on");
     gates.role = role == 0 ? Role::Forbidden : Role::Guidance;
     if (gates.role == Role::Forbidden) {
         pickedRadius(console, gates);
     }
     console.addPicked = ImGui::Button(anew ? "Add  (Enter)" : "Change  (Enter)");
     markPlace(console, "add");
+    explain(console, "Enter: make it active. Esc: drop it");
 }
 
 } // namespace
@@ -108,9 +117,9 @@ void drawPick(Console& console, FixtureEditor& editor, const SceneSnapshot& snap
     }
     card(console, gates, anew);
     histogram(editor.hues(), gates);
-    bool changed = bandSlider("hue", gates.hue, 360.0f);
-    changed = bandSlider("saturation", gates.saturation, 1.0f) || changed;
-    changed = bandSlider("lightness", gates.lightness, 1.0f) || changed;
+    bool changed = bandSlider(console, "hue", gates.hue, 360.0f);
+    changed = bandSlider(console, "saturation", gates.saturation, 1.0f) || changed;
+    changed = bandSlider(console, "lightness", gates.lightness, 1.0f) || changed;
     if (changed) {
         editor.preview(console, snapshot);
     }

@@ -46,7 +46,9 @@ double RunDisplay::beginFrame() {
     const double now = seconds(), dt = now - lastFrame_;
     windowHz_ += 0.05 * (1.0 / std::max(1e-3, dt) - windowHz_);
     lastFrame_ = now;
-    console.drawnScale = scaleThatFits(ImGui::GetIO().DisplaySize, console.textScale, console.pilotLayout);
+    console.monitorScale = window_.monitorScale();
+    console.drawnScale = scaleThatFits(ImGui::GetIO().DisplaySize, console.textScale * console.monitorScale,
+                                       console.pilotLayout);
     return dt;
 }
 

@@ -174,6 +174,7 @@ void Screen::drawFigures(Console& console, const ScreenInput& input, const Rooms
 }
 
 void Screen::draw(Console& console, FixtureEditor& editor, Alarms& alarms, const ScreenInput& input) {
+    console.tooltip.clear();
     Rooms rooms =
         arrange({ImGui::GetIO().DisplaySize, console.drawnScale, console.pilotLayout, console.timeLine.on});
     makeImages(console, editor, input, rooms);

@@ -91,9 +91,7 @@ void drawStop(Console& console, const Letters& letters, const PixelRect& room) {
     if (ImGui::InvisibleButton("forces off", sizeOf(room))) {
         console.forces = console.guidance = false;
     }
-    if (ImGui::IsItemHovered()) {
-        ImGui::SetTooltip("Space, or a click: forces off, whatever has the focus");
-    }
+    explain(console, "Space, or a click: forces off, whatever has the focus");
     markPlace(console, "stop");
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const ImVec2 a = cornerOf(room), size = sizeOf(room);

@@ -26,6 +26,9 @@ void drawTabs(Console& console, FixtureEditor& editor, Alarms& alarms, const Tab
     ImGui::SetNextWindowSize(sizeOf(room));
     ImGui::Begin("panels", nullptr, kPanel);
     constexpr const char* kNames[] = {"Fixtures", "Why?", "Alarms", "Keys"};
+    constexpr const char* kTips[] = {"K, or F6 and arrows: fixtures, shapes, pilots",
+                                     "W: why did the tool stop?",
+                                     "What is wrong, what to do, and what is over", "F1: all keys"};
     if (ImGui::BeginTabBar("tabs")) {
         for (Tab tab : {Tab::Fixtures, Tab::Why, Tab::Alarms, Tab::Help}) {
             const bool wanted = console.tab == tab && console.shownTab != tab;
@@ -40,6 +43,7 @@ void drawTabs(Console& console, FixtureEditor& editor, Alarms& alarms, const Tab
             const bool open =
                 ImGui::BeginTabItem(name.c_str(), nullptr, wanted ? ImGuiTabItemFlags_SetSelected : 0);
             markPlace(console, std::string("tab ") + kNames[static_cast<int>(tab)]);
+            explain(console, kTips[static_cast<int>(tab)]);
             if (calls) {
                 ImGui::PopStyleColor();
             }

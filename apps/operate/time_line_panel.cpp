@@ -105,24 +105,25 @@ void TimeLinePanel::draw(Console& console, const Letters& letters, ImVec2 at, Im
 
 void TimeLinePanel::drawButtons(Console& console) const {
     TimeLine& line = console.timeLine;
-    const auto button = [&](const char* label, const char* name) {
-        const bool hit = markedButton(console, label, name);
+    const auto button = [&](const char* label, const char* name, const char* tip) {
+        const bool hit = markedButton(console, label, name, tip);
         ImGui::SameLine(0.0f, 5.0f);
         return hit;
     };
-    if (button("|<", "to begin")) {
+    if (button("|<", "to begin", "Home: to the beginning")) {
         line.t = 0.0;
     }
-    if (button("< frame", "back")) {
+    if (button("< frame", "back", "Left arrow: one frame back; with Shift one tick")) {
         stepFrames(line, -1);
     }
-    if (button(line.playing ? "Pause (Space)" : "\xe2\x96\xb6 Play (Space)", "play")) {
+    if (button(line.playing ? "Pause (Space)" : "\xe2\x96\xb6 Play (Space)", "play",
+               "Space: play or pause. [ and ]: half or twice the speed")) {
         togglePlay(line);
     }
-    if (button("frame >", "forth")) {
+    if (button("frame >", "forth", "Right arrow: one frame on; with Shift one tick")) {
         stepFrames(line, 1);
     }
-    if (button(">|", "to end")) {
+    if (button(">|", "to end", "End: to the end")) {
         line.t = line.duration;
     }
     char text[160];
@@ -138,6 +139,10 @@ void TimeLinePanel::drawStrip(Console& console) const {
     const ImVec2 at = ImGui::GetCursorScreenPos(), room = ImGui::GetContentRegionAvail();
     ImGui::InvisibleButton("strip", {std::max(16.0f, room.x), std::max(12.0f, room.y)});
     markPlace(console, "time line");
+    explain(
+        console,
+        "Drag: another moment. The curve is the recorded force: yellow while a fixture pushes. Blue below: "
+        "guidance.");
     line.dragged = ImGui::IsItemActive();
     if (line.dragged && line.duration > 0.0) {
         const double share = (double{ImGui::GetIO().MousePos.x} - double{at.x}) / double{room.x};

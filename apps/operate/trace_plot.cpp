@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/operate/trace_plot.h"
 
+#include "apps/operate/printed.h"
 #include "apps/operate/trace_columns.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace fathom::operate {
 
@@ -13,13 +13,6 @@ namespace {
 
 constexpr ImU32 kPlotGround = IM_COL32(12, 16, 23, 255), kResidualInk = IM_COL32(200, 206, 216, 220);
 constexpr ImU32 kZeroLine = IM_COL32(70, 84, 106, 255), kLimitLine = IM_COL32(255, 92, 84, 150);
-
-template <class... Values>
-std::string figureText(const char* form, Values... values) {
-    char text[96];
-    std::snprintf(text, sizeof text, form, values...);
-    return text;
-}
 
 // Curves of one plot.
 class Curves {
@@ -73,7 +66,7 @@ void drawScale(const WrenchFigures& plot, const TraceArea& area, const Curves& c
         const float y = curves.y(share * plot.limit);
         list.AddLine({area.at.x, y}, {right, y}, share == 0.0 ? kZeroLine : kLimitLine,
                      share == 0.0 ? 1.0f : 1.5f);
-        const std::string text = figureText("%.3g", share * plot.limit);
+        const std::string text = printed("%.3g", share * plot.limit);
         const ImVec2 size = ImGui::CalcTextSize(text.c_str());
         const float top = std::clamp(y - 0.5f * size.y, area.at.y, std::max(area.at.y, bottom - size.y));
         list.AddText({area.at.x - 4.0f - size.x, top}, colour::kQuiet, text.c_str());
@@ -83,12 +76,12 @@ void drawScale(const WrenchFigures& plot, const TraceArea& area, const Curves& c
 // The names and values right of the curves, as many lines as there is room for.
 void drawFigures(const WrenchFigures& plot, const TraceArea& area) {
     const std::pair<ImU32, std::string> lines[] = {
-        {plot.colour, figureText("%s [%s]", plot.name, plot.unit)},
-        {colour::kText, figureText("now %.2f  peak %.2f", plot.delivered, plot.peak)},
+        {plot.colour, printed("%s [%s]", plot.name, plot.unit)},
+        {colour::kText, printed("now %.2f  peak %.2f", plot.delivered, plot.peak)},
         {kResidualInk,
-         std::isfinite(plot.residual) ? figureText("residual %.2f", plot.residual) : "residual unknown"},
+         std::isfinite(plot.residual) ? printed("residual %.2f", plot.residual) : "residual unknown"},
         {colour::kText,
-         std::isfinite(plot.ripple) ? figureText("ripple/frame %.3f", plot.ripple) : "ripple/frame -"}};
+         std::isfinite(plot.ripple) ? printed("ripple/frame %.3f", plot.ripple) : "ripple/frame -"}};
     const float x = area.at.x + area.size.x + ImGui::GetFontSize(), step = ImGui::GetTextLineHeight();
     float y = area.at.y;
     for (const auto& [colour, text] : lines) {

@@ -27,17 +27,19 @@ void TracesPanel::draw(Console& console, const HudInput& input, ImVec2 at, ImVec
     ImGui::PushFont(input.letters.small);
     drawControls(console);
     drawCurves(console, input);
-    markPlace(console, "traces");
     ImGui::PopFont();
     ImGui::End();
 }
 
 void TracesPanel::drawControls(Console& console) {
-    if (markedButton(console, console.paused ? "Resume (P)" : "Pause (P)", "pause")) {
+    if (markedButton(console, console.paused ? "Resume (P)" : "Pause (P)", "pause",
+                     "P: hold the traces; forces go on")) {
         console.paused = !console.paused;
     }
     ImGui::SameLine();
-    console.exportCsv = markedButton(console, "CSV (E)", "csv") || console.exportCsv;
+    console.exportCsv =
+        markedButton(console, "CSV (E)", "csv", "E: write the shown ten seconds to traces.csv") ||
+        console.exportCsv;
     for (int axis = 0; axis < 3; ++axis) {
         ImGui::SameLine();
         ImGui::TextColored(ImColor(kAxisColours[axis]), "%c", "xyz"[axis]);
@@ -61,13 +63,22 @@ void TracesPanel::drawCurves(Console& console, const HudInput& input) const {
     for (const WrenchFigures& plot : figuresOf(trace, shownRipple(input.run), input.haptics)) {
         drawTracePlot(plot, area, trace);
         markPlace(console, std::string("trace ") + plot.name, area.at, area.size);
+        ImGui::SetCursorScreenPos(area.at);
+        ImGui::Dummy(area.size);
+        explain(console, plot.part == &TraceWrench::force ? kForceTip : kTorqueTip);
         area.at.y += half + kApart;
     }
     area.size.y = lane;
     drawEvents(area, trace);
     ImGui::GetWindowDrawList()->AddText({left + width + ImGui::GetFontSize(), area.at.y}, colour::kQuiet,
                                         "events");
-    ImGui::Dummy(room);
+    ImGui::SetCursorScreenPos(area.at);
+    ImGui::Dummy(area.size);
+    markPlace(console, "events");
+    markPlace(console, "traces", corner, room);
+    explain(console,
+            "Events of these ten seconds. Short marks: a new fixture set. Red lines: late ticks. Triangles: "
+            "guidance, and states with their names.");
 }
 
 void TracesPanel::exportCsv(const RunView& run, const std::filesystem::path& file) const {

@@ -2,6 +2,7 @@
 #define GLFW_INCLUDE_VULKAN
 #include "apps/operate/window.h"
 
+#include "apps/operate/monitor_scale.h"
 #include "engine/gpu/result.h"
 #include "engine/types/error.h"
 
@@ -58,13 +59,7 @@ Window::Window(const std::string& offscreen, const std::string& title) {
         if (glfwInit() != GLFW_TRUE) {
             refuseDisplay();
         }
-        glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
-        window_ = glfwCreateWindow(kWidth, kHeight, title.c_str(), nullptr, nullptr);
-        if (window_ == nullptr || glfwVulkanSupported() != GLFW_TRUE) {
-            refuseDisplay();
-        }
-        glfwSetWindowSizeLimits(window_, 640, 400, GLFW_DONT_CARE, GLFW_DONT_CARE);
-        glfwSetWindowUserPointer(window_, this);
+        create(title);
     }
     IMGUI_CHECKVERSION();
     ImGui::CreateContext();
@@ -74,6 +69,32 @@ Window::Window(const std::string& offscreen, const std::string& title) {
         glfwSetKeyCallback(window_, key); // replaces ImGui's callback: holdTaps() passes the keys
     }
     before_ = seconds();
+}
+
+// As large as its text needs, if the monitor has that room.
+void Window::create(const std::string& title) {
+    const double scale = operate::monitorScale(monitorOf(nullptr));
+    int x = 0, y = 0, width = 0, height = 0;
+    if (GLFWmonitor* first = glfwGetPrimaryMonitor(); first != nullptr) {
+        glfwGetMonitorWorkarea(first, &x, &y, &width, &height);
+    }
+    const auto sized = [&](int usual, int room) {
+        const int wanted = static_cast<int>(usual * scale);
+        return room > 0 ? std::min(wanted, room) : wanted;
+    };
+    glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
+    window_ = glfwCreateWindow(sized(kWidth, width), sized(kHeight, height), title.c_str(), nullptr, nullptr);
+    if (window_ == nullptr || glfwVulkanSupported() != GLFW_TRUE) {
+        refuseDisplay();
+    }
+    glfwSetWindowSizeLimits(window_, 640, 400, GLFW_DONT_CARE, GLFW_DONT_CARE);
+    glfwSetWindowUserPointer(window_, this);
+    glfwSetWindowPosCallback(window_, [](GLFWwindow* at, int, int) { of(at).moved_ = true; });
+    glfwSetWindowContentScaleCallback(window_, [](GLFWwindow* at, float, float) { of(at).moved_ = true; });
+}
+
+Window& Window::of(GLFWwindow* window) {
+    return *static_cast<Window*>(glfwGetWindowUserPointer(window));
 }
 
 Window::~Window() {
@@ -118,7 +139,7 @@ void Window::holdTaps() {
 }
 
 void Window::key(GLFWwindow* window, int key, int, int action, int mods) {
-    auto* self = static_cast<Window*>(glfwGetWindowUserPointer(window));
+    Window* const self = &of(window);
     if (key == GLFW_KEY_SPACE && action == GLFW_PRESS) {
         self->taps_.clear(); // discards earlier presses
         dropQueuedKeys();
@@ -159,6 +180,9 @@ void Window::beginFrame(double patience) {
             constexpr double kLook = 0.002; // [s] polls, because the swapchain uses the same X connection
             std::this_thread::sleep_for(std::chrono::duration<double>(std::min(kLook, until - seconds())));
             glfwPollEvents();
+        }
+        if (std::exchange(moved_, false)) {
+            monitorScale_ = operate::monitorScale(monitorOf(window_));
         }
         ImGui_ImplGlfw_NewFrame();
         holdTaps();

@@ -18,8 +18,8 @@ namespace fathom::operate {
 // Main thread, as GLFW requires. Owns the ImGui context.
 class Window {
 public:
-    // offscreen: "WxH", or empty for a window of 1280x720. Throws BadInput without a display or for a bad
-    // size.
+    // offscreen: "WxH", or empty for a window of 1280x720, larger on a dense monitor. Throws BadInput without
+    // a display or for a bad size.
     Window(const std::string& offscreen, const std::string& title);
     ~Window();
     Window(const Window&) = delete;
@@ -37,7 +37,8 @@ public:
     void setTitle(const std::string& title);
     bool takeClose(); // the close button was pressed since the last call
     bool minimised() const;
-    VkExtent2D size() const; // [pixels]
+    double monitorScale() const { return monitorScale_; } // of the monitor that it is on; offscreen 1
+    VkExtent2D size() const;                              // [pixels]
 
 private:
     // A key pressed and released between two frames counts as pressed in the next frame; a second press
@@ -45,6 +46,8 @@ private:
     void holdTaps();
 
     static void key(GLFWwindow* window, int key, int scan, int action, int mods);
+    static Window& of(GLFWwindow* window);
+    void create(const std::string& title);
     GLFWwindow* window_ = nullptr;
     VkExtent2D offscreen_{};
     struct Tap {
@@ -54,6 +57,8 @@ private:
     KeysDown live_{};       // as GLFW reports them
     KeysDown shown_{};      // down in the last frame
     double before_ = 0.0;
+    double monitorScale_ = 1.0;
+    bool moved_ = true; // perhaps to another monitor
 };
 
 } // namespace fathom::operate

@@ -13,6 +13,14 @@ namespace fathom::operate {
 // Share of a bar or of half a plot at which the limit is; what is beyond it stays visible.
 inline constexpr float kLimitShare = 0.9f;
 
+// Tooltips of bars and traces.
+inline constexpr const char* kForceTip =
+    "Force that the device gives to the hand. The red line is the limit, which the scale ends at; the "
+    "peak is of the last ten seconds. Ripple: RMS change from frame to frame in one second.";
+inline constexpr const char* kTorqueTip =
+    "Torque that the device gives to the hand, about the tool's centre. What its motors cannot render is the "
+    "residual, which is only shown.";
+
 // Force or torque at the end of a trace; sizes of vectors, in the unit.
 struct WrenchFigures {
     const char* name = "";

@@ -48,6 +48,19 @@ bool iconify(const std::string& display, const std::string& window, bool iconic)
     return true;
 }
 
+bool setResolution(const std::string& display, int perInch) {
+    Display* server = XOpenDisplay(display.c_str());
+    if (server == nullptr) {
+        return false;
+    }
+    const std::string resource = "Xft.dpi:\t" + std::to_string(perInch) + "\n";
+    XChangeProperty(server, DefaultRootWindow(server), XA_RESOURCE_MANAGER, XA_STRING, 8, PropModeReplace,
+                    reinterpret_cast<const unsigned char*>(resource.data()),
+                    static_cast<int>(resource.size()));
+    XCloseDisplay(server);
+    return true;
+}
+
 void WindowRig::minimise(bool on) const {
     REQUIRE(iconify(display_, window_, on));
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Minimises and closes a window like a window manager, which the display of the tests lacks.
+// What a desktop does, which the display of the tests lacks: minimises and closes a window, sets the
+// resolution.
 #pragma once
 
 #include <string>
@@ -10,5 +11,8 @@ namespace fathom::window {
 bool askToClose(const std::string& display, const std::string& window);
 // display: ":N"; window: its id as text. False when there is no such display.
 bool iconify(const std::string& display, const std::string& window, bool iconic);
+
+// Sets the resource Xft.dpi [pixels per inch] for programs that start from now on.
+bool setResolution(const std::string& display, int perInch);
 
 } // namespace fathom::window

@@ -2,6 +2,7 @@
 // The pilot's layout and the stop plate in the window.
 #include "tests/window/window_rig.h"
 
+#include <cmath>
 #include <doctest/doctest.h>
 
 using namespace fathom;
@@ -49,6 +50,36 @@ TEST_CASE("The stop plate is on screen in both layouts, and a click on it turns 
         REQUIRE(rig.await(
             [&](const json& s) { return s["console"]["layout"] == (layout == 0 ? "pilot" : "engineer"); }));
     }
+    closeQuietly(rig);
+}
+
+TEST_CASE("The state word, a figure and a button explain themselves under the mouse") {
+    WindowRig rig;
+    for (const auto& [place, words] : {std::pair("mode", "The device gets no force"),
+                                       std::pair("figure scene age", "Time since the camera took the image"),
+                                       std::pair("Undo", "Ctrl Z: take back")}) {
+        const auto at = rig.place(place);
+        rig.xdo("mousemove --window $W " + std::to_string(std::lround(at[0] + 0.5 * at[2])) + " " +
+                std::to_string(std::lround(at[1] + 0.5 * at[3])));
+        CHECK(rig.await(
+            [&](const json& s) { return s["console"]["tooltip"].get<std::string>().find(words) == 0; }));
+        rig.shoot(std::string("tooltip-") + place);
+    }
+    closeQuietly(rig);
+}
+
+TEST_CASE("On a monitor of twice the usual resolution, window and text are larger without a setting") {
+    WindowRig rig({}, {.perInch = 192});
+    const json s = rig.state();
+    CHECK(s["console"]["monitor_scale"] == 2.0);
+    CHECK(s["console"]["text_scale"] == 1.0);
+    CHECK(s["window"]["width"] == 1920); // all of the monitor: twice 1280 is wider
+    CHECK(s["window"]["height"] == 1080);
+    CHECK(s["console"]["drawn_scale"] > 1.8);
+    rig.shoot("monitor-dense");
+    rig.key("ctrl+minus");
+    rig.key("ctrl+minus");
+    CHECK(rig.await([](const json& now) { return now["console"]["drawn_scale"] == 1.5; }));
     closeQuietly(rig);
 }
 

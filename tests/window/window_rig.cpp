@@ -3,6 +3,7 @@
 
 #include "tests/rig/run_fathom.h"
 #include "tests/support/validation_wanted.h"
+#include "tests/window/iconify.h"
 
 #include <algorithm>
 #include <chrono>
@@ -67,7 +68,7 @@ void requireDisplay() {
     }
 }
 
-WindowRig::WindowRig(const std::vector<std::string>& extra) {
+WindowRig::WindowRig(const std::vector<std::string>& extra, const TestMonitor& monitor) {
     requireDisplay();
     const Image image = bumpImage().set({50, 36, 64, 48}, 0); // a corner without depth
     writeRecording(folder_.path() / "recording", std::vector<Image>(4, image));
@@ -77,17 +78,17 @@ WindowRig::WindowRig(const std::vector<std::string>& extra) {
     scene.tool = "spheres: [[0, 0, 0, 0.01], [0, 0, -0.03, 0.012]]";
     scene.haptics = "friction: 0, damping: 0, margin: 1, smooth: false"; // smooth, a tool slides off the bump
     folder_.write("scene.yaml", "# a comment that saving must keep\n" + scene.text());
-    startDisplay();
+    startDisplay(monitor);
     startProgram(folder_.path() / "scene.yaml", extra);
 }
 
-void WindowRig::startDisplay() {
+void WindowRig::startDisplay(const TestMonitor& monitor) {
     int ends[2];
     REQUIRE(::pipe(ends) == 0);
     const int log = ::open((folder_.path() / "xvfb.log").c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0644);
-    server_ = start(
-        {"Xvfb", "-displayfd", std::to_string(ends[1]), "-screen", "0", "1920x1080x24", "-nolisten", "tcp"},
-        log);
+    server_ = start({"Xvfb", "-displayfd", std::to_string(ends[1]), "-screen", "0", monitor.size + "x24",
+                     "-noreset", "-nolisten", "tcp"},
+                    log);
     ::close(log);
     ::close(ends[1]);
     char digit = 0;
@@ -97,6 +98,7 @@ void WindowRig::startDisplay() {
     ::close(ends[0]);
     REQUIRE_MESSAGE(!display_.empty(), "Xvfb did not start");
     display_ = ":" + display_;
+    REQUIRE(setResolution(display_, monitor.perInch));
 }
 
 void WindowRig::reopen(const std::filesystem::path& scene, const std::vector<std::string>& extra) {

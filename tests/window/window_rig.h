@@ -31,12 +31,18 @@ inline bool isRed(int r, int g, int b) {
     return r > 110 && r > 2 * g && r > 2 * b;
 }
 
+// The monitor of a display. Other than 96 pixels per inch are the desktop's setting.
+struct TestMonitor {
+    std::string size = "1920x1080";
+    int perInch = 96;
+};
+
 // One display and one program. The scene has a wall with a red bump and a yellow square; validation layers
 // are on.
 class WindowRig {
 public:
     // extra: further arguments of `fathom operate`.
-    explicit WindowRig(const std::vector<std::string>& extra = {});
+    explicit WindowRig(const std::vector<std::string>& extra = {}, const TestMonitor& monitor = {});
     ~WindowRig();
     WindowRig(const WindowRig&) = delete;
     WindowRig& operator=(const WindowRig&) = delete;
@@ -72,7 +78,7 @@ public:
     std::string sceneText() const { return folder_.read("scene.yaml"); }
 
 private:
-    void startDisplay();
+    void startDisplay(const TestMonitor& monitor);
     void startProgram(const std::filesystem::path& scene, const std::vector<std::string>& extra);
     void point(const std::string& place, glm::dvec2 share) const; // moves the mouse
     void settle() const;

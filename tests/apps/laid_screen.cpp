@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/apps/laid_screen.h"
+
+namespace fathom::testing {
+
+LaidScreen::LaidScreen() {
+    ImGui::CreateContext();
+    ImGui::GetIO().IniFilename = nullptr;
+    ImGui::GetIO().DeltaTime = 1.0f / 60.0f;
+    FixtureClass red, yellow;
+    red.name = "red valve", yellow.name = "yellow valve";
+    yellow.role = Role::Guidance;
+    scene.fixtures = {red, yellow};
+    run.haptics.forceLimit = 20.0;
+    Fixtures set;
+    set.frame = 0;
+    set.camera.depth.width = 64, set.camera.depth.height = 48;
+    set.camera.depth.fx = set.camera.depth.fy = 60.0;
+    set.camera.depth.cx = 31.5, set.camera.depth.cy = 23.5;
+    set.camera.hasColour = false;
+    set.camera.metresPerUnit = 0.001;
+    set.depth.assign(size_t{64} * 48, 1000);
+    run.sink.frame({}, set);
+    run.view.refresh();
+    run.row.record.tool.position = run.row.record.device.position = {0.0, 0.0, 0.7};
+    run.row.record.clearance = 0.123;
+    run.step(0.001);
+}
+
+void LaidScreen::fonts(ImVec2 size, double scale) {
+    ImGui::GetIO().DisplaySize = size;
+    run.console.textScale = scale;
+    const double fits = scaleThatFits(size, scale, run.console.pilotLayout);
+    if (fits != run.console.drawnScale || letters.body == nullptr) {
+        run.console.drawnScale = fits;
+        letters = loadLetters(fits);
+        applyTheme(fits);
+        unsigned char* pixels = nullptr;
+        int width = 0, height = 0;
+        ImGui::GetIO().Fonts->GetTexDataAsAlpha8(&pixels, &width, &height);
+    }
+}
+
+void LaidScreen::draw(int frames) {
+    const std::vector<std::string> passes{"classify", "list", "surface", "thin", "moments", "spheres"};
+    HudInput hud{.run = run.view,
+                 .scene = scene,
+                 .haptics = run.haptics,
+                 .passNames = passes,
+                 .letters = letters,
+                 .title = "a recording with a rather long name, somewhere on this disk"};
+    for (int i = 0; i < frames; ++i) {
+        ImGui::NewFrame();
+        screen.draw(run.console, editor, run.alarms, {run.view, tool, hud, i == 0, {}, measured});
+        const auto at = [&](const char* name) { return run.console.places.at(name); };
+        if (const auto room = at("traces room"); room[3] > 0.0f) {
+            traces.draw(run.console, hud, {room[0], room[1]}, {room[2], room[3]});
+        }
+        if (const auto room = at("time line room"); room[3] > 0.0f) {
+            timeLine.draw(run.console, letters, {room[0], room[1]}, {room[2], room[3]});
+        }
+        ImGui::Render();
+    }
+}
+
+const std::vector<LaidCase>& laidCases() {
+    static const std::vector<LaidCase> kCases{
+        {"fixtures", [](Console& c) { c.tab = Tab::Fixtures; }},
+        {"why", [](Console& c) { c.tab = Tab::Why; }},
+        {"alarms", [](Console& c) { c.tab = Tab::Alarms; }},
+        {"keys", [](Console& c) { c.tab = Tab::Help; }},
+        {"3D", [](Console& c) { c.spaceIsLarge = true; }},
+        {"armed, recording, guidance",
+         [](Console& c) { c.forces = c.recording = c.guidance = c.frozen = true; }},
+        {"refusal",
+         [](Console& c) {
+             c.refusal = "hand is 105 mm inside 'red valve': hold C to re-centre";
+             c.notify("recording to /home/pilot/recordings/2026-11-27/some-long-folder/recording-12");
+         }},
+        {"paused traces", [](Console& c) { c.paused = true; }},
+        {"look-back",
+         [](Console& c) { c.timeLine.on = true, c.timeLine.images = 300, c.timeLine.duration = 10.0; }},
+        {"closing", [](Console& c) { c.closing = Closing::Asks; }},
+        {"panel open", [](Console& c) { c.panelOpen = true; }},
+        {"pick", [](Console& c) { c.pick.active = true; }},
+        {"picked",
+         [](Console& c) {
+             c.pick.active = c.pick.taken = true;
+             c.pick.gates.name = "picked 1";
+             c.pick.gates.hue = c.pick.gates.saturation = c.pick.gates.lightness = Band{0.1, 0.9};
+         }},
+    };
+    return kCases;
+}
+
+} // namespace fathom::testing
