@@ -16,39 +16,6 @@ namespace {
 constexpr double kTolerance = 0.008; // [m] noise of depth; less behind a surface is not hidden
 constexpr ImU32 kWhite = IM_COL32(255, 255, 255, 255);
 
-struct Circle {
-    float x = 0.0f, y = 0.0f, r = 0.0f; // [pixels] of the window
-};
-
-// Fills the union of circles, each pixel once, so that overlaps are not darker.
-void fillUnion(ImDrawList& list, const std::vector<Circle>& circles, ImU32 colour) {
-    constexpr float kRow = 2.0f; // [pixels]
-    float top = 1e9f, bottom = -1e9f;
-    for (const Circle& c : circles) {
-        top = std::min(top, c.y - c.r), bottom = std::max(bottom, c.y + c.r);
-    }
-    std::vector<std::pair<float, float>> runs;
-    for (float y = std::floor(top); y < std::min(bottom, top + 2000.0f); y += kRow) {
-        runs.clear();
-        for (const Circle& c : circles) {
-            const float dy = y + 0.5f * kRow - c.y, square = c.r * c.r - dy * dy;
-            if (square > 0.0f) {
-                runs.emplace_back(c.x - std::sqrt(square), c.x + std::sqrt(square));
-            }
-        }
-        std::sort(runs.begin(), runs.end());
-        for (size_t i = 0; i < runs.size();) {
-            float end = runs[i].second;
-            size_t next = i + 1;
-            for (; next < runs.size() && runs[next].first <= end; ++next) {
-                end = std::max(end, runs[next].second);
-            }
-            list.AddRectFilled({runs[i].first, y}, {end, y + kRow}, colour);
-            i = next;
-        }
-    }
-}
-
 // The depth [m] of the sphere whose silhouette is nearest to a pixel of the view.
 double depthOf(const ViewPort& port, std::span<const Sphere> spheres, glm::dvec2 at) {
     double least = 1e300, depth = 0.0;

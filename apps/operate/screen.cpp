@@ -163,6 +163,19 @@ void Screen::drawOver(Console& console, const Alarms& alarms, const ScreenInput&
     drawHint(console, input.hud.driven, large_->where, rooms.stop);
 }
 
+void Screen::drawCloseUps(Console& console, const FixtureEditor& editor, const ScreenInput& input,
+                          const CloseUpRooms& rooms) {
+    for (const auto& [side, room] :
+         {std::pair(CloseUpSide::Right, rooms.side), std::pair(CloseUpSide::Top, rooms.top)}) {
+        auto& view = closeUps_[side == CloseUpSide::Right ? 0 : 1];
+        view = closeUp(input.run.scene().set, cues_, side, room);
+        console.places.erase(side == CloseUpSide::Right ? "close-up side" : "close-up top");
+        if (view) {
+            drawCloseUp(console, *view, side, cues_, editor.shapes(), input.hud.letters.small);
+        }
+    }
+}
+
 // The parts that only the engineer's layout has.
 void Screen::drawFigures(Console& console, const ScreenInput& input, const Rooms& rooms) {
     drawHeadLine(console, input.hud, cornerOf(rooms.head), sizeOf(rooms.head));
@@ -201,6 +214,7 @@ void Screen::draw(Console& console, FixtureEditor& editor, Alarms& alarms, const
         handleFixtureKeys(console, editor, input.run.scene());
     }
     rooms.gap = tabs && console.pilotLayout ? PixelRect() : rooms.gap; // the tabs are over it
+    drawCloseUps(console, editor, input, closeUpRooms(rooms.gap, console.scale()));
     drawOver(console, alarms, input, rooms);
     markPlace(console, "traces room", cornerOf(rooms.traces), sizeOf(rooms.traces));
     markPlace(console, "time line room", cornerOf(rooms.timeLine), sizeOf(rooms.timeLine));

@@ -4,6 +4,7 @@
 
 #include "apps/operate/alarms.h"
 #include "apps/operate/camera_ground.h"
+#include "apps/operate/close_up.h"
 #include "apps/operate/fixture_editor.h"
 #include "apps/operate/hud.h"
 #include "apps/operate/layout.h"
@@ -38,6 +39,7 @@ public:
     void redraw() { redraw_ = true; } // the next draw() composes both images; call it after a lost device
     const ViewPort& large() const { return *large_; }
     const DepthCues& cues() const { return cues_; }
+    const std::array<std::optional<CloseUp>, 2>& closeUps() const { return closeUps_; } // side, top
     double unknownShare() const { return camera_.unknownShare(); }
     // The pixel of the colour image at a point of the window; empty outside the camera view.
     std::optional<glm::uvec2> colourPixelAt(ImVec2 at) const;
@@ -50,6 +52,8 @@ private:
     SurfaceDepth surfaceOf(const ViewPort& port, const Fixtures& set) const;
     void drawViews(Console& console, const FixtureEditor& editor, const ScreenInput& input);
     void drawOver(Console& console, const Alarms& alarms, const ScreenInput& input, const Rooms& rooms);
+    void drawCloseUps(Console& console, const FixtureEditor& editor, const ScreenInput& input,
+                      const CloseUpRooms& rooms);
     void drawFigures(Console& console, const ScreenInput& input, const Rooms& rooms);
 
     CameraGround camera_;
@@ -60,9 +64,10 @@ private:
     Orbit drawnOrbit_;
     double floor_ = 0.0; // [m] of the grid, base y
     DepthCues cues_;
-    std::vector<Sphere> ghost_; // of the picked colour
-    double ghostRadius_ = 0.0;  // [m]
-    uint64_t ghostNumber_ = 0;  // selection that it shows
+    std::array<std::optional<CloseUp>, 2> closeUps_; // from the side and from above
+    std::vector<Sphere> ghost_;                      // of the picked colour
+    double ghostRadius_ = 0.0;                       // [m]
+    uint64_t ghostNumber_ = 0;                       // selection that it shows
     int drawnLevel_ = -1;
     bool centred_ = false, drawnLarge_ = false, redraw_ = false;
     uint64_t selectionDrawn_ = 0, drawn_ = 0;

@@ -145,13 +145,20 @@ json chipsOf(const ShownState& s) {
 }
 
 // Depth and distance as drawn. gap_m is null while unknown or without a region.
-json cuesOf(const DepthCues& cues) {
+json cuesOf(const Screen& screen) {
+    const DepthCues& cues = screen.cues();
+    const auto cutBy = [&](size_t side) {
+        const std::optional<CloseUp>& view = screen.closeUps()[side];
+        return view ? json(view->section.size()) : json(nullptr);
+    };
     return {{"gap_m", known(cues.gap)},
             {"text", gapText(cues.gap)},
             {"look", std::isfinite(cues.gap) ? json(gapName(lookOf(cues.gap))) : json(nullptr)},
             {"tether", cues.nearest ? json{vec(cues.nearest->from), vec(cues.nearest->to)} : json(nullptr)},
             {"hidden", cues.hidden},
-            {"shadow", cues.shadow.size()}};
+            {"shadow", cues.shadow.size()},
+            {"side", cutBy(0)}, // circles of the section
+            {"top", cutBy(1)}};
 }
 
 // Force and torque as bars and traces show them; null: unknown.
@@ -221,7 +228,7 @@ void StateLog::write(const ShownState& s, bool now) {
                        {"gpu",
                         {{"there", s.canvas.isOpen() && !s.session.handover->gone()},
                          {"made_anew", s.session.cycles.renewals()}}},
-                       {"depth_cues", cuesOf(s.screen.cues())},
+                       {"depth_cues", cuesOf(s.screen)},
                        {"unknown_share", s.screen.unknownShare()},
                        {"alarms", s.alarms.inWords()},
                        {"alarm_lines", alarmLinesOf(s.alarms)},

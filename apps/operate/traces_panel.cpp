@@ -33,7 +33,7 @@ void TracesPanel::draw(Console& console, const HudInput& input, ImVec2 at, ImVec
 
 void TracesPanel::drawControls(Console& console) {
     if (markedButton(console, console.paused ? "Resume (P)" : "Pause (P)", "pause",
-                     "P: hold the traces; forces go on")) {
+                     "P: hold the traces; forces continue")) {
         console.paused = !console.paused;
     }
     ImGui::SameLine();

@@ -45,6 +45,34 @@ void thin(std::vector<ImVec2>& points) {
     points.resize(std::min(points.size(), kept + 1));
 }
 
+void fillUnion(ImDrawList& list, const std::vector<Circle>& circles, ImU32 colour) {
+    constexpr float kRow = 2.0f; // [pixels]
+    float top = 1e9f, bottom = -1e9f;
+    for (const Circle& c : circles) {
+        top = std::min(top, c.y - c.r), bottom = std::max(bottom, c.y + c.r);
+    }
+    std::vector<std::pair<float, float>> runs;
+    for (float y = std::floor(top); y < std::min(bottom, top + 2000.0f); y += kRow) {
+        runs.clear();
+        for (const Circle& c : circles) {
+            const float dy = y + 0.5f * kRow - c.y, square = c.r * c.r - dy * dy;
+            if (square > 0.0f) {
+                runs.emplace_back(c.x - std::sqrt(square), c.x + std::sqrt(square));
+            }
+        }
+        std::sort(runs.begin(), runs.end());
+        for (size_t i = 0; i < runs.size();) {
+            float end = runs[i].second;
+            size_t next = i + 1;
+            for (; next < runs.size() && runs[next].first <= end; ++next) {
+                end = std::max(end, runs[next].second);
+            }
+            list.AddRectFilled({runs[i].first, y}, {end, y + kRow}, colour);
+            i = next;
+        }
+    }
+}
+
 void outline(ImDrawList& list, const ViewPort& port, const std::vector<OutlineLine>& lines, ImU32 colour,
              float width, bool isDashed) {
     std::vector<ImVec2> points;

@@ -17,6 +17,12 @@ void dashed(ImDrawList& list, ImVec2 a, ImVec2 b, ImU32 colour, float width, flo
 // triangles. Keeps the first and the last point.
 void thin(std::vector<ImVec2>& points);
 
+struct Circle {
+    float x = 0.0f, y = 0.0f, r = 0.0f;
+};
+// Fills the union of circles, each pixel once, so that overlaps are not darker.
+void fillUnion(ImDrawList& list, const std::vector<Circle>& circles, ImU32 colour);
+
 void outline(ImDrawList& list, const ViewPort& port, const std::vector<OutlineLine>& lines, ImU32 colour,
              float width, bool isDashed);
 

@@ -13,18 +13,6 @@
 using namespace fathom;
 using namespace fathom::operate;
 
-namespace {
-
-void addRegion(Fixtures& set, const dvec3& centre, double radius, uint8_t fixture) {
-    RegionSpheres& s = set.spheres;
-    s.resize(s.size() + 1);
-    s.x.back() = static_cast<float>(centre.x), s.y.back() = static_cast<float>(centre.y);
-    s.z.back() = static_cast<float>(centre.z), s.radius.back() = static_cast<float>(radius);
-    s.fixture.back() = fixture;
-}
-
-} // namespace
-
 TEST_CASE("The nearest pair of tool and regions is the one that a search over all pairs finds") {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> at(-0.4, 0.4), size(0.005, 0.04);

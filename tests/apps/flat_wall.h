@@ -16,4 +16,12 @@ inline Fixtures flatWall() {
     return set;
 }
 
+inline void addRegion(Fixtures& set, const dvec3& centre, double radius, uint8_t fixture) {
+    RegionSpheres& s = set.spheres;
+    s.resize(s.size() + 1);
+    s.x.back() = static_cast<float>(centre.x), s.y.back() = static_cast<float>(centre.y);
+    s.z.back() = static_cast<float>(centre.z), s.radius.back() = static_cast<float>(radius);
+    s.fixture.back() = fixture;
+}
+
 } // namespace fathom::operate

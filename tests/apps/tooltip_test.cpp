@@ -45,7 +45,7 @@ TEST_CASE("Every button, slider, tab, bar and figure has a tooltip") {
             now.set(console);
             ImGui::GetIO().MousePos = {-1.0f, -1.0f};
             laid.draw();
-            console.places.clear(); // of what was open before
+            console.places.clear(); // of panels that were open before
             laid.draw(1);
             for (const auto& [name, place] : std::map(console.places)) {
                 if (speaksForItself(name) || !visible(place)) {

@@ -95,3 +95,32 @@ TEST_CASE("1, 2, 3 and 0 show the scene in 3D from the front, the side and the t
     CHECK(looks("0", 0.55, 0.45));
     closeQuietly(rig);
 }
+
+TEST_CASE("Side and top views show the tool before the region, in both layouts and in a small window") {
+    WindowRig rig;
+    approach(rig, "close");
+    REQUIRE(!rig.atRest().is_null());
+    const auto red = [](int r, int g, int b) { return r > 120 && g < 50 && b < 50; };
+    const auto white = [](int r, int g, int b) { return r > 240 && g > 240 && b > 240; };
+    const auto shows = [&](const std::string& keep) {
+        const Screenshot shot = rig.shoot(keep);
+        for (const char* name : {"close-up side", "close-up top"}) {
+            CAPTURE(name);
+            CHECK(shot.share(rig.place(name), red) > 0.04);
+            CHECK(shot.share(rig.place(name), white) > 0.0015);
+        }
+        // In the side view the camera is at the left: the tool is left of the region.
+        const auto side = rig.place("close-up side");
+        const std::array<double, 4> left{side[0], side[1], 0.4 * side[2], side[3]};
+        CHECK(shot.share(left, red) < 0.01);
+    };
+    CHECK(rig.state()["depth_cues"]["side"] > 0);
+    shows("close-ups");
+    rig.key("F2");
+    REQUIRE(rig.await([](const json& s) { return s["console"]["layout"] == "pilot"; }));
+    shows("close-ups-pilot");
+    rig.xdo("windowsize --sync $W 800 480");
+    REQUIRE(rig.await([](const json& s) { return s["window"]["width"] == 800; }));
+    shows("close-ups-small");
+    closeQuietly(rig);
+}

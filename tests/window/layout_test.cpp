@@ -53,7 +53,7 @@ TEST_CASE("The stop plate is on screen in both layouts, and a click on it turns 
     closeQuietly(rig);
 }
 
-TEST_CASE("The state word, a figure and a button explain themselves under the mouse") {
+TEST_CASE("State word, figures and buttons explain themselves under the mouse") {
     WindowRig rig;
     for (const auto& [place, words] : {std::pair("mode", "The device gets no force"),
                                        std::pair("figure scene age", "Time since the camera took the image"),
