@@ -27,7 +27,7 @@ float alarmLine(ImVec2 at, float width, const std::string& words, ImU32 colour, 
     const float pad = 0.35f * font->FontSize, wrap = width - 2.0f * pad;
     const ImVec2 size = font->CalcTextSizeA(font->FontSize, wrap, wrap, words.c_str());
     list.AddRectFilled(at, {at.x + size.x + 3.0f * pad, at.y + size.y + 1.2f * pad},
-                       bright ? IM_COL32(6, 8, 12, 235) : colour::kShade, 4.0f);
+                       bright ? colour::kPlate : colour::kShade, 4.0f);
     if (bright) {
         list.AddRectFilled(at, {at.x + 0.6f * pad, at.y + size.y + 1.2f * pad}, colour);
     }

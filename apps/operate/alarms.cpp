@@ -25,7 +25,7 @@ const char* levelSign(Level level) {
 }
 
 ImU32 levelColour(Level level) {
-    constexpr ImU32 kColours[] = {colour::kAdvisory, colour::kCaution, colour::kWarning};
+    constexpr ImU32 kColours[] = {colour::kAdvisory, colour::kCaution, colour::kWarningWord};
     return kColours[static_cast<int>(level)];
 }
 

@@ -11,7 +11,6 @@ namespace fathom::operate {
 namespace {
 
 constexpr double kFull = 0.98; // share of a limit that counts as reached
-constexpr ImU32 kPlate = IM_COL32(6, 8, 12, 245);
 constexpr const char* kDot = "\xe2\x97\x8f";
 constexpr const char* kSquare = "\xe2\x96\xa0";
 
@@ -25,7 +24,7 @@ Mode armedMode(const ModeInput& input) {
     const StepState state = record.state;
     const bool armHeld = input.run.step().driven && input.run.step().armStatus.state != ArmState::Follows;
     if (state == StepState::Trapped || armHeld) {
-        return {"HELD", "!", colour::kWarning, Edge::Double,
+        return {"HELD", "!", colour::kWarningWord, Edge::Double,
                 "The tool is trapped between regions, or a real arm stands still: forces fade. W says why"};
     }
     if (state == StepState::Fading) {
@@ -33,7 +32,7 @@ Mode armedMode(const ModeInput& input) {
                 "The newest image is too old: forces fade until the next one"};
     }
     if (atLimit(record, input.haptics)) {
-        return {"AT LIMIT", "!", colour::kWarning, Edge::Hatched,
+        return {"AT LIMIT", "!", colour::kWarningWord, Edge::Hatched,
                 "Force or torque is at its limit: the hand can press through. Ease off"};
     }
     return state == StepState::Contact || state == StepState::Escape
@@ -118,7 +117,7 @@ std::vector<Chip> chipsOf(const ModeInput& input) {
         const std::vector<GuidancePose>& targets = input.run.scene().set.guidance;
         const bool any =
             std::any_of(targets.begin(), targets.end(), [](const GuidancePose& g) { return g.present; });
-        chips.push_back({any || record.guidance > 0.0 ? "GUIDE" : "GUIDE: no target", colour::kGuidance,
+        chips.push_back({any || record.guidance > 0.0 ? "GUIDE" : "GUIDE: no target", colour::kGuidanceWord,
                          "Guidance is on: the tool is pulled to the nearest target. G: off"});
     }
     if (console.forces && !console.timeLine.on) {
@@ -141,7 +140,7 @@ std::vector<Chip> chipsOf(const ModeInput& input) {
         chips.push_back({"FROZEN", colour::kCaution, "New images do not change the fixtures. F: release"});
     }
     if (console.recording) {
-        chips.push_back({"REC", colour::kWarning, "A recording runs. R: stop"});
+        chips.push_back({"REC", colour::kWarningWord, "A recording runs. R: stop"});
     }
     return chips;
 }
@@ -164,7 +163,7 @@ void drawMode(Console& console, const ModeInput& input, ImFont* font, ImVec2 cor
                              : wordSize.x + 2.0f * pad + chipsWide,
                        wordSize.y + pad + (below ? row : 0.0f)};
     const ImVec2 at{corner.x + std::max(0.0f, 0.5f * (size.x - plate.x)), corner.y};
-    list.AddRectFilled(at, {at.x + plate.x, at.y + plate.y}, kPlate, 6.0f * scale,
+    list.AddRectFilled(at, {at.x + plate.x, at.y + plate.y}, colour::kPlate, 6.0f * scale,
                        ImDrawFlags_RoundCornersBottom);
     list.AddText(font, font->FontSize, {at.x + pad, at.y + 0.5f * pad}, mode.colour, word.c_str());
     float x = at.x + (below ? 2.0f * pad : wordSize.x + 3.0f * pad);
@@ -199,7 +198,7 @@ void drawRefusal(Console& console, ImFont* font, ImVec2 corner, ImVec2 size) {
                    corner.y + 0.5f * (size.y - text.y) - letter};
     const ImVec2 b{a.x + text.x + 2.0f * letter, a.y + text.y + 2.0f * letter};
     ImDrawList& list = *ImGui::GetForegroundDrawList(); // over the marks
-    list.AddRectFilled(a, b, kPlate, 6.0f);
+    list.AddRectFilled(a, b, colour::kPlate, 6.0f);
     list.AddRect(a, b, colour::kWarning, 6.0f, 0, 3.0f);
     list.AddText(font, letter, {a.x + letter, a.y + letter}, colour::kText, words.c_str(), nullptr, wrap);
     markPlace(console, "refusal", a, {b.x - a.x, b.y - a.y});

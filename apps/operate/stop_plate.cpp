@@ -58,8 +58,8 @@ float drawWordsAbove(float x, float bottom, float width, const std::string& word
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     const ImVec2 size = ImGui::CalcTextSize(words.c_str(), nullptr, false, width);
     const float top = bottom - size.y - 4.0f;
-    list.AddRectFilled({x - 4.0f, top - 2.0f}, {x + size.x + 4.0f, top + size.y + 2.0f},
-                       IM_COL32(6, 8, 12, 215), 3.0f);
+    list.AddRectFilled({x - 4.0f, top - 2.0f}, {x + size.x + 4.0f, top + size.y + 2.0f}, colour::kPlate,
+                       3.0f);
     list.AddText(ImGui::GetFont(), ImGui::GetFontSize(), {x, top}, colour, words.c_str(), nullptr, width);
     return size.y + 8.0f;
 }

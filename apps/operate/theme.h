@@ -23,6 +23,10 @@ constexpr ImU32 kAdvisory = IM_COL32(110, 214, 235, 255);
 constexpr ImU32 kCaution = IM_COL32(255, 190, 60, 255);
 constexpr ImU32 kWarning = IM_COL32(255, 92, 84, 255);
 constexpr ImU32 kPicked = IM_COL32(40, 220, 235, 255);
+// Words of states and alarms, and the plate under them: a contrast of 7 to 1 or more over any image.
+constexpr ImU32 kWarningWord = IM_COL32(255, 118, 110, 255);
+constexpr ImU32 kGuidanceWord = IM_COL32(96, 170, 255, 255);
+constexpr ImU32 kPlate = IM_COL32(6, 8, 12, 245);
 } // namespace colour
 
 // A panel at a fixed place.

@@ -2,7 +2,9 @@
 // The state of the forces in one word, and the checks before they come on.
 #include "apps/operate/arming.h"
 #include "apps/operate/mode.h"
+#include "apps/operate/theme.h"
 #include "tests/apps/viewed_run.h"
+#include "tests/support/contrast.h"
 
 #include <doctest/doctest.h>
 #include <set>
@@ -52,6 +54,41 @@ TEST_CASE(
     run.console.timeLine.on = true;
     CHECK(mode(StepState::Contact) == "LOOK-BACK");
     CHECK(chips().find("CONTACT") == 0);
+}
+
+TEST_CASE("Words of states, chips and alarms have a contrast of 7 to 1 over a white and a black image") {
+    ViewedRun run;
+    const ModeInput input{run.console, run.view, run.haptics};
+    const auto check = [](ImU32 ink) {
+        for (const double grey : {0.0, 1.0}) {
+            const double plate = test::luminance(test::blended(colour::kPlate, {grey, grey, grey}));
+            CHECK(test::contrast(test::luminance(test::rgbOf(ink)), plate) >= 7.0);
+        }
+    };
+    run.console.guidance = run.console.clutch = run.console.frozen = run.console.recording = true;
+    for (const bool past : {false, true}) {
+        for (const bool forces : {false, true}) {
+            for (int state = 0; state <= static_cast<int>(StepState::Waiting); ++state) {
+                for (const double force : {0.0, run.haptics.forceLimit}) {
+                    run.console.timeLine.on = past, run.console.forces = forces;
+                    run.row.record.state = static_cast<StepState>(state);
+                    run.row.record.wrench.force.x = force;
+                    run.step(0.001);
+                    const Mode mode = modeOf(input);
+                    CAPTURE(std::string(mode.word));
+                    check(mode.colour);
+                    for (const Chip& chip : chipsOf(input)) {
+                        CAPTURE(chip.word);
+                        check(chip.colour);
+                    }
+                }
+            }
+        }
+    }
+    for (const Level level : {Level::Advisory, Level::Caution, Level::Warning}) {
+        CAPTURE(std::string(levelName(level)));
+        check(levelColour(level));
+    }
 }
 
 TEST_CASE("Each mode has its own sign, colour or frame, and none of two looks the same without colour") {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Safety in the window: alarms, forces off, shapes that stop the tool, and explanations.
+#include "tests/support/contrast.h"
 #include "tests/window/window_rig.h"
 
 #include <algorithm>
@@ -72,6 +73,35 @@ TEST_CASE("Forces stay off while the hand is inside a region, a card says so, an
     CHECK(rig.state()["refusal"] == refused["refusal"]); // shown until forces come on, or Esc
     rig.key("a");
     CHECK(rig.await([](const json& s) { return s["console"]["forces"] == true && s["refusal"] == ""; }));
+    closeQuietly(rig);
+}
+
+TEST_CASE("On screen the state word has a contrast of 7 to 1 while forces are off, on and at their limit") {
+    WindowRig rig;
+    const auto check = [&](const std::string& mode) {
+        CAPTURE(mode);
+        REQUIRE(rig.await([&](const json& s) { return s["mode"] == mode; }));
+        const Screenshot shot = rig.shoot("contrast-" + mode);
+        const auto at = rig.place("mode");
+        std::vector<double> light;
+        for (auto v = static_cast<uint32_t>(at[1] + 1); v < at[1] + at[3] - 1; ++v) {
+            for (auto u = static_cast<uint32_t>(at[0] + 6); u < at[0] + at[2] - 6; ++u) {
+                light.push_back(test::luminance(test::rgbOf(shot.pixels[v * shot.width + u])));
+            }
+        }
+        REQUIRE(light.size() > 500);
+        std::sort(light.begin(), light.end());
+        const double plate = light[light.size() / 4], ink = light[light.size() - light.size() / 40];
+        CHECK(test::contrast(ink, plate) >= 7.0);
+    };
+    check("FORCES OFF");
+    rig.key("a");
+    check("ARMED");
+    rig.push();
+    for (int i = 0; i < 20 && rig.state()["mode"] != "AT LIMIT"; ++i) {
+        rig.wheel(2);
+    }
+    check("AT LIMIT");
     closeQuietly(rig);
 }
 
