@@ -9,7 +9,7 @@ namespace {
 
 constexpr uint64_t kMostSide = 65535; // [pixels]
 
-// Encodings by the code of a track. bytes: of a pixel in a row; 0: compressed.
+// Encodings by the code of a track. bytes: per pixel of a row; 0: compressed.
 struct KnownCode {
     const char *fourcc, *encoding;
     uint32_t bytes;

@@ -142,7 +142,9 @@ StreamChooser::Relation StreamChooser::relate(const ImageStream& depth, const Im
 
 StreamChooser::Relation StreamChooser::relateByPose(const ImageStream& depth, const ImageStream& colour) {
     std::optional<Pose> pose = sdkPose(depth, colour);
-    if (!pose && !isRealSenseTopic(depth.name)) {
+    // The Orbbec SDK records the pose to its colour camera, not to the cameras of a stereo pair.
+    const std::string sensor = orbbecSensor(colour.name);
+    if (!pose && !isRealSenseTopic(depth.name) && (sensor.empty() || sensor == "2")) {
         pose = topicPose(depth);
         pose = pose || depth.frame == colour.frame ? pose : frames_.pose(depth.frame, colour.frame);
     }

@@ -64,7 +64,7 @@ std::string mkvRefusal(const TemporaryFolder& folder, const std::string& bytes) 
     return "";
 }
 
-// The frames, each of which must be one that was recorded, in order.
+// Counts the frames. Each must be a recorded one, in order.
 uint32_t soundFrames(BagCamera& camera) {
     uint32_t used = 0, last = 0;
     while (const auto frame = camera.next()) {

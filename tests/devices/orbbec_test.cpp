@@ -177,6 +177,22 @@ TEST_CASE("Disparity, and depth that the camera aligned to an unknown lens, are 
     CHECK(playStreams(folder, turned).info().registered); // the same lens at the same place
 }
 
+TEST_CASE("The pose of an Orbbec recording is that of its colour camera, not of a stereo pair of colour") {
+    const TemporaryFolder folder;
+    BagMaker pair = depthOnly({.rotation = {1, 0, 0, 0, 1, 0, 0, 0, 1}, .translation = {20, 0, 0}});
+    addProfile(pair, 11, {.lens = {5.0f, 5.5f, 3.0f, 2.0f}});
+    addImages(pair, "/cam/sensor_11/frameType_13", "rgb8", filledColour(1, 2, 3, kColumns * kRows));
+    CHECK(lineSays(streamRefusal(folder, pair), "extrinsics: missing"));
+    addProfile(pair, 2, {.lens = {4.0f, 4.5f, 3.0f, 2.0f}});
+    addRed(pair);
+    BagCamera camera = playStreams(folder, pair);
+    CHECK(camera.info().colour.fx == 4.0);
+    CHECK(camera.info().colourTdepth.position.x == doctest::Approx(0.02));
+    const auto frame = camera.next();
+    REQUIRE(frame);
+    CHECK((*frame)->colour[0] == kRedPixel);
+}
+
 TEST_CASE("Every encoding of depth of the Orbbec SDK is read, or named where it is not") {
     const TemporaryFolder folder;
     for (const char* encoding : {"mono16", "z16"}) {
