@@ -39,14 +39,14 @@ MatroskaImages::MatroskaImages(const MatroskaTrack& track, std::string called)
 }
 
 std::vector<uint8_t> MatroskaImages::message(uint64_t time, std::span<const uint8_t> data) const {
-    constexpr uint64_t kSecond = 1'000'000'000;
+    constexpr uint64_t kPerSecond = 1'000'000'000;
     if (encoding.empty()) {
         return {data.begin(), data.end()};
     }
     ByteWriter out;
     out.value(uint32_t{0}); // sequence number
-    out.value(static_cast<uint32_t>(time / kSecond));
-    out.value(static_cast<uint32_t>(time % kSecond));
+    out.value(static_cast<uint32_t>(time / kPerSecond));
+    out.value(static_cast<uint32_t>(time % kPerSecond));
     out.text(name); // as frame: tracks are of different lenses
     out.value(height);
     out.value(width);

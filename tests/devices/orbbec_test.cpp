@@ -234,10 +234,10 @@ TEST_CASE("An Orbbec recording without colour's pose, images or whole messages i
     CHECK(camera.skipped() == 1);
     const std::string profile = profileMessage(3, {});
     for (size_t size = 0; size < profile.size(); ++size) {
-        BagMaker short_;
-        short_.add("/cam/streamProfileType_3", "custom_msg/OBStreamProfileInfo", 1.0,
-                   profile.substr(0, size));
-        addImages(short_, kDepthTopic, "mono16", filled(uint16_t{500}, kColumns * kRows));
-        CHECK(lineSays(streamRefusal(folder, short_), "/cam/streamProfileType_3: truncated"));
+        BagMaker cutProfile;
+        cutProfile.add("/cam/streamProfileType_3", "custom_msg/OBStreamProfileInfo", 1.0,
+                       profile.substr(0, size));
+        addImages(cutProfile, kDepthTopic, "mono16", filled(uint16_t{500}, kColumns * kRows));
+        CHECK(lineSays(streamRefusal(folder, cutProfile), "/cam/streamProfileType_3: truncated"));
     }
 }
