@@ -49,7 +49,9 @@ std::string StreamChooser::otherTopics() const {
     constexpr size_t kMostNamed = 6;
     std::string all;
     for (size_t i = 0; i < std::min(kMostNamed, file_.topics().size()); ++i) {
-        all += (i == 0 ? " but " : ", ") + file_.topics()[i].name + " (" + file_.topics()[i].type + ")";
+        const MessageTopic& topic = file_.topics()[i];
+        all += (i == 0 ? " but " : ", ") + topic.name + " (" + topic.type +
+               (topic.messages.empty() ? ", no messages)" : ")");
     }
     return all + (file_.topics().size() > kMostNamed ? " and more" : "");
 }

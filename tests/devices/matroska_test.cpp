@@ -217,7 +217,8 @@ TEST_CASE("A Matroska file without its calibration, size or tracks is refused in
     CHECK(lineSays(mkvRefusal(folder, file.bytes()), "DEPTH/camera_info: 319x288, which no depth mode has"));
     file.tracks.clear();
     CHECK(lineSays(mkvRefusal(folder, file.bytes()), "no tracks"));
-    CHECK(lineSays(mkvRefusal(folder, recorded(0).bytes()), "no images"));
+    CHECK(lineSays(mkvRefusal(folder, recorded(0).bytes()),
+                   "no images but COLOR (sensor_msgs/Image, no messages)"));
     CHECK(lineSays(mkvRefusal(folder, "\x1a\x45\xdf\xa3"), "content: "));
     CHECK(lineSays(mkvRefusal(folder, ""), "content: "));
 }
