@@ -20,6 +20,7 @@ struct RunTotals {
     double worstMicros = 0.0;                 // [us] longest step
 };
 
+// A step that is published.
 struct Ros2Tick {
     uint64_t time = 0; // [ns] UTC of the step
     StepRecord record;

@@ -12,11 +12,13 @@
 
 namespace fathom {
 
+// Help texts of --view-door and --ros2.
 inline constexpr const char* kViewEndpointHelp =
     "socket that sends every tick and fixture set to observers (devices/bridge)";
 inline constexpr const char* kRos2Help = "publish the run as topics of ROS 2 below this name: "
                                          "/NAME[,KEY=VALUE]... (docs/guide/ros2.md)";
 
+// Who receives the state of a run.
 struct ObserverOptions {
     std::string viewEndpoint; // socket for observers (devices/bridge); empty = none
     std::string ros2;         // parseRos2OutputRequest(); empty = none

@@ -10,6 +10,7 @@
 
 namespace fathom {
 
+// The parsed line.
 struct Ros2HandRequest {
     Ros2Place place;
     std::string pose;                  // geometry_msgs/msg/PoseStamped of the handle, device frame

@@ -8,6 +8,7 @@
 
 namespace fathom {
 
+// The parsed line.
 struct Ros2OutputRequest {
     std::string prefix; // of the topics, e.g. "/fathom"
     Ros2Place place;
