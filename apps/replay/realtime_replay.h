@@ -78,8 +78,8 @@ private:
     std::vector<Shape> shapes_;
     HapticOptions haptics_;
     ToolAudit audit_;
-    bool audited_ = true;                 // every step so far was audited
-    FaultTrace faults_;                   // receives every tick first
+    bool audited_ = true; // every step so far was audited
+    FaultTrace faults_;   // receives every tick first
     RunObservers observers_;
     std::unique_ptr<Feed> feed_;
     std::unique_ptr<RealtimeRun> run_;
