@@ -21,13 +21,14 @@ void Console::takeSettings(const Scene& scene, double chosenTextScale) {
     textScale = chosenTextScale > 0.0 ? chosenTextScale : kept.textScale;
     spaceIsLarge = kept.spaceIsLarge;
     pilotLayout = kept.pilotLayout;
+    tones = kept.tones;
     orbit.yaw = kept.yaw;
     orbit.pitch = kept.pitch;
     orbit.distance = kept.distance;
 }
 
 Scene::Window Console::settings() const {
-    return {textScale, spaceIsLarge, orbit.yaw, orbit.pitch, orbit.distance, pilotLayout};
+    return {textScale, spaceIsLarge, orbit.yaw, orbit.pitch, orbit.distance, pilotLayout, tones};
 }
 
 void markPlace(Console& console, const std::string& name) {

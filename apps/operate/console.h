@@ -56,6 +56,9 @@ struct Console {
     bool spaceIsLarge = false; // the 3D view is the large one
     bool paused = false;       // the traces
     bool recording = false;
+    bool tones = true;      // contact, limit, stale and lost are heard
+    std::string lastTone;   // tones.h: name of the last one
+    uint32_t toneCount = 0; // tones so far, heard or not
     bool quit = false, screenshot = false, exportCsv = false, acknowledge = false;
     Closing closing = Closing::No;
     CloseAnswer closeAnswer = CloseAnswer::None; // button pressed in the question

@@ -48,6 +48,7 @@ OperatorRun::OperatorRun(const OperateOptions& options, const GlobalOptions& glo
     , editor_(session_.scene,
               [this](const Scene& scene, const std::vector<Shape>& shapes) { changeScene(scene, shapes); })
     , recording_(options.shots, sinks_.recorder, session_)
+    , speaker_(window_.offscreen() ? nullptr : std::make_unique<Speaker>())
     , live_(options_, session_, signals_, placement_, sinks_.snapshots, sinks_.observers) {
     live_.start(editor_.shapes());
     display_.console.forces = armed_ = options_.armed;
@@ -110,6 +111,7 @@ void OperatorRun::frame() {
     listen();
     display_.alarms.step(display_.console, display_.view, live_.haptics(), editor_.scene(),
                          {session_.handover->gone(), !live_.handThere(), sinks_.recorder.failure()});
+    sound();
     show();
     writeState(false);
 }
@@ -132,6 +134,19 @@ void OperatorRun::listen() {
     recording_.follow(console, editor_);
     followPilot();
     display_.exportTraces();
+}
+
+void OperatorRun::sound() {
+    Console& console = display_.console;
+    const std::optional<Tone> tone = toneRules_.step(console, display_.view, display_.alarms);
+    if (!tone) {
+        return;
+    }
+    console.lastTone = toneName(*tone);
+    ++console.toneCount;
+    if (console.tones && speaker_) {
+        speaker_->play(*tone);
+    }
 }
 
 bool OperatorRun::forcesGone() const {

@@ -5,6 +5,7 @@
 #include "apps/operate/live_run.h"
 #include "apps/operate/recorder_control.h"
 #include "apps/operate/run_display.h"
+#include "apps/operate/speaker.h"
 #include "apps/replay/fault_trace.h"
 
 #include <memory>
@@ -45,6 +46,7 @@ private:
     bool forcesGone() const;
     void offWhenMinimised();
     void followPilot();
+    void sound();
     void frame();
     void show();   // shows the drawn frame if there is a device
     void reopen(); // opens the canvas on another device
@@ -64,10 +66,12 @@ private:
     FixtureEditor editor_;
     RecorderControl recording_;
     MeasuredArm measured_;
-    bool showsGone_ = false; // the window's title says that the GPU is gone
-    bool armed_ = false;     // forces were on after the last arm()
-    bool forcesOff_ = false; // requested since the last listen()
-    LiveRun live_;           // last, so that its threads end before what they use
+    ToneRules toneRules_;
+    std::unique_ptr<Speaker> speaker_; // null: offscreen
+    bool showsGone_ = false;           // the window's title says that the GPU is gone
+    bool armed_ = false;               // forces were on after the last arm()
+    bool forcesOff_ = false;           // requested since the last listen()
+    LiveRun live_;                     // last, so that its threads end before what they use
 };
 
 } // namespace fathom::operate

@@ -116,7 +116,7 @@ std::string windowBlock(const Scene::Window& window) {
     out << std::setprecision(6) << "window: {text_scale: " << window.textScale
         << ", large: " << (window.spaceIsLarge ? "space" : "camera") << ", yaw: " << window.yaw
         << ", pitch: " << window.pitch << ", distance: " << window.distance
-        << (window.pilotLayout ? ", layout: pilot" : "") << "}\n";
+        << (window.pilotLayout ? ", layout: pilot" : "") << (window.tones ? "" : ", tones: false") << "}\n";
     return out.str();
 }
 

@@ -44,6 +44,7 @@ std::span<const KeyHelp> keyHelp() {
         KeyHelp{"P, E", "pause the traces; write them as CSV"},
         KeyHelp{"W", "why the tool stopped; or point at the contact"},
         KeyHelp{"Q", "acknowledge alarms"},
+        KeyHelp{"M", "tones on or off: contact, limit, old image, lost device"},
         KeyHelp{"R", "start or stop recording"},
         KeyHelp{"in a recording",
                 "Space plays; arrows: one frame, with Shift one tick; Home, End; [ ]: speed"},
@@ -83,6 +84,10 @@ void Steering::keys(Console& console) {
     console.recording = console.recording != pressed(GLFW_KEY_R);
     console.exportCsv = console.exportCsv || pressed(GLFW_KEY_E);
     console.acknowledge = console.acknowledge || pressed(GLFW_KEY_Q);
+    if (pressed(GLFW_KEY_M)) {
+        console.tones = !console.tones;
+        console.notify(console.tones ? "tones are on" : "tones are off");
+    }
     if (pressed(GLFW_KEY_ESCAPE)) {
         console.refusal.clear();
         console.panelOpen = false;

@@ -39,7 +39,7 @@ void loadPilots(const YamlNode& pilots, Scene& scene) {
 }
 
 void loadWindow(const YamlNode& window, Scene& scene) {
-    window.checkKeys({"text_scale", "large", "yaw", "pitch", "distance", "layout"});
+    window.checkKeys({"text_scale", "large", "yaw", "pitch", "distance", "layout", "tones"});
     scene.window = Scene::Window{};
     Scene::Window& w = *scene.window;
     if (const auto scale = window.find("text_scale")) {
@@ -51,11 +51,14 @@ void loadWindow(const YamlNode& window, Scene& scene) {
     if (const auto layout = window.find("layout")) {
         w.pilotLayout = layout->choice<bool>({{"engineer", false}, {"pilot", true}});
     }
+    if (const auto tones = window.find("tones")) {
+        w.tones = tones->boolean();
+    }
     if (const auto yaw = window.find("yaw")) {
         w.yaw = yaw->number(Range::between(-1e3, 1e3));
     }
     if (const auto pitch = window.find("pitch")) {
-        w.pitch = pitch->number(Range::between(-1.5, 1.5));
+        w.pitch = pitch->number(Range::between(-1.571, 1.571));
     }
     if (const auto distance = window.find("distance")) {
         w.distance = distance->number(Range::between(0.15, 8.0));

@@ -220,6 +220,7 @@ struct Scene {
         bool spaceIsLarge = false;                       // the 3D view is the large one
         double yaw = 0.55, pitch = 0.45, distance = 1.3; // [rad], [m] viewpoint of the 3D view
         bool pilotLayout = false;                        // few figures, large views
+        bool tones = true;                               // contact, limit, stale and lost are heard
     };
     std::optional<Window> window;
 

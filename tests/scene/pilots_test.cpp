@@ -52,12 +52,14 @@ TEST_CASE("A scene without pilots has no active pilot") {
 
 TEST_CASE("Window settings and attenuation are read") {
     const Scene scene = load("window: {text_scale: 1.25, large: space, yaw: -7, pitch: 0.1, distance: 2, "
-                             "layout: pilot}\n"
+                             "layout: pilot, tones: false}\n"
                              "camera: {attenuation: [0.6, 0.1, 0.05]}\n");
     REQUIRE(scene.window.has_value());
     CHECK(scene.window->textScale == 1.25);
     CHECK(scene.window->spaceIsLarge);
     CHECK(scene.window->pilotLayout);
+    CHECK_FALSE(scene.window->tones);
+    CHECK(load("window: {pitch: 1.5708}\n").window->pitch == 1.5708); // from above, as it is saved
     CHECK(scene.window->yaw == -7.0);
     CHECK(scene.attenuation == dvec3(0.6, 0.1, 0.05));
 }
@@ -76,6 +78,8 @@ TEST_CASE("Invalid pilots, settings and water are rejected in one line") {
         {"window: {text_scale: 3}\n", "window.text_scale: 3"},
         {"window: {large: both}\n", "window.large: both"},
         {"window: {layout: wide}\n", "window.layout: wide"},
+        {"window: {tones: loud}\n", "window.tones: loud"},
+        {"window: {pitch: 1.6}\n", "window.pitch: 1.6"},
         {"camera: {attenuation: [1, 2]}\n", "camera.attenuation"},
         {"camera: {attenuation: [-1, 0, 0]}\n", "camera.attenuation"},
     };
