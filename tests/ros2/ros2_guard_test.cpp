@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // A haptic device that is a node of ROS 2: its poses come from tests/ros2_speaker, its force goes to
 // tests/ros2_listener.
-#include "devices/bridge/socket_hand.h"
 #include "devices/ros2/received_messages.h"
-#include "devices/ros2/ros2_guard.h"
 #include "engine/types/error.h"
-#include "tests/devices/socket_rig.h"
+#include "tests/ros2/guard_loop.h"
 #include "tests/ros2/heard.h"
 
 #include <doctest/doctest.h>
@@ -18,50 +16,17 @@ namespace {
 
 const std::string kPoseTopic = "/haptic/pose", kRest = "0.1 0.2 0.3 0 0 0 1";
 
-Ros2HandRequest handRequest(const std::string& more) {
-    return parseRos2HandRequest("pose=" + kPoseTopic +
-                                ",preset=falcon,domain=" + std::to_string(testDomain()) + more);
-}
-
-// The bridge on its own thread, an engine that pushes with 2 N along z, and the device's node.
-struct TopicLoop {
+// A bridge, its engine, and the device's node.
+struct TopicLoop : GuardLoop {
     explicit TopicLoop(const std::string& more = "")
-        : guard(openRos2Guard(handRequest(more), folder.endpoint(), 8.0, 0.2))
-        , thread([this] { guard->run(stop); })
-        , hand(folder.endpoint(), 4)
-        , node(ROS2_SPEAKER, {std::to_string(testDomain()), kPoseTopic, "PoseStamped"}) {
-        REQUIRE(node.line() == "ready");
-    }
-    ~TopicLoop() {
-        stop = true;
-        thread.join();
-    }
-    void say(const std::string& line) {
-        node.send(line);
-        REQUIRE(node.line() == "ok");
-    }
-    // The node says `line`, and the engine steps, until `wanted`.
+        : GuardLoop(kPoseTopic, more)
+        , node(kPoseTopic, "PoseStamped") {}
+    void say(const std::string& line) { node.say(line); }
     bool until(const std::string& line, const std::function<bool(const HandSample&)>& wanted) {
-        return eventually(
-            [&] {
-                if (!line.empty()) {
-                    say(line);
-                }
-                const HandSample sample = hand.read(t += 0.001);
-                hand.write({{0.0, 0.0, 2.0}, {}}, 0.001);
-                pauseMs(1);
-                return wanted(sample);
-            },
-            60);
+        return GuardLoop::until(&node, line, wanted);
     }
 
-    SocketFolder folder;
-    std::unique_ptr<Ros2Guard> guard;
-    std::atomic<bool> stop{false};
-    std::thread thread;
-    SocketHand hand;
-    Peer node;
-    double t = 0.0;
+    Speaker node;
 };
 
 bool near(const HandSample& sample, const dvec3& position) {

@@ -3,6 +3,7 @@
 #include "engine/types/error.h"
 #include "tests/ros2/fed_run.h"
 #include "tests/ros2/heard.h"
+#include "tests/ros2/speaker.h"
 
 #include <doctest/doctest.h>
 #include <glm/gtc/quaternion.hpp>
@@ -12,22 +13,6 @@ using namespace fathom;
 namespace {
 
 const std::vector<Ros2Joint> kJoints{{"shoulder", false}, {"rail", true}}; // at 0.5 rad and -0.25 m
-
-// Publishes lines of one topic.
-class Speaker {
-public:
-    Speaker(const std::string& topic, const std::string& type)
-        : peer_(ROS2_SPEAKER, {std::to_string(testDomain()), topic, type}) {
-        REQUIRE(peer_.line() == "ready");
-    }
-    void say(const std::string& line) {
-        peer_.send(line);
-        REQUIRE(peer_.line() == "ok");
-    }
-
-private:
-    Peer peer_;
-};
 
 // Says the line every few milliseconds until it holds.
 template <class Holds>

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Topics of ROS 2 with a program on Fast DDS, which reads and writes messages with Fast CDR
 // (tests/ros2_fast_peer).
-#include "devices/bridge/socket_hand.h"
 #include "devices/ros2/ros2_camera.h"
-#include "devices/ros2/ros2_guard.h"
 #include "engine/types/error.h"
-#include "tests/devices/socket_rig.h"
 #include "tests/ros2/fed_run.h"
+#include "tests/ros2/guard_loop.h"
 #include "tests/ros2/heard.h"
 
 #include <doctest/doctest.h>
@@ -17,58 +15,6 @@ using namespace fathom::testing;
 namespace {
 
 const std::string kPose = "/haptic/pose";
-
-// Publishes lines of one topic.
-class FastSpeaker {
-public:
-    FastSpeaker(const std::string& topic, const std::string& type)
-        : peer_(ROS2_LISTENER, {std::to_string(testDomain()), topic, type, "say"}) {
-        REQUIRE(peer_.line() == "ready");
-    }
-    void say(const std::string& line) {
-        peer_.send(line);
-        REQUIRE(peer_.line() == "ok");
-    }
-
-private:
-    Peer peer_;
-};
-
-// The bridge of a haptic device on a thread of its own, and its engine.
-struct FastLoop {
-    FastLoop()
-        : guard(openRos2Guard(
-              parseRos2HandRequest("pose=" + kPose + ",preset=falcon,domain=" + std::to_string(testDomain())),
-              folder.endpoint(), 8.0, 0.2))
-        , thread([this] { guard->run(stop); })
-        , hand(folder.endpoint(), 4) {}
-    ~FastLoop() {
-        stop = true;
-        thread.join();
-    }
-    // The node says `line`, and the engine steps, until `wanted`.
-    bool until(FastSpeaker* node, const std::string& line,
-               const std::function<bool(const HandSample&)>& wanted) {
-        return eventually(
-            [&] {
-                if (node != nullptr) {
-                    node->say(line);
-                }
-                const HandSample sample = hand.read(t += 0.001);
-                hand.write({{0.0, 0.0, 2.0}, {}}, 0.001);
-                pauseMs(1);
-                return wanted(sample);
-            },
-            60);
-    }
-
-    SocketFolder folder;
-    std::unique_ptr<Ros2Guard> guard;
-    std::atomic<bool> stop{false};
-    std::thread thread;
-    SocketHand hand;
-    double t = 0.0;
-};
 
 bool isAt(const HandSample& sample, double x) {
     return sample.present && sample.deviceThandle.position.x == x;
@@ -107,9 +53,9 @@ TEST_CASE("Fast DDS subscribers that are late or killed do not keep messages fro
 
 TEST_CASE("A Fast DDS node moves the hand and gets its force; killed, it counts as gone, and its successor "
           "is used") {
-    FastLoop loop;
+    GuardLoop loop(kPose);
     Heard force("/haptic/wrench", "WrenchStamped");
-    auto node = std::make_unique<FastSpeaker>(kPose, "PoseStamped");
+    auto node = std::make_unique<Speaker>(kPose, "PoseStamped");
     CHECK(loop.until(node.get(), "0.1 0 0 0 0 0 1",
                      [](const HandSample& sample) { return isAt(sample, 0.1); }));
     loop.until(node.get(), "0.1 0 0 0 0 0 1", [n = 0](const HandSample&) mutable { return ++n == 300; });
@@ -117,14 +63,14 @@ TEST_CASE("A Fast DDS node moves the hand and gets its force; killed, it counts 
     node.reset();
     CHECK(loop.until(nullptr, "", [](const HandSample& sample) { return !sample.present; }));
     CHECK(force.until([](const Line& line) { return line.number(4) == 0.0; }).any());
-    FastSpeaker successor(kPose, "PoseStamped");
+    Speaker successor(kPose, "PoseStamped");
     CHECK(loop.until(&successor, "0.2 0 0 0 0 0 1",
                      [](const HandSample& sample) { return isAt(sample, 0.2); }));
 }
 
 TEST_CASE("Another type on the topic, messages that end early and big-endian ones do not move the hand") {
-    FastLoop loop;
-    FastSpeaker stranger(kPose, "TwistStamped");
+    GuardLoop loop(kPose);
+    Speaker stranger(kPose, "TwistStamped");
     bool moved = false;
     loop.until(&stranger, "0.3 0 0 0 0 1", [&, n = 0](const HandSample& sample) mutable {
         moved = moved || sample.present;
@@ -132,7 +78,7 @@ TEST_CASE("Another type on the topic, messages that end early and big-endian one
     });
     CHECK_FALSE(moved);
     CHECK(loop.guard->figures().faults == 0);
-    FastSpeaker node(kPose, "PoseStamped");
+    Speaker node(kPose, "PoseStamped");
     REQUIRE(loop.until(&node, "0.1 0 0 0 0 0 1", [](const HandSample& sample) { return isAt(sample, 0.1); }));
     for (const std::string broken : {"short", "big 0.3 0 0 0 0 0 1", "0.3 0 0"}) {
         const uint64_t before = loop.guard->figures().faults;
@@ -146,7 +92,7 @@ TEST_CASE("Another type on the topic, messages that end early and big-endian one
 }
 
 TEST_CASE("A camera reads images of a Fast DDS driver, which are larger than a packet of the network") {
-    FastSpeaker depth("/camera/depth/image_raw", "Image"), info("/camera/depth/camera_info", "CameraInfo");
+    Speaker depth("/camera/depth/image_raw", "Image"), info("/camera/depth/camera_info", "CameraInfo");
     std::atomic<bool> stop{false};
     std::thread driver([&] {
         for (int i = 0; !stop; ++i) {

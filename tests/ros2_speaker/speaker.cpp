@@ -118,7 +118,7 @@ dds_entity_t writerOf(dds_entity_t participant, const std::string& topic,
 } // namespace
 
 int main(int argc, char** argv) {
-    if (argc != 4 || kTypes.count(argv[3]) == 0) {
+    if (argc < 4 || kTypes.count(argv[3]) == 0) {
         return 2;
     }
     const Type& type = kTypes.at(argv[3]);
