@@ -21,8 +21,6 @@
 #include <fastrtps/utils/IPLocator.h>
 #include <iostream>
 #include <memory>
-#include <poll.h>
-#include <unistd.h>
 #include <vector>
 
 namespace fast = eprosima::fastdds::dds;
@@ -78,19 +76,18 @@ fast::DomainParticipant* join(uint32_t domain) {
     return fast::DomainParticipantFactory::get_instance()->create_participant(domain, qos);
 }
 
-bool inputEnded() {
-    pollfd in{STDIN_FILENO, POLLIN, 0};
-    char byte = 0;
-    return ::poll(&in, 1, 0) > 0 && ::read(STDIN_FILENO, &byte, 1) <= 0;
-}
-
-void hear(fast::DomainParticipant& participant, fast::Topic* topic, const Type& type) {
-    fast::DataReaderQos qos;
+template <class Qos>
+Qos reliable() {
+    Qos qos;
     qos.reliability().kind = fast::RELIABLE_RELIABILITY_QOS;
     qos.history().depth = 10;
     qos.endpoint().history_memory_policy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
-    fast::DataReader* reader =
-        participant.create_subscriber(fast::SUBSCRIBER_QOS_DEFAULT)->create_datareader(topic, qos);
+    return qos;
+}
+
+void hear(fast::DomainParticipant& participant, fast::Topic* topic, const Type& type) {
+    fast::DataReader* reader = participant.create_subscriber(fast::SUBSCRIBER_QOS_DEFAULT)
+                                   ->create_datareader(topic, reliable<fast::DataReaderQos>());
     Said().word("ready").print();
     Bytes bytes;
     fast::SampleInfo info;
@@ -108,12 +105,8 @@ void hear(fast::DomainParticipant& participant, fast::Topic* topic, const Type& 
 }
 
 void say(fast::DomainParticipant& participant, fast::Topic* topic, const Type& type) {
-    fast::DataWriterQos qos;
-    qos.reliability().kind = fast::RELIABLE_RELIABILITY_QOS;
-    qos.history().depth = 10;
-    qos.endpoint().history_memory_policy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
-    fast::DataWriter* writer =
-        participant.create_publisher(fast::PUBLISHER_QOS_DEFAULT)->create_datawriter(topic, qos);
+    fast::DataWriter* writer = participant.create_publisher(fast::PUBLISHER_QOS_DEFAULT)
+                                   ->create_datawriter(topic, reliable<fast::DataWriterQos>());
     Said().word("ready").print();
     for (std::string line; std::getline(std::cin, line);) {
         Bytes bytes = messageOf(type, line);

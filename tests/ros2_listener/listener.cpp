@@ -14,7 +14,6 @@
 #include <cstring>
 #include <dds/dds.h>
 #include <map>
-#include <poll.h>
 #include <unistd.h>
 #include <vector>
 
@@ -203,12 +202,6 @@ private:
     double last_ = 0.0; // [s]
     std::vector<double> ages_, gaps_;
 };
-
-bool inputEnded() {
-    pollfd in{STDIN_FILENO, POLLIN, 0};
-    char byte = 0;
-    return ::poll(&in, 1, 0) > 0 && ::read(STDIN_FILENO, &byte, 1) <= 0;
-}
 
 } // namespace
 

@@ -5,7 +5,16 @@
 
 #include <cstdint>
 #include <cstdio>
+#include <poll.h>
 #include <string>
+#include <unistd.h>
+
+// Whether the test has closed this program's input.
+inline bool inputEnded() {
+    pollfd in{STDIN_FILENO, POLLIN, 0};
+    char byte = 0;
+    return ::poll(&in, 1, 0) > 0 && ::read(STDIN_FILENO, &byte, 1) <= 0;
+}
 
 // Builds and prints a line.
 class Said {
