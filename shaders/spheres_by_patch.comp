@@ -42,7 +42,7 @@ const bool kByDepth = kPack != 0 && kBeam == 0;     // seen spheres are packed a
 shared float zOfPatch[kByDepth ? 256 : 1];
 shared uint rememberedOfPatch;                     // same encoding as `live`
 shared uint largestOfPatch[kTree != 0 ? kMaxClasses : 1u]; // as FrameCounters::largestRadius
-shared vec4 sumOfColumn[kTree != 0 ? 64 : 1]; // of a column of a sub-patch: sum of the centres, w = their number
+shared vec4 sumOfColumn[kTree != 0 ? 64 : 1]; // per column: sum of the centres, w = their number
 shared vec4 nodeOfSub[kTree != 0 ? 16 : 1];      // as Nodes
 shared vec4 centreOfPatch;                       // w = number of spheres (integer bits)
 shared uint reachOfPatch;                        // float bits

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Requests that an observer of a run may make.
+// Requests from other programs to a run.
 #pragma once
 
 #include <optional>

@@ -51,7 +51,7 @@ TEST_CASE(
     "The section shows the regions in the plane through the tool's nearest point, at their true distance") {
     Fixtures set;
     addRegion(set, {0.0, 0.0, 0.08}, 0.03, 0);  // in front of the tool
-    addRegion(set, {0.06, 0.0, 0.06}, 0.03, 0); // beside the plane of the side view
+    addRegion(set, {0.06, 0.0, 0.06}, 0.03, 0); // next to the plane of the side view
     const CloseUp side = viewOf(set, {{{0.0, 0.0, 0.0}, 0.01}}, CloseUpSide::Right);
     REQUIRE(side.section.size() == 1);
     CHECK(side.section[0].radius == doctest::Approx(0.03));

@@ -109,7 +109,7 @@ TEST_CASE("A node of ROS 2 drives a replay through its bridge, and feels the wal
     Peer node(ROS2_SPEAKER, {std::to_string(testDomain()), "/haptic/pose", "PoseStamped"});
     REQUIRE(node.line() == "ready");
     std::atomic<bool> stop{false}, press{false};
-    std::thread moves([&] { // by 90 mm within a second
+    std::thread moves([&] { // by 90 mm in 1 s
         for (double z = 0.0; !stop; z = std::min(0.09, z + (press ? 0.0002 : 0.0))) {
             node.send("0 0 " + std::to_string(z) + " 0 0 0 1");
             node.line();
