@@ -24,16 +24,16 @@ void SourceCheck::warn(std::string text) {
 }
 
 std::vector<std::string> SourceCheck::warnings() const {
-    std::vector<std::string> all = source_->warnings();
+    std::vector<std::string> all = CameraDecorator::warnings();
     all.insert(all.end(), warned_.begin(), warned_.end());
     return all;
 }
 
 SourceCheck::SourceCheck(std::unique_ptr<Camera> source, const Scene& scene)
-    : source_(std::move(source))
+    : CameraDecorator(std::move(source))
     , nearZ_(scene.nearZ)
     , farZ_(scene.farZ) {
-    const std::string why = source_->whyNoColour();
+    const std::string why = CameraDecorator::whyNoColour();
     bool asked = false;
     for (const FixtureClass& fixture : scene.fixtures) {
         asked = asked || fixture.usesColour();
@@ -87,7 +87,7 @@ void SourceCheck::end() {
 }
 
 std::optional<Frame> SourceCheck::next() {
-    std::optional<Frame> frame = source_->next();
+    std::optional<Frame> frame = CameraDecorator::next();
     if (done_) {
         return frame;
     }

@@ -8,13 +8,13 @@
 namespace fathom {
 
 WaterCamera::WaterCamera(std::unique_ptr<Camera> source, const FlatPort& port, double nearZ, double farZ)
-    : source_(std::move(source))
-    , info_(source_->info())
-    , correction_(port, info_, nearZ, farZ, source_->description())
+    : CameraDecorator(std::move(source))
+    , info_(CameraDecorator::info())
+    , correction_(port, info_, nearZ, farZ, CameraDecorator::description())
     , slots_(info_.depth.pixels(), false, kFramesInFlight + 1) {}
 
 std::optional<Frame> WaterCamera::next() {
-    std::optional<Frame> frame = source_->next();
+    std::optional<Frame> frame = CameraDecorator::next();
     if (!frame) {
         return std::nullopt;
     }

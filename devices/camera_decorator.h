@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Base of cameras that change what another camera delivers.
+#pragma once
+
+#include "devices/camera.h"
+
+#include <memory>
+#include <utility>
+
+namespace fathom {
+
+// Passes everything on. Derived classes override what they change.
+class CameraDecorator : public Camera {
+public:
+    explicit CameraDecorator(std::unique_ptr<Camera> source)
+        : source_(std::move(source)) {}
+
+    const CameraInfo& info() const override { return source_->info(); }
+    std::optional<Frame> next() override { return source_->next(); }
+    uint32_t skipped() const override { return source_->skipped(); }
+    std::vector<std::string> warnings() const override { return source_->warnings(); }
+    bool live() const override { return source_->live(); }
+    uint64_t lost() const override { return source_->lost(); }
+    void showArm(std::span<const Sphere> spheres) override { source_->showArm(spheres); }
+    uint32_t images() const override { return source_->images(); }
+    uint32_t firstImage() const override { return source_->firstImage(); }
+    bool seek(uint32_t index) override { return source_->seek(index); }
+    std::optional<double> framePeriod() const override { return source_->framePeriod(); }
+    std::string streams() const override { return source_->streams(); }
+    std::string streamOptions() const override { return source_->streamOptions(); }
+    std::string whyNoColour() const override { return source_->whyNoColour(); }
+    std::string description() const override { return source_->description(); }
+
+private:
+    std::unique_ptr<Camera> source_;
+};
+
+} // namespace fathom
