@@ -3,6 +3,7 @@
 
 #include "apps/binding/open_recording.h"
 #include "apps/binding/source_check.h"
+#include "devices/decimated/decimated_camera.h"
 #include "devices/openni2/open_openni2.h"
 #include "devices/ros2/open_ros2.h"
 #include "devices/simulated/analytic_scene.h"
@@ -127,7 +128,10 @@ std::unique_ptr<Camera> openCamera(const Scene& scene, const std::optional<std::
         const BeamSigma beam{scene.beam->range, scene.beam->perMetre, scene.beam->width};
         camera = std::make_unique<BeamCamera>(std::move(camera), beam);
     }
-    // A recording contains raw camera frames, unless the window recorded corrected ones.
+    // A recording contains all pixels, uncorrected, unless the window recorded what it used.
+    if (scene.decimation > 1 && images != Images::Every && camera->info().decimation == 1) {
+        camera = std::make_unique<DecimatedCamera>(std::move(camera), scene.decimation);
+    }
     if (!scene.port || images == Images::Every || camera->info().inWater) {
         return camera;
     }

@@ -28,6 +28,11 @@ DeviceFacts factsFor(const Scene& scene, const GlobalOptions& global) {
     return gpu::Device(instance, global.device).facts();
 }
 
+std::string sizeOf(const CameraInfo& camera) {
+    const std::string size = std::to_string(camera.depth.width) + "x" + std::to_string(camera.depth.height);
+    return size + (camera.decimation > 1 ? ", decimation " + std::to_string(camera.decimation) : "");
+}
+
 void runPlan(const PlanOptions& options, const GlobalOptions& global) {
     const Scene scene = openScene(options.scene);
     const auto camera = openCamera(
@@ -37,7 +42,7 @@ void runPlan(const PlanOptions& options, const GlobalOptions& global) {
     const DeviceFacts facts = factsFor(scene, global);
     const Plan plan = makePlan(scene, camera->info(), static_cast<uint32_t>(tool.leafCount()), facts);
     std::cout << "scene   " << options.scene << ", " << camera->description() << ", "
-              << camera->info().depth.width << "x" << camera->info().depth.height << "\n"
+              << sizeOf(camera->info()) << "\n"
               << "device  " << facts.name << " (" << (facts.driver.empty() ? "no pass to run" : facts.driver)
               << ")\n"
               << "tool    " << tool.leafCount() << " leaves\n";

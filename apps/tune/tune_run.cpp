@@ -45,8 +45,11 @@ std::string pilotsFriction(const Scene& scene, const std::string& file) {
     return "";
 }
 
-// Why a setting has no effect for this scene and camera, in the words of the plan.
+// Why a setting has no effect for this scene and camera. That of the memory is in the words of the plan.
 std::string whySkipped(Vary what, const Scene& scene, const CameraInfo& camera, const DeviceFacts& device) {
+    if (what == Vary::Size && camera.decimation > 1) {
+        return "the recording has no other pixels";
+    }
     if (what != Vary::Memory) {
         return "";
     }
@@ -136,15 +139,6 @@ private:
         TuneOptions options;
         options.request = settings_.request;
         options.limit = settings_.limit;
-        const CameraInfo& camera = source_.frames.camera;
-        const std::string size =
-            std::to_string(camera.depth.width) + "x" + std::to_string(camera.depth.height);
-        const bool live = scene_.source.kind == CameraSource::Kind::V4l2 && settings_.source.empty();
-        options.closed = [size, live](const Setting& s) {
-            return s.everyNth == 1 ? ""
-                   : live          ? "request it with ,size=WxH if the camera has that mode"
-                                   : "this source delivers " + size + " only";
-        };
         const std::string friction = pilotsFriction(scene_, settings_.scene);
         options.skip = [this, friction](Vary what) {
             return what == Vary::Friction
@@ -167,8 +161,9 @@ private:
             "\ncamera: " + source_.camera + "; judged by " + source_.judgedBy +
             "\nstability: " + stabilityOf(chosen) + "\nleft out: " + leftOut(plan);
         for (const Trial& trial : result.trials) {
-            const bool above = trial.vary != Vary::Size && !trial.points.empty(); // the reason is at its key
-            head += above ? "" : "\n" + reasonOf(result, trial, chosen);
+            if (trial.points.empty()) { // of the others, the reason is at the key
+                head += "\n" + reasonOf(result, trial, chosen);
+            }
         }
         const fs::path file =
             writeTunedScene(scene_, chosen.setting, chosenValues(result, chosen), head, settings_.out);

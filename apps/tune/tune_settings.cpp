@@ -41,8 +41,8 @@ bool Setting::sameRegions(const Setting& other) const {
 }
 
 Setting settingOf(const Scene& scene) {
-    return {scene.filter.radius, scene.filter.sigma,     scene.filter.memory,
-            scene.errorBudget,   scene.haptics.friction, scene.contact.reach};
+    return {scene.filter.radius,    scene.filter.sigma,  scene.filter.memory, scene.errorBudget,
+            scene.haptics.friction, scene.contact.reach, scene.decimation};
 }
 
 Scene sceneWith(Scene scene, const Setting& setting) {
@@ -52,6 +52,7 @@ Scene sceneWith(Scene scene, const Setting& setting) {
     scene.errorBudget = setting.errorBudget;
     scene.haptics.friction = setting.friction;
     scene.contact.reach = setting.reach;
+    scene.decimation = setting.decimation;
     return scene;
 }
 
@@ -90,7 +91,7 @@ std::string valueOf(const Setting& setting, Vary vary) {
     case Vary::Reach:
         return millimetres(setting.reach);
     case Vary::Size:
-        return setting.everyNth == 1 ? "full" : "1/" + std::to_string(setting.everyNth);
+        return setting.decimation == 1 ? "full" : "1/" + std::to_string(setting.decimation);
     }
     return "";
 }
@@ -112,7 +113,7 @@ std::vector<Setting> othersOf(const Setting& base, Vary what) {
     case Vary::Reach:
         return vary(base, &Setting::reach, std::array<double, 3>{0.005, 0.01, 0.02});
     case Vary::Size:
-        return vary(base, &Setting::everyNth, std::array<uint32_t, 3>{1, 2, 4});
+        return vary(base, &Setting::decimation, std::array<uint32_t, 3>{1, 2, 4});
     }
     return {};
 }
@@ -121,7 +122,7 @@ std::string wordsOf(const Setting& s) {
     return windowOf(s) + (s.radius == 0 ? "" : ", sigma " + millimetres(s.sigma)) + ", memory " +
            valueOf(s, Vary::Memory) + ", error budget " + millimetres(s.errorBudget) + ", friction " +
            roundNumber(s.friction) + ", reach " + millimetres(s.reach) +
-           (s.everyNth == 1 ? "" : ", image size " + valueOf(s, Vary::Size));
+           (s.decimation == 1 ? "" : ", image size " + valueOf(s, Vary::Size));
 }
 
 } // namespace fathom::tune

@@ -16,15 +16,15 @@ struct Setting {
     uint32_t memory = 0;         // [frames]
     double errorBudget = 0.0001; // [m]
     double friction = 0.1;
-    double reach = 0.01;   // [m] of a contact query
-    uint32_t everyNth = 1; // image size: every nth column and row of the camera's
+    double reach = 0.01;     // [m] of a contact query
+    uint32_t decimation = 1; // image size: every nth column and row of the camera's
 
     bool operator==(const Setting&) const = default;
     // Whether both need the same regions: they differ at most in friction and reach.
     bool sameRegions(const Setting& other) const;
 };
 
-// The settings of a scene, and a scene with other ones. The image size is none of a scene.
+// The settings of a scene, and a scene with other ones.
 Setting settingOf(const Scene& scene);
 Scene sceneWith(Scene scene, const Setting& setting);
 

@@ -3,6 +3,7 @@
 
 #include "apps/binding/open_source.h"
 #include "devices/simulated/analytic_scene.h"
+#include "engine/types/decimation.h"
 #include "engine/types/error.h"
 #include "engine/types/yuyv.h"
 
@@ -155,8 +156,10 @@ TuneSource tuneSource(const Scene& scene, const std::optional<std::filesystem::p
     if (isExact(scene, source)) {
         return exactSource(scene, most);
     }
-    const std::unique_ptr<Camera> camera = openCamera(scene, source);
     Scene used = scene;
+    used.decimation = 1; // all pixels are needed to try other image sizes
+    const std::unique_ptr<Camera> camera = openCamera(used, source);
+    used.decimation = scene.decimation;
     takeUncertainty(used, *camera);
     const CameraInfo& info = camera->info();
     const size_t bytes = 2 * size_t{info.depth.pixels()} + 4 * size_t{info.colour.pixels()};
@@ -169,36 +172,20 @@ TuneSource tuneSource(const Scene& scene, const std::optional<std::filesystem::p
     return part.enough() ? stillSource(used, read, part, most) : twinSource(used, read, part.count, most);
 }
 
-CameraInfo everyNth(CameraInfo camera, uint32_t n) {
-    for (Intrinsics* lens : {&camera.depth, &camera.colour}) {
-        if (lens == &camera.colour && !camera.registered) {
-            continue; // colour keeps its size
-        }
-        lens->width = (lens->width + n - 1) / n, lens->height = (lens->height + n - 1) / n;
-        lens->fx /= n, lens->fy /= n, lens->cx /= n, lens->cy /= n;
-    }
-    camera.yuyv = camera.yuyv && (n == 1 || !camera.registered);
-    return camera;
-}
-
-SampleFrame everyNth(const CameraInfo& camera, const SampleFrame& image, uint32_t n) {
-    SampleFrame small;
-    small.baseTcamera = image.baseTcamera;
-    const auto pick = [&](const auto& from, auto& to, const Intrinsics& lens) {
-        for (uint32_t v = 0; v < lens.height && !from.empty(); v += n) {
-            for (uint32_t u = 0; u < lens.width; u += n) {
-                to.push_back(from[size_t{v} * lens.width + u]);
-            }
-        }
-    };
-    pick(image.depth, small.depth, camera.depth);
-    if (camera.registered) {
-        pick(image.colour, small.colour, camera.colour);
+SampleFrame decimatedImage(const CameraInfo& camera, const SampleFrame& image, uint32_t n) {
+    const CameraInfo small = decimated(camera, n);
+    SampleFrame result;
+    result.baseTcamera = image.baseTcamera;
+    result.depth.resize(small.depth.pixels());
+    decimate<uint16_t>(image.depth, camera.depth, n, result.depth);
+    if (!camera.registered || image.colour.empty()) {
+        result.colour = image.colour;
+        result.yuyv = image.yuyv;
     } else {
-        small.colour = image.colour;
-        small.yuyv = image.yuyv;
+        result.colour.resize(small.colour.pixels());
+        decimate<uint32_t>(image.colour, camera.colour, n, result.colour);
     }
-    return small;
+    return result;
 }
 
 } // namespace fathom::tune

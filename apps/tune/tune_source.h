@@ -29,8 +29,7 @@ struct TuneSource {
 // judged.
 TuneSource tuneSource(const Scene& scene, const std::optional<std::filesystem::path>& source, size_t most);
 
-// Every nth column and row: what a camera of that image size would see, with equal noise per pixel.
-CameraInfo everyNth(CameraInfo camera, uint32_t n);
-SampleFrame everyNth(const CameraInfo& camera, const SampleFrame& image, uint32_t n);
+// Every nth column and row of an image: see engine/types/decimation.h.
+SampleFrame decimatedImage(const CameraInfo& camera, const SampleFrame& image, uint32_t n);
 
 } // namespace fathom::tune

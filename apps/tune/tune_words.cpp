@@ -73,6 +73,10 @@ std::string reasonOf(const TuneResult& result, const Trial& trial, const TunePoi
         measured += (measured.empty() ? "" : "; ") + own + ": " + valuesOf(point.score) +
                     (point.score.why.empty() ? "" : " (" + point.score.why + ")");
     }
+    if (trial.vary == Vary::Size && chosen.setting.decimation > 1) {
+        why += ", but misses things narrower than " + std::to_string(chosen.setting.decimation) +
+               " pixels of the camera";
+    }
     words += ": " + (why.empty() ? "no other value serves the request better" : why);
     return words + (trial.skipped.empty() ? "" : "; not all were measured, because " + trial.skipped) + "\n" +
            measured;

@@ -40,7 +40,7 @@ std::vector<std::string> keyOf(Vary vary) {
     case Vary::Reach:
         return {"contact", "reach"};
     case Vary::Size:
-        break;
+        return {"camera", "decimation"};
     }
     return {};
 }
@@ -60,7 +60,7 @@ std::string yamlOf(const Setting& s, Vary vary) {
     case Vary::Reach:
         return exactly(s.reach);
     case Vary::Size:
-        break;
+        return std::to_string(s.decimation);
     }
     return "";
 }
@@ -90,8 +90,9 @@ bool sameFolder(const fs::path& a, const fs::path& b) {
 std::vector<SceneValue> chosenValues(const TuneResult& result, const TunePoint& chosen) {
     std::vector<SceneValue> values;
     for (const Trial& trial : result.trials) {
-        if (const std::vector<std::string> key = keyOf(trial.vary); !key.empty() && !trial.points.empty()) {
-            values.push_back({key, yamlOf(chosen.setting, trial.vary), reasonOf(result, trial, chosen)});
+        if (!trial.points.empty()) {
+            values.push_back(
+                {keyOf(trial.vary), yamlOf(chosen.setting, trial.vary), reasonOf(result, trial, chosen)});
         }
     }
     return values;
@@ -148,9 +149,7 @@ fs::path writeTunedScene(const Scene& scene, const Setting& chosen, const std::v
     out.write(commentLines(head) + withValues(text, all));
     out.commit();
     try {
-        Setting read = settingOf(loadScene(fresh));
-        read.everyNth = chosen.everyNth;
-        if (!(read == chosen)) {
+        if (!(settingOf(loadScene(fresh)) == chosen)) {
             throw Error(fresh.string() + ": the settings read back differ from the chosen ones");
         }
         fs::rename(fresh, file);

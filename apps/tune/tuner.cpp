@@ -2,6 +2,7 @@
 #include "apps/tune/tuner.h"
 
 #include "apps/replay/plot_axis.h"
+#include "engine/types/decimation.h"
 #include "engine/types/error.h"
 
 #include <algorithm>
@@ -107,9 +108,9 @@ const FrameSequence& Tuner::framesOf(uint32_t nth) {
     FrameSequence& small = sizes_[nth];
     if (small.frames.empty()) {
         const CameraInfo& camera = source_.frames.camera;
-        small = {source_.frames.name, everyNth(camera, nth), {}};
+        small = {source_.frames.name, decimated(camera, nth), {}};
         for (const SampleFrame& image : source_.frames.frames) {
-            small.frames.push_back(everyNth(camera, image, nth));
+            small.frames.push_back(decimatedImage(camera, image, nth));
         }
     }
     return small;
@@ -122,12 +123,12 @@ std::string Tuner::whyClosed(const TunePoint& point) const {
         return "a hand of " + roundNumber(kHandSpeed) + " m/s moves " + profile::digits(travel) +
                " mm from one contact query to the next";
     }
-    return options_.closed(point.setting);
+    return "";
 }
 
 size_t Tuner::addPoint(const Setting& setting, const std::string& varied, const Sets& sets,
                        double published) {
-    const CameraInfo& camera = framesOf(setting.everyNth).camera;
+    const CameraInfo& camera = framesOf(setting.decimation).camera;
     TunePoint point;
     point.setting = setting, point.varied = varied;
     point.width = camera.depth.width, point.height = camera.depth.height;
@@ -150,7 +151,7 @@ std::vector<size_t> Tuner::measureFrames(const std::vector<Setting>& settings, c
     std::vector<std::unique_ptr<Bench>> benches;
     const auto add = [&](const Setting& setting) {
         benches.push_back(
-            std::make_unique<Bench>(device_, source_.scene, setting, framesOf(setting.everyNth)));
+            std::make_unique<Bench>(device_, source_.scene, setting, framesOf(setting.decimation)));
     };
     for (const Setting& setting : settings) {
         add(setting);
@@ -210,7 +211,7 @@ void Tuner::keepBest() {
 
 // Whether an image of that size has points so far apart that a tool fits between their regions.
 bool Tuner::leaks(const Setting& setting) const {
-    const Intrinsics lens = everyNth(source_.frames.camera, setting.everyNth).depth;
+    const Intrinsics lens = decimated(source_.frames.camera, setting.decimation).depth;
     double radius = HUGE_VAL;
     for (const FixtureClass& f : source_.scene.fixtures) {
         radius = f.isPoints() && f.role == Role::Forbidden ? std::min(radius, f.radius) : radius;

@@ -40,8 +40,7 @@ struct Trial {
 struct TuneOptions {
     Request request;
     double limit = 120.0; // [s] no point is begun that would probably end later; the first always is
-    // Why a setting cannot be chosen, or need not be measured; empty = it can.
-    std::function<std::string(const Setting&)> closed = [](const Setting&) { return std::string(); };
+    // Why a setting need not be measured; empty = it must.
     std::function<std::string(Vary)> skip = [](Vary) { return std::string(); };
     std::function<void(size_t, const TunePoint&)> progress = [](size_t, const TunePoint&) {};
 };

@@ -49,6 +49,9 @@ Json intrinsicsJson(const CameraInfo& camera) {
                         {"sigma_m", camera.beam->range},
                         {"sigma_m_per_m", camera.beam->perMetre}};
     }
+    if (camera.decimation > 1) {
+        json["decimation"] = camera.decimation;
+    }
     if (camera.inWater) {
         json["port_corrected"] = {{"sigma_m", camera.sigma}};
     }

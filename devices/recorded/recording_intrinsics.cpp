@@ -4,6 +4,7 @@
 #include "devices/recorded/json_field.h"
 #include "devices/recorded/lens_model.h"
 #include "devices/recorded/source_options.h"
+#include "engine/types/decimation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -187,6 +188,9 @@ RecordingIntrinsics readIntrinsics(const std::filesystem::path& file, ScaleRule 
     camera.hasColour = !colourThere || colourThere->boolean();
     if (!camera.hasColour && !camera.registered) {
         colourThere->refuse("true where there is a block color");
+    }
+    if (const auto decimation = root.find("decimation")) {
+        camera.decimation = decimation->integer(1, kMostDecimation);
     }
     if (const auto water = root.find("port_corrected")) {
         camera.inWater = true;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/front/camera_port.h"
 
+#include "engine/types/decimation.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -48,11 +50,15 @@ CameraPort::Impl::Copy& CameraPort::Impl::unused() {
 }
 
 void CameraPort::Impl::copyDepth(const Frame& frame, Copy& copy) const {
-    copy.depth.resize(info.depth.pixels());
+    copy.depth.resize(side.delivered.depth.pixels());
     if (model.depthFormat == DepthFormat::Metres) {
         copyMetres(frame, copy);
     } else {
         std::memcpy(copy.depth.data(), frame.depth, copy.depth.size() * sizeof(uint16_t));
+    }
+    if (side.decimation > 1) {
+        decimate<uint16_t>(copy.depth, side.delivered.depth, side.decimation, copy.depth);
+        copy.depth.resize(info.depth.pixels());
     }
     if (side.correction) {
         side.correction->apply(copy.depth, copy.depth);
@@ -69,13 +75,24 @@ void CameraPort::Impl::copyMetres(const Frame& frame, Copy& copy) const {
 }
 
 void CameraPort::Impl::copyColour(const Frame& frame, Copy& copy) const {
-    copy.colour.resize(info.hasColour ? info.colourBytes() / sizeof(uint32_t) : 0);
-    if (model.colourFormat != ColourFormat::Rgb) {
-        if (info.hasColour) {
-            std::memcpy(copy.colour.data(), frame.colour, copy.colour.size() * sizeof(uint32_t));
-        }
-        return;
+    const CameraInfo& all = side.delivered;
+    copy.colour.resize(all.hasColour ? all.colourBytes() / sizeof(uint32_t) : 0);
+    if (model.colourFormat == ColourFormat::Rgb) {
+        copyRgb(frame, copy);
+    } else if (all.hasColour) {
+        std::memcpy(copy.colour.data(), frame.colour, copy.colour.size() * sizeof(uint32_t));
     }
+    if (side.decimation > 1 && all.hasColour && all.registered) {
+        if (all.yuyv) {
+            decimateYuyv(copy.colour, all.colour, side.decimation, copy.colour);
+        } else {
+            decimate<uint32_t>(copy.colour, all.colour, side.decimation, copy.colour);
+        }
+        copy.colour.resize(info.colour.pixels());
+    }
+}
+
+void CameraPort::Impl::copyRgb(const Frame& frame, Copy& copy) const {
     const auto* bytes = static_cast<const uint8_t*>(frame.colour);
     for (size_t i = 0; i < copy.colour.size(); ++i) {
         const uint8_t* rgb = bytes + 3 * i;
@@ -92,7 +109,8 @@ fathom::Frame CameraPort::Impl::contentOf(const Frame& frame, std::function<void
     dquat& rotation = content.baseTcamera->rotation; // a unit quaternion stays the same to the last bit
     rotation = std::abs(glm::dot(rotation, rotation) - 1.0) < 1e-14 ? rotation : glm::normalize(rotation);
     const bool converted = model.depthFormat == DepthFormat::Metres ||
-                           model.colourFormat == ColourFormat::Rgb || side.correction.has_value();
+                           model.colourFormat == ColourFormat::Rgb || side.correction.has_value() ||
+                           side.decimation > 1;
     std::span<const uint32_t> colour;
     std::function<void()> giveBack;
     if (release && !converted) {

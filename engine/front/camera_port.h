@@ -48,6 +48,7 @@ private:
     void copyDepth(const Frame& frame, Copy& copy) const;
     void copyMetres(const Frame& frame, Copy& copy) const;
     void copyColour(const Frame& frame, Copy& copy) const;
+    void copyRgb(const Frame& frame, Copy& copy) const;
     fathom::Frame contentOf(const Frame& frame, std::function<void()> release);
 
     static constexpr size_t kCopies = 5; // one each: being filled, waiting, taken, uploaded, on the device

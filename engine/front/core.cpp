@@ -2,6 +2,7 @@
 #include "engine/front/core.h"
 
 #include "engine/run/open_scene.h"
+#include "engine/types/decimation.h"
 
 #include <cmath>
 
@@ -25,7 +26,9 @@ ReaderOptions readerOf(const v0::EngineOptions& given) {
 
 CameraSide::CameraSide(const v0::CameraModel& given, const fathom::Scene& scene)
     : model(given)
-    , info(internal(given)) {
+    , delivered(internal(given))
+    , decimation(scene.decimation)
+    , info(decimated(delivered, decimation)) {
     if (scene.beam) {
         info.beam = BeamSigma{scene.beam->range, scene.beam->perMetre, scene.beam->width};
     }

@@ -26,7 +26,9 @@ struct CameraSide {
     CameraSide(const v0::CameraModel& given, const fathom::Scene& scene);
 
     v0::CameraModel model;
-    CameraInfo info;                          // with the scene's beam and flat port
+    CameraInfo delivered;                     // images as they are submitted
+    uint32_t decimation = 1;                  // the scene's
+    CameraInfo info;                          // after decimation, with the scene's beam and flat port
     std::optional<PortCorrection> correction; // of depth, if the scene has a flat port
 };
 

@@ -2,6 +2,8 @@
 // Sections `camera` and `filter` of a scene file.
 #include "engine/scene/load.h"
 
+#include "engine/types/decimation.h"
+
 #include <algorithm>
 #include <numbers>
 
@@ -123,7 +125,10 @@ void loadBeam(const YamlNode& node, Scene& scene) {
 
 void loadCamera(const YamlNode& camera, Scene& scene) {
     camera.checkKeys({"source", "near", "far", "base_T_camera", "registration_sigma", "port", "beam",
-                      "attenuation", "static"});
+                      "attenuation", "static", "decimation"});
+    if (const auto decimation = camera.find("decimation")) {
+        scene.decimation = decimation->integer(1, kMostDecimation);
+    }
     if (const auto isStatic = camera.find("static")) {
         scene.cameraStatic = isStatic->boolean();
     }

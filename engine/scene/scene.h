@@ -131,6 +131,7 @@ struct Scene {
     CameraSource source;
     double nearZ = 0.1, farZ = 3.0; // [m] along the optical axis, inclusive
     Pose baseTcamera;
+    uint32_t decimation = 1;        // every nth column and row of the camera's images is used
     bool cameraStatic = false;      // it never moves, though its frames have no poses
     double registrationSigma = 0.0; // [m]; regions grow by 3 of them
     // A flat window between the camera and the water.

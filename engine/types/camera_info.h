@@ -69,7 +69,8 @@ struct CameraInfo {
     bool yuyv = false;     // colour is YUYV (yuyv.h); its width must be even
     double sigma = 0.0;    // [m] systematic error of points that a correction leaves; regions grow by 3 sigma
     bool poseless = false; // no frame has a pose
-    bool inWater = false;  // depth is already corrected for a flat port; sigma is the remaining error
+    uint32_t decimation = 1;       // images are every nth column and row of the camera's
+    bool inWater = false;          // depth is already corrected for a flat port; sigma is the remaining error
     std::optional<BeamSigma> beam; // per-point uncertainty; each sphere grows by 3 sigma
 
     uint64_t colourBytes() const { return (yuyv ? 2ull : 4ull) * colour.pixels(); } // of one frame

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which cameras and recordings the port of a scene corrects.
+// Which cameras and recordings the port and the decimation of a scene change.
 #include "apps/binding/open_source.h"
 
 #include "devices/recorded/recording_writer.h"
@@ -53,4 +53,23 @@ TEST_CASE("A recording of raw frames is corrected for the port, a recording of p
     const auto frame = again->next();
     REQUIRE(frame);
     CHECK((*frame)->depth[24 * 64 + 32] == 1000); // unchanged
+}
+
+TEST_CASE("A recording is decimated as its scene says, unless it was recorded so or is being recorded") {
+    const ScratchFolder folder;
+    Scene scene;
+    scene.decimation = 2;
+    record(folder.path() / "raw", plainCamera());
+    const auto small = openCamera(scene, folder.path() / "raw");
+    const CameraInfo used = small->info();
+    CHECK(used.depth.width == 32);
+    CHECK(used.depth.height == 24);
+    const auto frame = small->next();
+    REQUIRE(frame);
+    CHECK((*frame)->depth.size() == 32 * 24);
+    record(folder.path() / "used", used);
+    const auto again = openCamera(scene, folder.path() / "used");
+    CHECK(again->info().decimation == 2);
+    CHECK(again->info().depth.width == 32);
+    CHECK(openCamera(scene, folder.path() / "raw", Images::Every)->info().depth.width == 64);
 }

@@ -4,11 +4,13 @@
 #include "devices/water/water_camera.h"
 
 #include "engine/types/error.h"
+#include "tests/devices/one_frame.h"
 
 #include <cmath>
 #include <doctest/doctest.h>
 
 using namespace fathom;
+using namespace fathom::testing;
 
 namespace {
 
@@ -39,31 +41,6 @@ glm::dvec2 seen(const FlatPort& port, const dvec3& p, double eye) {
 double told(const FlatPort& port, const dvec3& p) {
     return kBaseline / (seen(port, p, -0.5 * kBaseline).x - seen(port, p, 0.5 * kBaseline).x);
 }
-
-class OneFrame final : public Camera {
-public:
-    OneFrame(const CameraInfo& info, std::vector<uint16_t> depth)
-        : info_(info)
-        , depth_(std::move(depth)) {}
-    const CameraInfo& info() const override { return info_; }
-    std::optional<Frame> next() override {
-        if (done_) {
-            return std::nullopt;
-        }
-        done_ = true;
-        Frame::Content content;
-        content.depth = depth_;
-        return Frame(content, [this] { ++returned; });
-    }
-    uint32_t skipped() const override { return 0; }
-    std::string description() const override { return "test"; }
-    int returned = 0;
-
-private:
-    CameraInfo info_;
-    std::vector<uint16_t> depth_;
-    bool done_ = false;
-};
 
 } // namespace
 

@@ -102,12 +102,12 @@ fathom::v0::CameraModel modelOf(const fathom::CameraInfo& info) {
     return model;
 }
 
-} // namespace
-
-TEST_CASE("The library in lockstep gives exactly the forces and poses of a replay") {
+// Plays the same images and hand through the program and the library.
+void requireReplayed(const std::string& more) {
     const fathom::Stage stage;
     stage.recording(images());
     fathom::SceneText text;
+    text.camera += more;
     text.fixtures.push_back(fathom::SceneText::kGuideYellow);
     text.contact = "delay: 2";
     stage.scene(text);
@@ -142,6 +142,13 @@ TEST_CASE("The library in lockstep gives exactly the forces and poses of a repla
         requireEqual(step, tick);
     }
     CHECK(contacts > 50);
+}
+
+} // namespace
+
+TEST_CASE("The library in lockstep gives exactly the forces and poses of a replay") {
+    requireReplayed("");
+    requireReplayed(", decimation: 2");
 }
 
 TEST_CASE("The library in lockstep moves a scene's arm exactly as a replay does" *

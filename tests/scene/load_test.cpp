@@ -206,6 +206,15 @@ TEST_CASE("Bounds are inclusive; an empty list of fixtures and the words auto an
     }
 }
 
+TEST_CASE("A scene uses every pixel unless it names a decimation, from 1 to 8") {
+    CHECK(loadScene(SceneFile(kMinimal).path()).decimation == 1);
+    CHECK(loadScene(SceneFile(kMinimal + "camera: {decimation: 8}\n").path()).decimation == 8);
+    for (const char* wrong : {"0", "9", "1.5", "half"}) {
+        CHECK(refusal(kMinimal + "camera: {decimation: " + wrong + "}\n").find("camera.decimation") !=
+              std::string::npos);
+    }
+}
+
 TEST_CASE("A quaternion of huge or tiny length is normalised without overflow") {
     for (const char* quat : {"[0, 0, 1e300, 1e300]", "[0, 0, 1e-290, 1e-290]"}) {
         const SceneFile file(kMinimal + "hand: {map: {base_R_device: " + quat + "}}\n");

@@ -119,17 +119,3 @@ TEST_CASE("The mean image has less noise, finer units and no pixels that flicker
     }
     CHECK(std::sqrt(squares) == doctest::Approx(0.0002).epsilon(0.2));
 }
-
-TEST_CASE("A smaller image has every nth pixel, and its lens sees them at the same rays") {
-    const FrameSequence source = sequence();
-    const SampleFrame image = wall(0, 8.0);
-    const CameraInfo small = everyNth(source.camera, 3);
-    const SampleFrame third = everyNth(source.camera, image, 3);
-    CHECK(small.depth.width == 32);
-    CHECK(small.depth.height == 22);
-    REQUIRE(third.depth.size() == 32 * 22);
-    CHECK(third.depth[32 + 2] == image.depth[3 * kWide + 6]);
-    const auto full = source.camera.depth.ray(6.0, 3.0), less = small.depth.ray(2.0, 1.0);
-    CHECK(full.x == doctest::Approx(less.x));
-    CHECK(full.y == doctest::Approx(less.y));
-}

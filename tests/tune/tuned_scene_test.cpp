@@ -20,8 +20,12 @@ TuneResult madeUp() {
     result.points[0].score = {0.2, 5.0, 0.08, {}};
     result.points[1].varied = nameOf(Vary::Memory);
     result.points[1].setting.memory = 30;
+    result.points[1].setting.decimation = 2;
+    result.points[0].width = 640, result.points[1].width = 320;
+    result.points[0].height = 480, result.points[1].height = 240;
     result.points[1].score = {0.1, 6.0, 0.001, {}};
-    result.trials = {{Vary::Window, {}, 0, "no time"}, {Vary::Memory, {0, 1}, 1, {}}};
+    result.trials = {
+        {Vary::Window, {}, 0, "no time"}, {Vary::Memory, {0, 1}, 1, {}}, {Vary::Size, {0, 1}, 1, {}}};
     result.choice = choose(result.scores(), {0.15, {}});
     return result;
 }
@@ -38,7 +42,9 @@ TEST_CASE("A reason names the old value, what the new one is best in, and all th
     CHECK(noneMeets(result, {0.05, {}}).find("(error at most 0.05 mm); nearest: error 0.1 mm") !=
           std::string::npos);
     CHECK(noneMeets({}, {0.05, {}}) == "no point meets the request (error at most 0.05 mm)");
-    CHECK(chosenValues(result, chosen).size() == 1); // only what was varied
+    CHECK(chosenValues(result, chosen).size() == 2); // only what was varied
+    CHECK(reasonOf(result, result.trials[2], chosen)
+              .find("image size 320x240, was 640x480: least error, least vibration, but misses ") == 0);
 }
 
 TEST_CASE("Stability is stated for springs below and above the passive bound, and for an unknown device") {
@@ -86,6 +92,7 @@ TEST_CASE("A tuned scene has the chosen values, copies of its files, and paths t
     }
     const Scene tuned = loadScene(out / "scene.yaml");
     CHECK(tuned.filter.memory == 30);
+    CHECK(tuned.decimation == 2);
     CHECK(std::filesystem::equivalent(tuned.tool.file, scratch.path() / "tool.sph"));
     CHECK(std::filesystem::weakly_canonical(tuned.source.value) ==
           std::filesystem::weakly_canonical(home / "a rec"));

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// Smaller images: every nth column and row of a camera's. Noise per pixel stays the same.
+#pragma once
+
+#include "engine/types/camera_info.h"
+
+#include <cstdint>
+#include <span>
+
+namespace fathom {
+
+inline constexpr uint32_t kMostDecimation = 8;
+
+// What a camera is of which every nth column and row is used, from the first one on. Colour keeps its size if
+// it has a lens of its own. Registered YUYV becomes RGBA, because its pixels share chroma.
+CameraInfo decimated(CameraInfo camera, uint32_t n);
+
+// Picks every nth pixel of each nth row. `from`: an image of `lens`; `to`: at least as long as the result,
+// may begin where `from` does.
+template <class Pixel>
+void decimate(std::span<const Pixel> from, const Intrinsics& lens, uint32_t n, std::span<Pixel> to) noexcept {
+    size_t next = 0;
+    for (uint32_t v = 0; v < lens.height; v += n) {
+        for (uint32_t u = 0; u < lens.width; u += n) {
+            to[next++] = from[size_t{v} * lens.width + u];
+        }
+    }
+}
+// The same for YUYV words, as 0xAABBGGRR. n is at least 2.
+void decimateYuyv(std::span<const uint32_t> words, const Intrinsics& lens, uint32_t n,
+                  std::span<uint32_t> rgba) noexcept;
+
+} // namespace fathom
