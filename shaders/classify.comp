@@ -15,7 +15,6 @@ layout(constant_id = kSpecHold) const uint kHold = 0;
 layout(constant_id = kSpecSubGroup) const uint kGroupSubs = 64;
 layout(constant_id = kSpecClasses) const uint kClasses = 1;
 layout(constant_id = kSpecBox) const uint kBox = 0;
-layout(constant_id = kSpecGather) const uint kGather = 0;
 layout(constant_id = kSpecFour) const uint kFour = 0;
 layout(constant_id = kSpecRange) const uint kRange = 0;
 layout(constant_id = kSpecSelfFilter) const uint kArm = 0;
@@ -141,7 +140,6 @@ uint classBits(uvec2 at, float z, vec3 rgb) {
     return mask;
 }
 
-shared uint found[kMaxClasses]; // pixels per class, counted by the group
 
 // Depths [m] of four adjacent pixels in a row; 0 outside the image and where there is no measurement.
 vec4 depthsAt(uvec2 at) {
@@ -198,11 +196,7 @@ void countPixels(uint words[kRows]) {
         if (pixels == 0) {
             continue;
         }
-        if (kGather != 0) {
-            atomicAdd(found[c], pixels);
-        } else {
-            atomicAdd(counters.classPixels[c], pixels);
-        }
+        atomicAdd(counters.classPixels[c], pixels);
     }
 }
 
@@ -270,12 +264,6 @@ void markPatch(Place place, uint some) {
 }
 
 void main() {
-    if (kGather != 0) {
-        for (uint c = gl_LocalInvocationID.x; c < kMaxClasses; c += gl_WorkGroupSize.x) {
-            found[c] = 0;
-        }
-        barrier();
-    }
     Place place = placeOf();
     uint word = (place.patchIndex * 256u + place.inside) >> 2, some = 0;
     uint words[kRows];
@@ -288,12 +276,4 @@ void main() {
     }
     countPixels(words);
     markPatch(place, some);
-    if (kGather != 0) {
-        barrier();
-        for (uint c = gl_LocalInvocationID.x; c < kClasses; c += gl_WorkGroupSize.x) {
-            if (found[c] != 0) {
-                atomicAdd(counters.classPixels[c], found[c]);
-            }
-        }
-    }
 }

@@ -77,7 +77,6 @@ PassInfo classify(const CloudContext& c) {
              {kSpecSubGroup, plan.subGroup},
              {kSpecClasses, plan.classes},
              {kSpecBox, plan.box},
-             {kSpecGather, plan.groupCounts},
              {kSpecFour, four},
              {kSpecRange, plan.range},
              {kSpecSelfFilter, plan.selfFilter},

@@ -58,7 +58,6 @@ struct PlannedTuning {
     // The filter has its window in registers: one invocation per 4x4 sub-patch; above radius 2, per row of
     // one.
     bool filterBlock = false;
-    bool groupCounts = false; // classify counts per group in shared memory first
     // With shared memory: `spheres` has one invocation per pixel, `moments` one per sub-patch. Otherwise one
     // per sub-patch and one per patch.
     bool byPixel = false;

@@ -35,7 +35,6 @@ FATHOM_CONST kSpecFour =
     22; // width is a multiple of four: one texel holds four pixels; 1 = depth, 2 = also registered colour
 FATHOM_CONST kSpecRows = 23;     // rows of four pixels per invocation
 FATHOM_CONST kSpecWide = 24;     // a group covers four patches side by side
-FATHOM_CONST kSpecGather = 25;   // a group counts pixels in shared memory first
 FATHOM_CONST kSpecKeep = 26;     // `classify` copies the depth to device memory for later passes
 FATHOM_CONST kSpecLists = 27;    // `classify` makes the patch lists
 FATHOM_CONST kSpecSubGroup = 28; // group size of the sub-patch passes

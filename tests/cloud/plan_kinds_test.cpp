@@ -11,12 +11,12 @@ using namespace fathom::test;
 namespace {
 
 void forCpu(Plan& plan) {
-    plan.byPixel = plan.groupCounts = plan.tiled = plan.pack = plan.keepDepth = false;
+    plan.byPixel = plan.tiled = plan.pack = plan.keepDepth = false;
     plan.filterBlock = true;
 }
 
 void forGpu(Plan& plan) {
-    plan.byPixel = plan.groupCounts = plan.tiled = plan.pack = true;
+    plan.byPixel = plan.tiled = plan.pack = true;
     plan.memoryTexels = false;
     plan.filterBlock = false;
 }

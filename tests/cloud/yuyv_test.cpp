@@ -67,7 +67,7 @@ uint32_t countOf(const std::vector<uint32_t>& masks) {
 
 // Uses a GPU's layout of invocations on any device.
 void forGpu(Plan& plan) {
-    plan.byPixel = plan.groupCounts = plan.pack = true;
+    plan.byPixel = plan.pack = true;
     plan.memoryTexels = plan.filterBlock = false;
 }
 
