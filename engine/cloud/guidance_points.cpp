@@ -1,21 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/cloud/guidance_points.h"
 
+#include "engine/cloud/pixel_parts.h"
 #include "shaders/shared/frame_params.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 namespace fathom::cloud {
 
 namespace {
-
-struct Pixel {
-    uint32_t u, v, slot;
-    float z; // along the optical axis [m]
-};
 
 // Collects the pixels of a class that have a point, in row-major order. Reads device memory once, and only in
 // patches with guided pixels.
@@ -44,7 +39,7 @@ public:
         }
     }
 
-    std::vector<Pixel> take() { return std::move(pixels_); }
+    std::vector<PartPixel> take() { return std::move(pixels_); }
 
 private:
     // Takes one pixel row of the patch that begins in column u. A word holds four sub-patch pixels.
@@ -65,68 +60,16 @@ private:
     std::span<const uint32_t> words_;
     std::span<const glm::vec4> points_;
     uint32_t bits_, width_, height_;
-    std::vector<Pixel> pixels_;
+    std::vector<PartPixel> pixels_;
 };
-
-// Disjoint sets whose root is their first pixel.
-class Parts {
-public:
-    explicit Parts(size_t pixels)
-        : parent_(pixels) {
-        std::iota(parent_.begin(), parent_.end(), 0u);
-    }
-    uint32_t root(uint32_t i) {
-        while (parent_[i] != i) {
-            parent_[i] = parent_[parent_[i]];
-            i = parent_[i];
-        }
-        return i;
-    }
-    void join(uint32_t i, uint32_t j) {
-        const auto [first, last] = std::minmax({root(i), root(j)}); // by value
-        parent_[last] = first;
-    }
-
-private:
-    std::vector<uint32_t> parent_;
-};
-
-// 8-connected: joins each pixel with the one to its left and the three above it.
-Parts partsOf(const std::vector<Pixel>& pixels, double edge) {
-    Parts parts(pixels.size());
-    const auto joinNear = [&](uint32_t i, uint32_t j) { // symmetric in i and j
-        const float z = pixels[i].z, w = pixels[j].z;
-        if (edge == 0.0 || std::abs(w - z) <= edge * std::min(w, z)) {
-            parts.join(i, j);
-        }
-    };
-    uint32_t above = 0; // the first pixel not before the three above pixel i
-    for (uint32_t i = 0; i < pixels.size(); ++i) {
-        const auto [u, v, slot, z] = pixels[i];
-        if (i > 0 && pixels[i - 1].v == v && pixels[i - 1].u + 1 == u) {
-            joinNear(i, i - 1);
-        }
-        while (pixels[above].v + 1 < v || (pixels[above].v + 1 == v && pixels[above].u + 1 < u)) {
-            ++above;
-        }
-        for (uint32_t j = above; pixels[j].v + 1 == v && pixels[j].u <= u + 1; ++j) {
-            joinNear(i, j);
-        }
-    }
-    return parts;
-}
 
 // Of equally large parts, keeps the first.
-void keepLargestPart(std::vector<Pixel>& pixels, double edge) {
-    Parts parts = partsOf(pixels, edge);
-    std::vector<uint32_t> sizes(pixels.size(), 0);
-    for (uint32_t i = 0; i < pixels.size(); ++i) {
-        ++sizes[parts.root(i)];
-    }
+void keepLargestPart(std::vector<PartPixel>& pixels, double edge) {
+    const std::vector<uint32_t> parts = partsOf(pixels, edge), sizes = partSizes(parts);
     const auto best = static_cast<uint32_t>(std::ranges::max_element(sizes) - sizes.begin());
     uint32_t kept = 0;
     for (uint32_t i = 0; i < pixels.size(); ++i) {
-        if (parts.root(i) == best) {
+        if (parts[i] == best) {
             pixels[kept++] = pixels[i];
         }
     }
@@ -161,14 +104,14 @@ void trimFarthest(std::vector<dvec3>& points, double share) {
 
 Moments chosenMoments(const FixtureSet& set, uint32_t c, const FixtureClass& fixture, double edge,
                       const PatchLayout& layout) {
-    std::vector<Pixel> pixels = PixelsOfClass(set, c, layout).take();
+    std::vector<PartPixel> pixels = PixelsOfClass(set, c, layout).take();
     if (fixture.largestPart) {
         keepLargestPart(pixels, edge);
     }
     const auto all = set.device.points.as<glm::vec4>();
     std::vector<dvec3> points;
     points.reserve(pixels.size());
-    for (const Pixel& p : pixels) {
+    for (const PartPixel& p : pixels) {
         points.emplace_back(all[p.slot]);
     }
     if (fixture.trim > 0.0) {
