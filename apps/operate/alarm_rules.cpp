@@ -4,6 +4,7 @@
 #include "apps/operate/alarms.h"
 #include "apps/operate/hud.h"
 #include "apps/operate/printed.h"
+#include "apps/replay/silhouette.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,6 +15,21 @@ namespace {
 
 constexpr double kPatience = 1.0;   // [s]
 constexpr double kHandApart = 0.10; // [m] from hand to tool
+
+// Whether the points of a class end where its box does: more than a tenth of them are at one of its sides.
+bool endsAtBox(const Fixtures& set, uint8_t row, const Box& box) {
+    constexpr double kAtSide = 0.003; // [m]
+    size_t all = 0, ends = 0;
+    for (size_t i = 0; i < set.spheres.size(); ++i) {
+        if (set.spheres.fixture[i] == row) {
+            const dvec3 at = regionCentre(set, i);
+            const dvec3 inside = glm::min(at - box.min, box.max - at);
+            ends += std::min(inside.x, std::min(inside.y, inside.z)) < kAtSide ? 1 : 0;
+            ++all;
+        }
+    }
+    return 10 * ends > all;
+}
 
 } // namespace
 
@@ -48,6 +64,11 @@ void Alarms::stepProtection(const RunView& run, const Scene& scene, const StepRe
             {"'" + f.name + "' is not seen and not protected",
              "point the camera at it, or pick its colour (K)"},
             tick.t);
+        set(counts && f.box && endsAtBox(shown, static_cast<uint8_t>(row), *f.box), Level::Advisory,
+            "box " + f.name,
+            {"'" + f.name + "' reaches the side of its box, nothing is protected beyond",
+             "enlarge the box or remove it"},
+            tick.t, {kPatience, kPatience});
     }
     forcesSeen_ = tick.state != StepState::Off || tick.frame >= 0 ? tick.t : std::min(forcesSeen_, tick.t);
     set(forces && tick.t - forcesSeen_ > kPatience, Level::Caution, "off",

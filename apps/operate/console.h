@@ -2,7 +2,7 @@
 // The state of the window: settings and requests of the pilot. Window thread only.
 #pragma once
 
-#include "engine/scene/scene.h"
+#include "apps/operate/picked_parts.h"
 
 #include <array>
 #include <imgui.h>
@@ -29,6 +29,8 @@ struct Pick {
     bool taken = false;  // a pixel was chosen
     uint32_t u = 0, v = 0;
     FixtureClass gates;                // the class to add
+    PartRules rules;                   // for a new class
+    PickedParts found;                 // by these rules
     int row = -1;                      // row of the class whose gates are edited; -1 = a new class
     bool fresh = false;                // the preview has not been computed yet
     std::vector<std::string> warnings; // what adding it would do at once (pick_ghost.h)

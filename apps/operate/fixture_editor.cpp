@@ -2,7 +2,6 @@
 #include "apps/operate/fixture_editor.h"
 
 #include "apps/session/session.h"
-#include "engine/reference/classify.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,43 +10,7 @@ namespace fathom::operate {
 
 namespace {
 
-constexpr double kHueReach = 12.0;  // [degree] on each side of the picked hue
-constexpr double kToneReach = 0.28; // half width of the saturation and lightness bands
-constexpr uint32_t kPatch = 2;      // [pixels] average colour within this distance of the click
 constexpr size_t kMaxHistory = 64;
-
-// The colour of a depth pixel as the gates use it: without the water's attenuation.
-uint32_t colourFor(const Scene& scene, const SceneSnapshot& snapshot, uint32_t u, uint32_t v, uint32_t rgba) {
-    const CameraInfo& camera = snapshot.set.camera;
-    const uint16_t raw = snapshot.set.depth[static_cast<size_t>(v) * camera.depth.width + u];
-    if (!scene.attenuation || raw == 0) {
-        return rgba;
-    }
-    const double range = raw * camera.metresPerUnit * glm::length(dvec3(camera.depth.ray(u, v), 1.0));
-    return reference::withoutWater(rgba, *scene.attenuation, range).rgba;
-}
-
-bool selects(const FixtureClass& gates, uint32_t rgba) {
-    const reference::Hsl hsl = reference::hslOf(rgba);
-    return (!gates.hue || !hsl.grey) && inBand(gates.hue, hsl.hue) &&
-           inBand(gates.saturation, hsl.saturation) && inBand(gates.lightness, hsl.lightness);
-}
-
-// Index into the colour image of a depth pixel; ignores parallax between two cameras.
-size_t colourPixel(const CameraInfo& camera, uint32_t u, uint32_t v) {
-    return static_cast<size_t>(v * camera.colour.height / camera.depth.height) * camera.colour.width +
-           u * camera.colour.width / camera.depth.width;
-}
-
-std::string freeName(const Scene& scene, const std::string& stem) {
-    for (int i = 1;; ++i) {
-        const std::string name = stem + " " + std::to_string(i);
-        if (std::none_of(scene.fixtures.begin(), scene.fixtures.end(),
-                         [&](const auto& f) { return f.name == name; })) {
-            return name;
-        }
-    }
-}
 
 // base_q_shape with its z along n.
 dquat turnTo(const dvec3& n) {
@@ -58,11 +21,6 @@ dquat turnTo(const dvec3& n) {
 
 } // namespace
 
-bool inBand(const std::optional<Band>& band, double value) {
-    return !band || (band->lo <= band->hi ? value >= band->lo && value <= band->hi
-                                          : value >= band->lo || value <= band->hi);
-}
-
 FixtureEditor::FixtureEditor(const Scene& scene,
                              std::function<void(const Scene&, const std::vector<Shape>&)> onChange)
     : scene_(scene)
@@ -70,78 +28,13 @@ FixtureEditor::FixtureEditor(const Scene& scene,
     , onChange_(std::move(onChange))
     , saved_(rows()) {}
 
-void FixtureEditor::pickAt(Console& console, const SceneSnapshot& snapshot, glm::uvec2 pixel) {
-    const Intrinsics& lens = snapshot.set.camera.colour;
-    if (snapshot.colour.size() != lens.pixels()) {
-        return;
-    }
-    double x = 0.0, y = 0.0, saturation = 0.0, lightness = 0.0, count = 0.0;
-    for (uint32_t v = pixel.y - std::min(pixel.y, kPatch); v <= std::min(lens.height - 1, pixel.y + kPatch);
-         ++v) {
-        for (uint32_t u = pixel.x - std::min(pixel.x, kPatch);
-             u <= std::min(lens.width - 1, pixel.x + kPatch); ++u) {
-            const CameraInfo& camera = snapshot.set.camera;
-            const uint32_t rgba = colourFor(scene_, snapshot, u * camera.depth.width / lens.width,
-                                            v * camera.depth.height / lens.height,
-                                            snapshot.colour[static_cast<size_t>(v) * lens.width + u]);
-            const reference::Hsl hsl = reference::hslOf(rgba);
-            const double weight = hsl.grey ? 0.0 : hsl.saturation;
-            x += weight * std::cos(glm::radians(hsl.hue));
-            y += weight * std::sin(glm::radians(hsl.hue));
-            saturation += hsl.saturation;
-            lightness += hsl.lightness;
-            count += 1.0;
+std::string FixtureEditor::freeName(const std::string& stem) const {
+    for (int i = 1;; ++i) {
+        const std::string name = stem + " " + std::to_string(i);
+        if (std::none_of(scene_.fixtures.begin(), scene_.fixtures.end(),
+                         [&](const auto& f) { return f.name == name; })) {
+            return name;
         }
-    }
-    const auto around = [&](double value) {
-        return Band{std::max(0.0, value / count - kToneReach), std::min(1.0, value / count + kToneReach)};
-    };
-    const double hue = std::fmod(glm::degrees(std::atan2(y, x)) + 360.0, 360.0);
-    FixtureClass& gates = console.pick.gates;
-    if (console.pick.row < 0) {
-        gates = {};
-        gates.name = freeName(scene_, "picked");
-    }
-    gates.hue = Band{std::fmod(hue - kHueReach + 360.0, 360.0), std::fmod(hue + kHueReach, 360.0)};
-    gates.saturation = around(saturation);
-    gates.saturation->lo = std::max(0.08, gates.saturation->lo); // the hue of grey pixels is undefined
-    gates.saturation->hi = 1.0;
-    gates.lightness = around(lightness);
-    console.pick.taken = true;
-    console.pick.u = pixel.x;
-    console.pick.v = pixel.y;
-    preview(console, snapshot);
-}
-
-void FixtureEditor::preview(Console& console, const SceneSnapshot& snapshot) {
-    const CameraInfo& camera = snapshot.set.camera;
-    ++selectionNumber_;
-    selected_ = 0;
-    hues_.fill(0.0f);
-    if (!console.pick.taken || snapshot.colour.size() != camera.colour.pixels()) {
-        selection_.clear();
-        return;
-    }
-    selection_.assign(camera.depth.pixels(), 0);
-    for (uint32_t v = 0; v < camera.depth.height; ++v) {
-        for (uint32_t u = 0; u < camera.depth.width; ++u) {
-            const size_t at = static_cast<size_t>(v) * camera.depth.width + u;
-            const uint32_t rgba =
-                colourFor(scene_, snapshot, u, v, snapshot.colour[colourPixel(camera, u, v)]);
-            const reference::Hsl hsl = reference::hslOf(rgba);
-            if (!hsl.grey && hsl.saturation > 0.08) {
-                hues_[static_cast<size_t>(hsl.hue / 5.0) % hues_.size()] +=
-                    static_cast<float>(hsl.saturation);
-            }
-            if (snapshot.set.depth[at] != 0 && selects(console.pick.gates, rgba)) {
-                selection_[at] = 1;
-                ++selected_;
-            }
-        }
-    }
-    const float most = *std::max_element(hues_.begin(), hues_.end());
-    for (float& hue : hues_) {
-        hue /= most > 0.0f ? most : 1.0f;
     }
 }
 
@@ -156,12 +49,14 @@ bool FixtureEditor::takePicked(Console& console) {
         const bool free = wanted.find_first_not_of(' ') != std::string::npos &&
                           std::none_of(next.fixtures.begin(), next.fixtures.end(),
                                        [&](const FixtureClass& f) { return f.name == wanted; });
-        console.pick.gates.name = free ? wanted : freeName(next, "picked");
+        console.pick.gates.name = free ? wanted : freeName("picked");
     }
     const bool added = console.pick.taken && spare != next.fixtures.end() &&
                        (row < 0 || spare->name == console.pick.gates.name); // undo may have moved rows
     if (added) {
         *spare = console.pick.gates;
+        spare->largestPart =
+            row < 0 ? spare->role == Role::Guidance && console.pick.rules.onlyClicked : spare->largestPart;
         lastTaken_ = spare->name;
         apply(std::move(next));
     }
@@ -171,19 +66,23 @@ bool FixtureEditor::takePicked(Console& console) {
     return added;
 }
 
-bool FixtureEditor::place(ShapeKind kind, const dvec3& base, const dvec3& normal) {
-    if (shapes_.size() >= 16) {
-        return false;
-    }
+FixtureClass FixtureEditor::shapeAt(ShapeKind kind, const dvec3& base, const dvec3& normal) const {
     constexpr const char* kNames[] = {"", "sphere", "box", "plane", "cylinder", "line", "axis"};
     FixtureClass shape;
-    shape.name = freeName(scene_, kNames[static_cast<int>(kind)]);
+    shape.name = freeName(kNames[static_cast<int>(kind)]);
     shape.shape = kind;
     shape.role = kind == ShapeKind::Line || kind == ShapeKind::Axis ? Role::Guidance : Role::Forbidden;
     shape.baseTshape = {base, turnTo(normal)};
     shape.size = kind == ShapeKind::Box        ? dvec3(0.1)
                  : kind == ShapeKind::Cylinder ? dvec3(0.04, 0.1, 0)
                                                : dvec3(0.05, 0, 0);
+    return shape;
+}
+
+bool FixtureEditor::place(const FixtureClass& shape) {
+    if (shapes_.size() >= 16) {
+        return false;
+    }
     Scene next = scene_;
     next.fixtures.push_back(shape);
     apply(std::move(next));

@@ -30,8 +30,9 @@ public:
     // Puts the picked class into a spare row (false when none is left), or the edited gates into their row.
     bool takePicked(Console& console);
     const std::string& lastTaken() const { return lastTaken_; } // name of the class that it made active
-    // Adds an authored shape at a point of the base frame with the normal of the surface.
-    bool place(ShapeKind kind, const dvec3& base, const dvec3& normal);
+    // A new authored shape at a point of the base frame with the normal of the surface.
+    FixtureClass shapeAt(ShapeKind kind, const dvec3& base, const dvec3& normal) const;
+    bool place(const FixtureClass& shape);           // adds it; false when there are too many
     void change(size_t row, const FixtureClass& to); // makes one undo step
     // One undo step. Returns why not, or nothing: the name is empty or another fixture's.
     std::string rename(size_t row, const std::string& name);
@@ -57,6 +58,8 @@ public:
     } // of the image, 5 degrees per bin, largest bin = 1
 
 private:
+    void select(const FixtureClass& gates, const SceneSnapshot& snapshot);
+    std::string freeName(const std::string& stem) const;
     std::string rows() const; // as in the scene file
     void apply(Scene next);
     void notifyChange();

@@ -163,6 +163,7 @@ void placeButtons(Console& console) {
     if (console.placing != ShapeKind::None) {
         ImGui::TextColored(ImColor(colour::kPicked),
                            "Click on a surface in the camera view, or use arrows and Enter.  Esc: cancel");
+        drawPickWarnings(console);
     }
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 
 namespace fathom::operate {
 
@@ -45,12 +46,16 @@ std::vector<Sphere> ghostOf(const Fixtures& set, std::span<const uint8_t> select
     return ghost;
 }
 
-std::vector<std::string> coverWarnings(std::span<const Sphere> ghost, std::span<const Sphere> tool,
-                                       std::span<const GuidancePose> targets, const Scene& scene) {
+namespace {
+
+// cover: how far [m] the regions reach over a sphere; negative: they do not touch it.
+std::vector<std::string> warningsOf(const std::function<double(const Sphere&)>& cover,
+                                    std::span<const Sphere> tool, std::span<const GuidancePose> targets,
+                                    const Scene& scene) {
     std::vector<std::string> warnings;
     double deepest = -1.0;
     for (const Sphere& s : tool) {
-        deepest = std::max(deepest, coverOf(ghost, s));
+        deepest = std::max(deepest, cover(s));
     }
     if (deepest > 0.0) {
         char text[80];
@@ -58,12 +63,27 @@ std::vector<std::string> coverWarnings(std::span<const Sphere> ghost, std::span<
         warnings.emplace_back(text);
     }
     for (const GuidancePose& g : targets) {
-        if (g.present && g.fixture < scene.fixtures.size() &&
-            coverOf(ghost, {g.target.position, 0.0}) > 0.0) {
+        if (g.present && g.fixture < scene.fixtures.size() && cover({g.target.position, 0.0}) > 0.0) {
             warnings.push_back("covers the target '" + scene.fixtures[g.fixture].name + "'");
         }
     }
     return warnings;
+}
+
+} // namespace
+
+std::vector<std::string> coverWarnings(std::span<const Sphere> ghost, std::span<const Sphere> tool,
+                                       std::span<const GuidancePose> targets, const Scene& scene) {
+    return warningsOf([&](const Sphere& s) { return coverOf(ghost, s); }, tool, targets, scene);
+}
+
+std::vector<std::string> coverWarnings(const Shape& shape, std::span<const Sphere> tool,
+                                       std::span<const GuidancePose> targets, const Scene& scene) {
+    if (shape.isEquality() || shape.keepIn) {
+        return {};
+    }
+    return warningsOf([&](const Sphere& s) { return -gapTo(shape, s.centre, s.radius).gap; }, tool, targets,
+                      scene);
 }
 
 void drawGhost(ImDrawList& list, const ViewPort& port, std::span<const Sphere> ghost) {

@@ -5,6 +5,7 @@
 #include "apps/operate/theme.h"
 
 #include <cmath>
+#include <cstdio>
 #include <utility>
 
 namespace fathom::operate {
@@ -91,7 +92,45 @@ void card(Console& console, FixtureClass& gates, bool anew) {
     explain(console, "Enter: make it active. Esc: drop it");
 }
 
+// What limits a new class to the clicked thing. True when it has changed.
+bool partRules(Console& console, const SceneSnapshot& snapshot) {
+    PartRules& rules = console.pick.rules;
+    bool changed = ImGui::Checkbox("Only the clicked part", &rules.onlyClicked);
+    markPlace(console, "only part");
+    explain(console, "Of several things of this colour, only the one you clicked: a box around it limits the "
+                     "fixture. Not for a thing that moves");
+    char text[64];
+    std::snprintf(text, sizeof text, "Ignore specks under %u points", speckPoints(snapshot.set.camera.depth));
+    changed = ImGui::Checkbox(text, &rules.noSpecks) || changed;
+    markPlace(console, "no specks");
+    explain(console, "Small separate parts do not count. Specks inside the box still do");
+    return changed;
+}
+
+// How much of it, and what else.
+void foundParts(const Console& console, const FixtureEditor& editor) {
+    const PickedParts& found = console.pick.found;
+    char text[96];
+    if (console.pick.row >= 0) {
+        std::snprintf(text, sizeof text, "Would select %zu points (cyan)", editor.selectedPoints());
+    } else {
+        std::snprintf(text, sizeof text, "Would select %zu points (cyan), %u of %u parts",
+                      editor.selectedPoints(), found.taken, found.parts);
+    }
+    ImGui::PushTextWrapPos(0.0f);
+    ImGui::TextColored(ImColor(colour::kPicked), "%s", text);
+    ImGui::PopTextWrapPos();
+}
+
 } // namespace
+
+void drawPickWarnings(const Console& console) {
+    ImGui::PushTextWrapPos(0.0f);
+    for (const std::string& warning : console.pick.warnings) {
+        colouredText(colour::kCaution, ("! " + warning).c_str());
+    }
+    ImGui::PopTextWrapPos();
+}
 
 void drawPick(Console& console, FixtureEditor& editor, const SceneSnapshot& snapshot) {
     if (!console.pick.taken) {
@@ -110,14 +149,13 @@ void drawPick(Console& console, FixtureEditor& editor, const SceneSnapshot& snap
         ImGui::TextColored(ImColor(colour::kPicked), "'%s':", gates.name.c_str());
         ImGui::SameLine();
     }
-    ImGui::TextColored(ImColor(colour::kPicked), "Would select %zu points (cyan)", editor.selectedPoints());
+    foundParts(console, editor);
     markPlace(console, "preview");
-    for (const std::string& warning : console.pick.warnings) {
-        colouredText(colour::kCaution, ("! " + warning).c_str());
-    }
+    drawPickWarnings(console);
     card(console, gates, anew);
+    bool changed = anew && partRules(console, snapshot);
     histogram(editor.hues(), gates);
-    bool changed = bandSlider(console, "hue", gates.hue, 360.0f);
+    changed = bandSlider(console, "hue", gates.hue, 360.0f) || changed;
     changed = bandSlider(console, "saturation", gates.saturation, 1.0f) || changed;
     changed = bandSlider(console, "lightness", gates.lightness, 1.0f) || changed;
     if (changed) {

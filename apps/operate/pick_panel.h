@@ -6,6 +6,8 @@
 
 namespace fathom::operate {
 
+// What the shown pick, or the shape at the mouse, would cover.
+void drawPickWarnings(const Console& console);
 void drawPick(Console& console, FixtureEditor& editor, const SceneSnapshot& snapshot);
 
 } // namespace fathom::operate

@@ -3,9 +3,11 @@
 
 #include "apps/operate/closing.h"
 #include "apps/operate/contact_tooltip.h"
+#include "apps/operate/shape_marks.h"
 #include "apps/operate/space_marks.h"
 #include "apps/operate/stop_plate.h"
 #include "apps/operate/tabs.h"
+#include "apps/operate/view_click.h"
 #include "apps/replay/silhouette.h"
 
 #include <algorithm>
@@ -97,17 +99,24 @@ void Screen::findCues(const ScreenInput& input) {
 
 void Screen::findGhost(Console& console, const FixtureEditor& editor, const SceneSnapshot& scene) {
     const FixtureClass& gates = console.pick.gates;
+    const double radius = gates.radius + 3.0 * editor.scene().registrationSigma; // as of the final regions
     const bool shown = console.pick.taken && gates.role == Role::Forbidden;
-    if (shown && (ghostNumber_ != editor.selectionNumber() || ghostRadius_ != gates.radius)) {
-        ghost_ = ghostOf(scene.set, editor.selection(), gates.radius);
+    if (shown && (ghostNumber_ != editor.selectionNumber() || ghostRadius_ != radius)) {
+        ghost_ = ghostOf(scene.set, editor.selection(), radius);
         ghostNumber_ = editor.selectionNumber();
-        ghostRadius_ = gates.radius;
+        ghostRadius_ = radius;
     }
     if (!shown) {
         ghost_.clear();
         ghostNumber_ = 0;
     }
-    console.pick.warnings = coverWarnings(ghost_, cues_.tool, scene.set.guidance, editor.scene());
+    placed_ = shapeToPlace(console, editor, *this, scene.set);
+    console.pick.warnings = placed_ ? coverWarnings(*placed_, cues_.tool, scene.set.guidance, editor.scene())
+                                    : coverWarnings(ghost_, cues_.tool, scene.set.guidance, editor.scene());
+    if (console.pick.taken && console.pick.found.others > 0) {
+        console.pick.warnings.push_back("its box also holds " + std::to_string(console.pick.found.others) +
+                                        " points of other parts");
+    }
 }
 
 void Screen::drawViews(Console& console, const FixtureEditor& editor, const ScreenInput& input) {
@@ -129,6 +138,9 @@ void Screen::drawViews(Console& console, const FixtureEditor& editor, const Scre
         const MarksInput marks{*port,     input.run,      input.tool, editor.scene(), editor.shapes(),
                                input.arm, input.measured, cues_,      surface,        large};
         drawGhost(list, *port, ghost_);
+        if (placed_) {
+            drawShape(list, *port, *placed_, ShapeLook::Ghost);
+        }
         const double hidden = drawMarks(list, marks);
         if (large) {
             cues_.hidden = hidden;

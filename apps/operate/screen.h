@@ -68,6 +68,7 @@ private:
     std::vector<Sphere> ghost_;                      // of the picked colour
     double ghostRadius_ = 0.0;                       // [m]
     uint64_t ghostNumber_ = 0;                       // selection that it shows
+    std::optional<Shape> placed_;                    // what a click would place
     int drawnLevel_ = -1;
     bool centred_ = false, drawnLarge_ = false, redraw_ = false;
     uint64_t selectionDrawn_ = 0, drawn_ = 0;

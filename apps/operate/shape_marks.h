@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Draws authored shapes and boxes as lines over a view.
+// Draws authored shapes and boxes over a view.
 #pragma once
 
 #include "apps/operate/view_port.h"
@@ -7,7 +7,11 @@
 
 namespace fathom::operate {
 
-void drawShape(ImDrawList& list, const ViewPort& port, const Shape& shape);
+// Active: as regions of points, red and hatched; of a shape that keeps the tool inside only the outline.
+// Ghost: dashed, as a picked colour before it is added.
+enum class ShapeLook { Active, Ghost };
+void drawShape(ImDrawList& list, const ViewPort& port, const Shape& shape,
+               ShapeLook look = ShapeLook::Active);
 void drawBox(ImDrawList& list, const ViewPort& port, const Shape& box, ImU32 colour);
 // A line between two points of the base frame; skipped when either is behind the eye.
 void drawSegment(ImDrawList& list, const ViewPort& port, const dvec3& a, const dvec3& b, ImU32 colour,

@@ -50,21 +50,45 @@ private:
     const Fixtures& set_;
 };
 
-// A line or an axis needs two clicks, its start and its end; other shapes are placed on the surface.
-void placeAt(Console& console, FixtureEditor& editor, const dvec3& base, const dvec3& normal) {
+struct SurfacePoint {
+    dvec3 base, normal;
+};
+
+// The surface under a point of the window.
+std::optional<SurfacePoint> surfaceUnder(const Screen& screen, const Fixtures& set, ImVec2 at) {
+    const auto pixel = screen.colourPixelAt(at);
+    if (!pixel || set.depth.empty()) {
+        return std::nullopt;
+    }
+    const auto u = static_cast<int>(pixel->x * set.camera.depth.width / screen.large().view.lens.width);
+    const auto v = static_cast<int>(pixel->y * set.camera.depth.height / screen.large().view.lens.height);
+    const Cloud cloud(set);
+    const auto base = cloud.at(u, v);
+    return base ? std::optional(SurfacePoint{*base, cloud.normalAt(u, v)}) : std::nullopt;
+}
+
+// A line or an axis needs two clicks, its start and its end; other shapes are placed on the surface. Empty
+// while the start is missing, or the end is too close to it.
+std::optional<FixtureClass> shapeFrom(const Console& console, const FixtureEditor& editor,
+                                      const SurfacePoint& at) {
     constexpr double kShortest = 0.002; // [m]
-    const bool twoClicks = console.placing == ShapeKind::Line || console.placing == ShapeKind::Axis;
-    if (twoClicks && !console.placedFrom) {
-        console.placedFrom = base;
-        console.notify("now click on its end");
+    if (console.placing != ShapeKind::Line && console.placing != ShapeKind::Axis) {
+        return editor.shapeAt(console.placing, at.base, at.normal);
+    }
+    if (!console.placedFrom || glm::distance(at.base, *console.placedFrom) < kShortest) {
+        return std::nullopt;
+    }
+    return editor.shapeAt(console.placing, *console.placedFrom, at.base - *console.placedFrom);
+}
+
+void placeAt(Console& console, FixtureEditor& editor, const SurfacePoint& at) {
+    const std::optional<FixtureClass> shape = shapeFrom(console, editor, at);
+    if (!shape) {
+        console.notify(console.placedFrom ? "too short: click farther away" : "now click on its end");
+        console.placedFrom = console.placedFrom.value_or(at.base);
         return;
     }
-    const dvec3 direction = twoClicks ? base - *console.placedFrom : normal;
-    if (twoClicks && glm::length(direction) < kShortest) {
-        console.notify("too short: click farther away");
-        return;
-    }
-    const bool placed = editor.place(console.placing, twoClicks ? *console.placedFrom : base, direction);
+    const bool placed = editor.place(*shape);
     console.notify(placed ? "placed" : "not placed: at most 16 shapes");
     console.placing = ShapeKind::None;
     console.placedFrom.reset();
@@ -88,16 +112,25 @@ void clickInView(Console& console, FixtureEditor& editor, const Screen& screen, 
     if (console.placing == ShapeKind::None || scene.set.depth.empty()) {
         return;
     }
-    const CameraInfo& camera = scene.set.camera;
-    const auto u = static_cast<int>(pixel->x * camera.depth.width / screen.large().view.lens.width);
-    const auto v = static_cast<int>(pixel->y * camera.depth.height / screen.large().view.lens.height);
-    const Cloud cloud(scene.set);
-    const auto base = cloud.at(u, v);
-    if (!base) {
+    const auto surface = surfaceUnder(screen, scene.set, at);
+    if (!surface) {
         console.notify("no depth there: click on a surface");
         return;
     }
-    placeAt(console, editor, *base, cloud.normalAt(u, v));
+    placeAt(console, editor, *surface);
+}
+
+std::optional<Shape> shapeToPlace(const Console& console, const FixtureEditor& editor, const Screen& screen,
+                                  const Fixtures& set) {
+    const ImGuiIO& io = ImGui::GetIO();
+    if (console.placing == ShapeKind::None || console.spaceIsLarge ||
+        (!console.cursor && io.WantCaptureMouse)) {
+        return std::nullopt;
+    }
+    const auto surface = surfaceUnder(screen, set, console.cursor.value_or(io.MousePos));
+    const auto fixture = surface ? shapeFrom(console, editor, *surface) : std::nullopt;
+    return fixture ? std::optional(Shape{fixture->shape, false, fixture->size, fixture->baseTshape, 0})
+                   : std::nullopt;
 }
 
 } // namespace fathom::operate

@@ -11,4 +11,8 @@ namespace fathom::operate {
 void clickInView(Console& console, FixtureEditor& editor, const Screen& screen, const SceneSnapshot& scene,
                  ImVec2 at);
 
+// What a click at the mouse or the keyboard's cursor would place; empty without a surface there.
+std::optional<Shape> shapeToPlace(const Console& console, const FixtureEditor& editor, const Screen& screen,
+                                  const Fixtures& set);
+
 } // namespace fathom::operate

@@ -87,6 +87,7 @@ const std::vector<LaidCase>& laidCases() {
          [](Console& c) {
              c.pick.active = c.pick.taken = true;
              c.pick.gates.name = "picked 1";
+             c.pick.found = {12, 1, 9, 1234, std::nullopt};
              c.pick.gates.hue = c.pick.gates.saturation = c.pick.gates.lightness = Band{0.1, 0.9};
          }},
     };

@@ -47,6 +47,18 @@ TEST_CASE("A pick that covers the tool or a target says so, with the way that th
     CHECK(coverWarnings(ghost, far, {{target}}, scene).empty());
 }
 
+TEST_CASE("A shape to place warns like a pick, a line or an axis never") {
+    Scene scene;
+    Shape shape{ShapeKind::Sphere, false, {0.05, 0.0, 0.0}, {{0.0, 0.0, 1.0}, {1.0, 0.0, 0.0, 0.0}}, 0};
+    const std::vector<Sphere> tool{{{0.0, 0.0, 0.942}, 0.02}};
+    CHECK(coverWarnings(shape, tool, {}, scene) ==
+          std::vector<std::string>{"covers the tool: it will be pushed out 12 mm"});
+    shape.size.x = 0.03;
+    CHECK(coverWarnings(shape, tool, {}, scene).empty());
+    shape.kind = ShapeKind::Line;
+    CHECK(coverWarnings(shape, tool, {}, scene).empty());
+}
+
 TEST_CASE("A fixture gets a new name in one undo step, unless the name is empty or taken") {
     Scene scene;
     scene.fixtures.resize(2);
