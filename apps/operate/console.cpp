@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/operate/console.h"
 
+#include "apps/operate/disk_space.h"
+
 #include <imgui.h>
 
 namespace fathom::operate {
@@ -8,6 +10,10 @@ namespace fathom::operate {
 Pose Orbit::pose() const {
     const dquat rotation = glm::angleAxis(-yaw, dvec3(0, 1, 0)) * glm::angleAxis(-pitch, dvec3(1, 0, 0));
     return {centre - rotation * dvec3(0, 0, distance), rotation};
+}
+
+std::string Recorded::text() const {
+    return clockText(seconds) + ", " + byteText(bytes) + (left ? ", " + byteText(*left) + " left" : "");
 }
 
 void Console::notify(std::string text) {

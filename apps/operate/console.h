@@ -52,12 +52,21 @@ struct TimeLine {
 enum class Closing { No, Fades, Asks };
 enum class CloseAnswer { None, Save, Discard, Stay };
 
+// The running recording.
+struct Recorded {
+    double seconds = 0.0;
+    uint64_t bytes = 0;
+    std::optional<uint64_t> left; // [bytes] free on its disk; empty = unknown
+    std::string text() const;     // "0:12, 34 MB, 2.1 GB left"
+};
+
 struct Console {
     bool forces = false, guidance = false, clutch = false, frozen = false;
     bool grasp = false;        // the jaws of an arm close
     bool spaceIsLarge = false; // the 3D view is the large one
     bool paused = false;       // the traces
     bool recording = false;
+    Recorded recorded;
     bool tones = true;      // contact, limit, stale and lost are heard
     std::string lastTone;   // tones.h: name of the last one
     uint32_t toneCount = 0; // tones so far, heard or not

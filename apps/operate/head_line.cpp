@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The engineer's top line: the state, and figures with their names.
+#include "apps/operate/disk_space.h"
 #include "apps/operate/hud.h"
 #include "apps/operate/printed.h"
 
@@ -75,8 +76,8 @@ Figure recorderFigure(const Console& console) {
                     printed("%.2f s", console.timeLine.t),
                 "recording", "The moment of the recording that is shown", colour::kPicked};
     }
-    return {console.recording ? "\xe2\x97\x8f REC" : "\xe2\x96\xa0 idle", "recorder",
-            "R: start or stop a recording of images, hand, forces and edits",
+    return {console.recording ? "\xe2\x97\x8f " + clockText(console.recorded.seconds) : "\xe2\x96\xa0 idle",
+            "recorder", "R: start or stop a recording of images, hand, forces and edits",
             console.recording ? colour::kWarning : colour::kQuiet};
 }
 

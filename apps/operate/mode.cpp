@@ -140,7 +140,8 @@ std::vector<Chip> chipsOf(const ModeInput& input) {
         chips.push_back({"FROZEN", colour::kCaution, "New images do not change the fixtures. F: release"});
     }
     if (console.recording) {
-        chips.push_back({"REC", colour::kWarningWord, "A recording runs. R: stop"});
+        chips.push_back({"REC " + console.recorded.text(), colour::kWarningWord,
+                         "A recording runs: its time, its size, what is left on the disk. R: stop"});
     }
     return chips;
 }

@@ -16,7 +16,8 @@ public:
     // Begins a recording.
     void open(const std::filesystem::path& folder);
     void add(const TickRow& row) { waiting_.push_back(row); }
-    void drop() { waiting_.clear(); } // the ticks that wait
+    uint64_t bytes() const { return hand_.size() + wrench_.size() + touches_.size(); } // written
+    void drop() { waiting_.clear(); }                                                  // the ticks that wait
     // Image number `image` of the recording is the run's frame `frame`.
     void number(int64_t frame, uint64_t image);
     // Writes the waiting ticks of [from, to) in the run; `from` is at `start` in the recording, and time runs

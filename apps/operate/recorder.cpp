@@ -37,6 +37,7 @@ void Recorder::start(const std::filesystem::path& folder, const std::string& sce
     edits_.begin(folder, edited);
     lastCapture_ = -1.0;
     lost_ = images_ = 0;
+    seconds_ = 0.0;
     writer_ = std::make_unique<RecordingWriter>(folder, camera, 1);
     std::ofstream text(folder / "scene.yaml");
     text << scene << std::flush;
@@ -47,7 +48,7 @@ void Recorder::start(const std::filesystem::path& folder, const std::string& sce
     recording_.store(true);
 }
 
-void Recorder::stop() {
+void Recorder::stop(const std::string& why) {
     const std::lock_guard lock(mutex_);
     if (!recording_.exchange(false)) {
         return;
@@ -58,7 +59,13 @@ void Recorder::stop() {
                          static_cast<double>(images_ - 1) * kFramePeriod, 1.0);
         }
     });
+    failure_ = failure_.empty() ? why : failure_;
     writer_->close();
+}
+
+uint64_t Recorder::bytes() const {
+    const std::lock_guard lock(mutex_);
+    return (writer_ ? writer_->bytes() : imageBytes_) + ticks_.bytes();
 }
 
 bool Recorder::writing() const {
@@ -77,6 +84,7 @@ void Recorder::finish() {
         failure_ = failure_.empty() ? e.what() : failure_;
     }
     const std::lock_guard lock(mutex_);
+    imageBytes_ = writer_->bytes();
     writer_.reset();
 }
 
@@ -107,6 +115,8 @@ void Recorder::addImage(const PublishedFrame& frame, const Fixtures& set) {
     } else {
         ticks_.drop();
     }
+    firstCapture_ = images_ == 0 ? frame.t : firstCapture_;
+    seconds_ = frame.t - firstCapture_;
     lastCapture_ = frame.t;
     ticks_.number(frame.report.index, images_);
     edits_.frame(frame, images_);

@@ -31,8 +31,9 @@ public:
                const RecordedScene& edited = {});
     // Window thread: the fixtures from change `number` on (PublishedFrame::edit). Ignored when not recording.
     void edit(uint64_t number, RecordedScene scene);
-    // Ends the recording and returns while queued frames are still written. Ignored when not recording.
-    void stop();
+    // Ends the recording and returns while queued frames are still written. Ignored when not recording. why:
+    // as failure(); empty = as the pilot wished.
+    void stop(const std::string& why = "");
     bool recording() const { return recording_.load(); }
     bool writing() const; // queued frames after stop()
     // Window thread: waits until everything is on disk.
@@ -41,6 +42,8 @@ public:
     std::string failure() const;
     uint64_t lost() const { return lost_.load(); }
     uint64_t images() const { return images_.load(); }
+    double seconds() const { return seconds_.load(); } // from the first to the last frame of the recording
+    uint64_t bytes() const;                            // on disk
 
     // Writer thread of the run.
     void frame(const PublishedFrame& frame, const Fixtures& set) override;
@@ -54,10 +57,12 @@ private:
 
     std::atomic<bool> recording_{false};
     std::atomic<uint64_t> lost_{0}, images_{0};
+    std::atomic<double> seconds_{0.0};
     mutable std::mutex mutex_; // guards all members below; window and writer thread
     std::unique_ptr<RecordingWriter> writer_;
     std::string failure_;
-    double lastCapture_ = -1.0; // [s] of the last image, in the run
+    double firstCapture_ = 0.0, lastCapture_ = -1.0; // [s] of the first and last image, in the run
+    uint64_t imageBytes_ = 0;                        // of a recording that is on disk
     RecordedTicks ticks_;
     RecordedEdits edits_;
 };

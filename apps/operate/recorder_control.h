@@ -3,6 +3,7 @@
 #pragma once
 
 #include "apps/operate/console.h"
+#include "apps/operate/disk_space.h"
 #include "apps/operate/fixture_editor.h"
 #include "apps/operate/recorder.h"
 #include "apps/session/session.h"
@@ -18,19 +19,21 @@ public:
         , recorder_(recorder)
         , session_(session) {}
 
-    // Call once per window frame. After a stop, queued frames are still written while the window continues; a
-    // full disk stops the recording.
+    // Call once per window frame. After a stop, queued frames are still written while the window continues. A
+    // disk that is nearly full stops the recording.
     void follow(Console& console, FixtureEditor& editor);
 
 private:
     std::filesystem::path freshFolder();
     void start(Console& console, FixtureEditor& editor);
+    void saved(Console& console);
 
     std::filesystem::path in_;
     Recorder& recorder_;
     const Session& session_;
     uint32_t number_ = 0; // of the last folder name tried
     std::string folder_;  // until all is on disk; empty = none
+    DiskSpace disk_;
 };
 
 } // namespace fathom::operate

@@ -15,6 +15,7 @@ public:
     // first: first line; empty = none. Throws Error that names the file when it cannot be written.
     void open(const std::filesystem::path& file, const char* head = "");
     bool isOpen() const { return out_.is_open(); }
+    uintmax_t size() const { return size_; }   // [bytes] of whole lines in the file
     std::ostream& lines() { return waiting_; } // 17 digits
     // Throws Error when not all lines fit, and removes the partial line. No effect when no file is open.
     void flush();

@@ -124,11 +124,21 @@ void RecordingWriter::encode() {
     }
 }
 
-void RecordingWriter::write(const Job& job) const {
+void RecordingWriter::count(const fs::path& file) {
+    std::error_code failed;
+    const uintmax_t size = fs::file_size(file, failed);
+    bytes_ += failed ? 0 : size;
+}
+
+void RecordingWriter::write(const Job& job) {
     const auto size = [](const Intrinsics& lens) { return PngSize{lens.width, lens.height}; };
-    writeDepthPng(folder_ / numbered("depth", job.number), size(camera_.depth), job.image.depth);
+    const fs::path depth = folder_ / numbered("depth", job.number);
+    writeDepthPng(depth, size(camera_.depth), job.image.depth);
+    count(depth);
     if (camera_.hasColour) {
-        writeColourPng(folder_ / numbered("rgb", job.number), size(camera_.colour), job.image.colour);
+        const fs::path colour = folder_ / numbered("rgb", job.number);
+        writeColourPng(colour, size(camera_.colour), job.image.colour);
+        count(colour);
     }
 }
 

@@ -6,6 +6,7 @@
 #include "engine/types/camera_info.h"
 #include "engine/types/frame.h"
 
+#include <atomic>
 #include <condition_variable>
 #include <deque>
 #include <exception>
@@ -51,6 +52,7 @@ public:
     void finish();
 
     uint32_t frames() const { return added_; }
+    uint64_t bytes() const { return bytes_.load(); } // of all images on disk. Any thread.
 
 private:
     struct Job {
@@ -58,7 +60,8 @@ private:
         Image image;
     };
     void encode();
-    void write(const Job& job) const;
+    void write(const Job& job);
+    void count(const std::filesystem::path& file);
     void done(const Job& job);
     void end() noexcept;
 
@@ -71,6 +74,7 @@ private:
     std::map<uint32_t, std::string> indexLines_, poseLines_; // done, waiting for an earlier one
     uint32_t added_ = 0, indexed_ = 0, underWay_ = 0;
     bool ending_ = false;
+    std::atomic<uint64_t> bytes_{0};
     std::exception_ptr failure_;
     std::vector<std::thread> threads_;
 };

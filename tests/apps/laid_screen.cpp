@@ -71,7 +71,10 @@ const std::vector<LaidCase>& laidCases() {
         {"keys", [](Console& c) { c.tab = Tab::Help; }},
         {"3D", [](Console& c) { c.spaceIsLarge = true; }},
         {"armed, recording, guidance",
-         [](Console& c) { c.forces = c.recording = c.guidance = c.frozen = true; }},
+         [](Console& c) {
+             c.forces = c.recording = c.guidance = c.frozen = true;
+             c.recorded = {7323.0, 345'000'000'000, 998'000'000'000};
+         }},
         {"refusal",
          [](Console& c) {
              c.refusal = "hand is 105 mm inside 'red valve': hold C to re-centre";

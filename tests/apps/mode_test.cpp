@@ -47,9 +47,10 @@ TEST_CASE(
     CHECK(chips() == "GUIDE");
     CHECK(mode(StepState::Fading, 0.5) == "STALE");
     CHECK(mode(StepState::Trapped, 0.5) == "HELD");
+    run.console.recorded = {62.0, 34'000'000, 2'100'000'000};
     run.console.frozen = run.console.recording = run.console.guidance = true;
     CHECK(mode(StepState::Free) == "AT LIMIT");
-    CHECK(chips() == "GUIDE: no target, FROZEN, REC");
+    CHECK(chips() == "GUIDE: no target, FROZEN, REC 1:02, 34 MB, 2.1 GB left");
     run.row.record.wrench = {};
     run.console.timeLine.on = true;
     CHECK(mode(StepState::Contact) == "LOOK-BACK");

@@ -105,6 +105,8 @@ TEST_CASE("A stopped recording is complete: every frame, and every tick until th
     CHECK_FALSE(recorder.writing());
     CHECK(recorder.failure() == "");
     CHECK(recorder.images() == 10);
+    CHECK(recorder.seconds() == doctest::Approx(9.0 / 30.0));
+    CHECK(recorder.bytes() > 10 * 6000); // of noise
     CHECK(imagesIn(folder) == 10);
     checkWhole(folder, 9 * 33 + 30);
     CHECK(textOf(folder / "scene.yaml") == "camera: {}\n");
@@ -173,4 +175,19 @@ TEST_CASE("A process that is killed while it records leaves a recording up to th
     ::waitpid(child, nullptr, 0);
     CHECK(imagesIn(folder) >= 29);
     checkWhole(folder, 29 * 33);
+}
+
+TEST_CASE("A recording that is stopped for a reason is complete and keeps the reason") {
+    const ScratchFolder scratch;
+    Recorder recorder;
+    RecordedRun session(recorder);
+    recorder.start(scratch.path() / "rec", "", someCamera());
+    session.image();
+    session.image();
+    recorder.stop("only 98 MB of the disk left");
+    recorder.finish();
+    CHECK(recorder.failure() == "only 98 MB of the disk left");
+    CHECK(imagesIn(scratch.path() / "rec") == 2);
+    recorder.start(scratch.path() / "next", "", someCamera());
+    CHECK(recorder.failure().empty());
 }
