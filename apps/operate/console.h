@@ -67,9 +67,11 @@ struct Console {
     bool paused = false;       // the traces
     bool recording = false;
     Recorded recorded;
-    bool tones = true;      // contact, limit, stale and lost are heard
-    std::string lastTone;   // tones.h: name of the last one
-    uint32_t toneCount = 0; // tones so far, heard or not
+    bool storeLast = false;   // the last seconds (last_seconds.h)
+    double keptSeconds = 0.0; // as many could be stored now
+    bool tones = true;        // contact, limit, stale and lost are heard
+    std::string lastTone;     // tones.h: name of the last one
+    uint32_t toneCount = 0;   // tones so far, heard or not
     bool quit = false, screenshot = false, exportCsv = false, acknowledge = false;
     Closing closing = Closing::No;
     CloseAnswer closeAnswer = CloseAnswer::None; // button pressed in the question

@@ -31,7 +31,8 @@ std::string title(const OperateOptions& options) {
 
 LiveSinks::LiveSinks(const OperateOptions& options, double period, const ArmRig* arm)
     : observers(options.observers, arm)
-    , published(recorder, observers)
+    , last(recorder, options.offscreen.empty() ? LastSeconds::usualMemory() : 0) // no key can store it there
+    , published(last, observers)
     , faults(options.shots, period, published)
     , snapshots(faults) {}
 
@@ -47,9 +48,10 @@ OperatorRun::OperatorRun(const OperateOptions& options, const GlobalOptions& glo
     , display_(options_, window_, session_, sinks_.snapshots)
     , editor_(session_.scene,
               [this](const Scene& scene, const std::vector<Shape>& shapes) { changeScene(scene, shapes); })
-    , recording_(options.shots, sinks_.recorder, session_)
+    , recording_(options.shots, sinks_.recorder, sinks_.last, session_)
     , speaker_(window_.offscreen() ? nullptr : std::make_unique<Speaker>())
     , live_(options_, session_, signals_, placement_, sinks_.snapshots, sinks_.observers) {
+    keepScene(0);
     live_.start(editor_.shapes());
     display_.console.forces = armed_ = options_.armed;
     window_.onForcesOff = [this] {
@@ -63,7 +65,12 @@ void OperatorRun::changeScene(const Scene& scene, const std::vector<Shape>& shap
     if (sinks_.recorder.recording()) {
         sinks_.recorder.edit(number, recordedScene(editor_));
     }
+    keepScene(number);
     live_.setShapes(shapes);
+}
+
+void OperatorRun::keepScene(uint64_t number) {
+    sinks_.last.edit({number, editor_.text(), recordedScene(editor_)});
 }
 
 bool OperatorRun::wantsToEnd() const {
@@ -86,6 +93,7 @@ void OperatorRun::run() {
     live_.end();
     sinks_.recorder.stop();
     sinks_.recorder.finish();
+    recording_.finish();
     display_.view.refresh();
     report();
     if (live_.failure()) {

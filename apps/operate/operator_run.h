@@ -2,6 +2,7 @@
 // A pilot's session: a live run, and the window on the main thread.
 #pragma once
 
+#include "apps/operate/last_seconds.h"
 #include "apps/operate/live_run.h"
 #include "apps/operate/recorder_control.h"
 #include "apps/operate/run_display.h"
@@ -19,6 +20,7 @@ struct LiveSinks {
 
     RunObservers observers;
     Recorder recorder;
+    LastSeconds last;
     PublishedSink published;
     FaultTrace faults;
     SnapshotSink snapshots;
@@ -41,6 +43,7 @@ public:
 
 private:
     void changeScene(const Scene& scene, const std::vector<Shape>& shapes);
+    void keepScene(uint64_t number); // the fixtures from this change on, for the last seconds
     void arm();
     void obeyRequests(); // of observers
     bool forcesGone() const;

@@ -73,6 +73,11 @@ bool Recorder::writing() const {
     return !recording_.load() && writer_ && !writer_->written();
 }
 
+bool Recorder::busy() const {
+    const std::lock_guard lock(mutex_);
+    return writer_ && writer_->full();
+}
+
 void Recorder::finish() {
     if (!writer_ || recording_.load()) {
         return;

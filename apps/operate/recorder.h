@@ -36,6 +36,7 @@ public:
     void stop(const std::string& why = "");
     bool recording() const { return recording_.load(); }
     bool writing() const; // queued frames after stop()
+    bool busy() const;    // frame() would skip a frame now: the disk is too slow
     // Window thread: waits until everything is on disk.
     void finish();
     // Why the last recording failed; empty = it did not.

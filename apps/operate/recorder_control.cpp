@@ -2,9 +2,11 @@
 #include "apps/operate/recorder_control.h"
 
 #include "apps/binding/scene_files.h"
+#include "apps/operate/printed.h"
 #include "engine/types/error.h"
 
 #include <imgui.h>
+#include <utility>
 
 namespace fathom::operate {
 
@@ -36,16 +38,70 @@ void RecorderControl::start(Console& console, FixtureEditor& editor) {
     }
 }
 
-// Everything is on disk.
+namespace {
+
+// What is on disk.
+std::string savedText(const Recorder& recorder, const std::string& folder) {
+    const std::string failure = recorder.failure();
+    const uint64_t lost = recorder.lost();
+    return "saved: " + std::to_string(recorder.images()) + " frames recorded in " + folder + ", " +
+           clockText(recorder.seconds()) + ", " + byteText(recorder.bytes()) +
+           (lost > 0 ? ", " + std::to_string(lost) + " skipped: the disk was too slow" : "") +
+           (failure.empty() ? "" : ", then: " + failure);
+}
+
+} // namespace
+
 void RecorderControl::saved(Console& console) {
     recorder_.finish();
-    const std::string failure = recorder_.failure();
-    const uint64_t lost = recorder_.lost();
-    console.notify("saved: " + std::to_string(recorder_.images()) + " frames recorded in " + folder_ + ", " +
-                   clockText(recorder_.seconds()) + ", " + byteText(recorder_.bytes()) +
-                   (lost > 0 ? ", " + std::to_string(lost) + " skipped: the disk was too slow" : "") +
-                   (failure.empty() ? "" : ", then: " + failure));
+    console.notify(savedText(recorder_, folder_));
     folder_.clear();
+}
+
+void RecorderControl::store(Console& console) {
+    try {
+        KeptPast past = last_.past();
+        if (past.frames.size() < 2) {
+            throw Error("nothing to store yet: no image has come");
+        }
+        const std::filesystem::path folder = freshFolder();
+        disk_.look(folder, ImGui::GetTime());
+        if (const std::string problem = disk_.problem(); !problem.empty()) {
+            throw Error("not stored: " + problem);
+        }
+        (void)copySceneFiles(session_.scene, folder);
+        past_.start(folder, past.first.text, session_.camera->info(), past.first.recorded);
+        pastFolder_ = folder.string();
+        fed_ = false;
+        console.notify(printed("storing the last %.0f s to ", past.seconds()) + pastFolder_);
+        storing_ = std::jthread([this, past = std::move(past)] {
+            feed(past_, past);
+            past_.stop();
+            past_.finish();
+            fed_ = true;
+        });
+    } catch (const std::exception& e) {
+        console.notify(e.what());
+    }
+}
+
+void RecorderControl::followStore(Console& console) {
+    if (!pastFolder_.empty() && fed_) {
+        console.notify(savedText(past_, pastFolder_));
+        pastFolder_.clear();
+    } else if (!pastFolder_.empty()) {
+        disk_.look(pastFolder_, ImGui::GetTime());
+        if (const std::string problem = disk_.problem(); !problem.empty()) {
+            past_.stop(problem);
+        }
+    }
+    if (std::exchange(console.storeLast, false)) {
+        if (pastFolder_.empty()) {
+            store(console);
+        } else {
+            console.notify("the last seconds are still being stored");
+        }
+    }
 }
 
 void RecorderControl::follow(Console& console, FixtureEditor& editor) {
@@ -64,6 +120,8 @@ void RecorderControl::follow(Console& console, FixtureEditor& editor) {
             }
         }
     }
+    followStore(console);
+    console.keptSeconds = last_.seconds();
     console.recorded = {recorder_.seconds(), recorder_.bytes(), disk_.left()};
 }
 

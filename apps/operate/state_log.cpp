@@ -34,6 +34,7 @@ json consoleOf(const Console& c) {
             {"large", c.spaceIsLarge ? "space" : "camera"},
             {"paused", c.paused},
             {"recording", c.recording},
+            {"kept_s", c.keptSeconds},
             {"recorded",
              {{"seconds", c.recorded.seconds},
               {"bytes", c.recorded.bytes},

@@ -35,3 +35,20 @@ TEST_CASE(
     CHECK(rig.state()["chips"].empty());
     closeQuietly(rig);
 }
+
+TEST_CASE("L stores the last seconds, which nobody asked to record, as a recording that opens") {
+    WindowRig rig;
+    REQUIRE(rig.await([](const json& s) { return s["console"]["kept_s"] > 2.0; }));
+    rig.push();
+    REQUIRE(rig.await([](const json& s) { return s["console"]["kept_s"] > 4.0; }));
+    rig.key("l");
+    REQUIRE(rig.awaitNotice("saved: "));
+    CHECK(rig.state()["console"]["recording"] == false);
+    rig.reopen(rig.folder() / "recording-1");
+    const json line = rig.state()["console"]["time_line"];
+    CHECK(line["pictures"] > 10);
+    CHECK(line["duration"] > 1.0);
+    rig.key("End");
+    REQUIRE(rig.await([](const json& s) { return s["run"]["device"][2] > 0.1; })); // where the hand was
+    closeQuietly(rig);
+}

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// Keeps the last half minute of a run in memory, so that a key can store what has just happened.
+#pragma once
+
+#include "apps/operate/recorded_edits.h"
+#include "engine/run/record_drain.h"
+
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+namespace fathom::operate {
+
+// The fixtures from change `number` on (PublishedFrame::edit).
+struct KeptScene {
+    uint64_t number = 0;
+    std::string text; // of the scene file, without spare rows
+    RecordedScene recorded;
+};
+
+// A frame and the ticks until the next one.
+struct KeptFrame {
+    PublishedFrame frame; // without set, grid and colour
+    Pose baseTcamera;
+    size_t pixels = 0, colourPixels = 0;
+    std::vector<uint8_t> depth, colour; // packed (packed_image.h)
+    std::vector<TickRow> ticks;
+    size_t bytes() const { return depth.size() + colour.size() + ticks.size() * sizeof(TickRow); }
+};
+
+// What is kept, in time order.
+struct KeptPast {
+    std::vector<std::shared_ptr<const KeptFrame>> frames;
+    KeptScene first;              // the fixtures at the first frame
+    std::vector<KeptScene> later; // and after
+    double seconds() const;       // from the first to the last frame
+};
+
+class LastSeconds final : public RunSink {
+public:
+    static constexpr double kSpan = 30.0; // [s]
+    // 1 GiB, or an eighth of the machine's memory if that is less [bytes].
+    static size_t usualMemory();
+
+    // also: the next sink; outlives this. most: memory of frames and ticks [bytes]; the oldest ones go first.
+    // 0 keeps nothing.
+    LastSeconds(RunSink& also, size_t most)
+        : also_(also)
+        , most_(most) {}
+
+    // Window thread.
+    void edit(KeptScene scene);
+    // The frames whose ticks are complete.
+    KeptPast past() const;
+    double seconds() const;
+    size_t bytes() const;
+
+    // Writer thread of the run.
+    void frame(const PublishedFrame& frame, const Fixtures& set) override;
+    void query(const QueryNote& note) override { also_.query(note); }
+    void step(const TickRow& row, const PublishedFrame* obeyed, bool known,
+              std::span<const uint32_t> behind) override;
+
+private:
+    void forgetOld();
+
+    RunSink& also_;
+    const size_t most_;
+    mutable std::mutex mutex_; // guards all members below; window and writer thread
+    std::deque<std::shared_ptr<const KeptFrame>> frames_;
+    std::shared_ptr<KeptFrame> open_; // its ticks still come
+    std::deque<KeptScene> scenes_;    // the first is that of the first frame
+    size_t bytes_ = 0;                // of frames_
+};
+
+// Writes it into a recording, and waits for the recorder when it is busy. The recorder must record; returns
+// early when it stops.
+class Recorder;
+void feed(Recorder& recorder, const KeptPast& past);
+
+} // namespace fathom::operate
