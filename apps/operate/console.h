@@ -2,6 +2,7 @@
 // The state of the window: settings and requests of the pilot. Window thread only.
 #pragma once
 
+#include "apps/operate/event_marks.h"
 #include "apps/operate/picked_parts.h"
 
 #include <array>
@@ -39,13 +40,14 @@ struct Pick {
 // The position in a recording. `on` is false, and the rest unused, in a live run.
 struct TimeLine {
     bool on = false, playing = false;
-    bool dragged = false;    // the pilot drags the marker
-    double t = 0.0;          // [s] position
-    double duration = 0.0;   // [s]
-    double speed = 1.0;      // playback speed
-    uint32_t image = 0;      // current frame, from 0
-    uint32_t images = 0;     // number of frames
-    bool wholeMemory = true; // points held from earlier frames are included
+    bool dragged = false;         // the pilot drags the marker
+    double t = 0.0;               // [s] position
+    double duration = 0.0;        // [s]
+    double speed = 1.0;           // playback speed
+    uint32_t image = 0;           // current frame, from 0
+    uint32_t images = 0;          // number of frames
+    std::vector<EventMark> marks; // of the recording
+    bool wholeMemory = true;      // points held from earlier frames are included
 };
 
 // The way to the end: the forces fade, then a question is shown when fixtures are not saved.
@@ -67,6 +69,8 @@ struct Console {
     bool paused = false;       // the traces
     bool recording = false;
     Recorded recorded;
+    bool addMark = false;     // at this moment
+    uint32_t marks = 0;       // so far in this run
     bool storeLast = false;   // the last seconds (last_seconds.h)
     double keptSeconds = 0.0; // as many could be stored now
     bool tones = true;        // contact, limit, stale and lost are heard

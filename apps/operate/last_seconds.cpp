@@ -90,6 +90,9 @@ void LastSeconds::step(const TickRow& row, const PublishedFrame* obeyed, bool kn
                        std::span<const uint32_t> behind) {
     if (open_) { // changed by this thread only
         const std::lock_guard lock(mutex_);
+        if (marked_.exchange(false)) {
+            open_->marks.push_back(open_->ticks.size());
+        }
         open_->ticks.push_back(row);
     }
     also_.step(row, obeyed, known, behind);
@@ -109,8 +112,11 @@ void feed(Recorder& recorder, const KeptPast& past) {
         set.depth = unpackDepth(kept->depth, kept->pixels);
         set.baseTcamera = kept->baseTcamera;
         recorder.frame(frame, set);
-        for (const TickRow& row : kept->ticks) {
-            recorder.step(row, nullptr, false, {});
+        for (size_t i = 0; i < kept->ticks.size(); ++i) {
+            if (std::find(kept->marks.begin(), kept->marks.end(), i) != kept->marks.end()) {
+                recorder.mark();
+            }
+            recorder.step(kept->ticks[i], nullptr, false, {});
         }
     }
 }

@@ -5,6 +5,7 @@
 #include "apps/operate/recorded_edits.h"
 #include "engine/run/record_drain.h"
 
+#include <atomic>
 #include <deque>
 #include <memory>
 #include <mutex>
@@ -27,6 +28,7 @@ struct KeptFrame {
     size_t pixels = 0, colourPixels = 0;
     std::vector<uint8_t> depth, colour; // packed (packed_image.h)
     std::vector<TickRow> ticks;
+    std::vector<size_t> marks; // indices of marked ticks
     size_t bytes() const { return depth.size() + colour.size() + ticks.size() * sizeof(TickRow); }
 };
 
@@ -52,6 +54,7 @@ public:
 
     // Window thread.
     void edit(KeptScene scene);
+    void mark() { marked_.store(true); } // the next tick
     // The frames whose ticks are complete.
     KeptPast past() const;
     double seconds() const;
@@ -68,6 +71,7 @@ private:
 
     RunSink& also_;
     const size_t most_;
+    std::atomic<bool> marked_{false};
     mutable std::mutex mutex_; // guards all members below; window and writer thread
     std::deque<std::shared_ptr<const KeptFrame>> frames_;
     std::shared_ptr<KeptFrame> open_; // its ticks still come

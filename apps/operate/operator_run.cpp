@@ -139,9 +139,21 @@ void OperatorRun::listen() {
     obeyRequests();
     arm();
     live_.apply(console);
+    mark();
     recording_.follow(console, editor_);
     followPilot();
     display_.exportTraces();
+}
+
+void OperatorRun::mark() {
+    Console& console = display_.console;
+    if (std::exchange(console.addMark, false)) {
+        sinks_.recorder.mark();
+        sinks_.last.mark();
+        console.notify(
+            "mark " + std::to_string(++console.marks) +
+            (console.recording ? " is in the recording" : " is kept with the last seconds: L stores them"));
+    }
 }
 
 void OperatorRun::sound() {

@@ -50,6 +50,7 @@ private:
     void offWhenMinimised();
     void followPilot();
     void sound();
+    void mark(); // this moment, if the pilot asks for it
     void frame();
     void show();   // shows the drawn frame if there is a device
     void reopen(); // opens the canvas on another device

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace fathom::operate {
 
@@ -88,6 +89,7 @@ PlaybackRun::PlaybackRun(const OperateOptions& options, const GlobalOptions& glo
     line.on = true;
     line.images = past_.images();
     line.duration = durationOf(past_, log_);
+    line.marks = readMarks(options.recording);
     if (log_.moments.empty()) {
         display_.console.notify("no hand.csv or wrench.csv there: frames only");
     }
@@ -167,9 +169,23 @@ void PlaybackRun::listen() {
         clickInView(console, editor_, display_.screen, display_.view.scene(), *at);
     }
     panel_.listen(console);
+    mark();
     display_.followClosing(editor_, true);
     console.recording = console.frozen = false; // not available in playback
     display_.exportTraces();
+}
+
+void PlaybackRun::mark() {
+    Console& console = display_.console;
+    if (!std::exchange(console.addMark, false)) {
+        return;
+    }
+    try {
+        addMark(options_.recording, console.timeLine.marks, console.timeLine.t);
+        console.notify("mark " + std::to_string(console.timeLine.marks.size()) + " added to the recording");
+    } catch (const Error& e) {
+        console.notify(e.what());
+    }
 }
 
 void PlaybackRun::followTime(double dt) {

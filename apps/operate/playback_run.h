@@ -31,6 +31,7 @@ private:
     void loseDevice(const std::string& why);
     void lookForDevice(); // retries from time to time while there is no device
     void listen();
+    void mark(); // the shown moment, if the pilot asks for it
     void followTime(double dt);
     void showMoment();
     uint32_t buttonsAt(double t) const;

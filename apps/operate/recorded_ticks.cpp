@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/operate/recorded_ticks.h"
 
+#include "apps/operate/event_marks.h"
 #include "apps/operate/tick_log.h"
 
 #include <algorithm>
@@ -17,6 +18,9 @@ void RecordedTicks::open(const std::filesystem::path& folder) {
     waiting_.clear();
     numbers_.clear();
     last_ = -1.0;
+    folder_ = folder;
+    marks_ = 0;
+    marksFile_.close();
     hand_.open(folder / "hand.csv", "t_s,x,y,z,qw,qx,qy,qz,button");
     wrench_.open(folder / kWrenchFile, wrenchHead());
     touches_.open(folder / kTouchesFile, touchesHead());
@@ -30,18 +34,20 @@ void RecordedTicks::number(int64_t frame, uint64_t image) {
 }
 
 void RecordedTicks::flush(double from, double to, double start, double scale) {
-    for (; !waiting_.empty() && waiting_.front().record.t < to; waiting_.pop_front()) {
-        const TickRow& row = waiting_.front();
-        if (row.record.t >= from) {
-            put(row, start + scale * (row.record.t - from));
+    for (; !waiting_.empty() && waiting_.front().row.record.t < to; waiting_.pop_front()) {
+        const Waiting& tick = waiting_.front();
+        if (tick.row.record.t >= from) {
+            put(tick, start + scale * (tick.row.record.t - from));
         }
     }
     hand_.flush();
     wrench_.flush(); // a tick is flushed before its touches
     touches_.flush();
+    marksFile_.flush();
 }
 
-void RecordedTicks::put(const TickRow& row, double t) {
+void RecordedTicks::put(const Waiting& tick, double t) {
+    const TickRow& row = tick.row;
     if (!(t > last_)) {
         return; // times in hand.csv must be ascending
     }
@@ -51,6 +57,12 @@ void RecordedTicks::put(const TickRow& row, double t) {
     hand_.lines() << t << "," << p.x << "," << p.y << "," << p.z << "," << q.w << "," << q.x << "," << q.y
                   << "," << q.z << "," << row.hand.buttons << "\n";
     writeTick(wrench_.lines(), touches_.lines(), t, imageOf(row.record.frame), row.record);
+    if (tick.marked) {
+        if (!marksFile_.isOpen()) {
+            marksFile_.open(folder_ / kMarksFile, kMarksHead);
+        }
+        marksFile_.lines() << t << ",mark " << ++marks_ << "\n";
+    }
 }
 
 int64_t RecordedTicks::imageOf(int64_t frame) const {

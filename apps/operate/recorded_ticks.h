@@ -15,7 +15,8 @@ class RecordedTicks {
 public:
     // Begins a recording.
     void open(const std::filesystem::path& folder);
-    void add(const TickRow& row) { waiting_.push_back(row); }
+    // marked: the pilot has marked this tick.
+    void add(const TickRow& row, bool marked) { waiting_.push_back({row, marked}); }
     uint64_t bytes() const { return hand_.size() + wrench_.size() + touches_.size(); } // written
     void drop() { waiting_.clear(); }                                                  // the ticks that wait
     // Image number `image` of the recording is the run's frame `frame`.
@@ -25,13 +26,19 @@ public:
     void flush(double from, double to, double start, double scale);
 
 private:
-    void put(const TickRow& row, double t);
+    struct Waiting {
+        TickRow row;
+        bool marked = false;
+    };
+    void put(const Waiting& tick, double t);
     int64_t imageOf(int64_t frame) const; // -1 = from before the recording
 
-    std::deque<TickRow> waiting_;                      // since the last frame
+    std::deque<Waiting> waiting_;                      // since the last frame
     std::deque<std::pair<int64_t, uint64_t>> numbers_; // frame in the run, image in the recording
     double last_ = -1.0;                               // [s] of the last written tick
-    LineFile hand_, wrench_, touches_;
+    std::filesystem::path folder_;
+    uint32_t marks_ = 0;
+    LineFile hand_, wrench_, touches_, marksFile_; // the last one only with marks
 };
 
 } // namespace fathom::operate

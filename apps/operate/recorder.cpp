@@ -38,6 +38,7 @@ void Recorder::start(const std::filesystem::path& folder, const std::string& sce
     lastCapture_ = -1.0;
     lost_ = images_ = 0;
     seconds_ = 0.0;
+    marked_ = false;
     writer_ = std::make_unique<RecordingWriter>(folder, camera, 1);
     std::ofstream text(folder / "scene.yaml");
     text << scene << std::flush;
@@ -138,7 +139,7 @@ void Recorder::edit(uint64_t number, RecordedScene scene) {
 void Recorder::step(const TickRow& row, const PublishedFrame*, bool, std::span<const uint32_t>) {
     if (recording()) {
         const std::lock_guard lock(mutex_);
-        ticks_.add(row);
+        ticks_.add(row, marked_.exchange(false));
     }
 }
 

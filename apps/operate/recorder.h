@@ -31,6 +31,8 @@ public:
                const RecordedScene& edited = {});
     // Window thread: the fixtures from change `number` on (PublishedFrame::edit). Ignored when not recording.
     void edit(uint64_t number, RecordedScene scene);
+    // Window thread: marks the next tick (event_marks.h). Ignored when not recording.
+    void mark() { marked_.store(true); }
     // Ends the recording and returns while queued frames are still written. Ignored when not recording. why:
     // as failure(); empty = as the pilot wished.
     void stop(const std::string& why = "");
@@ -59,7 +61,8 @@ private:
     std::atomic<bool> recording_{false};
     std::atomic<uint64_t> lost_{0}, images_{0};
     std::atomic<double> seconds_{0.0};
-    mutable std::mutex mutex_; // guards all members below; window and writer thread
+    std::atomic<bool> marked_{false}; // the next tick
+    mutable std::mutex mutex_;        // guards all members below; window and writer thread
     std::unique_ptr<RecordingWriter> writer_;
     std::string failure_;
     double firstCapture_ = 0.0, lastCapture_ = -1.0; // [s] of the first and last image, in the run

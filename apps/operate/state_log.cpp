@@ -25,6 +25,14 @@ json known(double value) {
     return std::isfinite(value) ? json(value) : json(nullptr);
 }
 
+json marksOf(const TimeLine& line) {
+    json times = json::array();
+    for (const EventMark& mark : line.marks) {
+        times.push_back(mark.t);
+    }
+    return times;
+}
+
 json consoleOf(const Console& c) {
     return {{"forces", c.forces},
             {"guidance", c.guidance},
@@ -73,6 +81,7 @@ json consoleOf(const Console& c) {
               {"picture", c.timeLine.image},
               {"pictures", c.timeLine.images},
               {"playing", c.timeLine.playing},
+              {"marks", marksOf(c.timeLine)},
               {"speed", c.timeLine.speed},
               {"whole_memory", c.timeLine.wholeMemory}}},
             {"places", c.places}};

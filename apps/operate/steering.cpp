@@ -47,8 +47,10 @@ std::span<const KeyHelp> keyHelp() {
         KeyHelp{"M", "tones on or off: contact, limit, old image, lost device"},
         KeyHelp{"R", "start or stop recording"},
         KeyHelp{"L", "store the last 30 s, which are always kept, as a recording"},
+        KeyHelp{"N", "mark this moment in the recording; the time line shows it"},
         KeyHelp{"in a recording",
-                "Space plays; arrows: one frame, with Shift one tick; Home, End; [ ]: speed"},
+                "Space plays; arrows: one frame, with Shift one tick; Home, End; [ ]: speed; comma, "
+                "period: marks"},
         KeyHelp{"F6", "keyboard to the panels: arrows choose, Enter presses; F6 or Esc: back"},
         KeyHelp{"F11", "recreate the swapchain"},
         KeyHelp{"F12", "screenshot"},
@@ -83,6 +85,7 @@ void Steering::keys(Console& console) {
     console.paused = console.paused != pressed(GLFW_KEY_P);
     console.frozen = console.frozen != pressed(GLFW_KEY_F);
     console.recording = console.recording != pressed(GLFW_KEY_R);
+    console.addMark = console.addMark || pressed(GLFW_KEY_N);
     console.storeLast = console.storeLast || pressed(GLFW_KEY_L);
     console.exportCsv = console.exportCsv || pressed(GLFW_KEY_E);
     console.acknowledge = console.acknowledge || pressed(GLFW_KEY_Q);

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdio>
 #include <imgui.h>
+#include <optional>
 
 namespace fathom::operate {
 
@@ -39,6 +40,35 @@ void stepTicks(TimeLine& line, const std::vector<double>& times, int by) {
     } else {
         const auto here = std::lower_bound(times.begin(), times.end(), line.t - kSame);
         line.t = here == times.begin() ? line.t - kTick : *(here - 1);
+    }
+}
+
+// Moves to the next or previous mark; stays where there is none.
+void stepMarks(TimeLine& line, int by) {
+    constexpr double kSame = 1e-6; // [s]
+    std::optional<double> to;
+    for (const EventMark& mark : line.marks) {
+        if (by > 0 ? mark.t > line.t + kSame && !to : mark.t < line.t - kSame) {
+            to = mark.t;
+        }
+    }
+    line.playing = line.playing && !to;
+    line.t = to.value_or(line.t);
+}
+
+// A flag per mark, with its name where there is room.
+void drawMarks(ImDrawList& list, const TimeLine& line, ImVec2 at, ImVec2 room) {
+    float free = at.x; // from here on for names
+    for (const EventMark& mark : line.marks) {
+        const double share = line.duration > 0.0 ? std::min(1.0, mark.t / line.duration) : 0.0;
+        const float x = at.x + room.x * static_cast<float>(share);
+        list.AddLine({x, at.y}, {x, at.y + room.y}, colour::kText, 1.5f);
+        list.AddTriangleFilled({x, at.y}, {x + 8.0f, at.y + 4.0f}, {x, at.y + 8.0f}, colour::kText);
+        const float wide = ImGui::CalcTextSize(mark.name.c_str()).x;
+        if (x + 11.0f >= free && x + 11.0f + wide <= at.x + room.x && room.y > ImGui::GetTextLineHeight()) {
+            list.AddText({x + 11.0f, at.y}, colour::kText, mark.name.c_str());
+            free = x + 17.0f + wide;
+        }
     }
 }
 
@@ -79,6 +109,11 @@ void TimeLinePanel::listen(Console& console) const {
         }
         if (pressed(GLFW_KEY_END)) {
             line.t = line.duration;
+        }
+        for (const auto& [key, by] : {std::pair(GLFW_KEY_COMMA, -1), std::pair(GLFW_KEY_PERIOD, 1)}) {
+            if (pressed(key)) {
+                stepMarks(line, by);
+            }
         }
         if (pressed(GLFW_KEY_LEFT_BRACKET)) {
             line.speed = std::max(kSlowest, 0.5 * line.speed);
@@ -142,7 +177,7 @@ void TimeLinePanel::drawStrip(Console& console) const {
     explain(
         console,
         "Drag: another moment. The curve is the recorded force: yellow while a fixture pushes. Blue below: "
-        "guidance.");
+        "guidance. Flags: marks (N)");
     line.dragged = ImGui::IsItemActive();
     if (line.dragged && line.duration > 0.0) {
         const double share = (double{ImGui::GetIO().MousePos.x} - double{at.x}) / double{room.x};
@@ -168,6 +203,7 @@ void TimeLinePanel::drawStrip(Console& console) const {
         const float x = at.x + apart * static_cast<float>(i);
         list.AddLine({x, at.y}, {x, at.y + 4.0f}, IM_COL32(120, 134, 156, 160));
     }
+    drawMarks(list, line, at, room);
     const double share = line.duration > 0.0 ? line.t / line.duration : 0.0;
     const float head = at.x + room.x * static_cast<float>(share);
     list.AddLine({head, at.y}, {head, low}, colour::kPicked, 2.0f);

@@ -128,6 +128,10 @@ TEST_CASE("Storing the last seconds gives the files that a recorder would have w
             recorder.edit(1, edited);
             last.edit({1, "scene 1", edited});
         }
+        if (i == 12) {
+            recorder.mark();
+            last.mark();
+        }
         run.image(i < 10 ? 0 : 1);
     }
     recorder.stop();
@@ -142,7 +146,7 @@ TEST_CASE("Storing the last seconds gives the files that a recorder would have w
     CHECK(later.failure().empty());
     CHECK(later.images() == 20);
     for (const char* file :
-         {"associations.txt", "hand.csv", "wrench.csv", "touches.csv", "scene.yaml", "edits.csv",
+         {"associations.txt", "hand.csv", "wrench.csv", "touches.csv", "marks.csv", "scene.yaml", "edits.csv",
           "scene-0.yaml", "scene-1.yaml", "rgb/000013.png", "depth/000013.png"}) {
         CAPTURE(file);
         CHECK(bytesOf(direct / file) == bytesOf(stored / file));

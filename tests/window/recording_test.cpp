@@ -52,3 +52,42 @@ TEST_CASE("L stores the last seconds, which nobody asked to record, as a recordi
     REQUIRE(rig.await([](const json& s) { return s["run"]["device"][2] > 0.1; })); // where the hand was
     closeQuietly(rig);
 }
+
+TEST_CASE("N marks a moment of a recording, the time line shows it, and keys go from mark to mark") {
+    WindowRig rig;
+    const auto past = [&](double seconds) {
+        return rig.await([=](const json& s) { return recorded(s)["seconds"] > seconds; });
+    };
+    rig.key("r");
+    REQUIRE(past(0.6));
+    rig.key("n");
+    REQUIRE(rig.awaitNotice("mark 1 is in the recording"));
+    REQUIRE(past(1.6));
+    rig.key("r");
+    REQUIRE(rig.awaitNotice("saved: "));
+    rig.reopen(rig.folder() / "recording-1");
+    const auto line = [](const json& s) { return s["console"]["time_line"]; };
+    REQUIRE(line(rig.state())["marks"].size() == 1);
+    const double first = line(rig.state())["marks"][0];
+    CHECK(first > 0.05);
+    CHECK(first < line(rig.state())["duration"]);
+    rig.key("period");
+    REQUIRE(rig.await([&](const json& s) { return line(s)["t"] == first; }));
+    rig.key("Home");
+    rig.key("n"); // at 0 s
+    REQUIRE(rig.await([&](const json& s) { return line(s)["marks"].size() == 2; }));
+    rig.key("End");
+    rig.key("comma");
+    REQUIRE(rig.await([&](const json& s) { return line(s)["t"] == first; }));
+    const auto strip = rig.place("time line");
+    const double x = strip[0] + first / line(rig.state())["duration"].get<double>() * strip[2];
+    rig.key("Home");
+    REQUIRE(rig.await([&](const json& s) { return line(s)["t"] == 0.0; }));
+    const auto white = [](int r, int g, int b) { return r > 180 && g > 180 && b > 180; };
+    const Screenshot shot = rig.shoot("marks");
+    CHECK(shot.share({x - 1.0, strip[1], 3.0, strip[3]}, white) > 0.2);
+    CHECK(shot.share({x + 90.0, strip[1], 3.0, strip[3]}, white) == 0.0);
+    rig.reopen(rig.folder() / "recording-1"); // the file has both
+    CHECK(line(rig.state())["marks"].size() == 2);
+    closeQuietly(rig);
+}
