@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/operate/canvas.h"
 
+#include "apps/operate/caption.h"
 #include "engine/types/error.h"
 
 #include <imgui.h>
@@ -111,6 +112,15 @@ void Canvas::finishFrame(Console& console, std::span<const Layer> layers, const 
     }
 }
 
+std::unique_ptr<Image> Canvas::picture(const Console& console) {
+    const int below = captionHeight(static_cast<int>(window_.size().width), console.caption.size());
+    std::unique_ptr<Image> image = onDevice_ ? onDevice_->painter->picture(below) : nullptr;
+    if (image) {
+        drawCaption(*image, image->height() - below, console.caption);
+    }
+    return image;
+}
+
 void Canvas::shoot(Console& console) {
     if (!onDevice_) {
         console.notify("no screenshot: the GPU is lost");
@@ -120,10 +130,12 @@ void Canvas::shoot(Console& console) {
     try {
         std::error_code ignored; // writing says why a file cannot be made
         std::filesystem::create_directories(shots_, ignored);
-        if (!onDevice_->painter->screenshot(file)) {
+        const std::unique_ptr<Image> image = picture(console);
+        if (!image) {
             console.notify("no screenshot: nothing is drawn yet");
             return;
         }
+        image->writePng(file);
         ++console.shots;
         console.notify("screenshot " + file.string());
     } catch (const DeviceFailed&) {

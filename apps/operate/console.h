@@ -81,11 +81,13 @@ struct Console {
     CloseAnswer closeAnswer = CloseAnswer::None; // button pressed in the question
     bool remake = false;                         // recreate the swapchain
     bool undo = false, redo = false, save = false, addPicked = false;
-    uint32_t shots = 0;        // screenshots written
-    int treeLevel = -1;        // tree level shown in the 3D view; -1 = none
-    double textScale = 1.0;    // as the pilot wants it
-    double monitorScale = 1.0; // of the monitor (monitor_scale.h)
-    double drawnScale = 1.0;   // the product, or less where the window has no room (layout.h)
+    bool exportPictures = false, stopExport = false; // of a recording (picture_export.h)
+    std::vector<std::string> caption;                // lines under exported pictures (caption.h)
+    uint32_t shots = 0;                              // screenshots written
+    int treeLevel = -1;                              // tree level shown in the 3D view; -1 = none
+    double textScale = 1.0;                          // as the pilot wants it
+    double monitorScale = 1.0;                       // of the monitor (monitor_scale.h)
+    double drawnScale = 1.0; // the product, or less where the window has no room (layout.h)
     float scale() const { return static_cast<float>(drawnScale); }
     bool pilotLayout = false; // the pilot's layout (F2), otherwise the engineer's
     bool panelOpen = false;   // in the pilot's layout: the tabs are over the right column

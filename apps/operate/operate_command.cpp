@@ -9,10 +9,31 @@
 #include "engine/types/error.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
 #include <utility>
 
 namespace fathom {
+
+namespace {
+
+void checkJob(const std::vector<std::string>& lines) {
+    constexpr size_t kMostLines = 2, kLongest = 100;
+    if (lines.size() > kMostLines) {
+        throw BadInput("operate", "--job", lines.back(), "at most two lines");
+    }
+    for (const std::string& line : lines) {
+        const bool plain = std::all_of(line.begin(), line.end(), [](char c) {
+            return static_cast<unsigned char>(c) >= 0x20 && c != 0x7f;
+        });
+        if (line.empty() || line.size() > kLongest || !plain) {
+            throw BadInput("operate", "--job", "'" + line.substr(0, kLongest) + "'",
+                           "a line of 1 to 100 bytes without control characters");
+        }
+    }
+}
+
+} // namespace
 
 void addOperateCommand(CLI::App& app, const GlobalOptions& global) {
     auto options = std::make_shared<OperateOptions>();
@@ -42,12 +63,17 @@ void addOperateCommand(CLI::App& app, const GlobalOptions& global) {
         ->check(numberIn(Range::between(0.75, 2.5)));
     command->add_option("--state", options->state,
                         "write what the window shows to this file, one JSON object per line");
+    command
+        ->add_option("--job", options->job,
+                     "a line under exported pictures, such as vessel or task; give it at most twice")
+        ->allow_extra_args(false);
     command->add_option("--folder", options->shots, "where screenshots, traces and recordings go");
     command->callback([options, &global] {
         if (std::filesystem::is_directory(options->scene)) {
             options->recording = options->recording.empty() ? options->scene.string() : options->recording;
             options->scene /= "scene.yaml";
         }
+        checkJob(options->job);
         for (const auto& [name, value] :
              {std::pair("--source", &options->source), std::pair("--hand-device", &options->handDevice),
               std::pair("--arm", &options->arm), std::pair("--view-door", &options->observers.viewEndpoint),

@@ -15,13 +15,14 @@ struct OperateOptions : SessionOptions {
     OperateOptions() { endless = true; }
 
     ObserverOptions observers;
-    bool armed = false;     // forces on from the start: for `latency` and `--offscreen --path`
-    bool path = false;      // the scene's hand path drives instead of mouse and keyboard
-    std::string offscreen;  // WxH: draws without a surface; empty = a window
-    double seconds = 0.0;   // ends after this time; 0 = when the window is closed
-    double ticks = 0.0;     // [s] ends after this much run time in ticks; 0 = never
-    double textScale = 0.0; // 0.75 to 2.5; 0 = the scene's
-    std::string state;      // file of JSON lines with the state of the window, for other programs
+    bool armed = false;           // forces on from the start: for `latency` and `--offscreen --path`
+    bool path = false;            // the scene's hand path drives instead of mouse and keyboard
+    std::string offscreen;        // WxH: draws without a surface; empty = a window
+    double seconds = 0.0;         // ends after this time; 0 = when the window is closed
+    double ticks = 0.0;           // [s] ends after this much run time in ticks; 0 = never
+    double textScale = 0.0;       // 0.75 to 2.5; 0 = the scene's
+    std::string state;            // file of JSON lines with the state of the window, for other programs
+    std::vector<std::string> job; // lines under exported pictures
     std::string shots; // folder for screenshots (F12), recordings and exports; empty = the working directory
 };
 

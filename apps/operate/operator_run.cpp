@@ -147,6 +147,9 @@ void OperatorRun::listen() {
 
 void OperatorRun::mark() {
     Console& console = display_.console;
+    if (std::exchange(console.exportPictures, false)) {
+        console.notify("only a recording is exported: open one");
+    }
     if (std::exchange(console.addMark, false)) {
         sinks_.recorder.mark();
         sinks_.last.mark();

@@ -10,9 +10,14 @@
 #include <array>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
+
+namespace fathom {
+class Image; // apps/replay/image.h
+}
 
 namespace fathom::operate {
 
@@ -44,8 +49,9 @@ public:
     // on a shared queue: the frame waits up to kCourtesy for them and is skipped if they still run.
     bool draw(VkExtent2D size, std::span<const Layer> layers, ImDrawData* data,
               const std::function<bool()>& busy);
-    // Waits for the last frame and writes it as a PNG file. False: nothing was drawn yet.
-    bool screenshot(const std::filesystem::path& file);
+    // Waits for the last frame and copies it. below: rows of pixels to add under it. Null: nothing was drawn
+    // yet.
+    std::unique_ptr<Image> picture(int below);
 
     uint64_t drawn() const { return drawn_; }
     uint64_t yielded() const { return yielded_; } // frames skipped for compute passes

@@ -97,9 +97,9 @@ void Painter::recordToSurface(VkImage shown) {
     changeLayout(commands_, shown, kDestination, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
 }
 
-bool Painter::screenshot(const std::filesystem::path& file) {
+std::unique_ptr<Image> Painter::picture(int below) {
     if (!target_) {
-        return false;
+        return nullptr;
     }
     const VkExtent2D size = target_.size();
     const gpu::Buffer landing(device_, 4ull * size.width * size.height, gpu::MemoryKind::Readback,
@@ -113,18 +113,18 @@ bool Painter::screenshot(const std::filesystem::path& file) {
         vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_HOST_BIT, 0, 1,
                              &toHost, 0, nullptr, 0, nullptr);
     });
-    const Image image(static_cast<int>(size.width), static_cast<int>(size.height), {0.0, 0.0, 0.0});
-    image.beginPixels();
+    auto image = std::make_unique<Image>(static_cast<int>(size.width), static_cast<int>(size.height) + below,
+                                         Colour{0.0, 0.0, 0.0});
+    image->beginPixels();
     const auto pixels = landing.as<uint32_t>();
     for (uint32_t v = 0; v < size.height; ++v) {
-        uint32_t* row = image.row(static_cast<int>(v));
+        uint32_t* row = image->row(static_cast<int>(v));
         for (uint32_t u = 0; u < size.width; ++u) {
             row[u] = 0xff000000u | pixels[v * size.width + u]; // both are 0xAARRGGBB
         }
     }
-    image.endPixels();
-    image.writePng(file);
-    return true;
+    image->endPixels();
+    return image;
 }
 
 } // namespace fathom::operate

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/operate/playback_run.h"
 
+#include "apps/operate/keys.h"
+#include "apps/operate/printed.h"
 #include "apps/operate/view_click.h"
 #include "devices/recorded/hand_csv.h"
 #include "engine/haptics/hand_map.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
 
+#include <GLFW/glfw3.h>
 #include <algorithm>
 #include <limits>
 #include <utility>
@@ -84,7 +87,8 @@ PlaybackRun::PlaybackRun(const OperateOptions& options, const GlobalOptions& glo
                   shown_ = -1.0;
               })
     , steering_(Pose{}, session_.scene.hand)
-    , panel_(log_, durationOf(past_, log_)) {
+    , panel_(log_, durationOf(past_, log_))
+    , export_(options.shots) {
     TimeLine& line = display_.console.timeLine;
     line.on = true;
     line.images = past_.images();
@@ -146,6 +150,7 @@ void PlaybackRun::lookForDevice() {
 }
 
 void PlaybackRun::draw(double dt) {
+    export_.step(display_.console, PastScene::kPeriod);
     followTime(dt);
     const bool fresh = display_.view.refresh();
     HudInput hud = display_.hud(haptics_);
@@ -161,10 +166,24 @@ void PlaybackRun::draw(double dt) {
     panel_.draw(display_.console, display_.canvas.letters(), {strip[0], strip[1]}, {strip[2], strip[3]});
     listen();
     display_.canvas.finishFrame(display_.console, display_.screen.layers(), [] { return false; });
+    if (export_.running() && !window_.minimised()) { // a minimised window draws nothing
+        exportPicture();
+    }
+}
+
+void PlaybackRun::exportPicture() {
+    const std::unique_ptr<Image> picture = display_.canvas.picture(display_.console);
+    export_.add(display_.console, picture.get());
+    window_.setTitle(printed("Fathom, exports picture %u of %u, Esc stops",
+                             display_.console.timeLine.image + 1, display_.console.timeLine.images));
+    if (!export_.running() || display_.console.timeLine.image + 1 >= display_.console.timeLine.images) {
+        window_.setTitle("Fathom, recording " + options_.recording);
+    }
 }
 
 void PlaybackRun::listen() {
     Console& console = display_.console;
+    console.stopExport = keyPressed(GLFW_KEY_ESCAPE);
     if (const auto at = steering_.step(console, display_.screen.large(), 0.0)) {
         clickInView(console, editor_, display_.screen, display_.view.scene(), *at);
     }

@@ -5,6 +5,7 @@
 #include "apps/binding/stop_signals.h"
 #include "apps/operate/operate_command.h"
 #include "apps/operate/past_scene.h"
+#include "apps/operate/picture_export.h"
 #include "apps/operate/recorder.h"
 #include "apps/operate/run_display.h"
 #include "apps/operate/steering.h"
@@ -33,6 +34,7 @@ private:
     void listen();
     void mark(); // the shown moment, if the pilot asks for it
     void followTime(double dt);
+    void exportPicture(); // of the drawn frame
     void showMoment();
     uint32_t buttonsAt(double t) const;
 
@@ -50,6 +52,7 @@ private:
     FixtureEditor editor_;
     Steering steering_;
     TimeLinePanel panel_;
+    PictureExport export_;
     double retryAt_ = 0.0, retry_ = 0.0; // [s] time of the next attempt to open a device; pause after it
     double shown_ = -1.0;                // [s] shown moment of the recording
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/operate/run_display.h"
 
+#include "apps/operate/caption.h"
 #include "apps/operate/closing.h"
 #include "engine/types/error.h"
 
@@ -78,6 +79,12 @@ HudInput RunDisplay::hud(const HapticOptions& haptics) const {
 void RunDisplay::draw(FixtureEditor& editor, const ScreenInput& input) {
     screen.noteDrawn(canvas.counts().drawn);
     screen.draw(console, editor, alarms, input);
+    const bool captioned = !window_.offscreen() || !options_.job.empty();
+    console.caption =
+        captioned
+            ? captionOf(
+                  {{console, view, input.hud.haptics}, screen.cues(), editor.scene().pilot, options_.job})
+            : std::vector<std::string>();
     const auto& room = console.places["traces room"];
     if (room[3] <= 0.0f) {
         return; // not in the pilot's layout

@@ -62,7 +62,7 @@ void drawMarks(ImDrawList& list, const TimeLine& line, ImVec2 at, ImVec2 room) {
     for (const EventMark& mark : line.marks) {
         const double share = line.duration > 0.0 ? std::min(1.0, mark.t / line.duration) : 0.0;
         const float x = at.x + room.x * static_cast<float>(share);
-        list.AddLine({x, at.y}, {x, at.y + room.y}, colour::kText, 1.5f);
+        list.AddLine({x, at.y}, {x, at.y + room.y}, colour::kText, 2.0f);
         list.AddTriangleFilled({x, at.y}, {x + 8.0f, at.y + 4.0f}, {x, at.y + 8.0f}, colour::kText);
         const float wide = ImGui::CalcTextSize(mark.name.c_str()).x;
         if (x + 11.0f >= free && x + 11.0f + wide <= at.x + room.x && room.y > ImGui::GetTextLineHeight()) {

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/operate/picture_export.h"
+
+#include "apps/operate/printed.h"
+#include "engine/types/error.h"
+
+#include <utility>
+
+namespace fathom::operate {
+
+namespace fs = std::filesystem;
+
+fs::path PictureExport::freshName() const {
+    for (int i = 1;; ++i) {
+        const fs::path stem = in_ / ("export-" + std::to_string(i));
+        if (!fs::exists(stem) && !fs::exists(stem.string() + ".mp4")) {
+            return encoder_ ? fs::path(stem.string() + ".mp4") : stem;
+        }
+    }
+}
+
+void PictureExport::start(Console& console) {
+    encoder_ = findEncoder();
+    target_ = freshName();
+    std::error_code failed;
+    fs::create_directories(encoder_ ? target_.parent_path() : target_, failed);
+    if (failed && !target_.parent_path().empty()) {
+        console.notify(target_.string() + ": cannot be written (" + failed.message() + ")");
+        return;
+    }
+    running_ = true;
+    next_ = 0;
+    before_ = console.timeLine.t;
+    console.timeLine.playing = false;
+    console.noticeUntil = 0.0; // it would be in the pictures
+}
+
+void PictureExport::end(Console& console, const std::string& why) {
+    running_ = false;
+    std::string problem = why;
+    try {
+        if (video_) {
+            std::exchange(video_, nullptr)->finish();
+        }
+    } catch (const Error& e) {
+        problem = problem.empty() ? e.what() : problem;
+    }
+    console.timeLine.t = before_;
+    console.notify(printed("exported %u pictures to ", next_) + target_.string() +
+                   (encoder_ ? "" : ": no ffmpeg, so PNG files") +
+                   (problem.empty() ? "" : ", then: " + problem));
+}
+
+void PictureExport::step(Console& console, double period) {
+    TimeLine& line = console.timeLine;
+    const bool asked = std::exchange(console.exportPictures, false);
+    if (!running_ && asked) {
+        start(console);
+    } else if (running_ && (asked || std::exchange(console.stopExport, false))) {
+        end(console, "stopped");
+    } else if (running_ && next_ >= line.images) {
+        end(console, "");
+    }
+    console.stopExport = false;
+    if (running_) {
+        line.playing = false;
+        line.t = std::min(line.duration, next_ * period);
+    }
+}
+
+void PictureExport::add(Console& console, const Image* picture) {
+    if (picture == nullptr) {
+        return; // the same frame again
+    }
+    try {
+        if (!encoder_) {
+            picture->writePng(target_ / printed("%06u.png", next_));
+        } else {
+            if (!video_) {
+                video_ = std::make_unique<VideoFile>(*encoder_, target_, picture->width(), picture->height());
+            }
+            video_->add(*picture);
+        }
+        ++next_;
+    } catch (const Error& e) {
+        end(console, e.what());
+    }
+}
+
+} // namespace fathom::operate
