@@ -125,8 +125,10 @@ std::vector<OutlineLine> traceOutline(const std::vector<uint8_t>& mask, int widt
     std::vector<OutlineLine> lines;
     Walker walker(mask, width, height);
     for (int v = 0; v < height; ++v) {
+        const uint8_t* row = mask.data() + static_cast<size_t>(v) * static_cast<size_t>(width);
         for (int u = 0; u < width; ++u) {
-            if (walker.fresh(u, v)) {
+            const bool top = row[u] != 0 && (v == 0 || row[u - width] == 0); // most pixels are no border
+            if (top && walker.fresh(u, v)) {
                 const std::vector<Corner> corners = walker.walk(u, v);
                 if (corners.size() > least) {
                     appendPieces(corners, width, height, lines);

@@ -31,24 +31,36 @@ Range slopesOf(double y, double z, double radius) {
             middle + half > kSide ? kEverywhere : std::tan(middle + half)};
 }
 
-// Slopes x/z at which the ray (x, y, 1) meets the sphere in front of the eye: (c . ray)^2 >= k |ray|^2 with k
-// = |c|^2 - r^2.
-Range runAt(const dvec3& c, double k, double y) {
-    const double rest = c.y * y + c.z;
-    const double a = c.x * c.x - k;
-    const double b = c.x * rest;
-    const double d = rest * rest - k * (y * y + 1.0);
-    const double root = std::sqrt(std::max(0.0, b * b - a * d));
-    if (a < 0.0) {
-        return b * b < a * d ? Range{0.0, -1.0} : Range{(-b + root) / a, (-b - root) / a};
+// The pixels of a row that see a sphere in front of the eye: rays (x, y, 1) with (c . ray)^2 >= k |ray|^2 and
+// k = |c|^2 - r^2, solved for x. Middle and square of the half width are polynomials of y.
+class RowRuns {
+public:
+    RowRuns(const dvec3& c, double k)
+        : c_(c)
+        , k_(k)
+        , a_(c.x * c.x - k) {}
+
+    Range at(double y) const {
+        const double rest = c_.y * y + c_.z;
+        const double b = c_.x * rest, square = k_ * (a_ * (y * y + 1.0) + rest * rest);
+        if (a_ < 0.0) {
+            const double root = std::sqrt(std::max(0.0, square));
+            return square < 0.0 ? Range{0.0, -1.0} : Range{(root - b) * inverse_, (-b - root) * inverse_};
+        }
+        // The cone of rays to the sphere contains a direction at infinity within the row, so the run is
+        // unbounded on the sphere's side.
+        if (a_ == 0.0 || c_.x == 0.0) {
+            return {-kEverywhere, kEverywhere};
+        }
+        const double root = std::sqrt(std::max(0.0, square));
+        return c_.x > 0.0 ? Range{(root - b) * inverse_, kEverywhere}
+                          : Range{-kEverywhere, (-b - root) * inverse_};
     }
-    // The cone of rays to the sphere contains a direction at infinity within the row, so the run is unbounded
-    // on the sphere's side.
-    if (a == 0.0 || c.x == 0.0) {
-        return {-kEverywhere, kEverywhere};
-    }
-    return c.x > 0.0 ? Range{(-b + root) / a, kEverywhere} : Range{-kEverywhere, (-b - root) / a};
-}
+
+private:
+    dvec3 c_;
+    double k_, a_, inverse_ = 1.0 / a_;
+};
 
 } // namespace
 
@@ -74,9 +86,10 @@ void Silhouette::add(const dvec3& baseCentre, double radius) {
     // Rows whose centre (v + 0.5) is inside.
     const double first = std::max(0.0, std::ceil(v0 + fy * rows.lo - 0.5));
     const double last = std::min(height_ - 1.0, std::floor(v0 + fy * rows.hi - 0.5));
+    const RowRuns runs(c, k);
+    const double perRow = 1.0 / fy;
     for (double v = first; v <= last; v += 1.0) {
-        const double y = (v + 0.5 - v0) / fy;
-        const Range run = k <= 0.0 ? Range{-kEverywhere, kEverywhere} : runAt(c, k, y);
+        const Range run = k <= 0.0 ? Range{-kEverywhere, kEverywhere} : runs.at((v + 0.5 - v0) * perRow);
         addRow(static_cast<int>(v), u0 + fx * run.lo, u0 + fx * run.hi);
     }
 }
@@ -90,8 +103,10 @@ void Silhouette::addRow(int v, double from, double to) {
     int32_t* row = steps_.data() + static_cast<size_t>(v) * static_cast<size_t>(width_ + 1);
     ++row[static_cast<size_t>(first)];
     --row[static_cast<size_t>(end)];
-    box_ = {std::min(box_.u0, static_cast<int>(first)), std::min(box_.v0, v),
-            std::max(box_.u1, static_cast<int>(end)), std::max(box_.v1, v + 1)};
+    box_.u0 = std::min(box_.u0, static_cast<int>(first));
+    box_.u1 = std::max(box_.u1, static_cast<int>(end));
+    box_.v0 = std::min(box_.v0, v);
+    box_.v1 = std::max(box_.v1, v + 1);
 }
 
 Silhouette::Box Silhouette::covered() const {
@@ -129,8 +144,9 @@ RegionMasks regionMasks(const ImageView& view, const Fixtures& set) {
         (set.spheres.source[i] >= pixels ? held : seen)
             .add(regionCentre(set, i), double{set.spheres.radius[i]});
     }
-    RegionMasks masks{seen.mask(), held.mask(), false};
-    for (size_t i = 0; i < masks.held.size(); ++i) {
+    RegionMasks masks{seen.mask(), {}, false};
+    masks.held = held.covered().width() > 0 ? held.mask() : std::vector<uint8_t>(masks.seen.size());
+    for (size_t i = 0; held.covered().width() > 0 && i < masks.held.size(); ++i) {
         masks.held[i] = static_cast<uint8_t>(masks.held[i] & ~masks.seen[i] & 1);
         masks.anyHeld = masks.anyHeld || masks.held[i] != 0;
     }
