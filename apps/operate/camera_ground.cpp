@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace fathom::operate {
 
@@ -33,13 +34,39 @@ uint32_t greyOf(uint16_t depth, double metresPerUnit) {
     return 0xff000000u | level << 16 | level << 8 | level;
 }
 
+// The view with half as many pixels in each direction.
+ImageView halved(ImageView view) {
+    if (view.scale % 2 == 0) {
+        view.scale /= 2;
+        return view;
+    }
+    Intrinsics& lens = view.lens;
+    lens.width = std::max(1u, lens.width / 2);
+    lens.height = std::max(1u, lens.height / 2);
+    lens.fx *= 0.5, lens.fy *= 0.5;
+    lens.cx = 0.5 * lens.cx - 0.25, lens.cy = 0.5 * lens.cy - 0.25; // pixel centres are at integers
+    return view;
+}
+
+// The outline of a mask in an image with `step` times its pixels in each direction.
+std::vector<OutlineLine> outlineIn(const std::vector<uint8_t>& mask, const ImageView& view, int step) {
+    const size_t least = kLeastOutline / static_cast<size_t>(step);
+    std::vector<OutlineLine> lines = traceOutline(mask, view.width(), view.height(), least);
+    for (OutlineLine& line : lines) {
+        for (glm::dvec2& p : line) {
+            p *= static_cast<double>(step);
+        }
+    }
+    return lines;
+}
+
 } // namespace
 
 void CameraGround::compose(const SceneSnapshot& scene, const Selection& selection) {
     const CameraInfo& camera = scene.set.camera;
     const bool coloured = camera.hasColour && scene.colour.size() == camera.colour.pixels();
     view_ = imageView(camera, scene.set.baseTcamera, !coloured, kLeastWidth);
-    pixels_.assign(static_cast<size_t>(view_.width()) * static_cast<size_t>(view_.height()), 0xff201814u);
+    pixels_.resize(static_cast<size_t>(view_.width()) * static_cast<size_t>(view_.height()));
     paintImage(scene, selection);
     paintRegions(scene.set);
 }
@@ -49,18 +76,25 @@ void CameraGround::paintImage(const SceneSnapshot& scene, const Selection& selec
     const Intrinsics& lens = view_.lens;
     const bool coloured = scene.colour.size() == lens.pixels();
     const bool known = scene.set.depth.size() == camera.depth.pixels();
+    // Column of the image and of the depth image. With separate cameras the hatch ignores parallax: it marks
+    // the holes of the depth image.
+    std::vector<std::pair<uint32_t, uint32_t>> columns(static_cast<size_t>(view_.width()));
+    for (size_t u = 0; u < columns.size(); ++u) {
+        const auto su = static_cast<uint32_t>(u) / static_cast<uint32_t>(view_.scale);
+        columns[u] = {su, su * camera.depth.width / lens.width};
+    }
     size_t unknown = 0;
     for (int v = 0; v < view_.height(); ++v) {
         const uint32_t sv = static_cast<uint32_t>(v / view_.scale);
-        const uint32_t dv = sv * camera.depth.height / lens.height;
-        uint32_t* row = pixels_.data() + static_cast<size_t>(v) * static_cast<size_t>(view_.width());
+        const size_t depthRow = size_t{sv * camera.depth.height / lens.height} * camera.depth.width;
+        const size_t colourRow = size_t{sv} * lens.width;
+        uint32_t* row = pixels_.data() + static_cast<size_t>(v) * columns.size();
         for (int u = 0; u < view_.width(); ++u) {
-            const uint32_t su = static_cast<uint32_t>(u / view_.scale);
-            // With separate cameras the hatch ignores parallax: it marks the holes of the depth image.
-            const size_t d = dv * camera.depth.width + su * camera.depth.width / lens.width;
+            const auto [su, du] = columns[static_cast<size_t>(u)];
+            const size_t d = depthRow + du;
             const uint16_t depth = known ? scene.set.depth[d] : 0;
-            row[u] = coloured ? scene.colour[sv * lens.width + su] | 0xff000000u
-                              : greyOf(depth, camera.metresPerUnit);
+            row[u] =
+                coloured ? scene.colour[colourRow + su] | 0xff000000u : greyOf(depth, camera.metresPerUnit);
             if (depth == 0) {
                 ++unknown;
                 const bool line = (u - v + 9 * 4096) % kUnknownHatch < 3;
@@ -80,15 +114,20 @@ void CameraGround::paintRegions(const Fixtures& set) {
     if (set.frame < 0 || set.spheres.size() == 0) {
         return;
     }
-    const RegionMasks masks = regionMasks(view_, set);
+    const ImageView maskView = coarse_ ? halved(view_) : view_;
+    const RegionMasks masks = regionMasks(maskView, set);
+    const int step = coarse_ ? 2 : 1; // pixels per pixel of the masks
     for (int v = 0; v < view_.height(); ++v) {
-        const size_t first = static_cast<size_t>(v) * static_cast<size_t>(view_.width());
+        const auto row = static_cast<size_t>(std::min(v / step, maskView.height() - 1));
+        const uint8_t* seen = masks.seen.data() + row * static_cast<size_t>(maskView.width());
+        const uint8_t* held = masks.held.data() + row * static_cast<size_t>(maskView.width());
+        uint32_t* out = pixels_.data() + static_cast<size_t>(v) * static_cast<size_t>(view_.width());
         for (int u = 0; u < view_.width(); ++u) {
-            const size_t i = first + static_cast<size_t>(u);
-            if (masks.seen[i] != 0) {
-                pixels_[i] = blend(pixels_[i], kRegion, (u + v) % kHatch < kLine ? 128 : 62);
-            } else if (masks.held[i] != 0) {
-                pixels_[i] = blend(pixels_[i], kRegion, (u - v + 4096) % kHatch < kLine ? 96 : 30);
+            const int m = std::min(u / step, maskView.width() - 1);
+            if (seen[m] != 0) {
+                out[u] = blend(out[u], kRegion, (u + v) % kHatch < kLine ? 128 : 62);
+            } else if (held[m] != 0) {
+                out[u] = blend(out[u], kRegion, (u - v + 4096) % kHatch < kLine ? 96 : 30);
             }
         }
     }
@@ -100,8 +139,10 @@ void CameraGround::paintRegions(const Fixtures& set) {
             target = blend(target, {255, 140, 122}, 170);
         }
     }
-    seen_ = traceOutline(masks.seen, view_.width(), view_.height(), kLeastOutline);
-    held_ = traceOutline(masks.held, view_.width(), view_.height(), kLeastOutline);
+    seen_ = outlineIn(masks.seen, maskView, step);
+    if (masks.anyHeld) {
+        held_ = outlineIn(masks.held, maskView, step);
+    }
 }
 
 } // namespace fathom::operate

@@ -16,6 +16,8 @@ using Selection = std::vector<uint8_t>;
 // Composed per frame. Colours have the meaning they have in overlay.png.
 class CameraGround {
 public:
+    // Regions with half of the resolution, which takes a third of the time.
+    void setCoarse(bool coarse) { coarse_ = coarse; }
     // selection: size of the depth image, or empty; drawn in cyan.
     void compose(const SceneSnapshot& scene, const Selection& selection);
 
@@ -33,6 +35,7 @@ private:
     std::vector<uint32_t> pixels_;
     std::vector<OutlineLine> seen_, held_;
     double unknown_ = 0.0;
+    bool coarse_ = false;
 };
 
 } // namespace fathom::operate

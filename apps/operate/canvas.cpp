@@ -36,7 +36,7 @@ struct Canvas::OnDevice {
         if (surface->handle() != VK_NULL_HANDLE) {
             swapchain.emplace(device, surface->handle());
         }
-        painter.emplace(instance, device, swapchain ? &*swapchain : nullptr);
+        painter.emplace(instance, device, swapchain ? &*swapchain : nullptr, Painter::drawerFor(device));
     }
     // A window allows one surface with swapchain images at a time.
     void renewSurface(const Window& window, const gpu::Instance& instance) {
@@ -50,8 +50,7 @@ struct Canvas::OnDevice {
     std::optional<Painter> painter;
 };
 
-Canvas::Canvas(const Window& window, const gpu::Instance& instance, double textScale,
-               std::filesystem::path shots)
+Canvas::Canvas(Window& window, const gpu::Instance& instance, double textScale, std::filesystem::path shots)
     : window_(window)
     , instance_(instance)
     , shots_(std::move(shots))
@@ -77,6 +76,7 @@ Canvas::Counts Canvas::counts() const {
     if (onDevice_) {
         all.drawn += onDevice_->painter->drawn();
         all.yielded += onDevice_->painter->yielded();
+        all.tiles += onDevice_->painter->tiles();
         all.swapchains += onDevice_->swapchain ? onDevice_->swapchain->remade() : 0;
     }
     return all;
@@ -89,6 +89,9 @@ void Canvas::finishFrame(Console& console, std::span<const Layer> layers, const 
     }
     if (onDevice_ && onDevice_->swapchain && onDevice_->swapchain->surfaceLost()) {
         onDevice_->renewSurface(window_, instance_);
+    }
+    if (onDevice_ && window_.takeExposed()) {
+        onDevice_->painter->redraw();
     }
     if (onDevice_ && !window_.minimised()) {
         const auto never = [] {

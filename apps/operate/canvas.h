@@ -15,8 +15,7 @@ namespace fathom::operate {
 class Canvas {
 public:
     // shots: folder of screenshots. Uses no device before open().
-    Canvas(const Window& window, const gpu::Instance& instance, double textScale,
-           std::filesystem::path shots);
+    Canvas(Window& window, const gpu::Instance& instance, double textScale, std::filesystem::path shots);
     ~Canvas();
     Canvas(const Canvas&) = delete;
     Canvas& operator=(const Canvas&) = delete;
@@ -38,6 +37,7 @@ public:
     struct Counts {                      // Totals over all devices.
         uint64_t drawn = 0, yielded = 0; // window frames drawn, and skipped for passes
         uint32_t swapchains = 0;
+        uint64_t tiles = 0; // drawn by the CPU (PanelRaster)
     };
     Counts counts() const;
 
@@ -45,7 +45,7 @@ private:
     struct OnDevice; // surface, swapchain, painter
     void shoot(Console& console);
 
-    const Window& window_;
+    Window& window_;
     const gpu::Instance& instance_;
     std::filesystem::path shots_;
     double scale_;

@@ -272,9 +272,11 @@ void OperatorRun::reopen() {
 void OperatorRun::report() const {
     const std::vector<float>& us = display_.view.stepMicros();
     const double time = std::max(1e-3, display_.elapsed());
-    std::printf("window       %.1f frames per second, %llu skipped for passes on the shared queue\n",
-                static_cast<double>(display_.canvas.counts().drawn) / time,
-                static_cast<unsigned long long>(display_.canvas.counts().yielded));
+    std::printf(
+        "window       %.1f frames per second, %llu skipped for passes on the shared queue, %.1f ms of CPU "
+        "time each\n",
+        static_cast<double>(display_.canvas.counts().drawn) / time,
+        static_cast<unsigned long long>(display_.canvas.counts().yielded), 1e3 * display_.frameCost());
     if (session_.cycles.renewals() > 0) {
         std::printf("device       lost and reopened %u times\n", session_.cycles.renewals());
     }

@@ -18,14 +18,19 @@ constexpr uint64_t kLongWait = 2'000'000'000; // [ns]
 
 } // namespace
 
-Painter::Painter(const gpu::Instance& instance, gpu::Device& device, Swapchain* swapchain, Unmade)
+Painter::Painter(const gpu::Instance& instance, gpu::Device& device, Swapchain* swapchain, By drawer, Unmade)
     : device_(device)
-    , swapchain_(swapchain)
-    , panels_(instance, device) {}
+    , swapchain_(swapchain) {
+    if (drawer == By::Cpu) {
+        host_.emplace(device);
+    } else {
+        panels_.emplace(instance, device);
+    }
+}
 
 // Delegates, so that the destructor runs when a later step throws.
-Painter::Painter(const gpu::Instance& instance, gpu::Device& device, Swapchain* swapchain)
-    : Painter(instance, device, swapchain, Unmade{}) {
+Painter::Painter(const gpu::Instance& instance, gpu::Device& device, Swapchain* swapchain, By drawer)
+    : Painter(instance, device, swapchain, drawer, Unmade{}) {
     const VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr,
                                        VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT, device.drawFamily()};
     check(vkCreateCommandPool(device.handle(), &pool, nullptr, &pool_), "vkCreateCommandPool");
@@ -75,7 +80,11 @@ void Painter::once(const std::function<void(VkCommandBuffer)>& body) {
 
 void Painter::uploadFonts() {
     finished(kLongWait);
-    panels_.restart([this](const std::function<void(VkCommandBuffer)>& body) { once(body); });
+    if (host_) {
+        host_->takeFonts();
+        return;
+    }
+    panels_->restart([this](const std::function<void(VkCommandBuffer)>& body) { once(body); });
 }
 
 void Painter::resize(VkExtent2D size) {
@@ -86,9 +95,13 @@ void Painter::resize(VkExtent2D size) {
     target_ = FrameTexture(device_, kDrawn, size,
                            VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
                                VK_IMAGE_USAGE_TRANSFER_DST_BIT);
+    latest_.filled = latest_.shown = false;
+    if (host_) {
+        return;
+    }
     const VkImageView view = target_.view();
     const VkFramebufferCreateInfo info{.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO,
-                                       .renderPass = panels_.pass(),
+                                       .renderPass = panels_->pass(),
                                        .attachmentCount = 1,
                                        .pAttachments = &view,
                                        .width = size.width,
@@ -104,7 +117,7 @@ bool Painter::yields(const std::function<bool()>& busy) {
     const auto until = std::chrono::steady_clock::now() + std::chrono::duration<double>(kCourtesy);
     while (busy()) {
         if (std::chrono::steady_clock::now() >= until) {
-            ++yielded_;
+            ++counts_.yielded;
             return true;
         }
         std::this_thread::sleep_for(std::chrono::microseconds(300));
@@ -118,25 +131,36 @@ bool Painter::draw(VkExtent2D size, std::span<const Layer> layers, ImDrawData* d
     if (!finished(kPatience) || yields(busy)) {
         return false;
     }
-    VkImage shown = VK_NULL_HANDLE;
     if (swapchain_ != nullptr) {
         if (!swapchain_->fit(size)) {
             return false;
         }
-        shown = swapchain_->acquire(ready_);
-        if (shown == VK_NULL_HANDLE) {
-            return false;
-        }
         size = swapchain_->size();
+        latest_.shown = latest_.shown && latest_.remade == swapchain_->remade();
     }
     resize(size);
-    stage(layers);
+    if (host_) {
+        host_->draw(size, layers, *data);
+        if (latest_.filled && !host_->changed() && (latest_.shown || swapchain_ == nullptr)) {
+            ++counts_.drawn;
+            return true;
+        }
+    }
+    const VkImage shown = swapchain_ != nullptr ? swapchain_->acquire(ready_) : VK_NULL_HANDLE;
+    if (swapchain_ != nullptr && shown == VK_NULL_HANDLE) {
+        return false;
+    }
+    if (!host_) {
+        stage(layers);
+    }
     record(layers, data, shown);
     submit(shown != VK_NULL_HANDLE);
     if (shown != VK_NULL_HANDLE) {
         swapchain_->show();
+        latest_.remade = swapchain_->remade();
+        latest_.shown = true;
     }
-    ++drawn_;
+    ++counts_.drawn;
     return true;
 }
 

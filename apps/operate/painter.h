@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Composes a window frame on the device: CPU images below, ImGui above, then copies it to the surface if
-// there is one. One frame in flight.
+// Composes a window frame: CPU images below, ImGui above, then copies it to the surface if there is one. The
+// device draws it, or the CPU if the device is one. One frame in flight.
 #pragma once
 
 #include "apps/operate/frame_texture.h"
+#include "apps/operate/host_frame.h"
 #include "apps/operate/panel_backend.h"
 #include "apps/operate/swapchain.h"
 
@@ -21,23 +22,16 @@ class Image; // apps/replay/image.h
 
 namespace fathom::operate {
 
-struct PixelRect {
-    int x = 0, y = 0, width = 0, height = 0; // [pixels] in the window
-};
-
-// A CPU image, stretched to a rectangle. Empty pixels: same image as before.
-struct Layer {
-    std::span<const uint32_t> pixels; // 0xAABBGGRR, width x height
-    uint32_t width = 0, height = 0;
-    PixelRect where; // not drawn when empty
-};
-
 // Window thread. Needs an ImGui context during its lifetime. Every call throws DeviceFailed when the device
 // is lost; then destroy the painter before the device.
 class Painter {
 public:
+    enum class By { Device, Cpu };
+    static By drawerFor(const gpu::Device& device) {
+        return device.facts().kind == DeviceKind::Cpu ? By::Cpu : By::Device;
+    }
     // swapchain null: offscreen. Uploads the font atlas of ImGui.
-    Painter(const gpu::Instance& instance, gpu::Device& device, Swapchain* swapchain);
+    Painter(const gpu::Instance& instance, gpu::Device& device, Swapchain* swapchain, By drawer);
     ~Painter();
     Painter(const Painter&) = delete;
     Painter& operator=(const Painter&) = delete;
@@ -46,17 +40,20 @@ public:
 
     // Draws a frame of this size; later layers are on top. Returns false when the frame is skipped because
     // the previous one is not done or the surface has no image yet. `busy` returns whether compute passes run
-    // on a shared queue: the frame waits up to kCourtesy for them and is skipped if they still run.
+    // on a shared queue: the frame waits up to kCourtesy for them and is skipped if they still run. Where the
+    // CPU draws, a frame without changes is not drawn or shown again, but counts as drawn.
     bool draw(VkExtent2D size, std::span<const Layer> layers, ImDrawData* data,
               const std::function<bool()>& busy);
     // Waits for the last frame and copies it. below: rows of pixels to add under it. Null: nothing was drawn
     // yet.
     std::unique_ptr<Image> picture(int below);
 
-    uint64_t drawn() const { return drawn_; }
-    uint64_t yielded() const { return yielded_; } // frames skipped for compute passes
-    static constexpr double kCourtesy = 0.012;    // [s]
-    static constexpr size_t kMaxLayers = 2;
+    void redraw() { latest_.shown = false; } // the surface has lost its content
+
+    uint64_t drawn() const { return counts_.drawn; }
+    uint64_t tiles() const { return host_ ? host_->tiles() : 0; } // drawn by the CPU so far (PanelRaster)
+    uint64_t yielded() const { return counts_.yielded; }          // frames skipped for compute passes
+    static constexpr double kCourtesy = 0.012;                    // [s]
 
 private:
     struct Staged {
@@ -65,12 +62,14 @@ private:
         bool fresh = false; // staged for this frame
     };
     struct Unmade {}; // creates none of the painter's own device objects
-    Painter(const gpu::Instance& instance, gpu::Device& device, Swapchain* swapchain, Unmade);
+    Painter(const gpu::Instance& instance, gpu::Device& device, Swapchain* swapchain, By drawer, Unmade);
     void resize(VkExtent2D size);
     bool finished(uint64_t patience); // [ns]
     bool yields(const std::function<bool()>& busy);
     void stage(std::span<const Layer> layers);
     void record(std::span<const Layer> layers, ImDrawData* data, VkImage shown);
+    void recordOnDevice(std::span<const Layer> layers, ImDrawData* data);
+    void recordFromHost();
     void recordLayer(size_t i, const Layer& layer);
     void recordToSurface(VkImage shown);
     void submit(bool onSurface);
@@ -78,7 +77,8 @@ private:
 
     gpu::Device& device_;
     Swapchain* swapchain_;
-    PanelBackend panels_;
+    std::optional<HostFrame> host_;      // where the CPU draws
+    std::optional<PanelBackend> panels_; // where the device draws
     VkCommandPool pool_ = VK_NULL_HANDLE;
     VkCommandBuffer commands_ = VK_NULL_HANDLE;
     VkFence done_ = VK_NULL_HANDLE;
@@ -87,7 +87,14 @@ private:
     FrameTexture target_;
     std::array<Staged, kMaxLayers> staged_;
     bool flying_ = false; // a submission may still be running
-    uint64_t drawn_ = 0, yielded_ = 0;
+    struct {
+        bool filled = false; // target_ has a frame of the CPU
+        bool shown = false;  // the surface shows target_
+        uint32_t remade = 0; // of the swapchain, when it was shown
+    } latest_;
+    struct {
+        uint64_t drawn = 0, yielded = 0;
+    } counts_;
 };
 
 } // namespace fathom::operate

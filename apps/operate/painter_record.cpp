@@ -58,10 +58,7 @@ void Painter::recordLayer(size_t i, const Layer& layer) {
     changeLayout(commands_, target_.handle(), kDestination, kDestination); // later layers are on top
 }
 
-void Painter::record(std::span<const Layer> layers, ImDrawData* data, VkImage shown) {
-    VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
-    begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
-    check(vkBeginCommandBuffer(commands_, &begin), "vkBeginCommandBuffer");
+void Painter::recordOnDevice(std::span<const Layer> layers, ImDrawData* data) {
     changeLayout(commands_, target_.handle(), VK_IMAGE_LAYOUT_UNDEFINED, kDestination);
     const VkImageSubresourceRange range{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
     vkCmdClearColorImage(commands_, target_.handle(), kDestination, &kGround, 1, &range);
@@ -70,8 +67,27 @@ void Painter::record(std::span<const Layer> layers, ImDrawData* data, VkImage sh
         recordLayer(i, layers[i]);
     }
     changeLayout(commands_, target_.handle(), kDestination, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
-    panels_.record(commands_, framebuffer_, target_.size(), data);
+    panels_->record(commands_, framebuffer_, target_.size(), data);
     changeLayout(commands_, target_.handle(), VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, kSource);
+}
+
+void Painter::recordFromHost() {
+    changeLayout(commands_, target_.handle(), latest_.filled ? kSource : VK_IMAGE_LAYOUT_UNDEFINED,
+                 kDestination);
+    host_->record(commands_, target_.handle());
+    changeLayout(commands_, target_.handle(), kDestination, kSource);
+    latest_.filled = true;
+}
+
+void Painter::record(std::span<const Layer> layers, ImDrawData* data, VkImage shown) {
+    VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+    begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+    check(vkBeginCommandBuffer(commands_, &begin), "vkBeginCommandBuffer");
+    if (host_) {
+        recordFromHost();
+    } else {
+        recordOnDevice(layers, data);
+    }
     if (shown != VK_NULL_HANDLE) {
         recordToSurface(shown);
     }

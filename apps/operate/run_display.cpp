@@ -13,8 +13,6 @@ namespace fathom::operate {
 
 namespace {
 
-constexpr double kWindowPeriod = 1.0 / 60.0; // [s] shortest period of the window
-
 double seconds() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
@@ -34,8 +32,10 @@ RunDisplay::RunDisplay(const OperateOptions& options, Window& window, Session& s
     , options_(options)
     , window_(window)
     , session_(session)
+    , pace_(session.cycles.device().facts().kind == DeviceKind::Cpu)
     , log_(options.state) {
     canvas.open(session.cycles.device());
+    screen.setCoarse(session.cycles.device().facts().kind == DeviceKind::Cpu);
 }
 
 void RunDisplay::begin() {
@@ -43,7 +43,9 @@ void RunDisplay::begin() {
 }
 
 double RunDisplay::beginFrame() {
-    window_.beginFrame(std::clamp(kWindowPeriod - (seconds() - lastFrame_), 0.0, kWindowPeriod));
+    const double period = pace_.period();
+    window_.beginFrame(std::clamp(period - (seconds() - lastFrame_), 0.0, period));
+    pace_.note(threadCpuTime());
     const double now = seconds(), dt = now - lastFrame_;
     windowHz_ += 0.05 * (1.0 / std::max(1e-3, dt) - windowHz_);
     lastFrame_ = now;
@@ -107,9 +109,9 @@ void RunDisplay::exportTraces() {
 
 void RunDisplay::writeState(const FixtureEditor& editor, const HapticOptions& haptics,
                             const MeasuredArm* measured, bool handThere, bool now) {
-    log_.write(
-        {console, view, session_, window_, canvas, screen, alarms, editor, haptics, measured, handThere},
-        now);
+    log_.write({console, view, session_, window_, canvas, screen, alarms, editor, haptics, measured,
+                handThere, pace_.cost()},
+               now);
 }
 
 } // namespace fathom::operate

@@ -4,6 +4,7 @@
 
 #include "apps/operate/alarms.h"
 #include "apps/operate/canvas.h"
+#include "apps/operate/frame_pace.h"
 #include "apps/operate/operate_command.h"
 #include "apps/operate/screen.h"
 #include "apps/operate/state_log.h"
@@ -22,7 +23,8 @@ struct RunDisplay {
     void followClosing(FixtureEditor& editor, bool forcesGone); // the window's close button (closing.h)
     // True when the window is closed or the time is up.
     bool wantsToEnd() const;
-    double elapsed() const; // [s] since begin()
+    double elapsed() const;                           // [s] since begin()
+    double frameCost() const { return pace_.cost(); } // [s] of CPU time of the window's thread
 
     HudInput hud(const HapticOptions& haptics) const; // the parts that are the same for every run
     void draw(FixtureEditor& editor, const ScreenInput& input);
@@ -43,6 +45,7 @@ private:
     Window& window_;
     Session& session_;
     TracesPanel traces_;
+    FramePace pace_;
     StateLog log_;
     double started_ = 0.0, lastFrame_ = 0.0; // [s] of the steady clock
     double windowHz_ = 0.0;

@@ -45,14 +45,17 @@ void Screen::makeImages(const Console& console, const FixtureEditor& editor, con
     const bool moved = !sameOrbit(orbit, drawnOrbit_) || drawnLevel_ != console.treeLevel ||
                        drawnLarge_ != console.spaceIsLarge;
     // Two thirds of the resolution are enough for a cloud.
-    const auto width = static_cast<uint32_t>(std::clamp(spaceRoom.width * 2 / 3, 64, 1200));
-    const auto height = static_cast<uint32_t>(std::clamp(spaceRoom.height * 2 / 3, 48, 900));
+    const int parts = coarse_ ? 4 : 3;
+    const auto width = static_cast<uint32_t>(std::clamp(spaceRoom.width * 2 / parts, 64, 1200));
+    const auto height = static_cast<uint32_t>(std::clamp(spaceRoom.height * 2 / parts, 48, 900));
+    const uint64_t rest = coarse_ ? 5 : 3; // frames per image of a small 3D view
     const bool space = first || moved || width != space_.view().lens.width ||
                        height != space_.view().lens.height ||
-                       (input.freshImage && (console.spaceIsLarge || scene.number % 3 == 0));
+                       (input.freshImage && (console.spaceIsLarge || scene.number >= spaceNumber_ + rest));
     if (space) {
         space_.compose(scene, {orbit, floor_, width, height, console.treeLevel}, input.arm);
         drawnOrbit_ = orbit;
+        spaceNumber_ = scene.number;
         drawnLevel_ = console.treeLevel;
         drawnLarge_ = console.spaceIsLarge;
     }

@@ -36,6 +36,11 @@ public:
         waiting_ = drawn == drawn_ ? waiting_ : std::array<bool, 2>();
         drawn_ = drawn;
     }
+    // For a device that is the CPU itself: less detail of the regions and of a small 3D view.
+    void setCoarse(bool coarse) {
+        camera_.setCoarse(coarse);
+        coarse_ = coarse;
+    }
     void redraw() { redraw_ = true; } // the next draw() composes both images; call it after a lost device
     const ViewPort& large() const { return *large_; }
     const DepthCues& cues() const { return cues_; }
@@ -70,8 +75,8 @@ private:
     uint64_t ghostNumber_ = 0;                       // selection that it shows
     std::optional<Shape> placed_;                    // what a click would place
     int drawnLevel_ = -1;
-    bool centred_ = false, drawnLarge_ = false, redraw_ = false;
-    uint64_t selectionDrawn_ = 0, drawn_ = 0;
+    bool centred_ = false, drawnLarge_ = false, redraw_ = false, coarse_ = false;
+    uint64_t selectionDrawn_ = 0, drawn_ = 0, spaceNumber_ = 0;
     std::array<bool, 2> waiting_{}; // images of camera and 3D view that no drawn frame has shown
 };
 

@@ -146,13 +146,14 @@ json fixturesOf(const Scene& scene) {
     return rows;
 }
 
-// Window frames: begun, drawn, skipped for passes.
+// Window frames: begun, drawn, skipped for passes; tiles that the CPU has drawn, and its time per frame.
 json windowOf(const ShownState& s) {
     const Canvas::Counts counts = s.canvas.counts();
     const VkExtent2D size = s.window.size();
-    return {{"begun", ImGui::GetFrameCount()},        {"frames", counts.drawn}, {"yielded", counts.yielded},
-            {"swapchains", counts.swapchains},        {"width", size.width},    {"height", size.height},
-            {"validation", gpu::validationMessages()}};
+    return {
+        {"begun", ImGui::GetFrameCount()},         {"frames", counts.drawn}, {"yielded", counts.yielded},
+        {"swapchains", counts.swapchains},         {"width", size.width},    {"height", size.height},
+        {"validation", gpu::validationMessages()}, {"tiles", counts.tiles},  {"cpu_ms", 1e3 * s.frameCost}};
 }
 
 json handOf(const ShownState& s) {

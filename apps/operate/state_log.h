@@ -28,6 +28,7 @@ struct ShownState {
     const HapticOptions& haptics;
     const MeasuredArm* measured = nullptr; // null = no real arm
     bool handThere = true;                 // the live hand is connected
+    double frameCost = 0.0;                // [s] CPU time of a window frame
 };
 
 class StateLog {

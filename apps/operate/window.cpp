@@ -90,6 +90,7 @@ void Window::create(const std::string& title) {
     glfwSetWindowSizeLimits(window_, 640, 400, GLFW_DONT_CARE, GLFW_DONT_CARE);
     glfwSetWindowUserPointer(window_, this);
     glfwSetWindowPosCallback(window_, [](GLFWwindow* at, int, int) { of(at).moved_ = true; });
+    glfwSetWindowRefreshCallback(window_, [](GLFWwindow* at) { of(at).exposed_ = true; });
     glfwSetWindowContentScaleCallback(window_, [](GLFWwindow* at, float, float) { of(at).moved_ = true; });
 }
 
@@ -207,6 +208,10 @@ bool Window::takeClose() {
         glfwSetWindowShouldClose(window_, GLFW_FALSE);
     }
     return pressed;
+}
+
+bool Window::takeExposed() {
+    return std::exchange(exposed_, false);
 }
 
 bool Window::minimised() const {

@@ -35,7 +35,8 @@ public:
     // Handles events for `patience` [s] and begins an ImGui frame.
     void beginFrame(double patience);
     void setTitle(const std::string& title);
-    bool takeClose(); // the close button was pressed since the last call
+    bool takeClose();   // the close button was pressed since the last call
+    bool takeExposed(); // a part was uncovered since the last call: show the frame again
     bool minimised() const;
     double monitorScale() const { return monitorScale_; } // of the monitor that it is on; offscreen 1
     VkExtent2D size() const;                              // [pixels]
@@ -59,6 +60,7 @@ private:
     double before_ = 0.0;
     double monitorScale_ = 1.0;
     bool moved_ = true; // perhaps to another monitor
+    bool exposed_ = false;
 };
 
 } // namespace fathom::operate

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// The same frame of the window drawn by the device and by the CPU.
+#include "apps/operate/painter.h"
+#include "devices/recorded/png_image.h"
+#include "tests/apps/laid_screen.h"
+#include "tests/apps/scratch_folder.h"
+#include "tests/support/vulkan.h"
+
+#include <doctest/doctest.h>
+#include <random>
+
+using namespace fathom;
+using namespace fathom::operate;
+
+namespace {
+
+constexpr VkExtent2D kSize{1000, 620};
+
+std::vector<uint32_t> drawnBy(Painter::By drawer, gpu::Instance& instance, gpu::Device& device,
+                              std::span<const Layer> layers) {
+    const testing::ScratchFolder folder;
+    Painter painter(instance, device, nullptr, drawer);
+    REQUIRE(painter.draw(kSize, layers, ImGui::GetDrawData(), [] { return false; }));
+    REQUIRE(painter.screenshot(folder.path() / "window.png"));
+    std::vector<uint32_t> pixels(size_t{kSize.width} * kSize.height);
+    REQUIRE(readColourPng(folder.path() / "window.png", {kSize.width, kSize.height}, pixels).empty());
+    return pixels;
+}
+
+// The largest difference of a channel, and the mean over all channels.
+struct Difference {
+    int most = 0;
+    double mean = 0.0;
+    double far = 0.0; // share of the pixels that differ by more than 24 levels
+};
+Difference differenceOf(const std::vector<uint32_t>& a, const std::vector<uint32_t>& b) {
+    Difference d;
+    for (size_t i = 0; i < a.size(); ++i) {
+        int worst = 0;
+        for (int shift = 0; shift < 24; shift += 8) {
+            const int off =
+                std::abs(static_cast<int>(a[i] >> shift & 0xffu) - static_cast<int>(b[i] >> shift & 0xffu));
+            worst = std::max(worst, off);
+            d.mean += off / (3.0 * static_cast<double>(a.size()));
+        }
+        d.most = std::max(d.most, worst);
+        d.far += worst > 24 ? 1.0 / static_cast<double>(a.size()) : 0.0;
+    }
+    return d;
+}
+
+} // namespace
+
+TEST_CASE("Device and CPU draw the same window") {
+    gpu::Instance instance(test::Vulkan::validation());
+    gpu::Device device(instance, test::Vulkan::selector(), gpu::Drawing::Offscreen);
+    testing::LaidScreen laid;
+    laid.run.console.forces = true;
+    laid.run.console.tab = Tab::Help;
+    laid.fonts({kSize.width, kSize.height}, 1.0);
+    laid.draw();
+    std::mt19937 noise(7); // an image of large squares: resampling shows at their borders only
+    std::vector<uint32_t> image(320 * 240);
+    for (uint32_t block = 0; block < 12; ++block) {
+        const uint32_t colour = 0xff000000u | (noise() & 0xffffffu);
+        for (size_t i = 0; i < image.size(); ++i) {
+            image[i] = (i / 320 / 80) * 4 + i % 320 / 80 == block ? colour : image[i];
+        }
+    }
+    std::vector<Layer> layers(laid.screen.layers().begin(), laid.screen.layers().end());
+    layers[0] = {image, 320, 240, layers[0].where};
+    const auto byDevice = drawnBy(Painter::By::Device, instance, device, layers);
+    const auto byCpu = drawnBy(Painter::By::Cpu, instance, device, layers);
+    const Difference d = differenceOf(byDevice, byCpu);
+    MESSAGE("largest " << d.most << ", mean " << d.mean << ", far " << d.far);
+    CHECK(d.mean < 0.2);
+    CHECK(d.far < 0.001);
+}
