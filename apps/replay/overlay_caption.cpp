@@ -126,22 +126,26 @@ void drawCaption(const Canvas& canvas, const OverlayInput& input, double caption
                           Align::Right);
     }
     Legend legend(canvas, margin, top + 0.80 * captionHeight);
-    if (input.set != nullptr && input.set->frame >= 0) {
-        if (input.set->spheres.size() > 0) {
-            legend.region("forbidden region", false);
-            if (regionMasks(canvas.view, *input.set).anyHeld) {
-                legend.region("held region", true);
-            }
-            legend.dots("region points");
-        }
-        const auto& targets = input.set->guidance;
-        if (std::any_of(targets.begin(), targets.end(), [](const GuidancePose& g) { return g.present; })) {
-            legend.cross("guidance");
-        }
+    const SeenLayers seen = seenLayers(canvas.view, input);
+    if (seen.regions) {
+        legend.region("forbidden region", false);
     }
-    legend.outline("tool", false);
-    legend.outline("hand", true);
-    if (isFinite(input.tick.wrench.force) && glm::length(input.tick.wrench.force) >= 0.01) {
+    if (seen.held) {
+        legend.region("held region", true);
+    }
+    if (seen.points) {
+        legend.dots("region points");
+    }
+    if (seen.guidance) {
+        legend.cross("guidance");
+    }
+    if (seen.tool) {
+        legend.outline("tool", false);
+    }
+    if (seen.hand) {
+        legend.outline("hand", true);
+    }
+    if (seen.force) {
         legend.force("force");
     }
 }

@@ -22,6 +22,16 @@ struct Canvas {
     double size; // scale of lines and text; 1 up to a width of 1280 pixels
 };
 
+constexpr double kLeastArrow = 0.01; // [N] smaller forces have no arrow
+
+// Which marks are inside the image; the legend names only these. A hand that coincides with the tool is not
+// seen.
+struct SeenLayers {
+    bool regions = false, held = false, points = false, guidance = false, tool = false, hand = false,
+         force = false;
+};
+SeenLayers seenLayers(const ImageView& view, const OverlayInput& input);
+
 bool hasColour(const OverlayInput& input);
 void drawCameraImage(const Canvas& canvas, const OverlayInput& input);
 void drawRegions(const Canvas& canvas, const Fixtures& set);

@@ -13,6 +13,9 @@ namespace {
 
 using Pixel = std::optional<glm::dvec2>;
 
+constexpr double kDiscRadius = 0.025, kNormalLength = 0.05; // [m] of a target
+constexpr double kTargetArm = 11.0;                         // [pixels] of its cross
+
 // Text whose left end (or right end, with `toLeft`) is at `at`, shifted to stay inside the image.
 void words(const Canvas& canvas, glm::dvec2 at, const std::string& text, Colour colour, bool toLeft = false) {
     const double size = 14.0 * canvas.size;
@@ -24,7 +27,6 @@ void words(const Canvas& canvas, glm::dvec2 at, const std::string& text, Colour 
 }
 
 void disc(const Canvas& canvas, const dvec3& centre, const dvec3& normal) {
-    constexpr double kRadius = 0.025; // [m] of the disc
     constexpr int kCorners = 64;
     const dvec3 a =
         glm::normalize(glm::cross(std::abs(normal.x) < 0.9 ? dvec3(1, 0, 0) : dvec3(0, 1, 0), normal));
@@ -33,7 +35,7 @@ void disc(const Canvas& canvas, const dvec3& centre, const dvec3& normal) {
     for (int i = 0; i < kCorners; ++i) {
         const double angle = 6.283185307179586 * i / kCorners;
         const Pixel pixel =
-            canvas.view.ofBase(centre + kRadius * (std::cos(angle) * a + std::sin(angle) * b));
+            canvas.view.ofBase(centre + kDiscRadius * (std::cos(angle) * a + std::sin(angle) * b));
         if (!pixel) {
             cairo_new_path(cr);
             return;
@@ -47,7 +49,6 @@ void disc(const Canvas& canvas, const dvec3& centre, const dvec3& normal) {
 }
 
 void target(const Canvas& canvas, const GuidancePose& guidance) {
-    constexpr double kNormalLength = 0.05; // [m]
     const Pixel position = canvas.view.ofBase(guidance.position);
     if (!position) {
         return;
@@ -59,7 +60,7 @@ void target(const Canvas& canvas, const GuidancePose& guidance) {
         }
     }
     cairo_t* cr = canvas.image.cr();
-    const double arm = 11.0 * canvas.size;
+    const double arm = kTargetArm * canvas.size;
     const Pixel goal = canvas.view.ofBase(guidance.target.position);
     if (goal && glm::distance(*goal, *position) > 3.0) {
         cairo_move_to(cr, position->x, position->y);
@@ -77,6 +78,25 @@ void target(const Canvas& canvas, const GuidancePose& guidance) {
         cairo_line_to(cr, position->x + arm, position->y + direction * arm);
     }
     strokeOnShade(canvas, kGuidance, 3.0);
+}
+
+// Columns of the target's marks, from the leftmost to the rightmost.
+std::pair<double, double> extentOf(const Canvas& canvas, const GuidancePose& guidance, glm::dvec2 position) {
+    const double arm = kTargetArm * canvas.size;
+    std::pair extent(position.x - arm, position.x + arm);
+    const auto include = [&](const Pixel& p, double around) {
+        if (p) {
+            extent = {std::min(extent.first, p->x - around), std::max(extent.second, p->x + around)};
+        }
+    };
+    include(canvas.view.ofBase(guidance.target.position), arm);
+    if (guidance.planar) {
+        const dvec3 right = glm::conjugate(canvas.view.cameraTbase.rotation) * dvec3(kDiscRadius, 0.0, 0.0);
+        include(canvas.view.ofBase(guidance.position + right), 0.0);
+        include(canvas.view.ofBase(guidance.position - right), 0.0);
+        include(canvas.view.ofBase(guidance.position + kNormalLength * guidance.normal), arm);
+    }
+    return extent;
 }
 
 void toolOutline(const Canvas& canvas, std::span<const Sphere> leaves, const Pose& pose, bool dashed) {
@@ -174,8 +194,13 @@ void drawGuidanceNames(const Canvas& canvas, const OverlayInput& input) {
         if (guidance.present && position) {
             const bool named = guidance.fixture < input.classNames.size();
             const std::string name = named ? input.classNames[guidance.fixture] : "guidance";
-            words(canvas, *position + canvas.size * glm::dvec2(18.0, -14.0),
-                  name + ", " + std::to_string(guidance.count) + " points", {0.72, 0.87, 1.0});
+            const std::string text = name + ", " + std::to_string(guidance.count) + " points";
+            const auto [left, right] = extentOf(canvas, guidance, *position);
+            const double gap = 12.0 * canvas.size,
+                         width = canvas.image.textWidth(text, 14.0 * canvas.size, true);
+            const bool toLeft = right + gap + width > canvas.view.width() - 8.0 && left - gap - width > 6.0;
+            words(canvas, {toLeft ? left - gap : right + gap, position->y + 5.0 * canvas.size}, text,
+                  {0.72, 0.87, 1.0}, toLeft);
         }
     }
 }
@@ -202,9 +227,8 @@ void drawTool(const Canvas& canvas, const OverlayInput& input) {
 
 void drawForce(const Canvas& canvas, const OverlayInput& input) {
     constexpr double kMetresPerNewton = 0.006;
-    constexpr double kLeast = 0.01; // [N] smaller forces have no arrow
     const dvec3& force = input.tick.wrench.force;
-    if (!isFinite(force) || !isFinite(input.tick.tool) || glm::length(force) < kLeast) {
+    if (!isFinite(force) || !isFinite(input.tick.tool) || glm::length(force) < kLeastArrow) {
         return;
     }
     const Pixel from = canvas.view.ofBase(input.tick.tool.position);

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/replay/overlay_layers.h"
+
+#include <doctest/doctest.h>
+
+using namespace fathom;
+
+TEST_CASE("The legend of an overlay names only what is inside the image") {
+    OverlayInput input;
+    input.camera.depth.width = 160, input.camera.depth.height = 120;
+    input.camera.depth.fx = input.camera.depth.fy = 150.0;
+    input.camera.depth.cx = 79.5, input.camera.depth.cy = 59.5;
+    const ImageView view = imageView(input.camera, {}, true, 160);
+    const std::vector<Sphere> leaves{{{0.0, 0.0, 0.0}, 0.01}};
+    input.leaves = leaves;
+    input.tick.tool.position = input.tick.device.position = {0.0, 0.0, 0.5};
+    Fixtures set;
+    set.frame = 0;
+    set.camera = input.camera;
+    set.spheres.resize(1);
+    set.spheres.x = {2.0f}, set.spheres.y = {0.0f}, set.spheres.z = {0.6f}; // beside the image
+    set.spheres.radius = {0.04f};
+    set.guidance.resize(1);
+    set.guidance[0].present = true;
+    set.guidance[0].position = {0.0, -2.0, 0.6};
+    input.set = &set;
+    overlay::SeenLayers seen = overlay::seenLayers(view, input);
+    CHECK(seen.tool);
+    CHECK(!seen.hand); // where the tool is
+    CHECK(!seen.regions);
+    CHECK(!seen.points);
+    CHECK(!seen.guidance);
+    CHECK(!seen.force);
+    input.tick.device.position = {0.05, 0.0, 0.5};
+    input.tick.wrench.force = {1.0, 0.0, 0.0};
+    set.spheres.x = {0.18f}; // the region is half inside
+    set.guidance[0].position = {0.0, 0.1, 0.6};
+    seen = overlay::seenLayers(view, input);
+    CHECK(seen.hand);
+    CHECK(seen.force);
+    CHECK(seen.regions);
+    CHECK(seen.points);
+    CHECK(seen.guidance);
+    set.spheres.source = {160 * 120}; // held
+    seen = overlay::seenLayers(view, input);
+    CHECK(seen.held);
+    CHECK(!seen.regions);
+    input.tick.tool.position.x = 3.0;
+    CHECK(!overlay::seenLayers(view, input).tool);
+}
