@@ -2,10 +2,12 @@
 // The interface of cameras: live, recorded or simulated.
 #pragma once
 
+#include "devices/camera_controls.h"
 #include "engine/types/camera_info.h"
 #include "engine/types/frame.h"
 #include "engine/types/sphere_tree.h"
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -48,6 +50,12 @@ public:
     virtual std::string streamOptions() const { return ""; }
     // Why no colour gate can pass: no colour stream, one that is not read, or grey; empty = there is colour.
     virtual std::string whyNoColour() const { return info().hasColour ? "" : "the source has no colour"; }
+    // Exposure, gain and others of a live camera; null = the source has none. Any thread.
+    virtual std::shared_ptr<CameraControls> controls() const { return nullptr; }
+    // What it delivers: depth first. Call before another thread uses the camera.
+    virtual std::vector<CameraStream> delivered() const;
+    // The capture time is the start of exposure, not of arrival. Any thread.
+    virtual bool stampsExposure() const { return false; }
     // One word and a name, e.g. "recorded FOLDER".
     virtual std::string description() const = 0;
 

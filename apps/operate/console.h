@@ -2,8 +2,10 @@
 // The state of the window: settings and requests of the pilot. Window thread only.
 #pragma once
 
+#include "apps/operate/button_map.h"
 #include "apps/operate/event_marks.h"
 #include "apps/operate/picked_parts.h"
+#include "engine/scene/scene.h"
 
 #include <array>
 #include <imgui.h>
@@ -22,7 +24,7 @@ struct Orbit {
     Pose pose() const; // base_T_eye: z forward, x right, y down
 };
 
-enum class Tab { Fixtures, Why, Alarms, Help };
+enum class Tab { Fixtures, Why, Alarms, Help, Camera, Device };
 
 // A colour that the pilot picks in the camera view, and the fixture class it would add.
 struct Pick {
@@ -110,6 +112,11 @@ struct Console {
     Box editedBox;
     int editedRow = -1; // slider being dragged; the fixture changes when it is released
     float editedMillimetres = 0.0f;
+
+    std::optional<ButtonUse> mapping; // waits for a button of the device to be pressed
+
+    std::string editedControl; // of the camera, while its slider is dragged; empty = none
+    int editedValue = 0;
 
     std::string refusal; // why forces did not come on (arming.h); shown until they do, or Esc
     std::string hovered; // explanation of the block under the mouse

@@ -2,7 +2,9 @@
 // What the pilot always sees: mode, rates, ages, margins, force and torque with their limits, recorder.
 #pragma once
 
+#include "apps/operate/camera_panel.h"
 #include "apps/operate/console.h"
+#include "apps/operate/device_panel.h"
 #include "apps/operate/layout.h"
 #include "apps/operate/measured_arm.h"
 #include "apps/operate/mode.h"
@@ -33,6 +35,9 @@ struct HudInput {
     const MeasuredArm* arm = nullptr;  // null = no real arm
     bool handGone = false;             // the haptic device is disconnected
     std::vector<std::string> armHolds; // measured_arm.h
+    const CameraFacts* camera = nullptr;
+    CameraDesk* desk = nullptr; // with `camera`
+    DeviceFacts device = {};
 };
 
 void drawHeadLine(Console& console, const HudInput& input, ImVec2 at, ImVec2 size);

@@ -16,6 +16,10 @@ namespace {
 
 constexpr int kNiceness = 5; // lowers the window thread's priority below camera and contacts
 
+ButtonBits nativeButtons(const Scene& scene) {
+    return {kGuidanceButton, scene.hand.clutchBit, scene.arm ? scene.arm->grasp.button : 0};
+}
+
 HapticOptions softly(const Session& session) {
     HapticOptions options = makeHapticOptions(session.scene, session.tool);
     options.armTime = softStart(options.forceLimit);
@@ -33,9 +37,46 @@ LiveRun::LiveRun(const OperateOptions& options, Session& session, const StopSign
     , sink_(sink)
     , observers_(observers)
     , haptics_(softly(session))
-    , feed_(session) {}
+    , buttons_(nativeButtons(session.scene))
+    , feed_(session) {
+    if (session.liveHand) {
+        buttons_.load(buttonFile(session.scene.file));
+    }
+}
 
-HapticDevice& LiveRun::device() {
+DeviceFacts LiveRun::device() const {
+    return {session_.liveHand ? session_.liveHand->description() : "", hand_->there(), hand_->held(),
+            &buttons_};
+}
+
+void LiveRun::mapButtons(Console& console) {
+    const uint32_t pressed = hand_->takePressed() & ~kDeadManOpen;
+    releases_ = releases_ && (hand_->held() & ~kDeadManOpen) != 0;
+    hand_->capture(console.mapping || releases_);
+    if (!console.mapping || pressed == 0) {
+        return;
+    }
+    const ButtonUse use = *console.mapping;
+    console.mapping.reset();
+    releases_ = true;
+    const std::string fault = buttons_.choose(use, pressed);
+    if (!fault.empty()) {
+        console.notify(fault);
+        return;
+    }
+    hand_->choose(buttons_.chosen());
+    const auto file = buttonFile(session_.scene.file);
+    const std::string words =
+        std::string(buttonUseName(use)) + " is button " + std::to_string(buttonNumber(pressed));
+    try {
+        buttons_.save(file);
+        console.notify(words + ", saved to " + file.string());
+    } catch (const Error& e) {
+        console.notify(words + " until the end: " + e.what());
+    }
+}
+
+HapticDevice& LiveRun::driver() {
     if (session_.liveHand) {
         return *session_.liveHand;
     }
@@ -51,7 +92,8 @@ void LiveRun::makeHand(const std::vector<Shape>& shapes, const Pose& start, cons
     Pose raw = tool != nullptr ? start : path.waypoints().front().deviceThandle;
     pilot_ = std::make_unique<PilotHand>(raw);
     path_ = std::make_unique<PathHand>(path);
-    hand_ = std::make_unique<GatedHand>(device(), live);
+    hand_ = std::make_unique<GatedHand>(driver(), live, buttons_.native());
+    hand_->choose(buttons_.chosen());
     steering_ = std::make_unique<Steering>(raw, session_.scene.hand);
     raw = live != nullptr ? hand_->read(0.0).deviceThandle : raw;
     const bool anywhere = live != nullptr || (session_.arm && !options_.path); // the hand may start elsewhere

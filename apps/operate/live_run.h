@@ -4,6 +4,7 @@
 #pragma once
 
 #include "apps/binding/stop_signals.h"
+#include "apps/operate/device_panel.h"
 #include "apps/operate/operate_command.h"
 #include "apps/operate/pilot_hand.h"
 #include "apps/operate/run_thread.h"
@@ -35,6 +36,9 @@ public:
     // Moves the hand by this frame's keys and mouse; returns where the large view was clicked.
     std::optional<ImVec2> steer(Console& console, const ViewPort& large, double toolDepth);
     void apply(const Console& console); // forces, frozen fixtures, buttons
+    // Takes the device's button that is pressed for Console::mapping, and saves the mapping.
+    void mapButtons(Console& console);
+    DeviceFacts device() const;
     void forcesOff() { hand_->setForces(false); }
     void setShapes(const std::vector<Shape>& shapes);
 
@@ -46,7 +50,7 @@ public:
     const RealtimeRun& engine() const { return *engine_; }
 
 private:
-    HapticDevice& device(); // the device that drives the tool
+    HapticDevice& driver(); // the device that drives the tool
     void makeHand(const std::vector<Shape>& shapes, const Pose& start, const Pose* tool);
     void makeEngine(const std::vector<Shape>& shapes, const Pose& start, const Pose* tool);
     void forgetFrames();
@@ -59,6 +63,8 @@ private:
     RunSink& sink_;
     RunObserver& observers_;
     HapticOptions haptics_;
+    ButtonMap buttons_;
+    bool releases_ = false; // a button that was mapped is still down
     SessionFeed feed_;
     std::unique_ptr<RealtimeRun> engine_;
     std::unique_ptr<HapticCycle> cycle_;

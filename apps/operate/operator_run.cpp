@@ -102,7 +102,7 @@ void OperatorRun::run() {
 }
 
 void OperatorRun::writeState(bool now) {
-    display_.writeState(editor_, live_.haptics(), &measured_, live_.handThere(), now);
+    display_.writeState(editor_, live_.haptics(), &measured_, live_.device(), now);
 }
 
 void OperatorRun::frame() {
@@ -112,6 +112,7 @@ void OperatorRun::frame() {
     hud.driven = options_.path || session_.liveHand != nullptr;
     hud.arm = &measured_;
     hud.handGone = !live_.handThere();
+    hud.device = live_.device();
     hud.armHolds = armHolds(session_.arm.get(), record);
     const auto arm = armSpheres(session_.arm.get(), record.arm.posture);
     measured_ = measuredArm(session_.arm.get(), display_.view, arm);
@@ -138,6 +139,7 @@ void OperatorRun::listen() {
     offWhenMinimised();
     obeyRequests();
     arm();
+    live_.mapButtons(console);
     live_.apply(console);
     mark();
     recording_.follow(console, editor_);

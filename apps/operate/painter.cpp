@@ -128,7 +128,7 @@ bool Painter::yields(const std::function<bool()>& busy) {
 bool Painter::draw(VkExtent2D size, std::span<const Layer> layers, ImDrawData* data,
                    const std::function<bool()>& busy) {
     constexpr uint64_t kPatience = 20'000'000; // [ns]
-    if (!finished(kPatience) || yields(busy)) {
+    if (!finished(kPatience) || (!host_ && yields(busy))) {
         return false;
     }
     if (swapchain_ != nullptr) {

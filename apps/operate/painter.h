@@ -40,8 +40,9 @@ public:
 
     // Draws a frame of this size; later layers are on top. Returns false when the frame is skipped because
     // the previous one is not done or the surface has no image yet. `busy` returns whether compute passes run
-    // on a shared queue: the frame waits up to kCourtesy for them and is skipped if they still run. Where the
-    // CPU draws, a frame without changes is not drawn or shown again, but counts as drawn.
+    // on a shared queue: the device's drawing waits up to kCourtesy for them and is skipped if they still
+    // run. What the CPU draws needs only a copy and never waits; a frame without changes is not drawn or
+    // shown again, but counts as drawn.
     bool draw(VkExtent2D size, std::span<const Layer> layers, ImDrawData* data,
               const std::function<bool()>& busy);
     // Waits for the last frame and copies it. below: rows of pixels to add under it. Null: nothing was drawn

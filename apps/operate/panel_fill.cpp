@@ -17,7 +17,7 @@ Ink inkOf(ImU32 c) {
     return {(c & 0xffu) << 16 | (c >> 16 & 0xffu), c & 0xff00u, c >> 24};
 }
 
-uint32_t product(uint32_t a, uint32_t b) { // of two values 0..255 that stand for 0..1
+uint32_t product(uint32_t a, uint32_t b) { // of two shares of 255
     return (a * b + 127) / 255;
 }
 

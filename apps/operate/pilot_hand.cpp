@@ -40,9 +40,37 @@ HandSample PilotHand::read(double t) noexcept {
     return {now_, setpoint.buttons};
 }
 
+GatedHand::GatedHand(HapticDevice& hand, const LiveHand* live, const ButtonBits& native)
+    : hand_(hand)
+    , live_(live)
+    , native_(native) {
+    choose(native);
+}
+
+void GatedHand::choose(const ButtonBits& buttons) noexcept {
+    for (size_t i = 0; i < kButtonUses; ++i) {
+        chosen_[i].store(buttons[i], std::memory_order_relaxed);
+    }
+}
+
+uint32_t GatedHand::buttonsOf(uint32_t raw) noexcept {
+    const uint32_t before = held_.exchange(raw, std::memory_order_relaxed);
+    pressed_.fetch_or(raw & ~before, std::memory_order_relaxed);
+    ButtonBits chosen{};
+    for (size_t i = 0; i < kButtonUses; ++i) {
+        chosen[i] = chosen_[i].load(std::memory_order_relaxed);
+    }
+    return captures_.load(std::memory_order_relaxed) ? raw & kDeadManOpen : translated(raw, native_, chosen);
+}
+
+// The buttons of a hand that is gone are not the device's: they hold the clutch, whatever was chosen.
 HandSample GatedHand::read(double t) noexcept {
     HandSample sample = hand_.read(t);
-    there_.store(live_ == nullptr || live_->alive(), std::memory_order_relaxed);
+    const bool there = live_ == nullptr || live_->alive();
+    there_.store(there, std::memory_order_relaxed);
+    if (there && sample.present) {
+        sample.buttons = buttonsOf(sample.buttons);
+    }
     sample.buttons |= extra_.load(std::memory_order_relaxed);
     if (off_.load(std::memory_order_acquire)) {
         sample.buttons |= kDeadManOpen;

@@ -3,6 +3,7 @@
 // device.
 #pragma once
 
+#include "apps/operate/button_map.h"
 #include "devices/live_hand.h"
 #include "engine/types/pose.h"
 #include "engine/types/triple_buffer.h"
@@ -31,25 +32,35 @@ private:
     double before_ = 0.0;
 };
 
-// Opens the dead-man of any device while forces are off, and adds buttons to the device's own. Forces are off
-// at first. read() and write(): haptic thread; the rest: any thread.
+// Opens the dead-man of any device while forces are off, translates the device's buttons, and adds buttons to
+// them. Forces are off at first. read() and write(): haptic thread; the rest: any thread.
 class GatedHand final : public HapticDevice {
 public:
     // live: the same hand when it may disconnect; null = it is always connected.
-    GatedHand(HapticDevice& hand, const LiveHand* live)
-        : hand_(hand)
-        , live_(live) {}
+    // native: buttons that the engine expects; also the chosen ones at first.
+    GatedHand(HapticDevice& hand, const LiveHand* live, const ButtonBits& native);
 
     void setForces(bool on) noexcept { off_.store(!on, std::memory_order_release); }
     void press(uint32_t buttons) noexcept { extra_.store(buttons, std::memory_order_relaxed); }
+    void choose(const ButtonBits& buttons) noexcept;
+    // While on, buttons have no effect, so that one can be pressed to map it.
+    void capture(bool on) noexcept { captures_.store(on, std::memory_order_relaxed); }
+    uint32_t held() const noexcept { return held_.load(std::memory_order_relaxed); } // as the device has them
+    uint32_t takePressed() noexcept { return pressed_.exchange(0, std::memory_order_relaxed); }
     bool there() const noexcept { return there_.load(std::memory_order_relaxed); } // at the last tick
     HandSample read(double t) noexcept override;
     void write(const Wrench& wrench, double dt) noexcept override { hand_.write(wrench, dt); }
 
 private:
+    uint32_t buttonsOf(uint32_t raw) noexcept;
+
     HapticDevice& hand_;
     const LiveHand* live_;
     std::atomic<uint32_t> extra_{0};
+    const ButtonBits native_;
+    std::array<std::atomic<uint32_t>, kButtonUses> chosen_;
+    std::atomic<uint32_t> held_{0}, pressed_{0}; // down now; pressed since the last takePressed()
+    std::atomic<bool> captures_{false};
     std::atomic<bool> off_{true}, there_{true};
 };
 

@@ -104,7 +104,7 @@ void PlaybackRun::run() {
     while (!display_.wantsToEnd() && !signals_.asked().load()) {
         frame(display_.beginFrame());
     }
-    display_.writeState(editor_, haptics_, nullptr, true, true);
+    display_.writeState(editor_, haptics_, nullptr, {}, true);
 }
 
 void PlaybackRun::frame(double dt) {
@@ -119,7 +119,7 @@ void PlaybackRun::frame(double dt) {
         ImGui::EndFrame();
         lookForDevice();
     }
-    display_.writeState(editor_, haptics_, nullptr, true, false);
+    display_.writeState(editor_, haptics_, nullptr, {}, false);
 }
 
 void PlaybackRun::loseDevice(const std::string& why) {

@@ -32,6 +32,8 @@ RunDisplay::RunDisplay(const OperateOptions& options, Window& window, Session& s
     , options_(options)
     , window_(window)
     , session_(session)
+    , camera_{session.camera->description(), session.camera->delivered(), session.camera->live(), false}
+    , desk_(session.camera->controls())
     , pace_(session.cycles.device().facts().kind == DeviceKind::Cpu)
     , log_(options.state) {
     canvas.open(session.cycles.device());
@@ -67,7 +69,8 @@ bool RunDisplay::wantsToEnd() const {
     return console.quit || (options_.seconds > 0.0 && elapsed() >= options_.seconds);
 }
 
-HudInput RunDisplay::hud(const HapticOptions& haptics) const {
+HudInput RunDisplay::hud(const HapticOptions& haptics) {
+    camera_.stampsExposure = session_.camera->stampsExposure();
     return {.run = view,
             .scene = session_.scene,
             .haptics = haptics,
@@ -75,7 +78,9 @@ HudInput RunDisplay::hud(const HapticOptions& haptics) const {
             .letters = canvas.letters(),
             .title = session_.title(),
             .unknownShare = screen.unknownShare(),
-            .windowHz = windowHz_};
+            .windowHz = windowHz_,
+            .camera = &camera_,
+            .desk = &desk_};
 }
 
 void RunDisplay::draw(FixtureEditor& editor, const ScreenInput& input) {
@@ -87,6 +92,7 @@ void RunDisplay::draw(FixtureEditor& editor, const ScreenInput& input) {
             ? captionOf(
                   {{console, view, input.hud.haptics}, screen.cues(), editor.scene().pilot, options_.job})
             : std::vector<std::string>();
+    desk_.show(console.shownTab == Tab::Camera && (!console.pilotLayout || console.panelOpen));
     const auto& room = console.places["traces room"];
     if (room[3] <= 0.0f) {
         return; // not in the pilot's layout
@@ -108,9 +114,9 @@ void RunDisplay::exportTraces() {
 }
 
 void RunDisplay::writeState(const FixtureEditor& editor, const HapticOptions& haptics,
-                            const MeasuredArm* measured, bool handThere, bool now) {
-    log_.write({console, view, session_, window_, canvas, screen, alarms, editor, haptics, measured,
-                handThere, pace_.cost()},
+                            const MeasuredArm* measured, const DeviceFacts& device, bool now) {
+    log_.write({console, view, session_, window_, canvas, screen, alarms, editor, haptics, measured, device,
+                pace_.cost(), &camera_, &desk_},
                now);
 }
 

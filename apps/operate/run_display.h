@@ -26,13 +26,13 @@ struct RunDisplay {
     double elapsed() const;                           // [s] since begin()
     double frameCost() const { return pace_.cost(); } // [s] of CPU time of the window's thread
 
-    HudInput hud(const HapticOptions& haptics) const; // the parts that are the same for every run
+    HudInput hud(const HapticOptions& haptics); // the parts that are the same for every run
     void draw(FixtureEditor& editor, const ScreenInput& input);
     void exportTraces(); // if requested: traces.csv in the folder of the options
 
     // Writes the state file. measured: null = no real arm.
     void writeState(const FixtureEditor& editor, const HapticOptions& haptics, const MeasuredArm* measured,
-                    bool handThere, bool now);
+                    const DeviceFacts& device, bool now);
 
     Console console;
     Canvas canvas;
@@ -45,6 +45,8 @@ private:
     Window& window_;
     Session& session_;
     TracesPanel traces_;
+    CameraFacts camera_;
+    CameraDesk desk_;
     FramePace pace_;
     StateLog log_;
     double started_ = 0.0, lastFrame_ = 0.0; // [s] of the steady clock

@@ -65,6 +65,8 @@ void RunView::rewind() {
     trace_.clear();
     ripple_.clear();
     images_.clear();
+    delays_.clear();
+    usedFrame_ = -1;
     blocks_.clear();
     micros_.clear();
     wokenLate_.clear();
@@ -90,7 +92,31 @@ void RunView::take(const TickRow& row) {
     while (r.t - trace_.front().t > kSpan) {
         trace_.pop_front();
     }
+    noteDelay(r);
     noteBlocks(row);
+}
+
+void RunView::noteDelay(const StepRecord& r) {
+    constexpr double kSpanOfDelays = 1.0; // [s]
+    if (r.frame > usedFrame_ && std::isfinite(r.sceneAge)) {
+        delays_.emplace_back(r.t, r.sceneAge);
+    }
+    usedFrame_ = r.frame;
+    while (!delays_.empty() && r.t - delays_.front().first > kSpanOfDelays) {
+        delays_.pop_front();
+    }
+}
+
+FrameDelay RunView::delay() const {
+    if (delays_.empty()) {
+        return {};
+    }
+    std::vector<double> ages;
+    for (const auto& [t, age] : delays_) {
+        ages.push_back(age);
+    }
+    std::sort(ages.begin(), ages.end());
+    return {ages[ages.size() / 2], ages.back()};
 }
 
 void RunView::noteBlocks(const TickRow& row) {

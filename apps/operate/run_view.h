@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <deque>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace fathom::operate {
@@ -39,6 +40,11 @@ Peaks peaksOf(const std::deque<TraceSample>& trace);
 
 struct Rates { // over the last second
     double hapticHz = 0.0, worstPeriodMs = 0.0, cameraHz = 0.0;
+};
+
+// Age of a frame at the first tick that used it, over the last second [s]; NaN = no frame.
+struct FrameDelay {
+    double median = kNotKnown, worst = kNotKnown;
 };
 
 // A block: a contact that keeps the tool from following the hand over consecutive ticks.
@@ -85,6 +91,7 @@ public:
         return blocks_;
     } // newest first; one per kind, fixture and leaf
     Rates rates() const;
+    FrameDelay delay() const;
     // Of the last million ticks, unordered.
     const std::vector<float>& stepMicros() const { return micros_; }
     const std::vector<float>& wokenLateMicros() const { return wokenLate_; } // also of the last million ticks
@@ -92,6 +99,7 @@ public:
     const std::vector<double>& passMs() const { return passMs_; } // of the last frame that was processed
 
 private:
+    void noteDelay(const StepRecord& record);
     void noteBlocks(const TickRow& row);
 
     SnapshotSink& sink_;
@@ -100,7 +108,9 @@ private:
     uint64_t ticks_ = 0, late_ = 0;
     std::deque<TraceSample> trace_;
     FrameRipple ripple_;
-    std::deque<double> images_; // [s] capture times of the last second
+    std::deque<double> images_;                    // [s] capture times of the last second
+    std::deque<std::pair<double, double>> delays_; // time of the tick and age of its new frame [s]
+    int64_t usedFrame_ = -1;                       // of the newest tick
     std::deque<Block> blocks_;
     std::vector<float> micros_, wokenLate_;
     std::vector<double> passMs_;

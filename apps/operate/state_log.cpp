@@ -33,6 +33,22 @@ json marksOf(const TimeLine& line) {
     return times;
 }
 
+json orbitOf(const Orbit& orbit) {
+    return {{"yaw", orbit.yaw}, {"pitch", orbit.pitch}, {"distance", orbit.distance}};
+}
+
+json timeLineOf(const TimeLine& line) {
+    return {{"on", line.on},
+            {"t", line.t},
+            {"duration", line.duration},
+            {"picture", line.image},
+            {"pictures", line.images},
+            {"playing", line.playing},
+            {"marks", marksOf(line)},
+            {"speed", line.speed},
+            {"whole_memory", line.wholeMemory}};
+}
+
 json consoleOf(const Console& c) {
     return {{"forces", c.forces},
             {"guidance", c.guidance},
@@ -54,7 +70,7 @@ json consoleOf(const Console& c) {
             {"layout", c.pilotLayout ? "pilot" : "engineer"},
             {"panel_open", c.panelOpen},
             {"tab", static_cast<int>(c.shownTab)},
-            {"orbit", {{"yaw", c.orbit.yaw}, {"pitch", c.orbit.pitch}, {"distance", c.orbit.distance}}},
+            {"orbit", orbitOf(c.orbit)},
             {"cursor", c.cursor ? json{c.cursor->x, c.cursor->y} : json(nullptr)},
             {"picking", c.pick.active},
             {"picked", c.pick.taken},
@@ -74,16 +90,7 @@ json consoleOf(const Console& c) {
             {"tooltip", c.tooltip},
             {"shots", c.shots},
             {"asks_to_close", c.closing == Closing::Asks},
-            {"time_line",
-             {{"on", c.timeLine.on},
-              {"t", c.timeLine.t},
-              {"duration", c.timeLine.duration},
-              {"picture", c.timeLine.image},
-              {"pictures", c.timeLine.images},
-              {"playing", c.timeLine.playing},
-              {"marks", marksOf(c.timeLine)},
-              {"speed", c.timeLine.speed},
-              {"whole_memory", c.timeLine.wholeMemory}}},
+            {"time_line", timeLineOf(c.timeLine)},
             {"places", c.places}};
 }
 
@@ -156,8 +163,21 @@ json windowOf(const ShownState& s) {
         {"validation", gpu::validationMessages()}, {"tiles", counts.tiles},  {"cpu_ms", 1e3 * s.frameCost}};
 }
 
+json buttonsOf(const ButtonMap& map) {
+    json bits = json::object();
+    for (size_t i = 0; i < kButtonUses; ++i) {
+        bits[buttonUseName(static_cast<ButtonUse>(i))] = map.chosen()[i];
+    }
+    return bits;
+}
+
 json handOf(const ShownState& s) {
-    return s.session.liveHand ? json{{"name", s.session.liveHand->description()}, {"there", s.handThere}}
+    return s.session.liveHand ? json{{"name", s.session.liveHand->description()},
+                                     {"there", s.device.there},
+                                     {"held", s.device.held},
+                                     {"buttons", buttonsOf(*s.device.buttons)},
+                                     {"mapping", s.console.mapping ? json(buttonUseName(*s.console.mapping))
+                                                                   : json(nullptr)}}
                               : json(nullptr);
 }
 
@@ -216,6 +236,26 @@ json alarmsOverOf(const Alarms& alarms) {
     return lines;
 }
 
+json cameraOf(const ShownState& s) {
+    json streams = json::array(), controls = json::array();
+    for (const CameraStream& c : s.camera->streams) {
+        streams.push_back({{"name", c.name},
+                           {"width", c.width},
+                           {"height", c.height},
+                           {"rate", c.rate},
+                           {"format", c.format}});
+    }
+    for (const CameraControl& c : s.desk->answer().controls) {
+        controls.push_back({{"stream", c.stream}, {"name", c.name}, {"value", c.value}, {"fixed", c.fixed}});
+    }
+    const FrameDelay delay = s.view.delay();
+    return {{"streams", streams},
+            {"controls", controls},
+            {"no_controls", whyNoControls(*s.camera, *s.desk)},
+            {"delay_s", known(delay.median)},
+            {"worst_delay_s", known(delay.worst)}};
+}
+
 std::string whyOf(const ShownState& s) {
     return s.view.blocks().empty()
                ? ""
@@ -267,7 +307,8 @@ void StateLog::write(const ShownState& s, bool now) {
                          {"stiffness", s.haptics.springs.stiffness},
                          {"force_limit", s.haptics.forceLimit}}},
                        {"hovered", s.console.hovered},
-                       {"figures", figuresOf(s)}};
+                       {"figures", figuresOf(s)},
+                       {"camera", cameraOf(s)}};
     out_ << line.dump(-1, ' ', false, json::error_handler_t::replace) << "\n" << std::flush;
     if (!out_) {
         throw Error(name_ + ": cannot be written");

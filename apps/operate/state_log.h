@@ -27,8 +27,10 @@ struct ShownState {
     const FixtureEditor& editor;
     const HapticOptions& haptics;
     const MeasuredArm* measured = nullptr; // null = no real arm
-    bool handThere = true;                 // the live hand is connected
-    double frameCost = 0.0;                // [s] CPU time of a window frame
+    const DeviceFacts& device;
+    double frameCost = 0.0; // [s] CPU time of a window frame
+    const CameraFacts* camera = nullptr;
+    const CameraDesk* desk = nullptr;
 };
 
 class StateLog {

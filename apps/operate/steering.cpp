@@ -22,6 +22,17 @@ bool pressed(int key) {
     return keyPressed(key);
 }
 
+// Function keys that open a tab, and close it in the pilot's layout.
+void openTabs(Console& console) {
+    for (const auto& [key, tab] : {std::pair(GLFW_KEY_F1, Tab::Help), std::pair(GLFW_KEY_F3, Tab::Camera),
+                                   std::pair(GLFW_KEY_F4, Tab::Device)}) {
+        if (pressed(key)) {
+            console.panelOpen = !console.panelOpen || console.shownTab != tab;
+            console.tab = tab;
+        }
+    }
+}
+
 } // namespace
 
 std::span<const KeyHelp> keyHelp() {
@@ -58,6 +69,8 @@ std::span<const KeyHelp> keyHelp() {
         KeyHelp{"Ctrl +, Ctrl -", "larger or smaller text"},
         KeyHelp{"F1", "this list"},
         KeyHelp{"F2", "pilot's layout: large views; engineer's layout: figures and traces"},
+        KeyHelp{"F3", "camera: streams, delay, exposure, gain, laser"},
+        KeyHelp{"F4", "device: what its buttons do; press one to map it"},
         KeyHelp{"Esc", "close a card, a panel or a pick"},
         KeyHelp{"D, Enter, Esc", "answer the question when the window closes"},
     };
@@ -97,6 +110,7 @@ void Steering::keys(Console& console) {
     }
     if (pressed(GLFW_KEY_ESCAPE)) {
         console.refusal.clear();
+        console.mapping.reset();
         console.panelOpen = false;
     }
     if (pressed(GLFW_KEY_T)) {
@@ -206,10 +220,7 @@ std::optional<ImVec2> Steering::step(Console& console, const ViewPort& large, do
     if (!io.WantTextInput && !io.KeyCtrl) {
         keys(console);
     }
-    if (pressed(GLFW_KEY_F1)) {
-        console.panelOpen = !console.panelOpen || console.shownTab != Tab::Help;
-        console.tab = Tab::Help;
-    }
+    openTabs(console);
     if (pressed(GLFW_KEY_F2)) {
         console.pilotLayout = !console.pilotLayout;
         console.panelOpen = false;

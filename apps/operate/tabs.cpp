@@ -18,6 +18,55 @@ void drawKeys(const Console& console) {
     }
 }
 
+// Grey: there is nothing to set.
+bool isGrey(Tab tab, const HudInput& hud) {
+    return (tab == Tab::Camera &&
+            (hud.camera == nullptr || !whyNoControls(*hud.camera, *hud.desk).empty())) ||
+           (tab == Tab::Device && hud.device.description.empty());
+}
+
+void drawContent(Console& console, FixtureEditor& editor, Alarms& alarms, const TabsInput& input, Tab tab) {
+    ImGui::BeginChild("inside", ImVec2(0.0f, 0.0f), false, ImGuiWindowFlags_NavFlattened);
+    if (tab == Tab::Fixtures) {
+        drawFixtures(console, editor, input.run.scene());
+    } else if (tab == Tab::Why) {
+        drawWhy(input.run, editor.scene(), input.hud.armHolds);
+    } else if (tab == Tab::Alarms) {
+        drawAlarms(console, alarms);
+    } else if (tab == Tab::Camera && input.hud.camera != nullptr) {
+        drawCamera(console, *input.hud.camera, input.run, *input.hud.desk, input.hud.letters);
+    } else if (tab == Tab::Device) {
+        drawDevice(console, input.hud.device, input.hud.letters);
+    } else if (tab == Tab::Help) {
+        drawKeys(console);
+    }
+    ImGui::EndChild();
+}
+
+// The tab itself; true when it is open.
+bool beginTab(Console& console, const Alarms& alarms, const HudInput& hud, Tab tab, bool wanted) {
+    constexpr const char* kNames[] = {"Fixtures", "Why?", "Alarms", "Keys", "Camera", "Device"};
+    constexpr const char* kTips[] = {
+        "K, or F6 and arrows: fixtures, shapes, pilots", "W: why did the tool stop?",
+        "What is wrong, what to do, and what is over",   "F1: all keys",
+        "F3: streams, delay, exposure, gain, laser",     "F4: what the buttons of the haptic device do"};
+    const Alarm* worst = alarms.worst();
+    const bool grey = isGrey(tab, hud), calls = tab == Tab::Alarms && worst != nullptr;
+    const std::string plain = kNames[static_cast<int>(tab)];
+    const std::string name =
+        plain + (calls ? std::string(" ") + levelSign(worst->level) : std::string()) + "###" + plain;
+    if (calls || grey) {
+        ImGui::PushStyleColor(ImGuiCol_Text, grey ? colour::kQuiet : levelColour(worst->level));
+    }
+    const bool open = ImGui::BeginTabItem(name.c_str(), nullptr, wanted ? ImGuiTabItemFlags_SetSelected : 0);
+    markPlace(console, "tab " + plain);
+    explain(console, kTips[static_cast<int>(tab)]);
+    if (calls || grey) {
+        ImGui::PopStyleColor();
+    }
+    return open;
+}
+
 } // namespace
 
 void drawTabs(Console& console, FixtureEditor& editor, Alarms& alarms, const TabsInput& input,
@@ -25,45 +74,15 @@ void drawTabs(Console& console, FixtureEditor& editor, Alarms& alarms, const Tab
     ImGui::SetNextWindowPos(cornerOf(room));
     ImGui::SetNextWindowSize(sizeOf(room));
     ImGui::Begin("panels", nullptr, kPanel);
-    constexpr const char* kNames[] = {"Fixtures", "Why?", "Alarms", "Keys"};
-    constexpr const char* kTips[] = {"K, or F6 and arrows: fixtures, shapes, pilots",
-                                     "W: why did the tool stop?",
-                                     "What is wrong, what to do, and what is over", "F1: all keys"};
     if (ImGui::BeginTabBar("tabs")) {
-        for (Tab tab : {Tab::Fixtures, Tab::Why, Tab::Alarms, Tab::Help}) {
+        for (Tab tab : {Tab::Fixtures, Tab::Why, Tab::Alarms, Tab::Camera, Tab::Device, Tab::Help}) {
             const bool wanted = console.tab == tab && console.shownTab != tab;
-            const Alarm* worst = alarms.worst();
-            const bool calls = tab == Tab::Alarms && worst != nullptr;
-            const std::string name = std::string(kNames[static_cast<int>(tab)]) +
-                                     (calls ? std::string(" ") + levelSign(worst->level) : "") + "###" +
-                                     kNames[static_cast<int>(tab)];
-            if (calls) {
-                ImGui::PushStyleColor(ImGuiCol_Text, levelColour(worst->level));
+            if (beginTab(console, alarms, input.hud, tab, wanted)) {
+                console.tab = wanted || console.tab == console.shownTab ? tab : console.tab;
+                console.shownTab = tab;
+                drawContent(console, editor, alarms, input, tab);
+                ImGui::EndTabItem();
             }
-            const bool open =
-                ImGui::BeginTabItem(name.c_str(), nullptr, wanted ? ImGuiTabItemFlags_SetSelected : 0);
-            markPlace(console, std::string("tab ") + kNames[static_cast<int>(tab)]);
-            explain(console, kTips[static_cast<int>(tab)]);
-            if (calls) {
-                ImGui::PopStyleColor();
-            }
-            if (!open) {
-                continue;
-            }
-            console.tab = wanted || console.tab == console.shownTab ? tab : console.tab;
-            console.shownTab = tab;
-            ImGui::BeginChild("inside", ImVec2(0.0f, 0.0f), false, ImGuiWindowFlags_NavFlattened);
-            if (tab == Tab::Fixtures) {
-                drawFixtures(console, editor, input.run.scene());
-            } else if (tab == Tab::Why) {
-                drawWhy(input.run, editor.scene(), input.hud.armHolds);
-            } else if (tab == Tab::Alarms) {
-                drawAlarms(console, alarms);
-            } else {
-                drawKeys(console);
-            }
-            ImGui::EndChild();
-            ImGui::EndTabItem();
         }
         ImGui::EndTabBar();
     }

@@ -38,7 +38,8 @@ SeenLayers seenLayers(const ImageView& view, const OverlayInput& input) {
     if (input.set != nullptr && input.set->frame >= 0) {
         const Fixtures& set = *input.set;
         const RegionMasks masks = regionMasks(view, set);
-        seen.held = masks.anyHeld;
+        constexpr std::ptrdiff_t kLeastHeld = 100; // [pixels]
+        seen.held = std::count(masks.held.begin(), masks.held.end(), 1) >= kLeastHeld;
         seen.regions = std::find(masks.seen.begin(), masks.seen.end(), 1) != masks.seen.end();
         for (size_t i = 0; i < set.spheres.size() && !seen.points; ++i) {
             seen.points = isInside(view, view.ofBase(regionCentre(set, i)));

@@ -11,7 +11,8 @@ RepeatedCamera::RepeatedCamera(std::function<std::unique_ptr<Camera>()> open)
     : open_(std::move(open))
     , source_(open_())
     , info_(source_->info())
-    , description_(source_->description()) {}
+    , description_(source_->description())
+    , controls_(source_->controls()) {}
 
 std::optional<Frame> RepeatedCamera::next() {
     std::optional<Frame> frame = source_->next();
@@ -28,6 +29,7 @@ std::optional<Frame> RepeatedCamera::next() {
     if (!frame) {
         return frame;
     }
+    stampsExposure_.store(source_->stampsExposure());
     Frame::Content content = **frame;
     content.index += offset_;
     content.sourceNumber += offset_;

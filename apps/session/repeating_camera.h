@@ -25,6 +25,9 @@ public:
     std::vector<std::string> warnings() const override { return source_->warnings(); }
     bool live() const override { return source_->live(); }
     uint64_t lost() const override { return source_->lost(); }
+    std::shared_ptr<CameraControls> controls() const override { return controls_; }
+    std::vector<CameraStream> delivered() const override { return source_->delivered(); }
+    bool stampsExposure() const override { return stampsExposure_.load(); }
     std::string description() const override { return description_; }
 
 private:
@@ -32,6 +35,8 @@ private:
     std::unique_ptr<Camera> source_;
     CameraInfo info_; // of the first source; constant, because other threads read it
     std::string description_;
+    std::shared_ptr<CameraControls> controls_;   // of a live source, which does not end
+    std::atomic<bool> stampsExposure_{false};    // of the newest frame
     std::vector<std::unique_ptr<Camera>> ended_; // kept while frames still lease their memory
     uint32_t skipped_ = 0, offset_ = 0, next_ = 0;
 };

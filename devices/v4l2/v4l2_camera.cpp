@@ -45,10 +45,32 @@ V4l2Camera::V4l2Camera(const CameraRequest& request)
     slots_ = std::make_unique<FrameSlots>(std::max(info_.depth.pixels(), info_.colour.pixels()),
                                           info_.hasColour, kFramesInFlight + 1);
     streams_ = std::make_unique<Streams>(std::move(nodes), depthRequest_, colourRequest_);
+    controls_ = std::make_shared<V4l2Controls>(controlNodes());
     open();
 }
 
 V4l2Camera::~V4l2Camera() = default;
+
+std::vector<V4l2Controls::Node> V4l2Camera::controlNodes() const {
+    std::vector<V4l2Controls::Node> nodes{{"depth", streams_->depth.node().file()}};
+    if (streams_->colour) {
+        nodes.push_back({"colour", streams_->colour->node().file()});
+    }
+    return nodes;
+}
+
+std::vector<CameraStream> V4l2Camera::delivered() const {
+    std::vector<CameraStream> all;
+    const auto add = [&](const char* name, const CaptureStream& stream) {
+        const StreamRequest& r = stream.request();
+        all.push_back({name, r.size.width, r.size.height, 1.0 / stream.period(), fourccName(r.fourcc)});
+    };
+    add("depth", streams_->depth);
+    if (streams_->colour) {
+        add("colour", *streams_->colour);
+    }
+    return all;
+}
 
 void V4l2Camera::open() {
     pairing_ = FramePairing(streams_->colour ? streams_->colour->period() : 0.0);
@@ -76,6 +98,7 @@ void V4l2Camera::reopen() {
     } catch (const BadInput& e) {
         throw DeviceLost(e.what());
     }
+    controls_->moveTo(controlNodes());
     open();
 }
 

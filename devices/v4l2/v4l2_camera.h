@@ -6,7 +6,9 @@
 #include "devices/frame_slots.h"
 #include "devices/v4l2/choose_nodes.h"
 #include "devices/v4l2/frame_pairing.h"
+#include "devices/v4l2/v4l2_controls.h"
 
+#include <atomic>
 #include <chrono>
 #include <memory>
 #include <vector>
@@ -41,6 +43,9 @@ public:
     uint64_t lost() const override;
     uint64_t lostColour() const; // gaps in the driver's counter of colour
     std::optional<double> framePeriod() const override { return depthPeriod_; }
+    std::shared_ptr<CameraControls> controls() const override { return controls_; }
+    std::vector<CameraStream> delivered() const override;
+    bool stampsExposure() const override { return exposuresTold_.load() > 0; }
 
     uint64_t copied() const { return copied_; }     // frames whose depth was not leased in place
     uint64_t restarts() const { return restarts_; } // restarts of silent streams
@@ -59,6 +64,7 @@ private:
     };
 
     void open();
+    std::vector<V4l2Controls::Node> controlNodes() const;
     void reopen();
     void close();
     void gather();
@@ -87,8 +93,9 @@ private:
     Watch depthWatch_, colourWatch_;
     double depthPeriod_ = 0.0, lastStamp_ = 0.0, lastCapture_ = 0.0;
     uint32_t delivered_ = 0, skipped_ = 0;
-    uint64_t overtaken_ = 0, copied_ = 0, restarts_ = 0, exposuresTold_ = 0, missingBefore_ = 0,
-             missingColourBefore_ = 0;
+    uint64_t overtaken_ = 0, copied_ = 0, restarts_ = 0, missingBefore_ = 0, missingColourBefore_ = 0;
+    std::atomic<uint64_t> exposuresTold_{0};
+    std::shared_ptr<V4l2Controls> controls_;
 };
 
 } // namespace fathom

@@ -48,7 +48,10 @@ void LaidScreen::draw(int frames) {
                  .haptics = run.haptics,
                  .passNames = passes,
                  .letters = letters,
-                 .title = "a recording with a rather long name, somewhere on this disk"};
+                 .title = "a recording with a rather long name, somewhere on this disk",
+                 .camera = camera,
+                 .desk = desk,
+                 .device = {"a haptic device with a long name on a socket", true, 5, &buttons}};
     for (int i = 0; i < frames; ++i) {
         ImGui::NewFrame();
         screen.draw(run.console, editor, run.alarms, {run.view, tool, hud, i == 0, {}, measured});
@@ -69,6 +72,13 @@ const std::vector<LaidCase>& laidCases() {
         {"why", [](Console& c) { c.tab = Tab::Why; }},
         {"alarms", [](Console& c) { c.tab = Tab::Alarms; }},
         {"keys", [](Console& c) { c.tab = Tab::Help; }},
+        {"camera", [](Console& c) { c.tab = Tab::Camera; }},
+        {"device", [](Console& c) { c.tab = Tab::Device; }},
+        {"mapping",
+         [](Console& c) {
+             c.tab = Tab::Device;
+             c.mapping = ButtonUse::Clutch;
+         }},
         {"3D", [](Console& c) { c.spaceIsLarge = true; }},
         {"armed, recording, guidance",
          [](Console& c) {

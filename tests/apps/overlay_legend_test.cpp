@@ -18,7 +18,7 @@ TEST_CASE("The legend of an overlay names only what is inside the image") {
     set.frame = 0;
     set.camera = input.camera;
     set.spheres.resize(1);
-    set.spheres.x = {2.0f}, set.spheres.y = {0.0f}, set.spheres.z = {0.6f}; // beside the image
+    set.spheres.x = {2.0f}, set.spheres.y = {0.0f}, set.spheres.z = {0.6f}; // outside of the image
     set.spheres.radius = {0.04f};
     set.guidance.resize(1);
     set.guidance[0].present = true;

@@ -20,6 +20,7 @@ struct PlayedDevice {
                 server.poll();
                 HandSample sample;
                 sample.deviceThandle.position.z = z;
+                sample.buttons = buttons;
                 server.send(sample, FATHOM_DOOR_PRESENT | FATHOM_DOOR_HOMED);
                 const double felt = server.wrench().force.z;
                 lettings += fz < -1e-3 && felt == 0.0 ? 1 : 0;
@@ -68,6 +69,7 @@ struct PlayedDevice {
     bool hopeless() const { return lettings > 20; }
 
     std::atomic<double> z{0.0}, fz{0.0}, strongest{0.0};
+    std::atomic<uint32_t> buttons{0}; // down
     std::atomic<int> lettings{0}; // times that the force went to zero, as when the engine loses the device
     std::atomic<bool> stop{false}, silent{true};
     SocketServer server;

@@ -119,3 +119,42 @@ TEST_CASE("A missing haptic device, or one given with a recording, is rejected i
         CHECK_MESSAGE(run.errorLines()[0].find(words) != std::string::npos, run.errorLines()[0]);
     }
 }
+
+TEST_CASE("A button is mapped by pressing it, is saved next to the scene, and a button in use is refused") {
+    WindowRig rig;
+    const auto endpoint = rig.folder() / "hand.door";
+    PlayedDevice device(endpoint);
+    rig.reopen(rig.folder() / "scene.yaml", {"--hand-device", endpoint.string()});
+    rig.key("F4");
+    REQUIRE(rig.await([](const json& s) { return s["console"]["places"].contains("map guidance"); }));
+    CHECK(rig.state()["hand"]["buttons"]["guidance"] == 1);
+    const auto press = [&](const char* use, uint32_t bit) {
+        rig.click(std::string("map ") + use);
+        REQUIRE(rig.await([&](const json& s) { return s["hand"]["mapping"] == use; }));
+        device.buttons = bit;
+        REQUIRE(rig.await([](const json& s) { return s["hand"]["mapping"].is_null(); }));
+        CHECK(rig.state()["run"]["guidance_w"] == 0.0); // it does nothing while it is mapped
+        device.buttons = 0;
+        REQUIRE(rig.await([](const json& s) { return s["hand"]["held"] == 0; }));
+    };
+    press("guidance", 16);
+    REQUIRE(rig.awaitNotice("guidance is button 5, saved to"));
+    CHECK(rig.state()["hand"]["buttons"]["guidance"] == 16);
+    press("clutch", 16);
+    REQUIRE(rig.awaitNotice("button 5 is guidance already"));
+    CHECK(rig.state()["hand"]["buttons"]["clutch"] == 4);
+    rig.shoot("device-tab");
+    rig.key("a");
+    REQUIRE(rig.await([](const json& s) { return s["mode"] == "ARMED"; }));
+    device.buttons = 1; // the old button of guidance
+    REQUIRE(rig.await([](const json& s) { return s["hand"]["held"] == 1; }));
+    const auto ticks = rig.state()["run"]["turns"].get<int>();
+    REQUIRE(rig.await([&](const json& s) { return s["run"]["turns"] > ticks + 200; }));
+    CHECK(rig.state()["run"]["guidance_w"] == 0.0);
+    device.buttons = 16;
+    CHECK(rig.await([](const json& s) { return s["run"]["guidance_w"] > 0.0; }));
+    device.buttons = 0;
+    rig.reopen(rig.folder() / "scene.yaml", {"--hand-device", endpoint.string()});
+    CHECK(rig.state()["hand"]["buttons"]["guidance"] == 16);
+    closeQuietly(rig);
+}

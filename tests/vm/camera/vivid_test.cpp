@@ -86,6 +86,34 @@ TEST_CASE("Colour of three bytes per pixel is read in either order, with depth f
     }
 }
 
+TEST_CASE("Gain is set through the kernel once its automatic is off, and what the driver lacks says so") {
+    const Vivid vivid;
+    V4l2Controls controls(std::vector<V4l2Controls::Node>{{"depth", "/dev/video0"}});
+    const auto named = [&](const std::string& name) {
+        for (const CameraControl& control : controls.read()) {
+            if (control.name == name) {
+                return control;
+            }
+        }
+        FAIL("no control " << name);
+        return CameraControl();
+    };
+    REQUIRE(controls.set(named("auto gain"), 1).empty());
+    CHECK(named("auto gain").isSwitch);
+    REQUIRE(controls.set(named("auto gain"), 0).empty());
+    CHECK(named("auto gain").value == 0);
+    const CameraControl gain = named("gain");
+    REQUIRE(gain.fixed.empty());
+    REQUIRE(gain.most > gain.least + 10);
+    REQUIRE(controls.set(gain, gain.least + 7).empty());
+    CHECK(named("gain").value == gain.least + 7);
+    CHECK(named("exposure").fixed == "not offered by the camera's driver");
+    CHECK(named("laser or emitter").fixed == "not offered by the camera's driver");
+    controls.moveTo({{"depth", "/dev/video99"}}); // unplugged
+    CHECK(controls.read().empty());
+    CHECK(controls.set(gain, 1).find("/dev/video99") != std::string::npos);
+}
+
 TEST_CASE("A stream that ends in a fatal error is restarted; a device reported as disconnected is lost") {
     const Vivid vivid;
     const IntrinsicsFile lens(640, 360);

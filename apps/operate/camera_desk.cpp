@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/operate/camera_desk.h"
+
+#include <chrono>
+
+namespace fathom::operate {
+
+CameraDesk::CameraDesk(std::shared_ptr<CameraControls> controls)
+    : controls_(std::move(controls)) {
+    if (controls_) {
+        thread_ = std::thread([this] { serve(); });
+    }
+}
+
+CameraDesk::~CameraDesk() {
+    {
+        const std::lock_guard lock(mutex_);
+        ends_ = true;
+    }
+    news_.notify_one();
+    if (thread_.joinable()) {
+        thread_.join();
+    }
+}
+
+void CameraDesk::show(bool shown) {
+    {
+        const std::lock_guard lock(mutex_);
+        if (shown == shown_) {
+            return;
+        }
+        shown_ = shown;
+        answer_.known = answer_.known && shown;
+    }
+    news_.notify_one();
+}
+
+void CameraDesk::ask(const CameraControl& control, int64_t value) {
+    {
+        const std::lock_guard lock(mutex_);
+        wanted_.emplace(control, value);
+    }
+    news_.notify_one();
+}
+
+CameraDesk::Answer CameraDesk::answer() const {
+    const std::lock_guard lock(mutex_);
+    return answer_;
+}
+
+void CameraDesk::serve() {
+    constexpr auto kPeriod = std::chrono::seconds(1);
+    std::unique_lock lock(mutex_);
+    while (!ends_) {
+        const auto wanted = std::exchange(wanted_, std::nullopt);
+        const bool reads = shown_ || wanted;
+        lock.unlock();
+        const std::string fault = wanted ? controls_->set(wanted->first, wanted->second) : "";
+        std::vector<CameraControl> controls = reads ? controls_->read() : std::vector<CameraControl>();
+        lock.lock();
+        if (wanted) {
+            answer_.fault = fault;
+        }
+        if (reads) {
+            answer_.controls = std::move(controls);
+            answer_.known = shown_;
+        }
+        const auto called = [&] { return ends_ || wanted_ || (shown_ && !answer_.known); };
+        if (shown_) {
+            news_.wait_for(lock, kPeriod, called);
+        } else {
+            news_.wait(lock, called);
+        }
+    }
+}
+
+} // namespace fathom::operate

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reads and sets the controls of a live camera in a thread of its own, because a camera answers in
+// milliseconds.
+#pragma once
+
+#include "devices/camera_controls.h"
+
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace fathom::operate {
+
+// Window thread; no call waits for the camera.
+class CameraDesk {
+public:
+    // controls null: the source has none.
+    explicit CameraDesk(std::shared_ptr<CameraControls> controls);
+    ~CameraDesk();
+    CameraDesk(const CameraDesk&) = delete;
+    CameraDesk& operator=(const CameraDesk&) = delete;
+
+    bool any() const { return controls_ != nullptr; }
+    void show(bool shown);                                 // reads the controls once per second while shown
+    void ask(const CameraControl& control, int64_t value); // the newest request counts
+
+    struct Answer {
+        bool known = false;                  // it was read since it is shown
+        std::vector<CameraControl> controls; // empty: the camera is disconnected
+        std::string fault;                   // of the last request; empty = none
+    };
+    Answer answer() const;
+
+private:
+    void serve();
+
+    std::shared_ptr<CameraControls> controls_;
+    mutable std::mutex mutex_;
+    std::condition_variable news_;
+    bool shown_ = false, ends_ = false;
+    std::optional<std::pair<CameraControl, int64_t>> wanted_;
+    Answer answer_;
+    std::thread thread_;
+};
+
+} // namespace fathom::operate

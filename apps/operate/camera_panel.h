@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// The tab of the camera: streams, delay from exposure to force, controls.
+#pragma once
+
+#include "apps/operate/camera_desk.h"
+#include "apps/operate/console.h"
+#include "apps/operate/run_view.h"
+#include "apps/operate/theme.h"
+
+#include <string>
+#include <vector>
+
+namespace fathom::operate {
+
+// The camera of a run.
+struct CameraFacts {
+    std::string description;
+    std::vector<CameraStream> streams;
+    bool live = false;
+    bool stampsExposure = false; // the delay begins at the start of exposure
+};
+
+// Sets controls through the desk.
+void drawCamera(Console& console, const CameraFacts& camera, const RunView& run, CameraDesk& desk,
+                const Letters& letters);
+
+// Why there is nothing to set; empty = there is.
+std::string whyNoControls(const CameraFacts& camera, const CameraDesk& desk);
+
+} // namespace fathom::operate
