@@ -91,6 +91,7 @@ struct Console {
     double monitorScale = 1.0;                       // of the monitor (monitor_scale.h)
     double drawnScale = 1.0; // the product, or less where the window has no room (layout.h)
     float scale() const { return static_cast<float>(drawnScale); }
+    bool fullScreen = false;  // F11
     bool pilotLayout = false; // the pilot's layout (F2), otherwise the engineer's
     bool panelOpen = false;   // in the pilot's layout: the tabs are over the right column
     Tab tab = Tab::Fixtures, shownTab = Tab::Help;

@@ -7,8 +7,6 @@
 
 namespace fathom::operate {
 
-namespace {
-
 GLFWmonitor* monitorWith(GLFWwindow* window) {
     int count = 0, x = 0, y = 0, width = 0, height = 0;
     GLFWmonitor** const monitors = glfwGetMonitors(&count);
@@ -27,8 +25,6 @@ GLFWmonitor* monitorWith(GLFWwindow* window) {
     }
     return count > 0 ? monitors[0] : nullptr;
 }
-
-} // namespace
 
 double monitorScale(const MonitorFigures& figures) {
     constexpr double kUsual = 96.0, kLowest = 40.0, kHighest = 700.0; // [pixels per inch]

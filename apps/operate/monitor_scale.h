@@ -2,6 +2,7 @@
 // How large text has to be on a monitor, by its resolution.
 #pragma once
 
+struct GLFWmonitor;
 struct GLFWwindow;
 
 namespace fathom::operate {
@@ -20,5 +21,7 @@ double monitorScale(const MonitorFigures& figures);
 
 // Main thread. Of the monitor with the centre of the window, or of the first one without a window.
 MonitorFigures monitorOf(GLFWwindow* window);
+// The monitor that has the middle of the window, else the first one; null without a monitor.
+GLFWmonitor* monitorWith(GLFWwindow* window);
 
 } // namespace fathom::operate

@@ -45,6 +45,7 @@ void RunDisplay::begin() {
 }
 
 double RunDisplay::beginFrame() {
+    window_.setFullScreen(console.fullScreen);
     const double period = pace_.period();
     window_.beginFrame(std::clamp(period - (seconds() - lastFrame_), 0.0, period));
     pace_.note(threadCpuTime());

@@ -69,6 +69,7 @@ json consoleOf(const Console& c) {
             {"drawn_scale", c.drawnScale},
             {"layout", c.pilotLayout ? "pilot" : "engineer"},
             {"panel_open", c.panelOpen},
+            {"full_screen", c.fullScreen},
             {"tab", static_cast<int>(c.shownTab)},
             {"orbit", orbitOf(c.orbit)},
             {"cursor", c.cursor ? json{c.cursor->x, c.cursor->y} : json(nullptr)},

@@ -46,7 +46,7 @@ std::span<const KeyHelp> keyHelp() {
         KeyHelp{"right drag", "rotate the tool; in the 3D view, rotate the view"},
         KeyHelp{"arrows, PgUp, PgDn", "move the tool; with Shift rotate it"},
         KeyHelp{"Tab", "swap camera and 3D view"},
-        KeyHelp{"1, 2, 3, 0", "3D view from the front, the side, the top; reset"},
+        KeyHelp{"1, 2, 3, 0 or Z", "3D view from the front, the side, the top; reset"},
         KeyHelp{"T", "bounds of the region tree, next level"},
         KeyHelp{"F", "freeze the fixtures"},
         KeyHelp{"K", "pick a colour: click, or arrows and Enter; Enter adds it"},
@@ -64,7 +64,7 @@ std::span<const KeyHelp> keyHelp() {
                 "period: marks"},
         KeyHelp{"X", "export a recording as a video, or as PNG files without ffmpeg; X or Esc stops"},
         KeyHelp{"F6", "keyboard to the panels: arrows choose, Enter presses; F6 or Esc: back"},
-        KeyHelp{"F11", "recreate the swapchain"},
+        KeyHelp{"F11", "full screen; Ctrl F11: recreate the swapchain"},
         KeyHelp{"F12", "screenshot"},
         KeyHelp{"Ctrl +, Ctrl -", "larger or smaller text"},
         KeyHelp{"F1", "this list"},
@@ -130,7 +130,8 @@ void Steering::keys(Console& console) {
 // The 3D view's standard sides.
 void Steering::lookByKeys(Console& console) {
     for (const auto& [key, side] : {std::pair(GLFW_KEY_1, Side::Front), std::pair(GLFW_KEY_2, Side::Right),
-                                    std::pair(GLFW_KEY_3, Side::Top), std::pair(GLFW_KEY_0, Side::Reset)}) {
+                                    std::pair(GLFW_KEY_3, Side::Top), std::pair(GLFW_KEY_0, Side::Reset),
+                                    std::pair(GLFW_KEY_Z, Side::Reset)}) {
         if (pressed(key)) {
             lookFrom(console.orbit, side);
         }
@@ -226,7 +227,10 @@ std::optional<ImVec2> Steering::step(Console& console, const ViewPort& large, do
         console.panelOpen = false;
     }
     switchFocus(console);
-    console.remake = console.remake || pressed(GLFW_KEY_F11);
+    if (pressed(GLFW_KEY_F11)) {
+        console.remake = console.remake || io.KeyCtrl;
+        console.fullScreen = console.fullScreen != !io.KeyCtrl;
+    }
     console.screenshot = console.screenshot || pressed(GLFW_KEY_F12);
     if (io.KeyCtrl && (pressed(GLFW_KEY_EQUAL) || pressed(GLFW_KEY_KP_ADD))) {
         console.textScale = std::min(2.5, console.textScale + 0.125);

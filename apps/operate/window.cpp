@@ -202,6 +202,25 @@ void Window::setTitle(const std::string& title) {
     }
 }
 
+void Window::setFullScreen(bool full) {
+    if (window_ == nullptr || full == full_.on) {
+        return;
+    }
+    full_.on = full;
+    if (!full) {
+        glfwSetWindowMonitor(window_, nullptr, full_.x, full_.y, full_.width, full_.height, GLFW_DONT_CARE);
+        return;
+    }
+    glfwGetWindowPos(window_, &full_.x, &full_.y);
+    glfwGetWindowSize(window_, &full_.width, &full_.height);
+    GLFWmonitor* monitor = monitorWith(window_);
+    const GLFWvidmode* mode = monitor != nullptr ? glfwGetVideoMode(monitor) : nullptr;
+    if (mode != nullptr) {
+        glfwSetWindowAttrib(window_, GLFW_AUTO_ICONIFY, GLFW_FALSE); // minimising turns forces off
+        glfwSetWindowMonitor(window_, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+    }
+}
+
 bool Window::takeClose() {
     const bool pressed = window_ != nullptr && glfwWindowShouldClose(window_) == GLFW_TRUE;
     if (pressed) {

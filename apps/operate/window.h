@@ -35,8 +35,9 @@ public:
     // Handles events for `patience` [s] and begins an ImGui frame.
     void beginFrame(double patience);
     void setTitle(const std::string& title);
-    bool takeClose();   // the close button was pressed since the last call
-    bool takeExposed(); // a part was uncovered since the last call: show the frame again
+    void setFullScreen(bool full); // on the monitor that it is on; false: as it was before
+    bool takeClose();              // the close button was pressed since the last call
+    bool takeExposed();            // a part was uncovered since the last call: show the frame again
     bool minimised() const;
     double monitorScale() const { return monitorScale_; } // of the monitor that it is on; offscreen 1
     VkExtent2D size() const;                              // [pixels]
@@ -61,6 +62,10 @@ private:
     double monitorScale_ = 1.0;
     bool moved_ = true; // perhaps to another monitor
     bool exposed_ = false;
+    struct {
+        bool on = false;
+        int x = 0, y = 0, width = 0, height = 0; // before
+    } full_;
 };
 
 } // namespace fathom::operate

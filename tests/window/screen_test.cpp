@@ -24,3 +24,24 @@ TEST_CASE("A recording that stands still is not drawn again until a key changes 
         [&](const json& s) { return s["window"]["tiles"].get<int>() > after["tiles"].get<int>() + 100; }));
     closeQuietly(rig);
 }
+
+TEST_CASE(
+    "F11 fills the monitor and brings the window back, and Z looks at the 3D view from its start again") {
+    WindowRig rig;
+    const json before = rig.state()["window"];
+    rig.key("F11");
+    REQUIRE(rig.await([](const json& s) {
+        return s["console"]["full_screen"] == true && s["window"]["width"] == 1920 &&
+               s["window"]["height"] == 1080;
+    }));
+    rig.key("F11");
+    REQUIRE(rig.await([&](const json& s) {
+        return s["window"]["width"] == before["width"] && s["window"]["height"] == before["height"];
+    }));
+    const json orbit = rig.state()["console"]["orbit"];
+    rig.key("3");
+    REQUIRE(rig.await([&](const json& s) { return s["console"]["orbit"] != orbit; }));
+    rig.key("z");
+    REQUIRE(rig.await([&](const json& s) { return s["console"]["orbit"] == orbit; }));
+    closeQuietly(rig);
+}

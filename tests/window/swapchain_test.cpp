@@ -33,7 +33,7 @@ TEST_CASE("A lost swapchain is recreated, again and again, while hand and frames
     REQUIRE(rig.await([](const json& s) { return s["run"]["turns"] > 100; }));
     for (int i = 0; i < 5; ++i) {
         const json before = rig.state();
-        rig.key("F11");
+        rig.key("ctrl+F11");
         REQUIRE(rig.await([&](const json& s) {
             return s["window"]["swapchains"] > before["window"]["swapchains"].get<int>() &&
                    s["window"]["frames"] > before["window"]["frames"].get<int>() + 3 &&
