@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// The connection to a real arm: a serial line, or topics of ROS 2.
+#pragma once
+
+#include "devices/arm.h"
+
+#include <atomic>
+#include <string>
+
+namespace fathom {
+
+// One thread.
+class ArmLine {
+public:
+    virtual ~ArmLine() = default;
+    virtual ArmDevice& device() noexcept = 0;
+    // The line is unplugged; only a new one can be used.
+    virtual bool gone() const noexcept = 0;
+    // Waits until the arm may move. Throws Error: it cannot, or `stop`.
+    virtual void awaitGuard(const std::atomic<bool>& stop) = 0;
+    // Whether the arm may move now [s]: something else stops it if this process cannot. Does not wait.
+    virtual bool guarded(double now) noexcept = 0;
+    // Why there is no feedback, for messages.
+    virtual std::string silence() const { return "no answer"; }
+};
+
+} // namespace fathom
