@@ -8,7 +8,7 @@
 
 namespace fathom {
 
-inline constexpr size_t kMostArmAxes = 8; // chain joints, then the grasp
+inline constexpr size_t kMostArmAxes = 13; // chain joints, then the grasp
 
 // The next command for an arm's driver.
 struct ArmCommand {

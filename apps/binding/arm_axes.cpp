@@ -89,19 +89,27 @@ double ArmAxes::lag(const ArmPosture& wanted, const ArmPosture& measured) const 
     return most;
 }
 
+ArmAxes chainAxes(const ArmModel& model) {
+    ArmAxes axes;
+    axes.joints.resize(model.count());
+    for (size_t k = 0; k < model.count(); ++k) {
+        axes.joints[k].axis = k;
+        axes.joints[k].mostLag = model.joints[k].slides ? kSlidingLag : axes.joints[k].mostLag;
+    }
+    return axes;
+}
+
 ArmAxes armAxes(const Scene& scene, const ArmRig& rig) {
     if (!scene.arm || !scene.arm->driver) {
         throw BadInput(scene.file.string(), "arm.driver", "missing",
                        "a driver, because --arm names a serial port");
     }
     const Driver& driver = *scene.arm->driver;
-    ArmAxes axes;
-    axes.joints.resize(rig.model.count());
+    ArmAxes axes = chainAxes(rig.model);
     std::vector<bool> found(rig.model.count(), false);
     for (size_t row = 0; row < driver.axes.size(); ++row) {
         const size_t axis = axisNamed(scene, row, driver), k = jointNamed(scene, row, driver, rig);
-        axes.joints[k] = {axis, driver.axes[row].sign, driver.axes[row].zero};
-        axes.joints[k].mostLag = rig.model.joints[k].slides ? kSlidingLag : axes.joints[k].mostLag;
+        axes.joints[k] = {axis, driver.axes[row].sign, driver.axes[row].zero, axes.joints[k].mostLag};
         found[k] = true;
     }
     for (size_t k = 0; k < found.size(); ++k) {

@@ -33,6 +33,9 @@ struct ArmAxes {
     double lag(const ArmPosture& wanted, const ArmPosture& measured) const noexcept;
 };
 
+// One axis per joint of the chain, in its order; no jaws.
+ArmAxes chainAxes(const ArmModel& model);
+
 // Throws BadInput with the scene's field for unknown axes or joints and for joints without an axis.
 ArmAxes armAxes(const Scene& scene, const ArmRig& rig);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/binding/arm_thread.h"
 
+#include "apps/binding/ros2_arm.h"
 #include "apps/binding/serial_arm.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
@@ -29,8 +30,15 @@ double secondsAt(Clock::time_point time) {
 
 std::unique_ptr<ArmThread> openRealArm(const Scene& scene, const ArmRig* rig, const std::string& port) {
     if (rig == nullptr) {
-        throw BadInput(scene.file.string(), "arm", "missing",
-                       "an arm with a driver, because --arm names a serial port");
+        throw BadInput(scene.file.string(), "arm", "missing", "an arm, because of --arm " + port);
+    }
+    if (isRos2Arm(port)) {
+        const Ros2ArmRequest request = parseRos2ArmRequest(port);
+        const ArmModel& model = rig->model;
+        return std::make_unique<ArmThread>(
+            ArmThread::Target{port, "ROS 2 " + request.joints,
+                              [request, model] { return openRos2Arm(request, model); }},
+            model.joints, chainAxes(model));
     }
     const ArmAxes axes = armAxes(scene, *rig);
     const SceneArm::Driver driver = *scene.arm->driver;

@@ -14,8 +14,8 @@
 namespace fathom {
 
 // Help text of --arm.
-inline constexpr const char* kArmHelp =
-    "serial port of the real arm that the scene's arm.driver describes; the arm moves";
+inline constexpr const char* kArmHelp = "the real arm: serial port of the scene's arm.driver (the arm "
+                                        "moves), or ros2:joints=TOPIC (docs/guide/ros2.md)";
 
 class ArmThread;
 

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/binding/ros2_servo.h"
 
-#include "devices/ros2/received_messages.h"
 #include "engine/types/error.h"
-#include "engine/types/log.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <iterator>
-#include <utility>
 
 namespace fathom {
 
@@ -27,6 +24,13 @@ uint64_t utcNow() {
     return static_cast<uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(now).count());
 }
 
+std::vector<RobotJoint> readJoints(const std::vector<Ros2Joint>& joints) {
+    std::vector<RobotJoint> read;
+    std::transform(joints.begin(), joints.end(), std::back_inserter(read),
+                   [](const Ros2Joint& joint) { return RobotJoint{joint.name}; });
+    return read;
+}
+
 } // namespace
 
 Ros2Servo::Ros2Servo(std::shared_ptr<Ros2Graph> graph, const Ros2OutputRequest& request,
@@ -34,7 +38,7 @@ Ros2Servo::Ros2Servo(std::shared_ptr<Ros2Graph> graph, const Ros2OutputRequest& 
     : frame_(request.frame)
     , period_(1.0 / request.rate)
     , joints_(std::move(joints))
-    , measured_(joints_.size(), std::nan("")) {
+    , measured_("ros2", request.measured, readJoints(joints_)) {
     std::transform(joints_.begin(), joints_.end(), std::back_inserter(names_),
                    [](const Ros2Joint& joint) { return joint.name; });
     if (!request.twist.empty()) {
@@ -84,19 +88,7 @@ void Ros2Servo::sendTwist(const Ros2Tick& tick) {
 
 void Ros2Servo::receive() {
     for (const Ros2Message& taken : measuredInbox_->take(0)) {
-        try {
-            for (const auto& [name, position] : ros2::jointPositions(taken.message->bytes())) {
-                const auto found = std::find(names_.begin(), names_.end(), name);
-                if (found != names_.end()) {
-                    measured_[static_cast<size_t>(found - names_.begin())] = position;
-                }
-            }
-            measuredAt_ = taken.message->arrival;
-        } catch (const Error& e) {
-            if (!std::exchange(logged_, true)) {
-                log::warn("ros2: measured joints: message skipped: {} (logged once)", e.what());
-            }
-        }
+        measured_.take(taken);
     }
 }
 
@@ -104,12 +96,12 @@ std::string Ros2Servo::whyHeld(const Ros2Tick& tick) const {
     if (tick.record.armHold) {
         return "held: forces are off, the scene is old, or the tool is trapped";
     }
-    if (bootSeconds() - measuredAt_ > kOld) {
+    if (measured_.age(bootSeconds()) > kOld) {
         return "held: no measured joints";
     }
     for (size_t i = 0; i < joints_.size(); ++i) {
-        const double apart = std::abs(measured_[i] - tick.record.arm.posture.q[i]);
-        if (!(apart <= (joints_[i].slides ? kFarSlide : kFarJoint))) { // also when it is not known
+        const double apart = std::abs(measured_.positions()[i] - tick.record.arm.posture.q[i]);
+        if (!(apart <= (joints_[i].slides ? kFarSlide : kFarJoint))) {
             return "held: joint " + joints_[i].name + " of the robot is elsewhere";
         }
     }

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "apps/binding/ros2_tick.h"
+#include "devices/ros2/joint_readings.h"
 #include "devices/ros2/ros2_graph.h"
 #include "devices/ros2/ros2_output_request.h"
 
@@ -45,9 +46,7 @@ private:
     std::vector<std::string> names_;                 // of joints_
     std::unique_ptr<Ros2Writer> twist_, trajectory_; // null = not asked for
     std::unique_ptr<Ros2Inbox> measuredInbox_;
-    std::vector<double> measured_; // of joints_; NaN = not heard of
-    double measuredAt_ = -1e9;     // [s] CLOCK_MONOTONIC
-    bool logged_ = false;          // a message was not usable
+    JointReadings measured_; // of joints_
     std::optional<Ros2Tick> before_;
     std::string held_;
 };

@@ -30,9 +30,9 @@ double LiveStamps::captureTime(double stamp, const RawMessage& message) {
     const double age = message.arrivalUtc - stamp;
     const bool agrees = age >= -kAhead && age <= kOldest;
     if (!agrees && !byArrival_) {
-        log::warn(
-            "ros2:{}: a stamp is {:.3f} s from this machine's clock: such frames are dated by their arrival",
-            topic_, -age);
+        log::warn("ros2:{}: a stamp is {:.3f} s from this machine's clock: such messages are dated by their "
+                  "arrival",
+                  topic_, -age);
         byArrival_ = true;
     }
     const double capture = agrees ? message.arrival - std::max(age, 0.0) : message.arrival;

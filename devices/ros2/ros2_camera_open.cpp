@@ -115,13 +115,9 @@ void Ros2Camera::awaitStreams() {
 }
 
 std::string Ros2Camera::missing(const std::string& why) const {
-    std::string seen;
-    for (const std::string& topic : graph_->publications()) {
-        seen += (seen.empty() ? "" : ", ") + topic;
-    }
     return request_.text + ": after " + std::to_string(std::lround(request_.wait)) + " s in domain " +
            std::to_string(request_.place.domain) + " on network " + request_.place.network + ": " + why +
-           "; topics seen: " + (seen.empty() ? "none" : seen);
+           "; topics seen: " + graph_->publications();
 }
 
 // Metres get the finest unit that holds the scene's far; without one, one and a half times the farthest depth

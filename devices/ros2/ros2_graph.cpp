@@ -94,7 +94,7 @@ Ros2Graph::~Ros2Graph() {
     dds().destroy(domain_);
 }
 
-std::vector<std::string> Ros2Graph::publications() const {
+std::string Ros2Graph::publications() const {
     std::set<std::string> names;
     const dds_entity_t reader =
         dds().createReader(participant_, DDS_BUILTIN_TOPIC_DCPSPUBLICATION, nullptr, nullptr);
@@ -115,7 +115,11 @@ std::vector<std::string> Ros2Graph::publications() const {
     if (reader > 0) {
         dds().destroy(reader);
     }
-    return {names.begin(), names.end()};
+    std::string text;
+    for (const std::string& name : names) {
+        text += (text.empty() ? "" : ", ") + name;
+    }
+    return text.empty() ? "none" : text;
 }
 
 } // namespace fathom

@@ -25,8 +25,9 @@ public:
     Ros2Graph(const Ros2Graph&) = delete;
     Ros2Graph& operator=(const Ros2Graph&) = delete;
 
-    // Names and types of the topics that others publish now, sorted: "/camera/image (sensor_msgs/msg/Image)".
-    std::vector<std::string> publications() const;
+    // Names and types of the topics that others publish now, sorted: "/camera/image (sensor_msgs/msg/Image),
+    // ..."; "none" if there are none.
+    std::string publications() const;
     const Ros2Place& place() const { return place_; }
     int32_t participant() const { return participant_; }
 

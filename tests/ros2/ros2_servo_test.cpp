@@ -3,7 +3,7 @@
 #include "engine/types/error.h"
 #include "tests/ros2/fed_run.h"
 #include "tests/ros2/heard.h"
-#include "tests/ros2/speaker.h"
+#include "tests/ros2/robot.h"
 
 #include <doctest/doctest.h>
 #include <glm/gtc/quaternion.hpp>
@@ -27,43 +27,6 @@ bool sayUntil(Speaker& speaker, const std::string& line, Holds holds) {
     }
     return false;
 }
-
-// Publishes its joints every few milliseconds on a thread of its own.
-class Robot {
-public:
-    Robot()
-        : speaker_("/joint_states", "JointState")
-        , thread_([this] { run(); }) {}
-    ~Robot() {
-        stop_ = true;
-        thread_.join();
-    }
-    void isAt(const std::string& joints) { // "" = silent
-        const std::lock_guard lock(mutex_);
-        joints_ = joints;
-    }
-
-private:
-    void run() {
-        while (!stop_) {
-            std::string joints;
-            {
-                const std::lock_guard lock(mutex_);
-                joints = joints_;
-            }
-            if (!joints.empty()) {
-                speaker_.say(joints);
-            }
-            std::this_thread::sleep_for(std::chrono::milliseconds(5));
-        }
-    }
-
-    Speaker speaker_;
-    std::atomic<bool> stop_{false};
-    std::mutex mutex_; // guards the joints
-    std::string joints_;
-    std::thread thread_;
-};
 
 bool isNear(const Line& line, size_t word, double value) {
     return std::abs(line.number(word) - value) < 1e-6;

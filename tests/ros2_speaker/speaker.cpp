@@ -3,11 +3,13 @@
 // standard input, written with the code that idlc generated. It has the QoS of rmw's default publishers.
 //   ros2_speaker DOMAIN TOPIC TYPE
 // PoseStamped: x y z qx qy qz qw; Joy: one number per button; JointState: NAME POSITION...; Bool: 0 or 1;
-// Empty: nothing; "short": a message that ends within its header. It writes "ready", and then "ok" after each
-// line.
+// Empty: nothing; "short": a message that ends within its header. A first word "age=S" dates the message S
+// seconds before now. It writes "ready", and then "ok" after each line.
 #include "messages.h"
 #include "tests/ros2_talker/join_loopback.h"
 
+#include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <iostream>
 #include <map>
@@ -26,10 +28,23 @@ std::vector<double> numbersOf(const std::string& line) {
     return numbers;
 }
 
-// A stamp of long ago: readers must not depend on it.
+double age = -1.0; // [s] of the next message; negative: a stamp of long ago, on which readers must not depend
+
+// Takes the age from the line.
+std::string takeAge(const std::string& line) {
+    const std::string word = "age=";
+    const bool given = line.rfind(word, 0) == 0;
+    age = given ? std::strtod(line.c_str() + word.size(), nullptr) : -1.0;
+    return given ? line.substr(std::min(line.size(), line.find(' ') + 1)) : line;
+}
+
 std_msgs_msg_dds__Header_ header() {
+    static int32_t second = 17;
+    const double now =
+        std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
     std_msgs_msg_dds__Header_ out{};
-    out.stamp.sec = 17;
+    out.stamp.sec = age < 0.0 ? second++ : static_cast<int32_t>(now - age);
+    out.stamp.nanosec = age < 0.0 ? 0 : static_cast<uint32_t>(1e9 * (now - age - out.stamp.sec));
     out.frame_id = const_cast<char*>("handle_base");
     return out;
 }
@@ -133,7 +148,7 @@ int main(int argc, char** argv) {
             const builtin_interfaces_msg_dds__Time_ few{1, 2};
             dds_write(shortWriter, &few);
         } else {
-            type.say(writer, line);
+            type.say(writer, takeAge(line));
         }
         std::cout << "ok" << std::endl;
     }
