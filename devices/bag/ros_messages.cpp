@@ -188,7 +188,9 @@ std::vector<FrameLink> frameLinks(MessageCursor cursor) {
     std::vector<FrameLink> links;
     for (uint32_t i = 0; i < count; ++i) {
         FrameLink link;
-        link.parent = header(cursor).frame;
+        const Header head = header(cursor);
+        link.parent = head.frame;
+        link.stamp = head.stamp;
         link.child = cursor.name();
         link.parentTchild = poseOf(cursor);
         links.push_back(std::move(link));

@@ -49,6 +49,7 @@ float float32(MessageCursor message);   // std_msgs/Float32
 struct FrameLink {
     std::string parent, child;
     Pose parentTchild;
+    double stamp = 0.0; // [s]
 };
 std::vector<FrameLink> frameLinks(MessageCursor message);
 

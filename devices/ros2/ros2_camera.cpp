@@ -12,6 +12,7 @@ namespace fathom {
 namespace {
 
 constexpr double kLongestWait = 0.1; // [s]
+constexpr double kPoseWait = 0.02;   // [s] while images wait for transforms
 
 double monotonicNow() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -46,6 +47,7 @@ void Ros2Camera::receive(Topic& topic, const ImageStream& stream, LiveStamps& st
             }
             if (depth && stamps.restarted()) {
                 pairs_->clear();
+                moving_ ? moving_->clear() : void();
             }
             depth ? pairs_->depth({stamp, taken.message}) : pairs_->colour({stamp, taken.message});
             lastDepth_ = depth ? taken.message->arrival : lastDepth_;
@@ -55,8 +57,21 @@ void Ros2Camera::receive(Topic& topic, const ImageStream& stream, LiveStamps& st
     }
 }
 
-// Colour first: it may be what a depth image waits for.
+void Ros2Camera::receiveTransforms() {
+    for (const auto& [topic, isStatic] : {std::pair(tfStatic_, true), std::pair(tf_, false)}) {
+        for (auto taken = inbox_.take(topic); !taken.empty(); taken = inbox_.take(topic)) {
+            for (const Ros2Message& message : taken) {
+                moving_->transforms().take(message, isStatic);
+            }
+        }
+    }
+}
+
+// Transforms and colour first: they may be what a depth image waits for.
 void Ros2Camera::receive() {
+    if (moving_) {
+        receiveTransforms();
+    }
     if (choice_.colour) {
         receive(colour_, *choice_.colour, *colourStamps_, false);
     }
@@ -105,29 +120,51 @@ std::string Ros2Camera::fill(const LivePairs::Pair& pair, FrameSlot& slot) {
     }
 }
 
-std::optional<Frame> Ros2Camera::deliver() {
-    const double now = monotonicNow();
-    std::optional<LivePairs::Pair> pair = pairs_->next(now);
-    while (pair && !request_.everyFrame) {
-        std::optional<LivePairs::Pair> newer = pairs_->next(now);
+std::optional<MovingCamera::Posed> Ros2Camera::nextPosed(double now) {
+    while (std::optional<LivePairs::Pair> pair = pairs_->next(now)) {
+        if (!moving_) {
+            return MovingCamera::Posed{std::move(*pair), std::nullopt, ""};
+        }
+        moving_->add(std::move(*pair));
+    }
+    while (std::optional<MovingCamera::Posed> posed = moving_ ? moving_->next(now) : std::nullopt) {
+        if (posed->fault.empty()) {
+            return posed;
+        }
+        skip(choice_.depth.name + ": " + posed->fault);
+    }
+    return std::nullopt;
+}
+
+// The next images, or the newest of those that are ready.
+std::optional<MovingCamera::Posed> Ros2Camera::choose(double now) {
+    std::optional<MovingCamera::Posed> chosen = nextPosed(now);
+    while (chosen && !request_.everyFrame) {
+        std::optional<MovingCamera::Posed> newer = nextPosed(now);
         if (!newer) {
             break;
         }
         ++overtaken_;
-        pair = std::move(newer);
+        chosen = std::move(newer);
     }
+    return chosen;
+}
+
+std::optional<Frame> Ros2Camera::deliver() {
+    const std::optional<MovingCamera::Posed> chosen = choose(monotonicNow());
     if (const size_t unpaired = pairs_->takeUnpaired()) {
         skip(choice_.depth.name + ": no colour image with a stamp that near",
              static_cast<uint32_t>(unpaired));
     }
-    if (!pair) {
+    if (!chosen) {
         return std::nullopt;
     }
+    const LivePairs::Pair& pair = chosen->pair;
     FrameSlot* slot = slots_->acquire();
     if (slot == nullptr) {
         throw Error(description() + ": all frame buffers are leased");
     }
-    if (const std::string fault = fill(*pair, *slot); !fault.empty()) {
+    if (const std::string fault = fill(pair, *slot); !fault.empty()) {
         slot->release();
         skip(fault);
         return std::nullopt;
@@ -135,7 +172,8 @@ std::optional<Frame> Ros2Camera::deliver() {
     Frame::Content content;
     content.index = delivered_++;
     content.sourceNumber = delivered_;
-    content.captureTime = depthStamps_->captureTime(pair->depth.stamp, *pair->depth.message);
+    content.captureTime = depthStamps_->captureTime(pair.depth.stamp, *pair.depth.message);
+    content.baseTcamera = chosen->fixedTcamera;
     content.depth = slot->depth().first(info().depth.pixels());
     content.colour = slot->colour().first(info().hasColour ? info().colour.pixels() : 0);
     return slot->lend(content);
@@ -156,7 +194,7 @@ std::optional<Frame> Ros2Camera::next() {
         if (now - called > request_.silence) {
             throw DeviceLost(description() + ": images arrive, but none is usable; last: " + lastFault_);
         }
-        inbox_.wait(pairs_->patience(now, kLongestWait));
+        inbox_.wait(pairs_->patience(now, moving_ && moving_->waits() ? kPoseWait : kLongestWait));
     }
 }
 

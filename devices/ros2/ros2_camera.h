@@ -8,6 +8,7 @@
 #include "devices/ros2/first_publisher.h"
 #include "devices/ros2/live_pairs.h"
 #include "devices/ros2/live_stamps.h"
+#include "devices/ros2/moving_camera.h"
 #include "devices/ros2/newest_messages.h"
 #include "devices/ros2/ros2_graph.h"
 #include "devices/ros2/ros2_request.h"
@@ -25,9 +26,10 @@ namespace fathom {
 //
 // Frame index and source number count delivered frames from 0 and 1. Images are paired by their stamps
 // (LivePairs); capture times are CLOCK_MONOTONIC (LiveStamps). An unusable message is skipped and counted,
-// and each cause is logged once. Messages of a second publisher of a topic are ignored while the first one
-// sends. next() throws DeviceLost when no depth image, or no usable one, came for `silence`; the subscription
-// remains, so the next call finds the camera again.
+// and each cause is logged once. If the request names a frame, frames have the pose that tf gives at the
+// stamp of their depth (MovingCamera); those without one are skipped. Messages of a second publisher of a
+// topic are ignored while the first one sends. next() throws DeviceLost when no depth image, or no usable
+// one, came for `silence`; the subscription remains, so the next call finds the camera again.
 class Ros2Camera final : public Camera {
 public:
     // Waits for the first images and their lens. Throws BadInput that says what is missing.
@@ -60,6 +62,9 @@ private:
     void receive();
     void receive(Topic& topic, const ImageStream& stream, LiveStamps& stamps, bool depth);
     ros::Image imageOf(const ImageStream& stream, const RawMessage& message) const;
+    void receiveTransforms();
+    std::optional<MovingCamera::Posed> nextPosed(double now);
+    std::optional<MovingCamera::Posed> choose(double now);
     std::optional<Frame> deliver();
     std::string fill(const LivePairs::Pair& pair, FrameSlot& slot);
     std::string fillDepth(const RawMessage& message, FrameSlot& slot);
@@ -72,6 +77,8 @@ private:
     Ros2Inbox inbox_;
     NewestMessages messages_;
     Topic depth_, colour_;
+    std::optional<MovingCamera> moving_; // none: the scene gives the pose
+    size_t tf_ = 0, tfStatic_ = 0;       // topics, as Topic::place
     StreamChoice choice_;
     std::optional<LivePairs> pairs_;
     std::optional<LiveStamps> depthStamps_, colourStamps_;

@@ -14,6 +14,7 @@ namespace {
 
 constexpr const char* kRos2Image = "sensor_msgs/msg/Image";
 constexpr const char* kRos2Compressed = "sensor_msgs/msg/CompressedImage";
+constexpr const char* kRos2Transforms = "tf2_msgs/msg/TFMessage";
 
 bool isCompressedTopic(const std::string& topic) {
     return topic.ends_with("/compressed") || topic.ends_with("/compressedDepth");
@@ -69,13 +70,17 @@ void Ros2Camera::subscribeOthers() {
     }
     infos = options.info.empty() ? infos : std::set<std::string>{options.info};
     const auto add = [&](const std::string& topic, const std::string& type, Ros2Qos qos, size_t most) {
-        inbox_.subscribe(topic, type, qos);
         messages_.add(topic, type, most);
+        return inbox_.subscribe(topic, type, qos);
     };
     for (const std::string& topic : infos) {
         add(topic, "sensor_msgs/msg/CameraInfo", Ros2Qos::Sensor, 1);
     }
-    add("/tf_static", "tf2_msgs/msg/TFMessage", Ros2Qos::Latched, kMostTransforms);
+    tfStatic_ = add("/tf_static", kRos2Transforms, Ros2Qos::Latched, kMostTransforms);
+    if (!request_.frame.empty()) {
+        tf_ = add("/tf", kRos2Transforms, Ros2Qos::Stream, kMostTransforms);
+        moving_.emplace(description(), request_.frame);
+    }
     add(parentTopic(options.depth, 2) + "/extrinsics/depth_to_color", "realsense2_camera_msgs/msg/Extrinsics",
         Ros2Qos::Latched, 1);
 }
@@ -85,6 +90,9 @@ bool Ros2Camera::gather() {
     bool any = false;
     for (size_t topic = 0; topic < messages_.topics().size(); ++topic) {
         for (Ros2Message& taken : inbox_.take(topic)) {
+            if (moving_ && (topic == tf_ || topic == tfStatic_)) {
+                moving_->transforms().take(taken, topic == tfStatic_);
+            }
             messages_.keep(topic, std::move(taken.message));
             any = true;
         }
@@ -101,7 +109,11 @@ void Ros2Camera::awaitStreams() {
         if (gather()) {
             try {
                 choice_ = StreamChooser(messages_, request_.options).choose();
-                return;
+                choice_.camera.poseless = !moving_;
+                why = moving_ ? moving_->follow(choice_.depth.frame) : "";
+                if (why.empty()) {
+                    return;
+                }
             } catch (const Error& e) {
                 why = e.what();
             }

@@ -41,6 +41,7 @@ private:
 // How a topic is read or written.
 enum class Ros2Qos {
     Sensor,   // best effort, the newest few
+    Stream,   // best effort, the newest 500: many small messages
     Reliable, // reliable, the newest ten
     Latched,  // reliable, kept for readers that come later
 };

@@ -3,8 +3,6 @@
 
 #include "engine/types/error.h"
 
-#include <algorithm>
-#include <cctype>
 #include <utility>
 
 namespace fathom {
@@ -12,18 +10,6 @@ namespace fathom {
 namespace {
 
 constexpr const char* kOutputOption = "--ros2";
-
-std::string frameOf(const Ros2Word& word) {
-    constexpr size_t kLongest = 100;
-    const auto fits = [](unsigned char c) {
-        return std::isalnum(c) != 0 || c == '_' || c == '/' || c == '-';
-    };
-    const std::string& name = word.value;
-    if (name.empty() || name.size() > kLongest || !std::all_of(name.begin(), name.end(), fits)) {
-        throw BadInput(kOutputOption, word.name, name, "a frame's name of letters, digits, _, - and /");
-    }
-    return name;
-}
 
 bool takeRobot(const Ros2Word& word, Ros2OutputRequest& request) {
     for (const auto& [name, topic] :
@@ -47,7 +33,7 @@ Ros2OutputRequest parseRos2OutputRequest(const std::string& text) {
     for (size_t i = 1; i < words.size(); ++i) {
         const Ros2Word& word = words[i];
         if (word.name == "frame") {
-            request.frame = frameOf(word);
+            request.frame = ros2Frame(kOutputOption, word);
         } else if (word.name == "rate") {
             request.rate = ros2Number(kOutputOption, word, request.kMostRate, "1/s");
         } else if (word.text == "commands=on") {

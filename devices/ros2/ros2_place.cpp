@@ -85,4 +85,16 @@ std::string ros2Topic(const std::string& option, const Ros2Word& word, const std
     return full;
 }
 
+std::string ros2Frame(const std::string& option, const Ros2Word& word) {
+    constexpr size_t kLongest = 100;
+    const auto fits = [](unsigned char c) {
+        return std::isalnum(c) != 0 || c == '_' || c == '/' || c == '-';
+    };
+    const std::string& name = word.value;
+    if (name.empty() || name.size() > kLongest || !std::all_of(name.begin(), name.end(), fits)) {
+        throw BadInput(option, word.name, name, "a frame's name of letters, digits, _, - and /");
+    }
+    return name;
+}
+
 } // namespace fathom

@@ -40,4 +40,7 @@ double ros2Number(const std::string& option, const Ros2Word& word, double most, 
 // the option. Throws BadInput.
 std::string ros2Topic(const std::string& option, const Ros2Word& word, const std::string& allowed);
 
+// The value as the name of a frame, e.g. "base_link". Throws BadInput.
+std::string ros2Frame(const std::string& option, const Ros2Word& word);
+
 } // namespace fathom

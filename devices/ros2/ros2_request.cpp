@@ -20,6 +20,8 @@ std::string takeOwn(const std::string& text, Ros2Request& request) {
     for (const Ros2Word& word : ros2Words(text)) {
         if (word.name == "wait") {
             request.wait = ros2Number(kCameraOption, word, kLongestWait, "s");
+        } else if (word.name == "frame") {
+            request.frame = ros2Frame(kCameraOption, word);
         } else if (!takePlace(kCameraOption, word, request.place)) {
             rest += "," + word.text;
         }

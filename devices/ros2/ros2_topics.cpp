@@ -13,16 +13,22 @@ namespace {
 
 using QosPtr = std::unique_ptr<dds_qos_t, void (*)(dds_qos_t*)>;
 
-constexpr int32_t kSensorDepth = 8, kReliableDepth = 10, kLatchedDepth = 100;
+constexpr int32_t kSensorDepth = 8, kStreamDepth = 500, kReliableDepth = 10, kLatchedDepth = 100;
+
+int32_t depthOf(Ros2Qos kind) {
+    return kind == Ros2Qos::Sensor    ? kSensorDepth
+           : kind == Ros2Qos::Stream  ? kStreamDepth
+           : kind == Ros2Qos::Latched ? kLatchedDepth
+                                      : kReliableDepth;
+}
 
 QosPtr qosOf(Ros2Qos kind) {
     QosPtr qos(dds().createQos(), dds().deleteQos);
-    const bool sensor = kind == Ros2Qos::Sensor, latched = kind == Ros2Qos::Latched;
-    dds().setReliability(qos.get(), sensor ? DDS_RELIABILITY_BEST_EFFORT : DDS_RELIABILITY_RELIABLE,
+    const bool lossy = kind == Ros2Qos::Sensor || kind == Ros2Qos::Stream, latched = kind == Ros2Qos::Latched;
+    dds().setReliability(qos.get(), lossy ? DDS_RELIABILITY_BEST_EFFORT : DDS_RELIABILITY_RELIABLE,
                          DDS_MSECS(10));
     dds().setDurability(qos.get(), latched ? DDS_DURABILITY_TRANSIENT_LOCAL : DDS_DURABILITY_VOLATILE);
-    dds().setHistory(qos.get(), DDS_HISTORY_KEEP_LAST,
-                     sensor ? kSensorDepth : (latched ? kLatchedDepth : kReliableDepth));
+    dds().setHistory(qos.get(), DDS_HISTORY_KEEP_LAST, depthOf(kind));
     const dds_data_representation_id_t cdr = DDS_DATA_REPRESENTATION_XCDR1;
     dds().setRepresentation(qos.get(), 1, &cdr);
     return qos;

@@ -2,11 +2,9 @@
 // The joints of a robot from messages of sensor_msgs/msg/JointState, without a network.
 #include "devices/ros2/joint_readings.h"
 
-#include "devices/bag/ros2_messages.h"
+#include "tests/devices/live_node.h"
 #include "tests/realtime/listening.h"
 
-#include <cmath>
-#include <cstring>
 #include <doctest/doctest.h>
 
 using namespace fathom;
@@ -14,27 +12,13 @@ using namespace fathom::testing;
 
 namespace {
 
-constexpr double kUtc = 1.7e9, kBoot = 1000.0; // [s] of both clocks at the beginning
-
 // What a joint driver sends.
-struct JointNode {
-    uint64_t id = 1;
+struct JointNode : LiveNode {
     double delay = 0.0; // [s] from stamp to arrival
 
-    // Both times [s] from the beginning.
     Ros2Message says(double stamp, const std::vector<std::string>& names,
                      const std::vector<double>& positions) const {
-        const auto nanoseconds = static_cast<uint64_t>(std::llround((kUtc + stamp) * 1e9));
-        return raw(ros2::jointState({nanoseconds, ""}, names, positions), stamp + delay);
-    }
-    Ros2Message raw(const ros2::Message& bytes, double arrival) const {
-        auto message = std::make_shared<RawMessage>();
-        message->memory.reset(new uint8_t[bytes.size() + 4]());
-        std::memcpy(message->memory.get(), bytes.data(), bytes.size());
-        message->size = static_cast<uint32_t>(bytes.size());
-        message->arrival = kBoot + arrival;
-        message->arrivalUtc = kUtc + arrival;
-        return {message, id};
+        return sends(ros2::jointState({nanoseconds(stamp), ""}, names, positions), stamp + delay);
     }
 };
 
@@ -45,7 +29,7 @@ struct Robot {
     bool isAt(double slew, double rail) const {
         return joints.positions()[0] == slew && joints.positions()[1] == rail;
     }
-    double age(double now) const { return joints.age(kBoot + now); }
+    double age(double now) const { return joints.age(LiveNode::kBoot + now); }
 };
 
 } // namespace
@@ -90,14 +74,14 @@ TEST_CASE("An unusable message of joints changes nothing, is counted, and is nam
     const ros2::Message whole = ros2::jointState({1, ""}, std::vector<std::string>{"slew"}, std::array{0.5});
     for (size_t size = 0; size < whole.size(); ++size) { // velocities and efforts, which are not read, follow
         if (const ros2::Message part(whole.begin(), whole.begin() + static_cast<long>(size)); size < 44) {
-            robot.joints.take(robot.node.raw(part, 0.0));
+            robot.joints.take(robot.node.sends(part, 0.0));
         }
     }
     CHECK(robot.joints.skipped() == 44);
     CHECK(log.count("truncated") == 1);
     ros2::Message absurd = whole;
     std::memset(absurd.data() + 20, 0xff, 4); // count of names
-    robot.joints.take(robot.node.raw(absurd, 0.0));
+    robot.joints.take(robot.node.sends(absurd, 0.0));
     CHECK(log.count("4294967295 joints (allowed: at most 1000)") == 1);
 }
 
@@ -131,7 +115,7 @@ TEST_CASE(
     CHECK(simulated.age(5000.1) == doctest::Approx(0.1));
     Robot unstamped;
     for (const double arrival : {1.0, 2.0}) {
-        unstamped.joints.take(unstamped.node.raw(
+        unstamped.joints.take(unstamped.node.sends(
             ros2::jointState({0, ""}, std::vector<std::string>{"slew", "rail"}, std::array{0.5, arrival}),
             arrival));
         CHECK(unstamped.age(arrival) == 0.0);
@@ -166,7 +150,7 @@ TEST_CASE("A clock that stands still or jumps back does not make a posture newer
 TEST_CASE("Joints of a second publisher are ignored while the first one sends") {
     Robot robot;
     const Listening log;
-    const JointNode other{2}, wheels{3};
+    const JointNode other{{2}}, wheels{{3}};
     robot.joints.take(wheels.says(0.0, {"wheel"}, {1.0})); // does not count as the first one
     robot.joints.take(robot.node.says(0.1, {"slew", "rail"}, {0.5, 0.0}));
     robot.joints.take(other.says(0.2, {"slew", "rail"}, {0.7, 0.0}));

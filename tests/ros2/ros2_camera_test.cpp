@@ -220,3 +220,34 @@ TEST_CASE("Depth images are skipped while colour is missing, and are paired agai
     CHECK(framesUntil(camera, [](const Frame* frame) { return frame != nullptr; }));
     CHECK(mentions(camera.warnings(), "no colour image"));
 }
+
+TEST_CASE("A moving camera has the pose that tf gives at the stamp of its image") {
+    Talker driver;
+    driver.set("moving", 1);
+    Ros2Camera camera(requestCamera(",frame=base"));
+    CHECK_FALSE(camera.info().poseless);
+    const auto utc = std::chrono::system_clock::now().time_since_epoch();
+    const double ahead = std::chrono::duration<double>(utc).count() - nowMonotonic();
+    for (int i = 0; i < 5; ++i) {
+        const auto frame = camera.next();
+        REQUIRE(frame);
+        REQUIRE((*frame)->baseTcamera);
+        const double expected = 0.5 + 0.1 * std::fmod((*frame)->captureTime + ahead, 1000.0);
+        CHECK(std::abs((*frame)->baseTcamera->position.x - expected) < 0.01); // the machine may be busy
+    }
+    driver.set("moving", 0);
+    CHECK(framesUntil(camera, [&](const Frame* frame) { return frame == nullptr && camera.skipped() >= 3; }));
+    CHECK(mentions(camera.warnings(), "no pose at its stamp: /tf of 'wrist' ends before it"));
+    CHECK(camera.warnings().size() == 1);
+    driver.set("moving", 1);
+    CHECK(framesUntil(camera, [](const Frame* frame) { return frame != nullptr; }));
+    CHECK_FALSE(Ros2Camera(requestCamera()).next().value()->baseTcamera);
+}
+
+TEST_CASE("A camera to which no transforms lead is refused with both frames") {
+    Talker driver;
+    driver.set("moving", 1);
+    Ros2Request request = requestCamera(",frame=world");
+    request.wait = 6.0;
+    CHECK(refused(request).find("no transforms between 'depth_frame' and 'world'") != std::string::npos);
+}

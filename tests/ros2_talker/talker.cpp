@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -26,11 +27,12 @@ using Clock = std::chrono::system_clock;
 dds_entity_t participant = 0;
 
 // rate [1/s]; on: publishes depth; shift [s]: added to the stamps; encoding 0: 16UC1, 1: 32FC1, 2: "64FC1";
-// broken: that many malformed messages; width, height [pixels]; value: of depth, in millimetres.
-std::map<std::string, double> settings{{"rate", 30}, {"on", 1},          {"colour", 1},  {"info", 1},
-                                       {"tf", 0},    {"encoding", 0},    {"shift", 0},   {"broken", 0},
-                                       {"width", 8}, {"height", 6},      {"value", 500}, {"fx", 7},
-                                       {"claim", 0}, {"colour_shift", 0}};
+// broken: that many malformed messages; moving 1: /tf and /tf_static lead from "base" to the camera; width,
+// height [pixels]; value: of depth, in millimetres.
+std::map<std::string, double> settings{{"rate", 30}, {"on", 1},           {"colour", 1},  {"info", 1},
+                                       {"tf", 0},    {"encoding", 0},     {"shift", 0},   {"broken", 0},
+                                       {"width", 8}, {"height", 6},       {"value", 500}, {"fx", 7},
+                                       {"claim", 0}, {"colour_shift", 0}, {"moving", 0}};
 
 int setting(const std::string& key) {
     return static_cast<int>(settings.at(key));
@@ -118,16 +120,28 @@ void publishInfo(dds_entity_t writer) {
     dds_write(writer, &info);
 }
 
-// 25 mm between the cameras.
-void publishTransform(dds_entity_t writer) {
+void publishTransform(dds_entity_t writer, const char* parent, const char* child, double x) {
     geometry_msgs_msg_dds__TransformStamped_ link{};
-    link.header = header(0.0, "depth_frame");
-    link.child_frame_id = const_cast<char*>("colour_frame");
-    link.transform.translation.x = 0.025;
+    link.header = header(settings.at("shift"), parent);
+    link.child_frame_id = const_cast<char*>(child);
+    link.transform.translation.x = x;
     link.transform.rotation.w = 1.0;
     tf2_msgs_msg_dds__TFMessage_ message{};
     message.transforms = {1, 1, &link, false};
     dds_write(writer, &message);
+}
+
+// Both cameras are 25 mm apart. A moving one is 0.5 m from its wrist, which moves by 0.1 m/s.
+void publishTransforms(dds_entity_t fixed, dds_entity_t moving) {
+    if (setting("tf") == 1) {
+        publishTransform(fixed, "depth_frame", "colour_frame", 0.025);
+        settings["tf"] = 2;
+    }
+    if (setting("moving") == 1) {
+        const double now = std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
+        publishTransform(fixed, "wrist", "depth_frame", 0.5);
+        publishTransform(moving, "base", "wrist", 0.1 * std::fmod(now, 1000.0));
+    }
 }
 
 void obey(const std::string& line) {
@@ -177,14 +191,12 @@ int main(int argc, char** argv) {
                            writerOf("rt/camera/depth/camera_info", sensor_msgs_msg_dds__CameraInfo__desc),
                        colourInfo =
                            writerOf("rt/camera/color/camera_info", sensor_msgs_msg_dds__CameraInfo__desc),
-                       transforms = writerOf("rt/tf_static", tf2_msgs_msg_dds__TFMessage__desc, true);
+                       transforms = writerOf("rt/tf_static", tf2_msgs_msg_dds__TFMessage__desc, true),
+                       moving = writerOf("rt/tf", tf2_msgs_msg_dds__TFMessage__desc);
     std::cout << "ok" << std::endl;
     for (int i = 0;; ++i) {
         listen();
-        if (setting("tf") == 1) {
-            publishTransform(transforms);
-            settings["tf"] = 2;
-        }
+        publishTransforms(transforms, moving);
         if (setting("broken") > 0) {
             static const dds_entity_t brokenWriter = writerOf("rt/camera/depth/image_rect_raw", broken);
             const builtin_interfaces_msg_dds__Time_ few{1, 2};
