@@ -51,6 +51,8 @@ public:
     const decltype(&::dds_get_sample_lost_status) lostStatus = find("dds_get_sample_lost_status");
     const decltype(&::dds_get_publication_matched_status) publicationStatus =
         find("dds_get_publication_matched_status");
+    const decltype(&::dds_get_subscription_matched_status) subscriptionStatus =
+        find("dds_get_subscription_matched_status");
 
     const decltype(&::ddsi_serdata_init) initSample = find("ddsi_serdata_init");
     const decltype(&::ddsi_sertype_init_flags) initType = find("ddsi_sertype_init_flags");

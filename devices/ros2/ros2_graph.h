@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reads and writes topics of a ROS 2 graph through Eclipse Cyclone DDS. DDS names topics and types as the rmw
-// implementations do: "/camera/image" is "rt/camera/image".
+// implementations do: "/camera/image" is "rt/camera/image", and a service "/freeze" has "rq/freezeRequest"
+// and "rr/freezeReply".
 #pragma once
 
 #include "devices/ros2/raw_message.h"
@@ -46,6 +47,9 @@ enum class Ros2Qos {
     Latched,  // reliable, kept for readers that come later
 };
 
+// A topic, or one of the two of a service.
+enum class Ros2Part { Topic, Request, Reply };
+
 // A message, and the publisher that it is from.
 struct Ros2Message {
     RawMessagePtr message;
@@ -61,13 +65,15 @@ public:
     Ros2Inbox& operator=(const Ros2Inbox&) = delete;
 
     // type: "sensor_msgs/msg/Image". Returns the topic's number, from 0. Throws Error.
-    size_t subscribe(const std::string& topic, const std::string& type, Ros2Qos qos);
+    size_t subscribe(const std::string& topic, const std::string& type, Ros2Qos qos,
+                     Ros2Part part = Ros2Part::Topic);
     // Waits until there is a message, at most that long [s]. False: there is none.
     bool wait(double seconds);
     // The oldest messages of a topic that have not been taken, at most a few dozen.
     std::vector<Ros2Message> take(size_t topic);
     // Messages lost on the way, as far as the topic's publishers number them.
     uint64_t lost(size_t topic) const;
+    uint32_t publishers(size_t topic) const; // that are there now
 
 private:
     std::shared_ptr<Ros2Graph> graph_;
@@ -80,15 +86,15 @@ class Ros2Writer {
 public:
     // Throws Error.
     Ros2Writer(std::shared_ptr<Ros2Graph> graph, const std::string& topic, const std::string& type,
-               Ros2Qos qos);
+               Ros2Qos qos, Ros2Part part = Ros2Part::Topic);
     ~Ros2Writer();
     Ros2Writer(const Ros2Writer&) = delete;
     Ros2Writer& operator=(const Ros2Writer&) = delete;
 
     // CDR with its header. False: not sent, because a subscriber's acknowledgement is overdue.
     bool write(std::span<const uint8_t> message) noexcept;
-    // Whether anyone subscribes.
-    bool watched() const noexcept;
+    uint32_t subscribers() const noexcept; // that are there now
+    bool watched() const noexcept { return subscribers() > 0; }
 
 private:
     std::shared_ptr<Ros2Graph> graph_;

@@ -37,7 +37,20 @@ QosPtr qosOf(Ros2Qos kind) {
 // "sensor_msgs/msg/Image" to "sensor_msgs::msg::dds_::Image_".
 std::string ddsTypeName(const std::string& type) {
     const size_t first = type.find('/'), last = type.rfind('/');
-    return type.substr(0, first) + "::msg::dds_::" + type.substr(last + 1) + "_";
+    return type.substr(0, first) + "::" + type.substr(first + 1, last - first - 1) +
+           "::dds_::" + type.substr(last + 1) + "_";
+}
+
+std::string ddsTopicName(const std::string& topic, Ros2Part part) {
+    switch (part) {
+    case Ros2Part::Request:
+        return "rq" + topic + "Request";
+    case Ros2Part::Reply:
+        return "rr" + topic + "Reply";
+    case Ros2Part::Topic:
+        break;
+    }
+    return "rt" + topic;
 }
 
 void checkMade(dds_return_t made, const std::string& topic, const std::string& type) {
@@ -47,12 +60,12 @@ void checkMade(dds_return_t made, const std::string& topic, const std::string& t
 }
 
 // A topic belongs to its reader or writer once those are made.
-dds_entity_t makeTopic(const Ros2Graph& graph, const std::string& topic, const std::string& type,
-                       ddsi_sertype*& raw) {
+dds_entity_t makeTopic(const Ros2Graph& graph, const std::string& topic, Ros2Part part,
+                       const std::string& type, ddsi_sertype*& raw) {
     raw = newRawType(ddsTypeName(type));
     ddsi_sertype* const own = raw;
-    const dds_entity_t made =
-        dds().createTopic(graph.participant(), ("rt" + topic).c_str(), &raw, nullptr, nullptr, nullptr);
+    const dds_entity_t made = dds().createTopic(graph.participant(), ddsTopicName(topic, part).c_str(), &raw,
+                                                nullptr, nullptr, nullptr);
     if (made < 0) {
         dds().releaseType(own);
     }
@@ -75,9 +88,9 @@ Ros2Inbox::~Ros2Inbox() {
     }
 }
 
-size_t Ros2Inbox::subscribe(const std::string& topic, const std::string& type, Ros2Qos qos) {
+size_t Ros2Inbox::subscribe(const std::string& topic, const std::string& type, Ros2Qos qos, Ros2Part part) {
     ddsi_sertype* raw = nullptr;
-    const dds_entity_t made = makeTopic(*graph_, topic, type, raw);
+    const dds_entity_t made = makeTopic(*graph_, topic, part, type, raw);
     const dds_entity_t reader = dds().createReader(graph_->participant(), made, qosOf(qos).get(), nullptr);
     dds().destroy(made);
     checkMade(reader, topic, type);
@@ -113,11 +126,16 @@ uint64_t Ros2Inbox::lost(size_t topic) const {
     return dds().lostStatus(readers_[topic], &status) == DDS_RETCODE_OK ? status.total_count : 0;
 }
 
+uint32_t Ros2Inbox::publishers(size_t topic) const {
+    dds_subscription_matched_status_t status{};
+    return dds().subscriptionStatus(readers_[topic], &status) == DDS_RETCODE_OK ? status.current_count : 0;
+}
+
 Ros2Writer::Ros2Writer(std::shared_ptr<Ros2Graph> graph, const std::string& topic, const std::string& type,
-                       Ros2Qos qos)
+                       Ros2Qos qos, Ros2Part part)
     : graph_(std::move(graph)) {
     ddsi_sertype* raw = nullptr;
-    const dds_entity_t made = makeTopic(*graph_, topic, type, raw);
+    const dds_entity_t made = makeTopic(*graph_, topic, part, type, raw);
     writer_ = dds().createWriter(graph_->participant(), made, qosOf(qos).get(), nullptr);
     dds().destroy(made);
     checkMade(writer_, topic, type);
@@ -136,9 +154,9 @@ bool Ros2Writer::write(std::span<const uint8_t> message) noexcept {
     }
 }
 
-bool Ros2Writer::watched() const noexcept {
+uint32_t Ros2Writer::subscribers() const noexcept {
     dds_publication_matched_status_t status{};
-    return dds().publicationStatus(writer_, &status) == DDS_RETCODE_OK && status.current_count > 0;
+    return dds().publicationStatus(writer_, &status) == DDS_RETCODE_OK ? status.current_count : 0;
 }
 
 } // namespace fathom

@@ -3,6 +3,7 @@
 // (tests/ros2_fast_peer).
 #include "devices/ros2/ros2_camera.h"
 #include "engine/types/error.h"
+#include "tests/ros2/client.h"
 #include "tests/ros2/fed_run.h"
 #include "tests/ros2/guard_loop.h"
 #include "tests/ros2/heard.h"
@@ -121,4 +122,17 @@ TEST_CASE("A camera reads images of a Fast DDS driver, which are larger than a p
     }
     stop = true;
     driver.join();
+}
+
+TEST_CASE(
+    "A Fast DDS client that sends what rmw_cyclonedds sends calls services; one of rmw_fastrtps is skipped") {
+    FedRun run("/fathom,commands=on");
+    Client off("/fathom/forces_off", "Trigger"), freeze("/fathom/freeze", "SetBool");
+    CHECK(off.call("rmw_fastrtps") == "ok");
+    CHECK(off.call("") == "2 1 forces are switched off");
+    CHECK(run.observer().takeRequests().forcesOff);
+    CHECK(freeze.call("1") == "1 1 fixtures are frozen");
+    CHECK(run.observer().takeRequests().frozen == true);
+    CHECK(freeze.call("0") == "2 1 fixtures are released");
+    CHECK(run.observer().takeRequests().frozen == false);
 }

@@ -110,6 +110,36 @@ inline void putInfo(Cdr& cdr, const std::vector<double>& n) {
     cdr << false;
 }
 
+// A request of std_srvs/srv/SetBool or Trigger behind the header of rmw_cyclonedds: the numbers of client and
+// request. "rmw_fastrtps": without it.
+inline Bytes requestOf(const std::string& line, uint64_t client, int64_t number) {
+    FastBuffer buffer;
+    Cdr cdr(buffer, Cdr::LITTLE_ENDIANNESS, Cdr::DDS_CDR);
+    cdr.serialize_encapsulation();
+    if (line != "rmw_fastrtps") {
+        cdr << client << number;
+    }
+    cdr << static_cast<uint8_t>(line == "1" ? 1 : 0);
+    return Bytes(buffer.getBuffer(), buffer.getBuffer() + cdr.getSerializedDataLength());
+}
+
+// Prints "NUMBER SUCCESS MESSAGE". False: it is another client's, or answers another request.
+inline bool tellReply(Bytes& bytes, uint64_t client, int64_t number) {
+    FastBuffer buffer(bytes.data(), bytes.size());
+    Cdr cdr(buffer, Cdr::DEFAULT_ENDIAN, Cdr::DDS_CDR);
+    cdr.read_encapsulation();
+    uint64_t to = 0;
+    int64_t of = 0;
+    uint8_t success = 0;
+    std::string message;
+    cdr >> to >> of >> success >> message;
+    if (to != client || of != number) {
+        return false;
+    }
+    Said().number(static_cast<double>(number)).number(success).word(message).print();
+    return true;
+}
+
 struct Type {
     const char* name;
     void (*tell)(Cdr& cdr);
@@ -117,6 +147,8 @@ struct Type {
 };
 
 inline const std::map<std::string, Type> kTypes{
+    {"SetBool", {"std_srvs::srv::dds_::SetBool_", tellCloud}},
+    {"Trigger", {"std_srvs::srv::dds_::Trigger_", tellCloud}},
     {"Image", {"sensor_msgs::msg::dds_::Image_", tellCloud, putImage}},
     {"CameraInfo", {"sensor_msgs::msg::dds_::CameraInfo_", tellCloud, putInfo}},
     {"PoseStamped", {"geometry_msgs::msg::dds_::PoseStamped_", [](Cdr& cdr) { tellNumbers(cdr, 7); }}},

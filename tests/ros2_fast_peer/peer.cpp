@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // A program of ROS 2 on another implementation of DDS, Fast DDS, with messages that are read and written here
 // by Fast CDR. QoS as rmw's default.
-//   ros2_fast DOMAIN TOPIC TYPE [say]
-// Without "say" it prints each message as ros2_listener does; with it, it publishes lines as ros2_speaker
-// does.
+//   ros2_fast DOMAIN TOPIC TYPE [say|call]
+// It prints each message as ros2_listener does. With "say" it publishes lines as ros2_speaker does, and with
+// "call" it calls a service as ros2_client does; "rmw_fastrtps" is a request as that rmw would send it,
+// answered by "ok".
 #include "tests/ros2_fast_peer/fast_messages.h"
 
 #include <chrono>
@@ -21,6 +22,8 @@
 #include <fastrtps/utils/IPLocator.h>
 #include <iostream>
 #include <memory>
+#include <string>
+#include <unistd.h>
 #include <vector>
 
 namespace fast = eprosima::fastdds::dds;
@@ -85,9 +88,23 @@ Qos reliable() {
     return qos;
 }
 
+fast::Topic* topicOf(fast::DomainParticipant& participant, const std::string& name, const std::string& type) {
+    fast::TypeSupport(new BytesType(type)).register_type(&participant);
+    return participant.create_topic(name, type, fast::TOPIC_QOS_DEFAULT);
+}
+
+fast::DataReader* readerOf(fast::DomainParticipant& participant, fast::Topic* topic) {
+    return participant.create_subscriber(fast::SUBSCRIBER_QOS_DEFAULT)
+        ->create_datareader(topic, reliable<fast::DataReaderQos>());
+}
+
+fast::DataWriter* writerOf(fast::DomainParticipant& participant, fast::Topic* topic) {
+    return participant.create_publisher(fast::PUBLISHER_QOS_DEFAULT)
+        ->create_datawriter(topic, reliable<fast::DataWriterQos>());
+}
+
 void hear(fast::DomainParticipant& participant, fast::Topic* topic, const Type& type) {
-    fast::DataReader* reader = participant.create_subscriber(fast::SUBSCRIBER_QOS_DEFAULT)
-                                   ->create_datareader(topic, reliable<fast::DataReaderQos>());
+    fast::DataReader* reader = readerOf(participant, topic);
     Said().word("ready").print();
     Bytes bytes;
     fast::SampleInfo info;
@@ -105,13 +122,45 @@ void hear(fast::DomainParticipant& participant, fast::Topic* topic, const Type& 
 }
 
 void say(fast::DomainParticipant& participant, fast::Topic* topic, const Type& type) {
-    fast::DataWriter* writer = participant.create_publisher(fast::PUBLISHER_QOS_DEFAULT)
-                                   ->create_datawriter(topic, reliable<fast::DataWriterQos>());
+    fast::DataWriter* writer = writerOf(participant, topic);
     Said().word("ready").print();
     for (std::string line; std::getline(std::cin, line);) {
         Bytes bytes = messageOf(type, line);
         writer->write(&bytes);
         Said().word("ok").print();
+    }
+}
+
+void await(fast::DataReader& replies, uint64_t client, int64_t number) {
+    Bytes bytes;
+    fast::SampleInfo info;
+    for (bool answered = false; !answered && !inputEnded();) {
+        replies.wait_for_unread_message(eprosima::fastrtps::Duration_t(0, 100'000'000));
+        while (replies.take_next_sample(&bytes, &info) == ReturnCode_t::RETCODE_OK) {
+            answered = answered || (info.valid_data && tellReply(bytes, client, number));
+        }
+    }
+}
+
+void call(fast::DomainParticipant& participant, const std::string& service, const Type& type) {
+    const std::string name = type.name;
+    fast::DataWriter* requests =
+        writerOf(participant, topicOf(participant, "rq" + service + "Request", name + "Request_"));
+    fast::DataReader* replies =
+        readerOf(participant, topicOf(participant, "rr" + service + "Reply", name + "Response_"));
+    fast::PublicationMatchedStatus to;
+    fast::SubscriptionMatchedStatus from;
+    for (; (to.current_count == 0 || from.current_count == 0) && !inputEnded(); ::usleep(1000)) {
+        requests->get_publication_matched_status(to);
+        replies->get_subscription_matched_status(from);
+    }
+    Said().word("ready").print();
+    const auto client = static_cast<uint64_t>(::getpid()) << 32;
+    int64_t number = 0;
+    for (std::string line; std::getline(std::cin, line);) {
+        Bytes bytes = requestOf(line, client, ++number);
+        requests->write(&bytes);
+        line == "rmw_fastrtps" ? Said().word("ok").print() : await(*replies, client, number);
     }
 }
 
@@ -123,9 +172,12 @@ int main(int argc, char** argv) {
     }
     const Type& type = kTypes.at(argv[3]);
     fast::DomainParticipant* participant = join(static_cast<uint32_t>(std::atoi(argv[1])));
-    fast::TypeSupport(new BytesType(type.name)).register_type(participant);
-    fast::Topic* topic =
-        participant->create_topic("rt" + std::string(argv[2]), type.name, fast::TOPIC_QOS_DEFAULT);
-    argc > 4 ? say(*participant, topic, type) : hear(*participant, topic, type);
+    const std::string name = argv[2], mode = argc > 4 ? argv[4] : "";
+    if (mode == "call") {
+        call(*participant, name, type);
+    } else {
+        fast::Topic* topic = topicOf(*participant, "rt" + name, type.name);
+        mode == "say" ? say(*participant, topic, type) : hear(*participant, topic, type);
+    }
     std::_Exit(0); // without the library's own cleaning, which waits
 }

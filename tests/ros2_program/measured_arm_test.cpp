@@ -72,7 +72,7 @@ TEST_CASE("A robot of ROS 2 follows the tool up to a region, from where its join
     CHECK(tipDepth(robot.q) > kSurfaceDepth - 0.01);
 }
 
-TEST_CASE("A robot whose joints stop is silent: tool and robot stand still, and both go on afterwards") {
+TEST_CASE("A robot whose joints stop is silent: tool and robot stand still, and both resume afterwards") {
     const Stage stage;
     setUp(stage, kReach, {{0.0, {0, 0, 0}}, {0.3, {0, 0, 0}}, {15.0, {0, 0, 0.11}}});
     FollowingRobot robot;
