@@ -3,7 +3,7 @@
 // with the code that idlc generated. It has the QoS of rmw's default subscribers.
 //   ros2_listener DOMAIN TOPIC TYPE [N]
 // "ready" is its first line; it ends with its standard input. With a fourth argument N it prints instead,
-// after N messages, how old they are on arrival by their stamps, and how far apart.
+// after N messages or at its end, how old they are on arrival by their stamps, and how far apart.
 #include "messages.h"
 #include "tests/ros2_listener/said.h"
 #include "tests/ros2_talker/join_loopback.h"
@@ -190,6 +190,9 @@ public:
 
 private:
     static void printOne(const char* what, std::vector<double>& millis) {
+        if (millis.empty()) {
+            return;
+        }
         std::sort(millis.begin(), millis.end());
         const auto at = [&](double share) {
             return millis[static_cast<size_t>(share * static_cast<double>(millis.size() - 1))];
@@ -232,5 +235,6 @@ int main(int argc, char** argv) {
             dds_return_loan(reader, sample, 1);
         }
     }
+    ages.print();
     return 0;
 }

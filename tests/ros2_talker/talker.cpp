@@ -111,9 +111,10 @@ void publishInfo(dds_entity_t writer) {
     info.distortion_model = const_cast<char*>("plumb_bob");
     double d[5] = {};
     info.d = {5, 5, d, false};
-    const double k[9] = {settings.at("fx"), 0, 3.5, 0, settings.at("fx"), 2.5, 0, 0, 1},
-                 r[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
-    const double p[12] = {settings.at("fx"), 0, 3.5, 0, 0, settings.at("fx"), 2.5, 0, 0, 0, 1, 0};
+    const double f = settings.at("fx"), cx = 0.5 * settings.at("width") - 0.5,
+                 cy = 0.5 * settings.at("height") - 0.5;
+    const double k[9] = {f, 0, cx, 0, f, cy, 0, 0, 1}, r[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+    const double p[12] = {f, 0, cx, 0, 0, f, cy, 0, 0, 0, 1, 0};
     std::copy_n(k, 9, info.k);
     std::copy_n(r, 9, info.r);
     std::copy_n(p, 12, info.p);
@@ -156,8 +157,9 @@ void obey(const std::string& line) {
 // Until the next image is due.
 void listen() {
     static std::string rest;
-    const auto due = std::chrono::steady_clock::now() +
-                     std::chrono::microseconds(static_cast<int>(1e6 / settings.at("rate")));
+    static auto due = std::chrono::steady_clock::now();
+    due = std::max(due + std::chrono::microseconds(static_cast<int>(1e6 / settings.at("rate"))),
+                   std::chrono::steady_clock::now() - std::chrono::milliseconds(100)); // keeps its rate
     for (;;) {
         const auto left =
             std::chrono::duration_cast<std::chrono::milliseconds>(due - std::chrono::steady_clock::now())
