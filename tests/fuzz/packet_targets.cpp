@@ -5,7 +5,6 @@
 #include "devices/bridge/socket_hand.h"
 #include "devices/haply/haply_message.h"
 #include "devices/haply/web_socket.h"
-#include "devices/ros2/received_messages.h"
 #include "devices/usb/falcon_kinematics.h"
 #include "devices/usb/falcon_packet.h"
 #include "devices/usb/space_mouse.h"
@@ -175,22 +174,6 @@ void readHaply(Bytes input) {
                 event == WebSocketFrames::Event::Text ? readHaplyState(text, "") : std::nullopt;
             need(!state || (isFinite(state->sample.deviceThandle) && !state->device.empty()));
         }
-    }
-}
-
-// The first byte selects a pose, buttons or joints.
-void readRos2Hand(Bytes input) {
-    if (input.empty()) {
-        return;
-    }
-    if (input[0] % 3 == 0) {
-        const ros2::HandPose hand = ros2::handPose(input.subspan(1));
-        need(isFinite(hand.pose) && std::abs(glm::length(hand.pose.rotation) - 1.0) < 1e-9);
-        need(glm::length(hand.pose.position) <= ros2::kFarthestHand);
-    } else if (input[0] % 3 == 2) {
-        need(ros2::jointPositions(input.subspan(1)).size() <= ros2::kMostJoints);
-    } else {
-        need(ros2::joyButtons(input.subspan(1)).size() <= ros2::kMostJoy);
     }
 }
 
