@@ -20,7 +20,8 @@ public:
     virtual void awaitGuard(const std::atomic<bool>& stop) = 0;
     // Whether the arm may move now [s]: something else stops it if this process cannot. Does not wait.
     virtual bool guarded(double now) noexcept = 0;
-    // Why there is no feedback, for messages.
+    // [s] without feedback until the arm counts as absent at the start, and why there is none, for messages.
+    virtual double patience() const { return 5.0; }
     virtual std::string silence() const { return "no answer"; }
 };
 

@@ -16,11 +16,11 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr auto kPause = std::chrono::milliseconds(2);
-constexpr double kNoAnswer = 5.0, kHomingTime = 300.0; // [s]
-constexpr double kRetry = 0.5;                         // [s] between attempts to reopen the line
-constexpr double kLastWords = 0.2;                     // [s] stop commands at the end
-constexpr double kQuiet = 2.0;                         // [s] minimum time between two log lines
-constexpr double kOutside = 0.02; // [rad], [m] tolerance of the joint limits for calibration errors
+constexpr double kHomingTime = 300.0; // [s]
+constexpr double kRetry = 0.5;        // [s] between attempts to reopen the line
+constexpr double kLastWords = 0.2;    // [s] stop commands at the end
+constexpr double kQuiet = 2.0;        // [s] minimum time between two log lines
+constexpr double kOutside = 0.02;     // [rad], [m] tolerance of the joint limits for calibration errors
 
 double secondsAt(Clock::time_point time) {
     return std::chrono::duration<double>(time.time_since_epoch()).count();
@@ -107,7 +107,7 @@ ArmPosture ArmThread::ready(const std::atomic<bool>& stop) {
         if (stop.load()) {
             throw Error(description() + ": stopped before it was ready");
         }
-        if (line_->gone() || now - heard > kNoAnswer) {
+        if (line_->gone() || now - heard > line_->patience()) {
             throw DeviceLost(description() +
                              (line_->gone() ? ": the serial port is gone" : ": " + line_->silence()));
         }

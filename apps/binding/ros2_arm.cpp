@@ -49,7 +49,7 @@ public:
     MeasuredDevice(Ros2Inbox& inbox, const ArmModel& model, const std::string& topic)
         : inbox_(inbox)
         , model_(model)
-        , readings_("ros2", topic, ownJoints(model), otherJoints(model)) {
+        , readings_("arm", topic, ownJoints(model), otherJoints(model)) {
         feedback_.homed = true;
     }
     void step(double now, const ArmCommand& command) noexcept override;
@@ -99,6 +99,7 @@ public:
     // Nothing here moves the arm, so nothing has to stop it.
     void awaitGuard(const std::atomic<bool>&) override {}
     bool guarded(double) noexcept override { return true; }
+    double patience() const override { return request_.wait; }
     std::string silence() const override;
 
 private:

@@ -22,6 +22,8 @@ Ros2ArmRequest parseRos2ArmRequest(const std::string& text) {
     for (const Ros2Word& word : ros2Words(text.substr(std::min(text.size(), kArmPrefix.size())))) {
         if (word.name == "joints") {
             request.joints = ros2Topic(kArmOption, word, Ros2ArmRequest::kAllowed);
+        } else if (word.name == "wait") {
+            request.wait = ros2Number(kArmOption, word, kLongestRos2Wait, "s");
         } else if (!takePlace(kArmOption, word, request.place)) {
             throw BadInput(kArmOption, "ros2", text, Ros2ArmRequest::kAllowed);
         }

@@ -12,9 +12,10 @@ namespace fathom {
 struct Ros2ArmRequest {
     Ros2Place place;
     std::string joints; // topic of sensor_msgs/msg/JointState
+    double wait = 10.0; // [s] for the first posture
 
     static constexpr const char* kAllowed =
-        "ros2:joints=TOPIC, then any of ,domain=N ,network=lo|INTERFACE|any";
+        "ros2:joints=TOPIC, then any of ,domain=N ,network=lo|INTERFACE|any ,wait=S";
 };
 
 // The domain is ros2Domain() if the text has none. Throws BadInput.

@@ -23,6 +23,9 @@ struct Ros2Word {
     std::string text, name, value; // "wait=2": name "wait", value "2"
 };
 
+// Most of wait=.
+inline constexpr double kLongestRos2Wait = 3600.0; // [s]
+
 // All words; the text has no escapes.
 std::vector<Ros2Word> ros2Words(const std::string& text);
 

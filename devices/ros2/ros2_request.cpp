@@ -15,11 +15,10 @@ constexpr const char* kCameraOption = "--source";
 
 // Takes what recordings do not have out of the words; returns the rest.
 std::string takeOwn(const std::string& text, Ros2Request& request) {
-    constexpr double kLongestWait = 3600.0;
     std::string rest;
     for (const Ros2Word& word : ros2Words(text)) {
         if (word.name == "wait") {
-            request.wait = ros2Number(kCameraOption, word, kLongestWait, "s");
+            request.wait = ros2Number(kCameraOption, word, kLongestRos2Wait, "s");
         } else if (word.name == "frame") {
             request.frame = ros2Frame(kCameraOption, word);
         } else if (!takePlace(kCameraOption, word, request.place)) {

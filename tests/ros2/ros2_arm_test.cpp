@@ -22,8 +22,9 @@ ArmModel mimicArm() {
     return arm;
 }
 
-ArmThread::Target armTarget(const ArmModel& arm) {
-    const std::string text = "ros2:joints=" + kJointTopic + ",domain=" + std::to_string(testDomain());
+ArmThread::Target armTarget(const ArmModel& arm, const std::string& wait = "60") {
+    const std::string text =
+        "ros2:joints=" + kJointTopic + ",domain=" + std::to_string(testDomain()) + ",wait=" + wait;
     return {text, "arm", [text, arm] { return openRos2Arm(parseRos2ArmRequest(text), arm); }};
 }
 
@@ -112,10 +113,8 @@ TEST_CASE("A bad joint does not move the arm; bad, old and missing messages make
 TEST_CASE("An arm without a topic of all its joints is refused with what is missing") {
     const ArmModel model = mimicArm();
     const std::atomic<bool> stop{false};
-    const auto refused = [&](const std::string& joints) {
-        Robot robot;
-        robot.isAt(joints);
-        ArmThread thread(armTarget(model), model.joints, chainAxes(model));
+    const auto refused = [&] {
+        ArmThread thread(armTarget(model, "2"), model.joints, chainAxes(model));
         try {
             thread.ready(stop);
         } catch (const DeviceLost& e) {
@@ -123,11 +122,19 @@ TEST_CASE("An arm without a topic of all its joints is refused with what is miss
         }
         return std::string();
     };
-    const std::string none = refused(""), one = refused("age=0 0 0.5"), far = refused("age=0 0 3 1 0");
-    CHECK(none.find("arm: no message with joint 0, 1 in domain " + std::to_string(testDomain())) == 0);
-    CHECK(one.find("no message with joint 1 in") != std::string::npos);
-    CHECK(one.find("/joint_states (sensor_msgs/msg/JointState)") != std::string::npos);
-    CHECK(far.find("joint 0: 3.000000 (allowed: -1.200000 to 1.200000)") != std::string::npos);
+    CHECK(refused().find("arm: no message with joint 0, 1 in domain " + std::to_string(testDomain())) == 0);
+    const auto becomes = [&](const std::string& joints, const std::string& part) { // once it is found
+        Robot robot;
+        robot.isAt(joints);
+        std::string said = refused();
+        for (int i = 0; i < 20 && said.find(part) == std::string::npos; ++i) {
+            said = refused();
+        }
+        CHECK_MESSAGE(said.find(part) != std::string::npos, said);
+    };
+    becomes("age=0 0 0.5", "no message with joint 1 in");
+    becomes("age=0 0 0.5", "/joint_states (sensor_msgs/msg/JointState)");
+    becomes("age=0 0 3 1 0", "joint 0: 3.000000 (allowed: -1.200000 to 1.200000)");
 }
 
 TEST_CASE("A request for an arm needs a topic and knows no other words") {
@@ -136,6 +143,7 @@ TEST_CASE("A request for an arm needs a topic and knows no other words") {
     CHECK(requestFault("ros2:joints=/a,speed=1").find("ros2:joints=TOPIC") != std::string::npos);
     CHECK(requestFault("ros2:joints=/a b").find("--arm: joints: /a b") == 0);
     CHECK(requestFault("ros2:joints=/a,domain=300").find("--arm: domain: 300 (allowed: 0 to 232)") == 0);
+    CHECK(requestFault("ros2:joints=/a,wait=0").find("--arm: wait: 0 (allowed: a number above 0") == 0);
     CHECK(parseRos2ArmRequest("ros2:joints=a").joints == "/a");
     CHECK(isRos2Arm("ros2:joints=/a"));
     CHECK_FALSE(isRos2Arm("/dev/ttyUSB0"));

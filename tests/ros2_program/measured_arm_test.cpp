@@ -46,7 +46,7 @@ struct FollowingRobot {
 std::future<ProgramRun> startReplay(const Stage& stage) {
     return std::async(std::launch::async, [&] {
         return runFathom(
-            stage.command({"--realtime", "--arm", "ros2:joints=/joint_states" + place(), "--ros2",
+            stage.command({"--realtime", "--arm", "ros2:joints=/joint_states,wait=60" + place(), "--ros2",
                            "/fathom,trajectory=/robot/trajectory,measured=/joint_states" + place()}));
     });
 }
@@ -105,7 +105,7 @@ TEST_CASE("A robot of ROS 2 needs a scene with an arm, a realtime run and joints
     refused({"--arm", "ros2:joints=/a"}, 2, "--arm: ros2:joints=/a (allowed: together with --realtime)");
     refused({"--realtime", "--arm", "ros2:topic=/a"}, 2,
             "--arm: ros2: ros2:topic=/a (allowed: ros2:joints=TOPIC");
-    refused({"--realtime", "--arm", "ros2:joints=/nothing" + place()}, 3,
+    refused({"--realtime", "--arm", "ros2:joints=/nothing,wait=2" + place()}, 3,
             "ROS 2 /nothing: no message with joint slew, shoulder, elbow in domain");
     stage.scene({});
     refused({"--realtime", "--arm", "ros2:joints=/a"}, 2, "an arm, because of --arm ros2:joints=/a");

@@ -2,6 +2,7 @@
 // The whole program with topics of ROS 2, in real time.
 #include "tests/rig/refusal.h"
 #include "tests/rig/stage.h"
+#include "tests/ros2/client.h"
 #include "tests/ros2/heard.h"
 
 #include <csignal>
@@ -152,6 +153,9 @@ TEST_CASE("Another program switches the window's forces off, and freezes its fix
         return state["console"]["frozen"] == true;
     }));
     CHECK(newestState(stage)["console"]["forces"] == false);
+    Client release("/fathom/freeze", "SetBool");
+    CHECK(release.call("0") == "1 1 fixtures are released");
+    CHECK(becomes(stage, [](const json& state) { return state["console"]["frozen"] == false; }));
     CHECK(window.end() == 0);
 }
 
