@@ -23,6 +23,7 @@ public:
     // camera: the frame of the images that follow. Returns why no transforms lead to it; empty if some do.
     std::string follow(const std::string& camera);
 
+    // Images whose pose is known, or known to be missing.
     struct Posed {
         LivePairs::Pair pair;
         std::optional<Pose> fixedTcamera;
