@@ -27,6 +27,8 @@ public:
         return {static_cast<uint32_t*>(colour_.get()), colour_ ? pixels_ : 0u};
     }
 
+    std::span<std::byte> colourBytes() noexcept { return std::as_writable_bytes(colour()); }
+
     // Returns the memory to its camera; any thread, wait-free.
     void release() noexcept { taken_.store(false, std::memory_order_release); }
     // A lease on this slot's memory; the slots must outlive it. When the content's depth and colour are in
@@ -40,7 +42,7 @@ public:
         if (content.depth.data() == depth_.get()) {
             content.depthMemory = depth_;
         }
-        if (content.colours(!content.yuyv.empty()).data() == colour_.get()) {
+        if (static_cast<const void*>(content.colourBytes().data()) == colour_.get()) {
             content.colourMemory = colour_;
         }
     }

@@ -24,13 +24,13 @@ layout(constant_id = kSpecWide) const uint kWide = 0;
 layout(constant_id = kSpecKeep) const uint kKeep = 0;
 layout(constant_id = kSpecGuidance) const uint kGuidance = 0;
 layout(constant_id = kSpecLists) const uint kLists = 0;
-layout(constant_id = kSpecYuyv) const uint kYuyv = 0;
+layout(constant_id = kSpecFormat) const uint kFormat = 0;
 
 layout(std140, binding = 0) uniform Params { FrameParams params; };
 layout(binding = 1) uniform usamplerBuffer depths; // uint16 per pixel; kFour: four per texel
 layout(std430, binding = 2) readonly buffer Rays { vec2 rays[]; };
-// R, G, B, unused per pixel; kYuyv: Y0, U, Y1, V per two pixels; kFour = 2: these words, four pixels per
-// texel.
+// Four bytes per texel, or one word if the format is of single bytes; kFour = 2: words, of four pixels if the
+// format has words.
 layout(binding = 3) uniform usamplerBuffer colours;
 layout(std430, binding = 4) readonly buffer Cells { uint nearest[]; };
 layout(std430, binding = 5) writeonly buffer Masks { uint masks[]; };       // one byte per slot: class bits
@@ -48,16 +48,8 @@ layout(std430, binding = 11) writeonly buffer Depth { uvec2 keptDepth[]; }; // u
 #include "shaders/lib/depth.glsl"
 #include "shaders/lib/lens.glsl"
 #include "shaders/lib/lists.glsl"
+#include "shaders/lib/raw_colour.glsl"
 #include "shaders/lib/slots.glsl"
-#include "shaders/lib/yuyv.glsl"
-
-vec3 colourAt(uint pixel) {
-    if (kYuyv != 0) {
-        uvec4 pair = texelFetch(colours, int(pixel >> 1));
-        return rgbOfYuv((pixel & 1u) == 0 ? pair.x : pair.z, pair.y, pair.w);
-    }
-    return vec3(texelFetch(colours, int(pixel)).xyz);
-}
 
 // Looks up the colour of a point in the colour image. Returns false when the colour camera does not see the
 // point.
@@ -76,7 +68,7 @@ bool colourOf(vec3 p, out vec3 rgb) {
     if (q.z > front * 1.02 + 0.005) {
         return false; // a nearer surface hides it from the colour camera
     }
-    rgb = colourAt(uint(at.y) * params.colourSize.x + uint(at.x));
+    rgb = colourAt(uvec2(at));
     return true;
 }
 
@@ -165,22 +157,12 @@ vec4 depthsAt(uvec2 at) {
 // Registered colours of four adjacent pixels in a row; undefined outside the image.
 vec3[4] coloursAt(uvec2 at) {
     vec3 rgb[4] = vec3[4](vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
-    bool inside = all(lessThan(at, params.size.xy));
-    uint pixel = inside ? at.y * params.size.x + at.x : 0u;
-    if (kColour == 1 && kFour == 2 && kYuyv != 0) {
-        uvec4 word = texelFetch(colours, int(pixel >> 2));
-        [[unroll]] for (uint k = 0; k < 4u; ++k) {
-            uint pair = word[k / 2u];
-            rgb[k] = rgbOfYuv(pair >> (16u * (k & 1u)) & 255u, pair >> 8 & 255u, pair >> 24);
-        }
-    } else if (kColour == 1 && kFour == 2) {
-        uvec4 word = texelFetch(colours, int(pixel >> 2));
-        [[unroll]] for (uint k = 0; k < 4u; ++k) {
-            rgb[k] = vec3(word[k] & 255u, word[k] >> 8 & 255u, word[k] >> 16 & 255u);
-        }
+    uvec2 from = all(lessThan(at, params.size.xy)) ? at : uvec2(0);
+    if (kColour == 1 && kFour == 2) {
+        rgb = fourColoursAt(from);
     } else if (kColour == 1) {
         [[unroll]] for (uint k = 0; k < 4u; ++k) {
-            rgb[k] = colourAt(at.x + k < params.size.x ? pixel + k : 0u);
+            rgb[k] = colourAt(from.x + k < params.size.x ? from + uvec2(k, 0) : uvec2(0));
         }
     }
     return rgb;

@@ -11,9 +11,15 @@ namespace fathom {
 
 namespace {
 
-// A colour that is not black: any channel above 8 levels. YUYV images count as seen.
+// A colour that is not black: any channel above 8 levels.
 bool isLit(uint32_t rgba) {
     return (rgba & 0x00f8f8f8u) != 0;
+}
+
+// The same, of red, green and blue in single bytes. Y U V counts as lit.
+bool isLit(const RawColour& raw) {
+    const bool bytes = raw.format == ColourFormat::Rgb || raw.format == ColourFormat::Bgr;
+    return !bytes || std::ranges::any_of(raw.bytes, [](std::byte b) { return b > std::byte{7}; });
 }
 
 } // namespace
@@ -42,7 +48,7 @@ SourceCheck::SourceCheck(std::unique_ptr<Camera> source, const Scene& scene)
                              why));
         }
     }
-    colourSeen_ = !asked || !why.empty() || info().yuyv;
+    colourSeen_ = !asked || !why.empty();
 }
 
 // Stops at the first pixel in range: for a good source that is soon.
@@ -63,7 +69,11 @@ bool SourceCheck::inRange(std::span<const uint16_t> depth) {
 
 void SourceCheck::look(const Frame& frame) {
     depthSeen_ = depthSeen_ || inRange(frame->depth);
-    colourSeen_ = colourSeen_ || std::any_of(frame->colour.begin(), frame->colour.end(), isLit);
+    const auto lit = [&] {
+        return frame->isRaw() ? isLit(frame->raw)
+                              : std::ranges::any_of(frame->colour, [](uint32_t c) { return isLit(c); });
+    };
+    colourSeen_ = colourSeen_ || lit();
 }
 
 void SourceCheck::end() {

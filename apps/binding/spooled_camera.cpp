@@ -23,13 +23,13 @@ SpooledCamera::SpooledCamera(std::unique_ptr<Camera> source, const std::filesyst
     }
     ::unlink(name.c_str());
     try {
-        while (contents_.empty() || !stop.load()) {
+        while (kept_.empty() || !stop.load()) {
             const std::optional<Frame> frame = source->next();
             if (!frame) {
                 break;
             }
             store(*frame);
-            progress(contents_.size());
+            progress(kept_.size());
         }
     } catch (...) {
         ::close(descriptor_);
@@ -37,8 +37,7 @@ SpooledCamera::SpooledCamera(std::unique_ptr<Camera> source, const std::filesyst
     }
     skipped_ = source->skipped();
     warnings_ = source->warnings();
-    const auto pixels = std::max(info_.depth.pixels(), static_cast<uint32_t>(colourWords_));
-    slots_ = std::make_unique<FrameSlots>(pixels, colourWords_ > 0, kFramesInFlight + 1);
+    slots_ = std::make_unique<FrameSlots>(info_.slotPixels(), info_.hasColour, kFramesInFlight + 1);
 }
 
 SpooledCamera::~SpooledCamera() {
@@ -50,14 +49,13 @@ void SpooledCamera::fail(const char* what) const {
 }
 
 void SpooledCamera::store(const Frame& frame) {
-    const std::span<const uint32_t> colours = frame->colours(info_.yuyv);
-    colourWords_ = colours.size();
+    const std::span<const std::byte> colours = frame->colourBytes();
     writeAll(frame->depth.data(), frame->depth.size_bytes());
-    writeAll(colours.data(), colours.size_bytes());
-    contents_.push_back(*frame);
-    contents_.back().depth = {};
-    contents_.back().colour = contents_.back().yuyv = {};
-    contents_.back().depthMemory = contents_.back().colourMemory = nullptr;
+    writeAll(colours.data(), colours.size());
+    Kept& kept = kept_.emplace_back(Kept{*frame, colours.size()});
+    kept.content.depth = {};
+    kept.content.setColourBytes({});
+    kept.content.depthMemory = kept.content.colourMemory = nullptr;
 }
 
 void SpooledCamera::writeAll(const void* bytes, size_t count) {
@@ -86,20 +84,21 @@ void SpooledCamera::readAll(void* bytes, size_t count) {
 }
 
 std::optional<Frame> SpooledCamera::next() {
-    if (next_ == contents_.size()) {
+    if (next_ == kept_.size()) {
         return std::nullopt;
     }
     FrameSlot* slot = slots_->acquire();
     if (slot == nullptr) {
         throw Error("camera: too many frames in flight");
     }
-    Frame::Content content = contents_[next_++];
+    const Kept& kept = kept_[next_++];
+    Frame::Content content = kept.content;
     content.depth = slot->depth().first(info_.depth.pixels());
-    const std::span<uint32_t> colours = slot->colour().first(colourWords_);
-    (info_.yuyv ? content.yuyv : content.colour) = colours;
+    const std::span<std::byte> colours = slot->colourBytes().first(kept.colourBytes);
+    content.setColourBytes(colours);
     Frame frame = slot->lend(content);
     readAll(slot->depth().data(), content.depth.size_bytes());
-    readAll(colours.data(), colours.size_bytes());
+    readAll(colours.data(), colours.size());
     return frame;
 }
 

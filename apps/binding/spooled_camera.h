@@ -42,8 +42,11 @@ private:
     uint32_t skipped_ = 0;
     std::vector<std::string> warnings_; // of the source
     int descriptor_ = -1;
-    size_t colourWords_ = 0;               // per frame
-    std::vector<Frame::Content> contents_; // without their pixels
+    struct Kept {
+        Frame::Content content; // without its pixels
+        size_t colourBytes = 0;
+    };
+    std::vector<Kept> kept_;
     size_t next_ = 0;
     int64_t written_ = 0, read_ = 0; // [bytes]
     std::unique_ptr<FrameSlots> slots_;

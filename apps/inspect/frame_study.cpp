@@ -2,7 +2,7 @@
 #include "apps/inspect/frame_study.h"
 
 #include "apps/replay/image.h"
-#include "engine/types/yuyv.h"
+#include "engine/types/colour_copy.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,16 +26,6 @@ std::string fixed(double value, int digits) {
 bool isGrey(uint32_t rgba) {
     const auto [least, most] = std::minmax({rgba & 255, rgba >> 8 & 255, rgba >> 16 & 255});
     return 10 * (most - least) <= most;
-}
-
-std::vector<uint32_t> coloursOf(const Frame& frame, const CameraInfo& info) {
-    std::vector<uint32_t> colours(info.colour.pixels());
-    if (info.yuyv) {
-        unpackYuyv(frame->yuyv, colours);
-    } else {
-        std::copy_n(frame->colour.begin(), colours.size(), colours.begin());
-    }
-    return colours;
 }
 
 template <class Pixel> // Pixel(i): 0xAARRGGBB
@@ -68,7 +58,7 @@ void saveDepth(const Frame& frame, const CameraInfo& info, const std::filesystem
 }
 
 void saveColour(const Frame& frame, const CameraInfo& info, const std::filesystem::path& file) {
-    const std::vector<uint32_t> colours = coloursOf(frame, info);
+    const std::vector<uint32_t> colours = coloursOf(*frame);
     savePicture(info.colour, file, [&](size_t i) {
         const uint32_t c = colours[i];
         return (c & 255) << 16 | (c & 0xff00) | (c >> 16 & 255);
@@ -108,7 +98,7 @@ void FrameStudy::add(const Frame& frame) {
         ++counts_[raw];
     }
     if (info_.hasColour && stamps_.size() % 30 == 0) {
-        const std::vector<uint32_t> colours = coloursOf(frame, info_);
+        const std::vector<uint32_t> colours = coloursOf(*frame);
         for (const uint32_t rgba : colours) {
             ++(isGrey(rgba) ? grey_ : coloured_);
         }

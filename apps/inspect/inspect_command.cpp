@@ -19,7 +19,7 @@ void describe(const Camera& camera, std::ostream& out) {
     out << "depth     " << lensText(info.depth) << "; " << info.metresPerUnit << " m per unit\n";
     if (info.hasColour) {
         const dvec3 t = info.colourTdepth.position;
-        out << "colour    " << lensText(info.colour) << (info.yuyv ? "; YUYV" : "") << "; ";
+        out << "colour    " << lensText(info.colour) << "; " << nameOf(info.colourFormat) << "; ";
         if (info.registered) {
             out << "registered to depth\n";
         } else {

@@ -64,16 +64,23 @@ void FrameBench::place(size_t at, const SampleFrame& image) {
         memory_.resize(at + 1), placed_.resize(at + 1);
     }
     if (!memory_[at]) {
-        const auto most = static_cast<uint32_t>(std::max(image.depth.size(), image.colour.size()));
-        memory_[at] = std::make_unique<FrameSlot>(most, true);
+        memory_[at] = std::make_unique<FrameSlot>(camera_.slotPixels(), true);
     }
     std::copy(image.depth.begin(), image.depth.end(), memory_[at]->depth().begin());
-    const std::vector<uint32_t>& colours = camera_.yuyv ? image.yuyv : image.colour;
-    std::copy(colours.begin(), colours.end(), memory_[at]->colour().begin());
     Frame::Content& content = placed_[at];
     content.depth = memory_[at]->depth().first(image.depth.size());
-    (camera_.yuyv ? content.yuyv : content.colour) = memory_[at]->colour().first(colours.size());
+    content.colour = image.colour;
+    if (camera_.colourFormat != ColourFormat::Rgba) {
+        content.raw = image.packed.image(), content.colour = {};
+    }
+    const std::span<const std::byte> colours = content.colourBytes();
+    std::ranges::copy(colours, memory_[at]->colourBytes().begin());
+    content.setColourBytes(memory_[at]->colourBytes().first(colours.size()));
     content.baseTcamera = image.baseTcamera;
+}
+
+double FrameBench::colourBytesPerPixel() const {
+    return plan_.colour ? static_cast<double>(camera_.colourBytes()) / camera_.colour.pixels() : 0.0;
 }
 
 FrameReport FrameBench::process(size_t at) {

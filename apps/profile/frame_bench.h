@@ -3,6 +3,7 @@
 #pragma once
 
 #include "apps/profile/study.h"
+#include "apps/verify/pack_colour.h"
 #include "devices/frame_slots.h"
 #include "devices/simulated/simulated_camera.h"
 #include "engine/cycle/frame_cycle.h"
@@ -19,7 +20,7 @@ namespace fathom::profile {
 struct SampleFrame {
     std::vector<uint16_t> depth;
     std::vector<uint32_t> colour; // 0xAABBGGRR
-    std::vector<uint32_t> yuyv;   // if the camera sends YUYV (CameraInfo::yuyv); `colour` is unpacked from it
+    verify::PackedColour packed;  // if the camera sends another format; `colour` is unpacked from it
     Pose baseTcamera;
     std::vector<double> truth;
 };
@@ -71,6 +72,7 @@ public:
 
     const Scene& scene() const { return scene_; }
     const Plan& plan() const { return plan_; }
+    double colourBytesPerPixel() const; // uploaded; 0 = no class uses colour
     FrameCycle& cycle() const { return *cycle_; }
     const cloud::FixtureSet& set() const { return *lease_; } // result of the last run()
 

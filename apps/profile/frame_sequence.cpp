@@ -6,7 +6,6 @@
 #include "devices/simulated/analytic_scene.h"
 #include "engine/types/colour_copy.h"
 #include "engine/types/error.h"
-#include "engine/types/yuyv.h"
 
 #include <algorithm>
 
@@ -55,7 +54,9 @@ void takeFrames(Camera& camera, uint32_t frames, FrameSequence& source, const Po
         if (camera.info().hasColour) {
             readColours(**frame, image.colour);
         }
-        image.yuyv.assign((*frame)->yuyv.begin(), (*frame)->yuyv.end());
+        if ((*frame)->isRaw()) {
+            image.packed = {{(*frame)->raw.bytes.begin(), (*frame)->raw.bytes.end()}, (*frame)->raw};
+        }
         image.baseTcamera = (*frame)->baseTcamera.value_or(still);
     }
 }
@@ -128,14 +129,18 @@ FrameSequence wallFrame(uint32_t width, uint32_t height, double share, WallNoise
     return source;
 }
 
-FrameSequence inYuyv(FrameSequence source) {
-    source.camera.yuyv = true;
+FrameSequence sentAs(ColourFormat format, FrameSequence source) {
+    source.camera.colourFormat = format;
+    const Intrinsics& size = source.camera.colour;
     for (SampleFrame& image : source.frames) {
-        image.yuyv.resize(image.colour.size() / 2);
-        packYuyv(image.colour, image.yuyv);
-        unpackYuyv(image.yuyv, image.colour);
+        image.packed = verify::packColour(format, size.width, size.height, image.colour);
+        unpackColour(image.packed.image(), image.colour);
     }
     return source;
+}
+
+FrameSequence inYuyv(FrameSequence source) {
+    return sentAs(ColourFormat::Yuyv, std::move(source));
 }
 
 std::vector<FrameSequence> studySources(const Settings& settings, const std::vector<std::string>& analytic,

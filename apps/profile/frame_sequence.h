@@ -32,8 +32,9 @@ FrameSequence recordedFrames(const std::filesystem::path& folder, uint32_t frame
 enum class WallNoise { None, Sensor };
 FrameSequence wallFrame(uint32_t width, uint32_t height, double share, WallNoise noise = WallNoise::None);
 
-// The same frames from a camera that sends YUYV; the colours are packed and unpacked once. The width must be
-// even.
+// The same frames from a camera that sends this format; the colours are packed and unpacked once.
+FrameSequence sentAs(ColourFormat format, FrameSequence source);
+// As YUYV, the format of most USB cameras.
 FrameSequence inYuyv(FrameSequence source);
 
 // A scene in which every point is forbidden, with R = 20 mm and without thinning, filter or hold. It gives as

@@ -67,7 +67,7 @@ struct Images {
 CameraInfo fullCamera(CameraInfo camera) {
     camera.depth.distortion = {0.02, -0.03, 0.0005, 0.0003, 0.0};
     camera.colour = camera.depth;
-    camera.yuyv = false; // a separate stage measures it
+    camera.colourFormat = ColourFormat::Rgba; // a separate stage measures it
     return camera;
 }
 
@@ -118,7 +118,8 @@ std::vector<Stage> stages() {
          [](Setup& s) { s.camera.depth.distortion = {}, s.camera.colour.distortion = {}; }},
         {"colour registration", [](Setup& s) { registerColour(s.camera); }},
         {"colour, of gates that pass all", dropColour, gateNothing},
-        {"half of colour's bytes (YUYV instead of RGBA)", [](Setup& s) { s.camera.yuyv = true; },
+        {"half of colour's bytes (YUYV instead of RGBA)",
+         [](Setup& s) { s.camera.colourFormat = ColourFormat::Yuyv; },
          [](Setup& s) { registerColour(s.camera); }},
         {"self-filter", [](Setup& s) { s.selfFilter = false; }},
         {"pictures that are not new", [](Setup& s) { s.still = true; }},

@@ -63,7 +63,7 @@ Load loadOf(const FrameBench& bench, const FrameReport& report) {
     const cloud::WorkBuffers& work = bench.cycle().work();
     load.cells = load.occlusion ? static_cast<double>(work.cellsAcross) * work.cellsDown : 0.0;
     load.hold = bench.plan().hold;
-    load.colourBytes = !bench.plan().colour ? 0.0 : bench.plan().yuyv ? 2.0 : 4.0;
+    load.colourBytes = bench.colourBytesPerPixel();
     load.inPlace = report.inPlace;
     load.keepDepth = bench.plan().keepDepth;
     load.pack = bench.plan().pack;

@@ -49,16 +49,16 @@ ShuttleCamera::ShuttleCamera(std::unique_ptr<Camera> source, size_t count, const
             break;
         }
         const Frame::Content& c = **frame;
-        const std::span<const uint32_t> colours = c.colours(info_.yuyv);
+        const std::span<const std::byte> colours = c.colourBytes();
         images_.push_back(
-            {{c.depth.begin(), c.depth.end()}, {colours.begin(), colours.end()}, c.baseTcamera});
+            {{c.depth.begin(), c.depth.end()}, {colours.begin(), colours.end()}, c.raw, c.baseTcamera});
         progress(images_.size());
     }
     warnings_ = source->warnings();
     if (images_.empty()) {
         throw Error(description_ + ": no frame");
     }
-    slots_ = std::make_unique<FrameSlots>(info_.depth.pixels(), info_.hasColour, kFramesInFlight + 2);
+    slots_ = std::make_unique<FrameSlots>(info_.slotPixels(), info_.hasColour, kFramesInFlight + 2);
 }
 
 std::optional<Frame> ShuttleCamera::next() {
@@ -70,14 +70,15 @@ std::optional<Frame> ShuttleCamera::next() {
     const size_t place = shown_ % ticks;
     const Image& image = images_[place < images_.size() ? place : ticks - place];
     std::copy(image.depth.begin(), image.depth.end(), slot->depth().begin());
-    const std::span<uint32_t> colours =
-        slot->colour().first(std::min(image.colours.size(), slot->colour().size()));
+    const std::span<std::byte> colours =
+        slot->colourBytes().first(std::min(image.colours.size(), slot->colourBytes().size()));
     std::copy_n(image.colours.begin(), colours.size(), colours.begin());
     Frame::Content content;
     content.index = shown_;
     content.sourceNumber = shown_++;
-    content.depth = slot->depth();
-    (info_.yuyv ? content.yuyv : content.colour) = colours;
+    content.depth = slot->depth().first(info_.depth.pixels());
+    content.raw = image.raw;
+    content.setColourBytes(colours);
     content.baseTcamera = image.baseTcamera;
     return slot->lend(content);
 }

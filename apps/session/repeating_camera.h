@@ -42,7 +42,7 @@ private:
 };
 
 // Stores `count` frames and plays them forwards and backwards. For simulated cameras, which render slower
-// than real time. Memory: 6 bytes per pixel and frame.
+// than real time. Memory: up to 6 bytes per pixel and frame.
 class ShuttleCamera final : public Camera {
 public:
     // Stores fewer frames when the source ends or `stop` is set. Calls progress(frames so far) after each.
@@ -59,7 +59,8 @@ public:
 private:
     struct Image {
         std::vector<uint16_t> depth;
-        std::vector<uint32_t> colours; // in the source's format
+        std::vector<std::byte> colours; // in the source's format
+        RawColour raw;
         std::optional<Pose> baseTcamera;
     };
     CameraInfo info_;

@@ -177,7 +177,7 @@ MeanImage meanOf(const FrameSequence& source, const StillPart& part) {
     MeanImage mean{source.camera, source.frames[part.first], {}};
     mean.noise = {std::max(typical * unit, roundingSigma(source.camera)), medianOf(ranges) * unit};
     mean.camera.metresPerUnit = unit / finer;
-    mean.camera.yuyv = false;
+    mean.camera.colourFormat = ColourFormat::Rgba;
     const double border = kFlicker * std::max(typical, 1.0);
     for (size_t i = 0; i < sums.mean.size(); ++i) {
         const bool steady = sums.mean[i] > 0.0 && sums.scatter[i] <= border;

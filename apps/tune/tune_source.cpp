@@ -5,7 +5,6 @@
 #include "devices/simulated/analytic_scene.h"
 #include "engine/types/decimation.h"
 #include "engine/types/error.h"
-#include "engine/types/yuyv.h"
 
 #include <algorithm>
 
@@ -180,7 +179,7 @@ SampleFrame decimatedImage(const CameraInfo& camera, const SampleFrame& image, u
     decimate<uint16_t>(image.depth, camera.depth, n, result.depth);
     if (!camera.registered || image.colour.empty()) {
         result.colour = image.colour;
-        result.yuyv = image.yuyv;
+        result.packed = image.packed;
     } else {
         result.colour.resize(small.colour.pixels());
         decimate<uint32_t>(image.colour, camera.colour, n, result.colour);

@@ -3,7 +3,6 @@
 
 #include "apps/verify/read_back.h"
 #include "engine/cloud/frame_params.h"
-#include "engine/types/yuyv.h"
 
 #include <algorithm>
 #include <bit>
@@ -71,12 +70,13 @@ FrameReport PassRig::run(Image image, double captureTime, const std::optional<Po
     content.captureTime = captureTime < 0.0 ? frames_ / 30.0 : captureTime;
     content.sourceNumber = frames_++;
     content.depth = image_.depth;
-    if (camera_.yuyv) {
-        yuyv_.resize(image_.colour.size() / 2);
-        packYuyv(image_.colour, yuyv_);
-        unpackYuyv(yuyv_, image_.colour);
+    content.colour = image_.colour;
+    if (camera_.colourFormat != ColourFormat::Rgba) {
+        packed_ =
+            packColour(camera_.colourFormat, camera_.colour.width, camera_.colour.height, image_.colour);
+        content.raw = packed_.image(), content.colour = {};
+        unpackColour(content.raw, image_.colour);
     }
-    (camera_.yuyv ? content.yuyv : content.colour) = camera_.yuyv ? yuyv_ : image_.colour;
     content.baseTcamera = pose;
     FrameReport report = cycle_->process(Frame(content, nullptr));
     lease_ = cycle_->sets().newest();

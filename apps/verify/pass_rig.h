@@ -3,6 +3,7 @@
 // each pass can be compared with its float64 twin fed by what that pass was fed.
 #pragma once
 
+#include "apps/verify/pack_colour.h"
 #include "engine/cycle/frame_cycle.h"
 #include "engine/reference/classify.h"
 #include "engine/reference/thin.h"
@@ -39,8 +40,8 @@ public:
     PassRig(gpu::Device& device, Scene scene, const CameraInfo& camera, const Change& change = {},
             uint32_t readers = 1);
 
-    // captureTime < 0: 1/30 s after the one before. No pose: the scene's. The colours are packed for a camera
-    // that sends YUYV; view() then has what they unpack to.
+    // captureTime < 0: 1/30 s after the one before. No pose: the scene's. The colours are packed to the
+    // camera's format; view() then has what they unpack to.
     FrameReport run(Image image, double captureTime = -1.0, const std::optional<Pose>& pose = {});
 
     const Scene& scene() const { return scene_; }
@@ -83,7 +84,7 @@ private:
     std::unique_ptr<FrameCycle> cycle_;
     cloud::FixturePool::Lease lease_;
     Image image_;
-    std::vector<uint32_t> yuyv_;
+    PackedColour packed_;
     Pose pose_;
     uint32_t frames_ = 0;
 };

@@ -33,8 +33,7 @@ BagCamera::BagCamera(std::unique_ptr<MessageFile> file, SourceOptions options)
     } catch (const Error& e) {
         throw BadInput(file_->file().string(), "content", e.what(), "whole messages");
     }
-    slots_.emplace(std::max(info().depth.pixels(), info().colour.pixels()), info().hasColour,
-                   kFramesInFlight + 1);
+    slots_.emplace(info().slotPixels(), info().hasColour, kFramesInFlight + 1);
 }
 
 std::string BagCamera::streamOptions() const {
@@ -216,7 +215,7 @@ ros::Image BagCamera::imageOf(const ImageStream& stream, size_t index) {
 }
 
 // Returns the fault; empty when the slot is filled.
-std::string BagCamera::read(size_t index, FrameSlot& slot, double stamp) {
+std::string BagCamera::read(size_t index, FrameSlot& slot, double stamp, Frame::Content& content) {
     const Image depth = imageOf(choice_.depth, index);
     const bool alike = (depth.compressed ? depth.format : depth.encoding) == choice_.depth.encoding;
     if (!alike || ros::sizeOf(depth) != std::pair(info().depth.width, info().depth.height)) {
@@ -231,18 +230,20 @@ std::string BagCamera::read(size_t index, FrameSlot& slot, double stamp) {
         return fault;
     }
     tellBeyond(index, beyond);
-    return colour_ ? readColour(index, stamp, slot) : "";
+    return colour_ ? readColour(index, stamp, slot, content.raw) : "";
 }
 
-std::string BagCamera::readColour(size_t depthIndex, double stamp, FrameSlot& slot) {
+std::string BagCamera::readColour(size_t depthIndex, double stamp, FrameSlot& slot, RawColour& raw) {
     const auto pair = colour_->nearest(stamp, topicOf(choice_.depth).messages[depthIndex].time, tolerance_);
     if (!pair) {
         return "no colour frame within " + std::to_string(tolerance_) + " s";
     }
     const Image colour = imageOf(*choice_.colour, *pair);
-    return ros::sizeOf(colour) == std::pair(info().colour.width, info().colour.height)
-               ? ros::colourRows(colour, slot.colour())
-               : "colour size differs from its camera_info";
+    if (ros::sizeOf(colour) != std::pair(info().colour.width, info().colour.height)) {
+        return "colour size differs from its camera_info";
+    }
+    return ros::colourFormat(colour) == info().colourFormat ? ros::colourRows(colour, slot.colour(), raw)
+                                                            : "colour encoding differs from the first image";
 }
 
 } // namespace fathom

@@ -38,8 +38,8 @@ private:
     std::string changed(uint64_t time);
     ValueSpan sampledMetres();
     Image imageOf(const ImageStream& stream, size_t index);
-    std::string read(size_t index, FrameSlot& slot, double stamp) override;
-    std::string readColour(size_t depthIndex, double stamp, FrameSlot& slot);
+    std::string read(size_t index, FrameSlot& slot, double stamp, Frame::Content& content) override;
+    std::string readColour(size_t depthIndex, double stamp, FrameSlot& slot, RawColour& raw);
     const MessageTopic& topicOf(const ImageStream& stream) const { return file_->topics()[stream.topic]; }
 
     StreamChoice choice_;

@@ -161,7 +161,7 @@ void CloudCamera::learnLens() {
 }
 
 // Returns the fault; empty when the slot is filled.
-std::string CloudCamera::read(size_t index, FrameSlot& slot, double) {
+std::string CloudCamera::read(size_t index, FrameSlot& slot, double, Frame::Content&) {
     const ros::Cloud message = cloudAt(index);
     if (message.width != info_.depth.width || message.height != info_.depth.height) {
         return "size differs from the first cloud";

@@ -33,7 +33,7 @@ private:
     void learnLens();
     const MessageTopic& topic() const { return file_->topics()[topic_]; }
     ros::Cloud cloudAt(size_t index) { return ros::cloud(file_->read(topic(), index)); }
-    std::string read(size_t index, FrameSlot& slot, double stamp) override;
+    std::string read(size_t index, FrameSlot& slot, double stamp, Frame::Content& content) override;
 
     size_t topic_ = 0;
     std::string said_;

@@ -128,17 +128,28 @@ std::string depthRows(const Image& image, double metresPerUnit, std::span<uint16
     return fault;
 }
 
-std::string colourRows(const Image& image, std::span<uint32_t> out) {
+ColourFormat colourFormat(const Image& image) {
+    if (image.compressed) {
+        return pngHead(image.data) ? ColourFormat::Rgba : ColourFormat::JpegPlanes;
+    }
+    const ColourLayout* layout = colourLayout(image.encoding);
+    return layout != nullptr && layout->raw ? formatOf(*layout->raw) : ColourFormat::Rgba;
+}
+
+std::string colourRows(const Image& image, std::span<uint32_t> out, RawColour& raw) {
     const auto size = sizeOf(image);
     if (image.compressed && size) {
         return pngHead(image.data) ? readColourPng(image.data, {size->first, size->second}, out)
-                                   : readJpeg(std::as_bytes(image.data), {size->first, size->second}, out);
+                                   : readJpeg(std::as_bytes(image.data), {size->first, size->second},
+                                              std::as_writable_bytes(out), raw);
     }
     const ColourLayout* layout = colourLayout(image.encoding);
     if (layout == nullptr) {
         return "encoding " + image.encoding;
     }
-    return unpackColours({image.width, image.height, image.step, image.data, image.bigEndian}, *layout, out);
+    const ColourImage pixels{image.width, image.height, image.step, image.data, image.bigEndian};
+    return layout->raw ? copyColours(pixels, *layout, std::as_writable_bytes(out), raw)
+                       : unpackColours(pixels, *layout, out);
 }
 
 ValueSpan valueSpan(const Image& image) {

@@ -5,6 +5,7 @@
 
 #include "devices/bag/ros_messages.h"
 #include "devices/images/metre_units.h"
+#include "engine/types/colour_format.h"
 
 #include <optional>
 
@@ -31,8 +32,11 @@ bool holdsMetres(const Image& image);
 // those too far for 16 bits, which become 0. Returns the fault, or empty when everything was converted. The
 // image's size must be that of `out`.
 std::string depthRows(const Image& image, double metresPerUnit, std::span<uint16_t> out, uint64_t& beyond);
-// R8 G8 B8 A8 (0xAABBGGRR). YUV is BT.601, limited range. Returns as depthRows().
-std::string colourRows(const Image& image, std::span<uint32_t> out);
+// How colourRows() leaves this image.
+ColourFormat colourFormat(const Image& image);
+// R8 G8 B8 A8 (0xAABBGGRR) if that is the image's colourFormat(). Else `raw` describes the bytes in `out`
+// that the device unpacks. out: room for mostColourBytes(). Returns as depthRows().
+std::string colourRows(const Image& image, std::span<uint32_t> out, RawColour& raw);
 // Depth [m] of an image that holds metres; without any when it cannot be read.
 ValueSpan valueSpan(const Image& image);
 

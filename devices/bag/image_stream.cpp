@@ -91,6 +91,7 @@ std::vector<ImageStream> imageStreams(MessageFile& file, const std::string& info
             stream.frame = first.frame;
             stream.encoding = compressed ? first.format : first.encoding;
             stream.content = ros::content(first);
+            stream.format = ros::colourFormat(first);
             const auto size = ros::sizeOf(first);
             stream.width = size ? size->first : 0;
             stream.height = size ? size->second : 0;

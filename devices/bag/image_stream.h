@@ -20,6 +20,7 @@ struct ImageStream {
     NamedRole role = NamedRole::None;
     uint32_t width = 0, height = 0; // [pixels]; 0: not readable
     bool compressed = false;
+    ColourFormat format = ColourFormat::Rgba; // of colour
     // The lens of its images, rectified or not; `raw` compares with that of another topic of the same camera.
     std::optional<Intrinsics> lens;
     Intrinsics raw;

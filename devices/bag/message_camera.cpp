@@ -77,12 +77,12 @@ bool MessageCamera::seek(uint32_t index) {
     return true;
 }
 
-std::string MessageCamera::faultOf(size_t index, FrameSlot& slot, double stamp) {
+std::string MessageCamera::faultOf(size_t index, FrameSlot& slot, double stamp, Frame::Content& content) {
     if (lastStamp_ && stamp < *lastStamp_) {
         return "depth stamp " + std::to_string(stamp) + " goes back from " + std::to_string(*lastStamp_);
     }
     try {
-        return read(index, slot, stamp);
+        return read(index, slot, stamp, content);
     } catch (const Error& e) {
         return e.what();
     }
@@ -96,16 +96,18 @@ std::optional<Frame> MessageCamera::next() {
     while (cursor_ < end_) {
         const uint32_t index = cursor_++;
         const double stamp = depth_->stampOf(index);
-        const std::string fault = faultOf(index, *slot, stamp);
+        Frame::Content content;
+        const std::string fault = faultOf(index, *slot, stamp, content);
         if (fault.empty()) {
             delivered_ = true;
             lastStamp_ = stamp;
-            Frame::Content content;
             content.index = index;
             content.sourceNumber = index;
             content.captureTime = stamp;
             content.depth = slot->depth().first(info().depth.pixels());
-            content.colour = slot->colour().first(info().hasColour ? info().colour.pixels() : 0);
+            if (info().hasColour && !content.isRaw()) {
+                content.colour = slot->colour().first(info().colour.pixels());
+            }
             return slot->lend(content);
         }
         ++skipped_;

@@ -46,8 +46,9 @@ protected:
     }
     // Warns once of points that the unit of depth cannot hold, unless the scene's far excludes them.
     void tellBeyond(size_t index, uint64_t beyond);
-    // Fills the slot from message `index`; returns the fault, empty when it is filled. May throw Error.
-    virtual std::string read(size_t index, FrameSlot& slot, double stamp) = 0;
+    // Fills the slot from message `index`, and content.raw if the colour is not R8 G8 B8 A8. Returns the
+    // fault, empty when it is filled. May throw Error.
+    virtual std::string read(size_t index, FrameSlot& slot, double stamp, Frame::Content& content) = 0;
 
     SourceOptions options_;
     std::unique_ptr<MessageFile> file_;
@@ -57,7 +58,7 @@ protected:
 
 private:
     bool stampsRise();
-    std::string faultOf(size_t index, FrameSlot& slot, double stamp);
+    std::string faultOf(size_t index, FrameSlot& slot, double stamp, Frame::Content& content);
 
     uint32_t skipped_ = 0, first_ = 0;
     bool delivered_ = false, toldBeyond_ = false;

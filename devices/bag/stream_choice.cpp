@@ -265,6 +265,7 @@ StreamChoice StreamChooser::choose() {
     if (!options_.intrinsics.empty()) {
         replaceLenses(choice);
     }
+    camera.colourFormat = colour != nullptr ? colour->format : ColourFormat::Rgba;
     choice.unread = unreadStreams();
     choice.said = describe(choice);
     return choice;

@@ -26,12 +26,12 @@ std::optional<Frame> DecimatedCamera::next() {
     decimate(content.depth, full.depth, n_, slot->depth());
     content.depth = slot->depth();
     if (info_.registered && info_.hasColour) {
-        if (full.yuyv) {
-            decimateYuyv(content.yuyv, full.colour, n_, slot->colour());
-        } else {
-            decimate(content.colour, full.colour, n_, slot->colour());
+        RawColour image = content.raw;
+        if (!content.isRaw()) {
+            image = {ColourFormat::Rgba, full.colour.width, full.colour.height, content.colourBytes()};
         }
-        content.yuyv = {};
+        decimateColour(image, n_, slot->colour());
+        content.raw = {};
         content.colour = slot->colour();
     }
     slot->name(content);

@@ -65,7 +65,7 @@ OpenNi2Camera::OpenNi2Camera(const std::string& uri, const std::filesystem::path
     openDepth();
     openColour(registered);
     readLens(intrinsics);
-    slots_.emplace(info_.depth.pixels(), info_.hasColour, kFramesInFlight + 2);
+    slots_.emplace(info_.slotPixels(), info_.hasColour, kFramesInFlight + 2);
     if (file_) {
         // Without repeat, the library's thread would spin at the end of the file.
         device_.getPlaybackControl()->setRepeatEnabled(true);
@@ -154,6 +154,7 @@ void OpenNi2Camera::openColour(bool registered) {
     }
     colour_.mirrored = colour_.stream.getMirroringEnabled();
     info_.hasColour = hasColour_ = true;
+    info_.colourFormat = ColourFormat::Rgb;
 }
 
 void OpenNi2Camera::readLens(const std::filesystem::path& intrinsics) {
@@ -252,10 +253,9 @@ Frame OpenNi2Camera::deliver() {
         const auto* c = hasColour_ ? static_cast<const uint8_t*>(colour_.newest.getData()) +
                                          size_t{v} * colour_.newest.getStrideInBytes()
                                    : nullptr;
-        for (uint32_t u = 0; c != nullptr && u < width; ++u) {
-            const uint8_t* p = c + size_t{3} * (colour_.mirrored ? width - 1 - u : u);
-            slot->colour()[size_t{v} * width + u] =
-                0xff000000u | uint32_t{p[2]} << 16 | uint32_t{p[1]} << 8 | p[0];
+        std::byte* rgb = slot->colourBytes().data() + size_t{3} * v * width;
+        for (uint32_t u = 0; c != nullptr && u < width; ++u, rgb += 3) {
+            std::memcpy(rgb, c + size_t{3} * (colour_.mirrored ? width - 1 - u : u), 3);
         }
     }
     Frame::Content content;
@@ -265,7 +265,10 @@ Frame OpenNi2Camera::deliver() {
         file_ ? 1e-6 * static_cast<double>(depth_.newest.getTimestamp())
               : std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
     content.depth = slot->depth().first(info_.depth.pixels());
-    content.colour = slot->colour().first(info_.hasColour ? info_.depth.pixels() : 0);
+    if (hasColour_) {
+        content.raw = {info_.colourFormat, width, info_.depth.height,
+                       slot->colourBytes().first(info_.colourBytes())};
+    }
     depth_.fresh = colour_.fresh = false;
     return slot->lend(content);
 }

@@ -30,12 +30,18 @@ std::optional<PngSize> colourImageSize(const std::filesystem::path& file) {
     return size ? std::optional(PngSize{size->width, size->height}) : std::nullopt;
 }
 
-std::string readColourImage(const std::filesystem::path& file, PngSize size, std::span<uint32_t> target) {
+ColourFormat colourImageFormat(const std::filesystem::path& file) {
+    return beginsAsJpeg(file) ? ColourFormat::JpegPlanes : ColourFormat::Rgba;
+}
+
+std::string readColourImage(const std::filesystem::path& file, PngSize size, std::span<uint32_t> target,
+                            RawColour& raw) {
     if (!beginsAsJpeg(file)) {
         return readColourPng(file, size, target);
     }
     const auto text = readFileAtMost(file, kMostJpeg);
-    return text ? readJpeg(std::as_bytes(std::span(*text)), {size.width, size.height}, target)
+    return text ? readJpeg(std::as_bytes(std::span(*text)), {size.width, size.height},
+                           std::as_writable_bytes(target), raw)
                 : "a JPEG of over 64 MiB";
 }
 

@@ -41,9 +41,7 @@ std::string sizeWords(PngSize size) {
 
 RecordedCamera::RecordedCamera(const fs::path& folder, const SourceOptions& options)
     : folder_(existingFolder(folder))
-    , layout_(readLayout(folder, options))
-    , slots_(std::max(layout_.intrinsics.camera.depth.pixels(), layout_.intrinsics.camera.colour.pixels()),
-             layout_.intrinsics.camera.hasColour, kFramesInFlight + 2) {
+    , layout_(readLayout(folder, options)) {
     checkStamps();
     useOptions(options);
     const std::vector<IndexLine>& index = layout_.index;
@@ -51,8 +49,9 @@ RecordedCamera::RecordedCamera(const fs::path& folder, const SourceOptions& opti
     mostApart_ =
         std::max(kMostApart, 0.5 * whole / static_cast<double>(std::max<size_t>(1, index.size() - 1)));
     if (info().hasColour) {
-        checkColourSize();
+        takeColourFormat();
     }
+    slots_.emplace(info().slotPixels(), info().hasColour, kFramesInFlight + 2);
 }
 
 // Stamps that go back now and then are faults of single frames. Where most do, they are no times: all frames
@@ -105,14 +104,15 @@ void RecordedCamera::useOptions(const SourceOptions& options) {
     }
 }
 
-// A single image of another size is a bad frame; a colour stream that never has the stated size is a
-// recording without registration.
-void RecordedCamera::checkColourSize() const {
+// That of the first image of the stated size. A single image of another size is a bad frame; a colour stream
+// that never has the stated size is a recording without registration.
+void RecordedCamera::takeColourFormat() {
     const PngSize wanted = sizeOf(info().colour);
     std::optional<PngSize> other;
     for (const IndexLine& line : layout_.index) {
         const auto colour = colourImageSize(line.colour);
         if (colour == wanted) {
+            layout_.intrinsics.camera.colourFormat = colourImageFormat(line.colour);
             return;
         }
         if (colour && depthImageHead(line.depth).size == sizeOf(info().depth)) {
@@ -126,7 +126,7 @@ void RecordedCamera::checkColourSize() const {
     }
 }
 
-std::string RecordedCamera::read(const IndexLine& line, FrameSlot& slot) {
+std::string RecordedCamera::read(const IndexLine& line, FrameSlot& slot, RawColour& raw) {
     if (!line.fault.empty()) {
         return line.fault;
     }
@@ -149,17 +149,24 @@ std::string RecordedCamera::read(const IndexLine& line, FrameSlot& slot) {
     if (!camera.hasColour) {
         return "";
     }
-    fault = readColourImage(line.colour, sizeOf(camera.colour), slot.colour().first(camera.colour.pixels()));
+    fault = readColourImage(line.colour, sizeOf(camera.colour), slot.colour(), raw);
+    if (fault.empty() && raw.format != camera.colourFormat) {
+        fault = camera.colourFormat == ColourFormat::Rgba ? "a JPEG, but the first colour image is a PNG"
+                                                          : "a PNG, but the first colour image is a JPEG";
+    }
     return fault.empty() ? "" : line.colour.string() + ": " + fault;
 }
 
-Frame RecordedCamera::lease(uint32_t index, FrameSlot& slot) const {
+Frame RecordedCamera::lease(uint32_t index, FrameSlot& slot, const RawColour& raw) const {
     Frame::Content content;
     content.index = index;
     content.sourceNumber = index;
     content.captureTime = layout_.index[index].depthStamp;
     content.depth = slot.depth().first(info().depth.pixels());
-    content.colour = slot.colour().first(info().hasColour ? info().colour.pixels() : 0);
+    content.raw = raw;
+    if (info().hasColour && !content.isRaw()) {
+        content.colour = slot.colour().first(info().colour.pixels());
+    }
     if (layout_.poses) {
         content.baseTcamera = layout_.poses->at(content.captureTime);
     } else if (layout_.index[index].baseTcamera) {
@@ -237,19 +244,20 @@ std::optional<Frame> RecordedCamera::next() {
     if (cursor_ == layout_.index.size()) {
         return std::nullopt;
     }
-    FrameSlot* slot = slots_.acquire();
+    FrameSlot* slot = slots_->acquire();
     if (slot == nullptr) {
         throw Error(description() + ": all frame buffers are leased");
     }
     while (cursor_ < layout_.index.size()) {
         const uint32_t index = cursor_++;
         tellOfLinks(layout_.index[index]);
-        const std::string fault = read(layout_.index[index], *slot);
+        RawColour raw;
+        const std::string fault = read(layout_.index[index], *slot, raw);
         if (fault.empty()) {
             lastStamp_ = layout_.index[index].depthStamp;
             any_ = true;
             nameSkipped();
-            return lease(index, *slot);
+            return lease(index, *slot, raw);
         }
         skip(index, fault);
     }

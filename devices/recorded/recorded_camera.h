@@ -19,7 +19,8 @@ namespace fathom {
 
 // Frame index and source number = data line of the index from 0; capture time = depth stamp. Every data line
 // is either delivered or skipped: a missing or damaged image, another size or type, a depth stamp that goes
-// back or has no pose in poses.txt, or colour far from depth in time skips the frame and is logged once.
+// back or has no pose in poses.txt, colour far from depth in time, or a PNG where the first colour image is a
+// JPEG (or the reverse) skips the frame and is logged once.
 // Frames are read on the calling thread. The camera must outlive its leases; leases may end on any thread.
 class RecordedCamera final : public Camera {
 public:
@@ -38,11 +39,12 @@ public:
     std::string description() const override { return "recorded " + folder_.string(); }
 
 private:
-    void checkColourSize() const;
+    void takeColourFormat();
     void useOptions(const SourceOptions& options);
     void checkStamps();
-    std::string read(const IndexLine& line, FrameSlot& slot); // the fault; empty = read
-    Frame lease(uint32_t index, FrameSlot& slot) const;
+    // Returns the fault; empty = read.
+    std::string read(const IndexLine& line, FrameSlot& slot, RawColour& raw);
+    Frame lease(uint32_t index, FrameSlot& slot, const RawColour& raw) const;
     void tellOfLinks(const IndexLine& line);
     bool leadsOut(const std::filesystem::path& image);
     void skip(uint32_t index, const std::string& fault);
@@ -50,7 +52,7 @@ private:
 
     std::filesystem::path folder_;
     RecordingLayout layout_;
-    FrameSlots slots_;
+    std::optional<FrameSlots> slots_;
     std::optional<FolderDepth> depth_;
     double mostApart_ = 0.0; // [s] depth and colour of a pair
     uint32_t cursor_ = 0;    // next data line

@@ -95,15 +95,17 @@ std::string Ros2Camera::fillDepth(const RawMessage& message, FrameSlot& slot) {
     return fault;
 }
 
-std::string Ros2Camera::fillColour(const RawMessage& message, FrameSlot& slot) {
+std::string Ros2Camera::fillColour(const RawMessage& message, FrameSlot& slot, RawColour& raw) {
     const ros::Image image = imageOf(*choice_.colour, message);
-    return ros::sizeOf(image) == std::pair(info().colour.width, info().colour.height)
-               ? ros::colourRows(image, slot.colour())
-               : "size differs from its camera_info";
+    if (ros::sizeOf(image) != std::pair(info().colour.width, info().colour.height)) {
+        return "size differs from its camera_info";
+    }
+    return ros::colourFormat(image) == info().colourFormat ? ros::colourRows(image, slot.colour(), raw)
+                                                           : "encoding differs from the first image";
 }
 
 // Returns the fault; empty when the slot is filled.
-std::string Ros2Camera::fill(const LivePairs::Pair& pair, FrameSlot& slot) {
+std::string Ros2Camera::fill(const LivePairs::Pair& pair, FrameSlot& slot, RawColour& raw) {
     const auto named = [](const std::string& topic, const std::string& fault) {
         return fault.empty() ? "" : topic + ": " + fault;
     };
@@ -114,7 +116,7 @@ std::string Ros2Camera::fill(const LivePairs::Pair& pair, FrameSlot& slot) {
             return fault;
         }
         topic = &choice_.colour->name;
-        return named(*topic, fillColour(*pair.colour->message, slot));
+        return named(*topic, fillColour(*pair.colour->message, slot, raw));
     } catch (const Error& e) {
         return named(*topic, e.what());
     }
@@ -164,18 +166,20 @@ std::optional<Frame> Ros2Camera::deliver() {
     if (slot == nullptr) {
         throw Error(description() + ": all frame buffers are leased");
     }
-    if (const std::string fault = fill(pair, *slot); !fault.empty()) {
+    Frame::Content content;
+    if (const std::string fault = fill(pair, *slot, content.raw); !fault.empty()) {
         slot->release();
         skip(fault);
         return std::nullopt;
     }
-    Frame::Content content;
     content.index = delivered_++;
     content.sourceNumber = delivered_;
     content.captureTime = depthStamps_->captureTime(pair.depth.stamp, *pair.depth.message);
     content.baseTcamera = chosen->fixedTcamera;
     content.depth = slot->depth().first(info().depth.pixels());
-    content.colour = slot->colour().first(info().hasColour ? info().colour.pixels() : 0);
+    if (info().hasColour && !content.isRaw()) {
+        content.colour = slot->colour().first(info().colour.pixels());
+    }
     return slot->lend(content);
 }
 

@@ -66,9 +66,9 @@ private:
     std::optional<MovingCamera::Posed> nextPosed(double now);
     std::optional<MovingCamera::Posed> choose(double now);
     std::optional<Frame> deliver();
-    std::string fill(const LivePairs::Pair& pair, FrameSlot& slot);
+    std::string fill(const LivePairs::Pair& pair, FrameSlot& slot, RawColour& raw);
     std::string fillDepth(const RawMessage& message, FrameSlot& slot);
-    std::string fillColour(const RawMessage& message, FrameSlot& slot);
+    std::string fillColour(const RawMessage& message, FrameSlot& slot, RawColour& raw);
     void skip(const std::string& fault, uint32_t frames = 1);
     std::string missing(const std::string& why) const;
 

@@ -45,8 +45,7 @@ Ros2Camera::Ros2Camera(const Ros2Request& request)
     if (choice_.colour) {
         colourStamps_.emplace(choice_.colour->name);
     }
-    slots_.emplace(std::max(info().depth.pixels(), info().colour.pixels()), info().hasColour,
-                   kFramesInFlight + 1);
+    slots_.emplace(info().slotPixels(), info().hasColour, kFramesInFlight + 1);
 }
 
 Ros2Camera::Topic Ros2Camera::subscribeImages(const std::string& topic) {

@@ -2,7 +2,6 @@
 #include "devices/simulated/simulated_camera.h"
 
 #include "engine/types/error.h"
-#include "engine/types/yuyv.h"
 
 #include <algorithm>
 #include <atomic>
@@ -60,7 +59,7 @@ CameraInfo infoOf(const SimulatedCameraOptions& options) {
     info.depth.cx = 0.5 * (options.width - 1.0), info.depth.cy = 0.5 * (options.height - 1.0);
     info.colour = info.depth;
     info.metresPerUnit = options.metresPerUnit;
-    info.yuyv = options.yuyv;
+    info.colourFormat = options.yuyv ? ColourFormat::Yuyv : ColourFormat::Rgba;
     return info;
 }
 
@@ -136,7 +135,8 @@ std::optional<Frame> SimulatedCamera::next() {
     if (options_.yuyv) { // in place: a word comes no later than its two pixels
         const std::span<uint32_t> words = slot->colour().first(info_.depth.pixels() / 2);
         packYuyv(content.colour, words);
-        content.yuyv = words, content.colour = {};
+        content.raw = {info_.colourFormat, options_.width, options_.height, std::as_bytes(words)};
+        content.colour = {};
     }
     content.baseTcamera = poseAt(frame);
     return slot->lend(content);

@@ -73,7 +73,7 @@ void takeColour(const CameraRequest& request, VideoNode node, ChosenNodes& chose
     if (rank == colourFormats().size()) {
         throw BadInput(request.text, "colour",
                        request.colourFormat == 0 ? node.file().string() : fourccName(request.colourFormat),
-                       "RGB3, BGR3, YUYV, UYVY or MJPG; the device has " + node.offer());
+                       "RGB3, BGR3, YUYV, UYVY, NV12 or MJPG; the device has " + node.offer());
     }
     chosen.colourFormat = colourFormats()[rank];
     chosen.colour = std::move(node);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/v4l2/jpeg_image.h"
 
+#include <algorithm>
+#include <array>
+#include <bit>
 #include <turbojpeg.h>
 
 namespace fathom {
@@ -25,6 +28,31 @@ private:
     tjhandle handle_;
 };
 
+std::string faultOf(const Decoder& decoder) {
+    return std::string("JPEG: ") + tjGetErrorStr2(decoder.get());
+}
+
+uint32_t wholeWords(int bytes) {
+    return (static_cast<uint32_t>(bytes) + 3) / 4 * 4;
+}
+
+// Of rows in whole words. The decoder writes whole blocks of samples, so planes may exceed the image.
+ColourPlanes jpegPlanes(VideoSize size, int sampling) {
+    const int width = static_cast<int>(size.width), height = static_cast<int>(size.height);
+    ColourPlanes p;
+    p.lumaStep = wholeWords(tjPlaneWidth(0, width, sampling));
+    p.blue = p.red = p.lumaStep * static_cast<uint32_t>(tjPlaneHeight(0, height, sampling));
+    if (sampling == TJSAMP_GRAY) { // one sample for all pixels
+        p.across = p.down = 31;
+        return p;
+    }
+    p.chromaStep = wholeWords(tjPlaneWidth(1, width, sampling));
+    p.red += p.chromaStep * static_cast<uint32_t>(tjPlaneHeight(1, height, sampling));
+    p.across = static_cast<uint32_t>(std::countr_zero(static_cast<uint32_t>(tjMCUWidth[sampling] / 8)));
+    p.down = static_cast<uint32_t>(std::countr_zero(static_cast<uint32_t>(tjMCUHeight[sampling] / 8)));
+    return p;
+}
+
 } // namespace
 
 bool isJpeg(std::span<const std::byte> bytes) {
@@ -43,7 +71,8 @@ std::optional<VideoSize> jpegSize(std::span<const std::byte> bytes) {
     return VideoSize{static_cast<uint32_t>(width), static_cast<uint32_t>(height)};
 }
 
-std::string readJpeg(std::span<const std::byte> bytes, VideoSize size, std::span<uint32_t> out) {
+std::string readJpeg(std::span<const std::byte> bytes, VideoSize size, std::span<std::byte> out,
+                     RawColour& raw) {
     thread_local const Decoder kDecoder;
     if (kDecoder.get() == nullptr) {
         return std::string("JPEG: ") + tjGetErrorStr();
@@ -52,16 +81,30 @@ std::string readJpeg(std::span<const std::byte> bytes, VideoSize size, std::span
     const auto count = static_cast<unsigned long>(bytes.size());
     int width = 0, height = 0, sampling = 0, space = 0;
     if (tjDecompressHeader3(kDecoder.get(), in, count, &width, &height, &sampling, &space) != 0) {
-        return std::string("JPEG: ") + tjGetErrorStr2(kDecoder.get());
+        return faultOf(kDecoder);
     }
     const VideoSize got{static_cast<uint32_t>(width), static_cast<uint32_t>(height)};
     if (got != size) {
         return "JPEG of " + sizeName(got) + ", " + sizeName(size) + " was agreed";
     }
-    if (tjDecompress2(kDecoder.get(), in, count, reinterpret_cast<unsigned char*>(out.data()), width, 0,
-                      height, TJPF_RGBA, TJFLAG_STOPONWARNING) != 0) {
-        return std::string("JPEG: ") + tjGetErrorStr2(kDecoder.get());
+    if (space != TJCS_YCbCr && space != TJCS_GRAY) {
+        return "JPEG: colour space " + std::to_string(space) + " (allowed: Y Cb Cr, grey)";
     }
+    const ColourPlanes p = jpegPlanes(size, sampling);
+    const size_t end = size_t{p.red} + (sampling == TJSAMP_GRAY ? 1 : p.red - p.blue);
+    if (end > out.size()) {
+        return "JPEG: sampling " + std::to_string(sampling) + " (allowed: at most 4:4:4)";
+    }
+    auto* luma = reinterpret_cast<unsigned char*>(out.data());
+    luma[p.blue] = 128;
+    std::array<unsigned char*, 3> planes{luma, luma + p.blue, luma + p.red};
+    std::array<int, 3> steps{static_cast<int>(p.lumaStep), static_cast<int>(p.chromaStep),
+                             static_cast<int>(p.chromaStep)};
+    if (tjDecompressToYUVPlanes(kDecoder.get(), in, count, planes.data(), width, steps.data(), height,
+                                TJFLAG_STOPONWARNING) != 0) {
+        return faultOf(kDecoder);
+    }
+    raw = {ColourFormat::JpegPlanes, size.width, size.height, out.first(end), p};
     return "";
 }
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decodes one JPEG with libjpeg-turbo.
+// Decodes one JPEG with libjpeg-turbo. The device converts its planes to red, green and blue.
 #pragma once
 
 #include "devices/v4l2/video_node.h"
+#include "engine/types/colour_format.h"
 
 #include <cstddef>
 #include <optional>
@@ -11,9 +12,11 @@
 
 namespace fathom {
 
-// R8 G8 B8 A8 (0xAABBGGRR), alpha 255. Returns the fault, or empty when it was decoded completely; a size
-// other than `size` is a fault. Any thread.
-std::string readJpeg(std::span<const std::byte> bytes, VideoSize size, std::span<uint32_t> out);
+// Decodes luma and chroma as they are stored, in any sampling; grey images get chroma without colour. out:
+// room for mostColourBytes() of JpegPlanes. Returns the fault; empty when `raw` describes the planes in
+// `out`. A size other than `size`, and colours that are not Y Cb Cr, are faults. Any thread.
+std::string readJpeg(std::span<const std::byte> bytes, VideoSize size, std::span<std::byte> out,
+                     RawColour& raw);
 
 // By the first bytes. The size is empty when the head cannot be read.
 bool isJpeg(std::span<const std::byte> bytes);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Converts the pixels of a V4L2 buffer to those of a Frame. Sources: docs.kernel.org/userspace-api/media/v4l,
-// pages pixfmt-z16, pixfmt-inzi, pixfmt-yuv-luma, pixfmt-packed-yuv, pixfmt-rgb.
+// pages pixfmt-z16, pixfmt-inzi, pixfmt-yuv-luma, and those of devices/images/raw_image.h.
 #pragma once
 
 #include "devices/v4l2/video_node.h"
+#include "engine/types/colour_format.h"
 
 #include <cstddef>
 #include <optional>
@@ -37,15 +38,10 @@ size_t imageBytes(uint32_t fourcc, VideoSize size, uint32_t stride);
 void unpackDepth(const DepthLayout& layout, VideoSize size, uint32_t stride, std::span<const std::byte> bytes,
                  std::span<uint16_t> out);
 
-// R8 G8 B8 A8 (0xAABBGGRR). YUYV and UYVY are BT.601, limited range, the UVC default. Returns the fault;
-// empty when everything was converted.
-std::string unpackColour(uint32_t fourcc, VideoSize size, uint32_t stride, std::span<const std::byte> bytes,
-                         std::span<uint32_t> out);
-
-bool isYuyv(uint32_t fourcc); // YUYV or UYVY
-// The same image kept packed, as words of YUYV (yuyv.h), rows without gaps. For YUYV and UYVY of even width.
-// Returns as unpackColour().
-std::string copyYuyv(uint32_t fourcc, VideoSize size, uint32_t stride, std::span<const std::byte> bytes,
-                     std::span<uint32_t> out);
+ColourFormat colourFormatOf(uint32_t fourcc); // of colourFormats()
+// Copies the image as the camera sends it, rows without gaps; of a JPEG its planes. out: room for
+// mostColourBytes(). Returns the fault; empty when `raw` describes the copy.
+std::string copyColour(uint32_t fourcc, VideoSize size, uint32_t stride, std::span<const std::byte> bytes,
+                       std::span<std::byte> out, RawColour& raw);
 
 } // namespace fathom

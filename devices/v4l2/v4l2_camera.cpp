@@ -40,10 +40,9 @@ V4l2Camera::V4l2Camera(const CameraRequest& request)
     depthRequest_ = {nodes.depthFormat, {info_.depth.width, info_.depth.height}, request.rate};
     colourRequest_ = {nodes.colourFormat, {info_.colour.width, info_.colour.height}, request.rateOfColour()};
     info_.poseless = true;
-    info_.yuyv = info_.hasColour && isYuyv(nodes.colourFormat) && info_.colour.width % 2 == 0;
+    info_.colourFormat = info_.hasColour ? colourFormatOf(nodes.colourFormat) : ColourFormat::Rgba;
     known_ = KnownCamera{nodes.depth.identity(), nodes.colour ? nodes.colour->identity() : ""};
-    slots_ = std::make_unique<FrameSlots>(std::max(info_.depth.pixels(), info_.colour.pixels()),
-                                          info_.hasColour, kFramesInFlight + 1);
+    slots_ = std::make_unique<FrameSlots>(info_.slotPixels(), info_.hasColour, kFramesInFlight + 1);
     streams_ = std::make_unique<Streams>(std::move(nodes), depthRequest_, colourRequest_);
     controls_ = std::make_shared<V4l2Controls>(controlNodes());
     open();

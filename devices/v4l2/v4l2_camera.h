@@ -16,11 +16,11 @@
 namespace fathom {
 
 // Depth in 16-bit rows without gaps is leased in place (no copy, and a GPU that imports host memory reads it
-// there) while the driver keeps two buffers; everything else is unpacked into the camera's own memory. Colour
-// is unpacked as well, except YUYV and UYVY of even width, which are copied packed. Capture times are
-// CLOCK_MONOTONIC [s]: arrival of the first bytes for a UVC camera, which its driver calls start of exposure;
-// the actual start of exposure when a RealSense D4xx and the kernel report it (frame_metadata.h). Colour is
-// paired by the driver's stamps. Frame indices start at 0; the source number is index + 1.
+// there) while the driver keeps two buffers; other depth is unpacked into the camera's own memory. Colour is
+// copied as it is sent, and motion JPEG decoded to its planes. Capture times are CLOCK_MONOTONIC [s]: arrival
+// of the first bytes for a UVC camera, which its driver calls start of exposure; the actual start of exposure
+// when a RealSense D4xx and the kernel report it (frame_metadata.h). Colour is paired by the driver's stamps.
+// Frame indices start at 0; the source number is index + 1.
 //
 // next() returns the newest pair, and none from before a pause in which the driver ran out of buffers (with
 // everyFrame: every pair, in order). A damaged, short or unpaired frame is skipped, counted and logged. A

@@ -32,11 +32,8 @@ std::string V4l2Camera::fill(const FramePairing::Pair& pair, FrameSlot& slot, Fr
 }
 
 std::string V4l2Camera::fillColour(const CapturedBuffer& colour, FrameSlot& slot, Frame::Content& content) {
-    const uint32_t pixels = info_.colour.pixels();
-    (info_.yuyv ? content.yuyv : content.colour) = slot.colour().first(info_.yuyv ? pixels / 2 : pixels);
-    const auto copy = info_.yuyv ? copyYuyv : unpackColour;
-    return copy(colourRequest_.fourcc, colourRequest_.size, streams_->colour->stride(), colour.bytes,
-                slot.colour());
+    return copyColour(colourRequest_.fourcc, colourRequest_.size, streams_->colour->stride(), colour.bytes,
+                      slot.colourBytes(), content.raw);
 }
 
 // Returns false when bytes are missing.

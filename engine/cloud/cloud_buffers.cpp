@@ -87,7 +87,7 @@ UploadBuffers::UploadBuffers(const gpu::Device& device, const Plan& plan, const 
     depth = image(depthMemory, 2ull * camera.depth.pixels(), "depth");
     if (plan.colour) {
         colour = image(colourMemory, camera.colourBytes(), "colour");
-        yuyv = plan.yuyv;
+        format = camera.colourFormat;
     }
     if (plan.selfFilter) {
         arm = Buffer(device, LinkSpheres::kMostEntries * 16ull, MemoryKind::Upload, "arm");

@@ -54,11 +54,10 @@ struct UploadBuffers {
                   const std::shared_ptr<const void>& depthMemory = nullptr,
                   const std::shared_ptr<const void>& colourMemory = nullptr);
 
-    gpu::Buffer params; // FrameParams
-    gpu::Buffer depth;  // uint16 per pixel, row-major
-    gpu::Buffer
-        colour; // uint per pixel, or per two pixels (Plan::yuyv), row-major; empty when no class uses colour
-    bool yuyv = false; // Plan::yuyv
+    gpu::Buffer params;                       // FrameParams
+    gpu::Buffer depth;                        // uint16 per pixel, row-major
+    gpu::Buffer colour;                       // in the camera's format; empty when no class uses colour
+    ColourFormat format = ColourFormat::Rgba; // of colour
     gpu::Buffer
         arm; // vec4: links and spheres of the arm, in the format of classify.comp; empty without self-filter
 };

@@ -9,10 +9,9 @@ namespace fathom::cloud {
 
 namespace {
 
-template <class T>
-void put(const gpu::Buffer& buffer, std::span<const T> from, uint64_t bytes, const char* what) {
-    if (from.size_bytes() < bytes) {
-        throw Error(std::string("frame: ") + what + " image of " + std::to_string(from.size_bytes()) +
+void put(const gpu::Buffer& buffer, std::span<const std::byte> from, uint64_t bytes, const char* what) {
+    if (from.size() < bytes) {
+        throw Error(std::string("frame: ") + what + " image of " + std::to_string(from.size()) +
                     " bytes, needs " + std::to_string(bytes));
     }
     if (!buffer.imported()) {
@@ -22,14 +21,27 @@ void put(const gpu::Buffer& buffer, std::span<const T> from, uint64_t bytes, con
 
 } // namespace
 
+std::span<const std::byte> colourOf(const Frame& frame, ColourFormat format, uint32_t width,
+                                    uint32_t height) {
+    const RawColour& raw = frame->raw;
+    const bool same =
+        raw.format == format && (!frame->isRaw() || (raw.width == width && raw.height == height));
+    return same ? frame->colourBytes() : std::span<const std::byte>();
+}
+
 void uploadFrame(const UploadBuffers& slot, const Frame& frame, const shared::FrameParams& params) {
     const uint64_t pixels = static_cast<uint64_t>(params.size.x) * params.size.y;
-    put(slot.depth, frame->depth, pixels * 2, "depth");
+    put(slot.depth, std::as_bytes(frame->depth), pixels * 2, "depth");
+    shared::FrameParams& out = *slot.params.as<shared::FrameParams>().data();
+    out = params;
     if (slot.colour) {
-        const uint64_t words = uint64_t{params.colourSize.x} * params.colourSize.y / (slot.yuyv ? 2 : 1);
-        put(slot.colour, frame->colours(slot.yuyv), 4 * words, slot.yuyv ? "YUYV" : "colour");
+        const RawColour image{slot.format, params.colourSize.x, params.colourSize.y, {}, frame->raw.planes};
+        put(slot.colour, colourOf(frame, slot.format, image.width, image.height), image.needed(),
+            slot.format == ColourFormat::Rgba ? "colour" : nameOf(slot.format));
+        const ColourPlanes& p = image.planes;
+        out.planes = {p.lumaStep, p.blue, p.red, p.chromaStep};
+        out.chroma = {p.across, p.down, p.apart, 0};
     }
-    *slot.params.as<shared::FrameParams>().data() = params;
 }
 
 } // namespace fathom::cloud

@@ -46,11 +46,28 @@ PassInfo occlusion(const CloudContext& c) {
     return pass;
 }
 
+static_assert(static_cast<uint32_t>(ColourFormat::Rgba) == kFormatRgba &&
+              static_cast<uint32_t>(ColourFormat::Uyvy) == kFormatUyvy &&
+              static_cast<uint32_t>(ColourFormat::Bgr) == kFormatBgr &&
+              static_cast<uint32_t>(ColourFormat::JpegPlanes) == kFormatJpegPlanes);
+
+// Texels of the colour image. four: of four pixels, if the format has words.
+VkFormat colourTexels(ColourFormat format, bool four) {
+    switch (format) {
+    case ColourFormat::Rgba:
+        return four ? VK_FORMAT_R32G32B32A32_UINT : kColourTexels;
+    case ColourFormat::Yuyv:
+    case ColourFormat::Uyvy:
+        return four ? VK_FORMAT_R32G32_UINT : kColourTexels;
+    default:
+        return VK_FORMAT_R32_UINT;
+    }
+}
+
 PassInfo classify(const CloudContext& c) {
     const Plan& plan = c.plan;
     const uint32_t colour = !plan.colour ? kColourNone : plan.occlusion ? kColourLookedUp : kColourRegistered;
     const uint32_t four = c.camera.depth.width % 4 != 0 ? 0u : (colour == kColourRegistered ? 2u : 1u);
-    const VkFormat fourColours = plan.yuyv ? VK_FORMAT_R32G32_UINT : VK_FORMAT_R32G32B32A32_UINT;
     // A patch takes 64 invocations of four pixels in one row, or 16 of four pixels in four rows. A wide group
     // covers four patches.
     const uint32_t rows = plan.byPixel ? 1u : 4u, invocations = plan.byPixel ? 256u : 16u;
@@ -60,7 +77,7 @@ PassInfo classify(const CloudContext& c) {
             {&Up::params,
              {&Up::depth, four != 0 ? kFourDepths : kDepthTexels},
              &Work::rays,
-             {&Up::colour, four == 2 ? fourColours : kColourTexels},
+             {&Up::colour, colourTexels(c.camera.colourFormat, four == 2)},
              &Work::nearest,
              &Work::masks,
              &Work::listed,
@@ -86,7 +103,7 @@ PassInfo classify(const CloudContext& c) {
              {kSpecKeep, plan.keepDepth},
              {kSpecGuidance, plan.moments},
              {kSpecLists, !plan.lists()},
-             {kSpecYuyv, plan.yuyv}},
+             {kSpecFormat, static_cast<uint32_t>(c.camera.colourFormat)}},
             Groups{plan.byPixel ? (c.layout.across + 3) / 4 : c.layout.across, c.layout.down,
                    invocations / group},
             plan.lists() ? After::Barrier : After::IndirectBarrier};

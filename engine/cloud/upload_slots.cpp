@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/cloud/upload_slots.h"
 
+#include "engine/cloud/frame_upload.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
 
@@ -40,9 +41,10 @@ UploadSlots::Images UploadSlots::inPlace(const Frame& frame) const {
         frame->depth.size() >= camera_.depth.pixels()) {
         images.depth = frame->depthMemory;
     }
-    const auto colours = std::as_bytes(frame->colours(plan_.yuyv));
-    if (plan_.colour && frame->colourMemory.get() == colours.data() &&
-        colours.size() >= camera_.colourBytes()) {
+    const Intrinsics& size = camera_.colour;
+    const auto colours = colourOf(frame, camera_.colourFormat, size.width, size.height);
+    const RawColour image{camera_.colourFormat, size.width, size.height, {}, frame->raw.planes};
+    if (plan_.colour && frame->colourMemory.get() == colours.data() && colours.size() >= image.needed()) {
         images.colour = frame->colourMemory;
     }
     return images;

@@ -106,10 +106,11 @@ void FrameCycle::updateParams() {
 void FrameCycle::warmUp() {
     device_->clearMemory();
     const std::vector<uint16_t> depth(camera_.depth.pixels(), 0);
-    const std::vector<uint32_t> colour(plan_.colour ? camera_.colourBytes() / 4 : 0, 0);
+    const std::vector<uint32_t> colour(plan_.colour ? (camera_.colourBytes() + 3) / 4 : 0, 0);
     Frame::Content content;
     content.depth = depth;
-    (plan_.yuyv ? content.yuyv : content.colour) = colour;
+    content.raw = {camera_.colourFormat, camera_.colour.width, camera_.colour.height, {}};
+    content.setColourBytes(std::as_bytes(std::span(colour)));
     for (uint32_t slot = 0; slot < cloud::UploadSlots::kCopied; ++slot) {
         cloud::uploadFrame(device_->upload(slot), Frame(content, nullptr), paramsAt(dvec3(0.0)));
         uploadArm(slot, dvec3(0.0));

@@ -28,9 +28,9 @@ SubmitStatus CameraPort::Impl::checkStamp(const Frame& frame) const noexcept {
 }
 
 SubmitStatus CameraPort::Impl::checkImages(const Frame& frame) const noexcept {
-    const bool rgb = model.colourFormat == ColourFormat::Rgb;
+    const size_t colourSize = model.colourFormat == ColourFormat::Rgb ? 1 : 4;
     const size_t depthSize = model.depthFormat == DepthFormat::Metres ? sizeof(float) : sizeof(uint16_t);
-    if (!aligned(frame.depth, depthSize) || (info.hasColour && !aligned(frame.colour, rgb ? 1 : 4))) {
+    if (!aligned(frame.depth, depthSize) || (info.hasColour && !aligned(frame.colour, colourSize))) {
         return SubmitStatus::MissingImage;
     }
     return isFinite(front::internal(frame.baseTcamera)) ? SubmitStatus::Accepted : SubmitStatus::BadPose;
@@ -74,30 +74,21 @@ void CameraPort::Impl::copyMetres(const Frame& frame, Copy& copy) const {
     }
 }
 
-void CameraPort::Impl::copyColour(const Frame& frame, Copy& copy) const {
+std::span<const std::byte> CameraPort::Impl::colourOf(const Frame& frame) const {
     const CameraInfo& all = side.delivered;
-    copy.colour.resize(all.hasColour ? all.colourBytes() / sizeof(uint32_t) : 0);
-    if (model.colourFormat == ColourFormat::Rgb) {
-        copyRgb(frame, copy);
-    } else if (all.hasColour) {
-        std::memcpy(copy.colour.data(), frame.colour, copy.colour.size() * sizeof(uint32_t));
-    }
-    if (side.decimation > 1 && all.hasColour && all.registered) {
-        if (all.yuyv) {
-            decimateYuyv(copy.colour, all.colour, side.decimation, copy.colour);
-        } else {
-            decimate<uint32_t>(copy.colour, all.colour, side.decimation, copy.colour);
-        }
-        copy.colour.resize(info.colour.pixels());
-    }
+    return {static_cast<const std::byte*>(frame.colour), all.hasColour ? all.colourBytes() : 0};
 }
 
-void CameraPort::Impl::copyRgb(const Frame& frame, Copy& copy) const {
-    const auto* bytes = static_cast<const uint8_t*>(frame.colour);
-    for (size_t i = 0; i < copy.colour.size(); ++i) {
-        const uint8_t* rgb = bytes + 3 * i;
-        copy.colour[i] = 0xff000000u | uint32_t{rgb[2]} << 16 | uint32_t{rgb[1]} << 8 | rgb[0];
+void CameraPort::Impl::copyColour(const Frame& frame, Copy& copy) const {
+    const CameraInfo& all = side.delivered;
+    const std::span<const std::byte> colour = colourOf(frame);
+    if (side.decimation == 1 || !all.hasColour || !all.registered) {
+        copy.colour.assign(colour.begin(), colour.end());
+        return;
     }
+    copy.colour.resize(info.colourBytes());
+    decimateColour({all.colourFormat, all.colour.width, all.colour.height, colour}, side.decimation,
+                   {reinterpret_cast<uint32_t*>(copy.colour.data()), info.colour.pixels()});
 }
 
 fathom::Frame CameraPort::Impl::contentOf(const Frame& frame, std::function<void()> release) {
@@ -108,16 +99,13 @@ fathom::Frame CameraPort::Impl::contentOf(const Frame& frame, std::function<void
     content.baseTcamera = front::internal(frame.baseTcamera);
     dquat& rotation = content.baseTcamera->rotation; // a unit quaternion stays the same to the last bit
     rotation = std::abs(glm::dot(rotation, rotation) - 1.0) < 1e-14 ? rotation : glm::normalize(rotation);
-    const bool converted = model.depthFormat == DepthFormat::Metres ||
-                           model.colourFormat == ColourFormat::Rgb || side.correction.has_value() ||
+    content.raw = {info.colourFormat, info.colour.width, info.colour.height, {}};
+    const bool converted = model.depthFormat == DepthFormat::Metres || side.correction.has_value() ||
                            side.decimation > 1;
-    std::span<const uint32_t> colour;
     std::function<void()> giveBack;
     if (release && !converted) {
         content.depth = {static_cast<const uint16_t*>(frame.depth), info.depth.pixels()};
-        if (info.hasColour) {
-            colour = {static_cast<const uint32_t*>(frame.colour), info.colourBytes() / sizeof(uint32_t)};
-        }
+        content.setColourBytes(colourOf(frame));
         giveBack = std::move(release);
     } else {
         Copy& copy = unused();
@@ -127,10 +115,9 @@ fathom::Frame CameraPort::Impl::contentOf(const Frame& frame, std::function<void
             release();
         }
         content.depth = copy.depth;
-        colour = copy.colour;
+        content.setColourBytes(copy.colour);
         giveBack = [&copy] { copy.used.store(false, std::memory_order_release); };
     }
-    (info.yuyv ? content.yuyv : content.colour) = colour;
     return fathom::Frame(content, std::move(giveBack));
 }
 

@@ -39,7 +39,7 @@ struct CameraPort::Impl {
 private:
     struct Copy { // memory for one copied frame
         std::vector<uint16_t> depth;
-        std::vector<uint32_t> colour;
+        std::vector<std::byte> colour;
         std::atomic<bool> used{false};
     };
     SubmitStatus checkStamp(const Frame& frame) const noexcept;
@@ -47,8 +47,8 @@ private:
     Copy& unused();
     void copyDepth(const Frame& frame, Copy& copy) const;
     void copyMetres(const Frame& frame, Copy& copy) const;
+    std::span<const std::byte> colourOf(const Frame& frame) const;
     void copyColour(const Frame& frame, Copy& copy) const;
-    void copyRgb(const Frame& frame, Copy& copy) const;
     fathom::Frame contentOf(const Frame& frame, std::function<void()> release);
 
     static constexpr size_t kCopies = 5; // one each: being filled, waiting, taken, uploaded, on the device

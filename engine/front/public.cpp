@@ -28,6 +28,12 @@ namespace fathom::front {
 
 namespace {
 
+ColourFormat formatOf(v0::ColourFormat format) {
+    return format == v0::ColourFormat::Rgb    ? ColourFormat::Rgb
+           : format == v0::ColourFormat::Yuyv ? ColourFormat::Yuyv
+                                              : ColourFormat::Rgba;
+}
+
 v0::State external(StepState state) noexcept {
     switch (state) {
     case StepState::Off:
@@ -110,9 +116,9 @@ CameraInfo internal(const v0::CameraModel& model) {
     info.colourTdepth = info.registered ? Pose{} : internal(model.colourTdepth);
     info.metresPerUnit = model.depthFormat == v0::DepthFormat::Metres ? kFloatUnit : model.metresPerUnit;
     info.hasColour = model.colourFormat != v0::ColourFormat::None;
-    info.yuyv = model.colourFormat == v0::ColourFormat::Yuyv;
+    info.colourFormat = formatOf(model.colourFormat);
     if (!(info.metresPerUnit > 0.0) || !isFinite(info.colourTdepth) ||
-        (info.yuyv && info.colour.width % 2 != 0)) {
+        (info.colourFormat == ColourFormat::Yuyv && info.colour.width % 2 != 0)) {
         throw v0::BadInput("camera: " + model.name +
                            ": unit, colour pose or YUYV width (allowed: a positive unit, a finite pose, an "
                            "even width)");

@@ -40,7 +40,6 @@ void decideByScene(const Scene& scene, const CameraInfo& camera, Plan& plan) {
     plan.moments = scene.hasGuidance();
     plan.cloud = scene.hasPoints();
     plan.colour = plan.cloud && scene.usesColour() && camera.hasColour;
-    plan.yuyv = plan.colour && camera.yuyv;
     plan.water = plan.colour && scene.attenuation;
     plan.occlusion = plan.colour && !camera.registered;
     plan.beam = plan.spheres && camera.beam.has_value();
@@ -165,10 +164,6 @@ uint64_t Plan::setBytes(const PatchLayout& layout) const {
 }
 
 Plan makePlan(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, const DeviceFacts& device) {
-    if (camera.yuyv && camera.colour.width % 2 != 0) {
-        throw BadInput("camera", "width of its YUYV colour", std::to_string(camera.colour.width),
-                       "even, because two pixels share a word");
-    }
     checkCamera(camera, "camera");
     Plan plan = decide(scene, camera, toolLeaves, device);
     explainPlan(plan, scene, camera);

@@ -43,7 +43,6 @@ struct PlannedPasses {
 struct PlannedLayout {
     bool rays = false;    // ray table: distorted lens, or a fan
     bool colour = false;  // some class uses colour, so it is uploaded
-    bool yuyv = false;    // colour is uploaded as YUYV, two pixels per word
     bool inPlace = false; // images in whole pages are read in place, not copied
     bool pack =
         false; // with byPixel: the device packs spheres for the host, because its memory is across a bus

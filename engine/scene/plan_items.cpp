@@ -76,8 +76,9 @@ void explainImages(Plan& plan, const CameraInfo& camera) {
     explainBuffer(plan, "depth upload", plan.cloud, 2 * 2 * pixels, copies);
     explainBuffer(plan, "colour upload", plan.colour, 2 * camera.colourBytes(),
                   !plan.colour ? "no class uses colour"
-                  : plan.yuyv  ? std::string(copies) + "; YUYV, unconverted"
-                               : copies);
+                  : camera.colourFormat != ColourFormat::Rgba
+                      ? std::string(copies) + "; " + nameOf(camera.colourFormat) + ", unconverted"
+                      : copies);
     explainBuffer(plan, "depth on the device", plan.keepDepth, 2 * pixels,
                   plan.keepDepth ? "read across the bus once" : "passes read the upload");
     explainBuffer(plan, "rays", plan.rays, 8 * pixels,

@@ -2,8 +2,10 @@
 // Constant properties of a depth and colour camera: sizes, lenses, registration, depth unit.
 #pragma once
 
+#include "engine/types/colour_format.h"
 #include "engine/types/pose.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -66,14 +68,19 @@ struct CameraInfo {
     Pose colourTdepth;            // maps depth-camera points to the colour camera; identity when registered
     double metresPerUnit = 0.001; // depth value 1 in metres; depth value 0 = no measurement
     bool hasColour = true;
-    bool yuyv = false;     // colour is YUYV (yuyv.h); its width must be even
+    ColourFormat colourFormat = ColourFormat::Rgba;
     double sigma = 0.0;    // [m] systematic error of points that a correction leaves; regions grow by 3 sigma
     bool poseless = false; // no frame has a pose
     uint32_t decimation = 1;       // images are every nth column and row of the camera's
     bool inWater = false;          // depth is already corrected for a flat port; sigma is the remaining error
     std::optional<BeamSigma> beam; // per-point uncertainty; each sphere grows by 3 sigma
 
-    uint64_t colourBytes() const { return (yuyv ? 2ull : 4ull) * colour.pixels(); } // of one frame
+    // [bytes] of one frame's colour, at most
+    uint64_t colourBytes() const { return mostColourBytes(colourFormat, colour.width, colour.height); }
+    // Pixels of memory with room for either image, at 4 bytes per pixel of colour.
+    uint32_t slotPixels() const {
+        return std::max(depth.pixels(), hasColour ? static_cast<uint32_t>((colourBytes() + 3) / 4) : 0u);
+    }
     double sigmaAt(const dvec3& point) const noexcept; // [m] of a reading at this point, camera frame
 };
 

@@ -1,29 +1,44 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/types/colour_copy.h"
 
-#include "engine/types/yuyv.h"
-
 namespace fathom {
 
+namespace {
+
+void unpackTo(const RawColour& raw, std::vector<uint32_t>& rgba) {
+    rgba.resize(size_t{raw.width} * raw.height);
+    unpackColour(raw, rgba);
+}
+
+} // namespace
+
 void readColours(const Frame::Content& content, std::vector<uint32_t>& rgba) {
-    if (content.yuyv.empty()) {
-        rgba.assign(content.colour.begin(), content.colour.end());
+    if (content.isRaw()) {
+        unpackTo(content.raw, rgba);
     } else {
-        rgba.resize(2 * content.yuyv.size());
-        unpackYuyv(content.yuyv, rgba);
+        rgba.assign(content.colour.begin(), content.colour.end());
     }
 }
 
+std::vector<uint32_t> coloursOf(const Frame::Content& content) {
+    std::vector<uint32_t> rgba;
+    readColours(content, rgba);
+    return rgba;
+}
+
 void ColourCopy::take(const Frame::Content& content) {
-    yuyv_ = !content.yuyv.empty();
-    const std::span<const uint32_t> words = content.colours(yuyv_);
-    words_.assign(words.begin(), words.end());
+    raw_ = content.raw;
+    if (content.isRaw()) {
+        bytes_.assign(raw_.bytes.begin(), raw_.bytes.end());
+        raw_.bytes = bytes_;
+    } else {
+        words_.assign(content.colour.begin(), content.colour.end());
+    }
 }
 
 void ColourCopy::giveTo(std::vector<uint32_t>& rgba) {
-    if (yuyv_) {
-        rgba.resize(2 * words_.size());
-        unpackYuyv(words_, rgba);
+    if (raw_.format != ColourFormat::Rgba) {
+        unpackTo(raw_, rgba);
     } else {
         rgba.swap(words_);
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/types/decimation.h"
 
-#include "engine/types/yuyv.h"
+#include <vector>
 
 namespace fathom {
 
@@ -21,19 +21,19 @@ CameraInfo decimated(CameraInfo camera, uint32_t n) {
     decimateLens(camera.depth, n);
     if (camera.registered) {
         decimateLens(camera.colour, n);
-        camera.yuyv = false;
+        camera.colourFormat = ColourFormat::Rgba;
     }
     camera.decimation *= n;
     return camera;
 }
 
-void decimateYuyv(std::span<const uint32_t> words, const Intrinsics& lens, uint32_t n,
-                  std::span<uint32_t> rgba) noexcept {
+void decimateColour(const RawColour& image, uint32_t n, std::span<uint32_t> rgba) {
+    std::vector<uint32_t> row(image.width);
     size_t next = 0;
-    for (uint32_t v = 0; v < lens.height; v += n) {
-        for (uint32_t u = 0; u < lens.width; u += n) {
-            const size_t pixel = size_t{v} * lens.width + u;
-            rgba[next++] = rgbaOfYuyv(words[pixel / 2])[pixel % 2];
+    for (uint32_t v = 0; v < image.height; v += n) {
+        unpackRow(image, v, row);
+        for (uint32_t u = 0; u < image.width; u += n) {
+            rgba[next++] = row[u];
         }
     }
 }

@@ -12,7 +12,7 @@ namespace fathom {
 inline constexpr uint32_t kMostDecimation = 8;
 
 // What a camera is of which every nth column and row is used, from the first one on. Colour keeps its size if
-// it has a lens of its own. Registered YUYV becomes RGBA, because its pixels share chroma.
+// it has a lens of its own. Registered colour becomes RGBA, because pixels of other formats share chroma.
 CameraInfo decimated(CameraInfo camera, uint32_t n);
 
 // Picks every nth pixel of each nth row. `from`: an image of `lens`; `to`: at least as long as the result,
@@ -26,8 +26,7 @@ void decimate(std::span<const Pixel> from, const Intrinsics& lens, uint32_t n, s
         }
     }
 }
-// The same for YUYV words, as 0xAABBGGRR. n is at least 2.
-void decimateYuyv(std::span<const uint32_t> words, const Intrinsics& lens, uint32_t n,
-                  std::span<uint32_t> rgba) noexcept;
+// The same of colour in any format, as 0xAABBGGRR.
+void decimateColour(const RawColour& image, uint32_t n, std::span<uint32_t> rgba);
 
 } // namespace fathom

@@ -2,6 +2,7 @@
 // One depth image with one colour image, as a move-only lease on the camera's own memory.
 #pragma once
 
+#include "engine/types/colour_format.h"
 #include "engine/types/pose.h"
 
 #include <cstdint>
@@ -14,8 +15,8 @@
 namespace fathom {
 
 // The memory belongs to the camera. Destroying the lease returns it. Depth: width x height
-// uint16 rows without gaps, 0 = no measurement. Colour: R8 G8 B8 A8, or YUYV (yuyv.h) if CameraInfo::yuyv;
-// the other span is empty. Both are empty when the camera has no colour.
+// uint16 rows without gaps, 0 = no measurement. Colour: `colour` if CameraInfo::colourFormat is Rgba, else
+// `raw`; the other one is empty. Both are empty when the camera has no colour.
 class Frame {
 public:
     // The data of a frame.
@@ -25,13 +26,23 @@ public:
         double captureTime = 0.0;  // [s] on the source's clock
         std::span<const uint16_t> depth;
         std::span<const uint32_t> colour; // 0xAABBGGRR
-        std::span<const uint32_t> yuyv;   // two pixels per word
+        RawColour raw;                    // as the camera sends it
         std::optional<Pose> baseTcamera;  // when the source knows it (poses.txt, simulated); else the scene's
-        // Blocks of whole pages that begin at the depth and colour data, which a device may read in place.
+        // Blocks of whole pages that begin at the depth and colour data, with room for
+        // CameraInfo::colourBytes(), which a device may read in place.
         // Holding one prevents reuse of its address. Null, or at another address: the image is copied.
         std::shared_ptr<const void> depthMemory, colourMemory;
 
-        std::span<const uint32_t> colours(bool asYuyv) const { return asYuyv ? yuyv : colour; }
+        bool isRaw() const { return raw.format != ColourFormat::Rgba; }
+        std::span<const std::byte> colourBytes() const { return isRaw() ? raw.bytes : std::as_bytes(colour); }
+        // Takes the colour from other memory with the same content, 4-byte aligned unless raw.
+        void setColourBytes(std::span<const std::byte> bytes) {
+            if (isRaw()) {
+                raw.bytes = bytes;
+            } else {
+                colour = {reinterpret_cast<const uint32_t*>(bytes.data()), bytes.size() / sizeof(uint32_t)};
+            }
+        }
     };
 
     Frame() = default;

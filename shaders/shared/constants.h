@@ -12,7 +12,7 @@ FATHOM_CONST kSpecRays = 1;    // rays come from a table: distorted lens or fan
 FATHOM_CONST kSpecFan = 2;     // pixels are beams at equal angles
 FATHOM_CONST kSpecBeam = 3;    // each sphere grows by 3 sigma of its own point
 FATHOM_CONST kSpecColour = 4;  // kColourNone, kColourRegistered or kColourLookedUp
-FATHOM_CONST kSpecYuyv = 5;    // a colour word holds two pixels
+FATHOM_CONST kSpecFormat = 5;  // kFormat value of the colour image
 FATHOM_CONST kSpecWater = 6;   // colours are corrected for attenuation in water
 FATHOM_CONST kSpecClasses = 7; // number of point classes; loops over them unroll
 FATHOM_CONST kSpecBox = 8;     // some class has a box
@@ -52,6 +52,9 @@ FATHOM_CONST kSpecCopy = 34;   // 1: `stream` copies; 0: it sums
 FATHOM_CONST kColourNone = 0, // no colour
     kColourRegistered = 1,    // registered to depth
     kColourLookedUp = 2;      // of a colour camera with its own lens
+// Values of kSpecFormat, those of ColourFormat.
+FATHOM_CONST kFormatRgba = 0, kFormatYuyv = 1, kFormatUyvy = 2, kFormatRgb = 3, kFormatBgr = 4,
+    kFormatPlanes = 5, kFormatJpegPlanes = 6;
 // Values of kSpecBlock.
 FATHOM_CONST kBlockNone = 0, // one invocation per pixel, window from memory
     kBlockSub = 1,           // one per 4x4 sub-patch; radius <= 2

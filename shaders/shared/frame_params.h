@@ -49,8 +49,10 @@ struct FrameParams {
     vec4 memoryMore; // change that is not shown: in sigma, x, but at most y [m]; z: variance of a moved pose,
                      // [m^2]; w: 1 = the camera has moved since the frame that the estimates come from
     vec4 beforeTbase[3]; // rows of the pose of that frame, as cameraTbase
+    uvec4 planes; // colour in planes, ColourPlanes: step of luma rows, first U, first V, step of chroma rows [bytes]
+    uvec4 chroma; // log2 of the columns and rows that share a sample, and of the bytes between samples; -
 };
-FATHOM_SIZE(FrameParams, 64 + 112 + 144 + 640 + 208 + 96);
+FATHOM_SIZE(FrameParams, 64 + 112 + 144 + 640 + 208 + 128);
 
 // Numbers of frames in the memory of estimates wrap here.
 FATHOM_CONST kMemoryFrames = 0x1000000;

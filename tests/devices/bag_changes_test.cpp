@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bags whose lens, unit or stamps change, and streams that only look like depth or colour.
 #include "devices/bag/open_bag.h"
+#include "engine/types/colour_copy.h"
 #include "tests/devices/played_bag.h"
 
 using namespace fathom;
@@ -79,8 +80,8 @@ TEST_CASE("Stamps that do not rise are no times: images are paired by the time o
         const auto first = camera.next(), second = camera.next();
         REQUIRE(first);
         REQUIRE(second);
-        CHECK((*first)->colour[0] == kRedPixel);
-        CHECK((*second)->colour[0] != kRedPixel);
+        CHECK(coloursOf(**first)[0] == kRedPixel);
+        CHECK(coloursOf(**second)[0] != kRedPixel);
         CHECK((*second)->captureTime - (*first)->captureTime == doctest::Approx(0.1));
     }
     BagCamera once = playStreams(folder, stampedBag({1.0, 1.2, 1.1})); // one fault, not most

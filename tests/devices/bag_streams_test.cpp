@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which streams of a bag are played, with which lens, unit and pairs.
+#include "engine/types/colour_copy.h"
 #include "tests/devices/played_bag.h"
 
 #include <limits>
@@ -67,7 +68,7 @@ TEST_CASE("Depth that is registered to colour is played before depth that is not
         const auto frame = camera.next();
         REQUIRE(frame);
         CHECK((*frame)->depth[0] == 500);
-        CHECK((*frame)->colour[0] == kRedPixel);
+        CHECK(coloursOf(**frame)[0] == kRedPixel);
     }
 }
 
@@ -82,12 +83,12 @@ TEST_CASE("Of several cameras, depth and colour of the same one are played, or t
     BagCamera any = playStreams(folder, maker);
     const auto frame = any.next();
     REQUIRE(frame);
-    CHECK(((*frame)->depth[0] == 500) == ((*frame)->colour[0] == kRedPixel));
+    CHECK(((*frame)->depth[0] == 500) == (coloursOf(**frame)[0] == kRedPixel));
     BagCamera asked = playStreams(folder, maker, {.depth = "/front/depth_registered/image_raw"});
     const auto other = asked.next();
     REQUIRE(other);
     CHECK((*other)->depth[0] == 500);
-    CHECK((*other)->colour[0] == kRedPixel);
+    CHECK(coloursOf(**other)[0] == kRedPixel);
     CHECK(streamRefusal(folder, maker, {.depth = "/nowhere"}).find("/nowhere") != std::string::npos);
     CHECK(streamRefusal(folder, maker, {.colour = "/nowhere"}).find("/nowhere") != std::string::npos);
     CHECK_FALSE(playStreams(folder, maker, {.colour = "none"}).info().hasColour);
@@ -146,7 +147,7 @@ TEST_CASE("Images are paired by the stamps of their headers, however late they w
     for (uint32_t i = 0; i < 3; ++i) {
         const auto frame = camera.next();
         REQUIRE(frame);
-        CHECK(((*frame)->colour[0] & 0xff) == i);
+        CHECK((coloursOf(**frame)[0] & 0xff) == i);
     }
     CHECK(camera.skipped() == 0);
 }
@@ -170,7 +171,7 @@ TEST_CASE("Streams with different clocks, or headers without stamps, are paired 
         for (uint32_t i = 0; i < 3; ++i) {
             const auto frame = camera.next();
             REQUIRE(frame);
-            CHECK(((*frame)->colour[0] & 0xff) == i);
+            CHECK((coloursOf(**frame)[0] & 0xff) == i);
         }
     }
 }

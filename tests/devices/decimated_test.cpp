@@ -3,7 +3,6 @@
 // frames.
 #include "devices/decimated/decimated_camera.h"
 
-#include "engine/types/yuyv.h"
 #include "tests/devices/one_frame.h"
 
 #include <cmath>
@@ -71,15 +70,15 @@ TEST_CASE("A decimated camera delivers every nth pixel, and its lens sees them a
 
 TEST_CASE("A decimated YUYV camera delivers the colours that the unpacked image has at these pixels") {
     CameraInfo full = camera(10, 5);
-    full.yuyv = true;
+    full.colourFormat = ColourFormat::Yuyv;
     const auto words = counted<uint32_t>(full.depth.pixels() / 2, 0x40803010u);
     std::vector<uint32_t> rgba(full.depth.pixels());
-    unpackYuyv(words, rgba);
+    unpackColour({ColourFormat::Yuyv, 10, 5, std::as_bytes(std::span(words))}, rgba);
     DecimatedCamera small(std::make_unique<OneFrame>(full, counted<uint16_t>(50, 1), words), 3);
-    CHECK(!small.info().yuyv);
+    CHECK(small.info().colourFormat == ColourFormat::Rgba);
     const auto frame = small.next();
     REQUIRE(frame);
-    CHECK((*frame)->yuyv.empty());
+    CHECK(!(*frame)->isRaw());
     REQUIRE((*frame)->colour.size() == 4 * 2);
     for (uint32_t i = 0; i < 8; ++i) {
         CHECK((*frame)->colour[i] == rgba[3 * (i / 4) * 10 + 3 * (i % 4)]);
@@ -87,22 +86,22 @@ TEST_CASE("A decimated YUYV camera delivers the colours that the unpacked image 
 }
 
 TEST_CASE("Colour with a lens of its own stays as it is, and its frame is held as long as it is used") {
-    for (const bool yuyv : {false, true}) {
+    for (const ColourFormat format : {ColourFormat::Rgba, ColourFormat::Yuyv}) {
         CameraInfo full = camera(6, 4);
         full.registered = false;
-        full.yuyv = yuyv;
+        full.colourFormat = format;
         full.colour.width = 20;
         const auto colour = counted<uint32_t>(full.colourBytes() / 4, 5);
         auto one = std::make_unique<OneFrame>(full, counted<uint16_t>(24, 1), colour);
         const OneFrame& source = *one;
         DecimatedCamera small(std::move(one), 2);
         CHECK(small.info().colour.width == 20);
-        CHECK(small.info().yuyv == yuyv);
+        CHECK(small.info().colourFormat == format);
         {
             const auto frame = small.next();
             REQUIRE(frame);
-            CHECK((*frame)->colours(yuyv).size() == colour.size());
-            CHECK((*frame)->colours(yuyv).back() == colour.back());
+            CHECK((*frame)->colourBytes().size() == 4 * colour.size());
+            CHECK((*frame)->colourBytes().back() == std::as_bytes(std::span(colour)).back());
             CHECK(source.returned == 0);
         }
         CHECK(source.returned == 1);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Recordings of an Azure Kinect: tests/devices/matroska_maker.h, and a file that libmatroska 1.7.1 wrote.
 #include "devices/bag/kinect_calibration.h"
+#include "engine/types/colour_copy.h"
 #include "tests/devices/matroska_maker.h"
 #include "tests/devices/played_bag.h"
 
@@ -70,7 +71,7 @@ uint32_t soundFrames(BagCamera& camera) {
     while (const auto frame = camera.next()) {
         const uint32_t depth = (*frame)->depth[kDepthPixels - 1];
         CHECK(depth >= 500 + last);
-        CHECK((*frame)->colour.back() == (0xff0a00c8u | (depth - 500) << 8));
+        CHECK(coloursOf(**frame).back() == (0xff0a00c8u | (depth - 500) << 8));
         last = depth - 500;
         ++used;
     }
@@ -181,14 +182,16 @@ TEST_CASE("Images of a Matroska track are read in every code of the recorder, an
     BagCamera planar = playMkv(folder, file.bytes());
     const auto frame = planar.next();
     REQUIRE(frame);
-    CHECK(((*frame)->colour[0] & 0xff) > 244); // red
+    CHECK((coloursOf(**frame)[0] & 0xff) > 244); // red
     file.tracks[0].fourcc = "YUY2";
     file.blocks[0].data.clear();
     for (uint32_t i = 0; i < kAcrossColour * kDownColour / 2; ++i) {
         file.blocks[0].data += "\x51\x5a\x51\xf0";
     }
     BagCamera packed = playMkv(folder, file.bytes());
-    CHECK(packed.next());
+    const auto other = packed.next();
+    REQUIRE(other);
+    CHECK(coloursOf(**other) == coloursOf(**frame)); // the same red
     file.tracks[0].fourcc = "H264";
     CHECK(lineSays(playMkv(folder, file.bytes()).whyNoColour(), "COLOR (V_MS/VFW/FOURCC H264 Video)"));
     file.tracks[1].fourcc = "YUY2"; // early recordings, little-endian
@@ -265,7 +268,7 @@ TEST_CASE("A file that libmatroska wrote as k4arecorder does gives its images, w
         REQUIRE(frame);
         CHECK((*frame)->captureTime == doctest::Approx(2.0 + 0.033333 * i + 0.0005));
         CHECK((*frame)->depth[14] == 500 + i);
-        CHECK((*frame)->colour[143] == (0xff0a00c8u | i << 8));
+        CHECK(coloursOf(**frame)[143] == (0xff0a00c8u | i << 8));
     }
     CHECK_FALSE(camera.next());
     CHECK_THROWS_WITH_AS(BagCamera{file}, doctest::Contains("5x3, which no depth mode has"), BadInput);

@@ -10,7 +10,7 @@ namespace fathom::testing {
 
 class OneFrame final : public Camera {
 public:
-    // colours: in the format that `info` names; empty without colour.
+    // colours: the bytes in the format that `info` names; empty without colour.
     OneFrame(const CameraInfo& info, std::vector<uint16_t> depth, std::vector<uint32_t> colours = {})
         : info_(info)
         , depth_(std::move(depth))
@@ -23,7 +23,8 @@ public:
         done_ = true;
         Frame::Content content;
         content.depth = depth_;
-        (info_.yuyv ? content.yuyv : content.colour) = colours_;
+        content.raw = {info_.colourFormat, info_.colour.width, info_.colour.height, {}};
+        content.setColourBytes(std::as_bytes(std::span(colours_)));
         return Frame(content, [this] { ++returned; });
     }
     uint32_t skipped() const override { return 0; }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Recordings of the Orbbec SDK, made by the serialisers of its messages (OrbbecSDK_v2, 3rdparty/rosbag).
 #include "devices/bag/open_bag.h"
+#include "engine/types/colour_copy.h"
 #include "tests/devices/played_bag.h"
 
 using namespace fathom;
@@ -97,7 +98,7 @@ TEST_CASE("Depth and colour of an Orbbec recording are paired, with their lenses
         const auto frame = camera.next();
         REQUIRE(frame);
         CHECK((*frame)->depth[34] == 500);
-        CHECK((*frame)->colour[34] == kRedPixel);
+        CHECK(coloursOf(**frame)[34] == kRedPixel);
     }
     CHECK(camera.info().metresPerUnit == 0.001);
     CHECK_FALSE(camera.next());
@@ -190,7 +191,7 @@ TEST_CASE("The pose of an Orbbec recording is that of its colour camera, not of 
     CHECK(camera.info().colourTdepth.position.x == doctest::Approx(0.02));
     const auto frame = camera.next();
     REQUIRE(frame);
-    CHECK((*frame)->colour[0] == kRedPixel);
+    CHECK(coloursOf(**frame)[0] == kRedPixel);
 }
 
 TEST_CASE("Every encoding of depth of the Orbbec SDK is read, or named where it is not") {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Databases of the RealSense SDK, with texts as its writer makes them (librealsense, src/media/ros2).
+#include "engine/types/colour_copy.h"
 #include "tests/devices/database_maker.h"
 #include "tests/devices/played_bag.h"
 
@@ -81,7 +82,7 @@ void checkPairs(BagCamera& camera) {
         REQUIRE(frame);
         CHECK((*frame)->captureTime == doctest::Approx(0.1 * i));
         CHECK((*frame)->depth[34] == 3000);
-        CHECK((*frame)->colour[34] == kRedPixel);
+        CHECK(coloursOf(**frame)[34] == kRedPixel);
     }
     CHECK_FALSE(camera.next());
 }

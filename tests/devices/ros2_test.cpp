@@ -3,6 +3,7 @@
 // @foxglove/rosmsg2-serialization, by zstd and lz4js, and by SQLite: three pairs of 8 x 6 images, 0.5, 0.6
 // and 0.7 m, red with green 0, 1 and 2.
 #include "devices/bag/bag_camera.h"
+#include "engine/types/colour_copy.h"
 #include "engine/types/error.h"
 #include "tests/devices/recorded_folder.h"
 
@@ -24,7 +25,7 @@ uint32_t rosPairs(const std::filesystem::path& file) {
     uint32_t used = 0;
     while (const auto frame = camera.next()) {
         CHECK((*frame)->depth[47] == 500 + 100 * used);
-        CHECK((*frame)->colour[47] == (0xff0000c8u | used << 8));
+        CHECK(coloursOf(**frame)[47] == (0xff0000c8u | used << 8));
         CHECK((*frame)->captureTime == doctest::Approx(1.0 + 0.1 * used));
         ++used;
     }

@@ -7,7 +7,6 @@
 #include "devices/water/water_camera.h"
 #include "engine/types/colour_copy.h"
 #include "engine/types/error.h"
-#include "engine/types/yuyv.h"
 #include "tests/devices/recorded_folder.h"
 
 #include <algorithm>
@@ -31,8 +30,8 @@ SimulatedCameraOptions optionsOf(bool yuyv, uint32_t width = kWidth) {
 TEST_CASE("A simulated camera can send the same frames as YUYV, at even widths") {
     SimulatedCamera plain(*analyticScene("tank"), optionsOf(false));
     SimulatedCamera packing(*analyticScene("tank"), optionsOf(true));
-    CHECK(packing.info().yuyv);
-    CHECK_FALSE(plain.info().yuyv);
+    CHECK(packing.info().colourFormat == ColourFormat::Yuyv);
+    CHECK(plain.info().colourFormat == ColourFormat::Rgba);
     CHECK(packing.info().colourBytes() == 2 * kWidth * kHeight);
     CHECK(plain.info().colourBytes() == 4 * kWidth * kHeight);
     std::vector<uint32_t> words(kWidth * kHeight / 2);
@@ -40,9 +39,9 @@ TEST_CASE("A simulated camera can send the same frames as YUYV, at even widths")
         const Frame wanted = *plain.next(), frame = *packing.next();
         packYuyv(wanted->colour, words);
         CHECK(std::ranges::equal(frame->depth, wanted->depth));
-        CHECK(std::ranges::equal(frame->yuyv, words));
+        CHECK(std::ranges::equal(frame->raw.bytes, std::as_bytes(std::span(words))));
         CHECK(frame->colour.empty());
-        CHECK(frame->colourMemory.get() == frame->yuyv.data()); // a device may read it there
+        CHECK(frame->colourMemory.get() == frame->raw.bytes.data()); // a device may read it there
     }
     CHECK_THROWS_AS(SimulatedCamera(*analyticScene("tank"), optionsOf(true, 161)), Error);
 }
@@ -60,7 +59,7 @@ TEST_CASE("A recording of a camera that sends YUYV has the colours that it unpac
         writer.finish();
     }
     RecordedCamera recorded(folder.path() / "rec");
-    CHECK_FALSE(recorded.info().yuyv);
+    CHECK(recorded.info().colourFormat == ColourFormat::Rgba);
     for (const auto& colours : wanted) {
         const auto frame = recorded.next();
         REQUIRE(frame);
@@ -73,8 +72,8 @@ TEST_CASE("A flat port corrects depth and passes YUYV through in place") {
     WaterCamera water(std::make_unique<SimulatedCamera>(*analyticScene("tank"), optionsOf(true)), port, 0.2,
                       4.0);
     SimulatedCamera dry(*analyticScene("tank"), optionsOf(true));
-    CHECK(water.info().yuyv);
+    CHECK(water.info().colourFormat == ColourFormat::Yuyv);
     const Frame frame = *water.next(), wanted = *dry.next();
-    CHECK(std::ranges::equal(frame->yuyv, wanted->yuyv));
-    CHECK(frame->colourMemory.get() == frame->yuyv.data());
+    CHECK(std::ranges::equal(frame->raw.bytes, wanted->raw.bytes));
+    CHECK(frame->colourMemory.get() == frame->raw.bytes.data());
 }

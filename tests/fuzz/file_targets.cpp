@@ -110,11 +110,13 @@ void readDepthFile(Bytes input) {
 }
 
 void readJpegImage(Bytes input) {
-    std::vector<uint32_t> out(16 * 8);
-    const std::string fault = readJpeg(std::as_bytes(input), {16, 8}, out);
+    std::vector<std::byte> out(mostColourBytes(ColourFormat::JpegPlanes, 16, 8));
+    RawColour image;
+    const std::string fault = readJpeg(std::as_bytes(input), {16, 8}, out, image);
     if (!fault.empty()) {
         throw Error("refused");
     }
+    need(image.needed() <= image.bytes.size() && image.bytes.size() <= out.size());
 }
 
 void readPcdFile(Bytes input) {
@@ -173,15 +175,18 @@ void readMessageImage(Bytes input) {
         throw Error("no head, or too large to be quick");
     }
     std::vector<uint16_t> depth(size_t{size->first} * size->second);
-    std::vector<uint32_t> colour(depth.size());
+    const ColourFormat format = ros::colourFormat(image);
+    std::vector<uint32_t> colour((mostColourBytes(format, size->first, size->second) + 3) / 4);
+    RawColour raw;
     uint64_t beyond = 0;
     const bool deep = ros::content(image) == ros::Content::Depth;
     const std::string fault =
-        deep ? ros::depthRows(image, 0.001, depth, beyond) : ros::colourRows(image, colour);
+        deep ? ros::depthRows(image, 0.001, depth, beyond) : ros::colourRows(image, colour, raw);
     need(beyond <= depth.size() && std::isfinite(ros::valueSpan(image).farthest));
     if (!fault.empty()) {
         throw Error(fault);
     }
+    need(deep || (raw.format == format && raw.needed() <= raw.bytes.size()));
 }
 
 // The options behind the name of a recording.

@@ -2,6 +2,7 @@
 // `fathom convert`: what it writes replays as its source does.
 #include "devices/bag/bag_camera.h"
 #include "devices/recorded/recorded_camera.h"
+#include "engine/types/colour_copy.h"
 #include "tests/rig/refusal.h"
 
 #include <doctest/doctest.h>
@@ -42,8 +43,7 @@ void checkAlike(Camera& a, Camera& b) {
     for (auto one = a.next(); one; one = a.next()) {
         const auto other = b.next();
         REQUIRE(other);
-        CHECK(std::equal((*one)->colour.begin(), (*one)->colour.end(), (*other)->colour.begin(),
-                         (*other)->colour.end()));
+        CHECK(coloursOf(**one) == coloursOf(**other));
         CHECK((*one)->captureTime == doctest::Approx((*other)->captureTime));
         size_t apart = 0;
         for (size_t i = 0; i < (*one)->depth.size(); ++i) {

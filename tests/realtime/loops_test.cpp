@@ -258,10 +258,10 @@ TEST_CASE("A spooled camera returns exactly the frames of its source, once, and 
     SpooledCamera packed(std::make_unique<SimulatedCamera>(*analyticScene("tank"), options), folder, stop,
                          [](uint64_t) {});
     const auto sent = sender.next(), kept = packed.next();
-    CHECK(packed.info().yuyv);
+    CHECK(packed.info().colourFormat == ColourFormat::Yuyv);
     CHECK((*kept)->colour.empty());
-    CHECK((*kept)->yuyv.size() == 70 * 50 / 2);
-    CHECK(std::ranges::equal((*kept)->yuyv, (*sent)->yuyv));
+    CHECK((*kept)->raw.bytes.size() == 2 * 70 * 50);
+    CHECK(std::ranges::equal((*kept)->raw.bytes, (*sent)->raw.bytes));
 
     stop = true; // asked to stop, but the first frame is kept
     SpooledCamera one(std::make_unique<SimulatedCamera>(*analyticScene("tank"), options), folder, stop,

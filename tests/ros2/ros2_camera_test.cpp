@@ -2,6 +2,7 @@
 // A live camera of ROS 2. Its driver is tests/ros2_talker. Waits have generous limits, and none is for a
 // fixed time.
 #include "devices/ros2/ros2_camera.h"
+#include "engine/types/colour_copy.h"
 #include "engine/types/error.h"
 #include "tests/ros2/talker.h"
 
@@ -71,7 +72,7 @@ TEST_CASE("A camera of ROS 2 gives depth, colour and lens as its driver publishe
         CHECK((*frame)->index == i);
         CHECK((*frame)->depth.size() == 48);
         CHECK((*frame)->depth[47] == 500);
-        CHECK((*frame)->colour[47] == 0xff0000c8u);
+        CHECK(coloursOf(**frame)[47] == 0xff0000c8u);
         CHECK((*frame)->captureTime <= nowMonotonic());
     }
     CHECK(camera.live());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cameras, scenes and frames of the tests of the frame passes.
 #include "devices/recorded/recorded_camera.h"
+#include "engine/types/colour_copy.h"
 #include "tests/support/cloud_rig.h"
 #include "tests/support/sanitized.h"
 
@@ -217,8 +218,7 @@ RecordedShots recordedShots(const std::string& name, std::vector<uint32_t> frame
     out.camera = camera.info();
     while (const std::optional<Frame> frame = camera.next()) {
         if (frames.empty() || std::find(frames.begin(), frames.end(), (*frame)->index) != frames.end()) {
-            out.images.push_back({{(*frame)->depth.begin(), (*frame)->depth.end()},
-                                  {(*frame)->colour.begin(), (*frame)->colour.end()}});
+            out.images.push_back({{(*frame)->depth.begin(), (*frame)->depth.end()}, coloursOf(**frame)});
         }
     }
     return out;

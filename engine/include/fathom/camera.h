@@ -84,7 +84,7 @@ public:
     /// Lends the frame instead of copying it. Its memory must stay valid and unchanged until release() is
     /// called, exactly once per call of lend(), from this call, a later submit() or lend(), the frame thread
     /// or the engine's destructor. Depth that the engine changes (DepthFormat::Metres, scenes with
-    /// `camera.port`) and ColourFormat::Rgb are copied. Takes the lock of submit().
+    /// `camera.port`) is copied. Takes the lock of submit().
     [[nodiscard]] SubmitStatus lend(const Frame& frame, std::function<void()> release);
 
     /// The camera's clock was set: the next stamp may be earlier than the last one.

@@ -39,7 +39,7 @@ TEST_CASE("A live camera delivers depth and colour as they were sent, stamped wi
     const auto camera = openLive(",intrinsics=" + lens.path().string() + ",frames=20");
     CHECK(camera->live());
     CHECK(camera->info().hasColour);
-    CHECK(camera->info().yuyv); // not converted
+    CHECK(camera->info().colourFormat == ColourFormat::Yuyv); // not converted
     CHECK(camera->info().metresPerUnit == 0.0005);
     std::set<const void*> places;
     double last = 0.0;
@@ -159,7 +159,7 @@ TEST_CASE(
     while (const auto frame = camera.next()) {
         CHECK(isPlainDepth(*frame, 320));
         checkColour(*frame, 640, 480, 4);
-        colours.insert((*frame)->yuyv[0]);
+        colours.insert(static_cast<uint32_t>((*frame)->raw.bytes[0]));
         ++count;
     }
     CHECK(count == 20);
