@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Colour as cameras send it, and the red, green and blue that it stands for. `classify` unpacks every format
-// on the device; this is for readers on the host.
+// Formats in which cameras send colour, and their conversion to red, green and blue. `classify` converts on
+// the device; this is for readers on the host.
 #pragma once
 
 #include <array>

@@ -85,7 +85,7 @@ vec3[4] fourOfBytes(uint pixel) {
     return rgb;
 }
 
-// The samples of four pixels lie in one word per plane (ColourPlanes).
+// One word per plane has the samples of all four pixels (ColourPlanes).
 vec3[4] fourOfPlanes(uvec2 at) {
     uvec2 chroma = chromaAt(at);
     uint luma = wordAt(at.y * params.planes.x + at.x);

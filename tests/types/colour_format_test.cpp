@@ -125,7 +125,8 @@ TEST_CASE("Every format unpacks each pixel from its own bytes, at odd sizes too"
         const uint32_t pairs = (w + 1) / 2, luma = w * h, plane = pairs * ((h + 1) / 2);
         const ColourPlanes nv12{w, luma, luma + 1, 2 * pairs, 1, 1, 1},
             yv12{w, luma + plane, luma, pairs, 1, 1, 0},
-            wide{w + 3, (w + 3) * h, (w + 3) * h + w * h, w, 0, 0, 0}, grey{w, luma, luma, 0, 31, 31, 0};
+            wide{w + 3, (w + 3) * h, (w + 3) * h + pairs * h, pairs, 1, 0, 0},
+            grey{w, luma, luma, 0, 31, 31, 0};
         for (const ColourPlanes& planes : {nv12, yv12, wide, grey}) {
             CAPTURE(planes.across);
             CHECK(errorOfRandom({ColourFormat::Planes, w, h, {}, planes}) < 1.0);
