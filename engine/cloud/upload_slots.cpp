@@ -13,22 +13,20 @@ UploadSlots::UploadSlots(const gpu::Device& device, const Plan& plan, const Came
     : device_(device)
     , plan_(plan)
     , camera_(camera)
-    , images_(kCopied) {
-    for (uint32_t i = 0; i < kCopied; ++i) {
-        slots_.push_back(std::make_unique<UploadBuffers>(device, plan, camera));
-    }
+    , images_(1) {
+    slots_.push_back(std::make_unique<UploadBuffers>(device, plan, camera));
 }
 
-UploadSlots::Choice UploadSlots::choose(const Frame& frame, std::optional<uint32_t> inFlight) {
+UploadSlots::Choice UploadSlots::choose(const Frame& frame) {
     const Images images = inPlace(frame);
     if (!images.depth && !images.colour) {
-        return {copied(inFlight), false};
+        return {kCopied, false};
     }
     if (const std::optional<uint32_t> known = find(images)) {
-        return {*known == inFlight ? copied(inFlight) : *known, false}; // the device is reading that slot
+        return {*known, false};
     }
-    const std::optional<uint32_t> slot = room(inFlight);
-    return slot && import(*slot, images) ? Choice{*slot, true} : Choice{copied(inFlight), false};
+    const std::optional<uint32_t> slot = room();
+    return slot && import(*slot, images) ? Choice{*slot, true} : Choice{kCopied, false};
 }
 
 // A block counts only when it begins at the image's address: the image may have been replaced by another.
@@ -51,7 +49,7 @@ UploadSlots::Images UploadSlots::inPlace(const Frame& frame) const {
 }
 
 std::optional<uint32_t> UploadSlots::find(const Images& images) const {
-    for (uint32_t i = kCopied; i < images_.size(); ++i) {
+    for (uint32_t i = kCopied + 1; i < images_.size(); ++i) {
         if (images_[i].depth == images.depth && images_[i].colour == images.colour) {
             return i;
         }
@@ -59,7 +57,7 @@ std::optional<uint32_t> UploadSlots::find(const Images& images) const {
     return std::nullopt;
 }
 
-std::optional<uint32_t> UploadSlots::room(std::optional<uint32_t> inFlight) const {
+std::optional<uint32_t> UploadSlots::room() const {
     // A slot and its buffer each hold the memory once. A higher count means that the camera or a frame still
     // uses it. If one memory of a pair is gone, the pair never returns.
     const auto gone = [this](const std::shared_ptr<const void>& memory) {
@@ -68,8 +66,8 @@ std::optional<uint32_t> UploadSlots::room(std::optional<uint32_t> inFlight) cons
         });
         return memory && memory.use_count() <= 2 * slots;
     };
-    for (uint32_t i = kCopied; i < images_.size(); ++i) {
-        if (i != inFlight && (gone(images_[i].depth) || gone(images_[i].colour))) {
+    for (uint32_t i = kCopied + 1; i < images_.size(); ++i) {
+        if (gone(images_[i].depth) || gone(images_[i].colour)) {
             return i;
         }
     }
@@ -91,15 +89,6 @@ bool UploadSlots::import(uint32_t slot, const Images& images) {
         log::debug("{} copied: {}", refused_ ? "frames are" : "depth is", e.what());
         return false;
     }
-}
-
-uint32_t UploadSlots::copied(std::optional<uint32_t> inFlight) {
-    if (nextCopied_ == inFlight) {
-        nextCopied_ = 1 - nextCopied_;
-    }
-    const uint32_t slot = nextCopied_;
-    nextCopied_ = 1 - nextCopied_;
-    return slot;
 }
 
 } // namespace fathom::cloud

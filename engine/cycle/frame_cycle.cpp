@@ -111,12 +111,11 @@ void FrameCycle::warmUp() {
     content.depth = depth;
     content.raw = {camera_.colourFormat, camera_.colour.width, camera_.colour.height, {}};
     content.setColourBytes(std::as_bytes(std::span(colour)));
-    for (uint32_t slot = 0; slot < cloud::UploadSlots::kCopied; ++slot) {
-        cloud::uploadFrame(device_->upload(slot), Frame(content, nullptr), paramsAt(dvec3(0.0)));
-        uploadArm(slot, dvec3(0.0));
-        device_->submit(device_->frame(slot, 0));
-        device_->wait();
-    }
+    constexpr uint32_t kSlot = cloud::UploadSlots::kCopied;
+    cloud::uploadFrame(device_->upload(kSlot), Frame(content, nullptr), paramsAt(dvec3(0.0)));
+    uploadArm(kSlot, dvec3(0.0));
+    device_->submit(device_->frame(kSlot, 0));
+    device_->wait();
 }
 
 void FrameCycle::uploadArm(uint32_t slot, const dvec3& origin) const {
@@ -140,8 +139,7 @@ void FrameCycle::upload(Frame frame) {
         placeOrigin(f.pose.position);
     }
     if (!f.unchanged && device_) {
-        const bool busy = submitted_ && !submitted_->unchanged;
-        f.slot = device_->slotFor(frame, busy ? std::optional(submitted_->slot) : std::nullopt);
+        f.slot = device_->slotFor(frame);
         cloud::setFrame(params_, f.pose, *origin_, frame->captureTime,
                         lastCapture_.value_or(frame->captureTime));
         estimateFrames_.next(params_, scene_, frame->baseTcamera, *origin_, frame->captureTime);
@@ -154,21 +152,19 @@ void FrameCycle::upload(Frame frame) {
     f.frame = std::move(frame);
     f.times.uploaded = Clock::now();
     f.uploadMs = millis(f.times.started, f.times.uploaded);
-    uploaded_ = std::move(f);
+    inFlight_ = std::move(f);
 }
 
 void FrameCycle::submit() {
-    submitted_ = std::move(uploaded_);
-    submitted_->times.submitted = Clock::now();
-    uploaded_.reset();
+    inFlight_->times.submitted = Clock::now();
     dispatches_ = 0;
-    if (submitted_->unchanged || !device_) {
+    if (inFlight_->unchanged || !device_) {
         return;
     }
     pool_.back();
-    const gpu::Commands& commands = device_->frame(submitted_->slot, pool_.backIndex());
+    const gpu::Commands& commands = device_->frame(inFlight_->slot, pool_.backIndex());
     dispatches_ = commands.dispatches();
-    submitted_->times.submitted = Clock::now();
+    inFlight_->times.submitted = Clock::now();
     device_->submit(commands);
 }
 
@@ -206,7 +202,7 @@ FrameReport FrameCycle::without(uint32_t index) const {
 }
 
 void FrameCycle::land() {
-    InFlight& f = *submitted_;
+    InFlight& f = *inFlight_;
     if (f.unchanged || f.landed) {
         return;
     }
@@ -254,8 +250,8 @@ void FrameCycle::copyToHost(InFlight& f) {
 
 FrameReport FrameCycle::finish() {
     land();
-    InFlight f = std::move(*submitted_);
-    submitted_.reset();
+    InFlight f = std::move(*inFlight_);
+    inFlight_.reset();
     FrameReport report;
     report.index = f.frame->index;
     report.unchanged = f.unchanged;

@@ -77,7 +77,8 @@ public:
     // Sets the arm's spheres for the self-filter from the next upload() on. No effect without a self-filter
     // in the plan.
     void setArm(cloud::LinkSpheres arm) { arm_ = std::move(arm); }
-    // process() in steps: upload() may run while the device works on the previous frame.
+    // process() in steps. Frames do not overlap: a camera sends the next one after this one is done, or the
+    // device is slower than the camera, and a frame that was uploaded early would be older than the newest.
     void upload(Frame frame);
     void submit();
     // Waits for the device, and publishes the set early. finish() must follow: it makes the host's copy and
@@ -133,7 +134,7 @@ private:
     cloud::GuidanceEstimates guidanceEstimates_;
     std::optional<dvec3> origin_;
     shared::FrameParams params_{};
-    std::optional<InFlight> uploaded_, submitted_;
+    std::optional<InFlight> inFlight_;
     uint64_t generation_ = 0;
     std::optional<uint64_t> lastSource_;
     std::optional<double> lastCapture_; // [s]

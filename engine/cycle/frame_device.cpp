@@ -25,9 +25,7 @@ FrameDevice::FrameDevice(gpu::Device& device, const Plan& plan, const PatchLayou
     , sets_(buffersOf(pool))
     , passes_(cloud::CloudContext{device, plan, layout, camera, work_, sets_})
     , timeline_(device) {
-    for (uint32_t slot = 0; slot < cloud::UploadSlots::kCopied; ++slot) {
-        passes_.bind(slot, uploads_[slot]);
-    }
+    passes_.bind(cloud::UploadSlots::kCopied, uploads_[cloud::UploadSlots::kCopied]);
 }
 
 FrameDevice::~FrameDevice() {
@@ -40,8 +38,8 @@ FrameDevice::~FrameDevice() {
     }
 }
 
-uint32_t FrameDevice::slotFor(const Frame& frame, std::optional<uint32_t> inFlight) {
-    const auto [slot, isNew] = uploads_.choose(frame, inFlight);
+uint32_t FrameDevice::slotFor(const Frame& frame) {
+    const auto [slot, isNew] = uploads_.choose(frame);
     if (isNew) {
         passes_.bind(slot, uploads_[slot]);
     }

@@ -23,8 +23,8 @@ public:
     FrameDevice(const FrameDevice&) = delete;
     FrameDevice& operator=(const FrameDevice&) = delete;
 
-    // The upload slot for a frame, never the one in flight.
-    uint32_t slotFor(const Frame& frame, std::optional<uint32_t> inFlight);
+    // The upload slot for a frame. The last submission must have completed.
+    uint32_t slotFor(const Frame& frame);
     const cloud::UploadBuffers& upload(uint32_t slot) const { return uploads_[slot]; }
 
     // The passes from an upload slot to a set of the pool, for submit().

@@ -36,7 +36,7 @@ SubmitStatus CameraPort::Impl::checkImages(const Frame& frame) const noexcept {
     return isFinite(front::internal(frame.baseTcamera)) ? SubmitStatus::Accepted : SubmitStatus::BadPose;
 }
 
-// At least one is free: the others are at most waiting, taken, uploaded and on the device. Borrowed frames
+// At least one is free: the others are at most waiting, taken and being processed. Borrowed frames
 // use none.
 CameraPort::Impl::Copy& CameraPort::Impl::unused() {
     for (;;) {

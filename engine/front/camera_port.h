@@ -51,7 +51,7 @@ private:
     void copyColour(const Frame& frame, Copy& copy) const;
     fathom::Frame contentOf(const Frame& frame, std::function<void()> release);
 
-    static constexpr size_t kCopies = 5; // one each: being filled, waiting, taken, uploaded, on the device
+    static constexpr size_t kCopies = 4; // one each: being filled, waiting, taken, being processed
     std::array<Copy, kCopies> copies_;
     uint32_t count_ = 0; // camera thread
     std::mutex mutex_;   // of all below

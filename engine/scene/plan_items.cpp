@@ -70,11 +70,10 @@ void explainBuffer(Plan& plan, const char* name, bool in, uint64_t bytes, std::s
 
 void explainImages(Plan& plan, const CameraInfo& camera) {
     const uint64_t pixels = camera.depth.pixels();
-    const char* copies = plan.inPlace
-                             ? "double-buffered, for frames that are not in whole pages of host memory"
-                             : "double-buffered";
-    explainBuffer(plan, "depth upload", plan.cloud, 2 * 2 * pixels, copies);
-    explainBuffer(plan, "colour upload", plan.colour, 2 * camera.colourBytes(),
+    const char* copies =
+        plan.inPlace ? "for frames that are not in whole pages of host memory" : "written by the host";
+    explainBuffer(plan, "depth upload", plan.cloud, 2 * pixels, copies);
+    explainBuffer(plan, "colour upload", plan.colour, camera.colourBytes(),
                   !plan.colour ? "no class uses colour"
                   : camera.colourFormat != ColourFormat::Rgba
                       ? std::string(copies) + "; " + nameOf(camera.colourFormat) + ", unconverted"

@@ -156,12 +156,12 @@ TEST_CASE("Colour is uploaded as the camera sends it, if a class uses it") {
         const Plan plan = makePlan(scene, sends(format, camera), 1, vulkan().device.facts());
         return *std::ranges::find(plan.items, "colour upload", &Plan::Item::name);
     };
-    constexpr uint64_t kBoth = 2 * 64 * 48; // pixels of two slots
-    CHECK(itemOf(ColourFormat::Rgba).bytes == 4 * kBoth);
-    CHECK(itemOf(ColourFormat::Rgb).bytes == 3 * kBoth);
-    CHECK(itemOf(ColourFormat::Uyvy).bytes == 2 * kBoth);
-    CHECK(itemOf(ColourFormat::Planes).bytes == 3 * kBoth / 2);
-    CHECK(itemOf(ColourFormat::JpegPlanes).bytes == 3 * kBoth);
+    constexpr uint64_t kPixels = 64 * 48;
+    CHECK(itemOf(ColourFormat::Rgba).bytes == 4 * kPixels);
+    CHECK(itemOf(ColourFormat::Rgb).bytes == 3 * kPixels);
+    CHECK(itemOf(ColourFormat::Uyvy).bytes == 2 * kPixels);
+    CHECK(itemOf(ColourFormat::Planes).bytes == 3 * kPixels / 2);
+    CHECK(itemOf(ColourFormat::JpegPlanes).bytes == 3 * kPixels);
     CHECK(itemOf(ColourFormat::Bgr).why.find("; BGR, unconverted") != std::string::npos);
     scene = plainScene();
     CHECK(itemOf(ColourFormat::Yuyv).bytes == 0);
@@ -240,7 +240,7 @@ TEST_CASE("Colour in whole pages is read in place and gives the results of a cop
         const FrameReport report = rig.cycle().process(slot.lend(content));
         CHECK(report.inPlace == rig.plan().inPlace);
         cloud::UploadSlots uploads(vulkan().device, rig.plan(), camera);
-        const auto choice = uploads.choose(slot.lend(content), {});
+        const auto choice = uploads.choose(slot.lend(content));
         CHECK(uploads[choice.slot].colour.imported() == rig.plan().inPlace);
         const auto inPlace = rig.masks();
         content.depth = image.depth, content.raw.bytes = bytes;

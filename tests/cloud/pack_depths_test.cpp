@@ -57,7 +57,6 @@ TEST_CASE("A frame in flight keeps the radii and the pose that its passes read")
         Scene wider = rig.scene();
         wider.fixtures[0].radius = 0.09;
         cycle.setScene(wider);
-        cycle.upload(frame(2));
         const auto spheresOf = [&] {
             cycle.finish();
             const RegionSpheres& s = cycle.sets().newest()->host.spheres;
@@ -65,6 +64,7 @@ TEST_CASE("A frame in flight keeps the radii and the pose that its passes read")
             return std::pair(s.x[0], s.radius[0]);
         };
         const auto first = spheresOf();
+        cycle.upload(frame(2));
         cycle.submit();
         const auto second = spheresOf();
         CHECK(first.second == 0.04f);

@@ -192,29 +192,6 @@ TEST_CASE("Without hold a frame's set does not depend on the frames before it") 
     CHECK(used.host().frame == 5);
 }
 
-TEST_CASE("Uploading the next frame while the device works gives the same sets as sequential frames") {
-    const CameraInfo camera = pinholeCamera(160, 90);
-    CloudRig one(fullScene(), camera), overlapped(fullScene(), camera);
-    std::vector<Image> images;
-    for (uint64_t seed = 1; seed <= 6; ++seed) {
-        images.push_back(stressImage(camera, seed));
-    }
-    FrameCycle& cycle = overlapped.cycle();
-    cycle.upload(frameOf(images[0], 0, 0.0));
-    for (uint32_t k = 0; k < images.size(); ++k) {
-        cycle.submit();
-        if (k + 1 < images.size()) {
-            cycle.upload(frameOf(images[k + 1], k + 1, (k + 1) / 30.0));
-        }
-        CHECK(cycle.finish().index == k);
-        one.run(images[k]);
-        const auto lease = cycle.sets().newest();
-        CHECK(sameBits(one.host(), lease->host));
-        CHECK(lease->host.frame == k);
-        CHECK(lease->host.captureTime == doctest::Approx(k / 30.0));
-    }
-}
-
 TEST_CASE(
     "Generations count published sets, a leased set stays unchanged, and a repeated frame costs no work") {
     const CameraInfo camera = pinholeCamera(90, 60);

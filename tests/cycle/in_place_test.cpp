@@ -46,9 +46,7 @@ struct Slots {
     cloud::UploadSlots slots{vulkan().device, plan, camera};
     Image image = stressImage(camera, 3);
 
-    cloud::UploadSlots::Choice choose(Blocks& from, std::optional<uint32_t> inFlight = {}) {
-        return slots.choose(from.next(image), inFlight);
-    }
+    cloud::UploadSlots::Choice choose(Blocks& from) { return slots.choose(from.next(image)); }
 };
 
 } // namespace
@@ -94,45 +92,38 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("A camera's blocks are imported once each, and a block that the device is reading is copied") {
+TEST_CASE("A camera's blocks are imported once each") {
     if (!canImport()) {
         return;
     }
     Slots rig;
     Blocks blocks(rig.camera, 2);
     const auto first = rig.choose(blocks), second = rig.choose(blocks);
-    CHECK(first.slot == 2);
-    CHECK(second.slot == 3);
+    CHECK(first.slot == 1);
+    CHECK(second.slot == 2);
     CHECK((first.isNew && second.isNew));
-    CHECK(rig.slots[2].depth.imported());
-    CHECK(rig.slots[2].colour.imported());
+    CHECK(rig.slots[1].depth.imported());
+    CHECK(rig.slots[1].colour.imported());
     for (int round = 0; round < 5; ++round) {
         const auto again = rig.choose(blocks);
-        CHECK(again.slot == 2u + round % 2);
+        CHECK(again.slot == 1u + round % 2);
         CHECK_FALSE(again.isNew);
     }
-    CHECK(rig.choose(blocks, 3).slot == 0); // the other copy slot would have been next
-    CHECK(rig.choose(blocks, 3).slot == 2);
 }
 
-TEST_CASE("Frames outside whole pages are copied in alternation and never over the one in flight") {
+TEST_CASE("Frames outside whole pages are copied to one slot") {
     Slots rig;
     const Image& image = rig.image;
     Frame::Content content;
     content.depth = image.depth, content.colour = image.colour;
-    const auto copy = [&](std::optional<uint32_t> inFlight) {
-        return rig.slots.choose(Frame(content, nullptr), inFlight).slot;
-    };
-    CHECK(copy({}) == 0);
-    CHECK(copy(0) == 1);
-    CHECK(copy(1) == 0);
-    CHECK(copy(1) == 0);
-    CHECK(copy(7) == 1);
+    const auto copy = [&] { return rig.slots.choose(Frame(content, nullptr)).slot; };
+    CHECK(copy() == 0);
+    CHECK(copy() == 0);
     // A block that belongs to another frame is not used.
     Blocks blocks(rig.camera, 1);
     const Frame other = blocks.next(image);
     content.depthMemory = other->depthMemory, content.colourMemory = other->colourMemory;
-    CHECK(copy({}) == 0);
+    CHECK(copy() == 0);
     CHECK_FALSE(rig.slots[0].depth.imported());
 }
 
@@ -144,11 +135,11 @@ TEST_CASE("Colour alone is read in place when depth is in a driver's memory") {
     Blocks blocks(rig.camera, 1);
     Frame::Content content = *blocks.next(rig.image);
     content.depth = rig.image.depth, content.depthMemory = nullptr;
-    const auto [slot, isNew] = rig.slots.choose(Frame(content, nullptr), {});
-    CHECK(slot == 2);
+    const auto [slot, isNew] = rig.slots.choose(Frame(content, nullptr));
+    CHECK(slot == 1);
     CHECK(isNew);
-    CHECK_FALSE(rig.slots[2].depth.imported());
-    CHECK(rig.slots[2].colour.imported());
+    CHECK_FALSE(rig.slots[1].depth.imported());
+    CHECK(rig.slots[1].colour.imported());
 }
 
 TEST_CASE("Memory released by its camera makes room, and memory without room is copied") {
@@ -159,17 +150,16 @@ TEST_CASE("Memory released by its camera makes room, and memory without room is 
     Slots rig;
     auto gone = std::make_unique<Blocks>(rig.camera, 1);
     const std::weak_ptr<const void> memory = gone->next(rig.image)->depthMemory;
-    CHECK(rig.choose(*gone).slot == 2);
+    CHECK(rig.choose(*gone).slot == 1);
     gone.reset();
     CHECK_FALSE(memory.expired()); // the slot keeps the memory, so its address cannot be reused
     Blocks many(rig.camera, kMost);
-    CHECK(rig.choose(many).slot == 2);
+    CHECK(rig.choose(many).slot == 1);
     CHECK(memory.expired());
-    for (uint32_t slot = 3; slot < kMost; ++slot) {
+    for (uint32_t slot = 2; slot < kMost; ++slot) {
         CHECK(rig.choose(many).slot == slot);
     }
     CHECK(rig.choose(many).slot == 0);
-    CHECK(rig.choose(many).slot == 1);
 }
 
 TEST_CASE("Depth in a driver's memory is read in place again after its camera was replugged, with any colour "
@@ -184,12 +174,12 @@ TEST_CASE("Depth in a driver's memory is read in place again after its camera wa
         const Frame depth = driver->next(rig.image), colour = colours.next(rig.image);
         Frame::Content content = *depth;
         content.colour = colour->colour, content.colourMemory = colour->colourMemory;
-        return rig.slots.choose(Frame(content, nullptr), {});
+        return rig.slots.choose(Frame(content, nullptr));
     };
     for (int round = 0; round < 3; ++round) {
         for (int i = 0; i < 20; ++i) { // all combinations
             const auto [slot, isNew] = choose();
-            CHECK(slot >= cloud::UploadSlots::kCopied);
+            CHECK(slot > cloud::UploadSlots::kCopied);
             CHECK(isNew);
         }
         CHECK_FALSE(choose().isNew);
@@ -209,12 +199,12 @@ TEST_CASE("If the device cannot import depth it is copied, and colour is still r
         // A frame in the middle of a page, which no device can import.
         content.depth = content.depth.subspan(8);
         content.depthMemory = {content.depthMemory, content.depth.data()};
-        return rig.slots.choose(Frame(content, nullptr), {});
+        return rig.slots.choose(Frame(content, nullptr));
     };
     rig.camera.depth.height -= 1; // enough data remains in the page
     CHECK(choose().slot == 0);
     const auto [slot, isNew] = choose();
-    CHECK(slot == 2);
+    CHECK(slot == 1);
     CHECK(isNew);
     CHECK_FALSE(rig.slots[slot].depth.imported());
     CHECK(rig.slots[slot].colour.imported());
