@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Growth of a frame's cost with image size, fraction of selected pixels and number of classes. The wall has
 // sensor noise, because without it thinning keeps fewer points and later passes do less work. Colours are
-// YUYV, as from USB cameras, except in rows that name RGBA.
+// YUYV, as from USB cameras, except in rows that name a format.
 #include "apps/profile/frame_sequence.h"
 #include "apps/profile/studies.h"
 
@@ -57,6 +57,47 @@ public:
         if (guided == 0) { // empty dispatch
             m.cost.passes.erase("moments");
         }
+        addRow(source, setting, by, m, bench, NAN);
+        return m;
+    }
+
+    // One row per format of colour, measured in alternation, with the time that the host would unpack it.
+    void takeFormats(const std::vector<ColourFormat>& formats, const FrameSequence& plain) {
+        std::vector<FrameSequence> sent;
+        std::vector<std::unique_ptr<FrameBench>> benches;
+        std::vector<FrameSamples> samples(formats.size());
+        std::vector<CpuSamples> unpacking(formats.size());
+        for (const ColourFormat format : formats) {
+            sent.push_back(sentAs(format, plain));
+            benches.push_back(std::make_unique<FrameBench>(
+                context_.device, sceneWith(context_.settings, 2, Scene::Contact::Where::Cpu),
+                sent.back().camera));
+            benches.back()->run(sent.back().frames.front());
+            check(*benches.back(), plain.name, sent.back());
+        }
+        constexpr size_t kRounds = 5;
+        const Repeats all = context_.settings.repeats(),
+                      part{(all.least + kRounds - 1) / kRounds, all.most, all.seconds / kRounds};
+        for (size_t i = 0; i < kRounds * formats.size(); ++i) {
+            const size_t k = i % formats.size();
+            SampleFrame image = sent[k].frames.front();
+            benches[k]->sample(sent[k].frames, part, samples[k]);
+            repeat(
+                part, [&] { unpackColour(image.packed.image(), image.colour); },
+                [&](const Clocks& clocks) { unpacking[k].take(clocks); });
+        }
+        for (size_t k = 0; k < formats.size(); ++k) {
+            const double x = plain.camera.depth.pixels();
+            addRow("size, every point forbidden, colours " + std::string(nameOf(formats[k])), plain.name,
+                   Grows::Pixels, {x, benches[k]->costOf(samples[k])}, *benches[k],
+                   formats[k] == ColourFormat::Rgba ? 0.0 : unpacking[k].cost().cpu.p50);
+        }
+    }
+
+    // unpackMs: on the host, of this format of colour; NaN = not measured.
+    void addRow(const std::string& source, const std::string& setting, Grows by, const ScaledCost& m,
+                const FrameBench& bench, double unpackMs) {
+        const double x = m.x;
         StudyRow row;
         row.source = source;
         row.setting = setting;
@@ -76,8 +117,8 @@ public:
             row.more.push_back(it != m.cost.passes.end() ? it->second.p50 : NAN);
         }
         row.more.push_back(m.cost.answerable.p50);
+        row.more.push_back(unpackMs);
         study_.rows.push_back(std::move(row));
-        return m;
     }
 
     // Draws one line per step of the frame and adds its exponent.
@@ -144,12 +185,12 @@ Curve sizesOf(ScalingRun& run, WallNoise noise, bool quick) {
     return sizes;
 }
 
-// Cost of colours that arrive unpacked, or in another format that the host unpacks.
-void unpackedSizes(ScalingRun& run, bool quick) {
+// Cost of each format in which cameras and recordings send colours.
+void formatsOfColour(ScalingRun& run, bool quick) {
     for (const auto& [w, h] : quick ? Sizes{{160, 120}} : Sizes{{640, 480}, {1280, 720}, {3840, 2160}}) {
-        const FrameSequence frames = wallFrame(w, h, 1.0, WallNoise::Sensor);
-        run.take("size, every point forbidden, colours RGBA", frames.name, Grows::Pixels,
-                 w * static_cast<double>(h), frames, 2);
+        run.takeFormats({ColourFormat::Rgba, ColourFormat::Rgb, ColourFormat::Bgr, ColourFormat::Yuyv,
+                         ColourFormat::Uyvy, ColourFormat::Planes, ColourFormat::JpegPlanes},
+                        wallFrame(w, h, 1.0, WallNoise::Sensor));
     }
 }
 
@@ -192,7 +233,9 @@ Study scalingStudy(const StudyContext& context) {
     study.verified =
         "at every size: class bits of every pixel and points of up to 300 patches, corners included, against "
         "the float64 twins; every region sphere is around its own forbidden point; every pixel is counted";
-    study.findings.push_back("colours are YUYV, as USB cameras send them, unless a row says RGBA");
+    study.findings.push_back("colours are YUYV, as USB cameras send them, unless a row names a format; "
+                             "planes of YUV are NV12, those "
+                             "of JPEG 4:2:2");
     study.findings.push_back("where the GPU answers contacts, the grid is built only to measure it");
     study.errorName = "error", study.errorUnit = "none";
     study.noDefault = "its rows are sizes and scenes, which camera and scene file determine";
@@ -212,14 +255,15 @@ Study scalingStudy(const StudyContext& context) {
                        "thin_p50_ms",
                        "spheres_p50_ms",
                        "moments_p50_ms",
-                       "upload_to_answerable_p50_ms"};
+                       "upload_to_answerable_p50_ms",
+                       "unpack_on_host_p50_ms"};
     const bool quick = context.settings.quick;
     const uint32_t w = quick ? 160 : 640, h = quick ? 120 : 480;
     const std::string size = std::to_string(w) + "x" + std::to_string(h);
     ScalingRun run(context, study);
     const Curve sizes = sizesOf(run, WallNoise::Sensor, quick), smooth = sizesOf(run, WallNoise::None, quick),
                 shares = sharesOf(run, w, h, quick), classes = classesOf(run, w, h, quick);
-    unpackedSizes(run, quick);
+    formatsOfColour(run, quick);
     answeredByDevice(run, quick);
     run.draw(sizes, "every point forbidden", "pixels", true);
     run.draw(smooth, "every point forbidden, noise-free", "pixels", true);
