@@ -44,6 +44,16 @@ TEST_CASE("The budget depends on the share of forbidden pixels, the size and the
     CHECK(budgetFigures(summaryWith(0.0), image(640, 480), DeviceKind::Other, 8).size() == 2);
 }
 
+TEST_CASE("The first frame has a budget on CPU devices") {
+    ReplaySummary summary = summaryWith(0.0);
+    summary.frames.first = 3.1;
+    const auto figures = budgetFigures(summary, image(640, 480), DeviceKind::Cpu, 8);
+    REQUIRE(figures.size() == 4);
+    CHECK(figures[3].unit == std::string("s"));
+    CHECK_FALSE(figures[3].holds());
+    CHECK(budgetFigures(summary, image(640, 480), DeviceKind::Discrete, 8).size() == 3);
+}
+
 TEST_CASE("A figure that was not measured has no budget line") {
     CHECK(budgetFigures(ReplaySummary{}, image(640, 480), DeviceKind::Cpu, 8).empty());
 }
