@@ -184,8 +184,8 @@ TEST_CASE("A power law is recovered from its points, and fewer than two points g
 }
 
 TEST_CASE("A wrong result throws an error that names study and setting") {
-    CHECK_NOTHROW(verify(true, "query", "x", "y"));
-    CHECK_THROWS_WITH_AS(verify(false, "query", "GPU 4", "overflow"),
+    CHECK_NOTHROW(profile::verify(true, "query", "x", "y"));
+    CHECK_THROWS_WITH_AS(profile::verify(false, "query", "GPU 4", "overflow"),
                          "profile query: 'GPU 4' is wrong and was not timed: overflow", Error);
 }
 
