@@ -9,7 +9,7 @@ std::vector<CameraStream> Camera::delivered() const {
     std::vector<CameraStream> all{{"depth", camera.depth.width, camera.depth.height, rate, "16 bit"}};
     if (camera.hasColour) {
         all.push_back(
-            {"colour", camera.colour.width, camera.colour.height, rate, camera.yuyv ? "YUYV" : "RGB"});
+            {"colour", camera.colour.width, camera.colour.height, rate, nameOf(camera.colourFormat)});
     }
     return all;
 }

@@ -29,6 +29,9 @@ public:
     std::string streams() const override { return source_->streams(); }
     std::string streamOptions() const override { return source_->streamOptions(); }
     std::string whyNoColour() const override { return source_->whyNoColour(); }
+    std::shared_ptr<CameraControls> controls() const override { return source_->controls(); }
+    std::vector<CameraStream> delivered() const override { return source_->delivered(); }
+    bool stampsExposure() const override { return source_->stampsExposure(); }
     std::string description() const override { return source_->description(); }
 
 private:

@@ -2,6 +2,7 @@
 #include "apps/operate/state_log.h"
 
 #include "apps/binding/scene_edits.h"
+#include "apps/operate/console_state.h"
 #include "apps/operate/why_panel.h"
 #include "engine/gpu/instance.h"
 #include "engine/types/error.h"
@@ -23,76 +24,6 @@ json vec(const dvec3& v) {
 
 json known(double value) {
     return std::isfinite(value) ? json(value) : json(nullptr);
-}
-
-json marksOf(const TimeLine& line) {
-    json times = json::array();
-    for (const EventMark& mark : line.marks) {
-        times.push_back(mark.t);
-    }
-    return times;
-}
-
-json orbitOf(const Orbit& orbit) {
-    return {{"yaw", orbit.yaw}, {"pitch", orbit.pitch}, {"distance", orbit.distance}};
-}
-
-json timeLineOf(const TimeLine& line) {
-    return {{"on", line.on},
-            {"t", line.t},
-            {"duration", line.duration},
-            {"picture", line.image},
-            {"pictures", line.images},
-            {"playing", line.playing},
-            {"marks", marksOf(line)},
-            {"speed", line.speed},
-            {"whole_memory", line.wholeMemory}};
-}
-
-json consoleOf(const Console& c) {
-    return {{"forces", c.forces},
-            {"guidance", c.guidance},
-            {"grasp", c.grasp},
-            {"panels", c.panels},
-            {"frozen", c.frozen},
-            {"large", c.spaceIsLarge ? "space" : "camera"},
-            {"paused", c.paused},
-            {"recording", c.recording},
-            {"kept_s", c.keptSeconds},
-            {"recorded",
-             {{"seconds", c.recorded.seconds},
-              {"bytes", c.recorded.bytes},
-              {"left", c.recorded.left ? json(*c.recorded.left) : json(nullptr)}}},
-            {"tree_level", c.treeLevel},
-            {"text_scale", c.textScale},
-            {"monitor_scale", c.monitorScale},
-            {"drawn_scale", c.drawnScale},
-            {"layout", c.pilotLayout ? "pilot" : "engineer"},
-            {"panel_open", c.panelOpen},
-            {"full_screen", c.fullScreen},
-            {"tab", static_cast<int>(c.shownTab)},
-            {"orbit", orbitOf(c.orbit)},
-            {"cursor", c.cursor ? json{c.cursor->x, c.cursor->y} : json(nullptr)},
-            {"picking", c.pick.active},
-            {"picked", c.pick.taken},
-            {"pick_warnings", c.pick.warnings},
-            {"pick_parts",
-             {{"only_clicked", c.pick.rules.onlyClicked},
-              {"no_specks", c.pick.rules.noSpecks},
-              {"parts", c.pick.found.parts},
-              {"taken", c.pick.found.taken},
-              {"specks", c.pick.found.specks},
-              {"others", c.pick.found.others}}},
-            {"renaming", c.renamed},
-            {"notice", c.notice},
-            {"tones", c.tones},
-            {"last_tone", c.lastTone},
-            {"tone_count", c.toneCount},
-            {"tooltip", c.tooltip},
-            {"shots", c.shots},
-            {"asks_to_close", c.closing == Closing::Asks},
-            {"time_line", timeLineOf(c.timeLine)},
-            {"places", c.places}};
 }
 
 // The real arm; null without one. Joints [rad], [m] are null while they are not measured.
@@ -284,7 +215,7 @@ void StateLog::write(const ShownState& s, bool now) {
     }
     next_ = t + kPeriod;
     const Scene& scene = s.editor.scene();
-    const json line = {{"console", consoleOf(s.console)},
+    const json line = {{"console", stateOf(s.console)},
                        {"run", runOf(s)},
                        {"mode", modeOf({s.console, s.view, s.haptics}).word},
                        {"chips", chipsOf(s)},

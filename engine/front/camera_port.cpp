@@ -100,8 +100,8 @@ fathom::Frame CameraPort::Impl::contentOf(const Frame& frame, std::function<void
     dquat& rotation = content.baseTcamera->rotation; // a unit quaternion stays the same to the last bit
     rotation = std::abs(glm::dot(rotation, rotation) - 1.0) < 1e-14 ? rotation : glm::normalize(rotation);
     content.raw = {info.colourFormat, info.colour.width, info.colour.height, {}};
-    const bool converted = model.depthFormat == DepthFormat::Metres || side.correction.has_value() ||
-                           side.decimation > 1;
+    const bool converted =
+        model.depthFormat == DepthFormat::Metres || side.correction.has_value() || side.decimation > 1;
     std::function<void()> giveBack;
     if (release && !converted) {
         content.depth = {static_cast<const uint16_t*>(frame.depth), info.depth.pixels()};
