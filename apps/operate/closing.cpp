@@ -26,6 +26,7 @@ void answer(Console& console, FixtureEditor& editor, CloseAnswer given) {
         console.notify(editor.save());
     }
     console.quit = given == CloseAnswer::Discard || (given == CloseAnswer::Save && !editor.unsaved());
+    console.openCard.next = console.quit ? console.openCard.next : "";
     console.closing = Closing::No; // a file that cannot be written keeps the window open, with a notice
 }
 

@@ -56,6 +56,18 @@ struct TimeLine {
 enum class Closing { No, Fades, Asks };
 enum class CloseAnswer { None, Save, Discard, Stay };
 
+inline constexpr const char* kLiveRun = "back to the live run"; // one of OpenCard::choices
+
+// What to show next in place of this run (open_card.h).
+struct OpenCard {
+    bool asked = false; // the key O, in this frame
+    bool on = false, clicked = false;
+    std::vector<std::string> choices; // folders of recordings, or kLiveRun
+    size_t chosen = 0;
+    std::string next;    // choice that opens when this window has ended; empty = none
+    bool leaves = false; // requests that end, like the window's close button
+};
+
 // The running recording.
 struct Recorded {
     double seconds = 0.0;
@@ -79,6 +91,7 @@ struct Console {
     std::string lastTone;     // tones.h: name of the last one
     uint32_t toneCount = 0;   // tones so far, heard or not
     bool quit = false, screenshot = false, exportCsv = false, acknowledge = false;
+    OpenCard openCard;
     Closing closing = Closing::No;
     CloseAnswer closeAnswer = CloseAnswer::None; // button pressed in the question
     bool remake = false;                         // recreate the swapchain

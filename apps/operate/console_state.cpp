@@ -43,6 +43,7 @@ nlohmann::json stateOf(const Console& c) {
             {"paused", c.paused},
             {"recording", c.recording},
             {"kept_s", c.keptSeconds},
+            {"choices", c.openCard.on ? json(c.openCard.choices) : json::array()},
             {"recorded",
              {{"seconds", c.recorded.seconds},
               {"bytes", c.recorded.bytes},

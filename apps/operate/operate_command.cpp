@@ -33,6 +33,51 @@ void checkJob(const std::vector<std::string>& lines) {
     }
 }
 
+// One window; returns what the pilot opens next.
+std::string runWindow(const OperateOptions& options, const GlobalOptions& global) {
+    if (options.recording.empty()) {
+        operate::OperatorRun live(options, global);
+        live.run();
+        return live.next();
+    }
+    operate::PlaybackRun past(options, global);
+    past.run();
+    return past.next();
+}
+
+OperateOptions optionsFor(const OperateOptions& first, const std::string& recording) {
+    OperateOptions next = first;
+    next.recording = recording;
+    next.scene = std::filesystem::path(recording) / "scene.yaml";
+    next.source.clear(), next.handDevice.clear(), next.arm.clear(), next.pilot.clear();
+    next.observers = {};
+    next.armed = next.path = false;
+    next.returns = first.recording.empty();
+    return next;
+}
+
+// A recording that cannot be opened from a live run leads back to it, with the reason.
+void runWindows(const OperateOptions& first, const GlobalOptions& global) {
+    OperateOptions now = first;
+    for (;;) {
+        std::string next;
+        try {
+            next = runWindow(now, global);
+        } catch (const BadInput& e) {
+            if (!now.returns) {
+                throw;
+            }
+            now = first;
+            now.notice = e.what();
+            continue;
+        }
+        if (next.empty()) {
+            return;
+        }
+        now = next == operate::kLiveRun ? first : optionsFor(first, next);
+    }
+}
+
 } // namespace
 
 void addOperateCommand(CLI::App& app, const GlobalOptions& global) {
@@ -83,11 +128,7 @@ void addOperateCommand(CLI::App& app, const GlobalOptions& global) {
             }
         }
         options->armed = options->path && !options->offscreen.empty(); // offscreen no key can arm forces
-        if (options->recording.empty()) {
-            operate::OperatorRun(*options, global).run();
-        } else {
-            operate::PlaybackRun(*options, global).run();
-        }
+        runWindows(*options, global);
     });
 }
 

@@ -3,6 +3,7 @@
 
 #include "apps/operate/caption.h"
 #include "apps/operate/closing.h"
+#include "apps/operate/open_card.h"
 #include "engine/types/error.h"
 
 #include <algorithm>
@@ -42,6 +43,9 @@ RunDisplay::RunDisplay(const OperateOptions& options, Window& window, Session& s
 
 void RunDisplay::begin() {
     started_ = lastFrame_ = seconds();
+    if (!options_.notice.empty()) {
+        console.notify(options_.notice);
+    }
 }
 
 double RunDisplay::beginFrame() {
@@ -59,7 +63,12 @@ double RunDisplay::beginFrame() {
 }
 
 void RunDisplay::followClosing(FixtureEditor& editor, bool forcesGone) {
-    stepClosing(console, editor, window_.takeClose(), forcesGone);
+    stepOpenCard(console, options_.shots, options_.returns);
+    const bool closed = window_.takeClose();
+    if (closed) {
+        console.openCard.next.clear(); // the end, whatever was chosen
+    }
+    stepClosing(console, editor, std::exchange(console.openCard.leaves, false) || closed, forcesGone);
 }
 
 double RunDisplay::elapsed() const {

@@ -3,6 +3,7 @@
 
 #include "apps/operate/closing.h"
 #include "apps/operate/contact_tooltip.h"
+#include "apps/operate/open_card.h"
 #include "apps/operate/shape_marks.h"
 #include "apps/operate/space_marks.h"
 #include "apps/operate/stop_plate.h"
@@ -169,6 +170,7 @@ void Screen::drawOver(Console& console, const Alarms& alarms, const ScreenInput&
     }
     drawRefusal(console, input.hud.letters.bold, corner, size);
     drawClosing(console, corner, size);
+    drawOpenCard(console, corner, size);
     const float inside = 18.0f * console.scale(); // of the frame
     const auto& mode = console.places["mode"];
     const float below =

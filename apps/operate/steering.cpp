@@ -62,6 +62,7 @@ std::span<const KeyHelp> keyHelp() {
         KeyHelp{"in a recording",
                 "Space plays; arrows: one frame, with Shift one tick; Home, End; [ ]: speed; comma, "
                 "period: marks"},
+        KeyHelp{"O", "open a recording: O chooses, Enter opens, Esc stays; forces go off"},
         KeyHelp{"X", "export a recording as a video, or as PNG files without ffmpeg; X or Esc stops"},
         KeyHelp{"F6", "keyboard to the panels: arrows choose, Enter presses; F6 or Esc: back"},
         KeyHelp{"F11", "full screen; Ctrl F11: recreate the swapchain"},
@@ -100,6 +101,7 @@ void Steering::keys(Console& console) {
     console.frozen = console.frozen != pressed(GLFW_KEY_F);
     console.recording = console.recording != pressed(GLFW_KEY_R);
     console.exportPictures = console.exportPictures || pressed(GLFW_KEY_X);
+    console.openCard.asked = console.openCard.asked || pressed(GLFW_KEY_O);
     console.addMark = console.addMark || pressed(GLFW_KEY_N);
     console.storeLast = console.storeLast || pressed(GLFW_KEY_L);
     console.exportCsv = console.exportCsv || pressed(GLFW_KEY_E);

@@ -97,6 +97,11 @@ const std::vector<LaidCase>& laidCases() {
              c.timeLine.marks = {{2.0, "mark 1"}, {2.1, "mark 2"}, {9.95, "mark 3"}};
          }},
         {"closing", [](Console& c) { c.closing = Closing::Asks; }},
+        {"open",
+         [](Console& c) {
+             c.openCard.on = true;
+             c.openCard.choices = {kLiveRun, "/home/pilot/recording-12", "/data/" + std::string(80, 'x')};
+         }},
         {"panel open", [](Console& c) { c.panelOpen = true; }},
         {"pick", [](Console& c) { c.pick.active = true; }},
         {"picked",

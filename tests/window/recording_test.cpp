@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <doctest/doctest.h>
 #include <filesystem>
+#include <fstream>
 
 using namespace fathom;
 using namespace fathom::window;
@@ -115,6 +116,43 @@ TEST_CASE("X exports a recording with captions: PNG files without ffmpeg, a vide
     CHECK(rig.state()["console"]["notice"].get<std::string>().find("ffmpeg has ended") != std::string::npos);
     CHECK(rig.state()["console"]["time_line"]["t"] == 0.0); // as before
     ::setenv("PATH", path.c_str(), 1);
+    closeQuietly(rig);
+}
+
+TEST_CASE(
+    "O opens a recording from the live window and leads back; a damaged one leads back with the reason") {
+    WindowRig rig;
+    rig.key("o");
+    REQUIRE(rig.awaitNotice("no recording in "));
+    rig.key("l");
+    REQUIRE(rig.awaitNotice("saved: "));
+    rig.key("a");
+    REQUIRE(rig.await([](const json& s) { return s["console"]["forces"] == true; }));
+    const auto lineIsOn = [](bool on) {
+        return
+            [=](const json& s) { return s["console"]["time_line"]["on"] == on && s["window"]["frames"] > 3; };
+    };
+    rig.key("o");
+    REQUIRE(rig.await([](const json& s) { return s["console"]["choices"].size() == 1; }));
+    rig.shoot("open");
+    rig.key("Return");
+    REQUIRE(rig.await(lineIsOn(true), 60.0));
+    rig.findWindow();
+    rig.key("o");
+    REQUIRE(rig.await(
+        [](const json& s) { return s["console"]["places"].contains("open back to the live run"); }));
+    CHECK(rig.state()["console"]["choices"].size() == 2);
+    rig.click("open back to the live run");
+    REQUIRE(rig.await(lineIsOn(false), 60.0));
+    CHECK(rig.state()["console"]["forces"] == false);
+    rig.findWindow();
+    std::ofstream(rig.folder() / "recording-1" / "marks.csv") << "damaged";
+    rig.key("o");
+    REQUIRE(rig.await([](const json& s) { return s["console"]["choices"].size() == 1; }));
+    rig.key("Return");
+    REQUIRE(rig.awaitNotice("marks.csv"));
+    CHECK(rig.state()["console"]["time_line"]["on"] == false);
+    rig.findWindow();
     closeQuietly(rig);
 }
 

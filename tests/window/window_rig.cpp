@@ -132,6 +132,10 @@ void WindowRig::startProgram(const std::filesystem::path& scene, const std::vect
         return s["window"]["frames"] > 3 && (s["run"]["frame"] >= 0 || s["console"]["time_line"]["on"]);
     };
     REQUIRE_MESSAGE(await(ready, 90.0), output());
+    findWindow();
+}
+
+void WindowRig::findWindow() {
     const std::string found =
         "DISPLAY=" + display_ + " xdotool search --name '^Fathom' > " + (folder_.path() / "window").string();
     REQUIRE(std::system(found.c_str()) == 0);
