@@ -177,9 +177,24 @@ TEST_CASE("A row of the scaling study gives its size in exactly one of pixels, p
         }
         CHECK(said == 1);
     }
-    CHECK(rows.at("pixels") == 9); // three with noise, three without, one with RGBA, two that the GPU answers
+    // three with noise, three without, seven formats of colour, two that the GPU answers
+    CHECK(rows.at("pixels") == 15);
     CHECK(rows.at("forbidden_percent") == 3);
     CHECK(rows.at("classes") == 2);
+}
+
+TEST_CASE("Every format of colour has a row, with the time that the host would take to unpack it") {
+    std::map<std::string, double> unpacking;
+    for (const auto& row : quickRun().study("scaling")["rows"]) {
+        if (!row["unpack_on_host_p50_ms"].is_null()) {
+            unpacking[row["source"]] = row["unpack_on_host_p50_ms"];
+        }
+    }
+    CHECK(unpacking.size() == 7);
+    for (const auto& [source, ms] : unpacking) {
+        CAPTURE(source);
+        CHECK((ms == 0.0) == source.ends_with("colours RGBA"));
+    }
 }
 
 TEST_CASE("Sizes are measured with sensor noise, and separately without it") {
