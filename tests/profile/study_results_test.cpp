@@ -184,17 +184,14 @@ TEST_CASE("A row of the scaling study gives its size in exactly one of pixels, p
 }
 
 TEST_CASE("Every format of colour has a row, with the time that the host would take to unpack it") {
-    std::map<std::string, double> unpacking;
+    size_t formats = 0;
     for (const auto& row : quickRun().study("scaling")["rows"]) {
-        if (!row["unpack_on_host_p50_ms"].is_null()) {
-            unpacking[row["source"]] = row["unpack_on_host_p50_ms"];
+        if (const auto& ms = row["unpack_on_host_p50_ms"]; !ms.is_null()) {
+            CHECK((ms == 0.0) == row["source"].get<std::string>().ends_with("colours RGBA"));
+            ++formats;
         }
     }
-    CHECK(unpacking.size() == 7);
-    for (const auto& [source, ms] : unpacking) {
-        CAPTURE(source);
-        CHECK((ms == 0.0) == source.ends_with("colours RGBA"));
-    }
+    CHECK(formats == 7);
 }
 
 TEST_CASE("Sizes are measured with sensor noise, and separately without it") {
