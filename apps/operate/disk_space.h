@@ -26,7 +26,7 @@ public:
     // now [s]: of any clock.
     void look(const std::filesystem::path& folder, double now);
     std::optional<uint64_t> left() const { return left_; } // [bytes] as measured last
-    std::string problem() const; // why a recording must not go on; empty = it may, or it is unknown
+    std::string problem() const; // why a recording must end; empty = it may continue
 
 private:
     std::function<std::optional<uint64_t>(const std::filesystem::path&)> measure_;

@@ -103,7 +103,7 @@ void outlineHull(ImDrawList& list, const std::vector<ImVec2>& hull, ImU32 colour
     list.AddPolyline(hull.data(), count, colour, ImDrawFlags_Closed, 2.4f);
 }
 
-// Dashes that go on round corners.
+// Dashes that continue round corners.
 void dashHull(ImDrawList& list, const std::vector<ImVec2>& hull, ImU32 colour) {
     constexpr float kDash = 7.0f; // [pixels]
     float along = 0.0f;

@@ -84,7 +84,7 @@ VideoFile::VideoFile(const fs::path& encoder, const fs::path& file, int width, i
 VideoFile::~VideoFile() {
     try {
         finish();
-    } catch (const Error&) { // nobody is left to tell
+    } catch (const Error&) { // the export has reported its own failure
     }
 }
 

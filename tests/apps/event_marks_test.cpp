@@ -38,6 +38,8 @@ TEST_CASE("Marks are added at any time, sorted, and come back from the file") {
     REQUIRE(read.size() == 2);
     CHECK(read[0].t == 0.125);
     CHECK(read[1].name == "mark 1");
+    std::ofstream(scratch.path() / kMarksFile) << "t_s,name\n3,late\n1,early\n";
+    CHECK(readMarks(scratch.path())[0].name == "early");
     CHECK_THROWS_AS(addMark(scratch.path() / "missing", marks, 1.0), Error);
     CHECK(marks.size() == 2);
 }

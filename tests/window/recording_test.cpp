@@ -40,7 +40,7 @@ TEST_CASE(
     closeQuietly(rig);
 }
 
-TEST_CASE("L stores the last seconds, which nobody asked to record, as a recording that opens") {
+TEST_CASE("L stores the last seconds, without R, as a recording that opens") {
     WindowRig rig;
     REQUIRE(rig.await([](const json& s) { return s["console"]["kept_s"] > 2.0; }));
     rig.push();

@@ -136,9 +136,8 @@ void WindowRig::startProgram(const std::filesystem::path& scene, const std::vect
 }
 
 void WindowRig::findWindow() {
-    const std::string found =
-        "DISPLAY=" + display_ + " xdotool search --name '^Fathom' > " + (folder_.path() / "window").string();
-    REQUIRE(std::system(found.c_str()) == 0);
+    const std::string words = " xdotool search --name '^Fathom' > " + (folder_.path() / "window").string();
+    REQUIRE(std::system(("DISPLAY=" + display_ + words).c_str()) == 0);
     window_ = folder_.read("window");
     window_.erase(window_.find_last_not_of('\n') + 1);
     xdo("windowfocus --sync $W mousemove --window $W 300 300");
@@ -289,10 +288,6 @@ int WindowRig::awaitEnd() {
 int WindowRig::close() {
     ::kill(program_, SIGTERM);
     return awaitEnd();
-}
-
-std::string WindowRig::output() const {
-    return folder_.read("program.log");
 }
 
 void closeQuietly(WindowRig& rig) {

@@ -70,11 +70,11 @@ public:
 
     // Ends the program, checks its exit code, and starts it again with this scene or recording.
     void reopen(const std::filesystem::path& scene, const std::vector<std::string>& extra = {});
-    void findWindow();          // after the program has opened another one
-    void askToClose() const;    // like the close button of a window manager
-    int awaitEnd();             // exit code of a program that ends by itself
-    int close();                // ends the program; exit code, or -1 when it crashed or had to be killed
-    std::string output() const; // stdout and stderr so far
+    void findWindow();       // after the program has opened another one
+    void askToClose() const; // like the close button of a window manager
+    int awaitEnd();          // exit code of a program that ends by itself
+    int close();             // ends the program; exit code, or -1 when it crashed or had to be killed
+    std::string output() const { return folder_.read("program.log"); } // stdout and stderr so far
     const std::filesystem::path& folder() const { return folder_.path(); }
     std::string sceneText() const { return folder_.read("scene.yaml"); }
 
