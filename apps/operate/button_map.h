@@ -42,7 +42,7 @@ private:
     ButtonBits native_, chosen_;
 };
 
-// The file of a scene: demo.yaml has demo.buttons.json beside it.
+// The file of a scene: demo.yaml has demo.buttons.json next to it.
 std::filesystem::path buttonFile(const std::filesystem::path& scene);
 
 } // namespace fathom::operate

@@ -82,7 +82,7 @@ void decideByDevice(const CameraInfo& camera, const DeviceFacts& device, Plan& p
     }
     // Measured: on a CPU device shared-memory tiles are 2-4 times slower than direct reads.
     plan.tiled = !cpu && plan.filterRadius >= 2 && bytesOfTile(plan.filterRadius) <= device.maxSharedBytes;
-    plan.byPixel = !cpu;     // on a CPU device shared memory took twice as long
+    plan.byPixel = !cpu; // on a CPU device shared memory took twice as long
     plan.manyPatches =
         plan.byPixel && patchLayout(camera.depth.width, camera.depth.height).patches() >= kManyPatches;
     // On a CPU device a load is a gather, lane by lane, so neighbouring pixels share their loads.

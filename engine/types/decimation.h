@@ -11,7 +11,7 @@ namespace fathom {
 
 inline constexpr uint32_t kMostDecimation = 8;
 
-// What a camera is of which every nth column and row is used, from the first one on. Colour keeps its size if
+// The camera when every nth column and row is used, from the first one on. Colour keeps its size if
 // it has a lens of its own. Registered colour becomes RGBA, because pixels of other formats share chroma.
 CameraInfo decimated(CameraInfo camera, uint32_t n);
 
