@@ -7,9 +7,17 @@
 
 namespace fathom::mcap {
 
+// The first and the last bytes of a file.
 inline constexpr std::array<uint8_t, 8> kMagic{0x89, 'M', 'C', 'A', 'P', '0', '\r', '\n'};
-inline constexpr uint8_t kFooter = 2, kSchema = 3, kChannel = 4, kMessage = 5, kChunk = 6, kMessageIndex = 7,
-                         kChunkIndex = 8, kStatistics = 11;
+// Kind of record: its first byte.
+inline constexpr uint8_t kFooter = 2;
+inline constexpr uint8_t kSchema = 3;
+inline constexpr uint8_t kChannel = 4;
+inline constexpr uint8_t kMessage = 5;
+inline constexpr uint8_t kChunk = 6;
+inline constexpr uint8_t kMessageIndex = 7;
+inline constexpr uint8_t kChunkIndex = 8;
+inline constexpr uint8_t kStatistics = 11;
 inline constexpr uint64_t kRecordHead = 9; // kind and length [bytes]
 
 } // namespace fathom::mcap

@@ -10,7 +10,7 @@ namespace fathom {
 
 // What a summary says about a file whose messages all lie in chunks.
 struct McapSummary {
-    struct Chunk {
+    struct Chunk {                               // where it lies in the file
         uint64_t at = 0, size = 0;               // of the chunk's content [bytes]
         uint64_t indexesAt = 0, indexesSize = 0; // of the message indexes behind it
     };

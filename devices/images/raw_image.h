@@ -13,6 +13,7 @@ namespace fathom {
 // pixfmt-packed-yuv, pixfmt-yuv-planar.
 enum class RawKind : uint8_t { Rgb, Bgr, Yuyv, Uyvy, Nv12, Nv21, I420, Yv12 };
 
+// The format with which the device unpacks it.
 ColourFormat formatOf(RawKind kind);
 
 // step: [bytes] from row to row of luma, or of the only plane; planes of chroma alone have half of it. 0 = no

@@ -10,6 +10,7 @@
 
 namespace fathom {
 
+// Type of a property.
 enum class PlyType : uint8_t { Int8, Uint8, Int16, Uint16, Int32, Uint32, Float32, Float64 };
 // [bytes] in a binary file.
 size_t plyBytes(PlyType type);
@@ -33,6 +34,7 @@ struct PlyElement {
     size_t find(const std::string& property) const;
 };
 
+// How values are written.
 enum class PlyFormat : uint8_t { Ascii, LittleEndian, BigEndian };
 
 // What the header says.

@@ -22,7 +22,7 @@ struct LiveImage {
 // once. One thread.
 class LivePairs {
 public:
-    struct Pair {
+    struct Pair { // colour: empty without a topic of it
         LiveImage depth;
         std::optional<LiveImage> colour;
     };

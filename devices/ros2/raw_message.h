@@ -20,6 +20,7 @@ struct RawMessage {
 
     std::span<const uint8_t> bytes() const { return {memory.get(), size}; }
 };
+// Shared by the inbox and the readers.
 using RawMessagePtr = std::shared_ptr<const RawMessage>;
 
 } // namespace fathom

@@ -13,7 +13,7 @@ namespace fathom {
 // Opens the nodes for each call, because the camera may get other ones after replugging.
 class V4l2Controls final : public CameraControls {
 public:
-    struct Node {
+    struct Node { // a device file and the stream that it delivers
         std::string stream;
         std::filesystem::path file;
     };

@@ -8,6 +8,7 @@
 
 namespace fathom::cloud {
 
+// A pixel that may belong to a part.
 struct PartPixel {
     uint32_t u, v;
     uint32_t slot; // the caller's: where its point is

@@ -16,6 +16,7 @@
 
 namespace fathom {
 
+// What the tool does.
 enum class StepState : uint8_t {
     Off,     // no contact set yet, or forces off and ramped out: the wrench is zero
     Free,    // no row pushes

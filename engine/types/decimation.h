@@ -9,6 +9,7 @@
 
 namespace fathom {
 
+// Largest n that a scene may ask for.
 inline constexpr uint32_t kMostDecimation = 8;
 
 // The camera when every nth column and row is used, from the first one on. Colour keeps its size if

@@ -53,8 +53,13 @@ FATHOM_CONST kColourNone = 0, // no colour
     kColourRegistered = 1,    // registered to depth
     kColourLookedUp = 2;      // of a colour camera with its own lens
 // Values of kSpecFormat, those of ColourFormat.
-FATHOM_CONST kFormatRgba = 0, kFormatYuyv = 1, kFormatUyvy = 2, kFormatRgb = 3, kFormatBgr = 4,
-    kFormatPlanes = 5, kFormatJpegPlanes = 6;
+FATHOM_CONST kFormatRgba = 0;
+FATHOM_CONST kFormatYuyv = 1;
+FATHOM_CONST kFormatUyvy = 2;
+FATHOM_CONST kFormatRgb = 3;
+FATHOM_CONST kFormatBgr = 4;
+FATHOM_CONST kFormatPlanes = 5;
+FATHOM_CONST kFormatJpegPlanes = 6;
 // Values of kSpecBlock.
 FATHOM_CONST kBlockNone = 0, // one invocation per pixel, window from memory
     kBlockSub = 1,           // one per 4x4 sub-patch; radius <= 2
