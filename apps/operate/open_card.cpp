@@ -126,6 +126,7 @@ void drawOpenCard(Console& console, ImVec2 corner, ImVec2 size) {
                 card.clicked = true;
             }
             markPlace(console, "open " + name);
+            explain(console, "Enter or a click: forces off, then this is shown in place of this window");
             if (card.chosen == i) {
                 ImGui::SetScrollHereY();
             }
