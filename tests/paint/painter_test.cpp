@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The same frame of the window drawn by the device and by the CPU.
 #include "apps/operate/painter.h"
+#include "apps/replay/image.h"
 #include "devices/recorded/png_image.h"
 #include "tests/apps/laid_screen.h"
 #include "tests/apps/scratch_folder.h"
@@ -21,7 +22,9 @@ std::vector<uint32_t> drawnBy(Painter::By drawer, gpu::Instance& instance, gpu::
     const testing::ScratchFolder folder;
     Painter painter(instance, device, nullptr, drawer);
     REQUIRE(painter.draw(kSize, layers, ImGui::GetDrawData(), [] { return false; }));
-    REQUIRE(painter.screenshot(folder.path() / "window.png"));
+    const std::unique_ptr<Image> picture = painter.picture(0);
+    REQUIRE(picture);
+    picture->writePng(folder.path() / "window.png");
     std::vector<uint32_t> pixels(size_t{kSize.width} * kSize.height);
     REQUIRE(readColourPng(folder.path() / "window.png", {kSize.width, kSize.height}, pixels).empty());
     return pixels;
