@@ -164,7 +164,7 @@ TEST_CASE(
     }
     CHECK(count == 20);
     CHECK(colours.size() >= 5);
-    CHECK(colours.size() <= 14); // each is used twice
+    CHECK(colours.size() <= 14 + camera.lost()); // each is used twice, unless depth frames between were lost
     CHECK(camera.skipped() == 0);
     std::filesystem::remove(lens);
 }
