@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/frame_slots.h"
 
+#include "engine/types/error.h"
+
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
@@ -48,6 +50,14 @@ FrameSlot* FrameSlots::acquire() noexcept {
         }
     }
     return nullptr;
+}
+
+FrameSlot& FrameSlots::acquireFor(const std::string& camera) {
+    FrameSlot* slot = acquire();
+    if (slot == nullptr) {
+        throw Error(camera + ": all frame buffers are leased");
+    }
+    return *slot;
 }
 
 size_t FrameSlots::inFlight() const noexcept {

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace fathom {
@@ -61,6 +62,8 @@ public:
 
     // Takes the next free slot; nullptr when all are in flight. Never waits.
     FrameSlot* acquire() noexcept;
+    // The same; throws Error that names the camera when all are in flight.
+    FrameSlot& acquireFor(const std::string& camera);
 
     size_t size() const { return slots_.size(); }
     size_t inFlight() const noexcept; // slots taken now

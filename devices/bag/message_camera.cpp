@@ -89,10 +89,7 @@ std::string MessageCamera::faultOf(size_t index, FrameSlot& slot, double stamp, 
 }
 
 std::optional<Frame> MessageCamera::next() {
-    FrameSlot* slot = slots_->acquire();
-    if (slot == nullptr) {
-        throw Error(description() + ": all frame buffers are leased");
-    }
+    FrameSlot* slot = &slots_->acquireFor(description());
     while (cursor_ < end_) {
         const uint32_t index = cursor_++;
         const double stamp = depth_->stampOf(index);

@@ -2,7 +2,6 @@
 #include "devices/decimated/decimated_camera.h"
 
 #include "engine/types/decimation.h"
-#include "engine/types/error.h"
 
 namespace fathom {
 
@@ -17,10 +16,7 @@ std::optional<Frame> DecimatedCamera::next() {
     if (!frame) {
         return std::nullopt;
     }
-    FrameSlot* slot = slots_.acquire();
-    if (slot == nullptr) {
-        throw Error(description() + ": all frame buffers are leased");
-    }
+    FrameSlot* slot = &slots_.acquireFor(description());
     const CameraInfo& full = CameraDecorator::info();
     Frame::Content content = **frame;
     decimate(content.depth, full.depth, n_, slot->depth());

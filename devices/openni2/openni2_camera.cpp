@@ -237,10 +237,7 @@ std::optional<Frame> OpenNi2Camera::next() {
 }
 
 Frame OpenNi2Camera::deliver() {
-    FrameSlot* slot = slots_->acquire();
-    if (slot == nullptr) {
-        throw Error(name_ + ": all frame buffers are leased");
-    }
+    FrameSlot* slot = &slots_->acquireFor(name_);
     const uint32_t width = info_.depth.width;
     for (uint32_t v = 0; v < info_.depth.height; ++v) {
         const auto* z =

@@ -244,10 +244,7 @@ std::optional<Frame> RecordedCamera::next() {
     if (cursor_ == layout_.index.size()) {
         return std::nullopt;
     }
-    FrameSlot* slot = slots_->acquire();
-    if (slot == nullptr) {
-        throw Error(description() + ": all frame buffers are leased");
-    }
+    FrameSlot* slot = &slots_->acquireFor(description());
     while (cursor_ < layout_.index.size()) {
         const uint32_t index = cursor_++;
         tellOfLinks(layout_.index[index]);

@@ -162,10 +162,7 @@ std::optional<Frame> Ros2Camera::deliver() {
         return std::nullopt;
     }
     const LivePairs::Pair& pair = chosen->pair;
-    FrameSlot* slot = slots_->acquire();
-    if (slot == nullptr) {
-        throw Error(description() + ": all frame buffers are leased");
-    }
+    FrameSlot* slot = &slots_->acquireFor(description());
     Frame::Content content;
     if (const std::string fault = fill(pair, *slot, content.raw); !fault.empty()) {
         slot->release();

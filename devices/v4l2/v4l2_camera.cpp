@@ -245,10 +245,7 @@ void V4l2Camera::skip(uint32_t sequence, const std::string& fault) {
 }
 
 std::optional<Frame> V4l2Camera::lease(const FramePairing::Pair& pair) {
-    FrameSlot* slot = slots_->acquire();
-    if (slot == nullptr) {
-        throw Error(description_ + ": all frame buffers are leased");
-    }
+    FrameSlot* slot = &slots_->acquireFor(description_);
     Frame::Content content;
     const std::string fault = fill(pair, *slot, content);
     const bool inPlace = fault.empty() && content.depth.data() != slot->depth().data();

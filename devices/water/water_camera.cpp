@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/water/water_camera.h"
 
-#include "engine/types/error.h"
-
 #include <utility>
 
 namespace fathom {
@@ -18,10 +16,7 @@ std::optional<Frame> WaterCamera::next() {
     if (!frame) {
         return std::nullopt;
     }
-    FrameSlot* slot = slots_.acquire();
-    if (slot == nullptr) {
-        throw Error(description() + ": all frame buffers are leased");
-    }
+    FrameSlot* slot = &slots_.acquireFor(description());
     const std::span<uint16_t> out = slot->depth();
     correction_.apply((*frame)->depth, out);
     Frame::Content content = **frame;

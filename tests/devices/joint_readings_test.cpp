@@ -56,7 +56,8 @@ TEST_CASE("An unusable message of joints changes nothing, is counted, and is nam
         {{"rail", "slew", "rail"}, {0.1, 0.2, 0.3}, "joint rail twice"},
         {{"rail", "slew"}, {0.1}, "another number of positions than of names"}};
     for (const auto& [names, positions, fault] : kBroken) {
-        CAPTURE(fault);
+        const std::string& said = fault; // a lambda captures no structured binding
+        CAPTURE(said);
         Robot robot;
         robot.joints.take(robot.node.says(0.0, {"slew", "rail"}, {1.0, 0.5}));
         const Listening log;

@@ -116,9 +116,9 @@ int main(int argc, char** argv) {
     const dds_topic_descriptor_t shorter = shortType(type.request->m_typename);
     for (std::string line; std::getline(std::cin, line);) {
         if (line == "short") {
-            static const dds_entity_t broken = Ends::writer(participant, argv[2], shorter);
+            static const dds_entity_t kBroken = Ends::writer(participant, argv[2], shorter);
             const builtin_interfaces_msg_dds__Time_ few{1, 2};
-            dds_write(broken, &few);
+            dds_write(kBroken, &few);
             Said().word("ok").print();
         } else {
             await(ends, ask(ends, sets, line));

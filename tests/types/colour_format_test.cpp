@@ -116,7 +116,8 @@ TEST_CASE("Y U V unpack to BT.601 red, green and blue within one step, for every
 TEST_CASE("Every format unpacks each pixel from its own bytes, at odd sizes too") {
     for (const auto& [w, h] :
          {std::pair(1u, 1u), std::pair(5u, 3u), std::pair(8u, 6u), std::pair(63u, 41u)}) {
-        CAPTURE(w);
+        const uint32_t width = w; // a lambda captures no structured binding
+        CAPTURE(width);
         for (const ColourFormat format :
              {ColourFormat::Yuyv, ColourFormat::Uyvy, ColourFormat::Rgb, ColourFormat::Bgr}) {
             CAPTURE(nameOf(format));
