@@ -12,7 +12,8 @@ namespace fathom {
 // One thread; noexcept, no allocation.
 class ForceRamps {
 public:
-    enum Reason : size_t { Power, Trapped, Stale, kReasons };
+    enum Reason : size_t { Power, Trapped, Stale };
+    static constexpr size_t kReasons = Stale + 1;
 
     // One tick. on: per reason, whether forces are allowed. Falls take `measured` [s], so that late ticks
     // cannot delay them; rises take `nominal`. rendered: share of the limits that the device renders now.
