@@ -85,8 +85,14 @@ void readPixels(Bytes input) {
             throw Error("short");
         }
         unpackDepth(*layout, size, 0, std::as_bytes(rest), depth);
-    } else if (!unpackColour(fourcc, size, 0, std::as_bytes(rest), colour).empty()) {
-        throw Error("refused");
+    } else {
+        std::vector<std::byte> copy(mostColourBytes(colourFormatOf(fourcc), size.width, size.height));
+        RawColour raw;
+        if (!copyColour(fourcc, size, 0, std::as_bytes(rest), copy, raw).empty()) {
+            throw Error("refused");
+        }
+        need(raw.needed() <= raw.bytes.size());
+        unpackColour(raw, colour);
     }
 }
 
