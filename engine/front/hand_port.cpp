@@ -26,7 +26,9 @@ Step HandPort::Impl::step(const Hand& hand, Nanoseconds now) noexcept {
     const double t = shared->clock.at(RunClock::Time(std::chrono::nanoseconds(last)));
     const StepRecord& record = stepper.step(front::internal(hand), t);
     Step step = front::external(record, shared->haptic.options.staleAfter);
-    step.warnings |= (stepper.scene().frame < 0 ? NoScene : 0u) | (stepper.scene().gone ? LostDevice : 0u) |
+    // Contacts of the first set may come before what the frame thread says about it.
+    const bool none = stepper.scene().frame < 0 && record.frame < 0;
+    step.warnings |= (none ? NoScene : 0u) | (stepper.scene().gone ? LostDevice : 0u) |
                      (back ? TimeBack : 0u) | (shared->failed.load() ? EngineFailed : 0u) |
                      (stepper.row().driven && isFault(stepper.row().armStatus.state) ? ArmStill : 0u);
     shared->steps.back() = {step, hand, last};
