@@ -5,8 +5,8 @@
 #include "devices/bag/ros2_messages.h"
 #include "devices/ros2/ros2_graph.h"
 
+#include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <memory>
 
 namespace fathom::testing {
@@ -23,7 +23,7 @@ struct LiveNode {
     Ros2Message sends(const ros2::Message& bytes, double arrival) const {
         auto message = std::make_shared<RawMessage>();
         message->memory.reset(new uint8_t[bytes.size() + 4]());
-        std::memcpy(message->memory.get(), bytes.data(), bytes.size());
+        std::copy(bytes.begin(), bytes.end(), message->memory.get());
         message->size = static_cast<uint32_t>(bytes.size());
         message->arrival = kBoot + arrival;
         message->arrivalUtc = kUtc + arrival;
