@@ -75,7 +75,9 @@ void nameOf(Console& console, FixtureEditor& editor, size_t i) {
     const bool done =
         ImGui::InputText("##name", console.newName.data(), console.newName.size(),
                          ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
-    markPlace(console, "new name");
+    if (ImGui::IsItemActive()) { // one frame later it takes letters
+        markPlace(console, "new name");
+    }
     explain(console, "Enter: take this name. Esc: keep the old one");
     if (done) {
         const std::string wanted(console.newName.data());
