@@ -79,9 +79,9 @@ private:
     size_t bytes_ = 0;                // of frames_
 };
 
+class Recorder;
 // Writes it into a recording, and waits for the recorder when it is busy. The recorder must record; returns
 // early when it stops.
-class Recorder;
 void feed(Recorder& recorder, const KeptPast& past);
 
 } // namespace fathom::operate
