@@ -6,9 +6,7 @@
 #include "tests/support/vulkan.h"
 
 #include <algorithm>
-#include <limits>
 #include <map>
-#include <set>
 
 using namespace fathom;
 using namespace fathom::testing;
@@ -223,7 +221,7 @@ TEST_CASE("Disabling a stage saves the memory of its buffers") {
     CHECK(saved.at("filter") == 0.0);
     CHECK(saved.at("times of passes") == 0.0);
     CHECK(saved.at("colour, of gates that pass all") > 0.25); // one colour image
-    CHECK(ms.at("pictures that are not new") > 90.0);        // percentage: nothing runs
+    CHECK(ms.at("pictures that are not new") > 90.0);         // percentage: nothing runs
     for (const char* also : {"trimmed mean", "self-filter", "guidance points on the host (both)"}) {
         CHECK_MESSAGE(saved.count(also) == 1, also);
     }
@@ -247,53 +245,4 @@ TEST_CASE("More leaves fit the gripper better, and covering spheres leave no gap
           0.5 * rows.at("covering spheres").rbegin()->second["error"].get<double>());
     CHECK(rows.at("covering spheres").rbegin()->second["gap_mm"].get<double>() <= 1e-6);
     CHECK(rows.at("smaller spheres, with gaps").rbegin()->second["gap_mm"].get<double>() > 0.1);
-}
-
-TEST_CASE("Every frame pass has a row in the limit study, including those of another camera and the "
-          "device query") {
-    std::map<std::string, std::set<std::string>> steps;
-    for (const auto& row : quickRun().study("limit")["rows"]) {
-        steps[row["source"]].insert(row["setting"].get<std::string>());
-    }
-    REQUIRE(steps.size() == 4);
-    for (const char* pass : {"upload", "occlusion", "classify", "list", "surface", "thin", "spheres", "tree",
-                             "tree_query", "moments", "deliver", "collect", "grid"}) {
-        CAPTURE(std::string(pass));
-        CHECK(steps.at("two cameras, query on the device").count(pass) == 1);
-    }
-    CHECK(steps.at("10 % forbidden").count("occlusion") == 0);
-}
-
-// The smallest floor of the device's steps: the time of an empty dispatch.
-double emptyDispatchMs(const nlohmann::json& rows) {
-    double least = std::numeric_limits<double>::infinity();
-    for (const auto& row : rows) {
-        const double floor = row["floor_ms"];
-        least = row["gpu_p50_ms"].is_null() || floor == 0.0 ? least : std::min(least, floor);
-    }
-    return least;
-}
-
-TEST_CASE("A step's floor is the longest of moving, computing and an empty dispatch; its ratio is the "
-          "measured time over the floor") {
-    const auto& rows = quickRun().study("limit")["rows"];
-    const double dispatch = emptyDispatchMs(rows);
-    for (const auto& row : rows) {
-        const double moving = row["moving_ms"], computing = row["computing_ms"], floor = row["floor_ms"];
-        const std::string step = row["setting"];
-        const bool host = step == "upload" || step == "collect" || step == "grid";
-        const auto& time = row[host ? "wall_p50_ms" : "gpu_p50_ms"];
-        CHECK(row[host ? "gpu_p50_ms" : "wall_p50_ms"].is_null());
-        CHECK(row["cpu_p50_ms"].is_null()); // the threads' CPU time is not measured
-        const double work = std::max(moving, computing);
-        CHECK(floor == (work == 0.0 || host ? work : std::max(work, dispatch)));
-        if (floor == 0.0) { // empty dispatch: all pixels are forbidden, none is guidance
-            CHECK(row["setting"] == "moments");
-            CHECK(startsWith(row["source"], "100 % forbidden"));
-            CHECK(row["ratio"].is_null());
-            continue;
-        }
-        CHECK(moving > 0.0);
-        CHECK(row["ratio"].get<double>() * floor == doctest::Approx(time.get<double>()));
-    }
 }
