@@ -33,7 +33,7 @@ bool FrameLoop::first() {
     }
     firstIndex_ = *index;
     update_.live = feed_.captured().has_value();
-    publish(0.0);
+    publish(0.0, false);
     return true;
 }
 
@@ -95,7 +95,7 @@ void FrameLoop::countLost(double due) {
 
 void FrameLoop::publishOrRenew(double t, const std::atomic<bool>& stop) {
     try {
-        publish(t);
+        publish(t, stop);
         retry_ = kFirstRetry;
         return;
     } catch (const DeviceFailed& e) {
@@ -126,7 +126,7 @@ void FrameLoop::renew(const std::atomic<bool>& stop) {
     }
 }
 
-PublishedFrame* FrameLoop::emptyFrame() {
+PublishedFrame* FrameLoop::emptyFrame(const std::atomic<bool>& stop) {
     PublishedFrame* frame = std::exchange(spare_, nullptr);
     if (frame != nullptr) {
         return frame;
@@ -136,13 +136,19 @@ PublishedFrame* FrameLoop::emptyFrame() {
             owned_.push_back(std::make_unique<PublishedFrame>());
             return owned_.back().get();
         }
+        if (stop.load(std::memory_order_relaxed)) {
+            return nullptr; // a writer that failed returns no frames
+        }
         std::this_thread::sleep_for(std::chrono::milliseconds(1)); // the writer is far behind
     }
     return frame;
 }
 
-void FrameLoop::publish(double t) {
-    PublishedFrame* frame = emptyFrame();
+void FrameLoop::publish(double t, const std::atomic<bool>& stop) {
+    PublishedFrame* frame = emptyFrame(stop);
+    if (frame == nullptr) {
+        return;
+    }
     const PostureTrack& track = channels_.arm != nullptr ? channels_.arm->measured : channels_.postures;
     if (const auto posture = track.nearest(clock_.timeAt(t))) {
         feed_.armAtCapture({Pose{}, *posture});

@@ -58,11 +58,11 @@ public:
 
 private:
     std::optional<uint32_t> fetch(const std::atomic<bool>& stop);
-    void publish(double t);
+    void publish(double t, const std::atomic<bool>& stop); // gives up at `stop`
     void publishOrRenew(double t, const std::atomic<bool>& stop);
     void renew(const std::atomic<bool>& stop);
     void publishUpdate();
-    PublishedFrame* emptyFrame();
+    PublishedFrame* emptyFrame(const std::atomic<bool>& stop); // null: `stop`
     void countLost(double due);
 
     FrameFeed& feed_;

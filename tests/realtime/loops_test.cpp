@@ -156,6 +156,20 @@ TEST_CASE("A live camera whose stamps go back gives frames no older than the one
     CHECK(loop.update().captureTime == captured[9]);
 }
 
+TEST_CASE("A run that is to stop ends although the writer returns none of its frames") {
+    FakeRun fake(4 * Channels::kFramesInFlight, pressingPath(1.0));
+    LiveFeed live(fake.feed);
+    Channels channels(16);
+    RunClock clock;
+    FrameLoop loop(live, channels, clock, 1000.0, nullptr);
+    REQUIRE(loop.first());
+    clock.start(0.0);
+    std::atomic<bool> stop{false};
+    fake.feed.beforeFetch = [&](uint32_t index) { stop = index == Channels::kFramesInFlight; };
+    loop.run(stop);
+    CHECK(fake.feed.captured.size() == Channels::kFramesInFlight);
+}
+
 TEST_CASE("A tick whose set has not reached the writer waits for it, and passes at the end in any case") {
     FakeRun fake(2, pressingPath(1.0));
     Channels channels(16);
