@@ -2,6 +2,7 @@
 #include "engine/cycle/haptic_options.h"
 
 #include "engine/haptics/limits.h"
+#include "engine/types/error.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -48,9 +49,32 @@ void noteSpeed(std::vector<std::string>& notes, const char* fields, double speed
     }
 }
 
+// With automatic stiffness the springs need a share of the device's damping.
+void checkDamping(const Scene& scene, const std::string& section, const Scene::Haptics& haptics,
+                  double scale) {
+    const DevicePreset& device = devicePreset(haptics.device);
+    if (!haptics.damping || haptics.stiffness || !device.damping) {
+        return;
+    }
+    const double most = *device.damping / scale;
+    if (*haptics.damping >= most) {
+        throw BadInput(scene.file.string(), section + ".damping", shortNumber(*haptics.damping),
+                       "below " + shortNumber(most) + " N s/m, the damping of device '" + device.name +
+                           "', unless stiffness is a number");
+    }
+}
+
+void checkDamping(const Scene& scene) {
+    for (const Scene::Pilot& pilot : scene.pilots) {
+        checkDamping(scene, "pilots: " + pilot.name, pilot.haptics, pilot.scale);
+    }
+    checkDamping(scene, "haptics", scene.haptics, scene.hand.scale);
+}
+
 } // namespace
 
 HapticOptions makeHapticOptions(const Scene& scene, const Tool& tool) {
+    checkDamping(scene);
     const Scene::Haptics& haptics = scene.haptics;
     HapticOptions options;
     options.period = 1.0 / haptics.rateHz;
@@ -100,6 +124,7 @@ HapticOptions makeHapticOptions(const Scene& scene, const Tool& tool) {
 }
 
 std::vector<std::string> hapticNotes(const Scene& scene) {
+    checkDamping(scene);
     const Scene::Haptics& haptics = scene.haptics;
     const DevicePreset& device = devicePreset(haptics.device);
     std::vector<std::string> notes;

@@ -36,11 +36,12 @@ struct HapticOptions {
     uint32_t deviceDelayTicks = 0; // ticks from write() to the hand; coupling.delayTicks includes them
 };
 
-// Throws BadInput (unknown device) or Error (springs impossible).
+// Throws BadInput (unknown device; damping that leaves automatic stiffness nothing) or Error (springs
+// impossible).
 HapticOptions makeHapticOptions(const Scene& scene, const Tool& tool);
 
 // One line each for what the scene asks and does not get: limits or stiffness above the device's, and hand
-// speeds that its settings cannot follow. Throws BadInput for an unknown device.
+// speeds that its settings cannot follow. Throws BadInput as makeHapticOptions().
 std::vector<std::string> hapticNotes(const Scene& scene);
 
 } // namespace fathom
