@@ -15,7 +15,7 @@ namespace fathom::gpu {
 namespace {
 
 constexpr uint32_t kMostBindings = 20; // bindings of the largest pass
-// An H100 was faster than the CPU from here on in every set that `fathom profile query` measures (docs/h100).
+// An H200 was faster than the CPU from here on in every set that `fathom profile query` measures (docs/h200).
 constexpr uint32_t kDiscreteQueryLeaves = 256;
 
 // Ignores case. True for an empty part.
