@@ -2,27 +2,12 @@
 #include "apps/convert/tum_folder.h"
 
 #include "devices/recorded/text_file.h"
-#include "engine/types/error.h"
 #include "engine/types/output_file.h"
 
 namespace fathom {
 
-namespace {
-
-const std::filesystem::path& withoutTruth(const std::filesystem::path& folder) {
-    for (const char* name : {"groundtruth.txt", "poses.txt"}) {
-        if (std::filesystem::exists(folder / name)) {
-            throw BadInput("--out", folder.string(), std::string("has ") + name,
-                           "a folder without a recording");
-        }
-    }
-    return folder;
-}
-
-} // namespace
-
 TumFolder::TumFolder(const std::filesystem::path& folder, const CameraInfo& camera)
-    : folder_(withoutTruth(folder))
+    : folder_(folder)
     , colour_(camera.hasColour)
     , writer_(folder, camera, 2) {}
 

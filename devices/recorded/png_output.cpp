@@ -63,7 +63,7 @@ void write(const std::filesystem::path& path, PngSize size, int bits, int colour
     for (uint32_t y = 0; y < size.height; ++y) {
         rows[y] = first + size_t{y} * size.width * bytesPerPixel;
     }
-    std::unique_ptr<std::FILE, CloseOutput> file(std::fopen(path.c_str(), "wb"));
+    std::unique_ptr<std::FILE, CloseOutput> file(std::fopen(path.c_str(), "wbx"));
     if (!file) {
         throw Error(path.string() + ": cannot be written (" + std::strerror(errno) + ")");
     }

@@ -6,6 +6,7 @@
 #include "engine/types/colour_copy.h"
 #include "engine/types/error.h"
 
+#include <array>
 #include <charconv>
 #include <cstdio>
 #include <cstdlib>
@@ -33,18 +34,42 @@ std::string text(double value) {
     return digits;
 }
 
-const fs::path& freshFolder(const fs::path& folder) {
-    for (const char* name : {"associations.txt", "depth.txt", "rgb.txt", "intrinsics.json"}) {
-        if (fs::exists(folder / name)) {
-            throw BadInput("--out", folder.string(), std::string("has ") + name,
-                           "a folder without a recording");
+// Files by which a folder is read as a recording, of any layout.
+constexpr std::array<const char*, 11> kMarks{"associations.txt",
+                                             "depth.txt",
+                                             "rgb.txt",
+                                             "poses.txt",
+                                             "groundtruth.txt",
+                                             "intrinsics.json",
+                                             "camera_intrinsic.json",
+                                             "scene_camera.json",
+                                             "intrinsic",
+                                             "frame-000000.depth.png",
+                                             "metadata.yaml"};
+
+// Why the folder must not be written to; empty = it may.
+std::string whyTaken(const fs::path& folder) {
+    std::error_code failed;
+    for (const char* name : kMarks) {
+        if (fs::exists(fs::symlink_status(folder / name, failed))) {
+            return std::string("has ") + name;
         }
     }
     for (const char* name : {"depth", "rgb"}) {
-        if (fs::is_symlink(folder / name)) {
-            throw BadInput("--out", folder.string(), std::string(name) + " is a symbolic link",
-                           "a folder without a recording");
+        const fs::path images = folder / name;
+        if (fs::is_symlink(images)) {
+            return std::string(name) + " is a symbolic link";
         }
+        if (fs::is_directory(images, failed) && !fs::is_empty(images, failed)) {
+            return std::string("has files in ") + name + "/";
+        }
+    }
+    return "";
+}
+
+const fs::path& freshFolder(const fs::path& folder) {
+    if (const std::string why = whyTaken(folder); !why.empty()) {
+        throw BadInput("--out", folder.string(), why, "a folder without a recording");
     }
     std::error_code failed;
     fs::create_directories(folder / "depth", failed);

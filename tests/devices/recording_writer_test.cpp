@@ -129,6 +129,30 @@ TEST_CASE("A folder with a recording is not overwritten, and an unwritable one i
     CHECK_THROWS_AS(RecordingWriter("/proc/rec", someCamera(true), 1), Error);
 }
 
+TEST_CASE("A folder of another layout, and one whose depth or rgb folder holds files, is never written to") {
+    const CameraInfo info = someCamera(true);
+    for (const char* name : {"scene_camera.json", "camera_intrinsic.json", "frame-000000.depth.png",
+                             "intrinsic/intrinsic_depth.txt", "metadata.yaml", "poses.txt", "groundtruth.txt",
+                             "depth/000000.png", "rgb/any.jpg"}) {
+        const TemporaryFolder folder;
+        folder.write(name, "kept");
+        CHECK_THROWS_WITH_AS(RecordingWriter(folder.path(), info, 1),
+                             doctest::Contains("a folder without a recording"), BadInput);
+        CHECK(folder.read(name) == "kept");
+        CHECK_FALSE(std::filesystem::exists(folder.path() / "intrinsics.json"));
+    }
+}
+
+TEST_CASE("An image that appears while a recording is written is not overwritten") {
+    const TemporaryFolder folder;
+    const CameraInfo info = someCamera(true);
+    RecordingWriter writer(folder.path(), info, 1);
+    folder.write("rgb/000000.png", "kept");
+    writer.add(someImages(info, 1)[0].frame(0, false));
+    CHECK_THROWS_WITH(writer.finish(), doctest::Contains("rgb/000000.png: cannot be written (File exists)"));
+    CHECK(folder.read("rgb/000000.png") == "kept");
+}
+
 TEST_CASE("An image that cannot be written stops the recording with the file's name; earlier frames stay") {
     const TemporaryFolder folder;
     const CameraInfo info = someCamera(true);
