@@ -2,16 +2,13 @@
 #include "devices/recorded/recording_layout.h"
 
 #include "devices/images/depth_image.h"
+#include "devices/recorded/bop_folder.h"
 #include "devices/recorded/colour_image.h"
-#include "devices/recorded/json_field.h"
-#include "devices/recorded/text_file.h"
+#include "devices/recorded/matrix_file.h"
+#include "devices/recorded/numbered_images.h"
 #include "engine/types/error.h"
-#include "engine/types/log.h"
 
-#include <algorithm>
 #include <cmath>
-#include <glm/mat3x3.hpp>
-#include <map>
 
 namespace fathom {
 
@@ -19,176 +16,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kPeriod = 1.0 / 30.0; // [s] of layouts without stamps
-constexpr std::array<double, 16> kIdentity{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-
-// Files of these endings by the number that ends their name's stem, in front of `before`.
-std::map<uint32_t, fs::path> numbered(const fs::path& folder, std::span<const std::string_view> endings,
-                                      const std::string& before = "") {
-    std::map<uint32_t, fs::path> files;
-    std::error_code failed;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder, failed)) {
-        std::string stem = entry.path().stem().string();
-        if (!endsAs(entry.path(), endings) || !stem.ends_with(before)) {
-            continue;
-        }
-        stem.resize(stem.size() - before.size());
-        const size_t digit = stem.find_last_not_of("0123456789") + 1;
-        uint32_t number = 0;
-        if (digit < stem.size() && parseNumber(std::string_view(stem).substr(digit), number)) {
-            files.emplace(number, entry.path());
-        }
-    }
-    return files;
-}
-
-// Depth images with their colour images of the same number.
-std::vector<IndexLine> pairsOf(const std::map<uint32_t, fs::path>& depth,
-                               const std::map<uint32_t, fs::path>& colour, const fs::path& folder) {
-    std::vector<IndexLine> index;
-    for (const auto& [number, file] : depth) {
-        const double stamp = kPeriod * static_cast<double>(index.size());
-        const auto pair = colour.find(number);
-        index.push_back(
-            {stamp, stamp, file, pair == colour.end() ? fs::path() : pair->second,
-             pair == colour.end() ? "no colour image with the number " + std::to_string(number) : "",
-             std::nullopt});
-    }
-    if (index.empty()) {
-        throw BadInput(folder.string(), "depth images", "none", "at least one, with a number in its name");
-    }
-    return index;
-}
-
-Pose poseOf(const std::array<double, 9>& rows, const dvec3& position, const std::string& file) {
-    const glm::dmat3 rotation(rows[0], rows[3], rows[6], rows[1], rows[4], rows[7], rows[2], rows[5],
-                              rows[8]);
-    const dquat q = glm::quat_cast(rotation);
-    const double length = glm::length(q);
-    if (!(std::abs(length - 1.0) < 0.1) || !std::isfinite(position.x + position.y + position.z)) {
-        throw BadInput(file, "pose", "not a rigid motion", "a rotation matrix and a position");
-    }
-    return {position, q / length};
-}
-
 RecordingLayout readOpen3d(const fs::path& folder) {
     RecordingLayout layout;
     layout.intrinsics = readIntrinsics(folder / "camera_intrinsic.json", ScaleRule::Optional);
     const bool american = fs::exists(folder / "color");
-    layout.index = pairsOf(numbered(folder / "depth", kDepthEndings),
-                           numbered(folder / (american ? "color" : "rgb"), kColourEndings), folder);
+    layout.index = pairByNumber({folder / "depth", kDepthEndings},
+                                {folder / (american ? "color" : "rgb"), kColourEndings});
     return layout;
-}
-
-struct BopImage {
-    std::array<double, 9> k{}; // row by row
-    double unit = 0.0;         // [mm]
-    std::optional<Pose> baseTcamera;
-};
-
-std::map<uint32_t, BopImage> bopImages(const fs::path& file) {
-    const nlohmann::json document = parseJsonFile(file);
-    const JsonField root(document, file.string(), "");
-    std::map<uint32_t, BopImage> images;
-    for (const auto& [key, unused] : document.items()) {
-        uint32_t number = 0;
-        if (!parseNumber(std::string_view(key), number)) {
-            throw BadInput(file.string(), key, "not a number", "numbers of images");
-        }
-        const JsonField entry = root.at(key);
-        BopImage image;
-        const std::vector<double> k = entry.at("cam_K").numbers(9);
-        std::copy(k.begin(), k.end(), image.k.begin());
-        image.unit = entry.at("depth_scale").positive();
-        const auto rotation = entry.find("cam_R_w2c"), position = entry.find("cam_t_w2c");
-        if (rotation && position) {
-            const std::vector<double> r = rotation->numbers(9), t = position->numbers(3);
-            std::array<double, 9> rows{};
-            std::copy(r.begin(), r.end(), rows.begin());
-            image.baseTcamera =
-                inverse(poseOf(rows, dvec3(t[0], t[1], t[2]) * 1e-3, file.string())); // world to camera [mm]
-        }
-        images.emplace(number, image);
-    }
-    return images;
-}
-
-RecordingLayout readBop(const fs::path& folder) {
-    const fs::path file = folder / "scene_camera.json";
-    const std::map<uint32_t, BopImage> images = bopImages(file);
-    const auto depth = numbered(folder / "depth", kDepthEndings);
-    RecordingLayout layout;
-    layout.index = pairsOf(depth, numbered(folder / "rgb", kColourEndings), folder);
-    size_t line = 0;
-    std::optional<BopImage> first;
-    for (const auto& [number, path] : depth) {
-        IndexLine& entry = layout.index[line++];
-        const auto image = images.find(number);
-        if (image == images.end()) {
-            entry.fault = "scene_camera.json has no image " + std::to_string(number);
-            continue;
-        }
-        first = first ? first : std::optional(image->second);
-        if (image->second.k != first->k || image->second.unit != first->unit) {
-            entry.fault = "lens or depth_scale differs from the first image";
-        }
-        entry.baseTcamera = image->second.baseTcamera;
-    }
-    const PngSize size = depthImageHead(layout.index.front().depth).size;
-    const double unit = first ? 1e-3 * first->unit : 0.0;
-    if (!first || size.width < 1 || size.width > kMaxImageWidth || size.height > kMaxImageHeight ||
-        !(first->k[0] > 0.0 && first->k[4] > 0.0) || unit < kFinestUnit || unit > kCoarsestUnit) {
-        throw BadInput(file.string(), "cam_K, depth_scale", "unusable",
-                       "a lens and millimetres per unit (0.001 to 100) for the first depth image");
-    }
-    CameraInfo& camera = layout.intrinsics.camera;
-    camera.depth.width = size.width;
-    camera.depth.height = size.height;
-    camera.depth.fx = first->k[0];
-    camera.depth.fy = first->k[4];
-    camera.depth.cx = first->k[2];
-    camera.depth.cy = first->k[5];
-    camera.colour = camera.depth;
-    layout.intrinsics.scale = camera.metresPerUnit = unit;
-    return layout;
-}
-
-// A matrix of 4 rows, or of 3 where a lens may have so many, as 4 x 4, row by row.
-std::array<double, 16> readMatrix(const fs::path& file, bool orThree = false) {
-    std::vector<double> all;
-    for (const TextLine& line : readDataLines(file)) {
-        for (const std::string_view word : splitWords(line.text)) {
-            double value = 0.0;
-            if (!parseNumber(word, value)) {
-                throw BadInput(file.string(), "matrix", std::string(word), "numbers");
-            }
-            all.push_back(value);
-        }
-    }
-    if (all.size() != 16 && !(orThree && all.size() == 9)) {
-        throw BadInput(file.string(), "matrix", std::to_string(all.size()) + " numbers",
-                       orThree ? "4 x 4 or 3 x 3" : "4 x 4");
-    }
-    const size_t rows = all.size() == 16 ? 4 : 3;
-    auto out = kIdentity;
-    for (size_t k = 0; k < all.size(); ++k) {
-        out[k / rows * 4 + k % rows] = all[k];
-    }
-    return out;
-}
-
-// The camera's pose in a frame; a frame whose pose was lost (-inf) is not played.
-void usePose(IndexLine& line, const fs::path& file) {
-    if (!fs::exists(file)) {
-        return;
-    }
-    try {
-        const auto m = readMatrix(file);
-        line.baseTcamera = poseOf({m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]},
-                                  {m[3], m[7], m[11]}, file.string());
-    } catch (const BadInput& e) {
-        line.fault = e.what();
-    }
 }
 
 Intrinsics scanNetLens(const fs::path& file, std::optional<PngSize> size) {
@@ -203,14 +37,14 @@ Intrinsics scanNetLens(const fs::path& file, std::optional<PngSize> size) {
 
 RecordingLayout readScanNet(const fs::path& folder) {
     for (const char* name : {"extrinsic_depth.txt", "extrinsic_color.txt"}) {
-        if (fs::exists(folder / "intrinsic" / name) && readMatrix(folder / "intrinsic" / name) != kIdentity) {
+        if (fs::exists(folder / "intrinsic" / name) &&
+            readMatrix(folder / "intrinsic" / name) != kIdentityMatrix) {
             throw BadInput((folder / "intrinsic" / name).string(), "matrix", "not the identity",
                            "the identity; or intrinsics=FILE behind the folder's name");
         }
     }
     RecordingLayout layout;
-    layout.index = pairsOf(numbered(folder / "depth", kDepthEndings),
-                           numbered(folder / "color", kColourEndings), folder);
+    layout.index = pairByNumber({folder / "depth", kDepthEndings}, {folder / "color", kColourEndings});
     CameraInfo& camera = layout.intrinsics.camera;
     camera.depth = scanNetLens(folder / "intrinsic" / "intrinsic_depth.txt",
                                depthImageHead(layout.index.front().depth).size);
@@ -232,8 +66,7 @@ RecordingLayout readSevenScenes(const fs::path& folder) {
     camera.colour = camera.depth;
     layout.invalid = 65535;
     constexpr std::array<std::string_view, 1> kPng{".png"};
-    layout.index =
-        pairsOf(numbered(folder, kPng, ".depth"), numbered(folder, kColourEndings, ".color"), folder);
+    layout.index = pairByNumber({folder, kPng, ".depth"}, {folder, kColourEndings, ".color"});
     for (IndexLine& line : layout.index) {
         std::string pose = line.depth.string();
         pose.replace(pose.size() - std::string_view("depth.png").size(), std::string::npos, "pose.txt");

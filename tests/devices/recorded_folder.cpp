@@ -107,9 +107,24 @@ void writeSmallRecording(const TemporaryFolder& folder, uint32_t frames) {
     folder.write("intrinsics.json", kSmallIntrinsics);
 }
 
-std::string recordingRefusal(const std::filesystem::path& folder) {
+void addPair(const TemporaryFolder& folder, const std::string& depth, const std::string& colour,
+             uint16_t value) {
+    writeDepth(folder.path() / depth, kSmallWidth, kSmallHeight, value);
+    writeColour(folder.path() / colour, kSmallWidth, kSmallHeight, 200, 10, 10);
+}
+
+std::vector<uint16_t> playedDepths(const std::filesystem::path& folder, const SourceOptions& options) {
+    RecordedCamera camera(folder, options);
+    std::vector<uint16_t> depths;
+    while (const auto frame = camera.next()) {
+        depths.push_back((*frame)->depth[0]);
+    }
+    return depths;
+}
+
+std::string recordingRefusal(const std::filesystem::path& folder, const SourceOptions& options) {
     try {
-        RecordedCamera camera(folder);
+        RecordedCamera camera(folder, options);
         while (camera.next()) {
         }
     } catch (const BadInput& e) {

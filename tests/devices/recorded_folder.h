@@ -2,6 +2,8 @@
 // Recording folders made for a test, and the real ones next to the repository.
 #pragma once
 
+#include "devices/recorded/source_options.h"
+
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -47,7 +49,14 @@ inline constexpr uint32_t kSmallWidth = 7, kSmallHeight = 5;
 extern const std::string kSmallIntrinsics;
 void writeSmallRecording(const TemporaryFolder& folder, uint32_t frames);
 
+// Adds 7 x 5 images: depth of one value, and one colour.
+void addPair(const TemporaryFolder& folder, const std::string& depth, const std::string& colour,
+             uint16_t value);
+
+// The first depth value of each frame that is played.
+std::vector<uint16_t> playedDepths(const std::filesystem::path& folder, const SourceOptions& options = {});
+
 // Builds a RecordedCamera and reads it to its end. Returns the message of the BadInput thrown, or empty.
-std::string recordingRefusal(const std::filesystem::path& folder);
+std::string recordingRefusal(const std::filesystem::path& folder, const SourceOptions& options = {});
 
 } // namespace fathom

@@ -12,14 +12,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void addPair(const TemporaryFolder& folder, const std::string& depth, const std::string& colour,
-             uint16_t value) {
-    fs::create_directories((folder.path() / depth).parent_path());
-    fs::create_directories((folder.path() / colour).parent_path());
-    writeDepth(folder.path() / depth, 7, 5, value);
-    writeColour(folder.path() / colour, 7, 5, 200, 10, 10);
-}
-
 uint32_t framesOf(RecordedCamera& camera, std::vector<double>& depths) {
     while (const auto frame = camera.next()) {
         depths.push_back((*frame)->depth[0] * camera.info().metresPerUnit);

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/recorded/bop_folder.h"
+
+#include "devices/images/depth_image.h"
+#include "devices/recorded/json_field.h"
+#include "devices/recorded/matrix_file.h"
+#include "devices/recorded/numbered_images.h"
+#include "devices/recorded/text_file.h"
+#include "engine/types/error.h"
+
+#include <algorithm>
+#include <map>
+
+namespace fathom {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct BopImage {
+    std::array<double, 9> k{}; // row by row
+    double unit = 0.0;         // [mm]
+    std::optional<Pose> baseTcamera;
+};
+
+// By number.
+std::map<std::string, BopImage> bopImages(const fs::path& file) {
+    const nlohmann::json document = parseJsonFile(file);
+    const JsonField root(document, file.string(), "");
+    std::map<std::string, BopImage> images;
+    for (const auto& [key, unused] : document.items()) {
+        uint32_t number = 0;
+        if (!parseNumber(std::string_view(key), number)) {
+            throw BadInput(file.string(), key, "not a number", "numbers of images");
+        }
+        const JsonField entry = root.at(key);
+        BopImage image;
+        const std::vector<double> k = entry.at("cam_K").numbers(9);
+        std::copy(k.begin(), k.end(), image.k.begin());
+        image.unit = entry.at("depth_scale").positive();
+        const auto rotation = entry.find("cam_R_w2c"), position = entry.find("cam_t_w2c");
+        if (rotation && position) {
+            const std::vector<double> r = rotation->numbers(9), t = position->numbers(3);
+            std::array<double, 9> rows{};
+            std::copy(r.begin(), r.end(), rows.begin());
+            image.baseTcamera = inverse(
+                rigidPose(rows, dvec3(t[0], t[1], t[2]) * 1e-3, file.string())); // world to camera [mm]
+        }
+        images.emplace(std::to_string(number), image);
+    }
+    return images;
+}
+
+} // namespace
+
+RecordingLayout readBop(const fs::path& folder) {
+    const fs::path file = folder / "scene_camera.json";
+    const std::map<std::string, BopImage> images = bopImages(file);
+    RecordingLayout layout;
+    layout.index = pairByNumber({folder / "depth", kDepthEndings}, {folder / "rgb", kColourEndings});
+    std::optional<BopImage> first;
+    for (IndexLine& entry : layout.index) {
+        const std::string number = imageNumber(entry.depth);
+        const auto image = images.find(number);
+        if (image == images.end()) {
+            entry.fault = "scene_camera.json has no image " + number;
+            continue;
+        }
+        first = first ? first : std::optional(image->second);
+        if (image->second.k != first->k || image->second.unit != first->unit) {
+            entry.fault = "lens or depth_scale differs from the first image";
+        }
+        entry.baseTcamera = image->second.baseTcamera;
+    }
+    const PngSize size = depthImageHead(layout.index.front().depth).size;
+    const double unit = first ? 1e-3 * first->unit : 0.0;
+    if (!first || size.width < 1 || size.width > kMaxImageWidth || size.height > kMaxImageHeight ||
+        !(first->k[0] > 0.0 && first->k[4] > 0.0) || unit < kFinestUnit || unit > kCoarsestUnit) {
+        throw BadInput(file.string(), "cam_K, depth_scale", "unusable",
+                       "a lens and millimetres per unit (0.001 to 100) for the first depth image");
+    }
+    CameraInfo& camera = layout.intrinsics.camera;
+    camera.depth.width = size.width;
+    camera.depth.height = size.height;
+    camera.depth.fx = first->k[0];
+    camera.depth.fy = first->k[4];
+    camera.depth.cx = first->k[2];
+    camera.depth.cy = first->k[5];
+    camera.colour = camera.depth;
+    layout.intrinsics.scale = camera.metresPerUnit = unit;
+    return layout;
+}
+
+} // namespace fathom

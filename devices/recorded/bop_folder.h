@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// Folders of the BOP benchmark.
+#pragma once
+
+#include "devices/recorded/recording_layout.h"
+
+namespace fathom {
+
+// scene_camera.json, rgb/ and depth/ by number, lens and depth_scale of each image, one lens for all. Throws
+// BadInput.
+RecordingLayout readBop(const std::filesystem::path& folder);
+
+} // namespace fathom

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// Folders without an index: images in order of the numbers in their names, and pairs by them.
+#include "devices/recorded/recorded_camera.h"
+#include "tests/devices/recorded_folder.h"
+
+#include <doctest/doctest.h>
+
+using namespace fathom;
+
+namespace {
+
+using Depths = std::vector<uint16_t>;
+
+// An Open3D folder of these names, with depth 500, 600, ... in their order.
+void writeNamed(const TemporaryFolder& folder, const std::vector<std::string>& depth,
+                const std::vector<std::string>& colour) {
+    folder.write("camera_intrinsic.json",
+                 R"({"width": 7, "height": 5, "intrinsic_matrix": [6, 0, 0, 0, 6.5, 0, 3, 2, 1]})");
+    for (size_t i = 0; i < depth.size(); ++i) {
+        writeDepth(folder.path() / "depth" / (depth[i] + ".png"), kSmallWidth, kSmallHeight,
+                   static_cast<uint16_t>(500 + 100 * i));
+    }
+    for (size_t i = 0; i < colour.size(); ++i) {
+        writeColour(folder.path() / "color" / (colour[i] + ".png"), kSmallWidth, kSmallHeight,
+                    static_cast<uint8_t>(10 * i), 0, 0);
+    }
+}
+
+Depths depthsOfNames(const std::vector<std::string>& depth, const std::vector<std::string>& colour) {
+    const TemporaryFolder folder;
+    writeNamed(folder, depth, colour);
+    return playedDepths(folder.path());
+}
+
+} // namespace
+
+TEST_CASE("Names that are stamps in seconds or nanoseconds play in order of time, none lost") {
+    for (const std::vector<std::string>& names :
+         {std::vector<std::string>{"1305031102.900000", "1305031103.100000", "1305031103.500000",
+                                   "1305031104.100000"},
+          {"4294967295", "4294967296", "4294967297", "42949672960"},
+          {"1403636579763555584", "1403636579796888917", "1403636579830222250", "14036365798302222500"},
+          {"8", "9", "10", "11"},
+          {"rgbd_08", "rgbd_009", "rgbd_10", "rgbd_0011"}}) {
+        CHECK(depthsOfNames(names, names) == Depths{500, 600, 700, 800});
+    }
+}
+
+TEST_CASE("Names of a frame and a time pair by the frame where the times of depth and colour differ") {
+    const TemporaryFolder folder;
+    writeNamed(folder, {"0000001-000000000000", "0000002-000000033369", "0000003-000000066738"},
+               {"0000001-000000000000", "0000002-000000033380", "0000003-000000066749"});
+    RecordedCamera camera(folder.path());
+    for (uint32_t i = 0; i < 3; ++i) {
+        const auto frame = camera.next();
+        REQUIRE(frame);
+        CHECK((*frame)->depth[0] == 500 + 100 * i);
+        CHECK(((*frame)->colour[0] & 0xff) == 10 * i);
+    }
+    CHECK(camera.skipped() == 0);
+}
+
+TEST_CASE("Equally many images without a common number pair in order; a single lost image is skipped") {
+    CHECK(depthsOfNames({"1.16", "1.19", "1.23"}, {"1.17", "1.2", "1.24"}) == Depths{500, 600, 700});
+    CHECK(depthsOfNames({"0", "1", "2"}, {"0", "1", "3"}) == Depths{500, 600});
+    CHECK(depthsOfNames({"0", "1", "2"}, {"1"}) == Depths{600});
+}
+
+TEST_CASE("Two images of one number are rejected, whatever the order of the folder") {
+    const TemporaryFolder folder;
+    writeNamed(folder, {"00000", "left_0"}, {"00000"});
+    CHECK(recordingRefusal(folder.path())
+              .find("names of images: 00000.png and left_0.png with 0 (allowed: one image of each number)") !=
+          std::string::npos);
+}
