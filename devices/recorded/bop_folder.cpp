@@ -71,6 +71,7 @@ RecordingLayout readBop(const fs::path& folder) {
             entry.fault = "lens or depth_scale differs from the first image";
         }
         entry.baseTcamera = image->second.baseTcamera;
+        layout.posePerImage |= entry.baseTcamera.has_value();
     }
     const PngSize size = depthImageHead(layout.index.front().depth).size;
     const double unit = first ? 1e-3 * first->unit : 0.0;

@@ -43,9 +43,9 @@ Pose rigidPose(const std::array<double, 9>& rows, const dvec3& position, const s
     return {position, q / length};
 }
 
-void usePose(IndexLine& line, const std::filesystem::path& file) {
+bool usePose(IndexLine& line, const std::filesystem::path& file) {
     if (!std::filesystem::exists(file)) {
-        return;
+        return false;
     }
     try {
         const auto m = readMatrix(file);
@@ -54,6 +54,7 @@ void usePose(IndexLine& line, const std::filesystem::path& file) {
     } catch (const BadInput& e) {
         line.fault = e.what();
     }
+    return true;
 }
 
 } // namespace fathom

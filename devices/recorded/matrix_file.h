@@ -16,7 +16,8 @@ std::array<double, 16> readMatrix(const std::filesystem::path& file, bool orThre
 // rows: rotation, row by row. position [m]. file: named by the BadInput thrown for what is no rigid motion.
 Pose rigidPose(const std::array<double, 9>& rows, const dvec3& position, const std::string& file);
 
-// Sets the line's pose (base_T_camera), or its fault for a pose that was lost (-inf) or cannot be read.
-void usePose(IndexLine& line, const std::filesystem::path& file);
+// Sets the line's pose (base_T_camera); for a pose that is missing, was lost (-inf) or cannot be read, its
+// fault. Returns whether the file exists.
+bool usePose(IndexLine& line, const std::filesystem::path& file);
 
 } // namespace fathom

@@ -83,8 +83,7 @@ void RecordedCamera::useOptions(const SourceOptions& options) {
     CameraInfo& camera = layout_.intrinsics.camera;
     depth_.emplace(folder_, layout_, options);
     camera.metresPerUnit = depth_->metresPerUnit();
-    const auto posed = [](const IndexLine& line) { return line.baseTcamera.has_value(); };
-    camera.poseless = !layout_.poses && std::ranges::none_of(layout_.index, posed);
+    camera.poseless = !layout_.poses && !layout_.posePerImage;
     camera.hasColour = camera.hasColour && options.colour != "none";
     if (!options.extrinsics.empty()) {
         camera.registered = false;

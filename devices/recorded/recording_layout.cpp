@@ -52,7 +52,7 @@ RecordingLayout readScanNet(const fs::path& folder) {
                                 colourImageSize(layout.index.front().colour));
     camera.registered = false; // two lenses at one place
     for (IndexLine& line : layout.index) {
-        usePose(line, folder / "pose" / (line.depth.stem().string() + ".txt"));
+        layout.posePerImage |= usePose(line, folder / "pose" / (line.depth.stem().string() + ".txt"));
     }
     return layout;
 }
@@ -70,7 +70,7 @@ RecordingLayout readSevenScenes(const fs::path& folder) {
     for (IndexLine& line : layout.index) {
         std::string pose = line.depth.string();
         pose.replace(pose.size() - std::string_view("depth.png").size(), std::string::npos, "pose.txt");
-        usePose(line, pose);
+        layout.posePerImage |= usePose(line, pose);
     }
     return layout;
 }
@@ -126,6 +126,11 @@ RecordingLayout readLayout(const fs::path& folder, const SourceOptions& options)
     RecordingLayout layout = readFolder(folder, options);
     layout.metres = holdsMetres(layout);
     layout.statedUnit = layout.intrinsics.scale;
+    for (IndexLine& line : layout.index) {
+        if (layout.posePerImage && !line.baseTcamera && line.fault.empty()) {
+            line.fault = "it has no pose, but other images have";
+        }
+    }
     return layout;
 }
 

@@ -12,6 +12,7 @@ struct RecordingLayout {
     RecordingIntrinsics intrinsics;
     std::vector<IndexLine> index;
     std::optional<PoseTrack> poses;
+    bool posePerImage = false;        // lines of the index without a pose are faulty
     uint16_t invalid = 0;             // a raw depth that means no measurement besides 0
     bool metres = false;              // depth images hold floating point, in metres
     std::optional<double> statedUnit; // [m] by the layout's files; nothing where none is stated
@@ -21,7 +22,8 @@ struct RecordingLayout {
 // (camera_intrinsic.json, color/ and depth/ in order of names, millimetres), BOP (scene_camera.json, rgb/ and
 // depth/ by number, lens and depth_scale of each image, one lens for all), 7-Scenes (frame-N.color.png,
 // frame-N.depth.png, frame-N.pose.txt; Kinect's nominal lens, 65535 = no measurement). Frames without stamps
-// are 1/30 s apart. Images of floating point need no depth scale. Throws BadInput.
+// are 1/30 s apart. Where an image has a pose, images without one are faulty. Images of floating point need
+// no depth scale. Throws BadInput.
 RecordingLayout readLayout(const std::filesystem::path& folder, const SourceOptions& options);
 
 } // namespace fathom

@@ -87,6 +87,40 @@ TEST_CASE("A folder of 7-Scenes is played with its poses, and 65535 is no depth"
     CHECK(camera.warnings()[0].find("matrix: 9 numbers (allowed: 4 x 4)") != std::string::npos);
 }
 
+TEST_CASE("Images without a pose are skipped and named where others have one, in every layout with poses") {
+    const std::string pose = "1 0 0 0.5\n0 1 0 0\n0 0 1 0\n0 0 0 1\n";
+    const TemporaryFolder scenes, bop, scanNet;
+    std::string cameras;
+    for (int i = 0; i < 3; ++i) {
+        const std::string n = std::to_string(i), stem = "frame-00000" + n;
+        writeDepth(scenes.path() / (stem + ".depth.png"), 640, 480, static_cast<uint16_t>(500 + i));
+        writeColour(scenes.path() / (stem + ".color.png"), 640, 480, 1, 2, 3);
+        addPair(bop, "depth/" + n + ".png", "rgb/" + n + ".png", static_cast<uint16_t>(500 + i));
+        addPair(scanNet, "depth/" + n + ".png", "color/" + n + ".png", static_cast<uint16_t>(500 + i));
+        cameras +=
+            (i == 0 ? "\"" : ", \"") + n + R"(": {"cam_K": [6, 0, 3, 0, 6, 2, 0, 0, 1], "depth_scale": 1)";
+        if (i != 1) {
+            scenes.write(stem + ".pose.txt", pose);
+            scanNet.write("pose/" + n + ".txt", pose);
+            cameras += R"(, "cam_R_w2c": [1, 0, 0, 0, 1, 0, 0, 0, 1], "cam_t_w2c": [100, 0, 0])";
+        }
+        cameras += "}";
+    }
+    bop.write("scene_camera.json", "{" + cameras + "}");
+    for (const char* name : {"depth", "color"}) {
+        scanNet.write(std::string("intrinsic/intrinsic_") + name + ".txt", "7 0 3\n0 7 2\n0 0 1\n");
+    }
+    for (const TemporaryFolder* folder : {&scenes, &bop, &scanNet}) {
+        CHECK(playedDepths(folder->path()) == std::vector<uint16_t>{500, 502});
+        RecordedCamera camera(folder->path());
+        CHECK_FALSE(camera.info().poseless);
+        while (camera.next()) {
+        }
+        REQUIRE(camera.warnings().size() == 1);
+        CHECK(camera.warnings()[0] == "frame 1 skipped: it has no pose, but other images have");
+    }
+}
+
 TEST_CASE("A depth scale given as units per metre is rejected with the number that is meant") {
     for (const char* scale : {"1000", "5000", "1.0", "0.5", "1e-9"}) {
         const TemporaryFolder folder;
