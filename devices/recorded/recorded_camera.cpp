@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kMostApart = 0.1;   // [s] depth and colour of a pair, or half of the time between frames
+constexpr double kMostApart = 0.1;   // [s] depth and colour of a pair, or half of medianPeriod()
 constexpr size_t kMostWarnings = 20; // skipped frames that are named in the summary, too
 
 const fs::path& existingFolder(const fs::path& folder) {
@@ -33,6 +33,24 @@ PngSize sizeOf(const Intrinsics& lens) {
     return {lens.width, lens.height};
 }
 
+// Median of the times between usable frames [s]; 0 for a single frame. A mean would follow a single pause.
+double medianPeriod(const std::vector<IndexLine>& index) {
+    std::vector<double> gaps;
+    const IndexLine* last = nullptr;
+    for (const IndexLine& line : index) {
+        if (!line.fault.empty()) {
+            continue;
+        }
+        if (last != nullptr && line.depthStamp > last->depthStamp) {
+            gaps.push_back(line.depthStamp - last->depthStamp);
+        }
+        last = &line;
+    }
+    const auto middle = gaps.begin() + static_cast<long>(gaps.size() / 2);
+    std::nth_element(gaps.begin(), middle, gaps.end());
+    return gaps.empty() ? 0.0 : *middle;
+}
+
 std::string sizeWords(PngSize size) {
     return std::to_string(size.width) + "x" + std::to_string(size.height);
 }
@@ -43,11 +61,8 @@ RecordedCamera::RecordedCamera(const fs::path& folder, const SourceOptions& opti
     : folder_(existingFolder(folder))
     , layout_(readLayout(folder, options)) {
     checkStamps();
+    mostApart_ = std::max(kMostApart, 0.5 * medianPeriod(layout_.index));
     useOptions(options);
-    const std::vector<IndexLine>& index = layout_.index;
-    const double whole = index.back().depthStamp - index.front().depthStamp;
-    mostApart_ =
-        std::max(kMostApart, 0.5 * whole / static_cast<double>(std::max<size_t>(1, index.size() - 1)));
     if (info().hasColour) {
         takeColourFormat();
     }

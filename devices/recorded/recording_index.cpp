@@ -33,6 +33,19 @@ bool namesDepth(std::string_view path) {
     return path.find("depth") != std::string_view::npos;
 }
 
+// Faulty lines get the stamp of a neighbour, so that no time is measured from zero.
+void stampFaulty(std::vector<IndexLine>& index) {
+    const auto first = std::ranges::find_if(index, [](const IndexLine& line) { return line.fault.empty(); });
+    double stamp = first == index.end() ? 0.0 : first->depthStamp;
+    for (IndexLine& line : index) {
+        if (line.fault.empty()) {
+            stamp = line.depthStamp;
+        } else {
+            line.depthStamp = line.colourStamp = stamp;
+        }
+    }
+}
+
 std::vector<IndexLine> readAssociations(const fs::path& folder) {
     const fs::path file = folder / "associations.txt";
     std::vector<IndexLine> index;
@@ -55,6 +68,7 @@ std::vector<IndexLine> readAssociations(const fs::path& folder) {
         }
         index.push_back(std::move(entry));
     }
+    stampFaulty(index);
     return index;
 }
 

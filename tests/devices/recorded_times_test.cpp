@@ -50,3 +50,24 @@ TEST_CASE("A pair whose colour is over 0.1 s from its depth is skipped and named
     REQUIRE(camera.warnings().size() == 2);
     CHECK(camera.warnings()[0].find("frame 1 skipped: its colour is 5.000000 s from its depth") == 0);
 }
+
+TEST_CASE("A heading without #, and a pause, change neither start nor what colour is too far in time") {
+    const TemporaryFolder folder;
+    writeSmallRecording(folder, 5);
+    std::string late, good;
+    for (int i = 0; i < 5; ++i) {
+        const std::string n = std::to_string(i) + ".png", pause = i < 3 ? "130503110" : "130503810",
+                          second = std::to_string(i);
+        late += "1305031199 rgb/" + n + " " + pause + second + " depth/" + n + "\n";
+        good += pause + second + " rgb/" + n + " " + pause + second + " depth/" + n + "\n";
+    }
+    for (const char* heading : {"", "rgb_time rgb depth_time depth\n", "rgb depth\n"}) {
+        folder.write("associations.txt", heading + late);
+        CHECK(recordingRefusal(folder.path()).find("is usable; first: ") != std::string::npos);
+        folder.write("associations.txt", heading + good);
+        using Depths = std::vector<uint16_t>;
+        CHECK(playedDepths(folder.path()) == Depths{1000, 1001, 1002, 1003, 1004});
+        CHECK(playedDepths(folder.path(), {.start = 1.0, .duration = 2.0}) == Depths{1001, 1002});
+        CHECK(playedDepths(folder.path(), {.start = 2.0}) == Depths{1002, 1003, 1004});
+    }
+}
