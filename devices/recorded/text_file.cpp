@@ -13,6 +13,7 @@ namespace fathom {
 namespace {
 
 constexpr std::string_view kSpace = " \t\r";
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF"; // some editors begin UTF-8 with it
 constexpr uint64_t kMostBytes = 64u << 20;
 constexpr size_t kMostLines = 1'000'000; // nine hours of frames; bounds the memory of short lines
 constexpr size_t kMostText = 16u << 20;  // the stamps of three hours of frames; each byte needs up to forty
@@ -57,7 +58,9 @@ bool DataLines::next(TextLine& line) {
             return false;
         }
         const auto taken = static_cast<size_t>(in_.gcount()); // including the line end, if any
-        const std::string_view text = trim({buffer_.data(), taken - (in_.eof() ? 0 : 1)});
+        std::string_view text = {buffer_.data(), taken - (in_.eof() ? 0 : 1)};
+        text.remove_prefix(number_ == 1 && text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0);
+        text = trim(text);
         if (!text.empty() && text[0] != '#') {
             line.number = number_;
             line.text = text;

@@ -18,8 +18,8 @@ struct TextLine {
     std::string text;    // without the line end
 };
 
-// Lines that are neither blank nor comments (first character '#'), one at a time; the file may be of any
-// length.
+// Lines that are neither blank nor comments (first character '#'), one at a time, without a byte order mark;
+// the file may be of any length.
 class DataLines {
 public:
     static constexpr size_t kLongest = 2048; // characters

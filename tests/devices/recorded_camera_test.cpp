@@ -66,6 +66,17 @@ TEST_CASE("Comments and blank lines of the index are skipped, and the depth stam
     CHECK((*frame)->colour[34] == 0xff1e1401); // R 1, G 20, B 30
 }
 
+TEST_CASE("A byte order mark in front of index or poses loses no frame, and is no reason to reject") {
+    const TemporaryFolder folder;
+    writeSmallRecording(folder, 2);
+    const std::string mark = "\xEF\xBB\xBF";
+    folder.write("associations.txt", mark + "0.0 rgb/0.png 0.0 depth/0.png\n0.1 rgb/1.png 0.1 depth/1.png\n");
+    folder.write("poses.txt", mark + "0 0 0 0 0 0 0 1\n0.1 0 0 0 0 0 0 1\n");
+    CHECK(playedDepths(folder.path()) == std::vector<uint16_t>{1000, 1001});
+    folder.write("associations.txt", mark + "# comment\n0.1 rgb/1.png 0.1 depth/1.png\n");
+    CHECK(playedDepths(folder.path()) == std::vector<uint16_t>{1001});
+}
+
 TEST_CASE("A missing, truncated or unreadable image skips only its frame") {
     for (const char* kind : {"rgb", "depth"}) {
         const std::string name = std::string(kind) + "/1.png";

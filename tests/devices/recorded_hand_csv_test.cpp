@@ -46,6 +46,7 @@ TEST_CASE("a path with and without buttons is read with w first and unit quatern
     REQUIRE(buttons.size() == 1);
     CHECK(buttons[0].buttons == 5);
     CHECK(buttons[0].t == -1.0);
+    CHECK(read("\xEF\xBB\xBF" + kHeader + "1,0,0,0,1,0,0,0\n").size() == 1); // byte order mark
 }
 
 TEST_CASE("a path of 100000 rows keeps every one") {
