@@ -53,11 +53,12 @@ std::map<std::string, BopImage> bopImages(const fs::path& file) {
 
 } // namespace
 
-RecordingLayout readBop(const fs::path& folder) {
+RecordingLayout readBop(const fs::path& folder, bool depthOnly) {
     const fs::path file = folder / "scene_camera.json";
     const std::map<std::string, BopImage> images = bopImages(file);
     RecordingLayout layout;
-    layout.index = pairByNumber({folder / "depth", kDepthEndings}, {folder / "rgb", kColourEndings});
+    layout.index =
+        pairByNumber({folder / "depth", kDepthEndings}, {folder / "rgb", kColourEndings}, depthOnly);
     std::optional<BopImage> first;
     for (IndexLine& entry : layout.index) {
         const std::string number = imageNumber(entry.depth);

@@ -8,6 +8,6 @@ namespace fathom {
 
 // scene_camera.json, rgb/ and depth/ by number, lens and depth_scale of each image, one lens for all. Throws
 // BadInput.
-RecordingLayout readBop(const std::filesystem::path& folder);
+RecordingLayout readBop(const std::filesystem::path& folder, bool depthOnly);
 
 } // namespace fathom

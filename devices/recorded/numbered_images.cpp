@@ -109,6 +109,21 @@ IndexLine lineOf(size_t index, const std::filesystem::path& depth) {
     return {stamp, stamp, depth, {}, "", std::nullopt};
 }
 
+std::vector<NamedImage> depthImagesIn(const NumberedImages& depth) {
+    std::vector<NamedImage> images = imagesIn(depth);
+    if (images.empty()) {
+        throw BadInput(depth.folder.string(), "depth images", "none",
+                       "at least one, with a number in its name");
+    }
+    return images;
+}
+
+void refuseTwice(const NumberedImages& images, const std::string& twice) {
+    if (!twice.empty()) {
+        throw BadInput(images.folder.string(), "names of images", twice, "one image of each number");
+    }
+}
+
 std::vector<IndexLine> pairsOf(const Match& match, const std::filesystem::path& folder) {
     std::vector<IndexLine> index;
     const bool inOrder = 2 * match.pairs < match.depth.size() && match.depth.size() == match.colour.size();
@@ -130,20 +145,32 @@ std::vector<IndexLine> pairsOf(const Match& match, const std::filesystem::path& 
     return index;
 }
 
+std::vector<IndexLine> depthByNumber(const NumberedImages& depth) {
+    const Match images = matchBy(depthImagesIn(depth), {}, &NamedImage::last);
+    refuseTwice(depth, images.twice);
+    std::vector<IndexLine> index;
+    for (const auto& [number, file] : images.depth) {
+        index.push_back(lineOf(index.size(), file));
+    }
+    return index;
+}
+
 } // namespace
 
-std::vector<IndexLine> pairByNumber(const NumberedImages& depth, const NumberedImages& colour) {
-    const std::vector<NamedImage> depthImages = imagesIn(depth), colourImages = imagesIn(colour);
-    if (depthImages.empty()) {
-        throw BadInput(depth.folder.string(), "depth images", "none",
-                       "at least one, with a number in its name");
+std::vector<IndexLine> pairByNumber(const NumberedImages& depth, const NumberedImages& colour,
+                                    bool depthOnly) {
+    if (depthOnly) {
+        return depthByNumber(depth);
+    }
+    const std::vector<NamedImage> depthImages = depthImagesIn(depth), colourImages = imagesIn(colour);
+    if (colourImages.empty()) {
+        throw BadInput(colour.folder.string(), "colour images", "none",
+                       "at least one, with a number in its name, or colour=none behind the folder's name");
     }
     const Match last = matchBy(depthImages, colourImages, &NamedImage::last);
     const Match first = matchBy(depthImages, colourImages, &NamedImage::first);
     const bool byFirst = first.twice.empty() && (!last.twice.empty() || first.pairs > last.pairs);
-    if (!byFirst && !last.twice.empty()) {
-        throw BadInput(depth.folder.string(), "names of images", last.twice, "one image of each number");
-    }
+    refuseTwice(depth, byFirst ? "" : last.twice);
     return pairsOf(byFirst ? first : last, depth.folder);
 }
 

@@ -18,9 +18,11 @@ struct NumberedImages {
 // Depth images with their colour images, in order of their numbers, stamps 1/30 s apart. A number may have
 // any length and one decimal point, as a stamp in seconds has. Pairs have the same last number, or the same
 // first one (0000002-000000033369.png) if that pairs more images. If fewer than half of the images have a
-// partner and both folders have equally many, they are paired in order, with a warning. Throws BadInput
-// without a depth image, and for two images of one number.
-std::vector<IndexLine> pairByNumber(const NumberedImages& depth, const NumberedImages& colour);
+// partner and both folders have equally many, they are paired in order, with a warning. depthOnly: depth by
+// its last number, and no colour. Throws BadInput without a depth or a colour image, and for two images of
+// one number.
+std::vector<IndexLine> pairByNumber(const NumberedImages& depth, const NumberedImages& colour,
+                                    bool depthOnly);
 
 // The number that ends the stem, without leading zeros; empty = none.
 std::string imageNumber(const std::filesystem::path& file);

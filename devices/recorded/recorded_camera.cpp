@@ -99,7 +99,7 @@ void RecordedCamera::useOptions(const SourceOptions& options) {
     depth_.emplace(folder_, layout_, options);
     camera.metresPerUnit = depth_->metresPerUnit();
     camera.poseless = !layout_.poses && !layout_.posePerImage;
-    camera.hasColour = camera.hasColour && options.colour != "none";
+    camera.hasColour = camera.hasColour && !options.depthOnly();
     if (!options.extrinsics.empty()) {
         camera.registered = false;
         camera.colourTdepth = readExtrinsics(options.extrinsics);

@@ -169,38 +169,64 @@ std::vector<IndexLine> associate(const std::vector<StampedFile>& depth, std::vec
     return index;
 }
 
-} // namespace
-
-std::vector<IndexLine> readIndex(const fs::path& folder, const RecordingIntrinsics& intrinsics) {
+std::vector<IndexLine> withoutColour(std::vector<StampedFile> depth) {
     std::vector<IndexLine> index;
-    std::string source = "associations.txt";
-    if (!intrinsics.camera.hasColour) {
-        source = "depth.txt";
-        for (StampedFile& depth : readStampedFiles(folder, "depth.txt")) {
-            index.push_back({depth.stamp, depth.stamp, std::move(depth.file), {}, "", std::nullopt});
-        }
-    } else if (fs::exists(folder / "associations.txt")) {
-        index = readAssociations(folder);
-    } else if (fs::exists(folder / "rgb.txt") && fs::exists(folder / "depth.txt")) {
-        source = "rgb.txt and depth.txt";
-        index = associate(readStampedFiles(folder, "depth.txt"), readStampedFiles(folder, "rgb.txt"),
-                          kTumTolerance);
-    } else if (!intrinsics.depthStamps.empty() && !intrinsics.colourStamps.empty()) {
-        source = "depth_stamps_s and color_stamps_s";
-        index =
-            associate(stampFilesOf(folder / "depth", intrinsics.depthStamps, "depth_stamps_s", kDepthEndings),
-                      stampFilesOf(folder / "rgb", intrinsics.colourStamps, "color_stamps_s", kColourEndings),
-                      intrinsics.pairWithin);
-    } else {
-        throw BadInput(
-            folder.string(), source, "missing",
-            "associations.txt, or rgb.txt and depth.txt, or stamps in intrinsics.json; without colour "
-            "depth.txt and \"has_color\": false");
-    }
-    if (index.empty()) {
-        throw BadInput(folder.string(), source, "no pair of images", "at least one");
+    for (StampedFile& image : depth) {
+        index.push_back({image.stamp, image.stamp, std::move(image.file), {}, "", std::nullopt});
     }
     return index;
+}
+
+std::vector<StampedFile> stampedDepth(const fs::path& folder, const RecordingIntrinsics& intrinsics) {
+    return stampFilesOf(folder / "depth", intrinsics.depthStamps, "depth_stamps_s", kDepthEndings);
+}
+
+// An index, and the files that it comes from.
+struct FoundIndex {
+    std::vector<IndexLine> lines;
+    std::string source;
+};
+
+FoundIndex findIndex(const fs::path& folder, const RecordingIntrinsics& intrinsics, bool depthOnly) {
+    const bool hasDepth = fs::exists(folder / "depth.txt");
+    if (!intrinsics.camera.hasColour) {
+        return {withoutColour(readStampedFiles(folder, "depth.txt")), "depth.txt"};
+    }
+    if (fs::exists(folder / "associations.txt")) {
+        return {readAssociations(folder), "associations.txt"};
+    }
+    if (depthOnly && hasDepth) {
+        return {withoutColour(readStampedFiles(folder, "depth.txt")), "depth.txt"};
+    }
+    if (hasDepth && fs::exists(folder / "rgb.txt")) {
+        return {associate(readStampedFiles(folder, "depth.txt"), readStampedFiles(folder, "rgb.txt"),
+                          kTumTolerance),
+                "rgb.txt and depth.txt"};
+    }
+    if (depthOnly && !intrinsics.depthStamps.empty()) {
+        return {withoutColour(stampedDepth(folder, intrinsics)), "depth_stamps_s"};
+    }
+    if (!intrinsics.depthStamps.empty() && !intrinsics.colourStamps.empty()) {
+        return {
+            associate(stampedDepth(folder, intrinsics),
+                      stampFilesOf(folder / "rgb", intrinsics.colourStamps, "color_stamps_s", kColourEndings),
+                      intrinsics.pairWithin),
+            "depth_stamps_s and color_stamps_s"};
+    }
+    throw BadInput(folder.string(), "associations.txt", "missing",
+                   "associations.txt, or rgb.txt and depth.txt, or stamps in intrinsics.json; without colour "
+                   "depth.txt, and \"has_color\": false or colour=none behind the folder's name");
+}
+
+} // namespace
+
+std::vector<IndexLine> readIndex(const fs::path& folder, const RecordingIntrinsics& intrinsics,
+                                 bool depthOnly) {
+    FoundIndex found = findIndex(folder, intrinsics, depthOnly);
+    if (found.lines.empty()) {
+        throw BadInput(folder.string(), found.source, "no pair of images", "at least one");
+    }
+    return std::move(found.lines);
 }
 
 } // namespace fathom

@@ -154,11 +154,11 @@ void readScale(const JsonField& root, ScaleRule rule, RecordingIntrinsics& intri
 void readStamps(const JsonField& root, RecordingIntrinsics& intrinsics) {
     const auto depth = root.find("depth_stamps_s");
     const auto colour = findColour(root, "color_stamps_s", "colour_stamps_s");
-    if (!depth || !colour) {
+    if (!depth) {
         return;
     }
     intrinsics.depthStamps = depth->numbers();
-    intrinsics.colourStamps = colour->numbers();
+    intrinsics.colourStamps = colour ? colour->numbers() : std::vector<double>{};
     if (const auto fps = root.find("nominal_fps")) {
         intrinsics.pairWithin = 0.5 / fps->positive();
     }

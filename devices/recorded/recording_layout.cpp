@@ -8,6 +8,7 @@
 #include "devices/recorded/numbered_images.h"
 #include "engine/types/error.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace fathom {
@@ -16,12 +17,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-RecordingLayout readOpen3d(const fs::path& folder) {
+RecordingLayout readOpen3d(const fs::path& folder, bool depthOnly) {
     RecordingLayout layout;
     layout.intrinsics = readIntrinsics(folder / "camera_intrinsic.json", ScaleRule::Optional);
     const bool american = fs::exists(folder / "color");
     layout.index = pairByNumber({folder / "depth", kDepthEndings},
-                                {folder / (american ? "color" : "rgb"), kColourEndings});
+                                {folder / (american ? "color" : "rgb"), kColourEndings}, depthOnly);
     return layout;
 }
 
@@ -35,7 +36,13 @@ Intrinsics scanNetLens(const fs::path& file, std::optional<PngSize> size) {
     return {.width = size->width, .height = size->height, .fx = k[0], .fy = k[5], .cx = k[2], .cy = k[6]};
 }
 
-RecordingLayout readScanNet(const fs::path& folder) {
+std::optional<PngSize> firstColourSize(const std::vector<IndexLine>& index) {
+    const auto first =
+        std::ranges::find_if(index, [](const IndexLine& line) { return !line.colour.empty(); });
+    return first == index.end() ? std::nullopt : colourImageSize(first->colour);
+}
+
+RecordingLayout readScanNet(const fs::path& folder, bool depthOnly) {
     for (const char* name : {"extrinsic_depth.txt", "extrinsic_color.txt"}) {
         if (fs::exists(folder / "intrinsic" / name) &&
             readMatrix(folder / "intrinsic" / name) != kIdentityMatrix) {
@@ -44,20 +51,24 @@ RecordingLayout readScanNet(const fs::path& folder) {
         }
     }
     RecordingLayout layout;
-    layout.index = pairByNumber({folder / "depth", kDepthEndings}, {folder / "color", kColourEndings});
+    layout.index =
+        pairByNumber({folder / "depth", kDepthEndings}, {folder / "color", kColourEndings}, depthOnly);
     CameraInfo& camera = layout.intrinsics.camera;
     camera.depth = scanNetLens(folder / "intrinsic" / "intrinsic_depth.txt",
                                depthImageHead(layout.index.front().depth).size);
-    camera.colour = scanNetLens(folder / "intrinsic" / "intrinsic_color.txt",
-                                colourImageSize(layout.index.front().colour));
-    camera.registered = false; // two lenses at one place
+    camera.colour = camera.depth;
+    if (!depthOnly) {
+        camera.colour =
+            scanNetLens(folder / "intrinsic" / "intrinsic_color.txt", firstColourSize(layout.index));
+        camera.registered = false; // two lenses at one place
+    }
     for (IndexLine& line : layout.index) {
         layout.posePerImage |= usePose(line, folder / "pose" / (line.depth.stem().string() + ".txt"));
     }
     return layout;
 }
 
-RecordingLayout readSevenScenes(const fs::path& folder) {
+RecordingLayout readSevenScenes(const fs::path& folder, bool depthOnly) {
     RecordingLayout layout;
     CameraInfo& camera = layout.intrinsics.camera;
     // The data set's own calibration.
@@ -66,7 +77,7 @@ RecordingLayout readSevenScenes(const fs::path& folder) {
     camera.colour = camera.depth;
     layout.invalid = 65535;
     constexpr std::array<std::string_view, 1> kPng{".png"};
-    layout.index = pairByNumber({folder, kPng, ".depth"}, {folder, kColourEndings, ".color"});
+    layout.index = pairByNumber({folder, kPng, ".depth"}, {folder, kColourEndings, ".color"}, depthOnly);
     for (IndexLine& line : layout.index) {
         std::string pose = line.depth.string();
         pose.replace(pose.size() - std::string_view("depth.png").size(), std::string::npos, "pose.txt");
@@ -86,10 +97,10 @@ bool holdsMetres(const RecordingLayout& layout) {
     return false;
 }
 
-RecordingLayout readTum(const fs::path& folder, const fs::path& intrinsics) {
+RecordingLayout readTum(const fs::path& folder, const fs::path& intrinsics, bool depthOnly) {
     RecordingLayout layout;
     layout.intrinsics = readIntrinsics(intrinsics, ScaleRule::Unchecked);
-    layout.index = readIndex(folder, layout.intrinsics);
+    layout.index = readIndex(folder, layout.intrinsics, depthOnly);
     if (!holdsMetres(layout)) {
         layout.intrinsics = readIntrinsics(intrinsics);
     }
@@ -101,19 +112,20 @@ RecordingLayout readTum(const fs::path& folder, const fs::path& intrinsics) {
 
 RecordingLayout readFolder(const fs::path& folder, const SourceOptions& options) {
     if (!options.intrinsics.empty() || fs::exists(folder / "intrinsics.json")) {
-        return readTum(folder, options.intrinsics.empty() ? folder / "intrinsics.json" : options.intrinsics);
+        return readTum(folder, options.intrinsics.empty() ? folder / "intrinsics.json" : options.intrinsics,
+                       options.depthOnly());
     }
     if (fs::exists(folder / "camera_intrinsic.json")) {
-        return readOpen3d(folder);
+        return readOpen3d(folder, options.depthOnly());
     }
     if (fs::exists(folder / "scene_camera.json")) {
-        return readBop(folder);
+        return readBop(folder, options.depthOnly());
     }
     if (fs::exists(folder / "frame-000000.depth.png")) {
-        return readSevenScenes(folder);
+        return readSevenScenes(folder, options.depthOnly());
     }
     if (fs::exists(folder / "intrinsic" / "intrinsic_depth.txt")) {
-        return readScanNet(folder);
+        return readScanNet(folder, options.depthOnly());
     }
     throw BadInput((folder / "intrinsics.json").string(), "file", "missing",
                    "intrinsics.json (docs/guide/recordings.md has every field), or intrinsics=FILE behind "

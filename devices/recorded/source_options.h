@@ -23,6 +23,7 @@ struct SourceOptions {
     double duration = std::numeric_limits<double>::infinity(); // [s] from there
     double farthest = std::numeric_limits<double>::infinity(); // [m] of interest: the scene's far
 
+    bool depthOnly() const { return colour == "none"; }
     // Throws BadInput when the scale is not between kFinestUnit and kCoarsestUnit, for 16-bit depth.
     void checkUnit(const std::string& file) const;
     // The same for depth in metres and for points: at most kCoarsestValue.

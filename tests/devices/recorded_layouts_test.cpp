@@ -206,6 +206,28 @@ TEST_CASE("Lines of associations.txt may name depth first, as ICL-NUIM writes th
     CHECK(camera.skipped() == 0);
 }
 
+TEST_CASE("Without colour every layout plays with colour=none, and says so when it is not given") {
+    const TemporaryFolder open3d, bop, scanNet, scenes, tum, listed;
+    for (const TemporaryFolder* folder : {&open3d, &bop, &scanNet, &tum, &listed}) {
+        writeDepth(folder->path() / "depth/0.png", kSmallWidth, kSmallHeight, 500);
+    }
+    open3d.write("camera_intrinsic.json",
+                 R"({"width": 7, "height": 5, "intrinsic_matrix": [6, 0, 0, 0, 6.5, 0, 3, 2, 1]})");
+    bop.write("scene_camera.json", R"({"0": {"cam_K": [6, 0, 3, 0, 6, 2, 0, 0, 1], "depth_scale": 1}})");
+    scanNet.write("intrinsic/intrinsic_depth.txt", "7 0 3\n0 7 2\n0 0 1\n");
+    writeDepth(scenes.path() / "frame-000000.depth.png", 640, 480, 500);
+    tum.write("intrinsics.json", kSmallIntrinsics);
+    tum.write("depth.txt", "0 depth/0.png\n");
+    std::string stamps = kSmallIntrinsics;
+    listed.write("intrinsics.json", stamps.insert(1, R"("depth_stamps_s": [0.5], )"));
+    for (const TemporaryFolder* folder : {&open3d, &bop, &scanNet, &scenes, &tum, &listed}) {
+        CHECK(recordingRefusal(folder->path()).find("colour=none behind the folder's name") !=
+              std::string::npos);
+        CHECK(playedDepths(folder->path(), {.colour = "none"}) == std::vector<uint16_t>{500});
+        CHECK_FALSE(RecordedCamera(folder->path(), {.colour = "none"}).info().hasColour);
+    }
+}
+
 TEST_CASE("A ScanNet folder plays with both lenses and its poses, without the frames whose pose was lost") {
     const TemporaryFolder folder;
     for (const char* number : {"0", "1", "10"}) {
