@@ -51,14 +51,39 @@ std::map<std::string, BopImage> bopImages(const fs::path& file) {
     return images;
 }
 
+RecordingIntrinsics lensOf(const BopImage& image, PngSize size, const std::string& file) {
+    RecordingIntrinsics intrinsics;
+    if (size.width < 1 || size.width > kMaxImageWidth || size.height > kMaxImageHeight ||
+        !(image.k[0] > 0.0 && image.k[4] > 0.0)) {
+        throw BadInput(file, "cam_K", "unusable", "a lens for the first depth image");
+    }
+    CameraInfo& camera = intrinsics.camera;
+    camera.depth.width = size.width;
+    camera.depth.height = size.height;
+    camera.depth.fx = image.k[0];
+    camera.depth.fy = image.k[4];
+    camera.depth.cx = image.k[2];
+    camera.depth.cy = image.k[5];
+    camera.colour = camera.depth;
+    return intrinsics;
+}
+
+double unitOf(const BopImage& image, const std::string& file) {
+    const double unit = 1e-3 * image.unit;
+    if (unit < kFinestUnit || unit > kCoarsestUnit) {
+        throw BadInput(file, "depth_scale", std::to_string(image.unit), "millimetres per unit, 0.001 to 100");
+    }
+    return unit;
+}
+
 } // namespace
 
-RecordingLayout readBop(const fs::path& folder, bool depthOnly) {
-    const fs::path file = folder / "scene_camera.json";
+RecordingLayout readBop(const LayoutRequest& request) {
+    const fs::path file = request.folder / "scene_camera.json";
     const std::map<std::string, BopImage> images = bopImages(file);
     RecordingLayout layout;
-    layout.index =
-        pairByNumber({folder / "depth", kDepthEndings}, {folder / "rgb", kColourEndings}, depthOnly);
+    layout.index = pairByNumber({request.folder / "depth", kDepthEndings},
+                                {request.folder / "rgb", kColourEndings}, request.depthOnly);
     std::optional<BopImage> first;
     for (IndexLine& entry : layout.index) {
         const std::string number = imageNumber(entry.depth);
@@ -68,28 +93,21 @@ RecordingLayout readBop(const fs::path& folder, bool depthOnly) {
             continue;
         }
         first = first ? first : std::optional(image->second);
-        if (image->second.k != first->k || image->second.unit != first->unit) {
+        if ((!request.lens && image->second.k != first->k) || image->second.unit != first->unit) {
             entry.fault = "lens or depth_scale differs from the first image";
         }
         entry.baseTcamera = image->second.baseTcamera;
         layout.posePerImage |= entry.baseTcamera.has_value();
     }
-    const PngSize size = depthImageHead(layout.index.front().depth).size;
-    const double unit = first ? 1e-3 * first->unit : 0.0;
-    if (!first || size.width < 1 || size.width > kMaxImageWidth || size.height > kMaxImageHeight ||
-        !(first->k[0] > 0.0 && first->k[4] > 0.0) || unit < kFinestUnit || unit > kCoarsestUnit) {
-        throw BadInput(file.string(), "cam_K, depth_scale", "unusable",
-                       "a lens and millimetres per unit (0.001 to 100) for the first depth image");
+    if (!first) {
+        throw BadInput(file.string(), "numbers of images", "none of a depth image", "those of depth/");
     }
-    CameraInfo& camera = layout.intrinsics.camera;
-    camera.depth.width = size.width;
-    camera.depth.height = size.height;
-    camera.depth.fx = first->k[0];
-    camera.depth.fy = first->k[4];
-    camera.depth.cx = first->k[2];
-    camera.depth.cy = first->k[5];
-    camera.colour = camera.depth;
-    layout.intrinsics.scale = camera.metresPerUnit = unit;
+    layout.intrinsics = request.lens
+                            ? *request.lens
+                            : lensOf(*first, depthImageHead(layout.index.front().depth).size, file.string());
+    if (!layout.intrinsics.scale) {
+        layout.intrinsics.scale = layout.intrinsics.camera.metresPerUnit = unitOf(*first, file.string());
+    }
     return layout;
 }
 

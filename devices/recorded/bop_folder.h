@@ -6,8 +6,9 @@
 
 namespace fathom {
 
-// scene_camera.json, rgb/ and depth/ by number, lens and depth_scale of each image, one lens for all. Throws
+// scene_camera.json, rgb/ and depth/ by number, lens and depth_scale of each image, one lens for all
+// unless the request has one. Throws
 // BadInput.
-RecordingLayout readBop(const std::filesystem::path& folder, bool depthOnly);
+RecordingLayout readBop(const LayoutRequest& request);
 
 } // namespace fathom

@@ -17,12 +17,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-RecordingLayout readOpen3d(const fs::path& folder, bool depthOnly) {
+RecordingLayout readOpen3d(const LayoutRequest& request) {
+    const fs::path& folder = request.folder;
     RecordingLayout layout;
-    layout.intrinsics = readIntrinsics(folder / "camera_intrinsic.json", ScaleRule::Optional);
+    layout.intrinsics =
+        request.lens ? *request.lens : readIntrinsics(folder / "camera_intrinsic.json", ScaleRule::Optional);
     const bool american = fs::exists(folder / "color");
     layout.index = pairByNumber({folder / "depth", kDepthEndings},
-                                {folder / (american ? "color" : "rgb"), kColourEndings}, depthOnly);
+                                {folder / (american ? "color" : "rgb"), kColourEndings}, request.depthOnly);
     return layout;
 }
 
@@ -42,25 +44,36 @@ std::optional<PngSize> firstColourSize(const std::vector<IndexLine>& index) {
     return first == index.end() ? std::nullopt : colourImageSize(first->colour);
 }
 
-RecordingLayout readScanNet(const fs::path& folder, bool depthOnly) {
-    for (const char* name : {"extrinsic_depth.txt", "extrinsic_color.txt"}) {
-        if (fs::exists(folder / "intrinsic" / name) &&
-            readMatrix(folder / "intrinsic" / name) != kIdentityMatrix) {
-            throw BadInput((folder / "intrinsic" / name).string(), "matrix", "not the identity",
-                           "the identity; or intrinsics=FILE behind the folder's name");
-        }
+void checkIdentity(const fs::path& file) {
+    if (fs::exists(file) && readMatrix(file) != kIdentityMatrix) {
+        throw BadInput(file.string(), "matrix", "not the identity",
+                       "the identity; or intrinsics=FILE behind the folder's name");
     }
-    RecordingLayout layout;
-    layout.index =
-        pairByNumber({folder / "depth", kDepthEndings}, {folder / "color", kColourEndings}, depthOnly);
-    CameraInfo& camera = layout.intrinsics.camera;
-    camera.depth = scanNetLens(folder / "intrinsic" / "intrinsic_depth.txt",
-                               depthImageHead(layout.index.front().depth).size);
-    camera.colour = camera.depth;
+}
+
+// Both lenses, at one place.
+CameraInfo scanNetCamera(const fs::path& folder, const std::vector<IndexLine>& index, bool depthOnly) {
+    CameraInfo camera;
+    checkIdentity(folder / "extrinsic_depth.txt");
+    camera.depth = camera.colour =
+        scanNetLens(folder / "intrinsic_depth.txt", depthImageHead(index.front().depth).size);
     if (!depthOnly) {
-        camera.colour =
-            scanNetLens(folder / "intrinsic" / "intrinsic_color.txt", firstColourSize(layout.index));
-        camera.registered = false; // two lenses at one place
+        checkIdentity(folder / "extrinsic_color.txt");
+        camera.colour = scanNetLens(folder / "intrinsic_color.txt", firstColourSize(index));
+        camera.registered = false;
+    }
+    return camera;
+}
+
+RecordingLayout readScanNet(const LayoutRequest& request) {
+    const fs::path& folder = request.folder;
+    RecordingLayout layout;
+    layout.index = pairByNumber({folder / "depth", kDepthEndings}, {folder / "color", kColourEndings},
+                                request.depthOnly);
+    if (request.lens) {
+        layout.intrinsics = *request.lens;
+    } else {
+        layout.intrinsics.camera = scanNetCamera(folder / "intrinsic", layout.index, request.depthOnly);
     }
     for (IndexLine& line : layout.index) {
         layout.posePerImage |= usePose(line, folder / "pose" / (line.depth.stem().string() + ".txt"));
@@ -68,16 +81,19 @@ RecordingLayout readScanNet(const fs::path& folder, bool depthOnly) {
     return layout;
 }
 
-RecordingLayout readSevenScenes(const fs::path& folder, bool depthOnly) {
+RecordingLayout readSevenScenes(const LayoutRequest& request) {
+    const fs::path& folder = request.folder;
     RecordingLayout layout;
     CameraInfo& camera = layout.intrinsics.camera;
     // The data set's own calibration.
     camera.depth =
         Intrinsics{.width = 640, .height = 480, .fx = 585.0, .fy = 585.0, .cx = 320.0, .cy = 240.0};
     camera.colour = camera.depth;
+    layout.intrinsics = request.lens.value_or(layout.intrinsics);
     layout.invalid = 65535;
     constexpr std::array<std::string_view, 1> kPng{".png"};
-    layout.index = pairByNumber({folder, kPng, ".depth"}, {folder, kColourEndings, ".color"}, depthOnly);
+    layout.index =
+        pairByNumber({folder, kPng, ".depth"}, {folder, kColourEndings, ".color"}, request.depthOnly);
     for (IndexLine& line : layout.index) {
         std::string pose = line.depth.string();
         pose.replace(pose.size() - std::string_view("depth.png").size(), std::string::npos, "pose.txt");
@@ -110,26 +126,39 @@ RecordingLayout readTum(const fs::path& folder, const fs::path& intrinsics, bool
     return layout;
 }
 
+struct KnownLayout {
+    const char* mark; // file that only this layout has
+    RecordingLayout (*read)(const LayoutRequest&);
+};
+constexpr std::array kLayouts{KnownLayout{"camera_intrinsic.json", readOpen3d},
+                              KnownLayout{"scene_camera.json", readBop},
+                              KnownLayout{"frame-000000.depth.png", readSevenScenes},
+                              KnownLayout{"intrinsic/intrinsic_depth.txt", readScanNet}};
+
 RecordingLayout readFolder(const fs::path& folder, const SourceOptions& options) {
-    if (!options.intrinsics.empty() || fs::exists(folder / "intrinsics.json")) {
-        return readTum(folder, options.intrinsics.empty() ? folder / "intrinsics.json" : options.intrinsics,
-                       options.depthOnly());
+    const bool given = !options.intrinsics.empty(), own = fs::exists(folder / "intrinsics.json");
+    const fs::path intrinsics = given ? options.intrinsics : folder / "intrinsics.json";
+    const bool index = fs::exists(folder / "associations.txt") || fs::exists(folder / "depth.txt");
+    if (own || (given && index)) {
+        return readTum(folder, intrinsics, options.depthOnly());
     }
-    if (fs::exists(folder / "camera_intrinsic.json")) {
-        return readOpen3d(folder, options.depthOnly());
+    for (const KnownLayout& layout : kLayouts) {
+        if (fs::exists(folder / layout.mark)) {
+            LayoutRequest request{folder, std::nullopt, options.depthOnly()};
+            if (given) {
+                request.lens = readIntrinsics(intrinsics, ScaleRule::Optional);
+                request.depthOnly |= !request.lens->camera.hasColour;
+            }
+            return layout.read(request);
+        }
     }
-    if (fs::exists(folder / "scene_camera.json")) {
-        return readBop(folder, options.depthOnly());
-    }
-    if (fs::exists(folder / "frame-000000.depth.png")) {
-        return readSevenScenes(folder, options.depthOnly());
-    }
-    if (fs::exists(folder / "intrinsic" / "intrinsic_depth.txt")) {
-        return readScanNet(folder, options.depthOnly());
+    if (given) { // its stamps may be the index
+        return readTum(folder, intrinsics, options.depthOnly());
     }
     throw BadInput((folder / "intrinsics.json").string(), "file", "missing",
-                   "intrinsics.json (docs/guide/recordings.md has every field), or intrinsics=FILE behind "
-                   "the folder's name, or a folder of Open3D, BOP, 7-Scenes or ScanNet");
+                   "intrinsics.json (docs/guide/recordings.md has every field), or an index and "
+                   "intrinsics=FILE behind the folder's name, or a folder of Open3D, BOP, 7-Scenes or "
+                   "ScanNet");
 }
 
 } // namespace

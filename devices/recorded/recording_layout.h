@@ -18,7 +18,15 @@ struct RecordingLayout {
     std::optional<double> statedUnit; // [m] by the layout's files; nothing where none is stated
 };
 
-// With intrinsics.json, or options.intrinsics: TUM RGB-D (readIndex()), and poses.txt. Without: Open3D
+// What is asked of a layout.
+struct LayoutRequest {
+    std::filesystem::path folder;
+    std::optional<RecordingIntrinsics> lens; // replaces the folder's; with its scale if it states one
+    bool depthOnly = false;                  // no colour is needed
+};
+
+// With intrinsics.json, or an index and options.intrinsics: TUM RGB-D (readIndex()), and poses.txt. Else:
+// Open3D
 // (camera_intrinsic.json, color/ and depth/ in order of names, millimetres), BOP (scene_camera.json, rgb/ and
 // depth/ by number, lens and depth_scale of each image, one lens for all), 7-Scenes (frame-N.color.png,
 // frame-N.depth.png, frame-N.pose.txt; Kinect's nominal lens, 65535 = no measurement). Frames without stamps

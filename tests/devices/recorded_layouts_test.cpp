@@ -66,6 +66,11 @@ TEST_CASE("A folder of BOP is played with the lens, scale and poses of scene_cam
     CHECK((*frame)->baseTcamera->position.x == doctest::Approx(-0.1));
     CHECK_FALSE(camera.next()); // another scale is never played with the first one's
     CHECK(camera.skipped() == 1);
+    folder.write("lens.json", R"({"width": 7, "height": 5, "fx": 9, "fy": 9, "cx": 3, "cy": 2})");
+    RecordedCamera other(folder.path(), {.intrinsics = folder.path() / "lens.json"});
+    CHECK(other.info().depth.fx == 9.0);
+    CHECK(other.info().metresPerUnit == doctest::Approx(0.0001)); // the folder's: the file has none
+    CHECK(other.next().value()->baseTcamera.has_value());
 }
 
 TEST_CASE("A folder of 7-Scenes is played with its poses, and 65535 is no depth") {
@@ -257,4 +262,12 @@ TEST_CASE("A ScanNet folder plays with both lenses and its poses, without the fr
     CHECK(camera.skipped() == 1);
     folder.write("intrinsic/extrinsic_color.txt", "1 0 0 0.1\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
     CHECK(layoutRefusal(folder.path()).find("not the identity") != std::string::npos);
+    folder.write("lens.json", kSmallIntrinsics); // the way out that the message names
+    RecordedCamera other(folder.path(), {.intrinsics = folder.path() / "lens.json"});
+    CHECK(other.info().depth.fx == 6.5);
+    CHECK(other.info().registered);
+    const auto posed = other.next();
+    REQUIRE(posed);
+    REQUIRE((*posed)->baseTcamera);
+    CHECK((*posed)->baseTcamera->position.x == 0.25);
 }
