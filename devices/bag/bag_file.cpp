@@ -154,7 +154,7 @@ void BagFile::readChunkIndex(uint64_t chunkAt, std::map<uint32_t, size_t>& topic
     }
 }
 
-const std::vector<uint8_t>& BagFile::unpack(uint64_t chunkAt) {
+UnpackedChunk BagFile::unpack(uint64_t chunkAt) {
     return unpacked_.at(chunkAt, [&] {
         in_.clear();
         in_.seekg(static_cast<std::streamoff>(chunkAt));
@@ -167,13 +167,14 @@ const std::vector<uint8_t>& BagFile::unpack(uint64_t chunkAt) {
     });
 }
 
-std::span<const uint8_t> BagFile::bytes(const MessageEntry& entry) {
-    ByteCursor cursor(unpack(entry.chunk));
+MessageBytes BagFile::bytes(const MessageEntry& entry) {
+    const UnpackedChunk chunk = unpack(entry.chunk);
+    ByteCursor cursor(*chunk);
     cursor.take(entry.offset);
     if (number<uint8_t>(parseFields(cursor.block()), "op") != kMessage) {
         throw Error("the index does not point to a message");
     }
-    return cursor.block();
+    return {cursor.block(), chunk};
 }
 
 } // namespace fathom

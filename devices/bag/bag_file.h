@@ -12,12 +12,12 @@
 
 namespace fathom {
 
-// One thread. Chunks are uncompressed, bz2 or LZ4 frames; the two most recent ones stay unpacked in memory.
+// One thread. Chunks are uncompressed, bz2 or LZ4 frames; the four most recent ones stay unpacked in memory.
 class BagFile final : public MessageFile {
 public:
     // Throws BadInput that names the file: not a bag of version 2.0, not indexed (not closed), or damaged.
     explicit BagFile(const std::filesystem::path& file);
-    std::span<const uint8_t> bytes(const MessageEntry& entry) override;
+    MessageBytes bytes(const MessageEntry& entry) override;
 
 private:
     using Fields = std::map<std::string, std::string>;
@@ -30,7 +30,7 @@ private:
     std::vector<uint8_t> readBlock();
     void readIndex(uint64_t indexAt);
     void readChunkIndex(uint64_t chunkAt, std::map<uint32_t, size_t>& topicOf);
-    const std::vector<uint8_t>& unpack(uint64_t chunkAt);
+    UnpackedChunk unpack(uint64_t chunkAt);
 
     std::ifstream in_;
     uint64_t size_ = 0;

@@ -75,6 +75,7 @@ Cloud cloud(MessageCursor cursor) {
     out.pointStep = cursor.word();
     out.rowStep = cursor.word();
     out.data = cursor.block();
+    out.memory = cursor.memory();
     return out;
 }
 

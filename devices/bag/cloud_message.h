@@ -13,7 +13,7 @@ namespace fathom::ros {
 // Type name of the message.
 inline constexpr const char* kCloudType = "sensor_msgs/PointCloud2";
 
-// A view into the message.
+// A view into the message, whose memory it keeps.
 struct Cloud {
     // One value of each point, for example x.
     struct Field {
@@ -26,6 +26,7 @@ struct Cloud {
     bool bigEndian = false;
     std::vector<Field> fields;
     std::span<const uint8_t> data;
+    std::shared_ptr<const void> memory; // as MessageCursor::memory()
 
     const Field* find(const std::string& name) const;
     // "640x480 points of x y z rgb, frame 'camera'".

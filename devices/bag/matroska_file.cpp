@@ -264,14 +264,13 @@ void MatroskaFile::addLens(const MatroskaImages& images, const KinectCalibration
     }
 }
 
-std::span<const uint8_t> MatroskaFile::bytes(const MessageEntry& entry) {
+MessageBytes MatroskaFile::bytes(const MessageEntry& entry) {
     if (entry.chunk == kMadeMessage) {
-        return made_[entry.offset];
+        return {made_[entry.offset], nullptr};
     }
     const uint64_t size = entry.chunk & ((uint64_t{1} << kSizeBits) - 1);
-    message_ =
-        tracks_[entry.chunk >> kSizeBits].message(entry.time, data_.read(entry.offset, size, kMostImage));
-    return message_;
+    return MessageBytes::of(
+        tracks_[entry.chunk >> kSizeBits].message(entry.time, data_.read(entry.offset, size, kMostImage)));
 }
 
 } // namespace fathom

@@ -17,7 +17,7 @@ public:
     // Throws BadInput that names the file: not Matroska, no track, or a damaged head. A damaged cluster is
     // skipped and named in the log.
     explicit MatroskaFile(const std::filesystem::path& file);
-    std::span<const uint8_t> bytes(const MessageEntry& entry) override;
+    MessageBytes bytes(const MessageEntry& entry) override;
 
 private:
     void readSegment();
@@ -40,7 +40,6 @@ private:
     uint64_t count_ = 0, damaged_ = 0;                     // blocks, damaged places
     std::vector<MatroskaImages> tracks_; // a message's chunk is the place here, and the size of its data
     std::vector<std::vector<uint8_t>> made_;
-    std::vector<uint8_t> message_;
 };
 
 } // namespace fathom

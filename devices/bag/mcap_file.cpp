@@ -139,9 +139,9 @@ void McapFile::readUnindexed() {
 }
 
 void McapFile::scanChunk(const Chunk& chunk, bool messages) {
-    const std::vector<uint8_t>& bytes = unpack(chunk.at);
+    const UnpackedChunk bytes = unpack(chunk.at);
     Inner inner;
-    for (size_t at = 0; nextInner(bytes, at, inner);) {
+    for (size_t at = 0; nextInner(*bytes, at, inner);) {
         if (inner.kind == mcap::kSchema) {
             readSchema(inner.content);
         } else if (inner.kind == mcap::kChannel) {
@@ -167,7 +167,7 @@ void McapFile::resolve() {
     sortByTime();
 }
 
-const std::vector<uint8_t>& McapFile::unpack(uint64_t chunkAt) {
+UnpackedChunk McapFile::unpack(uint64_t chunkAt) {
     return unpacked_.at(chunkAt, [&] {
         const auto chunk = std::lower_bound(chunks_.begin(), chunks_.end(), chunkAt,
                                             [](const Chunk& c, uint64_t at) { return c.at < at; });
@@ -193,28 +193,28 @@ const std::vector<uint8_t>& McapFile::unpack(uint64_t chunkAt) {
     });
 }
 
-std::span<const uint8_t> McapFile::bytes(const MessageEntry& entry) {
+MessageBytes McapFile::bytes(const MessageEntry& entry) {
     constexpr size_t kMcapHead = 22; // channel, sequence, two times
-    std::span<const uint8_t> all;
+    MessageBytes message;
     if (entry.chunk == 0) {
         uint64_t size = 0;
         const std::vector<uint8_t> head = content(entry.offset - sizeof size, sizeof size);
         std::memcpy(&size, head.data(), sizeof size);
-        message_ = content(entry.offset, size);
-        all = message_;
+        message = MessageBytes::of(content(entry.offset, size));
     } else {
-        const std::vector<uint8_t>& chunk = unpack(entry.chunk);
+        const UnpackedChunk chunk = unpack(entry.chunk);
         Inner inner;
         size_t at = entry.offset;
-        if (at > chunk.size() || !nextInner(chunk, at, inner) || inner.kind != mcap::kMessage) {
+        if (at > chunk->size() || !nextInner(*chunk, at, inner) || inner.kind != mcap::kMessage) {
             throw Error("the index does not point to a message");
         }
-        all = inner.content;
+        message = {inner.content, chunk};
     }
-    if (all.size() < kMcapHead) {
+    if (message.view.size() < kMcapHead) {
         throw Error("truncated");
     }
-    return all.subspan(kMcapHead);
+    message.view = message.view.subspan(kMcapHead);
+    return message;
 }
 
 } // namespace fathom

@@ -17,7 +17,7 @@ class McapFile final : public MessageFile {
 public:
     // Throws BadInput that names the file.
     explicit McapFile(const std::filesystem::path& file);
-    std::span<const uint8_t> bytes(const MessageEntry& entry) override;
+    MessageBytes bytes(const MessageEntry& entry) override;
     uint64_t bytesRead() const { return in_.bytesRead(); } // of the file, so far
 
 private:
@@ -38,7 +38,7 @@ private:
     void readUnindexed();
     void scanChunk(const Chunk& chunk, bool messages);
     void resolve();
-    const std::vector<uint8_t>& unpack(uint64_t chunkAt);
+    UnpackedChunk unpack(uint64_t chunkAt);
 
     FileBytes in_;
     uint64_t messages_ = 0;
@@ -47,7 +47,6 @@ private:
     std::map<uint16_t, std::vector<MessageEntry>> found_;
     std::vector<Chunk> chunks_;
     UnpackedChunks unpacked_;
-    std::vector<uint8_t> message_; // the last one read outside of chunks
 };
 
 } // namespace fathom

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "devices/bag/byte_cursor.h"
+#include "devices/bag/message_bytes.h"
 
 #include <algorithm>
 
@@ -26,6 +27,10 @@ public:
         largest_ = head[1] == 7 ? 4 : 8;
         begin_ = rest_.left();
     }
+    MessageCursor(const MessageBytes& bytes, bool cdr)
+        : MessageCursor(bytes.view, cdr) {
+        memory_ = bytes.memory;
+    }
 
     template <class T>
     T value() {
@@ -45,6 +50,8 @@ public:
         return printable({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     }
     bool cdr() const { return cdr_; }
+    // Keeps the message's bytes; null where the caller of the constructor does.
+    const std::shared_ptr<const void>& memory() const { return memory_; }
     size_t left() const { return rest_.left(); }
 
 private:
@@ -56,6 +63,7 @@ private:
     }
 
     ByteCursor rest_;
+    std::shared_ptr<const void> memory_;
     bool cdr_;
     size_t largest_ = 8, begin_ = 0;
 };

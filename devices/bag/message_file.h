@@ -33,14 +33,14 @@ public:
     const std::vector<MessageTopic>& topics() const { return topics_; }
     // Null when there is no such topic.
     const MessageTopic* find(const std::string& name) const;
-    // The serialised message. Valid until the next call. Throws Error.
+    // The serialised message. Throws Error.
     MessageCursor read(const MessageTopic& topic, size_t index) {
         return {bytes(topic.messages[index]), topic.cdr};
     }
     // What was wrong with a message of the topic when the file was opened; empty = nothing.
     std::string faultOf(const std::string& topic) const;
     const std::filesystem::path& file() const { return file_; }
-    virtual std::span<const uint8_t> bytes(const MessageEntry& entry) = 0; // as read()
+    virtual MessageBytes bytes(const MessageEntry& entry) = 0; // as read()
 
 protected:
     explicit MessageFile(std::filesystem::path file)

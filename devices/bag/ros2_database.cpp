@@ -131,7 +131,7 @@ void Ros2Database::readIndex() {
     sortByTime();
 }
 
-std::span<const uint8_t> Ros2Database::bytes(const MessageEntry& entry) {
+MessageBytes Ros2Database::bytes(const MessageEntry& entry) {
     steps_ = 0;
     sqlite3_reset(one_.get());
     sqlite3_bind_int64(one_.get(), 1, static_cast<sqlite3_int64>(entry.offset));
@@ -140,12 +140,10 @@ std::span<const uint8_t> Ros2Database::bytes(const MessageEntry& entry) {
     }
     const auto* data = static_cast<const uint8_t*>(sqlite3_column_blob(one_.get(), 0));
     const auto size = static_cast<size_t>(sqlite3_column_bytes(one_.get(), 0));
-    message_.assign(data, data + (data == nullptr ? 0 : size));
+    std::vector<uint8_t> message(data, data + (data == nullptr ? 0 : size));
     sqlite3_reset(one_.get());
-    if (isZstd(message_)) { // no message in CDR begins so
-        message_ = unpackZstdFrame(message_, kMostUnpacked);
-    }
-    return message_;
+    // No message in CDR begins as zstd does.
+    return MessageBytes::of(isZstd(message) ? unpackZstdFrame(message, kMostUnpacked) : std::move(message));
 }
 
 } // namespace fathom

@@ -15,7 +15,7 @@ public:
     // Opens it for reading only. Throws BadInput that names the file: not a database, or one without the
     // tables `topics` and `messages`.
     explicit Ros2Database(const std::filesystem::path& file);
-    std::span<const uint8_t> bytes(const MessageEntry& entry) override;
+    MessageBytes bytes(const MessageEntry& entry) override;
 
 private:
     struct Close {
@@ -32,7 +32,6 @@ private:
     std::unique_ptr<sqlite3, Close> database_;
     Statement one_; // data of one message
     uint64_t steps_ = 0;
-    std::vector<uint8_t> message_;
 };
 
 } // namespace fathom

@@ -92,6 +92,7 @@ Image image(MessageCursor cursor) {
     out.bigEndian = cursor.value<uint8_t>() != 0;
     out.step = cursor.word();
     out.data = cursor.block();
+    out.memory = cursor.memory();
     out.compressed = out.encoding == "mjpg" || out.encoding == "mjpeg" || out.encoding == "MJPEG";
     return out;
 }
@@ -105,6 +106,7 @@ Image compressedImage(MessageCursor cursor) {
     out.format = cursor.name();
     out.encoding = out.format.substr(0, out.format.find(';'));
     out.data = cursor.block();
+    out.memory = cursor.memory();
     return out;
 }
 

@@ -13,15 +13,16 @@ namespace fathom::ros {
 
 // All throw Error when the message is truncated or invalid.
 
-// sensor_msgs/Image or CompressedImage; a view into the message.
+// sensor_msgs/Image or CompressedImage; a view into the message, whose memory it keeps.
 struct Image {
     double stamp = 0.0; // [s]
     std::string frame, encoding;
     uint32_t width = 0, height = 0, step = 0; // [pixels], [bytes] per row; 0: compressed
     bool bigEndian = false;
-    bool compressed = false;       // also of an Image whose encoding is mjpg, as the SDKs write it
-    std::string format;            // of a compressed image, e.g. "16UC1; compressedDepth png"
-    std::span<const uint8_t> data; // of the message's bytes
+    bool compressed = false;            // also of an Image whose encoding is mjpg, as the SDKs write it
+    std::string format;                 // of a compressed image, e.g. "16UC1; compressedDepth png"
+    std::span<const uint8_t> data;      // of the message's bytes
+    std::shared_ptr<const void> memory; // as MessageCursor::memory()
 };
 Image image(MessageCursor message);
 Image compressedImage(MessageCursor message);

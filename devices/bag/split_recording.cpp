@@ -58,7 +58,7 @@ SplitRecording::SplitRecording(const fs::path& folder)
     sortByTime();
 }
 
-std::span<const uint8_t> SplitRecording::bytes(const MessageEntry& entry) {
+MessageBytes SplitRecording::bytes(const MessageEntry& entry) {
     MessageFile& file = *files_[entry.chunk];
     const MessageTopic& topic = file.topics()[entry.offset >> kTopicBits];
     return file.bytes(topic.messages[entry.offset & ((uint64_t{1} << kTopicBits) - 1)]);

@@ -11,7 +11,7 @@ public:
     // The .mcap and .db3 files of the folder, in order of the number that ends their name. Throws BadInput
     // when there are none, and for files that are compressed as a whole.
     explicit SplitRecording(const std::filesystem::path& folder);
-    std::span<const uint8_t> bytes(const MessageEntry& entry) override;
+    MessageBytes bytes(const MessageEntry& entry) override;
 
 private:
     std::vector<std::unique_ptr<MessageFile>> files_;

@@ -18,9 +18,8 @@ TranslatedFile::TranslatedFile(std::unique_ptr<MessageFile> original)
     topics_ = original_->topics();
 }
 
-std::span<const uint8_t> TranslatedFile::bytes(const MessageEntry& entry) {
-    return entry.chunk == kMadeChunk ? std::span<const uint8_t>(made_[entry.offset])
-                                     : original_->bytes(entry);
+MessageBytes TranslatedFile::bytes(const MessageEntry& entry) {
+    return entry.chunk == kMadeChunk ? MessageBytes{made_[entry.offset], nullptr} : original_->bytes(entry);
 }
 
 std::vector<MessageEntry> TranslatedFile::begin(MessageTopic& topic, const std::string& type) {

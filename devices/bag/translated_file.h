@@ -10,7 +10,7 @@ namespace fathom {
 // Has the topics of the original, and those that are added. One thread.
 class TranslatedFile : public MessageFile {
 public:
-    std::span<const uint8_t> bytes(const MessageEntry& entry) override;
+    MessageBytes bytes(const MessageEntry& entry) override;
 
 protected:
     using Bytes = std::vector<uint8_t>; // of a message in CDR

@@ -4,23 +4,26 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 namespace fathom {
 
+// Shared with the messages that lie in it.
+using UnpackedChunk = std::shared_ptr<const std::vector<uint8_t>>;
+
 class UnpackedChunks {
 public:
-    // The chunk at this offset of the file; unpack() makes it where it is not kept. Valid until four other
-    // chunks were asked for.
+    // The chunk at this offset of the file; unpack() makes it where it is not kept.
     template <class Unpack>
-    const std::vector<uint8_t>& at(uint64_t chunk, Unpack unpack) {
+    UnpackedChunk at(uint64_t chunk, Unpack unpack) {
         for (Kept& kept : kept_) {
             if (kept.chunk == chunk) {
                 kept.used = ++clock_;
                 return kept.bytes;
             }
         }
-        Kept fresh{chunk, unpack(), ++clock_};
+        Kept fresh{chunk, std::make_shared<const std::vector<uint8_t>>(unpack()), ++clock_};
         if (kept_.size() < kMost) {
             kept_.reserve(kMost);
             return kept_.emplace_back(std::move(fresh)).bytes;
@@ -35,7 +38,7 @@ private:
     static constexpr size_t kMost = 4; // depth, colour and the lenses of both
     struct Kept {
         uint64_t chunk = 0;
-        std::vector<uint8_t> bytes;
+        UnpackedChunk bytes;
         uint64_t used = 0;
     };
     std::vector<Kept> kept_;

@@ -19,8 +19,9 @@ public:
     // Appends a topic without messages. The topic's newest `most` messages are kept. Returns its place.
     size_t add(const std::string& topic, const std::string& type, size_t most);
     void keep(size_t topic, RawMessagePtr message);
-    std::span<const uint8_t> bytes(const MessageEntry& entry) override {
-        return kept_[entry.chunk][entry.offset]->bytes();
+    MessageBytes bytes(const MessageEntry& entry) override {
+        const RawMessagePtr& message = kept_[entry.chunk][entry.offset];
+        return {message->bytes(), message};
     }
 
 private:

@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 #include <map>
 #include <sqlite3.h>
+#include <zstd.h>
 
 namespace fathom::test {
 
@@ -67,6 +68,16 @@ void writeDatabase(const std::filesystem::path& file, const std::vector<Database
     }
     sqlite3_exec(database, "COMMIT", nullptr, nullptr, nullptr);
     sqlite3_close(database);
+}
+
+std::vector<DatabaseMessage> packedOneByOne(std::vector<DatabaseMessage> messages) {
+    for (DatabaseMessage& message : messages) {
+        std::string packed(ZSTD_compressBound(message.bytes.size()), '\0');
+        packed.resize(
+            ZSTD_compress(packed.data(), packed.size(), message.bytes.data(), message.bytes.size(), 1));
+        message.bytes = packed;
+    }
+    return messages;
 }
 
 std::string textCdr(const std::string& text) {

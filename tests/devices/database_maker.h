@@ -18,6 +18,8 @@ struct DatabaseMessage {
 
 // An existing file is replaced.
 void writeDatabase(const std::filesystem::path& file, const std::vector<DatabaseMessage>& messages);
+// Each as a zstd frame.
+std::vector<DatabaseMessage> packedOneByOne(std::vector<DatabaseMessage> messages);
 
 std::string textCdr(const std::string& text); // std_msgs/msg/String
 struct CdrImage {

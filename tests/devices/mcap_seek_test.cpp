@@ -39,7 +39,7 @@ void checkLate(McapFile& file, double mostOfFile, uint64_t size) {
     REQUIRE(topic != nullptr);
     for (size_t i = topic->messages.size() - 30; i < topic->messages.size() - 10; ++i) {
         size_t number = 0;
-        std::memcpy(&number, file.bytes(topic->messages[i]).data(), sizeof number);
+        std::memcpy(&number, file.bytes(topic->messages[i]).view.data(), sizeof number);
         CHECK(number == i);
     }
     // Twenty messages lie in at most seven chunks, each read once.
@@ -93,6 +93,6 @@ TEST_CASE("Chunks of a summary that overlap, repeat or point behind themselves a
         folder.write("x.mcap", changed);
         McapFile file(folder.path() / "x.mcap");
         CHECK(file.topics()[0].messages.size() == kSeekMessages);
-        CHECK(file.bytes(file.topics()[0].messages[3]).size() == kSeekBytes);
+        CHECK(file.bytes(file.topics()[0].messages[3]).view.size() == kSeekBytes);
     }
 }

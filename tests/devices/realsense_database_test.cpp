@@ -5,7 +5,6 @@
 #include "tests/devices/played_bag.h"
 
 #include <limits>
-#include <zstd.h>
 
 using namespace fathom;
 using namespace fathom::test;
@@ -37,7 +36,7 @@ void addImage(Messages& all, const std::string& stream, int64_t time, const std:
 }
 
 // Three pairs of 0.3 m, by units of 0.1 mm, with an infrared stream.
-Messages recorded(const std::string& lens = lensWords("6.25")) {
+Messages sdkMessages(const std::string& lens = lensWords("6.25")) {
     Messages all;
     addText(all, "/device_0/info", "Name=RealSense D405;Serial Number=1");
     addText(all, "/device_0/sensor_0/option/Depth_Units/value", "0.000100");
@@ -91,7 +90,7 @@ void checkPairs(BagCamera& camera) {
 
 TEST_CASE("A database of the RealSense SDK gives depth and colour with its units, lenses and poses") {
     const TemporaryFolder folder;
-    BagCamera camera = playDatabase(folder, recorded());
+    BagCamera camera = playDatabase(folder, sdkMessages());
     CHECK(camera.info().metresPerUnit == doctest::Approx(0.0001).epsilon(1e-12));
     CHECK(camera.info().depth.fx == 6.25);
     CHECK(camera.info().depth.cy == 2.25);
@@ -108,13 +107,7 @@ TEST_CASE("A database of the RealSense SDK gives depth and colour with its units
 
 TEST_CASE("Messages of a database that are compressed one by one give the same frames") {
     const TemporaryFolder folder;
-    Messages all = recorded();
-    for (DatabaseMessage& message : all) {
-        std::string packed(ZSTD_compressBound(message.bytes.size()), '\0');
-        packed.resize(
-            ZSTD_compress(packed.data(), packed.size(), message.bytes.data(), message.bytes.size(), 1));
-        message.bytes = packed;
-    }
+    Messages all = packedOneByOne(sdkMessages());
     BagCamera camera = playDatabase(folder, all);
     CHECK(camera.info().metresPerUnit == doctest::Approx(0.0001).epsilon(1e-12));
     checkPairs(camera);
@@ -128,13 +121,13 @@ TEST_CASE("Messages of a database that are compressed one by one give the same f
 
 TEST_CASE("Without the option, the depth unit is that of the first image's metadata, else it is said") {
     const TemporaryFolder folder;
-    const Messages bare = without(recorded(), "Depth_Units");
+    const Messages bare = without(sdkMessages(), "Depth_Units");
     CHECK(playDatabase(folder, bare).info().metresPerUnit == doctest::Approx(0.0001).epsilon(1e-12));
     const BagCamera unknown = playDatabase(folder, without(bare, "metadata"));
     CHECK(unknown.info().metresPerUnit == 0.001);
     REQUIRE(unknown.warnings().size() == 1);
     CHECK(lineSays(unknown.warnings()[0], "no option Depth_Units"));
-    Messages changed = recorded();
+    Messages changed = sdkMessages();
     addText(changed, "/device_0/sensor_0/option/Depth_Units/value", "0.001000", 5 * kTick / 2);
     BagCamera camera = playDatabase(folder, changed);
     CHECK(camera.next());
@@ -147,15 +140,15 @@ TEST_CASE("Every lens model of the RealSense SDK is read by its name") {
     const TemporaryFolder folder;
     const std::string k = "0.01,0.02,0.003,0.004,0.05";
     const auto lens = [&](const std::string& model) {
-        return playDatabase(folder, recorded(lensWords("6.25", model, k))).info().depth;
+        return playDatabase(folder, sdkMessages(lensWords("6.25", model, k))).info().depth;
     };
     CHECK(lens("Brown Conrady").model == LensModel::Polynomial);
     CHECK(lens("Inverse Brown Conrady").model == LensModel::ScaledTangential);
     CHECK(lens("Modified Brown Conrady").distortion[4] == doctest::Approx(0.05));
     const std::string four = "0.01,0.02,0.003,0.004,0";
-    CHECK(playDatabase(folder, recorded(lensWords("6.25", "Kannala Brandt4", four))).info().depth.model ==
+    CHECK(playDatabase(folder, sdkMessages(lensWords("6.25", "Kannala Brandt4", four))).info().depth.model ==
           LensModel::Equidistant);
-    CHECK(lineSays(databaseRefusal(folder, recorded(lensWords("6.25", "Ftheta", k))),
+    CHECK(lineSays(databaseRefusal(folder, sdkMessages(lensWords("6.25", "Ftheta", k))),
                    "camera_info: model: Ftheta"));
 }
 
@@ -169,13 +162,13 @@ TEST_CASE("A damaged text of a RealSense database is named, and never read as an
           std::pair(size + "fx=6" + rest, "coeffs: 4 numbers"),
           std::pair("width=7.5;height=5;fx=6" + whole, "width: 7.5"),
           std::pair(size + "fx=nan" + whole, "fx: 'nan'")}) {
-        CHECK(lineSays(databaseRefusal(folder, recorded(lens)), std::string("camera_info: ") + fault));
+        CHECK(lineSays(databaseRefusal(folder, sdkMessages(lens)), std::string("camera_info: ") + fault));
     }
-    CHECK(lineSays(databaseRefusal(folder, without(recorded(), "/tf/")), "extrinsics: missing"));
-    Messages sheared = without(recorded(), "Color_0/tf/");
+    CHECK(lineSays(databaseRefusal(folder, without(sdkMessages(), "/tf/")), "extrinsics: missing"));
+    Messages sheared = without(sdkMessages(), "Color_0/tf/");
     addText(sheared, kColourStream + "/tf/ref_0", "rotation=1,1,0,0,1,0,0,0,1;translation=0,0,0");
     CHECK(lineSays(databaseRefusal(folder, sheared), "extrinsics: missing"));
-    CHECK(lineSays(databaseRefusal(folder, without(recorded(), "/image/data")), "no images but"));
+    CHECK(lineSays(databaseRefusal(folder, without(sdkMessages(), "/image/data")), "no images but"));
 }
 
 TEST_CASE("The suffix of a compressed transport does not change where a RealSense stream has lens and unit") {

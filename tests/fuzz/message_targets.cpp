@@ -35,7 +35,7 @@ public:
             messages_.push_back(cursor.take(size));
         }
     }
-    std::span<const uint8_t> bytes(const MessageEntry& entry) override { return messages_[entry.offset]; }
+    MessageBytes bytes(const MessageEntry& entry) override { return {messages_[entry.offset], nullptr}; }
 
 private:
     std::vector<Bytes> messages_;
@@ -134,7 +134,7 @@ void readMatroska(Bytes input) {
     MatroskaFile file(fuzzFile("recording.mkv", input));
     for (const MessageTopic& topic : file.topics()) {
         for (size_t i = 0; i < std::min(kMostMessages, topic.messages.size()); ++i) {
-            need(file.bytes(topic.messages[i]).size() <= input.size() + 1000);
+            need(file.bytes(topic.messages[i]).view.size() <= input.size() + 1000);
         }
     }
     for (const ImageStream& stream : imageStreams(file, "")) {
