@@ -51,7 +51,7 @@ int main(int count, char** argument) try {
         lockstep.process({.depth = depth.data(), .stamp = time});
         fathom::Step step;
         for (int tick = 0; tick < 1000; ++tick, time += 1'000'000) {
-            lockstep.answer();
+            lockstep.queryContacts();
             step = lockstep.step({.deviceThandle = {.position = {0, 0, 0.001 * tick}}}, time);
         }
         std::printf("%s,%.4f\n", file.filename().c_str(), step.baseTtool.position[2]);

@@ -54,7 +54,7 @@ haptics: { device: ideal, stiffness: 1000 }
     }
     stop = true;
     camera.join();
-    std::printf("fathom %s on %s: force %.3f N\n", fathom::version(), engine.deviceName().c_str(),
+    std::printf("fathom %s on %s: force %.3f N\n", fathom::version(), engine.computeDeviceName().c_str(),
                 -step.wrench.force[2]);
     return step.state == fathom::State::Contact && std::fabs(step.wrench.force[2] + 10.0) < 0.01 ? 0 : 1;
 }

@@ -55,6 +55,6 @@ tool: { spheres: [[0, 0, 0, 0.01]] }
     }
     std::printf("%llu frames processed, %llu dropped, on %s\n",
                 static_cast<unsigned long long>(port.processed()),
-                static_cast<unsigned long long>(port.dropped()), engine.deviceName().c_str());
+                static_cast<unsigned long long>(port.dropped()), engine.computeDeviceName().c_str());
     return port.processed() >= 10 ? 0 : 1;
 }

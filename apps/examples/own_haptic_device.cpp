@@ -48,8 +48,8 @@ haptics: { device: ideal, rate_hz: 1000 }
         if (step.frame >= 0) { // hold the handle until the engine has seen a frame
             device.write(step.wrench);
         }
-        if (step.warnings != 0 && tick % 500 == 0) {
-            std::fprintf(stderr, "warnings 0x%x\n", step.warnings);
+        if (step.warnings != fathom::StepWarning::None && tick % 500 == 0) {
+            std::fprintf(stderr, "warnings 0x%x\n", static_cast<unsigned>(step.warnings));
         }
     }
     stop = true;

@@ -37,7 +37,7 @@ struct Images {
 Images images(const CameraModel& model, const pybind11::array& depth, const pybind11::object& colour);
 
 // A camera's port together with what its images must look like.
-struct Camera {
+struct CameraInput {
     CameraPort port;
     CameraModel model;
 };

@@ -61,8 +61,8 @@ CameraModel modelOf(const Intrinsics& depth, DepthFormat depthFormat, double met
             colourFormat, colour, colourTdepth};
 }
 
-SubmitStatus submit(Camera& camera, const py::array& depth, const py::object& colour, const Pose& baseTcamera,
-                    std::optional<Nanoseconds> stamp) {
+SubmitStatus submit(CameraInput& camera, const py::array& depth, const py::object& colour,
+                    const Pose& baseTcamera, std::optional<Nanoseconds> stamp) {
     const Images both = images(camera.model, depth, colour);
     return camera.port.submit({both.depth, both.colour, baseTcamera, stamp.value_or(now())});
 }
@@ -70,7 +70,8 @@ SubmitStatus submit(Camera& camera, const py::array& depth, const py::object& co
 void bindFormats(py::module_& module) {
     py::enum_<DepthFormat>(module, "DepthFormat", "Values of depth images.")
         .value("UINT16", DepthFormat::Uint16, "uint16; times metres_per_unit is the distance; 0 = none")
-        .value("METRES", DepthFormat::Metres, "float32 [m]; not positive or not finite = none");
+        .value("METRES", DepthFormat::Metres,
+               "float32 [m]; not positive, not finite or beyond 6.5535 m = none");
     py::enum_<ColourFormat>(module, "ColourFormat", "Bytes of colour images.")
         .value("NONE", ColourFormat::None)
         .value("RGB", ColourFormat::Rgb, "uint8, shape (height, width, 3)")
@@ -141,7 +142,8 @@ void bindCamera(py::module_& module) {
         .def_readonly("depth", &CameraModel::depth)
         .def_readonly("colour", &CameraModel::colour)
         .def_readonly("name", &CameraModel::name);
-    py::class_<Camera>(module, "Camera", "Takes the frames of one camera: Engine.camera(). One thread.")
+    py::class_<CameraInput>(module, "CameraPort",
+                            "Takes the frames of one camera: Engine.camera(). One thread.")
         .def("submit", &submit, py::arg("depth"), py::arg("colour") = py::none(), py::kw_only(),
              py::arg("base_T_camera") = Pose{}, py::arg("stamp") = py::none(),
              "Copies the frame and returns a SubmitStatus. The newest frame wins.\n\n"
@@ -151,13 +153,14 @@ void bindCamera(py::module_& module) {
              "stamp: when it was taken, [ns] as fathom.now(); None = now.\n\n"
              "Raises ValueError that names the argument if an array does not fit.")
         .def(
-            "clock_jumped", [](Camera& camera) { camera.port.clockJumped(); },
-            "The camera's clock was set: the next stamp may be earlier.")
+            "clock_jumped", [](CameraInput& camera) { camera.port.clockJumped(); },
+            "The next stamp may be earlier than the last one, for example after your conversion to\n"
+            "CLOCK_MONOTONIC was corrected.")
         .def_property_readonly(
-            "dropped", [](const Camera& camera) { return camera.port.dropped(); },
+            "dropped", [](const CameraInput& camera) { return camera.port.dropped(); },
             "frames that a newer one replaced")
         .def_property_readonly(
-            "processed", [](const Camera& camera) { return camera.port.processed(); },
+            "processed", [](const CameraInput& camera) { return camera.port.processed(); },
             "frames that became a fixture set");
 }
 

@@ -52,9 +52,9 @@ public:
     LiveEngine(const LiveEngine&) = delete;
     LiveEngine& operator=(const LiveEngine&) = delete;
 
-    Camera camera() { return {open().camera(), model_}; }
+    CameraInput camera() { return {open().camera(), model_}; }
     HandPort openHand(const Pose& handle, const std::optional<Pose>& tool) {
-        return open().openHand({handle, tool ? &*tool : nullptr});
+        return open().openHand({handle, tool});
     }
     void close() {
         const Unlocked others;
@@ -95,27 +95,27 @@ struct LockstepRun {
     Lockstep run;
 };
 
-EngineOptions optionsOf(const std::string& device, const std::string& reader, bool measuredArm) {
-    return {device, reader, measuredArm};
+EngineOptions optionsOf(const std::string& computeDevice, const std::string& reader, bool measuredArm) {
+    return {computeDevice, reader, measuredArm};
 }
 
 void bindLive(py::module_& module) {
     py::class_<LiveEngine, std::unique_ptr<LiveEngine, WithoutLock>>(
         module, "Engine",
-        "Owns a compute device and two threads, and hands out ports. Each port belongs to one thread.\n"
+        "Owns a compute device and three threads, and hands out ports. Each port belongs to one thread.\n"
         "Use it in a `with` block, or call close().")
-        .def(py::init([](const Scene& scene, const CameraModel& camera, const std::string& device,
+        .def(py::init([](const Scene& scene, const CameraModel& camera, const std::string& computeDevice,
                          const std::string& reader, bool measuredArm) {
                  const Unlocked others;
                  return std::unique_ptr<LiveEngine, WithoutLock>(
-                     new LiveEngine(scene, camera, optionsOf(device, reader, measuredArm)));
+                     new LiveEngine(scene, camera, optionsOf(computeDevice, reader, measuredArm)));
              }),
-             py::arg("scene"), py::arg("camera"), py::kw_only(), py::arg("device") = "",
+             py::arg("scene"), py::arg("camera"), py::kw_only(), py::arg("compute_device") = "",
              py::arg("reader") = "", py::arg("measured_arm") = false,
-             "device: part of a Vulkan device's name, or its index; empty = the best one.\n"
+             "compute_device: part of a Vulkan device's name, or its index; empty = the best one.\n"
              "reader: path of fathom-reader, for scenes with meshes or arms; empty = the installed one.\n"
              "measured_arm: a real arm follows the scene's arm; see open_arm().")
-        .def("camera", &LiveEngine::camera, "The Camera that takes your frames.")
+        .def("camera", &LiveEngine::camera, "The CameraPort that takes your frames.")
         .def(
             "open_hand", &LiveEngine::openHand, py::arg("device_T_handle") = Pose{},
             py::arg("base_T_tool") = py::none(),
@@ -127,8 +127,12 @@ void bindLive(py::module_& module) {
         .def(
             "open_observer", [](LiveEngine& engine) { return engine.open().openObserver(); },
             "Opens the ObserverPort, once per engine.")
-        .def_property_readonly("device_lost", [](LiveEngine& engine) { return engine.open().deviceLost(); })
-        .def_property_readonly("device_name", [](LiveEngine& engine) { return engine.open().deviceName(); })
+        .def_property_readonly(
+            "compute_device_lost", [](LiveEngine& engine) { return engine.open().computeDeviceLost(); },
+            "true while the engine reopens a lost compute device")
+        .def_property_readonly(
+            "compute_device_name", [](LiveEngine& engine) { return engine.open().computeDeviceName(); },
+            "of the Vulkan device")
         .def_property_readonly(
             "failure", [](LiveEngine& engine) { return engine.open().failure(); },
             "why a thread of the engine ended; empty = none ended")
@@ -139,38 +143,39 @@ void bindLive(py::module_& module) {
 
 void bindLockstep(py::module_& module) {
     py::class_<FrameTimes>(module, "FrameTimes", "How long one frame took [s].")
-        .def_readonly("upload", &FrameTimes::upload, "copy of the images to the device")
-        .def_readonly("device", &FrameTimes::device, "from submission until the device has finished")
+        .def_readonly("upload", &FrameTimes::upload, "copy of the images to the compute device")
+        .def_readonly("compute", &FrameTimes::compute,
+                      "from submission until the compute device has finished")
         .def_readonly("published", &FrameTimes::published,
                       "until steps can use the set; includes both others");
     py::class_<LockstepRun, std::unique_ptr<LockstepRun, WithoutLock>>(
         module, "Lockstep",
         "The same computation on one thread without a clock. Equal input gives equal output to the last bit.")
         .def(py::init([](const Scene& scene, const CameraModel& camera, const Pose& handle,
-                         const std::optional<Pose>& tool, const std::string& device,
+                         const std::optional<Pose>& tool, const std::string& computeDevice,
                          const std::string& reader) {
                  const Unlocked others;
-                 return std::unique_ptr<LockstepRun, WithoutLock>(new LockstepRun(
-                     scene, camera, {handle, tool ? &*tool : nullptr}, optionsOf(device, reader, false)));
+                 return std::unique_ptr<LockstepRun, WithoutLock>(
+                     new LockstepRun(scene, camera, {handle, tool}, optionsOf(computeDevice, reader, false)));
              }),
              py::arg("scene"), py::arg("camera"), py::arg("device_T_handle") = Pose{},
-             py::arg("base_T_tool") = py::none(), py::kw_only(), py::arg("device") = "",
+             py::arg("base_T_tool") = py::none(), py::kw_only(), py::arg("compute_device") = "",
              py::arg("reader") = "")
         .def("process", &LockstepRun::process, py::arg("depth"), py::arg("colour") = py::none(),
              py::kw_only(), py::arg("base_T_camera") = Pose{}, py::arg("stamp"),
              "Computes the fixture set of a frame and makes it the newest; returns FrameTimes. Arrays as in\n"
-             "Camera.submit(); stamp [ns] on the clock of step().")
+             "CameraPort.submit(); stamp [ns] on the clock of step().")
         .def(
-            "answer",
+            "query_contacts",
             [](LockstepRun& lockstep) {
                 const Unlocked others;
-                return lockstep.run.answer();
+                return lockstep.run.queryContacts();
             },
             "Answers one contact query at the current tool pose. False before the first frame.")
         .def(
             "step",
             [](LockstepRun& lockstep, const Pose& hand, uint32_t buttons, Nanoseconds time) {
-                return lockstep.run.step({hand, buttons}, time);
+                return lockstep.run.step({hand, static_cast<Button>(buttons)}, time);
             },
             py::arg("device_T_handle"), py::arg("buttons") = 0u, py::kw_only(), py::arg("now"),
             "One haptic step at time `now` [ns]; returns a Step.")

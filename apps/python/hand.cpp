@@ -13,16 +13,19 @@ namespace {
 void bindFlags(py::module_& module) {
     const py::object flag = py::module_::import("enum").attr("IntFlag");
     using namespace pybind11::literals;
-    module.attr("Button") = flag("Button",
-                                 py::dict("GUIDANCE"_a = int(Guidance), "DEAD_MAN_OPEN"_a = int(DeadManOpen),
-                                          "CLUTCH"_a = int(Clutch)),
-                                 "module"_a = "fathom");
+    module.attr("Button") =
+        flag("Button",
+             py::dict("GUIDANCE"_a = int(Button::Guidance), "DEAD_MAN_OPEN"_a = int(Button::DeadManOpen),
+                      "CLUTCH"_a = int(Button::Clutch)),
+             "module"_a = "fathom");
+    using Warning = StepWarning;
     module.attr("StepWarning") =
         flag("StepWarning",
-             py::dict("NO_SCENE"_a = int(NoScene), "OLD_SCENE"_a = int(OldScene),
-                      "LOST_DEVICE"_a = int(LostDevice), "NOT_FINITE"_a = int(NotFinite),
-                      "TIME_BACK"_a = int(TimeBack), "STALLED"_a = int(Stalled),
-                      "ENGINE_FAILED"_a = int(EngineFailed), "ARM_STILL"_a = int(ArmStill)),
+             py::dict("NO_SCENE"_a = int(Warning::NoScene), "OLD_SCENE"_a = int(Warning::OldScene),
+                      "COMPUTE_DEVICE_LOST"_a = int(Warning::ComputeDeviceLost),
+                      "NOT_FINITE"_a = int(Warning::NotFinite), "TIME_BACK"_a = int(Warning::TimeBack),
+                      "STALLED"_a = int(Warning::Stalled), "ENGINE_FAILED"_a = int(Warning::EngineFailed),
+                      "ARM_STILL"_a = int(Warning::ArmStill)),
              "module"_a = "fathom");
     module.attr("Button").attr("__doc__") = "Buttons of the device that are down.";
     module.attr("StepWarning").attr("__doc__") = "What limits a step; see <fathom/hand.h>.";
@@ -47,10 +50,10 @@ void bindStep(py::module_& module) {
     py::class_<Step>(module, "Step", "The result of one step.")
         .def_property_readonly(
             "force", [](const Step& s) { return array(s.wrench.force); },
-            "[N] for the device, in its axes; zero on axes it does not drive")
+            "[N] on the hand, in the device's axes; zero on axes it does not drive")
         .def_property_readonly(
             "torque", [](const Step& s) { return array(s.wrench.torque); },
-            "[N m] for the device, about the handle")
+            "[N m] on the hand, in the device's axes, about the handle")
         .def_property_readonly(
             "residual_force", [](const Step& s) { return array(s.residual.force); },
             "[N] that the device cannot render, base axes")
@@ -58,16 +61,21 @@ void bindStep(py::module_& module) {
             "residual_torque", [](const Step& s) { return array(s.residual.torque); },
             "[N m] that the device cannot render, base axes, about the tool")
         .def_readonly("base_T_tool", &Step::baseTtool, "the tool, which never enters a forbidden region")
-        .def_readonly("base_T_device", &Step::baseTdevice, "where the hand commands the tool")
+        .def_readonly("base_T_command", &Step::baseTcommand,
+                      "tool pose that the hand commands, after hand map and clutch")
         .def_readonly("state", &Step::state, "a State")
         .def_property_readonly(
             "warnings",
-            [](const Step& s) { return py::module_::import("fathom").attr("StepWarning")(s.warnings); },
+            [](const Step& s) {
+                return py::module_::import("fathom").attr("StepWarning")(static_cast<uint32_t>(s.warnings));
+            },
             "StepWarning flags")
         .def_readonly("scene_age", &Step::sceneAge, "[s] of the newest frame; NaN before the first")
-        .def_readonly("min_gap", &Step::minGap, "[m] smallest gap to a region; NaN if unknown")
+        .def_readonly("min_gap", &Step::minGap,
+                      "[m] smallest gap of the contact set; its reach if none is nearer; NaN if unknown")
         .def_readonly("guidance", &Step::guidance, "weight of the guidance, 0..1")
-        .def_readonly("frame", &Step::frame, "number of the frame behind the active fixtures; -1 = none")
+        .def_readonly("frame", &Step::frame,
+                      "index of the frame behind the active fixtures, counting dropped ones; -1 = none")
         .def_property_readonly(
             "joints", [](const Step& s) { return s.arm.joints; },
             "of the scene's arm [rad], of sliding joints [m]; 12 values, unused are 0")
@@ -90,7 +98,7 @@ void bindHand(py::module_& module) {
         .def(
             "step",
             [](HandPort& port, const Pose& hand, uint32_t buttons, std::optional<Nanoseconds> time) {
-                return port.step({hand, buttons}, time.value_or(now()));
+                return port.step({hand, static_cast<Button>(buttons)}, time.value_or(now()));
             },
             py::arg("device_T_handle"), py::arg("buttons") = 0u, py::arg("now") = py::none(),
             "One step: the handle's pose in, a Step with the wrench out. Takes some 50 us.\n\n"

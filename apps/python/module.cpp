@@ -51,7 +51,7 @@ PYBIND11_MODULE(_fathom, module) {
     auto& error = py::register_exception<fathom::Error>(module, "Error", PyExc_RuntimeError);
     auto& badInput = py::register_exception<fathom::BadInput>(
         module, "BadInput", py::make_tuple(error, py::handle(PyExc_ValueError)));
-    auto& lost = py::register_exception<fathom::DeviceLost>(module, "DeviceLost", error);
+    auto& lost = py::register_exception<fathom::ComputeDeviceLost>(module, "ComputeDeviceLost", error);
     error.doc() = "Base class of the errors of this module. One line.";
     badInput.doc() = "Something that you passed is unusable; names the field, its value and what is allowed.";
     lost.doc() = "The compute device is missing, was lost or has no memory left.";

@@ -47,13 +47,13 @@ HapticSide::HapticSide(const fathom::Scene& from, const CameraInfo& camera, cons
 
 std::unique_ptr<HapticCycle> HapticSide::cycle(const v0::HandStart& start) const {
     const Pose hand = internal(start.deviceThandle);
-    const Pose begin = start.baseTtool != nullptr ? internal(*start.baseTtool) : Pose{};
+    const Pose begin = start.baseTtool ? internal(*start.baseTtool) : Pose{};
     if (!isFinite(hand) || !isFinite(begin)) {
         throw v0::BadInput(
             "hand: start: a pose that is not finite (allowed: finite numbers, a unit quaternion)");
     }
-    return std::make_unique<HapticCycle>(tool, shapes, options, hand,
-                                         start.baseTtool != nullptr ? &begin : nullptr, arm.get());
+    return std::make_unique<HapticCycle>(tool, shapes, options, hand, start.baseTtool ? &begin : nullptr,
+                                         arm.get());
 }
 
 ComputeSide::ComputeSide(const HapticSide& side, const CameraInfo& camera, const std::string& device)

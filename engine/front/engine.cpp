@@ -107,7 +107,7 @@ struct Engine::Impl {
     Impl(const Scene& scene, const CameraModel& model, const EngineOptions& options)
         : camera(std::make_shared<CameraPort::Impl>(front::CameraSide(model, scene.data().scene)))
         , shared(std::make_shared<front::Shared>(scene.data().scene, camera->info, options))
-        , compute(shared->haptic, camera->info, options.device)
+        , compute(shared->haptic, camera->info, options.computeDevice)
         , feed(*camera, compute, *shared)
         , answers(compute.cycles)
         , frames(feed, shared->channels, shared->clock, kFramePeriod, nullptr)
@@ -222,7 +222,7 @@ void Engine::clearances(std::span<const Pose> baseTtool, Clearances& out) {
     });
 }
 
-bool Engine::deviceLost() const noexcept {
+bool Engine::computeDeviceLost() const noexcept {
     return impl_->feed.lost.load();
 }
 
@@ -231,7 +231,7 @@ std::string Engine::failure() const {
     return impl_->failure;
 }
 
-std::string Engine::deviceName() const {
+std::string Engine::computeDeviceName() const {
     return impl_->compute.cycles.facts().name;
 }
 

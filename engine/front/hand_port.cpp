@@ -28,9 +28,12 @@ Step HandPort::Impl::step(const Hand& hand, Nanoseconds now) noexcept {
     Step step = front::external(record, shared->haptic.options.staleAfter);
     // Contacts of the first set may come before what the frame thread says about it.
     const bool none = stepper.scene().frame < 0 && record.frame < 0;
-    step.warnings |= (none ? NoScene : 0u) | (stepper.scene().gone ? LostDevice : 0u) |
-                     (back ? TimeBack : 0u) | (shared->failed.load() ? EngineFailed : 0u) |
-                     (stepper.row().driven && isFault(stepper.row().armStatus.state) ? ArmStill : 0u);
+    const bool armStill = stepper.row().driven && isFault(stepper.row().armStatus.state);
+    step.warnings = step.warnings | front::when(none, StepWarning::NoScene) |
+                    front::when(stepper.scene().gone, StepWarning::ComputeDeviceLost) |
+                    front::when(back, StepWarning::TimeBack) |
+                    front::when(shared->failed.load(), StepWarning::EngineFailed) |
+                    front::when(armStill, StepWarning::ArmStill);
     shared->steps.back() = {step, hand, last};
     shared->steps.publish();
     return step;

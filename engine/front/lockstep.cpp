@@ -15,7 +15,7 @@ struct Lockstep::Impl {
     Impl(const Scene& scene, const CameraModel& model, const HandStart& start, const EngineOptions& options)
         : camera(front::CameraSide(model, scene.data().scene))
         , haptic(scene.data().scene, camera.info, options)
-        , compute(haptic, camera.info, options.device)
+        , compute(haptic, camera.info, options.computeDevice)
         , cycle(haptic.cycle(start))
         , clearance(haptic.options.period) {
         if (options.measuredArm) {
@@ -24,7 +24,7 @@ struct Lockstep::Impl {
     }
 
     FrameTimes process(const Frame& frame);
-    bool answer();
+    bool queryContacts();
 
     CameraPort::Impl camera;
     front::HapticSide haptic;
@@ -64,7 +64,7 @@ FrameTimes Lockstep::Impl::process(const Frame& frame) {
     return frameTimes(report);
 }
 
-bool Lockstep::Impl::answer() {
+bool Lockstep::Impl::queryContacts() {
     auto set = std::make_unique<ContactSet>();
     const bool any = compute.cycles.answer(cycle->queryPlace(), *set);
     if (any) {
@@ -106,10 +106,10 @@ bool Lockstep::regions(Regions& out) const {
     return static_cast<bool>(set);
 }
 
-bool Lockstep::answer() {
+bool Lockstep::queryContacts() {
     return front::translated([&] {
         const front::FloatMode mode;
-        return impl_->answer();
+        return impl_->queryContacts();
     });
 }
 
@@ -119,7 +119,7 @@ Step Lockstep::step(const Hand& hand, Nanoseconds now) noexcept {
     StepRecord record = impl_->contacts.step(*impl_->cycle, input);
     record.clearance = impl_->clearance.gap();
     Step step = front::external(record, impl_->haptic.options.staleAfter);
-    step.warnings |= impl_->update.frame < 0 ? NoScene : 0u;
+    step.warnings = step.warnings | front::when(impl_->update.frame < 0, StepWarning::NoScene);
     return step;
 }
 

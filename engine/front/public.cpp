@@ -11,7 +11,7 @@ namespace fathom::v0 {
 
 Error::~Error() = default;
 BadInput::~BadInput() = default;
-DeviceLost::~DeviceLost() = default;
+ComputeDeviceLost::~ComputeDeviceLost() = default;
 
 Nanoseconds now() noexcept {
     const auto time = std::chrono::steady_clock::now().time_since_epoch();
@@ -75,15 +75,16 @@ v0::Step external(const StepRecord& record, double staleAfter) noexcept {
     step.residual = {external(record.residual.force), external(record.residual.torque)};
     step.arm = external(record.arm.posture);
     step.baseTtool = external(record.tool);
-    step.baseTdevice = external(record.device);
+    step.baseTcommand = external(record.device);
     step.state = external(record.state);
     step.sceneAge = record.sceneAge;
     step.minGap = record.minGap;
     step.clearance = record.clearance;
     step.guidance = record.guidance;
     step.frame = record.frame;
-    step.warnings = (record.sceneAge > staleAfter ? v0::OldScene : 0u) |
-                    (record.finite ? 0u : v0::NotFinite) | (record.stalled ? v0::Stalled : 0u);
+    step.warnings = when(record.sceneAge > staleAfter, v0::StepWarning::OldScene) |
+                    when(!record.finite, v0::StepWarning::NotFinite) |
+                    when(record.stalled, v0::StepWarning::Stalled);
     for (uint32_t i = 0; i < std::min<size_t>(record.touchCount, step.contacts.size()); ++i) {
         const Touch& touch = record.touches[i];
         step.contacts[step.contactCount++] = {external(touch.point), external(touch.normal), touch.gap,

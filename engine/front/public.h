@@ -33,7 +33,11 @@ inline v0::ArmPosture external(const ArmPosture& arm) noexcept {
     return {arm.q, arm.grasp};
 }
 inline HandSample internal(const v0::Hand& hand) noexcept {
-    return {internal(hand.deviceThandle), hand.buttons};
+    return {internal(hand.deviceThandle), static_cast<uint32_t>(hand.buttons)};
+}
+
+inline v0::StepWarning when(bool so, v0::StepWarning warning) noexcept {
+    return so ? warning : v0::StepWarning::None;
 }
 
 inline v0::Nanoseconds stampOf(std::chrono::steady_clock::time_point time) noexcept {
@@ -61,7 +65,7 @@ auto translated(Make&& make) {
     } catch (const BadInput& e) {
         throw v0::BadInput(e.what());
     } catch (const DeviceFailed& e) {
-        throw v0::DeviceLost(e.what());
+        throw v0::ComputeDeviceLost(e.what());
     } catch (const std::exception& e) {
         throw v0::Error(e.what());
     }

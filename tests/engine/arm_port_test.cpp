@@ -109,13 +109,13 @@ TEST_CASE("The tool starts where the arm was measured, leads it to the wall and 
     Run run;
     // Silent: no force, no setpoint.
     CHECK(run.until(0.45, false, true, [&, i = 0]() mutable { return ++i > 300; }));
-    CHECK((run.step.warnings & ArmStill) != 0);
+    CHECK(warns(run.step, StepWarning::ArmStill));
     CHECK(run.setpoint.hold);
     CHECK(run.step.arm.joints[0] == doctest::Approx(0.2));
     // The first reports place the tool.
     CHECK(run.until(0.45, true, true, [&] { return run.step.arm.joints[0] != 0.2 || !run.setpoint.hold; }));
     CHECK(run.step.arm.joints[0] == doctest::Approx(0.15));
-    CHECK((run.step.warnings & ArmStill) == 0);
+    CHECK_FALSE(warns(run.step, StepWarning::ArmStill));
     // It follows the hand, which is 0.01 m in the wall at 0.56 + (0.45 - 0.45).
     CHECK(run.until(0.45, true, true, [&] { return !run.setpoint.hold; }));
     double z = 0.45;
@@ -130,7 +130,7 @@ TEST_CASE("The tool starts where the arm was measured, leads it to the wall and 
     CHECK(run.step.wrench.force[2] < -5.0);
     // A fault: no force, and the arm is commanded to stop.
     CHECK(run.until(z, true, false, [&] { return run.step.wrench.force[2] == 0.0; }));
-    CHECK((run.step.warnings & ArmStill) != 0);
+    CHECK(warns(run.step, StepWarning::ArmStill));
     CHECK(run.setpoint.hold);
 }
 

@@ -69,7 +69,7 @@ TEST_CASE("A step reports the clearance beyond the reach, and an engine's batch 
     const Wall wall;
     lockstep.process(wall.at(1'000'000'000));
     CHECK(std::isnan(lockstep.step(handAt(0.2), 1'000'000'000).clearance));
-    REQUIRE(lockstep.answer());
+    REQUIRE(lockstep.queryContacts());
     CHECK(std::abs(lockstep.step(handAt(0.2), 1'001'000'000).clearance - 0.35) < 2e-3);
     Clearances offline, live;
     lockstep.clearances(rowOfPoses(), offline);

@@ -171,7 +171,7 @@ std::vector<Step> stepsIn(unsigned mode, const std::vector<Hand>& hands) {
         if (i % 100 == 0) {
             lockstep.process(wall.at(t));
         }
-        lockstep.answer();
+        lockstep.queryContacts();
         steps[i] = lockstep.step(hands[i], t);
         kept = kept && (_mm_getcsr() & 0xffc0u) == (mode & 0xffc0u);
     }
@@ -201,19 +201,19 @@ TEST_CASE("A step reports a missing scene, an old scene and time that goes back"
     CameraPort port = engine.camera();
     HandPort hand = engine.openHand(startAt(0.5));
     Step step = hand.step(handAt(0.5), now());
-    CHECK((step.warnings & NoScene) != 0);
+    CHECK(warns(step, StepWarning::NoScene));
     CHECK(step.state == State::Off);
     const Wall wall;
     CHECK(port.submit(wall.at(now() - 3'000'000'000)) == SubmitStatus::Accepted); // keeps its age of 3 s
     CHECK(eventually([&] { return hand.step(handAt(0.5), now()).frame >= 0; }));
     step = hand.step(handAt(0.5), now());
-    CHECK((step.warnings & NoScene) == 0);
-    CHECK((step.warnings & OldScene) != 0);
+    CHECK_FALSE(warns(step, StepWarning::NoScene));
+    CHECK(warns(step, StepWarning::OldScene));
     CHECK(step.sceneAge > 2.9);
     step = hand.step(handAt(0.5), now() - 1'000'000'000);
-    CHECK((step.warnings & TimeBack) != 0);
+    CHECK(warns(step, StepWarning::TimeBack));
     step = hand.step(handAt(std::nan("")), now());
-    CHECK((step.warnings & NotFinite) != 0);
+    CHECK(warns(step, StepWarning::NotFinite));
     CHECK(step.wrench.force == Vec3{0.0, 0.0, 0.0});
 }
 

@@ -59,11 +59,11 @@ TEST_CASE("An observer gets the newest step once, without allocation") {
     CHECK(threadAllocationCount() == before);
     CHECK(seen.now == last);
     CHECK(seen.hand.deviceThandle.position[2] == 0.509);
-    CHECK((seen.step.warnings & NoScene) != 0);
+    CHECK(warns(seen.step, StepWarning::NoScene));
     engine.reset(); // the ports live on
     const Step step = hand.step(handAt(0.52), now());
     CHECK(observer.step(seen));
-    CHECK(seen.step.baseTdevice.position[2] == step.baseTdevice.position[2]);
+    CHECK(seen.step.baseTcommand.position[2] == step.baseTcommand.position[2]);
     Regions regions;
     CHECK_FALSE(observer.regions(regions));
 }
@@ -77,8 +77,8 @@ TEST_CASE("Lockstep gives the regions of its newest frame and the times of each"
     for (Nanoseconds stamp : {10, 20}) {
         const FrameTimes times = run.process(wall.at(stamp));
         CHECK(times.upload > 0.0);
-        CHECK(times.device > 0.0);
-        CHECK(times.published >= times.upload + times.device);
+        CHECK(times.compute > 0.0);
+        CHECK(times.published >= times.upload + times.compute);
         REQUIRE(run.regions(regions));
         CHECK(regions.stamp == stamp);
     }

@@ -30,7 +30,7 @@ TEST_CASE("Frames, steps, a lost device and destruction may overlap") {
     std::thread haptic([&, hand = engine->openHand(startAt(0.5))]() mutable {
         while (!stop) {
             const Step step = hand.step(handAt(0.555), now());
-            lost = lost || (step.warnings & LostDevice) != 0;
+            lost = lost || warns(step, StepWarning::ComputeDeviceLost);
             CHECK(step.baseTtool.position[2] < 0.551); // never into the wall
             ++steps;
             std::this_thread::sleep_for(std::chrono::microseconds(500));
@@ -40,7 +40,7 @@ TEST_CASE("Frames, steps, a lost device and destruction may overlap") {
     CHECK(eventually([&] { return port.processed() >= 5; }));
     std::ofstream(trigger) << "passes";
     CHECK(eventually([&] { return lost.load(); }));
-    CHECK(eventually([&] { return !engine->deviceLost() && !std::filesystem::exists(trigger); }));
+    CHECK(eventually([&] { return !engine->computeDeviceLost() && !std::filesystem::exists(trigger); }));
     const uint64_t before = port.processed();
     CHECK(eventually([&] { return port.processed() >= before + 5; })); // the device is back
     CHECK(engine->failure().empty());

@@ -18,7 +18,7 @@ Step press(Lockstep& lockstep, const Wall& wall, double from = 0.5) {
         if (i % 33 == 0) {
             lockstep.process(wall.at(t));
         }
-        lockstep.answer();
+        lockstep.queryContacts();
         step = lockstep.step(handAt(std::fmin(0.56, from + 0.0002 * i)), t);
     }
     return step;
@@ -62,7 +62,7 @@ TEST_CASE("The arm of a scene stops in front of the wall, and the self-filter re
         }
     }
     seen.process(wall.at(1'000'000));
-    seen.answer();
+    seen.queryContacts();
     const Step first = seen.step(handAt(0.5), 1'000'000);
     CHECK(first.state == State::Free);
     CHECK(first.minGap > 0.005);

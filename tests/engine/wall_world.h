@@ -47,6 +47,10 @@ inline HandStart startAt(double z) {
     return {handAt(z).deviceThandle};
 }
 
+inline bool warns(const Step& step, StepWarning warning) {
+    return (step.warnings & warning) != StepWarning::None;
+}
+
 // Waits for the condition; false after 60 s.
 template <class Condition>
 bool eventually(Condition&& condition) {

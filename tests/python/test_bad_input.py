@@ -49,7 +49,7 @@ class BadInput(unittest.TestCase):
     def test_a_focal_length_of_zero_is_refused_by_the_engine(self):
         model = fathom.CameraModel(fathom.Intrinsics(80, 60, 0, 70, 40, 30))
         with self.assertRaisesRegex(fathom.BadInput, "fx") as raised:
-            fathom.Lockstep(fathom.Scene.from_text(wall.SCENE), model, device="llvmpipe")
+            fathom.Lockstep(fathom.Scene.from_text(wall.SCENE), model, compute_device="llvmpipe")
         self.assertIsInstance(raised.exception, fathom.Error)
         self.assertIsInstance(raised.exception, ValueError)
 
@@ -72,4 +72,4 @@ class BadInput(unittest.TestCase):
 
     def test_a_device_that_does_not_exist_is_refused(self):
         with self.assertRaisesRegex(fathom.Error, "no such gpu"):
-            fathom.Lockstep(fathom.Scene.from_text(wall.SCENE), wall.camera(), device="no such gpu")
+            fathom.Lockstep(fathom.Scene.from_text(wall.SCENE), wall.camera(), compute_device="no such gpu")

@@ -15,7 +15,7 @@ import wall
 
 
 def engine(**options):
-    return fathom.Engine(fathom.Scene.from_text(wall.SCENE), wall.camera(), device="llvmpipe", **options)
+    return fathom.Engine(fathom.Scene.from_text(wall.SCENE), wall.camera(), compute_device="llvmpipe", **options)
 
 
 class Live(unittest.TestCase):
@@ -121,7 +121,7 @@ class Exit(unittest.TestCase):
             fathom.set_log(lambda level, line: lines.append(line))
             def start_and_end():
                 while True:
-                    fathom.Engine(fathom.Scene.from_text(wall.SCENE), wall.camera(), device="llvmpipe").close()
+                    fathom.Engine(fathom.Scene.from_text(wall.SCENE), wall.camera(), compute_device="llvmpipe").close()
             threading.Thread(target=start_and_end, daemon=True).start()
             time.sleep(1.5)
         """)
@@ -135,7 +135,7 @@ class Exit(unittest.TestCase):
             sys.path.insert(0, "tests/python")
             import fathom, wall
             atexit.register(time.sleep, 0.1)  # after the loop's release: a write after it would be seen
-            made = fathom.Engine(fathom.Scene.from_text(wall.SCENE), wall.camera(), device="llvmpipe")
+            made = fathom.Engine(fathom.Scene.from_text(wall.SCENE), wall.camera(), compute_device="llvmpipe")
             images, hand = made.camera(), made.open_hand(fathom.Pose((0, 0, 0.5)))
             z, felt = 0.5, threading.Event()
             def pose():

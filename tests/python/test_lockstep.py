@@ -22,7 +22,7 @@ class Lockstep(unittest.TestCase):
 
     def test_before_the_first_frame_there_is_no_force_and_a_warning(self):
         run = wall.lockstep()
-        self.assertFalse(run.answer())
+        self.assertFalse(run.query_contacts())
         self.assertIsNone(run.regions())
         step = run.step(fathom.Pose((0, 0, 0.7)), now=1)
         self.assertEqual(step.state, fathom.State.OFF)

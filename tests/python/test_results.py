@@ -99,7 +99,7 @@ class Documentation(unittest.TestCase):
     def test_the_tutorial_in_the_package_s_help_runs(self):
         text = fathom.__doc__
         code = text[text.index("    import fathom"):text.index("With cameras")].replace(
-            "fathom.Pose((0, 0, 0.5)))", "fathom.Pose((0, 0, 0.5)), device='llvmpipe')")
+            "fathom.Pose((0, 0, 0.5)))", "fathom.Pose((0, 0, 0.5)), compute_device='llvmpipe')")
         names = {}
         exec(textwrap.dedent(code), names)
         self.assertAlmostEqual(names["step"].force[2], -10.0, delta=0.01)

@@ -31,14 +31,14 @@ def depth(millimetres=600):
 
 def lockstep(**formats):
     return fathom.Lockstep(fathom.Scene.from_text(SCENE), camera(**formats), fathom.Pose((0, 0, 0.5)),
-                           device="llvmpipe")
+                           compute_device="llvmpipe")
 
 
 def press(run, to, ticks=1200):
     """Moves the hand from 0.5 m to `to`; returns the last step."""
     step = None
     for tick in range(ticks):
-        run.answer()
+        run.query_contacts()
         z = min(to, 0.5 + 0.0001 * tick)
         step = run.step(fathom.Pose((0, 0, z)), now=1 + tick * 1_000_000)
     return step

@@ -25,7 +25,7 @@ now = 1
 for row, y in enumerate(ys):
     for column in range(len(xs)) if row % 2 == 0 else reversed(range(len(xs))):  # there and back
         for _ in range(20):  # 2 mm in 20 ms
-            run.answer()
+            run.query_contacts()
             step = run.step(fathom.Pose((xs[column], y, DEPTH)), now=now)
             now += 1_000_000
         force[row, column] = step.force

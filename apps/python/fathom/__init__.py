@@ -18,15 +18,15 @@ Start without a device or a clock. A wall 0.6 m in front of the camera is protec
     run.process(numpy.full((120, 160), 600, numpy.uint16), stamp=1)
     run.end_frames()                                # the last frame does not age
     for tick in range(2000):
-        run.answer()                                # one contact query
+        run.query_contacts()                        # one contact query
         z = min(0.56, 0.5 + tick * 0.0001)
         step = run.step(fathom.Pose((0, 0, z)), now=tick * 1_000_000 + 1)
     print(step.state, step.force)                   # State.CONTACT, 10 N along -z
     print(run.regions().centres.shape)              # the protected spheres, as an array
 
-With cameras and a haptic device, use Engine: its ports (Camera, HandPort, ArmPort, ObserverPort) belong to one
-thread each. haptic_loop() calls your device at the scene's rate and leaves it with zero force however the
-loop ends:
+With cameras and a haptic device, use Engine: its ports (CameraPort, HandPort, ArmPort, ObserverPort) belong
+to one thread each. haptic_loop() calls your device at the scene's rate and leaves it with zero force however
+the loop ends:
 
     with fathom.Engine(scene, camera) as engine:
         images = engine.camera()                    # camera thread: images.submit(depth)
@@ -44,17 +44,17 @@ allowed. Arrays of a wrong type or shape raise ValueError that names the argumen
 """
 
 from ._fathom import (
-    ArmPort, ArmSetpoint, BadInput, Button, Camera, CameraModel, ColourFormat, Contact, DepthFormat, DeviceLost,
-    Engine, Error, FrameTimes, GuidanceTarget, HandPort, Intrinsics, Lockstep, ObserverPort, Pose, Regions,
-    ReportStatus, Scene, State, Step, StepWarning, SubmitStatus, __version__, now, set_log,
+    ArmPort, ArmSetpoint, BadInput, Button, CameraModel, CameraPort, ColourFormat, ComputeDeviceLost, Contact,
+    DepthFormat, Engine, Error, FrameTimes, GuidanceTarget, HandPort, Intrinsics, Lockstep, ObserverPort, Pose,
+    Regions, ReportStatus, Scene, State, Step, StepWarning, SubmitStatus, __version__, now, set_log,
 )
 from .loop import haptic_loop
 from .results import ProgramFailed, Run, profile, program, replay, sphere_cover, stability
 
 __all__ = [
-    "ArmPort", "ArmSetpoint", "BadInput", "Button", "Camera", "CameraModel", "ColourFormat", "Contact",
-    "DepthFormat", "DeviceLost", "Engine", "Error", "FrameTimes", "GuidanceTarget", "HandPort", "Intrinsics",
-    "Lockstep", "ObserverPort", "Pose", "ProgramFailed", "Regions", "ReportStatus", "Run", "Scene", "State",
-    "Step", "StepWarning", "SubmitStatus", "__version__", "haptic_loop", "now", "profile", "program", "replay",
-    "set_log", "sphere_cover", "stability",
+    "ArmPort", "ArmSetpoint", "BadInput", "Button", "CameraModel", "CameraPort", "ColourFormat",
+    "ComputeDeviceLost", "Contact", "DepthFormat", "Engine", "Error", "FrameTimes", "GuidanceTarget",
+    "HandPort", "Intrinsics", "Lockstep", "ObserverPort", "Pose", "ProgramFailed", "Regions", "ReportStatus",
+    "Run", "Scene", "State", "Step", "StepWarning", "SubmitStatus", "__version__", "haptic_loop", "now",
+    "profile", "program", "replay", "set_log", "sphere_cover", "stability",
 ]

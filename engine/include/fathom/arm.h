@@ -59,8 +59,8 @@ public:
     std::size_t joints() const noexcept;            ///< moving joints of the scene's arm
     std::string jointName(std::size_t joint) const; ///< as in the URDF. @throws BadInput beyond joints()
 
-    ArmPort(ArmPort&&) noexcept;            ///< leaves the other one unusable
-    ArmPort& operator=(ArmPort&&) noexcept; ///< leaves the other one unusable
+    ArmPort(ArmPort&&) noexcept;            ///< a moved-from port may only be destroyed or assigned to
+    ArmPort& operator=(ArmPort&&) noexcept; ///< likewise
     ~ArmPort();
 
     struct FATHOM_LOCAL Impl;

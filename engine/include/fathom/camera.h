@@ -17,8 +17,8 @@ namespace fathom::v0 {
 enum class DepthFormat {
     Uint16, ///< one value times CameraModel::metresPerUnit is the distance along the optical axis; 0 = no
             ///< measurement
-    Metres  ///< float [m]; zero, negative or not finite = no measurement. Rounded to 0.1 mm, in range up
-            ///< to 6.5 m
+    Metres  ///< float [m], rounded to 0.1 mm. Zero, negative, not finite or beyond 6.5535 m = no measurement:
+            ///< such points are not protected
 };
 
 /// Format of colour images: rows without gaps, from the top left pixel.
@@ -77,17 +77,19 @@ enum class SubmitStatus {
 class FATHOM_API CameraPort {
 public:
     /// Copies the frame and returns. The newest frame wins: one that still waits is dropped and counted.
-    /// Takes a lock that only the frame thread takes, too, for the swap of a few words when it fetches a
-    /// frame. A step takes no lock: it never waits for submit(), and submit() never waits for a step.
+    /// Shares one short lock with the engine's frame thread. It never blocks HandPort::step(). @throws
+    /// std::bad_alloc
     [[nodiscard]] SubmitStatus submit(const Frame& frame);
 
     /// Lends the frame instead of copying it. Its memory must stay valid and unchanged until release() is
     /// called, exactly once per call of lend(), from this call, a later submit() or lend(), the frame thread
-    /// or the engine's destructor. Depth that the engine changes (DepthFormat::Metres, scenes with
-    /// `camera.port`) is copied. Takes the lock of submit().
+    /// or the engine's destructor. The frame is copied, and release() is called at once, for
+    /// DepthFormat::Metres and for scenes with `camera.decimation` above 1 or a flat window (`camera.port`).
+    /// Takes the lock of submit(). @throws std::bad_alloc
     [[nodiscard]] SubmitStatus lend(const Frame& frame, std::function<void()> release);
 
-    /// The camera's clock was set: the next stamp may be earlier than the last one.
+    /// The next stamp may be earlier than the last one, for example after your conversion to CLOCK_MONOTONIC
+    /// was corrected.
     void clockJumped() noexcept;
 
     std::uint64_t dropped() const noexcept;   ///< frames that a newer one replaced. Any thread.

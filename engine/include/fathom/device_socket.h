@@ -82,13 +82,13 @@ struct fathom_door_wrench {
 struct fathom_door_state {
     struct fathom_door_header header;  /**< kind STATE */
     double t;                          /**< [s] since the start of the run */
-    double base_T_hand_position[3];    /**< [m] where the hand commands the tool */
+    double base_T_hand_position[3];    /**< [m] commanded tool pose */
     double base_T_hand_orientation[4]; /**< w x y z */
     double base_T_tool_position[3];    /**< [m] */
     double base_T_tool_orientation[4]; /**< w x y z */
     double force[3];     /**< [N] on the hand, base axes, before projection onto the device's axes */
     double torque[3];    /**< [N m] likewise */
-    double min_gap;      /**< [m]; NaN = unknown */
+    double min_gap;      /**< [m] of the contact set; its reach if none is nearer; NaN = unknown */
     double scene_age;    /**< [s]; NaN = unknown */
     double guidance;     /**< 0..1 weight of guidance */
     int64_t frame;       /**< camera frame of the active set; -1 = none */

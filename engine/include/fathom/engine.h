@@ -22,7 +22,8 @@ namespace fathom::v0 {
 enum class LogLevel { Debug, Info, Warning, Error };
 
 /// Receives the log lines of all engines of the process, one line per call. Called from any of their threads,
-/// but never from step(). Must not throw.
+/// but never from step(). Calls are serialised by a lock: return quickly, and call nothing of this library.
+/// Must not throw.
 using LogCallback = std::function<void(LogLevel, std::string_view)>;
 
 /// Sets the receiver. Empty: log lines are discarded, which is the default.
@@ -30,7 +31,7 @@ FATHOM_API void setLogCallback(LogCallback callback);
 
 /// How an engine runs. The defaults suit most programs.
 struct EngineOptions {
-    std::string device; ///< part of a Vulkan device's name, or its index; empty = the best one
+    std::string computeDevice; ///< part of a Vulkan device's name, or its index; empty = the best one
     /// Path of the program fathom-reader, which reads the scene's URDFs and meshes in a separate process.
     /// Empty = the one installed with the library, or in the library's folder.
     std::string reader;
@@ -44,10 +45,10 @@ struct EngineOptions {
 /// not fork; the constructor starts the program fathom-reader for scenes with URDFs or meshes.
 class FATHOM_API Engine {
 public:
-    /// Opens the device and compiles the passes; takes up to seconds. One camera is supported.
-    /// @throws BadInput, DeviceLost, Error
+    /// Opens the compute device and compiles the passes; takes up to seconds.
+    /// @throws BadInput, ComputeDeviceLost, Error
     Engine(const Scene& scene, const CameraModel& camera, const EngineOptions& options = {});
-    /// The same for a list of cameras.
+    /// For later versions: several cameras. @throws BadInput unless there is exactly one
     Engine(const Scene& scene, std::span<const CameraModel> cameras, const EngineOptions& options = {});
     ~Engine();
     Engine(const Engine&) = delete;
@@ -68,16 +69,19 @@ public:
     /// Opens the port of a display, once per engine. @throws Error if it is open already
     ObserverPort openObserver();
 
-    /// The smallest gap of the scene's tool at each pose, to the regions of the newest frame; shapes that the
-    /// scene authors do not count, and an arm's links neither. Reuses the memory of `out`. Any thread but the
-    /// haptic one; calls of several threads run one after the other. Blocks until all are answered, in one
-    /// submission to the GPU where it also answers contact queries, else on the CPU. No force waits for it. A
-    /// device that is lost meanwhile costs time, no answer. @throws Error when memory is exhausted
+    /// The smallest gap of the scene's tool at each pose, to the regions of the newest frame. Placed shapes
+    /// do not count. With an arm only what its last joint carries counts: `tool:` and the last links (unlike
+    /// Step::clearance). Reuses the memory of `out`. Any thread but the haptic one; calls of several threads
+    /// run one after the other. Blocks until all are answered, in one submission to the GPU where it also
+    /// answers contact queries, else on the CPU. No force waits for it. If the compute device is lost
+    /// meanwhile, the CPU answers: slower, and still complete. @throws Error, for example when memory is
+    /// exhausted
     void clearances(std::span<const Pose> baseTtool, Clearances& out);
 
-    bool deviceLost() const noexcept; ///< true while the engine reopens a lost device. Any thread.
-    std::string failure() const;      ///< why a thread of the engine ended; empty = none ended. Any thread.
-    std::string deviceName() const;   ///< of the Vulkan device. Any thread.
+    /// True while the engine reopens a lost compute device. Any thread.
+    bool computeDeviceLost() const noexcept;
+    std::string failure() const; ///< why a thread of the engine ended; empty = none ended. Any thread.
+    std::string computeDeviceName() const; ///< of the Vulkan device. Any thread.
 
 private:
     struct FATHOM_LOCAL Impl;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Exceptions of constructors and factory functions. Calls that carry data never throw; they return a status.
+/// Exceptions. Calls that are `noexcept`, such as HandPort::step() and ArmPort::report(), never throw.
+/// CameraPort::submit() and lend() return a status; only exhausted memory makes them throw std::bad_alloc.
+/// All other calls throw as their comments say.
 #pragma once
 
 #include <fathom/export.h>
@@ -25,10 +27,10 @@ public:
 };
 
 /// The compute device is missing, was lost or has no memory left.
-class FATHOM_API DeviceLost : public Error {
+class FATHOM_API ComputeDeviceLost : public Error {
 public:
     using Error::Error;
-    ~DeviceLost() override;
+    ~ComputeDeviceLost() override;
 };
 
 } // namespace fathom::v0

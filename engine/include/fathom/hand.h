@@ -7,20 +7,32 @@
 #include <fathom/types.h>
 
 #include <memory>
+#include <optional>
 
 namespace fathom::v0 {
 
-/// Bits of Hand::buttons.
-enum Button : std::uint32_t {
+/// Buttons of the haptic device, one bit each. A scene may name other bits for the clutch (`hand.map.clutch`)
+/// and for the grasp of an arm (`arm.grasp.button`).
+enum class Button : std::uint32_t {
+    None = 0,        ///< none is down
     Guidance = 1,    ///< pulls the tool towards the guidance target
     DeadManOpen = 2, ///< no force
-    Clutch = 4       ///< moves the hand without the tool (the bit is set in the scene)
+    Clutch = 4       ///< moves the hand without the tool; unless `hand.map.clutch` names another bit
 };
+
+/// Buttons that are in either set.
+constexpr Button operator|(Button a, Button b) noexcept {
+    return static_cast<Button>(static_cast<std::uint32_t>(a) | static_cast<std::uint32_t>(b));
+}
+/// Buttons that are in both sets.
+constexpr Button operator&(Button a, Button b) noexcept {
+    return static_cast<Button>(static_cast<std::uint32_t>(a) & static_cast<std::uint32_t>(b));
+}
 
 /// One sample of the haptic device.
 struct Hand {
-    Pose deviceThandle;        ///< raw pose of the handle in the device's frame
-    std::uint32_t buttons = 0; ///< bits of Button that are down
+    Pose deviceThandle;            ///< raw pose of the handle in the device's frame
+    Button buttons = Button::None; ///< those that are down
 };
 
 /// What the forces do.
@@ -34,17 +46,27 @@ enum class State {
     Waiting  ///< nothing pushes, and the tool lags behind the hand (late contact answers): no force
 };
 
-/// Bits of Step::warnings.
-enum Warning : std::uint32_t {
-    NoScene = 1,       ///< no fixture set yet
-    OldScene = 2,      ///< the newest frame is too old: forces fade
-    LostDevice = 4,    ///< the compute device is lost; the engine opens it again
-    NotFinite = 8,     ///< the hand sample or a result is not finite: the wrench is zero
-    TimeBack = 16,     ///< `now` is before the last step; the last time was used
-    Stalled = 32,      ///< contact answers are late: the tool moved less than the hand
-    EngineFailed = 64, ///< a thread of the engine ended; Engine::failure() says why
-    ArmStill = 128     ///< the real arm is silent or not ready: the tool stands still, without force
+/// What limits a step, one bit each.
+enum class StepWarning : std::uint32_t {
+    None = 0,              ///< nothing does
+    NoScene = 1,           ///< no fixture set yet
+    OldScene = 2,          ///< the newest frame is too old: forces fade
+    ComputeDeviceLost = 4, ///< the engine opens the compute device again
+    NotFinite = 8,         ///< the hand sample or a result is not finite: the wrench is zero
+    TimeBack = 16,         ///< `now` is before the last step; the last time was used
+    Stalled = 32,          ///< contact answers are late: the tool moved less than the hand
+    EngineFailed = 64,     ///< a thread of the engine ended; Engine::failure() says why
+    ArmStill = 128         ///< the real arm is silent or not ready: the tool stands still, without force
 };
+
+/// Warnings that are in either set.
+constexpr StepWarning operator|(StepWarning a, StepWarning b) noexcept {
+    return static_cast<StepWarning>(static_cast<std::uint32_t>(a) | static_cast<std::uint32_t>(b));
+}
+/// Warnings that are in both sets.
+constexpr StepWarning operator&(StepWarning a, StepWarning b) noexcept {
+    return static_cast<StepWarning>(static_cast<std::uint32_t>(a) & static_cast<std::uint32_t>(b));
+}
 
 /// A contact that pushed in the last solve. Base frame.
 struct Contact {
@@ -56,30 +78,36 @@ struct Contact {
 
 /// The result of one step.
 struct Step {
-    Wrench wrench;    ///< for the device: device axes, about the handle, zero on axes that the scene's device
-                      ///< does not drive
-    Wrench residual;  ///< for a display: what the device cannot render. Base axes, about the tool
-    ArmPosture arm;   ///< the scene's arm; zeros without one
-    Pose baseTtool;   ///< the tool, which never enters a forbidden region
-    Pose baseTdevice; ///< where the hand commands the tool
-    State state = State::Off;       ///< what the forces do
-    std::uint32_t warnings = 0;     ///< bits of Warning
-    double sceneAge = 0.0;          ///< [s] of the newest frame; NaN before the first
-    double minGap = 0.0;            ///< [m] smallest gap to a forbidden region; NaN if unknown
-    double clearance = 0.0;         ///< [m] smallest gap to the regions of points at any distance, where the
-                                    ///< tool was some 10 ms before; infinity without regions; NaN if unknown
-    double guidance = 0.0;          ///< weight of the guidance, 0..1
-    std::int64_t frame = -1;        ///< number of the frame behind the active fixtures; -1 = none
-    std::uint32_t contactCount = 0; ///< entries of `contacts` that are valid
+    /// Force and torque on the hand, for the device: device axes, torque about the handle; zero on axes that
+    /// the scene's device does not drive.
+    Wrench wrench;
+    Wrench residual;   ///< for a display: what the device cannot render. Base axes, torque about the tool
+    ArmPosture arm;    ///< the scene's arm; zeros without one
+    Pose baseTtool;    ///< the tool, which never enters a forbidden region
+    Pose baseTcommand; ///< tool pose that the hand commands, after hand map and clutch
+    State state = State::Off;                 ///< what the forces do
+    StepWarning warnings = StepWarning::None; ///< what limits them
+    double sceneAge = 0.0;                    ///< [s] of the newest frame; NaN before the first
+    /// [m] Smallest gap to the region spheres of the active contact set; its reach if none is nearer. NaN if
+    /// unknown. Placed shapes do not count.
+    double minGap = 0.0;
+    /// [m] Smallest gap of the tool, with an arm of all links, to the regions of points, at any distance.
+    /// Measured by another thread, every 10 ms or more rarely. Infinity without regions; NaN if unknown.
+    double clearance = 0.0;
+    double guidance = 0.0; ///< weight of the guidance, 0..1
+    /// Index of the frame behind the active fixtures: 0 is the first one that passed the checks of submit()
+    /// or lend(), and dropped ones count. -1 = none.
+    std::int64_t frame = -1;
+    std::uint32_t contactCount = 0;    ///< entries of `contacts` that are valid
     std::array<Contact, 8> contacts{}; ///< the first `contactCount` are valid
 };
 
 /// Where hand and tool are at the start.
 struct HandStart {
-    Pose deviceThandle;              ///< the handle's pose now
-    const Pose* baseTtool = nullptr; ///< where the tool starts; null = where the hand commands it.
-                                     ///< An arm's tip starts where the scene says; a pose here makes the
-                                     ///< hand's motion begin there
+    Pose deviceThandle; ///< the handle's pose now
+    /// Where the tool starts; empty = where the hand commands it. An arm's tip starts where the scene says; a
+    /// pose here makes the hand's motion begin there.
+    std::optional<Pose> baseTtool = std::nullopt;
 };
 
 /// Computes the forces. Use it from one thread, the haptic thread. It may outlive its engine: the scene then
@@ -92,8 +120,8 @@ public:
 
     double period() const noexcept; ///< [s] between steps that the scene asks for
 
-    HandPort(HandPort&&) noexcept;            ///< leaves the other one unusable
-    HandPort& operator=(HandPort&&) noexcept; ///< leaves the other one unusable
+    HandPort(HandPort&&) noexcept;            ///< a moved-from port may only be destroyed or assigned to
+    HandPort& operator=(HandPort&&) noexcept; ///< likewise
     ~HandPort();
 
     struct FATHOM_LOCAL Impl;

@@ -10,8 +10,8 @@ namespace fathom::v0 {
 
 /// How long one frame took [s].
 struct FrameTimes {
-    double upload = 0.0;    ///< copy of the images to the device
-    double device = 0.0;    ///< from submission until the device has finished
+    double upload = 0.0;    ///< copy of the images to the compute device
+    double compute = 0.0;   ///< from submission until the compute device has finished
     double published = 0.0; ///< from the start until steps can use the set; includes the two before
 };
 
@@ -19,7 +19,7 @@ struct FrameTimes {
 class FATHOM_API Lockstep {
 public:
     /// EngineOptions::measuredArm must be false: an arm follows the tool exactly.
-    /// @throws BadInput, DeviceLost, Error
+    /// @throws BadInput, ComputeDeviceLost, Error
     Lockstep(const Scene& scene, const CameraModel& camera, const HandStart& start,
              const EngineOptions& options = {});
     ~Lockstep();
@@ -27,7 +27,8 @@ public:
     Lockstep& operator=(const Lockstep&) = delete;
 
     /// Computes the fixture set of a frame and makes it the newest. The stamp is compared with `now` of
-    /// step() only. Returns how long it took. @throws DeviceLost, Error; BadInput for a missing image or pose
+    /// step() only. Returns how long it took. @throws ComputeDeviceLost, Error;
+    /// BadInput for a missing image or pose
     FrameTimes process(const Frame& frame);
 
     /// Copies the regions of the newest frame into `out` and reuses its memory. False, and `out` unchanged,
@@ -35,8 +36,9 @@ public:
     bool regions(Regions& out) const;
 
     /// Answers one contact query at the current tool pose. Steps may use the answer after `contact.delay` (a
-    /// key of the scene) further calls. False before the first frame.
-    bool answer();
+    /// key of the scene) further calls of queryContacts(). False before the first frame. @throws Error, for
+    /// example when memory is exhausted
+    bool queryContacts();
 
     /// As Engine::clearances(), for the frame of the last process().
     void clearances(std::span<const Pose> baseTtool, Clearances& out);

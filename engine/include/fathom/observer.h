@@ -76,8 +76,8 @@ public:
     /// allocates or throws.
     bool step(StepSnapshot& out) noexcept;
 
-    ObserverPort(ObserverPort&&) noexcept;            ///< leaves the other one unusable
-    ObserverPort& operator=(ObserverPort&&) noexcept; ///< leaves the other one unusable
+    ObserverPort(ObserverPort&&) noexcept; ///< a moved-from port may only be destroyed or assigned to
+    ObserverPort& operator=(ObserverPort&&) noexcept; ///< likewise
     ~ObserverPort();
 
     struct FATHOM_LOCAL Impl;
