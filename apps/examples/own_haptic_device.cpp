@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Connects your own haptic device: a loop at 1 kHz that reads the handle, steps and writes the wrench. The
 // device made here is a mass on a spring that wants to go through a wall; the forces must stop it.
-#include <fathom/fathom.h>
-
-#include <atomic>
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <fathom/fathom.h>
 #include <thread>
 #include <vector>
 
@@ -29,10 +28,9 @@ haptics: { device: ideal, rate_hz: 1000 }
     fathom::CameraModel model;
     model.depth = {.width = 160, .height = 120, .fx = 140, .fy = 140, .cx = 80, .cy = 60};
     fathom::Engine engine(scene, model);
-    std::atomic<bool> stop{false};
-    std::thread camera([&, port = engine.camera()]() mutable {
+    const std::jthread camera([port = engine.camera()](std::stop_token stop) mutable {
         const std::vector<std::uint16_t> depth(160 * 120, 600); // a wall 0.6 m away
-        for (; !stop; std::this_thread::sleep_for(std::chrono::milliseconds(33))) {
+        for (; !stop.stop_requested(); std::this_thread::sleep_for(std::chrono::milliseconds(33))) {
             (void)port.submit({.depth = depth.data(), .stamp = fathom::now()});
         }
     });
@@ -40,9 +38,11 @@ haptics: { device: ideal, rate_hz: 1000 }
     MyDevice device;
     auto hand = engine.openHand({.deviceThandle = device.pose()}); // belongs to this thread from here on
     fathom::Step step;
+    const std::chrono::nanoseconds period(static_cast<std::int64_t>(1e9 * hand.period()));
     auto due = std::chrono::steady_clock::now();
     for (int tick = 0, shown = 0; tick < 20000 && shown < 2000; ++tick) {
-        std::this_thread::sleep_until(due += std::chrono::microseconds(1000));
+        due = std::max(due + period, std::chrono::steady_clock::now() - period); // skips late ticks
+        std::this_thread::sleep_until(due);
         step = hand.step({.deviceThandle = device.pose()}, fathom::now());
         shown += step.frame >= 0 ? 1 : 0;
         if (step.frame >= 0) { // hold the handle until the engine has seen a frame
@@ -52,9 +52,8 @@ haptics: { device: ideal, rate_hz: 1000 }
             std::fprintf(stderr, "warnings 0x%x\n", static_cast<unsigned>(step.warnings));
         }
     }
-    stop = true;
-    camera.join();
+    device.write({}); // no force stays on the hand
     std::printf("handle at %.4f m, tool at %.4f m, force %.2f N\n", device.z, step.baseTtool.position[2],
-                device.force);
-    return step.baseTtool.position[2] < 0.551 && device.force < -1.0 ? 0 : 1;
+                step.wrench.force[2]);
+    return step.baseTtool.position[2] < 0.551 && step.wrench.force[2] < -1.0 ? 0 : 1;
 }
