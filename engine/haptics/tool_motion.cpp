@@ -12,6 +12,8 @@ namespace fathom {
 
 namespace {
 
+constexpr size_t kTurningLanes = 8;
+
 FATHOM_CLONES
 void placeKernel(const double* __restrict x, const double* __restrict y, const double* __restrict z,
                  size_t count, const glm::dmat3& rotation, const dvec3& centre, double* __restrict toX,
@@ -23,6 +25,28 @@ void placeKernel(const double* __restrict x, const double* __restrict y, const d
         toY[i] = c.y + (m[0][1] * x[i] + m[1][1] * y[i] + m[2][1] * z[i]);
         toZ[i] = c.z + (m[0][2] * x[i] + m[1][2] * y[i] + m[2][2] * z[i]);
     }
+}
+
+// Largest |a x p|^2 over the points.
+FATHOM_CLONES
+double turningKernel(const double* __restrict x, const double* __restrict y, const double* __restrict z,
+                     size_t count, double ax, double ay, double az) noexcept {
+    double most[kTurningLanes] = {}; // as many as the widest register has, so that no comparison is reordered
+    const auto take = [&](size_t i, size_t lane) {
+        const double wx = ay * z[i] - y[i] * az, wy = az * x[i] - z[i] * ax, wz = ax * y[i] - x[i] * ay;
+        const double square = wx * wx + wy * wy + wz * wz;
+        most[lane] = square > most[lane] ? square : most[lane];
+    };
+    size_t i = 0;
+    for (; i + kTurningLanes <= count; i += kTurningLanes) {
+        for (size_t l = 0; l < kTurningLanes; ++l) {
+            take(i + l, l);
+        }
+    }
+    for (; i < count; ++i) {
+        take(i, 0);
+    }
+    return *std::max_element(most, most + kTurningLanes);
 }
 
 } // namespace
@@ -65,13 +89,10 @@ void LeafPlaces::place(const Pose& pose, const dvec3& origin, LeafCentres& out) 
 double LeafPlaces::travelBound(const Pose& pose, const Motion& motion) const noexcept {
     const dvec3 alpha =
         glm::conjugate(pose.rotation) * motion.alpha; // |alpha x r| is the same in the tool frame
-    double turning = 0.0;
-    if (alpha != dvec3(0.0)) {
-        for (size_t i = 0; i < centres_.size(); ++i) {
-            const dvec3 way = glm::cross(alpha, centres_[i]);
-            turning = std::max(turning, glm::dot(way, way));
-        }
-    }
+    const double turning = alpha == dvec3(0.0)
+                               ? 0.0
+                               : turningKernel(centres_.x.data(), centres_.y.data(), centres_.z.data(),
+                                               centres_.size(), alpha.x, alpha.y, alpha.z);
     return glm::length(motion.a) + std::sqrt(turning);
 }
 
