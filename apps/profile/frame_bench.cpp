@@ -26,14 +26,14 @@ void FrameSamples::add(const FrameReport& report, const Clocks& clocks) {
     if (const double sum = std::accumulate(report.passMs.begin(), report.passMs.end(), 0.0); sum > 0.0) {
         gpu.push_back(sum); // 0 means that the passes were not timed
     }
-    submit.push_back(millis(report.times.landed - report.times.submitted));
+    submit.push_back(millis(report.times.completed - report.times.submitted));
     cpu.push_back(clocks.cpuMs());
     total.push_back(millis(report.times.published - report.times.started));
     upload.push_back(report.uploadMs);
     collected.push_back(millis(report.times.collected - report.times.started));
     answerable.push_back(report.answerableMs);
     publish.push_back(report.publishMs);
-    collect.push_back(millis(report.times.collected - report.times.landed));
+    collect.push_back(millis(report.times.collected - report.times.completed));
     grid.push_back(millis(report.times.published - report.times.collected));
     passes.resize(report.passMs.size());
     for (size_t i = 0; i < report.passMs.size(); ++i) {

@@ -32,7 +32,7 @@ void FixtureSet::describeDevice(const Scene& scene, const FrozenClasses& frozen,
     }
     still = frozen.spheres();
     stillVersion = frozen.version();
-    landed = written;
+    completed = written;
     float largest = still ? largestOf(*still) : 0.0f;
     const auto& counters = device.counters.as<shared::FrameCounters>()[0];
     for (size_t c = 0; c < rows.size(); ++c) {

@@ -21,12 +21,12 @@ struct FixtureSet {
     std::vector<int> rows; // per point class: its row of Scene::fixtures; kStill = see below
     std::shared_ptr<const RegionSpheres> still; // spheres of frozen classes, about host.origin; null = none
     uint64_t stillVersion = 0;                  // changes with them; 0 = none so far
-    gpu::Device::At landed;                     // the passes have written `device`
+    gpu::Device::At completed;                  // the passes have written `device`
     double largestRadius = 0.0; // [m] of the finite spheres, those of frozen classes included; 0 = none
 
     static constexpr int kStill = -1; // a frozen class: its spheres in `device` do not count
 
-    // Fills the above. Call after the passes have landed.
+    // Fills the above. Call after the passes have completed.
     void describeDevice(const Scene& scene, const FrozenClasses& frozen, const gpu::Device::At& written);
 
     // The sphere that a search of the device found. slot: FoundSphere::slot. row: of Scene::fixtures; kStill
@@ -37,7 +37,7 @@ struct FixtureSet {
     };
     Place placeOf(const PatchLayout& layout, uint32_t slot, uint32_t pointClass) const;
 
-    PatchBits forbidden(const PatchLayout& layout) const; // in `device`, after the passes have landed
+    PatchBits forbidden(const PatchLayout& layout) const; // in `device`, after the passes have completed
 
     FixtureSet() = default; // without a device side
     FixtureSet(const gpu::Device& gpu, const Plan& plan, const PatchLayout& layout)

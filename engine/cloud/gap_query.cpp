@@ -161,7 +161,7 @@ void GapQuery::record(const Batch& batch, Part part) {
 bool GapQuery::submit(const Batch& batch, Part part) {
     writePoses(batch, part);
     record(batch, part);
-    device_.submitQuery(commands_.handle(), batch.set.landed, {timeline_.handle(), ++ticket_});
+    device_.submitQuery(commands_.handle(), batch.set.completed, {timeline_.handle(), ++ticket_});
     timeline_.wait(ticket_);
     found_ = back_.as<uint32_t>()[0];
     if (found_ > copied_ && found_ <= most_) {

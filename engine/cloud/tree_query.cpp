@@ -161,7 +161,7 @@ bool TreeQuery::list(const FixtureSet& set, const Pose& baseTtool, double reach,
         const Blocks live{&bindings_[index], layout_.patches(), layout_.levels[1].first, shared::kLayerSeen,
                           hold_ ? 2u : 1u};
         const Blocks both[] = {live, stillBlocks()};
-        const Counts found = run({both, still_.count() > 0 ? 2u : 1u}, set.landed, params);
+        const Counts found = run({both, still_.count() > 0 ? 2u : 1u}, set.completed, params);
         if (found.fits(answer_.most())) {
             take(set, near);
             return true;

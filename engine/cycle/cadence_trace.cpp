@@ -22,8 +22,8 @@ void CadenceTrace::frame(const FrameReport& report) noexcept {
     if (report.unchanged) {
         return;
     }
-    frames_.span("device", at.submitted, at.landed, index);
-    frames_.span("publish", at.landed, at.published, index);
+    frames_.span("device", at.submitted, at.completed, index);
+    frames_.span("publish", at.completed, at.published, index);
     frames_.instant("answerable", at.answerable, index);
     frames_.span("grid", at.collected, at.published, index); // inside the span of publish
     auto begin = at.submitted;

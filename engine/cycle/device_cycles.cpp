@@ -93,13 +93,13 @@ bool DeviceCycles::newestSet(Fixtures& set, RegionGrid& grid) {
 
 // The set may not have its host copy yet.
 bool DeviceCycles::answerOnDevice(const ToolState& place, ContactSet& out) {
-    const auto landed =
+    const auto completed =
         frames_ && contact_.onDevice() ? frames_->sets().newestEarly() : cloud::FixturePool::Lease();
-    if (!landed) {
+    if (!completed) {
         return false;
     }
     try {
-        contact_.query(*landed, place, out);
+        contact_.query(*completed, place, out);
         return true;
     } catch (const DeviceFailed& e) {
         log::warn("contact query: {}: the CPU answers", e.what());

@@ -16,11 +16,11 @@
 
 namespace fathom {
 
-// The device answers about the newest set whose passes have landed, the CPU about the newest one with a host
-// copy. While the device is lost, answer() uses the CPU query on the newest host copy, which may be older
-// than the device's last answer; sets and answers carry their own generation and capture time. The contact
-// thread calls answer(), any thread smallestGaps() and clearance(), the frame thread everything else; the
-// calls may overlap.
+// The device answers about the newest set whose passes have completed, the CPU about the newest one with a
+// host copy. While the device is lost, answer() uses the CPU query on the newest host copy, which may be
+// older than the device's last answer; sets and answers carry their own generation and capture time. The
+// contact thread calls answer(), any thread smallestGaps() and clearance(), the frame thread everything else;
+// the calls may overlap.
 class DeviceCycles {
 public:
     // Referenced objects must outlive this. arm: null = the tool moves freely.

@@ -189,7 +189,7 @@ void FrameCycle::fillHost(InFlight& f) {
 
 void FrameCycle::describe(cloud::FixtureSet& set) const {
     if (device_) {
-        set.describeDevice(scene_, frozen_, device_->landed());
+        set.describeDevice(scene_, frozen_, device_->completed());
     }
 }
 
@@ -201,17 +201,17 @@ FrameReport FrameCycle::without(uint32_t index) const {
     return report;
 }
 
-void FrameCycle::land() {
+void FrameCycle::waitForDevice() {
     InFlight& f = *inFlight_;
-    if (f.unchanged || f.landed) {
+    if (f.unchanged || f.completed) {
         return;
     }
     fillHost(f);
     if (device_) {
         device_->wait();
     }
-    f.times.landed = Clock::now();
-    f.landed = true;
+    f.times.completed = Clock::now();
+    f.completed = true;
     // Spheres of a class that has just been frozen come from the host's copy of this set.
     if (plan_.query == Plan::Query::Gpu && frozen_.covers(scene_)) {
         describe(pool_.back());
@@ -249,7 +249,7 @@ void FrameCycle::copyToHost(InFlight& f) {
 }
 
 FrameReport FrameCycle::finish() {
-    land();
+    waitForDevice();
     InFlight f = std::move(*inFlight_);
     inFlight_.reset();
     FrameReport report;
@@ -261,7 +261,7 @@ FrameReport FrameCycle::finish() {
         report.inPlace = device_ && device_->upload(f.slot).depth.imported();
         copyToHost(f);
         readTimes(f, report);
-        report.publishMs = millis(f.times.landed, f.times.published);
+        report.publishMs = millis(f.times.completed, f.times.published);
         report.answerableMs = millis(f.times.started, f.times.answerable);
         leaks_.check(lastCounts_, scene_);
     }

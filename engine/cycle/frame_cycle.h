@@ -2,7 +2,7 @@
 // The frame cadence: from a frame to a published fixture set. Owns the passes and the pool of sets; knows no
 // cameras or threads.
 //
-// Where the device answers contact queries, a set is published early, once its passes have landed
+// Where the device answers contact queries, a set is published early, once its passes have completed
 // (sets().newestEarly()). The host's copy follows: spheres, guidance, forbiddenBits and grid. Only
 // sets().newest() has it. Elsewhere both are the same.
 #pragma once
@@ -38,9 +38,9 @@ struct FrameReport {
     std::vector<double> passMs; // [ms] in the order of FrameCycle::passNames(); device time, zeros without
                                 // Plan::passTimes
     struct Times {              // on the host's monotonic clock
-        // landed: the device has finished; answerable: contact queries can be answered; collected: the host
-        // has the results; published: the host's copy is complete (where the CPU answers, with the grid)
-        std::chrono::steady_clock::time_point started, uploaded, submitted, landed, collected, published,
+        // completed: the device has finished; answerable: contact queries can be answered; collected: the
+        // host has the results; published: the host's copy is complete (where the CPU answers, with the grid)
+        std::chrono::steady_clock::time_point started, uploaded, submitted, completed, collected, published,
             answerable;
     } times;
 };
@@ -82,8 +82,8 @@ public:
     void upload(Frame frame);
     void submit();
     // Waits for the device, and publishes the set early. finish() must follow: it makes the host's copy and
-    // publishes the set. It calls land() unless the caller did, and no longer needs the device then.
-    void land();
+    // publishes the set. It calls waitForDevice() unless the caller did, and no longer needs the device then.
+    void waitForDevice();
     FrameReport finish();
 
     cloud::FixturePool& sets() { return pool_; }
@@ -101,7 +101,7 @@ private:
     struct InFlight {
         Frame frame;
         uint32_t slot = 0;
-        bool unchanged = false, landed = false;
+        bool unchanged = false, completed = false;
         uint32_t valid = 0; // readings in near..far
         double uploadMs = 0.0;
         FrameReport::Times times;

@@ -32,8 +32,8 @@ public:
     void submit(const gpu::Commands& commands);
     // Waits for the last submission. Throws DeviceLost.
     void wait() const { timeline_.wait(ticket_); }
-    // When the last submission's passes have landed.
-    gpu::Device::At landed() const { return {timeline_.handle(), ticket_}; }
+    // When the last submission's passes have completed.
+    gpu::Device::At completed() const { return {timeline_.handle(), ticket_}; }
     // Empties the memory of points and the counters, and waits.
     void clearMemory();
 

@@ -44,7 +44,7 @@ double seconds(Nanoseconds time) {
 }
 
 FrameTimes frameTimes(const FrameReport& report) {
-    const std::chrono::duration<double> device = report.times.landed - report.times.submitted;
+    const std::chrono::duration<double> device = report.times.completed - report.times.submitted;
     return {report.uploadMs / 1e3, report.unchanged ? 0.0 : device.count(), report.latencyMs / 1e3};
 }
 

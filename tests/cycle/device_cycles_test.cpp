@@ -176,14 +176,15 @@ struct LosingRig {
     void landNext() {
         twin.cycles.frames().upload(std::move(*twin.camera.next()));
         twin.cycles.frames().submit();
-        twin.cycles.frames().land();
+        twin.cycles.frames().waitForDevice();
     }
 };
 
 } // namespace
 
-TEST_CASE("After a loss between landing and the host's copy, the CPU answers about the newest complete copy "
-          "with its own generation and time") {
+TEST_CASE(
+    "After a loss between completion and the host's copy, the CPU answers about the newest complete copy "
+    "with its own generation and time") {
     for (const bool copied : {false, true}) { // whether the host's copy is made after all
         CAPTURE(copied);
         LosingRig rig;

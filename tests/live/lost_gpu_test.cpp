@@ -65,11 +65,11 @@ TEST_CASE("A GPU that is lost or out of memory is opened again while the hand co
 }
 
 TEST_CASE(
-    "A GPU that is lost once a set's passes have landed leaves the CPU the host's copies, and every set "
+    "A GPU that is lost once a set's passes have completed leaves the CPU the host's copies, and every set "
     "that a tick obeys is recorded") {
     Stage stage;
     setPressing(stage, "gpu");
-    const Losing losing(40, "lost", 2, "LANDED");
+    const Losing losing(40, "lost", 2, "COMPLETED");
     const ProgramRun run = runFathom(stage.command({"--realtime", "--device", "llvmpipe"}));
     CAPTURE(run.err);
     REQUIRE(run.exitCode == 0);

@@ -3,7 +3,8 @@
 // VK_ERROR_DEVICE_LOST (or VK_ERROR_OUT_OF_DEVICE_MEMORY), and some later openings fail. It can also
 // invalidate a window's images or surface. The tested program is unmodified, because the layer is below it.
 //   FATHOM_LOSE_AT       number, from 1, of the first submission of the first device that fails
-//   FATHOM_LOSE_LANDED   instead: number, from 1, of the successful wait for the first device's passes after
+//   FATHOM_LOSE_COMPLETED   instead: number, from 1, of the successful wait for the first device's passes
+//   after
 //                        which it is lost (the semaphore that is waited for first)
 //   FATHOM_LOSE_TIMES    instead: number, from 1, of the failing read of its timestamps
 //   FATHOM_LOSE_FILE     instead: a file with one word. The first matching call removes the file and fails:
@@ -137,9 +138,9 @@ VKAPI_ATTR VkResult VKAPI_CALL submit(VkQueue queue, uint32_t count, const VkSub
 }
 
 // Requires the mutex, after a successful wait.
-void landed(NextDevice& device, VkSemaphore semaphore) {
+void completed(NextDevice& device, VkSemaphore semaphore) {
     device.passes = device.passes == VK_NULL_HANDLE ? semaphore : device.passes;
-    const long at = number("FATHOM_LOSE_LANDED");
+    const long at = number("FATHOM_LOSE_COMPLETED");
     if (device.first && at > 0 && semaphore == device.passes && ++device.landings == at) {
         device.lost = device.working = true;
         refused = 0;
@@ -162,7 +163,7 @@ VKAPI_ATTR VkResult VKAPI_CALL waitSemaphores(VkDevice handle, const VkSemaphore
     const VkResult result = pass(handle, info, timeout);
     const std::lock_guard lock(mutex);
     if (!lost && result == VK_SUCCESS) {
-        landed(devices[keyOf(handle)], info->pSemaphores[0]);
+        completed(devices[keyOf(handle)], info->pSemaphores[0]);
     }
     return lost ? VK_ERROR_DEVICE_LOST : result;
 }

@@ -10,8 +10,8 @@ namespace fathom {
 
 class Losing {
 public:
-    // call: number of the call at which the loss occurs (AT counts submissions, LANDED frames
-    // whose passes have landed, TIMES timestamp readings);
+    // call: number of the call at which the loss occurs (AT counts submissions, COMPLETED frames
+    // whose passes have completed, TIMES timestamp readings);
     // by: "lost" or "memory".
     Losing(int call, const std::string& by, int refusedOpenings, const std::string& which = "AT") {
         begin(refusedOpenings);

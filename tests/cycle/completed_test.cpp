@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the device answers contact queries, it answers about a set whose passes have landed, before the host
-// has its copy.
+// Where the device answers contact queries, it answers about a set whose passes have completed, before the
+// host has its copy.
 #include "engine/cycle/contact_cycle.h"
 #include "tests/cycle/red_and_blue.h"
 
@@ -41,7 +41,7 @@ struct StepRig {
     }
     cloud::FixturePool& sets() const { return rig.cycle().sets(); }
 
-    void land(const Image& image) {
+    void waitForDevice(const Image& image) {
         Frame::Content content;
         content.index = frames;
         content.sourceNumber = frames;
@@ -50,7 +50,7 @@ struct StepRig {
         content.colour = image.colour;
         rig.cycle().upload(Frame(content, nullptr));
         rig.cycle().submit();
-        rig.cycle().land();
+        rig.cycle().waitForDevice();
     }
     static Pose place() { return {{0.0, 0.0, 0.5}, {1, 0, 0, 0}}; }
     ContactSet onDevice() {
@@ -85,7 +85,7 @@ void checkSameAnswer(const ContactSet& a, const ContactSet& b) {
 
 } // namespace
 
-TEST_CASE("The device answers about a landed set without its host copy, as the CPU does with it, also for "
+TEST_CASE("The device answers about a completed set without its host copy, as the CPU does with it, also for "
           "leaves behind a surface") {
     for (const bool pack : {false, true}) {
         CAPTURE(pack);
@@ -95,13 +95,13 @@ TEST_CASE("The device answers about a landed set without its host copy, as the C
             {0.6, 0.6}, {0.47, 0.55}, {0.47, 0.55}, {0.52, 0.46}, {0.8, 0.9}};
         size_t found = 0, behind = 0;
         for (const auto& [left, right] : walls) {
-            rig.land(redAndBlueImage(rig.camera, left, right));
+            rig.waitForDevice(redAndBlueImage(rig.camera, left, right));
             const auto complete = rig.sets().newest();
             CHECK((complete ? complete->host.generation : 0) + 1 == rig.frames);
             const ContactSet early = rig.onDevice();
             CHECK(early.generation == rig.frames);
             const FrameReport report = rig.rig.cycle().finish();
-            CHECK(report.times.landed <= report.times.answerable);
+            CHECK(report.times.completed <= report.times.answerable);
             CHECK(report.times.answerable < report.times.collected);
             CHECK(report.answerableMs > 0.0);
             checkSameAnswer(early, rig.onHost());
@@ -115,16 +115,16 @@ TEST_CASE("The device answers about a landed set without its host copy, as the C
 
 TEST_CASE("A set with a class that has just been frozen waits for its host copy, later ones do not") {
     StepRig rig(Plan::Query::Gpu);
-    rig.land(redAndBlueImage(rig.camera, 0.53, 0.52));
+    rig.waitForDevice(redAndBlueImage(rig.camera, 0.53, 0.52));
     rig.rig.cycle().finish();
     rig.scene.fixtures[0].frozen = true;
     rig.rig.cycle().setScene(rig.scene);
-    rig.land(redAndBlueImage(rig.camera, 0.54, 0.52));
+    rig.waitForDevice(redAndBlueImage(rig.camera, 0.54, 0.52));
     CHECK(rig.sets().newestEarly()->host.generation == 1);
     const FrameReport report = rig.rig.cycle().finish();
     CHECK(report.times.answerable == report.times.published);
     checkSameAnswer(rig.onDevice(), rig.onHost());
-    rig.land(redAndBlueImage(rig.camera, 0.8, 0.51));
+    rig.waitForDevice(redAndBlueImage(rig.camera, 0.8, 0.51));
     const ContactSet early = rig.onDevice();
     CHECK(early.generation == 3);
     rig.rig.cycle().finish();
@@ -132,7 +132,7 @@ TEST_CASE("A set with a class that has just been frozen waits for its host copy,
     CHECK(std::count(early.fixture.begin(), early.fixture.end(), 0) > 0); // from the second frame
     rig.scene.fixtures[0].frozen = false;
     rig.rig.cycle().setScene(rig.scene);
-    rig.land(redAndBlueImage(rig.camera, 0.8, 0.51));
+    rig.waitForDevice(redAndBlueImage(rig.camera, 0.8, 0.51));
     const ContactSet released = rig.onDevice();
     CHECK(released.generation == 4);
     CHECK(std::count(released.fixture.begin(), released.fixture.end(), 0) == 0);
@@ -142,7 +142,7 @@ TEST_CASE("A set with a class that has just been frozen waits for its host copy,
 
 TEST_CASE("Where the CPU answers, no set is published before its host copy is complete") {
     StepRig rig(Plan::Query::Cpu);
-    rig.land(redAndBlueImage(rig.camera, 0.53, 0.52));
+    rig.waitForDevice(redAndBlueImage(rig.camera, 0.53, 0.52));
     CHECK_FALSE(rig.sets().newestEarly());
     const FrameReport report = rig.rig.cycle().finish();
     CHECK(rig.sets().newestEarly()->host.generation == 1);
