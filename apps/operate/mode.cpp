@@ -121,11 +121,11 @@ std::vector<Chip> chipsOf(const ModeInput& input) {
                          "Guidance is on: the tool is pulled to the nearest target. G: off"});
     }
     if (console.forces && !console.timeLine.on) {
-        constexpr std::pair<const char*, const char*> kWaiting{"WAITING for regions",
+        constexpr std::pair<const char*, const char*> kUnknown{"NO REGIONS YET",
                                                                "No force before regions are known"},
             kLags{"LAGS", "Contacts come late: no force until the tool has caught up"},
             kEscaping{"ESCAPING", "A region now covers the tool, which moves out"}, kNone{nullptr, ""};
-        const auto [word, tip] = record.state == StepState::Off       ? kWaiting
+        const auto [word, tip] = record.state == StepState::Off       ? kUnknown
                                  : record.state == StepState::Waiting ? kLags
                                  : record.state == StepState::Escape  ? kEscaping
                                                                       : kNone;

@@ -34,7 +34,7 @@ struct ModeInput {
 // LOOK-BACK, FORCES OFF, FORCES FADING, HELD, STALE, AT LIMIT, CONTACT or ARMED.
 Mode modeOf(const ModeInput& input);
 
-// What does not replace the word: GUIDE, FROZEN, REC, CLUTCH, WAITING, LAGS, ESCAPING; in playback the
+// What does not replace the word: GUIDE, FROZEN, REC, CLUTCH, NO REGIONS YET, LAGS, ESCAPING; in playback the
 // recorded state.
 struct Chip {
     std::string word;

@@ -34,7 +34,7 @@ TEST_CASE(
     CHECK(mode(StepState::Fading) == "FORCES FADING"); // they fade over some time
     run.console.forces = true;
     CHECK(mode(StepState::Off) == "ARMED");
-    CHECK(chips() == "WAITING for regions");
+    CHECK(chips() == "NO REGIONS YET");
     CHECK(mode(StepState::Free) == "ARMED");
     CHECK(chips().empty());
     CHECK(mode(StepState::Waiting) == "ARMED");
