@@ -26,7 +26,7 @@ struct LiveSinks {
     SnapshotSink snapshots;
 };
 
-// The run never waits for the window, which reads what the writer published. When the GPU is lost, the camera
+// The run never waits for the window, which reads what the writer published. When the GPU is lost, the frame
 // thread opens it again (DeviceHandover) while hand and keys keep working.
 class OperatorRun {
 public:

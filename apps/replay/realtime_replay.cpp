@@ -48,7 +48,7 @@ RealtimeReplay::RealtimeReplay(Session& session, const ReplayOptions& options, R
 
 RealtimeReplay::~RealtimeReplay() = default;
 
-// Camera thread. The first frame comes before the run exists; the scene then already has that frame's shapes.
+// Frame thread. The first frame comes before the run exists; the scene then already has that frame's shapes.
 void RealtimeReplay::takeShapes(const std::vector<Shape>& shapes) {
     if (run_) {
         run_->setShapes(shapes);

@@ -130,7 +130,7 @@ void explainThreads(Plan& plan) {
     const auto thread = [&](const char* name, bool in, const char* why) {
         plan.items.push_back({"thread", name, in, why, 0});
     };
-    thread("camera", true, "frames, uploads, passes (realtime)");
+    thread("frame", true, "frames, uploads, passes (realtime)");
     thread("contact", plan.query != Plan::Query::None,
            plan.query != Plan::Query::None ? "contact sets (realtime)" : "no contact constraints");
     thread("clearance", plan.query != Plan::Query::None,
@@ -138,8 +138,8 @@ void explainThreads(Plan& plan) {
                                            : "no contact constraints");
     thread("haptic", true, "ticks (realtime)");
     thread("publishers", plan.publishers > 1,
-           plan.publishers > 1 ? "additional threads help the camera thread to publish each set"
-                               : "the camera thread alone publishes each set");
+           plan.publishers > 1 ? "additional threads help the frame thread to publish each set"
+                               : "the frame thread alone publishes each set");
 }
 
 void explainArm(Plan& plan) {
