@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Symbol visibility and the version of the binary interface. Included by the other headers.
+/// Symbol visibility, and the inline namespace of all public names. Included by the other headers.
+///
+/// `v0` stays until version 1.0. Until then each minor version may change the binary interface, and has a
+/// soname of its own: `libfathom.so.0.2` for 0.2.
 #pragma once
 
 /// Marks what the library exports.
