@@ -18,7 +18,8 @@
 
 namespace fathom::operate {
 
-// [N s/m] Automatic stiffness meets the bound exactly, so a slightly longer period must not raise an alarm.
+// [N s/m] With `haptics.margin: 1` automatic stiffness meets the bound exactly; a slightly longer period must
+// not raise an alarm.
 constexpr double kMarginNoise = -0.1;
 
 // What the gauges show; references must stay valid during the call only.
