@@ -94,6 +94,11 @@ bool JsonField::boolean() const {
     return value_->get<bool>();
 }
 
+bool JsonField::allZero() const {
+    const auto zero = [](const nlohmann::json& one) { return one.is_number() && one.get<double>() == 0.0; };
+    return value_->is_array() ? std::all_of(value_->begin(), value_->end(), zero) : zero(*value_);
+}
+
 std::string JsonField::text() const {
     if (!value_->is_string()) {
         refuse("text");

@@ -29,6 +29,7 @@ public:
     uint32_t integer(uint32_t lo, uint32_t hi) const; // lo..hi, both allowed
     bool boolean() const;
     std::string text() const;
+    bool allZero() const;                        // the number 0, or a list of nothing else
     std::vector<double> numbers() const;         // list of finite numbers, any length
     std::vector<double> numbers(size_t n) const; // of exactly n
 

@@ -7,6 +7,7 @@
 #include "engine/types/decimation.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -14,8 +15,18 @@ namespace fathom {
 
 namespace {
 
+// Names by which other programs store distortion, in other forms and orders.
+constexpr std::array kForeignDistortion{
+    "D", "d", "dist", "dist_coeffs", "coeffs", "distortion_coeffs", "k1", "distortion_coefficients"};
+
 void readDistortion(const JsonField& block, Intrinsics& lens) {
     const auto list = block.find("distortion"), model = block.find("distortion_model");
+    for (const char* name : kForeignDistortion) {
+        const auto foreign = list ? std::nullopt : block.find(name);
+        if (foreign && !foreign->allZero()) {
+            foreign->refuse("zeros, or the coefficients as a list \"distortion\" with \"distortion_model\"");
+        }
+    }
     const std::vector<double> given = list ? list->numbers() : std::vector<double>{};
     const std::string allowed = setDistortion(lens, model ? model->text() : "", given);
     if (!allowed.empty()) {
@@ -23,25 +34,30 @@ void readDistortion(const JsonField& block, Intrinsics& lens) {
     }
 }
 
+void readPinhole(const JsonField& block, Intrinsics& lens) {
+    const auto matrix = block.find("intrinsic_matrix"); // Open3D, column by column
+    if (!matrix) {
+        lens.fx = block.at("fx").positive();
+        lens.fy = block.at("fy").positive();
+        lens.cx = block.at("cx").finite();
+        lens.cy = block.at("cy").finite();
+        return;
+    }
+    const std::vector<double> k = matrix->numbers(9);
+    if (!(k[0] > 0.0 && k[4] > 0.0) || k[8] != 1.0 || k[2] != 0.0 || k[5] != 0.0) {
+        matrix->refuse("fx, 0, 0, 0, fy, 0, cx, cy, 1");
+    }
+    lens.fx = k[0];
+    lens.fy = k[4];
+    lens.cx = k[6];
+    lens.cy = k[7];
+}
+
 Intrinsics readLens(const JsonField& block) {
     Intrinsics lens;
     lens.width = block.at("width").integer(1, kMaxImageWidth);
     lens.height = block.at("height").integer(1, kMaxImageHeight);
-    if (const auto matrix = block.find("intrinsic_matrix")) { // Open3D, column by column
-        const std::vector<double> k = matrix->numbers(9);
-        if (!(k[0] > 0.0 && k[4] > 0.0) || k[8] != 1.0 || k[2] != 0.0 || k[5] != 0.0) {
-            matrix->refuse("fx, 0, 0, 0, fy, 0, cx, cy, 1");
-        }
-        lens.fx = k[0];
-        lens.fy = k[4];
-        lens.cx = k[6];
-        lens.cy = k[7];
-        return lens;
-    }
-    lens.fx = block.at("fx").positive();
-    lens.fy = block.at("fy").positive();
-    lens.cx = block.at("cx").finite();
-    lens.cy = block.at("cy").finite();
+    readPinhole(block, lens);
     readDistortion(block, lens);
     if (!lens.invertible()) {
         block.at("distortion").refuse("coefficients that can be inverted over the whole image");
@@ -84,7 +100,7 @@ Pose readColourTdepth(const JsonField& root) {
 void readTwoLenses(const JsonField& root, const JsonField& colour, CameraInfo& camera) {
     camera.depth = readLens(root.at("depth"));
     camera.colour = readLens(colour);
-    const auto registered = root.find("registered_to_color");
+    const auto registered = findColour(root, "registered_to_color", "registered_to_colour");
     camera.registered = registered && registered->boolean();
     if (!camera.registered) {
         camera.colourTdepth = readColourTdepth(root);
@@ -100,7 +116,7 @@ void readOneLens(const JsonField& root, CameraInfo& camera) {
     camera.depth = readLens(root);
     camera.colour = camera.depth;
     camera.registered = true; // a single lens implies registration
-    const auto registered = root.find("registered_to_color");
+    const auto registered = findColour(root, "registered_to_color", "registered_to_colour");
     if (registered && !registered->boolean()) {
         registered->refuse("true, or blocks depth and color with extrinsics_topic_tf");
     }
@@ -138,17 +154,26 @@ void readBeams(const JsonField& root, RecordingIntrinsics& intrinsics) {
     }
 }
 
-void readScale(const JsonField& root, ScaleRule rule, RecordingIntrinsics& intrinsics) {
-    const bool need = rule == ScaleRule::Needed && !root.find("intrinsic_matrix");
-    const auto scale = need ? root.at("depth_scale_m_per_unit") : root.find("depth_scale_m_per_unit");
-    if (!scale) {
-        return;
+// [m], as stated; nothing where nothing is stated. Open3D states units per metre.
+std::optional<double> statedScale(const JsonField& root, ScaleRule rule) {
+    const bool check = rule != ScaleRule::Unchecked, open3d = root.find("intrinsic_matrix").has_value();
+    const auto scale = root.find("depth_scale_m_per_unit"), foreign = root.find("depth_scale");
+    if (!scale && foreign && (open3d || check)) {
+        const double unit = 1.0 / foreign->positive();
+        if (!open3d || (check && (unit < kFinestUnit || unit > kCoarsestUnit))) {
+            foreign->refuse(open3d ? "units per metre, 10 to 1000000"
+                                   : "depth_scale_m_per_unit: 1000 units per metre are 0.001");
+        }
+        return unit;
     }
-    const double unit = scale->positive();
-    if (rule != ScaleRule::Unchecked && (unit < kFinestUnit || unit > kCoarsestUnit)) {
+    if (!scale && (open3d || rule != ScaleRule::Needed)) {
+        return std::nullopt;
+    }
+    const double unit = root.at("depth_scale_m_per_unit").positive();
+    if (check && (unit < kFinestUnit || unit > kCoarsestUnit)) {
         scale->refuse("metres per unit, 0.000001 to 0.1: 1000 units per metre are 0.001");
     }
-    intrinsics.scale = intrinsics.camera.metresPerUnit = unit;
+    return unit;
 }
 
 void readStamps(const JsonField& root, RecordingIntrinsics& intrinsics) {
@@ -183,8 +208,9 @@ RecordingIntrinsics readIntrinsics(const std::filesystem::path& file, ScaleRule 
     } else {
         readOneLens(root, camera);
     }
-    readScale(root, rule, intrinsics);
-    const auto colourThere = root.find("has_color");
+    intrinsics.scale = statedScale(root, rule);
+    camera.metresPerUnit = intrinsics.scale.value_or(camera.metresPerUnit);
+    const auto colourThere = findColour(root, "has_color", "has_colour");
     camera.hasColour = !colourThere || colourThere->boolean();
     if (!camera.hasColour && !camera.registered) {
         colourThere->refuse("true where there is a block color");

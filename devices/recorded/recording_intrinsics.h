@@ -36,7 +36,8 @@ struct RecordingIntrinsics {
 // projection: equal_angles (fx, fy in pixels per radian), depth_is: range, and beam {width_deg, sigma_m,
 // sigma_m_per_m}; its rgb/ images show intensity as grey. Throws BadInput naming the file and field.
 // A missing depth_scale_m_per_unit is 0.001 unless it is needed. Open3D's camera_intrinsic.json is read as
-// well (intrinsic_matrix, column by column; depth in millimetres).
+// well (intrinsic_matrix, column by column; depth_scale in units per metre, else millimetres). Distortion
+// under a name of other programs (D, distortion_coefficients, ...) is rejected unless it is zero.
 RecordingIntrinsics readIntrinsics(const std::filesystem::path& file, ScaleRule rule = ScaleRule::Needed);
 
 // colourTdepth of a JSON file with t [m] and q_xyzw, or with extrinsics_topic_tf. Throws as above.

@@ -43,6 +43,13 @@ TEST_CASE("A folder of Open3D is played with its lens, in millimetres or by the 
     CHECK(framesOf(camera, depths) == 2);
     CHECK(depths.back() == doctest::Approx(0.6));
     CHECK(RecordedCamera(folder.path(), {.scale = 0.0002}).info().metresPerUnit == 0.0002);
+    const std::string lens = R"({"width": 7, "height": 5, "intrinsic_matrix": [6, 0, 0, 0, 6, 0, 3, 2, 1], )";
+    folder.write("camera_intrinsic.json", lens + R"("depth_scale": 4000.0, "distortion": [0.1, 0, 0, 0]})");
+    CHECK(RecordedCamera(folder.path()).info().metresPerUnit == 0.00025); // an L515
+    CHECK(RecordedCamera(folder.path()).info().depth.distortion[0] == 0.1);
+    folder.write("camera_intrinsic.json", lens + R"("depth_scale": 0.001})");
+    CHECK(layoutRefusal(folder.path()).find("depth_scale: 0.001 (allowed: units per metre") !=
+          std::string::npos);
     folder.write(
         "camera_intrinsic.json",
         R"({"width": 7, "height": 5, "intrinsic_matrix": [6, 0, 3, 0, 6.5, 2, 0, 0, 1]})"); // by rows
@@ -199,6 +206,16 @@ TEST_CASE("What is said behind a recording's name is split from it, and wrong va
     CHECK_THROWS_WITH_AS(parseSource("a,start=-1"), doctest::Contains("at least 0"), BadInput);
     CHECK_THROWS_WITH_AS(parseSource("a,depth="), doctest::Contains("depth: nothing"), BadInput);
     CHECK_THROWS_WITH_AS(parseSource("a,depth=/x,depth=/y"), doctest::Contains("given twice"), BadInput);
+}
+
+TEST_CASE("Fields with colour in their name may be spelled the British way") {
+    const TemporaryFolder folder;
+    writeDepth(folder.path() / "depth/0.png", kSmallWidth, kSmallHeight, 500);
+    folder.write("depth.txt", "0 depth/0.png\n");
+    folder.write("intrinsics.json", R"({"width": 7, "height": 5, "fx": 6, "fy": 6, "cx": 3, "cy": 2,
+        "depth_scale_m_per_unit": 0.001, "registered_to_colour": true, "has_colour": false})");
+    CHECK(playedDepths(folder.path()) == std::vector<uint16_t>{500});
+    CHECK_FALSE(RecordedCamera(folder.path()).info().hasColour);
 }
 
 TEST_CASE("Lines of associations.txt may name depth first, as ICL-NUIM writes them") {

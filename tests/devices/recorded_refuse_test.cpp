@@ -120,6 +120,22 @@ TEST_CASE("a lens with a missing, negative, zero or non-finite number is refused
                     "registered_to_color: false");
     checkIntrinsics(R"("registered_to_color": true)", R"("registered_to_color": 1)",
                     "registered_to_color: 1");
+    checkIntrinsics(R"("registered_to_color": true)", R"("registered_to_colour": false)",
+                    "registered_to_colour: false");
+}
+
+TEST_CASE("Distortion and depth scale under the names of other programs are rejected, and zeros are not") {
+    for (const char* name : {"D", "distortion_coefficients", "coeffs", "k1"}) {
+        const std::string key = std::string("\"") + name + "\": ";
+        std::string text = R"({"width": 7, "height": 5, "fx": 6.5, "fy": 6.25, "cx": 3, "cy": 2,
+                              "depth_scale_m_per_unit": 0.001, )";
+        CHECK(holds(refusalOf(text + key + "[0.3, 0, 0, 0, 0]}"), std::string(name) + ": [0.3,0,0,0,0]"));
+        CHECK(holds(refusalOf(text + key + "0.3}"), "(allowed: zeros, or the coefficients as a list"));
+        CHECK(holds(refusalOf(text + key + R"({"rows": 1}})"), std::string(name) + ": an object"));
+        CHECK(refusalOf(text + key + "[0, 0, 0, 0, 0]}") == "");
+    }
+    checkIntrinsics(R"("depth_scale_m_per_unit": 0.001)", R"("depth_scale": 1000)",
+                    "depth_scale: 1000 (allowed: depth_scale_m_per_unit: ");
 }
 
 TEST_CASE("Invalid JSON is rejected with its position: NaN, infinity, a truncated file, an empty one") {
