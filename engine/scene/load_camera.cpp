@@ -46,6 +46,21 @@ std::string withFilesBesideScene(Scene& scene, std::string text) {
     return text;
 }
 
+// "PATH,NAME=VALUE,NAME=VALUE": the path and the files are relative to the scene's folder.
+std::string recordingBesideScene(Scene& scene, const std::string& text) {
+    size_t options = text.find(',');
+    while (options != std::string::npos) { // file names may have commas
+        const size_t end = text.find_first_not_of("abcdefghijklmnopqrstuvwxyz", options + 1);
+        if (end != std::string::npos && text[end] == '=') {
+            break;
+        }
+        options = text.find(',', options + 1);
+    }
+    options = std::min(options, text.size());
+    return besideScene(scene, text.substr(0, options)).string() +
+           withFilesBesideScene(scene, text.substr(options));
+}
+
 CameraSource loadSource(const YamlNode& node, Scene& scene) {
     node.checkKeys({"simulated", "recorded", "v4l2", "ros2", "arm", "pictures", "colour"});
     const auto simulated = node.find("simulated"), recorded = node.find("recorded"), v4l2 = node.find("v4l2"),
@@ -68,7 +83,7 @@ CameraSource loadSource(const YamlNode& node, Scene& scene) {
         colour->refuse("none: only a simulated camera has a selectable format");
     }
     if (recorded) {
-        return {CameraSource::Kind::Recorded, besideScene(scene, recorded->text()).string()};
+        return {CameraSource::Kind::Recorded, recordingBesideScene(scene, recorded->text())};
     }
     if (ros2) {
         return {CameraSource::Kind::Ros2, withFilesBesideScene(scene, ros2->text())};

@@ -261,3 +261,15 @@ TEST_CASE("Files that a camera of ROS 2 names are relative to the scene, topics 
     CHECK(loadScene(first.path()).source.value ==
           "intrinsics=" + first.path().parent_path().string() + "/lens.json,depth=/a");
 }
+
+TEST_CASE("Files behind a recording's name are relative to the scene, as the recording is") {
+    const SceneFile file(kMinimal +
+                         "camera: {source: {recorded: \"a,b/rec,depth=/a/../b,intrinsics=lens.json,"
+                         "extrinsics=../x.json,start=5\"}}\n");
+    const Scene scene = loadScene(file.path());
+    const std::string folder = file.path().parent_path().string();
+    CHECK(scene.source.value == folder + "/a,b/rec,depth=/a/../b,intrinsics=" + folder +
+                                    "/lens.json,extrinsics=" +
+                                    file.path().parent_path().parent_path().string() + "/x.json,start=5");
+    CHECK(scene.outside == std::vector<std::string>{"../x.json"});
+}
