@@ -4,6 +4,7 @@
 #include "devices/images/metre_units.h"
 #include "devices/pcd/ply_file.h"
 #include "engine/types/error.h"
+#include "engine/types/log.h"
 #include "engine/types/read_file.h"
 
 #include <algorithm>
@@ -15,7 +16,6 @@ namespace fathom {
 
 namespace {
 
-constexpr double kFinestStep = 1e-4;  // [m]
 constexpr double kMostResidual = 1.0; // [pixels]
 constexpr double kMostBehind = 0.01;  // share of points behind the camera: faults of single pixels
 
@@ -145,7 +145,7 @@ PcdCamera::PcdCamera(const std::filesystem::path& file, const SourceOptions& opt
                        "a cloud from a depth camera or a scan with equal angles: x right and y down, y up "
                        "and z backward, or x forward and z up");
     }
-    scalePoints(fit, options.scale.value_or(1.0));
+    scalePoints(fit, options);
     if (cloud_.colour.empty()) {
         cloud_.colour = greyOf(cloud_.intensity);
     }
@@ -155,15 +155,18 @@ PcdCamera::PcdCamera(const std::filesystem::path& file, const SourceOptions& opt
     slots_.emplace(info_.depth.pixels(), info_.hasColour, 1);
 }
 
-// To the optical frame and metres; sets the depth unit.
-void PcdCamera::scalePoints(const FittedLens& fit, double scale) {
+// To the optical frame and metres; sets the depth unit. A few points beyond the depth of interest do not cost
+// the others their precision.
+void PcdCamera::scalePoints(const FittedLens& fit, const SourceOptions& options) {
     ValueSpan seen;
     for (dvec3& p : cloud_.points) {
-        p = fit.opticalTcloud * p * scale;
+        p = fit.opticalTcloud * p * options.scale.value_or(1.0);
         seen.add(measured(p) ? p.z : 0.0);
     }
     doubt_ = doubtMetres(file_.string(), seen.nearest);
-    info_.metresPerUnit = kFinestStep * std::ceil(std::max(1.0, seen.farthest / (65000.0 * kFinestStep)));
+    const bool near = seen.nearest <= options.farthest;
+    info_.metresPerUnit = unitForMetres(near ? std::min(seen.farthest, options.farthest) : seen.farthest);
+    farthest_ = options.farthest;
 }
 
 std::vector<std::string> PcdCamera::warnings() const {
@@ -177,10 +180,14 @@ std::optional<Frame> PcdCamera::next() {
     done_ = true;
     FrameSlot* slot = slots_->acquire();
     const std::span<uint16_t> depth = slot->depth();
+    uint64_t beyond = 0;
     for (size_t i = 0; i < cloud_.points.size(); ++i) {
-        depth[i] = measured(cloud_.points[i])
-                       ? static_cast<uint16_t>(std::lround(cloud_.points[i].z / info_.metresPerUnit))
-                       : uint16_t{0};
+        const dvec3& p = cloud_.points[i];
+        depth[i] = measured(p) ? unitsOf(p.z, info_.metresPerUnit, beyond) : uint16_t{0};
+    }
+    if (const double limit = 65535.0 * info_.metresPerUnit; beyond > 0 && limit < farthest_) {
+        log::warn("{}: {} points are farther than {:.4g} m and count as not measured", file_.string(), beyond,
+                  limit);
     }
     std::copy(cloud_.colour.begin(), cloud_.colour.end(), slot->colour().begin());
     Frame::Content content;

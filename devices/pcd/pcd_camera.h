@@ -25,7 +25,8 @@ struct FittedLens {
 // points are too few or all on one ray.
 FittedLens fitLens(const PcdCloud& cloud);
 
-// One frame. Depth is z in units of 0.1 mm, coarser when the farthest point needs it. The camera frame is the
+// One frame. Depth is z in units of 0.1 mm, coarser when the farthest point within options.farthest needs it;
+// points that do not fit then are not measured. The camera frame is the
 // optical one, independent of the cloud's axes. Without colour, the field `intensity` becomes grey; full
 // scale is the smallest of 1, 255 and 65535 that contains the maximum.
 class PcdCamera final : public Camera {
@@ -41,13 +42,14 @@ public:
     std::string description() const override { return "cloud " + file_.string(); }
 
 private:
-    void scalePoints(const FittedLens& fit, double scale);
+    void scalePoints(const FittedLens& fit, const SourceOptions& options);
 
     std::filesystem::path file_;
     CameraInfo info_;
     std::optional<FrameSlots> slots_;
     PcdCloud cloud_;
-    std::string doubt_; // of doubtMetres()
+    std::string doubt_;     // of doubtMetres()
+    double farthest_ = 0.0; // [m] of interest
     bool done_ = false;
 };
 

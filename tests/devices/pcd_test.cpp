@@ -39,6 +39,14 @@ std::string cloudText(const std::string& data, bool up = false) {
     return text;
 }
 
+// The tilted wall with its last point at this depth, on the same ray.
+std::string farText(float depth) {
+    std::string text = cloudText("binary");
+    const float values[3] = {(8.0f - 4.25f) / 10.0f * depth, (6.0f - 3.5f) / 11.0f * depth, depth};
+    std::memcpy(text.data() + text.size() - 16, values, sizeof values);
+    return text;
+}
+
 std::string refusal(const std::filesystem::path& file) {
     try {
         PcdCamera camera(file);
@@ -111,6 +119,22 @@ TEST_CASE("A scan of equal angles gives a fan in any axis convention, with inten
         CHECK((*frame)->depth[7 * 31 + 15] == 21500); // straight ahead
         CHECK((*frame)->colour[64] == 0xff808080u);   // strength 128 of 255
     }
+}
+
+TEST_CASE("A point beyond the scene's far costs the others no precision, and is not measured") {
+    const TemporaryFolder folder;
+    for (const float depth : {2000.0f, 1e6f}) {
+        folder.write("far.pcd", farText(depth));
+        PcdCamera camera(folder.path() / "far.pcd", {.farthest = 2.0});
+        CHECK(camera.info().metresPerUnit == 1e-4);
+        const auto frame = camera.next();
+        REQUIRE(frame);
+        CHECK((*frame)->depth[8] == 14000);
+        CHECK((*frame)->depth[62] == 0);
+    }
+    folder.write("far.pcd", farText(20.0f)); // of interest when no depth is named
+    PcdCamera camera(folder.path() / "far.pcd");
+    CHECK((*camera.next())->depth[62] * camera.info().metresPerUnit == doctest::Approx(20.0).epsilon(1e-3));
 }
 
 TEST_CASE("LZF unpacks literals and short, long and overlapping matches, and rejects damaged data") {
