@@ -110,6 +110,21 @@ std::vector<uint32_t> greyOf(const std::vector<float>& intensity) {
     return grey;
 }
 
+// A single cloud, whose points give the lens.
+void checkOptions(const std::string& file, const SourceOptions& options) {
+    options.checkMetres(file);
+    options.checkNoTopics(file);
+    const bool lens = !options.intrinsics.empty();
+    if (lens || !options.extrinsics.empty()) {
+        throw BadInput(file, lens ? "intrinsics" : "extrinsics", "for a cloud",
+                       "neither: lens and colour follow from the points");
+    }
+    if (options.start != 0.0 || std::isfinite(options.duration)) {
+        throw BadInput(file, options.start != 0.0 ? "start" : "duration", "for a single cloud",
+                       "neither: it is one frame");
+    }
+}
+
 } // namespace
 
 FittedLens fitLens(const PcdCloud& cloud) {
@@ -131,7 +146,7 @@ FittedLens fitLens(const PcdCloud& cloud) {
 PcdCamera::PcdCamera(const std::filesystem::path& file, const SourceOptions& options)
     : file_(file)
     , cloud_(readCloud(file)) {
-    options.checkMetres(file.string());
+    checkOptions(file.string(), options);
     FittedLens fit;
     try {
         fit = fitLens(cloud_);
@@ -146,7 +161,9 @@ PcdCamera::PcdCamera(const std::filesystem::path& file, const SourceOptions& opt
                        "and z backward, or x forward and z up");
     }
     scalePoints(fit, options);
-    if (cloud_.colour.empty()) {
+    if (options.depthOnly()) {
+        cloud_.colour.clear();
+    } else if (cloud_.colour.empty()) {
         cloud_.colour = greyOf(cloud_.intensity);
     }
     info_.depth = info_.colour = fit.lens;

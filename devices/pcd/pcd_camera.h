@@ -31,8 +31,8 @@ FittedLens fitLens(const PcdCloud& cloud);
 // scale is the smallest of 1, 255 and 65535 that contains the maximum.
 class PcdCamera final : public Camera {
 public:
-    // options.scale: metres per unit of the points, else 1. Throws BadInput, also when neither a pinhole nor
-    // a fan fits within one pixel.
+    // options.scale: metres per unit of the points, else 1. options.colour: "none" or empty. Throws BadInput,
+    // also for other options, and when neither a pinhole nor a fan fits within one pixel.
     explicit PcdCamera(const std::filesystem::path& file, const SourceOptions& options = {});
 
     const CameraInfo& info() const override { return info_; }

@@ -60,6 +60,7 @@ std::string sizeWords(PngSize size) {
 RecordedCamera::RecordedCamera(const fs::path& folder, const SourceOptions& options)
     : folder_(existingFolder(folder))
     , layout_(readLayout(folder, options)) {
+    options.checkNoTopics(folder_.string());
     checkStamps();
     mostApart_ = std::max(kMostApart, 0.5 * medianPeriod(layout_.index));
     useOptions(options);

@@ -75,6 +75,17 @@ void SourceOptions::checkMetres(const std::string& file) const {
     }
 }
 
+void SourceOptions::checkNoTopics(const std::string& file) const {
+    for (const auto& [key, topic] : {std::pair("depth", depth), std::pair("info", info),
+                                     std::pair("colour", depthOnly() ? "" : colour)}) {
+        if (!topic.empty()) {
+            throw BadInput(
+                file, key, topic,
+                "only for files with topics; intrinsics=FILE gives a lens, colour=none plays depth");
+        }
+    }
+}
+
 SourceRequest parseSource(const std::string& text) {
     size_t comma = nextKey(text, 0);
     SourceRequest request{text.substr(0, comma), {}};

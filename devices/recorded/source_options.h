@@ -26,7 +26,9 @@ struct SourceOptions {
     bool depthOnly() const { return colour == "none"; }
     // Throws BadInput when the scale is not between kFinestUnit and kCoarsestUnit, for 16-bit depth.
     void checkUnit(const std::string& file) const;
-    // The same for depth in metres and for points: at most kCoarsestValue.
+    // Throws BadInput for names of topics, which only files of messages have; colour=none is none.
+    void checkNoTopics(const std::string& file) const;
+    // The same as checkUnit() for depth in metres and for points: at most kCoarsestValue.
     void checkMetres(const std::string& file) const;
 };
 

@@ -47,9 +47,9 @@ std::string farText(float depth) {
     return text;
 }
 
-std::string refusal(const std::filesystem::path& file) {
+std::string refusal(const std::filesystem::path& file, const SourceOptions& options = {}) {
     try {
-        PcdCamera camera(file);
+        PcdCamera camera(file, options);
     } catch (const BadInput& e) {
         return e.what();
     }
@@ -135,6 +135,24 @@ TEST_CASE("A point beyond the scene's far costs the others no precision, and is 
     folder.write("far.pcd", farText(20.0f)); // of interest when no depth is named
     PcdCamera camera(folder.path() / "far.pcd");
     CHECK((*camera.next())->depth[62] * camera.info().metresPerUnit == doctest::Approx(20.0).epsilon(1e-3));
+}
+
+TEST_CASE("Options that a cloud cannot follow are rejected, and colour=none leaves its colour out") {
+    const TemporaryFolder folder;
+    folder.write("a.pcd", cloudText("binary"));
+    const std::filesystem::path file = folder.path() / "a.pcd";
+    const auto rejects = [&](const SourceOptions& options, const std::string& part) {
+        CHECK_MESSAGE(refusal(file, options).find(part) != std::string::npos, refusal(file, options));
+    };
+    rejects({.depth = "/x"}, "depth: /x (allowed: only for files with topics");
+    rejects({.colour = "/x"}, "colour: /x");
+    rejects({.info = "/x"}, "info: /x");
+    rejects({.intrinsics = "x.json"}, "intrinsics: for a cloud (allowed: neither");
+    rejects({.extrinsics = "x.json"}, "extrinsics: for a cloud");
+    rejects({.start = 5.0}, "start: for a single cloud (allowed: neither");
+    rejects({.duration = 5.0}, "duration: for a single cloud");
+    CHECK_FALSE(PcdCamera(file, {.colour = "none"}).info().hasColour);
+    CHECK(PcdCamera(file).info().hasColour);
 }
 
 TEST_CASE("LZF unpacks literals and short, long and overlapping matches, and rejects damaged data") {

@@ -183,6 +183,14 @@ TEST_CASE("Start and duration cut a folder, and another file gives the lens") {
     folder.write("other.json", other);
     fs::remove(folder.path() / "intrinsics.json");
     CHECK(layoutRefusal(folder.path()).find("intrinsics=FILE") != std::string::npos);
+    const fs::path lens = folder.path() / "other.json";
+    CHECK(
+        layoutRefusal(folder.path(), {.depth = "/x", .intrinsics = lens}).find("depth: /x (allowed: only") !=
+        std::string::npos);
+    CHECK(layoutRefusal(folder.path(), {.info = "/x", .intrinsics = lens}).find("info: /x") !=
+          std::string::npos);
+    CHECK(layoutRefusal(folder.path(), {.colour = "/x", .intrinsics = lens}).find("colour: /x") !=
+          std::string::npos);
     CHECK(RecordedCamera(folder.path(), {.intrinsics = folder.path() / "other.json"}).info().metresPerUnit ==
           0.002);
 }
