@@ -90,6 +90,27 @@ TEST_CASE("A cloud that is unorganised, truncated or not from a pinhole is rejec
     CHECK(refusal(folder.path() / "y.pcd").find("cut off") != std::string::npos);
 }
 
+TEST_CASE("A word of an ASCII cloud that is not a number is rejected with its point and field") {
+    const TemporaryFolder folder;
+    const auto rejects = [&](const std::string& last, const std::string& part) {
+        std::string text = cloudText("ascii");
+        text.erase(text.rfind(' ', text.size() - 2) + 1); // the last colour
+        folder.write("a.pcd", text + last + "\n");
+        const std::string message = refusal(folder.path() / "a.pcd");
+        CHECK_MESSAGE(message.find(part) != std::string::npos, message);
+    };
+    rejects("red", "DATA: 'red' at point 62 (allowed: numbers of TYPE U for rgb)");
+    rejects("12abc", "DATA: '12abc' at point 62");
+    rejects("1.5", "DATA: '1.5' at point 62");
+    rejects("99999999999999999999999", "DATA: '99999999999999999999999' at point 62");
+    std::string text = cloudText("ascii");
+    folder.write("a.pcd", text);
+    CHECK(refusal(folder.path() / "a.pcd") == "");
+    text.replace(text.find("-"), 1, "x-"); // the first coordinate of the second point
+    folder.write("a.pcd", text);
+    CHECK(refusal(folder.path() / "a.pcd").find("for x)") != std::string::npos);
+}
+
 TEST_CASE("A scan of equal angles gives a fan in any axis convention, with intensity as grey") {
     const TemporaryFolder folder;
     for (const bool robot : {false, true}) {
