@@ -34,6 +34,19 @@ std::string text(double value) {
     return digits;
 }
 
+// A line of poses.txt, with all digits.
+std::string poseText(double stamp, const Pose& pose) {
+    const dvec3& t = pose.position;
+    const dquat& q = pose.rotation;
+    std::string line = text(stamp);
+    for (const double value : {t.x, t.y, t.z, q.x, q.y, q.z, q.w}) {
+        char digits[40];
+        std::snprintf(digits, sizeof digits, " %.17g", value);
+        line += digits;
+    }
+    return line;
+}
+
 // Files by which a folder is read as a recording, of any layout.
 constexpr std::array<const char*, 11> kMarks{"associations.txt",
                                              "depth.txt",
@@ -175,30 +188,30 @@ void RecordingWriter::done(const Job& job) {
     const std::lock_guard lock(mutex_);
     indexLines_[job.number] = line;
     if (job.image.pose) {
-        const dvec3& t = job.image.pose->position;
-        const dquat& q = job.image.pose->rotation;
-        std::string pose = text(job.image.stamp);
-        for (const double value : {t.x, t.y, t.z, q.x, q.y, q.z, q.w}) {
-            char digits[40];
-            std::snprintf(digits, sizeof digits, " %.17g", value);
-            pose += digits;
-        }
-        poseLines_[job.number] = pose;
+        poseLines_[job.number] = {job.image.stamp, poseText(job.image.stamp, *job.image.pose)};
     }
     while (!indexLines_.empty() && indexLines_.begin()->first == indexed_) {
         index_.lines() << indexLines_.begin()->second << "\n";
         indexLines_.erase(indexLines_.begin());
         if (const auto pose = poseLines_.find(indexed_); pose != poseLines_.end()) {
-            if (!poses_.isOpen()) {
-                poses_.open(folder_ / "poses.txt");
-            }
-            poses_.lines() << pose->second << "\n";
+            writePose(pose->second);
             poseLines_.erase(pose);
         }
         ++indexed_;
     }
     poses_.flush(); // before the index lists its images
     index_.flush();
+}
+
+// Times of poses rise, and a pose belongs to a time: frames of one stamp share a line.
+void RecordingWriter::writePose(const PoseLine& pose) {
+    if (!poses_.isOpen()) {
+        poses_.open(folder_ / "poses.txt");
+    } else if (pose.stamp <= lastPose_) {
+        return;
+    }
+    poses_.lines() << pose.line << "\n";
+    lastPose_ = pose.stamp;
 }
 
 void RecordingWriter::close() noexcept {

@@ -59,10 +59,15 @@ private:
         uint32_t number = 0;
         Image image;
     };
+    struct PoseLine {
+        double stamp = 0.0; // [s]
+        std::string line;
+    };
     void encode();
     void write(const Job& job);
     void count(const std::filesystem::path& file);
     void done(const Job& job);
+    void writePose(const PoseLine& pose);
     void end() noexcept;
 
     std::filesystem::path folder_;
@@ -71,7 +76,9 @@ private:
     mutable std::mutex mutex_;
     std::condition_variable work_, room_;
     std::deque<Job> waiting_;
-    std::map<uint32_t, std::string> indexLines_, poseLines_; // done, waiting for an earlier one
+    std::map<uint32_t, std::string> indexLines_; // done, waiting for an earlier one
+    std::map<uint32_t, PoseLine> poseLines_;     // likewise
+    double lastPose_ = 0.0;                      // [s] stamp of the last line of poses.txt
     uint32_t added_ = 0, indexed_ = 0, underWay_ = 0;
     bool ending_ = false;
     std::atomic<uint64_t> bytes_{0};

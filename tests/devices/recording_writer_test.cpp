@@ -143,6 +143,30 @@ TEST_CASE("A folder of another layout, and one whose depth or rgb folder holds f
     }
 }
 
+TEST_CASE("Frames of one stamp are written so that all are read again, with their pose") {
+    const TemporaryFolder folder;
+    const CameraInfo info = someCamera(true);
+    const std::vector<Image> images = someImages(info, 3);
+    {
+        RecordingWriter writer(folder.path() / "rec", info, 2);
+        const double stamps[] = {1.0, 1.0, 1.033};
+        for (size_t i = 0; i < 3; ++i) {
+            writer.add(
+                {stamps[i], images[i].depth, images[i].colour, Pose{{stamps[i], 0, 0}, dquat(1, 0, 0, 0)}});
+        }
+        writer.finish();
+    }
+    RecordedCamera camera(folder.path() / "rec");
+    for (size_t i = 0; i < 3; ++i) {
+        const auto frame = camera.next();
+        REQUIRE(frame);
+        CHECK(std::equal((*frame)->depth.begin(), (*frame)->depth.end(), images[i].depth.begin()));
+        REQUIRE((*frame)->baseTcamera);
+        CHECK((*frame)->baseTcamera->position.x == (i < 2 ? 1.0 : 1.033));
+    }
+    CHECK(camera.skipped() == 0);
+}
+
 TEST_CASE("An image that appears while a recording is written is not overwritten") {
     const TemporaryFolder folder;
     const CameraInfo info = someCamera(true);
