@@ -81,10 +81,11 @@ double JsonField::positive() const {
 }
 
 uint32_t JsonField::integer(uint32_t lo, uint32_t hi) const {
-    if (!value_->is_number_unsigned() || value_->get<uint64_t>() < lo || value_->get<uint64_t>() > hi) {
+    const double x = value_->is_number() ? value_->get<double>() : std::nan("");
+    if (!(x >= lo && x <= hi) || x != std::floor(x)) { // 80.0 is whole: some writers know only doubles
         refuse("a whole number from " + std::to_string(lo) + " to " + std::to_string(hi));
     }
-    return value_->get<uint32_t>();
+    return static_cast<uint32_t>(x);
 }
 
 bool JsonField::boolean() const {

@@ -135,6 +135,26 @@ constexpr std::array kLayouts{KnownLayout{"camera_intrinsic.json", readOpen3d},
                               KnownLayout{"frame-000000.depth.png", readSevenScenes},
                               KnownLayout{"intrinsic/intrinsic_depth.txt", readScanNet}};
 
+// The folder has no mark of a recording; it may hold files that are recordings.
+[[noreturn]] void refuseFolder(const fs::path& folder) {
+    constexpr std::array<std::string_view, 4> kMessages{".mcap", ".db3", ".bag", ".mkv"};
+    fs::path first;
+    std::error_code failed;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, failed)) {
+        if (endsAs(entry.path(), kMessages) && (first.empty() || entry.path() < first)) {
+            first = entry.path();
+        }
+    }
+    if (!first.empty()) {
+        throw BadInput(folder.string(), "metadata.yaml", "missing",
+                       "metadata.yaml of a ROS 2 recording, or the name of one file: " + first.string());
+    }
+    throw BadInput((folder / "intrinsics.json").string(), "file", "missing",
+                   "intrinsics.json (docs/guide/recordings.md has every field), or an index and "
+                   "intrinsics=FILE behind the folder's name, or a folder of Open3D, BOP, 7-Scenes or "
+                   "ScanNet");
+}
+
 RecordingLayout readFolder(const fs::path& folder, const SourceOptions& options) {
     const bool given = !options.intrinsics.empty(), own = fs::exists(folder / "intrinsics.json");
     const fs::path intrinsics = given ? options.intrinsics : folder / "intrinsics.json";
@@ -155,10 +175,7 @@ RecordingLayout readFolder(const fs::path& folder, const SourceOptions& options)
     if (given) { // its stamps may be the index
         return readTum(folder, intrinsics, options.depthOnly());
     }
-    throw BadInput((folder / "intrinsics.json").string(), "file", "missing",
-                   "intrinsics.json (docs/guide/recordings.md has every field), or an index and "
-                   "intrinsics=FILE behind the folder's name, or a folder of Open3D, BOP, 7-Scenes or "
-                   "ScanNet");
+    refuseFolder(folder);
 }
 
 } // namespace

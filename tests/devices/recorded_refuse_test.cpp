@@ -66,6 +66,11 @@ TEST_CASE("a missing folder, an empty folder and a folder without an index are r
     CHECK(holds(recordingRefusal(folder.path()), "associations.txt: no pair of images"));
     std::filesystem::remove(folder.path() / "intrinsics.json");
     CHECK(holds(recordingRefusal(folder.path()), "intrinsics.json: file: missing"));
+    folder.write("b_1.mcap", "x");
+    folder.write("b_0.mcap", "x");
+    CHECK(holds(recordingRefusal(folder.path()), "metadata.yaml: missing (allowed: metadata.yaml of a ROS 2 "
+                                                 "recording, or the name of one file: " +
+                                                     (folder.path() / "b_0.mcap").string()));
 }
 
 TEST_CASE("A recording without a usable frame is rejected at its end, with the first reason") {
@@ -122,6 +127,12 @@ TEST_CASE("a lens with a missing, negative, zero or non-finite number is refused
                     "registered_to_color: 1");
     checkIntrinsics(R"("registered_to_color": true)", R"("registered_to_colour": false)",
                     "registered_to_colour: false");
+}
+
+TEST_CASE("A whole number may be written with a decimal point") {
+    std::string text = kSmallIntrinsics;
+    text.replace(text.find("7"), 1, "7.0");
+    CHECK(refusalOf(text) == "");
 }
 
 TEST_CASE("Distortion and depth scale under the names of other programs are rejected, and zeros are not") {
