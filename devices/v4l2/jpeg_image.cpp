@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstdio>
 #include <turbojpeg.h>
 
 namespace fathom {
@@ -30,6 +31,37 @@ private:
 
 std::string faultOf(const Decoder& decoder) {
     return std::string("JPEG: ") + tjGetErrorStr2(decoder.get());
+}
+
+// A few bytes between the last sample and the end marker are padding, which many webcams send; more are the
+// rest of a damaged image. The decoder reports only its first warning, and this one can only be the last.
+bool endsPadded(const Decoder& decoder) {
+    constexpr unsigned kMostPadding = 16; // [bytes]
+    unsigned extra = 0, marker = 0;
+    return tjGetErrorCode(decoder.get()) == TJERR_WARNING &&
+           std::sscanf(tjGetErrorStr2(decoder.get()),
+                       "Corrupt JPEG data: %u extraneous bytes before marker %x", &extra, &marker) == 2 &&
+           extra <= kMostPadding && marker == 0xd9;
+}
+
+// Rows of each plane.
+struct PlaneRows {
+    std::array<unsigned char*, 3> planes;
+    std::array<int, 3> steps; // [bytes]
+};
+
+// False for a warning, too: a damaged image is not decoded on.
+bool decodePlanes(const Decoder& decoder, std::span<const std::byte> bytes, VideoSize size, PlaneRows rows) {
+    const auto decode = [&](int flags) {
+        return tjDecompressToYUVPlanes(decoder.get(), reinterpret_cast<const unsigned char*>(bytes.data()),
+                                       static_cast<unsigned long>(bytes.size()), rows.planes.data(),
+                                       static_cast<int>(size.width), rows.steps.data(),
+                                       static_cast<int>(size.height), flags) == 0;
+    };
+    if (decode(TJFLAG_STOPONWARNING)) {
+        return true;
+    }
+    return endsPadded(decoder) && (decode(0) || endsPadded(decoder));
 }
 
 uint32_t wholeWords(int bytes) {
@@ -97,11 +129,10 @@ std::string readJpeg(std::span<const std::byte> bytes, VideoSize size, std::span
     }
     auto* luma = reinterpret_cast<unsigned char*>(out.data());
     luma[p.blue] = 128;
-    std::array<unsigned char*, 3> planes{luma, luma + p.blue, luma + p.red};
-    std::array<int, 3> steps{static_cast<int>(p.lumaStep), static_cast<int>(p.chromaStep),
-                             static_cast<int>(p.chromaStep)};
-    if (tjDecompressToYUVPlanes(kDecoder.get(), in, count, planes.data(), width, steps.data(), height,
-                                TJFLAG_STOPONWARNING) != 0) {
+    const int chromaStep = static_cast<int>(p.chromaStep);
+    const PlaneRows rows{{luma, luma + p.blue, luma + p.red},
+                         {static_cast<int>(p.lumaStep), chromaStep, chromaStep}};
+    if (!decodePlanes(kDecoder, bytes, size, rows)) {
         return faultOf(kDecoder);
     }
     raw = {ColourFormat::JpegPlanes, size.width, size.height, out.first(end), p};

@@ -12,7 +12,7 @@ using namespace fathom;
 namespace {
 
 // Waves of colour, so that neighbours differ in luma and chroma.
-std::vector<std::byte> jpegOf(VideoSize size, int sampling) {
+std::vector<std::byte> jpegOf(VideoSize size, int sampling, int flags = 0) {
     std::vector<unsigned char> rgb;
     for (uint32_t i = 0; i < size.width * size.height; ++i) {
         const uint32_t x = i % size.width, y = i / size.width;
@@ -24,7 +24,7 @@ std::vector<std::byte> jpegOf(VideoSize size, int sampling) {
     unsigned char* made = nullptr;
     unsigned long bytes = 0;
     tjCompress2(encoder, rgb.data(), static_cast<int>(size.width), 0, static_cast<int>(size.height), TJPF_RGB,
-                &made, &bytes, sampling, 95, 0);
+                &made, &bytes, sampling, 95, flags);
     std::vector<std::byte> out(bytes);
     std::memcpy(out.data(), made, bytes);
     tjFree(made);
@@ -66,6 +66,22 @@ TEST_CASE("The planes of a JPEG of any sampling and size unpack to the bytes of 
             unpackColour(raw, rgba);
             CHECK(rgba == decodedWhole(jpeg, size));
         }
+    }
+}
+
+TEST_CASE("A few bytes in front of the end marker, as webcams send them, change no pixel; many are a fault") {
+    const VideoSize size{64, 48};
+    for (const int flags : {0, TJFLAG_PROGRESSIVE}) {
+        const auto jpeg = jpegOf(size, TJSAMP_420, flags);
+        auto padded = jpeg;
+        padded.insert(padded.end() - 2, 2, std::byte{0});
+        std::vector<std::byte> memory, other;
+        RawColour raw;
+        REQUIRE(planesOf(jpeg, size, memory, raw) == "");
+        CHECK(planesOf(padded, size, other, raw) == "");
+        CHECK(other == memory);
+        padded.insert(padded.end() - 2, 100, std::byte{0});
+        CHECK(planesOf(padded, size, other, raw).find("102 extraneous bytes") != std::string::npos);
     }
 }
 
