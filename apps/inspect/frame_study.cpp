@@ -2,6 +2,7 @@
 #include "apps/inspect/frame_study.h"
 
 #include "apps/replay/image.h"
+#include "apps/replay/output_folder.h"
 #include "engine/types/colour_copy.h"
 
 #include <algorithm>
@@ -78,7 +79,7 @@ FrameStudy::FrameStudy(Camera& camera, const std::optional<std::filesystem::path
             break;
         }
         if (stamps_.empty() && out) {
-            std::filesystem::create_directories(*out);
+            makeOutputFolder(*out);
             saveDepth(*frame, info_, *out / "depth.png");
             if (info_.hasColour) {
                 saveColour(*frame, info_, *out / "colour.png");

@@ -63,22 +63,36 @@ void removeAll(const std::filesystem::path& folder, bool (*wanted)(const std::fi
     }
 }
 
+[[noreturn]] void refuseFolder(const std::filesystem::path& folder, const std::string& why) {
+    throw BadInput(folder.string(), "output folder", why, "a folder, existing or new, that can be written");
+}
+
 } // namespace
+
+void makeOutputFolder(const std::filesystem::path& folder) {
+    std::error_code failed;
+    std::filesystem::create_directories(folder, failed);
+    if (failed == std::errc::no_space_on_device) {
+        throw Error(folder.string() + ": cannot use as output folder: " + failed.message());
+    }
+    if (failed || !std::filesystem::is_directory(folder, failed)) {
+        refuseFolder(folder, failed ? failed.message() : "not a folder");
+    }
+}
 
 // The file may be removed between open() and flock(), by the process that held it: then the lock is on a file
 // without a name, and the next attempt opens the new one.
 OutputLock::OutputLock(const std::filesystem::path& folder)
     : file_(folder / ".fathom.lock") {
-    std::error_code failed;
-    std::filesystem::create_directories(folder, failed);
-    if (failed) {
-        throw Error(folder.string() + ": cannot use as output folder: " + failed.message());
-    }
+    makeOutputFolder(folder);
     do {
         if (descriptor_ >= 0) {
             ::close(descriptor_);
         }
         descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0644);
+        if (descriptor_ < 0 && (errno == EACCES || errno == EROFS)) {
+            refuseFolder(folder, std::strerror(errno));
+        }
         if (descriptor_ < 0) {
             throw Error(file_.string() + ": cannot create: " + std::strerror(errno));
         }

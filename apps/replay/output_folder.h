@@ -6,11 +6,15 @@
 
 namespace fathom {
 
+// Creates the folder where it is missing. Throws BadInput when it is a file, or cannot be made.
+void makeOutputFolder(const std::filesystem::path& folder);
+
 // Holds the folder for this process. The kernel ends the lock with the process, however it ends, so a lock
 // file that was left behind does not count.
 class OutputLock {
 public:
-    // Creates the folder. Throws BadInput while another process holds it, Error when it cannot be written.
+    // Creates the folder as makeOutputFolder(). Throws BadInput while another process holds it and when it
+    // must not be written, Error for other failures such as a full disk.
     explicit OutputLock(const std::filesystem::path& folder);
     OutputLock(OutputLock&& other) noexcept;
     OutputLock& operator=(OutputLock&&) = delete;

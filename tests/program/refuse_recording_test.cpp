@@ -133,13 +133,23 @@ TEST_CASE("An invalid command line is rejected with what is allowed") {
     checkRefused(stage, {"--device", "99", "0 = "}, {"--device", "99"});
 }
 
-TEST_CASE("An output folder that cannot be written ends with exit code 1 and one line that names it") {
+TEST_CASE("An output folder that is a file is rejected; one that holds a folder in the way is a failure") {
     Stage stage;
     stage.recording({bumpImage()});
     stage.hand({{0.0, {0.0, 0.0, 0.4}}});
     stage.write("file", "in the way");
-    checkRefusal(stage.command({}, "file"), {(stage / "file").string(), "output folder"}, 1);
-    checkRefusal(stage.command({}, "file/deep"), {(stage / "file/deep").string(), "output folder"}, 1);
+    const std::string rec = (stage / "rec").string();
+    for (const char* name : {"file", "file/deep"}) {
+        const std::string out = (stage / name).string();
+        const std::vector<std::string> parts{out + ": output folder: ",
+                                             "(allowed: a folder, existing or new"};
+        checkRefusal(stage.command({}, name), parts);
+        checkRefusal({"convert", rec, "--out", out}, parts);
+        checkRefusal({"record", "apps/scenes/demo.yaml", "--source", rec, "--out", out}, parts);
+        const ProgramRun run = runFathom({"inspect", rec, "--out", out});
+        CHECK(run.exitCode == 2);
+        CHECK(run.err.find(parts[0]) != std::string::npos);
+    }
     fs::create_directories(stage / "out/summary.json/full");
     checkRefusal(stage.command(), {(stage / "out/summary.json").string(), "cannot replace"}, 1);
     fs::create_directories(stage / "out2/haptics.csv.partial");
