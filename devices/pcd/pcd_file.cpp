@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/pcd/pcd_file.h"
 
+#include "devices/pcd/ascii_value.h"
 #include "engine/types/error.h"
 #include "engine/types/read_file.h"
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstring>
@@ -131,29 +131,6 @@ Header readHeader(Source& source) {
     return header;
 }
 
-// Writes one ASCII value as in a binary file. False when the word is not a number of the field's kind.
-bool putValue(const std::string& word, const Field& field, uint8_t* to) {
-    char* end = nullptr;
-    errno = 0;
-    bool inRange = true; // small floating-point values may underflow
-    if (field.type == 'F' && field.size == 4) {
-        const float value = std::strtof(word.c_str(), &end);
-        std::memcpy(to, &value, 4);
-    } else if (field.type == 'F') {
-        const double value = std::strtod(word.c_str(), &end);
-        std::memcpy(to, &value, std::min<size_t>(8, field.size));
-    } else if (field.type == 'U') {
-        const uint64_t value = std::strtoull(word.c_str(), &end, 10);
-        inRange = errno == 0;
-        std::memcpy(to, &value, field.size);
-    } else {
-        const int64_t value = std::strtoll(word.c_str(), &end, 10);
-        inRange = errno == 0;
-        std::memcpy(to, &value, field.size);
-    }
-    return end == word.c_str() + word.size() && inRange;
-}
-
 // Converts ASCII values to the bytes of a binary file.
 std::vector<uint8_t> readAscii(Source& source, const Header& header) {
     const std::string text(source.bytes.begin() + static_cast<long>(source.at), source.bytes.end());
@@ -167,7 +144,7 @@ std::vector<uint8_t> readAscii(Source& source, const Header& header) {
                     source.refuse("DATA", "ends at point " + std::to_string(point), "WIDTH x HEIGHT points");
                 }
                 uint8_t* to = out.data() + point * header.bytes + field.offset + i * field.size;
-                if (!putValue(word, field, to)) {
+                if (!putAsciiValue(word, field.type, field.size, to)) {
                     source.refuse("DATA", "'" + word.substr(0, 40) + "' at point " + std::to_string(point),
                                   "numbers of TYPE " + std::string(1, field.type) + " for " + field.name);
                 }
