@@ -287,7 +287,7 @@ TEST_CASE("A ScanNet folder plays with both lenses and its poses, without the fr
     CHECK(camera.skipped() == 1);
     folder.write("intrinsic/extrinsic_color.txt", "1 0 0 0.1\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
     CHECK(layoutRefusal(folder.path()).find("not the identity") != std::string::npos);
-    folder.write("lens.json", kSmallIntrinsics); // the way out that the message names
+    folder.write("lens.json", kSmallIntrinsics); // as the message advises
     RecordedCamera other(folder.path(), {.intrinsics = folder.path() / "lens.json"});
     CHECK(other.info().depth.fx == 6.5);
     CHECK(other.info().registered);
