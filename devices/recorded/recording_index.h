@@ -28,6 +28,6 @@ struct IndexLine {
 // empty, or when stamps and files differ in number. A path that leaves the folder makes its line faulty or
 // skips it with a warning. The reader of the images warns about links.
 std::vector<IndexLine> readIndex(const std::filesystem::path& folder, const RecordingIntrinsics& intrinsics,
-                                 bool depthOnly);
+                                 bool depthOnly = false);
 
 } // namespace fathom
