@@ -4,6 +4,7 @@
 #include "engine/model/urdf_packet.h"
 #include "engine/model/xml_text.h"
 #include "engine/reader/answers.h"
+#include "engine/reader/lost_shapes.h"
 #include "engine/reader/mjcf.h"
 #include "engine/types/error.h"
 #include "engine/types/read_file.h"
@@ -22,7 +23,7 @@ namespace {
 constexpr size_t kLargestUrdf = 16u << 20;
 constexpr const char* kTree = "a tree of links below one root";
 
-// Captures the parser's first error.
+// Captures the parser's errors.
 class Listener : public console_bridge::OutputHandler {
 public:
     Listener() { console_bridge::useOutputHandler(this); }
@@ -30,14 +31,15 @@ public:
     Listener& operator=(const Listener&) = delete;
     ~Listener() override { console_bridge::restorePreviousOutputHandler(); }
     void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
-        if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR && first_.empty()) {
-            first_ = text.substr(0, text.find('\n'));
+        if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR && errors_.size() < kMostErrors) {
+            errors_.push_back(text.substr(0, std::min(text.find('\n'), kLongestError)));
         }
     }
-    const std::string& first() const { return first_; }
+    const std::vector<std::string>& errors() const { return errors_; }
 
 private:
-    std::string first_;
+    static constexpr size_t kMostErrors = 1000, kLongestError = 300;
+    std::vector<std::string> errors_;
 };
 
 // The parser requires only one root: links in a loop of joints have no root above them, and links of several
@@ -104,19 +106,18 @@ std::string packetOf(const std::filesystem::path& file) {
     }
     refuseXacro(file, text);
     text = isMjcf(text) ? urdfOfMjcf(file, text) : text;
-    if (text.find("<capsule") != std::string::npos) {
-        text = hideCapsules(text);
-    }
+    const bool capsules = text.find("<capsule") != std::string::npos;
     const Listener listener;
     const std::shared_ptr<const urdf::ModelInterface> model = [&] {
         const ParserAtWork parser;
-        return urdf::parseURDF(text);
+        return urdf::parseURDF(capsules ? hideCapsules(text) : text);
     }();
     if (!model) {
-        throw BadInput(file.string(), "robot", listener.first().empty() ? "not understood" : listener.first(),
-                       "a URDF robot");
+        throw BadInput(file.string(), "robot",
+                       listener.errors().empty() ? "not understood" : listener.errors()[0], "a URDF robot");
     }
     checkLinks(*model, file.string());
+    refuseLostShapes(*model, text, file.string(), listener.errors());
     return packUrdf(*model);
 }
 

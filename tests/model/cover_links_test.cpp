@@ -17,7 +17,7 @@ LinkGeometry meshLink(const std::string& link, const std::filesystem::path& file
     return {link, mesh};
 }
 
-LinkGeometry ballLink(const std::string& link, double radius) {
+LinkGeometry ballShape(const std::string& link, double radius) {
     const auto ball = std::make_shared<urdf::Sphere>();
     ball->radius = radius;
     return {link, ball};
@@ -50,19 +50,20 @@ TEST_CASE(
     "Shapes keep their order, and the first of several rejections is reported, of a file or of a size; a "
     "shape of size 0 is skipped") {
     const testing::ObjFile one(testing::boxMesh(dvec3(0.0), dvec3(0.1)));
-    const auto made = spheresOf(
-        std::vector{ballLink("a", 0.1), meshLink("b", one.path()), ballLink("c", 0.3)}, {"arm.urdf", {}}, 8);
+    const auto made =
+        spheresOf(std::vector{ballShape("a", 0.1), meshLink("b", one.path()), ballShape("c", 0.3)},
+                  {"arm.urdf", {}}, 8);
     REQUIRE(made.size() == 3);
     CHECK(made[0].spheres[0].radius == 0.1);
     CHECK(made[1].spheres.size() > 1);
     CHECK(made[2].spheres[0].radius == 0.3);
     CHECK(spheresOf({}, {"arm.urdf", {}}, 8).empty());
 
-    const LinkGeometry noFile = meshLink("none", "/nowhere/none.obj"), noSize = ballLink("flat", -0.1);
-    CHECK(refusalOf({ballLink("a", 0.1), noSize, noFile}).find("arm.urdf: link flat: ") == 0);
-    CHECK(refusalOf({ballLink("a", 0.1), noFile, noSize})
+    const LinkGeometry noFile = meshLink("none", "/nowhere/none.obj"), noSize = ballShape("flat", -0.1);
+    CHECK(refusalOf({ballShape("a", 0.1), noSize, noFile}).find("arm.urdf: link flat: ") == 0);
+    CHECK(refusalOf({ballShape("a", 0.1), noFile, noSize})
               .find("arm.urdf: link none: mesh '/nowhere/none.obj'") == 0);
-    const auto skipped = spheresOf(std::vector{ballLink("flat", 0.0)}, {"arm.urdf", {}}, 8);
+    const auto skipped = spheresOf(std::vector{ballShape("flat", 0.0)}, {"arm.urdf", {}}, 8);
     REQUIRE(skipped.size() == 1);
     CHECK(skipped[0].spheres.empty());
     CHECK(skipped[0].notes == std::vector<std::string>{"a shape of size 0 is skipped"});

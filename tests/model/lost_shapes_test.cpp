@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// Collision shapes that urdfdom drops.
+#include "tests/model/urdf_text.h"
+
+#include <doctest/doctest.h>
+
+using namespace fathom;
+using namespace fathom::testing;
+
+namespace {
+
+std::string shapeText(const std::string& shape) {
+    return "<collision><geometry>" + shape + "</geometry></collision>";
+}
+
+// Two links of an arm, the second with these elements behind a sound shape.
+std::string armWith(const std::string& elements, const std::string& before = "") {
+    return ballLink("a") + "<link name='b'>" + before + shapeText("<sphere radius='0.02'/>") + elements +
+           "</link>" + jointText("j", "revolute", "a", "b", "0 0 0.3", "0 1 0");
+}
+
+bool namesShape(const std::string& elements, const std::string& words, const std::string& before = "") {
+    const std::string refusal = urdfRefusal(armWith(elements, before));
+    INFO(refusal);
+    CHECK(refusal.find(".urdf: link b: ") != std::string::npos);
+    CHECK(refusal.find('\n') == std::string::npos);
+    CHECK(refusal.find("(allowed: ") != std::string::npos);
+    return refusal.find(words) != std::string::npos;
+}
+
+} // namespace
+
+TEST_CASE(
+    "A collision shape that the parser drops rejects the URDF, with the link, the shape and the reason") {
+    for (const char* shape :
+         {"<box size='0.1 0.1'/>", "<box size='0.1,0.1,0.2'/>", "<cylinder radius='0.1'/>",
+          "<sphere radius='abc'/>", "<mesh filename='a.stl' scale='0.001'/>", "<mesh url='a.stl'/>",
+          "<cone radius='1'/>", "<ellipsoid radii='1 1 1'/>"}) {
+        CHECK_MESSAGE(namesShape(shapeText(shape), std::string("collision 2 of 2: ") + shape), shape);
+    }
+    CHECK(namesShape(shapeText(""), "collision 2 of 2: no shape"));
+    CHECK(namesShape("<collision/>", "collision 2 of 2: no shape"));
+    CHECK(namesShape(shapeText("<box size='1 1'/>") + shapeText("<sphere radius='1'/>"),
+                     "collision 2 of 3: <box size='1 1'/>"));
+}
+
+TEST_CASE("An error in front of the collision shapes of a link, which hides them, rejects the URDF") {
+    CHECK(namesShape("", "its collision shapes are lost behind an error: ",
+                     "<visual><geometry><box size='1'/></geometry></visual>"));
+    CHECK(namesShape(
+        "", "its collision shapes are lost behind an error: ", "<inertial><mass value='heavy'/></inertial>"));
+}
+
+TEST_CASE("Words of collisions in comments and in other elements than links are not counted as shapes") {
+    const std::string outside = "<gazebo><collision/><link name='b'><collision/></link></gazebo>";
+    CHECK(loadUrdf(armWith("<!-- <collision> --><capsule_like/>") + outside).links.size() == 2);
+    CHECK(loadUrdf(armWith(shapeText("<capsule radius='0.1' length='0.2'/>"))).links.size() == 2);
+}
