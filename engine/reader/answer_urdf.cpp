@@ -92,10 +92,13 @@ std::string hideCapsules(const std::string& text) {
 }
 
 void refuseXacro(const std::filesystem::path& file, const std::string& text) {
-    if (text.find("<xacro:") != std::string::npos) {
-        throw BadInput(file.string(), "robot", "a xacro file",
-                       "a URDF; expand it with: xacro " + file.filename().string() + " > " +
-                           file.stem().stem().string() + ".urdf");
+    const std::string name = file.filename().string(), stem = file.stem().stem().string();
+    const std::string expanded = stem + (stem + ".urdf" == name ? "_expanded.urdf" : ".urdf");
+    for (XmlPieces pieces(text); pieces.next();) {
+        if (pieces.piece().name.starts_with("xacro:")) {
+            throw BadInput(file.string(), "robot", "a xacro file",
+                           "a URDF; expand it with: xacro " + name + " > " + expanded);
+        }
     }
 }
 

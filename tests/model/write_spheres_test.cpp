@@ -141,7 +141,7 @@ TEST_CASE("A whole URDF becomes a spherized one: all else stays, and its spheres
     }
 }
 
-TEST_CASE("Capsules are covered, and a xacro file is rejected with the command that expands it") {
+TEST_CASE("Capsules are covered, and those of a negative size or of none are rejected") {
     const ArmModel arm = loadUrdf("<link name='a'><collision><geometry><capsule radius='0.05' length='0.3'/>"
                                   "</geometry></collision></link>");
     const auto inside = [&](const dvec3& p) {
@@ -161,7 +161,18 @@ TEST_CASE("Capsules are covered, and a xacro file is rejected with the command t
                           "/></geometry></collision></link>")
                   .find("link a: a shape with a negative size") != std::string::npos);
     }
-    CHECK(urdfRefusal("<xacro:include filename='a'/>")
-              .find("robot: a xacro file (allowed: a URDF; expand it with: "
-                    "xacro ") != std::string::npos);
+}
+
+TEST_CASE("A xacro file is rejected with a command that expands it into another file; a comment is none") {
+    const std::string refusal = urdfRefusal("<xacro:include filename='a'/>"),
+                      command = "expand it with: xacro ";
+    CHECK(refusal.find("robot: a xacro file (allowed: a URDF; ") != std::string::npos);
+    REQUIRE(refusal.find(command) != std::string::npos);
+    std::istringstream words(refusal.substr(refusal.find(command) + command.size()));
+    std::string from, to, into;
+    words >> from >> to >> into;
+    CHECK(to == ">");
+    CHECK(from + ")" != into);
+    CHECK(into.ends_with(".urdf)"));
+    CHECK(urdfRefusal("<!-- <xacro:include filename='a'/> -->" + ballLink("a")) == "");
 }
