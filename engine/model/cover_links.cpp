@@ -4,6 +4,7 @@
 #include "engine/model/cover_cache.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
+#include "engine/types/printable.h"
 #include "engine/types/processors.h"
 
 #include <algorithm>
@@ -64,6 +65,9 @@ struct LinkCover {
         } catch (const ShapeRefused& e) {
             refused =
                 std::make_exception_ptr(BadInput(urdf.string(), "link " + of->link, e.value, e.allowed));
+        } catch (const BadInput& e) { // names the mesh
+            refused = std::make_exception_ptr(
+                BadInput(urdf.string() + ": link " + printable(of->link) + ": " + e.what()));
         } catch (...) {
             refused = std::current_exception();
         }

@@ -77,6 +77,7 @@ LoadedMesh readMesh(const urdf::Mesh& mesh, const ShapeSource& source, ShapeSphe
     options.stretch = {mesh.scale.x, mesh.scale.y, mesh.scale.z};
     options.dropStray = !source.keepStray; // the parts of an arm are close together; anything else is stray
     options.keepStray = source.keepStray;
+    options.ofUrdf = true;
     options.reader = source.reader;
     if (!isFinite(options.stretch) || options.stretch.x * options.stretch.y * options.stretch.z == 0.0) {
         throw ShapeRefused{"a mesh scale that is 0 or not finite", "three finite numbers, none 0"};

@@ -60,7 +60,7 @@ TriangleMesh readTriangles(const std::filesystem::path& file, const ReaderOption
 }
 
 // Returns the extent.
-double checkExtent(const std::string& file, const TriangleMesh& mesh) {
+double checkExtent(const std::string& file, const TriangleMesh& mesh, bool ofUrdf) {
     if (mesh.triangles.empty()) {
         throw BadInput(file, "triangles", "none with an area", "at least 1");
     }
@@ -68,7 +68,9 @@ double checkExtent(const std::string& file, const TriangleMesh& mesh) {
     const double extent = std::max({size.x, size.y, size.z});
     if (!(extent >= kLeastExtent && extent <= kMostExtent)) {
         throw BadInput(file, "size", metres(extent),
-                       "0.001 to 10 m; --scale 0.001 for millimetres, 0.0254 for inches");
+                       ofUrdf ? "0.001 to 10 m; <mesh scale=\"0.001 0.001 0.001\"> for millimetres, three "
+                                "times 0.0254 for inches"
+                              : "0.001 to 10 m; --scale 0.001 for millimetres, 0.0254 for inches");
     }
     return extent;
 }
@@ -105,7 +107,7 @@ LoadedMesh loadMesh(const std::filesystem::path& file, const MeshOptions& option
         throw BadInput(file.string(), "stray geometry", strayText(facts),
                        "one group of pieces; --drop-stray leaves them out");
     }
-    loaded.doubt = doubtOf(file, options, checkExtent(file.string(), mesh));
+    loaded.doubt = doubtOf(file, options, checkExtent(file.string(), mesh, options.ofUrdf));
     return loaded;
 }
 

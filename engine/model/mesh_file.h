@@ -17,6 +17,7 @@ struct MeshOptions {
     char up = 0;                 // 'x', 'y', 'z': the file's axis that becomes +z; 0 = no rotation
     bool dropStray = false;      // drop distant pieces instead of rejecting the file
     bool keepStray = false;      // keep them, whatever their distance
+    bool ofUrdf = false;         // messages advise the URDF's scale instead of the option --scale
     ReaderOptions reader;        // of the process that reads the file
 };
 

@@ -204,6 +204,11 @@ TEST_CASE("A URDF's mesh is scaled by three factors, and a factor of 0 is reject
     CHECK(high.z > 0.20);
     CHECK(high.z < 0.24);
     CHECK(refusalOf(text("1 0 1")).find("link a: a mesh scale that is 0") != std::string::npos);
+    const std::string large = refusalOf(text("1000 1000 1000"));
+    INFO(large);
+    CHECK(large.find(".urdf: link a: " + box.path().string() + ": size: 100 m") != std::string::npos);
+    CHECK(large.find("<mesh scale=") != std::string::npos);
+    CHECK(large.find("--scale") == std::string::npos);
 }
 
 TEST_CASE("Parts of an arm's files without leaves are reported in one line each") {
