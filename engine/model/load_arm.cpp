@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <sstream>
 
 namespace fathom {
@@ -134,9 +135,26 @@ private:
         }
         if (drive.kind == Kind::Follows) {
             out.mimic = drive.mimic;
+        } else {
+            noteLimits(out);
         }
         model_.joints.push_back(out);
         moving_.push_back(joint.name);
+    }
+
+    void noteLimits(const ArmJoint& joint) {
+        constexpr double kFourTurns = 8.0 * std::numbers::pi;
+        std::ostringstream line;
+        line << "joint " << joint.name << ": limits " << joint.lower << " to " << joint.upper
+             << (joint.slides ? " m" : " rad");
+        if (joint.lower == joint.upper) {
+            model_.notes.push_back(
+                line.str() + ": it cannot move" +
+                (joint.lower == 0.0 ? "; they are 0 where <limit> has no lower and upper" : ""));
+        } else if (!joint.slides && std::isfinite(joint.upper - joint.lower) &&
+                   joint.upper - joint.lower > kFourTurns) {
+            model_.notes.push_back(line.str() + " span more than four turns; in degrees?");
+        }
     }
 
     static void setSpeed(const urdf::Joint& joint, ArmJoint& out) {
