@@ -8,9 +8,9 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <numbers>
-#include <string_view>
 #include <utility>
 
 namespace fathom {
@@ -36,18 +36,48 @@ TriangleMesh prism(uint32_t sides, const std::array<double, 2>& half, double len
     return mesh;
 }
 
-// The file that a URDF's mesh name refers to. Searched below arm.meshes, or in the URDF's folder and the
-// three above it, with and without the package's name as a folder.
-std::filesystem::path pathOf(const std::string& name, const ShapeSource& source) {
-    constexpr std::string_view kPackage = "package://", kFile = "file://";
-    const bool package = name.rfind(kPackage, 0) == 0;
-    const std::string rest = package                     ? name.substr(kPackage.size())
-                             : name.rfind(kFile, 0) == 0 ? name.substr(kFile.size())
-                                                         : name;
-    std::vector<std::string> names{rest};
-    if (const size_t slash = rest.find('/'); package && slash != std::string::npos) {
-        names.push_back(rest.substr(slash + 1));
+// "%20" becomes a space: mesh names are URIs.
+std::string percentDecoded(const std::string& text) {
+    std::string out;
+    for (size_t i = 0; i < text.size(); ++i) {
+        unsigned code = 0;
+        const char* const digits = text.data() + i + 1;
+        if (text[i] == '%' && i + 2 < text.size() &&
+            std::from_chars(digits, digits + 2, code, 16).ptr == digits + 2 && code != 0) {
+            out += static_cast<char>(code);
+            i += 2;
+        } else {
+            out += text[i];
+        }
     }
+    return out;
+}
+
+// What a mesh name may mean as a path: with and without the package's name as a folder.
+std::vector<std::string> pathsIn(const std::string& name) {
+    std::string rest = name;
+    bool package = false;
+    for (const std::string scheme : {"package://", "model://", "file://"}) {
+        if (name.starts_with(scheme)) {
+            rest = name.substr(scheme.size());
+            package = scheme != "file://";
+        }
+    }
+    std::vector<std::string> paths{rest};
+    if (const size_t slash = rest.find('/'); package && slash != std::string::npos) {
+        paths.push_back(rest.substr(slash + 1));
+    }
+    for (size_t i = 0, count = paths.size(); i < count; ++i) {
+        if (std::string decoded = percentDecoded(paths[i]); decoded != paths[i]) {
+            paths.push_back(std::move(decoded));
+        }
+    }
+    return paths;
+}
+
+// The file that a URDF's mesh name refers to. Searched below arm.meshes, or in the URDF's folder and the
+// three above it.
+std::filesystem::path pathOf(const std::string& name, const ShapeSource& source) {
     std::vector<std::filesystem::path> folders{source.meshes};
     if (source.meshes.empty()) {
         folders = {source.urdf.parent_path()};
@@ -56,7 +86,7 @@ std::filesystem::path pathOf(const std::string& name, const ShapeSource& source)
         }
     }
     std::string looked;
-    for (const std::string& wanted : names) {
+    for (const std::string& wanted : pathsIn(name)) {
         for (const auto& folder : folders) {
             std::error_code ignored;
             if (std::filesystem::exists(folder / wanted, ignored)) {
@@ -69,7 +99,7 @@ std::filesystem::path pathOf(const std::string& name, const ShapeSource& source)
         }
     }
     throw ShapeRefused{"mesh '" + excerpt(name) + "' not found; looked for " + excerpt(looked, 1000),
-                       "an existing file; arm.meshes names the folder to use for package://"};
+                       "an existing file; arm.meshes names the folder to use for package:// and model://"};
 }
 
 LoadedMesh readMesh(const urdf::Mesh& mesh, const ShapeSource& source, ShapeSpheres& made) {

@@ -230,6 +230,23 @@ TEST_CASE("Joints that cannot move, and limits that look like degrees, are repor
     CHECK(notes("continuous", "").empty());
 }
 
+TEST_CASE("Meshes are found by URIs of Gazebo and with escaped characters") {
+    const auto folder = std::filesystem::temp_directory_path() / ("fathom_uri_" + std::to_string(::getpid()));
+    std::filesystem::create_directories(folder / "my arm/meshes");
+    const testing::ObjFile box(testing::boxMesh(dvec3(0.0), dvec3(0.1)));
+    std::filesystem::copy_file(box.path(), folder / "my arm/meshes/link one.obj");
+    std::filesystem::copy_file(box.path(), folder / "my arm/meshes/100%25.obj");
+    for (const char* name :
+         {"model://my%20arm/meshes/link%20one.obj", "package://other/meshes/link%20one.obj",
+          "file://meshes/link%20one.obj", "meshes/link one.obj", "meshes/100%25.obj"}) {
+        const auto file = folder / "my arm/arm.urdf";
+        std::ofstream(file) << "<robot name='r'><link name='a'><collision><geometry><mesh filename='" << name
+                            << "'/></geometry></collision></link></robot>";
+        CHECK_MESSAGE(!loadArm(file).leaves.empty(), name);
+    }
+    std::filesystem::remove_all(folder);
+}
+
 TEST_CASE("Parts of an arm's files without leaves are reported in one line each") {
     TriangleMesh mesh = testing::boxMesh(dvec3(0.0), dvec3(0.1));
     testing::addBox(mesh, {4.0, 0.0, 0.0}, dvec3(0.01));
