@@ -39,9 +39,7 @@ std::string firstBytes(const std::filesystem::path& file) {
 }
 
 Kind kindOf(const std::filesystem::path& file) {
-    std::string ending = file.extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string ending = endingOf(file);
     const std::string begin = firstBytes(file);
     for (const KnownFile& known : kFiles) {
         if (begin.starts_with(known.begin)) {

@@ -95,7 +95,7 @@ void drawErrors(const SpheresOptions& options, Maker& maker, size_t leaves) {
 
 // Sets of several links; every other ending is a .sph.
 bool holdsLinks(const std::filesystem::path& file) {
-    return isSphereFile(file) && file.extension() != ".sph";
+    return isSphereFile(file) && endingOf(file) != ".sph";
 }
 
 void writeText(const std::filesystem::path& file, const std::string& text) {
@@ -105,14 +105,14 @@ void writeText(const std::filesystem::path& file, const std::string& text) {
 }
 
 void writeSets(const SpheresOptions& options, const std::vector<LinkSpheres>& sets) {
-    const std::string kind = options.out.extension().string();
+    const std::string kind = endingOf(options.out);
     if (kind == ".xrdf") {
         writeText(options.out, xrdfText(sets));
     } else if (kind == ".json") {
         writeText(options.out, foamText(sets));
     } else if (kind != ".urdf") {
         writeText(options.out, curoboText(sets));
-    } else if (options.mesh.extension() == ".urdf" && options.link.empty()) {
+    } else if (endingOf(options.mesh) == ".urdf" && options.link.empty()) {
         writeText(options.out,
                   spherizedText(readWholeFile(options.mesh, kLargestUrdf, "a readable URDF file"), sets));
     } else if (sets.size() == 1) {
@@ -152,7 +152,7 @@ void convertTree(const SpheresOptions& options) {
 // From a set of another program, or from all shapes of a URDF.
 void convertSets(const SpheresOptions& options) {
     std::vector<LinkSpheres> sets;
-    if (options.mesh.extension() == ".urdf") {
+    if (endingOf(options.mesh) == ".urdf") {
         const UrdfCover cover =
             coverUrdf(options.mesh, options.meshes, options.cover.leaves, options.file.keepStray);
         for (const std::string& note : cover.notes) {
@@ -174,7 +174,7 @@ void convertSets(const SpheresOptions& options) {
 }
 
 void convert(const SpheresOptions& options) {
-    const bool covers = options.mesh.extension() == ".urdf" && holdsLinks(options.out);
+    const bool covers = endingOf(options.mesh) == ".urdf" && holdsLinks(options.out);
     const auto wrong = std::find_if(options.given.begin(), options.given.end(),
                                     [&](const std::string& name) { return !(covers && name == "--leaves"); });
     if (wrong != options.given.end()) {

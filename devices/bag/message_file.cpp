@@ -75,9 +75,7 @@ std::unique_ptr<MessageFile> openMessageFile(const std::filesystem::path& file) 
     std::string begin(16, '\0');
     std::ifstream in(isRegularFile(file) ? std::ifstream(file, std::ios::binary) : std::ifstream());
     in.read(begin.data(), static_cast<std::streamsize>(begin.size()));
-    std::string ending = file.extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string ending = endingOf(file);
     const bool bag = begin.starts_with("#ROSBAG"), database = begin.starts_with("SQLite format 3"),
                mcap = begin.starts_with("\x89MCAP"), matroska = begin.starts_with("\x1a\x45\xdf\xa3"),
                known = bag || database || mcap || matroska;

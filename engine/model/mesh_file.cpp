@@ -4,9 +4,9 @@
 #include "engine/model/import_triangles.h"
 #include "engine/types/error.h"
 #include "engine/types/input_files.h"
+#include "engine/types/read_file.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstdio>
 
@@ -38,8 +38,7 @@ TriangleMesh readTriangles(const std::filesystem::path& file, const ReaderOption
     if (!std::filesystem::is_regular_file(file)) {
         throw BadInput(file.string(), "mesh", "no such file", kinds);
     }
-    std::string kind = file.extension().string();
-    std::transform(kind.begin(), kind.end(), kind.begin(), [](unsigned char c) { return std::tolower(c); });
+    const std::string kind = endingOf(file);
     if (kind != ".stl" && kind != ".obj" && kind != ".dae") { // the library would accept fifty other formats
         throw BadInput(file.string(), "mesh", "kind '" + kind + "'", kinds);
     }
@@ -78,7 +77,7 @@ double checkExtent(const std::string& file, const TriangleMesh& mesh, bool ofUrd
 // A .dae states its unit; STL and OBJ do not.
 std::string doubtOf(const std::filesystem::path& file, const MeshOptions& options, double extent) {
     if (options.scale || options.stretch != dvec3(1.0) || extent <= kDoubtfulExtent ||
-        file.extension() == ".dae" || file.extension() == ".DAE") {
+        endingOf(file) == ".dae") {
         return "";
     }
     return metres(extent) + " large if its unit is the metre, which the file does not state (inches?)";

@@ -4,6 +4,7 @@
 #include "engine/model/sph_file.h"
 #include "engine/model/urdf_file.h"
 #include "engine/types/error.h"
+#include "engine/types/read_file.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,12 +23,6 @@ std::string namesOf(const std::vector<LinkSpheres>& sets) {
         names += (names.empty() ? "" : ", ") + set.link;
     }
     return excerpt(std::move(names), kShownNames);
-}
-
-std::string kindOf(const std::filesystem::path& file) {
-    std::string kind = file.extension().string();
-    std::transform(kind.begin(), kind.end(), kind.begin(), [](unsigned char c) { return std::tolower(c); });
-    return kind;
 }
 
 } // namespace
@@ -57,13 +52,13 @@ std::vector<LinkSpheres> readSpherizedUrdf(const std::filesystem::path& file, co
 }
 
 bool isSphereFile(const std::filesystem::path& file) {
-    const std::string kind = kindOf(file);
+    const std::string kind = endingOf(file);
     return kind == ".sph" || kind == ".urdf" || kind == ".yaml" || kind == ".yml" || kind == ".xrdf" ||
            kind == ".json";
 }
 
 std::vector<LinkSpheres> readSets(const std::filesystem::path& file, const ReaderOptions& reader) {
-    const std::string kind = kindOf(file);
+    const std::string kind = endingOf(file);
     std::vector<LinkSpheres> sets;
     if (kind == ".sph") {
         const SphereTree tree = readSph(file);
@@ -101,7 +96,7 @@ std::vector<LinkSpheres> selectLink(std::vector<LinkSpheres> sets, const std::st
 
 SphereTree readSphereTree(const std::filesystem::path& file, const std::string& link,
                           const ReaderOptions& reader) {
-    if (kindOf(file) == ".sph") {
+    if (endingOf(file) == ".sph") {
         return readSph(file);
     }
     const auto sets = selectLink(readSets(file, reader), link, file);

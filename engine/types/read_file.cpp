@@ -5,6 +5,7 @@
 #include "engine/types/input_files.h"
 
 #include <algorithm>
+#include <cctype>
 #include <fstream>
 
 namespace fathom {
@@ -12,6 +13,12 @@ namespace fathom {
 bool isRegularFile(const std::filesystem::path& file) {
     std::error_code failed;
     return std::filesystem::is_regular_file(file, failed);
+}
+
+std::string endingOf(const std::filesystem::path& file) {
+    std::string ending = file.extension().string();
+    std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
+    return ending;
 }
 
 std::string whyUnreadable(const std::filesystem::path& file) {

@@ -12,6 +12,8 @@ namespace fathom {
 // Follows links. False for missing files, folders, pipes, sockets and devices. Readers check this before they
 // open a file, because opening or reading a pipe or device may never end.
 bool isRegularFile(const std::filesystem::path& file);
+// Its extension in lower case, ".urdf"; empty when it has none.
+std::string endingOf(const std::filesystem::path& file);
 // Why a file is not readable, for messages.
 std::string whyUnreadable(const std::filesystem::path& file);
 

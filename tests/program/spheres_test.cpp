@@ -3,6 +3,7 @@
 #include "tests/model/meshes.h"
 #include "tests/rig/run_fathom.h"
 
+#include <algorithm>
 #include <doctest/doctest.h>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -43,6 +44,24 @@ TEST_CASE("spheres writes a tree and a report of its checks, and compares it wit
     CHECK(report["covers"][0]["leaves"] <= 12);
     CHECK(report["covers"][0]["protrusion_max_m"] > 0.001);
     CHECK(std::filesystem::file_size(out) > 200);
+}
+
+TEST_CASE("spheres decides by an ending in capital letters as by one in small ones") {
+    const Folder folder;
+    const std::string arm = (folder.path / "ARM.URDF").string();
+    std::ofstream(arm) << "<robot name='r'><link name='a'><collision><geometry><sphere radius='0.1'/>"
+                          "</geometry></collision></link></robot>";
+    for (const std::string ending : {".XRDF", ".URDF", ".JSON", ".YAML"}) {
+        std::string small = ending;
+        std::ranges::transform(small, small.begin(), [](unsigned char c) { return std::tolower(c); });
+        const auto written = [&](const std::string& name) {
+            const ProgramRun run = runFathom({"spheres", arm, "--out", (folder.path / name).string()});
+            CHECK_MESSAGE(run.exitCode == 0, run.err);
+            std::ifstream in(folder.path / name);
+            return std::string(std::istreambuf_iterator<char>(in), {});
+        };
+        CHECK(written("out" + ending) == written("out" + small));
+    }
 }
 
 TEST_CASE("spheres scales a set of spheres like a mesh, and warns about a mesh of three metres") {
