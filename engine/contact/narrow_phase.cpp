@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/contact/narrow_phase.h"
 
-#include "engine/contact/pair_gaps.h"
 #include "engine/contact/smooth_plane.h"
 
 #include <algorithm>
@@ -13,57 +12,13 @@ namespace fathom {
 namespace {
 
 constexpr size_t kMostRowsOfLeaf = 8;
-constexpr size_t kMostListed = 65536; // pairs per list
-constexpr size_t kLanes = 8;          // run lengths are multiples of this
-constexpr float kNowhere = 1e18f;     // [m] position of padding; its square is far from overflow
 // [m] Closer centres have no direction. Above this the difference of two centres is exact, and only a step
 // along it makes no pair deeper on its path.
 constexpr double kCoincident = 1e-150;
+constexpr double kStale = 5e-5; // [m] when a leaf has moved farther, its gaps are computed again
 constexpr uint64_t kSmoothKey = uint64_t{1} << 63; // set in keys of smooth rows only
 
 } // namespace
-
-NarrowPhase::PairList::PairList(size_t leaves, size_t capacity)
-    : x(capacity)
-    , y(capacity)
-    , z(capacity)
-    , radius(capacity)
-    , pair(capacity)
-    , leaf(leaves)
-    , begin(leaves + 1) {}
-
-void NarrowPhase::PairList::clear() noexcept {
-    count = runs = 0;
-    complete = true;
-}
-
-void NarrowPhase::PairList::add(const PairArrays& run, std::span<const uint32_t> chosen, uint32_t firstPair,
-                                const uint32_t* pairs) noexcept {
-    if (count + chosen.size() + kLanes > pair.size()) {
-        complete = false;
-        return;
-    }
-    for (const uint32_t k : chosen) {
-        x[count] = run.x[k];
-        y[count] = run.y[k];
-        z[count] = run.z[k];
-        radius[count] = run.radius[k];
-        pair[count++] = pairs != nullptr ? pairs[k] : firstPair + k;
-    }
-}
-
-void NarrowPhase::PairList::endRun(uint32_t ofLeaf) noexcept {
-    if (count == begin[runs]) {
-        return;
-    }
-    while (complete && count % kLanes != 0) {
-        x[count] = y[count] = z[count] = kNowhere;
-        radius[count] = 0.0f;
-        pair[count++] = 0;
-    }
-    leaf[runs++] = ofLeaf;
-    begin[runs] = count;
-}
 
 NarrowPhase::NarrowPhase(const Tool& tool, size_t maxRows, double cone, bool smooth)
     : maxRows_(maxRows)
@@ -71,12 +26,11 @@ NarrowPhase::NarrowPhase(const Tool& tool, size_t maxRows, double cone, bool smo
     , rows_(tool.leafCount() * kMostRowsOfLeaf)
     , smooth_(smooth)
     , leaves_(tool.leafCount())
-    , wideLeaves_(tool.leafCount())
     , lastNormal_(tool.leafCount(), dvec3(0.0))
     , moved_(tool.leafCount(), 0.0)
-    , wide_(tool.leafCount(), kMostListed)
-    , close_(tool.leafCount(), kMostListed)
+    , runs_(tool.leafCount())
     , gaps_(kPairChunk)
+    , left_(kPairChunk)
     , chosen_(kPairChunk) {
     for (const Sphere& leaf : tool.leaves()) {
         radius_.push_back(leaf.radius);
@@ -91,18 +45,11 @@ void NarrowPhase::gather(const ContactSet& set, const LeafCentres& leaves, const
     checkLimit_ = checkLimit;
     rowCount_ = smoothCount_ = 0;
     smallestGap_ = rowLimit;
-    if (anew || !wideStillServes(rowLimit - checkLimit)) {
-        findWide(set, rowLimit);
-    }
-    close_.clear();
-    if (wide_.complete) {
-        for (uint32_t run = 0; run < wide_.runs; ++run) {
-            gatherLeaf(set, wide_.leaf[run], wide_.of(run), wide_.pair.data() + wide_.begin[run], rowLimit,
-                       checkLimit);
-        }
+    if (anew || !searchStillServes(rowLimit - checkLimit)) {
+        search(set, rowLimit);
     } else {
-        for (uint32_t leaf = 0; leaf < leaves_.size(); ++leaf) {
-            gatherLeaf(set, leaf, listedUpTo(set, leaf, rowLimit), nullptr, rowLimit, checkLimit);
+        for (PairRun& run : runs_.runs()) {
+            searchAgain(set, run, rowLimit);
         }
     }
     if (rowCount_ > maxRows_) {
@@ -115,60 +62,137 @@ void NarrowPhase::gather(const ContactSet& set, const LeafCentres& leaves, const
 
 // A gap shrinks by at most the leaf's displacement. While that is within the slack, no pair within checkLimit
 // is missing.
-bool NarrowPhase::wideStillServes(double slack) const noexcept {
+bool NarrowPhase::searchStillServes(double slack) const noexcept {
     const double most = slack - kPairRounding;
-    return wide_.complete && most > 0.0 && leavesWithin(wideLeaves_, leaves_, most);
+    return runs_.complete() && most > 0.0 && leavesWithin(runs_.centres(), leaves_, most);
 }
 
-// A superset of the leaf's listed pairs that can have a gap up to `limit` at its present position.
-PairArrays NarrowPhase::listedUpTo(const ContactSet& set, uint32_t leaf, double limit) const noexcept {
-    return pairsOf(set, set.pairBegin[leaf], set.pairsUpTo(leaf, limit + moved_[leaf] + kPairRounding));
+// End of the leaf's listed pairs that can have a gap up to `limit` at its present position.
+uint32_t NarrowPhase::listedUpTo(const ContactSet& set, uint32_t leaf, double limit) const noexcept {
+    return set.pairsUpTo(leaf, limit + moved_[leaf] + kPairRounding);
 }
 
-void NarrowPhase::findWide(const ContactSet& set, double limit) noexcept {
-    wide_.clear();
-    wideLeaves_ = leaves_;
+void NarrowPhase::search(const ContactSet& set, double limit) noexcept {
+    runs_.clear(leaves_);
     for (uint32_t leaf = 0; leaf < leaves_.size(); ++leaf) {
-        if (set.pairBegin[leaf] == set.pairBegin[leaf + 1]) {
-            continue; // most leaves: no band is read
+        if (set.pairBegin[leaf] != set.pairBegin[leaf + 1]) { // most leaves: no band is read
+            searchLeaf(set, leaf, limit);
         }
-        const uint32_t end = set.pairsUpTo(leaf, limit + moved_[leaf] + kPairRounding);
-        for (uint32_t begin = set.pairBegin[leaf]; begin < end; begin += kPairChunk) {
-            const PairArrays run = pairsOf(set, begin, std::min<uint32_t>(end, begin + kPairChunk));
-            if (pairGaps(run, leaves_[leaf], radius_[leaf], limit, gaps_.data()) != 0) {
-                wide_.add(run, {chosen_.data(), choose(run.count, limit)}, begin, nullptr);
-            }
-        }
-        wide_.endRun(leaf);
     }
 }
 
-size_t NarrowPhase::choose(size_t count, double limit) noexcept {
-    size_t chosen = 0;
-    for (size_t k = 0; k < count; ++k) { // branch-free, because hits are unpredictable
-        chosen_[chosen] = static_cast<uint32_t>(k);
-        chosen += gaps_[k] <= limit ? 1 : 0;
-    }
-    return chosen;
-}
-
-// all: the leaf's pairs that can be within rowLimit. pairs: their indices; null = consecutive from the leaf's
-// first pair.
-void NarrowPhase::gatherLeaf(const ContactSet& set, uint32_t leaf, const PairArrays& all,
-                             const uint32_t* pairs, double rowLimit, double checkLimit) noexcept {
-    const dvec3 centre = leaves_[leaf];
+void NarrowPhase::searchLeaf(const ContactSet& set, uint32_t leaf, double limit) noexcept {
     const size_t firstRow = rowCount_;
-    for (size_t begin = 0; begin < all.count; begin += kPairChunk) {
-        const PairArrays run = part(all, begin);
-        if (pairGaps(run, centre, radius_[leaf], rowLimit, gaps_.data()) == 0) {
-            continue;
-        }
-        const uint32_t first = set.pairBegin[leaf] + static_cast<uint32_t>(begin);
-        const uint32_t* runPairs = pairs != nullptr ? pairs + begin : nullptr;
-        close_.add(run, {chosen_.data(), choose(run.count, checkLimit)}, first, runPairs);
-        chooseRows(set, leaf, run, first, runPairs, firstRow, rowLimit);
+    const uint32_t end = listedUpTo(set, leaf, limit);
+    PairRun* const run = runs_.add(set, leaf, set.pairBegin[leaf], end, radius_[leaf], limit);
+    if (!runs_.complete()) {
+        addRowsOfListed(set, leaf, end, limit);
+    } else if (run != nullptr) {
+        startRun(set, *run, limit);
     }
-    close_.endRun(leaf);
+    finishLeaf(set, leaf, firstRow, run);
+}
+
+void NarrowPhase::searchAgain(const ContactSet& set, PairRun& run, double limit) noexcept {
+    const size_t firstRow = rowCount_;
+    if (travelled(run) > kStale) {
+        runs_.refresh(set, run, leaves_[run.leaf], radius_[run.leaf]);
+        startRun(set, run, limit);
+    } else if (!addSameRow(set, run, limit)) {
+        addRowsOf(set, run, limit);
+    }
+    finishLeaf(set, run.leaf, firstRow, &run);
+}
+
+// Rows of a run whose gaps are those of the present positions.
+void NarrowPhase::startRun(const ContactSet& set, PairRun& run, double limit) noexcept {
+    // Enough for the smooth planes, and for most checks, until the leaf has moved by kStale.
+    const double touch = radius_[run.leaf] + static_cast<double>(set.pairRadius[run.first]);
+    const double depth = smooth_ ? std::min(patchDepth(touch), 0.5 * checkLimit_) : 0.0;
+    runs_.keepNear(set, run, run.nearest + depth + 2.0 * kStale + kPairRounding);
+    if (!addOnlyRow(set, run, limit)) {
+        addRowsOf(set, run, limit);
+    }
+}
+
+// True when one row represents all pairs of the run, or there is none.
+bool NarrowPhase::addOnlyRow(const ContactSet& set, PairRun& run, double limit) noexcept {
+    if (run.count > kPairChunk || !(run.nearest <= limit)) {
+        return !(run.nearest <= limit);
+    }
+    const dvec3 centre = leaves_[run.leaf];
+    const double* const gaps = runs_.gapsOf(run);
+    const PairArrays all = pairsOf(set, run.first, run.first + run.count);
+    const auto nearest = static_cast<uint32_t>(indexOfGap(gaps, run.count, run.nearest));
+    const ContactRow row =
+        rowOf(set, run.leaf, awayFrom(all, nearest, centre), run.nearest, run.first + nearest);
+    const ConeRoom room =
+        roomInCone(all, centre, radius_[run.leaf], row.normal, cosCone_, run.members, gaps, left_.data());
+    if (!(room.least > kPairRounding)) {
+        return false;
+    }
+    run.normal = row.normal;
+    run.room = room.least;
+    run.widest = room.widest;
+    rows_[rowCount_++] = row;
+    return true;
+}
+
+// True when the run still has one row or none, because the cone of its row has room for all that the leaf's
+// motion since can have changed.
+bool NarrowPhase::addSameRow(const ContactSet& set, const PairRun& run, double limit) noexcept {
+    const double since = travelled(run), r = radius_[run.leaf];
+    const double most = run.nearest + 2.0 * since + kPairRounding;
+    if (run.room < 0.0 || most > run.nearUpTo) {
+        return false;
+    }
+    const dvec3 centre = leaves_[run.leaf];
+    uint32_t from = 0;
+    const PairList near = runs_.upTo(set, run, most, from);
+    pairGaps(near.arrays, centre, r, limit, gaps_.data());
+    const double least = smallestGapOf(gaps_.data(), near.arrays.count);
+    if (!(least <= limit)) {
+        return true; // no row any more
+    }
+    const size_t nearest = indexOfGap(gaps_.data(), near.arrays.count, least);
+    const ContactRow row =
+        rowOf(set, run.leaf, awayFrom(near.arrays, nearest, centre), least, near.pair[nearest]);
+    // A direction d to a sphere changes by `since`, and d . normal by that and |d| times the change of the
+    // normal.
+    const double longest =
+        2.0 * limit + r + run.widest; // the leaf moved by less than `limit` since the search
+    if (!(run.room > glm::distance(row.normal, run.normal) * longest + 2.0 * since + kPairRounding)) {
+        return false;
+    }
+    rows_[rowCount_++] = row;
+    return true;
+}
+
+// The nearest of the members, and the nearest in each further cone.
+void NarrowPhase::addRowsOf(const ContactSet& set, const PairRun& run, double limit) noexcept {
+    const size_t firstRow = rowCount_;
+    for (uint32_t from = 0; from < run.count;) {
+        const PairList part = runs_.upTo(set, run, run.members, from);
+        if (pairGaps(part.arrays, leaves_[run.leaf], radius_[run.leaf], limit, gaps_.data()) != 0) {
+            chooseRows(set, run.leaf, part.arrays, 0, part.pair, firstRow, limit);
+        }
+    }
+}
+
+// Among the listed pairs of the leaf before `end`, which were not kept.
+void NarrowPhase::addRowsOfListed(const ContactSet& set, uint32_t leaf, uint32_t end, double limit) noexcept {
+    const size_t firstRow = rowCount_;
+    for (uint32_t begin = set.pairBegin[leaf]; begin < end; begin += kPairChunk) {
+        const PairArrays part = pairsOf(set, begin, std::min<uint32_t>(end, begin + kPairChunk));
+        if (pairGaps(part, leaves_[leaf], radius_[leaf], limit, gaps_.data()) != 0) {
+            chooseRows(set, leaf, part, begin, nullptr, firstRow, limit);
+        }
+    }
+}
+
+// run: null when the leaf has none.
+void NarrowPhase::finishLeaf(const ContactSet& set, uint32_t leaf, size_t firstRow,
+                             const PairRun* run) noexcept {
     if (rowCount_ == firstRow) {
         return;
     }
@@ -179,20 +203,23 @@ void NarrowPhase::gatherLeaf(const ContactSet& set, uint32_t leaf, const PairArr
                           [](const ContactRow& a, const ContactRow& b) { return a.gap < b.gap; });
     lastNormal_[leaf] = deepest.normal;
     smallestGap_ = std::min(smallestGap_, deepest.gap);
-    if (smooth_ && close_.complete && close_.runs > 0 && close_.leaf[close_.runs - 1] == leaf) {
-        addSmoothRow(deepest, radius_[leaf] + static_cast<double>(set.pairRadius[deepest.pair]));
+    if (smooth_ && run != nullptr) {
+        addSmoothRow(set, *run, deepest);
     }
 }
 
-// From the leaf's run of close pairs, the last one of close_. touch: R + r of the nearest pair [m].
-void NarrowPhase::addSmoothRow(const ContactRow& nearest, double touch) noexcept {
+void NarrowPhase::addSmoothRow(const ContactSet& set, const PairRun& run,
+                               const ContactRow& nearest) noexcept {
+    const double touch = radius_[run.leaf] + static_cast<double>(set.pairRadius[nearest.pair]);
     const double depth = std::min(patchDepth(touch), 0.5 * checkLimit_);
     if (smoothCount_ == kMostSmooth || !(nearest.gap >= 0.0) || nearest.gap + depth > checkLimit_) {
         return;
     }
+    uint32_t from = 0;
+    const PairList near = runs_.upTo(set, run, nearest.gap + depth + travelled(run) + kPairRounding, from);
     SmoothPlane plane;
-    if (smoothPlane(close_.of(close_.runs - 1), leaves_[nearest.leaf], radius_[nearest.leaf], nearest.gap,
-                    depth, chosen_, plane)) {
+    if (near.complete &&
+        smoothPlane(near.arrays, leaves_[run.leaf], radius_[run.leaf], nearest.gap, depth, chosen_, plane)) {
         ContactRow& row = smoothRows_[smoothCount_++] = nearest;
         row.normal = plane.normal;
         row.gap = plane.gap;
@@ -217,7 +244,8 @@ void NarrowPhase::agreeOnNormal(const ContactSet& set, uint32_t leaf, size_t fir
     }
 }
 
-// Greedy over one run (overwrites gaps_): the nearest pair, then the nearest outside its cone, and so on.
+// Greedy over one run with gaps_ (overwrites them): the nearest pair, then the nearest outside its cone, and
+// so on. pairs: the pairs of its elements; null = consecutive from firstPair.
 void NarrowPhase::chooseRows(const ContactSet& set, uint32_t leaf, const PairArrays& run, uint32_t firstPair,
                              const uint32_t* pairs, size_t firstRow, double limit) noexcept {
     const dvec3 centre = leaves_[leaf];
@@ -226,13 +254,14 @@ void NarrowPhase::chooseRows(const ContactSet& set, uint32_t leaf, const PairArr
         left = dropCone(run, centre, rows_[r].normal, cosCone_, rows_[r].gap, limit, gaps_.data());
     }
     while (left > 0 && rowCount_ < firstRow + kMostRowsOfLeaf) {
-        const size_t best = smallestOf(gaps_.data(), run.count);
-        if (best == run.count || gaps_[best] > limit) {
+        const double least = smallestGapOf(gaps_.data(), run.count);
+        if (!(least <= limit)) {
             return;
         }
-        const dvec3 delta = centre - dvec3(run.x[best], run.y[best], run.z[best]);
+        const size_t best = indexOfGap(gaps_.data(), run.count, least);
         const uint32_t pair = pairs != nullptr ? pairs[best] : firstPair + static_cast<uint32_t>(best);
-        const ContactRow& row = rows_[rowCount_++] = rowOf(set, leaf, delta, gaps_[best], pair);
+        const ContactRow& row = rows_[rowCount_++] =
+            rowOf(set, leaf, awayFrom(run, best, centre), least, pair);
         gaps_[best] = std::numeric_limits<double>::infinity(); // also when it has no direction
         left = dropCone(run, centre, row.normal, cosCone_, row.gap, limit, gaps_.data());
     }

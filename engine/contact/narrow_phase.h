@@ -7,6 +7,7 @@
 #include "engine/contact/contact_set.h"
 #include "engine/contact/leaf_centres.h"
 #include "engine/contact/pair_gaps.h"
+#include "engine/contact/pair_runs.h"
 
 #include <array>
 #include <cstdint>
@@ -71,44 +72,38 @@ public:
     double smallestGapAt(const ContactSet& set, const LeafCentres& leaves) noexcept;
 
 private:
-    // Pairs with their sphere values, one run per leaf, of fixed capacity. Leaves far from everything
-    // (usually most) have no run. begin[0] is 0.
-    struct PairList {
-        std::vector<float> x, y, z, radius;
-        std::vector<uint32_t> pair;
-        std::vector<uint32_t> leaf;  // leaf of each run, ascending
-        std::vector<uint32_t> begin; // runs + 1
-        uint32_t count = 0, runs = 0;
-        bool complete = false; // every pair fitted
-
-        PairList(size_t leaves, size_t capacity);
-        void clear() noexcept;
-        PairArrays of(uint32_t run) const {
-            return {x.data() + begin[run], y.data() + begin[run], z.data() + begin[run],
-                    radius.data() + begin[run], begin[run + 1] - begin[run]};
-        }
-        // Adds the elements of `run` listed in `chosen`; run element k is pair firstPair + k, or pairs[k].
-        void add(const PairArrays& run, std::span<const uint32_t> chosen, uint32_t firstPair,
-                 const uint32_t* pairs) noexcept;
-        // Ends the run of this leaf, if pairs were added since the last run. Pads it with unreachable
-        // spheres, so that kernels process whole registers.
-        void endRun(uint32_t ofLeaf) noexcept;
+    struct Deepest {        // violation of one leaf
+        double depth = 0.0; // [m] 0 = none
+        double gap = 0.0;   // [m] at the start
+        uint32_t pair = 0;
     };
-    bool wideStillServes(double slack) const noexcept;
-    void findWide(const ContactSet& set, double limit) noexcept;
-    void gatherLeaf(const ContactSet& set, uint32_t leaf, const PairArrays& all, const uint32_t* pairs,
-                    double rowLimit, double checkLimit) noexcept;
-    PairArrays listedUpTo(const ContactSet& set, uint32_t leaf, double limit) const noexcept;
-    // Writes the element numbers of `run` with gaps_ <= limit into chosen_; returns their number.
-    size_t choose(size_t count, double limit) noexcept;
+    bool searchStillServes(double slack) const noexcept;
+    void search(const ContactSet& set, double limit) noexcept;
+    void searchLeaf(const ContactSet& set, uint32_t leaf, double limit) noexcept;
+    void searchAgain(const ContactSet& set, PairRun& run, double limit) noexcept;
+    void startRun(const ContactSet& set, PairRun& run, double limit) noexcept;
+    bool addOnlyRow(const ContactSet& set, PairRun& run, double limit) noexcept;
+    bool addSameRow(const ContactSet& set, const PairRun& run, double limit) noexcept;
+    void addRowsOf(const ContactSet& set, const PairRun& run, double limit) noexcept;
+    void addRowsOfListed(const ContactSet& set, uint32_t leaf, uint32_t end, double limit) noexcept;
+    void finishLeaf(const ContactSet& set, uint32_t leaf, size_t firstRow, const PairRun* run) noexcept;
+    // [m] since the gaps of the run were computed
+    double travelled(const PairRun& run) const noexcept {
+        return glm::distance(leaves_[run.leaf], run.centre);
+    }
+    uint32_t listedUpTo(const ContactSet& set, uint32_t leaf, double limit) const noexcept;
     void chooseRows(const ContactSet& set, uint32_t leaf, const PairArrays& run, uint32_t firstPair,
                     const uint32_t* pairs, size_t firstRow, double limit) noexcept;
-    void addSmoothRow(const ContactRow& nearest, double touch) noexcept;
+    void addSmoothRow(const ContactSet& set, const PairRun& run, const ContactRow& nearest) noexcept;
     void agreeOnNormal(const ContactSet& set, uint32_t leaf, size_t firstRow) noexcept;
     ContactRow rowOf(const ContactSet& set, uint32_t leaf, const dvec3& delta, double gap,
                      uint32_t pair) noexcept;
-    bool checkLeaf(const ContactSet& set, uint32_t leaf, const PairArrays& all, const uint32_t* pairs,
-                   const dvec3& next, const dvec3& exempt, Violation* worst) noexcept;
+    Deepest deepestOf(const ContactSet& set, const PairRun& run, const dvec3& next,
+                      const dvec3& exempt) noexcept;
+    Deepest deepestListed(const ContactSet& set, uint32_t leaf, const dvec3& next,
+                          const dvec3& exempt) noexcept;
+    void deepen(Deepest& deepest, uint32_t leaf, const PairArrays& run, uint32_t firstPair,
+                const uint32_t* pairs, const dvec3& next, const dvec3& exempt) noexcept;
 
     std::vector<double> radius_; // of the leaves
     size_t maxRows_;
@@ -119,7 +114,6 @@ private:
     size_t smoothCount_ = 0;
     bool smooth_;
     LeafCentres leaves_;            // at the last gather()
-    LeafCentres wideLeaves_;        // at the search that filled wide_
     std::vector<dvec3> lastNormal_; // normal of each leaf's deepest row; zero = none yet
     std::vector<double> moved_;
     double farthest_ = 0.0;
@@ -127,10 +121,8 @@ private:
     double smallestGap_ = 0.0;
     double checkLimit_ = 0.0;
 
-    PairList wide_;  // gap <= rowLimit at the search; used by all solves of a tick
-    PairList close_; // gap <= checkLimit at the last gather(): within reach of one step
-
-    std::vector<double> gaps_; // gaps of one chunk
+    PairRuns runs_;                   // of the last search; used by all solves of a tick
+    std::vector<double> gaps_, left_; // of one chunk
     std::vector<uint32_t> chosen_;
 };
 

@@ -10,53 +10,66 @@ namespace fathom {
 size_t NarrowPhase::check(const ContactSet& set, const LeafCentres& next, std::span<const dvec3> exempt,
                           std::span<Violation> out) noexcept {
     size_t count = 0;
-    const auto checkOne = [&](uint32_t leaf, const PairArrays& all, const uint32_t* pairs) {
-        Violation* worst = count < out.size() ? &out[count] : nullptr;
-        count += checkLeaf(set, leaf, all, pairs, next[leaf], exempt[leaf], worst) ? 1 : 0;
+    const auto report = [&](uint32_t leaf, const Deepest& deepest) {
+        if (deepest.depth > 0.0 && count++ < out.size()) {
+            const uint32_t pair = deepest.pair;
+            const dvec3 delta = leaves_[leaf] - dvec3(set.pairX[pair], set.pairY[pair], set.pairZ[pair]);
+            out[count - 1] = {rowOf(set, leaf, delta, deepest.gap, pair), deepest.depth};
+        }
     };
-    for (uint32_t run = 0; close_.complete && run < close_.runs; ++run) {
-        checkOne(close_.leaf[run], close_.of(run), close_.pair.data() + close_.begin[run]);
+    if (runs_.complete()) {
+        for (const PairRun& run : runs_.runs()) {
+            report(run.leaf, deepestOf(set, run, next[run.leaf], exempt[run.leaf]));
+        }
+        return count;
     }
-    for (uint32_t leaf = 0; !close_.complete && leaf < leaves_.size(); ++leaf) {
-        checkOne(leaf, listedUpTo(set, leaf, checkLimit_), nullptr);
+    for (uint32_t leaf = 0; leaf < leaves_.size(); ++leaf) {
+        report(leaf, deepestListed(set, leaf, next[leaf], exempt[leaf]));
     }
     return count;
 }
 
-// all: the leaf's pairs that can come near. pairs: their indices; null = consecutive from the leaf's first
-// pair.
-bool NarrowPhase::checkLeaf(const ContactSet& set, uint32_t leaf, const PairArrays& all,
-                            const uint32_t* pairs, const dvec3& next, const dvec3& exempt,
-                            Violation* worst) noexcept {
+// Reads the pairs whose gap was at most what the leaf travels from where it was then to `next`.
+NarrowPhase::Deepest NarrowPhase::deepestOf(const ContactSet& set, const PairRun& run, const dvec3& next,
+                                            const dvec3& exempt) noexcept {
+    Deepest deepest;
+    const double within = travelled(run) + glm::distance(leaves_[run.leaf], next) + kPairRounding;
+    for (uint32_t from = run.nearest <= within ? 0 : run.count; from < run.count;) {
+        const PairList part = runs_.upTo(set, run, within, from);
+        deepen(deepest, run.leaf, part.arrays, 0, part.pair, next, exempt);
+    }
+    return deepest;
+}
+
+NarrowPhase::Deepest NarrowPhase::deepestListed(const ContactSet& set, uint32_t leaf, const dvec3& next,
+                                                const dvec3& exempt) noexcept {
+    Deepest deepest;
+    const uint32_t end = listedUpTo(set, leaf, checkLimit_);
+    for (uint32_t begin = set.pairBegin[leaf]; begin < end; begin += kPairChunk) {
+        const PairArrays part = pairsOf(set, begin, std::min<uint32_t>(end, begin + kPairChunk));
+        deepen(deepest, leaf, part, begin, nullptr, next, exempt);
+    }
+    return deepest;
+}
+
+// Keeps the deepest violation of the leaf. pairs: the pairs of the run's elements; null = consecutive from
+// firstPair.
+void NarrowPhase::deepen(Deepest& deepest, uint32_t leaf, const PairArrays& run, uint32_t firstPair,
+                         const uint32_t* pairs, const dvec3& next, const dvec3& exempt) noexcept {
     const dvec3 from = leaves_[leaf];
-    const double r = radius_[leaf];
     const bool exempts = exempt != dvec3(0.0);
-    double deepest = 0.0;
-    size_t deepestAt = 0;
-    for (size_t begin = 0; begin < all.count; begin += kPairChunk) {
-        const PairArrays run = part(all, begin);
-        size_t left = sweptGaps(run, from, next, r, gaps_.data());
-        for (size_t k = 0; left > 0; ++k) {
-            if (!(gaps_[k] < 0.0)) {
-                continue;
-            }
-            --left;
-            const double depth = std::min(0.0, gapOf(run, k, from, r)) - gaps_[k];
-            const dvec3 delta = from - dvec3(run.x[k], run.y[k], run.z[k]);
-            if (depth > deepest && !(exempts && glm::dot(delta, exempt) < kCosHolds * glm::length(delta))) {
-                deepest = depth;
-                deepestAt = begin + k;
-            }
+    size_t left = sweptGaps(run, from, next, radius_[leaf], gaps_.data());
+    for (size_t k = 0; left > 0; ++k) {
+        if (!(gaps_[k] < 0.0)) {
+            continue;
+        }
+        --left;
+        const double gap = gapOf(run, k, from, radius_[leaf]), depth = std::min(0.0, gap) - gaps_[k];
+        const dvec3 delta = awayFrom(run, k, from);
+        if (depth > deepest.depth && !(exempts && glm::dot(delta, exempt) < kCosHolds * glm::length(delta))) {
+            deepest = {depth, gap, pairs != nullptr ? pairs[k] : firstPair + static_cast<uint32_t>(k)};
         }
     }
-    if (deepest > 0.0 && worst != nullptr) {
-        const uint32_t pair =
-            pairs != nullptr ? pairs[deepestAt] : set.pairBegin[leaf] + static_cast<uint32_t>(deepestAt);
-        const dvec3 delta = from - dvec3(set.pairX[pair], set.pairY[pair], set.pairZ[pair]);
-        worst->row = rowOf(set, leaf, delta, gapOf(all, deepestAt, from, r), pair);
-        worst->depth = deepest;
-    }
-    return deepest > 0.0;
 }
 
 double NarrowPhase::smallestGapAt(const ContactSet& set, const LeafCentres& leaves) noexcept {
@@ -73,8 +86,7 @@ double NarrowPhase::smallestGapAt(const ContactSet& set, const LeafCentres& leav
             for (uint32_t begin = first ? set.pairBegin[leaf] : band0; begin < end; begin += kPairChunk) {
                 const PairArrays run = pairsOf(set, begin, std::min<uint32_t>(end, begin + kPairChunk));
                 if (pairGaps(run, leaves[leaf], radius_[leaf], smallest, gaps_.data()) != 0) {
-                    const auto last = gaps_.begin() + static_cast<std::ptrdiff_t>(run.count);
-                    smallest = std::min(smallest, *std::min_element(gaps_.begin(), last));
+                    smallest = std::min(smallest, smallestGapOf(gaps_.data(), run.count));
                 }
             }
         }

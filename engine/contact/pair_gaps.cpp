@@ -3,8 +3,12 @@
 
 #include "engine/contact/clones.h"
 
+#include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 
 namespace fathom {
@@ -12,6 +16,7 @@ namespace fathom {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr size_t kMarkBlock = 256; // gaps per step of a search
 
 // All by value, so that the compiler knows that writing gaps does not change them.
 FATHOM_CLONES
@@ -28,6 +33,20 @@ int64_t gapsKernel(const float* __restrict x, const float* __restrict y, const f
         below += gap <= limit ? 1 : 0;
     }
     return below;
+}
+
+FATHOM_CLONES
+void memberKernel(const float* __restrict x, const float* __restrict y, const float* __restrict z,
+                  const float* __restrict radius, size_t count, double cx, double cy, double cz, double r,
+                  double members, double* __restrict gaps) noexcept {
+    for (size_t k = 0; k < count; ++k) {
+        const double dx = cx - static_cast<double>(x[k]);
+        const double dy = cy - static_cast<double>(y[k]);
+        const double dz = cz - static_cast<double>(z[k]);
+        const double gap = std::sqrt(dx * dx + dy * dy + dz * dz) - (r + static_cast<double>(radius[k]));
+        const double others = gaps[k] <= members ? 0.0 : kInfinity;
+        gaps[k] = gap + others;
+    }
 }
 
 FATHOM_CLONES
@@ -81,6 +100,49 @@ int64_t coneKernel(const float* __restrict x, const float* __restrict y, const f
 }
 
 FATHOM_CLONES
+void roomKernel(const float* __restrict x, const float* __restrict y, const float* __restrict z,
+                const float* __restrict radius, size_t count, double cx, double cy, double cz, double r,
+                double nx, double ny, double nz, double cosine, double limit, const double* __restrict gaps,
+                double* __restrict room) noexcept {
+    for (size_t k = 0; k < count; ++k) {
+        const double dx = cx - static_cast<double>(x[k]);
+        const double dy = cy - static_cast<double>(y[k]);
+        const double dz = cz - static_cast<double>(z[k]);
+        const double length = gaps[k] + (r + static_cast<double>(radius[k]));
+        const double beyond = gaps[k] <= limit ? 0.0 : kInfinity;
+        room[k] = dx * nx + dy * ny + dz * nz - cosine * length + beyond;
+    }
+}
+
+// Bits of the largest radius, at least 0: bits of numbers >= 0 sort like integers.
+FATHOM_CLONES
+int32_t widestKernel(const float* __restrict radius, size_t count) noexcept {
+    int32_t widest = 0;
+    for (size_t k = 0; k < count; ++k) {
+        const int32_t bits = std::bit_cast<int32_t>(radius[k]);
+        widest = bits > widest ? bits : widest;
+    }
+    return widest;
+}
+
+FATHOM_CLONES
+void markKernel(const double* __restrict gaps, size_t count, double limit,
+                uint8_t* __restrict marks) noexcept {
+    for (size_t k = 0; k < count; ++k) {
+        marks[k] = gaps[k] <= limit ? 1 : 0;
+    }
+}
+
+FATHOM_CLONES
+int64_t equalKernel(const double* __restrict gaps, double gap) noexcept {
+    int64_t equal = 0;
+    for (size_t k = 0; k < kMarkBlock; ++k) {
+        equal += gaps[k] == gap ? 1 : 0;
+    }
+    return equal;
+}
+
+FATHOM_CLONES
 double smallestKernel(const double* __restrict gaps, size_t count) noexcept {
     // Eight running minima fill the widest register; the compiler may not reorder a single one.
     double least[8];
@@ -105,13 +167,46 @@ double smallestKernel(const double* __restrict gaps, size_t count) noexcept {
 
 } // namespace
 
-size_t smallestOf(const double* gaps, size_t count) noexcept {
-    const double smallest = smallestKernel(gaps, count);
+double smallestGapOf(const double* gaps, size_t count) noexcept {
+    return smallestKernel(gaps, count);
+}
+
+size_t indexOfGap(const double* gaps, size_t count, double gap) noexcept {
     size_t at = 0;
-    while (at < count && !(gaps[at] == smallest && smallest < kInfinity)) {
+    while (at + kMarkBlock <= count && equalKernel(gaps + at, gap) == 0) {
+        at += kMarkBlock;
+    }
+    while (at < count && gaps[at] != gap) {
         ++at;
     }
     return at;
+}
+
+size_t pairsWithin(const double* gaps, size_t count, double limit, uint32_t* chosen) noexcept {
+    alignas(64) std::array<uint8_t, kMarkBlock> marks;
+    size_t found = 0;
+    for (size_t begin = 0; begin < count; begin += kMarkBlock) {
+        const size_t length = std::min(kMarkBlock, count - begin);
+        std::fill(marks.begin() + static_cast<std::ptrdiff_t>(length), marks.end(), uint8_t{0});
+        markKernel(gaps + begin, length, limit, marks.data());
+        for (size_t at = 0; at < length; at += 8) {
+            uint64_t eight = 0;
+            std::memcpy(&eight, marks.data() + at, 8);
+            for (; eight != 0; eight &= eight - 1) {
+                chosen[found++] =
+                    static_cast<uint32_t>(begin + at + static_cast<size_t>(std::countr_zero(eight)) / 8);
+            }
+        }
+    }
+    return found;
+}
+
+ConeRoom roomInCone(const PairArrays& run, const dvec3& centre, double leafRadius, const dvec3& axis,
+                    double cosine, double limit, const double* gaps, double* scratch) noexcept {
+    roomKernel(run.x, run.y, run.z, run.radius, run.count, centre.x, centre.y, centre.z, leafRadius, axis.x,
+               axis.y, axis.z, cosine, limit, gaps, scratch);
+    const float widest = std::bit_cast<float>(widestKernel(run.radius, run.count));
+    return {smallestKernel(scratch, run.count), static_cast<double>(widest)};
 }
 
 size_t dropCone(const PairArrays& run, const dvec3& centre, const dvec3& axis, double cosine,
@@ -133,6 +228,12 @@ size_t sweptGaps(const PairArrays& run, const dvec3& from, const dvec3& to, doub
     const double inverse = length2 > 1e-300 ? 1.0 / length2 : 0.0;
     return static_cast<size_t>(sweptKernel(run.x, run.y, run.z, run.radius, run.count, from.x, from.y, from.z,
                                            to.x, to.y, to.z, inverse, leafRadius, gaps));
+}
+
+void memberGaps(const PairArrays& run, const dvec3& centre, double leafRadius, double members,
+                double* gaps) noexcept {
+    memberKernel(run.x, run.y, run.z, run.radius, run.count, centre.x, centre.y, centre.z, leafRadius,
+                 members, gaps);
 }
 
 double gapOf(const PairArrays& run, size_t k, const dvec3& centre, double leafRadius) noexcept {

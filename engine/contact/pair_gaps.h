@@ -40,13 +40,38 @@ inline PairArrays part(const PairArrays& run, size_t begin) {
 size_t pairGaps(const PairArrays& run, const dvec3& centre, double leafRadius, double limit,
                 double* gaps) noexcept;
 
-// Index of the smallest gap, the first of equals; count when every gap is infinite or there is none.
-size_t smallestOf(const double* gaps, size_t count) noexcept;
+// The same for every element whose gap in `gaps` is <= members; infinity for the others.
+void memberGaps(const PairArrays& run, const dvec3& centre, double leafRadius, double members,
+                double* gaps) noexcept;
+
+// Centre of the leaf relative to element k of the run [m].
+inline dvec3 awayFrom(const PairArrays& run, size_t k, const dvec3& centre) {
+    return centre - dvec3(run.x[k], run.y[k], run.z[k]);
+}
+
+// Smallest gap; infinity when there is none. NaN is never the smallest.
+double smallestGapOf(const double* gaps, size_t count) noexcept;
+
+// First element with this gap; count when there is none.
+size_t indexOfGap(const double* gaps, size_t count, double gap) noexcept;
+
+// Writes the elements with gap <= limit to `chosen`, in ascending order; returns their number.
+size_t pairsWithin(const double* gaps, size_t count, double limit, uint32_t* chosen) noexcept;
 
 // Sets the gap to infinity for every pair with a normal within the cone about `axis` (unit; cosine of its
 // half angle) and a gap not below `keepBelow`. Returns how many are still <= limit.
 size_t dropCone(const PairArrays& run, const dvec3& centre, const dvec3& axis, double cosine,
                 double keepBelow, double limit, double* gaps) noexcept;
+
+// How far the pairs with a gap <= limit are inside of the cone about `axis`, as along - cosine |d| of the
+// direction d from sphere to leaf.
+struct ConeRoom {
+    double least;  // [m] infinity without such a pair
+    double widest; // [m] largest radius of the run's spheres, at least 0
+};
+// gaps: of the leaf at `centre`, by pairGaps(). scratch: run.count numbers.
+ConeRoom roomInCone(const PairArrays& run, const dvec3& centre, double leafRadius, const dvec3& axis,
+                    double cosine, double limit, const double* gaps, double* scratch) noexcept;
 
 // Smallest gap of each pair along the straight path of the leaf centre from `from` to `to`, including the
 // exact gaps at both ends. Returns how many are < 0. So a step cannot jump over a sphere, however small.

@@ -9,10 +9,7 @@ namespace fathom {
 namespace {
 
 constexpr double kLeastNormal = 0.5; // a shorter mean normal is no direction
-
-dvec3 awayFrom(const PairArrays& run, size_t k, const dvec3& centre) {
-    return centre - dvec3(run.x[k], run.y[k], run.z[k]);
-}
+constexpr double kRounding = 1e-15;  // [m] of a bend that is not negative
 
 // Mean normal of the spheres of the patch, weighted so that a sphere enters with weight 0. Writes their
 // indices to `patch` and returns their number; 0 when there are too many.
@@ -54,6 +51,9 @@ bool smoothPlane(const PairArrays& run, const dvec3& centre, double leafRadius, 
         const dvec3 delta = awayFrom(run, k, centre);
         const double touch = leafRadius + static_cast<double>(run.radius[k]);
         const double height = glm::dot(plane.normal, delta);
+        if (height - touch > plane.gap + kRounding) { // the bend only raises it
+            continue;
+        }
         const double aside = glm::dot(delta, delta) - height * height, patch = 2.0 * touch * depth;
         if (aside < patch) {
             const double bend = 0.5 * kBend / touch * aside / (1.0 - aside / patch);
