@@ -30,8 +30,7 @@ NarrowPhase::NarrowPhase(const Tool& tool, size_t maxRows, double cone, bool smo
     , moved_(tool.leafCount(), 0.0)
     , runs_(tool.leafCount())
     , gaps_(kPairChunk)
-    , left_(kPairChunk)
-    , chosen_(kPairChunk) {
+    , left_(kPairChunk) {
     for (const Sphere& leaf : tool.leaves()) {
         radius_.push_back(leaf.radius);
     }
@@ -219,7 +218,7 @@ void NarrowPhase::addSmoothRow(const ContactSet& set, const PairRun& run,
     const PairList near = runs_.upTo(set, run, nearest.gap + depth + travelled(run) + kPairRounding, from);
     SmoothPlane plane;
     if (near.complete &&
-        smoothPlane(near.arrays, leaves_[run.leaf], radius_[run.leaf], nearest.gap, depth, chosen_, plane)) {
+        smoothPlane(near.arrays, leaves_[run.leaf], radius_[run.leaf], nearest.gap, depth, plane)) {
         ContactRow& row = smoothRows_[smoothCount_++] = nearest;
         row.normal = plane.normal;
         row.gap = plane.gap;

@@ -123,7 +123,6 @@ private:
 
     PairRuns runs_;                   // of the last search; used by all solves of a tick
     std::vector<double> gaps_, left_; // of one chunk
-    std::vector<uint32_t> chosen_;
 };
 
 } // namespace fathom

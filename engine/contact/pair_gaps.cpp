@@ -16,7 +16,7 @@ namespace fathom {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr size_t kMarkBlock = 256; // gaps per step of a search
+constexpr size_t kGapBlock = 256; // gaps per step of a search
 
 // All by value, so that the compiler knows that writing gaps does not change them.
 FATHOM_CLONES
@@ -126,7 +126,7 @@ int32_t widestKernel(const float* __restrict radius, size_t count) noexcept {
 }
 
 FATHOM_CLONES
-void markKernel(const double* __restrict gaps, size_t count, double limit,
+void upToKernel(const double* __restrict gaps, size_t count, double limit,
                 uint8_t* __restrict marks) noexcept {
     for (size_t k = 0; k < count; ++k) {
         marks[k] = gaps[k] <= limit ? 1 : 0;
@@ -136,7 +136,7 @@ void markKernel(const double* __restrict gaps, size_t count, double limit,
 FATHOM_CLONES
 int64_t equalKernel(const double* __restrict gaps, double gap) noexcept {
     int64_t equal = 0;
-    for (size_t k = 0; k < kMarkBlock; ++k) {
+    for (size_t k = 0; k < kGapBlock; ++k) {
         equal += gaps[k] == gap ? 1 : 0;
     }
     return equal;
@@ -173,8 +173,8 @@ double smallestGapOf(const double* gaps, size_t count) noexcept {
 
 size_t indexOfGap(const double* gaps, size_t count, double gap) noexcept {
     size_t at = 0;
-    while (at + kMarkBlock <= count && equalKernel(gaps + at, gap) == 0) {
-        at += kMarkBlock;
+    while (at + kGapBlock <= count && equalKernel(gaps + at, gap) == 0) {
+        at += kGapBlock;
     }
     while (at < count && gaps[at] != gap) {
         ++at;
@@ -183,12 +183,12 @@ size_t indexOfGap(const double* gaps, size_t count, double gap) noexcept {
 }
 
 size_t pairsWithin(const double* gaps, size_t count, double limit, uint32_t* chosen) noexcept {
-    alignas(64) std::array<uint8_t, kMarkBlock> marks;
+    alignas(64) std::array<uint8_t, kGapBlock> marks;
     size_t found = 0;
-    for (size_t begin = 0; begin < count; begin += kMarkBlock) {
-        const size_t length = std::min(kMarkBlock, count - begin);
+    for (size_t begin = 0; begin < count; begin += kGapBlock) {
+        const size_t length = std::min(kGapBlock, count - begin);
         std::fill(marks.begin() + static_cast<std::ptrdiff_t>(length), marks.end(), uint8_t{0});
-        markKernel(gaps + begin, length, limit, marks.data());
+        upToKernel(gaps + begin, length, limit, marks.data());
         for (size_t at = 0; at < length; at += 8) {
             uint64_t eight = 0;
             std::memcpy(&eight, marks.data() + at, 8);

@@ -29,10 +29,10 @@ inline PairArrays pairsOf(const ContactSet& set, uint32_t begin, uint32_t end) {
             set.pairRadius.data() + begin, end - begin};
 }
 
-// The chunk of a run that starts at `begin`.
-inline PairArrays part(const PairArrays& run, size_t begin) {
+// At most `most` elements of a run from `begin` on.
+inline PairArrays part(const PairArrays& run, size_t begin, size_t most) {
     return {run.x + begin, run.y + begin, run.z + begin, run.radius + begin,
-            std::min(kPairChunk, run.count - begin)};
+            std::min(most, run.count - begin)};
 }
 
 // gap = |centre - sphere| - (leafRadius + R) [m], written to gaps[0 .. count). Returns how many are <= limit.

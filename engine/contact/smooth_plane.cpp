@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/contact/smooth_plane.h"
 
+#include "engine/contact/clones.h"
+
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -8,56 +12,104 @@ namespace fathom {
 
 namespace {
 
+constexpr double kOffPlane = std::numeric_limits<double>::infinity();
 constexpr double kLeastNormal = 0.5; // a shorter mean normal is no direction
 constexpr double kRounding = 1e-15;  // [m] of a bend that is not negative
 
-// Mean normal of the spheres of the patch, weighted so that a sphere enters with weight 0. Writes their
-// indices to `patch` and returns their number; 0 when there are too many.
-size_t gatherPatch(const PairArrays& run, const dvec3& centre, double leafRadius, double nearest,
-                   double depth, std::span<uint32_t> patch, dvec3& normal) noexcept {
-    size_t count = 0;
+// Spheres of a run that are processed together.
+struct PatchBlock {
+    static constexpr size_t kSize = 128;
+    alignas(64) std::array<double, kSize> x, y, z, weight;
+};
+
+// Weighted directions from the spheres to the centre, zero for spheres that are not in the patch.
+FATHOM_CLONES
+void weighKernel(const float* __restrict sx, const float* __restrict sy, const float* __restrict sz,
+                 const float* __restrict radius, size_t count, double cx, double cy, double cz, double r,
+                 double nearest, double depth, double* __restrict toX, double* __restrict toY,
+                 double* __restrict toZ, double* __restrict weights) noexcept {
+    for (size_t k = 0; k < count; ++k) {
+        const double dx = cx - static_cast<double>(sx[k]);
+        const double dy = cy - static_cast<double>(sy[k]);
+        const double dz = cz - static_cast<double>(sz[k]);
+        const double touch = r + static_cast<double>(radius[k]), farthest = touch + nearest + depth;
+        const double square = dx * dx + dy * dy + dz * dz;
+        const double inside =
+            square < farthest * farthest ? 1.0 : 0.0; // a factor, because branches do not vectorise
+        const double length = std::sqrt(square), share = 1.0 - (length - touch - nearest) / depth;
+        const double weight = share * share * inside, scale = weight / length;
+        toX[k] = scale * dx;
+        toY[k] = scale * dy;
+        toZ[k] = scale * dz;
+        weights[k] = weight;
+    }
+}
+
+// Height of the centre over the tangent of each sphere of the patch that is parallel to the plane; infinity
+// for the others.
+FATHOM_CLONES
+void heightKernel(const float* __restrict sx, const float* __restrict sy, const float* __restrict sz,
+                  const float* __restrict radius, size_t count, double cx, double cy, double cz, double r,
+                  double nearest, double nx, double ny, double nz, double depth,
+                  double* __restrict heights) noexcept {
+    for (size_t k = 0; k < count; ++k) {
+        const double dx = cx - static_cast<double>(sx[k]);
+        const double dy = cy - static_cast<double>(sy[k]);
+        const double dz = cz - static_cast<double>(sz[k]);
+        const double touch = r + static_cast<double>(radius[k]), farthest = touch + nearest + depth;
+        const double square = dx * dx + dy * dy + dz * dz;
+        const double outside = square < farthest * farthest ? 0.0 : kOffPlane;
+        heights[k] = nx * dx + ny * dy + nz * dz - touch + outside;
+    }
+}
+
+// Mean normal of the spheres of the patch, weighted so that a sphere enters with weight 0. False when it is
+// no direction.
+bool meanNormal(const PairArrays& run, const dvec3& centre, double leafRadius, double nearest, double depth,
+                dvec3& normal) noexcept {
     dvec3 sum(0.0);
     double weights = 0.0;
-    for (size_t k = 0; k < run.count; ++k) {
-        const dvec3 delta = awayFrom(run, k, centre);
-        const double touch = leafRadius + static_cast<double>(run.radius[k]),
-                     farthest = touch + nearest + depth;
-        const double square = glm::dot(delta, delta);
-        if (!(square < farthest * farthest)) {
-            continue;
+    for (size_t begin = 0; begin < run.count; begin += PatchBlock::kSize) {
+        PatchBlock block;
+        const PairArrays some = part(run, begin, PatchBlock::kSize);
+        weighKernel(some.x, some.y, some.z, some.radius, some.count, centre.x, centre.y, centre.z, leafRadius,
+                    nearest, depth, block.x.data(), block.y.data(), block.z.data(), block.weight.data());
+        for (size_t k = 0; k < some.count; ++k) {
+            sum += dvec3(block.x[k], block.y[k], block.z[k]);
+            weights += block.weight[k];
         }
-        if (count == patch.size()) {
-            return 0;
-        }
-        patch[count++] = static_cast<uint32_t>(k);
-        const double length = std::sqrt(square), share = 1.0 - (length - touch - nearest) / depth;
-        const double weight = share * share;
-        sum += (weight / length) * delta;
-        weights += weight;
     }
     const double length = glm::length(sum);
     normal = sum / length;
-    return length > kLeastNormal * weights ? count : 0;
+    return length > kLeastNormal * weights;
 }
 
 } // namespace
 
 bool smoothPlane(const PairArrays& run, const dvec3& centre, double leafRadius, double nearest, double depth,
-                 std::span<uint32_t> scratch, SmoothPlane& plane) noexcept {
-    const size_t count = gatherPatch(run, centre, leafRadius, nearest, depth, scratch, plane.normal);
-    plane.gap = std::numeric_limits<double>::infinity();
-    for (size_t i = 0; i < count; ++i) {
-        const size_t k = scratch[i];
-        const dvec3 delta = awayFrom(run, k, centre);
-        const double touch = leafRadius + static_cast<double>(run.radius[k]);
-        const double height = glm::dot(plane.normal, delta);
-        if (height - touch > plane.gap + kRounding) { // the bend only raises it
-            continue;
-        }
-        const double aside = glm::dot(delta, delta) - height * height, patch = 2.0 * touch * depth;
-        if (aside < patch) {
-            const double bend = 0.5 * kBend / touch * aside / (1.0 - aside / patch);
-            plane.gap = std::min(plane.gap, height - touch + bend);
+                 SmoothPlane& plane) noexcept {
+    if (!meanNormal(run, centre, leafRadius, nearest, depth, plane.normal)) {
+        return false;
+    }
+    plane.gap = kOffPlane;
+    for (size_t begin = 0; begin < run.count; begin += PatchBlock::kSize) {
+        alignas(64) std::array<double, PatchBlock::kSize> heights;
+        const PairArrays some = part(run, begin, PatchBlock::kSize);
+        heightKernel(some.x, some.y, some.z, some.radius, some.count, centre.x, centre.y, centre.z,
+                     leafRadius, nearest, plane.normal.x, plane.normal.y, plane.normal.z, depth,
+                     heights.data());
+        for (size_t k = 0; k < some.count; ++k) {
+            if (heights[k] > plane.gap + kRounding || !(heights[k] < kOffPlane)) {
+                continue; // the bend only raises it
+            }
+            const dvec3 delta = awayFrom(some, k, centre);
+            const double touch = leafRadius + static_cast<double>(some.radius[k]);
+            const double height = glm::dot(plane.normal, delta);
+            const double aside = glm::dot(delta, delta) - height * height, patch = 2.0 * touch * depth;
+            if (aside < patch) {
+                const double bend = 0.5 * kBend / touch * aside / (1.0 - aside / patch);
+                plane.gap = std::min(plane.gap, height - touch + bend);
+            }
         }
     }
     return plane.gap < nearest;

@@ -6,8 +6,6 @@
 
 #include "engine/contact/pair_gaps.h"
 
-#include <span>
-
 namespace fathom {
 
 struct SmoothPlane {
@@ -22,10 +20,10 @@ inline constexpr double kPatch = 0.18;
 inline constexpr double kBend = 0.01;
 
 // Plane for a leaf at `centre` whose nearest pair has this gap [m] >= 0. run: its pairs, complete up to gap +
-// patchDepth(). `scratch` limits the spheres of a patch. False where there is no plane outside of the nearest
-// sphere: at an edge, or for too many spheres; the spheres' own rows then suffice. Identical bits everywhere.
+// patchDepth(). False where there is no plane outside of the nearest sphere, as at an edge; the spheres' own
+// rows then suffice. Identical bits everywhere.
 bool smoothPlane(const PairArrays& run, const dvec3& centre, double leafRadius, double nearest, double depth,
-                 std::span<uint32_t> scratch, SmoothPlane& plane) noexcept;
+                 SmoothPlane& plane) noexcept;
 
 // [m] how much farther than the nearest the spheres of a patch may be; reach = R + r of the nearest.
 constexpr double patchDepth(double reach) noexcept {
