@@ -26,16 +26,16 @@ std::optional<glm::dvec2> ImageView::ofCamera(const dvec3& point) const {
 }
 
 glm::dvec2 ImageView::distortionShift(const dvec3& point) const {
+    if (lens.pinhole()) {
+        return glm::dvec2(0.0);
+    }
     const glm::dvec2 straight = pinhole(lens, point);
     // The distortion polynomial is valid inside the image. Far outside it folds back and would map points
     // into the image.
     const double marginU = 0.5 * lens.width, marginV = 0.5 * lens.height;
     const bool near = straight.x > -marginU && straight.x < lens.width + marginU && straight.y > -marginV &&
                       straight.y < lens.height + marginV;
-    if (lens.pinhole() || !near) {
-        return glm::dvec2(0.0);
-    }
-    return (lens.project(point) - straight) * static_cast<double>(scale);
+    return near ? (lens.project(point) - straight) * static_cast<double>(scale) : glm::dvec2(0.0);
 }
 
 ImageView imageView(const CameraInfo& camera, const Pose& baseTcamera, bool ofDepth, int leastWidth) {

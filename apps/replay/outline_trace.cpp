@@ -74,14 +74,28 @@ OutlineLine smooth(const OutlineLine& line, bool closed) {
     const auto count =
         static_cast<std::ptrdiff_t>(line.size()) - (closed ? 1 : 0); // a closed line repeats its start
     const std::ptrdiff_t half = std::min<std::ptrdiff_t>(4, count / 8);
+    std::vector<glm::dvec2> sums{
+        glm::dvec2(0.0)}; // of all points before; exact, the points are whole numbers
+    sums.reserve(line.size() + 1);
+    for (const glm::dvec2& p : line) {
+        sums.push_back(sums.back() + p);
+    }
+    const auto sum = [&](std::ptrdiff_t from, std::ptrdiff_t to) { // of points [from, to), inside the line
+        return sums[static_cast<size_t>(to)] - sums[static_cast<size_t>(from)];
+    };
     OutlineLine result;
+    result.reserve(line.size());
     for (std::ptrdiff_t i = 0; i < count; ++i) {
         const std::ptrdiff_t reach = closed ? half : std::min({half, i, count - 1 - i});
-        glm::dvec2 sum(0.0);
-        for (std::ptrdiff_t k = -reach; k <= reach; ++k) {
-            sum += line[static_cast<size_t>((i + k + count) % count)];
+        const std::ptrdiff_t from = i - reach, to = i + reach + 1;
+        glm::dvec2 all = sum(std::max<std::ptrdiff_t>(0, from), std::min(count, to));
+        if (from < 0) { // beyond the start: the end of a closed line
+            all += sum(count + from, count);
         }
-        result.push_back(sum / static_cast<double>(2 * reach + 1));
+        if (to > count) {
+            all += sum(0, to - count);
+        }
+        result.push_back(all / static_cast<double>(2 * reach + 1));
     }
     if (closed && !result.empty()) {
         result.push_back(result.front());

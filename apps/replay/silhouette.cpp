@@ -17,6 +17,11 @@ struct Range {
 
 // Slopes y/z of the two tangents from the eye to the projection of the sphere on the (y, z) plane.
 Range slopesOf(double y, double z, double radius) {
+    if (z > radius) { // roots of (y - z s)^2 = r^2 (1 + s^2)
+        const double scale = 1.0 / (z * z - radius * radius);
+        const double half = radius * std::sqrt(y * y + z * z - radius * radius);
+        return {(y * z - half) * scale, (y * z + half) * scale};
+    }
     const double distance = std::hypot(y, z);
     if (distance <= radius) {
         return {-kEverywhere, kEverywhere};
@@ -86,6 +91,9 @@ void Silhouette::add(const dvec3& baseCentre, double radius) {
     // Rows whose centre (v + 0.5) is inside.
     const double first = std::max(0.0, std::ceil(v0 + fy * rows.lo - 0.5));
     const double last = std::min(height_ - 1.0, std::floor(v0 + fy * rows.hi - 0.5));
+    if (!settled_.empty() && c.z > radius && covers(c, radius, {fx, fy}, {u0, v0})) {
+        return;
+    }
     const RowRuns runs(c, k);
     const double perRow = 1.0 / fy;
     for (double v = first; v <= last; v += 1.0) {
@@ -107,6 +115,54 @@ void Silhouette::addRow(int v, double from, double to) {
     box_.u1 = std::max(box_.u1, static_cast<int>(end));
     box_.v0 = std::min(box_.v0, v);
     box_.v1 = std::max(box_.v1, v + 1);
+}
+
+// Sums of covered pixels above and left of each corner of the box's pixels.
+void Silhouette::settle() {
+    const auto across = static_cast<size_t>(std::max(0, box_.u1 - box_.u0)) + 1;
+    settledBox_ = box_;
+    settled_.assign(across * (static_cast<size_t>(std::max(0, box_.v1 - box_.v0)) + 1), 0);
+    for (int v = box_.v0; v < box_.v1; ++v) {
+        const int32_t* step = steps_.data() + static_cast<size_t>(v) * static_cast<size_t>(width_ + 1) +
+                              static_cast<size_t>(box_.u0);
+        const int32_t* above = settled_.data() + static_cast<size_t>(v - box_.v0) * across;
+        int32_t* sum = settled_.data() + static_cast<size_t>(v - box_.v0 + 1) * across;
+        int32_t open = 0, inRow = 0;
+        for (size_t i = 1; i < across; ++i) {
+            open += *step++;
+            inRow += open > 0 ? 1 : 0;
+            sum[i] = above[i] + inRow;
+        }
+    }
+}
+
+// Whether all pixels of a sphere in front of the eye were covered at the last settle(). Its outline is an
+// ellipse, which two rectangles contain. focal, middle: [pixels] per slope, and of the ray (0, 0, 1).
+bool Silhouette::covers(const dvec3& c, double radius, glm::dvec2 focal, glm::dvec2 middle) const {
+    constexpr double kShort = 0.7072; // the rectangles cross on the outline
+    const double scale = 1.0 / (c.z * c.z - radius * radius);
+    const glm::dvec2 at = middle + c.z * scale * focal * glm::dvec2(c);
+    const glm::dvec2 half = radius * std::sqrt(glm::dot(c, c) - radius * radius) * scale * focal;
+    return isFull(at, half * glm::dvec2(1.0, kShort)) && isFull(at, half * glm::dvec2(kShort, 1.0));
+}
+
+bool Silhouette::isFull(glm::dvec2 middle, glm::dvec2 half) const {
+    const Box& box = settledBox_;
+    const glm::dvec2 low = glm::floor(middle - half - 0.5), high = glm::ceil(middle + half - 0.5);
+    if (!(high.x >= 0.0 && high.y >= 0.0 && low.x < width_ && low.y < height_)) {
+        return false; // outside of the image
+    }
+    const int u0 = static_cast<int>(std::max(0.0, low.x)), v0 = static_cast<int>(std::max(0.0, low.y));
+    const int u1 = static_cast<int>(std::min(width_ - 1.0, high.x)) + 1,
+              v1 = static_cast<int>(std::min(height_ - 1.0, high.y)) + 1;
+    if (u0 < box.u0 || u1 > box.u1 || v0 < box.v0 || v1 > box.v1) {
+        return false;
+    }
+    const auto across = static_cast<size_t>(box.width()) + 1;
+    const auto sum = [&](int atU, int atV) {
+        return settled_[static_cast<size_t>(atV - box.v0) * across + static_cast<size_t>(atU - box.u0)];
+    };
+    return sum(u1, v1) - sum(u0, v1) - sum(u1, v0) + sum(u0, v0) == (u1 - u0) * (v1 - v0);
 }
 
 Silhouette::Box Silhouette::covered() const {
@@ -140,9 +196,19 @@ std::vector<uint8_t> Silhouette::mask(const Box& box) const {
 RegionMasks regionMasks(const ImageView& view, const Fixtures& set) {
     const uint32_t pixels = set.camera.depth.pixels();
     Silhouette seen(view), held(view);
-    for (size_t i = 0; i < set.spheres.size(); ++i) {
-        (set.spheres.source[i] >= pixels ? held : seen)
-            .add(regionCentre(set, i), double{set.spheres.radius[i]});
+    size_t before = 0;                        // step of the previous pass
+    for (const size_t step : {32u, 8u, 1u}) { // a few spheres cover most of the others
+        if (before != 0) {
+            seen.settle();
+            held.settle();
+        }
+        for (size_t i = 0; i < set.spheres.size(); i += step) {
+            if (before == 0 || i % before != 0) {
+                (set.spheres.source[i] >= pixels ? held : seen)
+                    .add(regionCentre(set, i), double{set.spheres.radius[i]});
+            }
+        }
+        before = step;
     }
     RegionMasks masks{seen.mask(), {}, false};
     masks.held = held.covered().width() > 0 ? held.mask() : std::vector<uint8_t>(masks.seen.size());

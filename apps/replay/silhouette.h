@@ -21,6 +21,8 @@ public:
     explicit Silhouette(const ImageView& view);
 
     void add(const dvec3& baseCentre, double radius); // [m]
+    // From now on add() ignores a sphere that all spheres so far cover. The mask stays the same.
+    void settle();
     // 1 for pixels whose centre is covered by a sphere; width x height, row-major.
     std::vector<uint8_t> mask() const;
 
@@ -35,11 +37,15 @@ public:
 
 private:
     void addRow(int v, double from, double to);
+    bool covers(const dvec3& c, double radius, glm::dvec2 focal, glm::dvec2 middle) const;
+    bool isFull(glm::dvec2 middle, glm::dvec2 half) const; // a rectangle
 
     const ImageView view_;
     int width_, height_;
     Box box_{1 << 30, 1 << 30, 0, 0}; // of the covered pixels
     std::vector<int32_t> steps_;      // rows of width + 1 counts: runs that start minus runs that end here
+    std::vector<int32_t> settled_;    // empty: settle() was never called
+    Box settledBox_;
 };
 
 // Centre of a region sphere in the base frame [m].

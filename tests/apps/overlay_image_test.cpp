@@ -104,6 +104,34 @@ TEST_CASE("The silhouette of random spheres is the set of pixels whose ray hits 
     }
 }
 
+TEST_CASE("Masks of dense regions leave out covered spheres, and are the same as with all of them") {
+    Drawn scene;
+    scene.set.camera = smallCamera();
+    scene.set.camera.depth.distortion = {0.1, -0.05, 0.001, 0.002, 0.0};
+    const ImageView view = imageView(scene.set.camera, Pose{{0.0, 0.0, -0.1}, {}}, true, 300);
+    std::mt19937_64 random(5);
+    std::uniform_real_distribution<float> place(-0.15f, 0.15f), size(0.01f, 0.05f);
+    for (int repeat = 0; repeat < 10; ++repeat) {
+        RegionSpheres& s = scene.set.spheres;
+        s.resize(400);
+        Silhouette seen(view), held(view);
+        for (size_t i = 0; i < s.size(); ++i) {
+            s.x[i] = place(random) + 0.06f * static_cast<float>(repeat); // the last ones leave the image
+            s.y[i] = place(random), s.z[i] = 0.4f + place(random), s.radius[i] = size(random);
+            s.source[i] = static_cast<uint32_t>(i) + (i % 3 == 0 ? scene.set.camera.depth.pixels() : 0u);
+            (i % 3 == 0 ? held : seen).add(regionCentre(scene.set, i), double{s.radius[i]});
+        }
+        const RegionMasks masks = regionMasks(view, scene.set);
+        std::vector<uint8_t> onlyHeld = held.mask();
+        const std::vector<uint8_t> all = seen.mask();
+        for (size_t i = 0; i < all.size(); ++i) {
+            onlyHeld[i] = all[i] != 0 ? 0 : onlyHeld[i];
+        }
+        CHECK(masks.seen == all);
+        CHECK(masks.held == onlyHeld);
+    }
+}
+
 TEST_CASE("The outline of a mask is closed inside the image, open at its edge, and surrounds holes") {
     const int width = 40, height = 30;
     std::vector<uint8_t> mask(width * height);
