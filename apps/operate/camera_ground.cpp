@@ -34,6 +34,46 @@ uint32_t greyOf(uint16_t depth, double metresPerUnit) {
     return 0xff000000u | level << 16 | level << 8 | level;
 }
 
+// Column of the depth image for each of a row. With separate cameras the hatch ignores parallax: it marks the
+// holes of the depth image.
+using Columns = std::vector<uint32_t>;
+
+void enlarge(const uint32_t* from, uint32_t count, int scale, uint32_t* row) {
+    if (scale == 1) {
+        std::transform(from, from + count, row, [](uint32_t c) { return c | 0xff000000u; });
+        return;
+    }
+    for (uint32_t u = 0; u < count; ++u) {
+        row = std::fill_n(row, scale, from[u] | 0xff000000u);
+    }
+}
+
+void paintGrey(const uint16_t* depth, double metresPerUnit, const Columns& columns, uint32_t* row) {
+    std::transform(columns.begin(), columns.end(), row,
+                   [&](uint32_t at) { return greyOf(depth[at], metresPerUnit); });
+}
+
+// Returns how many pixels are unknown.
+size_t hatchUnknown(const uint16_t* depth, int v, const Columns& columns, uint32_t* row) {
+    size_t unknown = 0;
+    for (size_t u = 0; u < columns.size(); ++u) {
+        if (depth[columns[u]] == 0) {
+            ++unknown;
+            const bool line = (static_cast<int>(u) - v + 9 * 4096) % kUnknownHatch < 3;
+            row[u] = blend(row[u], line ? kUnknown : kDark, line ? 150 : 120);
+        }
+    }
+    return unknown;
+}
+
+void tintPicked(const uint8_t* picked, int v, const Columns& columns, uint32_t* row) {
+    for (size_t u = 0; u < columns.size(); ++u) {
+        if (picked[columns[u]] != 0) {
+            row[u] = blend(row[u], kPicked, (static_cast<int>(u) + v) % 8 < 4 ? 225 : 120);
+        }
+    }
+}
+
 // The view with half as many pixels in each direction.
 ImageView halved(ImageView view) {
     if (view.scale % 2 == 0) {
@@ -76,33 +116,27 @@ void CameraGround::paintImage(const SceneSnapshot& scene, const Selection& selec
     const Intrinsics& lens = view_.lens;
     const bool coloured = scene.colour.size() == lens.pixels();
     const bool known = scene.set.depth.size() == camera.depth.pixels();
-    // Column of the image and of the depth image. With separate cameras the hatch ignores parallax: it marks
-    // the holes of the depth image.
-    std::vector<std::pair<uint32_t, uint32_t>> columns(static_cast<size_t>(view_.width()));
+    const bool picked = selection.size() == camera.depth.pixels();
+    const std::vector<uint16_t> nothing(camera.depth.width);
+    Columns columns(static_cast<size_t>(view_.width()));
     for (size_t u = 0; u < columns.size(); ++u) {
         const auto su = static_cast<uint32_t>(u) / static_cast<uint32_t>(view_.scale);
-        columns[u] = {su, su * camera.depth.width / lens.width};
+        columns[u] = su * camera.depth.width / lens.width;
     }
     size_t unknown = 0;
     for (int v = 0; v < view_.height(); ++v) {
         const uint32_t sv = static_cast<uint32_t>(v / view_.scale);
         const size_t depthRow = size_t{sv * camera.depth.height / lens.height} * camera.depth.width;
-        const size_t colourRow = size_t{sv} * lens.width;
+        const uint16_t* depth = known ? scene.set.depth.data() + depthRow : nothing.data();
         uint32_t* row = pixels_.data() + static_cast<size_t>(v) * columns.size();
-        for (int u = 0; u < view_.width(); ++u) {
-            const auto [su, du] = columns[static_cast<size_t>(u)];
-            const size_t d = depthRow + du;
-            const uint16_t depth = known ? scene.set.depth[d] : 0;
-            row[u] =
-                coloured ? scene.colour[colourRow + su] | 0xff000000u : greyOf(depth, camera.metresPerUnit);
-            if (depth == 0) {
-                ++unknown;
-                const bool line = (u - v + 9 * 4096) % kUnknownHatch < 3;
-                row[u] = blend(row[u], line ? kUnknown : kDark, line ? 150 : 120);
-            }
-            if (d < selection.size() && selection[d] != 0) {
-                row[u] = blend(row[u], kPicked, (u + v) % 8 < 4 ? 225 : 120);
-            }
+        if (coloured) {
+            enlarge(scene.colour.data() + size_t{sv} * lens.width, lens.width, view_.scale, row);
+        } else {
+            paintGrey(depth, camera.metresPerUnit, columns, row);
+        }
+        unknown += hatchUnknown(depth, v, columns, row);
+        if (picked) {
+            tintPicked(selection.data() + depthRow, v, columns, row);
         }
     }
     unknown_ = static_cast<double>(unknown) / static_cast<double>(std::max<size_t>(1, pixels_.size()));
@@ -118,16 +152,19 @@ void CameraGround::paintRegions(const Fixtures& set) {
     const RegionMasks masks = regionMasks(maskView, set);
     const int step = coarse_ ? 2 : 1; // pixels per pixel of the masks
     for (int v = 0; v < view_.height(); ++v) {
-        const auto row = static_cast<size_t>(std::min(v / step, maskView.height() - 1));
-        const uint8_t* seen = masks.seen.data() + row * static_cast<size_t>(maskView.width());
-        const uint8_t* held = masks.held.data() + row * static_cast<size_t>(maskView.width());
+        const auto first = static_cast<size_t>(std::min(v / step, maskView.height() - 1)) *
+                           static_cast<size_t>(maskView.width());
         uint32_t* out = pixels_.data() + static_cast<size_t>(v) * static_cast<size_t>(view_.width());
-        for (int u = 0; u < view_.width(); ++u) {
-            const int m = std::min(u / step, maskView.width() - 1);
-            if (seen[m] != 0) {
-                out[u] = blend(out[u], kRegion, (u + v) % kHatch < kLine ? 128 : 62);
-            } else if (held[m] != 0) {
-                out[u] = blend(out[u], kRegion, (u - v + 4096) % kHatch < kLine ? 96 : 30);
+        for (int m = 0; m < maskView.width(); ++m) {
+            const size_t at = first + static_cast<size_t>(m);
+            if ((masks.seen[at] | masks.held[at]) == 0) {
+                continue;
+            }
+            const int end = m + 1 == maskView.width() ? view_.width() : (m + 1) * step;
+            for (int u = m * step; u < end; ++u) {
+                const bool seen = masks.seen[at] != 0;
+                const bool line = (seen ? u + v : u - v + 4096) % kHatch < kLine;
+                out[u] = blend(out[u], kRegion, seen ? (line ? 128 : 62) : (line ? 96 : 30));
             }
         }
     }
