@@ -57,10 +57,11 @@ void fillRectangle(const RasterImage& image, const PanelItem& item, const PixelB
             fillRun(row, box.x0, box.x1, ink, alpha);
             continue;
         }
-        const float v = item.a.uv.y + (static_cast<float>(y) + 0.5f - item.a.pos.y) * dv;
+        const Coverage::Line line =
+            fonts.line(item.a.uv.y + (static_cast<float>(y) + 0.5f - item.a.pos.y) * dv);
         for (int x = box.x0; x < box.x1; ++x) {
             const float u = item.a.uv.x + (static_cast<float>(x) + 0.5f - item.a.pos.x) * du;
-            if (const uint32_t covered = fonts.at(u, v); covered != 0) {
+            if (const uint32_t covered = line.at(u); covered != 0) {
                 row[x] = over(row[x], ink, product(ink.alpha, covered));
             }
         }
@@ -87,99 +88,117 @@ struct Slope {
     float at(float dx, float dy) const { return here + dx * x + dy * y; }
 };
 
+// Colour and coverage of a triangle's pixels. Most triangles are the soft edges of lines: one colour, one
+// texel.
 class Shading {
 public:
-    explicit Shading(const PanelItem& item)
+    Shading(const PanelItem& item, const Coverage& fonts)
         : item_(item)
+        , fonts_(fonts)
         , ink_(inkOf(item.a.col))
         , oneColour_(((item.a.col ^ item.b.col) & 0xffffffu) == 0 &&
-                     ((item.a.col ^ item.c.col) & 0xffffffu) == 0) {
-        for (int k = 0; k < 4; ++k) {
+                     ((item.a.col ^ item.c.col) & 0xffffffu) == 0)
+        , oneAlpha_(((item.a.col ^ item.b.col) | (item.a.col ^ item.c.col)) >> 24 == 0)
+        , oneTexel_(item.a.uv.x == item.b.uv.x && item.a.uv.x == item.c.uv.x && item.a.uv.y == item.b.uv.y &&
+                    item.a.uv.y == item.c.uv.y)
+        , oneLine_(item.a.uv.y == item.b.uv.y && item.a.uv.y == item.c.uv.y) {
+        const ImVec2 &p = item.a.pos, &q = item.b.pos, &r = item.c.pos;
+        bx_ = q.x - p.x, by_ = q.y - p.y, cx_ = r.x - p.x, cy_ = r.y - p.y;
+        const float area = bx_ * cy_ - by_ * cx_;
+        inverse_ = area != 0.0f ? 1.0f / area : 0.0f;
+        for (int k = oneColour_ ? 3 : 0; k < 4; ++k) {
             const auto channel = [&](const ImDrawVert& v) {
                 return static_cast<float>(v.col >> (8 * k) & 0xffu);
             };
             channels_[k] = slopeOf(channel(item.a), channel(item.b), channel(item.c));
         }
-        u_ = slopeOf(item.a.uv.x, item.b.uv.x, item.c.uv.x);
-        v_ = slopeOf(item.a.uv.y, item.b.uv.y, item.c.uv.y);
-        oneTexel_ = u_.x == 0.0f && u_.y == 0.0f && v_.x == 0.0f && v_.y == 0.0f;
+        if (oneTexel_) {
+            covered_ = fonts.at(item.a.uv.x, item.a.uv.y);
+        } else {
+            u_ = slopeOf(item.a.uv.x, item.b.uv.x, item.c.uv.x);
+            v_ = slopeOf(item.a.uv.y, item.b.uv.y, item.c.uv.y);
+            line_ = fonts.line(item.a.uv.y);
+        }
     }
 
-    void run(uint32_t* row, int y, int from, int to, const Coverage& fonts) const {
+    void run(uint32_t* row, int y, int from, int to) const {
         const float dy = static_cast<float>(y) + 0.5f - item_.a.pos.y;
-        uint32_t covered = fonts.at(u_.here, v_.here);
         for (int x = from; x < to; ++x) {
             const float dx = static_cast<float>(x) + 0.5f - item_.a.pos.x;
-            covered = oneTexel_ ? covered : fonts.at(u_.at(dx, dy), v_.at(dx, dy));
-            const uint32_t alpha = product(level(3, dx, dy), covered);
-            row[x] = over(row[x], oneColour_ ? ink_ : inkAt(dx, dy), alpha);
+            const uint32_t covered = oneTexel_  ? covered_
+                                     : oneLine_ ? line_.at(u_.at(dx, dy))
+                                                : fonts_.at(u_.at(dx, dy), v_.at(dx, dy));
+            const uint32_t level = oneColour_ && oneAlpha_ ? ink_.alpha : this->level(3, dx, dy);
+            row[x] = over(row[x], oneColour_ ? ink_ : inkAt(dx, dy),
+                          covered == 255 ? level : product(level, covered));
         }
     }
 
 private:
     Slope slopeOf(float a, float b, float c) const {
-        const ImVec2 &p = item_.a.pos, &q = item_.b.pos, &r = item_.c.pos;
-        const float bx = q.x - p.x, by = q.y - p.y, cx = r.x - p.x, cy = r.y - p.y, area = bx * cy - by * cx;
         const float db = b - a, dc = c - a;
-        return area != 0.0f ? Slope{a, (db * cy - dc * by) / area, (dc * bx - db * cx) / area}
-                            : Slope{a, 0.0f, 0.0f};
+        return {a, (db * cy_ - dc * by_) * inverse_, (dc * bx_ - db * cx_) * inverse_};
     }
     uint32_t level(int k, float dx, float dy) const {
-        return static_cast<uint32_t>(std::clamp(channels_[k].at(dx, dy) + 0.5f, 0.0f, 255.0f));
+        return static_cast<uint32_t>(
+            static_cast<int>(std::clamp(channels_[k].at(dx, dy) + 0.5f, 0.0f, 255.0f)));
     }
     Ink inkAt(float dx, float dy) const {
         return {level(0, dx, dy) << 16 | level(2, dx, dy), level(1, dx, dy) << 8, 255};
     }
 
     const PanelItem& item_;
+    const Coverage& fonts_;
     Ink ink_;
-    bool oneColour_, oneTexel_ = false;
+    bool oneColour_, oneAlpha_, oneTexel_, oneLine_; // ImGui's textures of lines are one line each
+    float bx_, by_, cx_, cy_, inverse_;              // edges from corner a; 1 / area
+    uint32_t covered_ = 255;
+    Coverage::Line line_;
     Slope channels_[4], u_, v_;
 };
 
-void fillTriangle(const RasterImage& image, const PanelItem& item, const PixelBox& box,
-                  const Coverage& fonts) {
+// Calls run(y, from, to) for the rows of a triangle inside the box.
+template <class Run>
+void eachRow(const PanelItem& item, const PixelBox& box, Run&& run) {
     const Side sides[3] = {{item.a.pos, item.b.pos}, {item.b.pos, item.c.pos}, {item.c.pos, item.a.pos}};
-    const bool flat = isFlat(item);
-    const Ink ink = inkOf(item.a.col);
-    const uint32_t alpha = flat ? product(ink.alpha, fonts.at(item.a.uv.x, item.a.uv.y)) : 0;
-    const Shading shading(item);
     for (int y = box.y0; y < box.y1; ++y) {
         const float centre = static_cast<float>(y) + 0.5f;
-        float left = 1e9f, right = -1e9f;
+        float left = 1e6f, right = -1e6f;
         for (const Side& side : sides) {
-            if (side.crosses(centre)) {
-                left = std::min(left, side.at(centre));
-                right = std::max(right, side.at(centre));
-            }
+            const float x = side.at(centre);
+            left = side.crosses(centre) ? std::min(left, x) : left;
+            right = side.crosses(centre) ? std::max(right, x) : right;
         }
-        if (left >= right) {
-            continue;
-        }
-        const int from = std::max(box.x0, static_cast<int>(std::ceil(std::max(left, -1e6f) - 0.5f)));
-        const int to = std::min(box.x1, static_cast<int>(std::ceil(std::min(right, 1e6f) - 0.5f)));
-        if (flat && from < to) {
-            fillRun(image.row(y), from, to, ink, alpha);
-        } else if (from < to) {
-            shading.run(image.row(y), y, from, to, fonts);
+        const int from = std::max(box.x0, pixelFrom(left)), to = std::min(box.x1, pixelFrom(right));
+        if (from < to) {
+            run(y, from, to);
         }
     }
 }
 
+void fillTriangle(const RasterImage& image, const PanelItem& item, const PixelBox& box,
+                  const Coverage& fonts) {
+    if (isFlat(item)) {
+        const Ink ink = inkOf(item.a.col);
+        const uint32_t alpha = product(ink.alpha, fonts.at(item.a.uv.x, item.a.uv.y));
+        eachRow(item, box, [&](int y, int from, int to) { fillRun(image.row(y), from, to, ink, alpha); });
+        return;
+    }
+    const Shading shading(item, fonts);
+    eachRow(item, box, [&](int y, int from, int to) { shading.run(image.row(y), y, from, to); });
+}
+
 } // namespace
 
-uint32_t Coverage::at(float u, float v) const {
-    const float x = std::clamp(u * static_cast<float>(width) - 0.5f, 0.0f, static_cast<float>(width - 1));
+Coverage::Line Coverage::line(float v) const {
     const float y = std::clamp(v * static_cast<float>(height) - 0.5f, 0.0f, static_cast<float>(height - 1));
-    const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
-    const auto fx = static_cast<uint32_t>((x - static_cast<float>(x0)) * 256.0f + 0.5f);
-    const auto fy = static_cast<uint32_t>((y - static_cast<float>(y0)) * 256.0f + 0.5f);
-    const unsigned char* upper = texels + static_cast<size_t>(y0) * static_cast<size_t>(width) + x0;
-    const unsigned char* lower = y0 + 1 < height ? upper + width : upper;
-    const int next = x0 + 1 < width ? 1 : 0;
-    const uint32_t above = upper[0] * (256 - fx) + upper[next] * fx;
-    const uint32_t below = lower[0] * (256 - fx) + lower[next] * fx;
-    return (above * (256 - fy) + below * fy + 0x8000u) >> 16;
+    const int y0 = static_cast<int>(y);
+    Line line;
+    line.upper = texels + static_cast<size_t>(y0) * static_cast<size_t>(width);
+    line.lower = y0 + 1 < height ? line.upper + width : line.upper;
+    line.width = width;
+    line.share = static_cast<uint32_t>(static_cast<int>((y - static_cast<float>(y0)) * 256.0f + 0.5f));
+    return line;
 }
 
 void fillItem(const RasterImage& image, const PanelItem& item, const PixelBox& within,

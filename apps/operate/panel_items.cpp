@@ -9,11 +9,6 @@ namespace fathom::operate {
 
 namespace {
 
-// The first pixel whose centre is at or after this coordinate.
-int pixelFrom(float at) {
-    return static_cast<int>(std::ceil(std::clamp(at, -1e6f, 1e6f) - 0.5f));
-}
-
 PixelBox boxOf(const ImDrawVert& a, const ImDrawVert& b, const ImDrawVert& c) {
     const auto [left, right] = std::minmax({a.pos.x, b.pos.x, c.pos.x});
     const auto [top, bottom] = std::minmax({a.pos.y, b.pos.y, c.pos.y});

@@ -2,6 +2,8 @@
 // What ImGui draws in a frame, as rectangles and triangles with the pixels that they can touch.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <imgui.h>
 #include <vector>
@@ -14,6 +16,10 @@ struct PixelBox {
     bool empty() const { return x0 >= x1 || y0 >= y1; }
     bool operator==(const PixelBox&) const = default;
 };
+// The first pixel whose centre is at or after this coordinate.
+inline int pixelFrom(float at) {
+    return static_cast<int>(std::ceil(std::clamp(at, -1e6f, 1e6f) - 0.5f));
+}
 PixelBox overlap(const PixelBox& a, const PixelBox& b);
 
 // A rectangle of one colour (`isRectangle`: a = top left, b = bottom right), or a triangle.

@@ -6,7 +6,9 @@
 #include "apps/operate/layer.h"
 #include "apps/operate/panel_items.h"
 
+#include <algorithm>
 #include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -16,8 +18,26 @@ namespace fathom::operate {
 struct Coverage {
     const unsigned char* texels = nullptr;
     int width = 0, height = 0;
+
+    // Two rows of texels, and the share of the lower one (of 256).
+    struct Line {
+        const unsigned char *upper = nullptr, *lower = nullptr;
+        int width = 0;
+        uint32_t share = 0;
+        uint32_t at(float u) const {
+            const float most = static_cast<float>(width - 1);
+            const float x = std::clamp(u * static_cast<float>(width) - 0.5f, 0.0f, most);
+            const int x0 = static_cast<int>(x), next = x0 + 1 < width ? x0 + 1 : x0;
+            const auto right =
+                static_cast<uint32_t>(static_cast<int>((x - static_cast<float>(x0)) * 256.0f + 0.5f));
+            const uint32_t above = upper[x0] * (256 - right) + upper[next] * right;
+            const uint32_t below = lower[x0] * (256 - right) + lower[next] * right;
+            return (above * (256 - share) + below * share + 0x8000u) >> 16;
+        }
+    };
     // Bilinear, at texture coordinates 0..1 of the atlas.
-    uint32_t at(float u, float v) const;
+    Line line(float v) const;
+    uint32_t at(float u, float v) const { return line(v).at(u); }
 };
 
 // One image of the window, resampled to its place.
