@@ -65,11 +65,19 @@ ViewPort portOf(const Pose& eye, double reach, const PixelRect& where) {
 std::vector<Sphere> sectionOf(const Fixtures& set, const Pose& eyeTbase, double reach, double depth) {
     const double cellEdge = 2.0 * reach / static_cast<double>(kCells);
     std::vector<Sphere> cells(kCells * kCells, Sphere{dvec3(0.0), 0.0});
-    for (size_t i = 0; i < set.spheres.size(); ++i) {
+    const dvec3 along = glm::conjugate(eyeTbase.rotation) * dvec3(0.0, 0.0, 1.0); // base axes
+    const double origin = eyeTbase.apply(set.origin).z - depth;
+    const RegionSpheres& s = set.spheres;
+    for (size_t i = 0; i < s.size(); ++i) {
+        const double r = double{s.radius[i]};
+        const double off =
+            along.x * double{s.x[i]} + along.y * double{s.y[i]} + along.z * double{s.z[i]} + origin;
+        if (std::abs(off) >= r) { // most
+            continue;
+        }
         dvec3 c = eyeTbase.apply(regionCentre(set, i));
-        const double r = double{set.spheres.radius[i]}, off = c.z - depth;
         const double edge = reach + r;
-        if (std::abs(off) >= r || std::abs(c.x) >= edge || std::abs(c.y) >= edge) {
+        if (std::abs(c.x) >= edge || std::abs(c.y) >= edge) {
             continue;
         }
         const auto cell = [&](double v) { // those beyond the edge go to the cells there
@@ -85,9 +93,9 @@ std::vector<Sphere> sectionOf(const Fixtures& set, const Pose& eyeTbase, double 
     }
     const Pose baseTeye = inverse(eyeTbase);
     std::vector<Sphere> section;
-    for (const Sphere& s : cells) {
-        if (s.radius > 0.0) {
-            section.push_back({baseTeye.apply(s.centre), s.radius});
+    for (const Sphere& cut : cells) {
+        if (cut.radius > 0.0) {
+            section.push_back({baseTeye.apply(cut.centre), cut.radius});
         }
     }
     return section;
@@ -99,16 +107,26 @@ std::vector<dvec3> surfaceNear(const Fixtures& set, const Pose& eyeTbase, double
     if (set.depth.size() != lens.pixels()) {
         return points;
     }
-    const auto step = static_cast<uint32_t>(std::ceil(std::sqrt(lens.pixels() / kMostSamples)));
+    const auto step = std::max(1u, static_cast<uint32_t>(std::ceil(std::sqrt(lens.pixels() / kMostSamples))));
     const Pose eyeTcamera = eyeTbase * set.baseTcamera;
-    for (uint32_t v = 0; v < lens.height; v += std::max(1u, step)) {
-        for (uint32_t u = 0; u < lens.width; u += std::max(1u, step)) {
+    const dvec3 along = glm::conjugate(eyeTcamera.rotation) * dvec3(0.0, 0.0, 1.0); // camera axes
+    const bool straight = lens.pinhole();
+    const double perU = 1.0 / lens.fx, perV = 1.0 / lens.fy;
+    for (uint32_t v = 0; v < lens.height; v += step) {
+        for (uint32_t u = 0; u < lens.width; u += step) {
             const double z = set.depth[static_cast<size_t>(v) * lens.width + u] * set.camera.metresPerUnit;
             if (z <= 0.0) {
                 continue;
             }
-            const dvec3 camera = z * dvec3(lens.ray(u, v), 1.0), eye = eyeTcamera.apply(camera);
-            if (std::abs(eye.z - depth) < kSlab && std::abs(eye.x) < reach && std::abs(eye.y) < reach) {
+            const glm::dvec2 ray =
+                straight ? glm::dvec2((u - lens.cx) * perU, (v - lens.cy) * perV) : lens.ray(u, v);
+            const double off =
+                z * (along.x * ray.x + along.y * ray.y + along.z) + eyeTcamera.position.z - depth;
+            if (std::abs(off) >= kSlab) { // most
+                continue;
+            }
+            const dvec3 camera = z * dvec3(ray, 1.0), eye = eyeTcamera.apply(camera);
+            if (std::abs(eye.x) < reach && std::abs(eye.y) < reach) {
                 points.push_back(set.baseTcamera.apply(camera));
             }
         }
