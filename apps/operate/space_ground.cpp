@@ -58,29 +58,53 @@ void SpaceGround::clear() {
     }
     depth_.assign(count, kNothing);
     front_.assign(count, kNothing);
-    shade_.assign(count, 0);
+    facing_.assign(count, 0.0f);
     bounds_.clear();
 }
 
 // Squares of 100 mm below the scene. It has no depth: everything is drawn over it.
 void SpaceGround::drawGrid(const SpaceView& view) {
-    constexpr double kSquare = 0.1, kStep = 0.002; // [m]
-    constexpr int kReach = 7;                      // squares on each side
-    const double x0 = kSquare * std::round(view.orbit.centre.x / kSquare),
-                 z0 = kSquare * std::round(view.orbit.centre.z / kSquare);
+    constexpr double kSquare = 0.1; // [m]
+    constexpr int kReach = 7;       // squares on each side
     const double end = kReach * kSquare;
+    const dvec3 middle(kSquare * std::round(view.orbit.centre.x / kSquare), view.floor,
+                       kSquare * std::round(view.orbit.centre.z / kSquare));
     for (int line = -kReach; line <= kReach; ++line) {
         const uint32_t colour = line % 5 == 0 ? 0xff6a5a4cu : 0xff463c34u;
-        for (double along = -end; along <= end; along += kStep) {
-            for (const bool turned : {false, true}) {
-                const double a = turned ? along : line * kSquare, b = turned ? line * kSquare : along;
-                const auto p = view_.ofBase({x0 + a, view.floor, z0 + b});
-                if (p && p->x >= 0.0 && p->y >= 0.0 && p->x < view_.width() && p->y < view_.height()) {
-                    pixels_[static_cast<size_t>(p->y) * view_.lens.width + static_cast<size_t>(p->x)] =
-                        colour;
-                }
-            }
+        const double at = line * kSquare;
+        drawLine(middle + dvec3(-end, 0.0, at), middle + dvec3(end, 0.0, at), colour);
+        drawLine(middle + dvec3(at, 0.0, -end), middle + dvec3(at, 0.0, end), colour);
+    }
+}
+
+// Between two points of the base frame, the part in front of the eye and inside the image.
+void SpaceGround::drawLine(const dvec3& from, const dvec3& to, uint32_t colour) {
+    dvec3 a = view_.cameraTbase.apply(from), b = view_.cameraTbase.apply(to);
+    if (a.z > b.z) {
+        std::swap(a, b);
+    }
+    if (b.z < kNearest) {
+        return;
+    }
+    a = a.z < kNearest ? a + (kNearest - a.z) / (b.z - a.z) * (b - a) : a;
+    const glm::dvec2 p = *view_.ofCamera(a), step = *view_.ofCamera(b) - p,
+                     size(view_.width(), view_.height());
+    double first = 0.0, last = 1.0; // shares of the step that are inside
+    for (int k = 0; k < 2; ++k) {
+        const double low = -p[k], high = size[k] - 1e-6 - p[k];
+        if (step[k] == 0.0) {
+            last = low <= 0.0 && high >= 0.0 ? last : -1.0;
+            continue;
         }
+        first = std::max(first, std::min(low / step[k], high / step[k]));
+        last = std::min(last, std::max(low / step[k], high / step[k]));
+    }
+    const double most =
+        std::max(1.0, std::ceil((last - first) * std::max(std::abs(step.x), std::abs(step.y))));
+    for (double i = 0.0; i <= most && first <= last; i += 1.0) {
+        const glm::dvec2 at =
+            glm::clamp(p + (first + (last - first) * i / most) * step, glm::dvec2(0.0), size - 1e-6);
+        pixels_[static_cast<size_t>(at.y) * view_.lens.width + static_cast<size_t>(at.x)] = colour;
     }
 }
 
@@ -102,7 +126,11 @@ void SpaceGround::splatPoints(const SceneSnapshot& scene) {
     const Pose eyeTcamera = view_.cameraTbase * set.baseTcamera;
     const glm::mat3 rotation = glm::mat3(glm::mat3_cast(eyeTcamera.rotation));
     const glm::vec3 shift(eyeTcamera.position);
-    const auto width = static_cast<int>(view_.lens.width), height = static_cast<int>(view_.lens.height);
+    const double perU = 1.0 / lens.fx, perV = 1.0 / lens.fy;
+    const auto unit = static_cast<float>(set.camera.metresPerUnit), focal = static_cast<float>(view_.lens.fx);
+    const glm::vec2 centre(view_.lens.cx + 0.5, view_.lens.cy + 0.5);
+    const float width = static_cast<float>(view_.lens.width) - 1.0f,
+                height = static_cast<float>(view_.lens.height) - 1.0f;
     const uint32_t step = std::clamp(lens.width / std::max(1u, view_.lens.width), 1u, 3u); // small view
     for (uint32_t v = 0; v < lens.height; v += step) {
         for (uint32_t u = 0; u < lens.width; u += step) {
@@ -110,31 +138,30 @@ void SpaceGround::splatPoints(const SceneSnapshot& scene) {
             if (set.depth[i] == 0) {
                 continue;
             }
-            const auto z = static_cast<float>(set.depth[i] * set.camera.metresPerUnit);
+            const float z = static_cast<float>(set.depth[i]) * unit;
             const glm::dvec2 ray =
-                lens.fan ? lens.ray(u, v) : glm::dvec2((u - lens.cx) / lens.fx, (v - lens.cy) / lens.fy);
+                lens.fan ? lens.ray(u, v) : glm::dvec2((u - lens.cx) * perU, (v - lens.cy) * perV);
             const glm::vec3 p = rotation * (z * glm::vec3(glm::vec2(ray), 1.0f)) + shift;
-            if (p.z < static_cast<float>(kNearest)) {
-                continue;
-            }
-            const int x = static_cast<int>(view_.lens.cx + view_.lens.fx * p.x / p.z + 0.5);
-            const int y = static_cast<int>(view_.lens.cy + view_.lens.fy * p.y / p.z + 0.5);
-            if (x < 0 || y < 0 || x + 1 >= width || y + 1 >= height) {
+            const glm::vec2 at = centre + focal / p.z * glm::vec2(p);
+            if (!(p.z >= static_cast<float>(kNearest) && at.x >= 0.0f && at.y >= 0.0f && at.x < width &&
+                  at.y < height)) {
                 continue;
             }
             const bool forbidden = set.forbiddenAt(u, v);
-            const uint32_t colour = forbidden  ? 0xff3c4af0u
-                                    : coloured ? dimmed(scene.colour[i])
-                                               : 0xffa09890u;
-            for (int k = 0; k < 4; ++k) { // 2x2 pixels, so that near surfaces have no holes
-                const size_t at = static_cast<size_t>(y + k / 2) * static_cast<size_t>(width) +
-                                  static_cast<size_t>(x + k % 2);
-                if (p.z < depth_[at]) {
-                    depth_[at] = p.z;
-                    pixels_[at] = colour;
-                }
-            }
+            putPoint(static_cast<size_t>(at.y) * view_.lens.width + static_cast<size_t>(at.x), p.z,
+                     forbidden  ? 0xff3c4af0u
+                     : coloured ? dimmed(scene.colour[i])
+                                : 0xffa09890u);
         }
+    }
+}
+
+// 2x2 pixels, so that near surfaces have no holes.
+void SpaceGround::putPoint(size_t first, float z, uint32_t colour) {
+    for (const size_t at : {first, first + 1, first + view_.lens.width, first + view_.lens.width + 1}) {
+        const bool nearer = z < depth_[at];
+        depth_[at] = nearer ? z : depth_[at];
+        pixels_[at] = nearer ? colour : pixels_[at];
     }
 }
 
@@ -148,15 +175,19 @@ void splat(const Intrinsics& lens, const dvec3& c, double radius, Put&& put) {
     const double x0 = lens.cx + lens.fx * c.x / c.z, y0 = lens.cy + lens.fy * c.y / c.z;
     const int top = std::max(0, static_cast<int>(y0 - r)),
               bottom = std::min(height - 1, static_cast<int>(y0 + r));
+    const auto size = static_cast<float>(radius), z = static_cast<float>(c.z);
+    const auto perSquare = static_cast<float>(1.0 / (r * r));
     for (int y = top; y <= bottom; ++y) {
         const double dy = y - y0, half = std::sqrt(std::max(0.0, r * r - dy * dy));
         const int left = std::max(0, static_cast<int>(x0 - half)),
                   right = std::min(width - 1, static_cast<int>(x0 + half));
-        for (int x = left; x <= right; ++x) {
-            const double dx = x - x0;
-            const double up = std::sqrt(std::max(0.0, 1.0 - (dx * dx + dy * dy) / (r * r)));
-            put(static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x), up,
-                static_cast<float>(c.z - radius * up));
+        const float rest = 1.0f - static_cast<float>(dy * dy) * perSquare;
+        const auto from = static_cast<float>(left - x0);
+        const size_t row = static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(left);
+        for (int i = 0; i <= right - left; ++i) { // without branches, for several pixels at once
+            const float dx = from + static_cast<float>(i);
+            const float up = std::sqrt(std::max(0.0f, rest - dx * dx * perSquare));
+            put(row + static_cast<size_t>(i), up, z - size * up);
         }
     }
 }
@@ -165,22 +196,25 @@ void splat(const Intrinsics& lens, const dvec3& c, double radius, Put&& put) {
 
 // Opaque and in one colour, to differ from regions and points.
 void SpaceGround::splatArm(std::span<const Sphere> arm) {
+    float* const depth = depth_.data();
+    uint32_t* const pixels = pixels_.data();
     for (const Sphere& sphere : arm) {
         const dvec3 c = view_.cameraTbase.apply(sphere.centre);
         if (c.z < sphere.radius + kNearest) {
             continue;
         }
-        splat(view_.lens, c, sphere.radius, [&](size_t at, double up, float z) {
-            if (z < depth_[at]) {
-                depth_[at] = z;
-                const auto level = static_cast<uint32_t>(70.0 + 130.0 * up);
-                pixels_[at] = 0xff000000u | std::min(255u, level + 40) << 16 | (level + 14) << 8 | level;
-            }
+        splat(view_.lens, c, sphere.radius, [depth, pixels](size_t at, float up, float z) {
+            const bool nearer = z < depth[at];
+            depth[at] = nearer ? z : depth[at];
+            const int level = static_cast<int>(70.0f + 130.0f * up); // at most 200
+            const int colour = level << 16 | level << 8 | level;
+            pixels[at] = nearer ? 0xff280e00u + static_cast<uint32_t>(colour) : pixels[at];
         });
     }
 }
 
 void SpaceGround::splatRegions(const Fixtures& set) {
+    float *const front = front_.data(), *const facing = facing_.data();
     double cost = 0.0;
     for (size_t i = 0; i < set.spheres.size(); i += 8) {
         const double z = std::max(kNearest, view_.cameraTbase.apply(regionCentre(set, i)).z);
@@ -195,11 +229,10 @@ void SpaceGround::splatRegions(const Fixtures& set) {
         if (c.z < radius + kNearest) {
             continue;
         }
-        splat(view_.lens, c, radius, [&](size_t at, double up, float z) {
-            if (z < front_[at]) {
-                front_[at] = z;
-                shade_[at] = static_cast<uint8_t>(60.0 + 195.0 * up);
-            }
+        splat(view_.lens, c, radius, [front, facing](size_t at, float up, float z) {
+            const bool nearer = z < front[at];
+            front[at] = nearer ? z : front[at];
+            facing[at] = nearer ? up : facing[at];
         });
     }
 }
@@ -212,7 +245,8 @@ void SpaceGround::shadeRegions() {
         }
         const bool line = (i % width + i / width) % 12 < 2;
         const int share = line ? 150 : 96;
-        const int red = 90 + 160 * shade_[i] / 255, rest = 40 * shade_[i] / 255;
+        const int shade = 60 + static_cast<int>(195.0f * facing_[i]);
+        const int red = 90 + 160 * shade / 255, rest = 40 * shade / 255;
         const auto mix = [&](uint32_t shift, int value) {
             const int under = static_cast<int>(pixels_[i] >> shift & 0xffu);
             return static_cast<uint32_t>(under + (value - under) * share / 256) << shift;

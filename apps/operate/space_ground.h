@@ -34,7 +34,9 @@ public:
 private:
     void clear();
     void drawGrid(const SpaceView& view);
+    void drawLine(const dvec3& from, const dvec3& to, uint32_t colour);
     void splatPoints(const SceneSnapshot& scene);
+    void putPoint(size_t first, float z, uint32_t colour);
     void splatArm(std::span<const Sphere> arm);
     void splatRegions(const Fixtures& set);
     void shadeRegions();
@@ -42,8 +44,7 @@ private:
 
     ImageView view_;
     std::vector<uint32_t> pixels_;
-    std::vector<float> depth_, front_;
-    std::vector<uint8_t> shade_;
+    std::vector<float> depth_, front_, facing_;
     std::vector<Sphere> bounds_;
 };
 
