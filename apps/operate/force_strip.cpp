@@ -48,7 +48,7 @@ void drawForceStrip(Console& console, const HudInput& input, const PixelRect& ro
     list.AddRectFilled({x, y}, {x + width, y + height}, IM_COL32(17, 22, 30, 255));
     const float edge = input.letters.body->FontSize;
     const float force = 0.58f * (width - 3.0f * edge), torque = 0.42f * (width - 3.0f * edge);
-    const auto [first, second] = figuresOf(input.run.trace(), input.run.ripple(), input.haptics);
+    const auto [first, second] = figuresOf(input.run, input.haptics);
     stripBar(input, {x + edge, y}, {force, height}, first);
     stripBar(input, {x + 2.0f * edge + force, y}, {torque, height}, second);
     markPlace(console, "force strip", {x, y}, {width, height});

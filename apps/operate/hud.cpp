@@ -67,7 +67,7 @@ void passes(Console& console, const HudInput& input) {
 
 void drawGauges(Console& console, const HudInput& input) {
     const StepRecord& record = input.run.step().record;
-    for (const WrenchFigures& f : figuresOf(input.run.trace(), input.run.ripple(), input.haptics)) {
+    for (const WrenchFigures& f : figuresOf(input.run, input.haptics)) {
         bar(console, input, f);
     }
     const bool passive = !(record.marginPassive < kMarginNoise);

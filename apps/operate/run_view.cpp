@@ -30,14 +30,14 @@ TraceSample sampleOf(const TickRow& row) {
             row.late};
 }
 
-Peaks peaksOf(const std::deque<TraceSample>& trace) {
-    float force = 0.0f, torque = 0.0f; // squares
-    for (const TraceSample& sample : trace) {
-        const TraceWrench w = sample.delivered();
-        force = std::max(force, glm::dot(w.force, w.force));
-        torque = std::max(torque, glm::dot(w.torque, w.torque));
+void PeakHold::add(double t, float value, double span) {
+    while (!falling_.empty() && falling_.back().second <= value) {
+        falling_.pop_back();
     }
-    return {double{std::sqrt(force)}, double{std::sqrt(torque)}};
+    falling_.emplace_back(t, value);
+    while (t - falling_.front().first > span) {
+        falling_.pop_front();
+    }
 }
 
 bool RunView::refresh() {
@@ -62,7 +62,10 @@ void RunView::rewind() {
     tick_ = {};
     measured_.reset();
     ticks_ = late_ = 0;
+    ++restarts_;
     trace_.clear();
+    force_.clear();
+    torque_.clear();
     ripple_.clear();
     images_.clear();
     delays_.clear();
@@ -89,6 +92,8 @@ void RunView::take(const TickRow& row) {
     trace_.push_back(sampleOf(row));
     const TraceWrench felt = trace_.back().delivered();
     ripple_.add(r.t, r.frame, {dvec3(felt.force), dvec3(felt.torque)});
+    force_.add(r.t, glm::length(felt.force), kSpan);
+    torque_.add(r.t, glm::length(felt.torque), kSpan);
     while (r.t - trace_.front().t > kSpan) {
         trace_.pop_front();
     }

@@ -32,11 +32,21 @@ struct TraceSample {
 };
 TraceSample sampleOf(const TickRow& row);
 
-// The largest delivered force and torque.
+// The largest delivered force and torque of a trace.
 struct Peaks {
     double force = 0.0, torque = 0.0; // [N], [N m]
 };
-Peaks peaksOf(const std::deque<TraceSample>& trace);
+
+// The largest of the values of some time.
+class PeakHold {
+public:
+    void add(double t, float value, double span); // [s]
+    double value() const { return falling_.empty() ? 0.0 : double{falling_.front().second}; }
+    void clear() { falling_.clear(); }
+
+private:
+    std::deque<std::pair<double, float>> falling_; // values that no later one exceeds, with their times
+};
 
 struct Rates { // over the last second
     double hapticHz = 0.0, worstPeriodMs = 0.0, cameraHz = 0.0;
@@ -86,6 +96,8 @@ public:
     bool anyTick() const { return ticks_ > 0; }
     uint64_t ticks() const { return ticks_; }
     const std::deque<TraceSample>& trace() const { return trace_; }
+    Peaks peaks() const { return {force_.value(), torque_.value()}; } // of the trace
+    uint64_t restarts() const { return restarts_; }                   // calls of rewind()
     const FrameRipple& ripple() const { return ripple_; }
     const std::deque<Block>& blocks() const {
         return blocks_;
@@ -106,7 +118,9 @@ private:
     TickRow tick_;
     std::optional<Measured> measured_;
     uint64_t ticks_ = 0, late_ = 0;
+    uint64_t restarts_ = 0;
     std::deque<TraceSample> trace_;
+    PeakHold force_, torque_;
     FrameRipple ripple_;
     std::deque<double> images_;                    // [s] capture times of the last second
     std::deque<std::pair<double, double>> delays_; // time of the tick and age of its new frame [s]

@@ -141,7 +141,7 @@ json cuesOf(const Screen& screen) {
 // Force and torque as bars and traces show them; null: unknown.
 json figuresOf(const ShownState& s) {
     json parts = json::array();
-    for (const WrenchFigures& f : operate::figuresOf(s.view.trace(), s.view.ripple(), s.haptics)) {
+    for (const WrenchFigures& f : operate::figuresOf(s.view, s.haptics)) {
         parts.push_back({{"name", f.name},
                          {"delivered", f.delivered},
                          {"residual", known(f.residual)},

@@ -2,7 +2,6 @@
 #include "apps/operate/trace_plot.h"
 
 #include "apps/operate/printed.h"
-#include "apps/operate/trace_columns.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,26 +16,24 @@ constexpr ImU32 kZeroLine = IM_COL32(70, 84, 106, 255), kLimitLine = IM_COL32(25
 // Curves of one plot.
 class Curves {
 public:
-    Curves(const TraceArea& area, double limit, const std::deque<TraceSample>& trace)
+    Curves(const TraceArea& area, double limit, const TraceColumns& columns)
         : area_(area)
         , most_(std::max(limit, 1e-9) / double{kLimitShare})
-        , trace_(trace) {}
+        , columns_(columns) {}
 
     float y(double v) const {
         return area_.at.y + 0.5f * area_.size.y * static_cast<float>(1.0 - std::clamp(v / most_, -1.0, 1.0));
     }
 
-    // Strokes of trace_columns.h; dash [pixels]: 0 = a solid line.
-    template <class Value>
-    void draw(ImU32 colour, float width, int dash, Value&& value) const {
+    // dash [pixels]: 0 = a solid line.
+    void draw(size_t curve, ImU32 colour, float width, int dash) const {
         ImDrawList& list = *ImGui::GetWindowDrawList();
-        const auto column = [&](const TraceSample& s) { return static_cast<int>(area_.x(s.t) - area_.at.x); };
         const auto stroke = [&](int first, int last, float low, float high) {
             const float x = area_.at.x + 0.5f;
             list.AddRectFilled({x + static_cast<float>(first) - 0.5f * width, y(high) - 0.5f * width},
                                {x + static_cast<float>(last) + 0.5f * width, y(low) + 0.5f * width}, colour);
         };
-        eachColumn(trace_, column, value, [&](int first, int last, float low, float high) {
+        columns_.each(curve, [&](int first, int last, float low, float high) {
             for (int i = first; i <= last && dash > 0; ++i) {
                 if (i / dash % 2 == 0) {
                     stroke(i, i, low, high);
@@ -51,7 +48,7 @@ public:
 private:
     const TraceArea& area_;
     double most_;
-    const std::deque<TraceSample>& trace_;
+    const TraceColumns& columns_;
 };
 
 // Background, seconds, the limits and their numbers.
@@ -125,20 +122,18 @@ float figuresColumn() {
     return ImGui::CalcTextSize("now 00.00  peak 00.00").x + 1.2f * ImGui::GetFontSize();
 }
 
-void drawTracePlot(const WrenchFigures& plot, const TraceArea& area, const std::deque<TraceSample>& trace) {
-    const Curves curves(area, plot.limit, trace);
+void drawTracePlot(const WrenchFigures& plot, const TraceArea& area, const TraceColumns& columns) {
+    const Curves curves(area, plot.limit, columns);
     drawScale(plot, area, curves);
-    for (int axis = 0; axis < 3; ++axis) {
-        curves.draw(kAxisColours[axis], 1.0f, 0,
-                    [&](const TraceSample& s) { return (s.delivered().*plot.part)[axis]; });
+    const size_t first = plot.part == &TraceWrench::force ? size_t{0} : size_t{TraceColumns::kOfPart};
+    for (size_t axis = 0; axis < 3; ++axis) {
+        curves.draw(first + axis, kAxisColours[axis], 1.0f, 0);
     }
-    if (!trace.empty() && std::isfinite(trace.back().residual.force.x)) {
+    if (std::isfinite(plot.residual)) {
         constexpr int kDash = 5;
-        curves.draw(kResidualInk, 1.5f, kDash,
-                    [&](const TraceSample& s) { return glm::length(s.residual.*plot.part); });
+        curves.draw(first + TraceColumns::Residual, kResidualInk, 1.5f, kDash);
     }
-    curves.draw(plot.colour, 2.0f, 0,
-                [&](const TraceSample& s) { return glm::length(s.delivered().*plot.part); });
+    curves.draw(first + TraceColumns::Size, plot.colour, 2.0f, 0);
     if (plot.peak > 0.0) {
         drawPeak(plot, area, curves.y(plot.peak));
     }
@@ -159,14 +154,17 @@ void drawEvents(const TraceArea& lane, const std::deque<TraceSample>& trace) {
             free = end + kRoom;
         }
     };
+    const auto column = [&](float x, float from, ImU32 colour) { // of whole pixels: hundreds are cheap
+        list.AddRectFilled({std::floor(x), from}, {std::floor(x) + 1.0f, bottom}, colour);
+    };
     for (size_t i = 1; i < trace.size(); ++i) {
         const TraceSample &now = trace[i], &before = trace[i - 1];
         const float x = lane.x(now.t);
         if (now.frame != before.frame) {
-            list.AddLine({x, bottom - 3.0f}, {x, bottom}, IM_COL32(120, 134, 156, 200));
+            column(x, bottom - 3.0f, IM_COL32(120, 134, 156, 200));
         }
         if (now.late) {
-            list.AddLine({x, top + 2.0f}, {x, bottom}, colour::kWarning);
+            column(x, top + 2.0f, colour::kWarning);
         }
         if (now.guided != before.guided) {
             mark(x, colour::kGuidance, now.guided ? "guide" : "");

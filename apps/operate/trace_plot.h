@@ -2,6 +2,7 @@
 // Force or torque over ten seconds with a fixed scale, its figures, and the lane of events.
 #pragma once
 
+#include "apps/operate/trace_columns.h"
 #include "apps/operate/wrench_figures.h"
 
 namespace fathom::operate {
@@ -22,7 +23,8 @@ float scaleColumn();
 float figuresColumn();
 
 // Delivered: three axes and, bold, the size; dashed: the size of the residual. The scale ends at the limit.
-void drawTracePlot(const WrenchFigures& plot, const TraceArea& area, const std::deque<TraceSample>& trace);
+// columns: as many as the area has pixels in a row.
+void drawTracePlot(const WrenchFigures& plot, const TraceArea& area, const TraceColumns& columns);
 // What happened, below the curves: new fixture sets, late ticks, guidance, states with their names.
 void drawEvents(const TraceArea& lane, const std::deque<TraceSample>& trace);
 

@@ -15,6 +15,7 @@ namespace fathom::operate {
 void TracesPanel::draw(Console& console, const HudInput& input, ImVec2 at, ImVec2 size) {
     if (console.paused && held_.empty()) {
         held_ = input.run.trace();
+        heldPeaks_ = input.run.peaks();
         heldRipple_ = input.run.ripple();
     } else if (!console.paused) {
         held_.clear();
@@ -51,7 +52,7 @@ void TracesPanel::drawControls(Console& console) {
     ImGui::TextDisabled("%s", (fits ? full : span).c_str());
 }
 
-void TracesPanel::drawCurves(Console& console, const HudInput& input) const {
+void TracesPanel::drawCurves(Console& console, const HudInput& input) {
     constexpr float kApart = 4.0f; // [pixels]
     const std::deque<TraceSample>& trace = shown(input.run);
     const ImVec2 corner = ImGui::GetCursorScreenPos(), room = ImGui::GetContentRegionAvail();
@@ -60,8 +61,11 @@ void TracesPanel::drawCurves(Console& console, const HudInput& input) const {
                 width = std::max(40.0f, corner.x + room.x - figuresColumn() - left);
     const float half = std::max(16.0f, 0.5f * (room.y - lane) - kApart);
     TraceArea area{{left, corner.y}, {width, half}, now - RunView::kSpan, now};
-    for (const WrenchFigures& plot : figuresOf(trace, shownRipple(input.run), input.haptics)) {
-        drawTracePlot(plot, area, trace);
+    columns_.follow(trace, input.run.restarts(), static_cast<int>(width));
+    for (const WrenchFigures& plot : held_.empty()
+                                         ? figuresOf(input.run, input.haptics)
+                                         : figuresOf(held_, heldPeaks_, heldRipple_, input.haptics)) {
+        drawTracePlot(plot, area, columns_);
         markPlace(console, std::string("trace ") + plot.name, area.at, area.size);
         ImGui::SetCursorScreenPos(area.at);
         ImGui::Dummy(area.size);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "apps/operate/hud.h"
+#include "apps/operate/trace_columns.h"
 
 #include <deque>
 #include <filesystem>
@@ -22,13 +23,12 @@ private:
         return held_.empty() ? run.trace() : held_;
     }
     static void drawControls(Console& console);
-    const FrameRipple& shownRipple(const RunView& run) const {
-        return held_.empty() ? run.ripple() : heldRipple_;
-    }
-    void drawCurves(Console& console, const HudInput& input) const;
+    void drawCurves(Console& console, const HudInput& input);
 
     std::deque<TraceSample> held_; // while paused
+    Peaks heldPeaks_;
     FrameRipple heldRipple_;
+    TraceColumns columns_; // of what is shown
 };
 
 } // namespace fathom::operate

@@ -5,11 +5,10 @@
 
 namespace fathom::operate {
 
-std::array<WrenchFigures, 2> figuresOf(const std::deque<TraceSample>& trace, const FrameRipple& ripple,
-                                       const HapticOptions& limits) {
+std::array<WrenchFigures, 2> figuresOf(const std::deque<TraceSample>& trace, const Peaks& peaks,
+                                       const FrameRipple& ripple, const HapticOptions& limits) {
     std::array<WrenchFigures, 2> all;
     const TraceSample last = trace.empty() ? TraceSample() : trace.back();
-    const Peaks peaks = peaksOf(trace);
     all[0] = {.name = "Force", .unit = "N", .part = &TraceWrench::force, .colour = colour::kForce};
     all[1] = {.name = "Torque", .unit = "N m", .part = &TraceWrench::torque, .colour = colour::kTorque};
     all[0].limit = limits.forceLimit, all[0].peak = peaks.force, all[0].ripple = ripple.force();

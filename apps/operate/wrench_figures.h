@@ -39,7 +39,10 @@ struct WrenchFigures {
 };
 
 // Force, then torque.
-std::array<WrenchFigures, 2> figuresOf(const std::deque<TraceSample>& trace, const FrameRipple& ripple,
-                                       const HapticOptions& limits);
+std::array<WrenchFigures, 2> figuresOf(const std::deque<TraceSample>& trace, const Peaks& peaks,
+                                       const FrameRipple& ripple, const HapticOptions& limits);
+inline std::array<WrenchFigures, 2> figuresOf(const RunView& run, const HapticOptions& limits) {
+    return figuresOf(run.trace(), run.peaks(), run.ripple(), limits);
+}
 
 } // namespace fathom::operate

@@ -2,7 +2,6 @@
 // The window's view of ticks, tested without a window: rates, blocks, modes, alarms, columns of a trace.
 #include "apps/operate/alarms.h"
 #include "apps/operate/hud.h"
-#include "apps/operate/trace_columns.h"
 #include "apps/operate/view_lines.h"
 #include "tests/apps/viewed_run.h"
 
@@ -10,7 +9,6 @@
 #include <cmath>
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
-#include <map>
 
 using namespace fathom;
 using namespace fathom::operate;
@@ -220,37 +218,6 @@ TEST_CASE("An alarm says what happens and then what to do") {
         CHECK(alarm->words().size() < 90);
         CHECK(alarm->what.find(':') == std::string::npos);
     }
-}
-
-TEST_CASE("Each column of a trace covers the range of its samples and joins its neighbours") {
-    std::deque<TraceSample> trace;
-    for (int i = 0; i < 10000; ++i) {
-        TraceSample sample;
-        sample.t = 0.001 * i;
-        sample.whole.force.x = i == 4321 ? 9.0f : i < 5000 ? 1.0f : 2.0f; // a spike of one tick, and a step
-        trace.push_back(sample);
-    }
-    std::map<int, std::pair<float, float>> columns;
-    const auto at = [](const TraceSample& s) { return static_cast<int>(s.t * 64.0); };
-    const auto force = [](const TraceSample& s) { return s.whole.force.x; };
-    int strokes = 0;
-    const auto keep = [&](int first, int last, float low, float high) {
-        ++strokes;
-        for (int column = first; column <= last; ++column) {
-            CHECK(columns.count(column) == 0);
-            columns[column] = {low, high};
-        }
-    };
-    eachColumn(trace, at, force, keep);
-    CHECK(columns.size() == 640);
-    CHECK(strokes == 5); // before, at and after the spike; at the step; after it
-    CHECK(columns.at(static_cast<int>(4.321 * 64.0)) == std::pair(1.0f, 9.0f));
-    CHECK(columns.at(static_cast<int>(4.9 * 64.0)) == std::pair(1.0f, 1.0f));
-    CHECK(columns.at(320) == std::pair(1.0f, 2.0f)); // the step, between its last sample and the next
-    CHECK(columns.at(321) == std::pair(2.0f, 2.0f));
-    columns.clear();
-    eachColumn({}, at, force, keep);
-    CHECK(columns.empty());
 }
 
 TEST_CASE("A thinned outline has few points and stays within 0.25 pixels of all of them") {

@@ -13,7 +13,7 @@ using namespace fathom::operate;
 namespace {
 
 std::array<WrenchFigures, 2> figures(const ViewedRun& run) {
-    return figuresOf(run.view.trace(), run.view.ripple(), run.haptics);
+    return figuresOf(run.view, run.haptics);
 }
 
 // `frames` frames of 33 ticks with the force of force(frame, tick).
