@@ -88,7 +88,7 @@ std::vector<std::string> coverWarnings(const Shape& shape, std::span<const Spher
 
 void drawGhost(ImDrawList& list, const ViewPort& port, std::span<const Sphere> ghost) {
     if (!ghost.empty()) {
-        outline(list, port, outlineOf(port.view, ghost), colour::kPicked, 2.4f, true);
+        outline(list, port, outlineOf(port.view, ghost), colour::kPicked, 3.0f, true);
     }
 }
 

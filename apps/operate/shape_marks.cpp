@@ -99,8 +99,8 @@ void fillHatched(ImDrawList& list, const std::vector<ImVec2>& hull) {
 
 void outlineHull(ImDrawList& list, const std::vector<ImVec2>& hull, ImU32 colour) {
     const auto count = static_cast<int>(hull.size());
-    list.AddPolyline(hull.data(), count, colour::kShade, ImDrawFlags_Closed, 4.4f);
-    list.AddPolyline(hull.data(), count, colour, ImDrawFlags_Closed, 2.4f);
+    list.AddPolyline(hull.data(), count, colour::kShade, ImDrawFlags_Closed, 5.0f);
+    list.AddPolyline(hull.data(), count, colour, ImDrawFlags_Closed, 3.0f);
 }
 
 // Dashes that continue round corners.
@@ -116,8 +116,8 @@ void dashHull(ImDrawList& list, const std::vector<ImVec2>& hull, ImU32 colour) {
         for (float s = 0.0f; s < length;) {
             const float next = std::min(length, s + kDash - std::fmod(along + s, kDash) + 1e-3f);
             if (static_cast<int>((along + s) / kDash) % 2 == 0) {
-                list.AddLine(at(s), at(next), colour::kShade, 4.4f);
-                list.AddLine(at(s), at(next), colour, 2.4f);
+                list.AddLine(at(s), at(next), colour::kShade, 5.0f);
+                list.AddLine(at(s), at(next), colour, 3.0f);
             }
             s = next;
         }

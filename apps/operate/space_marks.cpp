@@ -88,7 +88,7 @@ void drawScaleBar(ImDrawList& list, const ViewPort& port, double distance) {
                   length < 1.0 ? 1e3 * length : length);
     const float line = ImGui::GetTextLineHeight(), pixels = static_cast<float>(length / metresPerPixel);
     // A large view has the stop plate at its right.
-    const float right = port.where.width > 40.0f * line ? 12.0f : 2.0f; // [lines]
+    const float right = static_cast<float>(port.where.width) > 40.0f * line ? 12.0f : 2.0f; // [lines]
     const ImVec2 b{static_cast<float>(port.where.x + port.where.width) - right * line,
                    static_cast<float>(port.where.y + port.where.height) - 2.6f * line};
     const ImVec2 a{b.x - pixels, b.y};

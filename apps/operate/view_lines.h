@@ -23,6 +23,7 @@ struct Circle {
 // Fills the union of circles, each pixel once, so that overlaps are not darker.
 void fillUnion(ImDrawList& list, const std::vector<Circle>& circles, ImU32 colour);
 
+// width: whole numbers of pixels, for which ImGui needs a third of the triangles.
 void outline(ImDrawList& list, const ViewPort& port, const std::vector<OutlineLine>& lines, ImU32 colour,
              float width, bool isDashed);
 

@@ -26,8 +26,8 @@ void leavesAt(ImDrawList& list, const MarksInput& input) {
         const double under = at ? input.surface(input.port.toImage(*at)) : 0.0;
         if (at && (under == 0.0 || under > z)) {
             const auto r = static_cast<float>(leaf.radius / input.port.metresPerPixel(z));
-            list.AddCircleFilled(*at, r, IM_COL32(235, 240, 248, 46), 40);
-            list.AddCircle(*at, r, IM_COL32(255, 255, 255, 96), 40, 1.0f);
+            list.AddCircleFilled(*at, r, IM_COL32(235, 240, 248, 46));
+            list.AddCircle(*at, r, IM_COL32(255, 255, 255, 96), 0, 1.0f);
         }
     }
 }
@@ -38,14 +38,14 @@ void ghostAt(ImDrawList& list, const MarksInput& input) {
     for (const Sphere& leaf : input.tool.leaves()) {
         spheres.push_back({input.run.step().record.device.apply(leaf.centre), leaf.radius});
     }
-    outline(list, input.port, outlineOf(input.port.view, spheres), IM_COL32(190, 204, 224, 230), 1.6f, true);
+    outline(list, input.port, outlineOf(input.port.view, spheres), IM_COL32(190, 204, 224, 230), 2.0f, true);
 }
 
 // The hidden share of the arm's outline; 0 without an arm.
 double armAt(ImDrawList& list, const MarksInput& input) {
     return input.arm.empty()
                ? 0.0
-               : drawBody(list, input.port, input.arm, input.surface, IM_COL32(150, 196, 235, 235), 1.8f);
+               : drawBody(list, input.port, input.arm, input.surface, IM_COL32(150, 196, 235, 235), 2.0f);
 }
 
 // The hidden share of the tool's outline.
@@ -55,7 +55,7 @@ double toolAt(ImDrawList& list, const MarksInput& input) {
     for (const Sphere& leaf : input.tool.leaves()) {
         spheres.push_back({input.run.step().record.tool.apply(leaf.centre), leaf.radius});
     }
-    return drawBody(list, input.port, spheres, input.surface, colour::kTool, 2.2f);
+    return drawBody(list, input.port, spheres, input.surface, colour::kTool, 2.0f);
 }
 
 // A real arm that is off its setpoint; grey when the last measurement is old.
@@ -187,8 +187,8 @@ std::vector<Sphere> armSpheres(const ArmRig* arm, const ArmPosture& posture) {
 }
 
 void drawRegionOutlines(ImDrawList& list, const ViewPort& port, const CameraGround& ground) {
-    outline(list, port, ground.heldOutline(), colour::kRegionSoft, 1.8f, true);
-    outline(list, port, ground.seenOutline(), colour::kRegion, 2.4f, false);
+    outline(list, port, ground.heldOutline(), colour::kRegionSoft, 2.0f, true);
+    outline(list, port, ground.seenOutline(), colour::kRegion, 3.0f, false);
 }
 
 void drawBounds(ImDrawList& list, const ViewPort& port, std::span<const Sphere> bounds) {
