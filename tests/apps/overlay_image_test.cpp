@@ -110,10 +110,10 @@ TEST_CASE("Masks of dense regions leave out covered spheres, and are the same as
     scene.set.camera.depth.distortion = {0.1, -0.05, 0.001, 0.002, 0.0};
     const ImageView view = imageView(scene.set.camera, Pose{{0.0, 0.0, -0.1}, {}}, true, 300);
     std::mt19937_64 random(5);
-    std::uniform_real_distribution<float> place(-0.15f, 0.15f), size(0.01f, 0.05f);
+    std::uniform_real_distribution<float> place(-0.12f, 0.12f), size(0.02f, 0.04f);
     for (int repeat = 0; repeat < 10; ++repeat) {
         RegionSpheres& s = scene.set.spheres;
-        s.resize(400);
+        s.resize(1500);
         Silhouette seen(view), held(view);
         for (size_t i = 0; i < s.size(); ++i) {
             s.x[i] = place(random) + 0.06f * static_cast<float>(repeat); // the last ones leave the image
