@@ -65,31 +65,12 @@ double farthestKernel(const double* __restrict fx, const double* __restrict fy, 
     return farthest;
 }
 
-FATHOM_CLONES
-double largestKernel(const double* __restrict values, size_t count) noexcept {
-    DisplacementLanes most{}, some;
-    size_t i = 0;
-    for (; i + kDisplacementLanes <= count; i += kDisplacementLanes) {
-        std::memcpy(&some, values + i, sizeof some);
-        most = some > most ? some : most;
-    }
-    double largest = 0.0;
-    for (size_t l = 0; l < kDisplacementLanes; ++l) {
-        largest = most[l] > largest ? most[l] : largest;
-    }
-    for (; i < count; ++i) {
-        largest = values[i] > largest ? values[i] : largest;
-    }
-    return largest;
-}
-
 } // namespace
 
-double leafDisplacements(const LeafCentres& from, const LeafCentres& to,
-                         std::span<double> displacements) noexcept {
+void leafDisplacements(const LeafCentres& from, const LeafCentres& to,
+                       std::span<double> displacements) noexcept {
     displacementsKernel(from.x.data(), from.y.data(), from.z.data(), to.x.data(), to.y.data(), to.z.data(),
                         from.size(), displacements.data());
-    return largestKernel(displacements.data(), from.size());
 }
 
 double leafDisplacement(const LeafCentres& from, const LeafCentres& to) noexcept {

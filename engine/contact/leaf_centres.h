@@ -27,12 +27,12 @@ struct LeafCentres {
     void clear() noexcept { x.clear(), y.clear(), z.clear(); }
 };
 
-// Displacement of each leaf [m] into `displacements`; returns the largest, 0 without leaves. Both have the
-// same number of leaves and the same origin. NaN is never the largest.
-double leafDisplacements(const LeafCentres& from, const LeafCentres& to,
-                         std::span<double> displacements) noexcept;
+// Displacement of each leaf [m] into `displacements`. Both have the same number of leaves and the same
+// origin.
+void leafDisplacements(const LeafCentres& from, const LeafCentres& to,
+                       std::span<double> displacements) noexcept;
 
-// Largest of these displacements [m].
+// Largest of these displacements [m], 0 without leaves. NaN is never the largest.
 double leafDisplacement(const LeafCentres& from, const LeafCentres& to) noexcept;
 
 // True when every displacement is at most `limit` [m], up to the rounding of its square; false for NaN.

@@ -27,7 +27,6 @@ NarrowPhase::NarrowPhase(const Tool& tool, size_t maxRows, double cone, bool smo
     , smooth_(smooth)
     , leaves_(tool.leafCount())
     , lastNormal_(tool.leafCount(), dvec3(0.0))
-    , moved_(tool.leafCount(), 0.0)
     , runs_(tool.leafCount())
     , gaps_(kPairChunk)
     , left_(kPairChunk) {
@@ -39,7 +38,6 @@ NarrowPhase::NarrowPhase(const Tool& tool, size_t maxRows, double cone, bool smo
 void NarrowPhase::gather(const ContactSet& set, const LeafCentres& leaves, const dvec3& toolCentre,
                          double rowLimit, double checkLimit, bool anew) noexcept {
     leaves_ = leaves; // same size: does not allocate
-    farthest_ = leafDisplacements(set.leafAtQuery, leaves_, moved_);
     toolCentre_ = toolCentre;
     checkLimit_ = checkLimit;
     rowCount_ = smoothCount_ = 0;
@@ -68,7 +66,8 @@ bool NarrowPhase::searchStillServes(double slack) const noexcept {
 
 // End of the leaf's listed pairs that can have a gap up to `limit` at its present position.
 uint32_t NarrowPhase::listedUpTo(const ContactSet& set, uint32_t leaf, double limit) const noexcept {
-    return set.pairsUpTo(leaf, limit + moved_[leaf] + kPairRounding);
+    const double moved = glm::distance(set.leafAtQuery[leaf], leaves_[leaf]);
+    return set.pairsUpTo(leaf, limit + moved + kPairRounding);
 }
 
 void NarrowPhase::search(const ContactSet& set, double limit) noexcept {

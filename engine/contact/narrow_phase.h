@@ -47,9 +47,6 @@ public:
         return {smoothRows_.data(), smallestGap_ < 0.0 ? 0 : smoothCount_};
     }
     static constexpr size_t kMostSmooth = 16;
-    // Distance of each leaf from its position at the query [m], at the last gather().
-    std::span<const double> moved() const { return moved_; }
-    double farthest() const { return farthest_; } // [m] largest of moved()
     double smallestGap() const {
         return smallestGap_;
     } // [m] among pairs up to rowLimit; rowLimit when there is none
@@ -115,8 +112,6 @@ private:
     bool smooth_;
     LeafCentres leaves_;            // at the last gather()
     std::vector<dvec3> lastNormal_; // normal of each leaf's deepest row; zero = none yet
-    std::vector<double> moved_;
-    double farthest_ = 0.0;
     dvec3 toolCentre_{0.0};
     double smallestGap_ = 0.0;
     double checkLimit_ = 0.0;

@@ -16,6 +16,8 @@ namespace fathom {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr size_t kGapLanes = 8; // lanes of the widest register
+using GapLanes = double __attribute__((vector_size(8 * kGapLanes)));
 constexpr size_t kGapBlock = 256; // gaps per step of a search
 
 // All by value, so that the compiler knows that writing gaps does not change them.
@@ -144,23 +146,21 @@ int64_t equalKernel(const double* __restrict gaps, double gap) noexcept {
 
 FATHOM_CLONES
 double smallestKernel(const double* __restrict gaps, size_t count) noexcept {
-    // Eight running minima fill the widest register; the compiler may not reorder a single one.
-    double least[8];
-    for (double& l : least) {
-        l = kInfinity;
-    }
+    GapLanes least[2], some[2]; // two, so that a comparison need not wait for the previous one
+    least[0] = least[1] = GapLanes{} + kInfinity;
     size_t k = 0;
-    for (; k + 8 <= count; k += 8) {
-        for (size_t j = 0; j < 8; ++j) {
-            least[j] = gaps[k + j] < least[j] ? gaps[k + j] : least[j];
-        }
+    for (; k + 2 * kGapLanes <= count; k += 2 * kGapLanes) {
+        std::memcpy(&some, gaps + k, sizeof some);
+        least[0] = some[0] < least[0] ? some[0] : least[0];
+        least[1] = some[1] < least[1] ? some[1] : least[1];
+    }
+    least[0] = least[1] < least[0] ? least[1] : least[0];
+    double smallest = kInfinity;
+    for (size_t l = 0; l < kGapLanes; ++l) {
+        smallest = least[0][l] < smallest ? least[0][l] : smallest;
     }
     for (; k < count; ++k) {
-        least[0] = gaps[k] < least[0] ? gaps[k] : least[0];
-    }
-    double smallest = least[0];
-    for (size_t j = 1; j < 8; ++j) {
-        smallest = least[j] < smallest ? least[j] : smallest;
+        smallest = gaps[k] < smallest ? gaps[k] : smallest;
     }
     return smallest;
 }

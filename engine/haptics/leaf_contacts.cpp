@@ -48,14 +48,17 @@ bool LeafContacts::use(const ContactSet* set, const dvec3& origin) noexcept {
 void LeafContacts::gather(const dvec3& centre, bool anew) noexcept {
     if (set_ != nullptr) {
         narrow_.gather(*set_, leaves.now, centre - set_->origin, rowLimit_, checkLimit_, anew);
-        trust_.set(*set_, narrow_.moved(), narrow_.farthest());
+        trust_.set(*set_, leaves.now);
         flagBehind();
     }
 }
 
 // Flags found by the query, except for leaves that have been brought out since.
 void LeafContacts::flagBehind() noexcept {
-    std::fill(exempt_.begin(), exempt_.end(), dvec3(0.0));
+    if (flagged_) {
+        std::fill(exempt_.begin(), exempt_.end(), dvec3(0.0));
+    }
+    flagged_ = !set_->behind.empty();
     for (const ContactSet::Behind& flag : set_->behind) {
         const dvec3 since = leaves.now[flag.leaf] - set_->leafAtQuery[flag.leaf];
         const double left = flag.clearance - glm::dot(since, flag.towardsCamera);

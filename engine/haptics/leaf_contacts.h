@@ -76,6 +76,7 @@ private:
     TrustRegion trust_;
     const ContactSet* set_ = nullptr;
     std::vector<dvec3> exempt_;     // per leaf: direction to the camera while it is behind, else zero
+    bool flagged_ = false;          // some leaf may have one
     std::vector<double> clearance_; // [m] per leaf: distance left in that direction
     std::vector<ContactRow> behind_;
     std::vector<NarrowPhase::Violation> violations_;

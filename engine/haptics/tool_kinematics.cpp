@@ -203,9 +203,9 @@ bool ToolKinematics::comesNearer(const Motion& taken) const noexcept {
     if (glm::length(taken.a) <= kSettling && glm::length(taken.alpha) * metricRadius_ <= kSettling) {
         return true;
     }
-    const Motion now = remaining(pose_, target_), next = remaining(nextPose_, target_);
-    const double rotation = glm::dot(next.alpha - now.alpha, next.alpha + now.alpha);
-    return glm::dot(next.a - now.a, next.a + now.a) + metricRadius_ * metricRadius_ * rotation < 0.0;
+    const Motion next = remaining(nextPose_, target_);
+    const double rotation = glm::dot(next.alpha - wanted_.alpha, next.alpha + wanted_.alpha);
+    return glm::dot(next.a - wanted_.a, next.a + wanted_.a) + metricRadius_ * metricRadius_ * rotation < 0.0;
 }
 
 StepOutcome ToolKinematics::judge(const Answer& answer, double part, const LeafState& leaves, ProxyRows& rows,
@@ -243,8 +243,9 @@ void ToolKinematics::recordAllowed(const Answer& answer, bool blocked, const Lea
                                    const ProxyRows& rows, ProxyStep& out) noexcept {
     const bool shortened = answer.towards < 1.0 || answer.share < 1.0;
     // What only the step cap cut may be made up for in the next tick.
+    const bool cut = answer.share == 1.0 && answer.towards < 1.0;
     const Motion rest = answer.full - answer.escapeShare * answer.escape;
-    cutTravel_ = answer.share < 1.0 ? 0.0 : (1.0 - answer.towards) * places_.travelBound(pose_, rest);
+    cutTravel_ = cut ? (1.0 - answer.towards) * places_.travelBound(pose_, rest) : 0.0;
     out.cut = shortened && !blocked;
     out.stale = shortened && places_.travelBound(pose_, answer.full) > contacts.tangentTravel(rows.active());
     if (out.cut) {

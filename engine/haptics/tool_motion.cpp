@@ -96,13 +96,16 @@ double LeafPlaces::travelBound(const Pose& pose, const Motion& motion) const noe
     return glm::length(motion.a) + std::sqrt(turning);
 }
 
-void TrustRegion::set(const ContactSet& contacts, std::span<const double> moved, double farthest) noexcept {
+void TrustRegion::set(const ContactSet& contacts, const LeafCentres& leaves) noexcept {
+    const double farthest = leafDisplacement(contacts.leafAtQuery, leaves);
     limit_ = contacts.reach - kMargin;
     room_ = limit_ - farthest - 1e-9;
-    const double limit = limit_;
-    double* const bound = bound_.data();
-    for (size_t i = 0; i < bound_.size(); ++i) {
-        bound[i] = moved[i] > limit ? moved[i] : limit;
+    beyond_ = farthest > limit_;
+    if (beyond_) {
+        leafDisplacements(contacts.leafAtQuery, leaves, bound_);
+        for (double& bound : bound_) {
+            bound = bound > limit_ ? bound : limit_;
+        }
     }
 }
 
@@ -111,7 +114,7 @@ bool TrustRegion::contains(const ContactSet& contacts, const LeafCentres& next) 
         return true;
     }
     for (size_t i = 0; i < bound_.size(); ++i) {
-        if (!(glm::distance(next[i], contacts.leafAtQuery[i]) <= bound_[i])) {
+        if (!(glm::distance(next[i], contacts.leafAtQuery[i]) <= boundOf(i))) {
             return false;
         }
     }
@@ -124,13 +127,13 @@ double TrustRegion::share(const ContactSet& contacts, const LeafCentres& from,
     for (size_t i = 0; i < bound_.size(); ++i) {
         const dvec3 start = from[i] - contacts.leafAtQuery[i];
         const dvec3 end = next[i] - contacts.leafAtQuery[i];
-        if (glm::length(end) <= bound_[i]) {
+        if (glm::length(end) <= boundOf(i)) {
             continue;
         }
         // Where the straight path leaves the ball: |start + t way|^2 = bound^2, the positive root.
         const dvec3 way = end - start;
         const double a = glm::dot(way, way), b = glm::dot(start, way);
-        const double c = std::min(0.0, glm::dot(start, start) - bound_[i] * bound_[i]);
+        const double c = std::min(0.0, glm::dot(start, start) - boundOf(i) * boundOf(i));
         const double root = std::sqrt(std::max(0.0, b * b - a * c));
         // The form without cancellation for either sign of b.
         const double t = b > 0.0 ? -c / (b + root) : (root - b) / a;

@@ -73,9 +73,8 @@ public:
     explicit TrustRegion(size_t leaves)
         : bound_(leaves, 0.0) {}
 
-    // Sets the bounds for a step from the present leaf positions. moved: their distances from the query
-    // positions [m]; farthest: the largest of them [m].
-    void set(const ContactSet& contacts, std::span<const double> moved, double farthest) noexcept;
+    // Sets the bounds for a step from the present leaf positions.
+    void set(const ContactSet& contacts, const LeafCentres& leaves) noexcept;
 
     bool contains(const ContactSet& contacts, const LeafCentres& next) const noexcept;
     // True only if contains() holds for every step whose leaves travel at most `travel` [m].
@@ -87,9 +86,12 @@ public:
     static bool covers(const ContactSet& contacts, const LeafCentres& leaves) noexcept;
 
 private:
-    std::vector<double> bound_; // [m] per leaf
+    double boundOf(size_t leaf) const noexcept { return beyond_ ? bound_[leaf] : limit_; }
+
+    std::vector<double> bound_; // [m] per leaf, while some leaf is beyond the limit
     double limit_ = 0.0;        // [m] bound of every leaf that is not beyond it already
     double room_ = 0.0;         // [m] that every leaf may travel in any direction; < 0: some leaf is beyond
+    bool beyond_ = false;
 };
 
 } // namespace fathom

@@ -28,13 +28,12 @@ TEST_CASE("Displacements, their maximum and the limit test are exact for any num
         CAPTURE(count);
         const LeafCentres from = scattered(count, 1), to = scattered(count, 2);
         std::vector<double> ways(count), own(count);
-        const double farthest = leafDisplacements(from, to, ways);
+        leafDisplacements(from, to, ways);
         for (size_t i = 0; i < count; ++i) {
             own[i] = glm::distance(from[i], to[i]);
         }
         CHECK(ways == own); // bit by bit
         const double most = *std::max_element(own.begin(), own.end());
-        CHECK(farthest == most);
         CHECK(leafDisplacement(from, to) == most);
         CHECK(leavesWithin(from, to, most * (1.0 + 1e-15)));
         CHECK(!leavesWithin(from, to, most * (1.0 - 1e-15)));
@@ -44,7 +43,6 @@ TEST_CASE("Displacements, their maximum and the limit test are exact for any num
 
 TEST_CASE("Without leaves the largest displacement is 0 and every limit holds") {
     const LeafCentres none;
-    CHECK(leafDisplacements(none, none, {}) == 0.0);
     CHECK(leafDisplacement(none, none) == 0.0);
     CHECK(leavesWithin(none, none, -1.0));
 }
@@ -57,10 +55,10 @@ TEST_CASE("A NaN displacement is within no limit and is never the largest") {
         LeafCentres to = scattered(count, 4);
         to.z[bad] = std::numeric_limits<double>::quiet_NaN();
         std::vector<double> ways(count);
-        const double farthest = leafDisplacements(from, to, ways);
+        leafDisplacements(from, to, ways);
         CHECK(std::isnan(ways[bad]));
-        CHECK(std::isfinite(farthest));
-        CHECK(leafDisplacement(from, to) == farthest);
+        ways.erase(ways.begin() + static_cast<std::ptrdiff_t>(bad));
+        CHECK(leafDisplacement(from, to) == *std::max_element(ways.begin(), ways.end()));
         CHECK(!leavesWithin(from, to, std::numeric_limits<double>::infinity()));
     }
 }
