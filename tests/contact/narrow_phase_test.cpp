@@ -5,8 +5,11 @@
 #include "engine/reference/contact_oracle.h"
 #include "tests/contact/clouds.h"
 
+#include <algorithm>
+#include <array>
 #include <doctest/doctest.h>
 #include <limits>
+#include <span>
 
 using namespace fathom;
 using namespace fathom::testing;
@@ -75,6 +78,22 @@ size_t sampledViolations(const Bench& bench, const LeafCentres& next) {
     return count;
 }
 
+// Rows with a gap below `sure` must be equal. Returns their number.
+size_t sameRows(std::span<const ContactRow> a, std::span<const ContactRow> b, double sure) {
+    const auto near = [sure](std::span<const ContactRow> rows) {
+        std::vector<std::array<double, 6>> found;
+        for (const ContactRow& row : rows) {
+            if (row.gap < sure) {
+                const dvec3& n = row.normal;
+                found.push_back({double(row.leaf), double(row.pair), row.gap, n.x, n.y, n.z});
+            }
+        }
+        return found;
+    };
+    CHECK(near(a) == near(b));
+    return near(b).size();
+}
+
 } // namespace
 
 TEST_CASE(
@@ -138,34 +157,63 @@ TEST_CASE("The exact check finds the same violations as dense samples of the pat
     CHECK(clear > 20);
 }
 
-TEST_CASE("Searching the pairs found before gives the same rows and check as a new search") {
-    std::mt19937_64 random(53);
-    for (int k = 0; k < 50; ++k) {
-        const Pose pose{randomIn(random, 0.1), randomRotation(random)};
-        Bench bench(randomTool(random, 20, 0.06, 0.01), randomCloud(random, 1500, 0.2, 0.002, 0.03), pose);
-        bench.narrow.gather(bench.set, bench.leaves, pose.position, 0.004, 0.002, true);
-        const double far = k % 2 == 0 ? 0.001 : 0.004; // within the slack of the first search, and beyond
-        bench.place({pose.position + far * glm::normalize(randomIn(random, 1.0)), pose.rotation});
-        NarrowPhase fresh(bench.tool, 512);
-        fresh.gather(bench.set, bench.leaves, pose.position, 0.002, 0.002, true);
-        bench.narrow.gather(bench.set, bench.leaves, pose.position, 0.004, 0.002, false);
-        CHECK(bench.narrow.smallestGap() == doctest::Approx(std::min(0.004, bench.narrow.smallestGap())));
-        if (fresh.smallestGap() < 0.002) {
-            CHECK(bench.narrow.smallestGap() == fresh.smallestGap());
-        }
-        LeafCentres next(bench.tool.leafCount());
-        const dvec3 step = randomIn(random, 0.00115);
-        for (size_t i = 0; i < next.size(); ++i) {
-            next.set(i, bench.leaves[i] + step);
-        }
-        std::vector<dvec3> exempt(next.size(), dvec3(0.0));
-        std::vector<NarrowPhase::Violation> a(64), b(64);
-        const size_t count = fresh.check(bench.set, next, exempt, a);
-        REQUIRE(bench.narrow.check(bench.set, next, exempt, b) == count);
-        for (size_t v = 0; v < count; ++v) {
-            CHECK(a[v].depth == b[v].depth);
+TEST_CASE("After small and large motions the rows, smooth planes and violations are those of a new search, "
+          "bit by bit") {
+    constexpr double kSure = 0.0035; // [m] rows beyond may be missing after a motion
+    std::mt19937_64 random(56);
+    size_t rows = 0, planes = 0, violating = 0;
+    for (int k = 0; k < 40; ++k) {
+        Fixtures wall = emptySet();
+        addWall(wall, dvec3(0.0), dvec3(1, 0, 0), dvec3(0, 1, 0), 0.05, 0.002, 0.04);
+        const Tool tool = randomTool(random, 20, 0.02, 0.01);
+        Pose pose{dvec3(0, 0, 0.09), randomRotation(random)};
+        Bench bench(tool, k % 2 == 0 ? wall : randomCloud(random, 3000, 0.1, 0.002, 0.03), pose, 0.08);
+        pose.position.z -= bench.narrow.smallestGapAt(bench.set, bench.leaves) - 3e-4 * (k % 4);
+        bench.cull.query(tool, pose, 0.01, bench.fixtures, bench.grid, bench.set);
+        bench.place(pose);
+        NarrowPhase again(tool, 512, NarrowPhase::kCone, true);
+        again.gather(bench.set, bench.leaves, pose.position, 0.004, 0.002, true);
+        for (const double far : {2e-5, 2e-5, 3e-4, 4e-5, 1e-6, 4e-3}) {
+            pose.position += far * glm::normalize(randomIn(random, 1.0));
+            bench.place(pose);
+            NarrowPhase fresh(tool, 512, NarrowPhase::kCone, true);
+            fresh.gather(bench.set, bench.leaves, pose.position, 0.004, 0.002, true);
+            again.gather(bench.set, bench.leaves, pose.position, 0.004, 0.002, false);
+            rows += sameRows(again.rows(), fresh.rows(), kSure);
+            planes += sameRows(again.smoothRows(), fresh.smoothRows(), kSure);
+            LeafCentres next = bench.leaves;
+            const dvec3 step = randomIn(random, 0.00115);
+            for (size_t i = 0; i < next.size(); ++i) {
+                next.set(i, bench.leaves[i] + step);
+            }
+            std::vector<dvec3> exempt(next.size(), dvec3(0.0));
+            std::vector<NarrowPhase::Violation> a(64), b(64);
+            const size_t count = fresh.check(bench.set, next, exempt, a);
+            REQUIRE(again.check(bench.set, next, exempt, b) == count);
+            for (size_t v = 0; v < count; ++v) {
+                CHECK(a[v].depth == b[v].depth);
+                CHECK(a[v].row.pair == b[v].row.pair);
+            }
+            violating += count;
         }
     }
+    MESSAGE("rows " << rows << ", planes " << planes << ", violations " << violating);
+    CHECK(rows > 200);
+    CHECK(planes > 50);
+    CHECK(violating > 50);
+}
+
+TEST_CASE("A leaf gets a second row in the small motion that takes a sphere out of the cone of the first") {
+    constexpr double kAngle = NarrowPhase::kCone - 1e-4; // [rad]
+    Fixtures fixtures = emptySet();
+    addSphere(fixtures, dvec3(0, 0, -0.0502), 0.04);
+    addSphere(fixtures, 0.051 * dvec3(std::sin(kAngle), 0, -std::cos(kAngle)), 0.04);
+    Bench bench(ballTool(0.01), fixtures, Pose{});
+    bench.narrow.gather(bench.set, bench.leaves, dvec3(0.0), 0.004, 0.002, true);
+    CHECK(bench.narrow.rows().size() == 1);
+    bench.leaves.set(0, dvec3(0, 0, -4e-5));
+    bench.narrow.gather(bench.set, bench.leaves, dvec3(0.0), 0.004, 0.002, false);
+    CHECK(bench.narrow.rows().size() == 2);
 }
 
 TEST_CASE("All touching pairs are checked, also when they exceed the lists") {
