@@ -22,8 +22,8 @@ void checkRequest(const tune::Request& request) {
 
 void addTuneCommand(CLI::App& app, const GlobalOptions& global, int& result) {
     auto settings = std::make_shared<tune::TuneSettings>();
-    CLI::App* command =
-        app.add_subcommand("tune", "choose filter, memory, error budget, friction, reach and image size by measuring");
+    CLI::App* command = app.add_subcommand(
+        "tune", "choose filter, memory, error budget, friction, reach and image size by measuring");
     command->add_option("SCENE", settings->scene, "scene file (YAML)")->required();
     command->add_option("--source", settings->source, kSourceHelp);
     command
