@@ -27,7 +27,7 @@ struct SceneEdit {
 };
 
 // edits.csv of a recording, `frame,scene,held,still`: scene is a file in the same folder, held lists the
-// rows of classes that are held still, separated by blanks. The first row is for frame 0.
+// rows of frozen classes, separated by blanks. The first row is for frame 0.
 class SceneEdits {
 public:
     static constexpr const char* kFile = "edits.csv";
