@@ -45,3 +45,22 @@ TEST_CASE("Two roots, circles, limits that are crossed or no numbers, and too ma
     CHECK(saysOnly(urdfRefusal(many), "(allowed: "));
     CHECK(saysOnly(urdfRefusal(many + std::string(16u << 20, ' ')), "16 MiB"));
 }
+
+TEST_CASE("Joints that cannot move, and limits that look like degrees, are reported in one line each") {
+    const auto notes = [](const std::string& type, const std::string& limits) {
+        const std::string limit = "<limit effort='1' velocity='1' " + limits + "/>";
+        return loadUrdf(ballLink("a") + ballLink("b") +
+                        jointText("j", type, "a", "b", "0 0 0", "0 0 1", limit))
+            .notes;
+    };
+    const auto stuck = notes("revolute", "");
+    REQUIRE(stuck.size() == 1);
+    CHECK(stuck[0] ==
+          "joint j: limits 0 to 0 rad: it cannot move; they are 0 where <limit> has no lower and upper");
+    CHECK(notes("prismatic", "lower='0.1' upper='0.1'") ==
+          std::vector<std::string>{"joint j: limits 0.1 to 0.1 m: it cannot move"});
+    CHECK(notes("revolute", "lower='-180' upper='180'") ==
+          std::vector<std::string>{"joint j: limits -180 to 180 rad span more than four turns; in degrees?"});
+    CHECK(notes("revolute", "lower='-6.3' upper='6.3'").empty());
+    CHECK(notes("continuous", "").empty());
+}
