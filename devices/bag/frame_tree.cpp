@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/bag/frame_tree.h"
 
-#include "devices/bag/ros_messages.h"
+#include "engine/types/error.h"
+#include "engine/types/log.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,13 +26,32 @@ void FrameTree::read() {
             continue;
         }
         for (size_t i = 0; i < std::min(kMostMessages, topic.messages.size()); ++i) {
-            for (const ros::FrameLink& link : ros::frameLinks(file_.read(topic, i))) {
-                const auto known = links_.try_emplace(link.child, Link{link.parent, link.parentTchild}).first;
-                Link& before = known->second;
-                before.moves = before.moves || before.parent != link.parent ||
-                               !samePose(before.parentTchild, link.parentTchild);
+            try {
+                for (const ros::FrameLink& link : ros::frameLinks(file_.read(topic, i))) {
+                    add(topic, link);
+                }
+            } catch (const Error& e) {
+                tellSkipped(topic, std::string("a message is skipped: ") + e.what());
             }
         }
+    }
+}
+
+void FrameTree::add(const MessageTopic& topic, const ros::FrameLink& link) {
+    if (!link.isValid) {
+        tellSkipped(topic, "a transform of frame '" + link.child +
+                               "' is skipped (allowed: finite numbers, a quaternion that is not 0)");
+        return;
+    }
+    Link& before = links_.try_emplace(link.child, Link{link.parent, link.parentTchild}).first->second;
+    before.moves =
+        before.moves || before.parent != link.parent || !samePose(before.parentTchild, link.parentTchild);
+}
+
+void FrameTree::tellSkipped(const MessageTopic& topic, const std::string& what) {
+    constexpr size_t kMostTold = 32;
+    if (told_.size() < kMostTold && told_.insert(topic.name + what).second) {
+        log::warn("{}: {}: {} (logged once)", file_.file().string(), topic.name, what);
     }
 }
 

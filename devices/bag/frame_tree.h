@@ -3,10 +3,11 @@
 #pragma once
 
 #include "devices/bag/message_file.h"
-#include "engine/types/pose.h"
+#include "devices/bag/ros_messages.h"
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 
 namespace fathom {
@@ -16,7 +17,7 @@ public:
     explicit FrameTree(MessageFile& file)
         : file_(file) {}
     // to_T_from, through links that do not move; empty when there is no such path. The first call reads the
-    // topics, at most 2000 messages of each. Throws Error.
+    // topics, at most 2000 messages of each. Damaged messages and invalid transforms are skipped and logged.
     std::optional<Pose> pose(const std::string& from, const std::string& to);
 
 private:
@@ -26,11 +27,14 @@ private:
         bool moves = false;
     };
     void read();
+    void add(const MessageTopic& topic, const ros::FrameLink& link);
+    void tellSkipped(const MessageTopic& topic, const std::string& what);
     std::map<std::string, Pose> ancestors(const std::string& frame) const; // ancestor_T_frame
 
     MessageFile& file_;
     bool read_ = false;
     std::map<std::string, Link> links_; // by child
+    std::set<std::string> told_;
 };
 
 } // namespace fathom

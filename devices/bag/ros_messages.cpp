@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
 
 namespace fathom::ros {
 
@@ -17,12 +18,17 @@ struct Header {
     std::string frame;
 };
 
+std::string frameName(MessageCursor& cursor) {
+    std::string name = cursor.name();
+    return name.starts_with('/') ? name.substr(1) : name;
+}
+
 Header header(MessageCursor& cursor) {
     if (!cursor.cdr()) {
         cursor.word(); // sequence number
     }
     const uint32_t seconds = cursor.word(), nanos = cursor.word();
-    return {seconds + 1e-9 * nanos, cursor.name()};
+    return {seconds + 1e-9 * nanos, frameName(cursor)};
 }
 
 template <size_t N>
@@ -34,15 +40,16 @@ std::array<double, N> reals(MessageCursor& cursor) {
     return out;
 }
 
-Pose poseOf(MessageCursor& cursor) {
+// Empty where the numbers are no pose.
+std::optional<Pose> poseIn(MessageCursor& cursor) {
     const auto [x, y, z] = reals<3>(cursor);
     const auto [qx, qy, qz, qw] = reals<4>(cursor);
     const dquat q(qw, qx, qy, qz);
     const double length = glm::length(q);
     if (!(length > 1e-6) || !std::isfinite(length + x + y + z)) {
-        throw Error("an invalid transform");
+        return std::nullopt;
     }
-    return {{x, y, z}, q / length};
+    return Pose{{x, y, z}, q / length};
 }
 
 // Region of interest and binning of the image against the calibrated size.
@@ -165,7 +172,11 @@ Pose rigidPose(const std::array<double, 9>& r, const dvec3& translation) {
 }
 
 Pose transform(MessageCursor cursor) {
-    return poseOf(cursor);
+    const auto pose = poseIn(cursor);
+    if (!pose) {
+        throw Error("an invalid transform");
+    }
+    return *pose;
 }
 
 Pose extrinsics(MessageCursor cursor) {
@@ -193,8 +204,10 @@ std::vector<FrameLink> frameLinks(MessageCursor cursor) {
         const Header head = header(cursor);
         link.parent = head.frame;
         link.stamp = head.stamp;
-        link.child = cursor.name();
-        link.parentTchild = poseOf(cursor);
+        link.child = frameName(cursor);
+        const auto pose = poseIn(cursor);
+        link.isValid = pose.has_value();
+        link.parentTchild = pose.value_or(Pose{});
         links.push_back(std::move(link));
     }
     return links;

@@ -11,7 +11,8 @@
 
 namespace fathom::ros {
 
-// All throw Error when the message is truncated or invalid.
+// All throw Error when the message is truncated or invalid. Names of frames are without the slash that old
+// packages write in front of them.
 
 // sensor_msgs/Image or CompressedImage; a view into the message, whose memory it keeps.
 struct Image {
@@ -50,7 +51,8 @@ float float32(MessageCursor message);   // std_msgs/Float32
 struct FrameLink {
     std::string parent, child;
     Pose parentTchild;
-    double stamp = 0.0; // [s]
+    double stamp = 0.0;  // [s]
+    bool isValid = true; // false: its numbers are no pose, and parentTchild is the identity
 };
 std::vector<FrameLink> frameLinks(MessageCursor message);
 

@@ -9,11 +9,6 @@ namespace fathom {
 
 namespace {
 
-// Names of old packages begin with a slash.
-std::string bareFrame(const std::string& name) {
-    return name.starts_with('/') ? name.substr(1) : name;
-}
-
 std::string quotedFrame(const std::string& name) {
     return "'" + name + "'";
 }
@@ -22,23 +17,33 @@ std::string quotedFrame(const std::string& name) {
 
 void LiveTransforms::take(const Ros2Message& message, bool isStatic) {
     constexpr size_t kMostFaults = 32;
+    const auto skip = [&](const char* what, const Error& why) {
+        ++skipped_;
+        if (faults_.size() < kMostFaults && faults_.insert(why.what()).second) {
+            log::warn("{}: {}: {} skipped: {} (logged once)", reader_, isStatic ? "/tf_static" : "/tf", what,
+                      why.what());
+        }
+    };
     try {
         for (const ros::FrameLink& link : ros::frameLinks(MessageCursor(message.message->bytes(), true))) {
-            add(link, message, isStatic);
+            try {
+                add(link, message, isStatic);
+            } catch (const Error& e) {
+                skip("transform", e);
+            }
         }
     } catch (const Error& e) {
-        ++skipped_;
-        if (faults_.size() < kMostFaults && faults_.insert(e.what()).second) {
-            log::warn("{}: {}: message skipped: {} (logged once)", reader_, isStatic ? "/tf_static" : "/tf",
-                      e.what());
-        }
+        skip("message", e);
     }
 }
 
 void LiveTransforms::add(const ros::FrameLink& link, const Ros2Message& message, bool isStatic) {
-    const std::string parent = bareFrame(link.parent), child = bareFrame(link.child);
+    const std::string &parent = link.parent, &child = link.child;
     if (std::max(parent.size(), child.size()) > kLongestName || parent.empty() || child.empty()) {
         throw Error("a frame's name has no or over " + std::to_string(kLongestName) + " bytes");
+    }
+    if (!link.isValid) {
+        throw Error("the pose of frame " + quotedFrame(child) + " is not finite, or its quaternion is 0");
     }
     if (parent == child) {
         throw Error("frame " + quotedFrame(child) + " is its own parent");

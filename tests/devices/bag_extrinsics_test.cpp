@@ -5,16 +5,29 @@
 using namespace fathom;
 using namespace fathom::test;
 
+namespace {
+
+// Depth and colour, by default of different lenses, without extrinsics.
+BagMaker unrelatedBag(const std::string& depth, const std::string& colour,
+                      const InfoMessage& lens = {.frame = "depth", .k = {6.0, 6.0, 3.0, 2.0}}) {
+    BagMaker maker;
+    addStream(maker, "/camera/depth/image_rect_raw", depthImage(900, depth), lens);
+    addStream(maker, "/camera/color/image_raw", redImage(colour));
+    return maker;
+}
+
+// A message of tf with one transform.
+std::string frameLink(const std::string& parent, const std::string& child, double x) {
+    return Out().put(uint32_t{1}).bytes + stampedHeader(1.0, parent) + Out().text(child).bytes +
+           transformMessage(x, 0.0, 0.0);
+}
+
+} // namespace
+
 TEST_CASE(
     "Depth and colour that are not registered are related by the SDK's, realsense-ros' or tf's extrinsics") {
     const TemporaryFolder folder;
-    const InfoMessage own{.frame = "depth", .k = {6.0, 6.0, 3.0, 2.0}};
-    const auto bare = [&] {
-        BagMaker maker;
-        addStream(maker, "/camera/depth/image_rect_raw", depthImage(900, "depth"), own);
-        addStream(maker, "/camera/color/image_raw", redImage("color"));
-        return maker;
-    };
+    const auto bare = [] { return unrelatedBag("depth", "color"); };
     CHECK(streamRefusal(folder, bare()).find("extrinsics: missing") != std::string::npos);
     BagMaker topic = bare();
     Out extrinsics{stampedHeader(1.0, "")};
@@ -24,21 +37,29 @@ TEST_CASE(
     topic.add("/camera/extrinsics/depth_to_color", "realsense2_camera/Extrinsics", 1.0, extrinsics.bytes);
     CHECK(playStreams(folder, topic).info().colourTdepth.position.x == doctest::Approx(0.015));
     BagMaker frames = bare();
-    const auto link = [](const std::string& parent, const std::string& child, double x) {
-        return Out().put(uint32_t{1}).bytes + stampedHeader(1.0, parent) + Out().text(child).bytes +
-               transformMessage(x, 0.0, 0.0);
-    };
-    frames.add("/tf_static", "tf2_msgs/TFMessage", 1.0, link("base", "depth", 0.02));
-    frames.add("/tf_static", "tf2_msgs/TFMessage", 1.0, link("base", "color", 0.005));
+    frames.add("/tf_static", "tf2_msgs/TFMessage", 1.0, frameLink("base", "depth", 0.02));
+    frames.add("/tf_static", "tf2_msgs/TFMessage", 1.0, frameLink("base", "color", 0.005));
     const BagCamera camera = playStreams(folder, frames);
     CHECK_FALSE(camera.info().registered);
     CHECK(camera.info().colourTdepth.position.x == doctest::Approx(0.015));
-    frames.add("/tf", "tf2_msgs/TFMessage", 2.0, link("base", "color", 0.1)); // it moves: not used
+    frames.add("/tf", "tf2_msgs/TFMessage", 2.0, frameLink("base", "color", 0.1)); // it moves: not used
     CHECK(streamRefusal(folder, frames).find("extrinsics: missing") != std::string::npos);
     folder.write("e.json", R"({"t": [0.03, 0, 0], "q_xyzw": [0, 0, 0, 1]})");
     CHECK(playStreams(folder, bare(), {.extrinsics = folder.path() / "e.json"})
               .info()
               .colourTdepth.position.x == doctest::Approx(0.03));
+}
+
+TEST_CASE("Damaged messages and invalid transforms of other frames do not lose the extrinsics of a bag") {
+    const TemporaryFolder folder;
+    BagMaker maker = unrelatedBag("/depth", "color");
+    Out bad = Out{Out().put(uint32_t{2}).bytes + stampedHeader(1.0, "base")}.text("wheel");
+    bad.bytes += transformMessage(std::nan(""), 0.0, 0.0);
+    bad.bytes += stampedHeader(1.0, "/base") + Out().text("depth").bytes + transformMessage(0.02, 0.0, 0.0);
+    maker.add("/tf_static", "tf2_msgs/TFMessage", 1.0, bad.bytes);
+    maker.add("/tf", "tf2_msgs/TFMessage", 1.0, raw(uint32_t{7})); // truncated
+    maker.add("/tf_static", "tf2_msgs/TFMessage", 1.0, frameLink("base", "/color", 0.005));
+    CHECK(playStreams(folder, maker).info().colourTdepth.position.x == doctest::Approx(0.015));
 }
 
 TEST_CASE("An SDK bag whose frames are all called 0 is related by its transforms, not by that name") {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Poses between frames from messages of tf2_msgs/msg/TFMessage, without a network.
+#include "devices/bag/byte_writer.h"
 #include "devices/ros2/moving_camera.h"
 #include "tests/devices/live_node.h"
 #include "tests/realtime/listening.h"
@@ -136,9 +137,11 @@ TEST_CASE("Unusable transforms are skipped, counted and named once, and loops en
         graph.transforms.take(LiveNode().sends({0, 1, 0, 0, 0xff, 0xff, 0xff, 0xff}, 1.1), true);
     }
     CHECK(graph.transforms.skipped() == 21);
-    CHECK(log.count("message skipped") == 5);
-    for (const char* cause : {"frame 'wrist' is its own parent", "a frame's name has no or over 256 bytes",
-                              "truncated", "4294967295 transforms in one message"}) {
+    CHECK(log.count("message skipped") == 2);
+    CHECK(log.count("transform skipped") == 3);
+    for (const char* cause :
+         {"the pose of frame 'wrist' is not finite", "frame 'wrist' is its own parent",
+          "a frame's name has no or over 256 bytes", "truncated", "4294967295 transforms in one message"}) {
         CHECK_MESSAGE(log.count(cause) == 1, cause);
     }
     CHECK(graph.fault(1.1, true) == "/tf of 'wrist' ends before it");
@@ -149,6 +152,25 @@ TEST_CASE("Unusable transforms are skipped, counted and named once, and loops en
         graph.says(2.0, "base", "f" + std::to_string(i), {});
     }
     CHECK(log.count("over 1000 frames") == 1);
+}
+
+TEST_CASE("An unusable transform does not take the others of its message with it") {
+    Graph graph;
+    graph.fixed();
+    CdrWriter both;
+    both.value(uint32_t{2});
+    for (const auto& [child, x] : {std::pair("other", std::nan("")), std::pair("wrist", 0.25)}) {
+        both.value(static_cast<uint32_t>(LiveNode::kUtc + 1.0));
+        both.value(uint32_t{0});
+        both.text("arm");
+        both.text(child);
+        for (const double value : {x, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0}) {
+            both.value(value);
+        }
+    }
+    graph.transforms.take(LiveNode().sends(both.bytes(), 1.0), false);
+    CHECK(graph.transforms.skipped() == 1);
+    CHECK(isAt(graph.at(1.0), {0.25, 0.5, 1.0}));
 }
 
 TEST_CASE("Images wait in their order for the transforms at their stamps, and not for ever") {
