@@ -137,17 +137,16 @@ void BagCamera::watchChanges() {
             to.emplace(*file_, *topic);
         }
     };
-    const auto lens = [&](const ImageStream& stream) {
-        return stream.info ? &file_->topics()[*stream.info] : nullptr;
+    // Of a lens that is used, and not replaced by a file.
+    const auto lens = [&](const ImageStream& stream, const Intrinsics& used) {
+        return stream.info && sameLens(*stream.lens, used) ? &file_->topics()[*stream.info] : nullptr;
     };
     if (!options_.scale && !ros::holdsMetres(imageOf(choice_.depth, cursor_))) {
         watch(units_, unitTopic());
     }
-    if (options_.intrinsics.empty()) {
-        watch(depthLenses_, lens(choice_.depth));
-    }
-    if (options_.intrinsics.empty() && choice_.colour) {
-        watch(colourLenses_, lens(*choice_.colour));
+    watch(depthLenses_, lens(choice_.depth, info().depth));
+    if (choice_.colour) {
+        watch(colourLenses_, lens(*choice_.colour, info().colour));
     }
 }
 

@@ -32,10 +32,6 @@ int fits(NamedRole role, NamedRole use) {
     return role == use ? 2 : (role == NamedRole::None ? 1 : 0);
 }
 
-std::string sizeText(uint32_t width, uint32_t height) {
-    return std::to_string(width) + "x" + std::to_string(height);
-}
-
 } // namespace
 
 StreamChooser::StreamChooser(MessageFile& file, const SourceOptions& options)
@@ -195,28 +191,6 @@ std::optional<Pose> StreamChooser::topicPose(const ImageStream& depth) {
     return best != nullptr ? std::optional(ros::extrinsics(file_.read(*best, 0))) : std::nullopt;
 }
 
-void StreamChooser::replaceLenses(StreamChoice& choice) const {
-    const RecordingIntrinsics given = readIntrinsics(options_.intrinsics, ScaleRule::Optional);
-    const auto fits = [&](const ImageStream& stream, const Intrinsics& lens) {
-        if (stream.width != lens.width || stream.height != lens.height) {
-            throw BadInput(options_.intrinsics.string(), "width, height", sizeText(lens.width, lens.height),
-                           sizeText(stream.width, stream.height) + ", the images of " + stream.name);
-        }
-    };
-    fits(choice.depth, given.camera.depth);
-    const bool colour = choice.camera.hasColour;
-    if (colour) {
-        fits(*choice.colour, given.camera.colour);
-    }
-    choice.camera = given.camera;
-    choice.camera.poseless = true;
-    choice.camera.hasColour = colour;
-    if (!options_.extrinsics.empty()) {
-        choice.camera.registered = false;
-        choice.camera.colourTdepth = readExtrinsics(options_.extrinsics);
-    }
-}
-
 StreamChoice StreamChooser::choose() {
     const std::vector<const ImageStream*> ofDepth = depths(), ofColour = colours();
     using Score = std::tuple<int, size_t, bool, bool>;
@@ -246,9 +220,9 @@ StreamChoice StreamChooser::choose() {
         throw BadInput(file_.file().string() + ": " + depth->noLens);
     }
     // Grey is not worth a refusal: nothing asks for it.
-    if (colour != nullptr && relation.rank == 0 && options_.intrinsics.empty()) {
+    if (colour != nullptr && relation.rank == 0 && keepsRelation()) {
         if (colour->content != ros::Content::Grey || !options_.colour.empty()) {
-            throw BadInput(file_.file().string() + ": " + relation.fault);
+            refuseRelation(*depth, *colour, relation);
         }
         colour = nullptr;
     }

@@ -43,10 +43,13 @@ private:
     Relation relateByPose(const ImageStream& depth, const ImageStream& colour);
     std::optional<Pose> sdkPose(const ImageStream& depth, const ImageStream& colour);
     std::optional<Pose> topicPose(const ImageStream& depth);
+    bool keepsRelation() const;
     void replaceLenses(StreamChoice& choice) const;
     std::string unreadStreams() const;
     std::string otherTopics() const;
     std::string describe(const StreamChoice& choice) const;
+    [[noreturn]] void refuseRelation(const ImageStream& depth, const ImageStream& colour,
+                                     const Relation& relation) const;
     [[noreturn]] void refuse(const std::string& field, const std::string& value,
                              const std::string& allowed) const;
 

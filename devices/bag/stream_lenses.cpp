@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lenses of StreamChooser that a file gives instead of the recording.
+#include "devices/bag/stream_choice.h"
+
+#include "devices/recorded/json_field.h"
+#include "devices/recorded/recording_intrinsics.h"
+#include "engine/types/error.h"
+
+namespace fathom {
+
+namespace {
+
+std::string sizeText(uint32_t width, uint32_t height) {
+    return std::to_string(width) + "x" + std::to_string(height);
+}
+
+} // namespace
+
+// Whether the recording relates depth and colour: a file of one lens alone says nothing about it.
+bool StreamChooser::keepsRelation() const {
+    if (options_.intrinsics.empty()) {
+        return true;
+    }
+    const nlohmann::json document = parseJsonFile(options_.intrinsics);
+    const JsonField root(document, options_.intrinsics.string(), "");
+    return !root.find("depth") && !root.find("registered_to_color");
+}
+
+void StreamChooser::replaceLenses(StreamChoice& choice) const {
+    const RecordingIntrinsics given = readIntrinsics(options_.intrinsics, ScaleRule::Optional);
+    const auto fits = [&](const ImageStream& stream, const Intrinsics& lens) {
+        if (stream.width != lens.width || stream.height != lens.height) {
+            throw BadInput(options_.intrinsics.string(), "width, height", sizeText(lens.width, lens.height),
+                           sizeText(stream.width, stream.height) + ", the images of " + stream.name);
+        }
+    };
+    fits(choice.depth, given.camera.depth);
+    const CameraInfo recorded = choice.camera;
+    choice.camera = given.camera;
+    choice.camera.poseless = true;
+    choice.camera.hasColour = recorded.hasColour;
+    if (recorded.hasColour && !recorded.registered && keepsRelation()) {
+        choice.camera.registered = false;
+        choice.camera.colour = recorded.colour;
+        choice.camera.colourTdepth = recorded.colourTdepth;
+    }
+    if (recorded.hasColour) {
+        fits(*choice.colour, choice.camera.colour);
+    }
+    if (!options_.extrinsics.empty()) {
+        choice.camera.registered = false;
+        choice.camera.colourTdepth = readExtrinsics(options_.extrinsics);
+    }
+}
+
+void StreamChooser::refuseRelation(const ImageStream& depth, const ImageStream& colour,
+                                   const Relation& relation) const {
+    if (options_.intrinsics.empty()) {
+        throw BadInput(file_.file().string() + ": " + relation.fault);
+    }
+    throw BadInput(options_.intrinsics.string(), "color", "missing",
+                   "blocks depth and color, or registered_to_color: true, as the recording does not relate " +
+                       depth.name + " and " + colour.name + "; or colour=none behind its name");
+}
+
+} // namespace fathom
