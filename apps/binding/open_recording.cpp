@@ -54,6 +54,27 @@ Kind kindOf(const std::filesystem::path& file) {
     return Kind::Unknown;
 }
 
+constexpr const char* kOptions =
+    "depth=, colour=, info=, intrinsics=, extrinsics=, scale=, start= and duration= behind the file's name";
+
+// Names an unknown option where the file is there without it.
+void checkExists(const std::string& file) {
+    std::error_code failed;
+    if (std::filesystem::exists(file, failed)) {
+        return;
+    }
+    const size_t equals = file.rfind('='), comma = file.rfind(',', equals);
+    for (size_t end = comma; equals != std::string::npos && end != std::string::npos && end > 0;
+         end = file.rfind(',', end - 1)) {
+        if (std::filesystem::exists(file.substr(0, end), failed)) {
+            throw BadInput("--source", file.substr(end + 1), "unknown", kOptions);
+        }
+    }
+    if (kindOf(file) != Kind::Unknown) {
+        throw BadInput(file, "file", "missing", kKinds);
+    }
+}
+
 bool isRos2Folder(const std::filesystem::path& folder) {
     return std::filesystem::exists(folder / "metadata.yaml") &&
            !std::filesystem::exists(folder / "intrinsics.json");
@@ -68,11 +89,13 @@ bool isMessages(const std::filesystem::path& file) {
 
 std::unique_ptr<MessageFile> openMessages(const std::string& source) {
     const std::string file = parseSource(source).file;
+    checkExists(file);
     return isMessages(file) ? openMessageFile(file) : nullptr;
 }
 
 std::unique_ptr<Camera> openRecording(const SourceRequest& request) {
     const std::filesystem::path file = request.file;
+    checkExists(request.file);
     std::error_code failed;
     if (std::filesystem::is_directory(file, failed)) {
         if (isRos2Folder(file)) {
@@ -80,11 +103,7 @@ std::unique_ptr<Camera> openRecording(const SourceRequest& request) {
         }
         return std::make_unique<RecordedCamera>(file, request.options);
     }
-    const Kind kind = kindOf(file);
-    if (kind != Kind::Unknown && !std::filesystem::exists(file, failed)) {
-        throw BadInput(request.file, "file", "missing", kKinds);
-    }
-    switch (kind) {
+    switch (kindOf(file)) {
     case Kind::Messages:
         return openBag(file, request.options);
     case Kind::Cloud:

@@ -39,6 +39,15 @@ TEST_CASE("inspect shows the hues of clear colours with their saturation and lig
     CHECK(run.out.find("saturation 0.80..0.82, lightness 0.42..0.44", red) != std::string::npos);
 }
 
+TEST_CASE("An unknown option behind a recording is named with those that exist, and a missing file as such") {
+    const Stage stage;
+    const std::string file = (stage / "rec.mcap").string();
+    std::filesystem::copy_file("tests/fuzz/corpus/mcap/zstd", file);
+    checkRefusal({"inspect", file + ",foo=1"}, {"--source", "foo=1: unknown", "colour=", "duration="});
+    checkRefusal({"inspect", file + ",foo=1,start=0"}, {"--source", "foo=1: unknown"});
+    checkRefusal({"inspect", (stage / "nope.bag").string()}, {"nope.bag: file: missing"});
+}
+
 TEST_CASE("inspect rejects what is not a source in one line, after the list of streams where there is one") {
     const Stage stage;
     stage.write("notes.txt", "no recording");
