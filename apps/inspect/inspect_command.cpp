@@ -28,6 +28,17 @@ void describe(const Camera& camera, std::ostream& out) {
     }
 }
 
+// The source with the streams that are chosen, each named once.
+std::string withStreams(const std::string& source, const Camera& camera) {
+    const SourceOptions given = parseSource(source).options,
+                        chosen = parseSource(camera.streamOptions()).options;
+    const auto more = [](const char* key, const std::string& has, const std::string& wants) {
+        return has.empty() && !wants.empty() ? key + wants : "";
+    };
+    return source + more(",depth=", given.depth, chosen.depth) +
+           more(",colour=", given.colour, chosen.colour);
+}
+
 void inspect(const std::string& source, const std::optional<std::filesystem::path>& folder) {
     if (const auto file = openMessages(source)) { // shown although the source may be rejected
         writeStreams(*file, parseSource(source).options.info, std::cout);
@@ -43,8 +54,7 @@ void inspect(const std::string& source, const std::optional<std::filesystem::pat
     for (const std::string& warning : camera->warnings()) {
         std::cout << "warning   " << warning << "\n";
     }
-    const bool chosen = source.find(",depth=") != std::string::npos; // by the user
-    std::cout << "use       --source '" << source << (chosen ? "" : camera->streamOptions()) << "'\n";
+    std::cout << "use       --source '" << withStreams(source, *camera) << "'\n";
     if (folder) {
         std::cout << "written   " << folder->string() << "\n";
     }

@@ -39,6 +39,26 @@ TEST_CASE("inspect shows the hues of clear colours with their saturation and lig
     CHECK(run.out.find("saturation 0.80..0.82, lightness 0.42..0.44", red) != std::string::npos);
 }
 
+TEST_CASE("inspect names each stream once, also where an option has chosen it, and the line can be used") {
+    const Stage stage;
+    const std::string file = (stage / "rec.mcap").string();
+    std::filesystem::copy_file("tests/fuzz/corpus/mcap/zstd", file);
+    const auto line = [](const std::string& source) {
+        const ProgramRun run = runFathom({"inspect", source});
+        CHECK_MESSAGE(run.exitCode == 0, run.err);
+        const std::string begin = "use       --source '";
+        const size_t at = run.out.find(begin);
+        REQUIRE(at != std::string::npos);
+        return run.out.substr(at + begin.size(), run.out.find('\'', at + begin.size()) - at - begin.size());
+    };
+    const std::string whole = line(file), depth = whole.substr(0, whole.find(",colour="));
+    CHECK(whole.find(",depth=") != std::string::npos);
+    CHECK(line(whole) == whole);
+    CHECK(line(depth) == whole);
+    CHECK(line(file + ",colour=none").find(",colour=none,depth=") != std::string::npos);
+    CHECK(line(line(file + ",colour=none")) == line(file + ",colour=none"));
+}
+
 TEST_CASE("An unknown option behind a recording is named with those that exist, and a missing file as such") {
     const Stage stage;
     const std::string file = (stage / "rec.mcap").string();
