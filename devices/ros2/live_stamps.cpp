@@ -8,6 +8,17 @@
 
 namespace fathom {
 
+double LiveStamps::stampOf(double header, const RawMessage& message) {
+    if (header != 0.0) {
+        return header;
+    }
+    if (!unstamped_) {
+        log::warn("ros2:{}: headers have no stamps: the time of arrival is used", topic_);
+        unstamped_ = true;
+    }
+    return message.arrivalUtc;
+}
+
 bool LiveStamps::forward(double stamp) {
     if (last_ && stamp <= *last_ && ++back_ < kMostBackward) {
         return false;

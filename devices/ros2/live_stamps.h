@@ -17,6 +17,8 @@ public:
     explicit LiveStamps(std::string topic)
         : topic_(std::move(topic)) {}
 
+    // The header's stamp [s]; of a header without one the arrival by UTC, with one warning.
+    double stampOf(double header, const RawMessage& message);
     // Whether a message with that stamp [s] comes after the one before. After kMostBackward earlier stamps in
     // a row the clock was set back: the last of them counts, and restarted() is true once.
     bool forward(double stamp);
@@ -32,7 +34,7 @@ private:
     std::string topic_;
     std::optional<double> last_;
     uint32_t back_ = 0;
-    bool restarted_ = false, byArrival_ = false;
+    bool restarted_ = false, byArrival_ = false, unstamped_ = false;
     double lastCapture_ = 0.0;
 };
 

@@ -40,7 +40,8 @@ void Ros2Camera::receive(Topic& topic, const ImageStream& stream, LiveStamps& st
             continue;
         }
         try {
-            const double stamp = ros::stamp(MessageCursor(taken.message->bytes(), true));
+            const double stamp =
+                stamps.stampOf(ros::stamp(MessageCursor(taken.message->bytes(), true)), *taken.message);
             if (!stamps.forward(stamp)) {
                 skip(stream.name + ": a stamp goes back", depth ? 1 : 0);
                 continue;
