@@ -73,15 +73,19 @@ TEST_CASE("A few bytes in front of the end marker, as webcams send them, change 
     const VideoSize size{64, 48};
     for (const int flags : {0, TJFLAG_PROGRESSIVE}) {
         const auto jpeg = jpegOf(size, TJSAMP_420, flags);
-        auto padded = jpeg;
-        padded.insert(padded.end() - 2, 2, std::byte{0});
-        std::vector<std::byte> memory, other;
+        std::vector<std::byte> memory;
         RawColour raw;
         REQUIRE(planesOf(jpeg, size, memory, raw) == "");
-        CHECK(planesOf(padded, size, other, raw) == "");
-        CHECK(other == memory);
-        padded.insert(padded.end() - 2, 100, std::byte{0});
-        CHECK(planesOf(padded, size, other, raw).find("102 extraneous bytes") != std::string::npos);
+        for (const size_t padding : {1u, 2u, 8u, 16u}) {
+            auto padded = jpeg;
+            padded.insert(padded.end() - 2, padding, std::byte{0});
+            std::vector<std::byte> other;
+            CHECK(planesOf(padded, size, other, raw) == "");
+            CHECK(other == memory);
+            padded.insert(padded.end() - 2, 100, std::byte{0});
+            const std::string fault = planesOf(padded, size, other, raw);
+            CHECK_MESSAGE(fault.find("extraneous bytes before marker 0xd9") != std::string::npos, fault);
+        }
     }
 }
 
