@@ -203,8 +203,7 @@ std::optional<Frame> PcdCamera::next() {
         depth[i] = measured(p) ? unitsOf(p.z, info_.metresPerUnit, beyond) : uint16_t{0};
     }
     if (const double limit = 65535.0 * info_.metresPerUnit; beyond > 0 && limit < farthest_) {
-        log::warn("{}: {} points are farther than {:.4g} m and count as not measured", file_.string(), beyond,
-                  limit);
+        log::warn("{}: points beyond {:.4g} m count as not measured: {}", file_.string(), limit, beyond);
     }
     std::copy(cloud_.colour.begin(), cloud_.colour.end(), slot->colour().begin());
     Frame::Content content;
