@@ -101,6 +101,20 @@ const CameraModel& onlyOne(std::span<const CameraModel> cameras) {
     return cameras.front();
 }
 
+// Makes the only port of its kind. If that throws, the port may still be opened.
+template <class Make>
+auto openOnce(std::atomic<bool>& open, const std::string& port, Make&& make) {
+    if (open.exchange(true)) {
+        throw Error(port + ": it is open already (allowed: one " + port + " per engine)");
+    }
+    try {
+        return make();
+    } catch (...) {
+        open.store(false);
+        throw;
+    }
+}
+
 } // namespace
 
 struct Engine::Impl {
@@ -186,10 +200,8 @@ CameraPort Engine::camera(std::string_view name) {
 HandPort Engine::openHand(const HandStart& start) {
     return front::translated([&] {
         const front::FloatMode mode;
-        if (impl_->shared->handOpen.exchange(true)) {
-            throw Error("hand: it is open already (allowed: one hand per engine)");
-        }
-        return HandPort(std::make_unique<HandPort::Impl>(impl_->shared, start));
+        return openOnce(impl_->shared->handOpen, "hand",
+                        [&] { return HandPort(std::make_unique<HandPort::Impl>(impl_->shared, start)); });
     });
 }
 
@@ -198,19 +210,15 @@ ArmPort Engine::openArm() {
         if (impl_->shared->channels.arm == nullptr) {
             throw BadInput("options: measuredArm: false (allowed: true, for a real arm)");
         }
-        if (impl_->shared->armOpen.exchange(true)) {
-            throw Error("arm: it is open already (allowed: one arm per engine)");
-        }
-        return ArmPort(std::make_unique<ArmPort::Impl>(impl_->shared));
+        return openOnce(impl_->shared->armOpen, "arm",
+                        [&] { return ArmPort(std::make_unique<ArmPort::Impl>(impl_->shared)); });
     });
 }
 
 ObserverPort Engine::openObserver() {
     return front::translated([&] {
-        if (impl_->shared->observed.exchange(true)) {
-            throw Error("observer: it is open already (allowed: one observer per engine)");
-        }
-        return ObserverPort(std::make_unique<ObserverPort::Impl>(impl_->shared));
+        return openOnce(impl_->shared->observed, "observer",
+                        [&] { return ObserverPort(std::make_unique<ObserverPort::Impl>(impl_->shared)); });
     });
 }
 

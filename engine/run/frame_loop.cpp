@@ -67,6 +67,7 @@ std::optional<uint32_t> FrameLoop::fetch(const std::atomic<bool>& stop) {
 void FrameLoop::run(const std::atomic<bool>& stop) {
     while (const std::optional<uint32_t> index = fetch(stop)) {
         if (const std::optional<RunClock::Time> taken = feed_.captured()) {
+            update_.live = true;
             publishOrRenew(std::max(clock_.at(*taken), update_.captureTime),
                            stop); // not before the start of the run
             continue;
@@ -79,7 +80,7 @@ void FrameLoop::run(const std::atomic<bool>& stop) {
         publishOrRenew(clock_.now(), stop);
         countLost(due);
     }
-    if (ended_) {
+    if (ended_ && !update_.live) { // the scene of a live source ages when its frames end
         update_.sourceEnded = true;
         publishUpdate();
     }
