@@ -192,8 +192,9 @@ void bindLockstep(py::module_& module) {
 
 void bindScene(py::module_& module) {
     py::class_<Scene>(module, "Scene", "A scene, read and checked: Scene.from_file() or Scene.from_text().")
-        .def_static("from_file", &Scene::fromFile, py::arg("file"), "Reads a scene file (YAML).")
-        .def_static("from_text", &Scene::fromText, py::arg("yaml"),
+        .def_static("from_file", &Scene::fromFile, py::arg("file"), py::call_guard<Unlocked>(),
+                    "Reads a scene file (YAML).")
+        .def_static("from_text", &Scene::fromText, py::arg("yaml"), py::call_guard<Unlocked>(),
                     "The same from text. Relative paths start at the working directory.");
 }
 

@@ -4,6 +4,7 @@
 import gc
 import subprocess
 import sys
+import tempfile
 import textwrap
 import threading
 import time
@@ -109,6 +110,28 @@ class Live(unittest.TestCase):
         finally:
             fathom.set_log(None)
             gc.collect()
+
+    def test_scenes_may_be_read_while_a_receiver_runs_in_another_thread(self):
+        script = textwrap.dedent("""
+            import sys, threading, time
+            sys.path.insert(0, "tests/python")
+            import fathom
+            fathom.set_log(lambda level, line: time.sleep(0.01))
+            scene = sys.argv[1] + "/scene.yaml" # names a file outside of its folder, which is logged
+            open(scene, "w").write("fixtures: [{name: wall, role: forbidden}]\\n"
+                                   "tool: {spheres: [[0, 0, 0, 0.01]]}\\nhand: {path: ../path.csv}\\n")
+            def read():
+                for _ in range(20):
+                    fathom.Scene.from_file(scene)
+            other = threading.Thread(target=read)
+            other.start()
+            read()
+            other.join()
+            print("read")
+        """)
+        with tempfile.TemporaryDirectory() as folder:
+            done = subprocess.run([sys.executable, "-c", script, folder], capture_output=True, text=True, timeout=60, check=False)
+        self.assertEqual(done.stdout, "read\n", done.stderr)
 
 
 class Exit(unittest.TestCase):
