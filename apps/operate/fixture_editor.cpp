@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace fathom::operate {
 
@@ -80,7 +81,8 @@ FixtureClass FixtureEditor::shapeAt(ShapeKind kind, const dvec3& base, const dve
 }
 
 bool FixtureEditor::place(const FixtureClass& shape) {
-    if (shapes_.size() >= 16) {
+    const auto rows = std::count_if(scene_.fixtures.begin(), scene_.fixtures.end(), std::not_fn(isSpare));
+    if (static_cast<size_t>(rows) >= Scene::kMaxFixtures) {
         return false;
     }
     Scene next = scene_;

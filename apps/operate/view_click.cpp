@@ -89,7 +89,8 @@ void placeAt(Console& console, FixtureEditor& editor, const SurfacePoint& at) {
         return;
     }
     const bool placed = editor.place(*shape);
-    console.notify(placed ? "placed" : "not placed: at most 16 shapes");
+    console.notify(placed ? "placed"
+                          : "not placed: at most " + std::to_string(Scene::kMaxFixtures) + " fixtures");
     console.placing = ShapeKind::None;
     console.placedFrom.reset();
 }

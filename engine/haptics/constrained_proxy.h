@@ -39,11 +39,11 @@ public:
         kinematics_.place(contacts_.leaves);
         return TrustRegion::covers(contacts, contacts_.leaves.now);
     }
-    // Replaces the shapes from the next tick on. At most as many as at construction, or kSpareShapes if that
-    // is more. A shape that now overlaps a leaf pushes it out gradually, like new data.
+    // Replaces the shapes from the next tick on, at most kMaxShapes. A shape that now overlaps a leaf pushes
+    // it out gradually, like new data.
     void setShapes(std::span<const Shape> shapes) noexcept { contacts_.setShapes(shapes); }
     std::span<const Shape> shapes() const noexcept { return contacts_.shapes(); }
-    static constexpr size_t kSpareShapes = LeafContacts::kSpareShapes;
+    static constexpr size_t kMaxShapes = LeafContacts::kMaxShapes;
 
 protected:
     using Answer = typename Kinematics::Answer;

@@ -30,7 +30,7 @@ LeafContacts::LeafContacts(const Tool& tool, std::span<const Shape> shapes, doub
         radius_.push_back(leaf.radius);
     }
     behind_.reserve(radius_.size());
-    shapes_.reserve(std::max(kSpareShapes, shapes_.size()));
+    shapes_.reserve(std::max(kMaxShapes, shapes_.size()));
 }
 
 void LeafContacts::setShapes(std::span<const Shape> shapes) noexcept {

@@ -25,7 +25,7 @@ struct LeafState {
 // One thread. Allocates in the constructor only; everything else is noexcept.
 class LeafContacts {
 public:
-    static constexpr size_t kSpareShapes = 16; // setShapes() accepts this many, or as many as at construction
+    static constexpr size_t kMaxShapes = Scene::kMaxFixtures; // of setShapes(): each row places at most one
 
     LeafContacts(const Tool& tool, std::span<const Shape> shapes, double stepCap,
                  const RowReduction& reduction);

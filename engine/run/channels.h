@@ -21,7 +21,7 @@ namespace fathom {
 // Window to haptic thread: the authored shapes from now on.
 struct ShapeList {
     uint32_t count = 0;
-    std::array<Shape, Proxy::kSpareShapes> shapes;
+    std::array<Shape, Proxy::kMaxShapes> shapes;
 };
 
 // Haptic thread to writer: one step.

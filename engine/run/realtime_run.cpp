@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/run/realtime_run.h"
 
+#include "engine/types/error.h"
 #include "engine/types/log.h"
 
 #include <algorithm>
@@ -124,7 +125,11 @@ RealtimeRun::RealtimeRun(FrameFeed& frames, ContactAnswers* contacts, const Real
 
 void RealtimeRun::setShapes(std::span<const Shape> shapes) {
     ShapeList& list = channels_.shapes.back();
-    list.count = static_cast<uint32_t>(std::min(shapes.size(), list.shapes.size()));
+    if (shapes.size() > list.shapes.size()) {
+        throw Error("fixtures: " + std::to_string(shapes.size()) + " placed shapes (allowed: at most " +
+                    std::to_string(list.shapes.size()) + ")");
+    }
+    list.count = static_cast<uint32_t>(shapes.size());
     std::copy_n(shapes.begin(), list.count, list.shapes.begin());
     channels_.shapes.publish();
 }

@@ -9,7 +9,6 @@ namespace fathom {
 
 namespace {
 
-constexpr size_t kMaxRows = 64;
 constexpr size_t kMaxPointClasses = 8; // one bit per class in a pixel's class byte
 constexpr uint32_t kMaxPixels = 3840u * 2160u;
 
@@ -165,8 +164,9 @@ FixtureClass loadRow(const YamlNode& row) {
 
 void loadFixtures(const YamlNode& fixtures, Scene& scene) {
     const std::vector<YamlNode> rows = fixtures.list();
-    if (rows.size() > kMaxRows) {
-        fixtures.refuse(std::to_string(rows.size()) + " rows", "at most " + std::to_string(kMaxRows));
+    if (rows.size() > Scene::kMaxFixtures) {
+        fixtures.refuse(std::to_string(rows.size()) + " rows",
+                        "at most " + std::to_string(Scene::kMaxFixtures));
     }
     size_t pointClasses = 0;
     for (const YamlNode& row : rows) {

@@ -161,7 +161,8 @@ struct Scene {
     double errorBudget = 0.0001; // [m]; 0 keeps every point
     double holdSeconds = 0.5;    // [s]; 0 = paper
 
-    std::vector<FixtureClass> fixtures;
+    static constexpr size_t kMaxFixtures = 64;
+    std::vector<FixtureClass> fixtures; // at most kMaxFixtures
 
     // The spheres of the tool.
     struct ToolSource {

@@ -102,6 +102,21 @@ TEST_CASE("A shape that appears over a link pushes it out by 1 mm per tick and n
     CHECK(before <= 1e-6);
 }
 
+TEST_CASE("As many shapes as a scene has rows replace those of the start, and the last one holds") {
+    const ArmModel arm = makeArm(4, 8);
+    ArmProxy proxy(arm, Pose{}, {}, JointVector{});
+    std::vector<Shape> shapes(Scene::kMaxFixtures,
+                              shapeOf(ShapeKind::Sphere, {9.0, 9.0, 9.0}, {0.01, 0.0, 0.0}));
+    shapes.back() = shapeOf(ShapeKind::Sphere, {0.6, 0.075, 0.0}, {0.05, 0.0, 0.0});
+    proxy.setShapes(shapes);
+    CHECK(proxy.shapes().size() == shapes.size());
+    REQUIRE(depthIn(shapes, arm, proxy.frames()) > 0.01);
+    for (int i = 0; i < 200; ++i) {
+        proxy.step(proxy.tip(), 0.0, nullptr);
+    }
+    CHECK(depthIn(shapes, arm, proxy.frames()) <= 1e-6);
+}
+
 TEST_CASE("A line constrains the tip of an arm: the tip moves to it and then slides only along it") {
     const ArmModel arm = makeArm(5, 2);
     std::vector<Shape> shapes{shapeOf(ShapeKind::Line, {0.0, 0.0, 0.0}, dvec3(0.0))};
