@@ -16,22 +16,43 @@ namespace {
 constexpr double kTolerance = 0.008; // [m] noise of depth; less behind a surface is not hidden
 constexpr ImU32 kWhite = IM_COL32(255, 255, 255, 255);
 
-// The depth [m] of the sphere whose silhouette is nearest to a pixel of the view.
-double depthOf(const ViewPort& port, std::span<const Sphere> spheres, glm::dvec2 at) {
-    double least = 1e300, depth = 0.0;
-    for (const Sphere& s : spheres) {
-        const dvec3 eye = port.view.cameraTbase.apply(s.centre);
-        const auto p = port.view.ofCamera(eye);
-        if (p) {
-            const double r = s.radius * port.view.lens.fx * port.view.scale / eye.z;
-            const double off = std::abs(glm::distance(*p, at) - r);
-            if (off < least) {
-                least = off, depth = eye.z;
+// Silhouettes of spheres in a view, as circles.
+class Discs {
+public:
+    Discs(const ViewPort& port, std::span<const Sphere> spheres) {
+        for (const Sphere& s : spheres) {
+            const dvec3 eye = port.view.cameraTbase.apply(s.centre);
+            if (const auto p = port.view.ofCamera(eye)) {
+                discs_.push_back({*p, s.radius * port.view.lens.fx * port.view.scale / eye.z, eye.z});
             }
         }
     }
-    return depth;
-}
+
+    // The depth [m] of the sphere whose silhouette is nearest to a pixel of the view, or that of the previous
+    // answer if it still is within a pixel: an outline follows a silhouette for a while.
+    double depthAt(glm::dvec2 at) {
+        const auto off = [&](const Disc& disc) { return std::abs(glm::distance(disc.at, at) - disc.r); };
+        if (discs_.empty() || off(discs_[last_]) < 1.0) {
+            return discs_.empty() ? 0.0 : discs_[last_].z;
+        }
+        double least = 1e300;
+        for (size_t i = 0; i < discs_.size(); ++i) {
+            if (const double here = off(discs_[i]); here < least) {
+                least = here, last_ = i;
+            }
+        }
+        return discs_[last_].z;
+    }
+
+private:
+    struct Disc {
+        glm::dvec2 at;  // [pixels]
+        double r = 0.0; // [pixels]
+        double z = 0.0; // [m]
+    };
+    std::vector<Disc> discs_;
+    size_t last_ = 0;
+};
 
 // One run of an outline: solid, or dots.
 void outlineRun(ImDrawList& list, std::vector<ImVec2>& points, bool hidden, ImU32 colour, float width) {
@@ -114,12 +135,13 @@ double drawBody(ImDrawList& list, const ViewPort& port, std::span<const Sphere> 
                 const SurfaceDepth& surface, ImU32 colour, float width) {
     size_t hidden = 0, all = 0;
     std::vector<ImVec2> points;
+    Discs discs(port, spheres);
     for (const OutlineLine& line : outlineOf(port.view, spheres)) {
         bool before = false;
         points.clear();
         for (const glm::dvec2& p : line) {
             const double under = surface(p);
-            const bool now = under > 0.0 && under < depthOf(port, spheres, p) - kTolerance;
+            const bool now = under > 0.0 && under < discs.depthAt(p) - kTolerance;
             points.push_back(port.ofFrame(p));
             if (now != before) {
                 outlineRun(list, points, before, colour, width);

@@ -26,6 +26,24 @@ Sphere around(std::span<const Sphere> spheres) {
     return all;
 }
 
+constexpr size_t kBlock = 16; // region spheres that are tested together first; neighbours in order
+
+std::vector<Sphere> blocksOf(const Fixtures& set) {
+    std::vector<Sphere> blocks, members;
+    for (size_t first = 0; first < set.spheres.size(); first += kBlock) {
+        members.clear();
+        for (size_t i = first; i < std::min(set.spheres.size(), first + kBlock); ++i) {
+            members.push_back({regionCentre(set, i), double{set.spheres.radius[i]}});
+        }
+        blocks.push_back(around(members));
+    }
+    return blocks;
+}
+
+double gapBetween(const Sphere& a, const Sphere& b) {
+    return glm::distance(a.centre, b.centre) - a.radius - b.radius;
+}
+
 } // namespace
 
 std::optional<Nearest> nearestRegion(const Fixtures& set, std::span<const Sphere> tool) {
@@ -36,19 +54,20 @@ std::optional<Nearest> nearestRegion(const Fixtures& set, std::span<const Sphere
     size_t region = 0;
     const Sphere* leaf = &tool.front();
     double least = std::numeric_limits<double>::infinity();
+    const std::vector<Sphere> blocks = blocksOf(set);
     for (size_t first = 0; first < tool.size(); first += kGroup) {
         const auto group = tool.subspan(first, std::min(kGroup, tool.size() - first));
         const Sphere all = around(group);
-        for (size_t i = 0; i < count; ++i) {
-            const dvec3 centre = regionCentre(set, i);
-            const double radius = double{set.spheres.radius[i]};
-            if (glm::distance(centre, all.centre) - radius - all.radius >= least) {
-                continue; // none of the group is nearer
+        for (size_t block = 0; block < blocks.size(); ++block) {
+            if (gapBetween(blocks[block], all) >= least) {
+                continue; // none of the group is nearer to any of the block
             }
-            for (const Sphere& s : group) {
-                const double gap = glm::distance(centre, s.centre) - radius - s.radius;
-                if (gap < least) {
-                    least = gap, region = i, leaf = &s;
+            for (size_t i = block * kBlock; i < std::min(count, (block + 1) * kBlock); ++i) {
+                const Sphere sphere{regionCentre(set, i), double{set.spheres.radius[i]}};
+                for (const Sphere& s : group) {
+                    if (const double gap = gapBetween(sphere, s); gap < least) {
+                        least = gap, region = i, leaf = &s;
+                    }
                 }
             }
         }
