@@ -3,6 +3,7 @@
 
 #include "apps/operate/keys.h"
 #include "apps/operate/theme.h"
+#include "engine/types/log.h"
 
 #include <GLFW/glfw3.h>
 #include <utility>
@@ -32,21 +33,29 @@ void answer(Console& console, FixtureEditor& editor, CloseAnswer given) {
 
 } // namespace
 
-void stepClosing(Console& console, FixtureEditor& editor, bool requested, bool forcesGone) {
+void stepClosing(Console& console, FixtureEditor& editor, const CloseInput& input) {
     if (console.closing == Closing::Asks) {
-        const CloseAnswer given = requested ? CloseAnswer::None : answerOf(console);
+        console.forcesLast = console.forcesLast && !input.forcesGone;
+        const CloseAnswer given = input.requested ? CloseAnswer::None : answerOf(console);
         if (given != CloseAnswer::None) {
             answer(console, editor, given);
         }
-    } else if (requested) {
+    } else if (input.requested && console.closing == Closing::No) {
         console.closing = Closing::Fades;
+        console.closeBy = input.now + kLongestFade;
         console.closeAnswer = CloseAnswer::None;
     }
     if (console.closing == Closing::No) {
         return;
     }
     console.forces = console.guidance = false;
-    if (console.closing == Closing::Fades && forcesGone) {
+    const bool late = !input.forcesGone && input.now > console.closeBy;
+    if (console.closing == Closing::Fades && (input.forcesGone || late)) {
+        if (late) {
+            log::warn("closing: no tick without force in {} s; the end of the run switches forces off",
+                      kLongestFade);
+        }
+        console.forcesLast = late;
         console.quit = !editor.unsaved();
         console.closing = Closing::Asks;
         console.pick = Pick{}; // Enter answers the question
@@ -69,7 +78,9 @@ void drawClosing(Console& console, ImVec2 corner, ImVec2 size) {
                      ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                          ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize)) {
         ImGui::PushTextWrapPos(0.9f * size.x);
-        ImGui::TextUnformatted("Forces are off. The fixtures have changes that are not saved.");
+        ImGui::TextUnformatted(console.forcesLast ? "Forces are not off yet: closing ends them."
+                                                  : "Forces are off.");
+        ImGui::TextUnformatted("The fixtures have changes that are not saved.");
         ImGui::PopTextWrapPos();
         ImGui::Dummy({0.0f, 0.3f * ImGui::GetTextLineHeight()});
         const bool narrow = size.x < 36.0f * ImGui::GetTextLineHeight(); // one below the other

@@ -93,6 +93,8 @@ struct Console {
     bool quit = false, screenshot = false, exportCsv = false, acknowledge = false;
     OpenCard openCard;
     Closing closing = Closing::No;
+    double closeBy = 0.0;                        // [s] of the session: it waits no longer for forces to go
+    bool forcesLast = false;                     // they had not gone by then
     CloseAnswer closeAnswer = CloseAnswer::None; // button pressed in the question
     bool remake = false;                         // recreate the swapchain
     bool undo = false, redo = false, save = false, addPicked = false;

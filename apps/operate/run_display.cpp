@@ -68,7 +68,8 @@ void RunDisplay::followClosing(FixtureEditor& editor, bool forcesGone) {
     if (closed) {
         console.openCard.next.clear(); // the end, whatever was chosen
     }
-    stepClosing(console, editor, std::exchange(console.openCard.leaves, false) || closed, forcesGone);
+    stepClosing(console, editor,
+                {std::exchange(console.openCard.leaves, false) || closed, forcesGone, elapsed()});
 }
 
 double RunDisplay::elapsed() const {
