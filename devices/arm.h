@@ -8,18 +8,18 @@
 
 namespace fathom {
 
-inline constexpr size_t kMostArmAxes = 13; // chain joints, then the grasp
+inline constexpr size_t kMaxArmAxes = 13; // chain joints, then the grasp
 
 // The next command for an arm's driver.
 struct ArmCommand {
-    std::array<double, kMostArmAxes> position{}; // [rad] or [m], axes in the driver's order
-    bool hold = true;                            // stop and hold; positions are ignored
+    std::array<double, kMaxArmAxes> position{}; // [rad] or [m], axes in the driver's order
+    bool hold = true;                           // stop and hold; positions are ignored
 };
 
 // Measured state of the arm.
 struct ArmFeedback {
-    std::array<double, kMostArmAxes> position{}; // [rad] or [m], last valid reading of each axis
-    std::array<double, kMostArmAxes> current{};  // [A]
+    std::array<double, kMaxArmAxes> position{}; // [rad] or [m], last valid reading of each axis
+    std::array<double, kMaxArmAxes> current{};  // [A]
     double age = 0.0;    // [s] age of the oldest reading; infinite until every axis has answered
     bool homed = false;  // positions are absolute
     bool holding = true; // the driver holds: on command, stale feedback or overcurrent

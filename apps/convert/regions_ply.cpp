@@ -10,7 +10,7 @@ namespace fathom {
 namespace {
 
 constexpr size_t kVertex = 4 * sizeof(double) + 2 * sizeof(int32_t);
-constexpr size_t kMostRegionBytes = 1u << 30; // two spheres for each pixel of 3840x2160 have 0.7 GiB
+constexpr size_t kMaxRegionBytes = 1u << 30; // two spheres for each pixel of 3840x2160 have 0.7 GiB
 constexpr std::string_view kPlyEnd = "end_header\n", kPlyCount = "element vertex ",
                            kPlyFields = "property double x\nproperty double y\nproperty double z\n"
                                         "property double radius\nproperty int class\nproperty int held\n";
@@ -30,7 +30,7 @@ std::optional<uint32_t> vertices(std::string_view head) {
 } // namespace
 
 std::vector<ros2::RegionPoint> readRegionsPly(const std::filesystem::path& file) {
-    const std::string text = readWholeFile(file, kMostRegionBytes, "a file of replay --save-fixtures");
+    const std::string text = readWholeFile(file, kMaxRegionBytes, "a file of replay --save-fixtures");
     const size_t end = std::min(text.find(kPlyEnd), text.size());
     const auto count = vertices(std::string_view(text).substr(0, end));
     const size_t begin = std::min(end + kPlyEnd.size(), text.size());

@@ -74,7 +74,7 @@ FrameStudy::FrameStudy(Camera& camera, const std::optional<std::filesystem::path
     , live_(camera.live())
     , noColour_(camera.whyNoColour()) {
     while (auto frame = camera.next()) {
-        if (stamps_.size() == kMostFrames) {
+        if (stamps_.size() == kMaxFrames) {
             more_ = true;
             break;
         }

@@ -12,7 +12,7 @@
 
 namespace fathom {
 
-// Counts of the frames that are read, at most kMostFrames.
+// Counts of the frames that are read, at most kMaxFrames.
 class FrameStudy {
 public:
     // Reads frames. `out`: a folder for depth.png (near is light, black is not measured), colour.png and
@@ -21,7 +21,7 @@ public:
 
     void write(std::ostream& out) const;
 
-    static constexpr uint32_t kMostFrames = 300;
+    static constexpr uint32_t kMaxFrames = 300;
 
 private:
     void add(const Frame& frame);

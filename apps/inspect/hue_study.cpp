@@ -15,8 +15,8 @@ namespace fathom {
 namespace {
 
 constexpr double kBarDegrees = 360.0 / HueStudy::kHues;
-constexpr double kLeastShare = 0.002; // of the counted pixels, for a row
-constexpr double kMostStars = 40.0;
+constexpr double kMinShare = 0.002; // of the counted pixels, for a row
+constexpr double kMaxStars = 40.0;
 
 // The level below which `share` of the counts lie.
 template <size_t N>
@@ -36,7 +36,7 @@ void HueStudy::add(std::span<const uint32_t> colours) {
     all_ += colours.size();
     for (const uint32_t colour : colours) {
         const reference::Hsl hsl = reference::hslOf(colour);
-        if (hsl.saturation < kLeastSaturation || hsl.lightness < kDark || hsl.lightness > kBright) {
+        if (hsl.saturation < kMinSaturation || hsl.lightness < kDark || hsl.lightness > kBright) {
             continue;
         }
         Bar& bar = bars_[static_cast<size_t>(std::floor(hsl.hue / kBarDegrees + 0.5)) % kHues];
@@ -59,21 +59,21 @@ void HueStudy::write(std::ostream& out) const {
     const auto flags = out.flags();
     out << std::fixed << std::setprecision(1) << "hue       of the "
         << (all_ > 0 ? 100.0 * counted / static_cast<double>(all_) : 0.0)
-        << " % of the pixels with saturation from " << std::setprecision(2) << kLeastSaturation
+        << " % of the pixels with saturation from " << std::setprecision(2) << kMinSaturation
         << " and lightness " << kDark << " to " << kBright << "\n";
     const auto longest = std::max_element(bars_.begin(), bars_.end(),
                                           [](const Bar& a, const Bar& b) { return a.count < b.count; });
     for (size_t i = 0; i < kHues; ++i) {
         const Bar& bar = bars_[i];
-        if (bar.count == 0 || static_cast<double>(bar.count) < kLeastShare * counted) {
+        if (bar.count == 0 || static_cast<double>(bar.count) < kMinShare * counted) {
             continue;
         }
         const auto stars = static_cast<size_t>(
-            std::ceil(kMostStars * static_cast<double>(bar.count) / static_cast<double>(longest->count)));
+            std::ceil(kMaxStars * static_cast<double>(bar.count) / static_cast<double>(longest->count)));
         const double middle = kBarDegrees * static_cast<double>(i);
         out << std::setprecision(1) << "  " << std::setw(5)
             << std::fmod(middle + 360.0 - 0.5 * kBarDegrees, 360.0) << ".." << std::setw(5)
-            << middle + 0.5 * kBarDegrees << " deg  " << std::left << std::setw(static_cast<int>(kMostStars))
+            << middle + 0.5 * kBarDegrees << " deg  " << std::left << std::setw(static_cast<int>(kMaxStars))
             << std::string(stars, '#') << std::right << std::setprecision(2) << "  saturation "
             << levelAt(bar.saturation, 0.1, false) << ".." << levelAt(bar.saturation, 0.9, true)
             << ", lightness " << levelAt(bar.lightness, 0.1, false) << ".."

@@ -9,12 +9,12 @@
 
 namespace fathom {
 
-// Counts pixels whose colour is clear enough for a hue: saturation of at least kLeastSaturation, lightness of
+// Counts pixels whose colour is clear enough for a hue: saturation of at least kMinSaturation, lightness of
 // kDark to kBright, all HSL as the classes use them.
 class HueStudy {
 public:
     static constexpr size_t kHues = 24; // bars of 15 degrees, the first around 0
-    static constexpr double kLeastSaturation = 0.15, kDark = 0.05, kBright = 0.95;
+    static constexpr double kMinSaturation = 0.15, kDark = 0.05, kBright = 0.95;
 
     void add(std::span<const uint32_t> colours); // 0xAABBGGRR
     uint64_t count(size_t bar) const { return bars_[bar].count; }

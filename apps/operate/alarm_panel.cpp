@@ -11,7 +11,7 @@ namespace fathom::operate {
 namespace {
 
 constexpr ImU32 kDimmed = IM_COL32(150, 162, 180, 200);
-constexpr size_t kMostLines = 3;
+constexpr size_t kMaxLines = 3;
 
 std::string timeText(double t) {
     char text[32];
@@ -48,7 +48,7 @@ void drawAlarmLines(Console& console, const Alarms& alarms, ImVec2 at, ImVec2 ro
                 bottom = at.y + room.y - 2.2f * ImGui::GetTextLineHeight(); // one more line fits
     size_t lines = 0;
     for (const Alarm* alarm : order) {
-        if (lines++ == kMostLines || (lines > 1 && at.y > bottom)) {
+        if (lines++ == kMaxLines || (lines > 1 && at.y > bottom)) {
             const std::string more = std::to_string(order.size() - lines + 1) + " more in the tab Alarms";
             at.y += alarmLine(at, width, more, kDimmed, false) + 3.0f;
             break;

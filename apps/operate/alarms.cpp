@@ -10,7 +10,7 @@ namespace fathom::operate {
 
 namespace {
 
-constexpr size_t kMostEnded = 100; // alarms in the history
+constexpr size_t kMaxEnded = 100; // alarms in the history
 
 } // namespace
 
@@ -63,7 +63,7 @@ void Alarms::update(Alarm& alarm, bool on, const Text& text, double t, Filter fi
     } else if (alarm.active && t - alarm.last >= settle_ * filter.hold) {
         alarm.active = false;
         history_.push_front({alarm.level, alarm.what, alarm.since, alarm.last});
-        history_.resize(std::min(history_.size(), kMostEnded));
+        history_.resize(std::min(history_.size(), kMaxEnded));
     }
 }
 

@@ -9,8 +9,8 @@ namespace fathom::operate {
 
 namespace {
 
-constexpr int kLeastWidth = 640;
-constexpr size_t kLeastOutline = 24;  // [pixels]
+constexpr int kMinWidth = 640;
+constexpr size_t kMinOutline = 24;    // [pixels]
 constexpr int kHatch = 12, kLine = 2; // [pixels] pattern of the regions
 constexpr int kUnknownHatch = 9;
 
@@ -90,7 +90,7 @@ ImageView halved(ImageView view) {
 
 // The outline of a mask in an image with `step` times its pixels in each direction.
 std::vector<OutlineLine> outlineIn(const std::vector<uint8_t>& mask, const ImageView& view, int step) {
-    const size_t least = kLeastOutline / static_cast<size_t>(step);
+    const size_t least = kMinOutline / static_cast<size_t>(step);
     std::vector<OutlineLine> lines = traceOutline(mask, view.width(), view.height(), least);
     for (OutlineLine& line : lines) {
         for (glm::dvec2& p : line) {
@@ -105,7 +105,7 @@ std::vector<OutlineLine> outlineIn(const std::vector<uint8_t>& mask, const Image
 void CameraGround::compose(const SceneSnapshot& scene, const Selection& selection) {
     const CameraInfo& camera = scene.set.camera;
     const bool coloured = camera.hasColour && scene.colour.size() == camera.colour.pixels();
-    view_ = imageView(camera, scene.set.baseTcamera, !coloured, kLeastWidth);
+    view_ = imageView(camera, scene.set.baseTcamera, !coloured, kMinWidth);
     pixels_.resize(static_cast<size_t>(view_.width()) * static_cast<size_t>(view_.height()));
     paintImage(scene, selection);
     paintRegions(scene.set);

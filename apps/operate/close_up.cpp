@@ -16,7 +16,7 @@ namespace {
 constexpr double kEyeAway = 50.0; // [m]
 constexpr double kSlab = 0.01;    // [m] half thickness for points of the camera
 constexpr size_t kCells = 96;     // per edge, for the section
-constexpr double kMostSamples = 20000.0;
+constexpr double kMaxSamples = 20000.0;
 constexpr ImU32 kPlateInk = IM_COL32(12, 16, 23, 215);
 
 // The middle of the view [m] and the length from there to its edges [m]: of a tool with room around it, or of
@@ -26,7 +26,7 @@ struct Frame {
     double reach = 0.12;
 };
 Frame frameOf(const DepthCues& cues) {
-    constexpr double kAround = 0.08, kMostReach = 0.25; // [m]
+    constexpr double kAround = 0.08, kMaxReach = 0.25; // [m]
     Frame frame;
     for (const Sphere& s : cues.tool) {
         frame.middle += s.centre / static_cast<double>(cues.tool.size());
@@ -35,7 +35,7 @@ Frame frameOf(const DepthCues& cues) {
     for (const Sphere& s : cues.tool) {
         extent = std::max(extent, glm::distance(frame.middle, s.centre) + s.radius);
     }
-    if (extent + kAround > kMostReach) { // an arm
+    if (extent + kAround > kMaxReach) { // an arm
         frame.middle = cues.nearest ? cues.nearest->from : cues.tool.back().centre;
         return frame;
     }
@@ -107,7 +107,7 @@ std::vector<dvec3> surfaceNear(const Fixtures& set, const Pose& eyeTbase, double
     if (set.depth.size() != lens.pixels()) {
         return points;
     }
-    const auto step = std::max(1u, static_cast<uint32_t>(std::ceil(std::sqrt(lens.pixels() / kMostSamples))));
+    const auto step = std::max(1u, static_cast<uint32_t>(std::ceil(std::sqrt(lens.pixels() / kMaxSamples))));
     const Pose eyeTcamera = eyeTbase * set.baseTcamera;
     const dvec3 along = glm::conjugate(eyeTcamera.rotation) * dvec3(0.0, 0.0, 1.0); // camera axes
     const bool straight = lens.pinhole();

@@ -26,7 +26,7 @@ void DiskSpace::look(const std::filesystem::path& folder, double now) {
 }
 
 std::string DiskSpace::problem() const {
-    return left_ && *left_ < kLeastFree ? "only " + byteText(*left_) + " of the disk left" : "";
+    return left_ && *left_ < kMinFree ? "only " + byteText(*left_) + " of the disk left" : "";
 }
 
 std::string byteText(uint64_t bytes) {

@@ -11,7 +11,7 @@
 namespace fathom::operate {
 
 // A recording ends before less than this is free [bytes], so that other programs can still write.
-inline constexpr uint64_t kLeastFree = 100'000'000;
+inline constexpr uint64_t kMinFree = 100'000'000;
 
 // Free space [bytes] on the disk of a folder that need not exist yet; empty when it is unknown.
 std::optional<uint64_t> freeSpace(const std::filesystem::path& folder);

@@ -12,7 +12,7 @@ namespace fathom::operate {
 
 namespace {
 
-constexpr size_t kMostMarks = 10'000;
+constexpr size_t kMaxMarks = 10'000;
 
 bool earlier(const EventMark& a, const EventMark& b) {
     return a.t < b.t;
@@ -41,7 +41,7 @@ std::vector<EventMark> readMarks(const std::filesystem::path& folder) {
         if (fields.size() != 2 || !parseNumber(fields[0], mark.t) || !std::isfinite(mark.t) || mark.t < 0.0) {
             refuse(std::string(line.text), "a time in seconds from 0 on, and a name");
         }
-        if (marks.size() >= kMostMarks) {
+        if (marks.size() >= kMaxMarks) {
             refuse("one more", "10000 marks");
         }
         mark.name = fields[1].substr(0, 80);
@@ -52,7 +52,7 @@ std::vector<EventMark> readMarks(const std::filesystem::path& folder) {
 }
 
 void addMark(const std::filesystem::path& folder, std::vector<EventMark>& marks, double t) {
-    if (marks.size() >= kMostMarks) {
+    if (marks.size() >= kMaxMarks) {
         throw Error((folder / kMarksFile).string() + ": has 10000 marks already");
     }
     std::vector<EventMark> next = marks;

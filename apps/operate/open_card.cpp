@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr size_t kMostShown = 200, kMostEntries = 100'000, kMostLetters = 36;
+constexpr size_t kMaxShown = 200, kMaxEntries = 100'000, kMaxCardLetters = 36;
 
 bool isRecording(const fs::path& folder) {
     std::error_code no;
@@ -60,7 +60,7 @@ std::vector<std::string> recordingsIn(const fs::path& in) {
     std::vector<std::pair<fs::file_time_type, std::string>> found;
     std::error_code failed;
     fs::directory_iterator entries(in.empty() ? fs::path(".") : in, failed);
-    for (size_t n = 0; !failed && entries != fs::directory_iterator() && n < kMostEntries; ++n) {
+    for (size_t n = 0; !failed && entries != fs::directory_iterator() && n < kMaxEntries; ++n) {
         if (isRecording(entries->path())) {
             std::error_code unknown;
             found.emplace_back(fs::last_write_time(entries->path(), unknown), entries->path().string());
@@ -72,7 +72,7 @@ std::vector<std::string> recordingsIn(const fs::path& in) {
                     ")");
     }
     std::sort(found.rbegin(), found.rend());
-    found.resize(std::min(found.size(), kMostShown));
+    found.resize(std::min(found.size(), kMaxShown));
     std::vector<std::string> names;
     for (auto& [time, name] : found) {
         names.push_back(std::move(name));
@@ -120,7 +120,7 @@ void drawOpenCard(Console& console, ImVec2 corner, ImVec2 size) {
             const fs::path path(card.choices[i]);
             const std::string name = (path.has_filename() ? path.filename() : path).string();
             const std::string shown =
-                name.size() <= kMostLetters ? name : name.substr(0, kMostLetters) + "...";
+                name.size() <= kMaxCardLetters ? name : name.substr(0, kMaxCardLetters) + "...";
             if (ImGui::Selectable((shown + "##" + std::to_string(i)).c_str(), card.chosen == i)) {
                 card.chosen = i;
                 card.clicked = true;

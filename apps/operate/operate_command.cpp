@@ -18,8 +18,8 @@ namespace fathom {
 namespace {
 
 void checkJob(const std::vector<std::string>& lines) {
-    constexpr size_t kMostLines = 2, kLongest = 100;
-    if (lines.size() > kMostLines) {
+    constexpr size_t kMaxLines = 2, kLongest = 100;
+    if (lines.size() > kMaxLines) {
         throw BadInput("operate", "--job", lines.back(), "at most two lines");
     }
     for (const std::string& line : lines) {

@@ -5,12 +5,12 @@ namespace fathom::operate {
 
 namespace {
 
-constexpr size_t kMostPixels = 128; // of a run, or of a piece that has none
+constexpr size_t kMaxPackedPixels = 128; // of a run, or of a piece that has none
 
 // Number of equal pixels from here on.
 size_t runAt(std::span<const uint32_t> colour, size_t i) {
     size_t n = 1;
-    while (n < kMostPixels && i + n < colour.size() && ((colour[i + n] ^ colour[i]) & 0xffffffu) == 0) {
+    while (n < kMaxPackedPixels && i + n < colour.size() && ((colour[i + n] ^ colour[i]) & 0xffffffu) == 0) {
         ++n;
     }
     return n;
@@ -67,7 +67,7 @@ std::vector<uint16_t> unpackDepth(std::span<const uint8_t> packed, size_t count)
 // less 127.
 std::vector<uint8_t> packColour(std::span<const uint32_t> colour) {
     std::vector<uint8_t> out;
-    out.reserve(colour.size() * 3 + colour.size() / kMostPixels + 1);
+    out.reserve(colour.size() * 3 + colour.size() / kMaxPackedPixels + 1);
     for (size_t i = 0; i < colour.size();) {
         if (const size_t run = runAt(colour, i); run > 1) {
             out.push_back(static_cast<uint8_t>(run + 127));
@@ -78,7 +78,7 @@ std::vector<uint8_t> packColour(std::span<const uint32_t> colour) {
         const size_t head = out.size();
         out.push_back(0);
         size_t n = 0;
-        for (; n < kMostPixels && i < colour.size() && (n == 0 || runAt(colour, i) == 1); ++n) {
+        for (; n < kMaxPackedPixels && i < colour.size() && (n == 0 || runAt(colour, i) == 1); ++n) {
             putPixel(out, colour[i++]);
         }
         out[head] = static_cast<uint8_t>(n - 1);

@@ -12,7 +12,7 @@ namespace fathom::operate {
 
 namespace {
 
-constexpr size_t kMostGhosts = 1500; // spheres
+constexpr size_t kMaxGhosts = 1500; // spheres
 
 // How far [m] the spheres reach over a sphere; negative: they do not touch it.
 double coverOf(std::span<const Sphere> ghost, const Sphere& what) {
@@ -33,7 +33,7 @@ std::vector<Sphere> ghostOf(const Fixtures& set, std::span<const uint8_t> select
     }
     const auto points = static_cast<size_t>(std::count(selection.begin(), selection.end(), uint8_t{1}));
     const auto step = static_cast<uint32_t>(
-        std::ceil(std::sqrt(static_cast<double>(points) / static_cast<double>(kMostGhosts))));
+        std::ceil(std::sqrt(static_cast<double>(points) / static_cast<double>(kMaxGhosts))));
     for (uint32_t v = 0; v < lens.height; v += std::max(1u, step)) {
         for (uint32_t u = 0; u < lens.width; u += std::max(1u, step)) {
             const size_t i = static_cast<size_t>(v) * lens.width + u;

@@ -82,13 +82,13 @@ std::vector<ImVec2> crossings(const std::vector<ImVec2>& hull, float c) {
 
 // Like the regions of points in the camera's image (camera_ground.cpp).
 void fillHatched(ImDrawList& list, const std::vector<ImVec2>& hull) {
-    constexpr float kApart = 12.0f, kMostLines = 400.0f; // [pixels]
+    constexpr float kApart = 12.0f, kMaxLines = 400.0f; // [pixels]
     list.AddConvexPolyFilled(hull.data(), static_cast<int>(hull.size()), IM_COL32(237, 41, 36, 62));
     float low = 1e9f, high = -1e9f;
     for (const ImVec2& p : hull) {
         low = std::min(low, p.x + p.y), high = std::max(high, p.x + p.y);
     }
-    const float apart = std::max(kApart, (high - low) / kMostLines);
+    const float apart = std::max(kApart, (high - low) / kMaxLines);
     for (float c = std::ceil(low / apart) * apart; c < high; c += apart) {
         const std::vector<ImVec2> ends = crossings(hull, c);
         if (ends.size() == 2) {

@@ -13,7 +13,7 @@ namespace fathom::operate {
 namespace {
 
 constexpr double kMaxPixels = 2.5e6; // limit for all spheres of an image together
-constexpr double kMostLayers = 12.0; // spheres over each other, on average
+constexpr double kMaxGroundLayers = 12.0; // spheres over each other, on average
 constexpr double kNearest = 0.02;    // [m]
 constexpr float kNothing = 1e9f;     // [m] depth of a pixel without a point
 
@@ -221,7 +221,7 @@ void SpaceGround::splatRegions(const Fixtures& set) {
         const double r = view_.lens.fx * double{set.spheres.radius[i]} / z;
         cost += 8.0 * 3.14 * r * r;
     }
-    const double most = std::min(kMaxPixels, kMostLayers * static_cast<double>(pixels_.size()));
+    const double most = std::min(kMaxPixels, kMaxGroundLayers * static_cast<double>(pixels_.size()));
     const size_t step = std::max<size_t>(1, static_cast<size_t>(std::ceil(cost / most)));
     for (size_t i = 0; i < set.spheres.size(); i += step) {
         const dvec3 c = view_.cameraTbase.apply(regionCentre(set, i));

@@ -16,10 +16,10 @@ constexpr const char* kShortHead = "t_s,fx,fy,fz,tx,ty,tz,contacts,state";
 constexpr size_t kShort = 9, kSevenJoints = 37, kTouchColumns = 13;
 constexpr size_t kFirstJoints = 7; // before the grasp; the others follow it
 constexpr const char* kMoreJoints = ",q8";
-constexpr size_t kTwelveJoints = kSevenJoints + kMostJoints - kFirstJoints;
+constexpr size_t kTwelveJoints = kSevenJoints + kMaxJoints - kFirstJoints;
 constexpr const char* kResidual = ",residual_fx";
 constexpr size_t kAll = kTwelveJoints + 6;
-constexpr size_t kMaxLoggedTicks = 4'000'000, kMaxTouchRows = kMaxLoggedTicks * kMostTouches;
+constexpr size_t kMaxLoggedTicks = 4'000'000, kMaxTouchRows = kMaxLoggedTicks * kMaxTouches;
 
 void put(std::ostream& out, const dvec3& v) {
     out << "," << v.x << "," << v.y << "," << v.z;
@@ -141,7 +141,7 @@ void readTouches(const std::filesystem::path& file, TickLog& log) {
             row.refuse(", t_s", std::to_string(row[0]), "the time of a row of wrench.csv, ascending");
         }
         Moment& moment = log.moments[tick];
-        if (log.touches.size() >= kMaxTouchRows || moment.touchCount >= kMostTouches) {
+        if (log.touches.size() >= kMaxTouchRows || moment.touchCount >= kMaxTouches) {
             row.refuse("", "one more", "8 touches per tick");
         }
         moment.firstTouch = moment.touchCount == 0 ? log.touches.size() : moment.firstTouch;
@@ -177,7 +177,7 @@ void writeTick(std::ostream& wrench, std::ostream& touches, double t, int64_t fr
         wrench << "," << tick.arm.posture.q[k];
     }
     wrench << "," << tick.arm.posture.grasp;
-    for (size_t k = kFirstJoints; k < kMostJoints; ++k) {
+    for (size_t k = kFirstJoints; k < kMaxJoints; ++k) {
         wrench << "," << tick.arm.posture.q[k];
     }
     put(wrench, tick.residual.force);

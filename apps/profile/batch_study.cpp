@@ -15,12 +15,12 @@ namespace fathom::profile {
 namespace {
 
 constexpr size_t kBatchPoses = 0, kBatchLeaves = 1, kListedPairs = 3; // of StudyRow::more
-constexpr double kMostPairs = 1e8;    // that the oracle compares per tool and set
+constexpr double kMaxPairs = 1e8;     // that the oracle compares per tool and set
 constexpr size_t kFirstVerified = 16; // poses, then some more, evenly spread
 constexpr size_t kMoreVerified = 48;
 constexpr Repeats kOnCpu{3, 20, 0.2};
-constexpr double kMostCpuSeconds = 1.0; // of a batch on the CPU, all its repetitions together
-constexpr double kBatchGoalMs = 1.0;    // 4096 poses of 256 leaves at 60 k spheres
+constexpr double kMaxCpuSeconds = 1.0; // of a batch on the CPU, all its repetitions together
+constexpr double kBatchGoalMs = 1.0;   // 4096 poses of 256 leaves at 60 k spheres
 const char* const kGpuBatch = "GPU";
 const char* const kCpuBatch = "CPU";
 
@@ -82,7 +82,7 @@ Expected expectedOf(const BatchRig& rig, const Tool& tool, const std::vector<Pos
     }
     expected.cpuSeconds = clocks.wallMs() / 1e3 / static_cast<double>(expected.gaps.size());
     const double pairs = static_cast<double>(tool.leafCount()) * static_cast<double>(set.spheres.size());
-    const auto brute = static_cast<size_t>(std::min(4.0, kMostPairs / pairs));
+    const auto brute = static_cast<size_t>(std::min(4.0, kMaxPairs / pairs));
     for (size_t i = 0; i < std::min(brute, poses.size()); ++i) {
         verify(expected.gaps[i].second == oracleSmallestPair(tool, poses[i], set), "batch", rig.name(),
                "the search on the host differs from brute force at pose " + std::to_string(i));
@@ -153,7 +153,7 @@ void addRows(const StudyContext& context, Study& study, const BatchRig& rig,
             const std::vector<Pose> some(poses.begin(), poses.begin() + static_cast<long>(count));
             study.rows.push_back(gpuBatchRow(context, rig, tool, some, expected));
             const double runs = static_cast<double>(kOnCpu.least + 1), one = expected.cpuSeconds;
-            if (runs * one * static_cast<double>(count) <= kMostCpuSeconds) {
+            if (runs * one * static_cast<double>(count) <= kMaxCpuSeconds) {
                 study.rows.push_back(cpuBatchRow(rig, tool, some));
             }
         }
@@ -184,7 +184,7 @@ PlotPanel batchPanel(const Study& study) {
 void concludeBatch(Study& study) {
     study.findings.push_back("CPU: medians of " + std::to_string(kOnCpu.least) + " to " +
                              std::to_string(kOnCpu.most) + " runs; batches that would take over " +
-                             digits(kMostCpuSeconds) + " s are not timed");
+                             digits(kMaxCpuSeconds) + " s are not timed");
     for (const StudyRow& row : study.rows) {
         if (row.setting == "GPU 4096 poses, 256 leaves") {
             const double ms = submitTime(row);

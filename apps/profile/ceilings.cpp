@@ -15,7 +15,7 @@ namespace fathom::profile {
 namespace {
 
 constexpr uint64_t kHostCopyBytes = 64u << 20;
-constexpr size_t kLeastPart = 1u << 20; // bytes
+constexpr size_t kMinPart = 1u << 20; // bytes
 constexpr uint32_t kChains = 16, kStepsARound = 4;
 
 // Size of one arithmetic dispatch. It fills a GPU several times and takes about a millisecond; on a CPU
@@ -95,7 +95,7 @@ double hostCopy(uint32_t threads, const Repeats& repeats) {
     repeat(
         repeats,
         [&] {
-            inParts(&workers, kHostCopyBytes, kLeastPart,
+            inParts(&workers, kHostCopyBytes, kMinPart,
                     [&](size_t begin, size_t end) { std::memcpy(&to[begin], &from[begin], end - begin); });
         },
         [&](const Clocks& c) { least = std::min(least, c.wallMs()); });

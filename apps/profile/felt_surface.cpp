@@ -19,7 +19,7 @@ namespace fathom::profile {
 namespace {
 
 constexpr double kDeep = 0.005, kStart = 0.02; // [m] below the surface; in front of it at the start
-constexpr double kMostForce = 0.7;             // share of the device's limit, beyond which no ripple shows
+constexpr double kMaxForce = 0.7;              // share of the device's limit, beyond which no ripple shows
 constexpr double kLanding = 0.4;               // [s] until the figures count
 constexpr size_t kPlaces = 3;
 constexpr double kBeside = 0.05;           // [m] from the tool's path to the truth that does not matter
@@ -159,7 +159,7 @@ FeltSurface FeltPlaces::feel(const Scene& scene, const std::vector<Fixtures>& fr
         StillHand hand(scene, tool_, frames, moved(place.rest, -kStart * place.in));
         FeltTrace trace(hand.options().period);
         const double stiffness = hand.options().springs.stiffness;
-        const double deepest = std::min(kDeep, kMostForce * hand.options().forceLimit / stiffness);
+        const double deepest = std::min(kDeep, kMaxForce * hand.options().forceLimit / stiffness);
         const auto ticks = static_cast<int>((kLanding + seconds) / hand.options().period);
         for (int k = 0; k < ticks; ++k) {
             const double t = k * hand.options().period;

@@ -9,7 +9,7 @@ namespace fathom::profile {
 
 namespace {
 
-constexpr size_t kLeastForP99 = 100;
+constexpr size_t kMinForP99 = 100;
 
 double threadSeconds() {
     timespec t{};
@@ -28,7 +28,7 @@ Spread spreadOf(std::vector<double> values) {
         return values[std::max<size_t>(1, (percent * values.size() + 99) / 100) - 1];
     };
     const double none = std::numeric_limits<double>::quiet_NaN();
-    return {rank(50), rank(90), values.size() >= kLeastForP99 ? rank(99) : none, values.size()};
+    return {rank(50), rank(90), values.size() >= kMinForP99 ? rank(99) : none, values.size()};
 }
 
 Clocks::Clocks()

@@ -20,12 +20,12 @@ using glm::dvec2;
 
 constexpr int kRing[16][2] = {{5, 0},  {5, 2},   {4, 4},   {2, 5},   {0, 5},  {-2, 5}, {-4, 4}, {-5, 2},
                               {-5, 0}, {-5, -2}, {-4, -4}, {-2, -5}, {0, -5}, {2, -5}, {4, -4}, {5, -2}};
-constexpr int kMargin = 7;          // [pixels] from the image's edge
-constexpr double kWeakest = 0.2;    // of the strongest response
-constexpr double kOff = 0.35;       // of a square's edge: tolerance of a predicted corner
-constexpr size_t kSeeds = 12;       // seed corners of grids
-constexpr double kWindow = 2.0;     // [pixels] sigma of the quadric's weights
-constexpr int kLeastContrast = 160; // of the response: 10 grey levels at every sample
+constexpr int kMargin = 7;        // [pixels] from the image's edge
+constexpr double kWeakest = 0.2;  // of the strongest response
+constexpr double kOff = 0.35;     // of a square's edge: tolerance of a predicted corner
+constexpr size_t kSeeds = 12;     // seed corners of grids
+constexpr double kWindow = 2.0;   // [pixels] sigma of the quadric's weights
+constexpr int kMinContrast = 160; // of the response: 10 grey levels at every sample
 
 struct GreyView {
     std::span<const uint8_t> grey;
@@ -96,7 +96,7 @@ std::vector<dvec2> saddles(const GreyView& image, size_t most) {
     const auto at = [&](int x, int y) -> int& {
         return field[static_cast<size_t>(y) * static_cast<size_t>(image.width) + x];
     };
-    int strongest = kLeastContrast;
+    int strongest = kMinContrast;
     for (int y = kMargin; y < image.height - kMargin; ++y) {
         for (int x = kMargin; x < image.width - kMargin; ++x) {
             at(x, y) = response(image, x, y);
@@ -106,7 +106,7 @@ std::vector<dvec2> saddles(const GreyView& image, size_t most) {
     std::vector<Peak> peaks;
     for (int y = kMargin; y < image.height - kMargin; ++y) {
         for (int x = kMargin; x < image.width - kMargin; ++x) {
-            bool peak = at(x, y) >= std::max(kLeastContrast, static_cast<int>(kWeakest * strongest));
+            bool peak = at(x, y) >= std::max(kMinContrast, static_cast<int>(kWeakest * strongest));
             for (int dy = -4; dy <= 4 && peak; ++dy) {
                 for (int dx = -4; dx <= 4 && peak; ++dx) {
                     const int other = at(x + dx, y + dy);

@@ -21,7 +21,7 @@ namespace fathom {
 
 namespace {
 
-constexpr size_t kMostListed = 20;  // outliers
+constexpr size_t kMaxListed = 20;   // outliers
 constexpr double kBadCorners = 0.1; // share of corners that a finder may mistake
 
 struct RegisterOptions {
@@ -110,7 +110,7 @@ void runRegister(const RegisterOptions& options) {
     std::cout << "# " << pairs.size() - robust.outliers.size() << " of " << pairs.size()
               << " pairs of points fit; RMS distance " << 1e3 * fit.sigma << " mm, largest "
               << 1e3 * fit.worst << " mm (" << fit.worstName << ")\n";
-    for (size_t i = 0; i < std::min(robust.outliers.size(), kMostListed); ++i) {
+    for (size_t i = 0; i < std::min(robust.outliers.size(), kMaxListed); ++i) {
         const RobustFit::Outlier& outlier = robust.outliers[i];
         std::cout << "# left out: " << outlier.name << ", " << 1e3 * outlier.distance << " mm away\n";
     }

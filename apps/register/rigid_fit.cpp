@@ -10,7 +10,7 @@ namespace fathom {
 
 namespace {
 
-constexpr double kLeastSpread = 1e-3; // [m] across the points' main direction
+constexpr double kMinSpread = 1e-3; // [m] across the points' main direction
 
 Eigen::Vector3d toEigen(const dvec3& v) {
     return {v.x, v.y, v.z};
@@ -67,7 +67,7 @@ RigidFit fitRigid(std::span<const PointPair> pairs, const std::string& source) {
     }
     const Moments moments(pairs);
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> shape(moments.spread);
-    if (!(shape.eigenvalues()(1) > kLeastSpread * kLeastSpread)) {
+    if (!(shape.eigenvalues()(1) > kMinSpread * kMinSpread)) {
         throw BadInput(source, "pairs", "all on one line", "points that span a surface");
     }
     RigidFit fit;

@@ -13,11 +13,11 @@ namespace {
 
 using Pairs = std::span<const PointPair>;
 
-constexpr size_t kAllTriples = 20;       // pairs up to which every triple is tried
-constexpr int kTriples = 1500;           // tried of more pairs
-constexpr double kLeastTolerance = 5e-3; // [m] a hand-held probe is no better
-constexpr double kMostScale = 0.03;      // relative difference of distances
-constexpr size_t kWorst = 3;             // pairs named
+constexpr size_t kAllTriples = 20;     // pairs up to which every triple is tried
+constexpr int kTriples = 1500;         // tried of more pairs
+constexpr double kMinTolerance = 5e-3; // [m] a hand-held probe is no better
+constexpr double kMaxScale = 0.03;     // relative difference of distances
+constexpr size_t kWorst = 3;           // pairs named
 
 double distanceOf(const Pose& pose, const PointPair& pair) {
     return glm::distance(pose.apply(pair.camera), pair.base);
@@ -154,15 +154,15 @@ bool isMirrored(Pairs pairs, const Consensus& found) {
     constexpr double kBetter = 0.3;
     const std::vector<PointPair> image = mirrored(pairs);
     const double plain = rankedDistance(poseOf(pairs), pairs, pairs.size() - 1);
-    return (plain > kLeastTolerance &&
+    return (plain > kMinTolerance &&
             rankedDistance(poseOf(image), image, image.size() - 1) < kBetter * plain) ||
-           (found.distance > kLeastTolerance && Search(image).run().distance < kBetter * found.distance);
+           (found.distance > kMinTolerance && Search(image).run().distance < kBetter * found.distance);
 }
 
 std::string doubtOf(Pairs pairs, const FitLimits& limits, const Consensus& found, const RobustFit& robust) {
     const std::string worst = named(farthest(pairs, robust.fit.baseTcamera, 0.0));
     const double scale = scaleOf(pairs);
-    if (!(std::abs(scale - 1.0) <= kMostScale)) {
+    if (!(std::abs(scale - 1.0) <= kMaxScale)) {
         return print("distances in the base frame are %.6g times those in the camera frame (units?)", scale) +
                worst;
     }
@@ -189,7 +189,7 @@ RobustFit fitRobust(std::span<const PointPair> pairs, const FitLimits& limits, c
     const Consensus found = Search(pairs).run();
     // Few pairs fit themselves closely, so their scatter is estimated too low (Rousseeuw and Leroy 1987).
     const double spread = 3.0 * (1.0 + 5.0 / (static_cast<double>(pairs.size()) - 2.0)) * found.distance;
-    const double tolerance = std::clamp(spread, kLeastTolerance, std::max(kLeastTolerance, limits.residual));
+    const double tolerance = std::clamp(spread, kMinTolerance, std::max(kMinTolerance, limits.residual));
     Pose pose = found.distance < HUGE_VAL ? found.pose : robust.fit.baseTcamera;
     for (int round = 0; round < 10; ++round) {
         std::vector<PointPair> inliers;

@@ -11,7 +11,7 @@ namespace fathom {
 
 namespace {
 
-constexpr size_t kLeastPixels = 50;
+constexpr size_t kMinPixels = 50;
 constexpr double kMaxOffPlane = 0.01; // of the distance
 
 struct Plane {
@@ -19,7 +19,7 @@ struct Plane {
 };
 
 std::optional<Plane> fitPlane(const std::vector<dvec3>& points) {
-    if (points.size() < kLeastPixels) {
+    if (points.size() < kMinPixels) {
         return std::nullopt;
     }
     dvec3 mean(0.0);

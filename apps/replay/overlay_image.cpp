@@ -10,9 +10,8 @@
 namespace fathom {
 
 void writeOverlay(const std::filesystem::path& file, const OverlayInput& input) {
-    constexpr int kLeastWidth = 960;
-    const ImageView view =
-        imageView(input.camera, input.baseTcamera, !overlay::hasColour(input), kLeastWidth);
+    constexpr int kMinWidth = 960;
+    const ImageView view = imageView(input.camera, input.baseTcamera, !overlay::hasColour(input), kMinWidth);
     if (view.width() <= 0 || view.height() <= 0) {
         throw Error(file.string() + ": the camera has no image size");
     }

@@ -22,7 +22,7 @@ struct Canvas {
     double size; // scale of lines and text; 1 up to a width of 1280 pixels
 };
 
-constexpr double kLeastArrow = 0.01; // [N] smaller forces have no arrow
+constexpr double kMinArrow = 0.01; // [N] smaller forces have no arrow
 
 // Which marks are inside the image; the legend names only these. A hand that coincides with the tool is not
 // seen.

@@ -228,7 +228,7 @@ void drawTool(const Canvas& canvas, const OverlayInput& input) {
 void drawForce(const Canvas& canvas, const OverlayInput& input) {
     constexpr double kMetresPerNewton = 0.006;
     const dvec3& force = input.tick.wrench.force;
-    if (!isFinite(force) || !isFinite(input.tick.tool) || glm::length(force) < kLeastArrow) {
+    if (!isFinite(force) || !isFinite(input.tick.tool) || glm::length(force) < kMinArrow) {
         return;
     }
     const Pixel from = canvas.view.ofBase(input.tick.tool.position);

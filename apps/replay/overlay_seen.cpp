@@ -38,8 +38,8 @@ SeenLayers seenLayers(const ImageView& view, const OverlayInput& input) {
     if (input.set != nullptr && input.set->frame >= 0) {
         const Fixtures& set = *input.set;
         const RegionMasks masks = regionMasks(view, set);
-        constexpr std::ptrdiff_t kLeastHeld = 100; // [pixels]
-        seen.held = std::count(masks.held.begin(), masks.held.end(), 1) >= kLeastHeld;
+        constexpr std::ptrdiff_t kMinHeld = 100; // [pixels]
+        seen.held = std::count(masks.held.begin(), masks.held.end(), 1) >= kMinHeld;
         seen.regions = std::find(masks.seen.begin(), masks.seen.end(), 1) != masks.seen.end();
         for (size_t i = 0; i < set.spheres.size() && !seen.points; ++i) {
             seen.points = isInside(view, view.ofBase(regionCentre(set, i)));
@@ -52,7 +52,7 @@ SeenLayers seenLayers(const ImageView& view, const OverlayInput& input) {
     seen.tool = seesLeaves(view, input.leaves, tick.tool);
     seen.hand = seesLeaves(view, input.leaves, tick.device) &&
                 (!isFinite(tick.tool) || differ(view, input.leaves, tick.tool, tick.device));
-    seen.force = isFinite(tick.wrench.force) && glm::length(tick.wrench.force) >= kLeastArrow &&
+    seen.force = isFinite(tick.wrench.force) && glm::length(tick.wrench.force) >= kMinArrow &&
                  isFinite(tick.tool) && isInside(view, view.ofBase(tick.tool.position));
     return seen;
 }

@@ -147,9 +147,9 @@ void drawPhaseStrip(const Image& image, const TraceHistory& history, const PlotA
 
 bool drawFrameTicks(const Image& image, const TraceHistory& history, const PlotAxis& time,
                     const Panel& panel) {
-    constexpr double kLeastApart = 4.0; // [pixels]
+    constexpr double kMinApart = 4.0; // [pixels]
     if (history.newFrames() == 0 ||
-        (time.to - time.from) / static_cast<double>(history.newFrames()) < kLeastApart) {
+        (time.to - time.from) / static_cast<double>(history.newFrames()) < kMinApart) {
         return false;
     }
     for (const TraceBin& bin : history.bins()) {

@@ -75,9 +75,9 @@ private:
 };
 
 void check(const SpheresOptions& options) {
-    if (options.cover.leaves < 1 || options.cover.leaves > kMostCoverSpheres) {
+    if (options.cover.leaves < 1 || options.cover.leaves > kMaxCoverSpheres) {
         throw BadInput("spheres", "--leaves", std::to_string(options.cover.leaves),
-                       "1 to " + std::to_string(kMostCoverSpheres));
+                       "1 to " + std::to_string(kMaxCoverSpheres));
     }
 }
 

@@ -12,7 +12,7 @@ namespace fathom::stability {
 namespace {
 
 constexpr uint32_t kWide = 160, kHigh = 120; // [pixels]
-constexpr uint32_t kMostFrames = 1000000;
+constexpr uint32_t kMaxFrames = 1000000;
 constexpr double kFrameRate = 30.0; // [Hz]
 constexpr double kWall = 0.6;       // [m] scene "wall"
 
@@ -48,7 +48,7 @@ SimulatedCamera FeelRig::cameraOf(bool noise) const {
     SimulatedCameraOptions options;
     options.width = kWide, options.height = kHigh;
     options.focal = spec_.focal;
-    options.frames = kMostFrames;
+    options.frames = kMaxFrames;
     options.metresPerUnit = 0.0001;
     options.noise = noise;
     options.water = options.motion = false;

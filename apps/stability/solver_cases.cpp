@@ -19,7 +19,7 @@ size_t sizeOf(RunLength runLength, size_t full) {
 }
 
 size_t someRows(Rng& rng) {
-    return std::min<size_t>(SolverTrial::kMostRows, static_cast<size_t>(rng.logUniform(1.0, 513.0)));
+    return std::min<size_t>(SolverTrial::kMaxRows, static_cast<size_t>(rng.logUniform(1.0, 513.0)));
 }
 
 std::string counts(const SolverTally& t) {
@@ -116,7 +116,7 @@ Outcome iterationCase(RunLength runLength) {
     SolverTrial trial;
     SolverTally tally;
     Outcome::Curve curve{"changes of the active set", "rows", "share of the guard", {}, {}, true, false};
-    for (size_t rows = 1; rows <= SolverTrial::kMostRows; rows *= 2) {
+    for (size_t rows = 1; rows <= SolverTrial::kMaxRows; rows *= 2) {
         SolverTally some;
         const size_t sets = sizeOf(runLength, 800);
         for (size_t i = 0; i < sets; ++i) {

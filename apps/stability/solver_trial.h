@@ -33,8 +33,8 @@ struct SolverTally {
 class SolverTrial {
 public:
     explicit SolverTrial(int unknowns = 6)
-        : solver_(unknowns, kMostRows) {}
-    static constexpr size_t kMostRows = 512;
+        : solver_(unknowns, kMaxRows) {}
+    static constexpr size_t kMaxRows = 512;
 
     // Solves the set, adds the checks to `tally`, and returns the solver's status.
     SolveStatus judge(const RowSet& set, SolverTally& tally);

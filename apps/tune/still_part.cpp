@@ -11,10 +11,10 @@ namespace {
 
 constexpr double kGaussianMedian = 1.4826; // sigma of a normal distribution over its median deviation
 constexpr uint32_t kStride = 2;            // pixels that are looked at for noise and stillness
-constexpr double kMostPosition = 0.0005, kMostTurn = 0.0005; // [m], [rad] of a still camera
-constexpr double kMostGrowth = 1.5; // of the change between two frames, with the time between them
-constexpr double kMostNoise = 4.0;  // of depthSigma(); more comes from images that show different things
-constexpr double kFlicker = 5.0;    // [sigma] scatter of a pixel at a border
+constexpr double kMaxPosition = 0.0005, kMaxTurn = 0.0005; // [m], [rad] of a still camera
+constexpr double kMaxGrowth = 1.5; // of the change between two frames, with the time between them
+constexpr double kMaxNoise = 4.0;  // of depthSigma(); more comes from images that show different things
+constexpr double kFlicker = 5.0;   // [sigma] scatter of a pixel at a border
 
 double medianOf(std::vector<double>& values) {
     if (values.empty()) {
@@ -31,7 +31,7 @@ double roundingSigma(const CameraInfo& camera) {
 
 bool posesDiffer(const Pose& a, const Pose& b) {
     const double turn = 2.0 * std::acos(std::min(1.0, std::abs(glm::dot(a.rotation, b.rotation))));
-    return glm::distance(a.position, b.position) > kMostPosition || turn > kMostTurn;
+    return glm::distance(a.position, b.position) > kMaxPosition || turn > kMaxTurn;
 }
 
 // Depths of the pixels that all images measure, over the square of the first one: noise grows like that.
@@ -130,7 +130,7 @@ DepthNoise noiseOverTime(const FrameSequence& source) {
         levels.push_back(kGaussianMedian * medianOf(bends) / std::sqrt(6.0));
     }
     const double overTime = quarterOf(levels) * noise.range * noise.range, usual = depthSigma(noise.range);
-    noise.measured = !levels.empty() && overTime <= kMostNoise * usual;
+    noise.measured = !levels.empty() && overTime <= kMaxNoise * usual;
     noise.sigma =
         std::max(noise.sigma, noise.measured ? overTime : SimulatedCamera::kDepthSigmaShare * usual);
     return noise;
@@ -146,7 +146,7 @@ StillPart longestStill(const FrameSequence& source) {
     for (size_t i = 0; i < source.frames.size(); ++i) {
         const SampleFrame &first = source.frames[current.first], &now = source.frames[i];
         const double range = std::max(1e-3, noiseWithin(camera, first).range);
-        const double most = std::max(kMostGrowth * quarterOf(steps), camera.metresPerUnit / (range * range));
+        const double most = std::max(kMaxGrowth * quarterOf(steps), camera.metresPerUnit / (range * range));
         if (posesDiffer(first.baseTcamera, now.baseTcamera) || changeBetween(camera, first, now) > most) {
             current = {i, 0};
         }

@@ -10,7 +10,7 @@ namespace fathom::tune {
 using profile::FrameSequence;
 using profile::SampleFrame;
 
-inline constexpr size_t kLeastStill = 8; // [frames] that make a reference
+inline constexpr size_t kMinStill = 8; // [frames] that make a reference
 
 // Standard deviation of a depth reading at one range.
 struct DepthNoise {
@@ -34,7 +34,7 @@ DepthNoise noiseOverTime(const FrameSequence& source);
 struct StillPart {
     size_t first = 0, count = 0;
 
-    bool enough() const { return count >= kLeastStill; }
+    bool enough() const { return count >= kMinStill; }
 };
 StillPart longestStill(const FrameSequence& source);
 

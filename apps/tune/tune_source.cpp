@@ -12,8 +12,8 @@ namespace fathom::tune {
 
 namespace {
 
-constexpr size_t kMostRead = 120;              // [frames] of a recording or a live camera
-constexpr size_t kMostBytes = size_t{1} << 29; // of all of them
+constexpr size_t kMaxRead = 120;              // [frames] of a recording or a live camera
+constexpr size_t kMaxBytes = size_t{1} << 29; // of all of them
 constexpr const char* kTwinScene = "torus";
 constexpr double kTwinRange = 0.7;   // [m] to the twin's object
 constexpr double kTwinUnit = 0.0001; // [m] of the twin's depth before rounding
@@ -120,7 +120,7 @@ TuneSource twinSource(const Scene& scene, const FrameSequence& read, size_t stil
     const DepthNoise noise = noiseOverTime(read);
     if (camera.depth.fan || noise.range == 0.0) {
         throw BadInput(read.name, "frames", noise.range == 0.0 ? "no depth" : "a sonar that moves",
-                       "at least " + std::to_string(kLeastStill) +
+                       "at least " + std::to_string(kMinStill) +
                            " frames in which camera and scene stand still");
     }
     TuneSource result;
@@ -143,7 +143,7 @@ TuneSource twinSource(const Scene& scene, const FrameSequence& read, size_t stil
     result.twin = true;
     result.camera = read.name;
     result.judgedBy = "an analytic twin, because camera and scene stand still in no more than " +
-                      std::to_string(still) + " frames in a row (" + std::to_string(kLeastStill) +
+                      std::to_string(still) + " frames in a row (" + std::to_string(kMinStill) +
                       " are needed): the scene '" + kTwinScene +
                       "', as this camera sees things at its median range (" + noiseText(noise) + ")";
     return result;
@@ -162,8 +162,8 @@ TuneSource tuneSource(const Scene& scene, const std::optional<std::filesystem::p
     takeUncertainty(used, *camera);
     const CameraInfo& info = camera->info();
     const size_t bytes = 2 * size_t{info.depth.pixels()} + 4 * size_t{info.colour.pixels()};
-    const FrameSequence read = takeFrames(
-        *camera, std::clamp(kMostBytes / bytes, most, std::max(most, kMostRead)), scene.baseTcamera);
+    const FrameSequence read =
+        takeFrames(*camera, std::clamp(kMaxBytes / bytes, most, std::max(most, kMaxRead)), scene.baseTcamera);
     if (read.frames.empty()) {
         throw BadInput(camera->description(), "frames", "none", "a source with frames");
     }

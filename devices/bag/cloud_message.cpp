@@ -12,7 +12,7 @@ namespace fathom::ros {
 
 namespace {
 
-constexpr uint32_t kMostFields = 64;
+constexpr uint32_t kMaxFields = 64;
 constexpr uint8_t kFloat32 = 7;
 
 bool fourBytes(const Cloud::Field& field) {
@@ -60,7 +60,7 @@ Cloud cloud(MessageCursor cursor) {
     out.height = cursor.word();
     out.width = cursor.word();
     const uint32_t count = cursor.word();
-    if (count > kMostFields) {
+    if (count > kMaxFields) {
         throw Error("a cloud with " + std::to_string(count) + " fields (allowed: at most 64)");
     }
     for (uint32_t i = 0; i < count; ++i) {

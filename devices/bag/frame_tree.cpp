@@ -20,12 +20,12 @@ bool samePose(const Pose& a, const Pose& b) {
 } // namespace
 
 void FrameTree::read() {
-    constexpr size_t kMostMessages = 2000;
+    constexpr size_t kMaxMessages = 2000;
     for (const MessageTopic& topic : file_.topics()) {
         if (topic.type != "tf2_msgs/TFMessage" && topic.type != "tf/tfMessage") {
             continue;
         }
-        for (size_t i = 0; i < std::min(kMostMessages, topic.messages.size()); ++i) {
+        for (size_t i = 0; i < std::min(kMaxMessages, topic.messages.size()); ++i) {
             try {
                 for (const ros::FrameLink& link : ros::frameLinks(file_.read(topic, i))) {
                     add(topic, link);
@@ -49,8 +49,8 @@ void FrameTree::add(const MessageTopic& topic, const ros::FrameLink& link) {
 }
 
 void FrameTree::tellSkipped(const MessageTopic& topic, const std::string& what) {
-    constexpr size_t kMostTold = 32;
-    if (told_.size() < kMostTold && told_.insert(topic.name + what).second) {
+    constexpr size_t kMaxTold = 32;
+    if (told_.size() < kMaxTold && told_.insert(topic.name + what).second) {
         log::warn("{}: {}: {} (logged once)", file_.file().string(), topic.name, what);
     }
 }

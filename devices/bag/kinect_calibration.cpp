@@ -15,15 +15,15 @@ constexpr const char* kDepthCamera = "CALIBRATION_CameraLocationD0";
 constexpr const char* kColourCamera = "CALIBRATION_CameraLocationPV0";
 constexpr const char* kBrownConrady = "CALIBRATION_LensDistortionModelBrownConrady";
 constexpr size_t kParameters = 14;
-constexpr size_t kMostCameras = 16;
-constexpr uint32_t kDepthSensor = 1024, kMostSensor = 65535; // [pixels]
+constexpr size_t kMaxCameras = 16;
+constexpr uint32_t kDepthSensor = 1024, kMaxSensor = 65535; // [pixels]
 
 std::string sizeOfImage(uint32_t width, uint32_t height) {
     return std::to_string(width) + "x" + std::to_string(height);
 }
 
 JsonField cameraAt(const nlohmann::json& cameras, const std::string& file, const char* location) {
-    for (size_t i = 0; i < std::min(kMostCameras, cameras.size()); ++i) {
+    for (size_t i = 0; i < std::min(kMaxCameras, cameras.size()); ++i) {
         const JsonField camera(cameras[i], file, "CalibrationInformation.Cameras[" + std::to_string(i) + "]");
         if (camera.at("Location").text() == location) {
             return camera;
@@ -52,8 +52,8 @@ KinectCalibration::KinectCalibration(const std::vector<uint8_t>& json, const std
 
 KinectCalibration::Sensor KinectCalibration::sensor(const JsonField& camera) {
     Sensor out;
-    out.width = camera.at("SensorWidth").integer(1, kMostSensor);
-    out.height = camera.at("SensorHeight").integer(1, kMostSensor);
+    out.width = camera.at("SensorWidth").integer(1, kMaxSensor);
+    out.height = camera.at("SensorHeight").integer(1, kMaxSensor);
     const JsonField lens = camera.at("Intrinsics");
     out.model = lens.at("ModelType").text();
     out.parameters = lens.at("ModelParameters").numbers();

@@ -15,10 +15,10 @@ namespace fathom {
 
 namespace {
 
-constexpr uint64_t kMostBlocks = 20'000'000, kMostImage = 1 << 27; // [bytes]
-constexpr uint64_t kSecond = 1'000'000'000;                        // [ns]
-constexpr uint64_t kMostTime = kSecond * UINT32_MAX;               // of a header's stamp
-constexpr uint64_t kMadeMessage = UINT64_MAX;                      // as chunk
+constexpr uint64_t kMaxBlocks = 20'000'000, kMaxImage = 1 << 27; // [bytes]
+constexpr uint64_t kSecond = 1'000'000'000;                      // [ns]
+constexpr uint64_t kMaxTime = kSecond * UINT32_MAX;              // of a header's stamp
+constexpr uint64_t kMadeMessage = UINT64_MAX;                    // as chunk
 constexpr unsigned kSizeBits = 32;
 constexpr const char* kCalibrationName = "calibration.json";
 
@@ -139,10 +139,10 @@ uint64_t MatroskaFile::readCluster(const EbmlElement& cluster) {
 
 // Track, time relative to the cluster's and flags, then the data of one image.
 void MatroskaFile::readBlock(const EbmlElement& block, uint64_t clusterTime) {
-    constexpr uint64_t kMostHead = 12;
+    constexpr uint64_t kMaxHead = 12;
     constexpr uint8_t kLaced = 0x06;
-    const EbmlElement start{block.id, block.dataAt, std::min(block.end, block.dataAt + kMostHead), true};
-    const std::vector<uint8_t> head = reader_.bytes(start, kMostHead);
+    const EbmlElement start{block.id, block.dataAt, std::min(block.end, block.dataAt + kMaxHead), true};
+    const std::vector<uint8_t> head = reader_.bytes(start, kMaxHead);
     const auto [track, length] = ebmlNumber(head);
     ByteCursor cursor(std::span<const uint8_t>(head).subspan(length));
     const uint16_t high = cursor.value<uint8_t>();
@@ -152,13 +152,13 @@ void MatroskaFile::readBlock(const EbmlElement& block, uint64_t clusterTime) {
         return; // several in one: samples of other sensors
     }
     const uint64_t dataAt = block.dataAt + head.size() - cursor.left(), size = block.end - dataAt;
-    if (clusterTime > kMostTime / head_.timescale()) {
+    if (clusterTime > kMaxTime / head_.timescale()) {
         throw Error("a time of " + std::to_string(clusterTime));
     }
     const int64_t time =
         (static_cast<int64_t>(clusterTime) + relative) * static_cast<int64_t>(head_.timescale());
-    if (size > kMostImage || ++count_ > kMostBlocks) {
-        throw Error("an image of " + std::to_string(size) + " bytes, or over " + std::to_string(kMostBlocks));
+    if (size > kMaxImage || ++count_ > kMaxBlocks) {
+        throw Error("an image of " + std::to_string(size) + " bytes, or over " + std::to_string(kMaxBlocks));
     }
     blocks_[track].push_back({static_cast<uint64_t>(std::max<int64_t>(0, time)), size, dataAt});
 }
@@ -219,7 +219,7 @@ void MatroskaFile::addTrack(const MatroskaTrack& track) {
         static_cast<double>(head_.numberTag("K4A_START_OFFSET_NS")) + static_cast<double>(later);
     for (MessageEntry entry : blocks_[track.number]) {
         const double time = static_cast<double>(entry.time) + shift;
-        entry.time = static_cast<uint64_t>(std::clamp(time, 0.0, static_cast<double>(kMostTime)));
+        entry.time = static_cast<uint64_t>(std::clamp(time, 0.0, static_cast<double>(kMaxTime)));
         entry.chunk |= uint64_t{tracks_.size()} << kSizeBits;
         topics_[at].messages.push_back(entry);
     }
@@ -270,7 +270,7 @@ MessageBytes MatroskaFile::bytes(const MessageEntry& entry) {
     }
     const uint64_t size = entry.chunk & ((uint64_t{1} << kSizeBits) - 1);
     return MessageBytes::of(
-        tracks_[entry.chunk >> kSizeBits].message(entry.time, data_.read(entry.offset, size, kMostImage)));
+        tracks_[entry.chunk >> kSizeBits].message(entry.time, data_.read(entry.offset, size, kMaxImage)));
 }
 
 } // namespace fathom

@@ -7,9 +7,9 @@ namespace fathom {
 
 namespace {
 
-constexpr uint64_t kMostWords = 4096, kMostPrivate = 1 << 16, kMostAttached = 1 << 24; // [bytes]
-constexpr size_t kMostTracks = 64, kMostTags = 10'000, kMostFiles = 8;
-constexpr uint64_t kMostTimescale = 1'000'000'000; // [ns]
+constexpr uint64_t kMaxWords = 4096, kMaxPrivate = 1 << 16, kMaxAttached = 1 << 24; // [bytes]
+constexpr size_t kMaxTracks = 64, kMaxTags = 10'000, kMaxFiles = 8;
+constexpr uint64_t kMaxTimescale = 1'000'000'000; // [ns]
 
 enum class Field : uint32_t {
     Timescale = 0x2AD7B1,
@@ -57,16 +57,16 @@ void MatroskaHead::readInfo(const EbmlElement& info) {
     reader_.children(info, [&](const EbmlElement& child) {
         timescale_ = fieldOf(child) == Field::Timescale ? reader_.number(child) : timescale_;
     });
-    if (timescale_ == 0 || timescale_ > kMostTimescale) {
+    if (timescale_ == 0 || timescale_ > kMaxTimescale) {
         throw Error("a unit of time of " + std::to_string(timescale_) + " ns (allowed: 1 to " +
-                    std::to_string(kMostTimescale) + ")");
+                    std::to_string(kMaxTimescale) + ")");
     }
 }
 
 void MatroskaHead::readTracks(const EbmlElement& tracks) {
     reader_.children(tracks, [&](const EbmlElement& child) {
         if (fieldOf(child) == Field::TrackEntry) {
-            bound(tracks_.size(), kMostTracks, "tracks");
+            bound(tracks_.size(), kMaxTracks, "tracks");
             tracks_.push_back(track(child));
         }
     });
@@ -84,13 +84,13 @@ MatroskaTrack MatroskaHead::track(const EbmlElement& entry) {
             track.uid = reader_.number(child);
             break;
         case Field::Name:
-            track.name = reader_.text(child, kMostWords);
+            track.name = reader_.text(child, kMaxWords);
             break;
         case Field::Codec:
-            track.codec = reader_.text(child, kMostWords);
+            track.codec = reader_.text(child, kMaxWords);
             break;
         case Field::CodecPrivate:
-            header = reader_.bytes(child, kMostPrivate);
+            header = reader_.bytes(child, kMaxPrivate);
             break;
         case Field::Encodings:
             track.encoded = true;
@@ -117,7 +117,7 @@ void MatroskaHead::readVideo(const EbmlElement& video, MatroskaTrack& track) {
         } else if (fieldOf(child) == Field::Height) {
             track.height = reader_.number(child);
         } else if (fieldOf(child) == Field::Fourcc) {
-            track.fourcc = reader_.text(child, kMostWords);
+            track.fourcc = reader_.text(child, kMaxWords);
         }
     });
 }
@@ -134,10 +134,10 @@ void MatroskaHead::readTags(const EbmlElement& tags) {
             }
             std::string name, text;
             reader_.children(simple, [&](const EbmlElement& child) {
-                name = fieldOf(child) == Field::TagName ? reader_.text(child, kMostWords) : name;
-                text = fieldOf(child) == Field::TagText ? reader_.text(child, kMostWords) : text;
+                name = fieldOf(child) == Field::TagName ? reader_.text(child, kMaxWords) : name;
+                text = fieldOf(child) == Field::TagText ? reader_.text(child, kMaxWords) : text;
             });
-            bound(tags_.size(), kMostTags, "tags");
+            bound(tags_.size(), kMaxTags, "tags");
             tags_.emplace(name, text);
         });
     });
@@ -151,13 +151,13 @@ void MatroskaHead::readAttachments(const EbmlElement& attachments) {
         std::string name;
         std::vector<uint8_t> data;
         reader_.children(file, [&](const EbmlElement& child) {
-            name = fieldOf(child) == Field::FileName ? reader_.text(child, kMostWords) : name;
-            if (fieldOf(child) == Field::FileData && child.size() <= kMostAttached) {
-                data = reader_.bytes(child, kMostAttached);
+            name = fieldOf(child) == Field::FileName ? reader_.text(child, kMaxWords) : name;
+            if (fieldOf(child) == Field::FileData && child.size() <= kMaxAttached) {
+                data = reader_.bytes(child, kMaxAttached);
             }
         });
         if (name.ends_with(".json")) { // others are not used
-            bound(attachments_.size(), kMostFiles, "attached files");
+            bound(attachments_.size(), kMaxFiles, "attached files");
             attachments_.emplace(name, std::move(data));
         }
     });

@@ -7,7 +7,7 @@ namespace fathom {
 
 namespace {
 
-constexpr uint64_t kMostSide = 65535; // [pixels]
+constexpr uint64_t kMaxSide = 65535; // [pixels]
 
 // Encodings by the code of a track. bytes: per pixel of a row; 0: compressed.
 struct KnownCode {
@@ -26,7 +26,7 @@ MatroskaImages::MatroskaImages(const MatroskaTrack& track, std::string called)
     const auto code = std::find_if(kCodes.begin(), kCodes.end(),
                                    [&](const KnownCode& one) { return one.fourcc == track.fourcc; });
     const bool sized =
-        track.width > 0 && track.width <= kMostSide && track.height > 0 && track.height <= kMostSide;
+        track.width > 0 && track.width <= kMaxSide && track.height > 0 && track.height <= kMaxSide;
     if (code == kCodes.end() || !sized || track.encoded) {
         return;
     }

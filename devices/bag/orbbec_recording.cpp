@@ -19,7 +19,7 @@ constexpr const char* kProfile = "/cam/streamProfileType_";
 constexpr const char* kDepthProfile = "/cam/streamProfileType_3";
 constexpr const char* kColourProfile = "/cam/streamProfileType_2";
 constexpr const char* kProperties = "/cam/property";
-constexpr size_t kMostProperties = 10'000; // messages
+constexpr size_t kMaxProperties = 10'000; // messages
 
 // OBPropertyID. Host means that the computer converts disparity, after the recording.
 constexpr uint32_t kAlignedByCamera = 42, kPrecisionLevel = 75, kDepthByCamera = 85, kUnit = 176,
@@ -78,7 +78,7 @@ void OrbbecRecording::readProfiles() {
 // The last value of each counts, as in the SDK.
 void OrbbecRecording::readProperties() {
     const MessageTopic* topic = find(kProperties);
-    const size_t count = topic == nullptr ? 0 : std::min(kMostProperties, topic->messages.size());
+    const size_t count = topic == nullptr ? 0 : std::min(kMaxProperties, topic->messages.size());
     for (size_t i = 0; i < count; ++i) {
         try {
             MessageCursor message = read(*topic, i);

@@ -16,14 +16,14 @@ namespace fathom {
 namespace {
 
 constexpr const char* kTextType = "std_msgs/String";
-constexpr size_t kMostText = 1 << 16; // [bytes] of one message
+constexpr size_t kMaxText = 1 << 16; // [bytes] of one message
 
 bool isDeviceText(const MessageTopic& topic) {
     return topic.type == kTextType && topic.cdr && topic.name.starts_with("/device_");
 }
 
 std::string textOf(MessageCursor message) {
-    if (message.left() > kMostText) {
+    if (message.left() > kMaxText) {
         throw Error("a text of " + std::to_string(message.left()) + " bytes");
     }
     return message.name();

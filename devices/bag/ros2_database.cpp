@@ -13,14 +13,14 @@ namespace fathom {
 namespace {
 
 constexpr int kDatabaseBytes = 1 << 30;            // of one message
-constexpr uint64_t kMostUnpacked = 1 << 28;        // [bytes] of one that is compressed
+constexpr uint64_t kMaxUnpacked = 1 << 28;         // [bytes] of one that is compressed
 constexpr uint64_t kDatabaseMessages = 20'000'000; // of a file
 constexpr size_t kDatabaseTopics = 10'000;
-constexpr int kStepsPerCall = 100'000;  // of SQLite's machine
-constexpr uint64_t kMostCalls = 20'000; // so a crafted schema cannot run for ever
+constexpr int kStepsPerCall = 100'000; // of SQLite's machine
+constexpr uint64_t kMaxCalls = 20'000; // so a crafted schema cannot run for ever
 
 int countSteps(void* calls) {
-    return ++*static_cast<uint64_t*>(calls) > kMostCalls ? 1 : 0;
+    return ++*static_cast<uint64_t*>(calls) > kMaxCalls ? 1 : 0;
 }
 
 std::string textAt(sqlite3_stmt* statement, int column) {
@@ -143,7 +143,7 @@ MessageBytes Ros2Database::bytes(const MessageEntry& entry) {
     std::vector<uint8_t> message(data, data + (data == nullptr ? 0 : size));
     sqlite3_reset(one_.get());
     // No message in CDR begins as zstd does.
-    return MessageBytes::of(isZstd(message) ? unpackZstdFrame(message, kMostUnpacked) : std::move(message));
+    return MessageBytes::of(isZstd(message) ? unpackZstdFrame(message, kMaxUnpacked) : std::move(message));
 }
 
 } // namespace fathom

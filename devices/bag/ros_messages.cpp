@@ -11,7 +11,7 @@ namespace fathom::ros {
 
 namespace {
 
-constexpr uint32_t kMostCoefficients = 64, kMostLinks = 10'000;
+constexpr uint32_t kMaxCoefficients = 64, kMaxLinks = 10'000;
 
 struct Header {
     double stamp = 0.0;
@@ -127,7 +127,7 @@ CameraInfo cameraInfo(MessageCursor cursor) {
     const uint32_t height = cursor.word(), width = cursor.word();
     const std::string model = cursor.name();
     const uint32_t count = cursor.word();
-    if (count > kMostCoefficients) {
+    if (count > kMaxCoefficients) {
         throw Error("camera_info with " + std::to_string(count) + " distortion coefficients");
     }
     std::vector<double> distortion(count);
@@ -158,12 +158,12 @@ void skipHeader(MessageCursor& cursor) {
 }
 
 Pose rigidPose(const std::array<double, 9>& r, const dvec3& translation) {
-    constexpr double kMostOff = 1e-2; // of an entry of R R^T from the identity's
+    constexpr double kMaxOff = 1e-2; // of an entry of R R^T from the identity's
     const glm::dmat3 rotation(r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8]);
     const glm::dmat3 product = rotation * glm::transpose(rotation);
     bool rigid = glm::determinant(rotation) > 0.0 && std::isfinite(glm::dot(translation, translation));
     for (int i = 0; i < 9; ++i) {
-        rigid = rigid && std::abs(product[i / 3][i % 3] - (i % 4 == 0 ? 1.0 : 0.0)) < kMostOff;
+        rigid = rigid && std::abs(product[i / 3][i % 3] - (i % 4 == 0 ? 1.0 : 0.0)) < kMaxOff;
     }
     if (!rigid) {
         throw Error("an invalid transform");
@@ -195,7 +195,7 @@ float float32(MessageCursor cursor) {
 
 std::vector<FrameLink> frameLinks(MessageCursor cursor) {
     const uint32_t count = cursor.word();
-    if (count > kMostLinks) {
+    if (count > kMaxLinks) {
         throw Error(std::to_string(count) + " transforms in one message");
     }
     std::vector<FrameLink> links;

@@ -10,8 +10,8 @@ namespace fathom {
 
 namespace {
 
-constexpr uint64_t kMostDelay = 1'000'000'000; // [ns] between the recording of two images of one instant
-constexpr size_t kMostTried = 100;             // messages on either side
+constexpr uint64_t kMaxDelay = 1'000'000'000; // [ns] between the recording of two images of one instant
+constexpr size_t kMaxTried = 100;             // messages on either side
 
 double secondsOf(uint64_t nanoseconds) {
     return 1e-9 * static_cast<double>(nanoseconds);
@@ -64,10 +64,10 @@ std::optional<size_t> StampedStream::nearest(double stamp, uint64_t recordedAt, 
             best = index;
         }
     };
-    for (size_t i = from; i-- > from - std::min(from, kMostTried) && apart(all[i].time) <= kMostDelay;) {
+    for (size_t i = from; i-- > from - std::min(from, kMaxTried) && apart(all[i].time) <= kMaxDelay;) {
         consider(i);
     }
-    for (size_t i = from; i < std::min(all.size(), from + kMostTried) && apart(all[i].time) <= kMostDelay;
+    for (size_t i = from; i < std::min(all.size(), from + kMaxTried) && apart(all[i].time) <= kMaxDelay;
          ++i) {
         consider(i);
     }

@@ -46,14 +46,14 @@ std::string StreamChooser::unreadStreams() const {
 
 // What a file without images holds.
 std::string StreamChooser::otherTopics() const {
-    constexpr size_t kMostNamed = 6;
+    constexpr size_t kMaxNamed = 6;
     std::string all;
-    for (size_t i = 0; i < std::min(kMostNamed, file_.topics().size()); ++i) {
+    for (size_t i = 0; i < std::min(kMaxNamed, file_.topics().size()); ++i) {
         const MessageTopic& topic = file_.topics()[i];
         all += (i == 0 ? " but " : ", ") + topic.name + " (" + topic.type +
                (topic.messages.empty() ? ", no messages)" : ")");
     }
-    return all + (file_.topics().size() > kMostNamed ? " and more" : "");
+    return all + (file_.topics().size() > kMaxNamed ? " and more" : "");
 }
 
 } // namespace fathom

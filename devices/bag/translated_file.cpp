@@ -8,7 +8,7 @@ namespace fathom {
 namespace {
 
 constexpr uint64_t kMadeChunk = UINT64_MAX; // no original has one of this number
-constexpr size_t kMostTranslated = 10'000;  // messages of one topic
+constexpr size_t kMaxTranslated = 10'000;   // messages of one topic
 
 } // namespace
 
@@ -23,9 +23,9 @@ MessageBytes TranslatedFile::bytes(const MessageEntry& entry) {
 }
 
 std::vector<MessageEntry> TranslatedFile::begin(MessageTopic& topic, const std::string& type) {
-    if (topic.messages.size() > kMostTranslated) {
+    if (topic.messages.size() > kMaxTranslated) {
         throw Error(topic.name + ": " + std::to_string(topic.messages.size()) +
-                    " messages (allowed: at most " + std::to_string(kMostTranslated) + ")");
+                    " messages (allowed: at most " + std::to_string(kMaxTranslated) + ")");
     }
     topic.type = type;
     return std::exchange(topic.messages, {});

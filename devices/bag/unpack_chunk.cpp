@@ -14,7 +14,7 @@ namespace fathom {
 
 namespace {
 
-constexpr uint64_t kMostLz4 = 255, kMostOther = 65536; // largest compression ratios of the formats
+constexpr uint64_t kMaxLz4 = 255, kMaxOther = 65536; // largest compression ratios of the formats
 
 struct FreeContext {
     void operator()(LZ4F_dctx* context) const noexcept { LZ4F_freeDecompressionContext(context); }
@@ -69,7 +69,7 @@ std::vector<uint8_t> unpackChunk(const std::string& compression, std::span<const
     if (compression == "none") {
         return {packed.begin(), packed.end()};
     }
-    const uint64_t most = (packed.size() + 64) * (compression == "lz4" ? kMostLz4 : kMostOther);
+    const uint64_t most = (packed.size() + 64) * (compression == "lz4" ? kMaxLz4 : kMaxOther);
     if (size > most) { // check before allocating
         throw Error("a chunk of " + std::to_string(packed.size()) + " bytes cannot hold the " +
                     std::to_string(size) + " that it declares");

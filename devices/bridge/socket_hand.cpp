@@ -16,7 +16,7 @@ namespace fathom {
 
 namespace {
 
-constexpr int kMostPackets = 64; // per tick
+constexpr int kMaxPackets = 64; // per tick
 constexpr auto kSeekPause = std::chrono::milliseconds(100);
 constexpr uint32_t kReady = FATHOM_DOOR_PRESENT | FATHOM_DOOR_HOMED;
 
@@ -104,7 +104,7 @@ void SocketHand::take(const fathom_door_hand& packet) noexcept {
 
 void SocketHand::drain() noexcept {
     fathom_door_hand packet;
-    for (int i = 0; i < kMostPackets; ++i) {
+    for (int i = 0; i < kMaxPackets; ++i) {
         switch (bridge_.receive(packet, FATHOM_DOOR_HAND)) {
         case SocketEvent::Packet:
             take(packet);

@@ -14,7 +14,7 @@ namespace fathom {
 namespace {
 
 constexpr int kBacklog = 1;
-constexpr int kMostRequests = 256; // per poll: a flooding engine must not delay the device
+constexpr int kMaxRequests = 256; // per poll: a flooding engine must not delay the device
 
 template <size_t N>
 void copyText(char (&to)[N], const std::string& from) {
@@ -59,7 +59,7 @@ void SocketServer::takeNewcomers() {
 
 void SocketServer::takeWrenches() {
     fathom_door_wrench packet;
-    for (int i = 0; i < kMostRequests && engine_.open(); ++i) {
+    for (int i = 0; i < kMaxRequests && engine_.open(); ++i) {
         size_t got = 0;
         switch (engine_.receive(packet, FATHOM_DOOR_WRENCH, &got)) {
         case SocketEvent::Empty:

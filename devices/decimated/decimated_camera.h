@@ -10,7 +10,7 @@ namespace fathom {
 // Copies the pixels that it keeps. Colour with a lens of its own stays the source's.
 class DecimatedCamera final : public CameraDecorator {
 public:
-    // n: 2 to kMostDecimation.
+    // n: 2 to kMaxDecimation.
     DecimatedCamera(std::unique_ptr<Camera> source, uint32_t n);
 
     const CameraInfo& info() const override { return info_; }

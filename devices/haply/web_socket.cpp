@@ -27,7 +27,7 @@ constexpr uint8_t kContinued = 0, kText = 1, kClose = 8, kPing = 9, kPong = 10;
 // machine there is none.
 constexpr const char* kKey = "dGhlIHNhbXBsZSBub25jZQ==";
 constexpr const char* kAccept = "s3pPLMBiTxaQ9kYGzzhZRbK+xOo=";
-constexpr size_t kMostGreeting = 8192; // [bytes]
+constexpr size_t kMaxGreeting = 8192; // [bytes]
 
 bool waitFor(int socket, short events, std::chrono::microseconds most) {
     pollfd ready{socket, events, 0};
@@ -60,14 +60,14 @@ bool WebSocketFrames::head(Head& head) const {
     } else if (head.size > 127) {
         head.size = ~uint64_t{0};
     }
-    return head.size > kMostBytes || bytes_.size() - head.at >= head.size;
+    return head.size > kMaxBytes || bytes_.size() - head.at >= head.size;
 }
 
 WebSocketFrames::Event WebSocketFrames::next(std::string& text) {
     Head frame;
     while (head(frame)) {
         const bool reserved = (static_cast<uint8_t>(bytes_[0]) & 0x70) != 0;
-        if (reserved || frame.size > kMostBytes || message_.size() + frame.size > kMostBytes) {
+        if (reserved || frame.size > kMaxBytes || message_.size() + frame.size > kMaxBytes) {
             return Event::Fault;
         }
         const Event event = whole(frame, text);
@@ -187,7 +187,7 @@ void WebSocket::greet(std::chrono::milliseconds most) {
     const auto until = Clock::now() + most;
     size_t end = std::string::npos;
     while (end == std::string::npos) {
-        if (Clock::now() > until || said.size() > kMostGreeting) {
+        if (Clock::now() > until || said.size() > kMaxGreeting) {
             throw Error(place_ + ": no answer to the handshake");
         }
         readSome(most, said);

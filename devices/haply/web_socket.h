@@ -15,7 +15,7 @@ namespace fathom {
 // Parses received bytes into messages. Pure.
 class WebSocketFrames {
 public:
-    static constexpr size_t kMostBytes = 1 << 20; // per message
+    static constexpr size_t kMaxBytes = 1 << 20; // per message
 
     void add(std::string_view bytes) { bytes_.append(bytes); }
 

@@ -18,7 +18,7 @@ namespace fathom {
 
 namespace {
 
-constexpr size_t kMostDepthFile = 256u << 20; // [bytes]; float64 of 3840x2160 is 64 MiB
+constexpr size_t kMaxDepthFile = 256u << 20; // [bytes]; float64 of 3840x2160 is 64 MiB
 
 struct DepthFormat {
     bool (*is)(ImageBytes);
@@ -53,8 +53,8 @@ const DepthFormat* formatOf(const std::filesystem::path& file) {
 // The image's bytes when its head is as wanted, else the fault.
 std::string checkedBytes(const std::filesystem::path& file, const DepthFormat& format, PngSize size,
                          bool metres, std::string& bytes) {
-    auto text = readFileAtMost(file, kMostDepthFile);
-    if (!text || text->size() > kMostDepthFile) {
+    auto text = readFileAtMost(file, kMaxDepthFile);
+    if (!text || text->size() > kMaxDepthFile) {
         return text ? "over 256 MiB" : whyUnreadable(file);
     }
     bytes = std::move(*text);
@@ -86,9 +86,9 @@ DepthHead depthImageHead(const std::filesystem::path& file) {
         const auto size = readPngSize(file);
         return size ? DepthHead{*size, false, ""} : DepthHead{{}, false, "not PNG, PGM, TIFF, NPY or EXR"};
     }
-    const auto text = readFileAtMost(file, kMostDepthFile);
-    return text && text->size() <= kMostDepthFile ? format->head(asBytes(*text))
-                                                  : DepthHead{{}, false, "over 256 MiB"};
+    const auto text = readFileAtMost(file, kMaxDepthFile);
+    return text && text->size() <= kMaxDepthFile ? format->head(asBytes(*text))
+                                                 : DepthHead{{}, false, "over 256 MiB"};
 }
 
 std::string readDepthImage(const std::filesystem::path& file, PngSize size, const DepthUnits& units,

@@ -12,7 +12,7 @@ namespace fathom {
 
 namespace {
 
-constexpr size_t kMostExrChannels = 64, kMostExrAttributes = 1000, kMostExrName = 255;
+constexpr size_t kMaxExrChannels = 64, kMaxExrAttributes = 1000, kMaxExrName = 255;
 constexpr uint32_t kExrPlain = 2, kExrLongNames = 0x400; // version 2, and a flag that changes nothing here
 
 struct ExrChannel {
@@ -30,7 +30,7 @@ std::string exrName(ByteCursor& cursor) {
     for (char c = static_cast<char>(cursor.value<uint8_t>()); c != '\0';
          c = static_cast<char>(cursor.value<uint8_t>())) {
         name += c;
-        if (name.size() > kMostExrName) {
+        if (name.size() > kMaxExrName) {
             throw Error("EXR: a name of over 255 bytes");
         }
     }
@@ -43,7 +43,7 @@ std::vector<ExrChannel> exrChannels(ByteCursor cursor) {
         channels.push_back({name, cursor.word()});
         cursor.word(); // a hint on brightness
         const uint32_t across = cursor.word(), down = cursor.word();
-        if (channels.size() > kMostExrChannels || channels.back().kind > 2 || across != 1 || down != 1) {
+        if (channels.size() > kMaxExrChannels || channels.back().kind > 2 || across != 1 || down != 1) {
             throw Error("EXR: channels (allowed: at most 64, without subsampling)");
         }
     }
@@ -55,7 +55,7 @@ std::map<std::string, ImageBytes> exrAttributes(ByteCursor& cursor) {
     for (std::string name = exrName(cursor); !name.empty(); name = exrName(cursor)) {
         exrName(cursor); // its type follows from its name
         attributes[name] = cursor.block();
-        if (attributes.size() > kMostExrAttributes) {
+        if (attributes.size() > kMaxExrAttributes) {
             throw Error("EXR: more than 1000 attributes");
         }
     }

@@ -23,8 +23,8 @@ void ValueSpan::add(const ValueSpan& other) {
 }
 
 double unitForMetres(double farthest) {
-    constexpr double kFinestOfMetres = 1e-4, kMostUnits = 65000.0;
-    const double unit = kFinestOfMetres * std::ceil(std::max(1.0, farthest / (kMostUnits * kFinestOfMetres)));
+    constexpr double kFinestOfMetres = 1e-4, kMaxUnits = 65000.0;
+    const double unit = kFinestOfMetres * std::ceil(std::max(1.0, farthest / (kMaxUnits * kFinestOfMetres)));
     return std::min(unit, kCoarsestUnit);
 }
 

@@ -16,7 +16,7 @@ namespace fathom {
 namespace {
 
 constexpr std::array<uint8_t, 6> kNpyMagic{0x93, 'N', 'U', 'M', 'P', 'Y'};
-constexpr size_t kMostNpyHead = 1u << 16; // [bytes]
+constexpr size_t kMaxNpyHead = 1u << 16; // [bytes]
 
 // The dictionary's text between its braces, and where the values begin; empty when it is cut off.
 std::string_view npyDictionary(ImageBytes bytes, size_t& values) {
@@ -27,7 +27,7 @@ std::string_view npyDictionary(ImageBytes bytes, size_t& values) {
     }
     size_t length = bytes[8] | size_t{bytes[9]} << 8;
     length |= first ? 0 : size_t{bytes[10]} << 16 | size_t{bytes[11]} << 24;
-    if (length > std::min(kMostNpyHead, bytes.size() - begin)) {
+    if (length > std::min(kMaxNpyHead, bytes.size() - begin)) {
         return {};
     }
     values = begin + length;

@@ -16,7 +16,7 @@ namespace fathom {
 
 namespace {
 
-constexpr tmsize_t kMostTiffBlock = tmsize_t{128} << 20; // [bytes] that libtiff may allocate at once
+constexpr tmsize_t kMaxTiffBlock = tmsize_t{128} << 20; // [bytes] that libtiff may allocate at once
 constexpr std::array<uint16_t, 5> kTiffPacked{COMPRESSION_NONE, COMPRESSION_LZW, COMPRESSION_PACKBITS,
                                               COMPRESSION_DEFLATE, COMPRESSION_ADOBE_DEFLATE};
 
@@ -79,7 +79,7 @@ OpenTiff openTiff(TiffStream& stream) {
     if (options == nullptr) {
         return nullptr;
     }
-    TIFFOpenOptionsSetMaxSingleMemAlloc(options, kMostTiffBlock);
+    TIFFOpenOptionsSetMaxSingleMemAlloc(options, kMaxTiffBlock);
     TIFFOpenOptionsSetErrorHandlerExtR(options, keepTiffError, &stream);
     TIFFOpenOptionsSetWarningHandlerExtR(options, ignoreTiffWarning, &stream);
     OpenTiff tiff(TIFFClientOpenExt("image", "rm", &stream, readStream, writeNothing, seekStream, closeStream,

@@ -16,8 +16,8 @@ namespace fathom {
 
 namespace {
 
-constexpr double kMostResidual = 1.0; // [pixels]
-constexpr double kMostBehind = 0.01;  // share of points behind the camera: faults of single pixels
+constexpr double kMaxResidual = 1.0; // [pixels]
+constexpr double kMaxBehind = 0.01;  // share of points behind the camera: faults of single pixels
 
 // A straight line p = a s + b through many points.
 struct Line {
@@ -89,7 +89,7 @@ std::optional<FittedLens> fitAs(const PcdCloud& cloud, const glm::dmat3& optical
                 .cy = down.offset() + 0.5 * cloud.height,
                 .fan = fan};
     // No camera sees behind itself: such axes are wrong, however well the rest fits.
-    if (fit.lens.fx > 0.0 && fit.lens.fy > 0.0 && static_cast<double>(behind) < kMostBehind * across.n) {
+    if (fit.lens.fx > 0.0 && fit.lens.fy > 0.0 && static_cast<double>(behind) < kMaxBehind * across.n) {
         fit.residual = std::sqrt(across.meanSquare() + down.meanSquare());
     }
     return fit;
@@ -153,7 +153,7 @@ PcdCamera::PcdCamera(const std::filesystem::path& file, const SourceOptions& opt
     } catch (const Error& e) {
         throw BadInput(file.string(), "points", e.what(), "at least 16, spread over the image");
     }
-    if (fit.residual > kMostResidual) {
+    if (fit.residual > kMaxResidual) {
         throw BadInput(file.string(), "points",
                        "deviates from the rays of a pinhole and of a fan by " + std::to_string(fit.residual) +
                            " pixels",

@@ -18,9 +18,9 @@ namespace fathom {
 
 namespace {
 
-constexpr uint32_t kMostWidth = 3840, kMostHeight = 2160;
-constexpr size_t kMostBytes = size_t{1} << 30;
-constexpr size_t kMostBytesOfPoint = 4096;
+constexpr uint32_t kMaxWidth = 3840, kMaxHeight = 2160;
+constexpr size_t kMaxBytes = size_t{1} << 30;
+constexpr size_t kMaxBytesOfPoint = 4096;
 
 struct Field {
     std::string name;
@@ -100,7 +100,7 @@ void readHeaderLine(const Source& source, const std::vector<std::string>& words,
     } else if (words.size() > 1 && key == "WIDTH") {
         header.width = static_cast<uint32_t>(wholeNumber(source, key, words[1], SIZE_MAX >> 33));
     } else if (words.size() > 1 && key == "HEIGHT") {
-        header.height = static_cast<uint32_t>(wholeNumber(source, key, words[1], kMostHeight));
+        header.height = static_cast<uint32_t>(wholeNumber(source, key, words[1], kMaxHeight));
     } else if (words.size() > 1 && key == "DATA") {
         header.data = words[1];
     }
@@ -117,16 +117,16 @@ Header readHeader(Source& source) {
     if (header.height < 2) {
         source.refuse("HEIGHT", std::to_string(header.height), "2 or more: an organised cloud, row by row");
     }
-    if (header.width < 2 || header.width > kMostWidth) {
-        source.refuse("WIDTH", std::to_string(header.width), "2 to " + std::to_string(kMostWidth));
+    if (header.width < 2 || header.width > kMaxWidth) {
+        source.refuse("WIDTH", std::to_string(header.width), "2 to " + std::to_string(kMaxWidth));
     }
     for (Field& field : header.fields) {
         field.offset = header.bytes;
         header.bytes += field.size * field.count;
     }
-    if (header.bytes > kMostBytesOfPoint) {
+    if (header.bytes > kMaxBytesOfPoint) {
         source.refuse("SIZE", std::to_string(header.bytes) + " bytes a point",
-                      "at most " + std::to_string(kMostBytesOfPoint));
+                      "at most " + std::to_string(kMaxBytesOfPoint));
     }
     return header;
 }
@@ -257,7 +257,7 @@ std::vector<uint32_t> separateColours(const Header& header, const std::vector<ui
 } // namespace
 
 PcdCloud readPcd(const std::filesystem::path& file) {
-    const std::string text = readWholeFile(file, kMostBytes, "an organised PCD file");
+    const std::string text = readWholeFile(file, kMaxBytes, "an organised PCD file");
     Source source{file.string(), {text.begin(), text.end()}, 0};
     const Header header = readHeader(source);
     const Field *x = find(header, "x"), *y = find(header, "y"), *z = find(header, "z");

@@ -11,7 +11,7 @@ namespace fathom {
 
 namespace {
 
-constexpr size_t kMostJpeg = 64u << 20; // [bytes]
+constexpr size_t kMaxJpeg = 64u << 20; // [bytes]
 
 bool beginsAsJpeg(const std::filesystem::path& file) {
     std::array<char, 3> head{};
@@ -25,7 +25,7 @@ std::optional<PngSize> colourImageSize(const std::filesystem::path& file) {
     if (!beginsAsJpeg(file)) {
         return readPngSize(file);
     }
-    const auto text = readFileAtMost(file, kMostJpeg);
+    const auto text = readFileAtMost(file, kMaxJpeg);
     const auto size = text ? jpegSize(std::as_bytes(std::span(*text))) : std::nullopt;
     return size ? std::optional(PngSize{size->width, size->height}) : std::nullopt;
 }
@@ -39,7 +39,7 @@ std::string readColourImage(const std::filesystem::path& file, PngSize size, std
     if (!beginsAsJpeg(file)) {
         return readColourPng(file, size, target);
     }
-    const auto text = readFileAtMost(file, kMostJpeg);
+    const auto text = readFileAtMost(file, kMaxJpeg);
     return text ? readJpeg(std::as_bytes(std::span(*text)), {size.width, size.height},
                            std::as_writable_bytes(target), raw)
                 : "a JPEG of over 64 MiB";

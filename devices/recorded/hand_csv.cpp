@@ -15,7 +15,7 @@ namespace {
 constexpr std::array<std::string_view, 9> kColumns{"t_s", "x", "y", "z", "qw", "qx", "qy", "qz", "button"};
 constexpr size_t kNumbers = 8;                        // all but button
 constexpr double kLongest = 86400.0, kFarthest = 1e6; // [s], [m]
-constexpr size_t kMostRows = 10'000'000;              // 2.8 hours at 1 kHz
+constexpr size_t kMaxRows = 10'000'000;               // 2.8 hours at 1 kHz
 
 struct Row {
     const std::string& file;
@@ -98,8 +98,8 @@ std::vector<HandWaypoint> readHandCsv(const std::filesystem::path& file) {
             row.refuse("t_s", splitFields(line.text, ',')[0],
                        "later than the previous row (" + std::to_string(path.back().t) + ")");
         }
-        if (path.size() == kMostRows) {
-            row.refuse("", "one more row", std::to_string(kMostRows) + " at most");
+        if (path.size() == kMaxRows) {
+            row.refuse("", "one more row", std::to_string(kMaxRows) + " at most");
         }
         path.push_back(point);
     }

@@ -15,8 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kMostApart = 0.1;   // [s] depth and colour of a pair, or half of medianPeriod()
-constexpr size_t kMostWarnings = 20; // skipped frames that are named in the summary, too
+constexpr double kMaxApart = 0.1;   // [s] depth and colour of a pair, or half of medianPeriod()
+constexpr size_t kMaxWarnings = 20; // skipped frames that are named in the summary, too
 
 const fs::path& existingFolder(const fs::path& folder) {
     std::error_code failed;
@@ -62,7 +62,7 @@ RecordedCamera::RecordedCamera(const fs::path& folder, const SourceOptions& opti
     , layout_(readLayout(folder, options)) {
     options.checkNoTopics(folder_.string());
     checkStamps();
-    mostApart_ = std::max(kMostApart, 0.5 * medianPeriod(layout_.index));
+    mostApart_ = std::max(kMaxApart, 0.5 * medianPeriod(layout_.index));
     useOptions(options);
     if (info().hasColour) {
         takeColourFormat();
@@ -202,7 +202,7 @@ void RecordedCamera::skip(uint32_t index, const std::string& fault) {
     if (firstFault_.empty()) {
         firstFault_ = fault;
     }
-    if (warnings_.size() < kMostWarnings) {
+    if (warnings_.size() < kMaxWarnings) {
         warnings_.push_back(unnamed_.back());
     }
 }

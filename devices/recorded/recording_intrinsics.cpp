@@ -216,7 +216,7 @@ RecordingIntrinsics readIntrinsics(const std::filesystem::path& file, ScaleRule 
         colourThere->refuse("true where there is a block color");
     }
     if (const auto decimation = root.find("decimation")) {
-        camera.decimation = decimation->integer(1, kMostDecimation);
+        camera.decimation = decimation->integer(1, kMaxDecimation);
     }
     if (const auto water = root.find("port_corrected")) {
         camera.inWater = true;

@@ -14,9 +14,9 @@ namespace {
 
 constexpr std::string_view kSpace = " \t\r";
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF"; // some editors begin UTF-8 with it
-constexpr uint64_t kMostBytes = 64u << 20;
-constexpr size_t kMostLines = 1'000'000; // nine hours of frames; bounds the memory of short lines
-constexpr size_t kMostText = 16u << 20;  // the stamps of three hours of frames; each byte needs up to forty
+constexpr uint64_t kMaxBytes = 64u << 20;
+constexpr size_t kMaxLines = 1'000'000; // nine hours of frames; bounds the memory of short lines
+constexpr size_t kMaxText = 16u << 20;  // the stamps of three hours of frames; each byte needs up to forty
 
 std::string_view trim(std::string_view text) {
     const size_t begin = text.find_first_not_of(kSpace);
@@ -33,7 +33,7 @@ bool parseWhole(std::string_view word, T& value) {
 } // namespace
 
 std::string readTextFile(const std::filesystem::path& file) {
-    return readWholeFile(file, kMostText, "a readable text file");
+    return readWholeFile(file, kMaxText, "a readable text file");
 }
 
 DataLines::DataLines(const std::filesystem::path& file)
@@ -75,9 +75,9 @@ std::vector<TextLine> readDataLines(const std::filesystem::path& file) {
     size_t bytes = 0;
     for (TextLine line; from.next(line); lines.push_back(line)) {
         bytes += line.text.size() + 1;
-        if (bytes > kMostBytes || lines.size() == kMostLines) {
+        if (bytes > kMaxBytes || lines.size() == kMaxLines) {
             throw BadInput(file.string(), "line " + std::to_string(line.number),
-                           bytes > kMostBytes ? "over 64 MiB so far" : "over 1000000 lines so far",
+                           bytes > kMaxBytes ? "over 64 MiB so far" : "over 1000000 lines so far",
                            "at most 1000000 lines of 64 MiB in all");
         }
     }

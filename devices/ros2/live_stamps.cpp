@@ -20,10 +20,10 @@ double LiveStamps::stampOf(double header, const RawMessage& message) {
 }
 
 bool LiveStamps::forward(double stamp) {
-    if (last_ && stamp <= *last_ && ++back_ < kMostBackward) {
+    if (last_ && stamp <= *last_ && ++back_ < kMaxBackward) {
         return false;
     }
-    if (back_ >= kMostBackward) {
+    if (back_ >= kMaxBackward) {
         log::warn("ros2:{}: its clock was set back by {:.3f} s", topic_, *last_ - stamp);
         restarted_ = true;
     }

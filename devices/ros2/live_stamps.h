@@ -19,7 +19,7 @@ public:
 
     // The header's stamp [s]; of a header without one the arrival by UTC, with one warning.
     double stampOf(double header, const RawMessage& message);
-    // Whether a message with that stamp [s] comes after the one before. After kMostBackward earlier stamps in
+    // Whether a message with that stamp [s] comes after the one before. After kMaxBackward earlier stamps in
     // a row the clock was set back: the last of them counts, and restarted() is true once.
     bool forward(double stamp);
     bool restarted();
@@ -27,7 +27,7 @@ public:
     // simulation or of a machine with another clock, do not: then it is the arrival. Never goes back.
     double captureTime(double stamp, const RawMessage& message);
 
-    static constexpr uint32_t kMostBackward = 5;
+    static constexpr uint32_t kMaxBackward = 5;
     static constexpr double kOldest = 1.0; // [s]
 
 private:

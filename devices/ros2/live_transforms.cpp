@@ -16,10 +16,10 @@ std::string quotedFrame(const std::string& name) {
 } // namespace
 
 void LiveTransforms::take(const Ros2Message& message, bool isStatic) {
-    constexpr size_t kMostFaults = 32;
+    constexpr size_t kMaxFaults = 32;
     const auto skip = [&](const char* what, const Error& why) {
         ++skipped_;
-        if (faults_.size() < kMostFaults && faults_.insert(why.what()).second) {
+        if (faults_.size() < kMaxFaults && faults_.insert(why.what()).second) {
             log::warn("{}: {}: {} skipped: {} (logged once)", reader_, isStatic ? "/tf_static" : "/tf", what,
                       why.what());
         }
@@ -48,8 +48,8 @@ void LiveTransforms::add(const ros::FrameLink& link, const Ros2Message& message,
     if (parent == child) {
         throw Error("frame " + quotedFrame(child) + " is its own parent");
     }
-    if (!links_.contains(child) && links_.size() >= kMostFrames) {
-        throw Error("over " + std::to_string(kMostFrames) + " frames");
+    if (!links_.contains(child) && links_.size() >= kMaxFrames) {
+        throw Error("over " + std::to_string(kMaxFrames) + " frames");
     }
     Link& to = links_.try_emplace(child, Link{parent}).first->second;
     if (!isStatic) {
@@ -70,7 +70,7 @@ void LiveTransforms::add(const ros::FrameLink& link, const Ros2Message& message,
 
 void LiveTransforms::insert(Link& to, const Stamped& pose) {
     if (!to.poses.empty() && pose.time < to.poses.back().time - kHistory) {
-        if (++to.back < kMostBackward) {
+        if (++to.back < kMaxBackward) {
             return;
         }
         to.poses.clear();
@@ -83,7 +83,7 @@ void LiveTransforms::insert(Link& to, const Stamped& pose) {
     } else {
         to.poses.insert(place, pose);
     }
-    while (to.poses.size() > kMostKept || to.poses.front().time < to.poses.back().time - kHistory) {
+    while (to.poses.size() > kMaxKept || to.poses.front().time < to.poses.back().time - kHistory) {
         to.poses.pop_front();
     }
 }
@@ -95,7 +95,7 @@ void LiveTransforms::forgetMoving() {
 // The frame itself first.
 std::vector<std::string> LiveTransforms::ancestors(const std::string& frame) const {
     std::vector<std::string> names{frame};
-    for (auto link = links_.find(frame); link != links_.end() && names.size() <= kMostFrames;
+    for (auto link = links_.find(frame); link != links_.end() && names.size() <= kMaxFrames;
          link = links_.find(link->second.parent)) { // a loop ends, too
         names.push_back(link->second.parent);
     }

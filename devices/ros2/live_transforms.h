@@ -41,10 +41,10 @@ public:
 
     static constexpr double kLongestGap = 0.5; // [s] between transforms that are interpolated
     static constexpr double kHistory = 2.0;    // [s] before the newest
-    static constexpr size_t kMostFrames = 1000;
-    static constexpr size_t kMostKept = 1024;    // of one frame
-    static constexpr size_t kLongestName = 256;  // [bytes]
-    static constexpr uint32_t kMostBackward = 5; // old transforms in a row: its clock was set back
+    static constexpr size_t kMaxFrames = 1000;
+    static constexpr size_t kMaxKept = 1024;    // of one frame
+    static constexpr size_t kLongestName = 256; // [bytes]
+    static constexpr uint32_t kMaxBackward = 5; // old transforms in a row: its clock was set back
 
 private:
     struct Stamped {

@@ -18,7 +18,7 @@ std::optional<MovingCamera::Posed> MovingCamera::next(double now) {
     }
     const LiveImage& depth = waiting_.front().depth;
     LiveTransforms::Answer answer = transforms_.pose(camera_, fixed_, depth.stamp);
-    const bool patient = now < depth.message->arrival + kPatience && waiting_.size() <= kMostWaiting;
+    const bool patient = now < depth.message->arrival + kPatience && waiting_.size() <= kMaxWaiting;
     if (!answer.pose && answer.early && patient) {
         return std::nullopt;
     }

@@ -38,7 +38,7 @@ public:
     static constexpr double kPatience = 0.15; // [s] after the arrival of the image
 
 private:
-    static constexpr size_t kMostWaiting = 16;
+    static constexpr size_t kMaxWaiting = 16;
 
     LiveTransforms transforms_;
     std::string fixed_, camera_;

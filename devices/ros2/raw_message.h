@@ -9,7 +9,7 @@
 namespace fathom {
 
 // Largest message that is received [bytes]: a colour image of 3840x2160 pixels with 4 x 16 bits.
-inline constexpr uint32_t kMostMessage = 80u << 20;
+inline constexpr uint32_t kMaxMessage = 80u << 20;
 
 // CDR with its header of 4 bytes, which says how the rest is encoded.
 struct RawMessage {

@@ -23,7 +23,7 @@ double secondsOf(auto time) {
 
 // Null when there is no memory, or too much is asked for: these functions are called by C code.
 RawSample* newSample(const ddsi_sertype* type, ddsi_serdata_kind kind, size_t size) noexcept {
-    if (size > kMostMessage) {
+    if (size > kMaxMessage) {
         return nullptr;
     }
     auto* sample = new (std::nothrow) RawSample();

@@ -52,10 +52,10 @@ HandPose handPose(std::span<const uint8_t> message) {
 std::vector<bool> joyButtons(std::span<const uint8_t> message) {
     MessageCursor cursor(message, true);
     frameIn(cursor);
-    for (uint32_t left = countIn(cursor, "axes", kMostJoy); left > 0; --left) {
+    for (uint32_t left = countIn(cursor, "axes", kMaxJoy); left > 0; --left) {
         cursor.value<float>();
     }
-    std::vector<bool> buttons(countIn(cursor, "buttons", kMostJoy));
+    std::vector<bool> buttons(countIn(cursor, "buttons", kMaxJoy));
     for (size_t i = 0; i < buttons.size(); ++i) {
         buttons[i] = cursor.value<int32_t>() != 0;
     }
@@ -65,11 +65,11 @@ std::vector<bool> joyButtons(std::span<const uint8_t> message) {
 std::vector<std::pair<std::string, double>> jointPositions(std::span<const uint8_t> message) {
     MessageCursor cursor(message, true);
     frameIn(cursor);
-    std::vector<std::pair<std::string, double>> joints(countIn(cursor, "joints", kMostJoints));
+    std::vector<std::pair<std::string, double>> joints(countIn(cursor, "joints", kMaxJoints));
     for (auto& joint : joints) {
         joint.first = cursor.name();
     }
-    if (countIn(cursor, "positions", kMostJoints) != joints.size()) {
+    if (countIn(cursor, "positions", kMaxJoints) != joints.size()) {
         throw Error("another number of positions than of names");
     }
     for (auto& joint : joints) {

@@ -27,18 +27,18 @@ inline constexpr double kFarthestHand = 10.0; // [m] from the origin of the devi
 // Of a rotation's length.
 inline constexpr double kUnitSlack = 0.05;
 
-// The buttons of sensor_msgs/msg/Joy in CDR, true while down. Throws Error: truncated, or more than kMostJoy
+// The buttons of sensor_msgs/msg/Joy in CDR, true while down. Throws Error: truncated, or more than kMaxJoy
 // axes or buttons.
 std::vector<bool> joyButtons(std::span<const uint8_t> message);
 
 // Limit of axes and of buttons.
-inline constexpr uint32_t kMostJoy = 256;
+inline constexpr uint32_t kMaxJoy = 256;
 
 // Positions of sensor_msgs/msg/JointState in CDR, [rad] or [m]. Throws Error: truncated, more than
-// kMostJoints, another count of positions than of names, or a position that is not finite.
+// kMaxJoints, another count of positions than of names, or a position that is not finite.
 std::vector<std::pair<std::string, double>> jointPositions(std::span<const uint8_t> message);
 
 // Limit of joints.
-inline constexpr uint32_t kMostJoints = 1000;
+inline constexpr uint32_t kMaxJoints = 1000;
 
 } // namespace fathom::ros2

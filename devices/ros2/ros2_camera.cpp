@@ -26,10 +26,10 @@ ros::Image Ros2Camera::imageOf(const ImageStream& stream, const RawMessage& mess
 }
 
 void Ros2Camera::skip(const std::string& fault, uint32_t frames) {
-    constexpr size_t kMostFaults = 32;
+    constexpr size_t kMaxFaults = 32;
     skipped_ += frames;
     lastFault_ = fault;
-    if (faults_.size() < kMostFaults && faults_.insert(fault).second) {
+    if (faults_.size() < kMaxFaults && faults_.insert(fault).second) {
         log::warn("{}: frame skipped: {} (logged once)", description(), fault);
     }
 }

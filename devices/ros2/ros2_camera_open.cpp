@@ -59,7 +59,7 @@ Ros2Camera::Topic Ros2Camera::subscribeImages(const std::string& topic) {
 }
 
 void Ros2Camera::subscribeOthers() {
-    constexpr size_t kMostTransforms = 200;
+    constexpr size_t kMaxTransforms = 200;
     const SourceOptions& options = request_.options;
     std::set<std::string> infos;
     for (const std::string& image : {options.depth, options.colour}) {
@@ -75,9 +75,9 @@ void Ros2Camera::subscribeOthers() {
     for (const std::string& topic : infos) {
         add(topic, "sensor_msgs/msg/CameraInfo", Ros2Qos::Sensor, 1);
     }
-    tfStatic_ = add("/tf_static", kRos2Transforms, Ros2Qos::Latched, kMostTransforms);
+    tfStatic_ = add("/tf_static", kRos2Transforms, Ros2Qos::Latched, kMaxTransforms);
     if (!request_.frame.empty()) {
-        tf_ = add("/tf", kRos2Transforms, Ros2Qos::Stream, kMostTransforms);
+        tf_ = add("/tf", kRos2Transforms, Ros2Qos::Stream, kMaxTransforms);
         moving_.emplace(description(), request_.frame);
     }
     add(parentTopic(options.depth, 2) + "/extrinsics/depth_to_color", "realsense2_camera_msgs/msg/Extrinsics",

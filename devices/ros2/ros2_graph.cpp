@@ -15,7 +15,7 @@ namespace {
 
 // Limits the size of messages. Cyclone's own default is 2 GiB.
 std::string limits() {
-    return "<Internal><MaxSampleSize>" + std::to_string(kMostMessage) + "B</MaxSampleSize></Internal>";
+    return "<Internal><MaxSampleSize>" + std::to_string(kMaxMessage) + "B</MaxSampleSize></Internal>";
 }
 
 // The user's own configuration, with our limits. Later parts override earlier ones.
@@ -98,10 +98,10 @@ std::string Ros2Graph::publications() const {
     std::set<std::string> names;
     const dds_entity_t reader =
         dds().createReader(participant_, DDS_BUILTIN_TOPIC_DCPSPUBLICATION, nullptr, nullptr);
-    constexpr size_t kMostSeen = 256;
-    void* samples[kMostSeen] = {};
-    dds_sample_info_t infos[kMostSeen];
-    const dds_return_t count = reader < 0 ? 0 : dds().take(reader, samples, infos, kMostSeen, kMostSeen);
+    constexpr size_t kMaxSeen = 256;
+    void* samples[kMaxSeen] = {};
+    dds_sample_info_t infos[kMaxSeen];
+    const dds_return_t count = reader < 0 ? 0 : dds().take(reader, samples, infos, kMaxSeen, kMaxSeen);
     for (dds_return_t i = 0; i < count; ++i) {
         const auto* seen = static_cast<const dds_builtintopic_endpoint_t*>(samples[i]);
         const std::string topic = infos[i].valid_data ? seen->topic_name : "";

@@ -89,10 +89,10 @@ private:
 };
 
 void GuardOfTopics::skip(const std::string& topic, const Error& fault) {
-    constexpr size_t kMostFaults = 32;
+    constexpr size_t kMaxFaults = 32;
     ++figures_.faults;
     const std::string text = topic + ": " + fault.what();
-    if (faults_.size() < kMostFaults && faults_.insert(text).second) {
+    if (faults_.size() < kMaxFaults && faults_.insert(text).second) {
         log::warn("guard ros2: message skipped: {} (logged once)", text);
     }
 }

@@ -13,9 +13,9 @@ constexpr const char* kHandOption = "--topics";
 
 uint32_t buttonOf(const Ros2Word& word) {
     uint32_t button = 0;
-    if (!parseNumber(std::string_view(word.value), button) || button >= ros2::kMostJoy) {
+    if (!parseNumber(std::string_view(word.value), button) || button >= ros2::kMaxJoy) {
         throw BadInput(kHandOption, word.name, word.value,
-                       "a button's number, 0 to " + std::to_string(ros2::kMostJoy - 1));
+                       "a button's number, 0 to " + std::to_string(ros2::kMaxJoy - 1));
     }
     return button;
 }

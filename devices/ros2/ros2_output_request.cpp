@@ -35,7 +35,7 @@ Ros2OutputRequest parseRos2OutputRequest(const std::string& text) {
         if (word.name == "frame") {
             request.frame = ros2Frame(kOutputOption, word);
         } else if (word.name == "rate") {
-            request.rate = ros2Number(kOutputOption, word, request.kMostRate, "1/s");
+            request.rate = ros2Number(kOutputOption, word, request.kMaxRate, "1/s");
         } else if (word.text == "commands=on") {
             request.commands = true;
         } else if (word.text == "tf=on") {

@@ -20,7 +20,7 @@ struct Ros2OutputRequest {
     std::string trajectory;     // topic of the arm's joints, for a robot; empty = none
     std::string measured;       // topic of that robot's joints
 
-    static constexpr double kMostRate = 1000.0;
+    static constexpr double kMaxRate = 1000.0;
     static constexpr const char* kAllowed =
         "/PREFIX, then any of ,frame=NAME ,rate=HZ ,tf=on ,commands=on ,twist=TOPIC ,trajectory=TOPIC "
         ",measured=TOPIC ,domain=N ,network=lo|INTERFACE|any";

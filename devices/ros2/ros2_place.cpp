@@ -12,12 +12,12 @@ namespace fathom {
 
 namespace {
 
-constexpr uint32_t kMostDomain = 232; // its ports are below 65536
+constexpr uint32_t kMaxDomain = 232; // its ports are below 65536
 
 uint32_t domainOf(const std::string& where, const std::string& field, const std::string& text) {
     uint32_t domain = 0;
-    if (!parseNumber(std::string_view(text), domain) || domain > kMostDomain) {
-        throw BadInput(where, field, text, "0 to " + std::to_string(kMostDomain));
+    if (!parseNumber(std::string_view(text), domain) || domain > kMaxDomain) {
+        throw BadInput(where, field, text, "0 to " + std::to_string(kMaxDomain));
     }
     return domain;
 }

@@ -57,8 +57,8 @@ void Ros2Service::serve(const std::function<std::string(MessageCursor& request)>
 
 void Ros2Service::sendReplies() {
     const bool all = replies_.subscribers() >= inbox_.publishers(requests_);
-    while (!waiting_.empty() && (all || waiting_.size() > kMostWaiting ||
-                                 serviceSeconds() - waiting_.front().asked > kDiscovery)) {
+    while (!waiting_.empty() &&
+           (all || waiting_.size() > kMaxWaiting || serviceSeconds() - waiting_.front().asked > kDiscovery)) {
         replies_.write(waiting_.front().bytes);
         waiting_.pop_front();
     }

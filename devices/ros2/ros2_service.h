@@ -27,7 +27,7 @@ public:
     void serve(const std::function<std::string(MessageCursor& request)>& obey);
     uint64_t skipped() const { return skipped_; }
 
-    static constexpr size_t kMostWaiting = 64; // replies
+    static constexpr size_t kMaxWaiting = 64; // replies
 
 private:
     struct Reply {

@@ -66,9 +66,9 @@ private:
     std::span<const uint8_t> devices_;
     ReachReader reader_;
     ArmFeedback feedback_;
-    std::array<double, kMostArmAxes> heardAt_{};   // [s] of each position; -1e9 = never
-    std::array<double, kMostArmAxes> overSince_{}; // [s]; infinite = not over
-    std::array<Sent, 48> sent_{};                  // ring buffer
+    std::array<double, kMaxArmAxes> heardAt_{};   // [s] of each position; -1e9 = never
+    std::array<double, kMaxArmAxes> overSince_{}; // [s]; infinite = not over
+    std::array<Sent, 48> sent_{};                 // ring buffer
     size_t nextSent_ = 0;
     bool echoes_ = false;       // a request was echoed
     double nextCommand_ = -1e9; // [s]

@@ -45,10 +45,10 @@ std::optional<float> ReachPacket::asFloat() const noexcept {
 }
 
 size_t encodeReach(const ReachPacket& packet, ReachFrame& out) noexcept {
-    if (packet.size > ReachPacket::kMostData) {
+    if (packet.size > ReachPacket::kMaxData) {
         return 0;
     }
-    std::array<uint8_t, ReachPacket::kMostData + kTail> raw{};
+    std::array<uint8_t, ReachPacket::kMaxData + kTail> raw{};
     std::copy_n(packet.data.begin(), packet.size, raw.begin());
     const size_t length = packet.size + kTail;
     raw[packet.size] = packet.id;
@@ -74,7 +74,7 @@ size_t encodeReach(const ReachPacket& packet, ReachFrame& out) noexcept {
 }
 
 std::optional<ReachPacket> ReachReader::decode() const noexcept {
-    std::array<uint8_t, ReachPacket::kMostData + 8> raw{};
+    std::array<uint8_t, ReachPacket::kMaxData + 8> raw{};
     size_t length = 0;
     for (size_t at = 0; at < size_;) {
         const size_t block = frame_[at];
@@ -89,7 +89,7 @@ std::optional<ReachPacket> ReachReader::decode() const noexcept {
             raw[length++] = 0;
         }
     }
-    if (length < kTail || length > ReachPacket::kMostData + kTail || raw[length - 2] != length ||
+    if (length < kTail || length > ReachPacket::kMaxData + kTail || raw[length - 2] != length ||
         reachCrc({raw.data(), length - 1}) != raw[length - 1]) {
         return std::nullopt;
     }

@@ -11,12 +11,12 @@
 namespace fathom {
 
 struct ReachPacket {
-    static constexpr size_t kMostData = 64;
+    static constexpr size_t kMaxData = 64;
 
     uint8_t id = 0;     // 0x02 velocity, 0x03 position, 0x05 current, 0x60 request, ...
     uint8_t device = 0; // 1 jaws, 2 wrist, 3 elbow, 4 shoulder, 5 base, 0xFF all
     uint8_t size = 0;   // of data
-    std::array<uint8_t, kMostData> data{};
+    std::array<uint8_t, kMaxData> data{};
 
     static ReachPacket ofFloat(uint8_t id, uint8_t device,
                                float value) noexcept; // rad, rad/s, mA, mm for jaws
@@ -24,7 +24,7 @@ struct ReachPacket {
 };
 
 // Space for any packet on the line, including the final zero.
-using ReachFrame = std::array<uint8_t, ReachPacket::kMostData + 8>;
+using ReachFrame = std::array<uint8_t, ReachPacket::kMaxData + 8>;
 
 // CRC8: polynomial 0x4D, reflected, initial value 0, inverted result.
 uint8_t reachCrc(std::span<const uint8_t> bytes) noexcept;

@@ -11,8 +11,8 @@ namespace fathom {
 
 namespace {
 
-constexpr uint32_t kLeastSubsteps = 4;
-constexpr uint32_t kMostSubsteps = 1000;
+constexpr uint32_t kMinSubsteps = 4;
+constexpr uint32_t kMaxSubsteps = 1000;
 constexpr double kPhaseStep = 0.05; // [rad] of the hand's own oscillation a substep
 
 bool atLeast(double value, double bound) {
@@ -65,7 +65,7 @@ void SimulatedHand::write(const Wrench& deviceWrench, double dt) noexcept {
     const HandLoop& loop = options_.loop;
     const double pace = std::max(std::sqrt(loop.stiffness / loop.mass), loop.damping / loop.mass);
     const double wanted =
-        std::clamp(std::ceil(dt * pace / kPhaseStep), double{kLeastSubsteps}, double{kMostSubsteps});
+        std::clamp(std::ceil(dt * pace / kPhaseStep), double{kMinSubsteps}, double{kMaxSubsteps});
     const auto substeps = static_cast<uint32_t>(wanted);
     const double h = dt / wanted;
     for (uint32_t i = 0; i < substeps; ++i) {

@@ -19,7 +19,7 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kLegs[3] = {105.0 * kDegree, -15.0 * kDegree, -135.0 * kDegree}; // 90, -30, -150, all + 15
 constexpr double kPerCount = 0.01425 * 360.0 / (320.0 * 4.0 * 0.110) * kDegree;   // [rad]
 constexpr double kAtZero = 35.0 * kDegree;
-constexpr int kMostSteps = 30;
+constexpr int kMaxSteps = 30;
 constexpr double kClose = 1e-9;   // [m]
 constexpr double kFarthest = 0.1; // [m] from home: farther solutions belong to other assembly modes
 
@@ -90,7 +90,7 @@ std::optional<LegAngles> FalconKinematics::inverse(const dvec3& knob) noexcept {
 
 std::optional<dvec3> FalconKinematics::forward(const LegAngles& angles, const dvec3& guess) noexcept {
     dvec3 p = guess;
-    for (int step = 0; step < kMostSteps; ++step) {
+    for (int step = 0; step < kMaxSteps; ++step) {
         dvec3 g(0.0);
         glm::dmat3 rows(0.0); // column i: gradient of leg i
         for (int i = 0; i < 3; ++i) {

@@ -18,7 +18,7 @@ namespace fathom {
 
 namespace {
 
-constexpr int kMostReports = 64; // per tick
+constexpr int kMaxReports = 64; // per tick
 constexpr auto kSeekPause = std::chrono::milliseconds(100);
 constexpr uint32_t kMouseGuides = 1, kMouseOpensDeadMan = 2; // of HandSample
 constexpr uint32_t kFirstButton = 1, kSecondButton = 2;      // of the device
@@ -116,7 +116,7 @@ void SpaceMouseHand::seek() noexcept {
 
 void SpaceMouseHand::takeReports(double t) noexcept {
     uint8_t report[64];
-    for (int i = 0; i < kMostReports && descriptor_ >= 0; ++i) {
+    for (int i = 0; i < kMaxReports && descriptor_ >= 0; ++i) {
         const ssize_t got = ::read(descriptor_, report, sizeof report);
         if (got > 0) {
             if (takeSpaceMouseReport({report, static_cast<size_t>(got)}, state_)) {
@@ -139,7 +139,7 @@ HandSample SpaceMouseHand::read(double t) noexcept {
     if (t - heard_ > kSilence) {
         state_.shift = state_.rotation = {};
     }
-    const double step = started_ ? std::clamp(t - before_, 0.0, kMostStep) : 0.0;
+    const double step = started_ ? std::clamp(t - before_, 0.0, kMaxStep) : 0.0;
     before_ = t;
     started_ = true;
     pose_.position += step * options_.speed * spaceMouseAxes(state_.shift);

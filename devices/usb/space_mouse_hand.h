@@ -46,8 +46,8 @@ public:
     bool alive() const noexcept override { return descriptor_ >= 0; }
     LiveHandFigures figures() const noexcept override { return figures_; }
 
-    static constexpr double kSilence = 0.1;   // [s]
-    static constexpr double kMostStep = 0.05; // [s] integrated per tick at most
+    static constexpr double kSilence = 0.1;  // [s]
+    static constexpr double kMaxStep = 0.05; // [s] integrated per tick at most
 
 private:
     void takeReports(double t) noexcept;

@@ -110,7 +110,7 @@ void UsbFtdi::onReceived() noexcept {
                 payload_.push_back(inBytes_[i]);
             }
         }
-    } else if (++errors_ > kMostErrors) {
+    } else if (++errors_ > kMaxErrors) {
         gone_ = true;
     }
     submitReceive(); // first of all: one transfer is always pending

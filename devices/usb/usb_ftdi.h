@@ -42,7 +42,7 @@ private:
     void checkThere() const;
 
     static constexpr size_t kUsbPacket = 64;
-    static constexpr int kMostErrors = 8; // consecutive errors until the device counts as lost
+    static constexpr int kMaxErrors = 8; // consecutive errors until the device counts as lost
 
     libusb_context* context_ = nullptr;
     libusb_device_handle* handle_ = nullptr;

@@ -36,12 +36,12 @@ std::string faultOf(const Decoder& decoder) {
 // A few bytes between the last sample and the end marker are padding, which many webcams send; more are the
 // rest of a damaged image. The decoder reports only its first warning, and this one can only be the last.
 bool endsPadded(const Decoder& decoder) {
-    constexpr unsigned kMostPadding = 16; // [bytes]
+    constexpr unsigned kMaxPadding = 16; // [bytes]
     unsigned extra = 0, marker = 0;
     return tjGetErrorCode(decoder.get()) == TJERR_WARNING &&
            std::sscanf(tjGetErrorStr2(decoder.get()),
                        "Corrupt JPEG data: %u extraneous bytes before marker %x", &extra, &marker) == 2 &&
-           extra <= kMostPadding && marker == 0xd9;
+           extra <= kMaxPadding && marker == 0xd9;
 }
 
 // Rows of each plane.

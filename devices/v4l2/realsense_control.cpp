@@ -13,7 +13,7 @@ namespace {
 constexpr UnitGuid kDepthUnitGuid{0xcb, 0x6c, 0x60, 0xc9, 0x4c, 0x59, 0x25, 0x4d,
                                   0xaf, 0x47, 0xcc, 0xc4, 0x96, 0x43, 0x59, 0x95};
 constexpr uint8_t kMailbox = 1; // selector
-constexpr size_t kBytes = 1024, kSizeAt = 1020, kMostData = kSizeAt - 4;
+constexpr size_t kBytes = 1024, kSizeAt = 1020, kMaxData = kSizeAt - 4;
 constexpr uint16_t kMagic = 0xcdab;
 constexpr uint32_t kGetTable = 0x15, kGetAdvanced = 0x2c, kDepthControl = 9;
 
@@ -48,7 +48,7 @@ std::vector<uint8_t> Mailbox::ask(uint32_t command, uint32_t parameter) const {
     unit_.set(kMailbox, request);
     const std::vector<uint8_t> reply = unit_.get(kMailbox, kBytes);
     const uint32_t echo = word(reply, 0), size = word(reply, kSizeAt);
-    if (echo != command || size > kMostData) {
+    if (echo != command || size > kMaxData) {
         throw Error("RealSense command " + std::to_string(command) + ": " +
                     (static_cast<int32_t>(echo) < 0
                          ? "refused with " + std::to_string(static_cast<int32_t>(echo))

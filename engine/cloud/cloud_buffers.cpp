@@ -90,7 +90,7 @@ UploadBuffers::UploadBuffers(const gpu::Device& device, const Plan& plan, const 
         format = camera.colourFormat;
     }
     if (plan.selfFilter) {
-        arm = Buffer(device, LinkSpheres::kMostEntries * 16ull, MemoryKind::Upload, "arm");
+        arm = Buffer(device, LinkSpheres::kMaxEntries * 16ull, MemoryKind::Upload, "arm");
     }
 }
 

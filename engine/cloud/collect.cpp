@@ -17,7 +17,7 @@ namespace fathom::cloud {
 
 namespace {
 
-constexpr size_t kLeastReadings = 16384; // readings per part
+constexpr size_t kMinReadings = 16384; // readings per part
 
 // Converts four adjacent sub-patches sub[0..3] to four rows of 16 pixel bits, row k from bit 16 k on:
 // transposes 4x4 nibbles.
@@ -111,7 +111,7 @@ uint32_t copyDepth(Fixtures& host, std::span<const uint16_t> depth, const Scene&
                most = static_cast<uint16_t>(lo <= hi ? hi : 0);
     host.depth.resize(depth.size());
     std::atomic<uint32_t> valid{0};
-    inParts(workers, depth.size(), kLeastReadings, [&](size_t begin, size_t end) {
+    inParts(workers, depth.size(), kMinReadings, [&](size_t begin, size_t end) {
         std::copy_n(&depth[begin], end - begin, &host.depth[begin]);
         valid += countWithin(&host.depth[begin], end - begin, least, most);
     });

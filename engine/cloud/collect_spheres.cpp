@@ -13,8 +13,8 @@ namespace fathom::cloud {
 
 namespace {
 
-constexpr uint32_t kLeastPart = 4096; // spheres
-constexpr size_t kLeastPatches = 64;  // patches counted per part
+constexpr uint32_t kMinPart = 4096; // spheres
+constexpr size_t kMinPatches = 64;  // patches counted per part
 
 // The device has just written the runs in any patch order, so their cache lines are cold and the processor
 // cannot predict where the next run begins.
@@ -58,11 +58,11 @@ SphereCollector::SphereCollector(FixtureSet& set, const WorkBuffers& work, const
     , begins_(layout.patches() + 1) {
     const uint32_t count = placePatches(workers);
     set.host.spheres.resize(count);
-    counts_.resize(partsOf(&workers, count, kLeastPart));
+    counts_.resize(partsOf(&workers, count, kMinPart));
 }
 
 uint32_t SphereCollector::placePatches(ThreadPool& workers) {
-    inParts(&workers, layout_.patches(), kLeastPatches, [&](size_t begin, size_t end) {
+    inParts(&workers, layout_.patches(), kMinPatches, [&](size_t begin, size_t end) {
         for (size_t patch = begin; patch < end; ++patch) {
             begins_[patch] = spheresOf(static_cast<uint32_t>(patch));
         }

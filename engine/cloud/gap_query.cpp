@@ -19,10 +19,10 @@ using shared::GapPair;
 using shared::GapParams;
 using shared::GapPose;
 
-constexpr double kMostAway = 20.0;           // [m] of a pose from the set's origin
-constexpr size_t kMostPosesAtOnce = 16384;   // of one submission
-constexpr uint64_t kCountBytes = 16;         // in front of the pairs
-constexpr uint32_t kLeastCopiedPairs = 1024; // in every copy: it costs less than a second one
+constexpr double kMaxAway = 20.0;          // [m] of a pose from the set's origin
+constexpr size_t kMaxPosesAtOnce = 16384;  // of one submission
+constexpr uint64_t kCountBytes = 16;       // in front of the pairs
+constexpr uint32_t kMinCopiedPairs = 1024; // in every copy: it costs less than a second one
 
 gpu::PipelineInfo gapPipeline(const Plan& plan) {
     return {"smallest_gap",
@@ -153,7 +153,7 @@ void GapQuery::record(const Batch& batch, Part part) {
         watch_.mark(commands_.handle());
     }
     commands_.barrier();
-    copyPairs(std::min(most_, std::max(kLeastCopiedPairs, found_ + found_ / 4)));
+    copyPairs(std::min(most_, std::max(kMinCopiedPairs, found_ + found_ / 4)));
     commands_.end();
 }
 
@@ -221,7 +221,7 @@ void GapQuery::find(const FixtureSet& set, const Tool& tool, std::span<const Pos
     hostReady_ = false;
     near_.clear();
     for (uint32_t i = 0; i < baseTtool.size(); ++i) {
-        const bool near = glm::distance(baseTtool[i].position, set.host.origin) <= kMostAway;
+        const bool near = glm::distance(baseTtool[i].position, set.host.origin) <= kMaxAway;
         if (near && isFinite(baseTtool[i])) {
             near_.push_back(i);
         } else {
@@ -231,9 +231,9 @@ void GapQuery::find(const FixtureSet& set, const Tool& tool, std::span<const Pos
     if (still_.fillStill(set)) {
         bindings_.clear();
     }
-    reserve(std::min(near_.size(), kMostPosesAtOnce));
-    for (size_t begin = 0; begin < near_.size(); begin += kMostPosesAtOnce) {
-        ask(batch, Part(near_).subspan(begin, std::min(kMostPosesAtOnce, near_.size() - begin)));
+    reserve(std::min(near_.size(), kMaxPosesAtOnce));
+    for (size_t begin = 0; begin < near_.size(); begin += kMaxPosesAtOnce) {
+        ask(batch, Part(near_).subspan(begin, std::min(kMaxPosesAtOnce, near_.size() - begin)));
     }
 }
 

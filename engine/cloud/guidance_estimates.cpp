@@ -9,7 +9,7 @@ namespace fathom::cloud {
 namespace {
 
 constexpr double kLongestPause = 0.25; // [s]
-constexpr double kMostFrames = 300.0;  // in a mean: a swaying camera repeats in about 10 s
+constexpr double kMaxFrames = 300.0;   // in a mean: a swaying camera repeats in about 10 s
 constexpr double kRecentGain = 0.25;   // the recent mean spans about 4 frames
 constexpr double kGate = 0.002;        // [m] mean to recent mean; a view from another side changes less
 constexpr double kPlay = 0.0005;       // [m]
@@ -31,7 +31,7 @@ const dvec3& SteadyVector::step(const dvec3& measured) noexcept {
         return shown_ = mean_ = measured;
     }
     recent_ += kRecentGain * (measured - mean_ - recent_);
-    count_ = std::min(count_ + 1.0, kMostFrames);
+    count_ = std::min(count_ + 1.0, kMaxFrames);
     const dvec3 moved = (measured - mean_) / count_;
     const dvec3 lag = beyond(recent_ - moved, gate_);
     if (lag != dvec3(0.0)) { // it moves: earlier frames count less

@@ -12,16 +12,16 @@ namespace {
 using shared::FoundSphere;
 using Counts = QueryAnswer::Counts;
 
-constexpr uint64_t kHeader = 16;              // [bytes]
-constexpr Counts kLeastCopied = {1024, 2048}; // in every copy: it costs less than a second one
-constexpr uint32_t kMostOfAny = 0x80000000u;
+constexpr uint64_t kHeader = 16;            // [bytes]
+constexpr Counts kMinCopied = {1024, 2048}; // in every copy: it costs less than a second one
+constexpr uint32_t kMaxOfAny = 0x80000000u;
 
 uint64_t bytesOf(const Counts& most) {
     return kHeader + uint64_t{most.spheres} * sizeof(FoundSphere) + 4ull * most.leaves;
 }
 
 uint32_t roomFor(uint32_t count) {
-    return count > kMostOfAny ? UINT32_MAX : std::bit_ceil(count);
+    return count > kMaxOfAny ? UINT32_MAX : std::bit_ceil(count);
 }
 
 uint32_t guess(uint32_t last, uint32_t least, uint32_t most) {
@@ -74,8 +74,8 @@ void QueryAnswer::copyPart(gpu::Commands& commands, const Counts& part) {
 }
 
 void QueryAnswer::copy(gpu::Commands& commands) {
-    copyPart(commands, {guess(last_.spheres, kLeastCopied.spheres, most_.spheres),
-                        guess(last_.leaves, kLeastCopied.leaves, most_.leaves)});
+    copyPart(commands, {guess(last_.spheres, kMinCopied.spheres, most_.spheres),
+                        guess(last_.leaves, kMinCopied.leaves, most_.leaves)});
 }
 
 void QueryAnswer::copyWhole(gpu::Commands& commands) {

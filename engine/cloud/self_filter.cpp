@@ -31,7 +31,7 @@ glm::vec4 boundOf(const LinkSpheres& arm, uint32_t begin, uint32_t end, const dv
 } // namespace
 
 void uploadArm(const UploadBuffers& slot, const LinkSpheres& arm, const dvec3& origin) {
-    if (arm.spheres.size() > LinkSpheres::kMostSpheres || arm.ends.size() > LinkSpheres::kMostLinks) {
+    if (arm.spheres.size() > LinkSpheres::kMaxSpheres || arm.ends.size() > LinkSpheres::kMaxLinks) {
         throw Error("self-filter: " + std::to_string(arm.spheres.size()) + " spheres on " +
                     std::to_string(arm.ends.size()) + " links are too many");
     }

@@ -15,8 +15,8 @@ struct LinkSpheres {
     std::vector<Sphere> spheres;
     std::vector<uint32_t> ends; // per link: end of its spheres
 
-    static constexpr size_t kMostSpheres = 4096, kMostLinks = 256;
-    static constexpr size_t kMostEntries = 1 + 2 * kMostLinks + kMostSpheres; // vec4 entries in the buffer
+    static constexpr size_t kMaxSpheres = 4096, kMaxLinks = 256;
+    static constexpr size_t kMaxEntries = 1 + 2 * kMaxLinks + kMaxSpheres; // vec4 entries in the buffer
 };
 
 // Writes the arm to the slot's buffer, relative to `origin`. The slot's last submission must have completed.

@@ -11,8 +11,8 @@ namespace fathom {
 namespace {
 
 constexpr size_t kThingsPerBucket = 32; // approximate
-constexpr size_t kMostBuckets = 512;    // one thread sums their counts
-constexpr size_t kLeastBlocks = 8;      // one thread computes their places
+constexpr size_t kMaxBuckets = 512;     // one thread sums their counts
+constexpr size_t kMinBlocks = 8;        // one thread computes their places
 
 } // namespace
 
@@ -55,7 +55,7 @@ void CellSort::placesOfParts(std::span<uint32_t> begins, uint32_t parts, ThreadP
             sum += inBlock_[part * blocks + block];
         }
     }
-    inParts(&workers, blocks, kLeastBlocks, [&](size_t begin, size_t end) {
+    inParts(&workers, blocks, kMinBlocks, [&](size_t begin, size_t end) {
         for (size_t block = begin; block < end; ++block) {
             placesInBlock(block, begins, parts);
         }
@@ -90,7 +90,7 @@ void CellSort::placesInBlock(size_t block, std::span<uint32_t> begins, uint32_t 
 }
 
 void CellSort::chooseBuckets(size_t things, uint32_t cells) {
-    const size_t most = std::clamp<size_t>(things / kThingsPerBucket, 1, kMostBuckets);
+    const size_t most = std::clamp<size_t>(things / kThingsPerBucket, 1, kMaxBuckets);
     for (shift_ = 0; (cells - 1) >> shift_ >= most;) {
         ++shift_;
     }

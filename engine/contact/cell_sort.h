@@ -26,9 +26,9 @@ public:
               ThreadPool* workers);
 
 private:
-    static constexpr size_t kLeastPart = 2048;  // items
-    static constexpr size_t kLeastBuckets = 16; // per part
-    static constexpr size_t kBlock = 256;       // cells whose counts are cleared and summed together
+    static constexpr size_t kMinPart = 2048;  // items
+    static constexpr size_t kMinBuckets = 16; // per part
+    static constexpr size_t kBlock = 256;     // cells whose counts are cleared and summed together
 
     struct Placed {
         uint32_t cell, thing;
@@ -64,7 +64,7 @@ void CellSort::sort(std::span<const uint32_t> cell, uint32_t cells, std::span<ui
                     const Put& put, ThreadPool* workers) {
     const auto things = static_cast<uint32_t>(cell.size());
     const size_t members = workers == nullptr ? 1 : workers->size();
-    const auto parts = static_cast<uint32_t>(std::clamp<size_t>(things / kLeastPart, 1, members));
+    const auto parts = static_cast<uint32_t>(std::clamp<size_t>(things / kMinPart, 1, members));
     begins[cells] = things;
     if (parts < 2) {
         countCells(
@@ -77,7 +77,7 @@ void CellSort::sort(std::span<const uint32_t> cell, uint32_t cells, std::span<ui
     } else {
         chooseBuckets(things, cells);
         toBuckets(cell, parts, *workers);
-        inParts(workers, buckets_, kLeastBuckets, [&](size_t begin, size_t end) {
+        inParts(workers, buckets_, kMinBuckets, [&](size_t begin, size_t end) {
             for (size_t bucket = begin; bucket < end; ++bucket) {
                 sortBucket(static_cast<uint32_t>(bucket), begins.first(cells), put);
             }

@@ -11,7 +11,7 @@ namespace fathom {
 
 namespace {
 
-constexpr size_t kMostRowsOfLeaf = 8;
+constexpr size_t kMaxRowsOfLeaf = 8;
 // [m] Closer centres have no direction. Above this the difference of two centres is exact, and only a step
 // along it makes no pair deeper on its path.
 constexpr double kCoincident = 1e-150;
@@ -23,7 +23,7 @@ constexpr uint64_t kSmoothKey = uint64_t{1} << 63; // set in keys of smooth rows
 NarrowPhase::NarrowPhase(const Tool& tool, size_t maxRows, double cone, bool smooth)
     : maxRows_(maxRows)
     , cosCone_(std::cos(cone))
-    , rows_(tool.leafCount() * kMostRowsOfLeaf)
+    , rows_(tool.leafCount() * kMaxRowsOfLeaf)
     , smooth_(smooth)
     , leaves_(tool.leafCount())
     , lastNormal_(tool.leafCount(), dvec3(0.0))
@@ -210,7 +210,7 @@ void NarrowPhase::addSmoothRow(const ContactSet& set, const PairRun& run,
                                const ContactRow& nearest) noexcept {
     const double touch = radius_[run.leaf] + static_cast<double>(set.pairRadius[nearest.pair]);
     const double depth = std::min(patchDepth(touch), 0.5 * checkLimit_);
-    if (smoothCount_ == kMostSmooth || !(nearest.gap >= 0.0) || nearest.gap + depth > checkLimit_) {
+    if (smoothCount_ == kMaxSmooth || !(nearest.gap >= 0.0) || nearest.gap + depth > checkLimit_) {
         return;
     }
     uint32_t from = 0;
@@ -251,7 +251,7 @@ void NarrowPhase::chooseRows(const ContactSet& set, uint32_t leaf, const PairArr
     for (size_t r = firstRow; r < rowCount_; ++r) { // chosen from an earlier part of the same leaf
         left = dropCone(run, centre, rows_[r].normal, cosCone_, rows_[r].gap, limit, gaps_.data());
     }
-    while (left > 0 && rowCount_ < firstRow + kMostRowsOfLeaf) {
+    while (left > 0 && rowCount_ < firstRow + kMaxRowsOfLeaf) {
         const double least = smallestGapOf(gaps_.data(), run.count);
         if (!(least <= limit)) {
             return;

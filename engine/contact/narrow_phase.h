@@ -40,13 +40,13 @@ public:
                 double checkLimit, bool anew) noexcept;
 
     std::span<const ContactRow> rows() const { return {rows_.data(), rowCount_}; }
-    // Planes over the spheres near the leaves that almost touch (smooth_plane.h), for at most kMostSmooth
+    // Planes over the spheres near the leaves that almost touch (smooth_plane.h), for at most kMaxSmooth
     // leaves. `gap` is at most that of the leaf's nearest pair and may be negative where that is not; `pair`
     // is the nearest pair. Empty unless asked for at construction, or while a leaf overlaps a sphere.
     std::span<const ContactRow> smoothRows() const {
         return {smoothRows_.data(), smallestGap_ < 0.0 ? 0 : smoothCount_};
     }
-    static constexpr size_t kMostSmooth = 16;
+    static constexpr size_t kMaxSmooth = 16;
     double smallestGap() const {
         return smallestGap_;
     } // [m] among pairs up to rowLimit; rowLimit when there is none
@@ -107,7 +107,7 @@ private:
     double cosCone_;
     std::vector<ContactRow> rows_;
     size_t rowCount_ = 0;
-    std::array<ContactRow, kMostSmooth> smoothRows_;
+    std::array<ContactRow, kMaxSmooth> smoothRows_;
     size_t smoothCount_ = 0;
     bool smooth_;
     LeafCentres leaves_;            // at the last gather()

@@ -7,10 +7,10 @@ namespace fathom {
 
 namespace {
 
-constexpr size_t kMostGaps = 262144; // pairs of a contact set, unless a query overflowed
-constexpr size_t kMostNear = 65536;  // copies
-constexpr size_t kLanes = 8;         // the number of copied pairs is a multiple of this
-constexpr float kNowhere = 1e18f;    // [m] position of padding; its square is far from overflow
+constexpr size_t kMaxGaps = 262144; // pairs of a contact set, unless a query overflowed
+constexpr size_t kMaxNear = 65536;  // copies
+constexpr size_t kLanes = 8;        // the number of copied pairs is a multiple of this
+constexpr float kNowhere = 1e18f;   // [m] position of padding; its square is far from overflow
 
 } // namespace
 
@@ -24,8 +24,8 @@ PairRuns::Columns::Columns(size_t capacity)
 PairRuns::PairRuns(size_t leaves)
     : centres_(leaves)
     , runs_(leaves)
-    , gaps_(kMostGaps)
-    , near_(kMostNear)
+    , gaps_(kMaxGaps)
+    , near_(kMaxNear)
     , some_(kPairChunk)
     , chosen_(kPairChunk) {}
 
@@ -64,7 +64,7 @@ void PairRuns::refresh(const ContactSet& set, PairRun& run, const dvec3& centre,
 
 void PairRuns::keepNear(const ContactSet& set, PairRun& run, double limit) noexcept {
     uint32_t from = 0;
-    if (nearCount_ + kPairChunk <= kMostNear) {
+    if (nearCount_ + kPairChunk <= kMaxNear) {
         run.near = nearCount_;
         run.nearCount = copy(set, run, limit, from, near_, nearCount_);
         run.nearUpTo = from == run.count ? limit : run.nearUpTo;

@@ -45,16 +45,16 @@ public:
             if (list(tried, capacity_, out) && out.size() <= capacity_.spheres) {
                 break;
             }
-            const QueryCapacity doubled{2 * capacity_.spheres, std::min(2 * capacity_.pairs, kMostPairs)};
+            const QueryCapacity doubled{2 * capacity_.spheres, std::min(2 * capacity_.pairs, kMaxPairs)};
             next = overflowed ? next : doubled;
             overflowed = true;
             if (tried > kSmallestReach) {
                 tried *= 0.5;
-            } else if (capacity_.pairs < kMostPairs || out.size() > capacity_.spheres) {
+            } else if (capacity_.pairs < kMaxPairs || out.size() > capacity_.spheres) {
                 capacity_ = next = doubled;
             } else {
                 throw Error("the tool's " + std::to_string(out.leafCount()) +
-                            " leaf spheres touch more than " + std::to_string(kMostPairs) +
+                            " leaf spheres touch more than " + std::to_string(kMaxPairs) +
                             " pairs of leaf and region sphere (allowed: a tool "
                             "with fewer or smaller spheres, or one that starts outside of the regions)");
             }
@@ -67,8 +67,7 @@ public:
     const QueryCapacity& capacity() const { return capacity_; }
 
 private:
-    static constexpr size_t kMostPairs = size_t{1}
-                                         << 20; // 38 MB per set; a tick took 0.26 s with 1.6 million
+    static constexpr size_t kMaxPairs = size_t{1} << 20; // 38 MB per set; a tick took 0.26 s with 1.6 million
     static constexpr double kSmallestReach =
         2e-5; // [m] below this the trust region is only margin, so halving gains nothing
 

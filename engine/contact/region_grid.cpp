@@ -15,12 +15,12 @@ namespace fathom {
 
 namespace {
 
-constexpr double kSmallestCell = 0.005;   // [m]
-constexpr uint64_t kMostCells = 4u << 20; // 16 MiB of cell starts
-constexpr uint64_t kFewestCells = 4096;   // below this the cost of clearing is negligible
-constexpr uint64_t kCellsPerSphere = 8;   // keeps clearing and summing cheaper than sorting the spheres
-constexpr size_t kRun = 4096;             // spheres per batch: 16 KiB per column
-constexpr size_t kBoundLanes = 8;         // lanes of running bounds and sums
+constexpr double kSmallestCell = 0.005;  // [m]
+constexpr uint64_t kMaxCells = 4u << 20; // 16 MiB of cell starts
+constexpr uint64_t kFewestCells = 4096;  // below this the cost of clearing is negligible
+constexpr uint64_t kCellsPerSphere = 8;  // keeps clearing and summing cheaper than sorting the spheres
+constexpr size_t kRun = 4096;            // spheres per batch: 16 KiB per column
+constexpr size_t kBoundLanes = 8;        // lanes of running bounds and sums
 constexpr size_t kBoundRows = 4; // rows of lanes, so that a comparison need not wait for the previous one
 using Lanes = float __attribute__((vector_size(4 * kBoundLanes)));
 
@@ -171,7 +171,7 @@ void RegionGrid::buildOf(const Columns& columns, ThreadPool* workers) {
 void RegionGrid::chooseCells(double meanRadius) {
     const dvec3 extent = hi_ - lo_;
     const double most = static_cast<double>(
-        std::min(kMostCells, std::max<uint64_t>(kFewestCells, kCellsPerSphere * x_.size())));
+        std::min(kMaxCells, std::max<uint64_t>(kFewestCells, kCellsPerSphere * x_.size())));
     size_ = std::max(kSmallestCell, 0.5 * meanRadius);
     // Coarsen until the cell count fits. Counted in double because the extent can be arbitrarily large.
     while ((extent.x / size_ + 1.0) * (extent.y / size_ + 1.0) * (extent.z / size_ + 1.0) > most) {

@@ -113,7 +113,7 @@ SideGap gapTo(const Shape& shape, const dvec3& centre, double radius) noexcept {
 }
 
 size_t sidesOf(const Shape& shape, const dvec3& centre, double radius,
-               std::array<SideGap, kMostSides>& sides) noexcept {
+               std::array<SideGap, kMaxSides>& sides) noexcept {
     size_t count = 0;
     const dvec3 p = toShape(shape, centre);
     if (shape.keepIn && shape.kind == ShapeKind::Box) {
@@ -137,7 +137,7 @@ size_t sidesOf(const Shape& shape, const dvec3& centre, double radius,
 }
 
 size_t equalitiesOf(const Shape& shape, const Pose& baseTtool,
-                    std::array<Equality, kMostEqualities>& equalities) noexcept {
+                    std::array<Equality, kMaxEqualities>& equalities) noexcept {
     const dquat& q = shape.baseTshape.rotation;
     const std::array<dvec3, 2> across{q * dvec3(1.0, 0.0, 0.0), q * dvec3(0.0, 1.0, 0.0)};
     const dvec3 offset = baseTtool.position - shape.baseTshape.position;

@@ -35,7 +35,7 @@ struct SideGap {
 };
 
 // Half-spaces of one shape: the faces of a box that keeps the tool inside.
-inline constexpr size_t kMostSides = 6;
+inline constexpr size_t kMaxSides = 6;
 
 // Exact gap of a leaf (centre in the base frame [m], radius [m]) to the whole shape. Not for equalities.
 SideGap gapTo(const Shape& shape, const dvec3& centre, double radius) noexcept;
@@ -43,7 +43,7 @@ SideGap gapTo(const Shape& shape, const dvec3& centre, double radius) noexcept;
 // Writes the half-spaces that keep the leaf on the allowed side and returns their number: one for a forbidden
 // shape (convex, so the tangent plane at the nearest point is safe), one per face for keep_in.
 size_t sidesOf(const Shape& shape, const dvec3& centre, double radius,
-               std::array<SideGap, kMostSides>& sides) noexcept;
+               std::array<SideGap, kMaxSides>& sides) noexcept;
 
 // The tool's next motion [a; alpha] should satisfy linear . a + angular . alpha = -error.
 struct Equality {
@@ -52,10 +52,10 @@ struct Equality {
 };
 
 // Rows of one line or axis.
-inline constexpr size_t kMostEqualities = 4;
+inline constexpr size_t kMaxEqualities = 4;
 
 // Writes two rows for a line, plus two of rotation for an axis. Returns their number.
 size_t equalitiesOf(const Shape& shape, const Pose& baseTtool,
-                    std::array<Equality, kMostEqualities>& equalities) noexcept;
+                    std::array<Equality, kMaxEqualities>& equalities) noexcept;
 
 } // namespace fathom

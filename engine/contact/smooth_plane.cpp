@@ -13,8 +13,8 @@ namespace fathom {
 namespace {
 
 constexpr double kOffPlane = std::numeric_limits<double>::infinity();
-constexpr double kLeastNormal = 0.5; // a shorter mean normal is no direction
-constexpr double kRounding = 1e-15;  // [m] of a bend that is not negative
+constexpr double kMinNormal = 0.5;  // a shorter mean normal is no direction
+constexpr double kRounding = 1e-15; // [m] of a bend that is not negative
 
 // Spheres of a run that are processed together.
 struct PatchBlock {
@@ -81,7 +81,7 @@ bool meanNormal(const PairArrays& run, const dvec3& centre, double leafRadius, d
     }
     const double length = glm::length(sum);
     normal = sum / length;
-    return length > kLeastNormal * weights;
+    return length > kMinNormal * weights;
 }
 
 } // namespace

@@ -24,11 +24,11 @@ void checkTree(const SphereTree& tree) {
 
 void checkLeaf(const Sphere& leaf, size_t index) {
     const dvec3 far = glm::abs(leaf.centre);
-    if (!(std::max({far.x, far.y, far.z}) <= kMostToolReach) || !(leaf.radius <= kMostLeafRadius)) {
+    if (!(std::max({far.x, far.y, far.z}) <= kMaxToolReach) || !(leaf.radius <= kMaxLeafRadius)) {
         char text[160];
         std::snprintf(
             text, sizeof text, "tool: leaf %zu at (%.6g, %.6g, %.6g) with radius %.6g exceeds %g m or %g m",
-            index, leaf.centre.x, leaf.centre.y, leaf.centre.z, leaf.radius, kMostToolReach, kMostLeafRadius);
+            index, leaf.centre.x, leaf.centre.y, leaf.centre.z, leaf.radius, kMaxToolReach, kMaxLeafRadius);
         throw Error(text);
     }
 }

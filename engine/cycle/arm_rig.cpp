@@ -11,7 +11,7 @@ namespace fathom {
 
 namespace {
 
-constexpr size_t kMostLeaves = 4096; // leaves of a Tool
+constexpr size_t kMaxLeaves = 4096; // leaves of a Tool
 
 class RigMaker {
 public:
@@ -24,9 +24,9 @@ public:
     std::unique_ptr<ArmRig> make(std::span<const Sphere> toolLeaves) {
         rig_->model = loadArm(arm_.urdf, modelOptions());
         addTool(toolLeaves);
-        if (rig_->model.leaves.size() > kMostLeaves) {
+        if (rig_->model.leaves.size() > kMaxLeaves) {
             refuse("leaves", std::to_string(rig_->model.leaves.size()) + " of all links",
-                   "at most " + std::to_string(kMostLeaves));
+                   "at most " + std::to_string(kMaxLeaves));
         }
         rig_->baseTarm = arm_.baseTarm;
         rig_->freeDirection = arm_.freeDirection;

@@ -106,7 +106,7 @@ void HapticCycle::recordTouches(const ContactSet* set, const ProxyStep& moved,
                                 StepRecord& out) const noexcept {
     for (const ActiveContact& active : moved.active) {
         const ContactRow& row = active.row;
-        if (out.touchCount == kMostTouches) {
+        if (out.touchCount == kMaxTouches) {
             return;
         }
         Touch& touch = out.touches[out.touchCount++];

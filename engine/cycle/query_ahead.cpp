@@ -32,7 +32,7 @@ void QueryAhead::answered(double asked, double now) noexcept {
         return;
     }
     // In whole ticks, so that the rounding of a clock changes nothing.
-    const double age = period_ * std::round(std::clamp(now - asked, 0.0, kMostLead) / period_);
+    const double age = period_ * std::round(std::clamp(now - asked, 0.0, kMaxLead) / period_);
     age_ = std::max(age, age_ - period_ * std::min(1.0, age_ / kForgetAge));
 }
 
@@ -53,7 +53,7 @@ ToolState QueryAhead::ask(const ToolState& now, double time, size_t joints) cons
         ahead.arm.q[k] += lead * rates_[k];
     }
     const double unsure = 0.25 * glm::length(velocity_) * lead + 0.5 * kHandAccel * lead * lead;
-    ahead.moreReach = std::min(kMostReach, unsure);
+    ahead.moreReach = std::min(kMaxReach, unsure);
     return ahead;
 }
 

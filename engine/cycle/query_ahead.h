@@ -26,11 +26,11 @@ public:
 
     double lead() const noexcept; // [s] by which queries look ahead
 
-    static constexpr double kInTime = 2.5;     // ticks: an answer of this age is not late
-    static constexpr double kMostLead = 0.2;   // [s]
-    static constexpr double kMostReach = 0.02; // [m] largest growth of the reach
-    static constexpr double kHandAccel = 5.0;  // [m/s^2] that a hand may add meanwhile
-    static constexpr double kSmooth = 0.005;   // [s] average of the velocity
+    static constexpr double kInTime = 2.5;    // ticks: an answer of this age is not late
+    static constexpr double kMaxLead = 0.2;   // [s]
+    static constexpr double kMaxReach = 0.02; // [m] largest growth of the reach
+    static constexpr double kHandAccel = 5.0; // [m/s^2] that a hand may add meanwhile
+    static constexpr double kSmooth = 0.005;  // [s] average of the velocity
 
 private:
     double period_;

@@ -80,7 +80,7 @@ struct Touch {
     uint32_t source = 0;  // sphere: slot in the fixture set (RegionSpheres::source); else the shape's index
     uint32_t fixture = 0; // row of Scene::fixtures
 };
-inline constexpr size_t kMostTouches = 8;
+inline constexpr size_t kMaxTouches = 8;
 
 // Pose of the tool, and posture of its arm if it has one: the input of a contact query.
 struct ToolState {
@@ -133,7 +133,7 @@ struct StepRecord {
     uint32_t infeasible = 0; // solver calls without an answer
     int guidanceClass = -1;  // index into StepInput::guidance of the target that pulls
     Pose guidanceTarget;     // held and slewed; valid when guidanceClass >= 0
-    std::array<Touch, kMostTouches> touches; // the first touchCount entries are valid
+    std::array<Touch, kMaxTouches> touches; // the first touchCount entries are valid
     uint32_t touchCount = 0;
     uint32_t cause = 0; // why there is a force: bits of wrench_stage.h
     // [m] Smallest gap to the regions of points at any distance, measured up to some 10 ms before, in another

@@ -18,7 +18,7 @@ ReportStatus ArmPort::Impl::report(const MeasuredArm& arm) noexcept {
     if (arm.stamp <= 0) {
         return ReportStatus::MissingStamp;
     }
-    if (arm.stamp > now() + front::kMostAhead) {
+    if (arm.stamp > now() + front::kMaxAhead) {
         return ReportStatus::StampAhead;
     }
     if (arm.stamp <= last) {

@@ -21,7 +21,7 @@ SubmitStatus CameraPort::Impl::checkStamp(const Frame& frame) const noexcept {
     if (frame.stamp <= 0) {
         return SubmitStatus::MissingStamp;
     }
-    if (frame.stamp > now() + front::kMostAhead) {
+    if (frame.stamp > now() + front::kMaxAhead) {
         return SubmitStatus::StampAhead;
     }
     return frame.stamp <= last ? SubmitStatus::StampBack : SubmitStatus::Accepted;

@@ -25,7 +25,7 @@ inline v0::Vec3 external(const dvec3& v) noexcept {
 inline v0::Pose external(const Pose& p) noexcept {
     return {external(p.position), {p.rotation.w, p.rotation.x, p.rotation.y, p.rotation.z}};
 }
-static_assert(v0::kMaxArmJoints == kMostJoints);
+static_assert(v0::kMaxArmJoints == kMaxJoints);
 inline ArmPosture internal(const v0::ArmPosture& arm) noexcept {
     return {arm.joints, arm.grasp};
 }
@@ -44,7 +44,7 @@ inline v0::Nanoseconds stampOf(std::chrono::steady_clock::time_point time) noexc
     return std::chrono::duration_cast<std::chrono::nanoseconds>(time.time_since_epoch()).count();
 }
 
-inline constexpr v0::Nanoseconds kMostAhead = 5'000'000; // [ns] by which a stamp may be ahead of now
+inline constexpr v0::Nanoseconds kMaxAhead = 5'000'000; // [ns] by which a stamp may be ahead of now
 
 // staleAfter [s]: scene age from which forces fade.
 v0::Step external(const StepRecord& record, double staleAfter) noexcept;

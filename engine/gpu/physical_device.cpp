@@ -14,7 +14,7 @@ namespace fathom::gpu {
 
 namespace {
 
-constexpr uint32_t kMostBindings = 20; // bindings of the largest pass
+constexpr uint32_t kMaxBindings = 20; // bindings of the largest pass
 // An H200 was faster than the CPU from here on in every set that `fathom profile query` measures (docs/h200).
 constexpr uint32_t kDiscreteQueryLeaves = 256;
 
@@ -146,8 +146,8 @@ std::string refusal(VkPhysicalDevice device) {
     if (!v12.timelineSemaphore) {
         return "it has no timeline semaphores";
     }
-    if (properties.limits.maxPerStageDescriptorStorageBuffers < kMostBindings) {
-        return "a shader reaches fewer than " + std::to_string(kMostBindings) + " storage buffers";
+    if (properties.limits.maxPerStageDescriptorStorageBuffers < kMaxBindings) {
+        return "a shader reaches fewer than " + std::to_string(kMaxBindings) + " storage buffers";
     }
     return computeFamily(device) ? "" : "it has no compute queue";
 }

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr size_t kMostBytes = size_t{256} << 20;
+constexpr size_t kMaxBytes = size_t{256} << 20;
 constexpr std::array<char, 8> kMagic{'f', 'a', 't', 'h', 'o', 'm', 'P', '1'};
 
 // File header. Byte order is the machine's, because the file is used only on this machine.
@@ -49,14 +49,14 @@ fs::path freshBeside(const fs::path& file) {
 } // namespace
 
 std::vector<char> storedPipelines(const fs::path& file) {
-    const std::optional<std::string> text = readFileAtMost(file, sizeof(Head) + kMostBytes);
+    const std::optional<std::string> text = readFileAtMost(file, sizeof(Head) + kMaxBytes);
     Head head;
     if (!text || text->size() < sizeof head) {
         return {};
     }
     std::memcpy(&head, text->data(), sizeof head);
     const std::span<const char> data = std::span(*text).subspan(sizeof head);
-    if (head.magic != kMagic || head.bytes != data.size() || data.size() > kMostBytes ||
+    if (head.magic != kMagic || head.bytes != data.size() || data.size() > kMaxBytes ||
         head.sum != sumOf(data)) {
         return {};
     }
@@ -64,7 +64,7 @@ std::vector<char> storedPipelines(const fs::path& file) {
 }
 
 void storePipelines(const fs::path& file, std::span<const char> data) {
-    if (data.size() > kMostBytes) {
+    if (data.size() > kMaxBytes) {
         throw Error(file.string() + ": " + std::to_string(data.size()) + " bytes are too many");
     }
     const Head head{kMagic, data.size(), sumOf(data)};

@@ -9,8 +9,8 @@
 namespace fathom {
 
 double ArmNormal::smallestSingular(size_t rows) const noexcept {
-    SquareMatrix<kMostJoints> gram{};
-    std::array<std::array<double, 6>, kMostJoints> columns{};
+    SquareMatrix<kMaxJoints> gram{};
+    std::array<std::array<double, 6>, kMaxJoints> columns{};
     size_t count = 0;
     for (size_t k = 0; k < n_; ++k) {
         columns[count] = columns_[k];
@@ -34,8 +34,8 @@ double ArmNormal::smallestSingular(size_t rows) const noexcept {
     return m == 0 ? 0.0 : std::sqrt(std::max(0.0, least));
 }
 
-std::array<std::array<double, kMostJoints>, kMostJoints> ArmNormal::gram() const noexcept {
-    SquareMatrix<kMostJoints> gram{};
+std::array<std::array<double, kMaxJoints>, kMaxJoints> ArmNormal::gram() const noexcept {
+    SquareMatrix<kMaxJoints> gram{};
     for (size_t i = 0; i < n_; ++i) {
         for (size_t j = 0; j < n_; ++j) {
             for (size_t k = 0; k < 6; ++k) {
@@ -67,7 +67,7 @@ void ArmNormal::damp(double lambda) noexcept {
 }
 
 void ArmNormal::solve(const dvec3& a, const dvec3& scaledAlpha, JointVector& out) const noexcept {
-    std::array<double, kMostJoints* kMostJoints> factor = metric_; // Cholesky, lower, in place
+    std::array<double, kMaxJoints* kMaxJoints> factor = metric_; // Cholesky, lower, in place
     JointVector x{};
     gradient(a, scaledAlpha, x);
     for (size_t i = 0; i < n_; ++i) {

@@ -28,7 +28,7 @@ public:
     double smallestSingular(size_t rows = 6) const noexcept;
     void damp(double lambda) noexcept; // fills metric()
     std::span<const double> metric() const noexcept { return {metric_.data(), n_ * n_}; }
-    std::array<std::array<double, kMostJoints>, kMostJoints> gram() const noexcept; // J^T M J
+    std::array<std::array<double, kMaxJoints>, kMaxJoints> gram() const noexcept; // J^T M J
     // J^T M x for x = [a; alpha], alpha scaled by k.
     void gradient(const dvec3& a, const dvec3& scaledAlpha, JointVector& out) const noexcept;
     // (J^T M J + lambda^2 I)^-1 J^T M x for x = [a; alpha], alpha scaled by k. After damp().
@@ -36,9 +36,9 @@ public:
 
 private:
     size_t n_;
-    std::array<std::array<double, 6>, kMostJoints> columns_{};
-    std::array<bool, kMostJoints> leftOut_{};
-    std::array<double, kMostJoints * kMostJoints> metric_{};
+    std::array<std::array<double, 6>, kMaxJoints> columns_{};
+    std::array<bool, kMaxJoints> leftOut_{};
+    std::array<double, kMaxJoints * kMaxJoints> metric_{};
 };
 
 // lambda: `least` where the smallest singular value is above `below`, rising to `most` at 0: lambda^2 grows

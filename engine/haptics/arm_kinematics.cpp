@@ -249,7 +249,7 @@ bool ArmKinematics::tightenEqualities(std::span<const Shape> shapes, double shar
             continue;
         }
         const size_t k = static_cast<size_t>(row.key & 0xff) / 2;
-        std::array<Equality, kMostEqualities> before, after;
+        std::array<Equality, kMaxEqualities> before, after;
         equalitiesOf(shapes[row.pair], pose(), before);
         if (k >= equalitiesOf(shapes[row.pair], nextPose(), after)) {
             continue;

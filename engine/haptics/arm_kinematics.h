@@ -123,9 +123,9 @@ private:
     const ArmModel& arm_;
     Pose base_;
     ArmProxyOptions options_;
-    std::vector<size_t> free_;                 // joints that follow no other: the unknowns
-    std::array<size_t, kMostJoints> column_{}; // unknown that moves each joint
-    JointVector gain_{};                       // motion of each joint per motion of its unknown
+    std::vector<size_t> free_;                // joints that follow no other: the unknowns
+    std::array<size_t, kMaxJoints> column_{}; // unknown that moves each joint
+    JointVector gain_{};                      // motion of each joint per motion of its unknown
     ArmLeafPlaces places_;
     State now_, next_;
     JointVector start_{}; // joints at the start of the tick

@@ -59,7 +59,7 @@ void ConstrainedProxy<Kinematics>::addShapeRows(Step& out) noexcept {
         }
         for (uint32_t leaf = 0; leaf < contacts_.leafCount(); ++leaf) {
             const dvec3 centre = kinematics_.leafNow(leaf, contacts_.leaves);
-            std::array<SideGap, kMostSides> sides;
+            std::array<SideGap, kMaxSides> sides;
             const size_t count = sidesOf(shape, centre, contacts_.radius(leaf), sides);
             for (size_t k = 0; k < count; ++k) {
                 if (sides[k].gap > 2.0 * options_.stepCap) {
@@ -85,7 +85,7 @@ void ConstrainedProxy<Kinematics>::addShapeRows(Step& out) noexcept {
 // than new data would push it out.
 template <class Kinematics>
 void ConstrainedProxy<Kinematics>::addEqualityRows(const Shape& shape, uint32_t index) noexcept {
-    std::array<Equality, kMostEqualities> equalities;
+    std::array<Equality, kMaxEqualities> equalities;
     const size_t count = equalitiesOf(shape, kinematics_.pose(), equalities);
     for (size_t k = 0; k < count; ++k) {
         const Equality& e = equalities[k];
@@ -140,7 +140,7 @@ bool ConstrainedProxy<Kinematics>::tightenShapes(double share) noexcept {
         if (row.kind != ContactRow::Kind::Shape) {
             continue;
         }
-        std::array<SideGap, kMostSides> sides;
+        std::array<SideGap, kMaxSides> sides;
         const size_t side = static_cast<size_t>(row.key & 0xff);
         const dvec3 centre = kinematics_.leafNext(row.leaf, contacts_.leaves);
         if (side >= sidesOf(shapes()[row.pair], centre, contacts_.radius(row.leaf), sides)) {

@@ -9,7 +9,7 @@ namespace fathom {
 
 namespace {
 
-constexpr size_t kMostViolations = 64;
+constexpr size_t kMaxViolations = 64;
 constexpr double kEqualityRest = 1e-9; // [m], [rad] lines and axes: closer than this is on them
 
 } // namespace
@@ -20,11 +20,11 @@ LeafContacts::LeafContacts(const Tool& tool, std::span<const Shape> shapes, doub
     , shapes_(shapes.begin(), shapes.end())
     // Larger than the cap by rounding only: the check must include every pair that one step can reach.
     , checkLimit_(stepCap * (1.0 + 1e-6) + proxy::kSkin)
-    , narrow_(tool, proxy::kMostPairRows, reduction.cone, reduction.smooth)
+    , narrow_(tool, proxy::kMaxPairRows, reduction.cone, reduction.smooth)
     , trust_(tool.leafCount())
     , exempt_(tool.leafCount(), dvec3(0.0))
     , clearance_(tool.leafCount(), 0.0)
-    , violations_(kMostViolations) {
+    , violations_(kMaxViolations) {
     rowLimit_ = std::max(reduction.reach * stepCap, checkLimit_);
     for (const Sphere& leaf : tool.leaves()) {
         radius_.push_back(leaf.radius);
@@ -143,7 +143,7 @@ uint64_t rowKey(ContactRow::Kind kind, uint32_t shape, uint32_t leaf, size_t sid
 }
 
 bool equalityAllows(const Shape& shape, const Pose& from, const Pose& to) noexcept {
-    std::array<Equality, kMostEqualities> before, after;
+    std::array<Equality, kMaxEqualities> before, after;
     const size_t count = equalitiesOf(shape, from, before);
     equalitiesOf(shape, to, after);
     for (size_t k = 0; k < count; k += 2) { // first the distance, then the angle

@@ -47,7 +47,7 @@ PassivityOptions makePassivity(const DevicePreset& preset, const Springs& spring
 
 PassivityController::PassivityController(const PassivityOptions& options)
     : options_(options) {
-    options_.delayTicks = std::min<uint32_t>(options_.delayTicks, kMostDelay);
+    options_.delayTicks = std::min<uint32_t>(options_.delayTicks, kMaxDelay);
 }
 
 void PassivityController::reset() noexcept {
@@ -121,9 +121,9 @@ double PassivityController::release(const PassivityStep& tick, const dvec3& v, c
     const Wrench& held = applied_[(writes_ + options_.delayTicks) % (options_.delayTicks + 1)].contact;
     const double returned = workOf(held, v, w);
     const double owes = owed / std::max(owed, stored_),
-                 share = std::clamp(2.0 * (owes - kLeastShare), 0.0, owes);
+                 share = std::clamp(2.0 * (owes - kMinShare), 0.0, owes);
     const double kk = options_.metricRadius * options_.metricRadius;
-    const double most = kMostRelease / (tick.period * (1.0 + 2.0 * options_.delayTicks)) *
+    const double most = kMaxRelease / (tick.period * (1.0 + 2.0 * options_.delayTicks)) *
                         (glm::dot(v, v) + kk * glm::dot(w, w));
     return std::clamp(share * returned, 0.0, most);
 }
@@ -141,8 +141,8 @@ Wrench PassivityController::control(const PassivityStep& tick) const noexcept {
     if (!(speed > 0.0)) {
         return {};
     }
-    const double most = std::min(kMostDamping * std::min(options_.damping, options_.rotationalDamping / kk),
-                                 kMostImpulse / (tick.period * (1.0 + 2.0 * options_.delayTicks)));
+    const double most = std::min(kMaxDamping * std::min(options_.damping, options_.rotationalDamping / kk),
+                                 kMaxImpulse / (tick.period * (1.0 + 2.0 * options_.delayTicks)));
     const double slow = std::min(slow_, owed);
     const double power = (owed - slow) / tick.period + slow / std::max(tick.period, tick.repay);
     double alpha = tick.share * std::max(std::min(power / speed, most), release(tick, v, w, owed) / speed);

@@ -57,7 +57,7 @@ public:
 
     // Observes the interval that ends now and returns the damping wrench to add: -alpha v and -alpha k^2 w
     // with alpha = debt / (T (v.v + k^2 w.w)), where what appeared is divided by `repay` instead of T, capped
-    // (kMostDamping, kMostImpulse); more while the springs push the hand out (release()); zero below kSlow,
+    // (kMaxDamping, kMaxImpulse); more while the springs push the hand out (release()); zero below kSlow,
     // kSlowTurn. Without an active row it is at most kFreeDamper and ends after kFreeTime; energy that
     // remains then is not removed.
     Wrench step(const PassivityStep& tick) noexcept;
@@ -77,11 +77,11 @@ public:
     // Limits of the damping: a multiple of b, and an impulse [N s^2/m] divided by T (1 + 2n) with n ticks of
     // delay: 20 N s/m at 1 kHz. A device of 50 g then loses at most 0.4 of its speed per tick; sampled
     // damping becomes unstable near 1.
-    static constexpr double kMostDamping = 40.0;
-    static constexpr double kMostImpulse = 0.02;
+    static constexpr double kMaxDamping = 40.0;
+    static constexpr double kMaxImpulse = 0.02;
     // The same for a hand that moves out. It only weakens the springs' push, so it can be larger. Debts below
     // this share of the stored energy, as of noise from frame to frame, are left to `repay`.
-    static constexpr double kMostRelease = 0.1, kLeastShare = 0.25;
+    static constexpr double kMaxRelease = 0.1, kMinShare = 0.25;
     static constexpr double kFreeDamper = 0.99; // [N] largest damping force without an active row
     static constexpr double kFreeTime = 0.09;   // [s] longest time of it
     static constexpr double kTolerance = 1e-6;  // [J] smaller debts are rounding of the solver
@@ -93,7 +93,7 @@ private:
     struct Applied {
         Wrench contact, damper;
     };
-    static constexpr size_t kMostDelay = 64;
+    static constexpr size_t kMaxDelay = 64;
 
     double storedIn(const PassivityStep& tick) const noexcept;
     void observe(const PassivityStep& tick) noexcept;
@@ -103,7 +103,7 @@ private:
     Wrench control(const PassivityStep& tick) const noexcept;
 
     PassivityOptions options_;
-    std::array<Applied, kMostDelay + 1> applied_{};
+    std::array<Applied, kMaxDelay + 1> applied_{};
     std::array<double, kWindow> credit_{}; // [J] dissipated by b, per tick
     size_t writes_ = 0, ticks_ = 0;
     double recent_ = 0.0; // sum of credit_

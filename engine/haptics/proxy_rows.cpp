@@ -14,11 +14,11 @@ constexpr double kViolation = 1e-12; // [m] smaller violations are rounding: far
 ProxyRows::ProxyRows(size_t unknowns, const RowReduction& reduction)
     : unknowns_(unknowns)
     , reduction_(reduction)
-    , solver_(static_cast<int>(unknowns), proxy::kMostRows)
-    , rows_(proxy::kMostRows)
-    , violations_(proxy::kMostRows)
-    , loaded_(proxy::kMostRows)
-    , isLoaded_(proxy::kMostRows, 0) {}
+    , solver_(static_cast<int>(unknowns), proxy::kMaxRows)
+    , rows_(proxy::kMaxRows)
+    , violations_(proxy::kMaxRows)
+    , loaded_(proxy::kMaxRows)
+    , isLoaded_(proxy::kMaxRows, 0) {}
 
 void ProxyRows::clear() noexcept {
     count_ = loadedCount_ = 0;

@@ -42,8 +42,8 @@ inline constexpr double kSkin = 1e-9; // [m]
 // Rows with a larger offset request motion (an escape). Well above the skin.
 inline constexpr double kEscapeThreshold = 4e-9; // [m]
 inline constexpr double kNothing = 1e-9;         // [m], [rad] a shorter step is not worth another solve
-inline constexpr size_t kMostPairRows = 512;
-inline constexpr size_t kMostRows = 1280; // the rest: shapes, joints, behind, and rows for violated pairs
+inline constexpr size_t kMaxPairRows = 512;
+inline constexpr size_t kMaxRows = 1280; // the rest: shapes, joints, behind, and rows for violated pairs
 
 } // namespace proxy
 

@@ -15,7 +15,7 @@ constexpr double kRoundingForce = 1e-6; // [N] rounding
 constexpr double kTurns = 1e-3;         // [N] a smaller reaction has no direction that is felt
 constexpr double kPushed = 0.3;         // of a frame, in which new data pushes a tool out
 constexpr double kLate = 1.25;          // of a frame, until which the next one is waited for
-constexpr double kLeastMix = 0.3;       // directions that differ more than that are not mixed
+constexpr double kMinMix = 0.3;         // directions that differ more than that are not mixed
 
 // sqrt(|f|^2 + |tau / k|^2) [N]: the norm in which the spring wrench is K_t times the metric distance.
 double sizeOf(const Wrench& wrench, double k) noexcept {
@@ -71,7 +71,7 @@ Wrench Reaction::turning(const Wrench& wrench, const ReactionInput& input) noexc
     }
     const Wrench mix{wrench.force + share * size * from_.force, wrench.torque + share * size * from_.torque};
     const double length = sizeOf(mix, k);
-    return length > kLeastMix * size ? scaled(mix, size / length) : wrench;
+    return length > kMinMix * size ? scaled(mix, size / length) : wrench;
 }
 
 Wrench Reaction::step(const ReactionInput& input) noexcept {

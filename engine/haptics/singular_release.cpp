@@ -10,10 +10,10 @@ namespace fathom {
 
 namespace {
 
-constexpr double kNudge = 1e-3;       // [rad], [m] length of a step
-constexpr double kLeastPull = 1e-5;   // [m] errors below are left alone
-constexpr double kStuck = 0.01;       // of the error's square: a solve that removes less is stuck
-constexpr double kLeastRadius = 0.01; // [m] radius of curvature of the tip's path that is worth a step
+constexpr double kNudge = 1e-3;     // [rad], [m] length of a step
+constexpr double kMinPull = 1e-5;   // [m] errors below are left alone
+constexpr double kStuck = 0.01;     // of the error's square: a solve that removes less is stuck
+constexpr double kMinRadius = 0.01; // [m] radius of curvature of the tip's path that is worth a step
 
 } // namespace
 
@@ -106,10 +106,10 @@ bool SingularRelease::nudge(const ArmNormal& normal, const Pull& pull, JointVect
     for (size_t u = 0; u < unknowns_; ++u) {
         gain += gradient[u] * wanted[u];
     }
-    if (pause_ > 0 || left < kLeastPull || gain > kStuck * left * left) {
+    if (pause_ > 0 || left < kMinPull || gain > kStuck * left * left) {
         return false;
     }
-    SquareMatrix<kMostJoints> hessian = normal.gram(), vectors{};
+    SquareMatrix<kMaxJoints> hessian = normal.gram(), vectors{};
     for (size_t j = 0; j < arm_.count(); ++j) {
         for (size_t i = 0; i <= j; ++i) {
             const double bend = gain_[i] * gain_[j] * curvature(pull, i, j);
@@ -134,7 +134,7 @@ bool SingularRelease::nudge(const ArmNormal& normal, const Pull& pull, JointVect
         slope += step[u] * gradient[u];
     }
     const double down = -hessian[least][least];
-    if (down < kLeastRadius * left || std::abs(slope) > down * kNudge) {
+    if (down < kMinRadius * left || std::abs(slope) > down * kNudge) {
         return false; // a minimum, or already on the way down
     }
     double length = kNudge * signOf(step, pull.q);

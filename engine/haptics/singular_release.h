@@ -46,7 +46,7 @@ private:
 
     const ArmModel& arm_;
     ReleaseWeights weights_;
-    std::array<size_t, kMostJoints> column_{}; // unknown of each joint
+    std::array<size_t, kMaxJoints> column_{}; // unknown of each joint
     JointVector gain_{};
     size_t unknowns_ = 0;
     bool known_ = false;    // regular_ is set

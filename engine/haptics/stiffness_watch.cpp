@@ -28,7 +28,7 @@ double StiffnessWatch::wantedShare() const noexcept {
     const double whole = planned_.stiffness + planned_.guidanceStiffness;
     const double bound =
         options_.margin * passiveStiffness(*damping_, options_.damping, period_, options_.delayTicks);
-    return std::clamp(bound / whole, kLeastShare, 1.0);
+    return std::clamp(bound / whole, kMinShare, 1.0);
 }
 
 void StiffnessWatch::step(double measuredPeriod) noexcept {
@@ -47,7 +47,7 @@ void StiffnessWatch::step(double measuredPeriod) noexcept {
         if (rotationalDamping_) {
             const double bound = passiveStiffness(*rotationalDamping_, options_.rotationalDamping, period_,
                                                   options_.delayTicks);
-            turn = std::min(turn, std::max(bound, kLeastShare * planned_.rotationalStiffness));
+            turn = std::min(turn, std::max(bound, kMinShare * planned_.rotationalStiffness));
         }
         springs_.rotationalStiffness = turn;
     }

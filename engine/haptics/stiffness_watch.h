@@ -22,10 +22,10 @@ public:
     const Springs& springs() const noexcept { return springs_; } // active; k = sqrt(K_r / K_t) follows
     double period() const noexcept { return period_; }           // [s] averaged
 
-    static constexpr double kAverage = 0.05;    // [s]
-    static constexpr double kDown = 0.2;        // [s] for the whole of K
-    static constexpr double kUp = 2.0;          // [s]
-    static constexpr double kLeastShare = 0.01; // of the planned stiffness: lower limit of the ramp
+    static constexpr double kAverage = 0.05;  // [s]
+    static constexpr double kDown = 0.2;      // [s] for the whole of K
+    static constexpr double kUp = 2.0;        // [s]
+    static constexpr double kMinShare = 0.01; // of the planned stiffness: lower limit of the ramp
 
 private:
     double wantedShare() const noexcept;

@@ -29,9 +29,9 @@ constexpr std::array<std::string_view, 7> kGripperWords{"gripper", "finger", "ja
 // In the name of a joint these say that it turns a hand and does not close it.
 constexpr std::array<std::string_view, 6> kWristWords{"wrist", "roll", "rotat", "pitch", "yaw", "swivel"};
 
-constexpr size_t kMostNamed = 6; // names in a note
-constexpr int kMostBehind = 2;   // joints of an unknown gripper behind a tool frame
-constexpr int kFingerDepth = 4;  // joints of a finger
+constexpr size_t kMaxNamed = 6; // names in a note
+constexpr int kMaxBehind = 2;   // joints of an unknown gripper behind a tool frame
+constexpr int kFingerDepth = 4; // joints of a finger
 
 bool moves(const urdf::Joint& joint) {
     return joint.type != urdf::Joint::FIXED;
@@ -110,7 +110,7 @@ public:
         }
         const Seen* best = nullptr;
         for (const Seen& s : seen_) { // a named frame near the end of the longest chain
-            const bool near = 2 * s.moving > most && most - s.moving <= kMostBehind;
+            const bool near = 2 * s.moving > most && most - s.moving <= kMaxBehind;
             const bool fits = usable(s) && s.moving > 0 && near && s.rank < kToolNames.size();
             if (fits && (best == nullptr || s.moving > best->moving ||
                          (s.moving == best->moving && s.rank < best->rank))) {
@@ -221,7 +221,7 @@ private:
             return;
         }
         std::string names;
-        for (size_t i = 0; i < others.size() && i < kMostNamed; ++i) {
+        for (size_t i = 0; i < others.size() && i < kMaxNamed; ++i) {
             names += (i == 0 ? "" : ", ") + others[i];
         }
         ends.notes.push_back("tip " + best.link->name + " is one of several ends of chains with " +

@@ -27,8 +27,8 @@ void ArmModel::place(const JointVector& q, const Pose& worldTbase, ArmFrames& fr
         const ArmFinger& finger = fingers[f];
         const double at =
             finger.mimic ? valueOf(*finger.mimic, q) : finger.open + grasp * (finger.closed - finger.open);
-        const Pose& carrier = frames[finger.carrier == 0 ? finger.joint : kMostJoints + finger.carrier];
-        frames[kMostJoints + 1 + f] = carrier * finger.before * movedBy(finger.axis, finger.slides, at);
+        const Pose& carrier = frames[finger.carrier == 0 ? finger.joint : kMaxJoints + finger.carrier];
+        frames[kMaxJoints + 1 + f] = carrier * finger.before * movedBy(finger.axis, finger.slides, at);
     }
 }
 
@@ -44,7 +44,7 @@ dvec3 ArmModel::motionOf(const ArmFrames& frames, size_t k, const dvec3& point) 
 }
 
 dvec3 ArmModel::motionOfFinger(const ArmFrames& frames, size_t f, const dvec3& point) const noexcept {
-    const Pose& frame = frames[kMostJoints + 1 + f];
+    const Pose& frame = frames[kMaxJoints + 1 + f];
     const dvec3 axis = frame.rotation * fingers[f].axis;
     return fingers[f].slides ? axis : glm::cross(axis, point - frame.position);
 }

@@ -16,8 +16,8 @@
 
 namespace fathom {
 
-inline constexpr size_t kMostJoints = 12;    // moving joints of a chain, mimic joints included
-inline constexpr size_t kMostFingers = 16;   // moving joints off the chain
+inline constexpr size_t kMaxJoints = 12;     // moving joints of a chain, mimic joints included
+inline constexpr size_t kMaxFingers = 16;    // moving joints off the chain
 inline constexpr double kUnknownTurn = 1.0;  // [rad/s] speed of a revolute joint whose URDF states none
 inline constexpr double kUnknownSlide = 0.1; // [m/s] the same for a prismatic joint
 inline constexpr const char* kNoSpeed = "default, the URDF states none"; // their source, for messages
@@ -63,7 +63,7 @@ struct ArmLeaf {
     uint32_t finger = 0; // 0 = none; else fingers[finger - 1] moves it too
 };
 
-using JointVector = std::array<double, kMostJoints>; // [rad] or [m]; unused entries are 0
+using JointVector = std::array<double, kMaxJoints>; // [rad] or [m]; unused entries are 0
 
 // The state that places every leaf of an arm.
 struct ArmPosture {
@@ -72,8 +72,8 @@ struct ArmPosture {
 };
 
 // Poses of the moving frames: frames[0] is the base, frames[k] the frame after k joints, and
-// frames[kMostJoints + 1 + f] the frame of finger f.
-using ArmFrames = std::array<Pose, kMostJoints + 1 + kMostFingers>;
+// frames[kMaxJoints + 1 + f] the frame of finger f.
+using ArmFrames = std::array<Pose, kMaxJoints + 1 + kMaxFingers>;
 
 // Immutable after loading; its functions are noexcept and do not allocate.
 class ArmModel {
@@ -96,7 +96,7 @@ public:
                double grasp = 0.0) const noexcept;
     Pose tip(const ArmFrames& frames) const noexcept { return frames[count()] * lastTtip; }
     size_t frameOf(size_t leaf) const noexcept { // of ArmFrames
-        return leaves[leaf].finger == 0 ? leaves[leaf].joint : kMostJoints + leaves[leaf].finger;
+        return leaves[leaf].finger == 0 ? leaves[leaf].joint : kMaxJoints + leaves[leaf].finger;
     }
     dvec3 centre(const ArmFrames& frames, size_t leaf) const noexcept {
         return frames[frameOf(leaf)].apply(leaves[leaf].sphere.centre);
@@ -126,7 +126,7 @@ struct ArmOptions {
     ReaderOptions reader;         // of the processes that read the files
 };
 
-// Throws BadInput for an unknown link, finger or locked joint, more than kMostJoints moving joints, planar or
+// Throws BadInput for an unknown link, finger or locked joint, more than kMaxJoints moving joints, planar or
 // floating joints on the chain, missing or crossed limits, mimic joints without a master, or an unusable
 // mesh.
 ArmModel loadArm(const std::filesystem::path& urdf, const ArmOptions& options = {});

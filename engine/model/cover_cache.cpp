@@ -133,11 +133,11 @@ void CoverCache::trim() const {
          at.increment(failed)) {
         files.emplace_back(at->last_write_time(failed), at->path());
     }
-    if (files.size() <= kMostFiles) {
+    if (files.size() <= kMaxFiles) {
         return;
     }
     std::sort(files.begin(), files.end());
-    for (size_t i = 0; i + kMostFiles < files.size(); ++i) {
+    for (size_t i = 0; i + kMaxFiles < files.size(); ++i) {
         std::filesystem::remove(files[i].second, failed);
     }
 }

@@ -11,11 +11,11 @@
 
 namespace fathom {
 
-// Files in one folder, at most kMostFiles; the oldest are removed. Each has a checksum, and one that is
+// Files in one folder, at most kMaxFiles; the oldest are removed. Each has a checksum, and one that is
 // damaged counts as missing. Any thread and process; every failure means only that nothing is cached.
 class CoverCache {
 public:
-    static constexpr size_t kMostFiles = 2048;
+    static constexpr size_t kMaxFiles = 2048;
 
     // $XDG_CACHE_HOME/fathom/covers or ~/.cache/fathom/covers; without both nothing is cached.
     CoverCache();

@@ -19,7 +19,7 @@ namespace fathom {
 
 namespace {
 
-constexpr size_t kMostHeld =
+constexpr size_t kMaxHeld =
     6'000'000; // mesh corners kept in memory before their spheres are computed (plus one more mesh)
 
 // Logs how far a long run is. Any thread.
@@ -115,7 +115,7 @@ std::vector<LinkCover> readSome(std::span<const LinkGeometry> shapes, const Shap
                                 const CoverCache& cache, uint32_t leaves) {
     std::vector<LinkCover> some;
     size_t points = 0;
-    for (size_t i = 0; i < shapes.size() && points < kMostHeld; ++i) {
+    for (size_t i = 0; i < shapes.size() && points < kMaxHeld; ++i) {
         LinkCover& one = some.emplace_back();
         one.of = &shapes[i];
         one.attempt(source.urdf, [&] {

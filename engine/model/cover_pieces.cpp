@@ -9,7 +9,7 @@ namespace fathom {
 
 namespace {
 
-constexpr size_t kMostHalves = 100'000; // pieces more than triangles
+constexpr size_t kMaxHalves = 100'000; // pieces more than triangles
 
 struct Corners {
     dvec3 a, b, c;
@@ -83,7 +83,7 @@ Corners cornersOf(const TriangleMesh& mesh, size_t t) {
 
 // Halves of needles are rounder than slices, so that their spheres protrude less, but there are more.
 bool canHalveNeedles(const TriangleMesh& mesh, double edge) {
-    size_t left = kMostHalves + mesh.triangles.size();
+    size_t left = kMaxHalves + mesh.triangles.size();
     for (size_t t = 0; t < mesh.triangles.size() && left > 0; ++t) {
         halve(cornersOf(mesh, t), edge, [&left](const Corners&) { return --left > 0; });
     }

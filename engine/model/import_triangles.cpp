@@ -10,8 +10,8 @@ namespace {
 
 bool take(ReaderPipe& pipe, ImportedTriangles& out) {
     TrianglesHead head;
-    if (!pipe.readText(out.fault) || !pipe.read(&head, sizeof head) || head.points > kMostImportedPoints ||
-        head.triangles > kMostImportedPoints) {
+    if (!pipe.readText(out.fault) || !pipe.read(&head, sizeof head) || head.points > kMaxImportedPoints ||
+        head.triangles > kMaxImportedPoints) {
         return false;
     }
     out.mesh.points.resize(head.points);

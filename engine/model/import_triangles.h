@@ -17,7 +17,7 @@ struct ImportedTriangles {
     std::string fault; // one line: the reason when nothing was read
 };
 
-inline constexpr uint64_t kMostImportedPoints = 6'000'000; // corners, and triangles, of one file
+inline constexpr uint64_t kMaxImportedPoints = 6'000'000; // corners, and triangles, of one file
 
 // Sent through the pipe after the fault; points and triangles follow.
 struct TrianglesHead {

@@ -17,7 +17,7 @@ namespace fathom {
 
 namespace {
 
-constexpr double kMostAlongCapsule = 256.0; // spheres
+constexpr double kMaxAlongCapsule = 256.0; // spheres
 
 // Upright about z; a rectangle for four corners.
 TriangleMesh prism(uint32_t sides, const std::array<double, 2>& half, double length) {
@@ -129,7 +129,7 @@ LoadedMesh readMesh(const urdf::Mesh& mesh, const ShapeSource& source, ShapeSphe
 std::vector<Sphere> capsuleSpheres(const CapsuleSize& capsule) {
     const double radius = 1.05 * capsule.radius, half = 0.5 * capsule.length;
     const double reach = std::sqrt(radius * radius - capsule.radius * capsule.radius);
-    const auto count = static_cast<size_t>(std::min(kMostAlongCapsule, std::ceil(half / reach))) + 1;
+    const auto count = static_cast<size_t>(std::min(kMaxAlongCapsule, std::ceil(half / reach))) + 1;
     const double step = capsule.length / static_cast<double>(count);
     const double grown = std::hypot(capsule.radius, 0.5 * step); // of spheres in the middle of each step
     std::vector<Sphere> spheres;

@@ -18,7 +18,7 @@ namespace fathom {
 
 namespace {
 
-constexpr double kMostSpeed = 100.0; // [rad/s], [m/s] a higher value counts as unlimited
+constexpr double kMaxSpeed = 100.0; // [rad/s], [m/s] a higher value counts as unlimited
 
 class Loader {
 public:
@@ -110,9 +110,9 @@ private:
     }
 
     void checkRoom(const urdf::Joint& joint) const {
-        if (model_.joints.size() == kMostJoints) {
+        if (model_.joints.size() == kMaxJoints) {
             refuse("joint " + joint.name, "one more moving joint",
-                   std::to_string(kMostJoints) +
+                   std::to_string(kMaxJoints) +
                        " at most from base to tip; arm.locked holds joints, arm.base and arm.tip shorten the "
                        "chain");
         }
@@ -160,7 +160,7 @@ private:
     static void setSpeed(const urdf::Joint& joint, ArmJoint& out) {
         const double stated = joint.limits ? joint.limits->velocity : 0.0;
         if (stated > 0.0) {
-            out.speed = std::min(stated, kMostSpeed);
+            out.speed = std::min(stated, kMaxSpeed);
         } else {
             out.speed = out.slides ? kUnknownSlide : kUnknownTurn;
             out.speedFrom = kNoSpeed;
@@ -206,8 +206,8 @@ private:
 
     void addFinger(const urdf::Joint& joint, const JointDrive& drive, const Pose& before,
                    const LinkCarrier& carrier) {
-        if (model_.fingers.size() == kMostFingers) {
-            refuse("joint " + joint.name, "one more finger", std::to_string(kMostFingers) + " at most");
+        if (model_.fingers.size() == kMaxFingers) {
+            refuse("joint " + joint.name, "one more finger", std::to_string(kMaxFingers) + " at most");
         }
         ArmFinger finger{joint.name,  carrier.joint, joint.type == urdf::Joint::PRISMATIC,
                          before,      axisOf(joint), drive.open,

@@ -14,10 +14,10 @@ namespace fathom {
 
 namespace {
 
-constexpr double kLeastExtent = 1e-3, kMostExtent = 10.0; // [m]
+constexpr double kMinExtent = 1e-3, kMaxExtent = 10.0; // [m]
 constexpr double kDoubtfulExtent = 2.0; // [m] for tools and links: 80 mm stored in inches would read as 3.1
 constexpr uintmax_t kLargestMesh = 512u << 20;
-constexpr size_t kMostTriangles = 2'000'000;
+constexpr size_t kMaxTriangles = 2'000'000;
 
 std::string metres(double v) {
     char text[32];
@@ -51,9 +51,9 @@ TriangleMesh readTriangles(const std::filesystem::path& file, const ReaderOption
     if (!fault.empty()) {
         throw BadInput(file.string(), "mesh", fault, kinds);
     }
-    if (mesh.triangles.empty() || mesh.triangles.size() > kMostTriangles) {
+    if (mesh.triangles.empty() || mesh.triangles.size() > kMaxTriangles) {
         throw BadInput(file.string(), "triangles", std::to_string(mesh.triangles.size()),
-                       "1 to " + std::to_string(kMostTriangles) + "; a mesh program can simplify it");
+                       "1 to " + std::to_string(kMaxTriangles) + "; a mesh program can simplify it");
     }
     return mesh;
 }
@@ -65,7 +65,7 @@ double checkExtent(const std::string& file, const TriangleMesh& mesh, bool ofUrd
     }
     const dvec3 size = mesh.high() - mesh.low();
     const double extent = std::max({size.x, size.y, size.z});
-    if (!(extent >= kLeastExtent && extent <= kMostExtent)) {
+    if (!(extent >= kMinExtent && extent <= kMaxExtent)) {
         throw BadInput(file, "size", metres(extent),
                        ofUrdf ? "0.001 to 10 m; <mesh scale=\"0.001 0.001 0.001\"> for millimetres, three "
                                 "times 0.0254 for inches"

@@ -11,7 +11,7 @@ namespace fathom {
 
 namespace {
 
-constexpr uint64_t kMostText = 4096;
+constexpr uint64_t kMaxText = 4096;
 
 } // namespace
 
@@ -32,7 +32,7 @@ bool writeAll(int pipe, const void* data, size_t size) {
 }
 
 bool writeText(int pipe, const std::string& text) {
-    const uint64_t size = std::min<uint64_t>(text.size(), kMostText);
+    const uint64_t size = std::min<uint64_t>(text.size(), kMaxText);
     return writeAll(pipe, &size, sizeof size) && writeAll(pipe, text.data(), size);
 }
 
@@ -72,7 +72,7 @@ bool ReaderPipe::read(void* data, size_t size) {
 
 bool ReaderPipe::readText(std::string& text) {
     uint64_t size = 0;
-    if (!read(&size, sizeof size) || size > kMostText) {
+    if (!read(&size, sizeof size) || size > kMaxText) {
         return false;
     }
     text.resize(size);

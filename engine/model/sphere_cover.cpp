@@ -15,7 +15,7 @@ namespace {
 
 constexpr size_t kSeats = 2000;
 constexpr double kPieces = 6'000.0; // initial number of pieces
-constexpr double kMostPieces = 2e6;
+constexpr double kMaxPieces = 2e6;
 constexpr double kSlivers = 6.0; // times as many pieces when the surface consists of needles
 
 double edgeFor(const TriangleMesh& mesh, double count) {
@@ -104,7 +104,7 @@ Cover coverMesh(const TriangleMesh& mesh, const MeshDistance& distance, const Co
     double edge = edgeFor(mesh, kPieces);
     if (options.protrusion > 0.0) {
         edge = std::min(edge, 0.5 * options.protrusion);
-        if (countOfPieces(mesh, edge) > kMostPieces) {
+        if (countOfPieces(mesh, edge) > kMaxPieces) {
             throw Error("a protrusion of " + std::to_string(options.protrusion) +
                         " m is too small for this surface: allow more");
         }
@@ -112,10 +112,10 @@ Cover coverMesh(const TriangleMesh& mesh, const MeshDistance& distance, const Co
     CoverFitting f = makeFitting(mesh, distance, edge);
     Cover cover;
     if (options.protrusion > 0.0) {
-        cover.spheres = greedyCover(f.groups, f.seats, options.protrusion, kMostCoverSpheres);
+        cover.spheres = greedyCover(f.groups, f.seats, options.protrusion, kMaxCoverSpheres);
         if (cover.spheres.empty()) {
             throw Error("a protrusion of " + std::to_string(options.protrusion) + " m requires more than " +
-                        std::to_string(kMostCoverSpheres) + " spheres: allow more");
+                        std::to_string(kMaxCoverSpheres) + " spheres: allow more");
         }
         cover.spheres = fitSpheres(f, cover.spheres);
     } else {

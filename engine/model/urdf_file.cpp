@@ -28,7 +28,7 @@ std::shared_ptr<const urdf::ModelInterface> readUrdf(const std::filesystem::path
     std::shared_ptr<const urdf::ModelInterface> model;
     const ReaderEnd end = runReader("urdf", file, options, [&](ReaderPipe& pipe) {
         uint64_t size = 0;
-        if (!pipe.readText(fault) || !pipe.read(&size, sizeof size) || size > kMostUrdfBytes) {
+        if (!pipe.readText(fault) || !pipe.read(&size, sizeof size) || size > kMaxUrdfBytes) {
             return false;
         }
         packet.resize(size);

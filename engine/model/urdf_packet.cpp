@@ -227,7 +227,7 @@ bool readAll(PacketReader& packet, urdf::ModelInterface& model) {
     uint64_t links = 0, joints = 0;
     packet.number(links);
     packet.number(joints);
-    bool sound = links <= kMostLinks && joints <= kMostLinks;
+    bool sound = links <= kMaxLinks && joints <= kMaxLinks;
     for (uint64_t i = 0; i < links && sound; ++i) {
         sound = readLink(packet, model);
     }

@@ -10,8 +10,8 @@
 
 namespace fathom {
 
-inline constexpr size_t kMostLinks = 1000;            // traversals from the root are recursive
-inline constexpr uint64_t kMostUrdfBytes = 64u << 20; // of a packet
+inline constexpr size_t kMaxLinks = 1000;            // traversals from the root are recursive
+inline constexpr uint64_t kMaxUrdfBytes = 64u << 20; // of a packet
 
 // A capsule is a mesh whose file name is this, its radius and its length: the parser knows no capsules.
 inline constexpr const char* kCapsuleFile = "capsule: ";

@@ -13,7 +13,7 @@ namespace {
 
 constexpr size_t kLargestSet =
     1u << 20; // 15 000 spheres; real sets have 50 kB, and the parser needs up to 250 bytes per byte
-constexpr size_t kMostSpheres = 65536; // over all links: an alias can repeat one list for each link
+constexpr size_t kMaxSpheres = 65536; // over all links: an alias can repeat one list for each link
 
 std::string lineOf(const YAML::Node& node) {
     return "line " + std::to_string(node.Mark().line + 1);
@@ -76,9 +76,9 @@ std::vector<Sphere> spheresOf(const std::filesystem::path& file, const std::stri
                        "a list of spheres");
     }
     all += list.size();
-    if (all > kMostSpheres) {
-        throw BadInput(file.string(), "collision_spheres", "over " + std::to_string(kMostSpheres),
-                       std::to_string(kMostSpheres) + " spheres at most");
+    if (all > kMaxSpheres) {
+        throw BadInput(file.string(), "collision_spheres", "over " + std::to_string(kMaxSpheres),
+                       std::to_string(kMaxSpheres) + " spheres at most");
     }
     std::vector<Sphere> spheres;
     for (const YAML::Node& entry : list) {

@@ -19,7 +19,7 @@ size_t countPoints(const aiScene& scene, const aiNode& node) {
     for (unsigned m = 0; m < node.mNumMeshes; ++m) {
         count += scene.mMeshes[node.mMeshes[m]]->mNumVertices;
     }
-    for (unsigned c = 0; c < node.mNumChildren && count <= kMostImportedPoints; ++c) {
+    for (unsigned c = 0; c < node.mNumChildren && count <= kMaxImportedPoints; ++c) {
         count += countPoints(scene, *node.mChildren[c]);
     }
     return count;
@@ -60,8 +60,8 @@ std::string readWithAssimp(const std::filesystem::path& file, TriangleMesh& mesh
         const std::string why = importer.GetErrorString();
         return why.empty() ? "not understood" : why.substr(0, why.find('\n'));
     }
-    if (countPoints(*scene, *scene->mRootNode) > kMostImportedPoints) {
-        return "over " + std::to_string(kMostImportedPoints) + " corners";
+    if (countPoints(*scene, *scene->mRootNode) > kMaxImportedPoints) {
+        return "over " + std::to_string(kMaxImportedPoints) + " corners";
     }
     addNode(*scene, *scene->mRootNode, aiMatrix4x4(), mesh);
     return "";

@@ -31,23 +31,23 @@ public:
     Listener& operator=(const Listener&) = delete;
     ~Listener() override { console_bridge::restorePreviousOutputHandler(); }
     void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
-        if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR && errors_.size() < kMostErrors) {
+        if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR && errors_.size() < kMaxErrors) {
             errors_.push_back(text.substr(0, std::min(text.find('\n'), kLongestError)));
         }
     }
     const std::vector<std::string>& errors() const { return errors_; }
 
 private:
-    static constexpr size_t kMostErrors = 1000, kLongestError = 300;
+    static constexpr size_t kMaxErrors = 1000, kLongestError = 300;
     std::vector<std::string> errors_;
 };
 
 // The parser requires only one root: links in a loop of joints have no root above them, and links of several
 // joints would be visited once per path from the root.
 void checkLinks(const urdf::ModelInterface& model, const std::string& file) {
-    if (model.links_.size() > kMostLinks) {
+    if (model.links_.size() > kMaxLinks) {
         throw BadInput(file, "robot", std::to_string(model.links_.size()) + " links",
-                       std::to_string(kMostLinks) + " at most");
+                       std::to_string(kMaxLinks) + " at most");
     }
     std::set<std::string> carried;
     for (const auto& [name, joint] : model.joints_) {

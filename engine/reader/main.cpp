@@ -18,8 +18,8 @@
 
 namespace {
 
-constexpr rlim_t kMostSeconds = 60;     // of CPU time
-constexpr unsigned kMostPatience = 600; // [s] in case the other process is gone; it is more impatient
+constexpr rlim_t kMaxSeconds = 60;     // of CPU time
+constexpr unsigned kMaxPatience = 600; // [s] in case the other process is gone; it is more impatient
 
 // Address space of this process [bytes]; 0 when unknown, or under a sanitizer, which maps terabytes.
 rlim_t mappedNow() {
@@ -32,8 +32,8 @@ rlim_t mappedNow() {
 }
 
 void limit(uint64_t mostMemory) {
-    ::alarm(kMostPatience);
-    const rlimit none{0, 0}, time{kMostSeconds, kMostSeconds};
+    ::alarm(kMaxPatience);
+    const rlimit none{0, 0}, time{kMaxSeconds, kMaxSeconds};
     ::setrlimit(RLIMIT_CORE, &none);
     ::setrlimit(RLIMIT_CPU, &time);
     if (const rlim_t mapped = mappedNow(); mapped > 0) {

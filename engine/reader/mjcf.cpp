@@ -11,7 +11,7 @@ namespace fathom {
 namespace {
 
 constexpr size_t kLargestFile = 16u << 20; // [bytes]
-constexpr int kMostIncludes = 64;
+constexpr int kMaxIncludes = 64;
 
 const tinyxml2::XMLElement& parse(tinyxml2::XMLDocument& document, const std::string& file,
                                   const std::string& text) {
@@ -49,9 +49,9 @@ private:
     tinyxml2::XMLElement* replace(tinyxml2::XMLElement& parent, tinyxml2::XMLElement& include) {
         const char* const named = include.Attribute("file");
         const std::string line = "line " + std::to_string(include.GetLineNum()) + ": <include>";
-        if (named == nullptr || ++count_ > kMostIncludes) {
+        if (named == nullptr || ++count_ > kMaxIncludes) {
             throw BadInput(file_.string(), line, named == nullptr ? "without file" : "one more",
-                           "a file, " + std::to_string(kMostIncludes) + " at most");
+                           "a file, " + std::to_string(kMaxIncludes) + " at most");
         }
         const std::filesystem::path path = file_.parent_path() / named;
         tinyxml2::XMLDocument other;

@@ -16,10 +16,10 @@ void PostureTrack::add(Time time, const ArmPosture& posture) noexcept {
     slot.stamp.store(stamp + 1, std::memory_order_relaxed);
     // Release stores after an odd stamp: a reader that sees one of the new words also sees the odd stamp.
     slot.time.store(nanoseconds(time), std::memory_order_release);
-    for (size_t k = 0; k < kMostJoints; ++k) {
+    for (size_t k = 0; k < kMaxJoints; ++k) {
         slot.words[k].store(std::bit_cast<uint64_t>(posture.q[k]), std::memory_order_release);
     }
-    slot.words[kMostJoints].store(std::bit_cast<uint64_t>(posture.grasp), std::memory_order_release);
+    slot.words[kMaxJoints].store(std::bit_cast<uint64_t>(posture.grasp), std::memory_order_release);
     slot.stamp.store(stamp + 2, std::memory_order_release);
     written_.store(count + 1, std::memory_order_release);
 }
@@ -27,10 +27,10 @@ void PostureTrack::add(Time time, const ArmPosture& posture) noexcept {
 bool PostureTrack::read(const Slot& slot, int64_t& time, ArmPosture& out) const noexcept {
     const uint64_t before = slot.stamp.load(std::memory_order_acquire);
     time = slot.time.load(std::memory_order_acquire);
-    for (size_t k = 0; k < kMostJoints; ++k) {
+    for (size_t k = 0; k < kMaxJoints; ++k) {
         out.q[k] = std::bit_cast<double>(slot.words[k].load(std::memory_order_acquire));
     }
-    out.grasp = std::bit_cast<double>(slot.words[kMostJoints].load(std::memory_order_acquire));
+    out.grasp = std::bit_cast<double>(slot.words[kMaxJoints].load(std::memory_order_acquire));
     return before % 2 == 0 && slot.stamp.load(std::memory_order_relaxed) == before;
 }
 

@@ -30,7 +30,7 @@ public:
     std::optional<ArmPosture> nearest(Time time) const noexcept;
 
 private:
-    static constexpr size_t kWords = kMostJoints + 1; // joints, grasp
+    static constexpr size_t kWords = kMaxJoints + 1; // joints, grasp
     struct Slot {
         std::atomic<uint64_t> stamp{0}; // odd while it is written
         std::atomic<int64_t> time{0};   // [ns]

@@ -11,7 +11,7 @@ namespace fathom {
 namespace {
 
 constexpr double kFewValues = 30.0; // of depth between near and far
-constexpr double kMostRaw = 65535.0;
+constexpr double kMaxRaw = 65535.0;
 
 std::string print(const char* form, double a, double b = 0.0, double c = 0.0) {
     char text[160];
@@ -75,7 +75,7 @@ std::vector<std::string> deadGates(const Scene& scene, const CameraInfo& camera)
     }
     const double unit = camera.metresPerUnit;
     const double values =
-        std::floor(std::min(scene.farZ / unit, kMostRaw)) - std::ceil(scene.nearZ / unit) + 1.0;
+        std::floor(std::min(scene.farZ / unit, kMaxRaw)) - std::ceil(scene.nearZ / unit) + 1.0;
     if (points && values < kFewValues) {
         dead.push_back(print("a depth unit of %.6g m leaves %.0f depth values", unit, std::max(0.0, values)) +
                        print(" between camera.near %.6g and camera.far %.6g m", scene.nearZ, scene.farZ));

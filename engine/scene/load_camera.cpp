@@ -142,7 +142,7 @@ void loadCamera(const YamlNode& camera, Scene& scene) {
     camera.checkKeys({"source", "near", "far", "base_T_camera", "registration_sigma", "port", "beam",
                       "attenuation", "static", "decimation"});
     if (const auto decimation = camera.find("decimation")) {
-        scene.decimation = decimation->integer(1, kMostDecimation);
+        scene.decimation = decimation->integer(1, kMaxDecimation);
     }
     if (const auto isStatic = camera.find("static")) {
         scene.cameraStatic = isStatic->boolean();

@@ -7,7 +7,7 @@ namespace fathom {
 namespace {
 
 constexpr size_t kMaxLeaves = 4096;
-const Range kPlace{-kMostToolReach, kMostToolReach}, kRadius{kLeastLeafRadius, kMostLeafRadius};
+const Range kPlace{-kMaxToolReach, kMaxToolReach}, kRadius{kMinLeafRadius, kMaxLeafRadius};
 
 std::vector<std::array<double, 4>> loadSpheres(const YamlNode& node) {
     const std::vector<YamlNode> rows = node.list();

@@ -8,7 +8,7 @@ namespace fathom {
 
 namespace {
 
-constexpr size_t kMostPilots = 32;
+constexpr size_t kMaxPilots = 32;
 
 Scene::Pilot loadPilot(const YamlNode& row, const Scene& scene) {
     row.checkKeys({"name", "stiffness", "rotational_stiffness", "limits", "guidance_pull", "friction",
@@ -29,8 +29,8 @@ Scene::Pilot loadPilot(const YamlNode& row, const Scene& scene) {
 
 void loadPilots(const YamlNode& pilots, Scene& scene) {
     const std::vector<YamlNode> rows = pilots.list();
-    if (rows.empty() || rows.size() > kMostPilots) {
-        pilots.refuse(std::to_string(rows.size()) + " pilots", "1 to " + std::to_string(kMostPilots));
+    if (rows.empty() || rows.size() > kMaxPilots) {
+        pilots.refuse(std::to_string(rows.size()) + " pilots", "1 to " + std::to_string(kMaxPilots));
     }
     for (const YamlNode& row : rows) {
         scene.pilots.push_back(loadPilot(row, scene));

@@ -15,7 +15,7 @@ namespace {
 constexpr uint32_t kMaxWidth = 3840, kMaxHeight = 2160;
 constexpr uint32_t kManyPatches = 6000; // measured on an H100; 1280x720 has 3600 patches, 1920x1080 has 8160
 constexpr uint64_t kCounterBytes = 224; // of FrameCounters
-constexpr uint32_t kManyProcessors = 8, kMostPublishers = 12;
+constexpr uint32_t kManyProcessors = 8, kMaxPublishers = 12;
 constexpr uint32_t kOtherThreads = 4;    // haptic, contact, writer or window, and one for the system
 constexpr uint64_t kSmallestPage = 4096; // [bytes] on any host: camera memory consists of whole pages
 
@@ -76,9 +76,9 @@ void decideByDevice(const CameraInfo& camera, const DeviceFacts& device, Plan& p
     // On GPUs publishers spin while the device works, so other threads need processors of their own. A CPU
     // device has finished by then.
     if (plan.spheres && cpu) {
-        plan.publishers = std::min(kMostPublishers, device.hostProcessors);
+        plan.publishers = std::min(kMaxPublishers, device.hostProcessors);
     } else if (plan.spheres && device.hostProcessors >= kManyProcessors) {
-        plan.publishers = std::min(kMostPublishers, device.hostProcessors - kOtherThreads);
+        plan.publishers = std::min(kMaxPublishers, device.hostProcessors - kOtherThreads);
     }
     // Measured: on a CPU device shared-memory tiles are 2-4 times slower than direct reads.
     plan.tiled = !cpu && plan.filterRadius >= 2 && bytesOfTile(plan.filterRadius) <= device.maxSharedBytes;

@@ -16,7 +16,7 @@ namespace fathom {
 
 namespace {
 
-constexpr size_t kMostBytes = 1u << 20; // a scene has a few kB; the parser needs up to 250 bytes per byte
+constexpr size_t kMaxBytes = 1u << 20; // a scene has a few kB; the parser needs up to 250 bytes per byte
 constexpr size_t kShownCharacters = 80;
 
 std::string join(std::span<const std::string_view> words) {
@@ -70,11 +70,11 @@ YamlNode::YamlNode(const YAML::Node& node, std::string file, std::string path)
     , path_(std::move(path)) {}
 
 YamlNode YamlNode::parseFile(const std::filesystem::path& file) {
-    return parseText(file, readWholeFile(file, kMostBytes, "a readable scene file (YAML)"));
+    return parseText(file, readWholeFile(file, kMaxBytes, "a readable scene file (YAML)"));
 }
 
 YamlNode YamlNode::parseText(const std::filesystem::path& file, const std::string& text) {
-    if (text.size() > kMostBytes) {
+    if (text.size() > kMaxBytes) {
         throw BadInput(file.string(), "size", std::to_string(text.size()), "at most 1 MiB");
     }
     try {

@@ -8,7 +8,7 @@ namespace fathom {
 
 namespace {
 
-constexpr double kMostSlope = 11.43; // tan(85 degrees)
+constexpr double kMaxSlope = 11.43; // tan(85 degrees)
 
 // Ideal ray -> distorted ray.
 glm::dvec2 distort(const glm::dvec2& r, const Intrinsics& lens) noexcept {
@@ -88,7 +88,7 @@ bool Intrinsics::invertible() const noexcept {
         const double u = 0.25 * column * (width - 1.0), v = 0.25 * row * (height - 1.0);
         const glm::dvec2 r = ray(u, v), back = project({r.x, r.y, 1.0});
         if (!(std::abs(back.x - u) < 1e-3) || !(std::abs(back.y - v) < 1e-3) ||
-            (distorted() && !(glm::length(r) < kMostSlope))) {
+            (distorted() && !(glm::length(r) < kMaxSlope))) {
             return false;
         }
     }

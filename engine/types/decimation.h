@@ -10,7 +10,7 @@
 namespace fathom {
 
 // Largest n that a scene may ask for.
-inline constexpr uint32_t kMostDecimation = 8;
+inline constexpr uint32_t kMaxDecimation = 8;
 
 // The camera when every nth column and row is used, from the first one on. Colour keeps its size if
 // it has a lens of its own. Registered colour becomes RGBA, because pixels of other formats share chroma.

@@ -19,9 +19,9 @@ struct Sphere {
 };
 
 // Limits of a tool's leaves [m]: what the contact query computes in float32 without losing a micrometre.
-inline constexpr double kMostToolReach = 50.0;   // of a coordinate of the centre
-inline constexpr double kLeastLeafRadius = 1e-5, // smallest radius
-    kMostLeafRadius = 10.0;                      // largest radius
+inline constexpr double kMaxToolReach = 50.0;  // of a coordinate of the centre
+inline constexpr double kMinLeafRadius = 1e-5, // smallest radius
+    kMaxLeafRadius = 10.0;                     // largest radius
 
 // Node 0 is the root; child k of node n is n * degree + 1 + k. All leaves are on the last level. Every used
 // node encloses the spheres of its used children.

@@ -143,6 +143,6 @@ TEST_CASE("A camera without a frame, without depth and without colour is describ
     const std::string text = reportOf(blind);
     reports(text, "0.0 % of the pixels measured\n");
     reports(text, "0.0 % of the pixels have a saturation over 0.1");
-    PlainCamera more(FrameStudy::kMostFrames + 1, 65535, 0);
+    PlainCamera more(FrameStudy::kMaxFrames + 1, 65535, 0);
     reports(reportOf(more), "300 read, the first ones");
 }

@@ -156,7 +156,7 @@ TEST_CASE("A moving arm is removed where each frame shows it, and an arm outside
     rig.run(wall);
     CHECK(compare(rig, {}).marked == all);
     cloud::LinkSpheres many;
-    many.spheres.resize(cloud::LinkSpheres::kMostSpheres + 1, {dvec3(0.0), 1.0});
+    many.spheres.resize(cloud::LinkSpheres::kMaxSpheres + 1, {dvec3(0.0), 1.0});
     many.ends = {static_cast<uint32_t>(many.spheres.size())};
     rig.cycle().setArm(many);
     CHECK_THROWS_AS(rig.run(wall), Error);

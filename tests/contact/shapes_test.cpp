@@ -68,7 +68,7 @@ TEST_CASE("The smallest gap of the sides of a keep-in solid equals its own gap")
             shapeOf(kind, dvec3(0.3, 0.5, 0.2), true, {randomIn(random, 1.0), randomRotation(random)});
         for (int k = 0; k < 500; ++k) {
             const dvec3 p = shape.baseTshape.apply(randomIn(random, 0.4));
-            std::array<SideGap, kMostSides> sides;
+            std::array<SideGap, kMaxSides> sides;
             const size_t count = sidesOf(shape, p, 0.01, sides);
             REQUIRE(count >= 1);
             double least = std::numeric_limits<double>::infinity();
@@ -98,7 +98,7 @@ TEST_CASE(
     const Pose pose{randomIn(random, 1.0), randomRotation(random)};
     const Shape line = shapeOf(ShapeKind::Line, dvec3(0.0), false, pose);
     const Shape axis = shapeOf(ShapeKind::Axis, dvec3(0.0), false, pose);
-    std::array<Equality, kMostEqualities> rows;
+    std::array<Equality, kMaxEqualities> rows;
     const Pose on{pose.apply(dvec3(0, 0, 0.7)), pose.rotation * rotationExp(dvec3(0, 0, 1.3))};
     CHECK(equalitiesOf(line, on, rows) == 2);
     CHECK(equalitiesOf(axis, on, rows) == 4);

@@ -83,7 +83,7 @@ TEST_CASE(
         weaker = std::max(weaker, b.wrench.force.z - a.wrench.force.z);
     }
     CHECK(weaker > 0.3); // the debt over 33 ms, at most 20 N s/m at 0.03 m/s; more while the springs push out
-    CHECK(weaker <= PassivityController::kMostRelease / 0.001 * 0.03 * 1.01);
+    CHECK(weaker <= PassivityController::kMaxRelease / 0.001 * 0.03 * 1.01);
     CHECK(rig.cycle->passivity().taken() > 0.0);
 }
 

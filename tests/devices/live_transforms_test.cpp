@@ -148,7 +148,7 @@ TEST_CASE("Unusable transforms are skipped, counted and named once, and loops en
     graph.says(1.2, "camera", "base", {});
     CHECK(graph.transforms.pose("camera", "elsewhere", LiveNode::kUtc + 1.2).why ==
           "no transforms between 'camera' and 'elsewhere'");
-    for (size_t i = 0; i < 2 * LiveTransforms::kMostFrames; ++i) {
+    for (size_t i = 0; i < 2 * LiveTransforms::kMaxFrames; ++i) {
         graph.says(2.0, "base", "f" + std::to_string(i), {});
     }
     CHECK(log.count("over 1000 frames") == 1);

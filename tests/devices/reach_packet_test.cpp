@@ -45,7 +45,7 @@ TEST_CASE("The published frames of the arm are reproduced byte for byte") {
 TEST_CASE("Every packet survives a round trip, including zeros, no data and the largest size") {
     std::mt19937_64 random(1);
     ReachReader reader;
-    for (size_t size = 0; size <= ReachPacket::kMostData; ++size) {
+    for (size_t size = 0; size <= ReachPacket::kMaxData; ++size) {
         ReachPacket packet{0x03, 0x05, static_cast<uint8_t>(size), {}};
         for (size_t k = 0; k < size; ++k) {
             packet.data[k] = static_cast<uint8_t>(random() % 3);
@@ -60,7 +60,7 @@ TEST_CASE("Every packet survives a round trip, including zeros, no data and the 
     CHECK(packets.at(0).asFloat() == -1.25f);
     CHECK_FALSE(ReachPacket{0x03, 2, 3, {}}.asFloat());
     ReachFrame frame;
-    CHECK(encodeReach({0x03, 2, ReachPacket::kMostData + 1, {}}, frame) == 0);
+    CHECK(encodeReach({0x03, 2, ReachPacket::kMaxData + 1, {}}, frame) == 0);
 }
 
 TEST_CASE("Lost, changed and added bytes damage only the frame that they hit") {

@@ -36,11 +36,11 @@ public:
 
     // Steps of a driver that is commanded to move, with this many input bytes before each.
     void feed(ArmDevice& arm, Bytes input) {
-        constexpr size_t kTurn = 512, kMostTurns = 8;
+        constexpr size_t kTurn = 512, kMaxTurns = 8;
         constexpr double kPeriod = 0.1; // [s] longer than a driver's own period, so it sends in every step
         ArmCommand command;
         command.hold = false;
-        for (size_t tick = 0; tick < kMostTurns && tick * kTurn < input.size(); ++tick) {
+        for (size_t tick = 0; tick < kMaxTurns && tick * kTurn < input.size(); ++tick) {
             const Bytes bytes = input.subspan(tick * kTurn, std::min(kTurn, input.size() - tick * kTurn));
             need(::write(master_, bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size()));
             pollfd there{port_->descriptor(), POLLIN, 0};
@@ -106,7 +106,7 @@ void readReach(Bytes input) {
     ReachReader reader;
     for (uint8_t byte : input) {
         if (const auto packet = reader.take(byte)) {
-            need(packet->size <= ReachPacket::kMostData);
+            need(packet->size <= ReachPacket::kMaxData);
             ReachFrame frame;
             need(encodeReach(*packet, frame) > 0);
         }

@@ -23,14 +23,14 @@ namespace fathom::testing {
 
 namespace {
 
-constexpr uint32_t kMostFrames = 8; // per input
+constexpr uint32_t kMaxFrames = 8; // per input
 
 } // namespace
 
 void drain(Camera& camera) {
     const CameraInfo& info = camera.info();
     need(info.depth.width > 0 && info.depth.width <= kMaxImageWidth && info.depth.height <= kMaxImageHeight);
-    for (uint32_t i = 0; i < kMostFrames; ++i) {
+    for (uint32_t i = 0; i < kMaxFrames; ++i) {
         const auto frame = camera.next();
         if (!frame) {
             return;

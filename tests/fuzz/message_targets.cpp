@@ -17,7 +17,7 @@ namespace fathom::testing {
 
 namespace {
 
-constexpr size_t kMostMessages = 8; // of a topic that are read
+constexpr size_t kMaxMessages = 8; // of a topic that are read
 
 // Messages that are in memory: of an input in records of a topic's number, a length (16 bits) and a message.
 class RecordedBytes final : public MessageFile {
@@ -133,7 +133,7 @@ void readSdkMessages(Bytes input) {
 void readMatroska(Bytes input) {
     MatroskaFile file(fuzzFile("recording.mkv", input));
     for (const MessageTopic& topic : file.topics()) {
-        for (size_t i = 0; i < std::min(kMostMessages, topic.messages.size()); ++i) {
+        for (size_t i = 0; i < std::min(kMaxMessages, topic.messages.size()); ++i) {
             need(file.bytes(topic.messages[i]).view.size() <= input.size() + 1000);
         }
     }

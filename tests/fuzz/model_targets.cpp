@@ -68,7 +68,7 @@ void readUrdfPacket(Bytes input) {
     }
     std::vector<const urdf::Link*> open{model->getRoot().get()};
     size_t reached = 0;
-    for (; !open.empty() && reached <= kMostLinks; ++reached) {
+    for (; !open.empty() && reached <= kMaxLinks; ++reached) {
         const urdf::Link* const link = open.back();
         open.pop_back();
         for (const auto& child : link->child_links) {

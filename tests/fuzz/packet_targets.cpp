@@ -172,7 +172,7 @@ void readHaply(Bytes input) {
         frames.add(bytes.substr(at, step));
         auto event = frames.next(text);
         for (; event != WebSocketFrames::Event::None; event = frames.next(text)) {
-            need(text.size() <= WebSocketFrames::kMostBytes);
+            need(text.size() <= WebSocketFrames::kMaxBytes);
             if (event == WebSocketFrames::Event::Fault || event == WebSocketFrames::Event::Closed) {
                 return;
             }

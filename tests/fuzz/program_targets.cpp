@@ -22,7 +22,7 @@ void readTurns(Bytes input) {
         const operate::Moment& moment = log.moments[i];
         need(std::isfinite(moment.t) && (i == 0 || moment.t > log.moments[i - 1].t));
         need(moment.firstTouch + moment.touchCount <= log.touches.size());
-        need(log.recordAt(i).touchCount <= kMostTouches);
+        need(log.recordAt(i).touchCount <= kMaxTouches);
     }
 }
 

@@ -27,7 +27,7 @@ namespace {
 using namespace fathom::testing;
 using Input = std::vector<uint8_t>;
 
-constexpr size_t kMostBytes = 1 << 16;
+constexpr size_t kMaxBytes = 1 << 16;
 const char* const kLastInput = "fuzz-finding";
 
 const Input* current = nullptr; // for keepInput(), called by a signal or a sanitizer
@@ -73,7 +73,7 @@ public:
         for (size_t i = 1 + below(4); i-- > 0;) {
             change(input);
         }
-        input.resize(std::min(input.size(), kMostBytes));
+        input.resize(std::min(input.size(), kMaxBytes));
         return input;
     }
 

@@ -21,7 +21,7 @@ void readTransforms(Bytes message) {
 }
 
 void readJoints(Bytes message) {
-    need(ros2::jointPositions(message).size() <= ros2::kMostJoints);
+    need(ros2::jointPositions(message).size() <= ros2::kMaxJoints);
     JointReadings joints("fuzz", "/joint_states", {{"elbow", -1.0, 1.0}});
     joints.take(LiveNode().sends({message.begin(), message.end()}, 0.0));
     const double elbow = joints.positions()[0];
@@ -44,7 +44,7 @@ void readRos2Hand(Bytes input) {
     } else if (input[0] % 4 == 2) {
         readJoints(input.subspan(1));
     } else {
-        need(ros2::joyButtons(input.subspan(1)).size() <= ros2::kMostJoy);
+        need(ros2::joyButtons(input.subspan(1)).size() <= ros2::kMaxJoy);
     }
 }
 

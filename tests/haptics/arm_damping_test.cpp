@@ -63,7 +63,7 @@ ArmNormal withSingulars(size_t joints, const std::vector<double>& values, std::m
 
 TEST_CASE("The smallest singular value is exact for 1 to 12 joints, down to 1e-6 of the largest") {
     std::mt19937 random(7);
-    for (size_t joints = 1; joints <= kMostJoints; ++joints) {
+    for (size_t joints = 1; joints <= kMaxJoints; ++joints) {
         for (const double ratio : {1.0, 0.3, 1e-2, 1e-4, 1e-6}) {
             for (int draw = 0; draw < 20; ++draw) {
                 std::vector<double> values(std::min<size_t>(joints, 6), 1.7);

@@ -69,7 +69,7 @@ TEST_CASE(
     "that a tick obeys is recorded") {
     Stage stage;
     setPressing(stage, "gpu");
-    const Losing losing(40, "lost", 2, "COMPLETED");
+    const Losing losing(40, "lost", 2, "DONE");
     const ProgramRun run = runFathom(stage.command({"--realtime", "--device", "llvmpipe"}));
     CAPTURE(run.err);
     REQUIRE(run.exitCode == 0);

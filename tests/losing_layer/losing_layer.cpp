@@ -3,8 +3,7 @@
 // VK_ERROR_DEVICE_LOST (or VK_ERROR_OUT_OF_DEVICE_MEMORY), and some later openings fail. It can also
 // invalidate a window's images or surface. The tested program is unmodified, because the layer is below it.
 //   FATHOM_LOSE_AT       number, from 1, of the first submission of the first device that fails
-//   FATHOM_LOSE_COMPLETED   instead: number, from 1, of the successful wait for the first device's passes
-//   after
+//   FATHOM_LOSE_DONE     instead: number, from 1, of the successful wait for the first device's passes after
 //                        which it is lost (the semaphore that is waited for first)
 //   FATHOM_LOSE_TIMES    instead: number, from 1, of the failing read of its timestamps
 //   FATHOM_LOSE_FILE     instead: a file with one word. The first matching call removes the file and fails:
@@ -140,7 +139,7 @@ VKAPI_ATTR VkResult VKAPI_CALL submit(VkQueue queue, uint32_t count, const VkSub
 // Requires the mutex, after a successful wait.
 void completed(NextDevice& device, VkSemaphore semaphore) {
     device.passes = device.passes == VK_NULL_HANDLE ? semaphore : device.passes;
-    const long at = number("FATHOM_LOSE_COMPLETED");
+    const long at = number("FATHOM_LOSE_DONE");
     if (device.first && at > 0 && semaphore == device.passes && ++device.landings == at) {
         device.lost = device.working = true;
         refused = 0;

@@ -85,7 +85,7 @@ TEST_CASE("Two joints of the chain that mimic a joint off the chain stay tied to
     REQUIRE(arm.fingers.size() == 1); // the crank moves with the chain
     ArmFrames frames;
     arm.place(q, Pose{}, frames);
-    CHECK(2.0 * std::asin(frames[kMostJoints + 1].rotation.x) == doctest::Approx(0.4));
+    CHECK(2.0 * std::asin(frames[kMaxJoints + 1].rotation.x) == doctest::Approx(0.4));
 }
 
 TEST_CASE("A finger that mimics another one moves with the grasp") {
@@ -122,9 +122,9 @@ TEST_CASE(
     CHECK(arm.fingers[1].carrier == 1);
     ArmFrames frames;
     arm.place({}, Pose{}, frames, 1.0);
-    CHECK(glm::distance(frames[kMostJoints + 2].position - frames[0].position,
+    CHECK(glm::distance(frames[kMaxJoints + 2].position - frames[0].position,
                         dvec3(0.0, 0.05 - 0.1 * std::sin(0.8), 0.6 + 0.1 * std::cos(0.8))) < 1e-12);
-    CHECK(frames[kMostJoints + 2].rotation.w == doctest::Approx(1.0)); // turned back
+    CHECK(frames[kMaxJoints + 2].rotation.w == doctest::Approx(1.0)); // turned back
 }
 
 TEST_CASE("A locked joint stays at its value and its mimic joints with it") {

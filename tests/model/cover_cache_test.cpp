@@ -74,11 +74,11 @@ TEST_CASE("The cache keeps a bounded number of files, the newest ones") {
     const CacheFolder folder;
     const CoverCache cache(folder.path);
     std::filesystem::create_directories(folder.path);
-    for (size_t i = 0; i < CoverCache::kMostFiles + 20; ++i) {
+    for (size_t i = 0; i < CoverCache::kMaxFiles + 20; ++i) {
         std::ofstream(folder.path / ("old" + std::to_string(i))) << "x";
     }
     cache.store("new", kMade);
     const auto all = std::filesystem::directory_iterator(folder.path);
-    CHECK(static_cast<size_t>(std::distance(begin(all), end(all))) == CoverCache::kMostFiles);
+    CHECK(static_cast<size_t>(std::distance(begin(all), end(all))) == CoverCache::kMaxFiles);
     CHECK(cache.find("new"));
 }

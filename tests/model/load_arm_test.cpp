@@ -230,23 +230,6 @@ TEST_CASE("Joints that cannot move, and limits that look like degrees, are repor
     CHECK(notes("continuous", "").empty());
 }
 
-TEST_CASE("Meshes are found by URIs of Gazebo and with escaped characters") {
-    const auto folder = std::filesystem::temp_directory_path() / ("fathom_uri_" + std::to_string(::getpid()));
-    std::filesystem::create_directories(folder / "my arm/meshes");
-    const testing::ObjFile box(testing::boxMesh(dvec3(0.0), dvec3(0.1)));
-    std::filesystem::copy_file(box.path(), folder / "my arm/meshes/link one.obj");
-    std::filesystem::copy_file(box.path(), folder / "my arm/meshes/100%25.obj");
-    for (const char* name :
-         {"model://my%20arm/meshes/link%20one.obj", "package://other/meshes/link%20one.obj",
-          "file://meshes/link%20one.obj", "meshes/link one.obj", "meshes/100%25.obj"}) {
-        const auto file = folder / "my arm/arm.urdf";
-        std::ofstream(file) << "<robot name='r'><link name='a'><collision><geometry><mesh filename='" << name
-                            << "'/></geometry></collision></link></robot>";
-        CHECK_MESSAGE(!loadArm(file).leaves.empty(), name);
-    }
-    std::filesystem::remove_all(folder);
-}
-
 TEST_CASE("Parts of an arm's files without leaves are reported in one line each") {
     TriangleMesh mesh = testing::boxMesh(dvec3(0.0), dvec3(0.1));
     testing::addBox(mesh, {4.0, 0.0, 0.0}, dvec3(0.01));
@@ -266,31 +249,6 @@ TEST_CASE("Parts of an arm's files without leaves are reported in one line each"
                             ": stray geometry is dropped: 1 pieces up to") == 0);
     CHECK(arm.notes[2].find("link b: " + large.path().string() + ": 2.5 m large") == 0);
     CHECK(load(kArm + "</robot>").notes.empty());
-}
-
-TEST_CASE("Any number of meshes outside the URDF's folder is reported once") {
-    const auto folder =
-        std::filesystem::temp_directory_path() / ("fathom_outside_" + std::to_string(::getpid()));
-    std::filesystem::create_directories(folder / "urdf");
-    const testing::ObjFile one(testing::boxMesh(dvec3(0.0), dvec3(0.1)));
-    std::filesystem::copy_file(one.path(), folder / "one.obj");
-    std::filesystem::copy_file(one.path(), folder / "two.obj");
-    std::filesystem::copy_file(one.path(), folder / "urdf/beside.obj");
-    const auto shape = [](const std::string& name) {
-        return "<collision><geometry><mesh filename='package://" + name + "'/></geometry></collision>";
-    };
-    const auto notes = [&](const std::string& shapes) {
-        const auto file = folder / "urdf/arm.urdf";
-        std::ofstream(file) << "<robot name='r'><link name='a'>" << shapes << "</link></robot>";
-        return loadArm(file).notes;
-    };
-    std::filesystem::create_symlink("../one.obj", folder / "urdf/link.obj");
-    CHECK(notes(shape("beside.obj")).empty());
-    CHECK(notes(shape("link.obj")).size() == 1);
-    const auto told = notes(shape("two.obj") + shape("one.obj") + shape("beside.obj") + shape("one.obj"));
-    REQUIRE(told.size() == 1);
-    CHECK(told[0] == "meshes outside their search folder: 2, the first " + (folder / "one.obj").string());
-    std::filesystem::remove_all(folder);
 }
 
 TEST_CASE("The grasp moves a finger off the chain from its open to its closed position") {

@@ -69,7 +69,7 @@ TEST_CASE(
     CHECK(found(106) == 1.0);
     CHECK(found(130) == 3.0);
     CHECK(found(999) == 6.0);
-    CHECK(track.nearest(at(130))->q[kMostJoints - 1] == 3.0);
+    CHECK(track.nearest(at(130))->q[kMaxJoints - 1] == 3.0);
 }
 
 TEST_CASE("The track keeps half a second at any rate, and skips postures that follow too soon") {

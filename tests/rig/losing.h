@@ -10,7 +10,7 @@ namespace fathom {
 
 class Losing {
 public:
-    // call: number of the call at which the loss occurs (AT counts submissions, COMPLETED frames
+    // call: number of the call at which the loss occurs (AT counts submissions, DONE frames
     // whose passes have completed, TIMES timestamp readings);
     // by: "lost" or "memory".
     Losing(int call, const std::string& by, int refusedOpenings, const std::string& which = "AT") {

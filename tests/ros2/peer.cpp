@@ -79,8 +79,8 @@ namespace {
 // The first domain that no other test program holds. An abstract socket is like loopback: one per network
 // namespace, and gone when its process ends.
 uint32_t reserveDomain() {
-    constexpr uint32_t kMostTried = 100; // the ports of higher ones are also given to programs at random
-    for (uint32_t domain = 1; domain <= kMostTried; ++domain) {
+    constexpr uint32_t kMaxTried = 100; // the ports of higher ones are also given to programs at random
+    for (uint32_t domain = 1; domain <= kMaxTried; ++domain) {
         sockaddr_un name{AF_UNIX, {}};
         const int length =
             std::snprintf(name.sun_path + 1, sizeof name.sun_path - 1, "fathom-test-ros2-domain-%u", domain);

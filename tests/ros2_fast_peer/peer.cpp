@@ -31,14 +31,14 @@ namespace rtps = eprosima::fastrtps::rtps;
 
 namespace {
 
-constexpr size_t kMostBytes = 4u << 20;
+constexpr size_t kMaxBytes = 4u << 20;
 
 // A type whose samples are their own bytes.
 class BytesType final : public fast::TopicDataType {
 public:
     explicit BytesType(const std::string& name) {
         setName(name.c_str());
-        m_typeSize = kMostBytes;
+        m_typeSize = kMaxBytes;
         auto_fill_type_object(false);
         auto_fill_type_information(false);
     }

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where the meshes of an arm's URDF are looked for.
+#include "engine/model/arm_model.h"
+
+#include "tests/model/meshes.h"
+
+#include <doctest/doctest.h>
+#include <fstream>
+#include <unistd.h>
+
+using namespace fathom;
+
+TEST_CASE("Meshes are found by URIs of Gazebo and with escaped characters") {
+    const auto folder = std::filesystem::temp_directory_path() / ("fathom_uri_" + std::to_string(::getpid()));
+    std::filesystem::create_directories(folder / "my arm/meshes");
+    const testing::ObjFile box(testing::boxMesh(dvec3(0.0), dvec3(0.1)));
+    std::filesystem::copy_file(box.path(), folder / "my arm/meshes/link one.obj");
+    std::filesystem::copy_file(box.path(), folder / "my arm/meshes/100%25.obj");
+    for (const char* name :
+         {"model://my%20arm/meshes/link%20one.obj", "package://other/meshes/link%20one.obj",
+          "file://meshes/link%20one.obj", "meshes/link one.obj", "meshes/100%25.obj"}) {
+        const auto file = folder / "my arm/arm.urdf";
+        std::ofstream(file) << "<robot name='r'><link name='a'><collision><geometry><mesh filename='" << name
+                            << "'/></geometry></collision></link></robot>";
+        CHECK_MESSAGE(!loadArm(file).leaves.empty(), name);
+    }
+    std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("Any number of meshes outside the URDF's folder is reported once") {
+    const auto folder =
+        std::filesystem::temp_directory_path() / ("fathom_outside_" + std::to_string(::getpid()));
+    std::filesystem::create_directories(folder / "urdf");
+    const testing::ObjFile one(testing::boxMesh(dvec3(0.0), dvec3(0.1)));
+    std::filesystem::copy_file(one.path(), folder / "one.obj");
+    std::filesystem::copy_file(one.path(), folder / "two.obj");
+    std::filesystem::copy_file(one.path(), folder / "urdf/beside.obj");
+    const auto shape = [](const std::string& name) {
+        return "<collision><geometry><mesh filename='package://" + name + "'/></geometry></collision>";
+    };
+    const auto notes = [&](const std::string& shapes) {
+        const auto file = folder / "urdf/arm.urdf";
+        std::ofstream(file) << "<robot name='r'><link name='a'>" << shapes << "</link></robot>";
+        return loadArm(file).notes;
+    };
+    std::filesystem::create_symlink("../one.obj", folder / "urdf/link.obj");
+    CHECK(notes(shape("beside.obj")).empty());
+    CHECK(notes(shape("link.obj")).size() == 1);
+    const auto told = notes(shape("two.obj") + shape("one.obj") + shape("beside.obj") + shape("one.obj"));
+    REQUIRE(told.size() == 1);
+    CHECK(told[0] == "meshes outside their search folder: 2, the first " + (folder / "one.obj").string());
+    std::filesystem::remove_all(folder);
+}
