@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Symbol visibility, and the inline namespace of all public names. Included by the other headers.
+/// Symbol visibility, and the namespace of all public names. Included by the other headers.
 ///
 /// `v0` stays until version 1.0. Until then each minor version may change the binary interface, and has a
 /// soname of its own: `libfathom.so.0.2` for 0.2.
@@ -12,9 +12,8 @@
 #define FATHOM_LOCAL __attribute__((visibility("hidden")))
 
 namespace fathom {
-#ifdef FATHOM_BUILDING_LIBRARY
-namespace v0 {} // namespace v0
-#else
-inline namespace v0 {}
+namespace v0 {}
+#ifndef FATHOM_BUILDING_LIBRARY
+using namespace v0; // not an inline namespace: clang warns where another header reopens it
 #endif
 } // namespace fathom

@@ -8,7 +8,7 @@
 /// fathom::ArmPort, fathom::ObserverPort. fathom::Lockstep computes the same on one thread, without a clock.
 /// For bridges and observers in other processes there is device_socket.h, in C.
 ///
-/// All of it is in the inline namespace `fathom::v0`; write `fathom::Engine`.
+/// All of it is in the namespace `fathom::v0`; write `fathom::Engine`.
 #pragma once
 
 #include <fathom/arm.h>      // IWYU pragma: export
