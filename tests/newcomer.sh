@@ -76,9 +76,9 @@ install_packages() {
     cp "$root"/fathom/build/*.deb "$second/fathom/"
     step "$second" "fathom installed" "apt-get update -qq && apt-get install -y -qq ./fathom_*.deb && fathom --version"
     step "$second" "an installed scene" "cd /root && fathom replay /usr/share/fathom/scenes/demo.yaml --device llvmpipe --out demo && ls demo | tr '\n' ' '"
-    step "$second" "libfathom-dev installed" "apt-get install -y -qq --no-install-recommends ./libfathom-dev_*.deb g++ cmake ninja-build pkg-config"
+    step "$second" "libfathom-dev installed" "apt-get install -y -qq --no-install-recommends ./libfathom0*.deb ./libfathom-dev_*.deb g++ cmake ninja-build pkg-config"
     step "$second" "a program on /usr" "cmake -DSOURCE=/fathom -DPREFIX=/usr -DCXX=g++ -DVERSION=\$(fathom --version | cut -d' ' -f2) -P tests/install/install_test.cmake"
-    step "$second" "packages removed" "apt-get purge -y -qq fathom libfathom-dev && ! ls -d /usr/share/fathom /usr/include/fathom 2>/dev/null"
+    step "$second" "packages removed" "apt-get purge -y -qq fathom libfathom0.2 libfathom-dev && ! ls -d /usr/share/fathom /usr/include/fathom 2>/dev/null"
 }
 
 start=$(date +%s)
