@@ -135,7 +135,7 @@ void requireReplayed(const std::string& more) {
                 lockstep.endFrames();
             }
         }
-        lockstep.answer();
+        lockstep.queryContacts();
         const fathom::v0::Step step =
             lockstep.step({pose(tick.device.position, tick.device.rotation)}, nanoseconds(tick.t));
         contacts += step.state == fathom::v0::State::Contact ? 1 : 0;
@@ -171,10 +171,10 @@ TEST_CASE("The library in lockstep moves a scene's arm exactly as a replay does"
     const auto handAt = [&](double t) {
         const fathom::HandSample sample = path.at(t);
         return fathom::v0::Hand{pose(sample.deviceThandle.position, sample.deviceThandle.rotation),
-                                sample.buttons};
+                                static_cast<fathom::v0::Button>(sample.buttons)};
     };
     fathom::v0::EngineOptions engine;
-    engine.device = "llvmpipe";
+    engine.computeDevice = "llvmpipe";
     fathom::v0::Lockstep lockstep(fathom::v0::Scene::fromFile(stage / "scene.yaml"), modelOf(camera.info()),
                                   {handAt(0.0).deviceThandle}, engine);
     uint32_t shown = 0, contacts = 0;
@@ -189,7 +189,7 @@ TEST_CASE("The library in lockstep moves a scene's arm exactly as a replay does"
         if (shown == kArmFrames) {
             lockstep.endFrames();
         }
-        lockstep.answer();
+        lockstep.queryContacts();
         const fathom::v0::Step step = lockstep.step(handAt(t), nanoseconds(t));
         requireEqual(step, replay.ticks[i]);
         for (size_t k = 0; k < 4; ++k) {
