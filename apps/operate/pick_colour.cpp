@@ -15,6 +15,11 @@ constexpr double kHueReach = 12.0;  // [degree] on each side of the picked hue
 constexpr double kToneReach = 0.28; // half width of the saturation and lightness bands
 constexpr uint32_t kPatch = 2;      // [pixels] average colour within this distance of the click
 
+// A camera without colour has neither pixels nor colours.
+bool hasColours(const SceneSnapshot& snapshot) {
+    return !snapshot.colour.empty() && snapshot.colour.size() == snapshot.set.camera.colour.pixels();
+}
+
 // The colour of a depth pixel as the gates use it: without the water's attenuation.
 uint32_t colourFor(const Scene& scene, const SceneSnapshot& snapshot, uint32_t u, uint32_t v, uint32_t rgba) {
     const CameraInfo& camera = snapshot.set.camera;
@@ -60,7 +65,7 @@ bool inBand(const std::optional<Band>& band, double value) {
 
 void FixtureEditor::pickAt(Console& console, const SceneSnapshot& snapshot, glm::uvec2 pixel) {
     const Intrinsics& lens = snapshot.set.camera.colour;
-    if (snapshot.colour.size() != lens.pixels()) {
+    if (!hasColours(snapshot)) {
         return;
     }
     double x = 0.0, y = 0.0, saturation = 0.0, lightness = 0.0, count = 0.0;
@@ -106,7 +111,7 @@ void FixtureEditor::preview(Console& console, const SceneSnapshot& snapshot) {
     ++selectionNumber_;
     selected_ = 0;
     hues_.fill(0.0f);
-    if (!console.pick.taken || snapshot.colour.size() != camera.colour.pixels()) {
+    if (!console.pick.taken || !hasColours(snapshot)) {
         selection_.clear();
         return;
     }
