@@ -2,6 +2,8 @@
 #include "apps/operate/fixture_editor.h"
 
 #include "apps/session/session.h"
+#include "engine/scene/load.h"
+#include "engine/types/error.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,6 +20,10 @@ dquat turnTo(const dvec3& n) {
     const dvec3 z = glm::normalize(n);
     const dvec3 x = glm::normalize(glm::cross(std::abs(z.x) < 0.9 ? dvec3(1, 0, 0) : dvec3(0, 1, 0), z));
     return glm::quat_cast(glm::dmat3(x, glm::cross(z, x), z));
+}
+
+std::string because(const char* what, const std::string& why) {
+    return why.empty() ? "" : std::string(what) + ": " + why;
 }
 
 } // namespace
@@ -39,7 +45,7 @@ std::string FixtureEditor::freeName(const std::string& stem) const {
     }
 }
 
-bool FixtureEditor::takePicked(Console& console) {
+std::string FixtureEditor::takePicked(Console& console) {
     Scene next = scene_;
     const auto count = static_cast<int>(next.fixtures.size());
     const int row = console.pick.row;
@@ -52,19 +58,24 @@ bool FixtureEditor::takePicked(Console& console) {
                                        [&](const FixtureClass& f) { return f.name == wanted; });
         console.pick.gates.name = free ? wanted : freeName("picked");
     }
-    const bool added = console.pick.taken && spare != next.fixtures.end() &&
-                       (row < 0 || spare->name == console.pick.gates.name); // undo may have moved rows
-    if (added) {
+    std::string problem;
+    if (!console.pick.taken) {
+        problem = "not added: no colour is picked";
+    } else if (spare == next.fixtures.end()) {
+        problem = "not added: at most 8 classes of points";
+    } else if (row >= 0 && spare->name != console.pick.gates.name) { // undo may have moved rows
+        problem = "not changed: '" + console.pick.gates.name + "' is in another row now";
+    } else {
         *spare = console.pick.gates;
         spare->largestPart =
             row < 0 ? spare->role == Role::Guidance && console.pick.rules.onlyClicked : spare->largestPart;
         lastTaken_ = spare->name;
-        apply(std::move(next));
+        problem = because(row < 0 ? "not added" : "not changed", apply(std::move(next)));
     }
     console.pick = Pick{};
     selection_.clear();
     ++selectionNumber_;
-    return added;
+    return problem;
 }
 
 FixtureClass FixtureEditor::shapeAt(ShapeKind kind, const dvec3& base, const dvec3& normal) const {
@@ -80,21 +91,20 @@ FixtureClass FixtureEditor::shapeAt(ShapeKind kind, const dvec3& base, const dve
     return shape;
 }
 
-bool FixtureEditor::place(const FixtureClass& shape) {
+std::string FixtureEditor::place(const FixtureClass& shape) {
     const auto rows = std::count_if(scene_.fixtures.begin(), scene_.fixtures.end(), std::not_fn(isSpare));
     if (static_cast<size_t>(rows) >= Scene::kMaxFixtures) {
-        return false;
+        return "not placed: at most " + std::to_string(Scene::kMaxFixtures) + " fixtures";
     }
     Scene next = scene_;
     next.fixtures.push_back(shape);
-    apply(std::move(next));
-    return true;
+    return because("not placed", apply(std::move(next)));
 }
 
-void FixtureEditor::change(size_t row, const FixtureClass& to) {
+std::string FixtureEditor::change(size_t row, const FixtureClass& to) {
     Scene next = scene_;
     next.fixtures.at(row) = to;
-    apply(std::move(next));
+    return because("not changed", apply(std::move(next)));
 }
 
 std::string FixtureEditor::rename(size_t row, const std::string& name) {
@@ -111,8 +121,7 @@ std::string FixtureEditor::rename(size_t row, const std::string& name) {
     if (taken) {
         return "not renamed: '" + name + "' exists already";
     }
-    change(row, renamed);
-    return "";
+    return change(row, renamed);
 }
 
 // The row of a class of points becomes a spare row; the row of a shape is erased.
@@ -129,14 +138,23 @@ void FixtureEditor::remove(size_t row) {
     apply(std::move(next));
 }
 
-void FixtureEditor::apply(Scene next) {
-    past_.push_back(scene_.fixtures);
+std::string FixtureEditor::apply(Scene next) {
+    std::swap(scene_, next);
+    try {
+        Scene read;
+        loadFixtures(YamlNode::parseText(scene_.file.filename(), "fixtures:\n" + rows()).at("fixtures"),
+                     read);
+    } catch (const BadInput& e) {
+        std::swap(scene_, next);
+        return e.what();
+    }
+    past_.push_back(std::move(next.fixtures));
     if (past_.size() > kMaxHistory) {
         past_.erase(past_.begin());
     }
     future_.clear();
-    scene_ = std::move(next);
     notifyChange();
+    return "";
 }
 
 void FixtureEditor::keep(const Scene::Window& window, const std::string& pilot) {

@@ -27,14 +27,16 @@ public:
     void pickAt(Console& console, const SceneSnapshot& snapshot, glm::uvec2 pixel);
     // Computes selection and hue histogram for the current gates.
     void preview(Console& console, const SceneSnapshot& snapshot);
-    // Puts the picked class into a spare row (false when none is left), or the edited gates into their row.
-    bool takePicked(Console& console);
+    // Each edit that a caller may get wrong returns why nothing has changed, or nothing. No edit makes a
+    // fixture that a scene file could not contain.
+    // Puts the picked class into a spare row, or the edited gates into their row.
+    std::string takePicked(Console& console);
     const std::string& lastTaken() const { return lastTaken_; } // name of the class that it made active
     // A new authored shape at a point of the base frame with the normal of the surface.
     FixtureClass shapeAt(ShapeKind kind, const dvec3& base, const dvec3& normal) const;
-    bool place(const FixtureClass& shape);           // adds it; false when there are too many
-    void change(size_t row, const FixtureClass& to); // makes one undo step
-    // One undo step. Returns why not, or nothing: the name is empty or another fixture's.
+    std::string place(const FixtureClass& shape);           // adds it, unless there are too many
+    std::string change(size_t row, const FixtureClass& to); // makes one undo step
+    // One undo step. The name must not be empty or another fixture's.
     std::string rename(size_t row, const std::string& name);
     void remove(size_t row);
     bool undo();
@@ -60,8 +62,8 @@ public:
 private:
     void select(const FixtureClass& gates, const SceneSnapshot& snapshot);
     std::string freeName(const std::string& stem) const;
-    std::string rows() const; // as in the scene file
-    void apply(Scene next);
+    std::string rows() const;      // as in the scene file
+    std::string apply(Scene next); // returns why a scene file cannot contain its fixtures, or nothing
     void notifyChange();
     bool restore(std::vector<std::vector<FixtureClass>>& from, std::vector<std::vector<FixtureClass>>& to);
 

@@ -8,6 +8,7 @@
 #include "apps/session/session.h"
 
 #include <GLFW/glfw3.h>
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -15,14 +16,17 @@ namespace fathom::operate {
 
 namespace {
 
-// Slider for a radius or size [m]; true when it is released at a new value. id: unique among all sliders.
+// Slider for a radius or size [m]; true when it is released at a new value. Also a typed value stays within
+// its range, which includes what the scene file has. id: unique among all sliders.
 bool sizeSlider(Console& console, double& size, const char* word, const std::string& place, int id) {
     float millimetres = static_cast<float>(1e3 * size);
+    const float least = std::min(2.0f, millimetres), most = std::max(150.0f, millimetres);
     const bool dragged = console.editedRow == id;
     millimetres = dragged ? console.editedMillimetres : millimetres;
     ImGui::SetNextItemWidth(-1.0f);
     ImGui::PushID(id);
-    if (ImGui::SliderFloat("##size", &millimetres, 2.0f, 150.0f, (std::string(word) + " %.0f mm").c_str())) {
+    if (ImGui::SliderFloat("##size", &millimetres, least, most, (std::string(word) + " %.0f mm").c_str(),
+                           ImGuiSliderFlags_AlwaysClamp)) {
         console.editedRow = id;
         console.editedMillimetres = millimetres;
     }
@@ -97,6 +101,12 @@ void renameButton(Console& console, const std::string& name) {
     }
 }
 
+void tellProblem(Console& console, const std::string& problem) {
+    if (!problem.empty()) {
+        console.notify(problem);
+    }
+}
+
 // One fixture: name, role, sizes. Releasing a slider makes one undo step.
 void row(Console& console, FixtureEditor& editor, size_t i, const SceneSnapshot& snapshot) {
     const FixtureClass before = editor.scene().fixtures[i];
@@ -135,7 +145,7 @@ void row(Console& console, FixtureEditor& editor, size_t i, const SceneSnapshot&
     if (removed) {
         editor.remove(i);
     } else if (done) {
-        editor.change(i, now);
+        tellProblem(console, editor.change(i, now));
     }
     ImGui::PopID();
 }
@@ -183,8 +193,8 @@ void handleFixtureKeys(Console& console, FixtureEditor& editor, const SceneSnaps
     const bool adds =
         console.pick.taken && !console.panels && !io.WantTextInput && keyPressed(GLFW_KEY_ENTER);
     if (adds || console.addPicked) {
-        console.notify(editor.takePicked(console) ? "'" + editor.lastTaken() + "' is active"
-                                                  : "not added: at most 8 classes of points");
+        const std::string problem = editor.takePicked(console);
+        console.notify(problem.empty() ? "'" + editor.lastTaken() + "' is active" : problem);
     }
     if ((control(GLFW_KEY_Z) || console.undo) && editor.undo()) {
         console.notify("undone");

@@ -34,7 +34,7 @@ Box boxAbout(const Fixtures& set, int row) {
 bool corner(Console& console, const char* name, const std::string& place, dvec3& corner, bool& dragged) {
     float v[] = {static_cast<float>(corner.x), static_cast<float>(corner.y), static_cast<float>(corner.z)};
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - 40.0f * console.scale());
-    if (ImGui::DragFloat3(name, v, 0.002f, -1000.0f, 1000.0f, "%.3f m")) {
+    if (ImGui::DragFloat3(name, v, 0.002f, -1000.0f, 1000.0f, "%.3f m", ImGuiSliderFlags_AlwaysClamp)) {
         corner = {double{v[0]}, double{v[1]}, double{v[2]}};
         dragged = true;
     }

@@ -4,6 +4,7 @@
 
 #include "apps/operate/theme.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <utility>
@@ -12,18 +13,29 @@ namespace fathom::operate {
 
 namespace {
 
+// Only a band of hues may end below its start: it passes through 360 degrees. Of other bands, the end that is
+// not moved follows.
+Band movedBand(const Band& before, Band now, bool hues) {
+    if (!hues && now.lo > now.hi) {
+        (now.lo != before.lo ? now.hi : now.lo) = now.lo != before.lo ? now.lo : now.hi;
+    }
+    return now;
+}
+
 bool bandSlider(Console& console, const char* name, std::optional<Band>& band, float most) {
     if (!band) {
         return false;
     }
     float ends[] = {static_cast<float>(band->lo), static_cast<float>(band->hi)};
-    const bool changed = ImGui::SliderFloat2(name, ends, 0.0f, most, most > 1.0f ? "%.0f" : "%.2f");
+    const bool hues = most > 1.0f;
+    const bool changed =
+        ImGui::SliderFloat2(name, ends, 0.0f, most, hues ? "%.0f" : "%.2f", ImGuiSliderFlags_AlwaysClamp);
     markPlace(console, std::string("pick ") + name);
     explain(
         console,
         "Least and greatest value of the colours that belong to it; of hues, from the first to the second");
     if (changed) {
-        band = Band{double{ends[0]}, double{ends[1]}};
+        band = movedBand(*band, {double{ends[0]}, double{ends[1]}}, hues);
     }
     return changed;
 }
@@ -63,7 +75,8 @@ void nameField(Console& console, FixtureClass& gates) {
 
 void pickedRadius(Console& console, FixtureClass& gates) {
     float millimetres = static_cast<float>(1e3 * gates.radius);
-    if (ImGui::SliderFloat("radius", &millimetres, 2.0f, 150.0f, "%.0f mm")) {
+    const float least = std::min(2.0f, millimetres), most = std::max(150.0f, millimetres);
+    if (ImGui::SliderFloat("radius", &millimetres, least, most, "%.0f mm", ImGuiSliderFlags_AlwaysClamp)) {
         gates.radius = 1e-3 * static_cast<double>(millimetres);
     }
     markPlace(console, "pick radius");

@@ -88,9 +88,8 @@ void placeAt(Console& console, FixtureEditor& editor, const SurfacePoint& at) {
         console.placedFrom = console.placedFrom.value_or(at.base);
         return;
     }
-    const bool placed = editor.place(*shape);
-    console.notify(placed ? "placed"
-                          : "not placed: at most " + std::to_string(Scene::kMaxFixtures) + " fixtures");
+    const std::string problem = editor.place(*shape);
+    console.notify(problem.empty() ? "placed" : problem);
     console.placing = ShapeKind::None;
     console.placedFrom.reset();
 }
