@@ -145,6 +145,7 @@ void OperatorRun::listen() {
     recording_.follow(console, editor_);
     followPilot();
     display_.exportTraces();
+    armed_ = console.forces; // after everything that may switch them off
 }
 
 void OperatorRun::mark() {
@@ -211,7 +212,6 @@ void OperatorRun::arm() {
             {display_.view, editor_.scene(), live_.haptics(), session_.handover->gone(), !live_.handThere()});
         console.forces = console.refusal.empty();
     }
-    armed_ = console.forces;
 }
 
 // Springs, limits and scale are constant during a run. So this turns forces off, keeps the tool where it is,

@@ -75,7 +75,7 @@ private:
     ToneRules toneRules_;
     std::unique_ptr<Speaker> speaker_; // null: offscreen
     bool showsGone_ = false;           // the window's title says that the GPU is gone
-    bool armed_ = false;               // forces were on after the last arm()
+    bool armed_ = false;               // forces were on after the last listen()
     bool forcesOff_ = false;           // requested since the last listen()
     LiveRun live_;                     // last, so that its threads end before what they use
 };
