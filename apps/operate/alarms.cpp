@@ -52,6 +52,8 @@ void Alarms::set(bool on, Level level, const std::string& key, const Text& text,
 }
 
 void Alarms::update(Alarm& alarm, bool on, const Text& text, double t, Filter filter) {
+    alarm.since = std::min(alarm.since, t); // a new run, such as after a change of pilot, begins at 0
+    alarm.last = std::min(alarm.last, t);
     if (on) {
         if (!alarm.active) { // latched again
             alarm.since = t;

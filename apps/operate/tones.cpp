@@ -80,7 +80,8 @@ std::optional<Tone> ToneRules::step(const Console& console, const RunView& run, 
     before_ = std::move(now);
     const StepRecord& record = run.step().record;
     if (console.forces && record.contacts > 0) {
-        if (record.t - contact_ > kFirst) {
+        const bool newRun = record.t < contact_; // each run begins at 0
+        if (newRun || record.t - contact_ > kFirst) {
             raise(Tone::Contact);
         }
         contact_ = record.t;
