@@ -4,6 +4,7 @@
 #include "apps/session/session.h"
 #include "engine/scene/load.h"
 #include "engine/types/error.h"
+#include "shaders/shared/frame_params.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,6 +21,15 @@ dquat turnTo(const dvec3& n) {
     const dvec3 z = glm::normalize(n);
     const dvec3 x = glm::normalize(glm::cross(std::abs(z.x) < 0.9 ? dvec3(1, 0, 0) : dvec3(0, 1, 0), z));
     return glm::quat_cast(glm::dmat3(x, glm::cross(z, x), z));
+}
+
+// Why no spare row is left for a new class of points.
+std::string noSpare(const std::vector<FixtureClass>& fixtures) {
+    const auto points =
+        std::count_if(fixtures.begin(), fixtures.end(), [](const FixtureClass& f) { return f.isPoints(); });
+    return points >= shared::kMaxClasses
+               ? "not added: at most " + std::to_string(shared::kMaxClasses) + " classes of points"
+               : "not added: two new classes per run; save (Ctrl S) and open the scene again for more";
 }
 
 std::string because(const char* what, const std::string& why) {
@@ -62,7 +72,7 @@ std::string FixtureEditor::takePicked(Console& console) {
     if (!console.pick.taken) {
         problem = "not added: no colour is picked";
     } else if (spare == next.fixtures.end()) {
-        problem = "not added: at most 8 classes of points";
+        problem = noSpare(next.fixtures);
     } else if (row >= 0 && spare->name != console.pick.gates.name) { // undo may have moved rows
         problem = "not changed: '" + console.pick.gates.name + "' is in another row now";
     } else {

@@ -88,6 +88,12 @@ Scene sceneWith(int classes) {
     return withSpareClasses(scene);
 }
 
+std::string add(FixtureEditor& editor) {
+    Console console;
+    console.pick.taken = true;
+    return editor.takePicked(console);
+}
+
 } // namespace
 
 TEST_CASE("A number typed into a slider of a fixture stays within the range of the slider") {
@@ -145,6 +151,18 @@ TEST_CASE(
     bad.size.y = 0.2;
     CHECK(editor.place(bad) == "");
     CHECK(changes == 1);
+}
+
+TEST_CASE("A third new class is refused with the way to get it, a ninth with the limit") {
+    const auto none = [](const Scene&, const std::vector<Shape>&) {};
+    FixtureEditor few(sceneWith(1), none), many(sceneWith(7), none);
+    CHECK(add(few) == "");
+    CHECK(add(few) == "");
+    CHECK(add(few) == "not added: two new classes per run; save (Ctrl S) and open the scene again for more");
+    few.remove(0);
+    CHECK(add(few) == "");
+    CHECK(add(many) == "");
+    CHECK(add(many) == "not added: at most 8 classes of points");
 }
 
 TEST_CASE("In the image of a camera without colour nothing is picked or selected") {
