@@ -2,6 +2,7 @@
 #include "apps/operate/canvas.h"
 
 #include "apps/operate/caption.h"
+#include "apps/operate/unused_name.h"
 #include "engine/types/error.h"
 
 #include <imgui.h>
@@ -129,7 +130,10 @@ void Canvas::shoot(Console& console) {
         console.notify("no screenshot: the GPU is lost");
         return;
     }
-    const auto file = shots_ / ("screenshot-" + std::to_string(console.shots + 1) + ".png");
+    // Offscreen, programs expect the same name every time.
+    const auto stem =
+        window_.offscreen() ? shots_ / "screenshot-1" : unusedName(shots_, "screenshot", {".png"});
+    const std::filesystem::path file = stem.string() + ".png";
     try {
         std::error_code ignored; // writing says why a file cannot be made
         std::filesystem::create_directories(shots_, ignored);

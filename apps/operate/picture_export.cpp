@@ -2,6 +2,7 @@
 #include "apps/operate/picture_export.h"
 
 #include "apps/operate/printed.h"
+#include "apps/operate/unused_name.h"
 #include "engine/types/error.h"
 
 #include <utility>
@@ -10,18 +11,10 @@ namespace fathom::operate {
 
 namespace fs = std::filesystem;
 
-fs::path PictureExport::freshName() const {
-    for (int i = 1;; ++i) {
-        const fs::path stem = in_ / ("export-" + std::to_string(i));
-        if (!fs::exists(stem) && !fs::exists(stem.string() + ".mp4")) {
-            return encoder_ ? fs::path(stem.string() + ".mp4") : stem;
-        }
-    }
-}
-
 void PictureExport::start(Console& console) {
     encoder_ = findEncoder();
-    target_ = freshName();
+    target_ = unusedName(in_, "export", {"", ".mp4"});
+    target_ += encoder_ ? ".mp4" : "";
     std::error_code failed;
     fs::create_directories(encoder_ ? target_.parent_path() : target_, failed);
     if (failed && !target_.parent_path().empty()) {

@@ -26,7 +26,6 @@ public:
 private:
     void start(Console& console);
     void end(Console& console, const std::string& why);
-    std::filesystem::path freshName() const;
 
     std::filesystem::path in_, target_; // folder of the PNG files, or the video
     std::optional<std::filesystem::path> encoder_;

@@ -3,6 +3,7 @@
 
 #include "apps/binding/scene_files.h"
 #include "apps/operate/printed.h"
+#include "apps/operate/unused_name.h"
 #include "engine/types/error.h"
 
 #include <imgui.h>
@@ -10,13 +11,8 @@
 
 namespace fathom::operate {
 
-// The first unused folder name.
-std::filesystem::path RecorderControl::freshFolder() {
-    std::filesystem::path folder;
-    do {
-        folder = in_ / ("recording-" + std::to_string(++number_));
-    } while (std::filesystem::exists(folder));
-    return folder;
+std::filesystem::path RecorderControl::freshFolder() const {
+    return unusedName(in_, "recording", {""});
 }
 
 void RecorderControl::start(Console& console, FixtureEditor& editor) {

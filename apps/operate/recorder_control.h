@@ -32,7 +32,7 @@ public:
     void finish() { storing_ = {}; }
 
 private:
-    std::filesystem::path freshFolder();
+    std::filesystem::path freshFolder() const;
     void start(Console& console, FixtureEditor& editor);
     void saved(Console& console);
     void store(Console& console);
@@ -42,8 +42,7 @@ private:
     Recorder& recorder_;
     const LastSeconds& last_;
     const Session& session_;
-    uint32_t number_ = 0; // of the last folder name tried
-    std::string folder_;  // until all is on disk; empty = none
+    std::string folder_; // until all is on disk; empty = none
     DiskSpace disk_;
 
     Recorder past_;               // records the last seconds

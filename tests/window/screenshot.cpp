@@ -26,9 +26,12 @@ double Screenshot::share(const std::array<double, 4>& place,
 
 Screenshot WindowRig::shoot(const std::string& keep) const {
     const auto before = state()["console"]["shots"].get<int>();
+    std::filesystem::path file;
+    for (int i = 1; file.empty() || std::filesystem::exists(file); ++i) { // a later program continues the row
+        file = folder_.path() / ("screenshot-" + std::to_string(i) + ".png");
+    }
     key("F12");
     REQUIRE(await([&](const nlohmann::json& s) { return s["console"]["shots"] > before; }));
-    const auto file = folder_.path() / ("screenshot-" + std::to_string(before + 1) + ".png");
     Screenshot shot;
     for (int tries = 0; tries < 100 && !readPngSize(file); ++tries) {
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
