@@ -97,6 +97,10 @@ void stepOpenCard(Console& console, const fs::path& in, bool mayGoLive) {
     }
 }
 
+std::string opensNext(const Console& console, bool stopped) {
+    return console.quit && !stopped ? console.openCard.next : "";
+}
+
 void drawOpenCard(Console& console, ImVec2 corner, ImVec2 size) {
     OpenCard& card = console.openCard;
     if (!card.on) {

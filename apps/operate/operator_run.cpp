@@ -2,6 +2,7 @@
 #include "apps/operate/operator_run.h"
 
 #include "apps/operate/arming.h"
+#include "apps/operate/open_card.h"
 #include "apps/operate/view_click.h"
 #include "engine/types/error.h"
 
@@ -76,6 +77,10 @@ void OperatorRun::keepScene(uint64_t number) {
 bool OperatorRun::wantsToEnd() const {
     const bool ticked = options_.ticks > 0.0 && display_.view.step().record.t >= options_.ticks;
     return ticked || display_.wantsToEnd() || live_.ended() || signals_.asked().load();
+}
+
+std::string OperatorRun::next() const {
+    return opensNext(display_.console, signals_.asked().load());
 }
 
 void OperatorRun::run() {

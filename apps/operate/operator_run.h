@@ -38,7 +38,7 @@ public:
     void run();
 
     // After run(): the recording that the pilot wants to see next; empty = none.
-    const std::string& next() const { return display_.console.openCard.next; }
+    std::string next() const;
     // After run(): the final state of the view.
     const RunView& view() const { return display_.view; }
     const RealtimeRun& engine() const { return live_.engine(); }

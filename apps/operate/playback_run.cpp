@@ -2,6 +2,7 @@
 #include "apps/operate/playback_run.h"
 
 #include "apps/operate/keys.h"
+#include "apps/operate/open_card.h"
 #include "apps/operate/printed.h"
 #include "apps/operate/view_click.h"
 #include "devices/recorded/hand_csv.h"
@@ -107,6 +108,10 @@ void PlaybackRun::run() {
     display_.writeState(editor_, haptics_, nullptr, {}, true);
 }
 
+std::string PlaybackRun::next() const {
+    return opensNext(display_.console, signals_.asked().load());
+}
+
 void PlaybackRun::frame(double dt) {
     if (display_.canvas.isOpen()) {
         try {
@@ -116,6 +121,7 @@ void PlaybackRun::frame(double dt) {
         }
     } else {
         display_.console.quit = window_.takeClose(); // without a device there is no question
+        display_.console.openCard.next.clear();
         ImGui::EndFrame();
         lookForDevice();
     }

@@ -25,7 +25,7 @@ public:
     // Runs until the window is closed, the time is up or a signal arrives.
     void run();
     // After run(): the recording to see next, or kLiveRun; empty = none.
-    const std::string& next() const { return display_.console.openCard.next; }
+    std::string next() const;
 
 private:
     bool wantsToEnd() const;

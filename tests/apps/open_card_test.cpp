@@ -12,6 +12,18 @@ using namespace fathom;
 using namespace fathom::operate;
 using namespace fathom::testing;
 
+TEST_CASE("A recording that was chosen opens when the pilot has closed the window, not after a signal or the "
+          "time") {
+    Console console;
+    console.openCard.next = "recording-1";
+    console.closing = Closing::Asks;
+    CHECK(opensNext(console, false) == ""); // ended by --seconds while the question is shown
+    CHECK(opensNext(console, true) == "");
+    console.quit = true;
+    CHECK(opensNext(console, false) == "recording-1");
+    CHECK(opensNext(console, true) == "");
+}
+
 TEST_CASE(
     "Recordings with their scene are listed, the newest first; a folder that cannot be read is one line") {
     const ScratchFolder scratch;
