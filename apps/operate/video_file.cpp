@@ -21,6 +21,14 @@ namespace fathom::operate {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+std::string sizeText(int width, int height) {
+    return std::to_string(width) + "x" + std::to_string(height);
+}
+
+} // namespace
+
 std::optional<fs::path> findEncoder() {
     const char* places = std::getenv("PATH");
     std::istringstream in(places == nullptr ? "" : places);
@@ -35,8 +43,10 @@ std::optional<fs::path> findEncoder() {
 
 // A socket, not a pipe: writing to an encoder that has ended must not raise SIGPIPE.
 VideoFile::VideoFile(const fs::path& encoder, const fs::path& file, int width, int height)
-    : file_(file) {
-    const std::string size = std::to_string(width) + "x" + std::to_string(height);
+    : file_(file)
+    , width_(width)
+    , height_(height) {
+    const std::string size = sizeText(width, height);
     std::vector<std::string> words{encoder.string(),
                                    "-hide_banner",
                                    "-loglevel",
@@ -89,6 +99,10 @@ VideoFile::~VideoFile() {
 }
 
 void VideoFile::add(const Image& picture) {
+    if (picture.width() != width_ || picture.height() != height_) {
+        throw Error("the pictures' size changed from " + sizeText(width_, height_) + " to " +
+                    sizeText(picture.width(), picture.height()) + ", which a video cannot");
+    }
     picture.beginPixels();
     for (int v = 0; v < picture.height(); ++v) {
         std::span<const std::byte> rest =

@@ -23,13 +23,14 @@ public:
     VideoFile(const VideoFile&) = delete;
     VideoFile& operator=(const VideoFile&) = delete;
 
-    // Waits while the encoder is busy. Throws Error when it has ended.
+    // Waits while the encoder is busy. Throws Error when it has ended, or for a picture of another size.
     void add(const Image& picture);
     // Waits for the encoder. Throws Error when it has failed.
     void finish();
 
 private:
     std::filesystem::path file_;
+    int width_, height_; // [pixels]
     int socket_ = -1;
     pid_t encoder_ = -1;
 };
