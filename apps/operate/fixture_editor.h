@@ -44,6 +44,7 @@ public:
     // Settings of window and pilot: saved in the file, not part of the undo history.
     void keep(const Scene::Window& window, const std::string& pilot);
     // Replaces `fixtures:`, `pilot:` and `window:` in the scene file, keeps the rest, and returns a message.
+    // A failure leaves the old file unchanged. A link stays a link to the file.
     std::string save();
     bool unsaved() const { return rows() != saved_; }
     // Text of the scene file with the current fixtures. spares: includes spare rows, so that each class keeps
@@ -62,7 +63,8 @@ public:
 private:
     void select(const FixtureClass& gates, const SceneSnapshot& snapshot);
     std::string freeName(const std::string& stem) const;
-    std::string rows() const;      // as in the scene file
+    std::string rows() const; // as in the scene file
+    std::string textFrom(const std::string& old, bool spares) const;
     std::string apply(Scene next); // returns why a scene file cannot contain its fixtures, or nothing
     void notifyChange();
     bool restore(std::vector<std::vector<FixtureClass>>& from, std::vector<std::vector<FixtureClass>>& to);

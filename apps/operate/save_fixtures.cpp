@@ -1,29 +1,42 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes the fixtures back into the scene file: replaces their block and keeps every other line.
+// Writes the fixtures back into the scene file: replaces the rows, with comments between them, and keeps
+// every other line.
 #include "apps/operate/fixture_editor.h"
 #include "apps/session/session.h"
 #include "engine/types/error.h"
+#include "engine/types/output_file.h"
+#include "engine/types/read_file.h"
 
+#include <charconv>
 #include <fstream>
 #include <iomanip>
 #include <sstream>
+#include <string_view>
 
 namespace fathom::operate {
 
 namespace {
 
+constexpr size_t kMostSceneBytes = size_t{64} << 20; // the reader of scenes has its own, smaller limit
+
+// The shortest text that is read back as the same number.
+std::string exactly(double value) {
+    char digits[40];
+    return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
+}
+
 void put(std::ostream& out, const char* key, const std::optional<Band>& band) {
     if (band) {
-        out << ", " << key << ": [" << band->lo << ", " << band->hi << "]";
+        out << ", " << key << ": [" << exactly(band->lo) << ", " << exactly(band->hi) << "]";
     }
 }
 
 void putVec(std::ostream& out, const dvec3& v) {
-    out << "[" << v.x << ", " << v.y << ", " << v.z << "]";
+    out << "[" << exactly(v.x) << ", " << exactly(v.y) << ", " << exactly(v.z) << "]";
 }
 
 void putQuat(std::ostream& out, const dquat& q) {
-    out << "[" << q.x << ", " << q.y << ", " << q.z << ", " << q.w << "]";
+    out << "[" << exactly(q.x) << ", " << exactly(q.y) << ", " << exactly(q.z) << ", " << exactly(q.w) << "]";
 }
 
 void putPoints(std::ostream& out, const FixtureClass& f) {
@@ -39,9 +52,9 @@ void putPoints(std::ostream& out, const FixtureClass& f) {
         putVec(out, f.box->max);
         out << "}";
     }
-    out << ", radius: " << f.radius;
+    out << ", radius: " << exactly(f.radius);
     if (f.standoff != plain.standoff) {
-        out << ", standoff: " << f.standoff;
+        out << ", standoff: " << exactly(f.standoff);
     }
     if (f.orientation != plain.orientation) {
         out << ", quat_xyzw: ";
@@ -54,7 +67,7 @@ void putPoints(std::ostream& out, const FixtureClass& f) {
         out << ", largest_part: true";
     }
     if (f.trim != 0.0) {
-        out << ", trim: " << f.trim;
+        out << ", trim: " << exactly(f.trim);
     }
 }
 
@@ -93,22 +106,43 @@ void putRow(std::ostream& out, const FixtureClass& f) {
     out << " }\n";
 }
 
-// Replaces the block of a top-level key, or appends it.
+// Whether a line is neither blank nor a comment.
+bool hasContent(const std::string& line) {
+    const size_t first = line.find_first_not_of(" \t\r");
+    return first != std::string::npos && line[first] != '#';
+}
+
+// Replaces the block of a top-level key, or appends it. Blank lines and comments after the block are kept:
+// they belong to what follows.
 std::string withBlock(const std::string& old, const std::string& key, const std::string& block) {
     std::istringstream in(old);
-    std::string result, line;
+    std::string result, after, line;
     bool inside = false, done = false;
     while (std::getline(in, line)) {
-        const bool topLevel = !line.empty() && line[0] != ' ' && line[0] != '#' && line[0] != '-';
-        if (line.rfind(key, 0) == 0) {
-            inside = done = true;
-            result += block;
+        const bool begins = line.rfind(key, 0) == 0, content = hasContent(line);
+        inside =
+            begins || (inside && (!content || std::string_view(" -]}").find(line[0]) != std::string::npos));
+        done = done || begins;
+        if (inside && !begins) {
+            after = content ? "" : after + line + "\n"; // comments between rows belong to the old rows
             continue;
         }
-        inside = inside && !topLevel;
-        result += inside ? "" : line + "\n";
+        result += after + (begins ? block : line + "\n");
+        after.clear();
     }
-    return done ? result : result + block;
+    return result + after + (done ? "" : block);
+}
+
+// Ends each line of the block as the lines of the file end.
+std::string withLineEndsOf(const std::string& old, const std::string& block) {
+    if (old.find("\r\n") == std::string::npos) {
+        return block;
+    }
+    std::string out;
+    for (const char c : block) {
+        out += c == '\n' ? "\r\n" : std::string(1, c);
+    }
+    return out;
 }
 
 std::string windowBlock(const Scene::Window& window) {
@@ -123,11 +157,15 @@ std::string windowBlock(const Scene::Window& window) {
 } // namespace
 
 std::string FixtureEditor::text(bool spares) const {
-    std::ifstream in(scene_.file);
+    std::ifstream in(scene_.file, std::ios::binary);
     std::stringstream old;
     old << in.rdbuf();
+    return textFrom(old.str(), spares);
+}
+
+std::string FixtureEditor::textFrom(const std::string& old, bool spares) const {
     std::ostringstream block;
-    block << std::setprecision(10) << "fixtures:\n";
+    block << "fixtures:\n";
     size_t rows = 0, row = 0;
     for (FixtureClass f : scene_.fixtures) {
         if (!isSpare(f) || spares) {
@@ -137,11 +175,14 @@ std::string FixtureEditor::text(bool spares) const {
         }
         ++row;
     }
-    std::string text = withBlock(old.str(), "fixtures:", rows == 0 ? "fixtures: []\n" : block.str());
+    const auto replaced = [&old](const std::string& text, const char* key, const std::string& with) {
+        return withBlock(text, key, withLineEndsOf(old, with));
+    };
+    std::string text = replaced(old, "fixtures:", rows == 0 ? "fixtures: []\n" : block.str());
     if (!scene_.pilot.empty()) {
-        text = withBlock(text, "pilot:", "pilot: " + quoted(scene_.pilot) + "\n");
+        text = replaced(text, "pilot:", "pilot: " + quoted(scene_.pilot) + "\n");
     }
-    return scene_.window ? withBlock(text, "window:", windowBlock(*scene_.window)) : text;
+    return scene_.window ? replaced(text, "window:", windowBlock(*scene_.window)) : text;
 }
 
 RecordedScene recordedScene(const FixtureEditor& editor) {
@@ -157,7 +198,6 @@ RecordedScene recordedScene(const FixtureEditor& editor) {
 
 std::string FixtureEditor::rows() const {
     std::ostringstream block;
-    block << std::setprecision(10);
     for (const FixtureClass& f : scene_.fixtures) {
         if (!isSpare(f)) {
             putRow(block, f);
@@ -167,16 +207,17 @@ std::string FixtureEditor::rows() const {
 }
 
 std::string FixtureEditor::save() {
-    const std::filesystem::path fresh = scene_.file.string() + ".new";
-    std::ofstream(fresh) << text();
     try {
-        const Scene read = loadScene(fresh); // replaces the old file only when the new one loads
-        std::filesystem::rename(fresh, scene_.file);
+        const std::string text =
+            textFrom(readWholeFile(scene_.file, kMostSceneBytes, "a readable scene file"), false);
+        const Scene read =
+            loadSceneText(text, scene_.file.string()); // a text that does not load replaces nothing
+        OutputFile file(std::filesystem::canonical(scene_.file), OutputFile::Replaces::Input);
+        file.write(text);
+        file.commit();
         saved_ = rows();
         return std::to_string(read.fixtures.size()) + " fixtures saved to " + scene_.file.string();
     } catch (const std::exception& e) {
-        std::error_code ignored;
-        std::filesystem::remove(fresh, ignored);
         return std::string("not saved: ") + e.what();
     }
 }

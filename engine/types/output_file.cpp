@@ -20,13 +20,14 @@ constexpr size_t kBufferBytes = size_t{1} << 20;
 
 } // namespace
 
-OutputFile::OutputFile(std::filesystem::path path)
+OutputFile::OutputFile(std::filesystem::path path, Replaces replaces)
     : path_(std::move(path))
-    , temporary_(path_) {
+    , temporary_(path_)
+    , replaces_(replaces) {
     if (!isReplaceable(path_)) {
         throw Error(path_.string() + ": cannot replace: a folder, a device or a pipe");
     }
-    refuseInput(path_);
+    refuseReplacing();
     temporary_ += ".partial";
     refuseInput(temporary_);
     ::unlink(temporary_.c_str()); // left by a killed run, or a link, which must not be followed
@@ -40,6 +41,7 @@ OutputFile::OutputFile(std::filesystem::path path)
 OutputFile::OutputFile(OutputFile&& other) noexcept
     : path_(std::move(other.path_))
     , temporary_(std::move(other.temporary_))
+    , replaces_(other.replaces_)
     , descriptor_(std::exchange(other.descriptor_, -1))
     , buffer_(std::move(other.buffer_)) {}
 
@@ -72,7 +74,7 @@ void OutputFile::write(const void* bytes, size_t count) {
 }
 
 void OutputFile::commit() {
-    refuseInput(path_); // also one that was read since
+    refuseReplacing(); // also a file that was read since
     flush();
     if (!isMine()) {
         ::close(std::exchange(descriptor_, -1));
@@ -84,6 +86,12 @@ void OutputFile::commit() {
         ::unlink(temporary_.c_str());
         errno = reason;
         fail("cannot write");
+    }
+}
+
+void OutputFile::refuseReplacing() const {
+    if (replaces_ == Replaces::NoInput) {
+        refuseInput(path_);
     }
 }
 

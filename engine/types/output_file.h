@@ -17,7 +17,9 @@ namespace fathom {
 // unchanged.
 class OutputFile {
 public:
-    explicit OutputFile(std::filesystem::path path);
+    // Input: `path` may be an input of this process, for a program that edits a file.
+    enum class Replaces { NoInput, Input };
+    explicit OutputFile(std::filesystem::path path, Replaces replaces = Replaces::NoInput);
     OutputFile(OutputFile&& other) noexcept;
     OutputFile& operator=(OutputFile&&) = delete;
     ~OutputFile();
@@ -30,12 +32,14 @@ public:
     const std::filesystem::path& path() const { return path_; }
 
 private:
-    bool isMine() const; // the temporary name still belongs to the open file
+    bool isMine() const;          // the temporary name still belongs to the open file
+    void refuseReplacing() const; // throws BadInput when `path` is an input and must not be
     void flush();
     void writeAll(const char* bytes, size_t count);
     [[noreturn]] void fail(const char* what) const;
 
     std::filesystem::path path_, temporary_;
+    Replaces replaces_;
     int descriptor_ = -1;
     std::vector<char> buffer_;
 };
