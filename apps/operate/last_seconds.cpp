@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <thread>
 #include <unistd.h>
 
@@ -45,14 +46,14 @@ double LastSeconds::seconds() const {
 
 size_t LastSeconds::bytes() const {
     const std::lock_guard lock(mutex_);
-    return bytes_;
+    return all();
 }
 
 // A run whose time begins again has no past.
 void LastSeconds::forgetOld() {
     const auto outOfSpan = [&] {
         const double age = frames_.back()->frame.t - frames_.front()->frame.t;
-        return age > kSpan || age < 0.0 || bytes_ > most_;
+        return age > kSpan || age < 0.0 || all() > most_;
     };
     while (!frames_.empty() && outOfSpan()) {
         bytes_ -= frames_.front()->bytes();
@@ -78,10 +79,10 @@ void LastSeconds::frame(const PublishedFrame& frame, const Fixtures& set) {
         const std::lock_guard lock(mutex_);
         if (open_) {
             bytes_ += open_->bytes();
-            frames_.push_back(open_);
-            forgetOld();
+            frames_.push_back(std::move(open_));
         }
         open_ = std::move(kept);
+        forgetOld();
     }
     also_.frame(frame, set);
 }
@@ -90,10 +91,16 @@ void LastSeconds::step(const TickRow& row, const PublishedFrame* obeyed, bool kn
                        std::span<const uint32_t> behind) {
     if (open_) { // changed by this thread only
         const std::lock_guard lock(mutex_);
-        if (marked_.exchange(false)) {
-            open_->marks.push_back(open_->ticks.size());
+        const bool marked = marked_.exchange(false);
+        const bool fits =
+            std::abs(row.record.t - open_->frame.t) <= kSpan && open_->bytes() + sizeof(TickRow) <= most_;
+        if (fits) {
+            if (marked) {
+                open_->marks.push_back(open_->ticks.size());
+            }
+            open_->ticks.push_back(row);
+            forgetOld();
         }
-        open_->ticks.push_back(row);
     }
     also_.step(row, obeyed, known, behind);
 }

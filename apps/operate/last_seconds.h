@@ -47,7 +47,7 @@ public:
     static size_t usualMemory();
 
     // also: the next sink; outlives this. most: memory of frames and ticks [bytes]; the oldest ones go first.
-    // 0 keeps nothing.
+    // 0 keeps nothing. While no frame comes, the ticks after kSpan are not kept.
     LastSeconds(RunSink& also, size_t most)
         : also_(also)
         , most_(most) {}
@@ -67,6 +67,7 @@ public:
               std::span<const uint32_t> behind) override;
 
 private:
+    size_t all() const { return bytes_ + (open_ ? open_->bytes() : 0); } // [bytes]
     void forgetOld();
 
     RunSink& also_;

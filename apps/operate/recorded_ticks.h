@@ -19,6 +19,7 @@ public:
     void add(const TickRow& row, bool marked) { waiting_.push_back({row, marked}); }
     uint64_t bytes() const { return hand_.size() + wrench_.size() + touches_.size(); } // written
     void drop() { waiting_.clear(); }                                                  // the ticks that wait
+    bool waits() const { return !waiting_.empty(); }
     // Image number `image` of the recording is the run's frame `frame`.
     void number(int64_t frame, uint64_t image);
     // Writes the waiting ticks of [from, to) in the run; `from` is at `start` in the recording, and time runs

@@ -12,6 +12,7 @@ namespace fathom::operate {
 namespace {
 
 constexpr double kFramePeriod = 1.0 / 30.0; // [s] in a replay
+constexpr double kLongestGap = 10.0; // [s] without a frame, after which ticks are not recorded until the next
 
 } // namespace
 
@@ -54,12 +55,7 @@ void Recorder::stop(const std::string& why) {
     if (!recording_.exchange(false)) {
         return;
     }
-    orFail([this] {
-        if (images_ > 0) { // writes the ticks since the last frame
-            ticks_.flush(lastCapture_, lastCapture_ + kFramePeriod,
-                         static_cast<double>(images_ - 1) * kFramePeriod, 1.0);
-        }
-    });
+    orFail([this] { endTicks(); });
     failure_ = failure_.empty() ? why : failure_;
     writer_->close();
 }
@@ -114,6 +110,15 @@ void Recorder::frame(const PublishedFrame& frame, const Fixtures& set) {
     orFail([&] { addImage(frame, set); });
 }
 
+// Writes the ticks of the last frame, which no other follows.
+void Recorder::endTicks() {
+    if (images_ > 0) {
+        ticks_.flush(lastCapture_, lastCapture_ + kFramePeriod,
+                     static_cast<double>(images_ - 1) * kFramePeriod, 1.0);
+    }
+    ticks_.drop();
+}
+
 void Recorder::addImage(const PublishedFrame& frame, const Fixtures& set) {
     if (images_ > 0 && frame.t > lastCapture_) {
         const double start = static_cast<double>(images_ - 1) * kFramePeriod;
@@ -137,9 +142,20 @@ void Recorder::edit(uint64_t number, RecordedScene scene) {
 }
 
 void Recorder::step(const TickRow& row, const PublishedFrame*, bool, std::span<const uint32_t>) {
-    if (recording()) {
-        const std::lock_guard lock(mutex_);
-        ticks_.add(row, marked_.exchange(false));
+    if (!recording()) {
+        return;
+    }
+    const std::lock_guard lock(mutex_);
+    const bool marked = marked_.exchange(false);
+    const double age = row.record.t - lastCapture_;
+    if (images_ == 0 || age < 0.0) {
+        return; // belongs to no frame of the recording
+    }
+    if (age <= kLongestGap) {
+        ticks_.add(row, marked);
+    } else if (ticks_.waits()) {
+        log::warn("recording: no frame for {} s; ticks are not recorded until the next frame", kLongestGap);
+        orFail([this] { endTicks(); });
     }
 }
 

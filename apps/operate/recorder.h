@@ -19,8 +19,9 @@ namespace fathom::operate {
 // Writes a TUM RGB-D folder with scene.yaml, hand.csv (raw poses and buttons), and wrench.csv and touches.csv
 // (tick_log.h). Edited fixtures add edits.csv and the scenes it names (apps/binding/scene_edits.h).
 // Frame j of a replay comes at j / 30 s, so the times of hand and wrench are scaled to that per frame. A
-// thread of the writer writes the PNG files; lost() counts frames that it had no time for. A killed session
-// leaves a shorter recording; a full disk ends the recording.
+// thread of the writer writes the PNG files; lost() counts frames that it had no time for. While no frame
+// comes for ten seconds, ticks are not recorded. A killed session leaves a shorter recording; a full disk
+// ends the recording.
 class Recorder final : public RunSink {
 public:
     ~Recorder() override { stop(); }
@@ -56,6 +57,7 @@ public:
 private:
     template <class Job>
     void orFail(const Job& job); // call with mutex_ held
+    void endTicks();
     void addImage(const PublishedFrame& frame, const Fixtures& set);
 
     std::atomic<bool> recording_{false};

@@ -114,6 +114,33 @@ TEST_CASE("The last 30 s are kept, and less where the memory does not hold them"
     CHECK(none.past().frames.empty());
 }
 
+TEST_CASE(
+    "While no frame comes, the ticks of 30 s are kept, and of less where the memory does not hold them") {
+    NoSink nothing;
+    const auto ticks = [](LastSeconds& sink, double from, double to) {
+        for (TickRow row; row.record.t < to - from; row.record.t += 0.01) {
+            TickRow now = row;
+            now.record.t += from;
+            sink.step(now, nullptr, false, {});
+        }
+    };
+    LastSeconds last(nothing, size_t{1} << 30);
+    NoisyRun(last).image();
+    ticks(last, 0.03, 30.01);
+    const size_t bytes = last.bytes();
+    CHECK(bytes > 2900 * sizeof(TickRow));
+    ticks(last, 30.01, 90.0);
+    CHECK(last.bytes() == bytes);
+    LastSeconds small(nothing, bytes / 4);
+    NoisyRun run(small);
+    run.image();
+    run.image();
+    ticks(small, 0.07, 25.0);
+    CHECK(small.bytes() <= bytes / 4);
+    run.image();
+    CHECK(small.bytes() <= bytes / 4);
+}
+
 TEST_CASE("Storing the last seconds gives the files that a recorder would have written") {
     const ScratchFolder scratch;
     const auto direct = scratch.path() / "direct", stored = scratch.path() / "stored";

@@ -114,6 +114,28 @@ TEST_CASE("A stopped recording is complete: every frame, and every tick until th
     CHECK(imagesIn(folder) == 10);
 }
 
+TEST_CASE(
+    "When no frame comes for ten seconds, the ticks of the last one are written and later ones are not") {
+    const ScratchFolder scratch;
+    const auto folder = scratch.path() / "rec";
+    Recorder recorder;
+    RecordedRun session(recorder);
+    recorder.start(folder, "camera: {}\n", someCamera());
+    session.image();
+    session.image();
+    TickRow row;
+    for (row.record.t = 0.1; row.record.t < 12.0; row.record.t += 0.01) {
+        recorder.step(row, nullptr, false, {});
+    }
+    CHECK(readTickLog(folder).moments.size() == 2 * 33);
+    session.image();
+    recorder.stop();
+    recorder.finish();
+    CHECK(recorder.failure() == "");
+    CHECK(imagesIn(folder) == 3);
+    CHECK(readTickLog(folder).moments.size() == 3 * 33);
+}
+
 TEST_CASE("A full disk ends a recording with a message that names the file, and the files up to there can be "
           "read") {
     const ScratchFolder scratch;
