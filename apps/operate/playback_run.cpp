@@ -33,6 +33,10 @@ TickLog mappedHand(const HandPath& hand, const Scene& scene) {
     TickLog log;
     HandMap map(scene.hand.baseRdevice, scene.hand.scale);
     for (const HandWaypoint& w : hand.waypoints()) {
+        if (log.moments.size() >= kMaxLoggedTicks) {
+            log.cut = true;
+            break;
+        }
         Moment moment;
         moment.t = w.t;
         moment.device = map.map(w.deviceThandle, (w.buttons & scene.hand.clutchBit) != 0);
@@ -97,6 +101,10 @@ PlaybackRun::PlaybackRun(const OperateOptions& options, const GlobalOptions& glo
     line.marks = readMarks(options.recording);
     if (log_.moments.empty()) {
         display_.console.notify("no hand.csv or wrench.csv there: frames only");
+    }
+    if (log_.cut) {
+        display_.console.notify("the recording has more than " + std::to_string(kMaxLoggedTicks) +
+                                " ticks: later ones are not shown");
     }
 }
 

@@ -19,7 +19,6 @@ constexpr const char* kMoreJoints = ",q8";
 constexpr size_t kTwelveJoints = kSevenJoints + kMaxJoints - kFirstJoints;
 constexpr const char* kResidual = ",residual_fx";
 constexpr size_t kAll = kTwelveJoints + 6;
-constexpr size_t kMaxLoggedTicks = 4'000'000, kMaxTouchRows = kMaxLoggedTicks * kMaxTouches;
 
 void put(std::ostream& out, const dvec3& v) {
     out << "," << v.x << "," << v.y << "," << v.z;
@@ -137,11 +136,14 @@ void readTouches(const std::filesystem::path& file, TickLog& log) {
         while (tick < log.moments.size() && log.moments[tick].t < row[0]) {
             ++tick;
         }
+        if (tick == log.moments.size() && log.cut) {
+            return;
+        }
         if (tick == log.moments.size() || log.moments[tick].t != row[0]) {
             row.refuse(", t_s", std::to_string(row[0]), "the time of a row of wrench.csv, ascending");
         }
         Moment& moment = log.moments[tick];
-        if (log.touches.size() >= kMaxTouchRows || moment.touchCount >= kMaxTouches) {
+        if (moment.touchCount >= kMostTouches) {
             row.refuse("", "one more", "8 touches per tick");
         }
         moment.firstTouch = moment.touchCount == 0 ? log.touches.size() : moment.firstTouch;
@@ -215,7 +217,7 @@ size_t columnsOf(const NumberRows& row) {
 
 } // namespace
 
-TickLog readTickLog(const std::filesystem::path& folder) {
+TickLog readTickLog(const std::filesystem::path& folder, size_t most) {
     TickLog log;
     if (!std::filesystem::exists(folder / kWrenchFile)) {
         return log;
@@ -227,8 +229,9 @@ TickLog readTickLog(const std::filesystem::path& folder) {
         if (!std::isfinite(row[0]) || (!log.moments.empty() && !(row[0] > log.moments.back().t))) {
             row.refuse(", t_s", std::to_string(row[0]), "later than the row before");
         }
-        if (log.moments.size() >= kMaxLoggedTicks) {
-            row.refuse("", "one tick more", "4000000 ticks");
+        if (log.moments.size() >= most) {
+            log.cut = true;
+            break;
         }
         log.moments.push_back(momentFrom(row, columns));
     }

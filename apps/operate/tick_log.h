@@ -33,6 +33,7 @@ struct TickLog {
     std::vector<Moment> moments; // in ascending time
     std::vector<Touch> touches;
     bool poses = false; // device and tool poses are recorded
+    bool cut = false;   // the recording has more ticks
 
     // The step record, as far as the files contain it.
     StepRecord recordAt(size_t i) const;
@@ -47,8 +48,10 @@ const char* touchesHead();
 // target and frame count from 1; 0 is none.
 void writeTick(std::ostream& wrench, std::ostream& touches, double t, int64_t frame, const StepRecord& tick);
 
+inline constexpr size_t kMaxLoggedTicks = 4'000'000; // 67 minutes at 1 kHz
+
 // Reads both files of a folder; empty without wrench.csv. Throws BadInput with file, line and column. Accepts
-// older versions of wrench.csv with fewer columns. At most four million ticks.
-TickLog readTickLog(const std::filesystem::path& folder);
+// older versions of wrench.csv with fewer columns. most: ticks, from the first; later ones are not read.
+TickLog readTickLog(const std::filesystem::path& folder, size_t most = kMaxLoggedTicks);
 
 } // namespace fathom::operate

@@ -153,3 +153,15 @@ TEST_CASE("Damaged ticks are rejected with line and column") {
     put(folder.path() / kTouchesFile, std::string(touchesHead()) + "\n0.05,0,0,0,0,0,0,0,0,0,0,0,0\n");
     CHECK(refusal(folder.path()).find("touches.csv: line 2, t_s") != std::string::npos);
 }
+
+TEST_CASE("Of a recording with more ticks than are shown, the first ones are read with their touches") {
+    const ScratchFolder folder;
+    write(folder.path(), {1, 0, 2, 8, 1});
+    const TickLog all = readTickLog(folder.path(), 5), first = readTickLog(folder.path(), 3);
+    CHECK_FALSE(all.cut);
+    CHECK(first.cut);
+    REQUIRE(first.moments.size() == 3);
+    CHECK(first.touches.size() == 3);
+    CHECK(first.recordAt(2).touchCount == 2);
+    CHECK(readTickLog(folder.path(), 2).touches.size() == 1);
+}
