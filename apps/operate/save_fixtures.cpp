@@ -17,7 +17,7 @@ namespace fathom::operate {
 
 namespace {
 
-constexpr size_t kMostSceneBytes = size_t{64} << 20; // the reader of scenes has its own, smaller limit
+constexpr size_t kMaxSceneBytes = size_t{64} << 20; // the reader of scenes has its own, smaller limit
 
 // The shortest text that is read back as the same number.
 std::string exactly(double value) {
@@ -209,7 +209,7 @@ std::string FixtureEditor::rows() const {
 std::string FixtureEditor::save() {
     try {
         const std::string text =
-            textFrom(readWholeFile(scene_.file, kMostSceneBytes, "a readable scene file"), false);
+            textFrom(readWholeFile(scene_.file, kMaxSceneBytes, "a readable scene file"), false);
         const Scene read =
             loadSceneText(text, scene_.file.string()); // a text that does not load replaces nothing
         OutputFile file(std::filesystem::canonical(scene_.file), OutputFile::Replaces::Input);

@@ -12,10 +12,10 @@ namespace fathom::operate {
 
 namespace {
 
-constexpr double kMaxPixels = 2.5e6; // limit for all spheres of an image together
+constexpr double kMaxPixels = 2.5e6;      // limit for all spheres of an image together
 constexpr double kMaxGroundLayers = 12.0; // spheres over each other, on average
-constexpr double kNearest = 0.02;    // [m]
-constexpr float kNothing = 1e9f;     // [m] depth of a pixel without a point
+constexpr double kNearest = 0.02;         // [m]
+constexpr float kNothing = 1e9f;          // [m] depth of a pixel without a point
 
 uint32_t dimmed(uint32_t colour) {
     const auto channel = [&](uint32_t shift) {

@@ -143,7 +143,7 @@ void readTouches(const std::filesystem::path& file, TickLog& log) {
             row.refuse(", t_s", std::to_string(row[0]), "the time of a row of wrench.csv, ascending");
         }
         Moment& moment = log.moments[tick];
-        if (moment.touchCount >= kMostTouches) {
+        if (moment.touchCount >= kMaxTouches) {
             row.refuse("", "one more", "8 touches per tick");
         }
         moment.firstTouch = moment.touchCount == 0 ? log.touches.size() : moment.firstTouch;
