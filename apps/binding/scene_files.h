@@ -9,9 +9,10 @@
 
 namespace fathom {
 
-// Copies the spheres of the tool, the description of the arm and the hand path into `folder`, under their
-// paths relative to the scene file. Returns a list of files outside the folder of the scene file, which are
-// skipped; empty = none. Throws std::filesystem::filesystem_error.
+// Copies the spheres of the tool, the description of the arm with its meshes and included files, and the hand
+// path into `folder`, under their paths relative to the scene file. Returns a list of files, and of folders
+// with meshes, outside the folder of the scene file, which are skipped; empty = none. Throws
+// std::filesystem::filesystem_error, and BadInput when the arm's description cannot be read.
 std::string copySceneFiles(const Scene& scene, const std::filesystem::path& folder);
 
 } // namespace fathom

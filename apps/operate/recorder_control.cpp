@@ -15,6 +15,14 @@ std::filesystem::path RecorderControl::freshFolder() const {
     return unusedName(in_, "recording", {""});
 }
 
+namespace {
+
+std::string without(const std::string& left) {
+    return left.empty() ? "" : ", without " + left + ": outside the scene file's folder";
+}
+
+} // namespace
+
 void RecorderControl::start(Console& console, FixtureEditor& editor) {
     try {
         const std::filesystem::path folder = freshFolder();
@@ -26,8 +34,7 @@ void RecorderControl::start(Console& console, FixtureEditor& editor) {
         const std::string left = copySceneFiles(session_.scene, folder); // before the recorder's own
         recorder_.start(folder, editor.text(), session_.camera->info(), recordedScene(editor));
         folder_ = folder.string();
-        console.notify("recording to " + folder_ +
-                       (left.empty() ? "" : ", without " + left + ": outside the scene file's folder"));
+        console.notify("recording to " + folder_ + without(left));
     } catch (const std::exception& e) {
         console.recording = false;
         console.notify(e.what());
@@ -65,11 +72,11 @@ void RecorderControl::store(Console& console) {
         if (const std::string problem = disk_.problem(); !problem.empty()) {
             throw Error("not stored: " + problem);
         }
-        (void)copySceneFiles(session_.scene, folder);
+        const std::string left = copySceneFiles(session_.scene, folder);
         past_.start(folder, past.first.text, session_.camera->info(), past.first.recorded);
         pastFolder_ = folder.string();
         fed_ = false;
-        console.notify(printed("storing the last %.0f s to ", past.seconds()) + pastFolder_);
+        console.notify(printed("storing the last %.0f s to ", past.seconds()) + pastFolder_ + without(left));
         storing_ = std::jthread([this, past = std::move(past)] {
             feed(past_, past);
             past_.stop();
