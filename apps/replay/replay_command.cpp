@@ -132,7 +132,8 @@ ReplaySummary runLockstep(const ReplayOptions& options, const GlobalOptions& glo
     Session session(options, global);
     const auto trace = openTrace(session, global);
     ReplayRecorder recorder(options.out, session.scene, session.cycles.camera(),
-                            session.cycles.frames().passNames(), options.saveFixtures, session.arm.get());
+                            session.cycles.frames().passNames(), options.saveFixtures, session.arm.get(), "",
+                            &session.edits);
     LockstepReplay replay(session, options, recorder, trace.get());
     const ReplaySummary summary = recorder.finish(replay.run());
     if (trace) {
@@ -154,7 +155,7 @@ ReplaySummary runRealtime(const ReplayOptions& options, const GlobalOptions& glo
     const auto trace = openTrace(session, global);
     ReplayRecorder recorder(options.out, session.scene, session.cycles.camera(),
                             session.cycles.frames().passNames(), options.saveFixtures, session.arm.get(),
-                            session.realArm ? session.realArm->description() : "");
+                            session.realArm ? session.realArm->description() : "", &session.edits);
     RealtimeReplay replay(session, options, recorder, placement, trace.get());
     const ReplaySummary summary = recorder.finish(replay.run());
     if (trace) {

@@ -14,6 +14,7 @@
 #include <string>
 #include <time.h>
 #include <unistd.h>
+#include <utility>
 
 namespace fathom {
 
@@ -58,7 +59,7 @@ ReplayRecorder::Ending::Ending(const Session& session, const HapticCycle& cycle)
 
 ReplayRecorder::ReplayRecorder(std::filesystem::path out, const Scene& scene, const CameraInfo& camera,
                                const std::vector<std::string>& passes, bool saveFixtures, const ArmRig* arm,
-                               const std::string& realArm)
+                               const std::string& realArm, const SceneEdits* edits)
     : out_(std::move(out))
     , lock_(prepareOutputFolder(out_, saveFixtures))
     , scene_(scene)
@@ -68,18 +69,46 @@ ReplayRecorder::ReplayRecorder(std::filesystem::path out, const Scene& scene, co
     , arm_(arm)
     , armReport_(arm != nullptr ? std::make_unique<ArmReport>(out_ / "arm.csv", *arm, realArm) : nullptr)
     , watch_(scene, camera)
-    , sums_(scene.fixtures.size()) {
-    for (const FixtureClass& f : scene.fixtures) {
-        if (f.isPoints() && f.role == Role::Guidance) {
-            ReplaySummary::GuidanceRow row;
-            row.name = f.name;
-            guidance_.push_back(row);
+    , edits_(edits) {
+    takeFixtures(scene.fixtures);
+}
+
+// The edit that the set of this image was made with.
+void ReplayRecorder::takeEdit(uint32_t image) {
+    const SceneEdit* edit = edits_ == nullptr || edits_->empty() ? nullptr : &edits_->at(image);
+    if (std::exchange(edit_, edit) != edit) {
+        watch_.setFixtures(edit->scene.fixtures);
+        takeFixtures(edit->scene.fixtures);
+    }
+}
+
+// Edits keep the classes of points in their rows. A row that is spare now still counts for its last class.
+void ReplayRecorder::takeFixtures(const std::vector<FixtureClass>& fixtures) {
+    const std::vector<FixtureClass> before = std::exchange(fixtures_, fixtures);
+    for (size_t i = 0; i < std::min(before.size(), fixtures_.size()); ++i) {
+        if (isSpare(fixtures_[i]) && before[i].isPoints()) {
+            fixtures_[i] = before[i];
+        }
+    }
+    sums_.resize(fixtures_.size());
+    for (uint32_t row = 0; row < fixtures_.size(); ++row) {
+        if (fixtures_[row].isPoints() && fixtures_[row].role == Role::Guidance) {
+            guidanceOf(row).name = fixtures_[row].name;
         }
     }
 }
 
+ReplaySummary::GuidanceRow& ReplayRecorder::guidanceOf(uint32_t row) {
+    const auto [at, isNew] = guidance_.try_emplace(row);
+    if (isNew && row < fixtures_.size()) {
+        at->second.name = fixtures_[row].name;
+    }
+    return at->second;
+}
+
 void ReplayRecorder::frame(const FrameReport& report, double t, const Fixtures& set,
                            std::span<const uint32_t> colour) {
+    takeEdit(report.index);
     if (!report.unchanged) {
         watch_.frame(t, report.counts, set, colour);
         answerableMs_.push_back(static_cast<float>(report.answerableMs));
@@ -104,15 +133,15 @@ void ReplayRecorder::frame(const FrameReport& report, double t, const Fixtures& 
 }
 
 void ReplayRecorder::addGuidance(const Fixtures& set) {
-    for (size_t k = 0; k < set.guidance.size(); ++k) {
-        const GuidancePose& pose = set.guidance[k];
+    for (const GuidancePose& pose : set.guidance) {
         if (!pose.present) {
             continue;
         }
-        guidance_[k].position = pose.position;
-        guidance_[k].normal = pose.planar ? std::optional(pose.normal) : std::nullopt;
-        guidance_[k].target = pose.target;
-        guidance_[k].count = pose.count;
+        ReplaySummary::GuidanceRow& row = guidanceOf(pose.fixture);
+        row.position = pose.position;
+        row.normal = pose.planar ? std::optional(pose.normal) : std::nullopt;
+        row.target = pose.target;
+        row.count = pose.count;
     }
 }
 
@@ -144,8 +173,8 @@ void ReplayRecorder::moment(const Fixtures& set, std::span<const uint32_t> colou
 
 std::vector<ReplaySummary::FixtureRow> ReplayRecorder::fixtureRows() const {
     std::vector<ReplaySummary::FixtureRow> rows;
-    for (size_t i = 0; i < scene_.fixtures.size(); ++i) {
-        const FixtureClass& f = scene_.fixtures[i];
+    for (size_t i = 0; i < fixtures_.size(); ++i) {
+        const FixtureClass& f = fixtures_[i];
         ReplaySummary::FixtureRow row;
         row.name = f.name;
         row.role = f.keepIn ? "keep_in" : (f.role == Role::Forbidden ? "forbidden" : "guidance");
@@ -177,7 +206,7 @@ void ReplayRecorder::writeImages(const Ending& ending) const {
         overlay.baseTcamera = overlay.set->baseTcamera;
         overlay.depth = overlay.set->depth;
     }
-    for (const FixtureClass& f : scene_.fixtures) {
+    for (const FixtureClass& f : fixtures_) {
         overlay.classNames.push_back(f.name);
     }
     const std::vector<Sphere> links =
@@ -209,7 +238,9 @@ ReplaySummary ReplayRecorder::finish(const Ending& ending) {
     summary.contact = {ending.contact.queries, ending.contact.spheresMax, ending.contact.overflows,
                        percentilesOf(std::move(queryMicros_)), ending.where};
     summary.fixtures = fixtureRows();
-    summary.guidance = guidance_;
+    for (const auto& [row, guidance] : guidance_) {
+        summary.guidance.push_back(guidance);
+    }
     if (armReport_) {
         armReport_->commit();
         summary.arm = armReport_->summary(ending.linkPenetration);

@@ -17,6 +17,7 @@
 #include "engine/cycle/haptic_cycle.h"
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -27,10 +28,11 @@ namespace fathom {
 class ReplayRecorder {
 public:
     // saveFixtures: also saves fixture sets as fixtures/NNNNNN.ply. realArm: description of the real arm that
-    // follows; empty = none. Throws Error that names the file or folder that cannot be written.
+    // follows; empty = none. edits: of the recording that is replayed; outlive this; null = none. Throws
+    // Error that names the file or folder that cannot be written.
     ReplayRecorder(std::filesystem::path out, const Scene& scene, const CameraInfo& camera,
                    const std::vector<std::string>& passes, bool saveFixtures, const ArmRig* arm = nullptr,
-                   const std::string& realArm = "");
+                   const std::string& realArm = "", const SceneEdits* edits = nullptr);
 
     // A processed frame at t [s] of the run with its set; also when the set is unchanged.
     void frame(const FrameReport& report, double t, const Fixtures& set, std::span<const uint32_t> colour);
@@ -75,6 +77,9 @@ private:
     struct ClassSums {
         double points = 0.0, spheres = 0.0, patches = 0.0;
     };
+    void takeEdit(uint32_t image);
+    void takeFixtures(const std::vector<FixtureClass>& fixtures);
+    ReplaySummary::GuidanceRow& guidanceOf(uint32_t row);
     void addGuidance(const Fixtures& set);
     std::vector<ReplaySummary::FixtureRow> fixtureRows() const;
     void writeImages(const Ending& ending) const;
@@ -99,8 +104,11 @@ private:
     } moment_;
     uint64_t frameCount_ = 0;
     std::optional<double> first_; // [s] ReplaySummary::Frames::first
-    std::vector<ClassSums> sums_; // one per fixture row of the scene
-    std::vector<ReplaySummary::GuidanceRow> guidance_;
+    const SceneEdits* edits_;
+    const SceneEdit* edit_ = nullptr;                         // the active one
+    std::vector<FixtureClass> fixtures_;                      // with edits; a class that was removed stays
+    std::vector<ClassSums> sums_;                             // one per row of fixtures_
+    std::map<uint32_t, ReplaySummary::GuidanceRow> guidance_; // by row of fixtures_
     std::vector<float> gpuMs_, uploadMs_, latencyMs_, answerableMs_, queryMicros_;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/session/run_watch.h"
 
+#include "apps/binding/scene_edits.h"
 #include "engine/cloud/frame_params.h"
 #include "engine/scene/dead_gates.h"
 
@@ -78,6 +79,16 @@ RunWatch::RunWatch(const Scene& scene, const CameraInfo& camera)
     }
 }
 
+void RunWatch::setFixtures(const std::vector<FixtureClass>& fixtures) {
+    for (ClassState& state : classes_) {
+        const FixtureClass &before = fixtures_[state.row], &now = fixtures[state.row];
+        if (before.name != now.name || before.role != now.role) { // another class, with its own patience
+            state.none.reset();
+        }
+    }
+    fixtures_ = fixtures;
+}
+
 void RunWatch::frame(double t, const cloud::FrameCounts& counts, const Fixtures& set,
                      std::span<const uint32_t> colour) {
     framed_ = true;
@@ -89,7 +100,7 @@ void RunWatch::frame(double t, const cloud::FrameCounts& counts, const Fixtures&
         const FixtureClass& f = fixtures_[state.row];
         const uint32_t marked = at(counts.classPixels, c);
         const bool some = f.role == Role::Guidance ? marked >= f.minCount : marked > 0 && counts.spheres > 0;
-        if (some || f.name.empty() || f.frozen) { // a spare class of the window has no name
+        if (some || isSpare(f) || f.frozen) {
             state.none.reset();
             state.ever = true;
             continue;

@@ -23,6 +23,8 @@ public:
     // Adds the gates of the scene that no point can pass.
     RunWatch(const Scene& scene, const CameraInfo& camera);
 
+    // The fixtures after an edit, for the frames from now on. The classes of points have kept their rows.
+    void setFixtures(const std::vector<FixtureClass>& fixtures);
     // A frame at t [s] with its counts, its set and its colours (R8 G8 B8 A8, may be empty).
     void frame(double t, const cloud::FrameCounts& counts, const Fixtures& set,
                std::span<const uint32_t> colour);

@@ -168,3 +168,22 @@ TEST_CASE("Warnings are kept once per key, in order, on one line, and their numb
     }
     CHECK(warnings.list().size() == RunWarnings::kMost);
 }
+
+TEST_CASE("After an edit a class is judged by its new name and role, and a class that was removed is not") {
+    Scene edited = sceneOf(Role::Guidance);
+    edited.fixtures[0].name = "handle";
+    WatchedRun run;
+    run.frames(0.5, 0, 0, kColoured);
+    run.watch.setFixtures(edited.fixtures);
+    run.frames(1.2, 20, 5, kColoured);
+    CHECK(run.quiet()); // patience begins with the edit
+    run.frames(2.0, 20, 5, kColoured);
+    says(run.only(), "fixture 'handle' has no target from 0.5");
+
+    edited.fixtures[0].name = "(spare 0)"; // as in a recording
+    WatchedRun removed;
+    removed.watch.setFixtures(edited.fixtures);
+    removed.frames(3.0, 0, 0, kColoured);
+    removed.watch.end();
+    CHECK(removed.quiet());
+}

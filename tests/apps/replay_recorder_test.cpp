@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a replay reports about fixtures that were edited in the recording.
+#include "apps/replay/replay_recorder.h"
+
+#include "tests/apps/scratch_folder.h"
+
+#include <doctest/doctest.h>
+
+using namespace fathom;
+using namespace fathom::testing;
+
+namespace {
+
+std::string classText(const std::string& name, const std::string& role) {
+    return "  - { name: " + name + ", role: " + role + ", hue: [0, 20] }\n";
+}
+
+GuidancePose seen(uint32_t fixture, uint32_t count) {
+    GuidancePose pose;
+    pose.fixture = fixture;
+    pose.count = count;
+    pose.present = true;
+    return pose;
+}
+
+} // namespace
+
+TEST_CASE(
+    "A replay reports targets by their class when an edit adds guidance classes, and when one removes them") {
+    const ScratchFolder recording, out;
+    const std::vector<std::string> classes{classText("red", "forbidden") + classText("blue", "guidance"),
+                                           classText("handle", "guidance") + classText("blue", "guidance"),
+                                           classText("handle", "guidance") +
+                                               classText("\"(spare 1)\"", "forbidden")};
+    std::string edits = std::string(SceneEdits::kHead) + "\n";
+    for (size_t i = 0; i < classes.size(); ++i) {
+        const std::string name = "scene-" + std::to_string(i) + ".yaml";
+        put(recording.path() / name, "fixtures:\n" + classes[i] + "tool: { spheres: [[0, 0, 0, 0.01]] }\n");
+        edits += std::to_string(i) + "," + name + ",,0\n";
+    }
+    put(recording.path() / SceneEdits::kFile, edits);
+    const SceneEdits edited(recording.path());
+    const Scene scene = edited.at(0).scene;
+    CameraInfo camera;
+    camera.depth = {64, 48, 60.0, 60.0, 31.5, 23.5};
+    ReplayRecorder recorder(out.path() / "run", scene, camera, {}, false, nullptr, "", &edited);
+    const std::vector<std::vector<GuidancePose>> poses{
+        {seen(1, 50)}, {seen(0, 60), seen(1, 61)}, {seen(0, 70)}};
+    Fixtures set;
+    set.camera = camera;
+    for (uint32_t image = 0; image < poses.size(); ++image) {
+        FrameReport report;
+        report.index = image;
+        report.counts.classPixels = {100, 100};
+        report.counts.classSpheres = report.counts.classPatches = {10, 10};
+        set.guidance = poses[image];
+        recorder.frame(report, image / 30.0, set, {});
+    }
+    ReplayRecorder::Ending ending;
+    ending.camera = camera;
+    ending.lastSet = &set;
+    const ReplaySummary summary = recorder.finish(ending);
+    REQUIRE(summary.guidance.size() == 2);
+    CHECK(summary.guidance[0].name == "handle");
+    CHECK(summary.guidance[0].count == 70);
+    CHECK(summary.guidance[1].name == "blue");
+    CHECK(summary.guidance[1].count == 61);
+    REQUIRE(summary.fixtures.size() == 2);
+    CHECK(summary.fixtures[0].name == "handle");
+    CHECK(summary.fixtures[0].role == "guidance");
+    CHECK(summary.fixtures[1].name == "blue");
+}
