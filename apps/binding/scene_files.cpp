@@ -15,11 +15,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr size_t kMostIncludedBytes = size_t{64} << 20;
+constexpr size_t kMaxIncludedBytes = size_t{64} << 20;
 
 // Adds the files that an MJCF file includes, which are relative to the first file's folder.
 void addIncludes(const fs::path& file, const fs::path& home, std::set<fs::path>& found) {
-    const std::string text = readFileAtMost(file, kMostIncludedBytes).value_or("");
+    const std::string text = readFileAtMost(file, kMaxIncludedBytes).value_or("");
     for (XmlPieces pieces(text); pieces.next();) {
         if (pieces.piece().name != "include") {
             continue;
