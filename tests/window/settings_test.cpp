@@ -85,32 +85,6 @@ TEST_CASE(
     CHECK(none.errorLines()[0].find("--pilot: carla (allowed: anna, ben)") != std::string::npos);
 }
 
-TEST_CASE("A pressed while the pilot changes arms nothing that the checks refuse") {
-    WindowRig rig;
-    const auto scene = rig.folder() / "no-force.yaml";
-    std::ofstream(scene) << rig.sceneText()
-                         << "\npilots:\n"
-                            "  - {name: anna, stiffness: 300, limits: {force: 2}}\n"
-                            "  - {name: ben, stiffness: 150, limits: {force: 0}}\n";
-    rig.reopen(scene, {"--pilot", "anna"});
-    rig.key("a");
-    REQUIRE(rig.await([](const json& s) { return s["mode"] == "ARMED"; }));
-    const auto at = rig.place("pilot ben");
-    rig.xdo("mousemove --window $W " + std::to_string(std::lround(at[0] + 4)) + " " +
-            std::to_string(std::lround(at[1] + 4)));
-    rig.xdo("mousedown 1");
-    rig.xdo("mouseup 1 sleep 0.03 key a sleep 0.03 key a sleep 0.03 key a sleep 0.03 key a"); // the change
-                                                                                              // takes longer
-    REQUIRE(rig.await([](const json& s) { return s["pilot"]["name"] == "ben" && s["run"]["turns"] > 100; }));
-    CHECK(rig.state()["console"]["forces"] == false);
-    rig.key("a");
-    CHECK(rig.await([](const json& s) {
-        return s["refusal"].get<std::string>().find("the force limit is 0") != std::string::npos;
-    }));
-    CHECK(rig.state()["console"]["forces"] == false);
-    closeQuietly(rig);
-}
-
 TEST_CASE("Text size and view are saved in the scene file, and the command line overrides them") {
     WindowRig rig;
     rig.key("ctrl+equal");
