@@ -24,7 +24,7 @@ public:
     // anew.
     void follow(const std::deque<TraceSample>& trace, uint64_t restarts, int count);
 
-    // Calls draw(first, last, low, high) from left to right for columns with samples, the newest of which is
+    // Calls draw(first, last, low, high) from left to right for columns with samples; the newest sample is
     // count - 1: the range of a curve, extended to the last value of the previous column. Adjacent columns
     // with the same range are merged. Leaves out values that are not known.
     template <class Draw>

@@ -28,7 +28,7 @@ private:
     std::deque<TraceSample> held_; // while paused
     Peaks heldPeaks_;
     FrameRipple heldRipple_;
-    TraceColumns columns_; // of what is shown
+    TraceColumns columns_; // of the shown traces
 };
 
 } // namespace fathom::operate

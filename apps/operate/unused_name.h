@@ -8,8 +8,8 @@
 
 namespace fathom::operate {
 
-// The first of STEM-1, STEM-2, ... in a folder of which nothing exists with any of these endings. The folder
-// may be missing. Any thread.
+// The first of STEM-1, STEM-2, ... for which the folder has no file with any of these endings. The folder may
+// be missing. Any thread.
 std::filesystem::path unusedName(const std::filesystem::path& in, const std::string& stem,
                                  std::initializer_list<const char*> endings);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The bytes of one serialised message, with the memory that they lie in.
+// The bytes of one serialised message, with the memory that holds them.
 #pragma once
 
 #include <cstdint>

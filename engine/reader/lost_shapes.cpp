@@ -46,7 +46,7 @@ WrittenShapes shapesIn(const std::string& text) {
     return shapes;
 }
 
-// What the parser said of an element of the link: the reason comes before the line that names the link.
+// The parser's reason to reject an element of the link. It precedes the line that names the link.
 struct Reason {
     bool ofShape = true; // else of an element in front of the shapes
     std::string words = "not understood";
