@@ -12,7 +12,7 @@ namespace fathom::peers {
 
 namespace {
 
-struct Asked {
+struct EmbreeQuery {
     const RegionSpheres* spheres;
     FoundSet* set;
     std::vector<uint32_t>* found;
@@ -28,7 +28,7 @@ void boundsOf(const RTCBoundsFunctionArguments* args) {
 }
 
 bool visit(RTCPointQueryFunctionArguments* args) {
-    const auto& asked = *static_cast<const Asked*>(args->userPtr);
+    const auto& asked = *static_cast<const EmbreeQuery*>(args->userPtr);
     asked.set->test(*asked.spheres, args->primID, asked.x, asked.y, asked.z, asked.limit, *asked.found);
     return false; // the query radius does not shrink
 }
@@ -78,7 +78,7 @@ public:
         rtcInitPointQueryContext(&context);
         for (size_t l = 0; l < leaves.x.size(); ++l) {
             const float limit = reach + leaves.radius[l];
-            Asked asked{spheres_, &found_, &found, leaves.x[l], leaves.y[l], leaves.z[l], limit};
+            EmbreeQuery asked{spheres_, &found_, &found, leaves.x[l], leaves.y[l], leaves.z[l], limit};
             RTCPointQuery query{asked.x, asked.y, asked.z, 0.0f, (limit + radius_) * 1.00001f};
             rtcPointQuery(scene_, &query, &context, nullptr, &asked);
         }

@@ -12,7 +12,7 @@ namespace fathom::peers {
 
 namespace {
 
-struct Asked {
+struct FclQuery {
     const RegionSpheres* spheres;
     FoundSet* set;
     std::vector<uint32_t>* found;
@@ -21,7 +21,7 @@ struct Asked {
 };
 
 bool visit(fcl::CollisionObjectd* a, fcl::CollisionObjectd* b, void* data) {
-    const auto& asked = *static_cast<const Asked*>(data);
+    const auto& asked = *static_cast<const FclQuery*>(data);
     const fcl::CollisionObjectd* sphere = a == asked.leaf ? b : a;
     const auto i = static_cast<uint32_t>(reinterpret_cast<uintptr_t>(sphere->getUserData()));
     asked.set->test(*asked.spheres, i, asked.x, asked.y, asked.z, asked.limit, *asked.found);
@@ -60,7 +60,7 @@ public:
             fcl::Transform3d pose = fcl::Transform3d::Identity();
             pose.translation() = fcl::Vector3d(leaves.x[l], leaves.y[l], leaves.z[l]);
             fcl::CollisionObjectd leaf(std::make_shared<fcl::Sphered>(limit * 1.00001), pose);
-            Asked asked{spheres_, &found_, &found, &leaf, leaves.x[l], leaves.y[l], leaves.z[l], limit};
+            FclQuery asked{spheres_, &found_, &found, &leaf, leaves.x[l], leaves.y[l], leaves.z[l], limit};
             manager_->collide(&leaf, &asked, visit);
         }
     }
