@@ -15,8 +15,8 @@ constexpr size_t kMaxLines = 3;
 
 std::string timeText(double t) {
     char text[32];
-    std::snprintf(text, sizeof text, "%d:%04.1f", static_cast<int>(t) / 60,
-                  t - 60.0 * (static_cast<int>(t) / 60));
+    const int minutes = static_cast<int>(t) / 60;
+    std::snprintf(text, sizeof text, "%d:%04.1f", minutes, t - 60.0 * minutes);
     return text;
 }
 

@@ -123,8 +123,8 @@ struct Speaker::Shared {
 
     std::string attempt(Tone tone) {
         try {
-            static const Alsa alsa;
-            playOn(alsa, tone, [this] {
+            static const Alsa kAlsa;
+            playOn(kAlsa, tone, [this] {
                 const std::lock_guard lock(mutex);
                 return ended;
             });

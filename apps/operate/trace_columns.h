@@ -17,7 +17,8 @@ namespace fathom::operate {
 class TraceColumns {
 public:
     // Curves of the force, then the same of the torque.
-    enum Curve : size_t { X, Y, Z, Size, Residual, kOfPart };
+    enum Curve : size_t { X, Y, Z, Size, Residual };
+    static constexpr size_t kOfPart = Residual + 1;
 
     // Adds what is new in the trace. count: columns of RunView::kSpan; they stay where they are in time, so
     // that a spike moves by whole columns. Another count, or another number of restarts (RunView), begins

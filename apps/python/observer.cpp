@@ -24,8 +24,8 @@ py::array view(const py::object& self, T* first, std::vector<py::ssize_t> shape)
 }
 
 const RegionSphere& first(const Regions& regions) {
-    static const RegionSphere none;
-    return regions.spheres.empty() ? none : regions.spheres.front();
+    static const RegionSphere kNone;
+    return regions.spheres.empty() ? kNone : regions.spheres.front();
 }
 
 py::ssize_t count(const Regions& regions) {

@@ -30,8 +30,8 @@ double deviation(const PcdCloud& cloud, const FittedLens& fit) {
     for (size_t i = 0; i < cloud.points.size(); ++i) {
         const dvec3 p = fit.opticalTcloud * cloud.points[i];
         if (hasPoint(p)) {
-            const glm::dvec2 off = fit.lens.project(p) - glm::dvec2(static_cast<double>(i % cloud.width),
-                                                                    static_cast<double>(i / cloud.width));
+            const size_t column = i % cloud.width, row = i / cloud.width;
+            const glm::dvec2 off = fit.lens.project(p) - glm::dvec2(column, row);
             sum += off.x * off.x + off.y * off.y;
             count += 1.0;
         }

@@ -26,7 +26,8 @@ FolderDepth::FolderDepth(const std::filesystem::path& folder, const RecordingLay
     }
     const Intrinsics& lens = layout.intrinsics.camera.depth;
     for (uint32_t i = 0; layout.intrinsics.rangeImages && i < lens.pixels(); ++i) {
-        const dvec3 ray(lens.ray(i % lens.width, i / lens.width), 1.0);
+        const uint32_t row = i / lens.width;
+        const dvec3 ray(lens.ray(i % lens.width, row), 1.0);
         axisShare_.push_back(static_cast<float>(1.0 / glm::length(ray)));
     }
 }

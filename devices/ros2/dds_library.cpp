@@ -9,12 +9,12 @@
 namespace fathom {
 
 DdsLibrary::Symbol DdsLibrary::find(const char* name) {
-    static void* const library = ::dlopen(CYCLONEDDS_LIBRARY, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
-    if (library == nullptr) {
+    static void* const kLibrary = ::dlopen(CYCLONEDDS_LIBRARY, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
+    if (kLibrary == nullptr) {
         throw BadInput("ros2", "library", ::dlerror(),
                        "Cyclone DDS: install the Debian package " CYCLONEDDS_PACKAGE);
     }
-    void* const address = ::dlsym(library, name);
+    void* const address = ::dlsym(kLibrary, name);
     if (address == nullptr) {
         throw BadInput("ros2", "library", std::string(CYCLONEDDS_LIBRARY " without ") + name,
                        "Cyclone DDS " CYCLONEDDS_VERSION ", with which this program was built");
@@ -23,8 +23,8 @@ DdsLibrary::Symbol DdsLibrary::find(const char* name) {
 }
 
 const DdsLibrary& dds() {
-    static const DdsLibrary library;
-    return library;
+    static const DdsLibrary kDds;
+    return kDds;
 }
 
 } // namespace fathom

@@ -22,8 +22,8 @@ JointReadings::JointReadings(std::string reader, std::string topic, std::vector<
     , times_(joints_.size(), std::nan("")) {}
 
 void JointReadings::once(const std::string& what) {
-    constexpr size_t kMaxLines = 64;
-    if (named_.size() < kMaxLines && named_.insert(what).second) {
+    constexpr size_t kMaxNamed = 64;
+    if (named_.size() < kMaxNamed && named_.insert(what).second) {
         log::warn("{}: {}: {} (logged once)", reader_, topic_, what);
     }
 }

@@ -153,10 +153,10 @@ ddsi_sertype_ops typeOperations() {
 } // namespace
 
 ddsi_sertype* newRawType(const std::string& name) {
-    static const ddsi_serdata_ops samples = sampleOperations();
-    static const ddsi_sertype_ops types = typeOperations();
+    static const ddsi_serdata_ops kSamples = sampleOperations();
+    static const ddsi_sertype_ops kTypes = typeOperations();
     auto* type = new ddsi_sertype{};
-    dds().initType(type, name.c_str(), &types, &samples, DDSI_SERTYPE_FLAG_TOPICKIND_NO_KEY);
+    dds().initType(type, name.c_str(), &kTypes, &kSamples, DDSI_SERTYPE_FLAG_TOPICKIND_NO_KEY);
     type->allowed_data_representation = DDS_DATA_REPRESENTATION_FLAG_XCDR1;
     return type;
 }

@@ -17,8 +17,8 @@ std::string stated(const tinyxml2::XMLElement& element, const char* name, const 
 
 // Elements that make bodies, joints or geoms in a way that this does not follow.
 const std::set<std::string>& unread() {
-    static const std::set<std::string> all{"replicate", "composite", "flexcomp", "attach", "skin"};
-    return all;
+    static const std::set<std::string> kAll{"replicate", "composite", "flexcomp", "attach", "skin"};
+    return kAll;
 }
 
 } // namespace

@@ -54,7 +54,7 @@ TEST_CASE("Every button, slider, tab, bar and figure has a tooltip") {
                 pointAt(place);
                 laid.draw(5);
                 CAPTURE(std::string(now.name));
-                CAPTURE(name);
+                INFO("name: " << name);
                 CHECK(console.tooltip.size() > 8);
             }
         }

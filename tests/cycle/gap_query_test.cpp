@@ -137,7 +137,8 @@ TEST_CASE("A flat tool before a flat wall has thousands of ties, and the answer 
     rig.run(drawnImage(camera, [](int, int) { return 1.0; }));
     std::vector<Sphere> plate;
     for (int i = 0; i < 100; ++i) {
-        plate.push_back({{0.01 * (i % 10) - 0.05, 0.01 * (i / 10) - 0.05, 0.0}, 0.01});
+        const int column = i % 10, row = i / 10;
+        plate.push_back({{0.01 * column - 0.05, 0.01 * row - 0.05, 0.0}, 0.01});
     }
     const Tool tool(buildSphereTree(plate));
     cloud::GapQuery query = queryOf(rig, 1);

@@ -50,7 +50,8 @@ std::string cloudMessage(double t, uint32_t width, uint32_t height, uint8_t type
     }
     std::string points;
     for (uint32_t i = 0; i < 63; ++i) {
-        const auto u = static_cast<float>(i % 9), v = static_cast<float>(i / 9);
+        const uint32_t column = i % 9, row = i / 9;
+        const auto u = static_cast<float>(column), v = static_cast<float>(row);
         points += raw(distance * (u - 4.25f) / 10.0f) + raw(distance * (v - 3.5f) / 11.0f) + raw(distance);
     }
     out.put(uint8_t{0}).put(uint32_t{12}).put(12 * width).text(points).put(uint8_t{1});
@@ -121,7 +122,8 @@ TEST_CASE("A big-endian cloud gives the same depth and colour") {
     }
     std::string points;
     for (uint32_t i = 0; i < 63; ++i) {
-        const auto u = static_cast<float>(i % 9), v = static_cast<float>(i / 9);
+        const uint32_t column = i % 9, row = i / 9;
+        const auto u = static_cast<float>(column), v = static_cast<float>(row);
         points +=
             swapped((u - 4.25f) / 10.0f) + swapped((v - 3.5f) / 11.0f) + swapped(1.0f) + swapped(0x00c8140au);
     }

@@ -195,8 +195,8 @@ TEST_CASE("A cloud with fields r, g, b has colour, and one in millimetres is sca
     std::string text = "FIELDS x y z r g b\nSIZE 4 4 4 1 1 1\nTYPE F F F U U U\nCOUNT 1 1 1 1 1 1\nWIDTH 9\n"
                        "HEIGHT 7\nPOINTS 63\nDATA ascii\n";
     for (uint32_t i = 0; i < kWidth * kHeight; ++i) {
-        const double z = 500.0 + i % kWidth, x = (i % kWidth - 4.0) / 10.0 * z,
-                     y = (i / kWidth - 3.0) / 10.0 * z;
+        const uint32_t column = i % kWidth, row = i / kWidth;
+        const double z = 500.0 + column, x = (column - 4.0) / 10.0 * z, y = (row - 3.0) / 10.0 * z;
         text += std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(z) + " 200 10 20\n";
     }
     folder.write("mm.pcd", text);
@@ -251,7 +251,8 @@ TEST_CASE("A cloud of unknown axes is rejected, although a part of its points fi
     const TemporaryFolder folder;
     std::string text = "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 64\nHEIGHT 48\nDATA ascii\n";
     for (int i = 0; i < 64 * 48; ++i) { // x right, y forward, z up
-        const double u = i % 64, v = i / 64, z = 0.5 + 0.0005 * ((i % 64 * 7 + i / 64 * 13) % 11);
+        const int u = i % 64, v = i / 64;
+        const double z = 0.5 + 0.0005 * ((u * 7 + v * 13) % 11);
         text += std::to_string((u - 31.5) / 60.0 * z) + " " + std::to_string(z) + " " +
                 std::to_string(-(v - 23.5) / 60.0 * z) + "\n";
     }

@@ -45,7 +45,7 @@ private:
 // Pixel i of a wall at 1 m, tilted, seen by a pinhole; pixel 0 has no point. Real: float or double.
 template <class Real>
 void addVertex(PlyText& out, uint32_t i) {
-    const double u = i % kPlyColumns, v = static_cast<double>(i / kPlyColumns);
+    const uint32_t u = i % kPlyColumns, v = i / kPlyColumns;
     const double z = i == 0 ? NAN : 1.0 + 0.05 * u;
     for (const double value : {(u - 4.25) / 10.0 * z, (v - 3.5) / 11.0 * z, z}) {
         out.add(static_cast<Real>(value));

@@ -233,7 +233,7 @@ TEST_CASE(
     };
     for (const auto& [text, wanted] : all) {
         const std::string line = mjcfRefusal(text);
-        CAPTURE(text);
+        INFO("text: " << text);
         CAPTURE(line);
         CHECK(line.find(wanted) != std::string::npos);
         CHECK(line.find('\n') == std::string::npos);

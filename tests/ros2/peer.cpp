@@ -98,6 +98,6 @@ uint32_t reserveDomain() {
 } // namespace
 
 uint32_t testDomain() {
-    static const uint32_t domain = reserveDomain();
-    return domain;
+    static const uint32_t kDomain = reserveDomain();
+    return kDomain;
 }

@@ -200,9 +200,9 @@ int main(int argc, char** argv) {
         listen();
         publishTransforms(transforms, moving);
         if (setting("broken") > 0) {
-            static const dds_entity_t brokenWriter = writerOf("rt/camera/depth/image_rect_raw", broken);
+            static const dds_entity_t kBrokenWriter = writerOf("rt/camera/depth/image_rect_raw", broken);
             const builtin_interfaces_msg_dds__Time_ few{1, 2};
-            dds_write(brokenWriter, &few);
+            dds_write(kBrokenWriter, &few);
         }
         if (setting("colour") != 0) {
             publishColour(colour);

@@ -15,11 +15,11 @@ constexpr uint32_t kWide = 96, kHigh = 64;
 
 // A slanted wall at 1 m in units of 0.1 mm, with noise of `sigma` units.
 SampleFrame wall(uint32_t frame, double sigma, double nearer = 0.0) {
-    static const NormalTable normal;
+    static const NormalTable kNormal;
     SampleFrame image;
     for (uint32_t i = 0; i < kWide * kHigh; ++i) {
         const uint64_t bits = counterBits(1, frame, i, NoisePurpose::Depth);
-        const double z = 10000.0 + 2.0 * (i % kWide) - nearer + sigma * normal(static_cast<uint32_t>(bits));
+        const double z = 10000.0 + 2.0 * (i % kWide) - nearer + sigma * kNormal(static_cast<uint32_t>(bits));
         image.depth.push_back(static_cast<uint16_t>(std::lround(z)));
         image.colour.push_back(0xff000000u | (100u + frame % 2));
     }

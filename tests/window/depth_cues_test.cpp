@@ -57,7 +57,7 @@ TEST_CASE(
     const Screenshot red = rig.shoot("gap-close");
     CHECK(red.share(bar, isWarning) > amber.share(bar, isWarning) + 0.003);
     const glm::dvec3 from = vec(close["depth_cues"]["tether"][0]), to = vec(close["depth_cues"]["tether"][1]);
-    CHECK(std::abs(glm::distance(from, to) - gapOf(close)) < 0.004);
+    CHECK(std::abs(glm::length(to - from) - gapOf(close)) < 0.004);
     closeQuietly(rig);
 }
 

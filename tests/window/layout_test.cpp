@@ -55,9 +55,10 @@ TEST_CASE("The stop plate is on screen in both layouts, and a click on it turns 
 
 TEST_CASE("State word, figures and buttons explain themselves under the mouse") {
     WindowRig rig;
-    for (const auto& [place, words] : {std::pair("mode", "The device gets no force"),
-                                       std::pair("figure scene age", "Time since the camera took the image"),
-                                       std::pair("Undo", "Ctrl Z: take back")}) {
+    for (const auto& [place, text] : {std::pair("mode", "The device gets no force"),
+                                      std::pair("figure scene age", "Time since the camera took the image"),
+                                      std::pair("Undo", "Ctrl Z: take back")}) {
+        const std::string words = text;
         const auto at = rig.place(place);
         rig.xdo("mousemove --window $W " + std::to_string(std::lround(at[0] + 0.5 * at[2])) + " " +
                 std::to_string(std::lround(at[1] + 0.5 * at[3])));
