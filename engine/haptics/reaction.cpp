@@ -16,6 +16,7 @@ constexpr double kTurns = 1e-3;         // [N] a smaller reaction has no directi
 constexpr double kPushed = 0.3;         // of a frame, in which new data pushes a tool out
 constexpr double kLate = 1.25;          // of a frame, until which the next one is waited for
 constexpr double kMinMix = 0.3;         // directions that differ more than that are not mixed
+constexpr double kOwedShare = 0.5;      // of the spring, so that force ends where contact ends
 
 // sqrt(|f|^2 + |tau / k|^2) [N]: the norm in which the spring wrench is K_t times the metric distance.
 double sizeOf(const Wrench& wrench, double k) noexcept {
@@ -25,13 +26,28 @@ double sizeOf(const Wrench& wrench, double k) noexcept {
 
 } // namespace
 
-double Reaction::rate(double appeared, const ReactionInput& input) noexcept {
-    since_ += input.period;
-    if (input.newData) {
-        interval_ = std::clamp(since_, input.period, kLongestFrame);
-        since_ = 0.0;
-        rate_ = kSlowest;
+// What new data changed in the spring, beyond what the hand's own motion can have changed, is owed to the
+// hand and paid over kSettle.
+Wrench Reaction::settling(const Wrench& raw, double travel, const ReactionInput& input) noexcept {
+    const double k = std::max(1e-6, input.springs.metricRadius);
+    const Wrench change{raw.force - raw_.force, raw.torque - raw_.torque};
+    const double size = sizeOf(change, k), byHand = input.springs.stiffness * travel;
+    if (since_ < kPushed * interval_ && size > byHand) {
+        const double share = 1.0 - byHand / size;
+        owed_ = {owed_.force + share * change.force, owed_.torque + share * change.torque};
     }
+    raw_ = raw;
+    owed_ = scaled(owed_, std::exp(-input.period / kSettle));
+    const double owed = sizeOf(owed_, k);
+    const double most = std::min(kBand * input.springs.stiffness, kOwedShare * sizeOf(raw, k));
+    if (owed > most) {
+        owed_ = scaled(owed_, most / owed);
+    }
+    owes_ = std::min(owed, most) > kTurns;
+    return {raw.force - owed_.force, raw.torque - owed_.torque};
+}
+
+double Reaction::rate(double appeared, const ReactionInput& input) noexcept {
     if (since_ < kPushed * interval_) { // the tool may still be on its way out
         rate_ = std::clamp(appeared / (interval_ - since_), rate_, kAppear);
     }
@@ -77,11 +93,18 @@ Wrench Reaction::turning(const Wrench& wrench, const ReactionInput& input) noexc
 Wrench Reaction::step(const ReactionInput& input) noexcept {
     const double k = std::max(1e-6, input.springs.metricRadius);
     Wrench wrench = couple(input.springs, input.allowed, input.end, dvec3(0.0), dvec3(0.0));
-    const double wanted = sizeOf(wrench, k);
+    since_ += input.period;
+    if (input.newData) {
+        interval_ = std::clamp(since_, input.period, kLongestFrame);
+        since_ = 0.0;
+        rate_ = kSlowest;
+    }
     const Pose& before = started_ ? end_ : input.end;
     const dvec3 moved = input.end.position - before.position,
                 turned = rotationLog(input.end.rotation * glm::conjugate(before.rotation));
     const double travel = std::sqrt(glm::dot(moved, moved) + glm::dot(k * turned, k * turned));
+    wrench = settling(wrench, travel, input);
+    const double wanted = sizeOf(wrench, k);
     // Along the wanted reaction, which is out of the regions.
     const double out =
         wanted > 0.0 ? (glm::dot(moved, wrench.force) + glm::dot(turned, wrench.torque)) / wanted : 0.0;

@@ -22,6 +22,10 @@ struct ReactionInput {
 // growth has another cause: a row appeared, new data moved a surface, a lag ended. It then rises by at most
 // kAppear, and after new data evenly over the time between frames, so that no frame is felt as a click.
 // Falls are immediate. After new data the direction, too, turns evenly over the time between frames.
+//
+// New data also changes a surface at rest, by the sensor's noise. So the first kBand of what it changes is
+// felt over kSettle, rises, falls and turns alike; the tool follows it at once. What the hand's own motion
+// changes is felt in the same tick.
 class Reaction {
 public:
     // Wrench on the hand, base axes, before limits; without damping.
@@ -34,9 +38,9 @@ public:
 
     double size() const noexcept { return size_; }      // [N] of the last tick, torque counted as torque / k
     bool fades() const noexcept { return left_ > 0.0; } // the tail after vanish()
-    // In the last tick the reaction grew by more than the hand compressed, or new data still turns it: both
-    // are work that the hand did not do.
-    bool appears() const noexcept { return appears_ || turn_ > 0.0; }
+    // In the last tick the reaction grew by more than the hand compressed, or new data still changes or turns
+    // it: work that the hand did not do.
+    bool appears() const noexcept { return appears_ || turn_ > 0.0 || owes_; }
     // [s] between the last two changes of the regions, at most kLongestFrame.
     double frameInterval() const noexcept { return interval_; }
 
@@ -44,13 +48,18 @@ public:
     static constexpr double kLeaves = 0.25;        // [m/s] a hand that leaves this fast needs no further rise
     static constexpr double kTail = 0.2;           // [s]
     static constexpr double kLongestFrame = 0.033; // [s]
+    static constexpr double kBand = 0.002;         // [m] of motion of the surface
+    static constexpr double kSettle = 0.3;         // [s] time constant
 
 private:
     double rate(double appeared, const ReactionInput& input) noexcept;
     Wrench tail(double size, double period) noexcept;
     Wrench turning(const Wrench& wrench, const ReactionInput& input) noexcept;
 
+    Wrench settling(const Wrench& raw, double travel, const ReactionInput& input) noexcept;
+
     Pose end_;
+    Wrench raw_, owed_;   // the spring of the last tick; the part of it that is not yet felt
     Wrench last_, faded_; // of the last tick; when the regions vanished
     Wrench from_;         // per newton: change of direction that the newest data made
     double turn_ = 0.0;   // [s] for which a share of it is still taken back
@@ -58,7 +67,7 @@ private:
     double fadedSize_ = 0.0, left_ = 0.0;                     // [N], [s] of the tail
     double since_ = kLongestFrame, interval_ = kLongestFrame; // [s] since the newest data; between data
     double rate_ = kAppear;                                   // [N/s] until the next frame is due
-    bool started_ = false, appears_ = false;
+    bool started_ = false, appears_ = false, owes_ = false;
 };
 
 } // namespace fathom
