@@ -211,6 +211,21 @@ void RegionGrid::layOut(const Columns& columns, ThreadPool* workers) {
             toX[slot] = x[i], toY[slot] = y[i], toZ[slot] = z[i], toRadius[slot] = radius[i];
         },
         workers);
+    markUsedCells(workers);
+}
+
+void RegionGrid::markUsedCells(ThreadPool* workers) {
+    used_.assign(static_cast<size_t>(ny_ * nz_), UsedCells{});
+    inParts(workers, used_.size(), kRun, [&](size_t first, size_t end) {
+        for (size_t row = first; row < end; ++row) {
+            const uint32_t begin = cellBegin_[row * static_cast<size_t>(nx_)],
+                           after = cellBegin_[(row + 1) * static_cast<size_t>(nx_)];
+            if (begin < after) {
+                used_[row] = {static_cast<int32_t>(cellOf(x_[begin], lo_.x, perMetre_, nx_)),
+                              static_cast<int32_t>(cellOf(x_[after - 1], lo_.x, perMetre_, nx_))};
+            }
+        }
+    });
 }
 
 } // namespace fathom

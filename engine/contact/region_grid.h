@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -72,6 +73,10 @@ private:
         return std::max({0.0, below, above});
     }
     using Columns = std::array<std::span<const float>, 4>; // x, y, z, radius; all finite but in measure()
+    // The cells along x of a row between which it has spheres; first > last: none.
+    struct UsedCells {
+        int32_t first = std::numeric_limits<int32_t>::max(), last = -1;
+    };
     // Extent of a run of spheres.
     struct Extent {
         std::array<float, 4> lo, hi; // x, y, z, radius
@@ -82,10 +87,12 @@ private:
     void buildOf(const Columns& columns, ThreadPool* workers);
     void chooseCells(double meanRadius);
     void layOut(const Columns& columns, ThreadPool* workers);
+    void markUsedCells(ThreadPool* workers);
 
     std::vector<float> x_, y_, z_, radius_;
     std::vector<uint32_t> order_;
     std::vector<uint32_t> cellBegin_; // cells + 1
+    std::vector<UsedCells> used_;     // per row
     std::vector<uint32_t> cell_;      // build scratch: cell of each sphere
     std::vector<Extent> extents_;     // build scratch: extent of each run of spheres
     CellSort sort_;                   // build scratch
@@ -106,10 +113,16 @@ void RegionGrid::forEachRun(const dvec3& point, double distance, Visit&& visit) 
     const int64_t z1 = cellOf(point.z + distance, lo_.z, perMetre_, nz_);
     const int64_t y0 = cellOf(point.y - distance, lo_.y, perMetre_, ny_);
     const int64_t y1 = cellOf(point.y + distance, lo_.y, perMetre_, ny_);
+    const int64_t x0 = cellOf(point.x - distance, lo_.x, perMetre_, nx_);
+    const int64_t x1 = cellOf(point.x + distance, lo_.x, perMetre_, nx_);
     const double d2 = distance * distance;
     for (int64_t cz = z0; cz <= z1; ++cz) {
         const double dz = outside(point.z, lo_.z, cz, nz_);
         for (int64_t cy = y0; cy <= y1; ++cy) {
+            const UsedCells used = used_[static_cast<size_t>(cz * ny_ + cy)];
+            if (used.first > x1 || used.last < x0) {
+                continue; // as most rows near a surface
+            }
             const double dy = outside(point.y, lo_.y, cy, ny_);
             const double left = d2 - dz * dz - dy * dy; // the ball's width in x at this row
             if (left < 0.0) {
