@@ -104,6 +104,7 @@ std::vector<Stage> stages() {
     return {
         {"filter", [](Setup& s) { s.scene.filter.radius = 0; }},
         {"flying pixels", [](Setup& s) { s.scene.filter.edge = 0.0; }},
+        {"isolated pixels", [](Setup& s) { s.scene.filter.isolated = false; }},
         {"thinning", [](Setup& s) { s.scene.errorBudget = 0.0; }},
         {"hold", [](Setup& s) { s.scene.holdSeconds = 0.0; }},
         {"guidance class", [](Setup& s) { dropClasses(s.scene, Role::Guidance); }},

@@ -18,7 +18,7 @@ constexpr double kPeerJump = 0.02;  // relative depth jump that counts as an edg
 constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 
 // A scene that selects every measured point. Besides the surface pass, only classify and moments run.
-Scene everyPoint(uint32_t radius, double edge) {
+Scene everyPoint(uint32_t radius) {
     Scene scene;
     FixtureClass all;
     all.name = "all";
@@ -26,7 +26,6 @@ Scene everyPoint(uint32_t radius, double edge) {
     scene.fixtures = {all};
     scene.holdSeconds = 0.0;
     scene.filter.radius = radius;
-    scene.filter.edge = edge;
     return scene;
 }
 
@@ -109,7 +108,7 @@ void addFilter(const StudyContext& context, const FrameSequence& frames, uint32_
     const std::string window = std::to_string(2 * radius + 1);
     const std::string source = "filter " + frames.name + " " + window + "x" + window;
     const SampleFrame& image = frames.frames.front();
-    const Scene scene = everyPoint(radius, Scene{}.filter.edge);
+    const Scene scene = everyPoint(radius);
     FrameBench bench(context.device, scene, frames.camera);
     bench.run(image);
     const std::string wrong = bench.differsFromTwins(image);
@@ -173,7 +172,7 @@ void addPeerFilters(const StudyContext& context, std::vector<StudyRow>& rows) {
             continue;
         }
         for (const uint32_t radius :
-             context.settings.quick ? std::vector<uint32_t>{2} : std::vector<uint32_t>{2, 5}) {
+             context.settings.quick ? std::vector<uint32_t>{2} : std::vector<uint32_t>{2, 3, 5, 8}) {
             addFilter(context, frames, radius, rows);
         }
     }
@@ -187,7 +186,8 @@ void addPeerPoints(const StudyContext& context, std::vector<StudyRow>& rows) {
     }
     frames.camera.metresPerUnit = 0.001;
     const std::string source = "points " + frames.name;
-    const Scene scene = everyPoint(0, 0.0);
+    Scene scene = everyPoint(0);
+    scene.filter.edge = 0.0, scene.filter.isolated = false;
     FrameBench bench(context.device, scene, frames.camera);
     bench.run(image);
     const reference::FrameView view(scene, frames.camera, image.baseTcamera, image.depth, image.colour);

@@ -124,12 +124,13 @@ PassInfo list(const CloudContext& c) {
 PassInfo surface(const CloudContext& c) {
     const Plan& plan = c.plan;
     const bool four = plan.filterBlock && c.camera.depth.width % 4 == 0;
-    // A patch has 16 sub-patches and 64 rows of these. Pairs use smaller groups, so that more of them run at
-    // once.
-    const uint32_t group = plan.filterRows()  ? 64u
-                           : plan.filterBlock ? 16u
-                                              : std::min(plan.pixelGroup, plan.filterPairs() ? 64u : 256u);
-    const uint32_t block = plan.filterRows() ? kBlockRow : plan.filterBlock ? kBlockSub : kBlockNone;
+    // A patch has 16 sub-patches, 32 pairs of their rows. Pairs of pixels use smaller groups, so that more of
+    // them run at once.
+    const uint32_t group = plan.filterBlock ? (plan.filterRadius > 2 ? 32u : 16u)
+                                            : std::min(plan.pixelGroup, plan.filterPairs() ? 64u : 256u);
+    const uint32_t weights = plan.polynomialWeights ? kWeightsPolynomial
+                             : plan.quarticWeights  ? kWeightsQuartic
+                                                    : kWeightsExponential;
     return {"surface",
             surface_spv,
             {&Up::params,
@@ -142,10 +143,11 @@ PassInfo surface(const CloudContext& c) {
              {kSpecRays, plan.rays},
              {kSpecRadius, plan.filterRadius},
              {kSpecEdge, plan.edge},
+             {kSpecIsolation, plan.isolation},
              {kSpecTiled, plan.tiled && !plan.filterBlock},
-             {kSpecBlock, block},
+             {kSpecBlock, plan.filterBlock},
              {kSpecFour, four},
-             {kSpecPolynomial, plan.polynomialWeights},
+             {kSpecWeights, weights},
              {kSpecPair, plan.filterPairs()}},
             GroupsCounted{offsetof(FrameCounters, patchGroups)}};
 }

@@ -99,7 +99,7 @@ SurfaceImage surface(const FrameView& view, std::span<const uint32_t> masks) {
             }
             bool unsure = false;
             const bool flies = view.scene().filter.edge > 0.0 && flying(view, u, v, unsure);
-            const bool alone = isolated(view, u, v, unsure);
+            const bool alone = view.scene().filter.isolated && isolated(view, u, v, unsure);
             out.unsure[i] = unsure ? 1 : 0;
             if (flies || alone) {
                 continue;

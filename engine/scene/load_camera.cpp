@@ -169,7 +169,7 @@ void loadCamera(const YamlNode& camera, Scene& scene) {
 }
 
 void loadFilter(const YamlNode& filter, Scene& scene) {
-    filter.checkKeys({"radius", "sigma", "edge", "weights", "memory"});
+    filter.checkKeys({"radius", "sigma", "edge", "isolated", "weights", "memory"});
     if (const auto memory = filter.find("memory")) {
         scene.filter.memory = memory->integer(0, 120);
     }
@@ -181,6 +181,9 @@ void loadFilter(const YamlNode& filter, Scene& scene) {
     }
     if (const auto edge = filter.find("edge")) {
         scene.filter.edge = edge->number(Range::between(0.0, 10.0));
+    }
+    if (const auto isolated = filter.find("isolated")) {
+        scene.filter.isolated = isolated->choice<bool>({{"reject", true}, {"keep", false}});
     }
     if (const auto weights = filter.find("weights")) {
         using Weights = Scene::Filter::Weights;

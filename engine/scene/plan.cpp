@@ -58,6 +58,7 @@ void decideByScene(const Scene& scene, const CameraInfo& camera, Plan& plan) {
     plan.fan = plan.cloud && camera.depth.fan;
     plan.filterRadius = scene.filter.radius;
     plan.edge = scene.filter.edge > 0.0;
+    plan.isolation = scene.filter.isolated;
     plan.estimates = plan.cloud && whyNoEstimates(scene, camera) == nullptr;
     plan.polynomialWeights = scene.filter.weights == Scene::Filter::Weights::Polynomial;
 }
@@ -87,6 +88,7 @@ void decideByDevice(const CameraInfo& camera, const DeviceFacts& device, Plan& p
         plan.byPixel && patchLayout(camera.depth.width, camera.depth.height).patches() >= kManyPatches;
     // On a CPU device a load is a gather, lane by lane, so neighbouring pixels share their loads.
     plan.filterBlock = cpu;
+    plan.quarticWeights = cpu && !plan.polynomialWeights; // a CPU device computes exp in 20 instructions
 }
 
 void decideQuery(const Scene& scene, uint32_t toolLeaves, const DeviceFacts& device, Plan& plan) {

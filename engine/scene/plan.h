@@ -30,8 +30,10 @@ struct PlannedPasses {
     bool leaks = false; // somewhere in near..far neighbours may be a region radius apart: leaks are detected
     uint32_t filterRadius = 0;
     bool edge = false;
+    bool isolation = false;         // isolated pixels are rejected
     bool estimates = false;         // depths are averaged over frames
     bool polynomialWeights = false; // of the filter, instead of exp
+    bool quarticWeights = false;    // exp of the weights by a power of a quartic polynomial
     bool arm = false;               // an arm carries the tool: joints are the unknowns, and all links collide
     bool water = false;             // colours are corrected for attenuation in water
     bool selfFilter = false;        // points inside the arm's spheres are removed
@@ -53,10 +55,8 @@ struct PlannedLayout {
 
 // How the passes are divided among invocations and threads. Changes times, never results.
 struct PlannedTuning {
-    bool tiled = false; // the filter reads its window from shared memory
-    // The filter has its window in registers: one invocation per 4x4 sub-patch; above radius 2, per row of
-    // one.
-    bool filterBlock = false;
+    bool tiled = false;       // the filter reads its window from shared memory
+    bool filterBlock = false; // the filter has one invocation per 4x4 sub-patch and its window in registers
     // With shared memory: `spheres` has one invocation per pixel, `moments` one per sub-patch. Otherwise one
     // per sub-patch and one per patch.
     bool byPixel = false;
@@ -100,7 +100,6 @@ struct Plan : PlannedPasses, PlannedLayout, PlannedTuning {
     }
     // Two filtered pixels per invocation: a sixth faster with many groups, slower with few.
     bool filterPairs() const { return manyPatches && tiled && !filterBlock && filterRadius == 2; }
-    bool filterRows() const { return filterBlock && filterRadius > 2; }
     bool delivers() const { return cloud && byPixel; }  // by a dispatch; CPU devices copy instead
     uint32_t dispatchesPerFrame() const;                // of the frame cadence, without the query
     uint64_t setBytes(const PatchLayout& layout) const; // buffers of one fixture set (cloud::SetBuffers)

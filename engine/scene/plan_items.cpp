@@ -32,13 +32,13 @@ void explainPasses(Plan& plan, const Scene& scene, const CameraInfo& camera) {
     pass("surface", plan.cloud,
          plan.filterRadius != 0 ? "bilateral filter " + std::to_string(2 * plan.filterRadius + 1) + "x" +
                                       std::to_string(2 * plan.filterRadius + 1) +
-                                      (plan.filterRows()    ? ", rows of four from registers"
-                                       : plan.filterBlock   ? ", 4x4 blocks from registers"
+                                      (plan.filterBlock     ? ", 4x4 blocks from registers"
                                        : plan.filterPairs() ? ", shared-memory tiles, two pixels at a time"
                                        : plan.tiled         ? ", shared-memory tiles"
                                                             : ", direct reads") +
                                       (plan.polynomialWeights ? ", polynomial weights" : "")
-                                : "no filter: points as measured",
+         : plan.edge || plan.isolation ? "no filter, implausible pixels rejected"
+                                       : "no filter: points as measured",
          "the scene has no point class");
     const char* const noEstimates = whyNoEstimates(scene, camera);
     pass("estimate", plan.estimates,

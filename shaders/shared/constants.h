@@ -24,12 +24,13 @@ FATHOM_CONST kSpecHold = 13;       // points out of view are held; `spheres` tak
 FATHOM_CONST kSpecLeaks = 14;      // neighbouring points may be a region radius apart
 FATHOM_CONST kSpecTree = 15;       // the GPU query reads spheres and bounds
 // The filter.
-FATHOM_CONST kSpecRadius = 16;     // window (2 r + 1)^2; 0 = no filter
-FATHOM_CONST kSpecEdge = 17;       // flying pixels are rejected
-FATHOM_CONST kSpecPolynomial = 18; // weights by a polynomial instead of exp
-FATHOM_CONST kSpecTiled = 19;      // window from shared memory
-FATHOM_CONST kSpecBlock = 20;      // window in registers: a kBlock value
-FATHOM_CONST kSpecPair = 21;       // two pixels per invocation
+FATHOM_CONST kSpecRadius = 16;    // window (2 r + 1)^2; 0 = no filter
+FATHOM_CONST kSpecEdge = 17;      // flying pixels are rejected
+FATHOM_CONST kSpecIsolation = 37; // isolated pixels are rejected
+FATHOM_CONST kSpecWeights = 18;   // a kWeights value
+FATHOM_CONST kSpecTiled = 19;     // window from shared memory
+FATHOM_CONST kSpecBlock = 20;     // one invocation per 4x4 sub-patch, window in registers
+FATHOM_CONST kSpecPair = 21;      // two pixels per invocation
 // The device.
 FATHOM_CONST kSpecFour =
     22; // width is a multiple of four: one texel holds four pixels; 1 = depth, 2 = also registered colour
@@ -60,10 +61,10 @@ FATHOM_CONST kFormatRgb = 3;
 FATHOM_CONST kFormatBgr = 4;
 FATHOM_CONST kFormatPlanes = 5;
 FATHOM_CONST kFormatJpegPlanes = 6;
-// Values of kSpecBlock.
-FATHOM_CONST kBlockNone = 0, // one invocation per pixel, window from memory
-    kBlockSub = 1,           // one per 4x4 sub-patch; radius <= 2
-    kBlockRow = 2;           // one per row of a sub-patch
+// Values of kSpecWeights: how the filter computes exp(-t).
+FATHOM_CONST kWeightsExponential = 0;
+FATHOM_CONST kWeightsPolynomial = 1; // (1 - t / 16.68)^16
+FATHOM_CONST kWeightsQuartic = 2;    // a polynomial of degree 4 near exp(-t / 16), to the power of 16
 // Values of kSpecLens.
 FATHOM_CONST kLensNone = 0,    // no distortion
     kLensPlain = 1,            // Brown-Conrady

@@ -37,7 +37,7 @@ TEST_CASE("Surface points are within 1 um of the twin's at 1 m and the same pixe
             all.rejected, " pixels rejected, ", all.unsure, " on a threshold");
 }
 
-TEST_CASE("Windows from shared memory, direct reads, and blocks and rows in registers give the same points") {
+TEST_CASE("Windows from shared memory, direct reads, and blocks in registers give the same points") {
     for (const uint32_t radius : {0u, 1u, 2u, 5u, 16u}) {
         for (const double edge : {0.0, 0.03}) {
             if (kSanitized && edge == 0.0) {
@@ -49,6 +49,7 @@ TEST_CASE("Windows from shared memory, direct reads, and blocks and rows in regi
                                                       : freiburgCamera(edge > 0.0 ? 68 : 67, 41);
             Scene scene = edgeScene(edge);
             scene.filter.radius = radius;
+            scene.filter.isolated = edge > 0.0 || radius == 5;
             const Image image = stressImage(camera, radius + 20);
             CloudRig direct(scene, camera, [](Plan& plan) { plan.tiled = plan.filterBlock = false; });
             CloudRig tiled(scene, camera, [](Plan& plan) { plan.tiled = true, plan.filterBlock = false; });

@@ -16,7 +16,7 @@ camera:
   far: 2.5
   base_T_camera: {xyz: [1,2,3], quat_xyzw: [0,0,2,0]}
   registration_sigma: 0.001
-filter: { radius: 16, sigma: 0.02, edge: 0, weights: polynomial }
+filter: { radius: 16, sigma: 0.02, edge: 0, isolated: keep, weights: polynomial }
 error_budget: 0
 hold_s: 0.25
 fixtures:
@@ -108,6 +108,7 @@ TEST_CASE("Camera, filter and tool are loaded as written, with paths from the sc
     CHECK(scene.registrationSigma == 0.001);
     CHECK(scene.filter.radius == 16);
     CHECK(scene.filter.edge == 0.0);
+    CHECK_FALSE(scene.filter.isolated);
     CHECK(scene.filter.weights == Scene::Filter::Weights::Polynomial);
     CHECK(scene.errorBudget == 0.0);
     CHECK(scene.holdSeconds == 0.25);

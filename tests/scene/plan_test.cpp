@@ -89,11 +89,12 @@ TEST_CASE(
     CHECK((behindBus.pack && !plan.pack && behindBus.dispatchesPerFrame() == 4));
     CHECK((behindBus.keepDepth && !plan.keepDepth && !behindBus.tree));
     CHECK(plan.filterRadius == 2);
-    CHECK(plan.edge);
+    CHECK((plan.edge && plan.isolation));
 
     scene.errorBudget = 0.0, scene.holdSeconds = 0.0, scene.filter.radius = 0, scene.filter.edge = 0.0;
+    scene.filter.isolated = false;
     plan = planOf(scene);
-    CHECK_FALSE((plan.thin || plan.hold || plan.edge || plan.tiled));
+    CHECK_FALSE((plan.thin || plan.hold || plan.edge || plan.isolation || plan.tiled));
     CHECK(plan.filterRadius == 0);
     CHECK(plan.dispatchesPerFrame() == 4);
 

@@ -186,6 +186,7 @@ TEST_CASE("Camera and filter values outside their range are rejected") {
         section("filter: {radius: -1}", "filter.radius: -1", "from 0 to 16"),
         section("filter: {sigma: 0}", "filter.sigma: 0", "from 1e-05 to 10"),
         section("filter: {edge: -0.1}", "filter.edge: -0.1", "from 0 to 10"),
+        section("filter: {isolated: drop}", "filter.isolated: drop", "reject, keep"),
         section("error_budget: -1", "error_budget: -1", "0, or a number from 1e-07 to 0.1"),
         section("hold_s: forever", "hold_s: forever", "from 0 to 3600"),
     });
