@@ -18,9 +18,9 @@ NOISE = 0.001  # [m] standard deviation of depth
 
 
 def spheres(text, noise, seed=1):
-    """Centres of the wheel's spheres, and the time of the frame on the device [ms]."""
+    """Centres of the wheel's spheres, and the time of the frame on the compute device [ms]."""
     run = fathom.Lockstep(fathom.Scene.from_text(text), wheel.camera())
-    times = [run.process(*wheel.frame(noise, seed + i), stamp=i + 1).device for i in range(9)]
+    times = [run.process(*wheel.frame(noise, seed + i), stamp=i + 1).compute for i in range(9)]
     return run.regions().centres.copy(), 1000 * numpy.median(times)
 
 
@@ -42,7 +42,7 @@ axes[0].legend(frameon=False)
 axes[1].plot(milliseconds, errors, "o")
 for radius, x, y in zip(radii, milliseconds, errors):
     axes[1].annotate(f"  radius {radius}", (x, y))
-axes[1].set(title="against time", xlabel="time of a frame on the device [ms]", ylabel="RMS error [mm]", ylim=(0, None))
+axes[1].set(title="against time", xlabel="time of a frame on the compute device [ms]", ylabel="RMS error [mm]", ylim=(0, None))
 axes[1].margins(x=0.25)
 figure.savefig(sys.argv[1], dpi=110)
 print("radius  error [mm]  time [ms]")
