@@ -108,7 +108,7 @@ void loadShape(const YamlNode& row, FixtureClass& fixture) {
     }
 }
 
-// Reject keys of the other kind of row, which would be ignored silently.
+// Reject keys of the other kind of fixture, which would be ignored silently.
 void refuseKeys(const YamlNode& row, std::span<const std::string_view> keys, const std::string& allowed) {
     for (std::string_view key : keys) {
         if (const auto node = row.find(key)) {
@@ -151,10 +151,10 @@ FixtureClass loadRow(const YamlNode& row) {
     }
     loadRole(row.at("role"), fixture);
     if (fixture.isPoints()) {
-        refuseKeys(row, kShapeKeys, "only in a row with a shape");
+        refuseKeys(row, kShapeKeys, "only in a fixture with a shape");
         loadPoints(row, fixture);
     } else {
-        refuseKeys(row, kPointKeys, "only in a row of points, without a shape");
+        refuseKeys(row, kPointKeys, "only in a fixture of points, without a shape");
         loadShape(row, fixture);
     }
     return fixture;

@@ -98,9 +98,8 @@ void YamlNode::checkKeys(std::initializer_list<std::string_view> known) const {
     for (const auto& entry : node_) {
         const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "";
         if (std::find(known.begin(), known.end(), key) == known.end()) {
-            const std::string hint =
-                "unknown key, did you mean '" + std::string(nearestWord(key, words)) + "'?";
-            throw BadInput(file_, childPath(excerpt(key)), hint, join(words));
+            throw BadInput(file_, childPath(excerpt(key)), "unknown key" + suggestion(key, words),
+                           join(words));
         }
         if (!seen.insert(key).second) {
             throw BadInput(file_, childPath(key), "given twice", "each key once");
@@ -214,9 +213,7 @@ size_t YamlNode::oneOf(std::span<const std::string_view> words) const {
     const std::string word = node_.IsScalar() ? node_.Scalar() : "";
     const auto found = std::find(words.begin(), words.end(), word);
     if (found == words.end()) {
-        const std::string hint =
-            word.empty() ? "" : ", did you mean '" + std::string(nearestWord(word, words)) + "'?";
-        refuse(value() + hint, join(words));
+        refuse(value() + suggestion(word, words), join(words));
     }
     return static_cast<size_t>(found - words.begin());
 }
@@ -227,14 +224,18 @@ dvec3 YamlNode::vec3(const Range& range) const {
 }
 
 dquat YamlNode::quatXyzw() const {
-    const std::vector<YamlNode> items = list(4);
+    constexpr const char* kQuaternion = "4 numbers: a quaternion x y z w of non-zero length";
+    if (!node_.IsSequence() || node_.size() != 4) {
+        refuse(kQuaternion);
+    }
+    const std::vector<YamlNode> items = list();
     double q[4], largest = 0.0;
     for (size_t i = 0; i < 4; ++i) {
         q[i] = items[i].number(Range::finite());
         largest = std::max(largest, std::abs(q[i]));
     }
     if (!(largest > 1e-300)) {
-        refuse("a quaternion x y z w of non-zero length");
+        refuse(kQuaternion);
     }
     // Scale first: squares of huge or tiny numbers would overflow or underflow.
     return glm::normalize(dquat(q[3] / largest, q[0] / largest, q[1] / largest, q[2] / largest));

@@ -45,12 +45,19 @@ std::string Range::words() const {
     return (orZero ? "0, or a number from " : "a number from ") + shortNumber(lo) + " to " + shortNumber(hi);
 }
 
-std::string_view nearestWord(std::string_view word, std::span<const std::string_view> words) {
+std::string suggestion(std::string_view word, std::span<const std::string_view> words) {
     const std::string_view start =
         word.substr(0, 64); // long enough for every key; bounds the work on garbage
-    return *std::min_element(words.begin(), words.end(), [start](std::string_view a, std::string_view b) {
-        return editDistance(start, a) < editDistance(start, b);
-    });
+    std::string_view nearest;
+    size_t least = start.size();
+    for (const std::string_view known : words) {
+        const size_t distance = editDistance(start, known);
+        if (distance < least && 2 * distance < std::max(start.size(), known.size())) {
+            least = distance;
+            nearest = known;
+        }
+    }
+    return nearest.empty() ? "" : ", did you mean '" + std::string(nearest) + "'?";
 }
 
 } // namespace fathom

@@ -56,8 +56,9 @@ TEST_CASE("Unknown keys are rejected at every level with the nearest known key")
         section("camera: {base_T_camera: {quat: [0,0,0,1]}}", "camera.base_T_camera.quat: unknown key",
                 "quat_xyzw"),
         section("filter: {sgima: 1}", "filter.sgima: unknown key, did you mean 'sigma'?", "sigma"),
-        fixture("hew: [0, 1]", "hew: unknown key, did you mean 'hue'?", "hue"),
-        fixture("box: {min: [0,0,0], maks: [1,1,1]}", "box.maks: unknown key, did you mean 'max'?", "max"),
+        fixture("heu: [0, 1]", "heu: unknown key, did you mean 'hue'?", "hue"),
+        fixture("colour: red", "colour: unknown key (allowed: name, role", "hue"),
+        fixture("box: {min: [0,0,0], mx: [1,1,1]}", "box.mx: unknown key, did you mean 'max'?", "max"),
         section("hand: {pth: approach}", "hand.pth: unknown key, did you mean 'path'?", "path"),
         section("hand: {map: {scal: 1}}", "hand.map.scal: unknown key, did you mean 'scale'?", "scale"),
         section("hand: {loop: {mas: 1}}", "hand.loop.mas: unknown key, did you mean 'mass'?", "mass"),
@@ -70,11 +71,13 @@ TEST_CASE("Unknown keys are rejected at every level with the nearest known key")
     });
 }
 
-TEST_CASE("The nearest word counts a swap of neighbours as one error and accepts any length") {
+TEST_CASE("A suggestion counts a swap of neighbours as one error, and a word unlike all gets none") {
     constexpr std::array<std::string_view, 3> kWords{"frocks", "force", "near"};
-    CHECK(nearestWord("froce", kWords) == "force"); // one swap; "frocks" is two letters away and comes first
-    CHECK(nearestWord("", kWords) == "near");       // fewest letters to add
-    CHECK(nearestWord(std::string(100000, 'k'), kWords) == "frocks");
+    CHECK(suggestion("froce", kWords) == ", did you mean 'force'?"); // "frocks", two letters away, is first
+    CHECK(suggestion("fear", kWords) == ", did you mean 'near'?");
+    CHECK(suggestion("ocean", kWords).empty());
+    CHECK(suggestion("", kWords).empty());
+    CHECK(suggestion(std::string(100000, 'k'), kWords).empty());
 }
 
 TEST_CASE("Colour gates outside their range, reversed or of another form are rejected") {
