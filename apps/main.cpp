@@ -22,6 +22,7 @@
 #include "apps/tune/tune_command.h"
 #include "engine/gpu/instance.h"
 #include "engine/gpu/software_threads.h"
+#include "engine/scene/yaml_node.h"
 #include "engine/types/error.h"
 #include "engine/types/version.h"
 
@@ -39,14 +40,22 @@ std::string refusalOf(const CLI::App& app, const CLI::ParseError& error) {
     const std::vector<CLI::App*> chosen = app.get_subcommands();
     const std::vector<std::string> rest = app.remaining(true);
     std::string allowed;
-    const auto allow = [&](const std::string& name) { allowed += (allowed.empty() ? "" : ", ") + name; };
+    std::vector<std::string> names;
+    const auto allow = [&](const std::string& name) {
+        allowed += (allowed.empty() ? "" : ", ") + name;
+        names.push_back(name);
+    };
+    const auto unknown = [&](const std::string& word) {
+        return "'" + word + "'" +
+               fathom::suggestion(word, std::vector<std::string_view>(names.begin(), names.end()));
+    };
     if (chosen.empty()) {
         for (const CLI::App* command : app.get_subcommands(nullptr)) {
             if (!command->get_group().empty()) { // internal commands have no group
                 allow(command->get_name());
             }
         }
-        return "subcommand: " + (rest.empty() ? "missing" : "'" + rest.front() + "'") +
+        return "subcommand: " + (rest.empty() ? "missing" : unknown(rest.front())) +
                " (allowed: " + allowed + ")";
     }
     if (!rest.empty()) {
@@ -57,7 +66,7 @@ std::string refusalOf(const CLI::App& app, const CLI::ParseError& error) {
                 }
             }
         }
-        return chosen.back()->get_name() + ": '" + rest.front() + "' (allowed: " + allowed + ")";
+        return chosen.back()->get_name() +  ": " + unknown(rest.front()) + " (allowed: " + allowed + ")";
     }
     std::string text = chosen.back()->get_name() + ": " + error.what();
     std::replace(text.begin(), text.end(), '\n', ' ');

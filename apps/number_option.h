@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The range check of numeric command-line options.
+// Checks of command-line options whose message names value and allowed values.
 #pragma once
 
 #include "engine/scene/yaml_node.h"
@@ -8,6 +8,8 @@
 #include <charconv>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace fathom {
 
@@ -21,6 +23,21 @@ inline CLI::Validator numberIn(const Range& range) {
         const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), x);
         const bool good = error == std::errc{} && end == digits.data() + digits.size() && range.contains(x);
         return good ? "" : text + " (allowed: " + range.words() + ")";
+    };
+    return CLI::Validator(check, "");
+}
+
+// Accepts one of the words.
+inline CLI::Validator wordIn(std::vector<std::string> words) {
+    const auto check = [words = std::move(words)](const std::string& text) -> std::string {
+        std::string allowed;
+        for (const std::string& word : words) {
+            if (word == text) {
+                return "";
+            }
+            allowed += (allowed.empty() ? "" : ", ") + word;
+        }
+        return text + " (allowed: " + allowed + ")";
     };
     return CLI::Validator(check, "");
 }

@@ -146,7 +146,7 @@ void addArmSimulatorCommand(CLI::App& app) {
         ->add_option("PROTOCOL", options->protocol,
                      "protocol, as in the scene's arm.driver: reach_alpha5, reach_bravo7 or eca_5e")
         ->required()
-        ->check(CLI::IsMember({"reach_alpha5", "reach_bravo7", "eca_5e"}));
+        ->check(wordIn({"reach_alpha5", "reach_bravo7", "eca_5e"}));
     command->add_option("--link", options->link, "symbolic link to the terminal while the command runs");
     command->add_option("--seconds", options->seconds, "end after this time [s] (0: until Ctrl-C)")
         ->check(numberIn(Range::between(0.0, 86400.0)));

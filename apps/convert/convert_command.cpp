@@ -73,7 +73,7 @@ void convert(const ConvertOptions& options) {
 void addConvertCommand(CLI::App& app) {
     const auto options = std::make_shared<ConvertOptions>();
     CLI::App* command = app.add_subcommand("convert", "write a recording as a TUM RGB-D folder or as MCAP");
-    command->add_option("source", options->source, "a recording, as for --source")->required();
+    command->add_option("SOURCE", options->source, "a recording, as for --source")->required();
     command->add_option("--out", options->out, "folder of the result; must not contain a recording yet")
         ->required();
     command->add_option("--format", options->format,

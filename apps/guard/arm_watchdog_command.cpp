@@ -2,6 +2,7 @@
 #include "apps/guard/arm_watchdog_command.h"
 
 #include "apps/binding/arm_watchdog.h"
+#include "apps/number_option.h"
 #include "devices/serial/line_guard.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
@@ -47,7 +48,7 @@ void addArmWatchdogCommand(CLI::App& app) {
     command->group(""); // not in the help
     command->add_option("PROTOCOL", *protocol)
         ->required()
-        ->check(CLI::IsMember({protocolName(SceneArm::Driver::Protocol::ReachAlpha5),
+        ->check(wordIn({protocolName(SceneArm::Driver::Protocol::ReachAlpha5),
                                protocolName(SceneArm::Driver::Protocol::ReachBravo7),
                                protocolName(SceneArm::Driver::Protocol::Eca5e)}));
     command->callback([protocol] { guardArm(*protocol); });

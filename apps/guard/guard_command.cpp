@@ -2,6 +2,7 @@
 #include "apps/guard/guard_command.h"
 
 #include "apps/binding/stop_signals.h"
+#include "apps/number_option.h"
 #include "devices/haply/haply_guard.h"
 #include "devices/ros2/ros2_guard.h"
 #include "devices/usb/falcon_guard.h"
@@ -87,7 +88,7 @@ void addGuardCommand(CLI::App& app) {
     CLI::App* command = app.add_subcommand("guard", "drive a haptic device and share it through a socket");
     command->add_option("DEVICE", options->kind, "device to drive")
         ->required()
-        ->check(CLI::IsMember({"falcon", "haply", "ros2"}));
+        ->check(wordIn({"falcon", "haply", "ros2"}));
     command->add_option("--door", options->endpoint,
                         "socket to listen on (default: $XDG_RUNTIME_DIR/fathom-DEVICE.door)");
     command->add_option("--firmware", options->firmware,

@@ -67,7 +67,7 @@ void addInspectCommand(CLI::App& app) {
         app.add_subcommand("inspect", "say what a recording or camera holds, and what is taken of it");
     const auto source = std::make_shared<std::string>();
     const auto out = std::make_shared<std::string>();
-    command->add_option("source", *source, "a recording or a live camera, as for --source")->required();
+    command->add_option("SOURCE", *source, "a recording or a live camera, as for --source")->required();
     command->add_option("--out", *out,
                         "folder for the first frame as depth.png and colour.png, and for histograms.png");
     command->callback([source, out] {

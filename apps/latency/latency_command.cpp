@@ -66,7 +66,7 @@ void addLatencyCommand(CLI::App& app, const GlobalOptions& global, WindowLoad wi
     command->add_option("--seconds", request->run.seconds, "length of each part [s] (10)")
         ->check(numberIn(Range::between(0.5, 86400.0)));
     command->add_option("--load", request->loads, "idle, frames or window; may be repeated (default: all)")
-        ->check(CLI::IsMember({"idle", "frames", "window"}));
+        ->check(wordIn({"idle", "frames", "window"}));
     command
         ->add_option("--soak", request->soakMinutes,
                      "one run of this many minutes with frames; fails if a frame is lost or memory grows")

@@ -84,7 +84,7 @@ void addOperateCommand(CLI::App& app, const GlobalOptions& global) {
     auto options = std::make_shared<OperateOptions>();
     CLI::App* command = app.add_subcommand("operate", "the operator's window on a live or recorded camera");
     command
-        ->add_option("scene", options->scene,
+        ->add_option("SCENE", options->scene,
                      "scene file (YAML), or the folder of a recording with its scene.yaml")
         ->required();
     command->add_option("--recording", options->recording, "show this recording on a time line");

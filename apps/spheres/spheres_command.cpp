@@ -263,7 +263,7 @@ void addSpheresCommand(CLI::App& app) {
     command->add_option("--scale", options->file.scale, "metres per unit of the file (1), also for spheres")
         ->check(numberIn(Range::between(1e-9, 1e6)));
     command->add_option("--up", options->up, "axis of the file that becomes +z (default: unchanged)")
-        ->check(CLI::IsMember({"x", "y", "z"}));
+        ->check(wordIn({"x", "y", "z"}));
     command->add_flag("--drop-stray", options->file.dropStray, "drop pieces that are far from the rest");
     command->add_option("--link", options->link, "link of a .urdf, .yaml, .xrdf or .json");
     command->add_option("--meshes", options->meshes, "folder to use for package:// in a .urdf");

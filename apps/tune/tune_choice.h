@@ -10,7 +10,7 @@
 
 namespace fathom::tune {
 
-// What the user asks for: exactly one of both.
+// What the user asks for: exactly one of the two.
 struct Request {
     std::optional<double> error; // [mm] largest error of the felt surface
     std::optional<double> time;  // [ms] longest time from camera to force

@@ -14,7 +14,7 @@ namespace {
 
 void checkRequest(const tune::Request& request) {
     if (request.error.has_value() == request.time.has_value()) {
-        throw BadInput("tune", "--error, --time", request.error ? "both" : "neither", "exactly one of both");
+        throw BadInput("tune", "--error, --time", request.error ? "both" : "neither", "exactly one of the two");
     }
 }
 

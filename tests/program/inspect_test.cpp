@@ -73,5 +73,5 @@ TEST_CASE("inspect rejects what is not a source in one line, after the list of s
     stage.write("notes.txt", "no recording");
     checkRefusal({"inspect", (stage / "notes.txt").string()}, {"notes.txt", "kind", "MCAP"});
     checkRefusal({"inspect", (stage / "nowhere").string()}, {"nowhere", "missing"});
-    checkRefusal({"inspect"}, {"source"});
+    checkRefusal({"inspect"}, {"SOURCE"});
 }

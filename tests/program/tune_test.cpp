@@ -105,8 +105,8 @@ TEST_CASE("tune rejects requests and scenes that it cannot serve, each in one li
     const Stage stage;
     stillRecording(stage, 1);
     scene(stage);
-    checkRefusal(command(stage, {}), {"--error, --time", "neither", "exactly one of both"});
-    checkRefusal(command(stage, {"--error", "1", "--time", "1"}), {"both", "exactly one of both"});
+    checkRefusal(command(stage, {}), {"--error, --time", "neither", "exactly one of the two"});
+    checkRefusal(command(stage, {"--error", "1", "--time", "1"}), {"both", "exactly one of the two"});
     checkRefusal(command(stage, {"--error", "-1"}), {"--error", "-1"});
     checkRefusal(command(stage, {"--error", "0"}), {"--error", "0.0001"});
     checkRefusal(command(stage, {"--time", "nan"}), {"--time", "nan"});
