@@ -62,7 +62,7 @@ void runPlan(const PlanOptions& options, const GlobalOptions& global) {
     for (const std::string& dead : deadGates(scene, camera->info())) {
         std::cout << "warning " << dead << "\n";
     }
-    std::cout << "\n";
+    std::cout << "\nin: this scene uses it; out: it does not\n";
     printPlan(std::cout, plan);
     std::cout << "\n" << plan.dispatchesPerFrame() << " dispatches per frame\n";
 }

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kStepP50 = 30.0, kStepP99 = 80.0; // [us]
 constexpr double kFirstFrame = 3.0;                // [s] of a CPU device, all pipelines compiled
-const char* const kStepOf = "the budget is of 256 in contact with 60 k spheres";
+const char* const kStepOf = "the budget is for 256 leaves in contact with 60 000 spheres";
 
 // [ms] Budget of the frame latency, from upload to publication.
 std::optional<double> frameBudget(const Intrinsics& depth, double forbiddenShare, DeviceKind device) {
@@ -35,22 +35,20 @@ std::vector<BudgetFigure> budgetFigures(const ReplaySummary& summary, const Intr
         forbidden += row.role == "forbidden" ? row.pointsMean.value_or(0.0) : 0.0;
     }
     std::vector<BudgetFigure> figures;
-    const auto add = [&](const std::string& what, const char* unit, const std::optional<double>& measured,
-                         double budget) {
+    const auto add = [&](const char* what, const char* unit, const std::optional<double>& measured,
+                         double budget, const std::string& note) {
         if (measured) {
-            figures.push_back({what, unit, *measured, budget});
+            figures.push_back({what, unit, note, *measured, budget});
         }
     };
     if (const auto budget = frameBudget(depth, forbidden / depth.pixels(), device)) {
-        add("frame p50", "ms", summary.frames.latencyMs.p50, *budget);
+        add("frame p50", "ms", summary.frames.latencyMs.p50, *budget, "");
     }
-    const std::string of =
-        " (" + std::to_string(leaves) + (leaves == 1 ? " leaf; " : " leaves; ") + kStepOf + ")";
-    add("step p50" + of, "us", summary.haptic.stepMicros.p50, kStepP50);
-    add("step p99" + of, "us", summary.haptic.stepMicros.p99, kStepP99);
+    const std::string of = std::to_string(leaves) + (leaves == 1 ? " leaf; " : " leaves; ") + kStepOf;
+    add("step p50", "us", summary.haptic.stepMicros.p50, kStepP50, of);
+    add("step p99", "us", summary.haptic.stepMicros.p99, kStepP99, of);
     if (device == DeviceKind::Cpu) {
-        add("first frame (the budget is 1 where the driver has its pipelines cached)", "s",
-            summary.frames.first, kFirstFrame);
+        add("first frame", "s", summary.frames.first, kFirstFrame, "1 s with cached pipelines");
     }
     return figures;
 }

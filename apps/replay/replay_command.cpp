@@ -12,9 +12,11 @@
 #include "engine/types/error.h"
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <iomanip>
 #include <iostream>
 #include <memory>
+#include <sstream>
 
 namespace fathom {
 
@@ -22,10 +24,21 @@ namespace {
 
 constexpr double kPenetrationLimit = 1e-5; // [m] limit of the penetration in every run
 
+// Four digits, but never an exponent for a large number.
+std::string decimal(double x) {
+    std::ostringstream text;
+    if (std::abs(x) >= 1e4) {
+        text << std::fixed << std::setprecision(0) << x;
+    } else {
+        text << std::setprecision(4) << x;
+    }
+    return text.str();
+}
+
 void printPart(const char* name, const Percentiles& p, const char* unit) {
     if (p.p50) {
-        std::cout << name << " p50 " << *p.p50 << " p99 " << *p.p99 << " max " << *p.max << " " << unit
-                  << "\n";
+        std::cout << name << " p50 " << decimal(*p.p50) << " p99 " << decimal(*p.p99) << " max "
+                  << decimal(*p.max) << " " << unit << "\n";
     }
 }
 
@@ -50,7 +63,7 @@ void print(const ReplaySummary& s, const std::filesystem::path& out) {
     std::cout << "frames       " << s.frames.count << " used, " << s.frames.skipped << " skipped on "
               << s.device << "\n";
     if (s.frames.first) {
-        std::cout << "  first      " << *s.frames.first << " s after the start of the program\n";
+        std::cout << "  first set  " << *s.frames.first << " s after program start\n";
     }
     printPart("  passes    ", s.frames.gpuMs, "ms");
     printPart("  latency   ", s.frames.latencyMs, "ms");
@@ -62,7 +75,7 @@ void print(const ReplaySummary& s, const std::filesystem::path& out) {
               << " N m, stiffness " << s.haptic.stiffness.value_or(0.0) << " N/m\n"
               << "  penetration ";
     if (s.haptic.maxPenetration) {
-        std::cout << *s.haptic.maxPenetration * 1e6 << " um beyond the allowance\n";
+        std::cout << *s.haptic.maxPenetration * 1e6 << " um\n";
     } else {
         std::cout << "not audited\n";
     }
@@ -83,7 +96,8 @@ void printBudgets(const ReplaySummary& summary, const Session& session) {
     const size_t leaves = summary.arm ? summary.arm->leaves : session.tool.leafCount();
     for (const BudgetFigure& f :
          budgetFigures(summary, session.camera->info().depth, session.cycles.facts().kind, leaves)) {
-        std::cout << "budget       " << f.what << " " << f.measured << " of " << f.budget << " " << f.unit
+        std::cout << "budget       " << f.what << " " << decimal(f.measured) << " " << f.unit << ", at most "
+                  << f.budget << " " << f.unit << (f.note.empty() ? "" : " (" + f.note + ")")
                   << (f.holds() ? ", met\n" : ", MISSED\n");
     }
 }
@@ -216,6 +230,9 @@ int runReplay(const ReplayOptions& asked, const GlobalOptions& global) {
         throw BadInput("replay", "--picture-rate", std::to_string(options.frameRate),
                        "together with --realtime");
     }
+    if (options.seconds > 0.0 && options.handDevice.empty()) {
+        throw BadInput("replay", "--seconds", decimal(options.seconds), "together with --hand-device");
+    }
     const ReplaySummary summary =
         options.realtime ? runRealtime(options, global) : runLockstep(options, global);
     if (summary.haptic.maxPenetration.value_or(0.0) > kPenetrationLimit) {
@@ -253,7 +270,7 @@ void addReplayCommand(CLI::App& app, const GlobalOptions& global, int& result) {
     command
         ->add_option("--query", options->query,
                      "device that finds contacts (default: the scene's contact.where)")
-        ->check(CLI::IsMember({"cpu", "gpu"}));
+        ->check(wordIn({"cpu", "gpu"}));
     command->add_flag("--realtime", options->realtime,
                       "run on threads and the real clock instead of in lockstep");
     command

@@ -1,12 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/scene/plan_items.h"
 
+#include <cstdio>
+
 namespace fathom {
 
 namespace {
 
+std::string millimetres(double metres) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.4g mm", 1e3 * metres);
+    return text;
+}
+
 std::string budgetSentence(const Plan& plan, const Scene& scene) {
-    return "error budget " + std::to_string(scene.errorBudget * 1e3) + " mm" +
+    return "error budget " + millimetres(scene.errorBudget) +
            (plan.byPixel ? ", within the pass spheres" : "");
 }
 

@@ -61,8 +61,10 @@ TEST_CASE("A figure that was not measured has no budget line") {
 TEST_CASE("The budget of a tick states the tool's number of leaves and the number that it assumes") {
     const auto figures = budgetFigures(summaryWith(0.0), image(640, 480), DeviceKind::Other, 8);
     REQUIRE(figures.size() == 2);
-    CHECK(figures[0].what == "step p50 (8 leaves; the budget is of 256 in contact with 60 k spheres)");
-    CHECK(figures[1].what == "step p99 (8 leaves; the budget is of 256 in contact with 60 k spheres)");
-    CHECK(budgetFigures(summaryWith(0.0), image(640, 480), DeviceKind::Other, 1)[0].what.find("(1 leaf; ") !=
+    CHECK(figures[0].what == "step p50");
+    CHECK(figures[1].what == "step p99");
+    CHECK(figures[0].note == "8 leaves; the budget is for 256 leaves in contact with 60 000 spheres");
+    CHECK(figures[1].note == figures[0].note);
+    CHECK(budgetFigures(summaryWith(0.0), image(640, 480), DeviceKind::Other, 1)[0].note.find("1 leaf; ") !=
           std::string::npos);
 }
