@@ -107,8 +107,8 @@ void runRegister(const RegisterOptions& options) {
     const RobustFit robust = fitRobust(pairs, {options.bound, fromPoints ? 0.0 : kBadCorners}, *from);
     const RigidFit& fit = robust.fit;
     const std::string yaml = asYaml(fit);
-    std::cout << "# " << pairs.size() - robust.outliers.size() << " of " << pairs.size()
-              << " pairs of points fit; RMS distance " << 1e3 * fit.sigma << " mm, largest "
+    std::cout << "# used " << pairs.size() - robust.outliers.size() << " of " << pairs.size()
+              << " pairs; standard deviation " << 1e3 * fit.sigma << " mm, largest distance "
               << 1e3 * fit.worst << " mm (" << fit.worstName << ")\n";
     for (size_t i = 0; i < std::min(robust.outliers.size(), kMaxListed); ++i) {
         const RobustFit::Outlier& outlier = robust.outliers[i];
@@ -140,7 +140,7 @@ void addRegisterCommand(CLI::App& app, const GlobalOptions&) {
     command->add_option("--frames", options->frames, "number of frames to use")->check(CLI::Range(1, 10000));
     command
         ->add_option("--bound", options->bound,
-                     "[m] largest RMS distance of the pairs (0.02); beyond it, the exit code is 1")
+                     "[m] largest standard deviation of the pairs (0.02); beyond it, the exit code is 1")
         ->check(numberIn(Range::between(1e-4, 1.0)));
     command->add_option("--out", options->out, "write the two lines of YAML to this file");
     command->callback([options] { runRegister(*options); });

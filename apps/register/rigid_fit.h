@@ -16,7 +16,7 @@ struct PointPair {
 
 struct RigidFit {
     Pose baseTcamera;
-    double sigma = 0.0; // [m] RMS distance of the pairs, corrected for the remaining degrees of freedom
+    double sigma = 0.0; // [m] standard deviation of the pairs, by the remaining degrees of freedom
     double worst = 0.0; // [m] largest distance
     std::string worstName;
 };

@@ -170,7 +170,7 @@ std::string doubtOf(Pairs pairs, const FitLimits& limits, const Consensus& found
         return "the pairs fit a mirror image: an axis is negated, or two are swapped" + worst;
     }
     if (!(robust.fit.sigma <= limits.residual)) {
-        return print("RMS distance of %.3g mm, over the bound of %.3g mm", 1e3 * robust.fit.sigma,
+        return print("standard deviation of %.3g mm, over the bound of %.3g mm", 1e3 * robust.fit.sigma,
                      1e3 * limits.residual) +
                worst;
     }

@@ -21,7 +21,7 @@ struct RobustFit {
 
 // What to accept.
 struct FitLimits {
-    double residual = 0.02;    // [m] RMS distance of the inliers, and the farthest inlier
+    double residual = 0.02;    // [m] standard deviation of the inliers, and the farthest inlier
     double outlierShare = 0.0; // of all pairs; more raise a doubt
 };
 
