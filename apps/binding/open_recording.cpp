@@ -111,10 +111,9 @@ std::unique_ptr<Camera> openRecording(const SourceRequest& request) {
     case Kind::Unknown:
         break;
     }
-    if (std::filesystem::exists(file, failed)) {
-        throw BadInput(request.file, "kind", "a file of a kind that is not read", kKinds);
-    }
-    return std::make_unique<RecordedCamera>(file, request.options); // says that it is missing
+    const bool exists = std::filesystem::exists(file, failed);
+    throw BadInput(request.file, exists ? "kind" : "file",
+                   exists ? "a file of a kind that is not read" : "missing", kKinds);
 }
 
 } // namespace fathom

@@ -16,7 +16,7 @@ namespace fathom {
 inline constexpr const char* kViewEndpointHelp =
     "socket that sends every tick and fixture set to observers (devices/bridge)";
 inline constexpr const char* kRos2Help = "publish the run as topics of ROS 2 below this name: "
-                                         "/NAME[,KEY=VALUE]... (docs/guide/ros2.md)";
+                                         "NAME or /NAME[,KEY=VALUE]... (docs/guide/ros2.md)";
 
 // Who receives the state of a run.
 struct ObserverOptions {

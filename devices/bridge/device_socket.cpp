@@ -43,7 +43,7 @@ int newSocket() noexcept {
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& what,
                          const std::string& allowed) {
-    throw BadInput("door", path.string(), what, allowed);
+    throw BadInput("socket", path.string(), what, allowed);
 }
 
 const char* const kPathAllowed = "a path of 1 to 107 characters";
@@ -143,7 +143,7 @@ DeviceSocket DeviceSocket::connect(const std::filesystem::path& path) {
         refuse(path, "no permission", "a socket that you may write to (chmod)");
     case ENOENT:
     case ECONNREFUSED:
-        refuse(path, "no program listens", "the socket of a running bridge, such as `fathom guard falcon`");
+        refuse(path, "no bridge listens", "the socket of a running bridge, such as `fathom guard falcon`");
     case EAGAIN:
         refuse(path, "busy", "a bridge without another engine");
     case EPROTOTYPE:
@@ -202,7 +202,7 @@ SocketEvent DeviceSocket::receiveBytes(void* data, size_t size, size_t& got) noe
 std::filesystem::path defaultEndpoint(const std::string& name) {
     const char* folder = std::getenv("XDG_RUNTIME_DIR");
     if (folder == nullptr || *folder == '\0') {
-        throw BadInput("door", "path", "missing, and XDG_RUNTIME_DIR is not set", "--door PATH");
+        throw BadInput("socket", "path", "missing, and XDG_RUNTIME_DIR is not set", "--door PATH");
     }
     return std::filesystem::path(folder) / ("fathom-" + name + ".door");
 }

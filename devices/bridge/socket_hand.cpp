@@ -70,17 +70,17 @@ void SocketHand::awaitFirst(double patience) {
             take(packet);
             return;
         case SocketEvent::Bad:
-            throw BadInput("door", path_.string(),
+            throw BadInput("socket", path_.string(),
                            socketFault(packet.header, got, FATHOM_DOOR_HAND, sizeof packet),
                            "a bridge built for version " + std::to_string(FATHOM_DOOR_VERSION));
         case SocketEvent::Closed:
-            throw BadInput("door", path_.string(), "closed by the bridge", "a bridge without another engine");
+            throw BadInput("socket", path_.string(), "closed by the bridge", "a bridge without another engine");
         case SocketEvent::Empty:
             break;
         }
         const uint64_t now = socketClock();
         if (now >= until) {
-            throw BadInput("door", path_.string(), "no sample",
+            throw BadInput("socket", path_.string(), "no sample",
                            "a bridge that sends one at least every 5 ms");
         }
         pollfd waiting{bridge_.descriptor(), POLLIN, 0};

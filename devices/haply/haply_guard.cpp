@@ -39,7 +39,9 @@ void HaplyGuard::connect() {
     }
     const auto state = readHaplyState(*inventory, device_);
     if (!state) {
-        throw Error(service->place() + ": has no Inverse3" + (device_.empty() ? "" : " '" + device_ + "'"));
+        throw BadInput("haply", service->place(),
+                       "has no Inverse3" + (device_.empty() ? "" : " '" + device_ + "'"),
+                       "a service that lists it");
     }
     device_ = state->device;
     sample_ = state->sample;

@@ -146,11 +146,15 @@ void WebSocket::lost(const std::string& why) const {
     throw DeviceLost(place_ + ": " + why);
 }
 
+void WebSocket::refuse(const std::string& why) const {
+    throw BadInput("haply", place_, why, "a running Haply Inverse Service, or --service HOST:PORT");
+}
+
 void WebSocket::connect(const std::string& host, uint16_t port, std::chrono::milliseconds most) {
     addrinfo hints{}, *found = nullptr;
     hints.ai_socktype = SOCK_STREAM;
     if (const int no = ::getaddrinfo(host.c_str(), std::to_string(port).c_str(), &hints, &found); no != 0) {
-        throw Error(place_ + ": " + ::gai_strerror(no));
+        refuse(::gai_strerror(no));
     }
     std::string why = "no answer";
     for (const addrinfo* one = found; one != nullptr && socket_ < 0; one = one->ai_next) {
@@ -172,7 +176,7 @@ void WebSocket::connect(const std::string& host, uint16_t port, std::chrono::mil
     }
     ::freeaddrinfo(found);
     if (socket_ < 0) {
-        throw Error(place_ + ": " + why);
+        refuse(why);
     }
     const int on = 1;
     ::setsockopt(socket_, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on); // one small message per tick
@@ -188,14 +192,14 @@ void WebSocket::greet(std::chrono::milliseconds most) {
     size_t end = std::string::npos;
     while (end == std::string::npos) {
         if (Clock::now() > until || said.size() > kMaxGreeting) {
-            throw Error(place_ + ": no answer to the handshake");
+            refuse("no answer to the handshake");
         }
         readSome(most, said);
         end = said.find("\r\n\r\n");
     }
     const std::string answer = said.substr(0, end);
     if (answer.find(" 101 ") == std::string::npos || answer.find(kAccept) == std::string::npos) {
-        throw Error(place_ + ": not a WebSocket: " + answer.substr(0, answer.find('\r')).substr(0, 80));
+        refuse("not a WebSocket: " + answer.substr(0, answer.find('\r')).substr(0, 80));
     }
     frames_.add(std::string_view(said).substr(end + 4));
 }

@@ -43,7 +43,7 @@ std::string webSocketFrame(uint8_t kind, std::string_view payload, uint32_t mask
 // One thread.
 class WebSocket {
 public:
-    // Connects, with at most `most` per step. Throws Error with the reason: no listener, or not a WebSocket.
+    // Connects, with at most `most` per step. Throws BadInput with the reason: no listener, or not a WebSocket.
     WebSocket(const std::string& host, uint16_t port, std::chrono::milliseconds most);
     ~WebSocket(); // sends a close frame
     WebSocket(const WebSocket&) = delete;
@@ -63,6 +63,7 @@ private:
     void sendBytes(std::string_view bytes);
     bool readSome(std::chrono::microseconds most, std::string& bytes); // false: nothing came
     [[noreturn]] void lost(const std::string& why) const;
+    [[noreturn]] void refuse(const std::string& why) const;
 
     std::string place_;
     int socket_ = -1;

@@ -48,6 +48,9 @@ bool takeButton(const Ros2Word& word, Ros2HandRequest& request) {
 
 Ros2HandRequest parseRos2HandRequest(const std::string& text) {
     Ros2HandRequest request;
+    if (text.empty()) {
+        throw BadInput("guard", kHandOption, "missing", request.kAllowed);
+    }
     request.place.domain = ros2Domain();
     for (const Ros2Word& word : ros2Words(text)) {
         if (word.name == "preset") {

@@ -40,7 +40,7 @@ public:
 
 private:
     struct Device {
-        UsbFtdi port{kVendor, kProduct};
+        UsbFtdi port{"falcon", kVendor, kProduct};
         FalconLink link{port};
     };
     void open();

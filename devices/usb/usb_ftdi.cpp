@@ -38,12 +38,12 @@ std::string placeOf(libusb_device* device) {
 
 } // namespace
 
-UsbFtdi::UsbFtdi(uint16_t vendor, uint16_t product) {
+UsbFtdi::UsbFtdi(const std::string& name, uint16_t vendor, uint16_t product) {
     if (libusb_init(&context_) != 0) {
         throw Error("libusb cannot be initialised");
     }
     try {
-        open(vendor, product);
+        open(name, vendor, product);
         in_ = libusb_alloc_transfer(0);
         out_ = libusb_alloc_transfer(0);
         libusb_fill_bulk_transfer(
@@ -61,7 +61,7 @@ UsbFtdi::~UsbFtdi() {
     close();
 }
 
-void UsbFtdi::open(uint16_t vendor, uint16_t product) {
+void UsbFtdi::open(const std::string& name, uint16_t vendor, uint16_t product) {
     libusb_device** list = nullptr;
     const ssize_t count = libusb_get_device_list(context_, &list);
     int error = LIBUSB_ERROR_NO_DEVICE;
@@ -79,13 +79,13 @@ void UsbFtdi::open(uint16_t vendor, uint16_t product) {
         error = libusb_claim_interface(handle_, 0);
     }
     if (error == LIBUSB_ERROR_ACCESS) {
-        throw BadInput(idText(vendor, product), place_, "no permission", kUdevRuleHint);
+        throw BadInput(name, place_, "no permission", kUdevRuleHint);
     }
     if (error == LIBUSB_ERROR_BUSY) {
-        throw BadInput(idText(vendor, product), place_, "another program uses it", "an unused device");
+        throw BadInput(name, place_, "another program uses it", "an unused device");
     }
     if (error != 0) {
-        throw BadInput(idText(vendor, product), place_.empty() ? "usb" : place_,
+        throw BadInput(name, place_.empty() ? "USB device " + idText(vendor, product) : place_,
                        place_.empty() ? "not found" : libusb_error_name(error),
                        "a device that is plugged in");
     }

@@ -18,9 +18,9 @@ namespace fathom {
 // at most 64 bytes begins with two bytes of modem status.
 class UsbFtdi final : public FtdiPort {
 public:
-    // The first device with these ids. Throws BadInput when there is none, permission is missing (names the
+    // The first device with these ids; messages call it `name`. Throws BadInput when there is none, permission is missing (names the
     // udev rule), or it is in use.
-    UsbFtdi(uint16_t vendor, uint16_t product);
+    UsbFtdi(const std::string& name, uint16_t vendor, uint16_t product);
     UsbFtdi(const UsbFtdi&) = delete;
     UsbFtdi& operator=(const UsbFtdi&) = delete;
     ~UsbFtdi() override; // flushes pending output, 50 ms at most
@@ -33,7 +33,7 @@ public:
     const std::string& place() const noexcept { return place_; } // "usb 1-1.2"
 
 private:
-    void open(uint16_t vendor, uint16_t product);
+    void open(const std::string& name, uint16_t vendor, uint16_t product);
     void handleEvents(std::chrono::microseconds most) noexcept;
     void onReceived() noexcept;
     void onSent() noexcept;

@@ -45,12 +45,13 @@ VideoNode openDepth(const CameraRequest& request, const std::optional<KnownCamer
     const auto found = std::find_if(nodes.begin(), nodes.end(), fits);
     if (found == nodes.end()) {
         std::string seen = nodes.empty()
-                               ? "not a video device"
+                               ? "no camera found"
                                : "no depth among " + std::to_string(nodes.size()) + " video devices";
         for (const std::string& line : refused) {
             seen += "; " + line;
         }
-        throw BadInput(request.text, "device", seen, kNeedsName);
+        throw BadInput(request.text, "device", seen,
+                       nodes.empty() ? "a connected camera; `fathom devices` lists them" : kNeedsName);
     }
     VideoNode node = std::move(*found);
     nodes.erase(found);

@@ -237,7 +237,7 @@ TEST_CASE(
     "The engine rejects a bridge of another version, a silent bridge, and a socket without a listener") {
     SocketFolder folder;
     const auto attempt = [&] { SocketHand(folder.endpoint(), 4, 0.2); };
-    CHECK(has(refusalOf(attempt), "no program listens"));
+    CHECK(has(refusalOf(attempt), "no bridge listens"));
     std::ofstream(folder.endpoint()) << "text";
     CHECK(has(refusalOf([&] { SocketServer(serverAt(folder.endpoint())); }), "exists and is not a socket"));
     std::filesystem::remove(folder.endpoint());

@@ -256,7 +256,7 @@ TEST_CASE("A live hand without --realtime, with a path or without a bridge is re
     };
     refused({"--hand-device", "falcon"}, "--hand-device: falcon (allowed: together with --realtime)");
     refused({"--view-door", "x"}, "--view-door: x (allowed: together with --realtime)");
-    refused({"--realtime", "--hand-device", (stage / "no.door").string()}, "no program listens");
+    refused({"--realtime", "--hand-device", (stage / "no.door").string()}, "no bridge listens");
     refused({"--realtime", "--hand-device", "spacemouse:/dev/hidraw250"}, "no SpaceMouse");
     refused({"--realtime", "--hand", "--hand-device", "falcon"}, "--hand");
 }

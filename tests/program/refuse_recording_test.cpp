@@ -28,7 +28,7 @@ void checkIntrinsics(const std::string& from, const std::string& to, const std::
 TEST_CASE("A recording folder that is missing, empty, a file or without an index is rejected") {
     Stage stage;
     const std::string folder = (stage / "rec").string();
-    checkRefused(stage, {folder, "folder", "missing", "TUM RGB-D"}, {"--source", folder});
+    checkRefused(stage, {folder, "missing", "a recording folder"}, {"--source", folder});
     stage.write("rec", "a file");
     checkRefused(stage, {folder, "folder", "allowed: "});
     fs::remove(stage / "rec");

@@ -137,7 +137,7 @@ TEST_CASE("Buttons of a joystick are counted before memory is taken") {
 }
 
 TEST_CASE("A request for a device of ROS 2 names what is wrong in it") {
-    CHECK(topicsRefusal("").find("--topics: ") == 0);
+    CHECK(topicsRefusal("").find("guard: --topics: missing (allowed: pose=TOPIC") == 0);
     CHECK(topicsRefusal("wrench=/a").find("--topics: pose: wrench=/a (allowed: pose=TOPIC") == 0);
     CHECK(topicsRefusal("pose=/a,dead_man=1")
               .find("--topics: dead_man: 1 (allowed: together with joy=TOPIC)") == 0);

@@ -108,7 +108,7 @@ TEST_CASE("A missing haptic device, or one given with a recording, is rejected i
     CHECK(rig.close() == 0);
     const auto scene = rig.folder() / "scene.yaml";
     for (const auto& [more, words] :
-         {std::pair(std::vector<std::string>{"--hand-device", "/none/hand.door"}, "door: /none/hand.door"),
+         {std::pair(std::vector<std::string>{"--hand-device", "/none/hand.door"}, "socket: /none/hand.door"),
           std::pair(std::vector<std::string>{"--hand-device", "/none/hand.door", "--recording", "."},
                     "--hand-device: /none/hand.door (allowed: nothing beside a recording)")}) {
         std::vector<std::string> arguments{"operate", scene.string(), "--offscreen", "640x480"};

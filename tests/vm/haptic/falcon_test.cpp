@@ -275,7 +275,7 @@ TEST_CASE("A Falcon without access permission is rejected with the name of the u
             return 98;
         }
         try {
-            UsbFtdi port(FalconGuard::kVendor, FalconGuard::kProduct);
+            UsbFtdi port("falcon", FalconGuard::kVendor, FalconGuard::kProduct);
         } catch (const BadInput& e) {
             const std::string text = e.what();
             return text.find("no permission") != std::string::npos &&
