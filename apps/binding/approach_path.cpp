@@ -16,8 +16,8 @@ constexpr double kFastest = 0.24;    // [m/s] peak speed of a free move
 constexpr double kPushSpeed = 0.10;  // [m/s] peak speed of a push
 constexpr double kPushDepth = 0.020; // [m] beyond the touch
 constexpr double kPushStart = 0.060; // [m] start of a push, before the touch
-constexpr double kClear = 0.030;     // [m] clearance around the stance
-constexpr double kRoom = 0.100; // [m] distance of the first candidate of the stance from the nearest region
+constexpr double kClear = 0.030;     // [m] clearance around the start pose
+constexpr double kRoom = 0.100; // [m] distance of the first candidate of the start pose from the nearest region
 constexpr double kBackStep = 0.020;     // [m]
 constexpr int kMaxBackSteps = 200;      // 4 m: more than the near limit of any camera
 constexpr double kBeforeTarget = 0.060; // [m]
@@ -252,18 +252,18 @@ std::vector<HandWaypoint> approachPath(const Scene& scene, const Tool& tool, con
     }
     const double clearance = grid.maxRadius() + tool.boundingRadius() + kRoom;
     const dvec3 ahead = directionFrom(camera, middle, firstSet.baseTcamera);
-    const dvec3 stance = standBefore(space, camera + nearest * ahead, ahead, clearance, nullptr);
+    const dvec3 start = standBefore(space, camera + nearest * ahead, ahead, clearance, nullptr);
 
-    PathWriter path(stance);
+    PathWriter path(start);
     path.rest(0.5, 0);
     for (const Goal& goal : goals) {
         const dvec3 direction = directionFrom(camera, goal.point, firstSet.baseTcamera);
         const double room = clearance + (goal.role == Role::Guidance ? kBeforeTarget : 0.0);
-        const dvec3 before = standBefore(space, goal.point, direction, room, &stance);
+        const dvec3 before = standBefore(space, goal.point, direction, room, &start);
         path.move(before, kFastest);
         goal.role == Role::Forbidden ? push(path, space, goal, before, direction)
                                      : seek(path, space, goal, before, direction);
-        path.move(stance, kFastest);
+        path.move(start, kFastest);
     }
     path.rest(0.5, 0);
     return path.take();

@@ -14,7 +14,7 @@ namespace fathom {
 
 // Commanded base_T_tool poses every 10 ms from t = 0; the caller converts them with the inverse of hand.map.
 // Visits the classes of points in file order, without those that have no points in the first set, for at
-// least 2 s each. Starts and ends at a stance on the camera's side, clear of every region. Moves have minimum
+// least 2 s each. Starts and ends at a pose on the camera's side, clear of every region. Moves have minimum
 // jerk and at most 0.25 m/s. Outside the pushes the path touches no region. `grid` must be built over
 // firstSet.spheres.
 // - forbidden: approaches along the camera's ray the region's point nearest to its centroid, to 20 mm beyond

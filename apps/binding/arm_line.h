@@ -18,7 +18,7 @@ public:
     virtual bool gone() const noexcept = 0;
     // Waits until the arm may move. Throws Error: it cannot, or `stop`.
     virtual void awaitGuard(const std::atomic<bool>& stop) = 0;
-    // Whether the arm may move now [s]: something else stops it if this process cannot. Does not wait.
+    // True if a watchdog is ready to stop the arm, so it may move at time `now` [s]. Does not wait.
     virtual bool guarded(double now) noexcept = 0;
     // [s] without feedback until the arm counts as absent at the start, and why there is none, for messages.
     virtual double patience() const { return 5.0; }

@@ -14,7 +14,7 @@
 
 namespace fathom {
 
-// One thread. A message that no one subscribes is not made.
+// One thread. No message is made for a topic without subscribers.
 class Ros2Topics {
 public:
     // Throws BadInput, Error.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The gripper of the built-in scene, and where a tool first touches what it is moved towards.
+// The gripper of the built-in scene, and the distance at which a tool first touches an object.
 #pragma once
 
 #include "engine/types/sphere_tree.h"
@@ -15,8 +15,8 @@ inline std::vector<Sphere> gripperLeaves() {
             {{0.028, 0.0, 0.035}, 0.010}, {{-0.028, 0.0, 0.035}, 0.010}};
 }
 
-// Largest distance [m] from `low` on at which touches(distance) is still false, to 0.1 um; at least `high`
-// when nothing is touched before. What is touched is thicker than 20 mm.
+// Distance [m], from `low` to `high`, at which touches() first becomes true, to 0.1 um; `high` or more if it
+// stays false. Objects must be thicker than the search step of 20 mm.
 template <class Touches>
 double firstTouch(double low, double high, Touches&& touches) {
     constexpr double kMarch = 0.02; // [m]

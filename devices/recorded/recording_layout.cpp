@@ -22,9 +22,9 @@ RecordingLayout readOpen3d(const LayoutRequest& request) {
     RecordingLayout layout;
     layout.intrinsics =
         request.lens ? *request.lens : readIntrinsics(folder / "camera_intrinsic.json", ScaleRule::Optional);
-    const bool american = fs::exists(folder / "color");
+    const bool colorSpelling = fs::exists(folder / "color");
     layout.index = pairByNumber({folder / "depth", kDepthEndings},
-                                {folder / (american ? "color" : "rgb"), kColourEndings}, request.depthOnly);
+                                {folder / (colorSpelling ? "color" : "rgb"), kColourEndings}, request.depthOnly);
     return layout;
 }
 
@@ -51,7 +51,7 @@ void checkIdentity(const fs::path& file) {
     }
 }
 
-// Both lenses, at one place.
+// Both lenses, with one pose: the extrinsics are the identity.
 CameraInfo scanNetCamera(const fs::path& folder, const std::vector<IndexLine>& index, bool depthOnly) {
     CameraInfo camera;
     checkIdentity(folder / "extrinsic_depth.txt");

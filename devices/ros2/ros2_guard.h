@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The bridge to a haptic device whose driver is a node of ROS 2: a hand socket to its topics. When the engine
-// fails in any way, the topic of the force says zero.
+// fails in any way, it publishes zero force.
 #pragma once
 
 #include "devices/bridge/socket_server.h"

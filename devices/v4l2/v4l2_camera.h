@@ -49,7 +49,7 @@ public:
 
     uint64_t copied() const { return copied_; }     // frames whose depth was not leased in place
     uint64_t restarts() const { return restarts_; } // restarts of silent streams
-    // Frames whose capture time is the start of exposure as the camera's own metadata tell it.
+    // Frames whose capture time is the start of exposure from the camera's metadata.
     uint64_t exposuresTold() const { return exposuresTold_; }
 
 private:

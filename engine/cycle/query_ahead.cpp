@@ -8,7 +8,7 @@ namespace fathom {
 
 namespace {
 
-constexpr double kForgetAge = 1.0; // [s] in which a late answer is forgotten
+constexpr double kForgetAge = 1.0; // [s] time constant with which the effect of a late answer decays
 
 } // namespace
 

@@ -35,7 +35,7 @@ Share shareOf(const Sphere& s, const Sphere& about) {
 size_t mostHeldBy(const Sphere& s, const PieceGroups& groups) {
     size_t most = 0;
     for (size_t g = 0; g < groups.count(); ++g) {
-        most += shareOf(s, groups.about(g)) == Share::None ? 0 : groups.pieces(g).size();
+        most += shareOf(s, groups.boundOf(g)) == Share::None ? 0 : groups.pieces(g).size();
     }
     return most;
 }
@@ -44,7 +44,7 @@ size_t mostHeldBy(const Sphere& s, const PieceGroups& groups) {
 Bits heldBy(const Sphere& s, const PieceGroups& groups, const Bits& wanted) {
     Bits bits(groups.count(), 0);
     for (size_t g = 0; g < groups.count(); ++g) {
-        const Share share = wanted[g] == 0 ? Share::None : shareOf(s, groups.about(g));
+        const Share share = wanted[g] == 0 ? Share::None : shareOf(s, groups.boundOf(g));
         bits[g] = share == Share::All ? wanted[g] : 0;
         if (share != Share::Some) {
             continue;

@@ -56,7 +56,7 @@ PieceGroups::PieceGroups(const std::vector<CoverPiece>& pieces)
         pieces_.push_back(pieces[p]);
     }
     for (size_t first = 0; first < size(); first += kGroup) {
-        about_.push_back(sphereAbout(this->pieces(first / kGroup)));
+        bounds_.push_back(sphereAbout(this->pieces(first / kGroup)));
     }
 }
 

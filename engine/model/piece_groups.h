@@ -16,19 +16,19 @@ public:
 
     explicit PieceGroups(const std::vector<CoverPiece>& pieces);
 
-    size_t count() const { return about_.size(); }
+    size_t count() const { return bounds_.size(); }
     size_t size() const { return pieces_.size(); }
     std::span<const CoverPiece> pieces(size_t group) const { // all groups but the last are full
         return std::span(pieces_).subspan(group * kGroup, std::min(kGroup, size() - group * kGroup));
     }
-    const Sphere& about(size_t group) const { return about_[group]; } // contains its pieces
+    const Sphere& boundOf(size_t group) const { return bounds_[group]; } // contains its pieces
     // kGroup * group + index in the group, for each piece in input order.
     const std::vector<uint32_t>& places() const { return places_; }
 
 private:
     std::vector<CoverPiece> pieces_;
     std::vector<uint32_t> places_;
-    std::vector<Sphere> about_;
+    std::vector<Sphere> bounds_;
 };
 
 } // namespace fathom

@@ -158,7 +158,7 @@ TEST_CASE("Buttons are guidance and dead-man; an unplugged cap is an open dead-m
 }
 
 TEST_CASE("A cap that is plugged in again resumes from its last pose, every time") {
-    std::atomic<int> next{-1}; // what plugging in puts there
+    std::atomic<int> next{-1}; // device that the next plug-in creates
     int ends[2];
     REQUIRE(::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_NONBLOCK, 0, ends) == 0);
     SpaceMouseHand hand(ends[1], "test mouse", {}, [&] { return next.exchange(-1); });

@@ -27,7 +27,7 @@ TEST_CASE("Every piece is in one group and inside its sphere; all groups but the
             const CoverPiece& there = groups.pieces(place / 64)[place % 64];
             ++seen[place];
             CHECK(there.middle == pieces[p].middle);
-            const Sphere& about = groups.about(place / 64);
+            const Sphere& about = groups.boundOf(place / 64);
             CHECK(there.radiusFrom(about.centre) <= about.radius * (1.0 + 1e-12));
             largest = std::max(largest, about.radius);
         }

@@ -39,8 +39,8 @@ std::vector<int16_t> played(const std::filesystem::path& file) {
     return samples;
 }
 
-// Full turns of the sound wave.
-int turns(const std::vector<int16_t>& samples) {
+// Periods of the sound wave.
+int periods(const std::vector<int16_t>& samples) {
     int count = 0;
     for (size_t i = 1; i < samples.size(); ++i) {
         count += samples[i - 1] < 0 && samples[i] >= 0 ? 1 : 0;
@@ -69,8 +69,8 @@ void touchAgain(WindowRig& rig) {
     REQUIRE(rig.await(more));
 }
 
-// Full turns of the sound wave of a tone.
-int turnsOf(const std::string& tone) {
+// Periods of the sound wave of a tone.
+int periodsOf(const std::string& tone) {
     return tone == "contact" ? 61 : tone == "limit" ? 105 : tone == "stale" ? 117 : 397;
 }
 
@@ -98,7 +98,7 @@ TEST_CASE("A first contact is heard, M turns tones off, and the scene keeps that
     rig.push();
     CHECK(rig.await([&](const json& s) {
         const std::string last = s["console"]["last_tone"];
-        return !last.empty() && std::abs(turns(played(file)) - turnsOf(last)) <= 4;
+        return !last.empty() && std::abs(periods(played(file)) - periodsOf(last)) <= 4;
     }));
     rig.key("m");
     REQUIRE(rig.await([](const json& s) { return s["console"]["tones"] == false; }));
