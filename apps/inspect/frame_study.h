@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the frames of a camera hold: times, depth, colour; and the first frame as pictures.
+// What the frames of a camera hold: times, depth, colour; and the first frame as images.
 #pragma once
 
 #include "apps/inspect/histogram_picture.h"

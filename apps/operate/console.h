@@ -99,7 +99,7 @@ struct Console {
     bool remake = false;                         // recreate the swapchain
     bool undo = false, redo = false, save = false, addPicked = false;
     bool exportPictures = false, stopExport = false; // of a recording (picture_export.h)
-    std::vector<std::string> caption;                // lines under exported pictures (caption.h)
+    std::vector<std::string> caption;                // lines under exported images (caption.h)
     uint32_t shots = 0;                              // screenshots written
     int treeLevel = -1;                              // tree level shown in the 3D view; -1 = none
     double textScale = 1.0;                          // as the pilot wants it

@@ -110,7 +110,7 @@ void addOperateCommand(CLI::App& app, const GlobalOptions& global) {
                         "write what the window shows to this file, one JSON object per line");
     command
         ->add_option("--job", options->job,
-                     "a line under exported pictures, such as vessel or task; give it at most twice")
+                     "a line under exported images, such as vessel or task; give it at most twice")
         ->allow_extra_args(false);
     command->add_option("--folder", options->shots, "where screenshots, traces and recordings go");
     command->callback([options, &global] {

@@ -22,7 +22,7 @@ struct OperateOptions : SessionOptions {
     double ticks = 0.0;           // [s] ends after this much run time in ticks; 0 = never
     double textScale = 0.0;       // 0.75 to 2.5; 0 = the scene's
     std::string state;            // file of JSON lines with the state of the window, for other programs
-    std::vector<std::string> job; // lines under exported pictures
+    std::vector<std::string> job; // lines under exported images
     bool returns = false;         // a recording that was opened from a live run: its window may return to it
     std::string notice;           // shown at the start
     std::string shots; // folder for screenshots (F12), recordings and exports; empty = the working directory

@@ -25,7 +25,7 @@ void PictureExport::start(Console& console) {
     next_ = 0;
     before_ = console.timeLine.t;
     console.timeLine.playing = false;
-    console.noticeUntil = 0.0; // it would be in the pictures
+    console.noticeUntil = 0.0; // it would be in the images
 }
 
 void PictureExport::end(Console& console, const std::string& why) {
@@ -39,7 +39,7 @@ void PictureExport::end(Console& console, const std::string& why) {
         problem = problem.empty() ? e.what() : problem;
     }
     console.timeLine.t = before_;
-    console.notify(printed("exported %u pictures to ", next_) + target_.string() +
+    console.notify(printed("exported %u images to ", next_) + target_.string() +
                    (encoder_ ? "" : ": no ffmpeg, so PNG files") +
                    (problem.empty() ? "" : ", then: " + problem));
 }

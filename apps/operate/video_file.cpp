@@ -100,7 +100,7 @@ VideoFile::~VideoFile() {
 
 void VideoFile::add(const Image& picture) {
     if (picture.width() != width_ || picture.height() != height_) {
-        throw Error("the pictures' size changed from " + sizeText(width_, height_) + " to " +
+        throw Error("the images' size changed from " + sizeText(width_, height_) + " to " +
                     sizeText(picture.width(), picture.height()) + ", which a video cannot");
     }
     picture.beginPixels();

@@ -10,7 +10,7 @@ using namespace fathom;
 using namespace fathom::operate;
 using namespace fathom::testing;
 
-TEST_CASE("A picture of another size ends a video, which keeps the pictures before it") {
+TEST_CASE("An image of another size ends a video, which keeps the images before it") {
     const ScratchFolder scratch;
     const auto encoder = scratch.path() / "encoder", file = scratch.path() / "video.mp4";
     put(encoder, "#!/bin/sh\nfor last; do :; done\ncat > \"$last\"\n");
@@ -19,7 +19,7 @@ TEST_CASE("A picture of another size ends a video, which keeps the pictures befo
     const Image same(8, 4, {0.0, 0.0, 0.0}), other(8, 6, {0.0, 0.0, 0.0});
     video.add(same);
     video.add(same);
-    CHECK_THROWS_WITH_AS(video.add(other), "the pictures' size changed from 8x4 to 8x6, which a video cannot",
+    CHECK_THROWS_WITH_AS(video.add(other), "the images' size changed from 8x4 to 8x6, which a video cannot",
                          Error);
     video.finish();
     CHECK(std::filesystem::file_size(file) == 2 * 8 * 4 * 4);

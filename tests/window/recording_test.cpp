@@ -57,7 +57,7 @@ TEST_CASE("L stores the last seconds, without R, as a recording that opens") {
     closeQuietly(rig);
 }
 
-TEST_CASE("Exported pictures have a caption with time and job below the window") {
+TEST_CASE("Exported images have a caption with time and job below the window") {
     WindowRig rig({"--job", "Vessel A", "--job", "Valve 7"});
     const Screenshot two = rig.shoot("caption");
     CHECK(two.width == 1280);
@@ -89,7 +89,7 @@ TEST_CASE("X exports a recording with captions: PNG files without ffmpeg, a vide
     REQUIRE(rig.awaitNotice("saved: "));
     rig.reopen(rig.folder() / "recording-1");
     const auto images = rig.state()["console"]["time_line"]["pictures"].get<uint32_t>();
-    const std::string exported = "exported " + std::to_string(images) + " pictures";
+    const std::string exported = "exported " + std::to_string(images) + " images";
     const bool installed = std::system("command -v ffmpeg > /dev/null") == 0; // behind the unusable one
     if (!installed) {
         rig.key("x");
