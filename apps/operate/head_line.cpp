@@ -92,7 +92,7 @@ void someFigures(Console& console, const HudInput& input) {
     }
     if (!input.armHolds.empty()) {
         figure(console, input.letters,
-               {"HELD", "by the arm (W: why)", "The arm keeps the tool from following the hand",
+               {"LIMITED", "by the arm (W: why)", "The arm keeps the tool from following the hand",
                 colour::kCaution, "head arm held"});
     }
 }
