@@ -53,7 +53,7 @@ Diagnosis cameraOf(const StepRecord& r, double setRate) {
     const bool known = std::isfinite(r.sceneAge), old = r.sceneAge > Ros2Diagnosis::kOld;
     return {!known ? Level::Stale : (old ? Level::Warning : Level::Ok),
             "fathom: camera",
-            !known ? "no set of regions yet" : (old ? "the scene is old" : "ok"),
+            !known ? "no set of regions yet" : (old ? "the newest frame is too old" : "ok"),
             {{"sets_per_s", number(setRate)},
              {"scene_age_s", number(r.sceneAge)},
              {"frame", std::to_string(r.frame)}}};

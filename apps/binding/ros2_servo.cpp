@@ -94,7 +94,7 @@ void Ros2Servo::receive() {
 
 std::string Ros2Servo::whyHeld(const Ros2Tick& tick) const {
     if (tick.record.armHold) {
-        return "held: forces are off, the scene is old, or the tool is trapped";
+        return "held: forces are off, the newest frame is too old, or the tool is trapped";
     }
     if (measured_.age(bootSeconds()) > kOld) {
         return "held: no measured joints";

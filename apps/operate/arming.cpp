@@ -66,7 +66,7 @@ std::string whyNotArmed(const ArmingInput& input) {
         return "no camera frame has become a set of regions yet: wait for one";
     }
     if (record.sceneAge > kSilent * input.haptics.staleAfter) {
-        return "the scene is " + thousandths(record.sceneAge) + " ms old: check the camera";
+        return "the newest regions are " + thousandths(record.sceneAge) + " ms old: check the camera";
     }
     if (!(input.haptics.forceLimit > 0.0)) {
         return "the force limit is 0: set haptics.limits.force or choose a pilot";

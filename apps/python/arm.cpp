@@ -49,7 +49,7 @@ void bindArm(py::module_& module) {
             "[rad], of sliding joints [m]; 12 values, unused are 0")
         .def_property_readonly("grasp", [](const ArmSetpoint& s) { return s.posture.grasp; })
         .def_readonly("hold", &ArmSetpoint::hold, "stand still; the posture is meaningless")
-        .def_readonly("forces_off", &ArmSetpoint::forcesOff, "the operator has switched forces off")
+        .def_readonly("forces_off", &ArmSetpoint::forcesOff, "the pilot has switched forces off")
         .def_readonly("stamp", &ArmSetpoint::stamp, "[ns] `now` of the step; 0 = no step yet");
     py::class_<ArmPort>(module, "ArmPort", "Connects a real arm: Engine.open_arm(). One thread.")
         .def("report", &report, py::arg("joints"), py::arg("grasp") = 0.0, py::kw_only(),

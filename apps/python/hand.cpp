@@ -35,7 +35,7 @@ void bindFlags(py::module_& module) {
         .value("CONTACT", State::Contact, "at least one fixture pushes")
         .value("ESCAPE", State::Escape, "new fixtures cover the tool; it moves out")
         .value("TRAPPED", State::Trapped, "no motion obeys every fixture: the force ramps out")
-        .value("FADING", State::Fading, "the scene is too old, or forces were switched off")
+        .value("FADING", State::Fading, "the newest frame is too old, or forces were switched off")
         .value("WAITING", State::Waiting, "nothing pushes, and the tool lags behind the hand");
 }
 

@@ -134,7 +134,7 @@ TEST_CASE("Forces come on only with the hand on the tool, a fresh scene and the 
     run.row.record.sceneAge = 0.4; // a slow camera: forces fade between frames
     CHECK(why().empty());
     run.row.record.sceneAge = 0.6;
-    CHECK(why() == "the scene is 600 ms old: check the camera");
+    CHECK(why() == "the newest regions are 600 ms old: check the camera");
     run.row.record.sceneAge = 0.01;
     run.row.record.device.position = run.row.record.tool.position + dvec3(0.0, 0.0, 0.009);
     CHECK(why().empty());

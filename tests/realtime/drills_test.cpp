@@ -25,7 +25,7 @@ struct Fade {
     bool told = true;     // the state was `fading` exactly while the scene was too old
 };
 
-// No force steps beyond the slew limit, and none is left when the scene is 0.61 s old. Where periods were
+// No force steps beyond the slew limit, and none is left when the frame is 0.61 s old. Where periods were
 // missed before that, at most what the slew limit leaves of the last force. Returns the number of ticks with
 // such a scene.
 size_t checkFades(const FakeRun& fake) {
@@ -135,7 +135,7 @@ TEST_CASE("Drill: a camera that stalls for 1 s under threads logs when forces fa
         CHECK(other == 0);
         CHECK(fading == fake.run->staleTicks());
         CHECK((log.count("ms old: forces fade") > 0) == (fading > 0));
-        CHECK((log.count("the scene is fresh again") > 0) == (fading > 0));
+        CHECK((log.count("frames are fresh again") > 0) == (fading > 0));
         CHECK((stall == 0.0 || fading > 0));
     }
 }

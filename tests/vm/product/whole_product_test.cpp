@@ -141,7 +141,7 @@ TEST_CASE("A live camera gives regions that push back; forces fade when it is un
         CHECK((!seen || row.at("tool_z") < 0.4502));
     }
     CHECK(rows.back().at("dev_z") == doctest::Approx(0.47));
-    // Forces act while the scene is fresh. An emulated machine may be too slow; then a message reports it.
+    // Forces act while frames are fresh. An emulated machine may be too slow; then a message reports it.
     const bool fresh = std::any_of(rows.begin(), rows.end(), [](const CsvRow& r) {
         return r.at("contacts") > 0.0 && r.at("scene_age_s") < 0.1;
     });
