@@ -41,7 +41,7 @@ private:
     bool rung_ = false, stop_ = false;
 };
 
-// The authored shapes, from any thread to the writer.
+// The placed shapes, from any thread to the writer.
 class ShapeBox {
 public:
     void set(std::span<const Shape> shapes) {

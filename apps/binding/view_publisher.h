@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sends every tick, every new fixture set and the authored shapes of a realtime run through a view socket.
+// Sends every tick, every new fixture set and the placed shapes of a realtime run through a view socket.
 #pragma once
 
 #include "apps/binding/run_observer.h"

@@ -32,7 +32,7 @@ public:
     // Puts the picked class into a spare row, or the edited gates into their row.
     std::string takePicked(Console& console);
     const std::string& lastTaken() const { return lastTaken_; } // name of the class that it made active
-    // A new authored shape at a point of the base frame with the normal of the surface.
+    // A new placed shape at a point of the base frame with the normal of the surface.
     FixtureClass shapeAt(ShapeKind kind, const dvec3& base, const dvec3& normal) const;
     std::string place(const FixtureClass& shape);           // adds it, unless there are too many
     std::string change(size_t row, const FixtureClass& to); // makes one undo step

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Draws authored shapes and boxes over a view.
+// Draws placed shapes and boxes over a view.
 #pragma once
 
 #include "apps/operate/view_port.h"

@@ -27,7 +27,7 @@ std::string obstacle(const Block& block, const Scene& scene, const Fixtures& set
                std::to_string(pixel / width) + kept;
     }
     case ContactRow::Kind::Shape:
-        return name + ", an authored shape";
+        return name + ", a placed shape";
     case ContactRow::Kind::Equality:
         return name + ", a line to slide along";
     case ContactRow::Kind::Behind:

@@ -61,7 +61,7 @@ public:
         std::vector<SmallestGap> gaps;
     };
     // Fills `out` for the newest fixture set with a host copy and the scene's tool, an arm's tip included:
-    // one gap per pose base_T_tool, or none while there is no set. Only regions of points count, no authored
+    // one gap per pose base_T_tool, or none while there is no set. Only regions of points count, no placed
     // shapes. Batches run one after the other and do not delay answer() on the host; on the device they share
     // its queue. If the device fails, the CPU answers until renew().
     void smallestGaps(std::span<const Pose> baseTtool, GapBatch& out);

@@ -33,7 +33,7 @@ namespace fathom {
 // - Device gone or silent: nothing is rendered in that step, and recorded as such. The tool stays and the
 // hand
 //   is re-indexed when it is back. Three losses within 1 s keep the forces off until 1 s is clean.
-// - A real arm follows the tool (follow()) and stands still, or must because forces are off, the scene is old
+// - A real arm follows the tool (follow()) and stands still, or must because forces are off, the frame is old
 //   or the sample is broken: the tool is held and the force ramps out over 0.2 s; then the tool moves to the
 //   measured arm and the hand is re-indexed to it, so that both resume from there.
 // - A number that is not finite: zero wrench in that step, which is counted; the force then returns from
@@ -56,7 +56,7 @@ public:
     // when the tool moved to the measured arm, which changes pose() and place().
     bool follow(const ArmFollow& told) noexcept;
 
-    // Replaces the authored shapes from the next step on; drops those beyond the room made by the
+    // Replaces the placed shapes from the next step on; drops those beyond the room made by the
     // constructor. Haptic thread, between steps.
     void setShapes(std::span<const Shape> shapes) noexcept {
         scene_.edited = true;

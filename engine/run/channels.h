@@ -18,7 +18,7 @@
 
 namespace fathom {
 
-// Window to haptic thread: the authored shapes from now on.
+// Window to haptic thread: the placed shapes from now on.
 struct ShapeList {
     uint32_t count = 0;
     std::array<Shape, Proxy::kMaxShapes> shapes;

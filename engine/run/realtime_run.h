@@ -43,7 +43,7 @@ public:
     void run(HapticCycle& cycle, HapticDevice& hand, double pathDuration, RunSink& sink,
              const std::atomic<bool>& stop);
 
-    // Any one thread: replaces the authored shapes from the next step on.
+    // Any one thread: replaces the placed shapes from the next step on.
     void setShapes(std::span<const Shape> shapes);
 
     uint64_t framesLost() const { return frames_.lost(); }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Section `fixtures` of a scene file: classes of points and authored shapes.
+// Section `fixtures` of a scene file: classes of points and placed shapes.
 #include "engine/scene/load.h"
 
 #include <algorithm>

@@ -26,10 +26,10 @@ struct Box { // base frame [m], inclusive
 // Role of a fixture: push the tool back, or pull it to a target.
 enum class Role { Forbidden, Guidance };
 
-// Kinds of authored shapes; None: a class of points.
+// Kinds of placed shapes; None: a class of points.
 enum class ShapeKind { None, Sphere, Box, Plane, Cylinder, Line, Axis };
 
-// A row of `fixtures:`. Either a class of points (shape None) or an authored analytic shape.
+// One fixture: a class of points (shape None) or a placed shape.
 struct FixtureClass {
     std::string name;
     Role role = Role::Forbidden;

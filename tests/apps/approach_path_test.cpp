@@ -14,7 +14,7 @@ using namespace fathom;
 namespace {
 
 // The tank's first frame as a fixture set: spheres of 4 cm on a third of the valves' pixels. Row 0 is an
-// authored shape, row 1 the red valve, row 2 a class without points, row 3 the yellow valve, row 4 guidance.
+// placed shape, row 1 the red valve, row 2 a class without points, row 3 the yellow valve, row 4 guidance.
 struct Setting {
     Scene scene;
     Fixtures set;

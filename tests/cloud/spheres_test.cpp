@@ -112,7 +112,7 @@ TEST_CASE("Of several forbidden classes the largest radius wins, then file order
         f.box = Box{{x0, -9, 0}, {x1, 9, 9}};
         return f;
     };
-    // An authored shape is not a point class, so mask bits and file rows differ.
+    // A placed shape is not a point class, so mask bits and file rows differ.
     scene.fixtures = {forbiddenClass("shape", 0.5), boxed(forbiddenClass("small", 0.01), -9, 9),
                       boxed(guidanceClass("goal"), -9, 9), boxed(forbiddenClass("first", 0.03), -9, 0),
                       boxed(forbiddenClass("second", 0.03), -0.1, 9)};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Constraints of an arm besides region spheres, for every link: authored shapes, lines, leaves behind a
+// Constraints of an arm besides region spheres, for every link: placed shapes, lines, leaves behind a
 // surface. Also its grasp.
 #include "tests/haptics/arm_rig.h"
 

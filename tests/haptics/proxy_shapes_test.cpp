@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The proxy with authored shapes, and with leaves that a new frame put behind a surface.
+// The proxy with placed shapes, and with leaves that a new frame put behind a surface.
 #include "engine/haptics/proxy.h"
 
 #include "tests/contact/images.h"

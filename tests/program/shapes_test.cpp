@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scenes with authored shapes only, tools of one to a thousand leaves, and a distant base frame.
+// Scenes with placed shapes only, tools of one to a thousand leaves, and a distant base frame.
 #include "tests/rig/stage.h"
 
 #include <cmath>

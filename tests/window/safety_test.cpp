@@ -193,7 +193,7 @@ TEST_CASE("A shape placed by a click stops the tool, and undo releases it") {
     CHECK(apart > kRadius + kLeaf - 0.012); // a pixel is 10 mm wide
     CHECK(apart < kRadius + kLeaf + 0.012);
     CHECK(glm::distance(vec(stopped["run"]["device"]), centre) < apart - 0.005); // the hand moved on
-    CHECK(stopped["why"].get<std::string>().find("'sphere 1', an authored shape") != std::string::npos);
+    CHECK(stopped["why"].get<std::string>().find("'sphere 1', a placed shape") != std::string::npos);
     rig.key("w");
     REQUIRE(rig.await([](const json& s) { return s["console"]["tab"] == 1; }));
     rig.shoot("shape");

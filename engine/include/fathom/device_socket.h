@@ -10,7 +10,8 @@
  *   for every new sample, at least every 5 ms. The engine sends fathom_door_wrench once per tick.
  * - Safety of the bridge: it must apply zero force before the first wrench, when the engine's end closes,
  *   when no packet arrived for FATHOM_DOOR_SILENCE_NS, and when the newest packet's time_ns is older than
- *   that. After a silence, fade forces in over about 0.1 s.
+ *   that. After a silence, raise forces over about 0.1 s, in addition to the engine's own rise of
+ *   0.2 s after a loss.
  * - Safety of the engine: it treats a silent or missing bridge as an open dead-man switch and then as a
  *   clutch, so the tool stays where it is.
  * - A packet with a wrong size, magic, version or kind ends the connection; its content is not used.
@@ -103,7 +104,7 @@ struct fathom_door_sphere {
     float y;          /**< [m] likewise */
     float z;          /**< [m] likewise */
     float radius;     /**< [m] */
-    uint32_t fixture; /**< row of the scene's fixtures */
+    uint32_t fixture; /**< index into the scene's fixtures */
 };
 
 #define FATHOM_DOOR_SPHERES 256 /**< most spheres of a packet */
@@ -121,7 +122,7 @@ struct fathom_door_regions {
     struct fathom_door_sphere spheres[FATHOM_DOOR_SPHERES]; /**< the first `count` are valid */
 };
 
-/* fathom_door_fixture.kind. All except TARGET are authored shapes. */
+/* fathom_door_fixture.kind. All except TARGET are placed shapes. */
 #define FATHOM_DOOR_TARGET 0u   /**< base_T_tool to which a guidance class pulls */
 #define FATHOM_DOOR_SPHERE 1u   /**< size[0]: radius */
 #define FATHOM_DOOR_BOX 2u      /**< size: edge lengths; centred at the pose */
@@ -136,7 +137,7 @@ struct fathom_door_regions {
 
 /** One target or shape; its kind defines the meaning of the numbers. */
 struct fathom_door_fixture {
-    uint32_t fixture;             /**< row of the scene's fixtures */
+    uint32_t fixture;             /**< index into the scene's fixtures */
     uint32_t kind;                /**< TARGET .. AXIS */
     uint32_t flags;               /**< SEEN and KEEP_IN */
     uint32_t points;              /**< number of points that define a target */
