@@ -5,7 +5,7 @@
 #include "apps/number_option.h"
 #include "devices/haply/haply_guard.h"
 #include "devices/ros2/ros2_guard.h"
-#include "devices/usb/falcon_guard.h"
+#include "devices/usb/falcon_bridge.h"
 #include "engine/haptics/device_preset.h"
 #include "engine/run/thread_placement.h"
 #include "engine/types/error.h"
@@ -76,7 +76,7 @@ void guardDevice(const GuardOptions& options) {
         const auto guard = openRos2Guard(request, endpoint, preset.forceLimit, preset.torqueLimit);
         runGuard(*guard, options, signals);
     } else {
-        FalconGuard guard({endpoint, options.firmware});
+        FalconBridge guard({endpoint, options.firmware});
         runGuard(guard, options, signals);
     }
 }

@@ -45,7 +45,7 @@ struct Stage {
             const auto files = findDeviceFiles();
             return !files.empty() && files[0].kind == DeviceFile::Kind::Falcon && files[0].refused.empty();
         }));
-        guard = std::make_unique<Child>([this] {
+        bridge = std::make_unique<Child>([this] {
             std::signal(SIGHUP, SIG_DFL); // the parent process may ignore it
             const std::string path = folder.endpoint().string();
             return ::execl(FATHOM_PROGRAM, "fathom", "guard", "falcon", "--door", path.c_str(), nullptr);
@@ -63,7 +63,7 @@ struct Stage {
     SocketFolder folder;
     Child engine;
     FalconDevice device;
-    std::unique_ptr<Child> guard;
+    std::unique_ptr<Child> bridge;
 };
 
 } // namespace
@@ -111,28 +111,28 @@ TEST_CASE("Ctrl-C at the bridge while an engine presses leaves zero force and ex
     }
     Stage stage;
     const auto asked = std::chrono::steady_clock::now();
-    stage.guard->signal(ending);
-    CHECK(stage.guard->wait() == 0);
+    stage.bridge->signal(ending);
+    CHECK(stage.bridge->wait() == 0);
     CHECK(stage.forceLasts(asked) < kLongestForce);
     CHECK_FALSE(std::filesystem::exists(stage.folder.endpoint()));
 }
 
 TEST_CASE("A bridge whose log is no longer read continues") {
     Stage stage;
-    stage.guard->signal(SIGPIPE);
+    stage.bridge->signal(SIGPIPE);
     const uint64_t commands = stage.device.commands;
     CHECK(eventually([&] { return stage.device.commands > commands + 20; }));
     CHECK(stage.device.motors() != kStill);
-    stage.guard->signal(SIGTERM);
-    CHECK(stage.guard->wait() == 0);
+    stage.bridge->signal(SIGTERM);
+    CHECK(stage.bridge->wait() == 0);
     CHECK(stage.device.motors() == kStill);
 }
 
 // Not a guarantee: it shows the state of the simulated device. A real one is unknown.
 TEST_CASE("A bridge killed by SIGKILL sends nothing more to the device") {
     Stage stage;
-    stage.guard->signal(SIGKILL);
-    CHECK(stage.guard->wait() == -SIGKILL);
+    stage.bridge->signal(SIGKILL);
+    CHECK(stage.bridge->wait() == -SIGKILL);
     pauseMs(50);
     const uint64_t commands = stage.device.commands;
     pauseMs(100);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The Falcon's bridge on the kernel's own USB stack, with faults, and its socket to an engine.
 #include "devices/bridge/socket_hand.h"
-#include "devices/usb/falcon_guard.h"
+#include "devices/usb/falcon_bridge.h"
 #include "devices/usb/falcon_kinematics.h"
 #include "engine/types/error.h"
 #include "tests/devices/socket_rig.h"
@@ -29,25 +29,25 @@ void placeAt(FalconDevice& device, const dvec3& knob) {
 }
 
 // Retried, because the kernel needs time to enumerate.
-std::unique_ptr<FalconGuard> openGuard(const FalconGuard::Options& options) {
-    std::unique_ptr<FalconGuard> guard;
+std::unique_ptr<FalconBridge> openBridge(const FalconBridge::Options& options) {
+    std::unique_ptr<FalconBridge> bridge;
     std::string fault;
     vm::waitFor([&] {
         try {
-            guard = std::make_unique<FalconGuard>(options);
+            bridge = std::make_unique<FalconBridge>(options);
         } catch (const BadInput& e) {
             fault = e.what();
         }
-        return guard != nullptr;
+        return bridge != nullptr;
     });
-    REQUIRE_MESSAGE(guard, fault);
-    return guard;
+    REQUIRE_MESSAGE(bridge, fault);
+    return bridge;
 }
 
 struct Running { // the bridge on a thread of this process
-    explicit Running(const FalconGuard::Options& options)
-        : guard(openGuard(options))
-        , thread([this] { guard->run(stop); }) {}
+    explicit Running(const FalconBridge::Options& options)
+        : bridge(openBridge(options))
+        , thread([this] { bridge->run(stop); }) {}
     ~Running() { end(); }
     void end() {
         stop = true;
@@ -55,7 +55,7 @@ struct Running { // the bridge on a thread of this process
             thread.join();
         }
     }
-    std::unique_ptr<FalconGuard> guard;
+    std::unique_ptr<FalconBridge> bridge;
     std::atomic<bool> stop{false};
     std::thread thread;
 };
@@ -73,11 +73,11 @@ bool pushes(const FalconDevice& device) {
     return m != kNoTorque && std::abs(m[0]) + std::abs(m[1]) + std::abs(m[2]) > 200;
 }
 
-std::string faultOf(const FalconGuard::Options& options) {
+std::string faultOf(const FalconBridge::Options& options) {
     std::string fault;
     vm::waitFor([&] { // "not found" means that it is not enumerated yet
         try {
-            FalconGuard guard(options);
+            FalconBridge bridge(options);
             fault = "none";
         } catch (const Error& e) {
             fault = e.what();
@@ -132,7 +132,7 @@ TEST_CASE(
         CHECK(device.motors() == kNoTorque);
         step(hand);
     }
-    CHECK(running.guard->figures().faults == 0);
+    CHECK(running.bridge->figures().faults == 0);
 }
 
 TEST_CASE("The exchange survives half a packet, two at once, and a late, dropped or wrong answer") {
@@ -180,7 +180,7 @@ TEST_CASE("The exchange survives half a packet, two at once, and a late, dropped
     CHECK(device.commands > commands);
     running.end();
     CHECK(device.motors() == kNoTorque);
-    const FalconFigures f = running.guard->figures();
+    const FalconFigures f = running.bridge->figures();
     CHECK(f.surplus >= (twofold ? 3u : 0u));
     CHECK((f.late + f.faults + f.surplus > 0 || late));
     CHECK(f.faults <= 3);
@@ -209,7 +209,7 @@ TEST_CASE("A Falcon unplugged in mid-exchange opens the dead-man switch; plugged
     CHECK(device.motors() == kNoTorque); // no position, no force
     device.homed = true;
     CHECK(eventually([&] { return step(hand).buttons == 0 && pushes(device); }));
-    CHECK(running.guard->losses() >= 1);
+    CHECK(running.bridge->losses() >= 1);
 }
 
 TEST_CASE("A Falcon that is not homed gives neither a position nor a force") {
@@ -275,7 +275,7 @@ TEST_CASE("A Falcon without access permission is rejected with the name of the u
             return 98;
         }
         try {
-            UsbFtdi port("falcon", FalconGuard::kVendor, FalconGuard::kProduct);
+            UsbFtdi port("falcon", FalconBridge::kVendor, FalconBridge::kProduct);
         } catch (const BadInput& e) {
             const std::string text = e.what();
             return text.find("no permission") != std::string::npos &&

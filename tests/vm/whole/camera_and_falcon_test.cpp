@@ -131,8 +131,8 @@ struct Stage {
 };
 
 // The bridge process with its socket open.
-struct Guard {
-    explicit Guard(const Stage& stage)
+struct BridgeProcess {
+    explicit BridgeProcess(const Stage& stage)
         : process([&] {
             return runProgram(stage.file("guard.log"),
                               {"guard", "falcon", "--door", stage.folder.endpoint().string()});
@@ -150,7 +150,7 @@ struct Guard {
 TEST_CASE("A surface in the camera's view pushes a Falcon's knob back, and the wrench at the device ends "
           "with the run") {
     Stage stage;
-    Guard guard(stage);
+    BridgeProcess bridge(stage);
     Child engine([&] {
         return runProgram(stage.file("replay.log"),
                           {"replay", stage.file("scene.yaml"), "--realtime", "--device", "llvmpipe",
@@ -183,14 +183,14 @@ TEST_CASE("A surface in the camera's view pushes a Falcon's knob back, and the w
     CHECK(summary["haptic"]["max_penetration_m"].get<double>() <= 1e-5);
     CHECK(summary["haptic"]["max_force_N"].get<double>() > 1.0);
     CHECK(summary["frames"]["count"].get<int>() > 3);
-    guard.process.signal(SIGINT);
-    CHECK(guard.process.wait() == 0);
+    bridge.process.signal(SIGINT);
+    CHECK(bridge.process.wait() == 0);
 }
 
 TEST_CASE("A recording with a live hand has every frame at 30 per second and the knob's path, without forces "
           "at the knob") {
     Stage stage;
-    Guard guard(stage);
+    BridgeProcess bridge(stage);
     Child record([&] {
         return runProgram(stage.file("record.log"),
                           {"record", stage.file("scene.yaml"), "--source",
@@ -234,6 +234,6 @@ TEST_CASE("A recording with a live hand has every frame at 30 per second and the
     CHECK(count > 90);
     CHECK(t == doctest::Approx(3.0).epsilon(0.05)); // lockstep: frame j is at j / 30 s
     CHECK(std::abs(z - first - (kPressed - kOpen)) < 0.002);
-    guard.process.signal(SIGTERM);
-    CHECK(guard.process.wait() == 0);
+    bridge.process.signal(SIGTERM);
+    CHECK(bridge.process.wait() == 0);
 }

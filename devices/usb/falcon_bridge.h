@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The watchdog process of a Falcon: the only process that owns the device. The engine connects through a hand
+// The bridge of a Falcon: the only process that owns the device. The engine connects through a hand
 // socket; when the engine fails in any way, the device gets zero force.
 #pragma once
 
@@ -16,7 +16,7 @@ namespace fathom {
 
 // One thread. It is unknown what the hardware does when this process itself dies between two packets: no
 // source states whether the firmware stops the motors.
-class FalconGuard {
+class FalconBridge {
 public:
     // Path of the socket, and the firmware for a device after power-on.
     struct Options {
@@ -24,8 +24,8 @@ public:
         std::filesystem::path firmware; // empty = none: a device without firmware is rejected
     };
     // Opens the device and the socket. Throws BadInput, Error, DeviceLost.
-    explicit FalconGuard(const Options& options);
-    ~FalconGuard(); // sends zero force
+    explicit FalconBridge(const Options& options);
+    ~FalconBridge(); // sends zero force
 
     // Runs until `stop`, then sends zero force. A lost device is searched four times per second, and the
     // engine is informed meanwhile.

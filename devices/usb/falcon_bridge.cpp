@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "devices/usb/falcon_guard.h"
+#include "devices/usb/falcon_bridge.h"
 
 #include "devices/usb/falcon_firmware.h"
 #include "engine/types/error.h"
@@ -17,7 +17,7 @@ constexpr double kNoTorque = 0.0; // the knob only translates
 
 } // namespace
 
-FalconGuard::FalconGuard(const Options& options)
+FalconBridge::FalconBridge(const Options& options)
     : firmware_(options.firmware.empty() ? std::vector<uint8_t>() : readFalconFirmware(options.firmware))
     , device_(std::make_unique<Device>())
     , endpoint_({options.endpoint, "falcon", "Novint Falcon", FalconDrive::kForceLimit, kNoTorque})
@@ -25,11 +25,11 @@ FalconGuard::FalconGuard(const Options& options)
     device_->link.start(firmware_);
 }
 
-FalconGuard::~FalconGuard() {
+FalconBridge::~FalconBridge() {
     close();
 }
 
-void FalconGuard::open() {
+void FalconBridge::open() {
     auto device = std::make_unique<Device>();
     device->link.start(firmware_);
     place_ = device->port.place();
@@ -38,7 +38,7 @@ void FalconGuard::open() {
     log::warn("falcon: back at {}", place_);
 }
 
-void FalconGuard::close() noexcept {
+void FalconBridge::close() noexcept {
     if (!device_) {
         return;
     }
@@ -53,14 +53,14 @@ void FalconGuard::close() noexcept {
     placed_ = false;
 }
 
-void FalconGuard::tellHoming(bool homed) {
+void FalconBridge::tellHoming(bool homed) {
     if (told_ != homed) {
         told_ = homed;
         log::warn("falcon: {}", homed ? "homed" : "not homed: pull the knob out and push it in");
     }
 }
 
-void FalconGuard::exchange() {
+void FalconBridge::exchange() {
     endpoint_.poll();
     FalconCommand command;
     command.motor = placed_ ? drive_.motors(endpoint_.wrench().force) : command.motor;
@@ -75,7 +75,7 @@ void FalconGuard::exchange() {
     }
 }
 
-void FalconGuard::waitForDevice(const std::atomic<bool>& stop) {
+void FalconBridge::waitForDevice(const std::atomic<bool>& stop) {
     const auto until = std::chrono::steady_clock::now() + kSearchPause;
     while (!stop.load() && std::chrono::steady_clock::now() < until) {
         endpoint_.poll();
@@ -89,7 +89,7 @@ void FalconGuard::waitForDevice(const std::atomic<bool>& stop) {
     }
 }
 
-void FalconGuard::run(const std::atomic<bool>& stop) {
+void FalconBridge::run(const std::atomic<bool>& stop) {
     while (!stop.load()) {
         if (!device_) {
             waitForDevice(stop);
