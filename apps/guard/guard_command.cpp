@@ -3,7 +3,7 @@
 
 #include "apps/binding/stop_signals.h"
 #include "apps/number_option.h"
-#include "devices/haply/haply_guard.h"
+#include "devices/haply/haply_bridge.h"
 #include "devices/ros2/ros2_guard.h"
 #include "devices/usb/falcon_bridge.h"
 #include "engine/haptics/device_preset.h"
@@ -51,8 +51,8 @@ void runGuard(Guard& guard, const GuardOptions& options, const StopSignals& sign
               << guard.endpoint().gate().silences() << " engine timeouts" << std::endl;
 }
 
-HaplyGuard::Options haplyOptions(const GuardOptions& options, const std::filesystem::path& endpoint) {
-    HaplyGuard::Options haply{endpoint, "", 0, options.device};
+HaplyBridge::Options haplyOptions(const GuardOptions& options, const std::filesystem::path& endpoint) {
+    HaplyBridge::Options haply{endpoint, "", 0, options.device};
     const size_t colon = options.service.rfind(':');
     const std::string port = colon == std::string::npos ? "" : options.service.substr(colon + 1);
     const auto [end, error] = std::from_chars(port.data(), port.data() + port.size(), haply.port);
@@ -68,7 +68,7 @@ void guardDevice(const GuardOptions& options) {
     const std::filesystem::path endpoint =
         options.endpoint.empty() ? defaultEndpoint(options.kind) : std::filesystem::path(options.endpoint);
     if (options.kind == "haply") {
-        HaplyGuard guard(haplyOptions(options, endpoint));
+        HaplyBridge guard(haplyOptions(options, endpoint));
         runGuard(guard, options, signals);
     } else if (options.kind == "ros2") {
         const Ros2HandRequest request = parseRos2HandRequest(options.topics);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The bridge of an Inverse3 between an engine and a simulated service.
 #include "devices/bridge/socket_hand.h"
-#include "devices/haply/haply_guard.h"
+#include "devices/haply/haply_bridge.h"
 #include "engine/types/error.h"
 #include "tests/devices/haply_service.h"
 #include "tests/devices/socket_rig.h"
@@ -17,8 +17,8 @@ namespace {
 // The bridge on its own thread, and an engine that pushes with 2 N along z.
 struct Loop {
     explicit Loop(uint16_t port)
-        : guard({folder.endpoint(), "127.0.0.1", port, ""})
-        , thread([this] { guard.run(stop); })
+        : bridge({folder.endpoint(), "127.0.0.1", port, ""})
+        , thread([this] { bridge.run(stop); })
         , hand(folder.endpoint(), 4) {}
     ~Loop() { end(); }
     void end() {
@@ -38,7 +38,7 @@ struct Loop {
     }
 
     SocketFolder folder;
-    HaplyGuard guard;
+    HaplyBridge bridge;
     std::atomic<bool> stop{false};
     std::thread thread;
     SocketHand hand;
@@ -60,7 +60,7 @@ TEST_CASE("The pose of an Inverse3 reaches the engine, the engine's force reache
           "force is zero") {
     HaplyService service;
     Loop loop(service.port());
-    CHECK(loop.guard.place().find("049D at ws://127.0.0.1:") == 0);
+    CHECK(loop.bridge.place().find("049D at ws://127.0.0.1:") == 0);
     CHECK(loop.hand.preset() == "inverse3");
     CHECK(
         loop.until([](const HandSample& s) { return s.deviceThandle.position == dvec3(0.01, -0.12, 0.1); }));
@@ -70,7 +70,7 @@ TEST_CASE("The pose of an Inverse3 reaches the engine, the engine's force reache
     CHECK(service.first()["session"]["configure"]["profile"]["name"] == "fathom");
     loop.end(); // with the engine still pushing
     CHECK(service.force() == std::array{0.0, 0.0, 0.0});
-    CHECK(loop.guard.figures().faults == 0);
+    CHECK(loop.bridge.figures().faults == 0);
 }
 
 TEST_CASE("An engine that is silent for 10 ms leaves zero force at the service") {
@@ -111,8 +111,8 @@ TEST_CASE("Fragmented, invalid and missing answers do not stop the exchange") {
     service.z = 0.22;
     CHECK(loop.until([](const HandSample& s) { return s.deviceThandle.position.z == 0.22; }));
     loop.end();
-    CHECK(loop.guard.figures().faults == 3);
-    CHECK(loop.guard.figures().late >= 2);
+    CHECK(loop.bridge.figures().faults == 3);
+    CHECK(loop.bridge.figures().late >= 2);
 }
 
 TEST_CASE("A device pulled out of the service, and a service that ends, open the dead-man switch until they "
@@ -146,13 +146,13 @@ TEST_CASE("A device pulled out of the service, and a service that ends, open the
     CHECK(there(true));
     CHECK(loop.until([&](const HandSample&) { return service->force()[2] == 2.0; }));
     loop.end();
-    CHECK(loop.guard.losses() >= 3);
+    CHECK(loop.bridge.losses() >= 3);
 }
 
 TEST_CASE("A missing service, WebSocket or Inverse3, or another Inverse3, is reported") {
     SocketFolder folder;
     const auto said = [&](uint16_t port, const std::string& device = "") {
-        return refusal([&] { HaplyGuard({folder.endpoint(), "127.0.0.1", port, device}); });
+        return refusal([&] { HaplyBridge({folder.endpoint(), "127.0.0.1", port, device}); });
     };
     uint16_t port = 0;
     {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "devices/haply/haply_guard.h"
+#include "devices/haply/haply_bridge.h"
 
 #include "engine/types/error.h"
 #include "engine/types/log.h"
@@ -18,20 +18,20 @@ constexpr const char* kName = "fathom";
 
 } // namespace
 
-HaplyGuard::HaplyGuard(const Options& options)
+HaplyBridge::HaplyBridge(const Options& options)
     : options_(options)
     , device_(options.device)
     , endpoint_({options.endpoint, "inverse3", "Haply Inverse3", kForceLimit, kNoTorque}) {
     connect();
 }
 
-HaplyGuard::~HaplyGuard() {
+HaplyBridge::~HaplyBridge() {
     close();
 }
 
 // On connection the service lists its devices. After a reconnect the same device is chosen again, because the
 // pilot's hand is on it.
-void HaplyGuard::connect() {
+void HaplyBridge::connect() {
     auto service = std::make_unique<WebSocket>(options_.host, options_.port, kConnect);
     const auto inventory = service->receive(kConnect);
     if (!inventory) {
@@ -52,14 +52,14 @@ void HaplyGuard::connect() {
     heardAt_ = Clock::now();
 }
 
-void HaplyGuard::ask(const dvec3& force) {
+void HaplyBridge::ask(const dvec3& force) {
     service_->send(haplyForce(device_, force, introduced_ ? "" : kName));
     introduced_ = awaiting_ = true;
     askedAt_ = Clock::now();
 }
 
 // Reads an answer, if one arrives in time. If it does not contain the device, the device is absent.
-bool HaplyGuard::answered(std::chrono::microseconds most) {
+bool HaplyBridge::answered(std::chrono::microseconds most) {
     const auto message = service_->receive(most);
     if (!message) {
         return false;
@@ -85,7 +85,7 @@ bool HaplyGuard::answered(std::chrono::microseconds most) {
     return true;
 }
 
-void HaplyGuard::exchange() {
+void HaplyBridge::exchange() {
     endpoint_.poll();
     const auto now = Clock::now();
     if (awaiting_ && now - askedAt_ > kReplyTime) {
@@ -108,7 +108,7 @@ void HaplyGuard::exchange() {
 }
 
 // Sends zero force and waits briefly for the answer.
-void HaplyGuard::close() noexcept {
+void HaplyBridge::close() noexcept {
     if (!service_) {
         return;
     }
@@ -121,7 +121,7 @@ void HaplyGuard::close() noexcept {
     there_ = false;
 }
 
-void HaplyGuard::waitForService(const std::atomic<bool>& stop) {
+void HaplyBridge::waitForService(const std::atomic<bool>& stop) {
     const auto until = Clock::now() + kSearchPause;
     while (!stop.load() && Clock::now() < until) {
         endpoint_.poll();
@@ -136,7 +136,7 @@ void HaplyGuard::waitForService(const std::atomic<bool>& stop) {
     }
 }
 
-void HaplyGuard::run(const std::atomic<bool>& stop) {
+void HaplyBridge::run(const std::atomic<bool>& stop) {
     while (!stop.load()) {
         if (!service_) {
             waitForService(stop);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The watchdog process of a Haply Inverse3, which Haply's service drives: a hand socket to that service. When
+// The bridge of a Haply Inverse3, which Haply's service drives: a hand socket to that service. When
 // the engine fails in any way, the service gets zero force.
 #pragma once
 
@@ -22,7 +22,7 @@ struct HaplyFigures {
 
 // One thread. When this process dies, the service ends the force itself, because each force lasts one tick
 // (by its documentation; never tried on the device).
-class HaplyGuard {
+class HaplyBridge {
 public:
     // Path of the socket, and address of the service.
     struct Options {
@@ -32,8 +32,8 @@ public:
         std::string device; // device_id; empty = the first Inverse3
     };
     // Connects and opens the socket. Throws Error (no service, no Inverse3) or BadInput (socket).
-    explicit HaplyGuard(const Options& options);
-    ~HaplyGuard(); // sends zero force
+    explicit HaplyBridge(const Options& options);
+    ~HaplyBridge(); // sends zero force
 
     // Runs until `stop`, then sends zero force. A lost service or device is searched four times per second,
     // and the engine is informed meanwhile.
