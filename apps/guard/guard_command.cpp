@@ -4,7 +4,7 @@
 #include "apps/binding/stop_signals.h"
 #include "apps/number_option.h"
 #include "devices/haply/haply_bridge.h"
-#include "devices/ros2/ros2_guard.h"
+#include "devices/ros2/ros2_bridge.h"
 #include "devices/usb/falcon_bridge.h"
 #include "engine/haptics/device_preset.h"
 #include "engine/run/thread_placement.h"
@@ -73,7 +73,7 @@ void guardDevice(const GuardOptions& options) {
     } else if (options.kind == "ros2") {
         const Ros2HandRequest request = parseRos2HandRequest(options.topics);
         const DevicePreset& preset = devicePreset(request.preset);
-        const auto guard = openRos2Guard(request, endpoint, preset.forceLimit, preset.torqueLimit);
+        const auto guard = openRos2Bridge(request, endpoint, preset.forceLimit, preset.torqueLimit);
         runGuard(*guard, options, signals);
     } else {
         FalconBridge guard({endpoint, options.firmware});

@@ -5,7 +5,7 @@
 #include "engine/types/error.h"
 #include "tests/ros2/client.h"
 #include "tests/ros2/fed_run.h"
-#include "tests/ros2/guard_loop.h"
+#include "tests/ros2/bridge_loop.h"
 #include "tests/ros2/heard.h"
 
 #include <doctest/doctest.h>
@@ -54,7 +54,7 @@ TEST_CASE("Fast DDS subscribers that are late or killed do not keep messages fro
 
 TEST_CASE("A Fast DDS node moves the hand and gets its force; killed, it counts as gone, and its successor "
           "is used") {
-    GuardLoop loop(kPose);
+    BridgeLoop loop(kPose);
     Heard force("/haptic/wrench", "WrenchStamped");
     auto node = std::make_unique<Speaker>(kPose, "PoseStamped");
     CHECK(loop.until(node.get(), "0.1 0 0 0 0 0 1",
@@ -70,7 +70,7 @@ TEST_CASE("A Fast DDS node moves the hand and gets its force; killed, it counts 
 }
 
 TEST_CASE("Another type on the topic, messages that end early and big-endian ones do not move the hand") {
-    GuardLoop loop(kPose);
+    BridgeLoop loop(kPose);
     Speaker stranger(kPose, "TwistStamped");
     bool moved = false;
     loop.until(&stranger, "0.3 0 0 0 0 1", [&, n = 0](const HandSample& sample) mutable {
@@ -78,14 +78,14 @@ TEST_CASE("Another type on the topic, messages that end early and big-endian one
         return ++n == 300;
     });
     CHECK_FALSE(moved);
-    CHECK(loop.guard->figures().faults == 0);
+    CHECK(loop.bridge->figures().faults == 0);
     Speaker node(kPose, "PoseStamped");
     REQUIRE(loop.until(&node, "0.1 0 0 0 0 0 1", [](const HandSample& sample) { return isAt(sample, 0.1); }));
     for (const std::string broken : {"short", "big 0.3 0 0 0 0 0 1", "0.3 0 0"}) {
-        const uint64_t before = loop.guard->figures().faults;
+        const uint64_t before = loop.bridge->figures().faults;
         CHECK(loop.until(&node, broken, [&](const HandSample& sample) {
             moved = moved || (sample.present && sample.deviceThandle.position.x == 0.3);
-            return loop.guard->figures().faults >= before + 3;
+            return loop.bridge->figures().faults >= before + 3;
         }));
     }
     CHECK_FALSE(moved);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "devices/ros2/ros2_guard.h"
+#include "devices/ros2/ros2_bridge.h"
 
 #include "devices/bag/ros2_messages.h"
 #include "devices/ros2/first_publisher.h"
@@ -27,7 +27,7 @@ uint64_t utcNanoseconds() {
     return static_cast<uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(now).count());
 }
 
-class GuardOfTopics final : public Ros2Guard {
+class GuardOfTopics final : public Ros2Bridge {
 public:
     GuardOfTopics(const Ros2HandRequest& request, const SocketServer::Options& options)
         : request_(request)
@@ -49,7 +49,7 @@ public:
         return request_.pose + " in domain " + std::to_string(request_.place.domain) + " on network " +
                request_.place.network;
     }
-    const Ros2GuardFigures& figures() const noexcept override { return figures_; }
+    const Ros2BridgeFigures& figures() const noexcept override { return figures_; }
     const SocketServer& endpoint() const noexcept override { return endpoint_; }
 
 private:
@@ -84,7 +84,7 @@ private:
     HandSample sample_;
     std::string frame_;
     std::set<std::string> faults_;
-    Ros2GuardFigures figures_;
+    Ros2BridgeFigures figures_;
     SocketServer endpoint_;
 };
 
@@ -188,7 +188,7 @@ void GuardOfTopics::run(const std::atomic<bool>& stop) {
 
 } // namespace
 
-std::unique_ptr<Ros2Guard> openRos2Guard(const Ros2HandRequest& request,
+std::unique_ptr<Ros2Bridge> openRos2Bridge(const Ros2HandRequest& request,
                                          const std::filesystem::path& endpoint, double forceLimit,
                                          double torqueLimit) {
     return std::make_unique<GuardOfTopics>(

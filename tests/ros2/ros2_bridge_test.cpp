@@ -3,7 +3,7 @@
 // tests/ros2_listener.
 #include "devices/ros2/received_messages.h"
 #include "engine/types/error.h"
-#include "tests/ros2/guard_loop.h"
+#include "tests/ros2/bridge_loop.h"
 #include "tests/ros2/heard.h"
 
 #include <doctest/doctest.h>
@@ -17,13 +17,13 @@ namespace {
 const std::string kPoseTopic = "/haptic/pose", kRest = "0.1 0.2 0.3 0 0 0 1";
 
 // A bridge, its engine, and the device's node.
-struct TopicLoop : GuardLoop {
+struct TopicLoop : BridgeLoop {
     explicit TopicLoop(const std::string& more = "")
-        : GuardLoop(kPoseTopic, more)
+        : BridgeLoop(kPoseTopic, more)
         , node(kPoseTopic, "PoseStamped") {}
     void say(const std::string& line) { node.say(line); }
     bool until(const std::string& line, const std::function<bool(const HandSample&)>& wanted) {
-        return GuardLoop::until(&node, line, wanted);
+        return BridgeLoop::until(&node, line, wanted);
     }
 
     Speaker node;
@@ -99,7 +99,7 @@ TEST_CASE("Poses that end early, are not finite or not rotations are skipped, an
         [&] {
             loop.say("short");
             pauseMs(10);
-            return loop.guard->figures().faults >= 101;
+            return loop.bridge->figures().faults >= 101;
         },
         60));
     CHECK(loop.until(kRest, [](const HandSample& sample) { return near(sample, {0.1, 0.2, 0.3}); }));

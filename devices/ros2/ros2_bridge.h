@@ -12,7 +12,7 @@
 namespace fathom {
 
 // Counters since the start.
-struct Ros2GuardFigures {
+struct Ros2BridgeFigures {
     uint64_t replies = 0; // poses
     uint64_t late = 0;    // poses over kLate after the one before
     uint64_t faults = 0;  // messages that were not usable
@@ -21,15 +21,15 @@ struct Ros2GuardFigures {
 
 // One thread. The node must render no force when it gets none for 10 ms: nothing else ends the force when
 // this process dies.
-class Ros2Guard {
+class Ros2Bridge {
 public:
-    virtual ~Ros2Guard() = default;
+    virtual ~Ros2Bridge() = default;
     // Publishes the force every kPeriod until `stop`, then zero. A device whose poses are missing for
     // kSilence counts as gone, and the engine is informed.
     virtual void run(const std::atomic<bool>& stop) = 0;
 
     virtual std::string place() const = 0;
-    virtual const Ros2GuardFigures& figures() const noexcept = 0;
+    virtual const Ros2BridgeFigures& figures() const noexcept = 0;
     uint64_t losses() const noexcept { return figures().losses; }
     virtual const SocketServer& endpoint() const noexcept = 0;
 
@@ -41,7 +41,7 @@ public:
 
 // endpoint: path of the socket; forceLimit [N], torqueLimit [N m]: of the preset. Throws BadInput: not built
 // in, no Cyclone DDS, the socket or the network cannot be used.
-std::unique_ptr<Ros2Guard> openRos2Guard(const Ros2HandRequest& request,
+std::unique_ptr<Ros2Bridge> openRos2Bridge(const Ros2HandRequest& request,
                                          const std::filesystem::path& endpoint, double forceLimit,
                                          double torqueLimit);
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "devices/bridge/socket_hand.h"
-#include "devices/ros2/ros2_guard.h"
+#include "devices/ros2/ros2_bridge.h"
 #include "tests/devices/socket_rig.h"
 #include "tests/ros2/speaker.h"
 
@@ -13,14 +13,14 @@
 #include <string>
 #include <thread>
 
-struct GuardLoop {
-    explicit GuardLoop(const std::string& pose, const std::string& more = "")
-        : guard(fathom::openRos2Guard(fathom::parseRos2HandRequest("pose=" + pose + ",preset=falcon,domain=" +
+struct BridgeLoop {
+    explicit BridgeLoop(const std::string& pose, const std::string& more = "")
+        : bridge(fathom::openRos2Bridge(fathom::parseRos2HandRequest("pose=" + pose + ",preset=falcon,domain=" +
                                                                    std::to_string(testDomain()) + more),
                                       folder.endpoint(), 8.0, 0.2))
-        , thread([this] { guard->run(stop); })
+        , thread([this] { bridge->run(stop); })
         , hand(folder.endpoint(), 4) {}
-    ~GuardLoop() {
+    ~BridgeLoop() {
         stop = true;
         thread.join();
     }
@@ -41,7 +41,7 @@ struct GuardLoop {
     }
 
     fathom::testing::SocketFolder folder;
-    std::unique_ptr<fathom::Ros2Guard> guard;
+    std::unique_ptr<fathom::Ros2Bridge> bridge;
     std::atomic<bool> stop{false};
     std::thread thread;
     fathom::SocketHand hand;
