@@ -6,8 +6,8 @@
 #include "apps/convert/convert_command.h"
 #include "apps/devices/devices_command.h"
 #include "apps/global_options.h"
-#include "apps/guard/arm_watchdog_command.h"
-#include "apps/guard/guard_command.h"
+#include "apps/watchdog/arm_watchdog_command.h"
+#include "apps/bridge/bridge_command.h"
 #include "apps/inspect/inspect_command.h"
 #include "apps/latency/latency_command.h"
 #include "apps/operate/operate_command.h"
@@ -93,7 +93,7 @@ int run(int argc, char** argv) {
     fathom::addInspectCommand(app);
     fathom::addConvertCommand(app);
     fathom::addRegisterCommand(app, global);
-    fathom::addGuardCommand(app);
+    fathom::addBridgeCommand(app);
     fathom::addArmWatchdogCommand(app);
     fathom::addArmSimulatorCommand(app);
     fathom::addKeepClockCommand(app);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/guard/arm_watchdog_command.h"
+#include "apps/watchdog/arm_watchdog_command.h"
 
 #include "apps/binding/arm_watchdog.h"
 #include "apps/number_option.h"

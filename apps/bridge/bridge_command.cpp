@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/guard/guard_command.h"
+#include "apps/bridge/bridge_command.h"
 
 #include "apps/binding/stop_signals.h"
 #include "apps/number_option.h"
@@ -20,7 +20,7 @@ namespace fathom {
 
 namespace {
 
-struct GuardOptions {
+struct BridgeOptions {
     std::string kind;
     std::string endpoint;
     std::string firmware;
@@ -39,19 +39,19 @@ void hurry() {
     }
 }
 
-template <class Guard>
-void runGuard(Guard& guard, const GuardOptions& options, const StopSignals& signals) {
-    std::cout << options.kind << " at " << guard.place() << ", socket " << guard.endpoint().path().string()
+template <class Bridge>
+void runBridge(Bridge& bridge, const BridgeOptions& options, const StopSignals& signals) {
+    std::cout << options.kind << " at " << bridge.place() << ", socket " << bridge.endpoint().path().string()
               << "; Ctrl-C ends with zero force" << std::endl;
     hurry();
-    guard.run(signals.asked());
-    const auto& f = guard.figures();
+    bridge.run(signals.asked());
+    const auto& f = bridge.figures();
     std::cout << "ended with zero force after " << f.replies << " exchanges; " << f.late << " answers late, "
-              << f.faults << " packets broken, " << guard.losses() << " times unplugged, "
-              << guard.endpoint().gate().silences() << " engine timeouts" << std::endl;
+              << f.faults << " packets broken, " << bridge.losses() << " times unplugged, "
+              << bridge.endpoint().gate().silences() << " engine timeouts" << std::endl;
 }
 
-HaplyBridge::Options haplyOptions(const GuardOptions& options, const std::filesystem::path& endpoint) {
+HaplyBridge::Options haplyOptions(const BridgeOptions& options, const std::filesystem::path& endpoint) {
     HaplyBridge::Options haply{endpoint, "", 0, options.device};
     const size_t colon = options.service.rfind(':');
     const std::string port = colon == std::string::npos ? "" : options.service.substr(colon + 1);
@@ -63,29 +63,30 @@ HaplyBridge::Options haplyOptions(const GuardOptions& options, const std::filesy
     return haply;
 }
 
-void guardDevice(const GuardOptions& options) {
+void bridgeDevice(const BridgeOptions& options) {
     const StopSignals signals;
     const std::filesystem::path endpoint =
         options.endpoint.empty() ? defaultEndpoint(options.kind) : std::filesystem::path(options.endpoint);
     if (options.kind == "haply") {
-        HaplyBridge guard(haplyOptions(options, endpoint));
-        runGuard(guard, options, signals);
+        HaplyBridge bridge(haplyOptions(options, endpoint));
+        runBridge(bridge, options, signals);
     } else if (options.kind == "ros2") {
         const Ros2HandRequest request = parseRos2HandRequest(options.topics);
         const DevicePreset& preset = devicePreset(request.preset);
-        const auto guard = openRos2Bridge(request, endpoint, preset.forceLimit, preset.torqueLimit);
-        runGuard(*guard, options, signals);
+        const auto bridge = openRos2Bridge(request, endpoint, preset.forceLimit, preset.torqueLimit);
+        runBridge(*bridge, options, signals);
     } else {
-        FalconBridge guard({endpoint, options.firmware});
-        runGuard(guard, options, signals);
+        FalconBridge bridge({endpoint, options.firmware});
+        runBridge(bridge, options, signals);
     }
 }
 
 } // namespace
 
-void addGuardCommand(CLI::App& app) {
-    auto options = std::make_shared<GuardOptions>();
-    CLI::App* command = app.add_subcommand("guard", "drive a haptic device and share it through a socket");
+void addBridgeCommand(CLI::App& app) {
+    auto options = std::make_shared<BridgeOptions>();
+    CLI::App* command = app.add_subcommand("guard", "run the bridge of a haptic device, which shares it through a socket");
+    command->alias("bridge");
     command->add_option("DEVICE", options->kind, "device to drive")
         ->required()
         ->check(wordIn({"falcon", "haply", "ros2"}));
@@ -95,10 +96,10 @@ void addGuardCommand(CLI::App& app) {
                         "Falcon firmware file, needed after power-on; not included");
     command->add_option("--service", options->service,
                         "HOST:PORT of Haply's Inverse Service (default: localhost:10001)");
-    command->add_option("--device", options->device, "id of the Inverse3 (default: the first)");
+    command->add_option("--inverse3,--device", options->device, "id of the Inverse3 (default: the first)");
     command->add_option("--topics", options->topics,
                         "pose=TOPIC[,KEY=VALUE]... of the node of ROS 2 that drives the device");
-    command->callback([options] { guardDevice(*options); });
+    command->callback([options] { bridgeDevice(*options); });
 }
 
 } // namespace fathom
