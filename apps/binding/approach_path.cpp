@@ -17,7 +17,8 @@ constexpr double kPushSpeed = 0.10;  // [m/s] peak speed of a push
 constexpr double kPushDepth = 0.020; // [m] beyond the touch
 constexpr double kPushStart = 0.060; // [m] start of a push, before the touch
 constexpr double kClear = 0.030;     // [m] clearance around the start pose
-constexpr double kRoom = 0.100; // [m] distance of the first candidate of the start pose from the nearest region
+constexpr double kRoom =
+    0.100; // [m] distance of the first candidate of the start pose from the nearest region
 constexpr double kBackStep = 0.020;     // [m]
 constexpr int kMaxBackSteps = 200;      // 4 m: more than the near limit of any camera
 constexpr double kBeforeTarget = 0.060; // [m]

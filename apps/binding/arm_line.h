@@ -17,9 +17,9 @@ public:
     // The line is unplugged; only a new one can be used.
     virtual bool gone() const noexcept = 0;
     // Waits until the arm may move. Throws Error: it cannot, or `stop`.
-    virtual void awaitGuard(const std::atomic<bool>& stop) = 0;
+    virtual void awaitWatchdog(const std::atomic<bool>& stop) = 0;
     // True if a watchdog is ready to stop the arm, so it may move at time `now` [s]. Does not wait.
-    virtual bool guarded(double now) noexcept = 0;
+    virtual bool watched(double now) noexcept = 0;
     // [s] without feedback until the arm counts as absent at the start, and why there is none, for messages.
     virtual double patience() const { return 5.0; }
     virtual std::string silence() const { return "no answer"; }

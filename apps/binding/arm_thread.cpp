@@ -18,7 +18,7 @@ using Clock = std::chrono::steady_clock;
 constexpr auto kPause = std::chrono::milliseconds(2);
 constexpr double kHomingTime = 300.0; // [s]
 constexpr double kRetry = 0.5;        // [s] between attempts to reopen the line
-constexpr double kLastWords = 0.2;    // [s] stop commands at the end
+constexpr double kFinalStop = 0.2;    // [s] stop commands at the end
 constexpr double kQuiet = 2.0;        // [s] minimum time between two log lines
 constexpr double kOutside = 0.02;     // [rad], [m] tolerance of the joint limits for calibration errors
 
@@ -84,12 +84,12 @@ ArmPosture ArmThread::inLimits(ArmPosture posture) const {
 }
 
 ArmPosture ArmThread::ready(const std::atomic<bool>& stop) {
-    line_->awaitGuard(stop);
+    line_->awaitWatchdog(stop);
     const double began = secondsAt(Clock::now());
     double heard = began;
     bool told = false;
     for (double now = began;; now = secondsAt(Clock::now())) {
-        if (!line_->guarded(now)) {
+        if (!line_->watched(now)) {
             throw Error(description() + ": its watchdog process ended");
         }
         const bool ready = follower_->home(now);
@@ -142,7 +142,7 @@ ArmStatus ArmThread::exchange(double now) noexcept {
     if (line_) {
         link_.setpoint.refresh();
         ArmSetpoint setpoint = link_.setpoint.front();
-        const bool safe = line_->guarded(now);
+        const bool safe = line_->watched(now);
         setpoint.hold = setpoint.hold || !safe; // no motion without a watchdog
         told = follower_->exchange(now, setpoint, now - secondsAt(setpoint.at));
     }
@@ -197,9 +197,9 @@ void ArmThread::standStill() noexcept {
     if (!line_) {
         return;
     }
-    const double end = secondsAt(Clock::now()) + kLastWords;
-    for (double now = end - kLastWords; now < end && !line_->gone(); now = secondsAt(Clock::now())) {
-        line_->guarded(now);
+    const double end = secondsAt(Clock::now()) + kFinalStop;
+    for (double now = end - kFinalStop; now < end && !line_->gone(); now = secondsAt(Clock::now())) {
+        line_->watched(now);
         line_->device().step(now, ArmCommand{});
         std::this_thread::sleep_for(kPause);
     }

@@ -2,7 +2,7 @@
 #include "apps/binding/arm_watchdog.h"
 
 #include "apps/binding/own_process.h"
-#include "devices/serial/line_guard.h"
+#include "devices/serial/line_watchdog.h"
 #include "engine/types/error.h"
 
 #include <array>
@@ -19,8 +19,8 @@ namespace fathom {
 
 namespace {
 
-constexpr double kBeat = 0.1 * LineGuard::kSilence; // [s]
-constexpr auto kPatience = std::chrono::seconds(1); // time for it to end
+constexpr double kBeat = 0.1 * LineWatchdog::kSilence; // [s]
+constexpr auto kPatience = std::chrono::seconds(1);    // time for it to end
 
 } // namespace
 
@@ -50,7 +50,7 @@ ArmWatchdog::ArmWatchdog(const SerialPort& port, SceneArm::Driver::Protocol prot
 }
 
 ArmWatchdog::~ArmWatchdog() {
-    ::send(socket_, &kGuardFarewell, 1, MSG_NOSIGNAL | MSG_DONTWAIT);
+    ::send(socket_, &kWatchdogGoodbye, 1, MSG_NOSIGNAL | MSG_DONTWAIT);
     ::close(socket_);
     const auto until = std::chrono::steady_clock::now() + kPatience;
     while (::waitpid(process_, nullptr, WNOHANG) == 0) {
@@ -66,7 +66,7 @@ ArmWatchdog::~ArmWatchdog() {
 void ArmWatchdog::hear() noexcept {
     char byte = 0;
     const ssize_t got = ::recv(socket_, &byte, 1, MSG_DONTWAIT);
-    ready_ = ready_ || (got == 1 && byte == kGuardReady);
+    ready_ = ready_ || (got == 1 && byte == kWatchdogReady);
     ended_ = ended_ || got == 0 || (got < 0 && errno != EAGAIN && errno != EINTR);
 }
 
@@ -80,7 +80,7 @@ bool ArmWatchdog::stands() noexcept {
 void ArmWatchdog::alive(double now) noexcept {
     if (now >= next_) {
         next_ = now + kBeat;
-        ::send(socket_, &kGuardAlive, 1,
+        ::send(socket_, &kWatchdogAlive, 1,
                MSG_NOSIGNAL | MSG_DONTWAIT); // a watchdog that hangs lets its socket fill up
     }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The engine's side of an arm's watchdog process (devices/serial/line_guard.h). A separate process stops the
-// arm however the engine ends.
+// The engine's side of an arm's watchdog process (devices/serial/line_watchdog.h). A separate process stops
+// the arm however the engine ends.
 #pragma once
 
 #include "devices/serial/serial_port.h"

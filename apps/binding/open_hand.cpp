@@ -23,8 +23,8 @@ std::unique_ptr<LiveHand> open(const std::string& name, uint32_t clutchBit) {
         return std::make_unique<SpaceMouseHand>(name.substr(std::min(name.size(), kSpaceMouse.size() + 1)),
                                                 options);
     }
-    const bool guarded = name == "falcon" || name == "haply" || name == "ros2"; // through `fathom guard`
-    return std::make_unique<SocketHand>(guarded ? defaultEndpoint(name) : std::filesystem::path(name),
+    const bool bridged = name == "falcon" || name == "haply" || name == "ros2"; // through `fathom guard`
+    return std::make_unique<SocketHand>(bridged ? defaultEndpoint(name) : std::filesystem::path(name),
                                         clutchBit);
 }
 

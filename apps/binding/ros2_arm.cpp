@@ -97,8 +97,8 @@ public:
     ArmDevice& device() noexcept override { return device_; }
     bool gone() const noexcept override { return false; }
     // Nothing here moves the arm, so nothing has to stop it.
-    void awaitGuard(const std::atomic<bool>&) override {}
-    bool guarded(double) noexcept override { return true; }
+    void awaitWatchdog(const std::atomic<bool>&) override {}
+    bool watched(double) noexcept override { return true; }
     double patience() const override { return request_.wait; }
     std::string silence() const override;
 

@@ -52,7 +52,7 @@ std::string SerialArm::description(const Driver& driver, const std::string& port
     return std::string(arm) + " on " + port;
 }
 
-void SerialArm::awaitGuard(const std::atomic<bool>& stop) {
+void SerialArm::awaitWatchdog(const std::atomic<bool>& stop) {
     const auto until = SerialClock::now() + kWatchdogStart;
     while (!watchdog_->stands()) {
         if (stop.load() || watchdog_->ended() || SerialClock::now() > until) {
@@ -63,7 +63,7 @@ void SerialArm::awaitGuard(const std::atomic<bool>& stop) {
 }
 
 // Restarts a killed watchdog without waiting for it.
-bool SerialArm::guarded(double now) noexcept {
+bool SerialArm::watched(double now) noexcept {
     if (watchdog_ && !watchdog_->ended()) {
         watchdog_->alive(now);
         return watchdog_->stands();

@@ -22,8 +22,8 @@ public:
 
     ArmDevice& device() noexcept override { return *device_; }
     bool gone() const noexcept override { return port_.gone(); }
-    void awaitGuard(const std::atomic<bool>& stop) override;
-    bool guarded(double now) noexcept override;
+    void awaitWatchdog(const std::atomic<bool>& stop) override;
+    bool watched(double now) noexcept override;
 
 private:
     std::string description_;

@@ -3,7 +3,7 @@
 
 #include "apps/binding/arm_watchdog.h"
 #include "apps/number_option.h"
-#include "devices/serial/line_guard.h"
+#include "devices/serial/line_watchdog.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
 
@@ -17,7 +17,7 @@ namespace fathom {
 
 namespace {
 
-void guardArm(const std::string& protocol) {
+void watchArm(const std::string& protocol) {
     using Protocol = SceneArm::Driver::Protocol;
     for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE}) {
         std::signal(signal, SIG_IGN); // a signal to the whole group also ends the engine, which is when this
@@ -33,10 +33,10 @@ void guardArm(const std::string& protocol) {
                              : protocol == protocolName(Protocol::ReachBravo7)
                                  ? reachStandStill(ReachKind::Bravo7)
                                  : ecaStandStill();
-    const int found = guardLine(kWatchdogEngine, kWatchdogLine, still);
+    const int found = watchLine(kWatchdogEngine, kWatchdogLine, still);
     if (found > 0) {
         log::warn("arm watchdog: the engine ended or was silent for {} s, {} times: the arm was stopped",
-                  LineGuard::kSilence, found);
+                  LineWatchdog::kSilence, found);
     }
 }
 
@@ -49,9 +49,9 @@ void addArmWatchdogCommand(CLI::App& app) {
     command->add_option("PROTOCOL", *protocol)
         ->required()
         ->check(wordIn({protocolName(SceneArm::Driver::Protocol::ReachAlpha5),
-                               protocolName(SceneArm::Driver::Protocol::ReachBravo7),
-                               protocolName(SceneArm::Driver::Protocol::Eca5e)}));
-    command->callback([protocol] { guardArm(*protocol); });
+                        protocolName(SceneArm::Driver::Protocol::ReachBravo7),
+                        protocolName(SceneArm::Driver::Protocol::Eca5e)}));
+    command->callback([protocol] { watchArm(*protocol); });
 }
 
 } // namespace fathom

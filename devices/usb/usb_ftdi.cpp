@@ -15,7 +15,7 @@ namespace {
 constexpr uint8_t kOutEndpoint = 0x02, kInEndpoint = 0x81, kVendorOut = 0x40;
 constexpr size_t kModemStatus = 2;
 constexpr unsigned kControlTimeout = 500; // [ms]
-constexpr auto kLastWords = std::chrono::milliseconds(50);
+constexpr auto kDrainTime = std::chrono::milliseconds(50);
 constexpr auto kCancelTime = std::chrono::milliseconds(1000);
 
 std::string idText(uint16_t vendor, uint16_t product) {
@@ -177,7 +177,7 @@ void UsbFtdi::take(std::vector<uint8_t>& bytes) {
 
 void UsbFtdi::close() noexcept {
     const auto until = [](auto span) { return std::chrono::steady_clock::now() + span; };
-    for (const auto end = until(kLastWords);
+    for (const auto end = until(kDrainTime);
          outPending_ && !gone_ && std::chrono::steady_clock::now() < end;) {
         handleEvents(std::chrono::milliseconds(1));
     }

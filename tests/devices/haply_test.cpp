@@ -165,6 +165,7 @@ TEST_CASE("A missing service, WebSocket or Inverse3, or another Inverse3, is rep
         service.device = false;
         CHECK(said(port).find("has no Inverse3") != std::string::npos);
     }
-    CHECK(said(port).find("Connection refused (allowed: a running Haply Inverse Service") != std::string::npos);
+    CHECK(said(port).find("Connection refused (allowed: a running Haply Inverse Service") !=
+          std::string::npos);
     CHECK_FALSE(std::filesystem::exists(folder.endpoint()));
 }

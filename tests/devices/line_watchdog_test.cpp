@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The watchdog of an arm whose engine was killed: when it writes, and that the arm understands it wherever
 // the engine's last message was cut off.
-#include "devices/serial/line_guard.h"
+#include "devices/serial/line_watchdog.h"
 #include "devices/simulated/arm_simulator.h"
 
 #include <algorithm>
@@ -17,11 +17,11 @@ namespace {
 
 constexpr double kPeriod = 0.05;
 
-// Number of writes of the guard in from..to [s], checked every millisecond.
-int tells(LineGuard& guard, double from, double to) {
+// Number of writes of the watchdog in from..to [s], checked every millisecond.
+int tells(LineWatchdog& watchdog, double from, double to) {
     int count = 0;
     for (int ms = static_cast<int>(from * 1e3); ms < static_cast<int>(to * 1e3); ++ms) {
-        count += guard.mustTell(1e-3 * ms) ? 1 : 0;
+        count += watchdog.stopDue(1e-3 * ms) ? 1 : 0;
     }
     return count;
 }
@@ -73,9 +73,9 @@ void stopsAfterHalf(const std::vector<uint8_t>& go, const StandStill& still, Pos
         arm.step(0.1);
         CHECK(position(arm) > before);
         arm.receive(still.bytes, answers);
-        const double told = position(arm);
+        const double stopped = position(arm);
         arm.step(1.0);
-        CHECK(position(arm) == told);
+        CHECK(position(arm) == stopped);
     }
 }
 
@@ -92,17 +92,17 @@ struct Pipe {
 } // namespace
 
 TEST_CASE("The watchdog writes nothing while the engine is alive, before it first was, or after a goodbye") {
-    LineGuard guard(kPeriod);
-    CHECK(tells(guard, 0.0, 5.0) == 0); // the engine makes ready
+    LineWatchdog watchdog(kPeriod);
+    CHECK(tells(watchdog, 0.0, 5.0) == 0); // the engine makes ready
     for (int i = 0; i < 100; ++i) {
-        guard.alive(5.0 + 0.1 * i);
-        CHECK(tells(guard, 5.0 + 0.1 * i, 5.1 + 0.1 * i) == 0);
+        watchdog.alive(5.0 + 0.1 * i);
+        CHECK(tells(watchdog, 5.0 + 0.1 * i, 5.1 + 0.1 * i) == 0);
     }
-    guard.farewell();
-    guard.close();
-    CHECK(tells(guard, 15.0, 17.0) == 0);
-    CHECK(guard.over(15.0));
-    LineGuard unused(kPeriod);
+    watchdog.goodbye();
+    watchdog.close();
+    CHECK(tells(watchdog, 15.0, 17.0) == 0);
+    CHECK(watchdog.over(15.0));
+    LineWatchdog unused(kPeriod);
     unused.close(); // nothing was ever commanded
     CHECK(tells(unused, 0.0, 1.0) == 0);
     CHECK(unused.over(0.0));
@@ -110,33 +110,33 @@ TEST_CASE("The watchdog writes nothing while the engine is alive, before it firs
 
 TEST_CASE(
     "When the engine has ended, the watchdog stops the arm at once, repeats it every period, and exits") {
-    LineGuard guard(kPeriod);
-    guard.alive(1.0);
-    guard.close();
-    CHECK(guard.mustTell(1.01));
-    CHECK_FALSE(guard.over(1.02));
-    CHECK(tells(guard, 1.02, 3.0) == 9);
-    CHECK(guard.over(3.0));
-    CHECK(guard.found() == 1);
+    LineWatchdog watchdog(kPeriod);
+    watchdog.alive(1.0);
+    watchdog.close();
+    CHECK(watchdog.stopDue(1.01));
+    CHECK_FALSE(watchdog.over(1.02));
+    CHECK(tells(watchdog, 1.02, 3.0) == 9);
+    CHECK(watchdog.over(3.0));
+    CHECK(watchdog.failures() == 1);
 }
 
 TEST_CASE("The watchdog stops the arm after a silence, releases the line when the engine is back, and "
           "watches for the next one") {
-    LineGuard guard(kPeriod);
-    guard.alive(1.0);
-    CHECK(LineGuard::kSilence == 0.2); // docs/robustness.md, and what the arm's own movement is bounded by
-    CHECK(tells(guard, 1.0, 1.2) == 0);
-    CHECK(tells(guard, 1.2, 1.21) == 1);
-    CHECK(tells(guard, 1.21, 1.32) > 1);
-    guard.alive(1.32);
-    CHECK(tells(guard, 1.32, 1.5) == 0);
-    CHECK(tells(guard, 1.5, 9.0) > 5); // half a second of it
-    CHECK(tells(guard, 9.0, 20.0) == 0);
-    CHECK_FALSE(guard.over(20.0));
-    guard.close();
-    CHECK(tells(guard, 20.0, 22.0) > 5);
-    CHECK(guard.over(22.0));
-    CHECK(guard.found() == 3);
+    LineWatchdog watchdog(kPeriod);
+    watchdog.alive(1.0);
+    CHECK(LineWatchdog::kSilence == 0.2); // docs/robustness.md, and what the arm's own movement is bounded by
+    CHECK(tells(watchdog, 1.0, 1.2) == 0);
+    CHECK(tells(watchdog, 1.2, 1.21) == 1);
+    CHECK(tells(watchdog, 1.21, 1.32) > 1);
+    watchdog.alive(1.32);
+    CHECK(tells(watchdog, 1.32, 1.5) == 0);
+    CHECK(tells(watchdog, 1.5, 9.0) > 5); // half a second of it
+    CHECK(tells(watchdog, 9.0, 20.0) == 0);
+    CHECK_FALSE(watchdog.over(20.0));
+    watchdog.close();
+    CHECK(tells(watchdog, 20.0, 22.0) > 5);
+    CHECK(watchdog.over(22.0));
+    CHECK(watchdog.failures() == 3);
 }
 
 TEST_CASE("The watchdog stops an arm even when the engine's last telegram was truncated") {
@@ -149,30 +149,30 @@ TEST_CASE("The watchdog stops an arm even when the engine's last telegram was tr
 
 TEST_CASE(
     "The watchdog process reports that it is ready, and writes when the engine's end of the pipe closes") {
-    for (const bool farewell : {false, true}) {
-        CAPTURE(farewell);
+    for (const bool goodbye : {false, true}) {
+        CAPTURE(goodbye);
         const StandStill still = ecaStandStill();
         Pipe line(SOCK_SEQPACKET); // a packet a write
         Pipe pipe;
         int found = -1;
-        std::thread serving([&] { found = guardLine(pipe.ends[1], line.ends[1], still); });
+        std::thread serving([&] { found = watchLine(pipe.ends[1], line.ends[1], still); });
         char byte = 0;
         CHECK(::recv(pipe.ends[0], &byte, 1, 0) == 1);
-        CHECK(byte == kGuardReady);
-        pipe.say(kGuardAlive);
-        if (farewell) {
-            pipe.say(kGuardFarewell);
+        CHECK(byte == kWatchdogReady);
+        pipe.say(kWatchdogAlive);
+        if (goodbye) {
+            pipe.say(kWatchdogGoodbye);
         }
         ::shutdown(pipe.ends[0], SHUT_WR);
         serving.join();
-        CHECK(found == (farewell ? 0 : 1));
+        CHECK(found == (goodbye ? 0 : 1));
         int writes = 0;
         std::vector<uint8_t> got(256);
         for (ssize_t size = 0; (size = ::recv(line.ends[0], got.data(), got.size(), MSG_DONTWAIT)) > 0;
              ++writes) {
             CHECK(std::vector<uint8_t>(got.begin(), got.begin() + size) == still.bytes);
         }
-        CHECK(farewell == (writes == 0));
+        CHECK(goodbye == (writes == 0));
     }
 }
 

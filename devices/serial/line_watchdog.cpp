@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/serial/line_watchdog.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <poll.h>
+#include <span>
+#include <sys/socket.h>
+#include <termios.h>
+#include <unistd.h>
+
+namespace fathom {
+
+namespace {
+
+constexpr int kBeat = 10; // [ms] poll period
+
+double seconds() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+// Reads everything pending, so that a backlog does not count as silence.
+void receive(int engine, LineWatchdog& watchdog) noexcept {
+    char bytes[256];
+    for (;;) {
+        const ssize_t got = ::recv(engine, bytes, sizeof bytes, MSG_DONTWAIT);
+        if (got < 0 &&
+            (errno == EINTR || errno == ECONNRESET)) { // data sent before a reset can still be read
+            continue;
+        }
+        if (got == 0 || (got < 0 && errno != EAGAIN)) {
+            watchdog.close();
+        }
+        if (got <= 0) {
+            return;
+        }
+        for (char byte : std::span(bytes, static_cast<size_t>(got))) {
+            byte == kWatchdogGoodbye ? watchdog.goodbye() : watchdog.alive(seconds());
+        }
+    }
+}
+
+} // namespace
+
+void LineWatchdog::alive(double now) noexcept {
+    heardAt_ = now;
+    stoppingSince_ = -1.0;
+}
+
+void LineWatchdog::close() noexcept {
+    if (!closed_) {
+        closed_ = true;
+        stoppingSince_ = -1.0; // resets after a silence as well
+    }
+}
+
+bool LineWatchdog::stopDue(double now) noexcept {
+    const bool silent = heardAt_ >= 0.0 && (closed_ || now - heardAt_ > kSilence);
+    if (saidGoodbye_ || !silent) {
+        return false;
+    }
+    if (stoppingSince_ < 0.0) {
+        stoppingSince_ = next_ = now;
+        ++failures_;
+    }
+    if (now < next_ || now - stoppingSince_ > kStopDuration) {
+        return false;
+    }
+    next_ = now + period_;
+    return true;
+}
+
+bool LineWatchdog::over(double now) const noexcept {
+    const bool stopped = stoppingSince_ >= 0.0 && now - stoppingSince_ > kStopDuration;
+    return saidGoodbye_ || (closed_ && (heardAt_ < 0.0 || stopped));
+}
+
+int watchLine(int engine, int line, const StandStill& still) noexcept {
+    LineWatchdog watchdog(still.period);
+    ::send(engine, &kWatchdogReady, 1, MSG_NOSIGNAL);
+    for (double now = seconds(); !watchdog.over(now); now = seconds()) {
+        receive(engine, watchdog);
+        const int before = watchdog.failures();
+        if (watchdog.stopDue(seconds())) {
+            if (watchdog.failures() > before) { // pending output would move the arm first
+                ::tcflush(line, TCOFLUSH);
+            }
+            (void)!::write(line, still.bytes.data(), still.bytes.size()); // lost telegrams are repeated
+        }
+        pollfd wait{watchdog.closed() ? -1 : engine, POLLIN, 0};
+        ::poll(&wait, 1, kBeat);
+    }
+    return watchdog.failures();
+}
+
+} // namespace fathom
