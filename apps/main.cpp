@@ -2,12 +2,11 @@
 // fathom: haptic virtual fixtures from a live depth camera. Exit codes: 0 success, 1 a stated limit is
 // violated or internal error, 2 bad input, 3 device lost.
 #include "apps/arm_simulator/arm_simulator_command.h"
+#include "apps/bridge/bridge_command.h"
 #include "apps/clock/keep_clock_command.h"
 #include "apps/convert/convert_command.h"
 #include "apps/devices/devices_command.h"
 #include "apps/global_options.h"
-#include "apps/watchdog/arm_watchdog_command.h"
-#include "apps/bridge/bridge_command.h"
 #include "apps/inspect/inspect_command.h"
 #include "apps/latency/latency_command.h"
 #include "apps/operate/operate_command.h"
@@ -20,6 +19,7 @@
 #include "apps/spheres/spheres_command.h"
 #include "apps/stability/stability_command.h"
 #include "apps/tune/tune_command.h"
+#include "apps/watchdog/arm_watchdog_command.h"
 #include "engine/gpu/instance.h"
 #include "engine/gpu/software_threads.h"
 #include "engine/scene/yaml_node.h"
@@ -55,8 +55,8 @@ std::string refusalOf(const CLI::App& app, const CLI::ParseError& error) {
                 allow(command->get_name());
             }
         }
-        return "subcommand: " + (rest.empty() ? "missing" : unknown(rest.front())) +
-               " (allowed: " + allowed + ")";
+        return "subcommand: " + (rest.empty() ? "missing" : unknown(rest.front())) + " (allowed: " + allowed +
+               ")";
     }
     if (!rest.empty()) {
         for (const CLI::App* owner : {static_cast<const CLI::App*>(chosen.back()), &app}) {
@@ -66,7 +66,7 @@ std::string refusalOf(const CLI::App& app, const CLI::ParseError& error) {
                 }
             }
         }
-        return chosen.back()->get_name() +  ": " + unknown(rest.front()) + " (allowed: " + allowed + ")";
+        return chosen.back()->get_name() + ": " + unknown(rest.front()) + " (allowed: " + allowed + ")";
     }
     std::string text = chosen.back()->get_name() + ": " + error.what();
     std::replace(text.begin(), text.end(), '\n', ' ');

@@ -85,7 +85,8 @@ void bridgeDevice(const BridgeOptions& options) {
 
 void addBridgeCommand(CLI::App& app) {
     auto options = std::make_shared<BridgeOptions>();
-    CLI::App* command = app.add_subcommand("guard", "run the bridge of a haptic device, which shares it through a socket");
+    CLI::App* command =
+        app.add_subcommand("guard", "run the bridge of a haptic device, which shares it through a socket");
     command->alias("bridge");
     command->add_option("DEVICE", options->kind, "device to drive")
         ->required()

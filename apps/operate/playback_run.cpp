@@ -188,8 +188,8 @@ void PlaybackRun::draw(double dt) {
 void PlaybackRun::exportPicture() {
     const std::unique_ptr<Image> picture = display_.canvas.picture(display_.console);
     export_.add(display_.console, picture.get());
-    window_.setTitle(printed("Fathom, exports image %u of %u, Esc stops",
-                             display_.console.timeLine.image + 1, display_.console.timeLine.images));
+    window_.setTitle(printed("Fathom, exports image %u of %u, Esc stops", display_.console.timeLine.image + 1,
+                             display_.console.timeLine.images));
     if (!export_.running() || display_.console.timeLine.image + 1 >= display_.console.timeLine.images) {
         window_.setTitle("Fathom, recording " + options_.recording);
     }

@@ -17,7 +17,8 @@ namespace {
 
 const dvec3 kX(1, 0, 0), kY(0, 1, 0), kZ(0, 0, 1);
 
-// Sets the centre and size of the hand's motion from the sphere positions, and the start on the camera's side with 20 mm of clearance.
+// Sets the centre and size of the hand's motion from the sphere positions, and the start on the camera's side
+// with 20 mm of clearance.
 void settle(World& world, const Pose& baseTcamera) {
     const RegionSpheres& s = world.fixtures.spheres;
     if (s.size() == 0) {

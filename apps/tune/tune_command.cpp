@@ -14,7 +14,8 @@ namespace {
 
 void checkRequest(const tune::Request& request) {
     if (request.error.has_value() == request.time.has_value()) {
-        throw BadInput("tune", "--error, --time", request.error ? "both" : "neither", "exactly one of the two");
+        throw BadInput("tune", "--error, --time", request.error ? "both" : "neither",
+                       "exactly one of the two");
     }
 }
 

@@ -74,7 +74,8 @@ void SocketHand::awaitFirst(double patience) {
                            socketFault(packet.header, got, FATHOM_DOOR_HAND, sizeof packet),
                            "a bridge built for version " + std::to_string(FATHOM_DOOR_VERSION));
         case SocketEvent::Closed:
-            throw BadInput("socket", path_.string(), "closed by the bridge", "a bridge without another engine");
+            throw BadInput("socket", path_.string(), "closed by the bridge",
+                           "a bridge without another engine");
         case SocketEvent::Empty:
             break;
         }

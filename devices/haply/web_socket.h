@@ -43,7 +43,8 @@ std::string webSocketFrame(uint8_t kind, std::string_view payload, uint32_t mask
 // One thread.
 class WebSocket {
 public:
-    // Connects, with at most `most` per step. Throws BadInput with the reason: no listener, or not a WebSocket.
+    // Connects, with at most `most` per step. Throws BadInput with the reason: no listener, or not a
+    // WebSocket.
     WebSocket(const std::string& host, uint16_t port, std::chrono::milliseconds most);
     ~WebSocket(); // sends a close frame
     WebSocket(const WebSocket&) = delete;

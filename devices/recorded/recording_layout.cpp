@@ -23,8 +23,9 @@ RecordingLayout readOpen3d(const LayoutRequest& request) {
     layout.intrinsics =
         request.lens ? *request.lens : readIntrinsics(folder / "camera_intrinsic.json", ScaleRule::Optional);
     const bool colorSpelling = fs::exists(folder / "color");
-    layout.index = pairByNumber({folder / "depth", kDepthEndings},
-                                {folder / (colorSpelling ? "color" : "rgb"), kColourEndings}, request.depthOnly);
+    layout.index =
+        pairByNumber({folder / "depth", kDepthEndings},
+                     {folder / (colorSpelling ? "color" : "rgb"), kColourEndings}, request.depthOnly);
     return layout;
 }
 

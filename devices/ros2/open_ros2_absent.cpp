@@ -10,8 +10,8 @@ std::unique_ptr<Camera> openRos2(const std::string& source, bool, double) {
     throw BadInput("--source", "ros2", source, kWithoutRos2);
 }
 
-std::unique_ptr<Ros2Bridge> openRos2Bridge(const Ros2HandRequest& request, const std::filesystem::path&, double,
-                                         double) {
+std::unique_ptr<Ros2Bridge> openRos2Bridge(const Ros2HandRequest& request, const std::filesystem::path&,
+                                           double, double) {
     throw BadInput("guard", "ros2", request.pose, kWithoutRos2);
 }
 

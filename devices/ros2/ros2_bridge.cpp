@@ -189,8 +189,8 @@ void GuardOfTopics::run(const std::atomic<bool>& stop) {
 } // namespace
 
 std::unique_ptr<Ros2Bridge> openRos2Bridge(const Ros2HandRequest& request,
-                                         const std::filesystem::path& endpoint, double forceLimit,
-                                         double torqueLimit) {
+                                           const std::filesystem::path& endpoint, double forceLimit,
+                                           double torqueLimit) {
     return std::make_unique<GuardOfTopics>(
         request,
         SocketServer::Options{endpoint, request.preset, "ROS 2 " + request.pose, forceLimit, torqueLimit});

@@ -42,7 +42,7 @@ public:
 // endpoint: path of the socket; forceLimit [N], torqueLimit [N m]: of the preset. Throws BadInput: not built
 // in, no Cyclone DDS, the socket or the network cannot be used.
 std::unique_ptr<Ros2Bridge> openRos2Bridge(const Ros2HandRequest& request,
-                                         const std::filesystem::path& endpoint, double forceLimit,
-                                         double torqueLimit);
+                                           const std::filesystem::path& endpoint, double forceLimit,
+                                           double torqueLimit);
 
 } // namespace fathom

@@ -18,8 +18,8 @@ namespace fathom {
 // at most 64 bytes begins with two bytes of modem status.
 class UsbFtdi final : public FtdiPort {
 public:
-    // The first device with these ids; messages call it `name`. Throws BadInput when there is none, permission is missing (names the
-    // udev rule), or it is in use.
+    // The first device with these ids; messages call it `name`. Throws BadInput when there is none,
+    // permission is missing (names the udev rule), or it is in use.
     UsbFtdi(const std::string& name, uint16_t vendor, uint16_t product);
     UsbFtdi(const UsbFtdi&) = delete;
     UsbFtdi& operator=(const UsbFtdi&) = delete;

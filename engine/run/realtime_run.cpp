@@ -49,7 +49,8 @@ public:
         const bool stale = record.sceneAge > staleAfter_;
         staleTicks_ += stale ? 1 : 0;
         if (stale && !stale_ && record.t >= quietUntil_) {
-            log::warn("at {:.2f} s the newest frame is {:.0f} ms old: forces fade", record.t, record.sceneAge * 1e3);
+            log::warn("at {:.2f} s the newest frame is {:.0f} ms old: forces fade", record.t,
+                      record.sceneAge * 1e3);
             quietUntil_ = record.t + kQuiet;
             warned_ = true;
         } else if (!stale && warned_) {

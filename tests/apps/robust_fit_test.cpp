@@ -108,7 +108,8 @@ TEST_CASE("Outliers are left out of the fit, listed farthest first, and doubted"
     }
 }
 
-TEST_CASE("Pairs that scatter beyond the bound are doubted with their standard deviation and the worst pairs") {
+TEST_CASE(
+    "Pairs that scatter beyond the bound are doubted with their standard deviation and the worst pairs") {
     const auto pairs = pairsOf(20, 0.03);
     const RobustFit robust = fitRobust(pairs, kByHand, "test");
     CHECK(robust.doubt != "");

@@ -15,9 +15,10 @@
 
 struct BridgeLoop {
     explicit BridgeLoop(const std::string& pose, const std::string& more = "")
-        : bridge(fathom::openRos2Bridge(fathom::parseRos2HandRequest("pose=" + pose + ",preset=falcon,domain=" +
-                                                                   std::to_string(testDomain()) + more),
-                                      folder.endpoint(), 8.0, 0.2))
+        : bridge(fathom::openRos2Bridge(
+              fathom::parseRos2HandRequest("pose=" + pose +
+                                           ",preset=falcon,domain=" + std::to_string(testDomain()) + more),
+              folder.endpoint(), 8.0, 0.2))
         , thread([this] { bridge->run(stop); })
         , hand(folder.endpoint(), 4) {}
     ~BridgeLoop() {

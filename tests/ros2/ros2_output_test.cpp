@@ -88,7 +88,8 @@ TEST_CASE("Diagnostics name the state, the age of the scene, the rates, and a fa
     const Line forces = part("fathom: forces");
     CHECK(forces.holds(" 2 fathom: forces trapped "));
     CHECK(forces.holds("force_n=3.742"));
-    CHECK(part("fathom: camera").holds(" 1 fathom: camera the newest frame is too old sets_per_s=0 scene_age_s=0.25"));
+    CHECK(part("fathom: camera")
+              .holds(" 1 fathom: camera the newest frame is too old sets_per_s=0 scene_age_s=0.25"));
     CHECK(part("fathom: arm").holds(" 2 fathom: arm overloaded "));
     CHECK(diagnostics.until([](const Line& line) { return line.holds("ticks_per_s=1000"); }).any());
 }

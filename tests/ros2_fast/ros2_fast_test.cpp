@@ -3,9 +3,9 @@
 // (tests/ros2_fast_peer).
 #include "devices/ros2/ros2_camera.h"
 #include "engine/types/error.h"
+#include "tests/ros2/bridge_loop.h"
 #include "tests/ros2/client.h"
 #include "tests/ros2/fed_run.h"
-#include "tests/ros2/bridge_loop.h"
 #include "tests/ros2/heard.h"
 
 #include <doctest/doctest.h>

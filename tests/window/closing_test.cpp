@@ -54,7 +54,8 @@ TEST_CASE("Closing an armed window turns forces off, then asks about fixtures th
     rig.key("Return");
     CHECK(rig.awaitEnd() == 0);
     CHECK(rig.sceneText().find("picked 1") != std::string::npos);
-    CHECK(feltIn(rig.folder() / "recording-1" / "wrench.csv", 1, 7).size() > 100); // the recording is complete
+    CHECK(feltIn(rig.folder() / "recording-1" / "wrench.csv", 1, 7).size() >
+          100); // the recording is complete
     CHECK(rig.output().find("validation") == std::string::npos);
 }
 

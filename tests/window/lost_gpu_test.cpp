@@ -73,8 +73,8 @@ void press(const WindowRig& rig) {
     REQUIRE(!rig.atRest().is_null());
 }
 
-// Checks the states without a GPU: ticks continue, the force is zero 0.5 s after the frame is too old, and the
-// tool stays outside the last regions.
+// Checks the states without a GPU: ticks continue, the force is zero 0.5 s after the frame is too old, and
+// the tool stays outside the last regions.
 void checkGone(const std::vector<json>& states, const json& before) {
     std::vector<json> gone;
     std::copy_if(states.begin(), states.end(), std::back_inserter(gone),

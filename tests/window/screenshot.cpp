@@ -27,7 +27,8 @@ double Screenshot::share(const std::array<double, 4>& place,
 Screenshot WindowRig::shoot(const std::string& keep) const {
     const auto before = state()["console"]["shots"].get<int>();
     std::filesystem::path file;
-    for (int i = 1; file.empty() || std::filesystem::exists(file); ++i) { // a later program continues the numbering
+    for (int i = 1; file.empty() || std::filesystem::exists(file);
+         ++i) { // a later program continues the numbering
         file = folder_.path() / ("screenshot-" + std::to_string(i) + ".png");
     }
     key("F12");
