@@ -23,7 +23,6 @@ constexpr std::array kTargets{
     FuzzTarget{"database", readDatabase},
     FuzzTarget{"depth_image", readDepthFile},
     FuzzTarget{"descriptors", readDescriptors},
-    FuzzTarget{"door", readEndpoint},
     FuzzTarget{"eca", readEca},
     FuzzTarget{"falcon", readFalcon},
     FuzzTarget{"firmware", readFirmware},
@@ -46,12 +45,13 @@ constexpr std::array kTargets{
     FuzzTarget{"ros2_hand", readRos2Hand},
     FuzzTarget{"scene", readScene},
     FuzzTarget{"sdk_messages", readSdkMessages},
+    FuzzTarget{"socket", readEndpoint},
     FuzzTarget{"source", readSourceText},
     FuzzTarget{"space_mouse", readSpaceMouse},
     FuzzTarget{"sph", readSphFile},
     FuzzTarget{"spheres_yaml", readSpheresYaml},
+    FuzzTarget{"ticks", readTicks},
     FuzzTarget{"tracks", readTracks},
-    FuzzTarget{"turns", readTurns},
     FuzzTarget{"urdf", readUrdfFile, 20}, // a process each
     FuzzTarget{"urdf_packet", readUrdfPacket},
 };

@@ -71,7 +71,7 @@ void readEca(Bytes input);
 void readEndpoint(Bytes input);
 void readHaply(Bytes input);
 void readRos2Hand(Bytes input);
-void readTurns(Bytes input);
+void readTicks(Bytes input);
 void readPairs(Bytes input);
 void readFirmware(Bytes input);
 

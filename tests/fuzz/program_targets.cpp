@@ -13,7 +13,7 @@
 namespace fathom::testing {
 
 // wrench.csv, then touches.csv after the first zero byte.
-void readTurns(Bytes input) {
+void readTicks(Bytes input) {
     const auto zero = static_cast<size_t>(std::find(input.begin(), input.end(), 0) - input.begin());
     const auto folder = fuzzFile(operate::kWrenchFile, input.first(zero)).parent_path();
     fuzzFile(operate::kTouchesFile, input.subspan(std::min(zero + 1, input.size())));
