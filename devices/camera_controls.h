@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an operator can set on a live camera, and the streams that it delivers.
+// What a pilot can set on a live camera, and the streams that it delivers.
 #pragma once
 
 #include <cstdint>
