@@ -123,7 +123,7 @@ std::vector<Stage> stages() {
          [](Setup& s) { s.camera.colourFormat = ColourFormat::Yuyv; },
          [](Setup& s) { registerColour(s.camera); }},
         {"self-filter", [](Setup& s) { s.selfFilter = false; }},
-        {"pictures that are not new", [](Setup& s) { s.still = true; }},
+        {"repeated frame", [](Setup& s) { s.still = true; }},
         {"times of passes", [](Setup& s) { s.passTimes = false; }},
     };
 }

@@ -210,8 +210,7 @@ TEST_CASE("Disabling a stage saves the memory of its buffers") {
         saved[row["setting"]] = row["memory_saved_MiB"].get<double>();
         heap[row["setting"]] = row["heap_saved_MiB"].get<double>();
         ms[row["setting"]] = row["share_of_frame_percent"].get<double>();
-        const bool untimed =
-            row["setting"] == "times of passes" || row["setting"] == "pictures that are not new";
+        const bool untimed = row["setting"] == "times of passes" || row["setting"] == "repeated frame";
         CHECK(row["gpu_p50_ms"].is_null() == untimed);
         CHECK(row["gpu_saved_ms"].is_null() == (row["setting"] == "times of passes"));
     }
@@ -221,7 +220,7 @@ TEST_CASE("Disabling a stage saves the memory of its buffers") {
     CHECK(saved.at("filter") == 0.0);
     CHECK(saved.at("times of passes") == 0.0);
     CHECK(saved.at("colour, of gates that pass all") > 0.25); // one colour image
-    CHECK(ms.at("pictures that are not new") > 90.0);         // percentage: nothing runs
+    CHECK(ms.at("repeated frame") > 90.0);                    // percentage: nothing runs
     for (const char* also : {"trimmed mean", "self-filter", "guidance points on the host (both)"}) {
         CHECK_MESSAGE(saved.count(also) == 1, also);
     }
