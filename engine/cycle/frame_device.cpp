@@ -62,7 +62,7 @@ void FrameDevice::clearMemory() {
         }
     }
     commands.end();
-    device_.submit(commands.handle(), timeline_.handle(), 0, ++ticket_);
+    submit(commands);
     wait();
 }
 

@@ -168,9 +168,12 @@ namespace {
 struct LosingRig {
     const std::string trigger =
         std::filesystem::temp_directory_path() / ("fathom-device-cycles-" + std::to_string(::getpid()));
-    const Losing losing{trigger, 0};
+    const Losing losing;
     const gpu::Instance instance{fathom::test::Vulkan::validation()};
     TwinRig twin{Scene::Contact::Where::Gpu, instance};
+
+    explicit LosingRig(const std::string& by = "lost")
+        : losing(trigger, 0, by) {}
 
     void lose() const { std::ofstream(trigger) << "passes"; }
     void landNext() {
@@ -246,4 +249,14 @@ TEST_CASE("A device that is lost again before its first host copy leaves the CPU
         CHECK(set.generation == 1);
         CHECK(set.x == first.x);
     }
+}
+
+TEST_CASE("A device without memory for its first submission is reported, and opened later") {
+    LosingRig rig("memory");
+    DeviceCycles& cycles = rig.twin.cycles;
+    rig.twin.next();
+    rig.lose();
+    CHECK_THROWS_AS(cycles.renew(), OutOfMemory); // waited for ever once
+    cycles.renew();
+    CHECK(rig.twin.next().counts.spheres > 0);
 }

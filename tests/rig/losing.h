@@ -19,9 +19,10 @@ public:
         set("FATHOM_LOSE_BY", by);
     }
     // Loses the device whenever the file `trigger` exists, and deletes it each time.
-    Losing(const std::string& trigger, int refusedOpenings) {
+    Losing(const std::string& trigger, int refusedOpenings, const std::string& by = "lost") {
         begin(refusedOpenings);
         set("FATHOM_LOSE_FILE", trigger);
+        set("FATHOM_LOSE_BY", by);
     }
     ~Losing() {
         for (const std::string& name : names_) {
