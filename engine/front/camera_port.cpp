@@ -38,12 +38,12 @@ SubmitStatus CameraPort::Impl::checkImages(const Frame& frame) const noexcept {
 
 // At least one is free: the others are at most waiting, taken and being processed. Borrowed frames
 // use none.
-CameraPort::Impl::Copy& CameraPort::Impl::unused() {
+CameraPort::Impl::UsedCopy CameraPort::Impl::unused() {
     for (;;) {
         for (Copy& copy : copies_) {
             if (!copy.used.load(std::memory_order_acquire)) {
                 copy.used.store(true, std::memory_order_relaxed);
-                return copy;
+                return UsedCopy(&copy);
             }
         }
     }
@@ -108,15 +108,13 @@ fathom::Frame CameraPort::Impl::contentOf(const Frame& frame, std::function<void
         content.setColourBytes(colourOf(frame));
         giveBack = std::move(release);
     } else {
-        Copy& copy = unused();
-        copyDepth(frame, copy);
-        copyColour(frame, copy);
-        if (release) {
-            release();
-        }
-        content.depth = copy.depth;
-        content.setColourBytes(copy.colour);
-        giveBack = [&copy] { copy.used.store(false, std::memory_order_release); };
+        const fathom::Frame lent({}, std::move(release)); // given back once it is copied, or memory is short
+        UsedCopy copy = unused();
+        copyDepth(frame, *copy);
+        copyColour(frame, *copy);
+        content.depth = copy->depth;
+        content.setColourBytes(copy->colour);
+        giveBack = [used = copy.release()] { GiveBack()(used); };
     }
     return fathom::Frame(content, std::move(giveBack));
 }

@@ -42,9 +42,13 @@ private:
         std::vector<std::byte> colour;
         std::atomic<bool> used{false};
     };
+    struct GiveBack {
+        void operator()(Copy* copy) const noexcept { copy->used.store(false, std::memory_order_release); }
+    };
+    using UsedCopy = std::unique_ptr<Copy, GiveBack>;
     SubmitStatus checkStamp(const Frame& frame) const noexcept;
     SubmitStatus checkImages(const Frame& frame) const noexcept;
-    Copy& unused();
+    UsedCopy unused();
     void copyDepth(const Frame& frame, Copy& copy) const;
     void copyMetres(const Frame& frame, Copy& copy) const;
     std::span<const std::byte> colourOf(const Frame& frame) const;

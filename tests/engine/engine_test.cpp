@@ -133,6 +133,33 @@ TEST_CASE("Borrowed depth in metres is copied and released at once") {
     CHECK(released == 1);
 }
 
+TEST_CASE("A submission without memory for its copy gives back all that it took, and a later one succeeds") {
+    CameraModel model = smallCamera();
+    model.depthFormat = DepthFormat::Metres;
+    Engine engine(wallScene(), model);
+    CameraPort port = engine.camera();
+    const std::vector<float> depth(80 * 60, 0.6f);
+    Frame frame;
+    frame.depth = depth.data();
+    int released = 0;
+    const auto lend = [&](bool fail) {
+        std::function<void()> release = [&] { ++released; };
+        frame.stamp = now();
+        if (fail) {
+            failNextAllocation();
+        }
+        return port.lend(frame, std::move(release));
+    };
+    constexpr int kFailures = 6; // more than there are copies
+    for (int i = 1; i <= kFailures; ++i) {
+        CHECK_THROWS_AS(lend(true), std::bad_alloc);
+        CHECK(released == i);
+    }
+    CHECK(lend(false) == SubmitStatus::Accepted);
+    CHECK(released == kFailures + 1);
+    CHECK(eventually([&] { return port.processed() == 1; }));
+}
+
 TEST_CASE("A step does not allocate and keeps the caller's floating-point mode") {
     Engine engine(wallScene(), smallCamera());
     CameraPort port = engine.camera();

@@ -5,17 +5,20 @@
 #include <cstddef>
 #include <cstdlib>
 #include <new>
+#include <utility>
 
 namespace {
 std::atomic<uint64_t> allocations{0};
 thread_local uint64_t threadAllocations = 0;
+thread_local bool nextFails = false;
 
 void* counted(std::size_t size, std::size_t alignment) {
     allocations.fetch_add(1, std::memory_order_relaxed);
     ++threadAllocations;
     const std::size_t whole = (size + alignment - 1) / alignment * alignment;
     void* memory = std::aligned_alloc(alignment, whole == 0 ? alignment : whole);
-    if (memory == nullptr) {
+    if (memory == nullptr || std::exchange(nextFails, false)) {
+        std::free(memory);
         throw std::bad_alloc();
     }
     return memory;
@@ -28,6 +31,9 @@ uint64_t allocationCount() noexcept {
 }
 uint64_t threadAllocationCount() noexcept {
     return threadAllocations;
+}
+void failNextAllocation() noexcept {
+    nextFails = true;
 }
 } // namespace fathom
 
