@@ -127,13 +127,20 @@ struct Engine::Impl {
         , frames(feed, shared->channels, shared->clock, kFramePeriod, nullptr)
         , contacts(answers, shared->channels, shared->clock, 0.5 * shared->haptic.options.period, nullptr)
         , clearance(answers, shared->channels, shared->clock) {
-        threads.emplace_back([this] { guarded([this] { frames.run(stop); }); });
-        if (compute.cycles.plan().query != Plan::Query::None) {
-            threads.emplace_back([this] { guarded([this] { contacts.run(stop); }); });
-            threads.emplace_back([this] { guarded([this] { clearance.run(stop); }); });
+        try {
+            threads.emplace_back([this] { guarded([this] { frames.run(stop); }); });
+            if (compute.cycles.plan().query != Plan::Query::None) {
+                threads.emplace_back([this] { guarded([this] { contacts.run(stop); }); });
+                threads.emplace_back([this] { guarded([this] { clearance.run(stop); }); });
+            }
+        } catch (...) { // std::system_error: threads already started would use a destroyed engine
+            end();
+            throw;
         }
     }
-    ~Impl() {
+    ~Impl() { end(); }
+
+    void end() {
         stop.store(true);
         camera->close();
         for (std::thread& thread : threads) {
