@@ -142,13 +142,14 @@ struct Engine::Impl {
 
     void end() {
         stop.store(true);
+        shared->ended.store(true);
         camera->close();
         for (std::thread& thread : threads) {
             thread.join();
         }
     }
 
-    // An exception in a thread ends the input of frames, so forces fade.
+    // An exception in a thread ends the input of frames, and the forces.
     template <class Body>
     void guarded(Body&& body) noexcept {
         const front::FloatMode mode;
@@ -159,7 +160,7 @@ struct Engine::Impl {
             const std::lock_guard lock(failureMutex);
             failure = failure.empty() ? e.what() : failure;
         }
-        shared->failed.store(true);
+        shared->ended.store(true);
         camera->close();
     }
 

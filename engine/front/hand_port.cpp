@@ -24,15 +24,17 @@ Step HandPort::Impl::step(const Hand& hand, Nanoseconds now) noexcept {
     const bool back = now < last;
     last = std::max(now, last);
     const double t = shared->clock.at(RunClock::Time(std::chrono::nanoseconds(last)));
-    const StepRecord& record = stepper.step(front::internal(hand), t);
+    const bool ended = shared->ended.load();
+    HandSample sample = front::internal(hand);
+    sample.buttons |= ended ? kDeadManOpen : 0; // placed shapes do not age
+    const StepRecord& record = stepper.step(sample, t);
     Step step = front::external(record, shared->haptic.options.staleAfter);
     // Contacts of the first set may come before what the frame thread says about it.
     const bool none = stepper.scene().frame < 0 && record.frame < 0;
     const bool armStill = stepper.row().driven && isFault(stepper.row().armStatus.state);
     step.warnings = step.warnings | front::when(none, StepWarning::NoScene) |
                     front::when(stepper.scene().gone, StepWarning::ComputeDeviceLost) |
-                    front::when(back, StepWarning::TimeBack) |
-                    front::when(shared->failed.load(), StepWarning::EngineFailed) |
+                    front::when(back, StepWarning::TimeBack) | front::when(ended, StepWarning::EngineFailed) |
                     front::when(armStill, StepWarning::ArmStill);
     shared->steps.back() = {step, hand, last};
     shared->steps.publish();

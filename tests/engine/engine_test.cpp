@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstring>
 #include <doctest/doctest.h>
-#include <memory>
 #include <optional>
 #include <string>
 
@@ -81,23 +80,6 @@ TEST_CASE("A hand that could not be opened does not keep another one out") {
     Engine engine(wallScene(), smallCamera());
     CHECK_THROWS_AS(engine.openHand(startAt(std::nan(""))), BadInput);
     CHECK_NOTHROW(engine.openHand(startAt(0.5)));
-}
-
-TEST_CASE("Forces fade once the engine is gone, as without frames") {
-    auto engine = std::make_unique<Engine>(wallScene(), smallCamera());
-    CameraPort port = engine->camera();
-    HandPort hand = engine->openHand(startAt(0.5));
-    const Wall wall;
-    double z = 0.5;
-    const auto force = [&] { return std::abs(hand.step(handAt(z), now()).wrench.force[2]); };
-    REQUIRE(eventually([&] {
-        CHECK(port.submit(wall.at(now())) == SubmitStatus::Accepted);
-        z = std::min(0.56, z + 0.0005);
-        return force() > 5.0;
-    }));
-    engine.reset();
-    CHECK(eventually([&] { return force() == 0.0; }));
-    CHECK(hand.step(handAt(z), now()).sceneAge > 0.1);
 }
 
 TEST_CASE("A borrowed frame is released exactly once, whatever happens to it") {

@@ -55,7 +55,7 @@ enum class StepWarning : std::uint32_t {
     NotFinite = 8,         ///< the hand sample or a result is not finite: the wrench is zero
     TimeBack = 16,         ///< `now` is before the last step; the last time was used
     Stalled = 32,          ///< contact answers are late: the tool moved less than the hand
-    EngineFailed = 64,     ///< a thread of the engine ended; Engine::failure() says why
+    EngineFailed = 64,     ///< a thread of the engine failed, Engine::failure() says why, or it is destroyed
     ArmStill = 128         ///< the real arm is silent or not ready: the tool stands still, without force
 };
 
@@ -110,8 +110,8 @@ struct HandStart {
     std::optional<Pose> baseTtool = std::nullopt;
 };
 
-/// Computes the forces. Use it from one thread, the haptic thread. It may outlive its engine: the scene then
-/// ages and the forces fade.
+/// Computes the forces. Use it from one thread, the haptic thread. It may outlive its engine: the forces then
+/// fade.
 class FATHOM_API HandPort {
 public:
     /// One step at time `now`. Never allocates, locks, waits or throws. Sets the floating-point mode (MXCSR)
