@@ -25,7 +25,7 @@ void bindFlags(py::module_& module) {
                       "COMPUTE_DEVICE_LOST"_a = int(Warning::ComputeDeviceLost),
                       "NOT_FINITE"_a = int(Warning::NotFinite), "TIME_BACK"_a = int(Warning::TimeBack),
                       "STALLED"_a = int(Warning::Stalled), "ENGINE_FAILED"_a = int(Warning::EngineFailed),
-                      "ARM_STILL"_a = int(Warning::ArmStill)),
+                      "ARM_STILL"_a = int(Warning::ArmStill), "OTHER_CLOCK"_a = int(Warning::OtherClock)),
              "module"_a = "fathom");
     module.attr("Button").attr("__doc__") = "Buttons of the device that are down.";
     module.attr("StepWarning").attr("__doc__") = "What limits a step; see <fathom/hand.h>.";

@@ -21,8 +21,10 @@ HandPort::Impl::~Impl() {
 
 Step HandPort::Impl::step(const Hand& hand, Nanoseconds now) noexcept {
     const front::FloatMode mode;
+    const Nanoseconds clock = v0::now();
     const bool back = now < last;
-    last = std::max(now, last);
+    const bool other = now > clock + front::kMaxAhead || now < clock - front::kMaxLate;
+    last = std::max(other ? clock : now, last);
     const double t = shared->clock.at(RunClock::Time(std::chrono::nanoseconds(last)));
     const bool ended = shared->ended.load();
     HandSample sample = front::internal(hand);
@@ -35,6 +37,7 @@ Step HandPort::Impl::step(const Hand& hand, Nanoseconds now) noexcept {
     step.warnings = step.warnings | front::when(none, StepWarning::NoScene) |
                     front::when(stepper.scene().gone, StepWarning::ComputeDeviceLost) |
                     front::when(back, StepWarning::TimeBack) | front::when(ended, StepWarning::EngineFailed) |
+                    front::when(other, StepWarning::OtherClock) |
                     front::when(armStill, StepWarning::ArmStill);
     shared->steps.back() = {step, hand, last};
     shared->steps.publish();

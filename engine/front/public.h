@@ -44,7 +44,8 @@ inline v0::Nanoseconds stampOf(std::chrono::steady_clock::time_point time) noexc
     return std::chrono::duration_cast<std::chrono::nanoseconds>(time.time_since_epoch()).count();
 }
 
-inline constexpr v0::Nanoseconds kMaxAhead = 5'000'000; // [ns] by which a stamp may be ahead of now
+inline constexpr v0::Nanoseconds kMaxAhead = 5'000'000;  // [ns] by which a stamp may be ahead of now
+inline constexpr v0::Nanoseconds kMaxLate = 100'000'000; // [ns] by which the time of a step may be behind it
 
 // staleAfter [s]: scene age from which forces fade.
 v0::Step external(const StepRecord& record, double staleAfter) noexcept;

@@ -50,13 +50,14 @@ enum class State {
 enum class StepWarning : std::uint32_t {
     None = 0,              ///< nothing does
     NoScene = 1,           ///< no fixture set yet
-    OldScene = 2,          ///< the newest frame is too old: forces fade
+    OldScene = 2,          ///< the newest frame is too old, or as far in the future: forces fade
     ComputeDeviceLost = 4, ///< the engine opens the compute device again
     NotFinite = 8,         ///< the hand sample or a result is not finite: the wrench is zero
     TimeBack = 16,         ///< `now` is before the last step; the last time was used
     Stalled = 32,          ///< contact answers are late: the tool moved less than the hand
     EngineFailed = 64,     ///< a thread of the engine failed, Engine::failure() says why, or it is destroyed
-    ArmStill = 128         ///< the real arm is silent or not ready: the tool stands still, without force
+    ArmStill = 128,        ///< the real arm is silent or not ready: the tool stands still, without force
+    OtherClock = 256       ///< `now` is 5 ms ahead of fathom::now() or 0.1 s behind it, which was used
 };
 
 /// Warnings that are in either set.
