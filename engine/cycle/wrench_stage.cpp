@@ -83,15 +83,14 @@ Wrench WrenchStage::springWrench(const WrenchInput& input) noexcept {
     tick.period = options_.period;
     tick.mayRise = input.mayRise && !input.trapped;
     tick.newData = input.newData;
-    const Wrench reaction = reaction_.step(tick);
-    return sumOf(reaction, damping(input, reaction));
+    return reaction_.step(tick);
 }
 
 Wrench WrenchStage::onActuatedAxes(const WrenchInput& input, const Wrench& wrench) const noexcept {
     return projectOnAxes(wrench, input.baseRhandle, options_.device.actuated).delivered;
 }
 
-Wrench WrenchStage::passivityWrench(const WrenchInput& input, const Wrench& contact) noexcept {
+Wrench WrenchStage::passivityWrench(const WrenchInput& input, const Wrench& reaction) noexcept {
     if (!options_.passivityController) {
         return {};
     }
@@ -99,7 +98,7 @@ Wrench WrenchStage::passivityWrench(const WrenchInput& input, const Wrench& cont
     tick.device = input.device;
     tick.end = input.end;
     tick.baseRhandle = input.baseRhandle;
-    tick.contact = onActuatedAxes(input, contact);
+    tick.contact = onActuatedAxes(input, reaction); // damping stores no energy
     tick.share = ramps_.gain();
     tick.springs = input.springs;
     tick.period = input.period;
@@ -141,9 +140,10 @@ void WrenchStage::cut() noexcept {
 
 WrenchStage::Output WrenchStage::step(const WrenchInput& input) noexcept {
     stepRamps(input);
-    const Wrench contact = springWrench(input);
+    const Wrench reaction = springWrench(input);
+    const Wrench contact = sumOf(reaction, damping(input, reaction));
     smooth_ = lowPass(scaled(sumOf(contact, input.pull), ramps_.gain()), smooth_, options_.lowPassGain);
-    const Wrench damper = passivityWrench(input, contact);
+    const Wrench damper = passivityWrench(input, reaction);
     const Wrench asked = sumOf(smooth_, damper);
     const Wrench sized =
         limitSize(asked, ramps_.share() * options_.forceLimit, ramps_.share() * options_.torqueLimit);

@@ -73,7 +73,7 @@ private:
     void stepRamps(const WrenchInput& input) noexcept;
     Wrench springWrench(const WrenchInput& input) noexcept;
     Wrench damping(const WrenchInput& input, const Wrench& reaction) noexcept;
-    Wrench passivityWrench(const WrenchInput& input, const Wrench& contact) noexcept;
+    Wrench passivityWrench(const WrenchInput& input, const Wrench& reaction) noexcept;
     void tellPassivity(const WrenchInput& input, const Wrench& damper, const Wrench& asked,
                        const Wrench& sized, const Wrench& delivered) noexcept;
     uint32_t causeOf(const WrenchInput& input, const Wrench& damper, const Wrench& sized,

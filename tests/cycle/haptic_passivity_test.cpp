@@ -57,6 +57,26 @@ TEST_CASE("On a static wall the wrench is the same with and without the passivit
 }
 
 TEST_CASE(
+    "A hand that touches a static wall feels stiffness and damping, and never more, however soft both are") {
+    HapticRig rig(handScene(), at(0, 0, 0.02));
+    rig.options.springs.stiffness = 3.0;
+    rig.options.springs.damping = 0.4;
+    rig.restart();
+    rig.show(wallSet());
+    rig.age = false;
+    rig.ticks(250);
+    double pressed = 0.0;
+    for (int i = 0; i < 200; ++i) {
+        rig.hand.position.z -= 1e-4; // 0.1 m/s
+        const StepRecord record = rig.step();
+        pressed = std::max(0.0, record.tool.position.z - rig.hand.position.z);
+        REQUIRE(record.wrench.force.z <= 3.0 * pressed + 0.4 * 0.1 + 1e-6);
+    }
+    CHECK(pressed > 0.009);
+    CHECK(rig.cycle->passivity().taken() == 0.0);
+}
+
+TEST_CASE(
     "A wall that jumps is counted, and the hand is damped within all limits until the energy is paid back") {
     auto rig = restingRig(true), off = restingRig(false);
     const double force = glm::length(rig.step().wrench.force);
