@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/front/camera_port.h"
 
+#include "engine/front/float_mode.h"
 #include "engine/types/decimation.h"
 
 #include <algorithm>
@@ -172,10 +173,12 @@ CameraPort::CameraPort(std::shared_ptr<Impl> impl) noexcept
     : impl_(std::move(impl)) {}
 
 SubmitStatus CameraPort::submit(const Frame& frame) {
+    const front::FloatMode mode;
     return impl_->put(frame, nullptr);
 }
 
 SubmitStatus CameraPort::lend(const Frame& frame, std::function<void()> release) {
+    const front::FloatMode mode;
     return impl_->put(frame, std::move(release));
 }
 

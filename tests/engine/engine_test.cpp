@@ -227,6 +227,22 @@ TEST_CASE("The caller's floating-point mode changes no result and is kept by eve
         REQUIRE(usual[i].state == coarse[i].state);
     }
 }
+
+TEST_CASE("Readings that are not finite are no error for a caller that traps invalid operations") {
+    CameraModel model = smallCamera();
+    model.depthFormat = DepthFormat::Metres;
+    Engine engine(wallScene(), model);
+    CameraPort port = engine.camera();
+    const std::vector<float> depth(80 * 60, std::nanf(""));
+    Frame frame;
+    frame.depth = depth.data();
+    frame.stamp = now();
+    _mm_setcsr(0x1f80 & ~0x80u); // traps
+    const SubmitStatus status = port.submit(frame);
+    CHECK((_mm_getcsr() & 0xffc0u) == 0x1f00u);
+    _mm_setcsr(0x1f80);
+    CHECK(status == SubmitStatus::Accepted);
+}
 #endif
 
 TEST_CASE("A step reports a missing scene, an old scene and time that goes back") {
