@@ -24,6 +24,14 @@ void append(RegionSpheres& to, const RegionSpheres& from) {
     }
 }
 
+void moveBy(RegionSpheres& spheres, size_t begin, const dvec3& by) {
+    for (size_t i = begin; i < spheres.size(); ++i) {
+        spheres.x[i] = static_cast<float>(spheres.x[i] + by.x);
+        spheres.y[i] = static_cast<float>(spheres.y[i] + by.y);
+        spheres.z[i] = static_cast<float>(spheres.z[i] + by.z);
+    }
+}
+
 bool isFrozen(const Scene& scene, uint32_t row) {
     return row < scene.fixtures.size() && scene.fixtures[row].isPoints() && scene.fixtures[row].frozen;
 }
@@ -31,7 +39,7 @@ bool isFrozen(const Scene& scene, uint32_t row) {
 } // namespace
 
 FrozenClasses::Kept FrozenClasses::take(const Fixtures& set, uint32_t row) {
-    Kept kept;
+    Kept kept{set.origin, {}, {}};
     const uint32_t moved = 2u * set.camera.depth.pixels();
     for (size_t i = 0; i < set.spheres.size(); ++i) {
         if (set.spheres.fixture[i] == row) {
@@ -49,14 +57,23 @@ FrozenClasses::Kept FrozenClasses::take(const Fixtures& set, uint32_t row) {
     return kept;
 }
 
-// After any change of kept_.
+// After any change of kept_ or origin_.
 void FrozenClasses::join() {
     auto all = std::make_shared<RegionSpheres>();
     for (const auto& [row, kept] : kept_) {
+        const size_t begin = all->size();
         append(*all, kept.spheres);
+        moveBy(*all, begin, kept.origin - origin_);
     }
     spheres_ = kept_.empty() ? nullptr : std::move(all);
     ++version_;
+}
+
+void FrozenClasses::placeOrigin(const dvec3& origin) {
+    origin_ = origin;
+    if (!kept_.empty()) {
+        join();
+    }
 }
 
 bool FrozenClasses::covers(const Scene& scene) {

@@ -11,10 +11,11 @@
 
 namespace fathom::cloud {
 
-// The GPU query has a copy of the fixed spheres of its own (TreeQuery). All sets have one origin. Frame
-// thread only.
+// The GPU query has a copy of the fixed spheres of its own (TreeQuery). Frame thread only.
 class FrozenClasses {
 public:
+    // The origin [m] of the next sets, base frame.
+    void placeOrigin(const dvec3& origin);
     // Drops the classes that are no longer frozen. False when one has just been frozen: then apply() must
     // come first.
     bool covers(const Scene& scene);
@@ -23,12 +24,14 @@ public:
     // Their sources are offset by twice the number of pixels, so that every source in a set is unique.
     void apply(Fixtures& set, const Scene& scene);
 
-    // The fixed spheres, which no one changes; null = none. version(): changes with them; 0 = none so far.
+    // The fixed spheres, about the origin, which no one changes; null = none. version(): changes with them; 0
+    // = none so far.
     const std::shared_ptr<const RegionSpheres>& spheres() const { return spheres_; }
     uint64_t version() const { return version_; }
 
 private:
     struct Kept {
+        dvec3 origin; // [m] of `spheres`, base frame: moved ones would be rounded
         RegionSpheres spheres;
         std::optional<GuidancePose> guidance;
     };
@@ -38,6 +41,7 @@ private:
     std::map<uint32_t, Kept> kept_;                // by row of Scene::fixtures
     std::shared_ptr<const RegionSpheres> spheres_; // all of them, by row
     uint64_t version_ = 0;
+    dvec3 origin_{0.0};
 };
 
 } // namespace fathom::cloud

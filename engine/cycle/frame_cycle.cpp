@@ -65,6 +65,7 @@ void FrameCycle::resumeFrom(const Mark& mark) {
 
 void FrameCycle::placeOrigin(const dvec3& origin) {
     origin_ = origin; // positions stay small however far away the base frame is
+    frozen_.placeOrigin(origin);
     updateParams();
 }
 
@@ -135,6 +136,10 @@ void FrameCycle::upload(Frame frame) {
     f.times.started = Clock::now();
     f.pose = frame->baseTcamera.value_or(scene_.baseTcamera);
     f.unchanged = lastSource_ == frame->sourceNumber;
+    if (origin_ && !f.unchanged && glm::distance(*origin_, f.pose.position) > kMaxAway) {
+        forget(); // what is held is about the old origin
+        origin_.reset();
+    }
     if (!origin_) {
         placeOrigin(f.pose.position);
     }

@@ -64,7 +64,8 @@ public:
     Mark mark() const { return {generation_, origin_, scene_, frozen_}; }
     void resumeFrom(const Mark& mark); // before the first frame
 
-    // Processes one frame from upload to publish.
+    // Processes one frame from upload to publish. A camera farther than kMaxAway from the origin makes its
+    // own position the origin, and drops held points as forget() does.
     FrameReport process(Frame frame);
     // Call instead of process() for a frame that gives no new set.
     FrameReport without(uint32_t index) const;
@@ -91,6 +92,7 @@ public:
     double captureTime() const { return captureTime_.load(std::memory_order_acquire); }
 
     const std::vector<std::string>& passNames() const; // empty without passes
+    static constexpr double kMaxAway = 1000.0;         // [m] where float32 positions are rounded by 0.03 mm
     const PatchLayout& layout() const { return layout_; }
     const CameraInfo& camera() const { return camera_; }
     uint32_t dispatches() const { return dispatches_; } // in the last frame

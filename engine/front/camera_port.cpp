@@ -12,8 +12,15 @@ namespace fathom::v0 {
 
 namespace {
 
+constexpr double kMaxPosition = 1e6; // [m] from the base frame's origin
+
 bool aligned(const void* data, size_t to) {
     return data != nullptr && reinterpret_cast<uintptr_t>(data) % to == 0;
+}
+
+bool usable(const Pose& baseTcamera) {
+    return isFinite(front::internal(baseTcamera)) &&
+           glm::length(front::internal(baseTcamera).position) <= kMaxPosition;
 }
 
 } // namespace
@@ -34,7 +41,7 @@ SubmitStatus CameraPort::Impl::checkImages(const Frame& frame) const noexcept {
     if (!aligned(frame.depth, depthSize) || (info.hasColour && !aligned(frame.colour, colourSize))) {
         return SubmitStatus::MissingImage;
     }
-    return isFinite(front::internal(frame.baseTcamera)) ? SubmitStatus::Accepted : SubmitStatus::BadPose;
+    return usable(frame.baseTcamera) ? SubmitStatus::Accepted : SubmitStatus::BadPose;
 }
 
 // At least one is free: the others are at most waiting, taken and being processed. Borrowed frames
@@ -148,7 +155,7 @@ fathom::Frame CameraPort::Impl::copy(const Frame& frame) {
     if (status != SubmitStatus::Accepted) {
         throw BadInput(std::string("frame: ") +
                        (status == SubmitStatus::BadPose ? "baseTcamera" : "depth or colour") +
-                       " (allowed: images of the camera's formats and a finite pose)");
+                       " (allowed: images of the camera's formats, a finite pose within 1000 km)");
     }
     return contentOf(frame, nullptr);
 }

@@ -64,3 +64,28 @@ TEST_CASE("A frozen guidance class keeps its target") {
     REQUIRE(rig.host().guidance.size() == 1);
     CHECK(rig.host().guidance[0].position.z == doctest::Approx(1.0).epsilon(1e-4));
 }
+
+TEST_CASE("A frozen class keeps its place to the last bit while the camera is far away and when it is back") {
+    const CameraInfo camera = pinholeCamera(100, 60);
+    Scene scene = redAndBlueScene();
+    CloudRig rig(scene, camera);
+    const Image image = redAndBlueImage(camera, 1.0, 1.0);
+    rig.run(image);
+    scene.fixtures[0].frozen = true;
+    rig.cycle().setScene(scene);
+    rig.run(image);
+    const RegionSpheres here = rig.host().spheres;
+    for (const double away : {5e5, 2000.0, 0.0}) {
+        scene.baseTcamera.position.x = away;
+        rig.cycle().setScene(scene);
+        rig.run(image);
+        CAPTURE(away);
+        CHECK(rig.host().origin.x == away);
+        CHECK(rig.host().spheres.size() == here.size());
+        CHECK(depths(rig.host(), 0).first == doctest::Approx(1.0).epsilon(1e-5));
+        const size_t last = here.size() - 1; // of the frozen class
+        CHECK(rig.host().spheres.x[last] + away == doctest::Approx(here.x[last]).epsilon(1e-3));
+    }
+    CHECK(rig.host().spheres.x == here.x);
+    CHECK(rig.host().spheres.source == here.source);
+}

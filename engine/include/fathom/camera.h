@@ -68,7 +68,7 @@ enum class SubmitStatus {
     StampAhead,   ///< the stamp is more than 5 ms ahead of now: different clock?
     StampBack,    ///< the stamp is not later than the one before: call clockJumped() first if it may be
     MissingImage, ///< a pointer is null or not aligned for its format
-    BadPose,      ///< the pose is not finite or its quaternion is zero
+    BadPose,      ///< the pose is not finite or not within 1000 km, or its quaternion is zero
     Closed        ///< the engine is destroyed, or its frame thread failed: see Engine::failure()
 };
 
