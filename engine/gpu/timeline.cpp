@@ -4,6 +4,7 @@
 #include "engine/gpu/result.h"
 
 #include <chrono>
+#include <thread>
 
 namespace fathom::gpu {
 
@@ -20,10 +21,9 @@ Timeline::~Timeline() {
     vkDestroySemaphore(device_.handle(), handle_, nullptr);
 }
 
-uint64_t Timeline::value() const {
+uint64_t Timeline::value() const noexcept {
     uint64_t reached = 0;
-    check(vkGetSemaphoreCounterValue(device_.handle(), handle_, &reached), "vkGetSemaphoreCounterValue");
-    return reached;
+    return vkGetSemaphoreCounterValue(device_.handle(), handle_, &reached) == VK_SUCCESS ? reached : 0;
 }
 
 bool Timeline::comesSoon(uint64_t value) const {
@@ -46,7 +46,13 @@ void Timeline::wait(uint64_t value) const {
     info.semaphoreCount = 1;
     info.pSemaphores = &handle_;
     info.pValues = &value;
-    check(vkWaitSemaphores(device_.handle(), &info, UINT64_MAX), "vkWaitSemaphores");
+    VkResult result = vkWaitSemaphores(device_.handle(), &info, UINT64_MAX);
+    // The device still uses what a caller would free.
+    while (result == VK_ERROR_OUT_OF_HOST_MEMORY || result == VK_ERROR_OUT_OF_DEVICE_MEMORY) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        result = vkWaitSemaphores(device_.handle(), &info, UINT64_MAX);
+    }
+    check(result, "vkWaitSemaphores");
 }
 
 } // namespace fathom::gpu

@@ -14,9 +14,9 @@ public:
     Timeline& operator=(const Timeline&) = delete;
 
     VkSemaphore handle() const { return handle_; }
-    uint64_t value() const; // current value
-    // Throws DeviceLost. On GPUs polls for kAsk before it sleeps, because a wake-up by the kernel takes as
-    // long as half of a frame's passes.
+    uint64_t value() const noexcept; // current value; 0 on an error, which wait() reports
+    // Throws DeviceLost; waits on if memory is short. On GPUs polls for kAsk before it sleeps, because a
+    // wake-up by the kernel takes as long as half of a frame's passes.
     void wait(uint64_t value) const;
 
     static constexpr double kAsk = 500e-6; // [s] polling time

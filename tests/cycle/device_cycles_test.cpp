@@ -176,6 +176,7 @@ struct LosingRig {
         : losing(trigger, 0, by) {}
 
     void lose() const { std::ofstream(trigger) << "passes"; }
+    void failNextWait() const { std::ofstream(trigger) << "waiting"; } // for want of memory
     void landNext() {
         twin.cycles.frames().upload(std::move(*twin.camera.next()));
         twin.cycles.frames().submit();
@@ -259,4 +260,20 @@ TEST_CASE("A device without memory for its first submission is reported, and ope
     CHECK_THROWS_AS(cycles.renew(), OutOfMemory); // waited for ever once
     cycles.renew();
     CHECK(rig.twin.next().counts.spheres > 0);
+}
+
+TEST_CASE("The device is waited for although memory is short, because it still uses what would be freed") {
+    LosingRig rig;
+    DeviceCycles& cycles = rig.twin.cycles;
+    rig.twin.next();
+    const ToolState place = rig.twin.place();
+    ContactSet set;
+    rig.failNextWait();
+    REQUIRE(cycles.answer(place, set));
+    CHECK_FALSE(std::filesystem::exists(rig.trigger));
+    rig.failNextWait();
+    rig.landNext();
+    CHECK_FALSE(std::filesystem::exists(rig.trigger));
+    REQUIRE(cycles.answer(place, set));
+    CHECK(set.generation == 2); // the device answers: there is no copy on the host yet
 }

@@ -6,11 +6,10 @@
 //   FATHOM_LOSE_DONE     instead: number, from 1, of the successful wait for the first device's passes after
 //                        which it is lost (the semaphore that is waited for first)
 //   FATHOM_LOSE_TIMES    instead: number, from 1, of the failing read of its timestamps
-//   FATHOM_LOSE_FILE     instead: a file with one word. The first matching call removes the file and fails:
-//                        passes (submission with a timeline), drawing (other submission) and presenting lose
-//                        the device; acquire-outdated and present-outdated return VK_ERROR_OUT_OF_DATE_KHR
-//                        once; surface returns VK_ERROR_SURFACE_LOST_KHR from the next presentation and from
-//                        later calls that create images on that surface
+//   FATHOM_LOSE_FILE     instead: a file with one word. The first matching call removes it and fails: passes
+//                        (submission with a timeline), drawing (other submission) and presenting lose the
+//                        device; acquire-outdated and present-outdated return VK_ERROR_OUT_OF_DATE_KHR once,
+//                        waiting VK_ERROR_OUT_OF_HOST_MEMORY; surface is lost from the next presentation on
 //   FATHOM_LOSE_BY       "memory": out of memory instead of lost
 //   FATHOM_LOSE_OPENINGS number of failed attempts to open a device after each loss
 #include "tests/losing_layer/asked.h"
@@ -154,8 +153,9 @@ VKAPI_ATTR VkResult VKAPI_CALL waitSemaphores(VkDevice handle, const VkSemaphore
         const std::lock_guard lock(mutex);
         const NextDevice& device = devices[keyOf(handle)];
         lost = device.lost && lossOf() == VK_ERROR_DEVICE_LOST;
-        if (lost && !device.working) {
-            return VK_ERROR_DEVICE_LOST;
+        const bool starved = askedFor("waiting");
+        if (starved || (lost && !device.working)) {
+            return starved ? VK_ERROR_OUT_OF_HOST_MEMORY : VK_ERROR_DEVICE_LOST;
         }
         pass = device.wait;
     }
