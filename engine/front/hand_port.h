@@ -29,7 +29,7 @@ struct Shared {
     ArmLink arm;                          // of a real arm, if channels.arm points to it
     TripleBuffer<v0::Regions> regions;    // frame thread -> display, once `observed`
     TripleBuffer<v0::StepSnapshot> steps; // haptic thread -> display
-    std::atomic<bool> ended{false}; // the engine is destroyed, or one of its threads failed
+    std::atomic<bool> ended{false};       // the engine is destroyed, or one of its threads failed
     std::atomic<bool> handOpen{false}, armOpen{false}, observed{false};
 
     static constexpr uint64_t kRows = 16;  // capacity of queues that are never read
