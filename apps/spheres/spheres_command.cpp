@@ -158,11 +158,10 @@ void convertSets(const SpheresOptions& options) {
         for (const std::string& note : cover.notes) {
             log::warn("{}: {}", options.mesh.string(), note);
         }
-        sets = cover.links;
+        sets = selectLink(cover.links, options.link, options.mesh);
     } else {
-        sets = readSets(options.mesh);
+        sets = readSets(options.mesh, options.link);
     }
-    sets = selectLink(std::move(sets), options.link, options.mesh);
     const double scale = scaleOf(options);
     for (LinkSpheres& set : sets) {
         for (Sphere& s : set.spheres) {

@@ -4,6 +4,7 @@
 #include "engine/model/sph_file.h"
 #include "engine/model/urdf_file.h"
 #include "engine/types/error.h"
+#include "engine/types/printable.h"
 #include "engine/types/read_file.h"
 
 #include <algorithm>
@@ -25,24 +26,44 @@ std::string namesOf(const std::vector<LinkSpheres>& sets) {
     return excerpt(std::move(names), kShownNames);
 }
 
+std::string shapeWord(const urdf::Geometry& shape) {
+    return capsuleOf(shape)                       ? "a capsule"
+           : shape.type == urdf::Geometry::BOX    ? "a box"
+           : shape.type == urdf::Geometry::SPHERE ? "a sphere"
+           : shape.type == urdf::Geometry::MESH   ? "a mesh"
+                                                  : "a cylinder";
+}
+
+Sphere collisionSphere(const urdf::Collision& collision, const std::filesystem::path& file,
+                       const std::string& field) {
+    const auto* ball = dynamic_cast<const urdf::Sphere*>(collision.geometry.get());
+    if (ball == nullptr) {
+        throw BadInput(file.string(), field, shapeWord(*collision.geometry),
+                       "spheres; `fathom spheres " + file.filename().string() +
+                           " --out NEW.urdf` covers other shapes with spheres");
+    }
+    const Sphere sphere{poseOf(collision.origin).position, ball->radius};
+    if (!isFinite(sphere.centre) || !(sphere.radius > 0.0) || !std::isfinite(sphere.radius)) {
+        throw BadInput(file.string(), field, "a sphere of radius " + std::to_string(ball->radius),
+                       "finite centre, radius above 0");
+    }
+    return sphere;
+}
+
 } // namespace
 
-std::vector<LinkSpheres> readSpherizedUrdf(const std::filesystem::path& file, const ReaderOptions& reader) {
+std::vector<LinkSpheres> readSpherizedUrdf(const std::filesystem::path& file, const std::string& wanted,
+                                           const ReaderOptions& reader) {
     const auto model = readUrdf(file, reader);
     std::vector<LinkSpheres> sets;
     for (const auto& [name, link] : model->links_) {
         LinkSpheres set{name, {}};
-        for (const auto& collision : link->collision_array) {
-            const auto* ball = dynamic_cast<const urdf::Sphere*>(collision->geometry.get());
-            if (ball == nullptr) {
-                continue;
+        for (size_t i = 0; i < link->collision_array.size(); ++i) {
+            const urdf::Collision& collision = *link->collision_array[i];
+            if (wanted.empty() || wanted == name || collision.geometry->type == urdf::Geometry::SPHERE) {
+                set.spheres.push_back(collisionSphere(
+                    collision, file, "link " + printable(name) + ", collision " + std::to_string(i + 1)));
             }
-            const Sphere sphere{poseOf(collision->origin).position, ball->radius};
-            if (!isFinite(sphere.centre) || !(sphere.radius > 0.0) || !std::isfinite(sphere.radius)) {
-                throw BadInput(file.string(), "link " + name + ", sphere", std::to_string(ball->radius),
-                               "finite centre, radius above 0");
-            }
-            set.spheres.push_back(sphere);
         }
         if (!set.spheres.empty()) {
             sets.push_back(std::move(set));
@@ -57,7 +78,8 @@ bool isSphereFile(const std::filesystem::path& file) {
            kind == ".json";
 }
 
-std::vector<LinkSpheres> readSets(const std::filesystem::path& file, const ReaderOptions& reader) {
+std::vector<LinkSpheres> readSets(const std::filesystem::path& file, const std::string& link,
+                                  const ReaderOptions& reader) {
     const std::string kind = endingOf(file);
     std::vector<LinkSpheres> sets;
     if (kind == ".sph") {
@@ -66,7 +88,7 @@ std::vector<LinkSpheres> readSets(const std::filesystem::path& file, const Reade
         std::copy_if(tree.lastLevel().begin(), tree.lastLevel().end(), std::back_inserter(sets[0].spheres),
                      [](const Sphere& s) { return s.radius >= 0.0; });
     } else if (kind == ".urdf") {
-        sets = readSpherizedUrdf(file, reader);
+        sets = readSpherizedUrdf(file, link, reader);
     } else if (kind == ".json") {
         sets = readFoam(file);
     } else if (isSphereFile(file)) {
@@ -78,7 +100,7 @@ std::vector<LinkSpheres> readSets(const std::filesystem::path& file, const Reade
     if (sets.empty()) {
         throw BadInput(file.string(), "spheres", "none", "a link with collision spheres");
     }
-    return sets;
+    return selectLink(std::move(sets), link, file);
 }
 
 std::vector<LinkSpheres> selectLink(std::vector<LinkSpheres> sets, const std::string& link,
@@ -99,7 +121,7 @@ SphereTree readSphereTree(const std::filesystem::path& file, const std::string& 
     if (endingOf(file) == ".sph") {
         return readSph(file);
     }
-    const auto sets = selectLink(readSets(file, reader), link, file);
+    const auto sets = readSets(file, link, reader);
     if (sets.size() > 1) {
         throw BadInput(file.string(), "link", "not named", namesOf(sets));
     }

@@ -18,9 +18,9 @@ struct LinkSpheres {
     std::vector<Sphere> spheres; // link frame [m]
 };
 
-// Every <collision><geometry><sphere>, at its <origin>; other geometry is ignored. Links without spheres are
-// skipped; the order is that of the link names. Throws BadInput.
-std::vector<LinkSpheres> readSpherizedUrdf(const std::filesystem::path& file,
+// Every <collision><geometry><sphere>, at its <origin>, in the order of the link names. Links without shapes
+// are skipped. Throws BadInput, also for a shape that is no sphere, of any link or of the named one.
+std::vector<LinkSpheres> readSpherizedUrdf(const std::filesystem::path& file, const std::string& link = "",
                                            const ReaderOptions& reader = {});
 
 // `collision_spheres: {LINK: [{center: [x, y, z], radius: r}]}`, at the top or under robot_cfg / kinematics;
@@ -44,8 +44,9 @@ std::vector<LinkSpheres> readFoam(const std::filesystem::path& file);
 bool isSphereFile(const std::filesystem::path& file);
 
 // Any kind; a .yaml with `format: xrdf` is XRDF. A .sph gives the leaves of its tree, as a link named as the
-// file. Throws BadInput, also when there is no sphere.
-std::vector<LinkSpheres> readSets(const std::filesystem::path& file, const ReaderOptions& reader = {});
+// file. Only the named link, or all without a name. Throws BadInput, also when there is no sphere.
+std::vector<LinkSpheres> readSets(const std::filesystem::path& file, const std::string& link = "",
+                                  const ReaderOptions& reader = {});
 
 // Only the named link; all of them without a name. Throws BadInput that lists the available links.
 std::vector<LinkSpheres> selectLink(std::vector<LinkSpheres> sets, const std::string& link,

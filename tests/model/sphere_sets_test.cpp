@@ -44,13 +44,12 @@ std::string ball(const std::string& centre, const std::string& radius) {
            "'/></geometry></collision>";
 }
 
-const std::string kRobot = "<robot name='r'><link name='a/hand'>" + ball("0.1 0 0", "0.02") +
-                           ball("0 0.2 0", "0.03") +
-                           "<collision><geometry><box size='1 1 1'/></geometry></collision></link>";
+const std::string kRobot =
+    "<robot name='r'><link name='a/hand'>" + ball("0.1 0 0", "0.02") + ball("0 0.2 0", "0.03") + "</link>";
 
 } // namespace
 
-TEST_CASE("A spherized URDF gives each link's spheres at their origins and ignores other shapes") {
+TEST_CASE("A spherized URDF gives each link's spheres at their origins") {
     const TextFile file(".urdf", kRobot + "</robot>");
     const auto sets = readSpherizedUrdf(file.path());
     REQUIRE(sets.size() == 1);
@@ -61,6 +60,28 @@ TEST_CASE("A spherized URDF gives each link's spheres at their origins and ignor
     const SphereTree tree = readSphereTree(file.path());
     CHECK(validate(tree) == "");
     CHECK(tree.nodes[0].radius > 0.1);
+}
+
+TEST_CASE(
+    "A shape that is no sphere rejects a spherized URDF, unless it belongs to a link that is not asked for") {
+    const auto robot = [](const std::string& shape) {
+        return "<robot name='r'><link name='a'>" + ball("0 0 0", "0.01") +
+               "</link><link name='b'><collision><geometry>" + shape + "</geometry></collision>" +
+               ball("0 0 1", "0.01") +
+               "</link><joint name='j' type='fixed'><parent link='a'/><child link='b'/></joint></robot>";
+    };
+    for (const auto& [shape, name] : {std::pair{"<box size='1 1 1'/>", "a box"},
+                                      {"<cylinder radius='1' length='1'/>", "a cylinder"},
+                                      {"<capsule radius='1' length='1'/>", "a capsule"},
+                                      {"<mesh filename='a.stl'/>", "a mesh"}}) {
+        for (const char* link : {"", "b"}) {
+            const std::string refusal = refusalOf(".urdf", robot(shape), link);
+            CHECK_MESSAGE(refusal.find(std::string("link b, collision 1: ") + name +
+                                       " (allowed: spheres; ") != std::string::npos,
+                          refusal);
+        }
+        CHECK(refusalOf(".urdf", robot(shape), "a") == "");
+    }
 }
 
 TEST_CASE("cuRobo's YAML is read at the top and under its tables; disabled spheres are skipped") {
