@@ -44,6 +44,31 @@ TEST_CASE(
                      "collision 2 of 3: <box size='1 1'/>"));
 }
 
+TEST_CASE("A second shape of one collision, which the parser does not read, rejects the URDF") {
+    for (const char* shapes : {"<box size='0.1 0.1 0.1'/><sphere radius='0.2'/>",
+                               "<box size='0.1 0.1 0.1'/><capsule radius='1' length='1'/>",
+                               "<box size='0.1 0.1 0.1'/></geometry><geometry><sphere radius='0.2'/>",
+                               "<box size='0.1 0.1 0.1'><x/></box><sphere radius='0.2'></sphere>"}) {
+        CHECK_MESSAGE(
+            namesShape(shapeText(shapes), "collision 2: 2 shapes (allowed: one <collision> per shape)"),
+            shapes);
+    }
+    CHECK(namesShape(shapeText("</geometry><geometry>"), "collision 2 of 2: no shape"));
+    CHECK(loadUrdf(armWith(shapeText("<!-- <box/> --><box size='0.1 0.1 0.1'><x/></box>"))).links.size() ==
+          2);
+}
+
+TEST_CASE(
+    "An element that is spelt like one of a link's shapes, and which the parser skips, rejects the URDF") {
+    const std::string ball = "<geometry><sphere radius='0.2'/></geometry>";
+    CHECK(namesShape("<Collision>" + ball + "</Collision>", "<Collision>: not read (allowed: <collision>)"));
+    CHECK(namesShape("<collision_group><collision>" + ball + "</collision></collision_group>",
+                     "<collision_group>: not read (allowed: <collision>)"));
+    CHECK(namesShape("<collision><Origin xyz='0 0 1'/>" + ball + "</collision>",
+                     "<Origin>: not read (allowed: <origin>)"));
+    CHECK(loadUrdf(armWith("<collision_checking/><Visual/>")).links.size() == 2);
+}
+
 TEST_CASE("An error in front of the collision shapes of a link, which hides them, rejects the URDF") {
     CHECK(namesShape("", "its collision shapes are lost behind an error: ",
                      "<visual><geometry><box size='1'/></geometry></visual>"));
