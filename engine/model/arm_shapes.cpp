@@ -22,6 +22,7 @@ void ArmShapes::cover(const std::filesystem::path& urdf, const ArmOptions& optio
     const auto made =
         spheresOf(all, {urdf, options.meshes, options.keepStray, options.reader}, options.leavesPerShape);
     std::set<std::string> outside; // files
+    std::vector<std::string> open; // links of meshes
     for (size_t i = 0; i < shapes_.size(); ++i) {
         const Shape& shape = shapes_[i];
         for (const std::string& note : made[i].notes) {
@@ -29,6 +30,9 @@ void ArmShapes::cover(const std::filesystem::path& urdf, const ArmOptions& optio
         }
         if (!made[i].outside.empty()) {
             outside.insert(made[i].outside.lexically_normal().string());
+        }
+        if (made[i].open) {
+            open.push_back(shape.link);
         }
         if (!made[i].spheres.empty() && (model.links.empty() || model.links.back() != shape.link)) {
             model.links.push_back(shape.link);
@@ -39,6 +43,10 @@ void ArmShapes::cover(const std::filesystem::path& urdf, const ArmOptions& optio
                                     static_cast<uint32_t>(model.links.size() - 1),
                                     shape.carrier.finger});
         }
+    }
+    if (!open.empty()) {
+        model.notes.push_back("meshes that are not closed, of which only the surface is covered: " +
+                              std::to_string(open.size()) + ", the first on link " + open[0]);
     }
     if (!outside.empty()) {
         model.notes.push_back("meshes outside their search folder: " + std::to_string(outside.size()) +

@@ -17,7 +17,7 @@ namespace fathom {
 
 namespace {
 
-constexpr const char* kHead = "fathom cover 3"; // raise the number when covers or this format change
+constexpr const char* kHead = "fathom cover 4"; // raise the number when covers or this format change
 constexpr size_t kLargest = 4u << 20;
 constexpr size_t kLargestMesh = 512u << 20;
 
@@ -37,7 +37,7 @@ std::string hex(uint64_t value) {
 }
 
 std::string textOf(const ShapeSpheres& made) {
-    std::string text = std::string(kHead) + "\n";
+    std::string text = std::string(kHead) + "\n" + (made.open ? "open\n" : "");
     for (const std::string& note : made.notes) {
         text += "note " + note + "\n";
     }
@@ -64,6 +64,10 @@ std::optional<ShapeSpheres> madeOf(const std::string& text) {
     while (std::getline(lines, line)) {
         if (line.starts_with("note ")) {
             made.notes.push_back(line.substr(5));
+            continue;
+        }
+        if (line == "open") {
+            made.open = true;
             continue;
         }
         Sphere s;

@@ -115,6 +115,7 @@ LoadedMesh readMesh(const urdf::Mesh& mesh, const ShapeSource& source, ShapeSphe
     const std::filesystem::path file = pathOf(mesh.filename, source);
     LoadedMesh loaded = loadMesh(file, options);
     made.outside = outsideOf(file, source);
+    made.open = !loaded.facts.closed();
     if (loaded.facts.strayParts > 0) {
         made.notes.push_back(file.string() + ": stray geometry is dropped: " + strayText(loaded.facts) +
                              "; arm.keep_stray keeps it");

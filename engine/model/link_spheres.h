@@ -31,6 +31,7 @@ struct ShapeSpheres {
     std::vector<Sphere> spheres;    // in the shape's own frame [m]
     std::vector<std::string> notes; // one line per doubt about its file
     std::filesystem::path outside;  // the file, when it is outside the folder that was searched
+    bool open = false;              // a mesh that is not closed: only its surface is covered
 };
 
 // A shape whose file has been read.

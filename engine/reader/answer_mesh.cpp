@@ -2,6 +2,7 @@
 // Meshes by Assimp.
 #include "engine/model/import_triangles.h"
 #include "engine/reader/answers.h"
+#include "engine/reader/stl_text.h"
 
 #include <assimp/Importer.hpp>
 #include <assimp/config.h>
@@ -73,7 +74,8 @@ bool answerMesh(const std::filesystem::path& file, int pipe, uint64_t mostMemory
     TriangleMesh mesh;
     std::string text;
     try {
-        text = readWithAssimp(file, mesh);
+        text = textStlFault(file);
+        text = text.empty() ? readWithAssimp(file, mesh) : text;
     } catch (const std::bad_alloc&) {
         mesh = {};
         text = "takes over " + std::to_string(mostMemory >> 20) + " MiB to read";

@@ -2,8 +2,10 @@
 // Where the meshes of an arm's URDF are looked for.
 #include "engine/model/arm_model.h"
 
+#include "engine/types/error.h"
 #include "tests/model/meshes.h"
 
+#include <algorithm>
 #include <doctest/doctest.h>
 #include <fstream>
 #include <unistd.h>
@@ -23,6 +25,28 @@ TEST_CASE("Meshes are found by URIs of Gazebo and with escaped characters") {
         std::ofstream(file) << "<robot name='r'><link name='a'><collision><geometry><mesh filename='" << name
                             << "'/></geometry></collision></link></robot>";
         CHECK_MESSAGE(!loadArm(file).leaves.empty(), name);
+    }
+    std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("An arm's meshes that are not closed are reported once") {
+    const auto folder =
+        std::filesystem::temp_directory_path() / ("fathom_open_" + std::to_string(::getpid()));
+    std::filesystem::create_directories(folder);
+    TriangleMesh mesh = testing::boxMesh(dvec3(0.0), dvec3(0.1));
+    const testing::ObjFile closed(mesh);
+    mesh.triangles.pop_back();
+    const testing::ObjFile open(mesh);
+    const auto shape = [](const testing::ObjFile& file) {
+        return "<collision><geometry><mesh filename='" + file.path().string() + "'/></geometry></collision>";
+    };
+    std::ofstream(folder / "r.urdf") << "<robot name='r'><link name='a'>" << shape(open) << shape(closed)
+                                     << shape(open) << "</link></robot>";
+    for (int start = 0; start < 2; ++start) { // the second from the cache
+        const auto notes = loadArm(folder / "r.urdf").notes;
+        const std::string told =
+            "meshes that are not closed, of which only the surface is covered: 2, the first on link a";
+        CHECK(std::any_of(notes.begin(), notes.end(), [&](const std::string& note) { return note == told; }));
     }
     std::filesystem::remove_all(folder);
 }

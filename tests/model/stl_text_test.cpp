@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// STL files as text: what the mesh library would lose without a word.
+#include "engine/model/mesh_file.h"
+#include "engine/types/error.h"
+
+#include <doctest/doctest.h>
+#include <fstream>
+#include <unistd.h>
+
+using namespace fathom;
+
+namespace {
+
+std::string facetText(const std::string& corners) {
+    return "facet normal 0 0 1\nouter loop\n" + corners + "endloop\nendfacet\n";
+}
+
+const std::string kFacet = facetText("vertex 0 0 0\nvertex 0.1 0 0\nvertex 0 0.1 0\n");
+const std::string kOther = facetText("vertex 0 0 0\nvertex 0 0.1 0\nvertex 0 0 0.1\n");
+
+// Number of triangles, or the refusal.
+std::string readStl(const std::string& text) {
+    const auto file =
+        std::filesystem::temp_directory_path() / ("fathom_text_" + std::to_string(::getpid()) + ".stl");
+    std::ofstream(file, std::ios::binary) << text;
+    std::string result;
+    try {
+        result = std::to_string(loadMesh(file).mesh.triangles.size());
+    } catch (const BadInput& e) {
+        result = e.what();
+    }
+    std::filesystem::remove(file);
+    return result;
+}
+
+bool refusesStl(const std::string& text, const std::string& why) {
+    const std::string result = readStl(text);
+    INFO(result);
+    CHECK(result.find(".stl: mesh: ") != std::string::npos);
+    return result.find(why) != std::string::npos;
+}
+
+} // namespace
+
+TEST_CASE("A text STL is read with names of any words, several solids and Windows line ends") {
+    CHECK(readStl("solid a\n" + kFacet + kOther + "endsolid a\n") == "2");
+    CHECK(readStl("solid facet vertex endsolid\n" + kFacet + "endsolid\n") == "1");
+    CHECK(readStl("solid\n" + kFacet + "endsolid\nsolid b\n" + kOther + "endsolid b") == "2");
+    std::string windows = "solid a\n" + kFacet + "endsolid a\n";
+    for (size_t at = 0; (at = windows.find('\n', at)) != std::string::npos; at += 2) {
+        windows.replace(at, 1, "\r\n");
+    }
+    CHECK(readStl(windows) == "1");
+}
+
+TEST_CASE("A text STL that is cut off anywhere is rejected") {
+    const std::string whole = "solid a\n" + kFacet + kOther + "endsolid a\n";
+    for (size_t size = 10; size <= whole.find("endsolid") + 7; ++size) {
+        CHECK_MESSAGE(readStl(whole.substr(0, size)).size() > 3, whole.substr(0, size));
+    }
+    CHECK(refusesStl("solid a\n" + kFacet + kOther, "cut off: no endsolid behind facet 2"));
+    CHECK(refusesStl("solid a\n" + kFacet + "endsolid a\nsolid b\n" + kOther,
+                     "cut off: no endsolid behind facet 2"));
+}
+
+TEST_CASE("A text STL with a facet that is no triangle is rejected with its number") {
+    CHECK(refusesStl("solid a\n" + kFacet +
+                         facetText("vertex 0 0 0\nvertex 0 0.1 0\nvertex 0 0.1 0.1\nvertex 0 0 0.1\n") +
+                         kOther + "endsolid a\n",
+                     "facet 2 has 4 vertices"));
+    CHECK(refusesStl("solid a\n" + facetText("vertex 0 0 0\nvertex 0 0.1 0\n") + kFacet + "endsolid a\n",
+                     "facet 1 has 2 vertices"));
+}
