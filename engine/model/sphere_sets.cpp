@@ -18,14 +18,6 @@ namespace {
 
 constexpr size_t kShownNames = 1000;
 
-std::string namesOf(const std::vector<LinkSpheres>& sets) {
-    std::string names;
-    for (const LinkSpheres& set : sets) {
-        names += (names.empty() ? "" : ", ") + set.link;
-    }
-    return excerpt(std::move(names), kShownNames);
-}
-
 std::string shapeWord(const urdf::Geometry& shape) {
     return capsuleOf(shape)                       ? "a capsule"
            : shape.type == urdf::Geometry::BOX    ? "a box"
@@ -51,6 +43,14 @@ Sphere collisionSphere(const urdf::Collision& collision, const std::filesystem::
 }
 
 } // namespace
+
+std::string namesOf(const std::vector<LinkSpheres>& sets) {
+    std::string names;
+    for (const LinkSpheres& set : sets) {
+        names += (names.empty() ? "" : ", ") + set.link;
+    }
+    return excerpt(std::move(names), kShownNames);
+}
 
 std::vector<LinkSpheres> readSpherizedUrdf(const std::filesystem::path& file, const std::string& wanted,
                                            const ReaderOptions& reader) {

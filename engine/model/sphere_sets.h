@@ -18,14 +18,18 @@ struct LinkSpheres {
     std::vector<Sphere> spheres; // link frame [m]
 };
 
+// For messages, with commas, cut where there are too many.
+std::string namesOf(const std::vector<LinkSpheres>& sets);
+
 // Every <collision><geometry><sphere>, at its <origin>, in the order of the link names. Links without shapes
 // are skipped. Throws BadInput, also for a shape that is no sphere, of any link or of the named one.
 std::vector<LinkSpheres> readSpherizedUrdf(const std::filesystem::path& file, const std::string& link = "",
                                            const ReaderOptions& reader = {});
 
-// `collision_spheres: {LINK: [{center: [x, y, z], radius: r}]}`, at the top or under robot_cfg / kinematics;
-// links in the file's order. Entries with radius <= 0 are skipped: cuRobo disables spheres that way. Throws
-// BadInput with the line.
+// `collision_spheres: {LINK: [{center: [x, y, z], radius: r}]}`, at the top or under robot_cfg / kinematics,
+// or a list of such tables as in Lula's files; links in the file's order. Entries with radius <= 0 are
+// skipped: cuRobo disables spheres that way. `collision_sphere_buffer` beside it, one distance or {LINK: d},
+// is added to the radii. Throws BadInput with the line.
 std::vector<LinkSpheres> readCuroboYaml(const std::filesystem::path& file);
 
 // XRDF: `geometry: {NAME: {spheres: {LINK: [...]}}}`, NAME from `collision: {geometry: NAME}` or the only
@@ -36,8 +40,8 @@ std::vector<LinkSpheres> readXrdf(const std::filesystem::path& file);
 std::vector<LinkSpheres> readYamlSets(const std::filesystem::path& file);
 
 // JSON of foam: {"LINK::anything": {"spheres": [{"origin": [x, y, z], "radius": r}]}}, or one such table, or
-// a list of them as for one mesh, whose last one counts; these belong to a link named as the file. Throws
-// BadInput.
+// a list of them as for one mesh, whose last one counts; these belong to a link named as the file. JSON with
+// the keys of cuRobo is read as such. Throws BadInput.
 std::vector<LinkSpheres> readFoam(const std::filesystem::path& file);
 
 // Whether readSets() knows the file's ending: .sph, .urdf, .yaml, .yml, .xrdf, .json.

@@ -2,10 +2,11 @@
 #include "engine/model/sphere_sets.h"
 #include "engine/types/error.h"
 #include "engine/types/read_file.h"
+#include "engine/types/yaml_document.h"
 
 #include <algorithm>
 #include <cmath>
-#include <yaml-cpp/yaml.h>
+#include <set>
 
 namespace fathom {
 
@@ -14,6 +15,8 @@ namespace {
 constexpr size_t kLargestSet =
     1u << 20; // 15 000 spheres; real sets have 50 kB, and the parser needs up to 250 bytes per byte
 constexpr size_t kMaxSpheres = 65536; // over all links: an alias can repeat one list for each link
+
+constexpr const char* kLinks = "{LINK: [{center: [x, y, z], radius: r}]}";
 
 std::string lineOf(const YAML::Node& node) {
     return "line " + std::to_string(node.Mark().line + 1);
@@ -28,10 +31,28 @@ double number(const std::string& file, const YAML::Node& node) {
     return value;
 }
 
+[[noreturn]] void refuseRepeated(const std::string& file, const YAML::Node& value, const std::string& key) {
+    throw BadInput(file, lineOf(value), "'" + excerpt(key) + "' given twice", "each key once");
+}
+
+// The value of a key; yaml-cpp itself would take the first of several.
+YAML::Node tableOf(const std::string& file, const YAML::Node& node, const std::string& key) {
+    YAML::Node found(YAML::NodeType::Undefined);
+    for (auto entry = node.begin(); node.IsMap() && entry != node.end(); ++entry) {
+        if (!entry->first.IsScalar() || entry->first.Scalar() != key) {
+            continue;
+        }
+        if (found.IsDefined()) {
+            refuseRepeated(file, entry->second, key);
+        }
+        found.reset(entry->second);
+    }
+    return found;
+}
+
 // key: "center", or "origin" of foam.
 Sphere sphereOf(const std::string& file, const YAML::Node& entry, const std::string& key) {
-    const YAML::Node centre = entry.IsMap() ? entry[key] : YAML::Node();
-    const YAML::Node radius = entry.IsMap() ? entry["radius"] : YAML::Node();
+    const YAML::Node centre = tableOf(file, entry, key), radius = tableOf(file, entry, "radius");
     if (!centre || !centre.IsSequence() || centre.size() != 3 || !radius) {
         throw BadInput(file, lineOf(entry), "not a sphere", "{" + key + ": [x, y, z], radius: r}");
     }
@@ -39,29 +60,26 @@ Sphere sphereOf(const std::string& file, const YAML::Node& entry, const std::str
             number(file, radius)};
 }
 
-// `levels` bounds the depth as in cuRobo's files: an alias may refer to its own table.
-YAML::Node sectionOf(const YAML::Node& root, int levels = 3) {
-    if (levels == 0 || !root.IsMap()) {
-        return {};
+// The table that holds `collision_spheres`. `levels` bounds the depth as in cuRobo's files: an alias may
+// refer to its own table.
+YAML::Node holderOf(const std::string& file, const YAML::Node& root, int levels = 3) {
+    if (levels == 0 || tableOf(file, root, "collision_spheres").IsDefined()) {
+        return levels == 0 ? YAML::Node(YAML::NodeType::Undefined) : root;
     }
-    for (const char* name : {"collision_spheres", "robot_cfg", "kinematics"}) {
-        const YAML::Node below = root[name];
-        if (below && std::string(name) == "collision_spheres") {
-            return below;
-        }
-        if (below) {
-            if (const YAML::Node found = sectionOf(below, levels - 1)) {
+    for (const char* name : {"robot_cfg", "kinematics"}) {
+        if (const YAML::Node below = tableOf(file, root, name)) {
+            if (const YAML::Node found = holderOf(file, below, levels - 1)) {
                 return found;
             }
         }
     }
-    return {};
+    return YAML::Node(YAML::NodeType::Undefined);
 }
 
 YAML::Node loadYaml(const std::filesystem::path& file) {
     const std::string text = readWholeFile(file, kLargestSet, "a readable YAML file");
     try {
-        return YAML::Load(text);
+        return onlyYamlDocument(file.string(), text);
     } catch (const YAML::Exception& e) {
         throw BadInput(file.string(), "line " + std::to_string(e.mark.line + 1), excerpt(e.msg),
                        "a readable YAML file");
@@ -90,27 +108,34 @@ std::vector<Sphere> spheresOf(const std::filesystem::path& file, const std::stri
     return spheres;
 }
 
+// Links of a table, or of a list of tables as in Lula's files; also those without spheres.
 std::vector<LinkSpheres> linksOf(const std::filesystem::path& file, const YAML::Node& section) {
+    std::vector<YAML::Node> tables(section.begin(), section.IsSequence() ? section.end() : section.begin());
+    if (section.IsMap()) {
+        tables.push_back(section);
+    }
     std::vector<LinkSpheres> sets;
+    std::set<std::string> seen;
     size_t all = 0;
-    for (const auto& entry : section) {
-        const std::string link = entry.first.IsScalar() ? entry.first.Scalar() : "";
-        LinkSpheres set{link, spheresOf(file, link, entry.second, "center", all)};
-        if (!set.spheres.empty()) {
-            sets.push_back(std::move(set));
+    for (const YAML::Node& table : tables) {
+        if (!table.IsMap()) {
+            throw BadInput(file.string(), lineOf(table), "no table", kLinks);
+        }
+        for (const auto& entry : table) {
+            const std::string link = entry.first.IsScalar() ? entry.first.Scalar() : "";
+            if (!seen.insert(link).second) {
+                refuseRepeated(file.string(), entry.second, link);
+            }
+            sets.push_back({link, spheresOf(file, link, entry.second, "center", all)});
         }
     }
     return sets;
 }
 
-YAML::Node tableOf(const YAML::Node& node, const std::string& key) {
-    return node && node.IsMap() ? node[key] : YAML::Node(YAML::NodeType::Undefined);
-}
-
 // The name of the geometry that an XRDF uses for collisions.
 std::string geometryOf(const std::filesystem::path& file, const YAML::Node& root,
                        const YAML::Node& geometry) {
-    const YAML::Node named = tableOf(tableOf(root, "collision"), "geometry");
+    const YAML::Node named = tableOf(file.string(), tableOf(file.string(), root, "collision"), "geometry");
     if (named && named.IsScalar()) {
         return named.Scalar();
     }
@@ -121,45 +146,71 @@ std::string geometryOf(const std::filesystem::path& file, const YAML::Node& root
     return geometry.begin()->first.Scalar();
 }
 
-void grow(const std::filesystem::path& file, const YAML::Node& buffers, std::vector<LinkSpheres>& sets) {
+// Adds distances, {LINK: d} or one for all links, to the radii, and drops links without spheres.
+void grow(const std::filesystem::path& file, const std::string& field, const YAML::Node& distances,
+          std::vector<LinkSpheres>& sets) {
+    const bool same = distances.IsDefined() && distances.IsScalar();
+    const double all = same ? number(file.string(), distances) : 0.0;
+    std::set<std::string> links;
     for (LinkSpheres& set : sets) {
-        const YAML::Node buffer = tableOf(buffers, set.link);
+        links.insert(set.link);
+        const YAML::Node own = tableOf(file.string(), distances, set.link);
         for (Sphere& s : set.spheres) {
-            s.radius += buffer ? number(file.string(), buffer) : 0.0;
+            s.radius += own ? number(file.string(), own) : all;
         }
         std::erase_if(set.spheres, [](const Sphere& s) { return !(s.radius > 0.0); });
+    }
+    for (auto entry = distances.begin(); distances.IsMap() && entry != distances.end(); ++entry) {
+        const std::string link = entry->first.IsScalar() ? entry->first.Scalar() : "";
+        if (links.count(link) == 0) {
+            throw BadInput(file.string(), field, "link '" + excerpt(link) + "'", namesOf(sets));
+        }
     }
     std::erase_if(sets, [](const LinkSpheres& set) { return set.spheres.empty(); });
 }
 
 std::vector<LinkSpheres> xrdfSets(const std::filesystem::path& file, const YAML::Node& root) {
-    const YAML::Node geometry = tableOf(root, "geometry");
+    const std::string name = file.string();
+    const YAML::Node geometry = tableOf(name, root, "geometry");
     if (!geometry || !geometry.IsMap()) {
-        throw BadInput(file.string(), "geometry", "missing or not a table",
-                       "{NAME: {spheres: {LINK: [...]}}}");
+        throw BadInput(name, "geometry", "missing or not a table", "{NAME: {spheres: {LINK: [...]}}}");
     }
-    const std::string name = geometryOf(file, root, geometry);
-    const YAML::Node spheres = tableOf(tableOf(geometry, name), "spheres");
+    const std::string used = geometryOf(file, root, geometry);
+    const YAML::Node spheres = tableOf(name, tableOf(name, geometry, used), "spheres");
     if (!spheres || !spheres.IsMap()) {
-        throw BadInput(file.string(), "geometry." + excerpt(name) + ".spheres", "missing or not a table",
-                       "{LINK: [{center: [x, y, z], radius: r}]}");
+        throw BadInput(name, "geometry." + excerpt(used) + ".spheres", "missing or not a table", kLinks);
+    }
+    const YAML::Node distances = tableOf(name, tableOf(name, root, "collision"), "buffer_distance");
+    if (distances && !distances.IsMap()) {
+        throw BadInput(name, "collision.buffer_distance",
+                       distances.IsScalar() ? excerpt(distances.Scalar()) : "a list", "{LINK: distance}");
     }
     std::vector<LinkSpheres> sets = linksOf(file, spheres);
-    grow(file, tableOf(tableOf(root, "collision"), "buffer_distance"), sets);
+    grow(file, "collision.buffer_distance", distances, sets);
     return sets;
 }
 
 std::vector<LinkSpheres> curoboSets(const std::filesystem::path& file, const YAML::Node& root) {
-    const YAML::Node section = sectionOf(root);
-    if (!section || !section.IsMap()) {
-        throw BadInput(file.string(), "collision_spheres", "missing or not a table",
-                       "{LINK: [{center: [x, y, z], radius: r}]}");
+    const YAML::Node holder = holderOf(file.string(), root);
+    const YAML::Node section = tableOf(file.string(), holder, "collision_spheres");
+    if (section && section.IsScalar()) {
+        throw BadInput(file.string(), "collision_spheres", "the name of a file, " + excerpt(section.Scalar()),
+                       std::string(kLinks) + "; use that file, with collision_sphere_buffer of this one");
     }
-    return linksOf(file, section);
+    if (!section || !(section.IsMap() || section.IsSequence())) {
+        throw BadInput(file.string(), "collision_spheres", "missing or not a table", kLinks);
+    }
+    std::vector<LinkSpheres> sets = linksOf(file, section);
+    const YAML::Node distances = tableOf(file.string(), holder, "collision_sphere_buffer");
+    if (distances && distances.IsSequence()) {
+        throw BadInput(file.string(), "collision_sphere_buffer", "a list", "distance or {LINK: distance}");
+    }
+    grow(file, "collision_sphere_buffer", distances, sets);
+    return sets;
 }
 
-bool isXrdf(const YAML::Node& root) {
-    const YAML::Node format = tableOf(root, "format");
+bool isXrdf(const std::string& file, const YAML::Node& root) {
+    const YAML::Node format = tableOf(file, root, "format");
     return format && format.IsScalar() && format.Scalar() == "xrdf";
 }
 
@@ -178,9 +229,12 @@ std::vector<LinkSpheres> readFoam(const std::filesystem::path& file) {
     if (root.IsSequence() && root.size() > 0) {
         root = root[root.size() - 1];
     }
+    if (holderOf(file.string(), root)) {
+        return curoboSets(file, root);
+    }
     size_t all = 0;
     std::vector<LinkSpheres> sets;
-    if (const YAML::Node spheres = tableOf(root, "spheres"); spheres && spheres.IsSequence()) {
+    if (const YAML::Node spheres = tableOf(file.string(), root, "spheres"); spheres && spheres.IsSequence()) {
         const std::string link = file.stem().string();
         sets.push_back({link, spheresOf(file, link, spheres, "origin", all)});
         return sets;
@@ -189,10 +243,14 @@ std::vector<LinkSpheres> readFoam(const std::filesystem::path& file) {
         throw BadInput(file.string(), "spheres", "missing",
                        "{\"LINK::shape\": {\"spheres\": [{\"origin\": [x, y, z], \"radius\": r}]}}");
     }
+    std::set<std::string> seen;
     for (const auto& entry : root) {
         const std::string name = entry.first.IsScalar() ? entry.first.Scalar() : "";
         const std::string link = name.substr(0, name.find("::"));
-        const YAML::Node list = tableOf(entry.second, "spheres");
+        if (!seen.insert(name).second) {
+            refuseRepeated(file.string(), entry.second, name);
+        }
+        const YAML::Node list = tableOf(file.string(), entry.second, "spheres");
         const auto more = spheresOf(file, link, list ? list : entry.second, "origin", all);
         const auto same = [&](const LinkSpheres& set) { return set.link == link; };
         auto set = std::find_if(sets.begin(), sets.end(), same);
@@ -205,7 +263,7 @@ std::vector<LinkSpheres> readFoam(const std::filesystem::path& file) {
 
 std::vector<LinkSpheres> readYamlSets(const std::filesystem::path& file) {
     const YAML::Node root = loadYaml(file);
-    return isXrdf(root) ? xrdfSets(file, root) : curoboSets(file, root);
+    return isXrdf(file.string(), root) ? xrdfSets(file, root) : curoboSets(file, root);
 }
 
 } // namespace fathom

@@ -3,14 +3,12 @@
 
 #include "engine/types/error.h"
 #include "engine/types/read_file.h"
+#include "engine/types/yaml_document.h"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <set>
-#include <sstream>
-#include <yaml-cpp/eventhandler.h>
-#include <yaml-cpp/parser.h>
 
 namespace fathom {
 
@@ -31,37 +29,6 @@ bool isQuoted(const YAML::Node& node) {
     return node.Tag() == "!"; // yaml-cpp's tag of a scalar in quotes; a plain one has "?"
 }
 
-// Records where each document begins.
-class DocumentStarts : public YAML::EventHandler {
-public:
-    int last = 0; // line, from 0
-
-    void OnDocumentStart(const YAML::Mark& mark) override { last = mark.line; }
-    void OnDocumentEnd() override {}
-    void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
-    void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
-    void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t, const std::string&) override {}
-    void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
-                         YAML::EmitterStyle::value) override {}
-    void OnSequenceEnd() override {}
-    void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
-                    YAML::EmitterStyle::value) override {}
-    void OnMapEnd() override {}
-};
-
-// YAML::LoadAll allocates without bound when the first document is followed by text that starts none, such as
-// a comma, because the parser makes no progress.
-YAML::Node onlyDocument(const std::filesystem::path& file, const std::string& text) {
-    std::istringstream stream(text);
-    YAML::Parser parser(stream);
-    DocumentStarts starts;
-    if (parser.HandleNextDocument(starts) && parser.HandleNextDocument(starts)) {
-        throw BadInput(file.string(), "line " + std::to_string(starts.last + 1), "more than a YAML document",
-                       "one document");
-    }
-    return YAML::Load(text);
-}
-
 } // namespace
 
 YamlNode::YamlNode(const YAML::Node& node, std::string file, std::string path)
@@ -78,7 +45,7 @@ YamlNode YamlNode::parseText(const std::filesystem::path& file, const std::strin
         throw BadInput(file.string(), "size", std::to_string(text.size()), "at most 1 MiB");
     }
     try {
-        return YamlNode(onlyDocument(file, text), file.string(), "");
+        return YamlNode(onlyYamlDocument(file.string(), text), file.string(), "");
     } catch (const YAML::Exception& e) {
         const std::string where = e.mark.is_null() ? "syntax" : "line " + std::to_string(e.mark.line + 1);
         throw BadInput(file.string(), where, excerpt(e.msg), "YAML");

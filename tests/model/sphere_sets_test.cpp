@@ -106,6 +106,68 @@ TEST_CASE("cuRobo's YAML is read at the top and under its tables; disabled spher
     CHECK(refusalOf(".yaml", spheres, "arm").find("link: 'arm' (allowed: hand, base)") != std::string::npos);
 }
 
+TEST_CASE("cuRobo's buffer, one number or one per link, is added to the radii") {
+    const std::string spheres =
+        "kinematics:\n  collision_spheres:\n    hand: [{center: [0, 0, 0], radius: 0.01}]\n"
+        "    arm: [{center: [0, 0, 0], radius: 0.02}]\n    off: [{center: [0, 0, 0], radius: -1}]\n"
+        "  collision_sphere_buffer: ";
+    const auto radii = [&](const std::string& buffer) {
+        const TextFile file(".yml", spheres + buffer);
+        const auto sets = readCuroboYaml(file.path());
+        REQUIRE(sets.size() == 2);
+        return glm::dvec2(sets[0].spheres[0].radius, sets[1].spheres[0].radius);
+    };
+    CHECK(glm::distance(radii("0.005"), glm::dvec2(0.015, 0.025)) < 1e-12);
+    CHECK(glm::distance(radii("{arm: 0.005, off: 0.1}"), glm::dvec2(0.01, 0.025)) < 1e-12);
+    CHECK(glm::distance(radii("-0.005"), glm::dvec2(0.005, 0.015)) < 1e-12);
+    CHECK(radii("") == glm::dvec2(0.01, 0.02));
+    for (const char* buffer : {"{hnad: 0.05}", "[0.05]", "much", "{arm: much}"}) {
+        CHECK_MESSAGE(refusalOf(".yml", spheres + buffer, "arm") != "", buffer);
+    }
+}
+
+TEST_CASE(
+    "cuRobo's spheres are also read as Lula's list and as JSON; the name of another file is passed on") {
+    const TextFile lula(".yaml",
+                        "api_version: 1.0\ncollision_spheres:\n  - hand:\n    - \"center\": [0, 0, 0.05]\n"
+                        "      \"radius\": 0.045\n  - arm:\n    - {center: [0, 0, 0.1], radius: 0.05}\n");
+    const auto sets = readCuroboYaml(lula.path());
+    REQUIRE(sets.size() == 2);
+    CHECK(sets[0].link == "hand");
+    CHECK(sets[0].spheres[0].centre == dvec3(0, 0, 0.05));
+    CHECK(sets[1].spheres[0].radius == 0.05);
+    CHECK(refusalOf(".yaml", "collision_spheres: [5]").find("line 1: no table") != std::string::npos);
+    CHECK(refusalOf(".yaml", "robot_cfg: {kinematics: {collision_spheres: spheres/franka_mesh.yml}}")
+              .find("collision_spheres: the name of a file, spheres/franka_mesh.yml (allowed: {LINK: ") !=
+          std::string::npos);
+    const std::string json = R"({"collision_spheres": {"hand": [{"center": [0, 0, 0], "radius": 0.01}]}})";
+    CHECK(readFoam(TextFile(".json", json).path())[0].spheres[0].radius == 0.01);
+}
+
+TEST_CASE("A repeated key of a set, and a second document, are rejected and not dropped") {
+    const std::string one = "[{center: [0, 0, 0], radius: 1}]";
+    for (const std::string& text :
+         {"collision_spheres: {hand: " + one + ", hand: " + one + "}",
+          "collision_spheres: {hand: " + one + "}\ncollision_spheres: {arm: " + one + "}",
+          std::string("collision_spheres: {hand: [{center: [0, 0, 0], radius: 1, radius: 2}]}"),
+          "robot_cfg: {kinematics: {collision_spheres: {hand: " + one + "}}, kinematics: {}}",
+          "format: xrdf\ngeometry: {g: {spheres: {hand: " + one + ", hand: " + one + "}}}",
+          "format: xrdf\ncollision: {geometry: g}\ngeometry: {g: {spheres: {hand: " + one +
+              "}}, g: {spheres: {arm: " + one + "}}}",
+          "format: xrdf\ncollision: {buffer_distance: {hand: 1, hand: 2}}\ngeometry: {g: {spheres: {hand: " +
+              one + "}}}"}) {
+        const std::string refusal = refusalOf(".yaml", text, "hand");
+        CHECK_MESSAGE(refusal.find("given twice (allowed: each key once)") != std::string::npos, text,
+                      refusal);
+    }
+    CHECK(refusalOf(".yaml",
+                    "collision_spheres: {hand: " + one + "}\n---\ncollision_spheres: {arm: " + one + "}")
+              .find("line 2: more than a YAML document") != std::string::npos);
+    CHECK(refusalOf(".json", "{\"a::b\": {\"spheres\": []}, \"a::b\": {\"spheres\": []}}")
+              .find("given twice") != std::string::npos);
+    CHECK(refusalOf(".yaml", "---\ncollision_spheres: {hand: " + one + "}\n...\n") == "");
+}
+
 TEST_CASE("A damaged set is rejected with the place of the error") {
     CHECK(refusalOf(".urdf", "").find("file: empty") != std::string::npos);
     CHECK(refusalOf(".urdf", "<robot").find("robot: ") != std::string::npos);

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// Parses YAML that must be one document.
+#pragma once
+
+#include <string>
+#include <yaml-cpp/yaml.h>
+
+namespace fathom {
+
+// `file` is for messages. Throws YAML::Exception for a syntax error, BadInput for a second document.
+YAML::Node onlyYamlDocument(const std::string& file, const std::string& text);
+
+} // namespace fathom
