@@ -42,7 +42,7 @@ std::set<fs::path> filesOf(const SceneArm& arm) {
     for (const auto& [name, link] : model->links_) {
         for (const auto& collision : link->collision_array) {
             try {
-                found.insert(meshFileOf(*collision->geometry, {arm.urdf, arm.meshes}));
+                found.insert(meshFileOf(*collision->geometry, {arm.urdf, arm.meshes}).file);
             } catch (
                 const ShapeRefused&) { // of a link that the scene does not use, or the scene had not opened
             }

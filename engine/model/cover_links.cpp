@@ -54,6 +54,7 @@ struct LinkCover {
     LinkShape read;
     ShapeSpheres made;
     std::filesystem::path file; // of a mesh
+    std::string note;           // on that file
     std::string key;            // of the cache; empty = not cached
     bool found = false;         // in the cache
     std::exception_ptr refused;
@@ -97,7 +98,9 @@ ShapeSpheres renamed(ShapeSpheres made, const std::string& from, const std::stri
 
 // Takes a mesh's cover from the cache.
 void look(LinkCover& one, const CoverCache& cache, const ShapeSource& source, uint32_t leaves) {
-    one.file = meshFileOf(*one.of->shape, source);
+    MeshPlace place = meshFileOf(*one.of->shape, source);
+    one.file = std::move(place.file);
+    one.note = std::move(place.note);
     if (one.file.empty()) {
         return;
     }
@@ -156,8 +159,13 @@ void cover(std::vector<LinkCover>& some, const ShapeSource& source, const CoverC
 
 } // namespace
 
-std::vector<ShapeSpheres> spheresOf(std::span<const LinkGeometry> shapes, const ShapeSource& source,
+std::vector<ShapeSpheres> spheresOf(std::span<const LinkGeometry> shapes, ShapeSource source,
                                     uint32_t leaves) {
+    for (const LinkGeometry& shape : shapes) {
+        if (const auto* mesh = dynamic_cast<const urdf::Mesh*>(shape.shape.get())) {
+            source.names.insert(mesh->filename);
+        }
+    }
     std::vector<ShapeSpheres> made;
     const CoverCache cache;
     CoverProgress progress(shapes.size(), cache);
@@ -167,6 +175,9 @@ std::vector<ShapeSpheres> spheresOf(std::span<const LinkGeometry> shapes, const 
         for (LinkCover& one : some) {
             if (one.refused) {
                 std::rethrow_exception(one.refused);
+            }
+            if (!one.note.empty()) {
+                one.made.notes.push_back(one.note);
             }
             made.push_back(std::move(one.made));
         }

@@ -19,7 +19,7 @@ struct LinkGeometry {
 
 // Returns one result per shape, in order. Throws BadInput for the first shape that is rejected; it names the
 // URDF and link, or the mesh file.
-std::vector<ShapeSpheres> spheresOf(std::span<const LinkGeometry> shapes, const ShapeSource& source,
+std::vector<ShapeSpheres> spheresOf(std::span<const LinkGeometry> shapes, ShapeSource source,
                                     uint32_t leaves);
 
 } // namespace fathom

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/model/link_spheres.h"
 
+#include "engine/model/find_mesh.h"
 #include "engine/model/sphere_cover.h"
 #include "engine/model/urdf_file.h"
 #include "engine/types/inside.h"
-#include "engine/types/printable.h"
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -36,72 +35,6 @@ TriangleMesh prism(uint32_t sides, const std::array<double, 2>& half, double len
     return mesh;
 }
 
-// "%20" becomes a space: mesh names are URIs.
-std::string percentDecoded(const std::string& text) {
-    std::string out;
-    for (size_t i = 0; i < text.size(); ++i) {
-        unsigned code = 0;
-        const char* const digits = text.data() + i + 1;
-        if (text[i] == '%' && i + 2 < text.size() &&
-            std::from_chars(digits, digits + 2, code, 16).ptr == digits + 2 && code != 0) {
-            out += static_cast<char>(code);
-            i += 2;
-        } else {
-            out += text[i];
-        }
-    }
-    return out;
-}
-
-// What a mesh name may mean as a path: with and without the package's name as a folder.
-std::vector<std::string> pathsIn(const std::string& name) {
-    std::string rest = name;
-    bool package = false;
-    for (const std::string scheme : {"package://", "model://", "file://"}) {
-        if (name.starts_with(scheme)) {
-            rest = name.substr(scheme.size());
-            package = scheme != "file://";
-        }
-    }
-    std::vector<std::string> paths{rest};
-    if (const size_t slash = rest.find('/'); package && slash != std::string::npos) {
-        paths.push_back(rest.substr(slash + 1));
-    }
-    for (size_t i = 0, count = paths.size(); i < count; ++i) {
-        if (std::string decoded = percentDecoded(paths[i]); decoded != paths[i]) {
-            paths.push_back(std::move(decoded));
-        }
-    }
-    return paths;
-}
-
-// The file that a URDF's mesh name refers to. Searched below arm.meshes, or in the URDF's folder and the
-// three above it.
-std::filesystem::path pathOf(const std::string& name, const ShapeSource& source) {
-    std::vector<std::filesystem::path> folders{source.meshes};
-    if (source.meshes.empty()) {
-        folders = {source.urdf.parent_path()};
-        for (int up = 0; up < 3; ++up) {
-            folders.push_back(folders.back() / "..");
-        }
-    }
-    std::string looked;
-    for (const std::string& wanted : pathsIn(name)) {
-        for (const auto& folder : folders) {
-            std::error_code ignored;
-            if (std::filesystem::exists(folder / wanted, ignored)) {
-                return folder / wanted;
-            }
-            const std::string place = (folder / wanted).lexically_normal().string();
-            if (!wanted.starts_with('/') || looked.empty()) {
-                looked += (looked.empty() ? "" : ", ") + place;
-            }
-        }
-    }
-    throw ShapeRefused{"mesh '" + excerpt(name) + "' not found; looked for " + excerpt(looked, 1000),
-                       "an existing file; arm.meshes names the folder to use for package:// and model://"};
-}
-
 LoadedMesh readMesh(const urdf::Mesh& mesh, const ShapeSource& source, ShapeSpheres& made) {
     MeshOptions options;
     options.stretch = {mesh.scale.x, mesh.scale.y, mesh.scale.z};
@@ -112,7 +45,7 @@ LoadedMesh readMesh(const urdf::Mesh& mesh, const ShapeSource& source, ShapeSphe
     if (!isFinite(options.stretch) || options.stretch.x * options.stretch.y * options.stretch.z == 0.0) {
         throw ShapeRefused{"a mesh scale that is 0 or not finite", "three finite numbers, none 0"};
     }
-    const std::filesystem::path file = pathOf(mesh.filename, source);
+    const std::filesystem::path file = findMesh(mesh.filename, source).file;
     LoadedMesh loaded = loadMesh(file, options);
     made.outside = outsideOf(file, source);
     made.open = !loaded.facts.closed();
@@ -174,9 +107,9 @@ double leastSize(const urdf::Geometry& shape) {
 
 } // namespace
 
-std::filesystem::path meshFileOf(const urdf::Geometry& shape, const ShapeSource& source) {
+MeshPlace meshFileOf(const urdf::Geometry& shape, const ShapeSource& source) {
     const auto* mesh = dynamic_cast<const urdf::Mesh*>(&shape);
-    return mesh == nullptr || capsuleOf(shape) ? "" : pathOf(mesh->filename, source);
+    return mesh == nullptr || capsuleOf(shape) ? MeshPlace{} : findMesh(mesh->filename, source);
 }
 
 std::filesystem::path outsideOf(const std::filesystem::path& file, const ShapeSource& source) {

@@ -2,11 +2,13 @@
 // One collision shape of a URDF link as spheres.
 #pragma once
 
+#include "engine/model/find_mesh.h"
 #include "engine/model/mesh_file.h"
 #include "engine/types/sphere_tree.h"
 
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <urdf_model/link.h>
 #include <vector>
@@ -15,10 +17,11 @@ namespace fathom {
 
 // Where meshes are searched.
 struct ShapeSource {
-    std::filesystem::path urdf;   // mesh file names are searched in its folder and the parents,
-    std::filesystem::path meshes; // or here, unless empty
-    bool keepStray = false;       // keep pieces far from the rest of a mesh
-    ReaderOptions reader{};       // of the processes that read them
+    std::filesystem::path urdf;    // mesh file names are searched in its folder and the parents,
+    std::filesystem::path meshes;  // or here, unless empty
+    bool keepStray = false;        // keep pieces far from the rest of a mesh
+    ReaderOptions reader{};        // of the processes that read them
+    std::set<std::string> names{}; // of all meshes of the URDF, to tell their packages apart
 };
 
 // Exception: the rejected value and what is allowed. The caller adds the file and the link.
@@ -44,7 +47,7 @@ struct LinkShape {
 
 // The file of a shape that is a mesh, as readLinkShape() reads it; empty for other shapes. Throws
 // ShapeRefused when it is missing.
-std::filesystem::path meshFileOf(const urdf::Geometry& shape, const ShapeSource& source);
+MeshPlace meshFileOf(const urdf::Geometry& shape, const ShapeSource& source);
 
 // The file if it is outside the folder that is searched, else empty.
 std::filesystem::path outsideOf(const std::filesystem::path& file, const ShapeSource& source);

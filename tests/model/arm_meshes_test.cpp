@@ -29,6 +29,59 @@ TEST_CASE("Meshes are found by URIs of Gazebo and with escaped characters") {
     std::filesystem::remove_all(folder);
 }
 
+TEST_CASE("A mesh of a package that is not there is not taken from another package") {
+    const auto folder =
+        std::filesystem::temp_directory_path() / ("fathom_package_" + std::to_string(::getpid()));
+    const testing::ObjFile box(testing::boxMesh(dvec3(0.0), dvec3(0.1)));
+    const auto put = [&](const std::string& name) {
+        std::filesystem::create_directories((folder / name).parent_path());
+        std::filesystem::copy_file(box.path(), folder / name,
+                                   std::filesystem::copy_options::overwrite_existing);
+    };
+    const auto notesOf = [&](const std::string& place, const std::vector<std::string>& meshes) {
+        std::string shapes;
+        for (const std::string& mesh : meshes) {
+            shapes += "<collision><geometry><mesh filename='package://" + mesh + "'/></geometry></collision>";
+        }
+        std::ofstream(folder / place) << "<robot name='r'><link name='a'>" << shapes << "</link></robot>";
+        try {
+            return loadArm(folder / place).notes;
+        } catch (const BadInput& e) {
+            return std::vector<std::string>{e.what()};
+        }
+    };
+    put("flat/meshes/base.obj");
+    put("flat/meshes/finger.obj");
+    put("own/arm/meshes/base.obj");
+    put("own/arm/meshes/finger.obj");
+    put("flat/grip/meshes/hand.obj");
+    CHECK(notesOf("flat/r.urdf", {"arm/meshes/base.obj"}).empty());
+    const auto same = notesOf("flat/r.urdf", {"arm/meshes/base.obj", "grip/meshes/base.obj"});
+    REQUIRE(same.size() == 1);
+    CHECK_MESSAGE(same[0].find("mesh 'package://arm/meshes/base.obj' not found; ") != std::string::npos,
+                  same[0]);
+    CHECK_MESSAGE(same[0].find("flat/meshes/base.obj (of package arm or grip)") != std::string::npos,
+                  same[0]);
+    const auto other = notesOf("flat/r.urdf", {"arm/meshes/base.obj", "grip/meshes/finger.obj"});
+    REQUIRE(other.size() == 2);
+    CHECK(
+        other[0].find(
+            "base.obj is taken for 'package://arm/meshes/base.obj'; its folder has not the package's name") !=
+        std::string::npos);
+    CHECK(notesOf("flat/r.urdf", {"arm/meshes/base.obj", "grip/meshes/hand.obj"}).size() ==
+          1); // grip is there
+    const auto own = notesOf("own/arm/r.urdf", {"arm/meshes/base.obj", "grip/meshes/finger.obj"});
+    REQUIRE(own.size() == 1);
+    CHECK_MESSAGE(own[0].find("mesh 'package://grip/meshes/finger.obj' not found; ") != std::string::npos,
+                  own[0]);
+    std::ofstream(folder / "flat/package.xml")
+        << "<package><!-- <name>grip</name> --><name>arm</name></package>";
+    CHECK(notesOf("flat/r.urdf", {"arm/meshes/base.obj", "grip/meshes/hand.obj"}).empty());
+    CHECK(notesOf("flat/r.urdf", {"arm/meshes/base.obj", "grip/meshes/finger.obj"})[0].find("not found") !=
+          std::string::npos);
+    std::filesystem::remove_all(folder);
+}
+
 TEST_CASE("An arm's meshes that are not closed are reported once") {
     const auto folder =
         std::filesystem::temp_directory_path() / ("fathom_open_" + std::to_string(::getpid()));

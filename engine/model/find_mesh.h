@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// The file that a mesh name of a URDF refers to.
+#pragma once
+
+#include <filesystem>
+#include <set>
+#include <string>
+
+namespace fathom {
+
+struct ShapeSource;
+
+// A mesh file, and a note for the user when it may be of another package; empty = none.
+struct MeshPlace {
+    std::filesystem::path file;
+    std::string note;
+};
+
+// Searched below arm.meshes, or in the URDF's folder and the three above it; with the package's name as a
+// folder, and without it where nothing says that the file is of another package. Throws ShapeRefused.
+MeshPlace findMesh(const std::string& name, const ShapeSource& source);
+
+} // namespace fathom
