@@ -3,8 +3,11 @@
 
 #include "engine/model/xml_text.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <map>
+#include <string_view>
+#include <vector>
 
 namespace fathom {
 
@@ -41,12 +44,15 @@ std::string linksText(std::span<const LinkSpheres> sets, const std::string& inde
     return out;
 }
 
-std::string collisionsOf(const LinkSpheres& set) {
+// name: what the first one is called, as others may refer to it, such as contact sensors; empty = nothing.
+std::string collisionsOf(const LinkSpheres& set, const std::string& name = "") {
     std::string out;
-    for (const Sphere& s : set.spheres) {
-        out += "    <collision><origin xyz=\"" + listOf(s.centre, " ") +
-               "\" rpy=\"0 0 0\"/><geometry><sphere radius=\"" + digits(s.radius) +
-               "\"/></geometry></collision>\n";
+    for (size_t i = 0; i < set.spheres.size(); ++i) {
+        const Sphere& s = set.spheres[i];
+        const std::string own = name.empty() || i == 0 ? name : name + "_" + std::to_string(i);
+        out += "    <collision" + (own.empty() ? "" : " name=\"" + xmlEscaped(own) + "\"") +
+               "><origin xyz=\"" + listOf(s.centre, " ") + "\" rpy=\"0 0 0\"/><geometry><sphere radius=\"" +
+               digits(s.radius) + "\"/></geometry></collision>\n";
     }
     return out;
 }
@@ -83,26 +89,34 @@ std::string spherizedText(const std::string& urdf, std::span<const LinkSpheres> 
     for (const LinkSpheres& set : sets) {
         byLink[set.link] = &set;
     }
-    std::string out, link;
-    size_t collision = 0; // depth
+    std::string out, link, name;        // of the link, and of its first collision
+    std::vector<std::string_view> open; // elements around the piece
+    const auto isBelow = [&](std::string_view parent, size_t depth) {
+        return open.size() == depth && open[depth - 1] == parent;
+    };
     for (XmlPieces pieces(urdf); pieces.next();) {
         const XmlPiece& piece = pieces.piece();
-        if (piece.name == "collision" && !piece.closes) {
-            collision += piece.isEmpty ? 0 : 1;
-            continue;
+        const bool element = !piece.name.empty() && !piece.name.starts_with('!');
+        const bool dropped = open.size() > 2 && open[1] == "link" && open[2] == "collision";
+        if (element && piece.closes) {
+            open.resize(open.size() - std::min<size_t>(open.size(), 1));
         }
-        if (collision > 0) {
-            collision -= piece.name == "collision" && piece.closes ? 1 : 0;
-            continue;
+        const bool inLink = isBelow("link", 2);
+        if (dropped || (inLink && piece.name == "collision")) {
+            name = inLink && !piece.closes && name.empty() ? xmlAttribute(piece.text, "name") : name;
+        } else {
+            if (isBelow("robot", 1) && piece.name == "link" && !piece.closes) {
+                link = xmlAttribute(piece.text, "name");
+                name.clear();
+            } else if (const auto set = byLink.find(link);
+                       isBelow("robot", 1) && piece.name == "link" && set != byLink.end()) {
+                out += collisionsOf(*set->second, name);
+            }
+            out += piece.text;
         }
-        if (piece.name == "link" && !piece.closes && !piece.isEmpty) {
-            link = xmlAttribute(piece.text, "name");
+        if (element && !piece.closes && !piece.isEmpty) {
+            open.push_back(piece.name);
         }
-        const auto set = byLink.find(link);
-        if (piece.name == "link" && piece.closes && set != byLink.end()) {
-            out += collisionsOf(*set->second);
-        }
-        out += piece.text;
     }
     return out;
 }

@@ -146,6 +146,22 @@ TEST_CASE("A whole URDF becomes a spherized one: all else stays, and its spheres
     }
 }
 
+TEST_CASE("Only collisions of links become spheres; a name of one, which a contact sensor refers to, stays") {
+    const std::string others =
+        "<gazebo reference='a'><sensor><contact><collision>bumper</collision></contact></sensor></gazebo>\n"
+        "<gazebo><plugin><link name='a'><collision>keep me</collision></link></plugin></gazebo>";
+    const std::string urdf = "<robot name='r'><link name='a'><collision name='bumper'><geometry><box "
+                             "size='0.1 0.1 0.1'/></geometry></collision>"
+                             "<collision><geometry><sphere radius='0.1'/></geometry></collision></link>" +
+                             others + "</robot>";
+    const std::string text = spherizedText(urdf, std::vector<LinkSpheres>{{"a", kSets[0].spheres}});
+    CHECK(text.find(others) != std::string::npos);
+    CHECK(text.find("box") == std::string::npos);
+    CHECK(text.find("<collision name=\"bumper\"><origin") != std::string::npos);
+    CHECK(text.find("<collision name=\"bumper_1\"><origin") != std::string::npos);
+    CHECK(same(readSets(SetFile("sensor.urdf", text).path()), {{"a", kSets[0].spheres}}));
+}
+
 TEST_CASE("Capsules are covered, and those of a negative size or of none are rejected") {
     const ArmModel arm = loadUrdf("<link name='a'><collision><geometry><capsule radius='0.05' length='0.3'/>"
                                   "</geometry></collision></link>");
