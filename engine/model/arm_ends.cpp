@@ -33,8 +33,13 @@ constexpr size_t kMaxNamed = 6; // names in a note
 constexpr int kMaxBehind = 2;   // joints of an unknown gripper behind a tool frame
 constexpr int kFingerDepth = 4; // joints of a finger
 
+bool isFree(const urdf::Joint& joint) {
+    return joint.type == urdf::Joint::FLOATING || joint.type == urdf::Joint::PLANAR;
+}
+
+// Whether the joint counts in a chain, which cannot contain free joints.
 bool moves(const urdf::Joint& joint) {
-    return joint.type != urdf::Joint::FIXED;
+    return joint.type != urdf::Joint::FIXED && !isFree(joint);
 }
 
 std::string lowered(std::string name) {
@@ -199,6 +204,9 @@ private:
         seen_.push_back({link, moving, inGripper, false, toolRank(link->name), last});
         const bool fingers = branchesIntoFingers(*link, moving);
         for (const auto& joint : link->child_joints) {
+            if (isFree(*joint) && moving > 0 && depthThrough(*joint) == 0) {
+                continue; // it would end the chain
+            }
             const bool grips = moves(*joint) && (fingers || isGripper(*joint, moving));
             seen_[at].gripperBelow = seen_[at].gripperBelow || grips;
             walk(model_.getLink(joint->child_link_name), moving + moves(*joint), inGripper || grips,
@@ -236,7 +244,8 @@ private:
             size_t count = 0;
             for (const auto& joint : link->child_joints) {
                 const LinkPtr child = model_.getLink(joint->child_link_name);
-                if (!moves(*joint) && isBareFrame(*child) && depths_.at(child->name) == 0) {
+                if (joint->type == urdf::Joint::FIXED && isBareFrame(*child) &&
+                    depths_.at(child->name) == 0) {
                     bare = child;
                     ++count;
                 }
@@ -256,10 +265,6 @@ private:
     std::map<std::string, bool> tied_;  // joints that follow or are followed
     std::vector<Seen> seen_;
 };
-
-bool isFree(const urdf::Joint& joint) {
-    return joint.type == urdf::Joint::FLOATING || joint.type == urdf::Joint::PLANAR;
-}
 
 // The base below the last planar or floating joint on the way to the tip, if a joint is left below it.
 void lowerBase(const urdf::ModelInterface& model, ArmEnds& ends) {

@@ -22,6 +22,7 @@ UrdfCover coverUrdf(const std::filesystem::path& file, const std::filesystem::pa
     }
     const auto made = spheresOf(shapes, {file, meshes, keepStray, reader}, leaves);
     UrdfCover cover;
+    cover.notes = model->notes;
     for (size_t i = 0; i < shapes.size(); ++i) {
         for (const std::string& note : made[i].notes) {
             cover.notes.push_back("link " + shapes[i].link + ": " + note);

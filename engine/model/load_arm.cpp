@@ -31,7 +31,8 @@ public:
         const ArmEnds ends = chooseEnds(*urdf_, file_, options_.base, options_.tip);
         model_.baseText = ends.base->name + " (" + ends.baseWhy + ")";
         model_.tipText = ends.tip->name + " (" + ends.tipWhy + ")";
-        model_.notes = ends.notes;
+        model_.notes = urdf_->notes;
+        model_.notes.insert(model_.notes.end(), ends.notes.begin(), ends.notes.end());
         const auto chain = chainTo(ends.tip, ends.base);
         drives_ = driveJoints(*urdf_, file_, options_, chain);
         addChain(chain);
@@ -79,8 +80,9 @@ private:
             }
             const JointDrive& drive = drives_.at(joint->name);
             if (!hasAxis(*joint)) {
-                refuse("joint " + joint->name, "planar or floating",
-                       "revolute, continuous, prismatic or fixed; arm.base starts below it");
+                refuse("joint " + joint->name, "planar, floating or a ball",
+                       "revolute, continuous, prismatic or fixed; arm.base starts below it, or arm.tip ends "
+                       "above it");
             }
             if (drive.kind == Kind::Held) {
                 before = before * hold(*joint, drive);
@@ -143,7 +145,7 @@ private:
     }
 
     void noteLimits(const ArmJoint& joint) {
-        constexpr double kFourTurns = 8.0 * std::numbers::pi;
+        constexpr double kFourTurns = 8.0 * std::numbers::pi, kLongSlide = 100.0; // [m]
         std::ostringstream line;
         line << "joint " << joint.name << ": limits " << joint.lower << " to " << joint.upper
              << (joint.slides ? " m" : " rad");
@@ -151,6 +153,8 @@ private:
             model_.notes.push_back(
                 line.str() + ": it cannot move" +
                 (joint.lower == 0.0 ? "; they are 0 where <limit> has no lower and upper" : ""));
+        } else if (joint.slides && joint.upper - joint.lower > kLongSlide) {
+            model_.notes.push_back(line.str() + " span more than 100 m; in millimetres, or without limits?");
         } else if (!joint.slides && std::isfinite(joint.upper - joint.lower) &&
                    joint.upper - joint.lower > kFourTurns) {
             model_.notes.push_back(line.str() + " span more than four turns; in degrees?");
@@ -197,6 +201,10 @@ private:
                    const LinkCarrier& carrier) {
         const JointDrive& drive = drives_.at(joint.name);
         if (drive.kind == Kind::Held) {
+            if (!hasAxis(joint)) {
+                model_.notes.push_back("link " + child->name + " is only guarded where joint " + joint.name +
+                                       ", which is planar, floating or a ball, is 0");
+            }
             addLinks(child, place * hold(joint, drive), carrier);
             return;
         }
@@ -265,7 +273,7 @@ private:
 
     std::filesystem::path file_;
     ArmOptions options_;
-    std::shared_ptr<const urdf::ModelInterface> urdf_;
+    std::shared_ptr<const UrdfModel> urdf_;
     ArmModel model_;
     std::map<std::string, JointDrive> drives_;
     std::vector<std::string> moving_; // of the chain

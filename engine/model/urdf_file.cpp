@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/model/urdf_file.h"
 
-#include "engine/model/urdf_packet.h"
 #include "engine/types/error.h"
 
 #include <cmath>
@@ -22,10 +21,9 @@ std::optional<CapsuleSize> capsuleOf(const urdf::Geometry& shape) {
     return sizes >> size.radius >> size.length ? size : CapsuleSize{NAN, NAN};
 }
 
-std::shared_ptr<const urdf::ModelInterface> readUrdf(const std::filesystem::path& file,
-                                                     const ReaderOptions& options) {
+std::shared_ptr<const UrdfModel> readUrdf(const std::filesystem::path& file, const ReaderOptions& options) {
     std::string fault, packet;
-    std::shared_ptr<const urdf::ModelInterface> model;
+    std::shared_ptr<const UrdfModel> model;
     const ReaderEnd end = runReader("urdf", file, options, [&](ReaderPipe& pipe) {
         uint64_t size = 0;
         if (!pipe.readText(fault) || !pipe.read(&size, sizeof size) || size > kMaxUrdfBytes) {

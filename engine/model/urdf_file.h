@@ -3,20 +3,20 @@
 #pragma once
 
 #include "engine/model/reader_process.h"
+#include "engine/model/urdf_packet.h"
 #include "engine/types/pose.h"
 
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <urdf_model/model.h>
 
 namespace fathom {
 
 // Never null; a tree below one root. Of materials, visuals, inertia and sensors it has nothing. Capsules,
 // which the parser does not know, are readable with capsuleOf(). Throws BadInput with the parser's message,
 // and for xacro files, which must be expanded first.
-std::shared_ptr<const urdf::ModelInterface> readUrdf(const std::filesystem::path& file,
-                                                     const ReaderOptions& options = {});
+std::shared_ptr<const UrdfModel> readUrdf(const std::filesystem::path& file,
+                                          const ReaderOptions& options = {});
 
 // A cylinder of `length` along z with a half sphere at each end [m].
 struct CapsuleSize {

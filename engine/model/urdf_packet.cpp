@@ -223,8 +223,12 @@ bool isTree(const urdf::ModelInterface& model) {
     return true;
 }
 
-bool readAll(PacketReader& packet, urdf::ModelInterface& model) {
-    uint64_t links = 0, joints = 0;
+bool readAll(PacketReader& packet, UrdfModel& model) {
+    uint64_t notes = 0, links = 0, joints = 0;
+    packet.number(notes);
+    for (uint64_t i = 0; i < notes && packet.whole(); ++i) {
+        packet.text(model.notes.emplace_back());
+    }
     packet.number(links);
     packet.number(joints);
     bool sound = links <= kMaxLinks && joints <= kMaxLinks;
@@ -239,9 +243,13 @@ bool readAll(PacketReader& packet, urdf::ModelInterface& model) {
 
 } // namespace
 
-std::string packUrdf(const urdf::ModelInterface& model) {
+std::string packUrdf(const urdf::ModelInterface& model, const std::vector<std::string>& notes) {
     std::string bytes;
     PacketWriter packet(bytes);
+    packet.number(uint64_t{notes.size()});
+    for (const std::string& note : notes) {
+        packet.text(note);
+    }
     packet.number(uint64_t{model.links_.size()});
     packet.number(uint64_t{model.joints_.size()});
     for (const auto& [name, link] : model.links_) {
@@ -253,8 +261,8 @@ std::string packUrdf(const urdf::ModelInterface& model) {
     return bytes;
 }
 
-std::shared_ptr<const urdf::ModelInterface> unpackUrdf(std::string_view packet) {
-    auto model = std::make_shared<urdf::ModelInterface>();
+std::shared_ptr<const UrdfModel> unpackUrdf(std::string_view packet) {
+    auto model = std::make_shared<UrdfModel>();
     PacketReader reader(packet);
     if (!readAll(reader, *model)) {
         return nullptr;

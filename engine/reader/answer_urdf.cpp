@@ -7,6 +7,7 @@
 #include "engine/reader/lost_shapes.h"
 #include "engine/reader/mjcf.h"
 #include "engine/types/error.h"
+#include "engine/types/printable.h"
 #include "engine/types/read_file.h"
 
 #include <algorithm>
@@ -91,13 +92,64 @@ std::string hideCapsules(const std::string& text) {
     return out;
 }
 
+// Elements of xacro, or its expressions in a link or joint.
 void refuseXacro(const std::filesystem::path& file, const std::string& text) {
     const std::string name = file.filename().string(), stem = file.stem().stem().string();
     const std::string expanded = stem + (stem + ".urdf" == name ? "_expanded.urdf" : ".urdf");
+    std::string_view part; // of the robot
+    size_t depth = 0;
     for (XmlPieces pieces(text); pieces.next();) {
-        if (pieces.piece().name.starts_with("xacro:")) {
+        const XmlPiece& piece = pieces.piece();
+        if (piece.name.empty() || piece.name.starts_with('!')) {
+            continue;
+        }
+        depth -= piece.closes && depth > 0 ? 1 : 0;
+        part = depth == 1 ? piece.name : part;
+        const bool expression = piece.text.find("${") != std::string_view::npos ||
+                                piece.text.find("$(") != std::string_view::npos;
+        if (piece.name.starts_with("xacro:") ||
+            (expression && depth > 0 && (part == "link" || part == "joint"))) {
             throw BadInput(file.string(), "robot", "a xacro file",
                            "a URDF; expand it with: xacro " + name + " > " + expanded);
+        }
+        depth += piece.closes || piece.isEmpty ? 0 : 1;
+    }
+}
+
+// The joint whose <mimic> has a value that an error quotes in brackets: the parser does not name it.
+std::string mimicWith(const std::string& error, const std::string& text) {
+    const size_t open = error.find('('), close = error.rfind(')');
+    std::string joint;
+    for (XmlPieces pieces(text); open < close && close != std::string::npos && pieces.next();) {
+        const XmlPiece& piece = pieces.piece();
+        joint = piece.name == "joint" && !piece.closes ? xmlAttribute(piece.text, "name") : joint;
+        if (piece.name == "mimic" &&
+            piece.text.find(error.substr(open + 1, close - open - 1)) != std::string::npos) {
+            return "; mimic of joint [" + joint + "]";
+        }
+    }
+    return "";
+}
+
+// The parser's first error, and the joint it is in.
+std::string faultOf(const std::vector<std::string>& errors, const std::string& text) {
+    const auto named = std::ranges::find_if(
+        errors, [](const std::string& error) { return error.find("oint [") != std::string::npos; });
+    if (errors.empty() || named == errors.begin()) {
+        return errors.empty() ? "not understood" : errors[0];
+    }
+    return errors[0] + (named == errors.end() ? mimicWith(errors[0], text) : "; " + *named);
+}
+
+void noteSoftLimits(const urdf::ModelInterface& model, std::vector<std::string>& notes) {
+    for (const auto& [name, joint] : model.joints_) {
+        const auto& soft = joint->safety;
+        const auto& hard = joint->limits;
+        if (soft && hard && soft->soft_upper_limit > soft->soft_lower_limit &&
+            (soft->soft_lower_limit > hard->lower || soft->soft_upper_limit < hard->upper)) {
+            notes.push_back(
+                "joint " + printable(name) +
+                ": the narrower limits of <safety_controller> are not read; arm.joints sets limits");
         }
     }
 }
@@ -108,7 +160,8 @@ std::string packetOf(const std::filesystem::path& file) {
         throw BadInput(file.string(), "file", "empty", "a readable URDF file");
     }
     refuseXacro(file, text);
-    text = isMjcf(text) ? urdfOfMjcf(file, text) : text;
+    std::vector<std::string> notes;
+    text = isMjcf(text) ? urdfOfMjcf(file, text, notes) : text;
     const bool capsules = text.find("<capsule") != std::string::npos;
     const Listener listener;
     const std::shared_ptr<const urdf::ModelInterface> model = [&] {
@@ -116,12 +169,12 @@ std::string packetOf(const std::filesystem::path& file) {
         return urdf::parseURDF(capsules ? hideCapsules(text) : text);
     }();
     if (!model) {
-        throw BadInput(file.string(), "robot",
-                       listener.errors().empty() ? "not understood" : listener.errors()[0], "a URDF robot");
+        throw BadInput(file.string(), "robot", printable(faultOf(listener.errors(), text)), "a URDF robot");
     }
     checkLinks(*model, file.string());
     refuseLostShapes(*model, text, file.string(), listener.errors());
-    return packUrdf(*model);
+    noteSoftLimits(*model, notes);
+    return packUrdf(*model, notes);
 }
 
 } // namespace

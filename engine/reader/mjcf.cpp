@@ -83,11 +83,14 @@ bool isMjcf(const std::string& text) {
     return false;
 }
 
-std::string urdfOfMjcf(const std::filesystem::path& file, const std::string& text) {
+std::string urdfOfMjcf(const std::filesystem::path& file, const std::string& text,
+                       std::vector<std::string>& notes) {
     tinyxml2::XMLDocument document;
     parse(document, file.string(), text);
     Includes(file, document).expand(*document.RootElement());
-    return MjcfBodies(file.string(), *document.RootElement()).urdf();
+    MjcfBodies bodies(file.string(), *document.RootElement());
+    notes = bodies.notes();
+    return bodies.urdf();
 }
 
 } // namespace fathom

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace fathom {
 
@@ -15,6 +16,7 @@ bool isMjcf(const std::string& text);
 // each two. Geoms that touch nothing (contype and conaffinity 0) become visuals; an ellipsoid becomes the box
 // around it. Ignored: actuators, tendons, sensors, contacts, geoms of the world. Throws BadInput naming line,
 // element, attribute and value.
-std::string urdfOfMjcf(const std::filesystem::path& file, const std::string& text);
+std::string urdfOfMjcf(const std::filesystem::path& file, const std::string& text,
+                       std::vector<std::string>& notes);
 
 } // namespace fathom

@@ -2,6 +2,7 @@
 #include "engine/reader/mjcf_body.h"
 
 #include "engine/model/xml_text.h"
+#include "engine/types/printable.h"
 
 #include <algorithm>
 #include <set>
@@ -14,6 +15,8 @@ std::string stated(const tinyxml2::XMLElement& element, const char* name, const 
     const char* const text = element.Attribute(name);
     return text != nullptr ? text : otherwise;
 }
+
+constexpr double kEndless = 1e4; // [m] limit of slides without limits
 
 // Elements that make bodies, joints or geoms in a way that this does not follow.
 const std::set<std::string>& unread() {
@@ -37,11 +40,15 @@ MjcfBodies::MjcfBodies(const std::string& file, const tinyxml2::XMLElement& root
 
 // joint1 = c0 + c1 joint2, each measured from its `ref`; higher powers are no mimic joint.
 void MjcfBodies::readEqualities() {
+    std::vector<const tinyxml2::XMLElement*> others;
     for (auto* all = root_.FirstChildElement("equality"); all != nullptr;
          all = all->NextSiblingElement("equality")) {
-        for (auto* joint = all->FirstChildElement("joint"); joint != nullptr;
-             joint = joint->NextSiblingElement("joint")) {
+        for (auto* joint = all->FirstChildElement(); joint != nullptr; joint = joint->NextSiblingElement()) {
             if (stated(*joint, "active") == "false") {
+                continue;
+            }
+            if (std::string(joint->Name()) != "joint") {
+                others.push_back(joint);
                 continue;
             }
             auto c = classes_.numbers(*joint, "", "polycoef", {0.0, 1.0}, 1, 5);
@@ -51,6 +58,11 @@ void MjcfBodies::readEqualities() {
             }
             equalities_[stated(*joint, "joint1")] = {stated(*joint, "joint2"), c[0], c[1]};
         }
+    }
+    if (!others.empty()) {
+        notes_.push_back(std::to_string(others.size()) + " equalities that are no <joint>, the first <" +
+                         printable(others[0]->Name()) + "> in line " +
+                         std::to_string(others[0]->GetLineNum()) + ", are not read: loops stay open");
     }
 }
 
@@ -169,9 +181,9 @@ std::string MjcfBodies::limitsOf(const Part& joint, const std::string& name, boo
     const bool held = equality != equalities_.end() && equality->second.other.empty();
     continuous = !bounded && !held && !slides;
     std::string text;
-    if (held || bounded) {
-        const double lower = held ? equality->second.offset : (range[0] - ref) * unit;
-        const double upper = held ? equality->second.offset : (range[1] - ref) * unit;
+    if (held || bounded || slides) { // a URDF has no slides without limits
+        const double lower = held ? equality->second.offset : bounded ? (range[0] - ref) * unit : -kEndless;
+        const double upper = held ? equality->second.offset : bounded ? (range[1] - ref) * unit : kEndless;
         text = "<limit lower='" + urdfNumber(lower) + "' upper='" + urdfNumber(upper) +
                "' velocity='0' effort='0'/>";
     }

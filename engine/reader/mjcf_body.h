@@ -17,6 +17,8 @@ public:
     MjcfBodies(const std::string& file, const tinyxml2::XMLElement& root);
 
     std::string urdf(); // throws BadInput
+    // On constraints that are not read.
+    const std::vector<std::string>& notes() const { return notes_; }
 
 private:
     // An element below a body, possibly inside of <frame>, which gives it a pose and a class.
@@ -53,6 +55,7 @@ private:
     };
     std::map<std::string, Equality> equalities_;
     std::string out_;
+    std::vector<std::string> notes_;
     int unnamed_ = 0;
 };
 

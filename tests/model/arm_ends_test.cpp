@@ -111,6 +111,25 @@ TEST_CASE(
     CHECK(walls.notes[0].find("link world and what hangs on it beside joint drive") == 0);
 }
 
+TEST_CASE("A planar or floating joint at the end of a chain does not belong to it") {
+    for (const char* type : {"floating", "planar"}) {
+        const std::string end = ballLink("d") + jointText("loose", type, "c", "d", "0 0 0.4", "0 0 1");
+        const ArmModel arm = loadUrdf(twoJoints(end));
+        CHECK(arm.count() == 2);
+        CHECK(arm.tipText == "c (the end of the longest chain)");
+        CHECK(arm.links.size() == 4);
+        CHECK(arm.notes ==
+              std::vector<std::string>{
+                  "link d is only guarded where joint loose, which is planar, floating or a ball, is 0"});
+        CHECK(tipOf(twoJoints(end + "<link name='tool0'/>" +
+                              jointText("f", "fixed", "d", "tool0", "0 0 0", "0 0 1"))) ==
+              "c (the end of the longest chain)");
+        ArmOptions options;
+        options.tip = "d";
+        CHECK(urdfRefusal(twoJoints(end), options).find("or arm.tip ends above it") != std::string::npos);
+    }
+}
+
 TEST_CASE(
     "A joint without speed gets a default that is named, and a shape of size 0 is skipped with a note") {
     const ArmModel arm =

@@ -46,6 +46,27 @@ TEST_CASE("Two roots, circles, limits that are crossed or no numbers, and too ma
     CHECK(saysOnly(urdfRefusal(many + std::string(16u << 20, ' ')), "16 MiB"));
 }
 
+TEST_CASE(
+    "A fault of a joint names the joint, and an expression of xacro names the command that resolves it") {
+    const auto joint = [](const std::string& at, const std::string& more) {
+        return ballLink("a") + ballLink("b") + jointText("elbow", "revolute", "a", "b", at, "0 0 1", more);
+    };
+    const std::string limit = "<limit lower='-1' upper='1' velocity='1' effort='1'/>";
+    for (const std::string& text : {joint("0 0 nan", limit), joint("0 0", limit),
+                                    joint("0 0 1", "<limit lower='-1,5' upper='1' velocity='1' effort='1'/>"),
+                                    joint("0 0 1", "<limit lower='-1' upper='1' velocity='1'/>"),
+                                    joint("0 0 1", "<limit lower='-1' upper='1' effort='1'/>"),
+                                    joint("0 0 1", limit + mimicText("a", "multiplier='x'"))}) {
+        CHECK(saysOnly(urdfRefusal(text), "oint [elbow]"));
+    }
+    for (const std::string& text : {joint("0 0 ${height}", limit), joint("0 0 $(arg height)", limit),
+                                    ballLink("$(arg prefix)a"), ballLink("a", "${2 * r}")}) {
+        CHECK(saysOnly(urdfRefusal(text), "expand it with: xacro"));
+    }
+    CHECK(urdfRefusal(joint("0 0 1", limit) +
+                      "<gazebo><plugin><joint>${j}</joint><link name='${l}'/></plugin></gazebo>") == "");
+}
+
 TEST_CASE("Joints that cannot move, and limits that look like degrees, are reported in one line each") {
     const auto notes = [](const std::string& type, const std::string& limits) {
         const std::string limit = "<limit effort='1' velocity='1' " + limits + "/>";
@@ -63,4 +84,20 @@ TEST_CASE("Joints that cannot move, and limits that look like degrees, are repor
           std::vector<std::string>{"joint j: limits -180 to 180 rad span more than four turns; in degrees?"});
     CHECK(notes("revolute", "lower='-6.3' upper='6.3'").empty());
     CHECK(notes("continuous", "").empty());
+    const auto guarded = [](const std::string& soft) {
+        return loadUrdf(ballLink("a") + ballLink("b") +
+                        jointText("j", "revolute", "a", "b", "0 0 0", "0 0 1",
+                                  "<limit effort='1' velocity='1' lower='-2' upper='2'/><safety_controller "
+                                  "k_velocity='1' " +
+                                      soft + "/>"))
+            .notes;
+    };
+    CHECK(guarded("soft_lower_limit='-2' soft_upper_limit='2'").empty());
+    CHECK(guarded("").empty());
+    CHECK(guarded("soft_lower_limit='-1' soft_upper_limit='2'") ==
+          std::vector<std::string>{
+              "joint j: the narrower limits of <safety_controller> are not read; arm.joints sets limits"});
+    CHECK(notes("prismatic", "lower='0' upper='300'") ==
+          std::vector<std::string>{
+              "joint j: limits 0 to 300 m span more than 100 m; in millimetres, or without limits?"});
 }

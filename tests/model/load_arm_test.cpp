@@ -114,8 +114,10 @@ TEST_CASE("An unusable arm is rejected with the joint or link and the reason") {
     options.tip = "base";
     CHECK(refusalOf(kArm + "</robot>", options).find("tip: 'base'") != std::string::npos);
     const std::string two = "<robot name='r'><link name='a'>" + kBall + "</link><link name='b'/>";
-    CHECK(refusalOf(two + jointOf("j", "floating", "a", "b") + "</robot>")
-              .find("joint j: planar or floating") != std::string::npos);
+    options = {};
+    options.tip = "b";
+    CHECK(refusalOf(two + jointOf("j", "floating", "a", "b") + "</robot>", options)
+              .find("joint j: planar, floating or a ball") != std::string::npos);
     CHECK(refusalOf(
               two +
               jointOf("j", "prismatic", "a", "b", "<limit effort='1' lower='2' upper='1' velocity='1'/>") +

@@ -2,6 +2,7 @@
 // Arms in MJCF: the same links, joints and limits as those of a URDF that was written by hand.
 #include "tests/model/urdf_text.h"
 
+#include <algorithm>
 #include <cmath>
 #include <doctest/doctest.h>
 
@@ -250,4 +251,30 @@ TEST_CASE("A thousand nested bodies and a body that is its own parent's name end
     }
     CHECK(mjcfRefusal(deep + "</worldbody>").find("XML_ELEMENT_DEPTH_EXCEEDED") != std::string::npos);
     CHECK_FALSE(mjcfRefusal("<worldbody><body name='a'><body name='a'/></body></worldbody>").empty());
+}
+
+TEST_CASE("A slide without limits, as of a gantry, has a URDF's limits of 10 km and a note") {
+    for (const char* limited : {"", "limited='false' range='-1 1'"}) {
+        const ArmModel arm = loadMjcf("<worldbody><body name='a'>" + ball() +
+                                      "<body name='b'><joint name='rail' type='slide' axis='1 0 0' " +
+                                      limited + "/>" + ball() + "</body></body></worldbody>");
+        REQUIRE(arm.count() == 1);
+        CHECK(arm.joints[0].slides);
+        CHECK(arm.joints[0].lower == -1e4);
+        CHECK(arm.joints[0].upper == 1e4);
+        CHECK(std::any_of(arm.notes.begin(), arm.notes.end(), [](const std::string& note) {
+            return note.find("joint rail: limits -10000 to 10000 m span more than 100 m") == 0;
+        }));
+    }
+}
+
+TEST_CASE("Constraints of an MJCF that are not read, as of closed loops, are reported") {
+    const ArmModel arm = loadMjcf(
+        "<equality><connect body1='a' body2='b' anchor='0 0 0'/><weld body1='a' body2='b'/>"
+        "<weld active='false' body1='a'/></equality><worldbody><body name='a'>" +
+        ball() + "<body name='b'><joint name='j' range='-90 90'/>" + ball() + "</body></body></worldbody>");
+    CHECK(std::any_of(arm.notes.begin(), arm.notes.end(), [](const std::string& note) {
+        return note == "2 equalities that are no <joint>, the first <connect> in line 1, are not read: loops "
+                       "stay open";
+    }));
 }
