@@ -35,8 +35,15 @@ dvec3 upright(const dvec3& p, char up) {
 
 TriangleMesh readTriangles(const std::filesystem::path& file, const ReaderOptions& reader) {
     const std::string kinds = "a readable STL, OBJ or COLLADA (.dae) mesh";
-    if (!std::filesystem::is_regular_file(file)) {
-        throw BadInput(file.string(), "mesh", "no such file", kinds);
+    if (!isRegularFile(file)) {
+        std::error_code failed;
+        const bool folder = std::filesystem::is_directory(file, failed);
+        const bool missing = !std::filesystem::exists(file, failed);
+        throw BadInput(file.string(), "mesh",
+                       missing  ? "no such file"
+                       : folder ? "a folder"
+                                : whyUnreadable(file),
+                       kinds);
     }
     const std::string kind = endingOf(file);
     if (kind != ".stl" && kind != ".obj" && kind != ".dae") { // the library would accept fifty other formats
@@ -53,7 +60,8 @@ TriangleMesh readTriangles(const std::filesystem::path& file, const ReaderOption
     }
     if (mesh.triangles.empty() || mesh.triangles.size() > kMaxTriangles) {
         throw BadInput(file.string(), "triangles", std::to_string(mesh.triangles.size()),
-                       "1 to " + std::to_string(kMaxTriangles) + "; a mesh program can simplify it");
+                       "1 to " + std::to_string(kMaxTriangles) +
+                           (mesh.triangles.empty() ? "" : "; a mesh program can simplify it"));
     }
     return mesh;
 }
@@ -67,9 +75,11 @@ double checkExtent(const std::string& file, const TriangleMesh& mesh, bool ofUrd
     const double extent = std::max({size.x, size.y, size.z});
     if (!(extent >= kMinExtent && extent <= kMaxExtent)) {
         throw BadInput(file, "size", metres(extent),
-                       ofUrdf ? "0.001 to 10 m; <mesh scale=\"0.001 0.001 0.001\"> for millimetres, three "
-                                "times 0.0254 for inches"
-                              : "0.001 to 10 m; --scale 0.001 for millimetres, 0.0254 for inches");
+                       extent < kMinExtent ? std::string("0.001 to 10 m; ") +
+                                                 (ofUrdf ? "<mesh scale>" : "--scale") + " enlarges it"
+                       : ofUrdf ? "0.001 to 10 m; <mesh scale=\"0.001 0.001 0.001\"> for millimetres, three "
+                                  "times 0.0254 for inches"
+                                : "0.001 to 10 m; --scale 0.001 for millimetres, 0.0254 for inches");
     }
     return extent;
 }

@@ -63,7 +63,9 @@ public:
     // Words of the next line that is not blank; throws at the end of the file.
     std::vector<std::string_view> next(const std::string& wanted) {
         while (std::getline(in_, line_)) {
-            ++number_;
+            if (++number_ == 1 && line_.starts_with("\xEF\xBB\xBF")) { // some editors begin UTF-8 with it
+                line_.erase(0, 3);
+            }
             if (line_.size() > kLongestLine) {
                 refuse("a line of " + std::to_string(line_.size()) + " characters", wanted);
             }

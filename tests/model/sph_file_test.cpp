@@ -84,6 +84,13 @@ TEST_CASE("The toolkit's variants are read: four, five, nine and ten columns, bl
     CHECK(tree.nodes[4].radius == 0.0005);
 }
 
+TEST_CASE("A byte order mark in front of a tree is skipped") {
+    CHECK(refusal("\xEF\xBB\xBF"
+                  "1 1\n0 0 0 1\n") == "");
+    CHECK(refusal("1 1\n\xEF\xBB\xBF"
+                  "0 0 0 1\n") != "");
+}
+
 TEST_CASE("Radii above the leaves are recomputed, whether the file's are too small or too large") {
     for (const char* radius : {"0.001", "1000"}) {
         const SphFile file("2 2\n0 0 0 " + std::string(radius) + "\n-1 0 0 0.25\n2 0 0 0.5\n");
