@@ -29,6 +29,11 @@ bool isQuoted(const YAML::Node& node) {
     return node.Tag() == "!"; // yaml-cpp's tag of a scalar in quotes; a plain one has "?"
 }
 
+// For messages about numbers: quotes make text of them.
+std::string withQuotes(const YAML::Node& node, const std::string& value) {
+    return isQuoted(node) && !node.Scalar().empty() ? "'" + value + "' in quotes" : value;
+}
+
 } // namespace
 
 YamlNode::YamlNode(const YAML::Node& node, std::string file, std::string path)
@@ -64,6 +69,9 @@ void YamlNode::checkKeys(std::initializer_list<std::string_view> known) const {
     std::set<std::string> seen;
     for (const auto& entry : node_) {
         const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "";
+        if (key == "<<") {
+            throw BadInput(file_, childPath(key), "a merge key", "keys written out: " + join(words));
+        }
         if (std::find(known.begin(), known.end(), key) == known.end()) {
             throw BadInput(file_, childPath(excerpt(key)), "unknown key" + suggestion(key, words),
                            join(words));
@@ -142,7 +150,7 @@ std::string YamlNode::text() const {
 
 bool YamlNode::boolean() const {
     if (isQuoted(node_) || !(is("true") || is("false"))) {
-        refuse("true or false");
+        refuse(withQuotes(node_, value()), "true or false");
     }
     return is("true");
 }
@@ -157,7 +165,7 @@ double YamlNode::number(const Range& range, const std::string& orElse) const {
         good = error == std::errc{} && end == digits.data() + digits.size() && std::isfinite(x);
     }
     if (!good || !range.contains(x)) {
-        refuse(orElse + range.words());
+        refuse(withQuotes(node_, value()), orElse + range.words());
     }
     return x;
 }
@@ -171,7 +179,8 @@ uint32_t YamlNode::integer(uint32_t lo, uint32_t hi) const {
         good = error == std::errc{} && end == digits.data() + digits.size();
     }
     if (!good || n < lo || n > hi) {
-        refuse("a whole number from " + std::to_string(lo) + " to " + std::to_string(hi));
+        refuse(withQuotes(node_, value()),
+               "a whole number from " + std::to_string(lo) + " to " + std::to_string(hi));
     }
     return n;
 }

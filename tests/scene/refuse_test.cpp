@@ -49,6 +49,7 @@ std::string pointRows(size_t count) {
 
 TEST_CASE("Unknown keys are rejected at every level with the nearest known key") {
     checkRefused({
+        section("camera: {<<: {near: 1}}", "camera.<<: a merge key", "keys written out: "),
         section("camra: {}", "camra: unknown key, did you mean 'camera'?", "fixtures"),
         section("camera: {nera: 1}", "camera.nera: unknown key, did you mean 'near'?", "near"),
         section("camera: {source: {recoded: x}}",
@@ -104,7 +105,7 @@ TEST_CASE("Points with a bad radius, box or guidance value are rejected") {
         fixture("radius: nan", "radius: nan", "from 0.0001 to 10"),
         fixture("radius: .inf", "radius: .inf", "from 0.0001 to 10"),
         fixture("radius: 1e999", "radius: 1e999", "from 0.0001 to 10"),
-        fixture("radius: \"0.04\"", "radius: 0.04", "from 0.0001 to 10"),
+        fixture("radius: \"0.04\"", "radius: '0.04' in quotes", "from 0.0001 to 10"),
         fixture("radius: 4cm", "radius: 4cm", "from 0.0001 to 10"),
         fixture("radius:", "radius: nothing", "from 0.0001 to 10"),
         fixture("box: {min: [0,0,2], max: [1,1,1]}", "box: min [0, 0, 2], max [1, 1, 1]", "min <= max"),
