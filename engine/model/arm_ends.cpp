@@ -238,25 +238,21 @@ private:
 
     // Follows fixed joints to frames without shapes, as long as there is only one.
     LinkPtr bareEnd(LinkPtr link, ArmEnds& ends) const {
-        for (bool further = true; further;) {
-            further = false;
-            LinkPtr bare;
-            size_t count = 0;
+        for (;;) {
+            std::vector<LinkPtr> bare;
             for (const auto& joint : link->child_joints) {
                 const LinkPtr child = model_.getLink(joint->child_link_name);
                 if (joint->type == urdf::Joint::FIXED && isBareFrame(*child) &&
                     depths_.at(child->name) == 0) {
-                    bare = child;
-                    ++count;
+                    bare.push_back(child);
                 }
             }
-            if (count == 1) {
-                link = bare;
-                further = true;
-                ends.tipWhy = "the frame fixed to the end of the longest chain";
+            if (bare.size() != 1) {
+                return link;
             }
+            link = bare[0];
+            ends.tipWhy = "the frame fixed to the end of the longest chain";
         }
-        return link;
     }
 
     const urdf::ModelInterface& model_;

@@ -33,7 +33,7 @@ bool isShape(std::string_view name) {
     return name != "material" && name.find(':') == std::string_view::npos;
 }
 
-// Throws BadInput for an element of a link that the parser would skip because of its spelling.
+// Throws BadInput for elements in links that the parser would skip because of their spelling.
 WrittenShapes shapesIn(const std::string& text, const std::string& file) {
     WrittenShapes shapes;
     std::string link;

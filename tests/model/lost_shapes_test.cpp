@@ -58,8 +58,7 @@ TEST_CASE("A second shape of one collision, which the parser does not read, reje
           2);
 }
 
-TEST_CASE(
-    "An element that is spelt like one of a link's shapes, and which the parser skips, rejects the URDF") {
+TEST_CASE("Elements that the parser skips because of their spelling, such as <Collision>, reject the URDF") {
     const std::string ball = "<geometry><sphere radius='0.2'/></geometry>";
     CHECK(namesShape("<Collision>" + ball + "</Collision>", "<Collision>: not read (allowed: <collision>)"));
     CHECK(namesShape("<collision_group><collision>" + ball + "</collision></collision_group>",
