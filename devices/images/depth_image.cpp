@@ -20,6 +20,8 @@ namespace {
 
 constexpr size_t kMaxDepthFile = 256u << 20; // [bytes]; float64 of 3840x2160 is 64 MiB
 
+constexpr const char* kNoDepth = "not PNG, PGM (P5), TIFF, NPY or EXR";
+
 struct DepthFormat {
     bool (*is)(ImageBytes);
     DepthHead (*head)(ImageBytes);
@@ -84,7 +86,7 @@ DepthHead depthImageHead(const std::filesystem::path& file) {
     const DepthFormat* format = formatOf(file);
     if (format == nullptr) {
         const auto size = readPngSize(file);
-        return size ? DepthHead{*size, false, ""} : DepthHead{{}, false, "not PNG, PGM, TIFF, NPY or EXR"};
+        return size ? DepthHead{*size, false, ""} : DepthHead{{}, false, kNoDepth};
     }
     const auto text = readFileAtMost(file, kMaxDepthFile);
     return text && text->size() <= kMaxDepthFile ? format->head(asBytes(*text))
@@ -95,8 +97,9 @@ std::string readDepthImage(const std::filesystem::path& file, PngSize size, cons
                            std::span<uint16_t> out, uint64_t& beyond) {
     const DepthFormat* format = formatOf(file);
     if (format == nullptr) {
-        return units.metres && readPngSize(file) ? "16-bit values, not metres as in the first depth image"
-                                                 : readDepthPng(file, size, out);
+        return !readPngSize(file) ? kNoDepth
+               : units.metres     ? "16-bit values, not metres as in the first depth image"
+                                  : readDepthPng(file, size, out);
     }
     std::string bytes;
     const std::string fault = checkedBytes(file, *format, size, units.metres, bytes);

@@ -60,7 +60,11 @@ std::string readPgm(ImageBytes bytes, std::span<uint16_t> out) {
     if (!head || size_t{head->width} * head->height != out.size()) {
         return "PGM: another size";
     }
-    const ImageBytes pixels = bytes.subspan(head->pixels);
+    ImageBytes pixels = bytes.subspan(head->pixels);
+    if (pixels.size() == 2 * out.size() + 1 &&
+        pixels.back() == '\n') { // as text editors and some writers end it
+        pixels = pixels.first(2 * out.size());
+    }
     if (pixels.size() != 2 * out.size()) {
         return "PGM: " + std::to_string(pixels.size()) + " bytes of pixels, not " +
                std::to_string(2 * out.size());

@@ -103,6 +103,26 @@ TEST_CASE("Depth images that are not read name the field, its value and what is 
     holds(faultOf("exr_ab"), "channels: A, B (allowed: Z, depth");
 }
 
+TEST_CASE("Depth in a format that is not read is named as such, and a PGM may end in a line end") {
+    const TemporaryFolder folder;
+    const auto file = folder.path() / "a";
+    std::vector<uint16_t> depth(2);
+    uint64_t beyond = 0;
+    for (const char* text :
+         {"P2\n2 1\n65535\n1 2\n", "Pf\n2 1\n-1.0\n12345678", "PK\x03\x04 of a .npz", ""}) {
+        std::ofstream(file) << text;
+        CHECK(readDepthImage(file, {2, 1}, {}, depth, beyond) == "not PNG, PGM (P5), TIFF, NPY or EXR");
+    }
+    const std::string pgm = "P5\n2 1\n65535\nabcd";
+    for (const char* end : {"", "\n"}) {
+        std::ofstream(file) << pgm << end;
+        CHECK(readDepthImage(file, {2, 1}, {}, depth, beyond) == "");
+        CHECK(depth[1] == ('c' << 8 | 'd'));
+    }
+    std::ofstream(file) << pgm << "\n\n";
+    CHECK(readDepthImage(file, {2, 1}, {}, depth, beyond) == "PGM: 6 bytes of pixels, not 4");
+}
+
 TEST_CASE("A depth image that is cut off anywhere is a fault") {
     const TemporaryFolder folder;
     for (const char* name : {"pgm_u2", "npy_f8", "tiff_u2", "exr_z_zip", "exr_rgb_none"}) {
