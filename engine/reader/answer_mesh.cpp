@@ -49,13 +49,17 @@ void addNode(const aiScene& scene, const aiNode& node, const aiMatrix4x4& above,
     }
 }
 
-std::string readWithAssimp(const std::filesystem::path& file, TriangleMesh& mesh) {
+// instead: an STL to parse in place of the file, unless empty.
+std::string readWithAssimp(const std::filesystem::path& file, const std::string& instead,
+                           TriangleMesh& mesh) {
     Assimp::Importer importer;
     importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
     importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
     const aiScene* scene = [&] {
         const ParserAtWork parser;
-        return importer.ReadFile(file.string(), aiProcess_Triangulate | aiProcess_SortByPType);
+        constexpr unsigned kSteps = aiProcess_Triangulate | aiProcess_SortByPType;
+        return instead.empty() ? importer.ReadFile(file.string(), kSteps)
+                               : importer.ReadFileFromMemory(instead.data(), instead.size(), kSteps, "stl");
     }();
     if (scene == nullptr || scene->mRootNode == nullptr) {
         const std::string why = importer.GetErrorString();
@@ -74,8 +78,9 @@ bool answerMesh(const std::filesystem::path& file, int pipe, uint64_t mostMemory
     TriangleMesh mesh;
     std::string text;
     try {
-        text = textStlFault(file);
-        text = text.empty() ? readWithAssimp(file, mesh) : text;
+        std::string instead;
+        text = stlFault(file, instead);
+        text = text.empty() ? readWithAssimp(file, instead, mesh) : text;
     } catch (const std::bad_alloc&) {
         mesh = {};
         text = "takes over " + std::to_string(mostMemory >> 20) + " MiB to read";

@@ -3,6 +3,8 @@
 
 #include "engine/types/read_file.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cstring>
 #include <fstream>
 #include <iomanip>
@@ -14,24 +16,31 @@ namespace fathom {
 namespace {
 
 constexpr uintmax_t kHeadBytes = 84, kFacetBytes = 50; // of a binary STL
-constexpr size_t kLongestWord = 256;
+constexpr size_t kLongestWord = 256, kLargestStl = 512u << 20;
 
-// As Assimp tells them apart: a binary STL has the size that follows from its count.
-bool isTextStl(const std::filesystem::path& file, std::istream& in) {
-    char head[kHeadBytes] = {};
-    in.read(head, sizeof head);
-    const auto got = static_cast<size_t>(in.gcount());
+std::string inSmall(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
+// The size of a binary STL follows from its count. Up to one facet more is padding.
+std::string binaryFault(const std::filesystem::path& file, const std::string& head, std::string& instead) {
+    const uintmax_t size = std::filesystem::file_size(file);
     uint32_t count = 0;
-    std::memcpy(&count, head + sizeof head - sizeof count, sizeof count);
-    if (got == sizeof head && std::filesystem::file_size(file) == kHeadBytes + kFacetBytes * count) {
-        return false;
+    if (head.size() < kHeadBytes) {
+        return "neither a text that begins with 'solid' nor a binary STL of at least 84 bytes";
     }
-    const std::string_view text(head, got);
-    const size_t first = text.find_first_not_of(" \t\r\n");
-    in.clear();
-    in.seekg(0);
-    return first != std::string_view::npos && text.substr(first).starts_with("solid") &&
-           text.find('\0') == std::string_view::npos;
+    std::memcpy(&count, head.data() + kHeadBytes - sizeof count, sizeof count);
+    const uintmax_t wanted = kHeadBytes + kFacetBytes * count;
+    if (size < wanted || size - wanted >= kFacetBytes) {
+        return std::to_string(count) + " facets take " + std::to_string(wanted) + " bytes, the file has " +
+               std::to_string(size);
+    }
+    if (size > wanted) {
+        instead = readFileAtMost(file, kLargestStl).value_or("").substr(0, wanted);
+    }
+    return "";
 }
 
 void skipLine(std::istream& in) {
@@ -40,17 +49,11 @@ void skipLine(std::istream& in) {
     }
 }
 
-} // namespace
-
-std::string textStlFault(const std::filesystem::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    in.imbue(std::locale::classic());
-    if (endingOf(file) != ".stl" || !isTextStl(file, in)) {
-        return "";
-    }
+std::string textFault(std::istream& in) {
     size_t facets = 0, corners = 0;
     bool ended = false;
     for (std::string word; in >> std::setw(kLongestWord) >> word;) {
+        word = inSmall(word);
         if (word == "vertex") {
             ++corners;
             continue;
@@ -72,6 +75,30 @@ std::string textStlFault(const std::filesystem::path& file) {
         }
     }
     return ended ? "" : "cut off: no endsolid behind facet " + std::to_string(facets);
+}
+
+} // namespace
+
+std::string stlFault(const std::filesystem::path& file, std::string& instead) {
+    if (endingOf(file) != ".stl") {
+        return "";
+    }
+    std::ifstream in(file, std::ios::binary);
+    in.imbue(std::locale::classic());
+    std::string head(kHeadBytes, '\0');
+    in.read(head.data(), static_cast<std::streamsize>(head.size()));
+    head.resize(static_cast<size_t>(in.gcount()));
+    in.clear();
+    in.seekg(0);
+    const size_t first = std::min(head.find_first_not_of(" \t\r\n"), head.size());
+    if (!inSmall(head.substr(first)).starts_with("solid") || head.find('\0') != std::string::npos) {
+        return binaryFault(file, head, instead);
+    }
+    const std::string fault = textFault(in);
+    if (fault.empty() && !head.starts_with("solid")) {
+        instead = inSmall(readFileAtMost(file, kLargestStl).value_or("").substr(first));
+    }
+    return fault;
 }
 
 } // namespace fathom

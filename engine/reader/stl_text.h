@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks STL files in text for what Assimp drops: it regroups the corners of facets three by three, and does
-// not notice that a file ends early.
+// Checks STL files for what Assimp drops or does not explain: it regroups the corners of facets three by
+// three, does not notice that a text ends early, and knows neither capital keywords nor padding.
 #pragma once
 
 #include <filesystem>
@@ -8,7 +8,8 @@
 
 namespace fathom {
 
-// The reason to reject the file; empty for one that is whole, and for any other file than an STL in text.
-std::string textStlFault(const std::filesystem::path& file);
+// The reason to reject the file; empty for one that is whole, and for any other file than an STL. instead:
+// gets what to parse where the file itself is not as Assimp expects it.
+std::string stlFault(const std::filesystem::path& file, std::string& instead);
 
 } // namespace fathom

@@ -3,6 +3,8 @@
 #include "engine/model/mesh_file.h"
 #include "engine/types/error.h"
 
+#include <algorithm>
+#include <cctype>
 #include <doctest/doctest.h>
 #include <fstream>
 #include <unistd.h>
@@ -70,4 +72,33 @@ TEST_CASE("A text STL with a facet that is no triangle is rejected with its numb
                      "facet 2 has 4 vertices"));
     CHECK(refusesStl("solid a\n" + facetText("vertex 0 0 0\nvertex 0 0.1 0\n") + kFacet + "endsolid a\n",
                      "facet 1 has 2 vertices"));
+}
+
+TEST_CASE("A text STL with capital keywords or behind blank lines is read like any other") {
+    std::string capital = "solid a\n" + kFacet + kOther + "endsolid a\n";
+    std::transform(capital.begin(), capital.end(), capital.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    CHECK(readStl(capital) == "2");
+    CHECK(readStl("\n \n  solid a\n" + kFacet + "endsolid a\n") == "1");
+    CHECK(refusesStl(capital.substr(0, capital.size() - 20), "cut off"));
+}
+
+TEST_CASE("A binary STL may end in padding, and is rejected with both sizes where its count is wrong") {
+    const auto binary = [](const std::string& title, char facets) {
+        std::string bytes = title;
+        bytes.resize(80, ' ');
+        bytes += std::string{facets, 0, 0, 0};
+        const float corners[12] = {0, 0, 1, 0, 0, 0, 0.1f, 0, 0, 0, 0.1f, 0};
+        return bytes + std::string(reinterpret_cast<const char*>(corners), sizeof corners) +
+               std::string(2, '\0');
+    };
+    for (const char* title : {"", "solid cube"}) {
+        CHECK(readStl(binary(title, 1)) == "1");
+        CHECK(readStl(binary(title, 1) + "\n") == "1");
+        CHECK(readStl(binary(title, 1) + std::string(49, '\0')) == "1");
+        CHECK(refusesStl(binary(title, 1) + std::string(50, '\0'),
+                         "1 facets take 134 bytes, the file has 184"));
+        CHECK(refusesStl(binary(title, 2), "2 facets take 184 bytes, the file has 134"));
+    }
+    CHECK(refusesStl("an STL?", "neither a text that begins with 'solid' nor a binary STL"));
 }
