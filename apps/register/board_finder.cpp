@@ -4,7 +4,6 @@
 #include "apps/register/board_corners.h"
 #include "apps/register/point_pairs.h"
 #include "apps/register/seen_plane.h"
-#include "devices/recorded/text_file.h"
 #include "engine/types/error.h"
 
 #include <algorithm>
@@ -18,10 +17,7 @@ BoardPlace readBoardPlace(const std::filesystem::path& file) {
         "one row columns,rows,square_m,x,y,z,qx,qy,qz,qw: 3 to 40 inner corners "
         "per side, odd sum, squares of 0.001 to 10 m, position within 1e6 m, valid quaternion";
     BoardPlace place;
-    for (const TextLine& line : readDataLines(file)) {
-        if (line.text[0] == 'c') { // the header
-            continue;
-        }
+    for (const TextLine& line : readRows(file, "columns,rows,square_m,x,y,z,qx,qy,qz,qw")) {
         std::string spaced = line.text;
         std::replace(spaced.begin(), spaced.end(), ',', ' ');
         std::istringstream words(spaced);

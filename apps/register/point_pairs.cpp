@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/register/point_pairs.h"
 
-#include "devices/recorded/text_file.h"
 #include "engine/types/error.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <sstream>
@@ -20,12 +20,27 @@ bool isNear(const Pose& target, double size) {
            glm::length(target.rotation) < 1e6 && size >= 1e-3 && size <= 10.0; // [m]
 }
 
+std::vector<TextLine> readRows(const std::filesystem::path& file, const std::string& header) {
+    std::vector<TextLine> rows = readDataLines(file);
+    if (rows.empty() || std::isalpha(static_cast<unsigned char>(rows[0].text[0])) == 0) {
+        return rows;
+    }
+    const auto spaced = [](std::string line) {
+        std::replace(line.begin(), line.end(), ',', ' ');
+        return line;
+    };
+    const std::string first = spaced(rows[0].text), wanted = spaced(header);
+    if (splitWords(first) != splitWords(wanted)) {
+        throw BadInput(file.string(), "line " + std::to_string(rows[0].number), rows[0].text.substr(0, 160),
+                       "header " + header);
+    }
+    rows.erase(rows.begin());
+    return rows;
+}
+
 std::vector<PointPair> readPointPairs(const std::filesystem::path& file) {
     std::vector<PointPair> pairs;
-    for (const TextLine& line : readDataLines(file)) {
-        if (line.text[0] == 'c') { // the header
-            continue;
-        }
+    for (const TextLine& line : readRows(file, "camera_x,camera_y,camera_z,base_x,base_y,base_z")) {
         std::string spaced = line.text;
         std::replace(spaced.begin(), spaced.end(), ',', ' ');
         std::istringstream words(spaced);

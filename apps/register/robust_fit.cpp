@@ -13,6 +13,7 @@ namespace {
 
 using Pairs = std::span<const PointPair>;
 
+constexpr double kFar = 50.0;          // [m] as far as no depth camera measures
 constexpr size_t kAllTriples = 20;     // pairs up to which every triple is tried
 constexpr int kTriples = 1500;         // tried of more pairs
 constexpr double kMinTolerance = 5e-3; // [m] a hand-held probe is no better
@@ -161,6 +162,12 @@ bool isMirrored(Pairs pairs, const Consensus& found) {
 
 std::string doubtOf(Pairs pairs, const FitLimits& limits, const Consensus& found, const RobustFit& robust) {
     const std::string worst = named(farthest(pairs, robust.fit.baseTcamera, 0.0));
+    const auto nearest = std::min_element(pairs.begin(), pairs.end(), [](const auto& a, const auto& b) {
+        return glm::length(a.camera) < glm::length(b.camera);
+    });
+    if (glm::length(nearest->camera) >= kFar) {
+        return print("every point is over %.4g m from the camera (millimetres?)", kFar);
+    }
     const double scale = scaleOf(pairs);
     if (!(std::abs(scale - 1.0) <= kMaxScale)) {
         return print("distances in the base frame are %.6g times those in the camera frame (units?)", scale) +

@@ -3,7 +3,6 @@
 
 #include "apps/register/point_pairs.h"
 #include "apps/register/seen_plane.h"
-#include "devices/recorded/text_file.h"
 #include "engine/types/error.h"
 
 #include <algorithm>
@@ -32,10 +31,7 @@ struct TagFinder::Detector {
 
 std::map<int, TagPlace> readTagPlaces(const std::filesystem::path& file) {
     std::map<int, TagPlace> places;
-    for (const TextLine& line : readDataLines(file)) {
-        if (line.text[0] == 'i') { // the header
-            continue;
-        }
+    for (const TextLine& line : readRows(file, "id,size_m,x,y,z,qx,qy,qz,qw")) {
         std::string spaced = line.text;
         std::replace(spaced.begin(), spaced.end(), ',', ' ');
         std::istringstream words(spaced);

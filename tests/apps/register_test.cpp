@@ -169,9 +169,41 @@ TEST_CASE("Lists of tags and points are read, and an invalid line is rejected wi
     CHECK_THROWS_AS(readTagPlaces(write("3,0,1,2,3,0,0,0,1\n")), BadInput);
     CHECK_THROWS_AS(readTagPlaces(write("3,1,1,2,3,0,0,0,1\n3,1,1,2,3,0,0,0,1\n")), BadInput);
     CHECK_THROWS_AS(readTagPlaces(write("")), BadInput);
-    CHECK(readPointPairs(write("camera_x,y\n1,2,3,4,5,6\n"))[0].base.z == 6.0);
+    const std::string header = "camera_x, camera_y,camera_z base_x,base_y,base_z\n";
+    CHECK(readPointPairs(write(header + "1,2,3,4,5,6\n"))[0].base.z == 6.0);
+    CHECK(readPointPairs(write("\xEF\xBB\xBF# by hand\n" + header + "1 2 3 4 5 6\n"))[0].base.z == 6.0);
     CHECK_THROWS_WITH_AS(readPointPairs(write("\n1,2,3,4,5\n")), doctest::Contains("line 2"), BadInput);
     CHECK_THROWS_AS(readPointPairs(folder.path() / "none.csv"), BadInput);
+}
+
+TEST_CASE("A list of points, tags or a board has its own header or none, and no names in front of rows") {
+    const testing::ScratchFolder folder;
+    const auto file = folder.path() / "a.csv";
+    const auto write = [&](const std::string& text) {
+        std::ofstream(file) << text;
+        return file;
+    };
+    const std::string points = "1,2,3,4,5,6\n", tag = "3,0.1,1,2,3,0,0,0,1\n",
+                      board = "7,4,0.04,1,2,3,0,0,0,1\n";
+    for (const char* header :
+         {"camera_z,camera_y,camera_x,base_x,base_y,base_z",
+          "base_x,base_y,base_z,camera_x,camera_y,camera_z", "cam,base", "camera_x,camera_y,camera_z"}) {
+        CHECK_THROWS_WITH_AS(
+            readPointPairs(write(header + ("\n" + points))),
+            doctest::Contains("(allowed: header camera_x,camera_y,camera_z,base_x,base_y,base_z)"), BadInput);
+    }
+    for (const char* row :
+         {"c4,1,2,3,4,5,6\n", "corner5 1,2,3,4,5,6\n", "camera_x,camera_y,camera_z,base_x,base_y,base_z\n"}) {
+        CHECK_THROWS_WITH_AS(readPointPairs(write(points + row)), doctest::Contains("line 2"), BadInput);
+    }
+    CHECK_THROWS_WITH_AS(readTagPlaces(write("id,size_m,x,y,z,qw,qx,qy,qz\n" + tag)),
+                         doctest::Contains("(allowed: header id,size_m,x,y,z,qx,qy,qz,qw)"), BadInput);
+    CHECK_THROWS_WITH_AS(readTagPlaces(write(tag + "id7,0.1,1,2,3,0,0,0,1\n")), doctest::Contains("line 2"),
+                         BadInput);
+    CHECK_THROWS_WITH_AS(readBoardPlace(write("columns,rows,square_m,x,y,z,qw,qx,qy,qz\n" + board)),
+                         doctest::Contains("(allowed: header columns,rows,square_m,x,y,z,qx,qy,qz,qw)"),
+                         BadInput);
+    CHECK(readBoardPlace(write(board)).columns == 7);
 }
 
 TEST_CASE("An endless line in a list of points, tags or a board is rejected before memory runs out") {

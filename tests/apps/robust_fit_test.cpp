@@ -69,6 +69,18 @@ TEST_CASE("Distances in other units are doubted with their ratio and the worst p
     }
 }
 
+TEST_CASE("Points that are all far from the camera are doubted: both columns may be millimetres") {
+    auto pairs = pairsOf(6, 0.001);
+    for (PointPair& pair : pairs) {
+        pair.base *= 1000.0;
+        pair.camera *= 1000.0;
+    }
+    mentions(fitRobust(pairs, {.residual = 1e3}, "test").doubt, "m from the camera (millimetres?)");
+    pairs[2].camera = {0.0, 0.0, 1.0}; // in metres
+    pairs[2].base = kTrueFit.position;
+    CHECK(fitRobust(pairs, {.residual = 1e3}, "test").doubt.find("millimetres") == std::string::npos);
+}
+
 TEST_CASE("A mirror image is doubted, whichever axis is negated or swapped") {
     for (int axis = 0; axis < 4; ++axis) {
         CAPTURE(axis);
