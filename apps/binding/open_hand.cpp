@@ -2,11 +2,14 @@
 #include "apps/binding/open_hand.h"
 
 #include "devices/bridge/socket_hand.h"
+#include "devices/recorded/hand_csv.h"
 #include "devices/usb/space_mouse_hand.h"
 #include "engine/haptics/device_preset.h"
+#include "engine/run/open_scene.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
 
+#include <algorithm>
 #include <chrono>
 #include <thread>
 
@@ -85,6 +88,19 @@ bool awaitHand(LiveHand& hand, const std::atomic<bool>& stop) {
         }
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
+}
+
+HandPath openHandPath(const std::filesystem::path& file, double scale) {
+    constexpr double kUsualPath = 10.0; // [m] most
+    HandPath path(readHandCsv(file));
+    dvec3 low(path.waypoints()[0].deviceThandle.position), high(low);
+    for (const HandWaypoint& waypoint : path.waypoints()) {
+        low = glm::min(low, waypoint.deviceThandle.position);
+        high = glm::max(high, waypoint.deviceThandle.position);
+    }
+    const dvec3 size = scale * (high - low);
+    doubtLength(file.string() + ": the hand moves", std::max({size.x, size.y, size.z}), kUsualPath);
+    return path;
 }
 
 } // namespace fathom

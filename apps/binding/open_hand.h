@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Opens the live haptic device that --hand-device names.
+// Opens the live haptic device that --hand-device names, and hand paths.
 #pragma once
 
 #include "devices/live_hand.h"
+#include "devices/simulated/hand_path.h"
 #include "engine/scene/scene.h"
 
 #include <atomic>
+#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -26,5 +28,9 @@ std::string axesOf(const std::string& preset);
 // Waits until the device sends poses (plugged in and homed); false when `stop` is set first. Logs once what
 // it waits for.
 bool awaitHand(LiveHand& hand, const std::atomic<bool>& stop);
+
+// The path of a CSV file. Logs a warning when, scaled, it is so long that its unit may be the millimetre.
+// Throws BadInput.
+HandPath openHandPath(const std::filesystem::path& file, double scale);
 
 } // namespace fathom

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/plan/plan_command.h"
 
+#include "apps/binding/open_hand.h"
 #include "apps/binding/open_source.h"
 #include "engine/cycle/arm_text.h"
 #include "engine/cycle/haptic_options.h"
 #include "engine/gpu/device.h"
 #include "engine/scene/dead_gates.h"
+#include "engine/types/read_file.h"
 
 #include <CLI/CLI.hpp>
 #include <iomanip>
@@ -39,6 +41,9 @@ void runPlan(const PlanOptions& options, const GlobalOptions& global) {
         scene, options.source.empty() ? std::nullopt : std::optional<std::filesystem::path>(options.source));
     const auto arm = openArm(scene);
     const Tool tool = openTool(scene, arm.get());
+    if (!scene.hand.builtIn && isRegularFile(scene.hand.path)) { // a live hand needs none
+        openHandPath(scene.hand.path, scene.hand.scale);
+    }
     const DeviceFacts facts = factsFor(scene, global);
     const Plan plan = makePlan(scene, camera->info(), static_cast<uint32_t>(tool.leafCount()), facts);
     std::cout << "scene   " << options.scene << ", " << camera->description() << ", "

@@ -6,7 +6,6 @@
 #include "apps/binding/open_source.h"
 #include "apps/binding/raw_path.h"
 #include "apps/session/repeating_camera.h"
-#include "devices/recorded/hand_csv.h"
 #include "engine/types/error.h"
 #include "shaders/shared/frame_params.h"
 
@@ -188,10 +187,10 @@ ArmPosture Session::awaitArm(const std::atomic<bool>& stop) {
 
 HandPath Session::path() {
     if (!options.operatorCsv.empty()) {
-        return HandPath(readHandCsv(options.operatorCsv));
+        return openHandPath(options.operatorCsv, scene.hand.scale);
     }
     if (!scene.hand.builtIn) {
-        return HandPath(readHandCsv(scene.hand.path));
+        return openHandPath(scene.hand.path, scene.hand.scale);
     }
     if (approach_.empty()) {
         const auto first = cycles.frames().sets().newest();

@@ -18,7 +18,7 @@ constexpr size_t kMaxLeaves = 4096;
 void checkTree(const SphereTree& tree) {
     const std::string fault = validate(tree);
     if (!fault.empty()) {
-        throw Error("tool: " + fault);
+        throw Error(fault);
     }
 }
 
@@ -27,7 +27,7 @@ void checkLeaf(const Sphere& leaf, size_t index) {
     if (!(std::max({far.x, far.y, far.z}) <= kMaxToolReach) || !(leaf.radius <= kMaxLeafRadius)) {
         char text[160];
         std::snprintf(
-            text, sizeof text, "tool: leaf %zu at (%.6g, %.6g, %.6g) with radius %.6g exceeds %g m or %g m",
+            text, sizeof text, "leaf %zu at (%.6g, %.6g, %.6g) m with radius %.6g m exceeds %g m or %g m",
             index, leaf.centre.x, leaf.centre.y, leaf.centre.z, leaf.radius, kMaxToolReach, kMaxLeafRadius);
         throw Error(text);
     }
@@ -51,7 +51,7 @@ Tool::Tool(SphereTree tree)
         boundingRadius_ = std::max(boundingRadius_, glm::length(leaf.centre) + leaf.radius);
     }
     if (leaves_.empty() || leaves_.size() > kMaxLeaves) {
-        throw Error("tool: " + std::to_string(leaves_.size()) + " leaf spheres (allowed: 1 to " +
+        throw Error(std::to_string(leaves_.size()) + " leaf spheres (allowed: 1 to " +
                     std::to_string(kMaxLeaves) + ")");
     }
     gyrationRadius_ = std::max(std::sqrt(sumOfSquares / static_cast<double>(leaves_.size())), largestRadius);

@@ -39,6 +39,7 @@ public:
         rig_->proxy.graspPerTick = rig_->proxy.period / arm_.grasp.seconds;
         applyJoints();
         checkFingers();
+        checkReach();
         return std::move(rig_);
     }
 
@@ -173,6 +174,24 @@ private:
                            text(finger.lower) + " to " + text(finger.upper) + ", the joint's limits");
                 }
             }
+        }
+    }
+
+    // As Tool does for contact queries, which would name neither file nor link.
+    void checkReach() const {
+        const ArmModel& model = rig_->model;
+        const ArmFrames frames = rig_->framesAt(rig_->startPosture());
+        for (size_t i = 0; i < model.leaves.size(); ++i) {
+            const dvec3 c = model.centre(frames, i), far = glm::abs(c);
+            const double radius = model.leaves[i].sphere.radius;
+            if (std::max({far.x, far.y, far.z}) <= kMaxToolReach && radius <= kMaxLeafRadius) {
+                continue;
+            }
+            throw BadInput(arm_.urdf.string(), "link " + model.links[model.leaves[i].link],
+                           "a sphere at (" + text(c.x) + ", " + text(c.y) + ", " + text(c.z) +
+                               ") m, of radius " + text(radius) + " m",
+                           "within " + text(kMaxToolReach) + " m of the base frame's origin, radius up to " +
+                               text(kMaxLeafRadius) + " m; a URDF is in metres");
         }
     }
 

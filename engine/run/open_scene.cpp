@@ -7,6 +7,8 @@
 #include "engine/types/error.h"
 #include "engine/types/log.h"
 
+#include <algorithm>
+
 namespace fathom {
 
 namespace {
@@ -36,12 +38,21 @@ Scene openSceneText(const std::string& text) {
     return checked(loadSceneText(text, "scene text"));
 }
 
+void doubtLength(const std::string& what, double length, double most) {
+    if (length > most) {
+        log::warn("{} {:.4g} m if its unit is the metre (millimetres?)", what, length);
+    }
+}
+
 namespace {
 
-Tool writtenTool(const Scene& scene, const ReaderOptions& reader) {
+constexpr double kUsualTool = 2.0, kUsualArm = 20.0; // [m] most
+
+Tool builtTool(const Scene& scene, const ReaderOptions& reader) {
+    const std::filesystem::path& file = scene.tool.file.empty() ? scene.file : scene.tool.file;
     try {
         if (!scene.tool.file.empty()) {
-            return Tool(readSphereTree(scene.tool.file, "", reader));
+            return Tool(readSphereTree(file, scene.tool.link, reader));
         }
         std::vector<Sphere> leaves;
         for (const auto& [x, y, z, r] : scene.tool.spheres) {
@@ -51,9 +62,27 @@ Tool writtenTool(const Scene& scene, const ReaderOptions& reader) {
     } catch (const BadInput&) {
         throw;
     } catch (const Error& e) {
-        throw BadInput(scene.file.string(), "tool", e.what(),
+        throw BadInput(file.string(), "tool", e.what(),
                        "1 to 4096 spheres with coordinates up to 50 m and radii above 0, up to 10 m");
     }
+}
+
+Tool writtenTool(const Scene& scene, const ReaderOptions& reader) {
+    Tool tool = builtTool(scene, reader);
+    const std::filesystem::path& file = scene.tool.file.empty() ? scene.file : scene.tool.file;
+    doubtLength(file.string() + ": tool: reaches", tool.boundingRadius(), kUsualTool);
+    return tool;
+}
+
+// [m] from its base at the start.
+double reachOf(const ArmRig& arm) {
+    const ArmFrames frames = arm.framesAt(arm.startPosture());
+    double reach = 0.0;
+    for (size_t i = 0; i < arm.model.leaves.size(); ++i) {
+        reach = std::max(reach, glm::distance(arm.model.centre(frames, i), arm.baseTarm.position) +
+                                    arm.model.leaves[i].sphere.radius);
+    }
+    return reach;
 }
 
 } // namespace
@@ -62,6 +91,9 @@ std::unique_ptr<ArmRig> openArm(const Scene& scene, const ReaderOptions& reader)
     const bool tool = scene.arm && scene.tool.given();
     auto arm =
         makeArmRig(scene, tool ? writtenTool(scene, reader).leaves() : std::span<const Sphere>(), reader);
+    if (arm) {
+        doubtLength(scene.arm->urdf.string() + ": the arm reaches", reachOf(*arm), kUsualArm);
+    }
     for (const std::string& line : arm ? describeArm(*arm) : std::vector<std::string>{}) {
         log::info("arm: {}", line);
     }

@@ -61,11 +61,17 @@ uint32_t loadButtonBit(const YamlNode& node) {
 }
 
 void loadTool(const YamlNode& tool, Scene& scene) {
-    tool.checkKeys({"spheres", "file"});
+    tool.checkKeys({"spheres", "file", "link"});
     const auto spheres = tool.find("spheres"), file = tool.find("file");
     if (spheres.has_value() == file.has_value()) {
         tool.refuse(spheres ? "spheres and file" : "neither spheres nor file",
                     "exactly one of spheres, file");
+    }
+    if (const auto link = tool.find("link")) {
+        scene.tool.link = link->text();
+        if (!file) {
+            link->refuse("none; it goes with file");
+        }
     }
     if (spheres) {
         scene.tool.spheres = loadSpheres(*spheres);
@@ -74,7 +80,7 @@ void loadTool(const YamlNode& tool, Scene& scene) {
     scene.tool.file = besideScene(scene, file->text());
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(scene.tool.file, ignored)) {
-        file->refuse(scene.tool.file.string(), "an existing sphere tree file (.sph)");
+        file->refuse(scene.tool.file.string(), "an existing .sph, .urdf, .yaml, .yml, .xrdf or .json file");
     }
 }
 

@@ -168,7 +168,8 @@ struct Scene {
     // The spheres of the tool.
     struct ToolSource {
         std::vector<std::array<double, 4>> spheres; // tool frame x y z r [m]
-        std::filesystem::path file;                 // .sph; empty when spheres are listed
+        std::filesystem::path file;                 // of spheres; empty when they are listed
+        std::string link;                           // of a file with several links; empty = the only one
         bool given() const { return !spheres.empty() || !file.empty(); } // may be false with an arm only
     } tool;
 

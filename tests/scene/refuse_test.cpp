@@ -202,6 +202,7 @@ TEST_CASE("A scene without a usable tool is rejected") {
         {fixtures, "tool: missing", "must be given"},
         {fixtures + "tool: {}\n", "tool: neither spheres nor file", "exactly one"},
         {fixtures + "tool: {spheres: [[0,0,0,1]], file: a.sph}\n", "tool: spheres and file", "exactly one"},
+        {fixtures + "tool: {spheres: [[0,0,0,1]], link: hand}\n", "tool.link: hand", "with file"},
         {fixtures + "tool: {spheres: []}\n", "tool.spheres: 0 spheres", "1 to 4096"},
         {fixtures + "tool: {spheres: [[0,0,0]]}\n", "tool.spheres[0]: [0, 0, 0]", "4 numbers"},
         {fixtures + "tool: {spheres: [[0,0,0,1], [0,0,0,0]]}\n", "tool.spheres[1][3]: 0", "from 1e-05 to 10"},
@@ -209,7 +210,8 @@ TEST_CASE("A scene without a usable tool is rejected") {
     });
     const std::string message = refusal(fixtures + "tool: {file: nowhere.sph}\n");
     CHECK(message.find("tool.file: ") != std::string::npos);
-    CHECK(message.find("nowhere.sph (allowed: an existing") != std::string::npos);
+    CHECK(message.find("nowhere.sph (allowed: an existing .sph, .urdf, .yaml, .yml, .xrdf or .json file)") !=
+          std::string::npos);
 }
 
 TEST_CASE("Hand, haptics and contact values outside their range are rejected") {
