@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Installs the built tree into an empty folder and builds the example hello.cpp outside of the sources, once by find_package and once
-# by pkg-config; both must feel 10 N within 0.1 %. Checks which files are installed, that none of them names the build folder, and that
-# the library exports the public API only.
+# by pkg-config; both must feel 10 N within 0.1 %. Compiles the README's program. Checks which files are installed, that none of
+# them names the build folder, and that the library exports the public API only.
 #   cmake -DSOURCE= -DBINARY= -DCXX= -DVERSION= -P install_test.cmake
 #   cmake -DSOURCE= -DPREFIX=/usr -DCXX= -DVERSION= -P install_test.cmake    tests the installation there
 cmake_minimum_required(VERSION 3.25)
@@ -111,6 +111,24 @@ execute_process(COMMAND ${CXX} -std=c++20 -O1 ${stage}/consumer/hello.cpp -o ${s
                 RESULT_VARIABLE result)
 check("the consumer does not build by pkg-config: ${log}" result EQUAL 0)
 must_feel("the consumer built by pkg-config" ${stage}/by_pkg_config)
+
+# The README's program, around a device that the text leaves to the reader. It runs as long as its device does, so it is not run.
+file(READ ${SOURCE}/README.md readme)
+string(FIND "${readme}" "#include <fathom/" begin)
+string(SUBSTRING "${readme}" ${begin} -1 program)
+string(FIND "${program}" "```" end)
+string(SUBSTRING "${program}" 0 ${end} program)
+string(REPLACE "int main() {" "struct MyDevice {
+    fathom::Pose pose() const { return {}; }
+    bool waitForTick() const { return false; }
+    void write(const fathom::Wrench&) const {}
+};
+
+int main() {" program "${program}")
+file(WRITE ${stage}/readme.cpp "${program}")
+execute_process(COMMAND ${CXX} -std=c++20 -Wall -Wextra -Werror -fsyntax-only ${stage}/readme.cpp ${flags} OUTPUT_VARIABLE log ERROR_VARIABLE log
+                RESULT_VARIABLE result)
+check("the README's program does not build: ${log}" result EQUAL 0 AND program MATCHES "MyDevice device;")
 
 # By Python, where the module is built.
 if(EXISTS "${BINARY}/python")

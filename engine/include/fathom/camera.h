@@ -57,7 +57,7 @@ struct CameraModel {
 struct Frame {
     const void* depth = nullptr;  ///< width x height values of the camera's depth format
     const void* colour = nullptr; ///< of the colour format; null if the format is None
-    Pose baseTcamera;             ///< the depth camera in the base frame when the frame was taken
+    Pose baseTcamera{};           ///< the depth camera in the base frame when the frame was taken
     Nanoseconds stamp = 0;        ///< when it was taken (start of exposure)
 };
 
