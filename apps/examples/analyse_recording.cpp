@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Analyses a recording without a clock: how near may a tool come along the optical axis, frame by frame?
-//   analyse_recording FOLDER SCENE.yaml WIDTH HEIGHT FX FY CX CY [METRES_PER_UNIT]
-// FOLDER/depth has 16-bit PNG files, by default in millimetres (0.001); TUM RGB-D recordings have 0.0002.
+// FOLDER has 16-bit PNG files of depth, by default of 0.001 m per unit; TUM RGB-D recordings have 0.0002.
 #include <cstdio>
 #include <fathom/fathom.h>
 #include <filesystem>
@@ -36,8 +35,7 @@ static std::vector<std::uint16_t> readDepth(const std::string& file, const fatho
 
 int main(int count, char** argument) try {
     if (count != 9 && count != 10) {
-        throw std::runtime_error(
-            "usage: analyse_recording FOLDER SCENE.yaml WIDTH HEIGHT FX FY CX CY [METRES_PER_UNIT]");
+        throw fathom::Error("usage: analyse_recording FOLDER SCENE WIDTH HEIGHT FX FY CX CY [M_PER_UNIT]");
     }
     const auto number = [&](int i) { return std::stod(argument[i]); };
     fathom::CameraModel camera;
@@ -45,9 +43,8 @@ int main(int count, char** argument) try {
         std::uint32_t(number(3)), std::uint32_t(number(4)), number(5), number(6), number(7), number(8), {}};
     camera.metresPerUnit = count == 10 ? number(9) : 0.001;
     fathom::Lockstep lockstep(fathom::Scene::fromFile(argument[2]), camera, {});
-    const std::filesystem::directory_iterator folder(std::filesystem::path(argument[1]) / "depth");
-    fathom::Nanoseconds time = 0;
-    for (const auto& file : std::set<std::filesystem::path>(begin(folder), end(folder))) {
+    const std::set<std::filesystem::path> files(std::filesystem::directory_iterator(argument[1]), {});
+    for (fathom::Nanoseconds time = 0; const auto& file : files) {
         const auto depth = readDepth(file, camera.depth);
         lockstep.process({.depth = depth.data(), .stamp = time});
         fathom::Step step; // pushes ahead at 1 m/s for 1 s; the tool stops at the first region
