@@ -6,8 +6,20 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <functional>
 #include <thread>
 #include <vector>
+
+// Runs until stopped: 30 Hz, the wall 0.6 m away.
+static void sendFrames(fathom::CameraPort port, const std::atomic<bool>& stop) {
+    const std::vector<std::uint16_t> depth(160 * 120, 600);
+    for (; !stop; std::this_thread::sleep_for(std::chrono::milliseconds(33))) {
+        const auto status = port.submit({.depth = depth.data(), .stamp = fathom::now()});
+        if (status != fathom::SubmitStatus::Accepted) {
+            std::fprintf(stderr, "frame rejected: %d\n", static_cast<int>(status));
+        }
+    }
+}
 
 int main() {
     // A wall of points, protected by 40 mm; the tool is a ball of 10 mm; a spring of 1000 N/m.
@@ -26,17 +38,8 @@ haptics: { device: ideal, stiffness: 1000 }
         }
     });
     fathom::Engine engine(scene, model);
-
     std::atomic<bool> stop{false};
-    std::thread camera([&, port = engine.camera()]() mutable { // 30 Hz, the wall 0.6 m away
-        const std::vector<std::uint16_t> depth(160 * 120, 600);
-        for (; !stop; std::this_thread::sleep_for(std::chrono::milliseconds(33))) {
-            const auto status = port.submit({.depth = depth.data(), .stamp = fathom::now()});
-            if (status != fathom::SubmitStatus::Accepted) {
-                std::fprintf(stderr, "frame rejected: %d\n", static_cast<int>(status));
-            }
-        }
-    });
+    std::thread camera(sendFrames, engine.camera(), std::cref(stop));
 
     // The tool touches the wall at z = 0.6 - 0.04 - 0.01 = 0.55 m. The hand continues to 0.56 m.
     fathom::Hand hand;
