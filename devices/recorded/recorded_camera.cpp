@@ -70,20 +70,20 @@ RecordedCamera::RecordedCamera(const fs::path& folder, const SourceOptions& opti
     slots_.emplace(info().slotPixels(), info().hasColour, kFramesInFlight + 2);
 }
 
-// Stamps that go back now and then are faults of single frames. Where most do, they are no times: all frames
-// are played in the order of the index.
+// Stamps that go back now and then are faults of single frames. Where most do not rise, they are no times:
+// all frames are played in the order of the index.
 void RecordedCamera::checkStamps() {
     double latest = -HUGE_VAL;
-    size_t back = 0;
+    size_t still = 0; // or back
     for (const IndexLine& line : layout_.index) {
-        back += line.fault.empty() && line.depthStamp < latest ? 1 : 0;
+        still += line.fault.empty() && line.depthStamp <= latest ? 1 : 0;
         latest = line.fault.empty() ? std::max(latest, line.depthStamp) : latest;
     }
-    if (2 * back < layout_.index.size()) {
+    if (2 * still < layout_.index.size()) {
         return;
     }
     const std::string told =
-        std::to_string(back) + " of " + std::to_string(layout_.index.size()) + " depth stamps go back";
+        std::to_string(still) + " of " + std::to_string(layout_.index.size()) + " depth stamps do not rise";
     if (layout_.poses) {
         throw BadInput(folder_.string(), "index", told,
                        "stamps that rise, because poses.txt is read by them");

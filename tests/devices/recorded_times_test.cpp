@@ -71,3 +71,28 @@ TEST_CASE("A heading without #, and a pause, change neither start nor what colou
         CHECK(playedDepths(folder.path(), {.start = 2.0}) == Depths{1002, 1003, 1004});
     }
 }
+
+TEST_CASE("Where half of the stamps do not rise, all frames are played at 30 per second, unless poses need "
+          "stamps") {
+    const TemporaryFolder folder;
+    writeSmallRecording(folder, 4);
+    for (const char* second : {"5", "4.9"}) { // equal, and back
+        std::string index;
+        for (int i = 0; i < 4; ++i) {
+            const std::string n = std::to_string(i) + ".png", stamp = i % 2 == 0 ? "5" : second;
+            index += stamp + " rgb/" + n + " " + stamp + " depth/" + n + "\n";
+        }
+        folder.write("associations.txt", index);
+        RecordedCamera camera(folder.path());
+        for (uint32_t i = 0; i < 4; ++i) {
+            const std::optional<Frame> frame = camera.next();
+            REQUIRE(frame.has_value());
+            CHECK((*frame)->captureTime == doctest::Approx(i / 30.0));
+        }
+        CHECK(camera.skipped() == 0);
+        folder.write("poses.txt", "5 0 0 0 0 0 0 1\n");
+        CHECK(recordingRefusal(folder.path())
+                  .find("of 4 depth stamps do not rise (allowed: stamps that rise") != std::string::npos);
+        std::filesystem::remove(folder.path() / "poses.txt");
+    }
+}
