@@ -277,10 +277,11 @@ std::optional<Frame> RecordedCamera::next() {
     if (any_) {
         nameSkipped();
     } else {
-        throw BadInput(folder_.string(), "frames",
-                       "none of " + std::to_string(layout_.index.size()) +
-                           " is usable; first: " + firstFault_,
-                       "at least one usable pair of images");
+        throw BadInput(
+            folder_.string(), "frames",
+            "none of " + std::to_string(layout_.index.size()) + " is usable; first: " + firstFault_,
+            "at least one usable pair of images" +
+                (layout_.intrinsics.file.empty() ? "" : ", of the size in " + layout_.intrinsics.file));
     }
     return std::nullopt;
 }

@@ -201,6 +201,7 @@ RecordingIntrinsics readIntrinsics(const std::filesystem::path& file, ScaleRule 
     const nlohmann::json document = parseJsonFile(file);
     const JsonField root(document, file.string(), "");
     RecordingIntrinsics intrinsics;
+    intrinsics.file = file.filename().string();
     CameraInfo& camera = intrinsics.camera;
     const auto colour = findColour(root, "color", "colour");
     if (colour || root.find("depth")) {

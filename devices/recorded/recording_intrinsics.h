@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace fathom {
@@ -18,6 +19,7 @@ inline constexpr uint32_t kMaxImageHeight = 2160;
 enum class ScaleRule { Needed, Optional, Unchecked };
 
 struct RecordingIntrinsics {
+    std::string file; // name of the file that states them; empty for a lens that is known
     CameraInfo camera;
     std::optional<double> scale; // [m per unit] as stated
     // Only when the file lists them: capture times [s] of the files in depth/ and rgb/ in order of their

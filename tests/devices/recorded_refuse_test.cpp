@@ -87,6 +87,16 @@ TEST_CASE("A recording without a usable frame is rejected at its end, with the f
     CHECK(holds(message, "depth/0.png"));
 }
 
+TEST_CASE("Images of another size than their lens are rejected with the file that states the size") {
+    const TemporaryFolder folder;
+    folder.write("camera_intrinsic.json",
+                 R"({"width": 70, "height": 50, "intrinsic_matrix": [60, 0, 0, 0, 65, 0, 30, 20, 1]})");
+    addPair(folder, "depth/00000.png", "color/00000.png", 500);
+    CHECK(holds(recordingRefusal(folder.path()),
+                "7x5 pixels, not 70x50 (allowed: at least one usable pair of images, of the size in "
+                "camera_intrinsic.json)"));
+}
+
 TEST_CASE("Colour of another size than depth is rejected when the registration is unknown") {
     const TemporaryFolder folder;
     writeSmallRecording(folder, 2);
