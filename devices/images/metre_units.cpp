@@ -5,10 +5,24 @@
 #include "engine/types/log.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/core.h>
 
 namespace fathom {
+
+namespace {
+
+// With the unit of the first row whose bound is higher, the nearest point is 0.05 m to 50 m away.
+struct ValueUnit {
+    double below; // of the nearest value
+    const char *name, *scale;
+};
+constexpr std::array kValueUnits{ValueUnit{200.0, "centimetres", "0.01"},
+                                 ValueUnit{5e4, "millimetres", "0.001"},
+                                 ValueUnit{5e7, "micrometres", "0.000001"}};
+
+} // namespace
 
 void ValueSpan::add(double value) {
     if (value > 0.0 && std::isfinite(value)) {
@@ -38,9 +52,13 @@ std::string doubtMetres(const std::string& file, double nearest) {
     if (!(nearest >= kDoubtful && std::isfinite(nearest))) {
         return "";
     }
-    const std::string text = fmt::format("{}: the nearest point is at {:.4g} m; if its values are "
-                                         "millimetres, put ,scale=0.001 behind its name",
-                                         file, nearest);
+    std::string text = fmt::format("{}: the nearest point is at {:.4g} m", file, nearest);
+    const auto likely =
+        std::ranges::find_if(kValueUnits, [&](const auto& unit) { return nearest < unit.below; });
+    if (likely != kValueUnits.end()) {
+        text +=
+            fmt::format("; if its values are {}, put ,scale={} behind its name", likely->name, likely->scale);
+    }
     log::warn("{}", text);
     return text;
 }

@@ -25,7 +25,8 @@ double unitForMetres(double farthest);
 // but for none beyond `ofInterest` [m], unless all samples are beyond it.
 double unitForMetres(const ValueSpan& seen, double ofInterest);
 
-// Warns when the nearest point of a recording is farther than any camera sees: its values are no metres.
+// Warns when the nearest point of a recording is farther than any camera sees: its values are no metres, but
+// likely of the unit that it names.
 // Returns the warning; empty when there is none.
 std::string doubtMetres(const std::string& file, double nearest);
 
