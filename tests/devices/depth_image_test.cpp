@@ -160,7 +160,7 @@ TEST_CASE("Metres of a folder stay metres, whatever depth scale is stated, and g
     CHECK(camera.warnings().empty());
     const RecordedCamera far(folder.path(), {.scale = 100.0});
     REQUIRE(far.warnings().size() == 1); // no camera sees so far
-    CHECK(far.warnings()[0].find("scale=0.001") != std::string::npos);
+    CHECK(far.warnings()[0].find("scale=0.01 ") != std::string::npos);
 }
 
 TEST_CASE("Sixteen bits of a folder need a scale in every format, and one folder holds one kind") {
