@@ -31,7 +31,7 @@ void bindFlags(py::module_& module) {
     module.attr("StepWarning").attr("__doc__") = "What limits a step; see <fathom/hand.h>.";
     py::enum_<State>(module, "State", "What the forces do.")
         .value("OFF", State::Off, "no fixtures yet, or forces are off: the wrench is zero")
-        .value("FREE", State::Free, "nothing pushes")
+        .value("FREE", State::Free, "no fixture pushes")
         .value("CONTACT", State::Contact, "at least one fixture pushes")
         .value("ESCAPE", State::Escape, "new fixtures cover the tool; it moves out")
         .value("TRAPPED", State::Trapped, "no motion obeys every fixture: the force ramps out")

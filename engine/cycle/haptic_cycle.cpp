@@ -246,7 +246,8 @@ StepState HapticCycle::stateOf(const Situation& now, const ProxyStep& moved, boo
     if (moved.contact) {
         return StepState::Contact;
     }
-    return lags ? StepState::Waiting : StepState::Free;
+    const bool jointPushes = jointEnds_ != 0 && stage_.reaction() > 0.0;
+    return lags && !jointPushes ? StepState::Waiting : StepState::Free;
 }
 
 // An arm stands still while anything is wrong, and then until tool and hand meet again or are re-indexed.

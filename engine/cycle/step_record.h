@@ -19,12 +19,12 @@ namespace fathom {
 // What the tool does.
 enum class StepState : uint8_t {
     Off,     // no contact set yet, or forces off and ramped out: the wrench is zero
-    Free,    // no row pushes
-    Contact, // some row pushes
+    Free,    // no region or shape pushes; a joint's limit may
+    Contact, // some region or shape pushes
     Escape,  // new data covers the tool, which moves out
     Trapped, // no motion obeys every row: the tool is held, the force ramps out
     Fading,  // scene too old, or forces off and not yet ramped out
-    Waiting, // no row pushes, and the tool lags behind the hand: no force
+    Waiting, // nothing pushes, and the tool lags behind the hand: no force
 };
 
 // Its name in haptics.csv.

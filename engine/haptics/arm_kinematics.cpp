@@ -62,7 +62,7 @@ void ArmKinematics::report(ArmStep& out) const noexcept {
     out.q = now_.posture.q;
     out.grasp = now_.posture.grasp;
     out.residual = lengthOf(remaining(out.pose, target_), metricRadius_);
-    out.contact = out.contacts > 0 || out.atLimits > 0 || out.blocked;
+    out.contact = !out.active.empty() || out.blocked;
 }
 
 // The tighter of the position and the speed limit.

@@ -53,7 +53,7 @@ struct ProxyStep {
     bool stale = false;   // `allowed` is farther away than the tangents of the active rows are accurate
     std::span<const ActiveContact> active; // valid until the next tick
     double minGap = 0.0;     // [m] smallest gap in the contact set, or its certified reach if none is smaller
-    bool contact = false;    // some row had a positive multiplier in the last solve
+    bool contact = false;    // some row of a region or shape pushes; limits of joints do not count
     bool escape = false;     // new data overlaps a leaf (some listed pair or shape)
     bool trapped = false;    // no motion satisfies every row: held this tick, tried again at the next
     bool stalled = false;    // stopped by the trust region until the next contact set

@@ -14,8 +14,8 @@ namespace {
 
 // The tip of a stretched arm is at x = 1 m; a ball blocks its path along y.
 struct FollowRig {
-    FollowRig() {
-        rig.model = makeArm(4, 8);
+    explicit FollowRig(double limit = 1.2) { // [rad] of each joint
+        rig.model = makeArm(4, 8, limit);
         rig.freeDirection = true;
         rig.proxy.stepCap = 0.002;
         addSphere(world.fixtures, {0.95, 0.16, 0.0}, 0.05);
@@ -90,6 +90,25 @@ TEST_CASE("An arm that follows moves like the tool, and the pilot feels obstacle
     CHECK_FALSE(record.armHold);
     CHECK_FALSE(follow.placed);
     CHECK(follow.depth() <= 1e-9);
+}
+
+TEST_CASE("Without contact an arm at the limits of its joints is free, and one that is too slow waits") {
+    FollowRig follow(0.1); // the tip reaches 0.15 m to the side
+    follow.ticks(5);
+    uint32_t pushed = 0, waits = 0;
+    for (int i = 0; i < 1500; ++i) {
+        const double step = i < 700 ? 0.0003 : 0.0;
+        follow.hand.position.y -= i == 100 ? 0.05 : step; // no joint follows such a jump at once
+        const StepRecord record = follow.step();
+        REQUIRE(record.contacts == 0);
+        CHECK(record.state != StepState::Contact);
+        const bool pushes = (record.cause & cause::kJoint) != 0 && forceOf(record) > 0.0;
+        CHECK((!pushes || record.state == StepState::Free));
+        pushed += pushes ? 1 : 0;
+        waits += record.state == StepState::Waiting ? 1 : 0;
+    }
+    CHECK(pushed > 100);
+    CHECK(waits > 10);
 }
 
 TEST_CASE("An arm that stands still holds the tool at once, and the force is gone after 0.2 s") {

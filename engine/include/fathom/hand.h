@@ -38,7 +38,7 @@ struct Hand {
 /// What the forces do.
 enum class State {
     Off,     ///< no fixtures yet, or forces are off: the wrench is zero
-    Free,    ///< nothing pushes
+    Free,    ///< no fixture pushes; a joint's limit of an arm may
     Contact, ///< at least one fixture pushes
     Escape,  ///< new fixtures cover the tool; it moves out
     Trapped, ///< no motion obeys every fixture: the tool is held and the force ramps out
