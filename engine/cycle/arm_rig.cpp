@@ -23,6 +23,7 @@ public:
 
     std::unique_ptr<ArmRig> make(std::span<const Sphere> toolLeaves) {
         rig_->model = loadArm(arm_.urdf, modelOptions());
+        checkMotion();
         addTool(toolLeaves);
         if (rig_->model.leaves.size() > kMaxLeaves) {
             refuse("leaves", std::to_string(rig_->model.leaves.size()) + " of all links",
@@ -62,6 +63,15 @@ private:
             options.fingers.push_back({finger.joint, finger.open, finger.closed});
         }
         return options;
+    }
+
+    void checkMotion() const {
+        const auto& joints = rig_->model.joints;
+        if (std::all_of(joints.begin(), joints.end(),
+                        [](const ArmJoint& joint) { return bool(joint.mimic); })) {
+            refuse("tip", rig_->model.tipText,
+                   "a link with a moving joint between it and arm.base, here " + rig_->model.baseText);
+        }
     }
 
     void addTool(std::span<const Sphere> toolLeaves) {

@@ -39,8 +39,8 @@ struct ArmRig {
 };
 
 // Null without `arm:`. toolLeaves: leaves of the scene's tool in the tip's frame; may be empty. Throws
-// BadInput that names the scene's field for joints and links that the URDF lacks, a start outside the limits,
-// or more than 4096 leaves.
+// BadInput that names the scene's field for joints and links that the URDF lacks, a tip that no joint
+// moves, a start outside the limits, or more than 4096 leaves.
 std::unique_ptr<ArmRig> makeArmRig(const Scene& scene, std::span<const Sphere> toolLeaves,
                                    const ReaderOptions& reader = {});
 

@@ -90,7 +90,8 @@ TEST_CASE("An arm is removed from a frame whose camera is off by three sigma of 
     const auto urdf = std::filesystem::temp_directory_path() /
                       ("fathom_registered_" + std::to_string(::getpid()) + ".urdf");
     std::ofstream(urdf) << "<robot name='r'><link name='a'><collision><geometry><sphere radius='0.05'/>"
-                           "</geometry></collision></link></robot>";
+                           "</geometry></collision></link><link name='b'/><joint name='j' type='continuous'>"
+                           "<parent link='a'/><child link='b'/><axis xyz='0 0 1'/></joint></robot>";
     const dvec3 middle(0.0, 0.0, 0.6), off = 0.99 * 3.0 * 0.01 * glm::normalize(dvec3(0.8, 0.5, -0.4));
     for (const double sigma : {0.0, 0.01}) {
         CloudRig rig = filteredRig(160, 120);

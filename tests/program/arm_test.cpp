@@ -247,6 +247,7 @@ TEST_CASE(
     refused(urdf + "locked: [elbow]", {"arm.locked", "a mapping"});
     refused(urdf + "keep_stray: 1", {"arm.keep_stray", "true or false"});
     refused(urdf + "tip: nothing", {"'nothing'", "fore"});
+    refused(urdf + "base: base, tip: base", {"arm.tip", "base (", "a link with a moving joint"});
     refused(urdf + "joints: [{name: elbo}]", {"arm.joints[0].name", "'elbo'", "slew, shoulder, elbow"});
     refused(urdf + "joints: [{name: elbow, start: 1}]", {"arm.joints[0].start", "-2.4 to -0.05"});
     refused(urdf + "joints: [{name: elbow, lower: 1, upper: 0}]", {"arm.joints[0]", "lower <= upper"});
