@@ -145,7 +145,7 @@ std::unique_ptr<CadenceTrace> openTrace(const Session& session, const GlobalOpti
 ReplaySummary runLockstep(const ReplayOptions& options, const GlobalOptions& global) {
     Session session(options, global);
     const auto trace = openTrace(session, global);
-    ReplayRecorder recorder(options.out, session.scene, session.cycles.camera(),
+    ReplayRecorder recorder(options.out, session.scene, {session.cycles.camera(), session.camera->streams()},
                             session.cycles.frames().passNames(), options.saveFixtures, session.arm.get(), "",
                             &session.edits);
     LockstepReplay replay(session, options, recorder, trace.get());
@@ -167,7 +167,7 @@ ReplaySummary runRealtime(const ReplayOptions& options, const GlobalOptions& glo
                        "with a recording or a simulated camera: a live one has a rate of its own");
     }
     const auto trace = openTrace(session, global);
-    ReplayRecorder recorder(options.out, session.scene, session.cycles.camera(),
+    ReplayRecorder recorder(options.out, session.scene, {session.cycles.camera(), session.camera->streams()},
                             session.cycles.frames().passNames(), options.saveFixtures, session.arm.get(),
                             session.realArm ? session.realArm->description() : "", &session.edits);
     RealtimeReplay replay(session, options, recorder, placement, trace.get());

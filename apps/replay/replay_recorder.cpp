@@ -57,7 +57,7 @@ ReplayRecorder::Ending::Ending(const Session& session, const HapticCycle& cycle)
     , leaves(session.tool.leaves())
     , warnings(session.camera->warnings()) {}
 
-ReplayRecorder::ReplayRecorder(std::filesystem::path out, const Scene& scene, const CameraInfo& camera,
+ReplayRecorder::ReplayRecorder(std::filesystem::path out, const Scene& scene, const RunSource& source,
                                const std::vector<std::string>& passes, bool saveFixtures, const ArmRig* arm,
                                const std::string& realArm, const SceneEdits* edits)
     : out_(std::move(out))
@@ -68,7 +68,7 @@ ReplayRecorder::ReplayRecorder(std::filesystem::path out, const Scene& scene, co
     , frames_(out_ / "frames.csv", passes)
     , arm_(arm)
     , armReport_(arm != nullptr ? std::make_unique<ArmReport>(out_ / "arm.csv", *arm, realArm) : nullptr)
-    , watch_(scene, camera)
+    , watch_(scene, source)
     , edits_(edits) {
     takeFixtures(scene.fixtures);
 }

@@ -30,7 +30,7 @@ public:
     // saveFixtures: also saves fixture sets as fixtures/NNNNNN.ply. realArm: description of the real arm that
     // follows; empty = none. edits: of the recording that is replayed; outlive this; null = none. Throws
     // Error that names the file or folder that cannot be written.
-    ReplayRecorder(std::filesystem::path out, const Scene& scene, const CameraInfo& camera,
+    ReplayRecorder(std::filesystem::path out, const Scene& scene, const RunSource& source,
                    const std::vector<std::string>& passes, bool saveFixtures, const ArmRig* arm = nullptr,
                    const std::string& realArm = "", const SceneEdits* edits = nullptr);
 

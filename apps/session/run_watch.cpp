@@ -47,10 +47,12 @@ std::string depthCause(const Fixtures& set, double nearZ, double farZ) {
            print(", with a depth unit of %.6g m", unit);
 }
 
-std::string causeOf(const FixtureClass& f, uint32_t marked, uint32_t valid, const Fixtures& set,
-                    std::span<const uint32_t> colour, double nearZ, double farZ) {
+} // namespace
+
+std::string RunWatch::causeOf(const FixtureClass& f, uint32_t marked, uint32_t valid, const Fixtures& set,
+                              std::span<const uint32_t> colour) const {
     if (valid == 0) {
-        return depthCause(set, nearZ, farZ);
+        return depthCause(set, nearZ_, farZ_);
     }
     if (marked > 0 && f.role == Role::Guidance) {
         return std::to_string(marked) + " points, min_count is " + std::to_string(f.minCount);
@@ -62,19 +64,19 @@ std::string causeOf(const FixtureClass& f, uint32_t marked, uint32_t valid, cons
     if (needsColour && isGrey(colour)) {
         return "the colour image is grey, and its gates need colour";
     }
-    return f.box ? "no pixel passes its gates, box included" : "no pixel passes its gates";
+    const std::string gates = f.box ? "no pixel passes its gates, box included" : "no pixel passes its gates";
+    return f.usesColour() && !streams_.empty() ? gates + "; " + streams_ : gates;
 }
 
-} // namespace
-
-RunWatch::RunWatch(const Scene& scene, const CameraInfo& camera)
+RunWatch::RunWatch(const Scene& scene, const RunSource& source)
     : fixtures_(scene.fixtures)
+    , streams_(source.streams)
     , nearZ_(scene.nearZ)
     , farZ_(scene.farZ) {
     for (const uint32_t row : cloud::classRows(scene)) {
         classes_.push_back({row, std::nullopt, false, ""});
     }
-    for (const std::string& dead : deadGates(scene, camera)) {
+    for (const std::string& dead : deadGates(scene, source.camera)) {
         warnings_.add(dead, dead);
     }
 }
@@ -107,7 +109,7 @@ void RunWatch::frame(double t, const cloud::FrameCounts& counts, const Fixtures&
         }
         state.none = state.none.value_or(t);
         if (state.cause.empty() || t - *state.none >= kPatience) {
-            state.cause = causeOf(f, marked, counts.valid, set, colour, nearZ_, farZ_);
+            state.cause = causeOf(f, marked, counts.valid, set, colour);
         }
         if (t - *state.none >= kPatience) {
             warnClass(state, print("from %.2f s on for %.0f s", *state.none, kPatience));

@@ -15,13 +15,19 @@
 
 namespace fathom {
 
+// Where the frames of a run come from.
+struct RunSource {
+    CameraInfo camera;
+    std::string streams; // Camera::streams(), for warnings; may be empty
+};
+
 // Warns once per class and per state. One thread.
 class RunWatch {
 public:
     static constexpr double kPatience = 1.0; // [s] that a class may have no point, or a state give no force
 
     // Adds the gates of the scene that no point can pass.
-    RunWatch(const Scene& scene, const CameraInfo& camera);
+    RunWatch(const Scene& scene, const RunSource& source);
 
     // The fixtures after an edit, for the frames from now on. The classes of points have kept their rows.
     void setFixtures(const std::vector<FixtureClass>& fixtures);
@@ -42,10 +48,14 @@ private:
         bool ever = false;          // it had a point in the run
         std::string cause;
     };
+    // Why the class has no point in the frame of this set.
+    std::string causeOf(const FixtureClass& f, uint32_t marked, uint32_t valid, const Fixtures& set,
+                        std::span<const uint32_t> colour) const;
     void warnClass(const ClassState& state, const std::string& since);
     void warnState(double seconds);
 
     std::vector<FixtureClass> fixtures_;
+    std::string streams_;
     double nearZ_, farZ_;             // [m]
     std::vector<ClassState> classes_; // in the order of the mask's bits
     RunWarnings warnings_;

@@ -37,8 +37,8 @@ struct Run {
         placement = ThreadPlacement::ofThisProcess();
         confined.emplace(placement.rest);
         session.emplace(options, GlobalOptions{});
-        recorder.emplace(out, session->scene, session->cycles.camera(), session->cycles.frames().passNames(),
-                         false);
+        recorder.emplace(out, session->scene, RunSource{session->cycles.camera(), ""},
+                         session->cycles.frames().passNames(), false);
         replay.emplace(*session, options, *recorder, placement, nullptr);
     }
     Json finish() {

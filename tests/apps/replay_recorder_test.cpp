@@ -43,7 +43,7 @@ TEST_CASE(
     const Scene scene = edited.at(0).scene;
     CameraInfo camera;
     camera.depth = {64, 48, 60.0, 60.0, 31.5, 23.5};
-    ReplayRecorder recorder(out.path() / "run", scene, camera, {}, false, nullptr, "", &edited);
+    ReplayRecorder recorder(out.path() / "run", scene, {camera, ""}, {}, false, nullptr, "", &edited);
     const std::vector<std::vector<GuidancePose>> poses{
         {seen(1, 50)}, {seen(0, 60), seen(1, 61)}, {seen(0, 70)}};
     Fixtures set;

@@ -29,7 +29,7 @@ CameraInfo camera() {
 
 struct WatchedRun {
     explicit WatchedRun(Role role = Role::Forbidden)
-        : watch(sceneOf(role), camera()) {
+        : watch(sceneOf(role), {camera(), "colour /rgb (yuv422)"}) {
         set.camera = camera();
         set.depth = {600, 610, 0, 620};
     }
@@ -77,7 +77,8 @@ TEST_CASE(
     run.frames(0.9, 0, 0, kColoured);
     CHECK(run.quiet());
     run.frames(3.0, 0, 0, kColoured);
-    says(run.only(), "fixture 'valve' has no region from 0.00 s on for 1 s: no pixel passes its gates");
+    says(run.only(), "fixture 'valve' has no region from 0.00 s on for 1 s: no pixel passes its gates; "
+                     "colour /rgb (yuv422)");
 
     WatchedRun brief;
     brief.frames(0.1, 0, 0, kColoured);
