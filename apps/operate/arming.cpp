@@ -69,7 +69,7 @@ std::string whyNotArmed(const ArmingInput& input) {
         return "the newest regions are " + thousandths(record.sceneAge) + " ms old: check the camera";
     }
     if (!(input.haptics.forceLimit > 0.0)) {
-        return "the force limit is 0: set haptics.limits.force or choose a pilot";
+        return kNoForce;
     }
     if (input.run.step().driven && isFault(input.run.step().armStatus.state)) {
         return std::string("the arm is ") + armStateName(input.run.step().armStatus.state) +

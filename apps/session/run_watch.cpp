@@ -3,6 +3,7 @@
 
 #include "apps/binding/scene_edits.h"
 #include "engine/cloud/frame_params.h"
+#include "engine/cycle/haptic_options.h"
 #include "engine/scene/dead_gates.h"
 
 #include <algorithm>
@@ -78,6 +79,9 @@ RunWatch::RunWatch(const Scene& scene, const RunSource& source)
     }
     for (const std::string& dead : deadGates(scene, source.camera)) {
         warnings_.add(dead, dead);
+    }
+    if (scene.haptics.forceLimit == 0.0) {
+        warnings_.add("force limit", kNoForce);
     }
 }
 

@@ -26,7 +26,7 @@ class RunWatch {
 public:
     static constexpr double kPatience = 1.0; // [s] that a class may have no point, or a state give no force
 
-    // Adds the gates of the scene that no point can pass.
+    // Adds the gates of the scene that no point can pass, and a force limit of 0.
     RunWatch(const Scene& scene, const RunSource& source);
 
     // The fixtures after an edit, for the frames from now on. The classes of points have kept their rows.

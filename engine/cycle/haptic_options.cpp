@@ -129,6 +129,9 @@ std::vector<std::string> hapticNotes(const Scene& scene) {
     const DevicePreset& device = devicePreset(haptics.device);
     std::vector<std::string> notes;
     noteLimit(notes, "limits.force", haptics.forceLimit, device.forceLimit, "N", device.name);
+    if (haptics.forceLimit == 0.0) {
+        notes.emplace_back(kNoForce);
+    }
     noteLimit(notes, "limits.torque", haptics.torqueLimit, device.torqueLimit, "N m", device.name);
     noteLimit(notes, "stiffness", haptics.stiffness, device.stiffness / scene.hand.scale, "N/m", device.name);
     noteLimit(notes, "rotational_stiffness", haptics.rotationalStiffness,

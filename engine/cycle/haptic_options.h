@@ -36,12 +36,15 @@ struct HapticOptions {
     uint32_t deviceDelayTicks = 0; // ticks from write() to the hand; coupling.delayTicks includes them
 };
 
+// Why forces cannot come on when HapticOptions::forceLimit is 0.
+inline constexpr const char* kNoForce = "the force limit is 0: set haptics.limits.force or choose a pilot";
+
 // Throws BadInput (unknown device; damping that leaves automatic stiffness nothing) or Error (springs
 // impossible).
 HapticOptions makeHapticOptions(const Scene& scene, const Tool& tool);
 
-// One line each for what the scene asks and does not get: limits or stiffness above the device's, and hand
-// speeds that its settings cannot follow. Throws BadInput as makeHapticOptions().
+// One line each for what the scene asks and does not get: limits or stiffness above the device's, a force
+// limit of 0, and hand speeds that its settings cannot follow. Throws BadInput as makeHapticOptions().
 std::vector<std::string> hapticNotes(const Scene& scene);
 
 } // namespace fathom

@@ -2,6 +2,8 @@
 // Warnings about protection that is silently off.
 #include "apps/session/run_watch.h"
 
+#include "engine/cycle/haptic_options.h"
+
 #include <doctest/doctest.h>
 
 using namespace fathom;
@@ -168,6 +170,13 @@ TEST_CASE("Warnings are kept once per key, in order, on one line, and their numb
         warnings.add(std::to_string(i), "more");
     }
     CHECK(warnings.list().size() == RunWarnings::kMost);
+}
+
+TEST_CASE("A force limit of 0 is named before the first tick") {
+    Scene scene = sceneOf(Role::Forbidden);
+    scene.haptics.forceLimit = 0.0;
+    RunWatch watch(scene, {camera(), ""});
+    CHECK(watch.warnings().list() == std::vector<std::string>{kNoForce});
 }
 
 TEST_CASE("After an edit a class is judged by its new name and role, and a class that was removed is not") {

@@ -206,6 +206,9 @@ TEST_CASE("A scene lowers the limits and the stiffness of its device, and never 
     CHECK(high.torqueLimit == 0.2);
     CHECK(high.springs.stiffness == 400.0);
     CHECK(hapticNotes(scene).size() == 3);
+    scene.haptics = handScene("touch").haptics;
+    scene.haptics.forceLimit = 0.0;
+    CHECK(hapticNotes(scene) == std::vector<std::string>{kNoForce});
     scene.haptics.forceLimit = 1.0;
     scene.haptics.stiffness = 100.0;
     const HapticOptions low = makeHapticOptions(scene, ballTool());
