@@ -98,17 +98,7 @@ double SingularRelease::signOf(const JointVector& direction, const JointVector& 
     return tries_ / kPatience % 2 == 1 ? -sign : sign; // blocked on one side: the other one
 }
 
-bool SingularRelease::nudge(const ArmNormal& normal, const Pull& pull, JointVector& wanted) noexcept {
-    const double left = lengthOf(pull.left, pull.metricRadius);
-    JointVector gradient{};
-    normal.gradient(pull.left.a, pull.metricRadius * pull.left.alpha, gradient);
-    double gain = 0.0;
-    for (size_t u = 0; u < unknowns_; ++u) {
-        gain += gradient[u] * wanted[u];
-    }
-    if (pause_ > 0 || left < kMinPull || gain > kStuck * left * left) {
-        return false;
-    }
+SingularRelease::Descent SingularRelease::descent(const ArmNormal& normal, const Pull& pull) const noexcept {
     SquareMatrix<kMaxJoints> hessian = normal.gram(), vectors{};
     for (size_t j = 0; j < arm_.count(); ++j) {
         for (size_t i = 0; i <= j; ++i) {
@@ -127,21 +117,21 @@ bool SingularRelease::nudge(const ArmNormal& normal, const Pull& pull, JointVect
     for (size_t u = 1; u < unknowns_; ++u) {
         least = hessian[u][u] < hessian[least][least] ? u : least;
     }
-    JointVector step{};
-    double slope = 0.0;
+    Descent found;
     for (size_t u = 0; u < unknowns_; ++u) {
-        step[u] = vectors[u][least];
-        slope += step[u] * gradient[u];
+        found.way[u] = vectors[u][least];
     }
-    const double down = -hessian[least][least];
-    if (down < kMinRadius * left || std::abs(slope) > down * kNudge) {
-        return false; // a minimum, or already on the way down
-    }
-    double length = kNudge * signOf(step, pull.q);
+    found.fall = -hessian[least][least];
+    return found;
+}
+
+// Adds a step along the line to `wanted`, towards the better side that the joint limits allow.
+bool SingularRelease::take(const JointVector& way, const Pull& pull, JointVector& wanted) noexcept {
+    const double length = kNudge * signOf(way, pull.q);
     for (const double sign : {1.0, -1.0}) {
         JointVector tried{};
         for (size_t u = 0; u < unknowns_; ++u) {
-            tried[u] = sign * length * step[u];
+            tried[u] = sign * length * way[u];
         }
         if (fits(tried, pull.q)) {
             for (size_t u = 0; u < unknowns_; ++u) {
@@ -149,12 +139,34 @@ bool SingularRelease::nudge(const ArmNormal& normal, const Pull& pull, JointVect
             }
             released_ = true;
             at_ = pull.q;
-            way_ = step;
+            way_ = way;
             ++tries_;
             return true;
         }
     }
     return false;
+}
+
+bool SingularRelease::nudge(const ArmNormal& normal, const Pull& pull, JointVector& wanted) noexcept {
+    const double left = lengthOf(pull.left, pull.metricRadius);
+    JointVector gradient{};
+    normal.gradient(pull.left.a, pull.metricRadius * pull.left.alpha, gradient);
+    double gain = 0.0;
+    for (size_t u = 0; u < unknowns_; ++u) {
+        gain += gradient[u] * wanted[u];
+    }
+    if (pause_ > 0 || left < kMinPull || gain > kStuck * left * left) {
+        return false;
+    }
+    const Descent found = descent(normal, pull);
+    double slope = 0.0;
+    for (size_t u = 0; u < unknowns_; ++u) {
+        slope += found.way[u] * gradient[u];
+    }
+    if (found.fall < kMinRadius * left || std::abs(slope) > found.fall * kNudge) {
+        return false; // a minimum, or already on the way down
+    }
+    return take(found.way, pull, wanted);
 }
 
 } // namespace fathom

@@ -40,6 +40,12 @@ public:
 private:
     static constexpr int kPause = 100, kPatience = 50; // ticks
 
+    struct Descent {       // of the squared error
+        JointVector way{}; // free joints, unit: the direction of the least curvature
+        double fall = 0.0; // minus that curvature
+    };
+    Descent descent(const ArmNormal& normal, const Pull& pull) const noexcept;
+    bool take(const JointVector& way, const Pull& pull, JointVector& wanted) noexcept;
     double curvature(const Pull& pull, size_t i, size_t j) const noexcept;
     double signOf(const JointVector& direction, const JointVector& q) noexcept;
     bool fits(const JointVector& step, const JointVector& q) const noexcept;
