@@ -232,9 +232,9 @@ std::vector<Case> feelCases() {
     const auto put = [&](const std::string& name, std::function<Outcome(RunLength)> run) {
         cases.push_back({"feel-" + name, Group::Feel, std::move(run)});
     };
-    put("still-5mm", [](RunLength e) { return stillCase(e, 0.005, StillFigure::Rms, 0.3); });
-    put("still-20mm", [](RunLength e) { return stillCase(e, 0.02, StillFigure::Rms, 0.6); });
-    put("still-20mm-10-35-hz", [](RunLength e) { return stillCase(e, 0.02, StillFigure::Band, 0.13); });
+    put("still-5mm", [](RunLength e) { return stillCase(e, 0.005, StillFigure::Rms, 0.15); });
+    put("still-20mm", [](RunLength e) { return stillCase(e, 0.02, StillFigure::Rms, 0.3); });
+    put("still-20mm-10-35-hz", [](RunLength e) { return stillCase(e, 0.02, StillFigure::Band, 0.04); });
     put("still-20mm-torque", [](RunLength e) { return stillCase(e, 0.02, StillFigure::Torque, 0.009); });
     put("landing", landingCase);
     put("rim", rimCase);

@@ -128,7 +128,7 @@ void addFeelLoops(std::vector<Case>& cases) {
         const std::string name = hand.name;
         put(name + "-hand-rests-after-1s", [&hand](RunLength) { return restCase(hand, 1.0, 4e-4); });
         put(name + "-hand-rests-after-4s", [&hand](RunLength) { return restCase(hand, 4.0, 1e-5); });
-        put(name + "-hand-on-noise", [&hand](RunLength e) { return shakeCase(e, hand, 1.2e-4); });
+        put(name + "-hand-on-noise", [&hand](RunLength e) { return shakeCase(e, hand, 1.5e-5); });
     }
     put("stiffness", stiffnessCase);
 }

@@ -28,11 +28,8 @@ std::filesystem::path besideScene(Scene& scene, const std::string& path) {
 
 namespace {
 
-Scene sceneOf(const YamlNode& root, const std::filesystem::path& file) {
-    root.checkKeys({"camera", "filter", "error_budget", "hold_s", "fixtures", "tool", "arm", "hand",
-                    "haptics", "contact", "pilots", "pilot", "window"});
-    Scene scene;
-    scene.file = file;
+// What turns images into points.
+void loadImageSections(const YamlNode& root, Scene& scene) {
     if (const auto camera = root.find("camera")) {
         loadCamera(*camera, scene);
     }
@@ -45,6 +42,24 @@ Scene sceneOf(const YamlNode& root, const std::filesystem::path& file) {
     if (const auto hold = root.find("hold_s")) {
         scene.holdSeconds = hold->number(Range::between(0.0, 3600.0));
     }
+}
+
+void choosePilot(const YamlNode& pilot, Scene& scene) {
+    std::string names;
+    for (const Scene::Pilot& p : scene.pilots) {
+        names += (names.empty() ? "" : ", ") + p.name;
+    }
+    if (!scene.choosePilot(pilot.text())) {
+        pilot.refuse(names.empty() ? "none: the file has no pilots" : names);
+    }
+}
+
+Scene sceneOf(const YamlNode& root, const std::filesystem::path& file) {
+    root.checkKeys({"camera", "filter", "error_budget", "hold_s", "fixtures", "tool", "arm", "hand",
+                    "haptics", "contact", "pilots", "pilot", "window"});
+    Scene scene;
+    scene.file = file;
+    loadImageSections(root, scene);
     loadFixtures(root.at("fixtures"), scene);
     const auto arm = root.find("arm"), tool = root.find("tool");
     if (tool || !arm) { // an arm needs no extra tool
@@ -69,13 +84,7 @@ Scene sceneOf(const YamlNode& root, const std::filesystem::path& file) {
         loadPilots(*pilots, scene);
     }
     if (const auto pilot = root.find("pilot")) {
-        std::string names;
-        for (const Scene::Pilot& p : scene.pilots) {
-            names += (names.empty() ? "" : ", ") + p.name;
-        }
-        if (!scene.choosePilot(pilot->text())) {
-            pilot->refuse(names.empty() ? "none: the file has no pilots" : names);
-        }
+        choosePilot(*pilot, scene);
     }
     if (const auto window = root.find("window")) {
         loadWindow(*window, scene);

@@ -24,6 +24,20 @@ const char* noBudgetSentence(const Plan& plan) {
                           : "no forbidden point class";
 }
 
+std::string filterSentence(const Plan& plan) {
+    if (plan.filterRadius == 0) {
+        return plan.edge || plan.isolation ? "no filter, implausible pixels rejected"
+                                           : "no filter: points as measured";
+    }
+    const std::string side = std::to_string(2 * plan.filterRadius + 1);
+    return "bilateral filter " + side + "x" + side +
+           (plan.filterBlock     ? ", 4x4 blocks from registers"
+            : plan.filterPairs() ? ", shared-memory tiles, two pixels at a time"
+            : plan.tiled         ? ", shared-memory tiles"
+                                 : ", direct reads") +
+           (plan.polynomialWeights ? ", polynomial weights" : "");
+}
+
 void explainPasses(Plan& plan, const Scene& scene, const CameraInfo& camera) {
     const auto pass = [&](const char* name, bool in, std::string yes, std::string no) {
         plan.items.push_back({"pass", name, in, in ? std::move(yes) : std::move(no), 0});
@@ -37,17 +51,7 @@ void explainPasses(Plan& plan, const Scene& scene, const CameraInfo& camera) {
          "the scene has no point class");
     pass("list", plan.lists(), "lists patches with work, and those with points or guidance",
          plan.cloud ? "classify writes the list" : "the scene has no point class");
-    pass("surface", plan.cloud,
-         plan.filterRadius != 0 ? "bilateral filter " + std::to_string(2 * plan.filterRadius + 1) + "x" +
-                                      std::to_string(2 * plan.filterRadius + 1) +
-                                      (plan.filterBlock     ? ", 4x4 blocks from registers"
-                                       : plan.filterPairs() ? ", shared-memory tiles, two pixels at a time"
-                                       : plan.tiled         ? ", shared-memory tiles"
-                                                            : ", direct reads") +
-                                      (plan.polynomialWeights ? ", polynomial weights" : "")
-         : plan.edge || plan.isolation ? "no filter, implausible pixels rejected"
-                                       : "no filter: points as measured",
-         "the scene has no point class");
+    pass("surface", plan.cloud, filterSentence(plan), "the scene has no point class");
     const char* const noEstimates = whyNoEstimates(scene, camera);
     pass("estimate", plan.estimates,
          "depths averaged over at most " + std::to_string(scene.filter.memory) + " frames" +
