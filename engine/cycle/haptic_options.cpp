@@ -71,6 +71,28 @@ void checkDamping(const Scene& scene) {
     checkDamping(scene, "haptics", scene.haptics, scene.hand.scale);
 }
 
+// `options`: with period, device, low-pass filter, guidance and slew.
+CouplingOptions couplingOf(const Scene& scene, const Tool& tool, const HapticOptions& options) {
+    const Scene::Haptics& haptics = scene.haptics;
+    const DevicePreset& device = options.device;
+    CouplingOptions coupling;
+    coupling.period = options.period;
+    coupling.damping =
+        haptics.damping.value_or(kDampingShare * device.damping.value_or(0.0) / scene.hand.scale);
+    coupling.margin = haptics.margin;
+    coupling.delayTicks = haptics.delay + lowPassDelayTicks(options.lowPassGain);
+    coupling.handScale = scene.hand.scale;
+    coupling.toolRadius = tool.gyrationRadius();
+    // The hand feels s K_t and K_r / s (hand_map.h); a scene cannot exceed what the device renders.
+    coupling.stiffness = smaller(haptics.stiffness, device.stiffness / scene.hand.scale);
+    coupling.rotationalStiffness = smaller(haptics.rotationalStiffness,
+                                           device.rotationalStiffness.value_or(kNoLimit) * scene.hand.scale);
+    coupling.paperGuidance = options.paperGuidance;
+    coupling.slewForce = options.slewForce;
+    coupling.slewTorque = options.slewTorque;
+    return coupling;
+}
+
 } // namespace
 
 HapticOptions makeHapticOptions(const Scene& scene, const Tool& tool) {
@@ -85,24 +107,12 @@ HapticOptions makeHapticOptions(const Scene& scene, const Tool& tool) {
     options.lowPassGain = lowPassGain(haptics.lowpassHz, options.period);
     options.paperGuidance = haptics.guidance == Scene::Haptics::GuidanceMode::Paper && scene.hasGuidance();
 
-    options.coupling.period = options.period;
     options.deviceDelayTicks = haptics.delay;
-    options.coupling.damping =
-        haptics.damping.value_or(kDampingShare * options.device.damping.value_or(0.0) / scene.hand.scale);
-    options.coupling.margin = haptics.margin;
-    options.coupling.delayTicks = haptics.delay + lowPassDelayTicks(options.lowPassGain);
-    options.coupling.handScale = scene.hand.scale;
-    options.coupling.toolRadius = tool.gyrationRadius();
-    // The hand feels s K_t and K_r / s (hand_map.h); a scene cannot exceed what the device renders.
-    options.coupling.stiffness = smaller(haptics.stiffness, options.device.stiffness / scene.hand.scale);
-    options.coupling.rotationalStiffness =
-        smaller(haptics.rotationalStiffness,
-                options.device.rotationalStiffness.value_or(kNoLimit) * scene.hand.scale);
-    options.coupling.paperGuidance = options.paperGuidance;
     // The hand feels torque / s (hand_map.h), so with a fine map (s < 1) the hand's limit is the tighter one.
     const double torqueShare = std::min(1.0, scene.hand.scale);
-    options.slewForce = options.coupling.slewForce = haptics.slewForce;
-    options.slewTorque = options.coupling.slewTorque = haptics.slewTorque * torqueShare;
+    options.slewForce = haptics.slewForce;
+    options.slewTorque = haptics.slewTorque * torqueShare;
+    options.coupling = couplingOf(scene, tool, options);
     options.springs = makeSprings(options.device, options.coupling);
 
     options.proxy.stepCap = haptics.stepCap;
