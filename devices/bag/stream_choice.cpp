@@ -191,29 +191,41 @@ std::optional<Pose> StreamChooser::topicPose(const ImageStream& depth) {
     return best != nullptr ? std::optional(ros::extrinsics(file_.read(*best, 0))) : std::nullopt;
 }
 
-StreamChoice StreamChooser::choose() {
-    const std::vector<const ImageStream*> ofDepth = depths(), ofColour = colours();
-    using Score = std::tuple<int, size_t, bool, bool>;
-    const ImageStream *depth = nullptr, *colour = nullptr;
-    Score best;
-    Relation relation;
-    for (const ImageStream* d : ofDepth) {
-        if (ofColour.empty() &&
-            (depth == nullptr || (!depth->lens && d->lens) ||
-             (depth->lens.has_value() == d->lens.has_value() && depth->compressed && !d->compressed))) {
+// Of a file without colour.
+const ImageStream* StreamChooser::bestDepth() const {
+    const ImageStream* depth = nullptr;
+    for (const ImageStream* d : depths()) {
+        if (depth == nullptr || (!depth->lens && d->lens) ||
+            (depth->lens.has_value() == d->lens.has_value() && depth->compressed && !d->compressed)) {
             depth = d;
         }
+    }
+    return depth;
+}
+
+StreamChooser::Pair StreamChooser::bestPair() {
+    const std::vector<const ImageStream*> ofDepth = depths(), ofColour = colours();
+    if (ofColour.empty()) {
+        return {bestDepth(), nullptr, {}};
+    }
+    using Score = std::tuple<int, size_t, bool, bool>;
+    Score best;
+    Pair pair;
+    for (const ImageStream* d : ofDepth) {
         for (const ImageStream* c : ofColour) {
             const Relation found = relate(*d, *c);
             const Score score{found.rank, sharedParts(d->name, c->name), !d->compressed, !c->compressed};
-            if (depth == nullptr || score > best) {
+            if (pair.depth == nullptr || score > best) {
                 best = score;
-                relation = found;
-                depth = d;
-                colour = c;
+                pair = {d, c, found};
             }
         }
     }
+    return pair;
+}
+
+StreamChoice StreamChooser::choose() {
+    auto [depth, colour, relation] = bestPair();
     StreamChoice choice;
     choice.depth = *depth;
     if (!depth->lens && options_.intrinsics.empty()) {

@@ -37,6 +37,12 @@ private:
         Pose colourTdepth;
         std::string fault;
     };
+    struct Pair {
+        const ImageStream *depth = nullptr, *colour = nullptr; // colour: null = none
+        Relation relation;
+    };
+    Pair bestPair();
+    const ImageStream* bestDepth() const;
     std::vector<const ImageStream*> depths() const;
     std::vector<const ImageStream*> colours() const;
     Relation relate(const ImageStream& depth, const ImageStream& colour);
