@@ -78,6 +78,25 @@ void runWindows(const OperateOptions& first, const GlobalOptions& global) {
     }
 }
 
+// Opens what the options ask for; for a recording's folder its scene.
+void runOperate(OperateOptions& options, const GlobalOptions& global) {
+    if (std::filesystem::is_directory(options.scene)) {
+        options.recording = options.recording.empty() ? options.scene.string() : options.recording;
+        options.scene /= "scene.yaml";
+    }
+    checkJob(options.job);
+    for (const auto& [name, value] :
+         {std::pair("--source", &options.source), std::pair("--hand-device", &options.handDevice),
+          std::pair("--arm", &options.arm), std::pair("--view-door", &options.observers.viewEndpoint),
+          std::pair("--ros2", &options.observers.ros2)}) {
+        if (!options.recording.empty() && !value->empty()) {
+            throw BadInput("operate", name, *value, "nothing beside a recording");
+        }
+    }
+    options.armed = options.path && !options.offscreen.empty(); // offscreen no key can arm forces
+    runWindows(options, global);
+}
+
 } // namespace
 
 void addOperateCommand(CLI::App& app, const GlobalOptions& global) {
@@ -113,23 +132,7 @@ void addOperateCommand(CLI::App& app, const GlobalOptions& global) {
                      "a line under exported images, such as vessel or task; give it at most twice")
         ->allow_extra_args(false);
     command->add_option("--folder", options->shots, "where screenshots, traces and recordings go");
-    command->callback([options, &global] {
-        if (std::filesystem::is_directory(options->scene)) {
-            options->recording = options->recording.empty() ? options->scene.string() : options->recording;
-            options->scene /= "scene.yaml";
-        }
-        checkJob(options->job);
-        for (const auto& [name, value] :
-             {std::pair("--source", &options->source), std::pair("--hand-device", &options->handDevice),
-              std::pair("--arm", &options->arm), std::pair("--view-door", &options->observers.viewEndpoint),
-              std::pair("--ros2", &options->observers.ros2)}) {
-            if (!options->recording.empty() && !value->empty()) {
-                throw BadInput("operate", name, *value, "nothing beside a recording");
-            }
-        }
-        options->armed = options->path && !options->offscreen.empty(); // offscreen no key can arm forces
-        runWindows(*options, global);
-    });
+    command->callback([options, &global] { runOperate(*options, global); });
 }
 
 } // namespace fathom

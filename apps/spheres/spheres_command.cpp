@@ -186,6 +186,25 @@ void convert(const SpheresOptions& options) {
     holdsLinks(options.out) ? convertSets(options) : convertTree(options);
 }
 
+Cover coverOf(Maker& maker, const SpheresOptions& options) {
+    try {
+        return maker.ours(options.cover);
+    } catch (const BadInput&) {
+        throw;
+    } catch (const Error& e) {
+        throw BadInput(options.mesh.string(), "--protrusion", e.what(), "a length that fits the mesh");
+    }
+}
+
+void writeCover(const SpheresOptions& options, const Cover& cover) {
+    if (holdsLinks(options.out)) {
+        const std::string link = options.link.empty() ? options.mesh.stem().string() : options.link;
+        writeSets(options, {{link, cover.spheres}});
+    } else {
+        writeSph(buildSphereTree(cover.spheres), options.out);
+    }
+}
+
 void runSpheres(SpheresOptions options) {
     check(options);
     noteInput(options.mesh);
@@ -205,20 +224,8 @@ void runSpheres(SpheresOptions options) {
         log::warn("{}: {}; set the unit with --scale", options.mesh.string(), loaded.doubt);
     }
     Maker maker(loaded);
-    Cover cover;
-    try {
-        cover = maker.ours(options.cover);
-    } catch (const BadInput&) {
-        throw;
-    } catch (const Error& e) {
-        throw BadInput(options.mesh.string(), "--protrusion", e.what(), "a length that fits the mesh");
-    }
-    if (holdsLinks(options.out)) {
-        const std::string link = options.link.empty() ? options.mesh.stem().string() : options.link;
-        writeSets(options, {{link, cover.spheres}});
-    } else {
-        writeSph(buildSphereTree(cover.spheres), options.out);
-    }
+    const Cover cover = coverOf(maker, options);
+    writeCover(options, cover);
     if (options.compare) {
         maker.others(cover.spheres.size());
     }
