@@ -115,8 +115,9 @@ Images images(const CameraModel& model, const py::array& depth, const py::object
     return {depth.data(), pixels.data()};
 }
 
-void bindCamera(py::module_& module) {
-    bindFormats(module);
+namespace {
+
+void bindLens(py::module_& module) {
     py::class_<Intrinsics>(module, "Intrinsics",
                            "Pinhole lens with Brown-Conrady distortion k1 k2 p1 p2 k3; all in pixels. Pixel\n"
                            "(0, 0) is the centre of the first pixel.")
@@ -133,6 +134,13 @@ void bindCamera(py::module_& module) {
         .def_readonly("cx", &Intrinsics::cx)
         .def_readonly("cy", &Intrinsics::cy)
         .def_readonly("distortion", &Intrinsics::distortion);
+}
+
+} // namespace
+
+void bindCamera(py::module_& module) {
+    bindFormats(module);
+    bindLens(module);
     py::class_<CameraModel>(module, "CameraModel",
                             "Lens and formats of one camera. Camera frames have z forward, x right, y down.\n"
                             "`colour` is the lens of a colour camera that is not registered to depth.")

@@ -39,7 +39,7 @@ void bindFlags(py::module_& module) {
         .value("WAITING", State::Waiting, "nothing pushes, and the tool lags behind the hand");
 }
 
-void bindStep(py::module_& module) {
+void bindContact(py::module_& module) {
     py::class_<Contact>(module, "Contact", "A contact that pushed. Base frame.")
         .def_property_readonly(
             "point", [](const Contact& c) { return array(c.point); }, "[m] on the tool")
@@ -47,8 +47,10 @@ void bindStep(py::module_& module) {
             "normal", [](const Contact& c) { return array(c.normal); }, "out of the fixture")
         .def_readonly("gap", &Contact::gap, "[m]")
         .def_readonly("fixture", &Contact::fixture, "index into the scene's fixtures");
-    py::class_<Step>(module, "Step", "The result of one step.")
-        .def_property_readonly(
+}
+
+void bindWrench(py::class_<Step>& step) {
+    step.def_property_readonly(
             "force", [](const Step& s) { return array(s.wrench.force); },
             "[N] on the hand, in the device's axes; zero on axes it does not drive")
         .def_property_readonly(
@@ -59,8 +61,13 @@ void bindStep(py::module_& module) {
             "[N] that the device cannot render, base axes")
         .def_property_readonly(
             "residual_torque", [](const Step& s) { return array(s.residual.torque); },
-            "[N m] that the device cannot render, base axes, about the tool")
-        .def_readonly("base_T_tool", &Step::baseTtool, "the tool, which never enters a forbidden region")
+            "[N m] that the device cannot render, base axes, about the tool");
+}
+
+void bindStep(py::module_& module) {
+    py::class_<Step> step(module, "Step", "The result of one step.");
+    bindWrench(step);
+    step.def_readonly("base_T_tool", &Step::baseTtool, "the tool, which never enters a forbidden region")
         .def_readonly("base_T_command", &Step::baseTcommand,
                       "tool pose that the hand commands, after hand map and clutch")
         .def_readonly("state", &Step::state, "a State")
@@ -93,6 +100,7 @@ void bindStep(py::module_& module) {
 
 void bindHand(py::module_& module) {
     bindFlags(module);
+    bindContact(module);
     bindStep(module);
     py::class_<HandPort>(module, "HandPort", "Computes the forces: Engine.open_hand(). One thread.")
         .def(

@@ -32,9 +32,7 @@ py::ssize_t count(const Regions& regions) {
     return static_cast<py::ssize_t>(regions.spheres.size());
 }
 
-} // namespace
-
-void bindObserver(py::module_& module) {
+void bindRegions(py::module_& module) {
     py::class_<GuidanceTarget>(module, "GuidanceTarget", "A guidance target as one frame shows it.")
         .def_readonly("fixture", &GuidanceTarget::fixture, "index into the scene's fixtures")
         .def_readonly("present", &GuidanceTarget::present, "seen in this frame")
@@ -70,6 +68,12 @@ void bindObserver(py::module_& module) {
             "uint32, shape (n,): index into the scene's fixtures")
         .def_readonly("targets", &Regions::targets, "list of GuidanceTarget")
         .def("__len__", [](const Regions& r) { return r.spheres.size(); });
+}
+
+} // namespace
+
+void bindObserver(py::module_& module) {
+    bindRegions(module);
     py::class_<ObserverPort>(module, "ObserverPort",
                              "Copies the newest results: Engine.open_observer(). One thread.")
         .def(
