@@ -71,20 +71,3 @@ TEST_CASE(
     CHECK(skipped[0].spheres.empty());
     CHECK(skipped[0].notes == std::vector<std::string>{"a shape of size 0 is skipped"});
 }
-
-TEST_CASE("Meshes are found by URIs of Gazebo and with escaped characters") {
-    const auto folder = std::filesystem::temp_directory_path() / ("fathom_uri_" + std::to_string(::getpid()));
-    std::filesystem::create_directories(folder / "my arm/meshes");
-    const testing::ObjFile box(testing::boxMesh(dvec3(0.0), dvec3(0.1)));
-    std::filesystem::copy_file(box.path(), folder / "my arm/meshes/link one.obj");
-    std::filesystem::copy_file(box.path(), folder / "my arm/meshes/100%25.obj");
-    for (const char* name :
-         {"model://my%20arm/meshes/link%20one.obj", "package://other/meshes/link%20one.obj",
-          "file://meshes/link%20one.obj", "meshes/link one.obj", "meshes/100%25.obj"}) {
-        const auto file = folder / "my arm/arm.urdf";
-        std::ofstream(file) << "<robot name='r'><link name='a'><collision><geometry><mesh filename='" << name
-                            << "'/></geometry></collision></link></robot>";
-        CHECK_MESSAGE(!loadArm(file).leaves.empty(), name);
-    }
-    std::filesystem::remove_all(folder);
-}

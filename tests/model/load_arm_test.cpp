@@ -213,25 +213,6 @@ TEST_CASE("A URDF's mesh is scaled by three factors, and a factor of 0 is reject
     CHECK(large.find("--scale") == std::string::npos);
 }
 
-TEST_CASE("Joints that cannot move, and limits that look like degrees, are reported in one line each") {
-    const auto notes = [](const std::string& type, const std::string& limits) {
-        return load("<robot name='r'><link name='a'>" + kBall + "</link><link name='b'>" + kBall + "</link>" +
-                    jointOf("j", type, "a", "b", "<limit effort='1' velocity='1' " + limits + "/>") +
-                    "</robot>")
-            .notes;
-    };
-    const auto stuck = notes("revolute", "");
-    REQUIRE(stuck.size() == 1);
-    CHECK(stuck[0] ==
-          "joint j: limits 0 to 0 rad: it cannot move; they are 0 where <limit> has no lower and upper");
-    CHECK(notes("prismatic", "lower='0.1' upper='0.1'") ==
-          std::vector<std::string>{"joint j: limits 0.1 to 0.1 m: it cannot move"});
-    CHECK(notes("revolute", "lower='-180' upper='180'") ==
-          std::vector<std::string>{"joint j: limits -180 to 180 rad span more than four turns; in degrees?"});
-    CHECK(notes("revolute", "lower='-6.3' upper='6.3'").empty());
-    CHECK(notes("continuous", "").empty());
-}
-
 TEST_CASE("Parts of an arm's files without leaves are reported in one line each") {
     TriangleMesh mesh = testing::boxMesh(dvec3(0.0), dvec3(0.1));
     testing::addBox(mesh, {4.0, 0.0, 0.0}, dvec3(0.01));
