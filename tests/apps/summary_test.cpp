@@ -4,6 +4,7 @@
 #include "apps/replay/progress.h"
 #include "apps/replay/tick_totals.h"
 #include "tests/apps/scratch_folder.h"
+#include "tests/rig/summary_keys.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,15 +21,13 @@ namespace {
 
 const double kNan = std::numeric_limits<double>::quiet_NaN();
 
-std::vector<std::string> keysOf(const Ordered& object) {
-    std::vector<std::string> keys;
+Keys keysOf(const Ordered& object) {
+    Keys keys;
     for (const auto& item : object.items()) {
         keys.push_back(item.key());
     }
     return keys;
 }
-
-using Keys = std::vector<std::string>;
 
 } // namespace
 
@@ -59,38 +58,15 @@ TEST_CASE("summary.json has the contract's keys in the contract's order") {
     summary.guidance.push_back(
         {"body", dvec3(1, 2, 3), dvec3(0, 0, -1), Pose{{4, 5, 6}, {0.5, 0.5, -0.5, 0.5}}, 77});
     const Ordered json = Ordered::parse(toJson(summary));
-    CHECK(keysOf(json) == Keys{"frames", "haptic", "contact", "fixtures", "guidance", "device", "lockstep",
-                               "digest", "warnings"});
-    CHECK(keysOf(json["frames"]) ==
-          Keys{"count", "skipped", "gpu_ms", "upload_ms", "latency_ms", "first_s", "answerable_ms"});
-    CHECK(keysOf(json["frames"]["gpu_ms"]) == Keys{"p50", "p99", "max"});
-    CHECK(keysOf(json["haptic"]) == Keys{"ticks",
-                                         "late",
-                                         "turn_us",
-                                         "stalled_ticks",
-                                         "trapped_ticks",
-                                         "escape_ticks",
-                                         "waiting_ticks",
-                                         "regions_vanished",
-                                         "index_shift_m",
-                                         "not_finite_ticks",
-                                         "max_penetration_m",
-                                         "max_escape_depth_m",
-                                         "max_force_N",
-                                         "max_torque_Nm",
-                                         "max_force_step_N",
-                                         "stiffness_N_per_m",
-                                         "rotational_stiffness_Nm_per_rad",
-                                         "margin_passive_min",
-                                         "margin_uncoupled_min",
-                                         "solver"});
-    CHECK(keysOf(json["haptic"]["turn_us"]) == Keys{"p50", "p99", "p999", "max"});
-    CHECK(keysOf(json["haptic"]["solver"]) == Keys{"solves_mean", "infeasible"});
-    CHECK(keysOf(json["contact"]) == Keys{"queries", "spheres_max", "overflows", "query_us", "where"});
-    CHECK(keysOf(json["fixtures"][0]) ==
-          Keys{"class", "role", "points_mean", "spheres_mean", "patches_mean"});
-    CHECK(keysOf(json["guidance"][0]) ==
-          Keys{"class", "position_m", "normal", "target_m", "target_qwxyz", "count"});
+    CHECK(keysOf(json) == kSummaryKeys);
+    CHECK(keysOf(json["frames"]) == kFramesKeys);
+    CHECK(keysOf(json["frames"]["gpu_ms"]) == kTimesKeys);
+    CHECK(keysOf(json["haptic"]) == kHapticKeys);
+    CHECK(keysOf(json["haptic"]["turn_us"]) == kTickTimesKeys);
+    CHECK(keysOf(json["haptic"]["solver"]) == kSolverKeys);
+    CHECK(keysOf(json["contact"]) == kContactKeys);
+    CHECK(keysOf(json["fixtures"][0]) == kFixtureKeys);
+    CHECK(keysOf(json["guidance"][0]) == kGuidanceKeys);
     CHECK(json["guidance"][0]["target_qwxyz"] == Ordered::array({0.5, 0.5, -0.5, 0.5}));
     CHECK(json["guidance"][0]["position_m"] == Ordered::array({1.0, 2.0, 3.0}));
     CHECK(json["contact"]["where"] == "none");

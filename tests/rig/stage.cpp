@@ -2,6 +2,7 @@
 #include "tests/rig/stage.h"
 
 #include "tests/rig/cause_check.h"
+#include "tests/rig/summary_keys.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,18 +15,20 @@ namespace fathom {
 namespace {
 
 using nlohmann::json;
+using namespace testing;
 namespace fs = std::filesystem;
 
-void checkKeys(const json& object, const std::set<std::string>& wanted) {
-    std::set<std::string> found;
+void checkKeys(const json& object, Keys wanted) {
+    Keys found; // sorted
     for (const auto& item : object.items()) {
-        found.insert(item.key());
+        found.push_back(item.key());
     }
+    std::sort(wanted.begin(), wanted.end());
     CHECK(found == wanted);
 }
 
 // Checks that measured times are positive and ordered, or null when nothing was measured.
-void checkTimes(const json& times, const std::set<std::string>& keys, bool measured) {
+void checkTimes(const json& times, const Keys& keys, bool measured) {
     checkKeys(times, keys);
     CHECK(times.at("p50").is_null() == !measured);
     if (measured) {
@@ -37,7 +40,7 @@ void checkTimes(const json& times, const std::set<std::string>& keys, bool measu
 
 // Checks the summary's percentiles against the column: nearest rank, rounded up.
 void checkColumn(const json& times, std::vector<double> column) {
-    checkKeys(times, {"p50", "p99", "max"});
+    checkKeys(times, kTimesKeys);
     REQUIRE(!column.empty());
     std::sort(column.begin(), column.end());
     const auto ofRank = [&](double share) {
@@ -50,41 +53,19 @@ void checkColumn(const json& times, std::vector<double> column) {
 }
 
 void checkSummaryKeys(const json& s) {
-    const std::set<std::string> three{"p50", "p99", "max"};
-    checkKeys(s, {"frames", "haptic", "contact", "fixtures", "guidance", "device", "lockstep", "digest",
-                  "warnings"});
-    checkKeys(s.at("frames"),
-              {"count", "skipped", "gpu_ms", "upload_ms", "latency_ms", "first_s", "answerable_ms"});
-    checkTimes(s.at("frames").at("latency_ms"), three, s.at("frames").at("count") > 0);
-    checkKeys(s.at("haptic"), {"ticks",
-                               "late",
-                               "turn_us",
-                               "stalled_ticks",
-                               "trapped_ticks",
-                               "escape_ticks",
-                               "waiting_ticks",
-                               "regions_vanished",
-                               "index_shift_m",
-                               "not_finite_ticks",
-                               "max_penetration_m",
-                               "max_escape_depth_m",
-                               "max_force_N",
-                               "max_torque_Nm",
-                               "max_force_step_N",
-                               "stiffness_N_per_m",
-                               "rotational_stiffness_Nm_per_rad",
-                               "margin_passive_min",
-                               "margin_uncoupled_min",
-                               "solver"});
-    checkTimes(s.at("haptic").at("turn_us"), {"p50", "p99", "p999", "max"}, s.at("haptic").at("ticks") > 0);
-    checkKeys(s.at("haptic").at("solver"), {"solves_mean", "infeasible"});
-    checkKeys(s.at("contact"), {"queries", "spheres_max", "overflows", "query_us", "where"});
-    checkTimes(s.at("contact").at("query_us"), three, s.at("haptic").at("ticks") > 0);
+    checkKeys(s, kSummaryKeys);
+    checkKeys(s.at("frames"), kFramesKeys);
+    checkTimes(s.at("frames").at("latency_ms"), kTimesKeys, s.at("frames").at("count") > 0);
+    checkKeys(s.at("haptic"), kHapticKeys);
+    checkTimes(s.at("haptic").at("turn_us"), kTickTimesKeys, s.at("haptic").at("ticks") > 0);
+    checkKeys(s.at("haptic").at("solver"), kSolverKeys);
+    checkKeys(s.at("contact"), kContactKeys);
+    checkTimes(s.at("contact").at("query_us"), kTimesKeys, s.at("haptic").at("ticks") > 0);
     for (const json& row : s.at("fixtures")) {
-        checkKeys(row, {"class", "role", "points_mean", "spheres_mean", "patches_mean"});
+        checkKeys(row, kFixtureKeys);
     }
     for (const json& row : s.at("guidance")) {
-        checkKeys(row, {"class", "position_m", "normal", "target_m", "target_qwxyz", "count"});
+        checkKeys(row, kGuidanceKeys);
     }
     const std::string where = s.at("contact").at("where"), digest = s.at("digest");
     CHECK((where == "cpu" || where == "gpu" || where == "none"));
