@@ -14,25 +14,6 @@ using namespace fathom::test;
 
 namespace {
 
-CloudRig::Change forBatches(bool pack) {
-    return [pack](Plan& plan) {
-        plan.query = Plan::Query::Gpu;
-        plan.tree = true;
-        plan.pack = plan.byPixel = pack;
-        plan.memoryTexels = plan.memoryTexels && !pack;
-    };
-}
-
-Tool leafyTool(size_t leaves, double size) {
-    std::mt19937 random(7);
-    std::uniform_real_distribution<double> side(-size, size), radius(0.002, 0.01);
-    std::vector<Sphere> spheres;
-    for (size_t i = 0; i < leaves; ++i) {
-        spheres.push_back({{side(random), side(random), side(random)}, radius(random)});
-    }
-    return Tool(buildSphereTree(spheres));
-}
-
 // Poses inside of, near and far from the scene at z = 1.
 std::vector<Pose> somePoses(size_t count) {
     std::mt19937 random(11);
@@ -78,7 +59,7 @@ TEST_CASE("A batch of 0, 1 or many poses has the smallest gaps of images of any 
             const CameraInfo camera = pinholeCamera(size.first, size.second);
             Scene scene = classesScene(3);
             scene.holdSeconds = 1.0;
-            CloudRig rig(scene, camera, forBatches(pack));
+            CloudRig rig(scene, camera, queriedByGpu(pack));
             cloud::GapQuery query = queryOf(rig);
             rig.run(drawnImage(camera, [](int, int) { return 0.0; })); // nothing
             CHECK(checkBatch(query, rig, tool, somePoses(3)) == 0);
@@ -96,7 +77,7 @@ TEST_CASE("A batch of 0, 1 or many poses has the smallest gaps of images of any 
 
 TEST_CASE("Tools of 1 to 1025 leaves, in any order, have the smallest gaps of one set") {
     const CameraInfo camera = pinholeCamera(81, 47);
-    CloudRig rig(plainScene(), camera, forBatches(false));
+    CloudRig rig(plainScene(), camera, queriedByGpu(false));
     rig.run(stressImage(camera, 5));
     cloud::GapQuery query = queryOf(rig);
     for (const size_t leaves : {513u, 1u, 2u, 512u, 1025u, 64u}) {
@@ -112,7 +93,7 @@ TEST_CASE("Frozen classes count where they were frozen, and nowhere else") {
     FixtureClass blue = forbiddenClass("blue", 0.03);
     blue.hue = Band{225, 255};
     scene.fixtures.push_back(blue);
-    CloudRig rig(scene, camera, forBatches(false));
+    CloudRig rig(scene, camera, queriedByGpu(false));
     cloud::GapQuery query = queryOf(rig);
     const auto show = [&](double z) {
         Image image = drawnImage(camera, [&](int, int) { return z; });
@@ -133,7 +114,7 @@ TEST_CASE("Frozen classes count where they were frozen, and nowhere else") {
 
 TEST_CASE("A flat tool before a flat wall has thousands of ties, and the answer grows to decide among them") {
     const CameraInfo camera = pinholeCamera(48, 48);
-    CloudRig rig(plainScene(), camera, forBatches(false));
+    CloudRig rig(plainScene(), camera, queriedByGpu(false));
     rig.run(drawnImage(camera, [](int, int) { return 1.0; }));
     std::vector<Sphere> plate;
     for (int i = 0; i < 100; ++i) {
@@ -152,7 +133,7 @@ TEST_CASE("A flat tool before a flat wall has thousands of ties, and the answer 
 
 TEST_CASE("Poses beyond 20 m and poses that are not finite are answered beside near ones") {
     const CameraInfo camera = pinholeCamera(33, 21);
-    CloudRig rig(plainScene(), camera, forBatches(false));
+    CloudRig rig(plainScene(), camera, queriedByGpu(false));
     rig.run(stressImage(camera, 9));
     std::vector<Pose> poses = somePoses(4);
     poses[1].position.x = 25.0;

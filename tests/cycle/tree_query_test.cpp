@@ -7,32 +7,11 @@
 #include "tests/haptics/arm_rig.h"
 
 #include <doctest/doctest.h>
-#include <random>
 
 using namespace fathom;
 using namespace fathom::test;
 
 namespace {
-
-// pack: the form of `spheres` for GPUs, else the one for CPU devices.
-CloudRig::Change onDevice(bool pack) {
-    return [pack](Plan& plan) {
-        plan.query = Plan::Query::Gpu;
-        plan.tree = true;
-        plan.pack = plan.byPixel = pack;
-        plan.memoryTexels = plan.memoryTexels && !pack;
-    };
-}
-
-Tool someTool(size_t leaves, double size) {
-    std::mt19937 random(5);
-    std::uniform_real_distribution<double> side(-size, size), radius(0.002, 0.01);
-    std::vector<Sphere> spheres;
-    for (size_t i = 0; i < leaves; ++i) {
-        spheres.push_back({{side(random), side(random), side(random)}, radius(random)});
-    }
-    return Tool(buildSphereTree(spheres));
-}
 
 void checkSame(const ContactSet& a, const ContactSet& b) {
     CHECK(a.reach == b.reach);
@@ -81,7 +60,7 @@ struct Both {
 
 TEST_CASE("Both queries agree on full, sparse and empty images of odd sizes, with several classes and held "
           "points") {
-    const Tool tool = someTool(70, 0.3);
+    const Tool tool = leafyTool(70, 0.3);
     size_t found = 0;
     for (const bool pack : {false, true}) {
         for (const std::pair<uint32_t, uint32_t>& size : std::vector<std::pair<uint32_t, uint32_t>>{
@@ -92,7 +71,7 @@ TEST_CASE("Both queries agree on full, sparse and empty images of odd sizes, wit
             const CameraInfo camera = pinholeCamera(size.first, size.second);
             Scene scene = classesScene(3);
             scene.holdSeconds = 1.0;
-            CloudRig rig(scene, camera, onDevice(pack));
+            CloudRig rig(scene, camera, queriedByGpu(pack));
             Both both(rig, tool, 0.05);
             const auto ask = [&] {
                 for (const double z : {0.5, 0.9, 1.3}) {
@@ -114,9 +93,9 @@ TEST_CASE("Both queries agree on full, sparse and empty images of odd sizes, wit
 
 TEST_CASE("A device without subgroup arithmetic lists the same pairs") {
     const CameraInfo camera = pinholeCamera(129, 65);
-    CloudRig rig(plainScene(), camera, onDevice(false));
+    CloudRig rig(plainScene(), camera, queriedByGpu(false));
     rig.run(drawnImage(camera, [](int, int) { return 1.0; }));
-    const Tool tool = someTool(300, 0.2);
+    const Tool tool = leafyTool(300, 0.2);
     const Pose pose{{0, 0, 0.9}, {1, 0, 0, 0}};
     std::vector<ContactSet> sets(2);
     for (const bool subgroups : {true, false}) {
@@ -136,8 +115,8 @@ TEST_CASE("A device without subgroup arithmetic lists the same pairs") {
 TEST_CASE("Both queries agree while a class is frozen, while two are, and after they are released") {
     const CameraInfo camera = pinholeCamera(100, 60);
     Scene scene = redAndBlueScene();
-    CloudRig rig(scene, camera, onDevice(false));
-    const Tool tool = someTool(40, 0.2);
+    CloudRig rig(scene, camera, queriedByGpu(false));
+    const Tool tool = leafyTool(40, 0.2);
     Both both(rig, tool, 0.02);
     const auto ask = [&](double z) { return both.check({Pose{{0.0, 0.0, z}, {1, 0, 0, 0}}, {}}); };
     const auto show = [&](double depth) { rig.run(redAndBlueImage(camera, depth, depth)); };
@@ -177,7 +156,7 @@ TEST_CASE("Both queries agree for all links of an arm at several postures") {
     const CameraInfo camera = pinholeCamera(160, 120);
     Scene scene = plainScene();
     scene.baseTcamera.position = {0.5, 0.0, -1.03}; // looks along z at a plane next to the arm
-    CloudRig rig(scene, camera, onDevice(true));
+    CloudRig rig(scene, camera, queriedByGpu(true));
     rig.run(drawnImage(camera, [](int, int) { return 1.0; }));
     ArmRig arm;
     arm.model = testing::makeArm(4, 8);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <doctest/doctest.h>
+#include <random>
 
 namespace fathom::test {
 
@@ -45,6 +46,25 @@ Scene withFilter(Scene scene, uint32_t radius, double edge, double budget) {
 }
 
 } // namespace
+
+CloudRig::Change queriedByGpu(bool pack) {
+    return [pack](Plan& plan) {
+        plan.query = Plan::Query::Gpu;
+        plan.tree = true;
+        plan.pack = plan.byPixel = pack;
+        plan.memoryTexels = plan.memoryTexels && !pack;
+    };
+}
+
+Tool leafyTool(size_t leaves, double size) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> side(-size, size), radius(0.002, 0.01);
+    std::vector<Sphere> spheres;
+    for (size_t i = 0; i < leaves; ++i) {
+        spheres.push_back({{side(random), side(random), side(random)}, radius(random)});
+    }
+    return Tool(buildSphereTree(spheres));
+}
 
 CameraInfo pinholeCamera(uint32_t width, uint32_t height, double metresPerUnit) {
     CameraInfo camera;

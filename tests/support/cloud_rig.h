@@ -4,6 +4,7 @@
 
 #include "apps/verify/pass_rig.h"
 #include "devices/simulated/simulated_camera.h"
+#include "engine/contact/tool.h"
 #include "tests/support/vulkan.h"
 
 #include <functional>
@@ -18,6 +19,11 @@ struct CloudRig : verify::PassRig {
     CloudRig(Scene scene, const CameraInfo& camera, const Change& change = {}, uint32_t readers = 1)
         : PassRig(vulkan().device, std::move(scene), camera, change, readers) {}
 };
+
+// The contact query on the GPU. pack: the form of `spheres` for GPUs, else the one for CPU devices.
+CloudRig::Change queriedByGpu(bool pack);
+// A tool of leaves of 2 to 10 mm at random in a cube of 2 `size`.
+Tool leafyTool(size_t leaves, double size);
 
 // Cameras: one without distortion and the principal point off the middle; one with the lens of TUM freiburg1
 // scaled to the width.
