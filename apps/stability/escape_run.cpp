@@ -23,4 +23,17 @@ EscapeFigures escape(LockstepRig& rig, const Pose& hand, int limit,
     return figures;
 }
 
+void EscapeTotals::add(const EscapeFigures& one, double allowedTicks, const LockstepRig& rig) {
+    worst = std::max(worst, one.ticks / allowedTicks);
+    growth = std::max({growth, one.growth, rig.audit().maxPenetration()});
+    stuck += one.out ? 0 : 1;
+    notFinite += rig.figures.notFinite;
+}
+
+void EscapeTotals::requireGood(Outcome& out, double limit) const {
+    require(out, stuck == 0, num(stuck) + " never out");
+    require(out, growth <= limit, "a depth grew by " + num(growth) + " m");
+    require(out, notFinite == 0, "a wrench that is not finite");
+}
+
 } // namespace fathom::stability

@@ -2,6 +2,7 @@
 // Measures how a tool escapes after new data covers it: the number of ticks and the depths on the way.
 #pragma once
 
+#include "apps/stability/case_text.h"
 #include "apps/stability/lockstep_rig.h"
 
 #include <functional>
@@ -20,5 +21,16 @@ struct EscapeFigures {
 // for at most `limit` ticks.
 EscapeFigures escape(LockstepRig& rig, const Pose& hand, int limit,
                      const std::function<bool(const Pose&)>& right = {});
+
+// Over many escapes.
+struct EscapeTotals {
+    double worst = 0.0;  // ticks as a share of the allowed ones
+    double growth = 0.0; // [m] of a depth, or penetration
+    uint64_t stuck = 0, notFinite = 0;
+
+    void add(const EscapeFigures& one, double allowedTicks, const LockstepRig& rig);
+    // Requires an end of every escape, no growth beyond `limit` [m] and finite wrenches.
+    void requireGood(Outcome& out, double limit) const;
+};
 
 } // namespace fathom::stability

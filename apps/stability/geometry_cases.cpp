@@ -25,8 +25,7 @@ Fixtures oneSphere(const dvec3& centre, double radius) {
 // New data puts a sphere's centre exactly or almost on a leaf's centre, so no direction points out.
 Outcome coincidingCase(RunLength runLength) {
     Rng rng(1);
-    double worst = 0.0, growth = 0.0;
-    uint64_t stuck = 0, bad = 0;
+    EscapeTotals totals;
     const int trials = some(runLength, 2000, 80);
     for (int i = 0; i < trials; ++i) {
         const double radius = rng.logUniform(0.001, 0.05), leaf = rng.logUniform(0.001, 0.02);
@@ -37,20 +36,14 @@ Outcome coincidingCase(RunLength runLength) {
         rig.show(oneSphere(at + dvec3(10, 0, 0), radius));
         rig.step(start);
         rig.show(oneSphere(at, radius));
-        const EscapeFigures f = escape(rig, start, 400);
-        worst = std::max(worst, f.ticks / (std::ceil((radius + leaf) / kEscapePerTick) + 1.0));
-        growth = std::max({growth, f.growth, rig.audit().maxPenetration()});
-        stuck += f.out ? 0 : 1;
-        bad += rig.figures.notFinite;
+        totals.add(escape(rig, start, 400), std::ceil((radius + leaf) / kEscapePerTick) + 1.0, rig);
     }
     Outcome out = outcomeOf(
-        worst, 1.0, "1",
+        totals.worst, 1.0, "1",
         "Ticks until the tool is out over (R + r) / 1 mm, rounded up, and one: sphere centre at the leaf's "
         "centre, off by 0 or 1e-300 to 1e-9 m, " +
             num(uint64_t(trials)) + " trials.");
-    require(out, stuck == 0, num(stuck) + " never out");
-    require(out, growth <= kNanometre, "a depth grew by " + num(growth) + " m");
-    require(out, bad == 0, "a wrench that is not finite");
+    totals.requireGood(out, kNanometre);
     return out;
 }
 
