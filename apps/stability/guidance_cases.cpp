@@ -52,54 +52,72 @@ Outcome farTarget(RunLength runLength) {
                          num(uint64_t(targets)) + " targets.");
 }
 
+struct FlickerFigures {
+    double largest = 0.0; // [N] step of the force between two ticks
+    int changes = 0;      // of the chosen class
+};
+
+// One or two classes, each with one valve.
+std::vector<GuidancePose> valvePoses(size_t classes) {
+    std::vector<GuidancePose> poses(classes);
+    for (size_t i = 0; i < poses.size(); ++i) {
+        poses[i].planar = poses[i].present = true;
+        poses[i].target.position = {i == 0 ? 0.3 : -0.3, 0.02, 0.0};
+        poses[i].target.rotation = rotationExp({0.0, 0.0, i == 0 ? 0.5 : -0.5});
+    }
+    return poses;
+}
+
+// What the next frame shows: a single class at another valve, or only one of two classes.
+void flickerOnce(std::vector<GuidancePose>& poses, Rng& rng) {
+    if (poses.size() == 1) {
+        poses[0].target.position.x = rng.chance(0.5) ? 0.3 : -0.3;
+    } else {
+        poses[0].present = rng.chance(0.6);
+        poses[1].present = !poses[0].present || rng.chance(0.5);
+    }
+}
+
+void runFlicker(size_t classes, int ticks, Rng& rng, FlickerFigures& figures) {
+    LoopSpec spec;
+    spec.stiffness = 1000.0;
+    const Tool tool(buildSphereTree(spec.leaves));
+    HapticCycle cycle(tool, std::span<const Shape>{}, loopOptions(spec, tool), {});
+    std::vector<GuidancePose> poses = valvePoses(classes);
+    dvec3 before(0.0);
+    int chosen = -2;
+    for (int i = 0; i < ticks; ++i) {
+        if (i % 33 == 0) { // a frame
+            flickerOnce(poses, rng);
+        }
+        StepInput input;
+        input.time = i * 0.001;
+        input.guidance = poses;
+        input.buttons = i > 100 ? kGuidanceButton : 0;
+        const StepRecord record = cycle.step(input);
+        figures.largest = std::max(figures.largest, glm::distance(record.wrench.force, before));
+        before = record.wrench.force;
+        const bool both = chosen >= 0 && record.guidanceClass >= 0;
+        figures.changes += classes > 1 && both && record.guidanceClass != chosen ? 1 : 0;
+        chosen = record.guidanceClass;
+    }
+}
+
 // Two valves: one class whose position flips between them, then two classes that disappear in turn.
 Outcome flicker(RunLength runLength) {
-    double largest = 0.0;
-    int changes = 0;
+    FlickerFigures figures;
     Rng rng(2);
-    for (const bool oneClass : {true, false}) {
-        LoopSpec spec;
-        spec.stiffness = 1000.0;
-        const Tool tool(buildSphereTree(spec.leaves));
-        HapticCycle cycle(tool, std::span<const Shape>{}, loopOptions(spec, tool), {});
-        std::vector<GuidancePose> poses(oneClass ? 1 : 2);
-        for (size_t i = 0; i < poses.size(); ++i) {
-            poses[i].planar = poses[i].present = true;
-            poses[i].target.position = {i == 0 ? 0.3 : -0.3, 0.02, 0.0};
-            poses[i].target.rotation = rotationExp({0.0, 0.0, i == 0 ? 0.5 : -0.5});
-        }
-        dvec3 before(0.0);
-        int chosen = -2;
-        for (int i = 0; i < (runLength == RunLength::Full ? 60000 : 8000); ++i) {
-            if (i % 33 == 0) { // a frame
-                if (oneClass) {
-                    poses[0].target.position.x = rng.chance(0.5) ? 0.3 : -0.3;
-                } else {
-                    poses[0].present = rng.chance(0.6);
-                    poses[1].present = !poses[0].present || rng.chance(0.5);
-                }
-            }
-            StepInput input;
-            input.time = i * 0.001;
-            input.guidance = poses;
-            input.buttons = i > 100 ? kGuidanceButton : 0;
-            const StepRecord record = cycle.step(input);
-            largest = std::max(largest, glm::distance(record.wrench.force, before));
-            before = record.wrench.force;
-            changes += !oneClass && chosen >= 0 && record.guidanceClass != chosen && record.guidanceClass >= 0
-                           ? 1
-                           : 0;
-            chosen = record.guidanceClass;
-        }
+    for (const size_t classes : {1u, 2u}) {
+        runFlicker(classes, runLength == RunLength::Full ? 60000 : 8000, rng, figures);
     }
     // The lead is 2 mm at 2 N. A slew of 0.1 m/s moves it by at most 0.1 mm per tick, which changes the force
     // by at most 0.1 N per tick.
-    Outcome out = outcomeOf(largest, 0.1 + 1e-6, "N",
+    Outcome out = outcomeOf(figures.largest, 0.1 + 1e-6, "N",
                             "A target that flips between two valves 0.6 m apart at random frames, and two "
                             "classes that come and go: largest step of the force "
                             "between two ticks. Limit: the slew of 0.1 m/s times K = 1000 N/m and 1 ms.");
-    require(out, changes == 0,
-            "the valve was changed " + std::to_string(changes) + " times while the button was held");
+    require(out, figures.changes == 0,
+            "the valve was changed " + std::to_string(figures.changes) + " times while the button was held");
     return out;
 }
 
