@@ -47,7 +47,7 @@ Wrench Reaction::settling(const Wrench& raw, double travel, const ReactionInput&
     return {raw.force - owed_.force, raw.torque - owed_.torque};
 }
 
-double Reaction::rate(double appeared, const ReactionInput& input) noexcept {
+double Reaction::rate(double appeared) noexcept {
     if (since_ < kPushed * interval_) { // the tool may still be on its way out
         rate_ = std::clamp(appeared / (interval_ - since_), rate_, kAppear);
     }
@@ -110,7 +110,7 @@ Wrench Reaction::step(const ReactionInput& input) noexcept {
         wanted > 0.0 ? (glm::dot(moved, wrench.force) + glm::dot(turned, wrench.torque)) / wanted : 0.0;
     const double compressed = out > 0.0 ? 0.0 : input.springs.stiffness * travel;
     const double calm = std::clamp(1.0 - out / (kLeaves * input.period), 0.0, 1.0);
-    const double grows = compressed + calm * rate(wanted - compressed - size_, input) * input.period;
+    const double grows = compressed + calm * rate(wanted - compressed - size_) * input.period;
     const double most = size_ + (input.mayRise ? grows : 0.0);
     appears_ = wanted > size_ + compressed * (1.0 + 1e-9) + kRoundingForce;
     if (wanted > most) {

@@ -52,7 +52,7 @@ public:
     static constexpr double kSettle = 0.3;         // [s] time constant
 
 private:
-    double rate(double appeared, const ReactionInput& input) noexcept;
+    double rate(double appeared) noexcept;
     Wrench tail(double size, double period) noexcept;
     Wrench turning(const Wrench& wrench, const ReactionInput& input) noexcept;
 

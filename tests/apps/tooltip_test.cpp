@@ -54,7 +54,8 @@ TEST_CASE("Every button, slider, tab, bar and figure has a tooltip") {
                 pointAt(place);
                 laid.draw(5);
                 CAPTURE(std::string(now.name));
-                INFO("name: " << name);
+                const std::string shown = name;
+                CAPTURE(shown);
                 CHECK(console.tooltip.size() > 8);
             }
         }

@@ -7,6 +7,7 @@
 #include "tests/devices/recorded_folder.h"
 
 #include <doctest/doctest.h>
+#include <fstream>
 
 using namespace fathom;
 

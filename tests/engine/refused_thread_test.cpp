@@ -30,12 +30,12 @@ bool isStdThread(const void* caller) {
 
 extern "C" __attribute__((visibility("default"))) int
 pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*run)(void*), void* argument) {
-    static const auto next =
+    static const auto kNext =
         reinterpret_cast<decltype(&pthread_create)>(::dlsym(RTLD_NEXT, "pthread_create"));
     if (refusedThread > 0 && isStdThread(__builtin_return_address(0)) && --refusedThread == 0) {
         return EAGAIN;
     }
-    return next(thread, attributes, run, argument);
+    return kNext(thread, attributes, run, argument);
 }
 
 TEST_CASE("Whichever thread cannot be started, an engine ends those that were, and throws") {

@@ -234,7 +234,8 @@ TEST_CASE(
     };
     for (const auto& [text, wanted] : all) {
         const std::string line = mjcfRefusal(text);
-        INFO("text: " << text);
+        const std::string model = text;
+        CAPTURE(model);
         CAPTURE(line);
         CHECK(line.find(wanted) != std::string::npos);
         CHECK(line.find('\n') == std::string::npos);

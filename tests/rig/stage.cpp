@@ -163,7 +163,8 @@ void checkFrameTimes(const Replay& replay) {
         const double publish = row.times.at("publish_ms");
         upload.push_back(row.times.at("upload_ms")), passes.push_back(0.0);
         for (const auto& [column, time] : row.times) {
-            INFO("column: " << column);
+            const std::string name = column; // clang 14 captures no part of a structured binding
+            CAPTURE(name);
             if (column != "upload_ms" && column != "publish_ms") {
                 CHECK((time > 0.0) == (publish > 0.0));
                 passes.back() += column == "answerable_ms" ? 0.0 : time;

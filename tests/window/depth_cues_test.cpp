@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <doctest/doctest.h>
+#include <glm/geometric.hpp>
 
 using namespace fathom;
 using namespace fathom::window;
