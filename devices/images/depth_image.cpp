@@ -20,7 +20,10 @@ namespace {
 
 constexpr size_t kMaxDepthFile = 256u << 20; // [bytes]; float64 of 3840x2160 is 64 MiB
 
-constexpr const char* kNoDepth = "not PNG, PGM (P5), TIFF, NPY or EXR";
+// Why no reader knows the file.
+const char* unknown(const std::filesystem::path& file) {
+    return isRegularFile(file) ? "not PNG, PGM (P5), TIFF, NPY or EXR" : "cannot be read";
+}
 
 struct DepthFormat {
     bool (*is)(ImageBytes);
@@ -86,7 +89,7 @@ DepthHead depthImageHead(const std::filesystem::path& file) {
     const DepthFormat* format = formatOf(file);
     if (format == nullptr) {
         const auto size = readPngSize(file);
-        return size ? DepthHead{*size, false, ""} : DepthHead{{}, false, kNoDepth};
+        return size ? DepthHead{*size, false, ""} : DepthHead{{}, false, unknown(file)};
     }
     const auto text = readFileAtMost(file, kMaxDepthFile);
     return text && text->size() <= kMaxDepthFile ? format->head(asBytes(*text))
@@ -97,7 +100,7 @@ std::string readDepthImage(const std::filesystem::path& file, PngSize size, cons
                            std::span<uint16_t> out, uint64_t& beyond) {
     const DepthFormat* format = formatOf(file);
     if (format == nullptr) {
-        return !readPngSize(file) ? kNoDepth
+        return !readPngSize(file) ? unknown(file)
                : units.metres     ? "16-bit values, not metres as in the first depth image"
                                   : readDepthPng(file, size, out);
     }
