@@ -130,8 +130,9 @@ Outcome rimClicksCase(RunLength runLength) {
 
 // Presses 20 mm deep and leaves within 0.3 s.
 Outcome leaveCase(RunLength runLength) {
+    constexpr double kMost = 0.05; // [N]
     double worst = 0.0;
-    Outcome out = outcomeOf(0.0, 0.5, "N", "");
+    Outcome out = outcomeOf(0.0, kMost, "N", "");
     const int places = some(runLength, 4, 1);
     for (int place = 0; place < places; ++place) {
         FeelRig felt({});
@@ -148,7 +149,7 @@ Outcome leaveCase(RunLength runLength) {
         require(out, glm::length(felt.last().wrench.force) == 0.0, "force after the hand has left");
     }
     const std::string failed = out.note;
-    out = outcomeOf(worst, 0.5, "N",
+    out = outcomeOf(worst, kMost, "N",
                     "Largest rise of the force from tick to tick while a hand leaves from 20 mm below the "
                     "surface at 0.2 m/s; no force afterwards. " +
                         num(uint64_t(places)) + " places.");
@@ -235,7 +236,7 @@ std::vector<Case> feelCases() {
     put("still-5mm", [](RunLength e) { return stillCase(e, 0.005, StillFigure::Rms, 0.15); });
     put("still-20mm", [](RunLength e) { return stillCase(e, 0.02, StillFigure::Rms, 0.3); });
     put("still-20mm-10-35-hz", [](RunLength e) { return stillCase(e, 0.02, StillFigure::Band, 0.04); });
-    put("still-20mm-torque", [](RunLength e) { return stillCase(e, 0.02, StillFigure::Torque, 0.009); });
+    put("still-20mm-torque", [](RunLength e) { return stillCase(e, 0.02, StillFigure::Torque, 0.007); });
     put("landing", landingCase);
     put("rim", rimCase);
     put("rim-clicks", rimClicksCase);

@@ -22,8 +22,8 @@ constexpr double kExtraTicks =
     3.0; // on top of depth / 1 mm: the answer, the last fraction, sideways motion in dimples
 
 // Measured: 0.72 N and 0.029 N m. The slew limiter alone would give 2 N and 0.05 N m.
-constexpr double kMaxForceRise = 1.2;   // [N]
-constexpr double kMaxTorqueRise = 0.04; // [N m] RMS
+constexpr double kMaxForceRise = 0.5;   // [N]
+constexpr double kMaxTorqueRise = 0.03; // [N m] RMS
 
 // Accepts poses on the camera's side of a wall at z [m].
 std::function<bool(const Pose&)> inFrontOf(double z) {

@@ -56,15 +56,19 @@ double Reaction::rate(double appeared) noexcept {
 
 void Reaction::vanish() noexcept {
     faded_ = last_;
-    fadedSize_ = size_;
+    fadedSize_ = felt_;
     left_ = kTail;
+    replaced_ = 0.0;
 }
 
-// The fading rest of a reaction whose regions vanished; a new reaction takes its place.
+// The fading rest of a reaction whose regions vanished. A new reaction takes its place for good: the tail
+// must not come back when the new reaction ends.
 Wrench Reaction::tail(double size, double period) noexcept {
-    left_ = std::max(0.0, left_ - period);
-    const double share = fadedSize_ > 0.0 ? std::max(0.0, left_ / kTail - size / fadedSize_) : 0.0;
-    return scaled(faded_, share);
+    replaced_ = fadedSize_ > 0.0 ? std::max(replaced_, size / fadedSize_) : 1.0;
+    left_ -= period;
+    const double share = left_ / kTail - replaced_;
+    left_ = share > 0.0 ? left_ : 0.0;
+    return scaled(faded_, std::max(0.0, share));
 }
 
 // The change of direction that new data made at its adoption is taken back by a share that falls to zero.
@@ -73,10 +77,9 @@ Wrench Reaction::turning(const Wrench& wrench, const ReactionInput& input) noexc
     const double k = std::max(1e-6, input.springs.metricRadius);
     const double size = sizeOf(wrench, k);
     if (input.newData) {
-        const double before = sizeOf(last_, k);
-        turn_ = before > kTurns && size > kTurns ? interval_ : 0.0;
+        turn_ = felt_ > kTurns && size > kTurns ? interval_ : 0.0;
         if (turn_ > 0.0) {
-            const Wrench old = scaled(last_, 1.0 / before), now = scaled(wrench, 1.0 / size);
+            const Wrench old = scaled(last_, 1.0 / felt_), now = scaled(wrench, 1.0 / size);
             from_ = {old.force - now.force, old.torque - now.torque};
         }
     }
@@ -125,6 +128,7 @@ Wrench Reaction::step(const ReactionInput& input) noexcept {
         wrench = {wrench.force + rest.force, wrench.torque + rest.torque};
     }
     last_ = wrench;
+    felt_ = sizeOf(wrench, k);
     return wrench;
 }
 

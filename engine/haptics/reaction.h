@@ -64,7 +64,9 @@ private:
     Wrench from_;         // per newton: change of direction that the newest data made
     double turn_ = 0.0;   // [s] for which a share of it is still taken back
     double size_ = 0.0;
+    double felt_ = 0.0;                                       // [N] size of last_
     double fadedSize_ = 0.0, left_ = 0.0;                     // [N], [s] of the tail
+    double replaced_ = 0.0;                                   // share of the tail whose place was taken
     double since_ = kLongestFrame, interval_ = kLongestFrame; // [s] since the newest data; between data
     double rate_ = kAppear;                                   // [N/s] until the next frame is due
     bool started_ = false, appears_ = false, owes_ = false;

@@ -121,6 +121,28 @@ TEST_CASE("What vanished under the hand fades out within 0.2 s and falls in ever
     CHECK_FALSE(reaction.fades());
 }
 
+TEST_CASE(
+    "A small reaction takes only its own size from what fades, and what fades does not come back after it") {
+    Reaction reaction = pressed(0.005);
+    double force = 5.0;
+    const auto follow = [&](double allowed, int ticks) { // 5 N fall by 25 mN in each tick
+        for (int i = 0; i < ticks; ++i) {
+            const double now = forceOf(reaction.step(tickAt(allowed, -0.005)));
+            CHECK(now <= force + 1e-9);
+            CHECK(now >= force - 0.026);
+            force = now;
+        }
+    };
+    reaction.vanish();
+    follow(-0.005, 20);
+    follow(-0.0046, 50); // a region that presses with 0.4 N
+    reaction.vanish();   // it, too
+    follow(-0.005, 20);
+    follow(-0.0046, 50); // another one
+    const double left = forceOf(reaction.step(tickAt(-0.005, -0.005)));
+    CHECK(left == doctest::Approx(force - 0.4).epsilon(0.02));
+}
+
 TEST_CASE("Forces fade out by a factor and return by their limit, from what the device renders") {
     ForceRamps ramps;
     const auto ticks = [&](int count, std::array<bool, 3> on, double rendered) {
