@@ -45,8 +45,9 @@ void StiffnessWatch::step(double measuredPeriod) noexcept {
         double turn = std::min(planned_.rotationalStiffness,
                                options_.toolRadius * options_.toolRadius * springs_.stiffness);
         if (rotationalDamping_) {
-            const double bound = passiveStiffness(*rotationalDamping_, options_.rotationalDamping, period_,
-                                                  options_.delayTicks);
+            const double bound =
+                options_.margin * passiveStiffness(*rotationalDamping_, options_.rotationalDamping, period_,
+                                                   options_.delayTicks);
             turn = std::min(turn, std::max(bound, kMinShare * planned_.rotationalStiffness));
         }
         springs_.rotationalStiffness = turn;

@@ -72,6 +72,19 @@ TEST_CASE("K_r has its own bound, and k follows both springs") {
     CHECK(watch.springs().metricRadius == doctest::Approx(std::sqrt(10.0 / 500.0)));
 }
 
+TEST_CASE("With a margin both springs keep that share of their bound at every rate") {
+    CouplingOptions options;
+    options.toolRadius = 0.2;
+    options.margin = 0.6;
+    StiffnessWatch watch = watchOf(options);
+    CHECK(watch.springs().rotationalStiffness == doctest::Approx(12.0));
+    run(watch, 0.0013, 2.0);
+    CHECK(watch.springs().rotationalStiffness == doctest::Approx(12.0 / 1.3));
+    run(watch, 0.002, 2.0);
+    CHECK(watch.springs().rotationalStiffness == doctest::Approx(6.0));
+    CHECK(watch.springs().stiffness == doctest::Approx(300.0));
+}
+
 TEST_CASE("One late tick lowers the stiffness only slightly, and an hour-long stall leaves some of it") {
     CouplingOptions options;
     StiffnessWatch watch = watchOf(options);
