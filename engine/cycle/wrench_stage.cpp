@@ -63,10 +63,11 @@ Wrench WrenchStage::damping(const WrenchInput& input, const Wrench& reaction) no
     const Springs& springs = input.springs;
     Wrench wrench;
     if (springs.damping != 0.0 || springs.rotationalDamping != 0.0) {
+        const double period = std::max(options_.period, input.period); // a late tick sees a longer way
         const dvec3 moved = input.device.position - deviceBefore_.position;
         const dvec3 spun = rotationLog(input.device.rotation * glm::conjugate(deviceBefore_.rotation));
-        wrench.force = along(-moved, reaction.force) * (springs.damping / options_.period);
-        wrench.torque = along(-spun, reaction.torque) * (springs.rotationalDamping / options_.period);
+        wrench.force = along(-moved, reaction.force) * (springs.damping / period);
+        wrench.torque = along(-spun, reaction.torque) * (springs.rotationalDamping / period);
     }
     deviceBefore_ = input.device;
     return wrench;
