@@ -30,12 +30,13 @@ glm::dvec2 ImageView::distortionShift(const dvec3& point) const {
         return glm::dvec2(0.0);
     }
     const glm::dvec2 straight = pinhole(lens, point);
-    // The distortion polynomial is valid inside the image. Far outside it folds back and would map points
-    // into the image.
+    // The distortion polynomial is valid only in and near the image.
     const double marginU = 0.5 * lens.width, marginV = 0.5 * lens.height;
     const bool near = straight.x > -marginU && straight.x < lens.width + marginU && straight.y > -marginV &&
                       straight.y < lens.height + marginV;
-    return near ? (lens.project(point) - straight) * static_cast<double>(scale) : glm::dvec2(0.0);
+    const glm::dvec2 bent = lens.project(point);
+    return near && bent.x != Intrinsics::kUnseen ? (bent - straight) * static_cast<double>(scale)
+                                                 : glm::dvec2(0.0);
 }
 
 ImageView imageView(const CameraInfo& camera, const Pose& baseTcamera, bool ofDepth, int leastWidth) {

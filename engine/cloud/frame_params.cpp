@@ -27,7 +27,8 @@ vec4 distortionOf(const Intrinsics& lens) {
 }
 
 vec4 moreOf(const Intrinsics& lens) {
-    return {lens.divisor[0], lens.divisor[1], lens.divisor[2], 0.0};
+    const double reach = lens.reach();
+    return {lens.divisor[0], lens.divisor[1], lens.divisor[2], reach * reach};
 }
 
 // Bounds for insideGates (shaders/lib/colour.glsl), widened by the float32 rounding of bounds and products. A

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/types/camera_info.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
 namespace fathom {
 
 namespace {
-
-constexpr double kMaxSlope = 11.43; // tan(85 degrees)
 
 // Ideal ray -> distorted ray.
 glm::dvec2 distort(const glm::dvec2& r, const Intrinsics& lens) noexcept {
@@ -25,6 +24,23 @@ glm::dvec2 distort(const glm::dvec2& r, const Intrinsics& lens) noexcept {
     const glm::dvec2 q = lens.model == LensModel::ScaledTangential ? r * radial : r;
     return {r.x * radial + 2.0 * p1 * q.x * q.y + p2 * (rr + 2.0 * q.x * q.x),
             r.y * radial + p1 * (rr + 2.0 * q.y * q.y) + 2.0 * p2 * q.x * q.y};
+}
+
+// Positive where a longer ray shows farther from the centre: the derivative of the radial distortion by the
+// ray's length, times a positive factor. `rr` is the square of that length.
+double spread(double rr, const Intrinsics& lens) noexcept {
+    if (lens.model == LensModel::Equidistant) {
+        const auto [k1, k2, k3, k4, unused] = lens.distortion;
+        const double t = std::atan(std::sqrt(rr)), tt = t * t;
+        return 1.0 + tt * (3.0 * k1 + tt * (5.0 * k2 + tt * (7.0 * k3 + tt * 9.0 * k4)));
+    }
+    const auto [k1, k2, p1, p2, k3] = lens.distortion;
+    const auto [k4, k5, k6] = lens.divisor;
+    const double above = 1.0 + rr * (k1 + rr * (k2 + rr * k3)),
+                 aboveSlope = k1 + rr * (2.0 * k2 + rr * 3.0 * k3);
+    const double below = 1.0 + rr * (k4 + rr * (k5 + rr * k6)),
+                 belowSlope = k4 + rr * (2.0 * k5 + rr * 3.0 * k6);
+    return std::min(below, above * below + 2.0 * rr * (aboveSlope * below - above * belowSlope));
 }
 
 // Newton's method with numeric derivatives, for lenses too wide for the fixed-point iteration.
@@ -75,11 +91,32 @@ glm::dvec2 Intrinsics::project(const dvec3& point) const noexcept {
         return {fx * std::atan2(point.x, point.z) + cx,
                 fy * std::atan2(point.y, std::hypot(point.x, point.z)) + cy};
     }
-    glm::dvec2 r{point.x / point.z, point.y / point.z};
-    if (distorted()) {
-        r = distort(r, *this);
+    const glm::dvec2 straight{point.x / point.z, point.y / point.z};
+    if (!distorted()) {
+        return {fx * straight.x + cx, fy * straight.y + cy};
     }
-    return {fx * r.x + cx, fy * r.y + cy};
+    const glm::dvec2 r = distort(straight, *this);
+    const glm::dvec2 pixel{fx * r.x + cx, fy * r.y + cy};
+    const bool inside = pixel.x > -1.0 && pixel.y > -1.0 && pixel.x < width && pixel.y < height;
+    const double length = glm::length(straight);
+    // Outside the image it makes no difference whether the lens has folded it, so reach() is spared.
+    return inside && !(length <= kMaxSlope && reach(length) >= length) ? glm::dvec2(kUnseen) : pixel;
+}
+
+double Intrinsics::reach(double most) const noexcept {
+    constexpr double kStep = 0.01;
+    for (double from = 0.0; distorted() && from < most; from += kStep) {
+        double lo = from, hi = std::min(most, from + kStep);
+        if (spread(hi * hi, *this) > 0.0) {
+            continue;
+        }
+        for (int i = 0; i < 40; ++i) {
+            const double middle = 0.5 * (lo + hi);
+            (spread(middle * middle, *this) > 0.0 ? lo : hi) = middle;
+        }
+        return lo;
+    }
+    return most;
 }
 
 bool Intrinsics::invertible() const noexcept {

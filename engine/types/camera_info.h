@@ -41,11 +41,17 @@ struct Intrinsics {
 
     // Ray (x/z, y/z) through pixel (u, v). Inverts the distortion by iteration in float64.
     glm::dvec2 ray(double u, double v) const noexcept;
-    // Pixel of a point with z > 0, distortion included.
+    // Pixel of a point with z > 0, distortion included; both kUnseen for a point beyond reach().
     glm::dvec2 project(const dvec3& point) const noexcept;
+    // Largest length of a ray (x/z, y/z), at most `most`, up to which a longer ray shows farther from the
+    // centre. Beyond it the polynomials of a lens fold the image: they map points far outside it into it.
+    double reach(double most = kMaxSlope) const noexcept;
     // Whether ray() inverts project() over the whole image: false when the lens folds the image, or sees
     // farther than 85 degrees from its axis.
     bool invertible() const noexcept;
+
+    static constexpr double kMaxSlope = 11.43; // tan(85 degrees)
+    static constexpr double kUnseen = -1e9;    // [pixels]
 };
 
 // Uncertainty of a point from a sensor that measures along beams (sonar, laser): a normal error along the

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lens with distortion, forward direction (point -> pixel). k = (k1, k2, p1, p2), more = (k4, k5, k6);
-// kLensEquidistant: k = (k1, k2, k3, k4). The models are those of Intrinsics (engine/types/camera_info.h).
+// Lens with distortion, forward direction (point -> pixel). k = (k1, k2, p1, p2), more = (k4, k5, k6, square
+// of the reach); kLensEquidistant: k = (k1, k2, k3, k4). The models are those of Intrinsics
+// (engine/types/camera_info.h). A point beyond the reach gets a pixel far outside the image.
 // kLens is a specialisation constant because lavapipe compiles a shader anew for each dispatch if a branch
 // depends on a uniform alone.
 
 layout(constant_id = kSpecLens) const uint kLens = kLensNone;
+
+const vec2 kUnseen = vec2(-1e9);
 
 vec2 projectPoint(vec3 p, vec4 lens, vec4 k, float k3, vec4 more) {
     vec2 r = p.xy / p.z;
@@ -17,7 +20,7 @@ vec2 projectPoint(vec3 p, vec4 lens, vec4 k, float k3, vec4 more) {
     if (kLens == kLensEquidistant) {
         float slope = sqrt(rr), t = atan(slope), tt = t * t;
         float bent = t * (1.0 + tt * (k.x + tt * (k.y + tt * (k.z + tt * k.w))));
-        return (slope > 0.0 ? r * (bent / slope) : r) * lens.xy + lens.zw;
+        return rr <= more.w ? (slope > 0.0 ? r * (bent / slope) : r) * lens.xy + lens.zw : kUnseen;
     }
     if (kLens != kLensPlain) {
         radial /= 1.0 + rr * (more.x + rr * (more.y + rr * more.z));
@@ -25,7 +28,7 @@ vec2 projectPoint(vec3 p, vec4 lens, vec4 k, float k3, vec4 more) {
     }
     vec2 d = vec2(r.x * radial + 2.0 * k.z * q.x * q.y + k.w * (rr + 2.0 * q.x * q.x),
                   r.y * radial + k.z * (rr + 2.0 * q.y * q.y) + 2.0 * k.w * q.x * q.y);
-    return d * lens.xy + lens.zw;
+    return rr <= more.w ? d * lens.xy + lens.zw : kUnseen;
 }
 
 // The order of operations is the host's (engine/cloud/seen_points.h).

@@ -40,7 +40,7 @@ struct FrameParams {
     vec4 beam;           // sigma along a beam = x + y r [m], across it z r [m] (BeamSigma); -
     vec4 ranges[8];      // per class: least and largest range [m]; 1 = has a range gate; -
     vec4 water;          // attenuation of stored red, green, blue [1/m]; -
-    vec4 lensMore;       // depth k4, k5, k6; -
+    vec4 lensMore;       // depth k4, k5, k6; square of Intrinsics::reach()
     vec4 colourLensMore; // the same of colour
     vec4 steps;       // ray increments per pixel 1 / fx, 1 / fy; growth step of spheres [m]; its reciprocal
     uvec4 memory;     // number of this frame and of the frame that the estimates come from (0 = none); most

@@ -180,6 +180,23 @@ TEST_CASE("A held point stays fixed in the base frame while the camera moves, al
     CHECK(countOf(rig.spheres(true)) == 0);
 }
 
+TEST_CASE("A held point beside the image stays where the polynomials of the lens fold it into the image") {
+    CameraInfo camera = kCamera; // lens of TUM freiburg2, depth
+    camera.depth.fx = camera.depth.fy = 43.5;
+    camera.depth.distortion = {-0.2297, 1.4766, 0.0005, -0.0075, -3.4194};
+    camera.colour = camera.depth;
+    CloudRig rig(holdScene(0.5), camera);
+    rig.run(script(camera, kWall), 0.0);
+    REQUIRE(countOf(rig.spheres()) == kTarget);
+    for (int k = 1; k <= 10; ++k) { // the target is 38 to 44 degrees from the axis
+        const Pose aside{{0.0, 0.0, 0.0}, rotationExp({0.0, 0.67 + 0.01 * k, 0.0})};
+        rig.run(drawnImage(
+                    camera, [](int, int) { return 2.0; }, kGrey),
+                k / 30.0, aside);
+        CHECK(countOf(rig.spheres(true)) == kTarget);
+    }
+}
+
 TEST_CASE("The memory's clock wraps at 2^32 us without losing points or keeping them too long") {
     for (const double start : {4294.80, 4294.967, 1.7e9}) {
         CAPTURE(start);

@@ -98,6 +98,28 @@ TEST_CASE("The inverse Brown-Conrady lens of RealSense follows the SDK's project
              realSense);
 }
 
+TEST_CASE("A point that a lens folds back into its image is not seen there") {
+    // Depth lens of TUM freiburg2: monotone up to 34 degrees from the axis.
+    Intrinsics tum = lens(LensModel::Polynomial, {-0.2297, 1.4766, 0.0005, -0.0075, -3.4194});
+    tum.width = 640, tum.height = 480;
+    tum.fx = 580.8, tum.fy = 581.8, tum.cx = 308.8, tum.cy = 253.0;
+    CHECK(tum.reach() > 0.66);
+    CHECK(tum.reach() < 0.68);
+    for (const double slope : {0.1, 0.3, 0.5}) {
+        CHECK(tum.project({slope, 0.0, 1.0}).x == doctest::Approx(openCv(tum, slope, 0.0).x));
+    }
+    for (const double slope : {0.75, 0.8, 0.85, 0.9}) { // the polynomial is inside the image here
+        REQUIRE(openCv(tum, slope, 0.0).x < tum.width);
+        REQUIRE(openCv(tum, slope, 0.0).x > 0.0);
+        CHECK(tum.project({slope, 0.0, 1.0}).x == Intrinsics::kUnseen);
+    }
+    // A pole of the divisor, and an angle that turns back.
+    CHECK(lens(LensModel::Polynomial, {}, {-0.5, 0.0, 0.0}).reach() == doctest::Approx(std::sqrt(2.0)));
+    CHECK(lens(LensModel::Equidistant, {-0.4, 0.0, 0.0, 0.0, 0.0}).reach() ==
+          doctest::Approx(std::tan(std::sqrt(1.0 / 1.2))));
+    CHECK(lens(LensModel::Polynomial, {}).reach() == Intrinsics::kMaxSlope);
+}
+
 TEST_CASE("A lens that folds its image is not invertible") {
     CHECK_FALSE(lens(LensModel::Polynomial, {-5.0, 0.0, 0.0, 0.0, 0.0}).invertible());
     CHECK_FALSE(lens(LensModel::Polynomial, {0.0, 0.0, 0.0, 0.0, 0.0}, {-20.0, 0.0, 0.0}).invertible());
