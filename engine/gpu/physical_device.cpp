@@ -107,6 +107,7 @@ DeviceFacts readFacts(VkPhysicalDevice device) {
     facts.maxInvocations = limits.maxComputeWorkGroupInvocations;
     facts.maxSharedBytes = limits.maxComputeSharedMemorySize;
     facts.maxStorageBufferBytes = limits.maxStorageBufferRange;
+    facts.maxTexels = limits.maxTexelBufferElements;
     facts.hostProcessors = usableProcessors();
     facts.gpuQueryLeaves = facts.kind == DeviceKind::Discrete ? kDiscreteQueryLeaves : facts.gpuQueryLeaves;
     facts.hostPointerAlignment = canImport ? host.minImportedHostPointerAlignment : 0;

@@ -10,6 +10,24 @@ namespace fathom::gpu {
 
 namespace {
 
+uint64_t bytesOfTexel(VkFormat format) {
+    switch (format) {
+    case VK_FORMAT_R16_UINT:
+        return 2;
+    case VK_FORMAT_R32_UINT:
+    case VK_FORMAT_R8G8B8A8_UINT:
+        return 4;
+    case VK_FORMAT_R32G32_UINT:
+    case VK_FORMAT_R16G16B16A16_UINT:
+        return 8;
+    case VK_FORMAT_R32G32B32A32_UINT:
+    case VK_FORMAT_R32G32B32A32_SFLOAT:
+        return 16;
+    default:
+        throw Error("texel format " + std::to_string(format) + " is not used by any pass");
+    }
+}
+
 VkShaderModule makeModule(VkDevice device, std::span<const uint32_t> spirv) {
     VkShaderModuleCreateInfo info{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
     info.codeSize = spirv.size_bytes();
@@ -111,7 +129,7 @@ Bindings::Bindings(const Device& device, const Pipeline& pipeline, const std::ve
         const Buffer& buffer = buffers[b] != nullptr && *buffers[b] ? *buffers[b] : unused;
         infos[b] = {buffer.handle(), 0, VK_WHOLE_SIZE};
         if (kinds[b].texels != VK_FORMAT_UNDEFINED) {
-            views_[b] = viewOf(buffer, kinds[b].texels);
+            views_[b] = viewOf(buffer, kinds[b].texels, pipeline.name());
         }
         writes[b].dstSet = set_;
         writes[b].dstBinding = b;
@@ -123,7 +141,20 @@ Bindings::Bindings(const Device& device, const Pipeline& pipeline, const std::ve
     vkUpdateDescriptorSets(device.handle(), count, writes.data(), 0, nullptr);
 }
 
-VkBufferView Bindings::viewOf(const Buffer& buffer, VkFormat format) {
+// Reads beyond the limit of a device are undefined.
+std::string texelRefusal(const DeviceFacts& facts, uint64_t bytes, VkFormat format) {
+    const uint64_t texels = bytes / bytesOfTexel(format);
+    return texels <= facts.maxTexels ? ""
+                                     : "a buffer of " + std::to_string(texels) + " texels exceeds the " +
+                                           std::to_string(facts.maxTexels) + " of " + facts.name +
+                                           "; allowed: smaller images, or another device";
+}
+
+VkBufferView Bindings::viewOf(const Buffer& buffer, VkFormat format, const char* pass) {
+    const std::string refusal = texelRefusal(device_->facts(), buffer.bytes(), format);
+    if (!refusal.empty()) {
+        throw Error(std::string("pass ") + pass + ": " + refusal);
+    }
     VkBufferViewCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO};
     info.buffer = buffer.handle();
     info.format = format;

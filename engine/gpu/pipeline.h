@@ -27,6 +27,9 @@ private:
     std::shared_ptr<const CompiledPipeline> compiled_;
 };
 
+// Why a device cannot read a buffer of this size as texels of this format; empty if it can.
+std::string texelRefusal(const DeviceFacts& facts, uint64_t bytes, VkFormat format);
+
 // One descriptor set of a pipeline, written once. `unused` replaces null and empty buffers, which the shader
 // does not access with these constants. Move-only.
 class Bindings {
@@ -44,7 +47,7 @@ public:
     VkDescriptorSet handle() const { return set_; }
 
 private:
-    VkBufferView viewOf(const Buffer& buffer, VkFormat format);
+    VkBufferView viewOf(const Buffer& buffer, VkFormat format, const char* pass);
     void swap(Bindings& other) noexcept;
 
     const Device* device_ = nullptr;

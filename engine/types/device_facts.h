@@ -22,6 +22,7 @@ struct DeviceFacts {
     uint32_t maxInvocations = 128;   // of one work group
     uint32_t maxSharedBytes = 16384; // of one work group
     uint64_t maxStorageBufferBytes = 1u << 27;
+    uint32_t maxTexels = 1u << 16;     // of one texel buffer
     uint32_t hostProcessors = 1;       // CPUs usable by the thread that created the device
     uint64_t hostPointerAlignment = 0; // [bytes] of imported host memory; 0 = cannot import
     double timestampPeriodNs = 1.0;    // 0 = no timestamps

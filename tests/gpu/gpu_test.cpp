@@ -85,6 +85,17 @@ TEST_CASE("A buffer beyond the device's limit is rejected by name") {
                          doctest::Contains("huge"), Error);
 }
 
+TEST_CASE("Images with more texels than a device reads from a buffer are refused with both numbers") {
+    DeviceFacts facts; // the least that Vulkan guarantees
+    facts.name = "small device";
+    CHECK(gpu::texelRefusal(facts, 2 * 65536, VK_FORMAT_R16_UINT).empty());
+    CHECK(gpu::texelRefusal(facts, 16 * 65536, VK_FORMAT_R32G32B32A32_SFLOAT).empty());
+    CHECK(gpu::texelRefusal(facts, 2 * 640 * 480, VK_FORMAT_R16_UINT) ==
+          "a buffer of 307200 texels exceeds the 65536 of small device; allowed: smaller images, or another "
+          "device");
+    CHECK(vulkan().device.facts().maxTexels >= 1u << 16);
+}
+
 namespace {
 
 gpu::PipelineInfo ceilingInfo(uint32_t group, uint32_t rounds) {
