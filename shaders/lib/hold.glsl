@@ -9,9 +9,19 @@ vec4 keptAt(uint slot);
 uint keptTimeAt(uint slot);
 
 // The stored note of a point: class + 1 in four bits (0 = no point); with beams, above these, the growth of
-// its sphere rounded up to 10 um. The value is small enough to survive storage as a float.
+// its sphere in 18 bits, rounded up to 10 um, or to 5.12 mm if the bit above is set (growth over 2.6 m). The
+// value is small enough to survive storage as a float.
+const float kFineGrowth = 1e-5, kCoarseGrowth = 512.0 * kFineGrowth; // [m]
+
 uint noteOf(uint c, float grown) {
-    return kBeam != 0 ? (c + 1u) | uint(min(ceil(grown * 1e5), 524287.0)) << 4 : c + 1u;
+    float fine = ceil(grown / kFineGrowth);
+    bool coarse = fine > 262143.0;
+    uint steps = uint(coarse ? min(ceil(grown / kCoarseGrowth), 262143.0) : fine);
+    return kBeam != 0 ? (c + 1u) | steps << 4 | (coarse ? 1u << 22 : 0u) : c + 1u;
+}
+
+float growthOfNote(uint note) {
+    return float(note >> 4 & 0x3ffffu) * ((note >> 22) != 0u ? kCoarseGrowth : kFineGrowth);
 }
 
 uint classOfNote(uint note) {
@@ -57,6 +67,6 @@ vec4 updateMemory(uint slot, vec3 point, uint now, float grown, bool holding, ou
     uint note = floatBitsToUint(hold.w), holdClass = classOfNote(note);
     remembered = (now != kNone ? 1u : 0u) | (holdClass != 0 ? 2u : 0u);
     heldClass = max(holdClass, 1u) - 1u;
-    float more = kBeam != 0 ? float(note >> 4) * 1e-5 : 0.0;
+    float more = kBeam != 0 ? growthOfNote(note) : 0.0;
     return vec4(hold.xyz, holdClass != 0 ? radiusOf(heldClass) + more : -1.0);
 }
