@@ -77,15 +77,19 @@ private:
     void collectRows(bool first, Step& out) noexcept;
     void addSmoothRows() noexcept;
     void addShapeRows(Step& out) noexcept;
+    bool addShapeRows(double reach, Step& out) noexcept; // false: some within reach [m] have no row
+    ContactRow shapeRow(uint32_t shape, uint32_t leaf, size_t side, const SideGap& gap) const noexcept;
     void addEqualityRows(const Shape& shape, uint32_t index) noexcept;
     bool addRow(ContactRow row) noexcept { return kinematics_.addRow(row, contacts_.leaves, rows_); }
     double offsetFor(double gap) const noexcept;
     bool fitsExactly(Answer& answer, Step& out) noexcept;
     bool tighten(const Answer& answer) noexcept;
     bool tightenShapes(double share) noexcept;
+    bool addMissingShapeRow(uint32_t shape) noexcept;
     bool shapesAllow() const noexcept;
     double bisect(const Answer& answer) noexcept;
 
+    bool everyShapeRow_ = true; // each leaf near a shape has its rows
     bool onlyLeft_ = false; // the last bisection found no violation, only parts outside of the trust region
 };
 

@@ -49,8 +49,21 @@ void ConstrainedProxy<Kinematics>::addSmoothRows() noexcept {
     }
 }
 
+// Where the solver has no room for all leaves near a shape, only the nearest get a row; tightenShapes() adds
+// rows for others that turn out to be in the way.
 template <class Kinematics>
 void ConstrainedProxy<Kinematics>::addShapeRows(Step& out) noexcept {
+    const size_t before = rows_.size();
+    double reach = 2.0 * options_.stepCap;
+    while (!addShapeRows(reach, out) && reach > proxy::kNothing) {
+        rows_.truncate(before);
+        reach *= 0.125;
+    }
+    everyShapeRow_ = reach == 2.0 * options_.stepCap;
+}
+
+template <class Kinematics>
+bool ConstrainedProxy<Kinematics>::addShapeRows(double reach, Step& out) noexcept {
     for (uint32_t s = 0; s < shapes().size(); ++s) {
         const Shape& shape = shapes()[s];
         if (shape.isEquality()) {
@@ -62,23 +75,33 @@ void ConstrainedProxy<Kinematics>::addShapeRows(Step& out) noexcept {
             std::array<SideGap, kMaxSides> sides;
             const size_t count = sidesOf(shape, centre, contacts_.radius(leaf), sides);
             for (size_t k = 0; k < count; ++k) {
-                if (sides[k].gap > 2.0 * options_.stepCap) {
+                if (sides[k].gap > reach) {
                     continue;
                 }
+                if (rows_.size() >= proxy::kMaxRows - proxy::kSpareRows) {
+                    return false;
+                }
                 out.escape = out.escape || sides[k].gap < -proxy::kNothing;
-                ContactRow row;
-                row.kind = ContactRow::Kind::Shape;
-                row.normal = sides[k].normal;
-                row.arm = kinematics_.lever(leaf, centre);
-                row.gap = sides[k].gap;
-                row.offset = offsetFor(row.gap);
-                row.leaf = leaf;
-                row.pair = s;
-                row.key = rowKey(row.kind, s, leaf, k);
-                addRow(row);
+                addRow(shapeRow(s, leaf, k, sides[k]));
             }
         }
     }
+    return true;
+}
+
+template <class Kinematics>
+ContactRow ConstrainedProxy<Kinematics>::shapeRow(uint32_t shape, uint32_t leaf, size_t side,
+                                                  const SideGap& gap) const noexcept {
+    ContactRow row;
+    row.kind = ContactRow::Kind::Shape;
+    row.normal = gap.normal;
+    row.arm = kinematics_.lever(leaf, kinematics_.leafNow(leaf, contacts_.leaves));
+    row.gap = gap.gap;
+    row.offset = offsetFor(row.gap);
+    row.leaf = leaf;
+    row.pair = shape;
+    row.key = rowKey(row.kind, shape, leaf, side);
+    return row;
 }
 
 // Lines and axes constrain the tool or tip by two opposite rows per equation. They pull it back no faster
@@ -152,7 +175,33 @@ bool ConstrainedProxy<Kinematics>::tightenShapes(double share) noexcept {
             changed = true;
         }
     }
+    for (uint32_t s = 0; s < shapes().size() && !everyShapeRow_; ++s) {
+        changed = addMissingShapeRow(s) || changed;
+    }
     return changed;
+}
+
+// A row for the leaf that gets deepest into a shape without having one.
+template <class Kinematics>
+bool ConstrainedProxy<Kinematics>::addMissingShapeRow(uint32_t index) noexcept {
+    const Shape& shape = shapes()[index];
+    std::array<SideGap, kMaxSides> now, next;
+    double deepest = 0.0;
+    ContactRow missing;
+    for (uint32_t leaf = 0; leaf < contacts_.leafCount() && !shape.isEquality(); ++leaf) {
+        const double radius = contacts_.radius(leaf);
+        const size_t count =
+            std::min(sidesOf(shape, kinematics_.leafNow(leaf, contacts_.leaves), radius, now),
+                     sidesOf(shape, kinematics_.leafNext(leaf, contacts_.leaves), radius, next));
+        for (size_t k = 0; k < count; ++k) {
+            const double depth = std::min(0.0, now[k].gap) - next[k].gap;
+            if (depth > deepest && !rows_.has(rowKey(ContactRow::Kind::Shape, index, leaf, k))) {
+                deepest = depth;
+                missing = shapeRow(index, leaf, k, now[k]);
+            }
+        }
+    }
+    return deepest > 0.0 && addRow(missing);
 }
 
 } // namespace fathom

@@ -43,7 +43,8 @@ inline constexpr double kSkin = 1e-9; // [m]
 inline constexpr double kEscapeThreshold = 4e-9; // [m]
 inline constexpr double kNothing = 1e-9;         // [m], [rad] a shorter step is not worth another solve
 inline constexpr size_t kMaxPairRows = 512;
-inline constexpr size_t kMaxRows = 1280; // the rest: shapes, joints, behind, and rows for violated pairs
+inline constexpr size_t kMaxRows = 1280;  // the rest: shapes, joints, behind, and rows for violated pairs
+inline constexpr size_t kSpareRows = 256; // that shapes leave to rows of violated pairs and shapes
 
 } // namespace proxy
 
@@ -56,6 +57,8 @@ public:
     // normal: the row in the solver's unknowns. False when full.
     bool add(const ContactRow& row, std::span<const double> normal) noexcept;
     size_t size() const noexcept { return count_; }
+    void truncate(size_t rows) noexcept { count_ = rows; } // before load()
+    bool has(uint64_t key) const noexcept;
     ContactRow& operator[](size_t row) noexcept { return rows_[row].contact; }
     ContactRow* ofPair(uint32_t pair) noexcept;                     // null = the pair has no row
     bool escaping() const noexcept { return largestEscape_ > 0.0; } // some row requests motion

@@ -66,6 +66,34 @@ TEST_CASE("No hand pushes the tool into a forbidden shape or out of a keep-in sh
     }
 }
 
+TEST_CASE("A plate with more leaves than the solver has rows rolls over its edges and slides on a plane") {
+    std::vector<Sphere> leaves;
+    for (int i = 0; i < 4096; ++i) {
+        leaves.push_back({dvec3(0.001 * (i % 64) - 0.0315, 0.001 * (i / 64) - 0.0315, 0.0), 0.001});
+    }
+    const Tool plate = makeTool(leaves);
+    Shape ground; // z <= 0 is forbidden
+    ground.kind = ShapeKind::Plane;
+    Proxy proxy(plate, std::span(&ground, 1), {}, at({0.0, 0.0, 0.02}));
+    double deep = -1.0, off = 0.0;
+    uint32_t bisected = 0;
+    for (int k = 0; k < 600;
+         ++k) { // the hand moves sideways and presses one edge after another into the plane
+        const double t = 0.001 * k, tilt = k < 100 ? 0.0 : 0.1;
+        const Pose hand{{0.2 * t, -0.1 * t, 0.0},
+                        rotationExp({tilt * std::sin(20.0 * t), tilt * std::cos(20.0 * t), 0.0})};
+        const ProxyStep tick = proxy.step({hand, 0.06, nullptr, {}});
+        deep = std::max(deep, deepest(ground, plate, tick.pose));
+        bisected += tick.bisected;
+        const dvec3 lag = tick.pose.position - hand.position;
+        off = std::max(off, k >= 100 ? std::hypot(lag.x, lag.y) : 0.0);
+    }
+    CHECK(deep <= 0.0);
+    CHECK(off < 0.001);
+    CHECK(bisected < 10);
+    MESSAGE("largest lag along the plane ", 1e3 * off, " mm, ", bisected, " ticks bisected");
+}
+
 TEST_CASE("A shape that already contains the tool pushes it out by 1 mm per tick and never deeper") {
     Shape box;
     box.kind = ShapeKind::Box;
