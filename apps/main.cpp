@@ -30,6 +30,8 @@
 #include <algorithm>
 #include <csignal>
 #include <iostream>
+#include <memory>
+#include <spdlog/async.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
@@ -119,6 +121,17 @@ int run(int argc, char** argv) {
     return result;
 }
 
+// A terminal that is stopped, or a full pipe, must not hold up a thread that logs, as the one that commands
+// the motors: a thread of its own writes the lines, and the oldest are dropped when too many wait.
+void startLog() {
+    constexpr size_t kWaiting = 4096;
+    spdlog::init_thread_pool(kWaiting, 1);
+    spdlog::set_default_logger(std::make_shared<spdlog::async_logger>(
+        "fathom", std::make_shared<spdlog::sinks::stderr_sink_mt>(), spdlog::thread_pool(),
+        spdlog::async_overflow_policy::overrun_oldest));
+    spdlog::set_pattern("%l: %v");
+}
+
 // The exit code of the command, or 1 when the validation layer reported messages.
 int judged(int result) {
     const uint32_t messages = fathom::gpu::validationMessages();
@@ -132,16 +145,21 @@ int judged(int result) {
 } // namespace
 
 int main(int argc, char** argv) {
-    fathom::gpu::askForSoftwareThreads();
-    spdlog::set_default_logger(spdlog::stderr_logger_mt("fathom"));
-    spdlog::set_pattern("%l: %v");
+    int result = 1;
+    std::string failure;
     try {
-        return judged(run(argc, argv));
+        fathom::gpu::askForSoftwareThreads();
+        startLog();
+        result = run(argc, argv);
     } catch (const fathom::Error& e) {
-        std::cerr << "fathom: " << e.what() << "\n";
-        return judged(e.exitCode());
+        failure = e.what();
+        result = e.exitCode();
     } catch (const std::exception& e) {
-        std::cerr << "fathom: internal error: " << e.what() << "\n";
-        return 1;
+        failure = std::string("internal error: ") + e.what();
     }
+    spdlog::shutdown(); // its lines come before the last ones
+    if (!failure.empty()) {
+        std::cerr << "fathom: " << failure << "\n";
+    }
+    return judged(result);
 }

@@ -165,7 +165,7 @@ void RealtimeRun::run(HapticCycle& cycle, HapticDevice& hand, double pathDuratio
                 guarded([this] { pinThread(options_.placement.rest), clearance_->run(stop_); });
             });
         }
-        Joined ticks(stop_, [this, &haptic] {
+        Joined ticks(stop_, [this, &haptic, &stop] {
             std::string refused;
             guarded([&] { refused = makeHapticThread(options_.placement); });
             if (!refused.empty()) {
@@ -173,7 +173,7 @@ void RealtimeRun::run(HapticCycle& cycle, HapticDevice& hand, double pathDuratio
                           "PERMISSIONS)",
                           refused);
             }
-            haptic.run(stop_);
+            haptic.run(stop_, stop); // not only stop_, which the writer sets: its output may be blocked
         });
         write(drain, stop);
     }

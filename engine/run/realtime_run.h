@@ -37,7 +37,8 @@ public:
     // Processes the first frame on this thread, before the clock starts. False when the source has none.
     bool firstFrame() { return frames_.first(); }
 
-    // Runs until frames and path have ended, `stop` is set or something fails. Then the hand has zero force,
+    // Runs until frames and path have ended, `stop` is set or something fails. `stop` takes the force away at
+    // once, also while the sink or `progress` is blocked. After the run the hand has zero force,
     // all threads have ended and the sink has every record. failure() is the exception of a thread. An
     // exception of the sink is passed on after the same shutdown.
     void run(HapticCycle& cycle, HapticDevice& hand, double pathDuration, RunSink& sink,

@@ -12,7 +12,7 @@ void write(Level level, fmt::string_view format, fmt::format_args values) {
                                                   spdlog::level::warn, spdlog::level::err};
     spdlog::logger* const logger = spdlog::default_logger_raw();
     const auto wanted = kLevels[static_cast<int>(level)];
-    if (logger->should_log(wanted)) {
+    if (logger != nullptr && logger->should_log(wanted)) { // none at the end of the program
         logger->log(wanted, printable(fmt::vformat(format, values)));
     }
 }

@@ -10,10 +10,12 @@
 #include <chrono>
 #include <csignal>
 #include <doctest/doctest.h>
+#include <fcntl.h>
 #include <glm/geometric.hpp>
 #include <map>
 #include <optional>
 #include <set>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
@@ -46,6 +48,27 @@ public:
 
 private:
     pid_t id_;
+};
+
+// An output that takes no more bytes, as a terminal that was stopped.
+class BlockedOutput {
+public:
+    explicit BlockedOutput(std::filesystem::path path)
+        : path_(std::move(path)) {
+        REQUIRE(::mkfifo(path_.c_str(), 0600) == 0);
+        pipe_ = ::open(path_.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
+        REQUIRE(pipe_ >= 0);
+        while (::write(pipe_, "x", 1) == 1) {
+        }
+    }
+    BlockedOutput(const BlockedOutput&) = delete;
+    BlockedOutput& operator=(const BlockedOutput&) = delete;
+    ~BlockedOutput() { ::close(pipe_); } // then whoever writes gets an error
+    const std::filesystem::path& path() const { return path_; }
+
+private:
+    std::filesystem::path path_;
+    int pipe_ = -1;
 };
 
 // Reads the view socket until the engine closes it.
@@ -164,8 +187,27 @@ TEST_CASE("A device pressed into a region gets at most its force limit, and no f
     stage.write("start.csv", handCsv({{0.0, {0.0, 0.0, 0.53}}}));
     std::signal(SIGHUP, SIG_DFL); // the parent process may ignore it
     PlayedDevice device(stage / "hand.door");
-    const pid_t engine = startFathom(
-        stage.command({"--realtime", "--hand-device", (stage / "hand.door").string(), "--seconds", "60"}));
+    std::optional<BlockedOutput> blocked;
+    int signal = 0;
+    SUBCASE("Ctrl-C") {
+        signal = SIGINT;
+    }
+    SUBCASE("Ctrl-C while its output is blocked") {
+        signal = SIGINT;
+        blocked.emplace(stage / "output");
+    }
+    SUBCASE("the terminal is closed") {
+        signal = SIGHUP;
+    }
+    SUBCASE("killed") {
+        signal = SIGKILL;
+    }
+    SUBCASE("crashed") {
+        signal = SIGSEGV;
+    }
+    const pid_t engine = startFathom(stage.command({"-v", "--realtime", "--hand-device",
+                                                    (stage / "hand.door").string(), "--seconds", "60"}),
+                                     blocked ? blocked->path() : std::filesystem::path());
     for (int i = 0; i < 60000 && device.silent; ++i) { // until the first wrench: the ticks run
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
@@ -181,29 +223,20 @@ TEST_CASE("A device pressed into a region gets at most its force limit, and no f
         CHECK(again);
     }
     CHECK(device.strongest >= -8.0 - 1e-9);
-    int signal = 0;
-    SUBCASE("Ctrl-C") {
-        signal = SIGINT;
-    }
-    SUBCASE("the terminal is closed") {
-        signal = SIGHUP;
-    }
-    SUBCASE("killed") {
-        signal = SIGKILL;
-    }
-    SUBCASE("crashed") {
-        signal = SIGSEGV;
-    }
     ::kill(engine, signal);
     // 10 ms of silence at most, plus time for a busy machine. A run that ends by itself may take longer, and
     // so may a crash under a sanitizer, which writes its report while other threads continue.
     const bool atOnce = signal == SIGKILL || (signal == SIGSEGV && !kSanitized);
     CHECK(device.feels(0.0, 0.0, atOnce ? 200 : 20000));
+    const bool quiet = blocked.has_value(); // it then ends by SIGPIPE where it prints
+    blocked.reset();
     int status = 0;
     ::waitpid(engine, &status, 0);
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
     CHECK(device.fz == 0.0);
-    if (signal == SIGINT || signal == SIGHUP) {
+    if (quiet) {
+        CHECK_FALSE((WIFSIGNALED(status) && WTERMSIG(status) != SIGPIPE));
+    } else if (signal == SIGINT || signal == SIGHUP) {
         CHECK(WIFEXITED(status));
         CHECK(WEXITSTATUS(status) == 0);
         const auto summary = nlohmann::json::parse(stage.read("out/summary.json"));

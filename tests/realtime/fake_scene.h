@@ -9,6 +9,7 @@
 #include "engine/run/realtime_run.h"
 #include "tests/cycle/haptic_rig.h"
 
+#include <atomic>
 #include <cmath>
 #include <functional>
 #include <vector>
@@ -118,9 +119,11 @@ public:
     void write(const Wrench& wrench, double) noexcept override {
         last = wrench;
         ++writes;
+        zero.store(writes > 1 && wrench.force == dvec3(0.0) && wrench.torque == dvec3(0.0));
     }
     Wrench last{dvec3(1.0), dvec3(1.0)};
     uint64_t writes = 0;
+    std::atomic<bool> zero{false}; // the last wrench, for other threads
     std::function<void(double, HandSample&)> spoil = [](double, HandSample&) {}; // changes samples
 
 private:

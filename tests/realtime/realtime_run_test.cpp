@@ -8,7 +8,9 @@
 #include <csignal>
 #include <doctest/doctest.h>
 #include <filesystem>
+#include <semaphore>
 #include <thread>
+#include <utility>
 
 #include "tests/realtime/fake_scene.h"
 
@@ -208,6 +210,31 @@ TEST_CASE("SIGINT, SIGTERM, SIGQUIT and SIGHUP end a run early with zero force a
         checkEnded(fake);
         CHECK(fake.sink.rows.back().record.t < 5.0);
     }
+}
+
+TEST_CASE("A signal takes the force away while the writer is blocked") {
+    FakeRun fake(300, pressingPath(60.0));
+    fake.options.staleAfter = 100.0; // the blocked writer keeps the sets, so no new ones come
+    std::binary_semaphore blocked{0}, free{0};
+    fake.sink.onTurn = [&, once = true](const TickRow& row) mutable {
+        if (row.record.t > 0.3 && std::exchange(once, false)) {
+            blocked.release();
+            free.acquire();
+        }
+    };
+    std::thread running([&] { fake.go(); });
+    blocked.acquire();
+    CHECK_FALSE(fake.hand.zero.load());
+    fake.stop.store(true);
+    bool zero = false;
+    for (int i = 0; i < 20000 && !zero; ++i) { // up to 20 s on a busy machine
+        sleepFor(0.001);
+        zero = fake.hand.zero.load();
+    }
+    CHECK(zero);
+    free.release();
+    running.join();
+    checkEnded(fake);
 }
 
 TEST_CASE("A closed reader of the output does not end a run, nor does an ignored SIGHUP") {
