@@ -92,7 +92,7 @@ void LiveRun::makeHand(const std::vector<Shape>& shapes, const Pose& start, cons
     Pose raw = tool != nullptr ? start : path.waypoints().front().deviceThandle;
     pilot_ = std::make_unique<PilotHand>(raw);
     path_ = std::make_unique<PathHand>(path);
-    hand_ = std::make_unique<GatedHand>(driver(), live, buttons_.native());
+    hand_ = std::make_unique<GatedHand>(driver(), live, buttons_.native(), signals_.asked());
     hand_->choose(buttons_.chosen());
     steering_ = std::make_unique<Steering>(raw, session_.scene.hand);
     raw = live != nullptr ? hand_->read(0.0).deviceThandle : raw;
@@ -168,7 +168,11 @@ std::optional<ImVec2> LiveRun::steer(Console& console, const ViewPort& large, do
     return steering_->step(console, large, toolDepth);
 }
 
-void LiveRun::apply(const Console& console) {
+void LiveRun::apply(Console& console) {
+    if (hand_->takeSilence()) {
+        console.forces = console.guidance = false;
+        console.notify("the window stood still for over 2 s: forces are off");
+    }
     hand_->setForces(console.forces);
     feed_.freeze(console.frozen);
     pilot_->ask({steering_->pose(), 0});

@@ -35,7 +35,8 @@ public:
 
     // Moves the hand by this frame's keys and mouse; returns where the large view was clicked.
     std::optional<ImVec2> steer(Console& console, const ViewPort& large, double toolDepth);
-    void apply(const Console& console); // forces, frozen fixtures, buttons
+    // Forces, frozen fixtures, buttons. Forces stay off after a pause in which nothing could switch them off.
+    void apply(Console& console);
     // Takes the device's button that is pressed for Console::mapping, and saves the mapping.
     void mapButtons(Console& console);
     DeviceFacts device() const;

@@ -40,10 +40,12 @@ HandSample PilotHand::read(double t) noexcept {
     return {now_, setpoint.buttons};
 }
 
-GatedHand::GatedHand(HapticDevice& hand, const LiveHand* live, const ButtonBits& native)
+GatedHand::GatedHand(HapticDevice& hand, const LiveHand* live, const ButtonBits& native,
+                     const std::atomic<bool>& ends)
     : hand_(hand)
     , live_(live)
-    , native_(native) {
+    , native_(native)
+    , ends_(ends) {
     choose(native);
 }
 
@@ -72,10 +74,23 @@ HandSample GatedHand::read(double t) noexcept {
         sample.buttons = buttonsOf(sample.buttons);
     }
     sample.buttons |= extra_.load(std::memory_order_relaxed);
-    if (off_.load(std::memory_order_acquire)) {
+    if (isOff(t)) {
         sample.buttons |= kDeadManOpen;
     }
     return sample;
+}
+
+bool GatedHand::isOff(double t) noexcept {
+    const uint32_t calls = calls_.load(std::memory_order_acquire);
+    if (calls != callsSeen_) {
+        callsSeen_ = calls;
+        calledAt_ = t;
+    }
+    const bool off = off_.load(std::memory_order_acquire), silent = t - calledAt_ > kSilence;
+    if (silent && !off) {
+        silent_.store(true, std::memory_order_relaxed);
+    }
+    return off || silent || ends_.load(std::memory_order_relaxed);
 }
 
 } // namespace fathom::operate

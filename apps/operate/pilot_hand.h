@@ -33,14 +33,21 @@ private:
 };
 
 // Opens the dead-man of any device while forces are off, translates the device's buttons, and adds buttons to
-// them. Forces are off at first. read() and write(): haptic thread; the rest: any thread.
+// them. Forces are off at first, after a signal, and when the window's thread has not called setForces() for
+// kSilence: then nothing else could switch them off. read() and write(): haptic thread; the rest: any thread.
 class GatedHand final : public HapticDevice {
 public:
     // live: the same hand when it may disconnect; null = it is always connected.
-    // native: buttons that the engine expects; also the chosen ones at first.
-    GatedHand(HapticDevice& hand, const LiveHand* live, const ButtonBits& native);
+    // native: buttons that the engine expects; also the chosen ones at first. ends: set by a signal.
+    GatedHand(HapticDevice& hand, const LiveHand* live, const ButtonBits& native,
+              const std::atomic<bool>& ends);
 
-    void setForces(bool on) noexcept { off_.store(!on, std::memory_order_release); }
+    void setForces(bool on) noexcept {
+        off_.store(!on, std::memory_order_release);
+        calls_.fetch_add(1, std::memory_order_release);
+    }
+    // Whether forces went off for want of a call, since the last question.
+    bool takeSilence() noexcept { return silent_.exchange(false, std::memory_order_relaxed); }
     void press(uint32_t buttons) noexcept { extra_.store(buttons, std::memory_order_relaxed); }
     void choose(const ButtonBits& buttons) noexcept;
     // While on, buttons have no effect, so that one can be pressed to map it.
@@ -51,8 +58,11 @@ public:
     HandSample read(double t) noexcept override;
     void write(const Wrench& wrench, double dt) noexcept override { hand_.write(wrench, dt); }
 
+    static constexpr double kSilence = 2.0; // [s]
+
 private:
     uint32_t buttonsOf(uint32_t raw) noexcept;
+    bool isOff(double t) noexcept;
 
     HapticDevice& hand_;
     const LiveHand* live_;
@@ -61,7 +71,11 @@ private:
     std::array<std::atomic<uint32_t>, kButtonUses> chosen_;
     std::atomic<uint32_t> held_{0}, pressed_{0}; // down now; pressed since the last takePressed()
     std::atomic<bool> captures_{false};
-    std::atomic<bool> off_{true}, there_{true};
+    const std::atomic<bool>& ends_;
+    std::atomic<bool> off_{true}, there_{true}, silent_{false};
+    std::atomic<uint32_t> calls_{0}; // of setForces()
+    uint32_t callsSeen_ = 0;
+    double calledAt_ = 0.0; // [s] first tick that saw the newest call
 };
 
 } // namespace fathom::operate

@@ -12,6 +12,8 @@ using namespace fathom::operate;
 
 namespace {
 
+const std::atomic<bool> kNoSignal{false};
+
 constexpr ButtonBits kNative{1, 4, 0}; // guidance, clutch, no jaws
 
 // A hand whose buttons the test presses.
@@ -80,7 +82,7 @@ TEST_CASE("A mapping is read as it was saved, and a bad file is rejected in one 
 
 TEST_CASE("While a button is mapped, pressing it has no effect; the dead-man switch keeps its own") {
     PressedHand device;
-    GatedHand hand(device, nullptr, kNative);
+    GatedHand hand(device, nullptr, kNative, kNoSignal);
     hand.setForces(true);
     device.buttons = 1;
     CHECK(hand.read(0.0).buttons == 1);
@@ -100,4 +102,31 @@ TEST_CASE("While a button is mapped, pressing it has no effect; the dead-man swi
     device.buttons = 4 | kDeadManOpen;
     CHECK(hand.read(0.003).buttons == (4 | kDeadManOpen));
     CHECK(hand.takePressed() == 0);
+}
+
+TEST_CASE("Forces go off when the window says nothing for 2 s, and at once after a signal") {
+    PressedHand device;
+    std::atomic<bool> signal{false};
+    GatedHand hand(device, nullptr, kNative, signal);
+    const auto off = [&](double t) { return (hand.read(t).buttons & kDeadManOpen) != 0; };
+    CHECK(off(0.0));
+    double t = 5.0;
+    for (int i = 0; i < 100; ++i) { // the window answers every 0.5 s
+        t += 0.5;
+        hand.setForces(true);
+        CHECK_FALSE(off(t));
+    }
+    CHECK_FALSE(off(t + 1.9));
+    CHECK_FALSE(hand.takeSilence());
+    CHECK(off(t + 2.1));
+    CHECK(off(t + 60.0));
+    CHECK(hand.takeSilence());
+    CHECK_FALSE(hand.takeSilence());
+    hand.setForces(true); // what the window decides to do is its own matter
+    CHECK_FALSE(off(t + 60.1));
+    signal.store(true);
+    CHECK(off(t + 60.101));
+    hand.setForces(false);
+    CHECK(off(t + 90.0)); // off already
+    CHECK_FALSE(hand.takeSilence());
 }
