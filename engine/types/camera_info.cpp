@@ -43,6 +43,18 @@ double spread(double rr, const Intrinsics& lens) noexcept {
     return std::min(below, above * below + 2.0 * rr * (aboveSlope * below - above * belowSlope));
 }
 
+// Sufficient for spread() > 0 up to rr, and quick: as if every negative coefficient acted alone.
+bool spreadsTo(double rr, const Intrinsics& lens) noexcept {
+    const bool angles = lens.model == LensModel::Equidistant;
+    const auto& k = lens.distortion;
+    const std::array<double, 4> c =
+        angles ? std::array{k[0], k[1], k[2], k[3]} : std::array{k[0], k[1], k[4], 0.0};
+    const auto less = [&](size_t i, double factor) { return factor * std::min(c[i], 0.0); };
+    const double least =
+        1.0 + rr * (less(0, 3.0) + rr * (less(1, 5.0) + rr * (less(2, 7.0) + rr * less(3, 9.0))));
+    return least > 0.0 && lens.divisor == std::array<double, 3>{}; // an angle is smaller than its tangent
+}
+
 // Newton's method with numeric derivatives, for lenses too wide for the fixed-point iteration.
 glm::dvec2 undistort(const glm::dvec2& seen, const Intrinsics& lens) noexcept {
     constexpr double kStep = 1e-6;
@@ -105,6 +117,9 @@ glm::dvec2 Intrinsics::project(const dvec3& point) const noexcept {
 
 double Intrinsics::reach(double most) const noexcept {
     constexpr double kStep = 0.01;
+    if (spreadsTo(most * most, *this)) {
+        return most;
+    }
     for (double from = 0.0; distorted() && from < most; from += kStep) {
         double lo = from, hi = std::min(most, from + kStep);
         if (spread(hi * hi, *this) > 0.0) {
