@@ -12,6 +12,8 @@
 #include "engine/haptics/tool_motion.h"
 #include "engine/model/arm_model.h"
 
+#include <limits>
+
 namespace fathom {
 
 // Motion options of an arm's proxy, fixed at construction. The step cap applies to every leaf of every link.
@@ -71,6 +73,7 @@ public:
         return std::min(depth, escapeLeft_) + proxy::kSkin;
     }
     double equalityLimit(const Equality&) const noexcept { return escapeLeft_; }
+    Sphere bound() const noexcept { return {pose().position, std::numeric_limits<double>::infinity()}; }
     dvec3 leafNow(size_t leaf, const LeafState& leaves) const noexcept {
         return leaves.now[leaf] + leaves.origin;
     }

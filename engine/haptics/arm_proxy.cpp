@@ -56,6 +56,7 @@ void ArmProxy::moveGrasp(double grasp, ArmStep& out) noexcept {
         return;
     }
     contacts_.gather(tip().position, true);
+    findNearShapes();
     for (int tries = 0; tries < kGraspTries; ++tries, change *= 0.5) {
         kinematics_.tryGrasp(now + change, contacts_.leaves);
         if (contacts_.leaves.travel() <= options_.stepCap && allowed(false)) {

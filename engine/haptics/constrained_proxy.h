@@ -4,6 +4,7 @@
 #pragma once
 
 #include "engine/haptics/leaf_contacts.h"
+#include "engine/haptics/near_shapes.h"
 #include "engine/haptics/proxy_rows.h"
 #include "engine/haptics/proxy_step.h"
 
@@ -54,12 +55,15 @@ protected:
         : options_(options)
         , kinematics_(std::move(kinematics))
         , contacts_(leaves, shapes, options.stepCap, options.rows)
-        , rows_(kinematics_.unknowns(), options.rows) {}
+        , rows_(kinematics_.unknowns(), options.rows)
+        , nearShapes_(leaves.leafCount(), std::max(kMaxShapes, shapes.size())) {}
 
     // One tick: begin(), then finish() if begin() returned true (the set is usable), then report().
     bool begin(const ProxyInput& input) noexcept;
     void finish(const ProxyInput& input, Step& out) noexcept;
     void report(Step& out) noexcept;
+    // Lists the leaves that two motions of at most the step cap from here can bring into a shape.
+    void findNearShapes() noexcept;
     // True when at the tried pose no leaf violates a pair, leaves the trust region or gets deeper into a
     // shape.
     bool allowed(bool insideTrustRegion) noexcept;
@@ -68,6 +72,7 @@ protected:
     Kinematics kinematics_;
     LeafContacts contacts_;
     ProxyRows rows_;
+    NearShapes nearShapes_;
 
 private:
     static constexpr int kRounds = 8;
@@ -77,7 +82,7 @@ private:
     void collectRows(bool first, Step& out) noexcept;
     void addSmoothRows() noexcept;
     void addShapeRows(Step& out) noexcept;
-    bool addShapeRows(double reach, Step& out) noexcept; // false: some within reach [m] have no row
+    bool addShapeRows(uint32_t shape, uint32_t leaf) noexcept;
     ContactRow shapeRow(uint32_t shape, uint32_t leaf, size_t side, const SideGap& gap) const noexcept;
     void addEqualityRows(const Shape& shape, uint32_t index) noexcept;
     bool addRow(ContactRow row) noexcept { return kinematics_.addRow(row, contacts_.leaves, rows_); }
@@ -85,10 +90,12 @@ private:
     bool fitsExactly(Answer& answer, Step& out) noexcept;
     bool tighten(const Answer& answer) noexcept;
     bool tightenShapes(double share) noexcept;
-    bool addMissingShapeRow(uint32_t shape) noexcept;
+    bool addMissingShapeRow() noexcept;
+    bool late() const noexcept { return deadline_.passed != nullptr && deadline_.passed(deadline_.context); }
     bool shapesAllow() const noexcept;
     double bisect(const Answer& answer) noexcept;
 
+    Deadline deadline_;
     bool everyShapeRow_ = true; // each leaf near a shape has its rows
     bool onlyLeft_ = false; // the last bisection found no violation, only parts outside of the trust region
 };
@@ -107,10 +114,11 @@ void ConstrainedProxy<Kinematics>::finish(const ProxyInput& input, Step& out) no
     if (!isFinite(input.target)) { // hold
         return;
     }
+    deadline_ = input.deadline;
     const ContactSet* set = contacts_.set();
     out.uncovered = set != nullptr && !TrustRegion::covers(*set, contacts_.leaves.now);
     for (uint32_t k = 0; k < options_.solves; ++k) {
-        if (k > 0 && input.deadline.passed != nullptr && input.deadline.passed(input.deadline.context)) {
+        if (k > 0 && late()) {
             return;
         }
         if (!linearise(k == 0, out)) {
@@ -169,6 +177,9 @@ bool ConstrainedProxy<Kinematics>::fitsExactly(Answer& answer, Step& out) noexce
         if (allowed(inside)) {
             return true;
         }
+        if (round > 0 && late()) {
+            return false;
+        }
         const bool changed = tighten(answer);
         if (!changed && contacts_.violations().empty()) {
             answer.stalled = answer.stalled || (!inside && contacts_.set() != nullptr);
@@ -192,22 +203,20 @@ bool ConstrainedProxy<Kinematics>::allowed(bool insideTrustRegion) noexcept {
 template <class Kinematics>
 bool ConstrainedProxy<Kinematics>::shapesAllow() const noexcept {
     for (const Shape& shape : shapes()) {
-        if (shape.isEquality()) {
-            if (!equalityAllows(shape, kinematics_.pose(), kinematics_.nextPose())) {
-                return false;
-            }
+        if (shape.isEquality() && !equalityAllows(shape, kinematics_.pose(), kinematics_.nextPose())) {
+            return false;
+        }
+    }
+    for (const NearShapes::Pair& pair : nearShapes_.pairs()) {
+        const Shape& shape = shapes()[pair.shape];
+        const double radius = contacts_.radius(pair.leaf);
+        const double gap = gapTo(shape, kinematics_.leafNext(pair.leaf, contacts_.leaves), radius).gap;
+        if (gap >= 0.0) {
             continue;
         }
-        for (size_t leaf = 0; leaf < contacts_.leafCount(); ++leaf) {
-            const double radius = contacts_.radius(leaf);
-            const double gap = gapTo(shape, kinematics_.leafNext(leaf, contacts_.leaves), radius).gap;
-            if (gap >= 0.0) {
-                continue;
-            }
-            const dvec3 now = kinematics_.leafNow(leaf, contacts_.leaves);
-            if (!(gap >= std::min(0.0, gapTo(shape, now, radius).gap))) {
-                return false;
-            }
+        const dvec3 now = kinematics_.leafNow(pair.leaf, contacts_.leaves);
+        if (!(gap >= std::min(0.0, gapTo(shape, now, radius).gap))) {
+            return false;
         }
     }
     return true;
@@ -219,7 +228,7 @@ template <class Kinematics>
 double ConstrainedProxy<Kinematics>::bisect(const Answer& answer) noexcept {
     double good = 0.0, bad = kinematics_.wholePart(answer);
     onlyLeft_ = true;
-    for (int k = 0; k < kBisections; ++k) {
+    for (int k = 0; k < kBisections && (k == 0 || !late()); ++k) {
         const double middle = 0.5 * (good + bad);
         kinematics_.tryPart(answer, middle, contacts_.leaves);
         const bool fits = allowed(false);

@@ -49,44 +49,58 @@ void ConstrainedProxy<Kinematics>::addSmoothRows() noexcept {
     }
 }
 
-// Where the solver has no room for all leaves near a shape, only the nearest get a row; tightenShapes() adds
-// rows for others that turn out to be in the way.
 template <class Kinematics>
-void ConstrainedProxy<Kinematics>::addShapeRows(Step& out) noexcept {
-    const size_t before = rows_.size();
-    double reach = 2.0 * options_.stepCap;
-    while (!addShapeRows(reach, out) && reach > proxy::kNothing) {
-        rows_.truncate(before);
-        reach *= 0.125;
-    }
-    everyShapeRow_ = reach == 2.0 * options_.stepCap;
-}
-
-template <class Kinematics>
-bool ConstrainedProxy<Kinematics>::addShapeRows(double reach, Step& out) noexcept {
+void ConstrainedProxy<Kinematics>::findNearShapes() noexcept {
+    nearShapes_.clear();
+    const double reach = 2.0 * options_.stepCap + proxy::kSkin;
+    const Sphere bound = kinematics_.bound();
     for (uint32_t s = 0; s < shapes().size(); ++s) {
         const Shape& shape = shapes()[s];
-        if (shape.isEquality()) {
-            addEqualityRows(shape, s);
-            continue;
+        if (shape.isEquality() || gapTo(shape, bound.centre, bound.radius).gap > reach) {
+            continue; // no leaf is nearer than the sphere around all
         }
         for (uint32_t leaf = 0; leaf < contacts_.leafCount(); ++leaf) {
-            const dvec3 centre = kinematics_.leafNow(leaf, contacts_.leaves);
-            std::array<SideGap, kMaxSides> sides;
-            const size_t count = sidesOf(shape, centre, contacts_.radius(leaf), sides);
-            for (size_t k = 0; k < count; ++k) {
-                if (sides[k].gap > reach) {
-                    continue;
-                }
-                if (rows_.size() >= proxy::kMaxRows - proxy::kSpareRows) {
-                    return false;
-                }
-                out.escape = out.escape || sides[k].gap < -proxy::kNothing;
-                addRow(shapeRow(s, leaf, k, sides[k]));
+            const double gap =
+                gapTo(shape, kinematics_.leafNow(leaf, contacts_.leaves), contacts_.radius(leaf)).gap;
+            if (gap <= reach) {
+                nearShapes_.add(s, leaf, gap);
             }
         }
     }
-    return true;
+}
+
+// Where the solver has no room for all leaves near a shape, tightenShapes() adds rows for others that turn
+// out to be in the way.
+template <class Kinematics>
+void ConstrainedProxy<Kinematics>::addShapeRows(Step& out) noexcept {
+    findNearShapes();
+    const size_t taken = rows_.size() + proxy::kSpareRows;
+    everyShapeRow_ = nearShapes_.select(proxy::kMaxRows - std::min(taken, proxy::kMaxRows));
+    size_t next = 0;
+    for (uint32_t s = 0; s < shapes().size(); ++s) {
+        if (shapes()[s].isEquality()) {
+            addEqualityRows(shapes()[s], s);
+        }
+        for (; next < nearShapes_.pairs().size() && nearShapes_.pairs()[next].shape == s; ++next) {
+            NearShapes::Pair& pair = nearShapes_.pairs()[next];
+            out.escape = out.escape || pair.gap < -proxy::kNothing;
+            pair.row = pair.row && addShapeRows(s, pair.leaf);
+            everyShapeRow_ = everyShapeRow_ && pair.row;
+        }
+    }
+}
+
+// False when there is no room for all sides.
+template <class Kinematics>
+bool ConstrainedProxy<Kinematics>::addShapeRows(uint32_t shape, uint32_t leaf) noexcept {
+    std::array<SideGap, kMaxSides> sides;
+    const size_t count =
+        sidesOf(shapes()[shape], kinematics_.leafNow(leaf, contacts_.leaves), contacts_.radius(leaf), sides);
+    bool room = true;
+    for (size_t k = 0; k < count; ++k) {
+        room = (sides[k].gap > 2.0 * options_.stepCap || addRow(shapeRow(shape, leaf, k, sides[k]))) && room;
+    }
+    return room;
 }
 
 template <class Kinematics>
@@ -175,33 +189,37 @@ bool ConstrainedProxy<Kinematics>::tightenShapes(double share) noexcept {
             changed = true;
         }
     }
-    for (uint32_t s = 0; s < shapes().size() && !everyShapeRow_; ++s) {
-        changed = addMissingShapeRow(s) || changed;
-    }
-    return changed;
+    return (!everyShapeRow_ && addMissingShapeRow()) || changed;
 }
 
 // A row for the leaf that gets deepest into a shape without having one.
 template <class Kinematics>
-bool ConstrainedProxy<Kinematics>::addMissingShapeRow(uint32_t index) noexcept {
-    const Shape& shape = shapes()[index];
+bool ConstrainedProxy<Kinematics>::addMissingShapeRow() noexcept {
     std::array<SideGap, kMaxSides> now, next;
     double deepest = 0.0;
-    ContactRow missing;
-    for (uint32_t leaf = 0; leaf < contacts_.leafCount() && !shape.isEquality(); ++leaf) {
-        const double radius = contacts_.radius(leaf);
+    NearShapes::Pair* missing = nullptr;
+    for (NearShapes::Pair& pair : nearShapes_.pairs()) {
+        if (pair.row) {
+            continue;
+        }
+        const Shape& shape = shapes()[pair.shape];
+        const double radius = contacts_.radius(pair.leaf);
         const size_t count =
-            std::min(sidesOf(shape, kinematics_.leafNow(leaf, contacts_.leaves), radius, now),
-                     sidesOf(shape, kinematics_.leafNext(leaf, contacts_.leaves), radius, next));
+            std::min(sidesOf(shape, kinematics_.leafNow(pair.leaf, contacts_.leaves), radius, now),
+                     sidesOf(shape, kinematics_.leafNext(pair.leaf, contacts_.leaves), radius, next));
         for (size_t k = 0; k < count; ++k) {
             const double depth = std::min(0.0, now[k].gap) - next[k].gap;
-            if (depth > deepest && !rows_.has(rowKey(ContactRow::Kind::Shape, index, leaf, k))) {
+            if (depth > deepest) {
                 deepest = depth;
-                missing = shapeRow(index, leaf, k, now[k]);
+                missing = &pair;
             }
         }
     }
-    return deepest > 0.0 && addRow(missing);
+    if (missing == nullptr) {
+        return false;
+    }
+    missing->row = true;
+    return addShapeRows(missing->shape, missing->leaf);
 }
 
 } // namespace fathom

@@ -38,11 +38,6 @@ bool ProxyRows::add(const ContactRow& row, std::span<const double> normal) noexc
     return true;
 }
 
-bool ProxyRows::has(uint64_t key) const noexcept {
-    return std::any_of(rows_.begin(), rows_.begin() + static_cast<std::ptrdiff_t>(count_),
-                       [&](const Row& row) { return row.contact.key == key; });
-}
-
 ContactRow* ProxyRows::ofPair(uint32_t pair) noexcept {
     for (size_t i = 0; i < count_; ++i) {
         ContactRow& row = rows_[i].contact;

@@ -57,8 +57,6 @@ public:
     // normal: the row in the solver's unknowns. False when full.
     bool add(const ContactRow& row, std::span<const double> normal) noexcept;
     size_t size() const noexcept { return count_; }
-    void truncate(size_t rows) noexcept { count_ = rows; } // before load()
-    bool has(uint64_t key) const noexcept;
     ContactRow& operator[](size_t row) noexcept { return rows_[row].contact; }
     ContactRow* ofPair(uint32_t pair) noexcept;                     // null = the pair has no row
     bool escaping() const noexcept { return largestEscape_ > 0.0; } // some row requests motion

@@ -47,6 +47,7 @@ public:
     double equalityLimit(const Equality& e) const noexcept {
         return depthLeft() / (e.linear == dvec3(0.0) ? boundingRadius_ : 1.0);
     }
+    Sphere bound() const noexcept { return {pose_.position, boundingRadius_}; } // around all leaves, now
     dvec3 leafNow(size_t leaf, const LeafState&) const noexcept {
         return pose_.position + pose_.rotation * places_.centre(leaf);
     }

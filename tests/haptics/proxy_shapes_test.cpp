@@ -94,6 +94,50 @@ TEST_CASE("A plate with more leaves than the solver has rows rolls over its edge
     MESSAGE("largest lag along the plane ", 1e3 * off, " mm, ", bisected, " ticks bisected");
 }
 
+TEST_CASE("Of leaves that are equally near to a shape, an even selection gets rows, after all nearer ones") {
+    NearShapes near(100, 2);
+    for (uint32_t leaf = 0; leaf < 100; ++leaf) {
+        near.add(0, leaf, leaf % 10 == 0 ? 0.0005 : 0.001);
+    }
+    near.add(1, 7, 0.0);
+    REQUIRE_FALSE(near.select(41));
+    uint32_t rows = 0, nearest = 0, firstHalf = 0;
+    for (const NearShapes::Pair& pair : near.pairs()) {
+        rows += pair.row;
+        nearest += pair.row && pair.gap < 0.001;
+        firstHalf += pair.row && pair.gap == 0.001 && pair.leaf < 50;
+    }
+    CHECK(rows == 41);
+    CHECK(nearest == 11);
+    CHECK(firstHalf == 15);
+    CHECK(near.select(101));
+    CHECK(near.pairs()[99].row);
+    near.clear();
+    CHECK(near.select(0));
+}
+
+TEST_CASE("A tick that is late solves once, does not tighten twice and still lets no leaf into a shape") {
+    const Tool tool = rod();
+    Shape ball;
+    ball.kind = ShapeKind::Sphere;
+    ball.size = dvec3(0.05, 0.0, 0.0);
+    Proxy proxy(tool, std::span(&ball, 1), {}, at({0.0, 0.0, 0.2}));
+    const Deadline late{[](const void*) { return true; }, nullptr};
+    std::mt19937_64 random(5);
+    double worst = -1.0;
+    uint32_t contact = 0;
+    for (int k = 0; k < 2000; ++k) {
+        const ProxyStep tick =
+            proxy.step({{randomIn(random, 0.03), randomRotation(random)}, 0.03, nullptr, late});
+        CHECK(tick.solves <= 1);
+        CHECK(tick.rounds <= 1);
+        worst = std::max(worst, deepest(ball, tool, tick.pose));
+        contact += tick.contact ? 1 : 0;
+    }
+    CHECK(worst <= 0.0);
+    CHECK(contact > 1000);
+}
+
 TEST_CASE("A shape that already contains the tool pushes it out by 1 mm per tick and never deeper") {
     Shape box;
     box.kind = ShapeKind::Box;
