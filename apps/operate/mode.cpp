@@ -19,6 +19,14 @@ bool atLimit(const StepRecord& record, const HapticOptions& haptics) {
            glm::length(record.wrench.torque) > kFull * haptics.torqueLimit;
 }
 
+Mode forcesOff(const char* meaning) {
+    return {"FORCES OFF", kSquare, IM_COL32(255, 255, 255, 255), Edge::Double, meaning};
+}
+
+Mode forcesFading(const char* meaning) {
+    return {"FORCES FADING", "~", colour::kCaution, Edge::Dashed, meaning};
+}
+
 Mode armedMode(const ModeInput& input) {
     const StepRecord& record = input.run.step().record;
     const StepState state = record.state;
@@ -27,9 +35,14 @@ Mode armedMode(const ModeInput& input) {
         return {"HELD", "!", colour::kWarningWord, Edge::Double,
                 "The tool is trapped between regions, or a real arm stands still: forces fade. W says why"};
     }
+    if (state == StepState::Off && record.frame >= 0) {
+        return forcesOff("The device gets no force: its dead-man switch is open, or it is lost");
+    }
     if (state == StepState::Fading) {
-        return {"STALE", "~", colour::kCaution, Edge::Dashed,
-                "The newest image is too old: forces fade until the next one"};
+        return std::abs(record.sceneAge) > input.haptics.staleAfter
+                   ? Mode{"STALE", "~", colour::kCaution, Edge::Dashed,
+                          "The newest image is too old: forces fade until the next one"}
+                   : forcesFading("The device's dead-man switch is open, or it is lost: forces fade");
     }
     if (atLimit(record, input.haptics)) {
         return {"AT LIMIT", "!", colour::kWarningWord, Edge::Hatched,
@@ -98,10 +111,8 @@ Mode modeOf(const ModeInput& input) {
     }
     if (!input.console.forces) {
         return input.run.step().record.state == StepState::Fading
-                   ? Mode{"FORCES FADING", "~", colour::kCaution, Edge::Dashed,
-                          "Forces are being switched off"}
-                   : Mode{"FORCES OFF", kSquare, IM_COL32(255, 255, 255, 255), Edge::Double,
-                          "The device gets no force. A: arm"};
+                   ? forcesFading("Forces are being switched off")
+                   : forcesOff("The device gets no force. A: arm");
     }
     return armedMode(input);
 }
@@ -123,9 +134,10 @@ std::vector<Chip> chipsOf(const ModeInput& input) {
     if (console.forces && !console.timeLine.on) {
         constexpr std::pair<const char*, const char*> kUnknown{"NO REGIONS YET",
                                                                "No force before regions are known"},
-            kLags{"LAGS", "Contacts come late: no force until the tool has caught up"},
+            kLags{"LAGS", "Late contacts or slow joints: no force until the tool has caught up"},
             kEscaping{"ESCAPING", "A region now covers the tool, which moves out"}, kNone{nullptr, ""};
-        const auto [word, tip] = record.state == StepState::Off       ? kUnknown
+        const bool unknown = record.state == StepState::Off && record.frame < 0;
+        const auto [word, tip] = unknown                              ? kUnknown
                                  : record.state == StepState::Waiting ? kLags
                                  : record.state == StepState::Escape  ? kEscaping
                                                                       : kNone;

@@ -33,7 +33,7 @@ TEST_CASE(
     CHECK(mode(StepState::Contact) == "FORCES OFF");
     CHECK(mode(StepState::Fading) == "FORCES FADING"); // they fade over some time
     run.console.forces = true;
-    CHECK(mode(StepState::Off) == "ARMED");
+    CHECK(mode(StepState::Off) == "ARMED"); // no frame yet
     CHECK(chips() == "NO REGIONS YET");
     CHECK(mode(StepState::Free) == "ARMED");
     CHECK(chips().empty());
@@ -45,6 +45,7 @@ TEST_CASE(
     run.row.record.wrench.force = dvec3(0.0, 0.0, 0.99 * run.haptics.forceLimit);
     CHECK(mode(StepState::Contact, 0.5) == "AT LIMIT");
     CHECK(chips() == "GUIDE");
+    run.row.record.sceneAge = 0.11;
     CHECK(mode(StepState::Fading, 0.5) == "STALE");
     CHECK(mode(StepState::Trapped, 0.5) == "HELD");
     run.console.recorded = {62.0, 34'000'000, 2'100'000'000};
@@ -55,6 +56,28 @@ TEST_CASE(
     run.console.timeLine.on = true;
     CHECK(mode(StepState::Contact) == "LOOK-BACK");
     CHECK(chips().find("CONTACT") == 0);
+}
+
+TEST_CASE(
+    "While forces are armed but the dead-man switch is open or the device is lost, the mode is FORCES OFF") {
+    ViewedRun run;
+    const ModeInput input{run.console, run.view, run.haptics};
+    run.console.forces = true;
+    run.row.record.frame = 3; // regions are known, and fresh
+    run.row.record.sceneAge = 0.02;
+    run.row.record.state = StepState::Fading;
+    run.step(0.001);
+    CHECK(std::string(modeOf(input).word) == "FORCES FADING");
+    CHECK(chipsOf(input).empty());
+    run.row.record.state = StepState::Off;
+    run.step(0.001);
+    CHECK(std::string(modeOf(input).word) == "FORCES OFF");
+    CHECK(std::string(modeOf(input).meaning).find("dead-man switch") != std::string::npos);
+    CHECK(chipsOf(input).empty());
+    run.row.record.sceneAge = -0.2; // a camera on another clock, ahead of the hand's
+    run.row.record.state = StepState::Fading;
+    run.step(0.001);
+    CHECK(std::string(modeOf(input).word) == "STALE");
 }
 
 TEST_CASE("Words of states, chips and alarms have a contrast of 7 to 1 over a white and a black image") {
@@ -97,6 +120,7 @@ TEST_CASE("Each mode has its own sign, colour or frame, and none of two looks th
     const ModeInput input{run.console, run.view, run.haptics};
     run.console.forces = true;
     std::set<std::pair<std::string, Edge>> looks;
+    run.row.record.sceneAge = 0.11; // a state of fading is stale
     const auto look = [&](StepState state) {
         run.row.record.state = state;
         run.step(0.001);
