@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace fathom::operate {
 
@@ -48,22 +49,25 @@ std::string marginText(double margin) {
 }
 
 void passes(Console& console, const HudInput& input) {
-    double sum = 0.0;
-    std::string parts;
     const std::vector<double>& ms = input.run.passMs();
-    for (size_t i = 0; i < ms.size() && i < input.passNames.size(); ++i) {
-        sum += ms[i];
-        parts += (i != 0 ? "  " : "") + input.passNames[i] + printed(" %.2f", ms[i]);
-    }
-    fontText(input.letters.body, colour::kText, printed("GPU passes %.2f ms", sum));
+    fontText(input.letters.body, colour::kText,
+             printed("GPU passes %.2f ms", std::accumulate(ms.begin(), ms.end(), 0.0)));
     ImGui::PushTextWrapPos(0.0f);
-    fontText(input.letters.small, colour::kQuiet, parts.empty() ? "none yet" : parts);
+    fontText(input.letters.small, colour::kQuiet, passTimes(input.passNames, ms));
     ImGui::PopTextWrapPos();
     markPlace(console, "passes");
-    explain(console, "Time of the GPU for the newest frame, from image to regions, and of each pass [ms]");
+    explain(console, "Time of the GPU for the newest frame, from image to regions, and of each pass");
 }
 
 } // namespace
+
+std::string passTimes(const std::vector<std::string>& names, const std::vector<double>& ms) {
+    std::string parts;
+    for (size_t i = 0; i < ms.size() && i < names.size(); ++i) {
+        parts += (i != 0 ? ", " : "us per pass: ") + names[i] + printed(" %.0f", 1e3 * ms[i]);
+    }
+    return parts.empty() ? "none yet" : parts;
+}
 
 void drawGauges(Console& console, const HudInput& input) {
     const StepRecord& record = input.run.step().record;

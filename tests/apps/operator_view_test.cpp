@@ -220,6 +220,11 @@ TEST_CASE("An alarm says what happens and then what to do") {
     }
 }
 
+TEST_CASE("Times of passes have microseconds, so that short passes do not show as zero") {
+    CHECK(passTimes({"classify", "moments"}, {0.0562, 0.0016}) == "us per pass: classify 56, moments 2");
+    CHECK(passTimes({"classify"}, {}) == "none yet");
+}
+
 TEST_CASE("A thinned outline has few points and stays within 0.25 pixels of all of them") {
     for (const double radius : {0.0, 3.0, 30.0, 300.0, 3000.0}) {
         CAPTURE(radius);
