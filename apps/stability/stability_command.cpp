@@ -21,6 +21,7 @@ struct StabilityOptions {
     std::vector<std::string> cases;
     std::filesystem::path out;
     bool brief = false;
+    bool list = false;
 };
 
 struct ChosenDevice {
@@ -48,6 +49,13 @@ int runStability(const StabilityOptions& options, const GlobalOptions& global) {
         return (chosen ? *chosen : chosen.emplace(global)).device;
     };
     const auto cases = stability::chosenCases(stability::allCases(source), options.cases);
+    if (options.list) {
+        stability::listCases(std::cout, cases);
+        return 0;
+    }
+    if (options.out.empty()) {
+        throw CLI::RequiredError("--out");
+    }
     const OutputLock lock = prepareOutputFolder(options.out, false);
     std::vector<stability::CaseResult> results;
     double seconds = 0.0;
@@ -71,9 +79,11 @@ void addStabilityCommand(CLI::App& app, const GlobalOptions& global, int& result
     auto options = std::make_shared<StabilityOptions>();
     CLI::App* command =
         app.add_subcommand("stability", "measure stiff and extreme cases against stated limits");
-    command->add_option("CASE", options->cases, "cases or groups of cases (default: all)");
+    command->add_option("CASE", options->cases, "cases or groups of cases, see --list (default: all)");
     command->add_flag("--short", options->brief, "run the shortened form of the tests, with the same limits");
-    command->add_option("--out", options->out, "output folder; its files are replaced")->required();
+    command->add_flag("--list", options->list, "list the chosen cases with their groups, and run none");
+    command->add_option("--out", options->out,
+                        "output folder; its files are replaced (required without --list)");
     command->callback([options, &global, &result] { result = runStability(*options, global); });
 }
 

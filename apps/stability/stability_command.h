@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // `fathom stability [CASE...] --out DIR`: runs the stiff and extreme cases and checks each against its limit.
+// `fathom stability [CASE...] --list` lists them.
 #pragma once
 
 #include "apps/global_options.h"

@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <iomanip>
 #include <limits>
+#include <ostream>
 #include <set>
 
 namespace fathom::stability {
@@ -18,14 +20,10 @@ const char* nameOfGroup(Group group) {
     return kGroupNames[static_cast<size_t>(group)];
 }
 
-std::string knownNames(const std::vector<Case>& all) {
-    std::string names = "groups ";
+std::string groupNames() {
+    std::string names;
     for (const char* group : kGroupNames) {
-        names += std::string(group) + ", ";
-    }
-    names += "cases ";
-    for (const Case& c : all) {
-        names += c.name + (&c == &all.back() ? "" : ", ");
+        names += (names.empty() ? "" : ", ") + std::string(group);
     }
     return names;
 }
@@ -57,7 +55,8 @@ std::vector<Case> chosenCases(const std::vector<Case>& all, const std::vector<st
             return c.name == name || nameOfGroup(c.group) == name;
         });
         if (!known) {
-            throw BadInput("stability", "CASE", "'" + name + "'", knownNames(all));
+            throw BadInput("stability", "CASE", "'" + name + "'",
+                           "a group (" + groupNames() + ") or a case that fathom stability --list prints");
         }
     }
     std::vector<Case> chosen;
@@ -69,6 +68,12 @@ std::vector<Case> chosenCases(const std::vector<Case>& all, const std::vector<st
         }
     }
     return chosen;
+}
+
+void listCases(std::ostream& out, const std::vector<Case>& cases) {
+    for (const Case& c : cases) {
+        out << std::left << std::setw(10) << nameOfGroup(c.group) << c.name << "\n";
+    }
 }
 
 CaseResult runCase(const Case& one, RunLength runLength) {

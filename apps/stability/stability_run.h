@@ -4,6 +4,7 @@
 
 #include "apps/stability/stability_case.h"
 
+#include <iosfwd>
 #include <string>
 #include <vector>
 
@@ -14,8 +15,11 @@ namespace fathom::stability {
 std::vector<Case> allCases(const DeviceSource& device);
 
 // The cases with these names or group names, in the order of `all`; all cases if `names` is empty. Throws
-// BadInput with the list of known names when a name is unknown.
+// BadInput with the names of the groups when a name is unknown.
 std::vector<Case> chosenCases(const std::vector<Case>& all, const std::vector<std::string>& names);
+
+// One line per case: its group and its name.
+void listCases(std::ostream& out, const std::vector<Case>& cases);
 
 struct CaseResult {
     std::string name;

@@ -12,6 +12,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <sstream>
 
 using namespace fathom;
 using namespace fathom::stability;
@@ -56,7 +57,7 @@ TEST_CASE("The suite has at least sixty cases in ten groups, each with a unique 
 }
 
 TEST_CASE("Cases are selected by name or group in the suite's order, and an unknown name is rejected with "
-          "the known ones") {
+          "the groups") {
     const std::vector<Case> all{
         {"a-1", Group::Solver, {}}, {"b-1", Group::Stiff, {}}, {"b-2", Group::Stiff, {}}};
     CHECK(chosenCases(all, {}).size() == 3);
@@ -71,9 +72,16 @@ TEST_CASE("Cases are selected by name or group in the suite's order, and an unkn
         CHECK(e.exitCode() == 2);
         const std::string text = e.what();
         CHECK(text.find("'nonsense'") != std::string::npos);
-        CHECK(text.find("b-2") != std::string::npos);
         CHECK(text.find("long-run") != std::string::npos);
+        CHECK(text.find("--list") != std::string::npos);
+        CHECK(text.find("b-2") == std::string::npos); // the full suite has far too many for a line
     }
+}
+
+TEST_CASE("The list of cases has one line per case, its group and its name") {
+    std::ostringstream list;
+    listCases(list, {{"a-1", Group::Solver, {}}, {"b-1", Group::LongRun, {}}});
+    CHECK(list.str() == "solver    a-1\nlong-run  b-1\n");
 }
 
 TEST_CASE("A case that throws or has a NaN figure does not hold") {

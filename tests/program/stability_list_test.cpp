@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/rig/run_fathom.h"
+
+#include <doctest/doctest.h>
+
+using namespace fathom;
+
+TEST_CASE("stability lists its cases without an output folder, and requires the folder to run them") {
+    const ProgramRun list = runFathom({"stability", "--list", "stiff", "solver-needle"});
+    CAPTURE(list.err);
+    CHECK(list.exitCode == 0);
+    CHECK(list.out.rfind("solver    solver-needle\nstiff     ", 0) == 0);
+    CHECK(list.out.find("feel") == std::string::npos);
+    const ProgramRun run = runFathom({"stability", "solver-needle"});
+    CHECK(run.exitCode == 2);
+    CHECK(run.err == "fathom: stability: --out is required\n");
+}
