@@ -1,4 +1,5 @@
-# Bash completion for `fathom`. It reads the program's own --help, so it is never out of date.
+# Bash completion for `fathom`. It reads subcommands and options from the program's own --help. The test `install` compares the words
+# listed here, of devices and sources, with the help.
 
 # Prints the long options of a help text, and the names below "Subcommands:".
 _fathom_words() {
@@ -21,8 +22,8 @@ _fathom() {
     done
     case $before in
     --query) mapfile -t COMPREPLY < <(compgen -W "cpu gpu" -- "$current"); return ;;
-    --hand-device) mapfile -t COMPREPLY < <(compgen -W "falcon spacemouse" -f -- "$current"); return ;;
-    --source) mapfile -t COMPREPLY < <(compgen -W "v4l2:auto" -f -- "$current"); return ;;
+    --hand-device) mapfile -t COMPREPLY < <(compgen -W "falcon haply ros2 spacemouse" -f -- "$current"); return ;;
+    --source) mapfile -t COMPREPLY < <(compgen -W "v4l2:auto openni2 ros2:depth=" -f -- "$current"); return ;;
     esac
     if [[ $current == -* ]] || [[ -z $command && $before != --trace && $before != --device ]]; then
         mapfile -t COMPREPLY < <(compgen -W "$(_fathom_words "${COMP_WORDS[0]}" ${command:+"$command"}) $([[ -n $command ]] && _fathom_words "${COMP_WORDS[0]}" | grep ^--)" -- "$current")
