@@ -21,7 +21,8 @@ struct ReactionInput {
 // the hand's own motion compresses, because the tool only ever moves nearer to the hand. Any faster
 // growth has another cause: a row appeared, new data moved a surface, a lag ended. It then rises by at most
 // kAppear, and after new data evenly over the time between frames, so that no frame is felt as a click.
-// Falls are immediate. After new data the direction, too, turns evenly over the time between frames.
+// Falls that the hand causes are immediate. After new data the direction, too, turns evenly over the time
+// between frames.
 //
 // New data also changes a surface at rest, by the sensor's noise. So the first kBand of what it changes is
 // felt over kSettle, rises, falls and turns alike; the tool follows it at once. What the hand's own motion
