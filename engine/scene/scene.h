@@ -154,7 +154,7 @@ struct Scene {
         uint32_t radius = 2;  // [pixels] 0..16; 0 = none
         double sigma = 0.01;  // [m] paper eq. 2
         double edge = 0.03;   // relative depth jump of a flying pixel; 0 = off
-        bool isolated = true; // pixels without a neighbour near them, as of marine snow, are rejected
+        bool isolated = true; // pixels with fewer than two neighbours near them (marine snow) are rejected
         // phi of paper eq. 2: exp(-t) itself, or (1 - t / 16.68)^16 down to 0, which is at most 0.008 off.
         enum class Weights { Exact, Polynomial } weights = Weights::Exact;
         uint32_t memory = 0; // [frames] most that the estimate of a pixel's depth averages; 0 = no estimate

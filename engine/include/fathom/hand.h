@@ -43,7 +43,7 @@ enum class State {
     Escape,  ///< new fixtures cover the tool; it moves out
     Trapped, ///< no motion obeys every fixture: the tool is held and the force ramps out
     Fading,  ///< the newest frame is too old, or forces were switched off: the force ramps out
-    Waiting  ///< nothing pushes, and the tool lags behind the hand (late contact answers): no force
+    Waiting  ///< nothing pushes, and the tool lags (late contact answers, slow joints): no force
 };
 
 /// What limits a step, one bit each.
