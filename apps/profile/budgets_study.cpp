@@ -225,7 +225,7 @@ void addStep(const StudyContext& context, Study& study) {
            "a leaf entered region spheres by " + digits(run.deepest * 1e6) + " um");
     verify(share >= 0.95, "budgets", "step, " + size,
            "the tool touches the wall in " + digits(share * 100.0) + " % of the ticks only");
-    addRow(study, "haptic turn pressed 2 mm, up to 4 solves with the full check", size, run.steps.cost(),
+    addRow(study, "haptic step pressed 2 mm, up to 4 solves with the full check", size, run.steps.cost(),
            {0.03, 0.08}, share);
 }
 

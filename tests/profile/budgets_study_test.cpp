@@ -53,7 +53,7 @@ TEST_CASE(
     CHECK(given.at("nearest touching sphere of each leaf") == std::vector{8.0, 20.0});
     CHECK(given.at("cull at 10 mm reach by the grid") == std::vector{100.0});
     CHECK(given.at("solver with real contacts, rows added and solved") == std::vector{1.5, 3.0});
-    CHECK(given.at("haptic turn pressed 2 mm, up to 4 solves with the full check") ==
+    CHECK(given.at("haptic step pressed 2 mm, up to 4 solves with the full check") ==
           std::vector{30.0, 80.0});
     for (const double us : given.at("grid over the whole set")) {
         CHECK((us == 1000.0 || us == 5000.0));
