@@ -5,10 +5,10 @@
 #include "engine/scene/yaml_node.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace fathom {
@@ -27,19 +27,13 @@ inline CLI::Validator numberIn(const Range& range) {
     return CLI::Validator(check, "");
 }
 
-// Accepts one of the words.
-inline CLI::Validator wordIn(std::vector<std::string> words) {
-    const auto check = [words = std::move(words)](const std::string& text) -> std::string {
-        std::string allowed;
-        for (const std::string& word : words) {
-            if (word == text) {
-                return "";
-            }
-            allowed += (allowed.empty() ? "" : ", ") + word;
-        }
-        return text + " (allowed: " + allowed + ")";
+// Accepts one of the words. The help shows them behind the option's type.
+inline CLI::Validator wordIn(const std::vector<std::string>& words) {
+    const auto check = [words](const std::string& text) -> std::string {
+        const bool known = std::find(words.begin(), words.end(), text) != words.end();
+        return known ? "" : text + " (allowed: " + CLI::detail::join(words, ", ") + ")";
     };
-    return CLI::Validator(check, "");
+    return CLI::Validator(check, "{" + CLI::detail::join(words, ",") + "}");
 }
 
 } // namespace fathom
