@@ -6,7 +6,7 @@ _fathom_words() {
     "$@" --help 2>/dev/null | awk '
         /^Subcommands:/ { names = 1; next }
         /^[A-Z]/ { names = 0 }
-        names && /^  [a-z]/ { sub(/,$/, "", $1); print $1 }
+        names && /^  [a-z]/ { if (sub(/,$/, "", $1)) print $2; print $1 }
         match($0, /^  (-[a-z],)?--[a-z][a-z0-9-]*/) { word = substr($0, RSTART, RLENGTH); sub(/^ +(-[a-z],)?/, "", word); print word }'
 }
 
