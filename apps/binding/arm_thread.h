@@ -15,7 +15,7 @@ namespace fathom {
 
 // Help text of --arm.
 inline constexpr const char* kArmHelp = "the real arm: serial port of the scene's arm.driver (the arm "
-                                        "moves), or ros2:joints=TOPIC (docs/guide/ros2.md)";
+                                        "moves), or ros2:joints=TOPIC (man fathom)";
 
 class ArmThread;
 

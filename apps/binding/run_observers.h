@@ -14,9 +14,9 @@ namespace fathom {
 
 // Help texts of --view-door and --ros2.
 inline constexpr const char* kViewEndpointHelp =
-    "socket that sends every tick and fixture set to observers (devices/bridge)";
+    "socket that sends every tick and fixture set to observers (fathom/device_socket.h)";
 inline constexpr const char* kRos2Help = "publish the run as topics of ROS 2 below this name: "
-                                         "NAME or /NAME[,KEY=VALUE]... (docs/guide/ros2.md)";
+                                         "NAME or /NAME[,KEY=VALUE]... (man fathom)";
 
 // Who receives the state of a run.
 struct ObserverOptions {
