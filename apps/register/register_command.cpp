@@ -137,7 +137,8 @@ void addRegisterCommand(CLI::App& app, const GlobalOptions&) {
     command->add_option(
         "--points", options->points,
         "the same points in both frames: CSV camera_x,camera_y,camera_z,base_x,base_y,base_z [m]");
-    command->add_option("--frames", options->frames, "number of frames to use (30)")->check(CLI::Range(1, 10000));
+    command->add_option("--frames", options->frames, "number of frames to use (30)")
+        ->check(CLI::Range(1, 10000));
     command
         ->add_option("--bound", options->bound,
                      "[m] largest standard deviation of the pairs (0.02); beyond it, the exit code is 1")
