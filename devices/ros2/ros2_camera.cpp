@@ -43,7 +43,7 @@ void Ros2Camera::receive(Topic& topic, const ImageStream& stream, LiveStamps& st
             const double stamp =
                 stamps.stampOf(ros::stamp(MessageCursor(taken.message->bytes(), true)), *taken.message);
             if (!stamps.forward(stamp)) {
-                skip(stream.name + ": a stamp goes back", depth ? 1 : 0);
+                skip(stream.name + ": a stamp is not later than the one before", depth ? 1 : 0);
                 continue;
             }
             if (depth && stamps.restarted()) {
