@@ -24,6 +24,7 @@ struct ArmFeedback {
     bool homed = false;  // positions are absolute
     bool holding = true; // the driver holds: on command, stale feedback or overcurrent
     bool stale = true;
+    int lacksCurrent = -1;   // stale because of this axis, which reports no motor current; -1 = none
     bool overloaded = false; // latched until reset
     uint64_t damaged = 0;    // damaged frames, dropped
 };

@@ -21,7 +21,7 @@ constexpr std::array<const char*, 7> kBravoAxes{"axis_g", "axis_f", "axis_e", "a
                                                 "axis_c", "axis_b", "jaws"};
 constexpr std::array<const char*, 5> kEcaAxes{"shoulder", "slew", "elbow", "wrist", "gripper"};
 
-std::span<const char* const> namesOf(Driver::Protocol protocol) {
+std::span<const char* const> namesOf(Driver::Protocol protocol) noexcept {
     using Names = std::span<const char* const>;
     return protocol == Driver::Protocol::ReachAlpha5   ? Names(kReachAxes)
            : protocol == Driver::Protocol::ReachBravo7 ? Names(kBravoAxes)
@@ -58,6 +58,10 @@ size_t jointNamed(const Scene& scene, size_t row, const Driver& driver, const Ar
 }
 
 } // namespace
+
+const char* armAxisName(Driver::Protocol protocol, size_t axis) noexcept {
+    return namesOf(protocol)[axis];
+}
 
 ArmPosture ArmAxes::postureOf(const ArmFeedback& feedback) const noexcept {
     ArmPosture posture;

@@ -36,6 +36,9 @@ struct ArmAxes {
 // One axis per joint of the chain, in its order; no jaws.
 ArmAxes chainAxes(const ArmModel& model);
 
+// Name of a driver's axis, as scenes have it.
+const char* armAxisName(SceneArm::Driver::Protocol protocol, size_t axis) noexcept;
+
 // Throws BadInput with the scene's field for unknown axes or joints and for joints without an axis.
 ArmAxes armAxes(const Scene& scene, const ArmRig& rig);
 

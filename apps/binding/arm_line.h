@@ -20,7 +20,7 @@ public:
     virtual void awaitWatchdog(const std::atomic<bool>& stop) = 0;
     // True if a watchdog is ready to stop the arm, so it may move at time `now` [s]. Does not wait.
     virtual bool watched(double now) noexcept = 0;
-    // [s] without feedback until the arm counts as absent at the start, and why there is none, for messages.
+    // [s] without feedback until the arm counts as absent at the start, and why it is silent, for messages.
     virtual double patience() const { return 5.0; }
     virtual std::string silence() const { return "no answer"; }
 };

@@ -161,6 +161,9 @@ void ArmThread::note(const ArmStatus& told, double now) {
     if (isFault(told.state)) {
         log::warn("{}: {}: the arm and the tool are held, forces fade out", description(),
                   armStateName(told.state));
+        if (told.state == ArmState::Silent && line_) {
+            log::warn("{}: {}", description(), line_->silence());
+        }
         quietUntil_ = now + kQuiet;
     } else if (isFault(noted_)) {
         log::warn("{}: follows again", description());

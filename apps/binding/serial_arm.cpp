@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/binding/serial_arm.h"
 
+#include "apps/binding/arm_axes.h"
 #include "devices/serial/eca_arm.h"
 #include "devices/serial/reach_arm.h"
 #include "engine/types/error.h"
@@ -60,6 +61,13 @@ void SerialArm::awaitWatchdog(const std::atomic<bool>& stop) {
         }
         std::this_thread::sleep_for(kWatchdogLook);
     }
+}
+
+std::string SerialArm::silence() const {
+    const int axis = device_->feedback().lacksCurrent;
+    return axis < 0 ? ArmLine::silence()
+                    : "axis " + std::string(armAxisName(protocol_, static_cast<size_t>(axis))) +
+                          " reports no motor current";
 }
 
 // Restarts a killed watchdog without waiting for it.

@@ -24,6 +24,7 @@ public:
     bool gone() const noexcept override { return port_.gone(); }
     void awaitWatchdog(const std::atomic<bool>& stop) override;
     bool watched(double now) noexcept override;
+    std::string silence() const override;
 
 private:
     std::string description_;

@@ -30,6 +30,7 @@ ReachArm::ReachArm(SerialPort& port, const ReachOptions& options, ReachKind kind
         options_.period = kind == ReachKind::Alpha5 ? 0.02 : 0.03;
     }
     heardAt_.fill(kNever);
+    currentAt_.fill(kNever);
     overSince_.fill(std::numeric_limits<double>::infinity());
     feedback_.homed = true;
     feedback_.age = std::numeric_limits<double>::infinity();
@@ -73,6 +74,7 @@ void ReachArm::heard(const ReachPacket& packet, double now) noexcept {
         heardAt_[axis] = now;
     } else if (packet.id == kCurrent) {
         feedback_.current[axis] = static_cast<double>(*value) * 1e-3;
+        currentAt_[axis] = now;
     }
 }
 
@@ -89,10 +91,15 @@ void ReachArm::receive(double now) noexcept {
 }
 
 void ReachArm::watch(double now, const ArmCommand& command) noexcept {
-    const double oldest =
-        *std::min_element(heardAt_.begin(), heardAt_.begin() + static_cast<std::ptrdiff_t>(devices_.size()));
+    const auto axes = static_cast<std::ptrdiff_t>(devices_.size());
+    const double oldest = *std::min_element(heardAt_.begin(), heardAt_.begin() + axes);
     feedback_.age = oldest == kNever ? std::numeric_limits<double>::infinity() : now - oldest;
-    feedback_.stale = !(feedback_.age <= options_.staleAfter);
+    const auto unlimited = std::min_element(currentAt_.begin(), currentAt_.begin() + axes);
+    const bool heard = feedback_.age <= options_.staleAfter;
+    feedback_.lacksCurrent = heard && now - *unlimited > options_.currentStaleAfter
+                                 ? static_cast<int>(unlimited - currentAt_.begin())
+                                 : -1;
+    feedback_.stale = !heard || feedback_.lacksCurrent >= 0;
     for (size_t k = 0; k < devices_.size(); ++k) {
         const bool over = std::abs(feedback_.current[k]) > options_.mostCurrent;
         overSince_[k] = over ? std::min(overSince_[k], now) : std::numeric_limits<double>::infinity();

@@ -24,7 +24,8 @@ struct ReachOptions {
     // [s] between commands; 0 = 0.02, and 0.03 for seven axes: commands and answers share an RS-485 line, and
     // take 82 % and 77 % of it
     double period = 0.0;
-    double staleAfter = 0.1; // [s] age of feedback that stops the arm
+    double staleAfter = 0.1;        // [s] age of a position that stops the arm
+    double currentStaleAfter = 0.5; // [s] the same of a motor current, which the host limits
     double lead = 0.05; // [rad] setpoints lead the measurement by at most this, which bounds the motion after
                         // a lost line
     double jawLead = 0.005;    // [m] the same for the jaws
@@ -67,6 +68,7 @@ private:
     ReachReader reader_;
     ArmFeedback feedback_;
     std::array<double, kMaxArmAxes> heardAt_{};   // [s] of each position; -1e9 = never
+    std::array<double, kMaxArmAxes> currentAt_{}; // [s] of each current; -1e9 = never
     std::array<double, kMaxArmAxes> overSince_{}; // [s]; infinite = not over
     std::array<Sent, 48> sent_{};                 // ring buffer
     size_t nextSent_ = 0;

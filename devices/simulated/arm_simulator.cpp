@@ -31,11 +31,11 @@ void ReachSimulator::handle(const ReachPacket& packet, std::vector<uint8_t>& out
     }
     for (size_t i = 0; packet.id == 0x60 && i < packet.size; ++i) {
         const uint8_t id = packet.data[i];
-        if (id != 0x03 && id != 0x05) {
+        const double answer = id == 0x03 ? position[d] : id == 0x05 ? current[d] : NAN;
+        if (std::isnan(answer)) {
             continue;
         }
         ReachFrame frame;
-        const double answer = id == 0x03 ? position[d] : current[d];
         const size_t size =
             encodeReach(ReachPacket::ofFloat(id, packet.device, static_cast<float>(answer)), frame);
         out.insert(out.end(), frame.begin(), frame.begin() + static_cast<std::ptrdiff_t>(size));

@@ -26,7 +26,7 @@ class ReachSimulator final : public ArmSimulator {
 public:
     static constexpr size_t kDevices = 8;                        // by device id; 0 is none
     std::array<double, kDevices> position{};                     // [rad], jaws [mm]
-    std::array<double, kDevices> current{};                      // [mA]
+    std::array<double, kDevices> current{};                      // [mA]; NaN = not reported
     std::array<double, kDevices> speed{0, 20, 1, 1, 1, 1, 1, 1}; // [rad/s], jaws [mm/s]
 
     explicit ReachSimulator(ReachKind kind = ReachKind::Alpha5)

@@ -205,6 +205,27 @@ TEST_CASE("Sustained overcurrent holds the arm until it is reset") {
     CHECK(rig.error(kGo) < 1e-4);
 }
 
+TEST_CASE("A Reach arm that does not report the current of each motor is held") {
+    Rig never;
+    never.arm.current.fill(std::nan(""));
+    never.run(1.0, kGo);
+    CHECK(never.driver.feedback().holding);
+    CHECK(never.driver.feedback().lacksCurrent == 0);
+    CHECK(never.arm.position == ReachSimulator().position); // it never moved
+    Rig rig;
+    rig.run(0.2, kGo);
+    REQUIRE_FALSE(rig.driver.feedback().holding);
+    rig.arm.current[3] = std::nan(""); // the elbow's answer gets lost from now on
+    rig.run(1.1, kGo);
+    CHECK(rig.driver.feedback().holding);
+    CHECK(rig.driver.feedback().lacksCurrent == 2);
+    CHECK(rig.driver.feedback().age < 0.1); // its position comes
+    rig.arm.current[3] = 100.0;
+    rig.run(2.0, kGo);
+    CHECK(rig.driver.feedback().lacksCurrent == -1);
+    CHECK(rig.error(kGo) < 1e-4);
+}
+
 TEST_CASE("A file that is not a serial port is rejected in one line") {
     const auto refusal = [](const std::string& name, uint32_t baud) -> std::string {
         try {

@@ -15,6 +15,9 @@ TEST_CASE("An arm that does not answer, is outside its limits or is not describe
         ReachSimulator arm;
         setStart(arm);
         arm.position[4] = 2.5;
+        if (part.find("motor current") != std::string::npos) {
+            arm.current.fill(std::nan(""));
+        }
         ArmBench bench(arm, stage / "line");
         std::vector<std::string> words{"--realtime", "--arm", (stage / "line").string()};
         words = more.empty() ? words : more;
@@ -27,6 +30,7 @@ TEST_CASE("An arm that does not answer, is outside its limits or is not describe
         CHECK_FALSE(std::filesystem::exists(stage / "out/summary.json"));
     };
     refused(kReach, {}, 2, "joint shoulder: 2.500000 (allowed: -2.000000 to 2.000000");
+    refused(kReach, {}, 3, "axis base reports no motor current");
     refused(kEca, {}, 3, "no answer");
     refused(kReach, {"--arm", "x"}, 2, "--arm: x (allowed: together with --realtime)");
     refused(kReach, {"--realtime", "--arm", "/nowhere"}, 2, "/nowhere: serial line");
