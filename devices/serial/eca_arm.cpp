@@ -12,6 +12,8 @@ namespace {
 constexpr double kDegree = 0.017453292519943295;
 constexpr int kPressedFrames = 3; // consecutive readings at the stop: a single one may be noise
 constexpr double kAmpere = 0.094e-3;
+constexpr double kAtRest = 0.02; // [rad] by which a joint at rest may move
+constexpr double kFaster = 1.5;  // share of fullSpeed, which is not verified
 
 } // namespace
 
@@ -34,11 +36,18 @@ void EcaArm::loseHome() noexcept {
     pressed_.fill(0);
 }
 
+// [counts] between two frames that are `silence` [s] apart, or were delivered together.
+int EcaArm::mostMoved(size_t joint, double silence) const noexcept {
+    const double moving = kFaster * options_.fullSpeed * std::max(silence, options_.period);
+    const double most = silence > options_.staleAfter ? kAtRest : moving + kAtRest;
+    return static_cast<int>(std::min<double>(options_.mostCounts, most / radiansPerCount(joint)));
+}
+
 void EcaArm::heard(const std::array<EcaStatus, kEcaJoints>& status, double now) noexcept {
     for (size_t j = 0; j < kEcaJoints; ++j) {
         // Shortest difference modulo 2^16: valid while a joint moves less than half the range between frames.
         const auto moved = static_cast<int16_t>(status[j].encoder - encoder_[j]);
-        if (any_ && std::abs(int{moved}) > options_.mostCounts) {
+        if (any_ && std::abs(int{moved}) > mostMoved(j, now - heardAt_)) {
             loseHome();
         }
         counts_[j] += any_ ? moved : 0;

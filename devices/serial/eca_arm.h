@@ -24,12 +24,12 @@ struct EcaOptions {
     double overloadTime = 0.3;             // [s]
     uint16_t currentLimit = 4095;          // the arm's own, 0..4095
     std::array<double, kEcaJoints> stop{}; // [rad] of each joint at its clockwise stop
-    int mostCounts =
-        8000; // encoder counts per period at most; more means another arm or a restart: home again
+    int mostCounts = 8000;                 // encoder counts between two frames at most, of any joint
 };
 
 // Axes: shoulder, slew, elbow, wrist, gripper [rad]. Homing starts with the first command other than hold,
-// joint by joint, and again after an encoder jump.
+// joint by joint, and again when an encoder jumped: farther than the joint can move between two frames, or
+// after a silence, in which the arm may have restarted, by more than a joint at rest.
 class EcaArm final : public ArmDevice {
 public:
     EcaArm(SerialPort& port, const EcaOptions& options = {});
@@ -43,6 +43,7 @@ public:
 private:
     void receive(double now) noexcept;
     void heard(const std::array<EcaStatus, kEcaJoints>& status, double now) noexcept;
+    int mostMoved(size_t joint, double silence) const noexcept;
     void loseHome() noexcept;
     void watch(double now, const ArmCommand& command) noexcept;
     EcaDemand speedDemand(double speed) const noexcept;

@@ -140,13 +140,50 @@ TEST_CASE("An encoder jump means a restart: the arm is homed again") {
     CHECK(rig.error(kGo) < 2e-3);
 }
 
+TEST_CASE("An ECA arm that restarts during a silence is homed again, however near its counters begin") {
+    Rig rig;
+    rig.run(12.0, kGo);
+    REQUIRE(rig.driver.feedback().homed);
+    rig.line.faults.cut = true;
+    rig.run(1.0, kHold);
+    rig.line.faults.cut = false;
+    rig.run(0.2, kHold);
+    CHECK(rig.driver.feedback().homed); // it stood still
+    rig.line.faults.cut = true;
+    rig.run(1.0, kHold);
+    const std::array<int, kEcaJoints> since{3000, -5000, 2000, 2500, 4000}; // counts since it was switched on
+    for (size_t j = 0; j < kEcaJoints; ++j) {
+        rig.arm.firstCount[j] = static_cast<uint16_t>(rig.arm.firstCount[j] - since[j]);
+    }
+    rig.line.faults.cut = false;
+    rig.run(0.2, kHold);
+    CHECK_FALSE(rig.driver.feedback().homed);
+    rig.run(20.0, kGo);
+    CHECK(rig.driver.feedback().homed);
+    CHECK(rig.error(kGo) < 2e-3);
+}
+
+TEST_CASE("A joint of an ECA arm with few counts per turn loses its home by a jump, too") {
+    for (const auto& [joint, counts] :
+         {std::pair(3, 60), std::pair(4, 400)}) { // wrist, gripper: 7 and 6 degrees
+        CAPTURE(joint);
+        Rig rig;
+        rig.run(12.0, kGo);
+        REQUIRE(rig.driver.feedback().homed);
+        rig.arm.firstCount[joint] = static_cast<uint16_t>(rig.arm.firstCount[joint] + counts);
+        rig.run(0.1, kGo);
+        CHECK_FALSE(rig.driver.feedback().homed);
+    }
+}
+
 TEST_CASE("A blocked joint of an ECA arm is held before its motor overheats") {
     Rig rig;
     rig.run(12.0, kGo);
     rig.arm.pressing = 230;
-    rig.arm.upper[0] = 0.3; // something is in the way
-    rig.arm.angle[0] = 0.3;
-    rig.run(1.0, kGo);
+    rig.arm.upper[0] = rig.arm.angle[0]; // something is in the way
+    ArmCommand farther = kGo;
+    farther.position[0] += 0.2;
+    rig.run(1.0, farther);
     CHECK(rig.driver.feedback().overloaded);
     CHECK(rig.driver.feedback().holding);
 }
