@@ -4,6 +4,7 @@
 #include "engine/types/error.h"
 #include "engine/types/log.h"
 
+#include <algorithm>
 #include <thread>
 
 namespace fathom {
@@ -47,26 +48,34 @@ void HaplyBridge::connect() {
     sample_ = state->sample;
     place_ = service->place();
     service_ = std::move(service);
-    introduced_ = awaiting_ = false;
+    introduced_ = false;
+    awaited_ = 0;
     there_ = true;
     heardAt_ = Clock::now();
 }
 
 void HaplyBridge::ask(const dvec3& force) {
     service_->send(haplyForce(device_, force, introduced_ ? "" : kName));
-    introduced_ = awaiting_ = true;
+    introduced_ = true;
+    ++awaited_;
     askedAt_ = Clock::now();
 }
 
-// Reads an answer, if one arrives in time. If it does not contain the device, the device is absent.
+// Reads an answer, if one arrives in time. The service answers in order, so a state is fresh only if no other
+// answer is awaited. If it does not contain the device, the device is absent.
 bool HaplyBridge::answered(std::chrono::microseconds most) {
     const auto message = service_->receive(most);
     if (!message) {
         return false;
     }
-    awaiting_ = false;
     heardAt_ = Clock::now();
     ++figures_.replies;
+    if (awaited_ > 1) {
+        --awaited_;
+        ++figures_.surplus;
+        return false;
+    }
+    awaited_ = 0;
     try {
         const auto state = readHaplyState(*message, device_);
         if (there_ != state.has_value()) {
@@ -85,17 +94,25 @@ bool HaplyBridge::answered(std::chrono::microseconds most) {
     return true;
 }
 
+// Asks again after a request without an answer. Answers that are awaited still when others have come are
+// lost.
+void HaplyBridge::giveUpLate(Clock::time_point now) {
+    if (awaited_ == 0 || now - std::max(askedAt_, heardAt_) <= kReplyTime) {
+        return;
+    }
+    ++figures_.late;
+    awaited_ = heardAt_ > askedAt_ ? 0 : awaited_;
+    ask(there_ ? endpoint_.wrench().force : dvec3(0.0));
+}
+
 void HaplyBridge::exchange() {
     endpoint_.poll();
     const auto now = Clock::now();
-    if (awaiting_ && now - askedAt_ > kReplyTime) {
-        awaiting_ = false;
-        ++figures_.late;
-    }
     if (now - heardAt_ > kDeaf) {
         throw DeviceLost(place_ + ": silent");
     }
-    if (!awaiting_) {
+    giveUpLate(now);
+    if (awaited_ == 0) {
         if (const auto since = now - askedAt_; since < kPeriod) {
             std::this_thread::sleep_for(kPeriod - since);
             endpoint_.poll();

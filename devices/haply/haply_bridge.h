@@ -16,8 +16,9 @@ namespace fathom {
 // Counters since the start.
 struct HaplyFigures {
     uint64_t replies = 0, losses = 0;
-    uint64_t late = 0;   // requests without an answer in kReplyTime
-    uint64_t faults = 0; // invalid answers
+    uint64_t late = 0;    // requests without an answer in kReplyTime
+    uint64_t surplus = 0; // answers to requests before the newest, dropped
+    uint64_t faults = 0;  // invalid answers
 };
 
 // One thread. When this process dies, the service ends the force itself, because each force lasts one tick
@@ -55,13 +56,15 @@ private:
     void close() noexcept;
     void ask(const dvec3& force);
     bool answered(std::chrono::microseconds most);
+    void giveUpLate(Clock::time_point now);
     void exchange();
     void waitForService(const std::atomic<bool>& stop);
 
     Options options_;
     std::unique_ptr<WebSocket> service_;
     std::string device_, place_;
-    bool introduced_ = false, awaiting_ = false, there_ = false;
+    bool introduced_ = false, there_ = false;
+    uint32_t awaited_ = 0; // requests without an answer so far
     Clock::time_point askedAt_{}, heardAt_{};
     HandSample sample_;
     HaplyFigures figures_;

@@ -7,6 +7,7 @@
 #include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
+#include <utility>
 
 namespace fathom::testing {
 
@@ -125,6 +126,7 @@ std::string HaplyService::state(bool inventory) const {
 void HaplyService::speak(int socket) {
     std::string bytes, payload;
     introduced_ = false;
+    held_.clear();
     bool greeted = false;
     while (!stop_) {
         pollfd ready{socket, POLLIN, 0};
@@ -179,6 +181,10 @@ bool HaplyService::answer(int socket, const std::string& message) {
         return sendAll(socket, frame(0x81, "{\"inverse3\": [")); // cut off
     }
     const std::string text = state(false);
+    if (hold || !held_.empty()) {
+        held_ += frame(0x81, text);
+        return hold || sendAll(socket, std::exchange(held_, ""));
+    }
     return fragments ? sendAll(socket, frame(0x01, text.substr(0, 10)) + frame(0x89, "are you there") +
                                            frame(0x80, text.substr(10)))
                      : sendAll(socket, frame(0x81, text));

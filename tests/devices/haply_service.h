@@ -29,6 +29,7 @@ public:
     std::atomic<bool> other{false};               // another Inverse3 is plugged in and listed first
     std::atomic<bool> strange{false};             // handshake is not a WebSocket's
     std::atomic<bool> mute{false};                // does not answer
+    std::atomic<bool> hold{false};                // keeps answers; all are sent with the next one
     std::atomic<bool> fragments{false};           // answers in two frames with a ping between
     std::atomic<int> garbage{0};                  // number of invalid answers
     std::atomic<int> hangUps{0};                  // number of connections that end at their next message
@@ -47,6 +48,7 @@ private:
     std::array<double, 3> force_{};
     nlohmann::json first_;
     bool introduced_ = false;
+    std::string held_; // answers
     std::thread thread_;
 };
 

@@ -115,6 +115,28 @@ TEST_CASE("Fragmented, invalid and missing answers do not stop the exchange") {
     CHECK(loop.bridge.figures().late >= 2);
 }
 
+TEST_CASE("Late answers of the service are dropped, and never make the hand's pose older") {
+    HaplyService service;
+    Loop loop(service.port());
+    REQUIRE(loop.until([](const HandSample& s) { return s.deviceThandle.position.z == 0.1; }));
+    for (const double z : {0.2, 0.3, 0.4}) {
+        service.z = -z;
+        service.hold = true;
+        const uint64_t asked = service.messages;
+        REQUIRE(eventually([&] { return service.messages > asked + 3; }));
+        service.z = z;
+        service.hold = false; // all at once
+        bool old = false;
+        CHECK(loop.until([&](const HandSample& s) {
+            old = old || s.deviceThandle.position.z == -z;
+            return s.deviceThandle.position.z == z;
+        }));
+        CHECK_FALSE(old);
+    }
+    loop.end();
+    CHECK(loop.bridge.figures().surplus >= 6);
+}
+
 TEST_CASE("A device pulled out of the service, and a service that ends, open the dead-man switch until they "
           "are back") {
     std::optional<HaplyService> service(std::in_place);
