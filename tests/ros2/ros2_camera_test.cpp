@@ -194,7 +194,7 @@ TEST_CASE("A clock that jumps back costs a few frames, and capture times never g
             frame != nullptr && ordered(*frame) && camera.skipped() >= LiveStamps::kMaxBackward - 1 ? 1 : 0;
         return after >= 5;
     }));
-    CHECK(mentions(camera.warnings(), "goes back"));
+    CHECK(mentions(camera.warnings(), "not later than the one before"));
 }
 
 TEST_CASE("Messages of a second driver of the same topics are ignored and counted") {
