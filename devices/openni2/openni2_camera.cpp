@@ -221,11 +221,16 @@ bool OpenNi2Camera::paired() const {
 }
 
 std::optional<Frame> OpenNi2Camera::next() {
-    while (!paired()) {
+    const uint32_t before = skipped_.count();
+    for (const auto called = std::chrono::steady_clock::now(); !paired();) {
         if (ended_ || (file_ && left_ <= 0 && !(hasColour_ && depth_.fresh))) {
             return std::nullopt;
         }
-        skipped_ += depth_.fresh && colour_.fresh ? 1 : 0;
+        if (depth_.fresh && colour_.fresh) {
+            skipped_.add(name_, "its colour is over half a frame from its depth");
+        }
+        const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - called;
+        skipped_.limit(name_, before, file_ ? 0.0 : waited.count(), 1e-3 * kSilenceMs);
         if (!readAny()) {
             if (file_) {
                 return std::nullopt;

@@ -4,6 +4,7 @@
 
 #include "devices/camera.h"
 #include "devices/frame_slots.h"
+#include "devices/skipped_frames.h"
 
 #include <OpenNI.h>
 #include <filesystem>
@@ -29,8 +30,8 @@ public:
     ~OpenNi2Camera() override;
 
     const CameraInfo& info() const override { return info_; }
-    std::optional<Frame> next() override; // throws DeviceLost if none arrives for 2 s
-    uint32_t skipped() const override { return skipped_; }
+    std::optional<Frame> next() override; // throws DeviceLost if no usable one arrives for 2 s
+    uint32_t skipped() const override { return skipped_.count(); }
     bool live() const override { return !file_; }
     uint64_t lost() const override { return lost_; }
     std::optional<double> framePeriod() const override { return period_; }
@@ -67,7 +68,8 @@ private:
     double period_ = 1.0 / 30.0; // [s]
     bool ended_ = false;         // all of the file
     int64_t left_ = 0;           // depth frames left in the file
-    uint32_t index_ = 0, skipped_ = 0;
+    uint32_t index_ = 0;
+    SkippedFrames skipped_;
     int lastNumber_ = -1;
     uint64_t lost_ = 0;
     std::optional<FrameSlots> slots_;

@@ -26,12 +26,7 @@ ros::Image Ros2Camera::imageOf(const ImageStream& stream, const RawMessage& mess
 }
 
 void Ros2Camera::skip(const std::string& fault, uint32_t frames) {
-    constexpr size_t kMaxFaults = 32;
-    skipped_ += frames;
-    lastFault_ = fault;
-    if (faults_.size() < kMaxFaults && faults_.insert(fault).second) {
-        log::warn("{}: frame skipped: {} (logged once)", description(), fault);
-    }
+    skipped_.add(description(), fault, frames);
 }
 
 void Ros2Camera::receive(Topic& topic, const ImageStream& stream, LiveStamps& stamps, bool depth) {
@@ -194,7 +189,7 @@ std::optional<Frame> Ros2Camera::next() {
                              " s");
         }
         if (now - called > request_.silence) {
-            throw DeviceLost(description() + ": images arrive, but none is usable; last: " + lastFault_);
+            skipped_.fail(description());
         }
         inbox_.wait(pairs_->patience(now, moving_ && moving_->waits() ? kPoseWait : kLongestWait));
     }

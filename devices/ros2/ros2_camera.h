@@ -12,9 +12,9 @@
 #include "devices/ros2/newest_messages.h"
 #include "devices/ros2/ros2_graph.h"
 #include "devices/ros2/ros2_request.h"
+#include "devices/skipped_frames.h"
 
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -37,8 +37,8 @@ public:
 
     const CameraInfo& info() const override { return choice_.camera; }
     std::optional<Frame> next() override;
-    uint32_t skipped() const override { return skipped_; }
-    std::vector<std::string> warnings() const override { return {faults_.begin(), faults_.end()}; }
+    uint32_t skipped() const override { return skipped_.count(); }
+    std::vector<std::string> warnings() const override { return skipped_.causes(); }
     bool live() const override { return true; }
     uint64_t lost() const override { return overtaken_ + inbox_.lost(depth_.place); }
     std::string streams() const override { return choice_.said; }
@@ -85,10 +85,9 @@ private:
     std::optional<FrameSlots> slots_;
     double valuesPerUnit_ = 1.0; // of depth in metres
     double lastDepth_ = 0.0;     // [s] CLOCK_MONOTONIC, arrival of the newest depth image
-    uint32_t delivered_ = 0, skipped_ = 0;
+    uint32_t delivered_ = 0;
     uint64_t overtaken_ = 0;
-    std::set<std::string> faults_;
-    std::string lastFault_;
+    SkippedFrames skipped_;
 };
 
 } // namespace fathom

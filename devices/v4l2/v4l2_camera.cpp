@@ -19,6 +19,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kPollMs = 50;
 constexpr double kFirstFrame = 5.0; // [s] start-up time of a camera
+constexpr double kUnusable = 2.5;   // of `silence`; more than watch() allows, which names a silent stream
 
 double secondsSince(Clock::time_point t) {
     return std::chrono::duration<double>(Clock::now() - t).count();
@@ -74,7 +75,9 @@ std::vector<CameraStream> V4l2Camera::delivered() const {
 void V4l2Camera::open() {
     pairing_ = FramePairing(streams_->colour ? streams_->colour->period() : 0.0);
     depthPeriod_ = streams_->depth.period();
-    depthWatch_ = colourWatch_ = {grace(), false};
+    firstBy_ = grace();
+    depthWatch_ = colourWatch_ = {firstBy_, false};
+    lastStamp_ = lastCapture_ = 0.0; // one that was too high must not reject the frames of now
 }
 
 // Retired streams are kept while a frame uses their memory.
@@ -121,7 +124,8 @@ std::optional<Frame> V4l2Camera::next() {
         if (!streams_) {
             reopen();
         }
-        for (;;) {
+        const uint32_t before = skipped_.count();
+        for (const Clock::time_point since = std::max(Clock::now(), firstBy_);;) {
             gather();
             if (!request_.everyFrame && starved()) {
                 giveUpStale();
@@ -129,6 +133,7 @@ std::optional<Frame> V4l2Camera::next() {
                 return frame;
             }
             wait();
+            skipped_.limit(description_, before, secondsSince(since), kUnusable * request_.silence);
         }
     } catch (const DeviceLost&) {
         close();
@@ -231,17 +236,12 @@ std::optional<Frame> V4l2Camera::settle() {
 
 void V4l2Camera::recycle() {
     for (const CapturedBuffer& depth : pairing_.unpairedDepth()) {
-        skip(depth.sequence, "no colour frame close in time");
+        skipped_.add(description_, "no colour frame close in time");
         streams_->depth.giveBack(depth.index);
     }
     for (const CapturedBuffer& colour : pairing_.usedColour()) {
         streams_->colour->giveBack(colour.index);
     }
-}
-
-void V4l2Camera::skip(uint32_t sequence, const std::string& fault) {
-    ++skipped_;
-    log::warn("{}: frame {} skipped: {}", description_, sequence, fault);
 }
 
 std::optional<Frame> V4l2Camera::lease(const FramePairing::Pair& pair) {
@@ -254,7 +254,7 @@ std::optional<Frame> V4l2Camera::lease(const FramePairing::Pair& pair) {
     }
     if (!fault.empty()) {
         slot->release();
-        skip(pair.depth.sequence, fault);
+        skipped_.add(description_, fault);
         return std::nullopt;
     }
     content.index = delivered_++;

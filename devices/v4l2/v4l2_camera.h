@@ -4,6 +4,7 @@
 
 #include "devices/camera.h"
 #include "devices/frame_slots.h"
+#include "devices/skipped_frames.h"
 #include "devices/v4l2/choose_nodes.h"
 #include "devices/v4l2/frame_pairing.h"
 #include "devices/v4l2/v4l2_controls.h"
@@ -23,9 +24,10 @@ namespace fathom {
 // Frame indices start at 0; the source number is index + 1.
 //
 // next() returns the newest pair, and none from before a pause in which the driver ran out of buffers (with
-// everyFrame: every pair, in order). A damaged, short or unpaired frame is skipped, counted and logged. A
-// stream without frames for `silence` is restarted; after twice that the camera counts as lost. When it is
-// lost (unplugged), next() throws DeviceLost and searches the same camera again on each later call.
+// everyFrame: every pair, in order). A damaged, short or unpaired frame is skipped and counted, and each
+// cause is logged once. A stream without frames for `silence` is restarted; after twice that, or 2.5 times
+// that with unusable frames only, the camera counts as lost. When it is lost (unplugged), next() throws
+// DeviceLost and searches the same camera again on each later call.
 class V4l2Camera final : public Camera {
 public:
     // Throws BadInput for an unknown device, an unavailable format or size (lists the available ones), or
@@ -35,7 +37,7 @@ public:
 
     const CameraInfo& info() const override { return info_; }
     std::optional<Frame> next() override;
-    uint32_t skipped() const override { return skipped_; }
+    uint32_t skipped() const override { return skipped_.count(); }
     std::string description() const override;
     bool live() const override { return true; }
     // Gaps in the driver's depth counter plus frames superseded before they were read. A missing colour frame
@@ -77,7 +79,6 @@ private:
     std::string fill(const FramePairing::Pair& pair, FrameSlot& slot, Frame::Content& content);
     std::string fillColour(const CapturedBuffer& colour, FrameSlot& slot, Frame::Content& content);
     bool fillDepth(const CapturedBuffer& depth, FrameSlot& slot, Frame::Content& content);
-    void skip(uint32_t sequence, const std::string& fault);
     void recycle();
 
     CameraRequest request_;
@@ -91,8 +92,10 @@ private:
     FramePairing pairing_{0.0};
     std::vector<Arrival> arrivals_; // taken, not yet paired; oldest first
     Watch depthWatch_, colourWatch_;
+    std::chrono::steady_clock::time_point firstBy_; // deadline of the first frame
     double depthPeriod_ = 0.0, lastStamp_ = 0.0, lastCapture_ = 0.0;
-    uint32_t delivered_ = 0, skipped_ = 0;
+    uint32_t delivered_ = 0;
+    SkippedFrames skipped_;
     uint64_t overtaken_ = 0, copied_ = 0, restarts_ = 0, missingBefore_ = 0, missingColourBefore_ = 0;
     std::atomic<uint64_t> exposuresTold_{0};
     std::shared_ptr<V4l2Controls> controls_;

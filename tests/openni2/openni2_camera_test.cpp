@@ -138,6 +138,12 @@ TEST_CASE("A silent device is reported as lost") {
         DeviceLost);
 }
 
+TEST_CASE("A device whose depth and colour never belong together is reported as lost, and each cause once") {
+    const auto camera = openOpenNi2("openni2:fathom-test-apart");
+    CHECK_THROWS_AS(camera->next(), DeviceLost);
+    CHECK(camera->skipped() > 0);
+}
+
 namespace {
 
 // Checks every frame until the end: as drawn, and later than the previous one. Returns their number.

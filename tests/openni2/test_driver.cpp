@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // An OpenNI2 driver with a synthetic camera: depth and colour of 32x24 pixels that encode the frame number,
 // mirrored colour on request. URIs: fathom-test, fathom-test-mirrored, fathom-test-silent (three frames),
-// fathom-test-plain (no field of view, colour not registered).
+// fathom-test-plain (no field of view, colour not registered), fathom-test-apart (colour stamped 1 s late).
 #include <Driver/OniDriverAPI.h>
 #include <atomic>
 #include <chrono>
@@ -130,6 +130,7 @@ private:
             frame->dataSize = stride() * kHeight;
             frame->sensorType = colour_ ? ONI_SENSOR_COLOR : ONI_SENSOR_DEPTH;
             frame->timestamp = static_cast<uint64_t>(n) * 33333;
+            frame->timestamp += colour_ && uri_ == "fathom-test-apart" ? 1000000 : 0;
             draw(*frame, n);
             raiseNewFrame(frame);
             getServices().releaseFrame(frame);

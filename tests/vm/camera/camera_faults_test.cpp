@@ -82,6 +82,27 @@ TEST_CASE(
     CHECK(camera.skipped() == 2);
 }
 
+TEST_CASE("A camera whose frames are all damaged counts as lost, and is used again when they are whole") {
+    const NoDrop noDrop;
+    UvcCamera device({.colour = false});
+    device.plug();
+    REQUIRE(waitForCamera(false));
+    const IntrinsicsFile lens(320, 240);
+    CameraRequest request = parseCameraRequest("v4l2:auto,intrinsics=" + lens.path().string());
+    request.silence = 0.4;
+    V4l2Camera camera(request);
+    readFrames(camera, 2);
+    device.depth().faults.errorBit = 1000000;
+    std::string loss;
+    while (loss.empty()) {
+        loss = lossOf(camera);
+    }
+    CHECK(loss.find("frames arrive, but none is usable; last: the driver marks it as damaged") !=
+          std::string::npos);
+    device.depth().faults.errorBit = 0;
+    readFrames(camera, 2);
+}
+
 TEST_CASE("A frame bit that does not change costs one frame") {
     UvcCamera device({.colour = false});
     device.plug();
