@@ -93,8 +93,9 @@ private:
 
     // Regions are sent when they change, at most so often, and again for whoever subscribes later [s].
     static constexpr double kRegionPause = 0.1, kRegionRepeat = 1.0;
-    static constexpr uint64_t kQueue = 256;                       // steps
-    static constexpr auto kLook = std::chrono::milliseconds(100); // for subscribers of regions
+    static constexpr uint64_t kQueue = 256;                          // steps
+    static constexpr auto kLook = std::chrono::milliseconds(50);     // for subscribers of regions
+    static constexpr auto kSilence = std::chrono::milliseconds(100); // of the run: a robot stands still
 
     Ros2Topics topics_;
     // Writer thread.
@@ -104,6 +105,9 @@ private:
     const Fixtures* set_ = nullptr;
     double regionsAt_ = -kRegionRepeat; // [s] time of the run
     uint64_t generation_ = 0;           // of the regions handed over
+    // Thread of this class.
+    std::chrono::steady_clock::time_point tickAt_; // of the newest tick
+    bool moves_ = false;                           // ticks came since the robot was told to rest
     // Between the threads.
     SpscQueue<Ros2Tick> ticks_{kQueue};
     TripleBuffer<Ros2Regions> regions_;
@@ -163,6 +167,7 @@ void Ros2Output::run() {
             publish();
         }
     } catch (const std::exception& e) { // out of memory
+        topics_.rest();
         log::error("ros2: {}: nothing more is published", e.what());
     }
 }
@@ -170,8 +175,15 @@ void Ros2Output::run() {
 void Ros2Output::publish() {
     topics_.receive();
     watched_.store(topics_.regionsWatched(), std::memory_order_relaxed);
-    for (Ros2Tick tick; ticks_.pop(tick);) {
+    const auto now = std::chrono::steady_clock::now();
+    for (Ros2Tick tick; ticks_.pop(tick); moves_ = true) {
         topics_.tick(tick);
+        tickAt_ = now;
+    }
+    // A change of pilot, a blocked writer and the end of a run leave no tick that says so.
+    if (moves_ && now - tickAt_ > kSilence) {
+        topics_.rest();
+        moves_ = false;
     }
     if (regions_.refresh()) {
         topics_.regions(regions_.front());

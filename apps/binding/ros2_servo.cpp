@@ -58,9 +58,14 @@ Ros2Servo::Ros2Servo(std::shared_ptr<Ros2Graph> graph, const Ros2OutputRequest& 
 }
 
 Ros2Servo::~Ros2Servo() {
+    rest();
+}
+
+void Ros2Servo::rest() {
     if (twist_) {
         twist_->write(ros2::twist({utcNow(), frame_}, dvec3(0.0), dvec3(0.0)));
     }
+    before_.reset();
 }
 
 void Ros2Servo::tick(const Ros2Tick& tick) {

@@ -26,6 +26,8 @@ public:
     ~Ros2Servo(); // the last velocity is zero
 
     void tick(const Ros2Tick& tick);
+    // The run sends no ticks any more, or none for now: the velocity becomes zero.
+    void rest();
     // Why no joints are sent; empty while they are, and without a topic for them.
     const std::string& held() const { return held_; }
     bool sendsJoints() const { return trajectory_ != nullptr; }

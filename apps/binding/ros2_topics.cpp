@@ -82,6 +82,12 @@ void Ros2Topics::tick(const Ros2Tick& tick) {
     }
 }
 
+void Ros2Topics::rest() {
+    if (servo_) {
+        servo_->rest();
+    }
+}
+
 void Ros2Topics::diagnose(const Ros2Tick& tick) {
     diagnosed_ = tick.time;
     std::vector<ros2::Diagnosis> parts = diagnosis_.of(tick, unsent_);

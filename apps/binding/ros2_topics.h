@@ -28,6 +28,7 @@ public:
         }
     }
     RemoteRequests takeRequests() { return commands_ ? commands_->take() : RemoteRequests{}; } // any thread
+    void rest(); // no tick comes for now: a robot stands still
     // Whether regions() would send anything.
     bool regionsWatched() const noexcept { return regions_.cloud.watched() || regions_.markers.watched(); }
 

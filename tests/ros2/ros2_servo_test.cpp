@@ -77,6 +77,25 @@ TEST_CASE("The last velocity that a servo controller gets is zero") {
     CHECK(twist.until([](const Line& line) { return line.number(2) == 0.0; }).any());
 }
 
+TEST_CASE("A servo controller gets a zero velocity when the run stands still, and the motion after it") {
+    FedRun run("/fathom,twist=/twist");
+    std::atomic<bool> still{false};
+    run.each([&](TickRow& row) {
+        while (still) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+        row.record.tool.position.x += 0.03 * row.record.t;
+    });
+    Heard twist("/twist", "TwistStamped");
+    REQUIRE(twist.until([](const Line& line) { return isNear(line, 2, 0.03); }).any());
+    still = true;
+    CHECK(twist.until([](const Line& line) { return line.number(2) == 0.0; }).any());
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    CHECK_FALSE(twist.waiting()); // once
+    still = false;
+    CHECK(twist.until([](const Line& line) { return isNear(line, 2, 0.03); }).any());
+}
+
 TEST_CASE("A robot gets joints only while its own are known and close to them") {
     FedRun run("/fathom,trajectory=/controller/joint_trajectory,measured=/joint_states", kJoints);
     Heard joints("/controller/joint_trajectory", "JointTrajectory"),
