@@ -50,10 +50,13 @@ Diagnosis forcesOf(const StepRecord& r) {
 }
 
 Diagnosis cameraOf(const StepRecord& r, double setRate) {
-    const bool known = std::isfinite(r.sceneAge), old = r.sceneAge > Ros2Diagnosis::kOld;
+    const bool known = std::isfinite(r.sceneAge), old = isOld(r.sceneAge, Ros2Diagnosis::kOld);
     return {!known ? Level::Stale : (old ? Level::Warning : Level::Ok),
             "fathom: camera",
-            !known ? "no set of regions yet" : (old ? "the newest frame is too old" : "ok"),
+            !known ? "no set of regions yet"
+                   : (!old               ? "ok"
+                      : r.sceneAge < 0.0 ? "the newest frame is ahead of the clock"
+                                         : "the newest frame is too old"),
             {{"sets_per_s", number(setRate)},
              {"scene_age_s", number(r.sceneAge)},
              {"frame", std::to_string(r.frame)}}};

@@ -35,7 +35,7 @@ bool endsAtBox(const Fixtures& set, uint8_t row, const Box& box) {
 
 // Names the cause when frames stop: the GPU until it has processed a frame again, otherwise the camera.
 void Alarms::stepScene(const StepRecord& tick, const HapticOptions& haptics, bool deviceGone, bool forces) {
-    const bool stale = tick.sceneAge > haptics.staleAfter;
+    const bool stale = isOld(tick.sceneAge, haptics.staleAfter);
     lostFrame_ = deviceGone ? tick.frame : lostFrame_;
     waits_ = deviceGone || (waits_ && stale && tick.frame == lostFrame_);
     set(waits_, Level::Warning, "gpu", {"GPU lost, forces fade", "wait, it is opened again"}, tick.t);
@@ -43,9 +43,11 @@ void Alarms::stepScene(const StepRecord& tick, const HapticOptions& haptics, boo
         {printed("No camera image for %.1f s, forces fade", tick.sceneAge),
          "check the camera's cable and power"},
         tick.t);
+    const bool ahead = tick.sceneAge < 0.0;
     set(stale && forces, Level::Caution, "stale",
-        {printed("Image older than %.0f ms, forces fade", haptics.staleAfter * 1e3),
-         "wait; if it stays, close other programs"},
+        {ahead ? printed("Image is %.1f s ahead of the clock, forces fade", -tick.sceneAge)
+               : printed("Image older than %.0f ms, forces fade", haptics.staleAfter * 1e3),
+         ahead ? "check which clock the camera stamps with" : "wait; if it stays, close other programs"},
         tick.t, {0.25, 1.0});
 }
 

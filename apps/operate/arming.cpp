@@ -54,6 +54,10 @@ double softStart(double forceLimit) {
     return std::max(kLeast, forceLimit / kSteepest);
 }
 
+bool cameraSilent(const StepRecord& record, const HapticOptions& haptics) {
+    return isOld(record.sceneAge, kSilent * haptics.staleAfter);
+}
+
 std::string whyNotArmed(const ArmingInput& input) {
     const StepRecord& record = input.run.step().record;
     if (input.gpuGone) {
@@ -65,8 +69,11 @@ std::string whyNotArmed(const ArmingInput& input) {
     if (!input.run.anyTick() || record.frame < 0) {
         return "no camera frame has become a set of regions yet: wait for one";
     }
-    if (record.sceneAge > kSilent * input.haptics.staleAfter) {
-        return "the newest regions are " + thousandths(record.sceneAge) + " ms old: check the camera";
+    if (cameraSilent(record, input.haptics)) {
+        const bool ahead = record.sceneAge < 0.0;
+        return "the newest regions are " + thousandths(std::abs(record.sceneAge)) +
+               (ahead ? " ms ahead of the clock: check which clock the camera stamps with"
+                      : " ms old: check the camera");
     }
     if (!(input.haptics.forceLimit > 0.0)) {
         return kNoForce;

@@ -4,10 +4,13 @@
 #include "apps/binding/raw_path.h"
 #include "apps/operate/arming.h"
 #include "engine/types/error.h"
+#include "engine/types/log.h"
 
+#include <chrono>
 #include <limits>
 #include <sys/resource.h>
 #include <sys/syscall.h>
+#include <thread>
 #include <unistd.h>
 
 namespace fathom::operate {
@@ -117,8 +120,25 @@ void LiveRun::makeEngine(const std::vector<Shape>& shapes, const Pose& start, co
     observers_.setShapes(shapes);
     engine_ = std::make_unique<RealtimeRun>(feed_, session_.contacts(), o);
     feed_.begin();
-    session_.requireFrame(engine_->firstFrame());
+    awaitFrame();
     makeHand(shapes, start, tool);
+}
+
+// A camera that is lost at a change of pilot does not end the window, with edits that are not saved.
+void LiveRun::awaitFrame() {
+    constexpr auto kPause = std::chrono::milliseconds(200);
+    for (;;) {
+        try {
+            session_.requireFrame(engine_->firstFrame());
+            return;
+        } catch (const DeviceLost& e) {
+            if (thread_ == nullptr || signals_.asked().load()) {
+                throw;
+            }
+            log::warn("camera is gone ({}): the new run waits for it", e.what());
+            std::this_thread::sleep_for(kPause);
+        }
+    }
 }
 
 void LiveRun::start(const std::vector<Shape>& shapes) {

@@ -54,6 +54,7 @@ private:
     HapticDevice& driver(); // the device that drives the tool
     void makeHand(const std::vector<Shape>& shapes, const Pose& start, const Pose* tool);
     void makeEngine(const std::vector<Shape>& shapes, const Pose& start, const Pose* tool);
+    void awaitFrame();
     void forgetFrames();
     uint32_t buttonsOf(const Console& console) const;
 

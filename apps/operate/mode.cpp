@@ -39,7 +39,7 @@ Mode armedMode(const ModeInput& input) {
         return forcesOff("The device gets no force: its dead-man switch is open, or it is lost");
     }
     if (state == StepState::Fading) {
-        return std::abs(record.sceneAge) > input.haptics.staleAfter
+        return isOld(record.sceneAge, input.haptics.staleAfter)
                    ? Mode{"STALE", "~", colour::kCaution, Edge::Dashed,
                           "The newest image is too old: forces fade until the next one"}
                    : forcesFading("The device's dead-man switch is open, or it is lost: forces fade");

@@ -224,6 +224,10 @@ void OperatorRun::arm() {
 void OperatorRun::followPilot() {
     Console& console = display_.console;
     const std::string name = std::exchange(console.pilotWanted, "");
+    if (!name.empty() && cameraSilent(display_.view.step().record, live_.haptics())) {
+        console.notify("no camera frames: choose the pilot when they are back");
+        return;
+    }
     if (name.empty() || !session_.scene.choosePilot(name)) {
         return;
     }

@@ -59,7 +59,7 @@ StepRecord HapticCycle::step(const StepInput& input) noexcept {
     now.running = set != nullptr || !options_.needsContacts;
     out.frame = set != nullptr ? set->frame : now.running ? input.frame : -1;
     out.sceneAge = out.frame >= 0 ? sceneAge(input, set) : kNotKnown;
-    now.stale = std::abs(out.sceneAge) > options_.staleAfter; // ahead of the hand: another clock
+    now.stale = isOld(out.sceneAge, options_.staleAfter);
     now.held =
         armState_.connected && (!armState_.follows || !now.sane || now.off || !now.running || now.stale);
     const bool button = (input.buttons & options_.clutchBit) != 0;

@@ -10,6 +10,7 @@
 #include "engine/types/wrench.h"
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -107,6 +108,11 @@ struct ArmRecord {
     bool singular = false;       // near a singularity: the solution is damped
     bool flipped = false;        // left a singularity to another side than it came from
 };
+
+// Forces fade. A scene from the future has stamps of another clock, whose age nobody knows.
+inline bool isOld(double sceneAge, double staleAfter) noexcept {
+    return std::abs(sceneAge) > staleAfter;
+}
 
 // One row of haptics.csv, and further values for the window.
 struct StepRecord {

@@ -82,7 +82,7 @@ v0::Step external(const StepRecord& record, double staleAfter) noexcept {
     step.clearance = record.clearance;
     step.guidance = record.guidance;
     step.frame = record.frame;
-    step.warnings = when(std::abs(record.sceneAge) > staleAfter, v0::StepWarning::OldScene) |
+    step.warnings = when(isOld(record.sceneAge, staleAfter), v0::StepWarning::OldScene) |
                     when(!record.finite, v0::StepWarning::NotFinite) |
                     when(record.stalled, v0::StepWarning::Stalled);
     for (uint32_t i = 0; i < std::min<size_t>(record.touchCount, step.contacts.size()); ++i) {

@@ -46,11 +46,13 @@ public:
         : staleAfter_(staleAfter) {}
 
     void see(const StepRecord& record) {
-        const bool stale = record.sceneAge > staleAfter_;
+        const bool stale = isOld(record.sceneAge, staleAfter_);
         staleTicks_ += stale ? 1 : 0;
         if (stale && !stale_ && record.t >= quietUntil_) {
-            log::warn("at {:.2f} s the newest frame is {:.0f} ms old: forces fade", record.t,
-                      record.sceneAge * 1e3);
+            const bool ahead = record.sceneAge < 0.0;
+            log::warn("at {:.2f} s the newest frame is {:.0f} ms {}: forces fade", record.t,
+                      std::abs(record.sceneAge) * 1e3,
+                      ahead ? "ahead of the clock (allowed: stamps of the monotonic clock)" : "old");
             quietUntil_ = record.t + kQuiet;
             warned_ = true;
         } else if (!stale && warned_) {

@@ -129,6 +129,17 @@ TEST_CASE("A class without a region, or a run without an active set, raises an a
     CHECK(run.step() == Words{"CAUTION active region valve", "CAUTION active off"});
 }
 
+TEST_CASE("A scene from the future raises an alarm that names the clock") {
+    ViewedRun run;
+    run.console.forces = true;
+    run.row.record.sceneAge = -5.0;
+    for (int i = 0; i < 300; ++i) {
+        run.step();
+    }
+    CHECK(run.step() == Words{"CAUTION active stale"});
+    CHECK(run.alarms.shown()[0]->what == "Image is 5.0 s ahead of the clock, forces fade");
+}
+
 TEST_CASE("The alarm names the cause of an old scene: the camera or a lost GPU") {
     ViewedRun run;
     run.console.forces = true;
