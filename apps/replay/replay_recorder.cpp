@@ -147,7 +147,7 @@ void ReplayRecorder::addGuidance(const Fixtures& set) {
 
 void ReplayRecorder::tick(const TickRow& row) {
     haptics_.add(row.record);
-    watch_.tick(row.record.t, stateName(row.record.state), row.record.frame);
+    watch_.tick(row.record.t, stateName(row.record.state), row.record.frame, row.record.vanished);
     totals_.add(row);
     history_.add(row.record);
     lastTick_ = row.record;

@@ -8,18 +8,30 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <utility>
 
 namespace fathom {
 
 namespace {
 
 constexpr int kGreySpread = 6; // largest difference of the channels of a pixel without colour, noise included
-constexpr size_t kColourStep = 7; // every 7th pixel is enough
+constexpr size_t kColourStep = 7;  // every 7th pixel is enough
+constexpr uint32_t kBlack = 16;    // brightest channel of an image without light
+constexpr uint32_t kIntervals = 5; // between frames, all of them too long
 
 std::string print(const char* form, double a, double b = 0.0) {
     char text[120];
     std::snprintf(text, sizeof text, form, a, b);
     return text;
+}
+
+bool isBlack(std::span<const uint32_t> colour) {
+    for (size_t i = 0; i < colour.size(); i += kColourStep) {
+        if (std::max({colour[i] & 255, colour[i] >> 8 & 255, colour[i] >> 16 & 255}) > kBlack) {
+            return false;
+        }
+    }
+    return !colour.empty();
 }
 
 bool isGrey(std::span<const uint32_t> colour) {
@@ -62,6 +74,9 @@ std::string RunWatch::causeOf(const FixtureClass& f, uint32_t marked, uint32_t v
         return "the filter rejects all its points as flying or isolated";
     }
     const bool needsColour = f.hue || (f.saturation && f.saturation->lo > 0.0);
+    if (f.usesColour() && isBlack(colour)) {
+        return "the colour image is black";
+    }
     if (needsColour && isGrey(colour)) {
         return "the colour image is grey, and its gates need colour";
     }
@@ -97,6 +112,7 @@ void RunWatch::setFixtures(const std::vector<FixtureClass>& fixtures) {
 
 void RunWatch::frame(double t, const cloud::FrameCounts& counts, const Fixtures& set,
                      std::span<const uint32_t> colour) {
+    watchRate(t);
     framed_ = true;
     const auto at = [](const std::vector<uint32_t>& list, size_t c) {
         return c < list.size() ? list[c] : 0u;
@@ -108,6 +124,7 @@ void RunWatch::frame(double t, const cloud::FrameCounts& counts, const Fixtures&
         const bool some = f.role == Role::Guidance ? marked >= f.minCount : marked > 0 && counts.spheres > 0;
         if (some || isSpare(f) || f.frozen) {
             state.none.reset();
+            state.cause.clear();
             state.ever = true;
             continue;
         }
@@ -128,10 +145,13 @@ void RunWatch::warnClass(const ClassState& state, const std::string& since) {
                                          state.cause);
 }
 
-void RunWatch::tick(double t, std::string_view state, int64_t frame) {
+void RunWatch::tick(double t, std::string_view state, int64_t frame, uint32_t vanished) {
     ++ticks_;
     last_ = t;
-    if (state != "off" && state != "waiting") {
+    if (vanished > std::exchange(vanished_, vanished)) {
+        warnVanished(t);
+    }
+    if (state == "free" || state == "contact") {
         ++loud_;
         quiet_.clear();
         return;
@@ -146,14 +166,52 @@ void RunWatch::tick(double t, std::string_view state, int64_t frame) {
     }
 }
 
+std::string RunWatch::causeOfState() const {
+    if (quiet_ == "waiting") {
+        return "the tool cannot follow the hand";
+    }
+    if (quiet_ == "trapped") {
+        return "no motion of the tool obeys all fixtures at once, so there is no force";
+    }
+    if (quiet_ == "escape") {
+        return "a placed shape or new data covers the tool, and pushes it out";
+    }
+    if (!framed_) {
+        return "no frame has become a set of regions";
+    }
+    if (quiet_ == "fading") {
+        return "the regions in use are too old: frames or contact answers are late";
+    }
+    return quietFrame_ < 0 ? "no contact answer covers the tool"
+                           : "forces are off by the dead-man switch, or the haptic device is lost";
+}
+
 void RunWatch::warnState(double seconds) {
-    const std::string cause = quiet_ == "waiting" ? "the tool cannot follow the hand"
-                              : !framed_          ? "no frame has become a set of regions"
-                              : quietFrame_ < 0
-                                  ? "no contact answer covers the tool"
-                                  : "forces are off by the dead-man switch, or the haptic device is lost";
     warnings_.add("state " + quiet_, "state '" + quiet_ + "' from " +
-                                         print("%.2f s on for %.3g s: ", quietSince_, seconds) + cause);
+                                         print("%.2f s on for %.3g s: ", quietSince_, seconds) +
+                                         causeOfState());
+}
+
+// The tool stays where it was, and the hand feels nothing there any more.
+void RunWatch::warnVanished(double t) {
+    std::string cause = "the newest frame shows nothing in its place";
+    for (const ClassState& state : classes_) {
+        if (state.none && state.ever) {
+            cause = "fixture '" + fixtures_[state.row].name + "' has no region: " + state.cause;
+        }
+    }
+    warnings_.add("vanished", print("a region disappeared at %.2f s while it pressed: ", t) + cause);
+}
+
+// Below 10 frames per second forces fade between two frames.
+void RunWatch::watchRate(double t) {
+    const double fades = HapticOptions().staleAfter, interval = t - std::exchange(frameAt_, t);
+    intervals_ += framed_ ? 1 : 0;
+    longIntervals_ += framed_ && interval > fades ? 1 : 0;
+    if (intervals_ >= kIntervals && longIntervals_ == intervals_) {
+        warnings_.add("frame rate",
+                      print("frames come %.3g s apart: forces fade %.3g s after each", interval, fades));
+    }
 }
 
 void RunWatch::end() {

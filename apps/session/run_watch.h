@@ -34,8 +34,9 @@ public:
     // A frame at t [s] with its counts, its set and its colours (R8 G8 B8 A8, may be empty).
     void frame(double t, const cloud::FrameCounts& counts, const Fixtures& set,
                std::span<const uint32_t> colour);
-    // A tick at t [s]: its state as in haptics.csv, and the frame of its active set (-1 = none).
-    void tick(double t, std::string_view state, int64_t frame);
+    // A tick at t [s]: its state as in haptics.csv, the frame of its active set (-1 = none), and how often
+    // regions have disappeared while they pressed (StepRecord::vanished).
+    void tick(double t, std::string_view state, int64_t frame, uint32_t vanished);
     // Call once after the last tick: short runs have not used up the patience.
     void end();
 
@@ -53,16 +54,22 @@ private:
                         std::span<const uint32_t> colour) const;
     void warnClass(const ClassState& state, const std::string& since);
     void warnState(double seconds);
+    void warnVanished(double t);
+    void watchRate(double t);
+    std::string causeOfState() const;
 
     std::vector<FixtureClass> fixtures_;
     std::string streams_;
     double nearZ_, farZ_;             // [m]
     std::vector<ClassState> classes_; // in the order of the mask's bits
     RunWarnings warnings_;
-    std::string quiet_;                    // state without force, while it lasts
+    std::string quiet_;                    // state without the force of a contact, while it lasts
     double quietSince_ = 0.0, last_ = 0.0; // [s]
     int64_t quietFrame_ = -1;
     uint64_t ticks_ = 0, loud_ = 0; // loud: ticks in another state
+    uint32_t vanished_ = 0;
+    double frameAt_ = 0.0;                       // [s] of the newest frame
+    uint32_t intervals_ = 0, longIntervals_ = 0; // between frames; those in which forces fade
     bool framed_ = false;
 };
 

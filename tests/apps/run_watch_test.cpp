@@ -10,7 +10,7 @@ using namespace fathom;
 
 namespace {
 
-constexpr uint32_t kGrey = 0xff808080, kColoured = 0xff2020c0;
+constexpr uint32_t kGrey = 0xff808080, kDark = 0xff080808, kColoured = 0xff2020c0;
 
 Scene sceneOf(Role role) {
     Scene scene;
@@ -47,9 +47,9 @@ struct WatchedRun {
             watch.frame(t, counts, set, image);
         }
     }
-    void ticks(double from, double to, const char* state, int64_t frame) {
+    void ticks(double from, double to, const char* state, int64_t frame, uint32_t vanished = 0) {
         for (int i = 0; i < static_cast<int>((to - from) * 1e3); ++i) {
-            watch.tick(from + i * 1e-3, state, frame);
+            watch.tick(from + i * 1e-3, state, frame, vanished);
         }
     }
     std::string only() {
@@ -149,6 +149,19 @@ TEST_CASE(
     lags.ticks(0.0, 1.5, "waiting", 0);
     says(lags.only(), "the tool cannot follow the hand");
 
+    for (const auto& [state, cause] : {std::pair("trapped", "no motion of the tool obeys all fixtures"),
+                                       std::pair("escape", "covers the tool, and pushes it out"),
+                                       std::pair("fading", "too old: frames or contact answers are late")}) {
+        WatchedRun odd;
+        odd.frames(0.1, 20, 5, kColoured);
+        odd.ticks(0.0, 0.3, "contact", 0);
+        odd.ticks(0.3, 1.2, state, 0);
+        CHECK(odd.quiet());
+        odd.ticks(1.2, 1.5, state, 0);
+        says(odd.only(), std::string("state '") + state + "' from 0.30 s on for 1 s: ");
+        says(odd.only(), cause);
+    }
+
     WatchedRun brief;
     brief.ticks(0.0, 0.2, "off", -1);
     brief.watch.end();
@@ -158,6 +171,39 @@ TEST_CASE(
     starts.ticks(0.2, 0.4, "free", 0);
     starts.watch.end();
     CHECK(starts.quiet());
+}
+
+TEST_CASE("A region that disappears while it presses is named at once, with its cause") {
+    WatchedRun run;
+    run.frames(0.5, 20, 5, kColoured);
+    run.ticks(0.0, 0.5, "contact", 0);
+    run.frames(0.54, 0, 0, kDark);
+    run.ticks(0.5, 0.54, "free", 1, 1);
+    says(run.only(), "a region disappeared at 0.50 s while it pressed: fixture 'valve' has no region: the "
+                     "colour image is black");
+    WatchedRun other;
+    other.frames(0.5, 20, 5, kColoured);
+    other.ticks(0.0, 0.5, "contact", 0);
+    other.ticks(0.5, 0.6, "free", 1, 1);
+    says(other.only(), "the newest frame shows nothing in its place");
+}
+
+TEST_CASE("Frames that come too seldom for a steady force are named, a few late ones are not") {
+    const auto warnings = [](double interval, double last) {
+        WatchedRun run;
+        cloud::FrameCounts counts;
+        counts.valid = 4;
+        counts.classPixels = {20};
+        counts.spheres = 5;
+        for (int i = 0; i < 12; ++i) {
+            run.watch.frame(i * interval + (i < 11 ? 0.0 : last), counts, run.set, {});
+        }
+        return run.watch.warnings().list();
+    };
+    CHECK(warnings(0.09, 1.0).empty());
+    CHECK(warnings(0.1, 0.0).empty());
+    REQUIRE(warnings(0.2, 0.0).size() == 1);
+    says(warnings(0.2, 0.0)[0], "frames come 0.2 s apart: forces fade 0.1 s after each");
 }
 
 TEST_CASE("Warnings are kept once per key, in order, on one line, and their number is bounded") {
