@@ -42,9 +42,25 @@ void noteLimit(std::vector<std::string>& notes, const char* field, std::optional
     }
 }
 
-void noteSpeed(std::vector<std::string>& notes, const char* fields, double speed) {
+void noteSlew(std::vector<std::string>& notes, double slew) {
+    const double usual = Scene::Haptics().slewForce;
+    if (slew > usual) {
+        notes.push_back("haptics.limits.slew_N_per_s: " + shortNumber(slew) + " N/s, over the default of " +
+                        shortNumber(usual) + ": steps of the force are felt as clicks");
+    }
+}
+
+void noteDelay(std::vector<std::string>& notes, double delay) {
+    const double fades = HapticOptions().staleAfter;
+    if (delay >= fades) {
+        notes.push_back("contact.delay: contact answers are " + shortNumber(delay) +
+                        " s late; forces fade when they are older than " + shortNumber(fades) + " s");
+    }
+}
+
+void noteSpeed(std::vector<std::string>& notes, const std::string& fields, double speed) {
     if (speed < kUsualSpeed) {
-        notes.push_back(std::string(fields) + ": the tool follows a hand up to " + shortNumber(speed) +
+        notes.push_back(fields + ": the tool follows a hand up to " + shortNumber(speed) +
                         " m/s; it lags behind a faster one, without a force");
     }
 }
@@ -146,10 +162,19 @@ std::vector<std::string> hapticNotes(const Scene& scene) {
     noteLimit(notes, "stiffness", haptics.stiffness, device.stiffness / scene.hand.scale, "N/m", device.name);
     noteLimit(notes, "rotational_stiffness", haptics.rotationalStiffness,
               device.rotationalStiffness.value_or(kNoLimit) * scene.hand.scale, "N m/rad", device.name);
-    noteSpeed(notes, "haptics.step_cap x solves x rate_hz",
-              haptics.stepCap * haptics.solves * haptics.rateHz);
+    noteSlew(notes, haptics.slewForce);
+    const double scale = scene.hand.scale;
+    const std::string byScale = scale > 1.0 ? " / hand.map.scale" : "";
+    noteSpeed(notes, "haptics.step_cap x solves x rate_hz" + byScale,
+              haptics.stepCap * haptics.solves * haptics.rateHz / scale);
     if (scene.hasForbiddenPoints()) {
-        noteSpeed(notes, "contact.reach x haptics.rate_hz", scene.contact.reach * haptics.rateHz);
+        const double answers = haptics.rateHz / std::max(1.0, static_cast<double>(scene.contact.delay));
+        noteSpeed(notes,
+                  (scene.contact.delay > 1 ? "contact.reach x haptics.rate_hz / contact.delay"
+                                           : "contact.reach x haptics.rate_hz") +
+                      byScale,
+                  scene.contact.reach * answers / scale);
+        noteDelay(notes, scene.contact.delay / haptics.rateHz);
     }
     return notes;
 }

@@ -227,3 +227,23 @@ TEST_CASE("Settings that cannot follow a hand are named with the speed that they
     CHECK(notes[0].find("up to 0.01 m/s") != std::string::npos);
     CHECK(notes[1].find("up to 0.1 m/s") != std::string::npos);
 }
+
+TEST_CASE("A coarse hand map, late answers and a fast slew limit are named with what they do") {
+    Scene scene = handScene();
+    scene.hand.scale = 50.0; // 8 and 10 m/s of the tool are less of the hand
+    auto notes = hapticNotes(scene);
+    REQUIRE(notes.size() == 2);
+    CHECK(notes[0].find("/ hand.map.scale: the tool follows a hand up to 0.16 m/s") != std::string::npos);
+    CHECK(notes[1].find("up to 0.2 m/s") != std::string::npos);
+    scene.hand.scale = 1.0;
+    scene.contact.delay = 100;
+    notes = hapticNotes(scene);
+    REQUIRE(notes.size() == 2);
+    CHECK(notes[0].find("/ contact.delay: the tool follows a hand up to 0.1 m/s") != std::string::npos);
+    CHECK(notes[1].find("contact answers are 0.1 s late; forces fade") != std::string::npos);
+    scene.contact.delay = 0;
+    scene.haptics.slewForce = 1e9;
+    notes = hapticNotes(scene);
+    REQUIRE(notes.size() == 1);
+    CHECK(notes[0].find("slew_N_per_s: 1e+09 N/s, over the default of 2000") != std::string::npos);
+}
