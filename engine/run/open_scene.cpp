@@ -13,8 +13,28 @@ namespace fathom {
 
 namespace {
 
+constexpr double kUsualRadius = 0.5;                      // [m] most
+constexpr double kUsualTool = 2.0, kUsualDistance = 20.0; // [m] most
+
+// Lengths that are as good as any by the rules of the scene file, but rare in metres.
+void doubtLengths(const Scene& scene) {
+    const std::string file = scene.file.string() + ": ";
+    doubtLength(file + "camera.base_T_camera: reaches", glm::length(scene.baseTcamera.position),
+                kUsualDistance);
+    for (const FixtureClass& f : scene.fixtures) {
+        const std::string name = file + "fixtures: " + f.name + ": ";
+        if (f.isPoints()) {
+            doubtLength(name + "radius: reaches", f.radius, kUsualRadius);
+            continue;
+        }
+        doubtLength(name + "base_T_shape: reaches", glm::length(f.baseTshape.position), kUsualDistance);
+        doubtLength(name + "size: reaches", std::max({f.size.x, f.size.y, f.size.z}), kUsualDistance);
+    }
+}
+
 Scene checked(Scene scene) {
     const std::filesystem::path& file = scene.file;
+    doubtLengths(scene);
     for (const std::string& path : scene.outside) {
         log::warn("{}: '{}' is outside the scene file's folder", file.string(), path);
     }
@@ -45,8 +65,6 @@ void doubtLength(const std::string& what, double length, double most) {
 }
 
 namespace {
-
-constexpr double kUsualTool = 2.0, kUsualArm = 20.0; // [m] most
 
 Tool builtTool(const Scene& scene, const ReaderOptions& reader) {
     const std::filesystem::path& file = scene.tool.file.empty() ? scene.file : scene.tool.file;
@@ -92,7 +110,7 @@ std::unique_ptr<ArmRig> openArm(const Scene& scene, const ReaderOptions& reader)
     auto arm =
         makeArmRig(scene, tool ? writtenTool(scene, reader).leaves() : std::span<const Sphere>(), reader);
     if (arm) {
-        doubtLength(scene.arm->urdf.string() + ": the arm reaches", reachOf(*arm), kUsualArm);
+        doubtLength(scene.arm->urdf.string() + ": the arm reaches", reachOf(*arm), kUsualDistance);
     }
     for (const std::string& line : arm ? describeArm(*arm) : std::vector<std::string>{}) {
         log::info("arm: {}", line);

@@ -44,11 +44,28 @@ TEST_CASE("A tool, a hand path and an arm as large as in millimetres are questio
     SceneText scene;
     scene.hand = "path: hand.csv";
     CHECK(planWarnings(stage, scene) == "");
+    const std::string pose = scene.camera;
+    scene.camera += ", base_T_camera: {xyz: [0, 0, 450]}";
+    CHECK(asksForUnit(planWarnings(stage, scene), "camera.base_T_camera: reaches 450 m"));
+    scene.camera = pose;
+    stage.write("rec/poses.txt", "0 0 0 0 0 0 0 1\n0.5 0.4 0 0 0 0 0 1\n1 0.4 30 0 0 0 0 1\n");
+    CHECK(planWarnings(stage, scene)
+              .find("poses.txt: at 1.000000 s the camera moves 30 m in 0.5 s (millimetres, "
+                    "other seconds, or a jump of the tracking?)") != std::string::npos);
+    std::filesystem::remove(stage / "rec" / "poses.txt");
     scene.tool = "spheres: [[0, 0, 40, 8], [10, 0, 20, 5]]";
     CHECK(asksForUnit(planWarnings(stage, scene), "tool: reaches 48 m"));
     stage.write("tool.yaml", "collision_spheres: {hand: [{center: [0, 0, 1.5], radius: 0.6}]}\n");
     scene.tool = "file: tool.yaml";
     CHECK(asksForUnit(planWarnings(stage, scene), "tool.yaml: tool: reaches 2.1 m"));
+    scene = {};
+    scene.hand = "path: hand.csv";
+    scene.fixtures = {
+        "name: near, role: forbidden, radius: 4",
+        "name: bench, role: forbidden, shape: box, size: [400, 300, 50], base_T_shape: {xyz: [0, 0, 700]}"};
+    CHECK(asksForUnit(planWarnings(stage, scene), "fixtures: near: radius: reaches 4 m"));
+    CHECK(asksForUnit(planWarnings(stage, scene), "fixtures: bench: base_T_shape: reaches 700 m"));
+    CHECK(asksForUnit(planWarnings(stage, scene), "fixtures: bench: size: reaches 400 m"));
     scene = {};
     scene.hand = "path: hand.csv";
     stage.hand({{0.0, {0.0, 0.0, -1.0}}, {1.0, {0.0, 0.0, 99.0}}});
