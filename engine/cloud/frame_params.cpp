@@ -126,6 +126,7 @@ shared::FrameParams sceneParams(const Scene& scene, const CameraInfo& camera, co
         p.classes[c] = classParams(scene.fixtures[rows[c]], rows[c], scene, origin);
         p.ranges[c] = rangeOf(scene.fixtures[rows[c]], scene.farZ);
         p.depthBand.w |= scene.fixtures[rows[c]].role == Role::Forbidden ? 1u << c : 0u;
+        p.chroma.w |= scene.fixtures[rows[c]].usesColour() ? 1u << c : 0u;
     }
     p.time = {0, static_cast<uint32_t>(scene.holdSeconds * 1e6), 0, forbiddenOrder(p)};
     p.lens = lensOf(camera.depth);

@@ -35,12 +35,13 @@ void uploadFrame(const UploadBuffers& slot, const Frame& frame, const shared::Fr
     shared::FrameParams& out = *slot.params.as<shared::FrameParams>().data();
     out = params;
     if (slot.colour) {
-        const RawColour image{slot.format, params.colourSize.x, params.colourSize.y, {}, frame->raw.planes};
-        put(slot.colour, colourOf(frame, slot.format, image.width, image.height), image.needed(),
+        RawColour image{slot.format, params.colourSize.x, params.colourSize.y, {}, frame->raw.planes};
+        image.bytes = colourOf(frame, slot.format, image.width, image.height);
+        put(slot.colour, image.bytes, image.needed(),
             slot.format == ColourFormat::Rgba ? "colour" : nameOf(slot.format));
         const ColourPlanes& p = image.planes;
         out.planes = {p.lumaStep, p.blue, p.red, p.chromaStep};
-        out.chroma = {p.across, p.down, p.apart, 0};
+        out.chroma = {p.across, p.down, p.apart, isDark(image) ? params.chroma.w : 0};
     }
 }
 

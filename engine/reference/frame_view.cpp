@@ -22,6 +22,10 @@ FrameView::FrameView(const Scene& scene, const CameraInfo& camera, const Pose& b
     , baseTcamera_(baseTcamera)
     , depth_(depth)
     , colour_(colour) {
+    RawColour image;
+    image.width = camera.colour.width, image.height = camera.colour.height;
+    image.bytes = std::as_bytes(colour);
+    dark_ = isDark(image);
     rays_.reserve(depth.size());
     for (uint32_t v = 0; v < camera.depth.height; ++v) {
         for (uint32_t u = 0; u < camera.depth.width; ++u) {

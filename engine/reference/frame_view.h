@@ -39,10 +39,14 @@ public:
         return colour_[static_cast<size_t>(v) * camera_.colour.width + static_cast<size_t>(u)];
     }
 
+    // The colour image shows nothing.
+    bool dark() const { return dark_; }
+
 private:
     const Scene& scene_;
     const CameraInfo& camera_;
     Pose baseTcamera_;
+    bool dark_ = false;
     std::span<const uint16_t> depth_;
     std::span<const uint32_t> colour_;
     std::vector<glm::dvec2> rays_;

@@ -16,7 +16,8 @@ HoldMemory::Verdict HoldMemory::stays(const FrameView& view, const Memory& memor
     }
     verdict.unsure = std::abs(left) < 2e-6 && left != 0.0; // times are rounded to microseconds
     const dvec3 q = inverse(view.baseTcamera()).apply(memory.at);
-    if (q.z <= 0.0) {
+    const FixtureClass& f = *pointClasses(view.scene())[static_cast<size_t>(memory.cls)];
+    if (q.z <= 0.0 || (view.dark() && f.usesColour())) {
         verdict.stays = true;
         return verdict;
     }

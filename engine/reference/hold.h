@@ -12,7 +12,7 @@ public:
     // Processes the next frame and returns the held spheres, one per pixel. classes: class of the forbidden
     // point seen now at each pixel. previousTime: capture time of the previous frame. A point stays if it was
     // last seen at most scene.holdSeconds ago and its pixel now has no depth, shows a surface nearer by more
-    // than 3 sigma of depth, or is outside the image.
+    // than 3 sigma of depth, or is outside the image, or the class tests colour and the image is dark.
     std::vector<RegionSphere> step(const FrameView& view, double captureTime, double previousTime,
                                    std::span<const int> classes, const PointImage& points);
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <vector>
 
 namespace fathom {
 
@@ -139,6 +140,22 @@ void unpackColour(const RawColour& image, std::span<uint32_t> rgba) noexcept {
     for (uint32_t y = 0; y < image.height; ++y) {
         unpackRow(image, y, rgba.subspan(size_t{y} * image.width, image.width));
     }
+}
+
+bool isDark(const RawColour& image) {
+    constexpr uint32_t kRows = 16, kBright = 16;
+    std::vector<uint32_t> row(image.width);
+    size_t bright = 0;
+    for (uint32_t i = 0; i < kRows && bright * 100 <= size_t{kRows} * image.width; ++i) {
+        if (image.bytes.empty() || image.height == 0) {
+            return false;
+        }
+        unpackRow(image, (2 * i + 1) * image.height / (2 * kRows), row);
+        bright += static_cast<size_t>(std::count_if(row.begin(), row.end(), [](uint32_t c) {
+            return std::max({c & 255, c >> 8 & 255, c >> 16 & 255}) > kBright;
+        }));
+    }
+    return bright * 100 <= size_t{kRows} * image.width;
 }
 
 void packYuyv(std::span<const uint32_t> rgba, std::span<uint32_t> words) noexcept {

@@ -56,6 +56,10 @@ void unpackColour(const RawColour& image, std::span<uint32_t> rgba) noexcept;
 // The same of row y alone; `rgba` has a word per pixel of a row.
 void unpackRow(const RawColour& image, uint32_t y, std::span<uint32_t> rgba) noexcept;
 
+// Whether the image shows nothing, as when a lamp fails or an exposure goes wrong: of 16 rows, all but one
+// pixel in a hundred have no channel above 16. An image without bytes is not dark.
+bool isDark(const RawColour& image);
+
 // Red, green and blue of one pixel as 0xffBBGGRR: BT.601, limited range, in steps of 1/256, rounded and
 // clamped to bytes; and full range as libjpeg computes it, in steps of 1/65536.
 uint32_t rgbaOfYuv(uint32_t y, uint32_t u, uint32_t v) noexcept;

@@ -43,18 +43,24 @@ bool uncontradicted(vec3 p) {
     return any(bvec4(!before, !inside, z == 0.0, z < q.z - margin));
 }
 
+// True for a class that tests colour while the colour image is dark: then no pixel contradicts its points.
+bool isUnseen(uint note) {
+    return (params.chroma.w << 1 >> classOfNote(note) & 1u) != 0u;
+}
+
 // Updates the memory of a slot with the new frame's `point` of class `now` (kNone: no point), whose sphere
 // grows by `grown` [m] for its sigma. Returns the held sphere (R < 0: none), its class, and flags: 1 = the
 // seen point is remembered, 2 = the held one is. holding: as for handlePixel.
 vec4 updateMemory(uint slot, vec3 point, uint now, float grown, bool holding, out uint heldClass, out uint remembered) {
     vec4 last = seenAt(slot), old = vec4(0.0);
     uint lastNote = floatBitsToUint(last.w), when = 0;
-    bool lastStays = all(bvec3(lastNote != 0u, params.time.x - params.time.z <= params.time.y, uncontradicted(last.xyz)));
+    bool lastStays = all(bvec3(lastNote != 0u, params.time.x - params.time.z <= params.time.y, any(bvec2(uncontradicted(last.xyz), isUnseen(lastNote)))));
     bool oldStays = false;
     if (holding) { // uniform within a patch
         old = keptAt(slot);
         when = keptTimeAt(slot);
-        oldStays = all(bvec3(floatBitsToUint(old.w) != 0u, params.time.x - when <= params.time.y, uncontradicted(old.xyz)));
+        oldStays = all(bvec3(floatBitsToUint(old.w) != 0u, params.time.x - when <= params.time.y,
+                             any(bvec2(uncontradicted(old.xyz), isUnseen(floatBitsToUint(old.w))))));
     }
     vec4 hold = lastStays ? last : (oldStays ? old : vec4(0.0));
     seen[slot] = now == kNone ? vec4(0.0) : vec4(point, uintBitsToFloat(noteOf(now, grown)));

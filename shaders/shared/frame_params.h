@@ -49,8 +49,10 @@ struct FrameParams {
     vec4 memoryMore; // change that is not shown: in sigma, x, but at most y [m]; z: variance of a moved pose,
                      // [m^2]; w: 1 = the camera has moved since the frame that the estimates come from
     vec4 beforeTbase[3]; // rows of the pose of that frame, as cameraTbase
-    uvec4 planes; // colour in planes, ColourPlanes: step of luma rows, first U, first V, step of chroma rows [bytes]
-    uvec4 chroma; // log2 of the columns and rows that share a sample, and of the bytes between samples; -
+    uvec4 planes; // colour in planes, ColourPlanes: step of luma rows, first U, first V, step of chroma rows
+                  // [bytes]
+    uvec4 chroma; // log2 of the columns and rows that share a sample, and of the bytes between samples;
+                  // classes that test colour while the colour image is dark
 };
 FATHOM_SIZE(FrameParams, 64 + 112 + 144 + 640 + 208 + 128);
 
@@ -89,8 +91,8 @@ struct FrameCounters {
     uint leakSpacing[8]; // per class: float bits of the largest spacing [m] between neighbours that is >= R;
                          // 0 = none
     uint leakRange[8];   // per class: float bits of the largest range [m] of such neighbours
-    uint largestRadius[8]; // per class: float bits of the largest radius [m] of its finite spheres; 0 = none. Only
-                           // with a tree
+    uint largestRadius[8]; // per class: float bits of the largest radius [m] of its finite spheres; 0 = none.
+                           // Only with a tree
 };
 FATHOM_SIZE(FrameCounters, 224);
 FATHOM_CONST kDeliveredWord = 22; // FrameCounters::delivered

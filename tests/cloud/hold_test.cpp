@@ -197,6 +197,45 @@ TEST_CASE("A held point beside the image stays where the polynomials of the lens
     }
 }
 
+TEST_CASE("A dark colour image takes no held point away from a class that tests colour") {
+    constexpr uint32_t kBlack = 0xff060504;
+    Scene scene = holdScene(0.5);
+    scene.fixtures.push_back(forbiddenClass("near", 0.02)); // depth alone
+    scene.fixtures[1].box = Box{{-5.0, -5.0, 0.0}, {5.0, 5.0, 0.55}};
+    CloudRig rig(scene, kCamera);
+    reference::HoldMemory twin;
+    rig.run(script(kCamera, kWall), 0.0);
+    twin.step(rig.view(), 0.0, 0.0, rig.forbidden(), rig.points());
+    HoldAgreement agreement;
+    for (int k = 1; k <= 20; ++k) { // the last five are later than hold_s
+        const auto dark = drawnImage(
+            kCamera, [](int, int) { return kWall; }, kBlack);
+        rig.run(dark, k / 30.0);
+        CHECK(countOf(rig.spheres()) == 0);
+        if (k != 15) { // at the limit to within the clock's rounding
+            CHECK(countOf(rig.spheres(true)) == (k < 15 ? kTarget : 0u));
+        }
+        const auto expected = twin.step(rig.view(), k / 30.0, (k - 1) / 30.0, rig.forbidden(), rig.points());
+        compareHeld(rig.spheres(true), expected, twin.unsure(), agreement);
+    }
+    CHECK(agreement.wrong == 0);
+    CloudRig byDepth(scene, kCamera);
+    byDepth.run(script(kCamera, 0.5), 0.0);
+    REQUIRE(countOf(byDepth.spheres()) == kTarget);
+    byDepth.run(drawnImage(
+                    kCamera, [](int, int) { return kWall; }, kBlack),
+                0.03);
+    CHECK(countOf(byDepth.spheres(true)) == kTarget); // red as well
+    scene.fixtures.erase(scene.fixtures.begin());
+    CloudRig withoutColour(scene, kCamera);
+    withoutColour.run(script(kCamera, 0.5), 0.0);
+    REQUIRE(countOf(withoutColour.spheres()) == kTarget);
+    withoutColour.run(drawnImage(
+                          kCamera, [](int, int) { return kWall; }, kBlack),
+                      0.03);
+    CHECK(countOf(withoutColour.spheres(true)) == 0);
+}
+
 TEST_CASE("The memory's clock wraps at 2^32 us without losing points or keeping them too long") {
     for (const double start : {4294.80, 4294.967, 1.7e9}) {
         CAPTURE(start);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <doctest/doctest.h>
 #include <random>
 
@@ -199,4 +200,38 @@ TEST_CASE(
     copy.take(none);
     copy.giveTo(out);
     CHECK(out.empty());
+}
+
+TEST_CASE(
+    "An image is dark in every format when all but one pixel in a hundred are, and never without pixels") {
+    constexpr uint32_t kWidth = 64, kHeight = 48;
+    const auto dark = [](ColourFormat format, uint32_t black, uint32_t bright, size_t spots) {
+        std::vector<uint32_t> rgba(kWidth * kHeight, black);
+        for (size_t i = 0; i < spots; ++i) {
+            rgba[kWidth * (kHeight / 32) + i] = bright; // a row that is looked at
+        }
+        std::vector<std::byte> bytes(rgba.size() * 4);
+        if (format == ColourFormat::Rgba) {
+            std::memcpy(bytes.data(), rgba.data(), bytes.size());
+        } else if (format == ColourFormat::Yuyv) {
+            std::vector<uint32_t> words(rgba.size() / 2);
+            packYuyv(rgba, words);
+            std::memcpy(bytes.data(), words.data(), words.size() * 4);
+        } else {
+            for (size_t i = 0; i < rgba.size(); ++i) {
+                std::memcpy(bytes.data() + 3 * i, &rgba[i], 3);
+            }
+        }
+        return isDark({format, kWidth, kHeight, bytes});
+    };
+    for (const ColourFormat format :
+         {ColourFormat::Rgba, ColourFormat::Yuyv, ColourFormat::Rgb, ColourFormat::Bgr}) {
+        CHECK(dark(format, 0xff000000, 0, 0));
+        CHECK(dark(format, 0xff0a0a0a, 0xffffffff, 8)); // of 1024
+        CHECK_FALSE(dark(format, 0xff0a0a0a, 0xffffffff, 16));
+        CHECK_FALSE(dark(format, 0xff202020, 0, 0));
+        CHECK_FALSE(dark(format, 0xff00ff00, 0, 0));
+    }
+    CHECK_FALSE(isDark({}));
+    CHECK_FALSE(isDark({ColourFormat::Rgba, kWidth, kHeight, {}}));
 }
