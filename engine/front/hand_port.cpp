@@ -29,7 +29,8 @@ Step HandPort::Impl::step(const Hand& hand, Nanoseconds now) noexcept {
     const bool ended = shared->ended.load();
     HandSample sample = front::internal(hand);
     sample.buttons |= ended ? kDeadManOpen : 0; // placed shapes do not age
-    const StepRecord& record = stepper.step(sample, t);
+    constexpr double kShare = 0.8; // the caller ticks at any phase of the clock, and needs some of the period
+    const StepRecord& record = stepper.step(sample, t, t + kShare * stepper.period());
     Step step = front::external(record, shared->haptic.options.staleAfter);
     // Contacts of the first set may come before what the frame thread says about it.
     const bool none = stepper.scene().frame < 0 && record.frame < 0;

@@ -49,7 +49,8 @@ void HapticLoop::run(const std::atomic<bool>& stop, const std::atomic<bool>& ask
 double HapticLoop::step(double due) noexcept {
     const double began = clock_.now();
     const HandSample sample = hand_.read(std::max(0.0, began));
-    const StepRecord& record = stepper_.step(sample, began);
+    const double end = (std::floor(began / period_) + 1.0) * period_; // of the period that began is in
+    const StepRecord& record = stepper_.step(sample, began, end);
     hand_.write(record.deviceWrench, stepper_.sinceLast() > 0.0 ? stepper_.sinceLast() : period_);
     const double over = clock_.now();
     stepper_.log({began - due, over > due + period_, missedNow_});

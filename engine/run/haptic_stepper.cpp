@@ -48,13 +48,13 @@ void HapticStepper::sendSetpoint(const StepRecord& record, bool off, double now)
     }
 }
 
-const StepRecord& HapticStepper::step(const HandSample& hand, double now) noexcept {
+const StepRecord& HapticStepper::step(const HandSample& hand, double now, double end) noexcept {
     takeNewest();
     StepInput input = stepInput(channels_.scene.front(), hand, now);
     sinceLast_ = first_ ? 0.0 : now - before_;
     input.measuredPeriod = sinceLast_;
     check_.judge(input);
-    const Until until{&clock_, (std::floor(now / period_) + 1.0) * period_};
+    const Until until{&clock_, end};
     input.deadline = {&Until::passed, &until};
     followArm(now);
     const ToolState start = cycle_.place();

@@ -21,9 +21,8 @@ public:
         , period_(cycle.options().period) {}
 
     // Steps the cycle at `now` [s] on the run's clock and publishes the tool state, the arm setpoint and the
-    // posture. The record stays valid until the next step. The step stops refining when the period that
-    // contains `now` ends.
-    const StepRecord& step(const HandSample& hand, double now) noexcept;
+    // posture. The record stays valid until the next step. The step stops refining at `end` [s].
+    const StepRecord& step(const HandSample& hand, double now, double end) noexcept;
 
     // The timing of the last step, as the loop measured it.
     struct Timing {
