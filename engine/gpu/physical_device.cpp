@@ -64,6 +64,14 @@ std::string describeAll(const std::vector<VkPhysicalDevice>& devices) {
     return text.empty() ? "there is no Vulkan device" : text;
 }
 
+std::vector<VkQueueFamilyProperties> queueFamilies(VkPhysicalDevice device) {
+    uint32_t count = 0;
+    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
+    std::vector<VkQueueFamilyProperties> families(count);
+    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
+    return families;
+}
+
 } // namespace
 
 bool hasExtension(VkPhysicalDevice device, const char* name) {
@@ -111,16 +119,15 @@ DeviceFacts readFacts(VkPhysicalDevice device) {
     facts.hostProcessors = usableProcessors();
     facts.gpuQueryLeaves = facts.kind == DeviceKind::Discrete ? kDiscreteQueryLeaves : facts.gpuQueryLeaves;
     facts.hostPointerAlignment = canImport ? host.minImportedHostPointerAlignment : 0;
-    facts.timestampPeriodNs =
-        limits.timestampComputeAndGraphics ? static_cast<double>(limits.timestampPeriod) : 0.0;
+    const std::optional<uint32_t> family = computeFamily(device);
+    facts.timestampBits = family ? queueFamilies(device)[*family].timestampValidBits : 0;
+    facts.timestampPeriodNs = facts.timestampBits > 0 ? static_cast<double>(limits.timestampPeriod) : 0.0;
     return facts;
 }
 
 std::optional<uint32_t> computeFamily(VkPhysicalDevice device) {
-    uint32_t count = 0;
-    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, nullptr);
-    std::vector<VkQueueFamilyProperties> families(count);
-    vkGetPhysicalDeviceQueueFamilyProperties(device, &count, families.data());
+    const std::vector<VkQueueFamilyProperties> families = queueFamilies(device);
+    const auto count = static_cast<uint32_t>(families.size());
     std::optional<uint32_t> any;
     for (uint32_t f = 0; f < count; ++f) {
         if ((families[f].queueFlags & VK_QUEUE_COMPUTE_BIT) == 0) {

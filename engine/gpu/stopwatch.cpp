@@ -5,6 +5,10 @@
 
 namespace fathom::gpu {
 
+uint64_t stampsBetween(uint64_t from, uint64_t to, uint32_t bits) noexcept {
+    return (to - from) & (bits < 64 ? (uint64_t{1} << bits) - 1 : ~uint64_t{0});
+}
+
 Stopwatch::Stopwatch(const Device& device, uint32_t marks)
     : device_(device)
     , capacity_(marks) {
@@ -60,7 +64,8 @@ std::vector<double> Stopwatch::intervalsMs() const {
           "vkGetQueryPoolResults");
     for (size_t i = 0; i < intervals.size(); ++i) {
         intervals[i] =
-            static_cast<double>(stamps[i + 1] - stamps[i]) * device_.facts().timestampPeriodNs * 1e-6;
+            static_cast<double>(stampsBetween(stamps[i], stamps[i + 1], device_.facts().timestampBits)) *
+            device_.facts().timestampPeriodNs * 1e-6;
     }
     return intervals;
 }

@@ -26,6 +26,7 @@ struct DeviceFacts {
     uint32_t hostProcessors = 1;       // CPUs usable by the thread that created the device
     uint64_t hostPointerAlignment = 0; // [bytes] of imported host memory; 0 = cannot import
     double timestampPeriodNs = 1.0;    // 0 = no timestamps
+    uint32_t timestampBits = 64;       // after which they begin again at 0
     // Number of tool leaves from which `contact.where: auto` uses this device, if it is not a CPU. Never by
     // default; discrete GPUs start with a measured number, and `fathom profile query` stores one per device.
     uint32_t gpuQueryLeaves = 0xffffffffu;

@@ -85,6 +85,13 @@ TEST_CASE("A buffer beyond the device's limit is rejected by name") {
                          doctest::Contains("huge"), Error);
 }
 
+TEST_CASE("An interval of timestamps is right where the counter begins again at 0") {
+    CHECK(gpu::stampsBetween(5, 12, 64) == 7);
+    CHECK(gpu::stampsBetween(0xffffffffffffffff, 4, 64) == 5);
+    CHECK(gpu::stampsBetween((uint64_t{1} << 36) - 10, 15, 36) == 25); // Intel: once per hour
+    CHECK(vulkan().device.facts().timestampBits > 0);
+}
+
 TEST_CASE("Images with more texels than a device reads from a buffer are refused with both numbers") {
     DeviceFacts facts; // the least that Vulkan guarantees
     facts.name = "small device";
