@@ -30,6 +30,16 @@ uint32_t guess(uint32_t last, uint32_t least, uint32_t most) {
 
 } // namespace
 
+bool agree(std::span<const FoundSphere> spheres, uint64_t leaves) noexcept {
+    uint64_t all = 0;
+    bool inside = true;
+    for (const FoundSphere& f : spheres) {
+        all += f.count;
+        inside = inside && uint64_t{f.first} + f.count <= leaves;
+    }
+    return inside && all == leaves;
+}
+
 QueryAnswer::QueryAnswer(const gpu::Device& device, const Counts& most)
     : device_(device)
     , answer_(device, bytesOf(most), gpu::MemoryKind::Device, "query answer")

@@ -10,6 +10,10 @@
 
 namespace fathom::cloud {
 
+// Whether the leaves that the spheres list are exactly those of the answer. The device counts in 32 bits: a
+// set with more pairs than that gives numbers that do not agree.
+bool agree(std::span<const shared::FoundSphere> spheres, uint64_t leaves) noexcept;
+
 // One thread. The answer is a header with two counts, then spheres, then leaves.
 class QueryAnswer {
 public:

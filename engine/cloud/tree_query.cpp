@@ -163,6 +163,9 @@ bool TreeQuery::list(const FixtureSet& set, const Pose& baseTtool, double reach,
         const Blocks both[] = {live, stillBlocks()};
         const Counts found = run({both, still_.count() > 0 ? 2u : 1u}, set.completed, params);
         if (found.fits(answer_.most())) {
+            if (!agree(answer_.spheres(), found.leaves)) {
+                return false;
+            }
             take(set, near);
             return true;
         }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The GPU's contact query against the CPU's on images of any size, on what the passes leave of them, on
 // frozen classes and for arms.
+#include "engine/cloud/query_answer.h"
 #include "engine/cycle/arm_rig.h"
 #include "engine/cycle/contact_cycle.h"
 #include "tests/cycle/red_and_blue.h"
@@ -171,4 +172,20 @@ TEST_CASE("Both queries agree for all links of an arm at several postures") {
         found += both.check(place);
     }
     CHECK(found > 100);
+}
+
+TEST_CASE("An answer whose counts passed 32 bits is not taken") {
+    const auto found = [](uint32_t first, uint32_t count) {
+        shared::FoundSphere f{};
+        f.first = first, f.count = count;
+        return f;
+    };
+    CHECK(cloud::agree({}, 0));
+    const std::vector good{found(0, 3), found(3, 0), found(3, 5)};
+    CHECK(cloud::agree(good, 8));
+    CHECK_FALSE(cloud::agree(good, 7));
+    CHECK_FALSE(cloud::agree(good, 9));
+    const std::vector wrapped{found(0, 0xfffffff0), found(0xfffffff0, 24)}; // 8 in 32 bits
+    CHECK_FALSE(cloud::agree(wrapped, 8));
+    CHECK_FALSE(cloud::agree(std::vector{found(4, 4), found(0xfffffffe, 4)}, 8));
 }
