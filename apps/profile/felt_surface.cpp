@@ -104,10 +104,7 @@ Fixtures alongPath(const Fixtures& truth, const Tool& tool, const dvec3& from, c
         const dvec3 offset = truth.origin + dvec3(all.x[i], all.y[i], all.z[i]) - from;
         const double beside = glm::length(offset - glm::dot(offset, in) * in);
         if (beside < tool.boundingRadius() + static_cast<double>(all.radius[i]) + kBeside) {
-            RegionSpheres& s = near.spheres;
-            s.x.push_back(all.x[i]), s.y.push_back(all.y[i]), s.z.push_back(all.z[i]);
-            s.radius.push_back(all.radius[i]);
-            s.source.push_back(all.source[i]), s.fixture.push_back(all.fixture[i]);
+            near.spheres.addFrom(all, i);
         }
     }
     return near;

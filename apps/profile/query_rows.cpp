@@ -180,11 +180,8 @@ RegionSpheres nearestOf(const RegionSpheres& all, const dvec3& to, size_t count)
     order.resize(std::min(count, order.size()));
     std::sort(order.begin(), order.end());
     RegionSpheres few;
-    few.resize(order.size());
-    for (size_t k = 0; k < order.size(); ++k) {
-        const uint32_t i = order[k];
-        few.x[k] = all.x[i], few.y[k] = all.y[i], few.z[k] = all.z[i], few.radius[k] = all.radius[i];
-        few.source[k] = all.source[i], few.fixture[k] = all.fixture[i];
+    for (const uint32_t i : order) {
+        few.addFrom(all, i);
     }
     return few;
 }

@@ -13,18 +13,12 @@ Fixtures wavyWall(int half, double spacing) {
     Fixtures f;
     f.frame = 0;
     f.generation = 1;
-    RegionSpheres& s = f.spheres;
     for (int j = -half; j <= half; ++j) {
         for (int i = -half; i <= half; ++i) {
             const double x = i * spacing, y = j * spacing;
             const double noise =
                 3e-4 * (std::fmod(std::abs(std::sin(i * 12.9898 + j * 78.233) * 43758.5453), 1.0) - 0.5);
-            s.x.push_back(static_cast<float>(x));
-            s.y.push_back(static_cast<float>(y));
-            s.z.push_back(static_cast<float>(wallHeight(x, y) + noise));
-            s.radius.push_back(static_cast<float>(kWallRadius));
-            s.source.push_back(static_cast<uint32_t>(s.source.size()));
-            s.fixture.push_back(0);
+            f.spheres.add({x, y, wallHeight(x, y) + noise}, kWallRadius);
         }
     }
     return f;

@@ -18,7 +18,7 @@ constexpr double kEscapePerTick = 1e-3; // [m] depth removed per tick
 
 Fixtures oneSphere(const dvec3& centre, double radius) {
     Fixtures set;
-    addSphere(set, centre, radius);
+    set.spheres.add(centre, radius);
     return set;
 }
 
@@ -85,8 +85,8 @@ Outcome insideManyCase(RunLength runLength) {
         Fixtures set;
         for (int k = 0; k < 800; ++k) {
             const dvec3 about = 0.5 * radius * rng.direction();
-            addSphere(set, about - (std::max(0.0, glm::dot(about, up)) + 0.006) * up,
-                      radius); // below every leaf
+            set.spheres.add(about - (std::max(0.0, glm::dot(about, up)) + 0.006) * up,
+                            radius); // below every leaf
         }
         const Pose start{dvec3(0.0), rng.rotation()};
         LockstepRig rig(
@@ -119,7 +119,7 @@ World radiiWorld() {
     for (int k = 0; k < 3000; ++k) {
         const double radius = rng.logUniform(1e-4, 10.0);
         const dvec3 way = rng.direction();
-        addSphere(w.fixtures, way * (radius + rng.uniform(0.1, 0.2)), radius); // near the arena
+        w.fixtures.spheres.add(way * (radius + rng.uniform(0.1, 0.2)), radius); // near the arena
     }
     w.leaves = crossLeaves(0.004);
     w.start = {dvec3(0.0), kUpright};
@@ -132,7 +132,7 @@ World equalsWorld() {
     w.fixtures = {};
     for (const dvec3& at : {dvec3(0.02, 0, 0), dvec3(-0.03, 0.01, 0), dvec3(0, 0, -0.04)}) {
         for (int k = 0; k < 1000; ++k) {
-            addSphere(w.fixtures, at, 0.02);
+            w.fixtures.spheres.add(at, 0.02);
         }
     }
     w.arena = 0.08;

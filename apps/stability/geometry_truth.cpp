@@ -191,10 +191,10 @@ Outcome cameraOriginCase(RunLength runLength) {
             return set;
         };
         Fixtures first, second;
-        addSphere(first, dvec3(10, 0, 0), radius);
+        first.spheres.add(dvec3(10, 0, 0), radius);
         for (int k = 0; k < 1 + i % 5; ++k) { // on one side, so that there is a way out
             const dvec3 off = k == 0 ? dvec3(0.0) : glm::normalize(rng.direction() + dvec3(0, 0, 1.5));
-            addSphere(second, 1e-3 * radius * off, radius);
+            second.spheres.add(1e-3 * radius * off, radius);
         }
         rig.show(withImage(std::move(first), 500));
         rig.step(start);

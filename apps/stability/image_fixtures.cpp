@@ -16,13 +16,8 @@ void add(const std::vector<reference::RegionSphere>& spheres, uint32_t firstSour
         if (s.radius < 0.0) {
             continue;
         }
-        const dvec3 about = s.centre - set.origin;
-        set.spheres.x.push_back(static_cast<float>(about.x));
-        set.spheres.y.push_back(static_cast<float>(about.y));
-        set.spheres.z.push_back(static_cast<float>(about.z));
-        set.spheres.radius.push_back(static_cast<float>(s.radius));
-        set.spheres.source.push_back(firstSource + static_cast<uint32_t>(i));
-        set.spheres.fixture.push_back(static_cast<uint8_t>(s.cls));
+        set.spheres.add(s.centre - set.origin, s.radius, firstSource + static_cast<uint32_t>(i),
+                        static_cast<uint8_t>(s.cls));
     }
 }
 

@@ -142,15 +142,9 @@ Fixtures sphereWall(double height, uint64_t generation) {
     fixtures.frame = static_cast<int64_t>(generation);
     fixtures.generation = generation;
     fixtures.origin = {0.0, 0.0, height};
-    RegionSpheres& s = fixtures.spheres;
     for (int i = -kHalf; i <= kHalf; ++i) {
         for (int j = -kHalf; j <= kHalf; ++j) {
-            s.x.push_back(static_cast<float>(kSpacing * i));
-            s.y.push_back(static_cast<float>(kSpacing * j));
-            s.z.push_back(static_cast<float>(-kRadius));
-            s.radius.push_back(static_cast<float>(kRadius));
-            s.source.push_back(static_cast<uint32_t>(s.source.size()));
-            s.fixture.push_back(0);
+            fixtures.spheres.add({kSpacing * i, kSpacing * j, -kRadius}, kRadius);
         }
     }
     return fixtures;

@@ -72,22 +72,12 @@ std::vector<Sphere> crossLeaves(double radius) {
     return leaves;
 }
 
-void addSphere(Fixtures& set, const dvec3& aboutOrigin, double radius) {
-    RegionSpheres& s = set.spheres;
-    s.x.push_back(static_cast<float>(aboutOrigin.x));
-    s.y.push_back(static_cast<float>(aboutOrigin.y));
-    s.z.push_back(static_cast<float>(aboutOrigin.z));
-    s.radius.push_back(static_cast<float>(radius));
-    s.source.push_back(static_cast<uint32_t>(s.source.size()));
-    s.fixture.push_back(0);
-}
-
 void addWall(Fixtures& set, const dvec3& centre, const dvec3& u, const dvec3& v, double half, double spacing,
              double radius) {
     const int n = static_cast<int>(std::lround(half / spacing));
     for (int i = -n; i <= n; ++i) {
         for (int j = -n; j <= n; ++j) {
-            addSphere(set, centre + (spacing * i) * u + (spacing * j) * v, radius);
+            set.spheres.add(centre + (spacing * i) * u + (spacing * j) * v, radius);
         }
     }
 }
@@ -138,9 +128,9 @@ World needleWorld() {
         emptyWorld("needle", {{dvec3(0.0), 0.0005}, {dvec3(0, 0, 0.02), 0.0005}}, {0.006, 0.003, -0.01});
     w.arena = 0.012;
     for (int i = -20; i <= 20; ++i) {
-        addSphere(w.fixtures, dvec3(0, 0.0005 * i, 0), 0.0002);
-        addSphere(w.fixtures, dvec3(0, 0, 0.0005 * i), 0.0002);
-        addSphere(w.fixtures, dvec3(0.0005 * i, 0, 0.005), 0.0001);
+        w.fixtures.spheres.add(dvec3(0, 0.0005 * i, 0), 0.0002);
+        w.fixtures.spheres.add(dvec3(0, 0, 0.0005 * i), 0.0002);
+        w.fixtures.spheres.add(dvec3(0.0005 * i, 0, 0.005), 0.0001);
     }
     return w;
 }
@@ -150,7 +140,7 @@ World rubbleWorld() {
     Rng rng(99);
     for (int i = 0; i < 1500; ++i) {
         const dvec3 centre = rng.inCube(0.25);
-        addSphere(w.fixtures, centre, rng.logUniform(0.002, 0.02));
+        w.fixtures.spheres.add(centre, rng.logUniform(0.002, 0.02));
     }
     w.start.position = {0, 0, 0.30};
     return w;

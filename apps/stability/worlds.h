@@ -31,7 +31,6 @@ Tool ballTool(double radius);
 // A rod of overlapping balls with a cross bar, 60 mm each, for cases in which rotation matters.
 std::vector<Sphere> crossLeaves(double radius);
 
-void addSphere(Fixtures& set, const dvec3& aboutOrigin, double radius);
 // Square patch of the plane spanned by the unit vectors u and v, with a sphere every `spacing` [m].
 void addWall(Fixtures& set, const dvec3& centre, const dvec3& u, const dvec3& v, double half, double spacing,
              double radius);

@@ -7,20 +7,11 @@ namespace fathom::cloud {
 
 namespace {
 
-void copySphere(RegionSpheres& to, size_t at, const RegionSpheres& from, size_t i) {
-    to.x[at] = from.x[i];
-    to.y[at] = from.y[i];
-    to.z[at] = from.z[i];
-    to.radius[at] = from.radius[i];
-    to.source[at] = from.source[i];
-    to.fixture[at] = from.fixture[i];
-}
-
 void append(RegionSpheres& to, const RegionSpheres& from) {
     const size_t begin = to.size();
     to.resize(begin + from.size());
     for (size_t i = 0; i < from.size(); ++i) {
-        copySphere(to, begin + i, from, i);
+        to.replace(begin + i, from, i);
     }
 }
 
@@ -43,10 +34,8 @@ FrozenClasses::Kept FrozenClasses::take(const Fixtures& set, uint32_t row) {
     const uint32_t moved = 2u * set.camera.depth.pixels();
     for (size_t i = 0; i < set.spheres.size(); ++i) {
         if (set.spheres.fixture[i] == row) {
-            const size_t at = kept.spheres.size();
-            kept.spheres.resize(at + 1);
-            copySphere(kept.spheres, at, set.spheres, i);
-            kept.spheres.source[at] += moved;
+            kept.spheres.addFrom(set.spheres, i);
+            kept.spheres.source.back() += moved;
         }
     }
     const auto guidance = std::find_if(set.guidance.begin(), set.guidance.end(),
@@ -103,7 +92,7 @@ void FrozenClasses::apply(Fixtures& set, const Scene& scene) {
     size_t live = 0;
     for (size_t i = 0; i < spheres.size(); ++i) {
         if (!kept_.contains(spheres.fixture[i])) {
-            copySphere(spheres, live++, spheres, i);
+            spheres.replace(live++, spheres, i);
         }
     }
     spheres.resize(live);

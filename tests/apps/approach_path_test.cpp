@@ -33,10 +33,7 @@ void addSpheres(Fixtures& set, const SimulatedCamera& camera, const Pose& baseTs
         const uint32_t down = pixel / lens.width;
         const glm::dvec2 ray = lens.ray(pixel % lens.width, down);
         const dvec3 p = baseTscene.apply(view.depth[pixel] * dvec3(ray.x, ray.y, 1.0)) - set.origin;
-        RegionSpheres& s = set.spheres;
-        s.x.push_back(static_cast<float>(p.x)), s.y.push_back(static_cast<float>(p.y));
-        s.z.push_back(static_cast<float>(p.z)), s.radius.push_back(0.04f);
-        s.source.push_back(pixel), s.fixture.push_back(row);
+        set.spheres.add(p, 0.04, pixel, row);
     }
 }
 

@@ -64,7 +64,7 @@ struct Loop {
 TEST_CASE("The loop of pilot, proxy, joints, serial line and arm keeps every link off a region") {
     for (const LineFaults& faults : {LineFaults{}, LineFaults{0.002, 0.002, true, 0.02, false}}) {
         Loop loop;
-        addSphere(loop.world.fixtures, {0.12, 0.2, 0.0}, 0.05); // next to the first link
+        loop.world.fixtures.spheres.add({0.12, 0.2, 0.0}, 0.05); // next to the first link
         loop.world.grid.build(loop.world.fixtures.spheres);
         loop.line.faults = faults;
         loop.run(3.0, {{0.1, 0.95, 0.0}, kUpright}); // the region stops the elbow on the way

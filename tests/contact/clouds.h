@@ -28,16 +28,6 @@ inline dquat randomRotation(std::mt19937_64& random) {
     return glm::normalize(dquat(w, x, y, n(random)));
 }
 
-inline void addSphere(Fixtures& fixtures, const dvec3& aboutOrigin, double radius) {
-    RegionSpheres& s = fixtures.spheres;
-    s.x.push_back(static_cast<float>(aboutOrigin.x));
-    s.y.push_back(static_cast<float>(aboutOrigin.y));
-    s.z.push_back(static_cast<float>(aboutOrigin.z));
-    s.radius.push_back(static_cast<float>(radius));
-    s.source.push_back(static_cast<uint32_t>(s.source.size()));
-    s.fixture.push_back(0);
-}
-
 // Sources in an order unrelated to position, as from patches.
 inline void shuffleSources(Fixtures& fixtures, std::mt19937_64& random) {
     std::shuffle(fixtures.spheres.source.begin(), fixtures.spheres.source.end(), random);
@@ -56,7 +46,7 @@ inline Fixtures randomCloud(std::mt19937_64& random, size_t count, double half, 
     std::uniform_real_distribution<double> logRadius(std::log(smallest), std::log(largest));
     for (size_t i = 0; i < count; ++i) {
         const dvec3 centre = randomIn(random, half);
-        addSphere(fixtures, centre, std::exp(logRadius(random)));
+        fixtures.spheres.add(centre, std::exp(logRadius(random)));
     }
     shuffleSources(fixtures, random);
     return fixtures;
@@ -68,7 +58,7 @@ inline void addWall(Fixtures& fixtures, const dvec3& centre, const dvec3& u, con
     const int n = static_cast<int>(std::lround(half / spacing));
     for (int i = -n; i <= n; ++i) {
         for (int j = -n; j <= n; ++j) {
-            addSphere(fixtures, centre + (spacing * i) * u + (spacing * j) * v, radius);
+            fixtures.spheres.add(centre + (spacing * i) * u + (spacing * j) * v, radius);
         }
     }
 }

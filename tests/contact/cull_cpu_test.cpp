@@ -121,7 +121,7 @@ TEST_CASE("A tool kilometres from the origin keeps its whole reach and misses no
     Fixtures fixtures = emptySet();
     const dvec3 far(3000.0, -2000.0, 500.0);
     for (int i = 0; i < 3000; ++i) {
-        addSphere(fixtures, far + randomIn(random, 0.3), 0.03);
+        fixtures.spheres.add(far + randomIn(random, 0.3), 0.03);
     }
     const Tool tool = randomTool(random, 50, 0.1, 0.01);
     Query query;
@@ -140,7 +140,7 @@ TEST_CASE("No spheres, or none within reach, give an empty set that certifies it
     CHECK(query.set.reach == 0.01);
     CHECK(query.set.pairBegin.size() == 10);
     Fixtures one = emptySet(5);
-    addSphere(one, dvec3(2.0), 0.04);
+    one.spheres.add(dvec3(2.0), 0.04);
     CHECK(query(tool, Pose{}, 0.01, one).size() == 0);
     CHECK(query.set.frame == 5);
     CHECK(query.set.generation == 5);

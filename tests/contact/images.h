@@ -29,7 +29,7 @@ inline Fixtures wallImage(double z, uint64_t generation, double radius = 0.0, do
                 static_cast<uint16_t>(std::lround(seen / set.camera.metresPerUnit));
             if (radius > 0.0) {
                 const glm::dvec2 ray = lens.ray(u, v);
-                addSphere(set, seen * dvec3(ray.x, ray.y, 1.0), radius);
+                set.spheres.add(seen * dvec3(ray.x, ray.y, 1.0), radius);
                 set.spheres.source.back() = v * lens.width + u;
             }
         }

@@ -206,8 +206,8 @@ TEST_CASE("After small and large motions the rows, smooth planes and violations 
 TEST_CASE("A leaf gets a second row in the small motion that takes a sphere out of the cone of the first") {
     constexpr double kAngle = NarrowPhase::kCone - 1e-4; // [rad]
     Fixtures fixtures = emptySet();
-    addSphere(fixtures, dvec3(0, 0, -0.0502), 0.04);
-    addSphere(fixtures, 0.051 * dvec3(std::sin(kAngle), 0, -std::cos(kAngle)), 0.04);
+    fixtures.spheres.add(dvec3(0, 0, -0.0502), 0.04);
+    fixtures.spheres.add(0.051 * dvec3(std::sin(kAngle), 0, -std::cos(kAngle)), 0.04);
     Bench bench(ballTool(0.01), fixtures, Pose{});
     bench.narrow.gather(bench.set, bench.leaves, dvec3(0.0), 0.004, 0.002, true);
     CHECK(bench.narrow.rows().size() == 1);
@@ -235,7 +235,7 @@ TEST_CASE("All touching pairs are checked, also when they exceed the lists") {
 TEST_CASE("For coinciding centres the normal is the leaf's last one or the direction to the camera") {
     Fixtures fixtures = emptySet();
     fixtures.baseTcamera.position = dvec3(0, -2, 0);
-    addSphere(fixtures, dvec3(0.0), 0.04);
+    fixtures.spheres.add(dvec3(0.0), 0.04);
     Bench bench(ballTool(0.01), fixtures, Pose{});
     bench.narrow.gather(bench.set, bench.leaves, dvec3(0.0), 0.004, 0.002, true);
     REQUIRE(bench.narrow.rows().size() == 1);

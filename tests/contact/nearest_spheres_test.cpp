@@ -69,7 +69,7 @@ TEST_CASE("A leaf with no sphere within the limit has none, and an empty set has
     Fixtures fixtures = emptySet();
     const Tool tool = ballTool(0.01);
     CHECK(check(fixtures, tool, {dvec3(0.0), kUpright}, 1.0f) == 0);
-    addSphere(fixtures, dvec3(0.0, 0.0, 0.05), 0.01);
+    fixtures.spheres.add(dvec3(0.0, 0.0, 0.05), 0.01);
     CHECK(check(fixtures, tool, {dvec3(0.0), kUpright}, 0.029f) == 0);
     CHECK(check(fixtures, tool, {dvec3(0.0), kUpright}, 0.031f) == 1);
 }

@@ -46,7 +46,7 @@ TEST_CASE("The grid finds a single sphere, and all of several equal ones") {
     for (const size_t count : {size_t{1}, size_t{1000}}) {
         Fixtures set = emptySet();
         for (size_t i = 0; i < count; ++i) {
-            addSphere(set, dvec3(0.5, -0.25, 2.0), 0.04);
+            set.spheres.add(dvec3(0.5, -0.25, 2.0), 0.04);
         }
         RegionGrid grid;
         grid.build(set.spheres);
@@ -79,7 +79,7 @@ TEST_CASE("The grid misses no sphere of random clouds of any radii and extent") 
 TEST_CASE("One far outlier costs no memory and no result") {
     std::mt19937_64 random(8);
     Fixtures set = randomCloud(random, 2000, 0.5, 0.01, 0.04);
-    addSphere(set, dvec3(1e6, -2e6, 3e7), 0.04);
+    set.spheres.add(dvec3(1e6, -2e6, 3e7), 0.04);
     RegionGrid grid;
     grid.build(set.spheres);
     CHECK(checkAgainstBruteForce(set.spheres, grid, dvec3(1e6, -2e6, 3e7), 10.0) == 1);
@@ -88,10 +88,10 @@ TEST_CASE("One far outlier costs no memory and no result") {
 
 TEST_CASE("Spheres that are not finite are skipped and the others are found") {
     Fixtures set = emptySet();
-    addSphere(set, dvec3(0.0), 0.04);
-    addSphere(set, dvec3(std::numeric_limits<double>::quiet_NaN()), 0.04);
-    addSphere(set, dvec3(std::numeric_limits<double>::infinity()), 0.04);
-    addSphere(set, dvec3(0.1), 0.04);
+    set.spheres.add(dvec3(0.0), 0.04);
+    set.spheres.add(dvec3(std::numeric_limits<double>::quiet_NaN()), 0.04);
+    set.spheres.add(dvec3(std::numeric_limits<double>::infinity()), 0.04);
+    set.spheres.add(dvec3(0.1), 0.04);
     RegionGrid grid;
     grid.build(set.spheres);
     CHECK(grid.size() == 2);
@@ -106,8 +106,8 @@ void checkSharedGrid(size_t count, double leastRadius, ThreadPool& workers) {
     Fixtures set = emptySet();
     for (size_t i = 0; i < count; ++i) {
         const double at = static_cast<double>(i * 7919 % 50'021) / 50'021.0;
-        addSphere(set, dvec3(at, std::fmod(at * 37.0, 0.6), std::fmod(at * 411.0, 0.3)),
-                  leastRadius * (1.0 + 2.0 * at));
+        set.spheres.add(dvec3(at, std::fmod(at * 37.0, 0.6), std::fmod(at * 411.0, 0.3)),
+                        leastRadius * (1.0 + 2.0 * at));
     }
     for (const bool broken : {false, true}) {
         set.spheres.y[count / 2] = broken ? std::numeric_limits<float>::quiet_NaN() : 0.1f;

@@ -36,7 +36,7 @@ TEST_CASE("The host's smallest gap and its pair are those of brute force, near, 
 TEST_CASE("Of equal gaps the host takes the lowest source, then the lowest leaf") {
     Fixtures set = emptySet();
     for (const double x : {0.2, -0.2, 0.2}) {
-        addSphere(set, {x, 0.0, 0.0}, 0.05);
+        set.spheres.add({x, 0.0, 0.0}, 0.05);
     }
     set.spheres.source = {9, 4, 7};
     const Tool tool = makeTool({{{0.0, 0.0, 0.0}, 0.01}, {{0.0, 0.0, 0.0}, 0.01}});
@@ -55,7 +55,7 @@ TEST_CASE("Without spheres the smallest gap is infinite, and for a broken pose i
     CHECK(search.find(ballTool(0.01), Pose{}).gap == std::numeric_limits<double>::infinity());
     CHECK_FALSE(search.find(ballTool(0.01), Pose{}).any());
     Fixtures one = emptySet();
-    addSphere(one, dvec3(0.0), 0.1);
+    one.spheres.add(dvec3(0.0), 0.1);
     search.build(one);
     const Pose broken{{std::nan(""), 0.0, 0.0}, kUpright};
     CHECK(std::isnan(search.find(ballTool(0.01), broken).gap));

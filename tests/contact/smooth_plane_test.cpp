@@ -16,12 +16,6 @@ constexpr double kLeaf = 0.01, kBall = 0.04, kTouch = kLeaf + kBall; // [m]
 struct Patch {
     RegionSpheres spheres;
 
-    void add(const dvec3& centre) {
-        spheres.x.push_back(static_cast<float>(centre.x));
-        spheres.y.push_back(static_cast<float>(centre.y));
-        spheres.z.push_back(static_cast<float>(centre.z));
-        spheres.radius.push_back(static_cast<float>(kBall));
-    }
     PairArrays run() const {
         return {spheres.x.data(), spheres.y.data(), spheres.z.data(), spheres.radius.data(),
                 spheres.x.size()};
@@ -44,7 +38,7 @@ Patch wallOf(double spacing, double noise) {
     std::normal_distribution<double> n(0.0, 1.0);
     for (int i = -20; i <= 20; ++i) {
         for (int j = -20; j <= 20; ++j) {
-            patch.add({spacing * i, spacing * j, -kBall + noise * n(random)});
+            patch.spheres.add({spacing * i, spacing * j, -kBall + noise * n(random)}, kBall);
         }
     }
     return patch;
@@ -93,10 +87,10 @@ TEST_CASE("A leaf that moves along the plane, by as much as its gap, enters no s
 TEST_CASE("One sphere alone and two opposite ones give no plane") {
     SmoothPlane plane;
     Patch one;
-    one.add({0.0, 0.0, -kBall});
+    one.spheres.add({0.0, 0.0, -kBall}, kBall);
     CHECK_FALSE(one.plane({0.0, 0.0, kLeaf}, plane));
     Patch slot;
-    slot.add({0.0, 0.0, -kTouch - 1e-4});
-    slot.add({0.0, 0.0, kTouch + 1e-4});
+    slot.spheres.add({0.0, 0.0, -kTouch - 1e-4}, kBall);
+    slot.spheres.add({0.0, 0.0, kTouch + 1e-4}, kBall);
     CHECK_FALSE(slot.plane(dvec3(0.0), plane));
 }

@@ -18,7 +18,7 @@ struct FollowRig {
         rig.model = makeArm(4, 8, limit);
         rig.freeDirection = true;
         rig.proxy.stepCap = 0.002;
-        addSphere(world.fixtures, {0.95, 0.16, 0.0}, 0.05);
+        world.fixtures.spheres.add({0.95, 0.16, 0.0}, 0.05);
         world.grid.build(world.fixtures.spheres);
         cycle =
             std::make_unique<HapticCycle>(ballTool(), std::span<const Shape>{}, options, hand, &hand, &rig);

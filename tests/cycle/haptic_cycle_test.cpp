@@ -170,7 +170,7 @@ TEST_CASE("A trapped tool is held without a new force, and follows slowly when a
         for (const double side : {-1.0, 1.0}) {
             dvec3 centre(0, 0, 0.003);
             centre[axis] += side * 0.035;
-            addSphere(shell, centre, 0.03);
+            shell.spheres.add(centre, 0.03);
         }
     }
     const Pose where = rig.cycle->pose();

@@ -129,7 +129,7 @@ TEST_CASE(
     arm.place(start, Pose{}, frames);
     const dvec3 towards = glm::normalize(dvec3(0.3, 0.8, 0.4));
     World world;
-    addSphere(world.fixtures, arm.centre(frames, 3) + (0.04 + 0.03 + 0.0001) * towards, 0.03);
+    world.fixtures.spheres.add(arm.centre(frames, 3) + (0.04 + 0.03 + 0.0001) * towards, 0.03);
     world.grid.build(world.fixtures.spheres);
     const RegionSpheres& s = world.fixtures.spheres;
     const dvec3 between = arm.centre(frames, 3) - world.fixtures.origin - dvec3(s.x[0], s.y[0], s.z[0]);

@@ -131,7 +131,7 @@ TEST_CASE("A blocked elbow stops the tip although the tip itself is free") {
     const ArmModel arm = makeArm(4, 8);
     ArmProxy proxy(arm, Pose{}, {}, JointVector{});
     World world;
-    addSphere(world.fixtures, {0.12, 0.2, 0.0}, 0.05); // next to the first link
+    world.fixtures.spheres.add({0.12, 0.2, 0.0}, 0.05); // next to the first link
     world.grid.build(world.fixtures.spheres);
     const Pose target{{0.1, 0.95, 0.0}, kUpright};
     ArmStep tick;
@@ -151,7 +151,7 @@ TEST_CASE("New data over a link pushes it out by 1 mm per tick and never deeper"
     const ArmModel arm = makeArm(4, 8);
     ArmProxy proxy(arm, Pose{}, {}, JointVector{});
     World world;
-    addSphere(world.fixtures, {0.6, 0.075, 0.0}, 0.05);
+    world.fixtures.spheres.add({0.6, 0.075, 0.0}, 0.05);
     world.grid.build(world.fixtures.spheres);
     double before = world.depth(arm, proxy.frames());
     REQUIRE(before > 0.01);

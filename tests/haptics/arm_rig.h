@@ -66,7 +66,7 @@ inline void scatter(World& world, const ArmModel& arm, const ArmFrames& frames, 
             clear = glm::distance(c, arm.centre(frames, l)) > 0.03 + 0.002 + arm.leaves[l].sphere.radius;
         }
         if (clear) {
-            addSphere(world.fixtures, c, 0.03);
+            world.fixtures.spheres.add(c, 0.03);
         }
     }
     world.grid.build(world.fixtures.spheres);

@@ -148,7 +148,7 @@ TEST_CASE("A leaf that new data put behind a surface is not held there and moves
     World world;
     // A wall of spheres just in front (in y) of the outer links: the camera is far away in +y.
     for (int i = 0; i < 25; ++i) {
-        addSphere(world.fixtures, {0.5 + 0.02 * i, 0.02, 0.0}, 0.03);
+        world.fixtures.spheres.add({0.5 + 0.02 * i, 0.02, 0.0}, 0.03);
     }
     world.grid.build(world.fixtures.spheres);
     const Pose stays = proxy.tip();
@@ -198,7 +198,7 @@ TEST_CASE("A finger stops at a region and resumes when the region is gone") {
     options.graspPerTick = 0.01;
     ArmProxy proxy(arm, Pose{}, options, JointVector{});
     World world;
-    addSphere(world.fixtures, {0.55, 0.05, 0.0}, 0.025); // blocks only the finger
+    world.fixtures.spheres.add({0.55, 0.05, 0.0}, 0.025); // blocks only the finger
     world.grid.build(world.fixtures.spheres);
     double deepest = -1.0;
     size_t held = 0;

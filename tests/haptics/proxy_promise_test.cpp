@@ -71,9 +71,9 @@ World needle() { // thin spikes and a thin tool; steps are longer than both
             dvec3(0.0),
             0.012};
     for (int i = -20; i <= 20; ++i) {
-        addSphere(w.fixtures, dvec3(0, 0.0005 * i, 0), 0.0002);
-        addSphere(w.fixtures, dvec3(0, 0, 0.0005 * i), 0.0002);
-        addSphere(w.fixtures, dvec3(0.0005 * i, 0, 0.005), 0.0001);
+        w.fixtures.spheres.add(dvec3(0, 0.0005 * i, 0), 0.0002);
+        w.fixtures.spheres.add(dvec3(0, 0, 0.0005 * i), 0.0002);
+        w.fixtures.spheres.add(dvec3(0.0005 * i, 0, 0.005), 0.0001);
     }
     return w;
 }

@@ -27,12 +27,7 @@ RegionSpheres grid(int n, double spacing, double radius, int stride, double grow
     RegionSpheres s;
     for (int j = 0; j <= n; j += stride) {
         for (int i = 0; i <= n; i += stride) {
-            s.x.push_back(static_cast<float>(i * spacing));
-            s.y.push_back(static_cast<float>(j * spacing));
-            s.z.push_back(0.0f);
-            s.radius.push_back(static_cast<float>(radius + grown));
-            s.source.push_back(static_cast<uint32_t>(j * (n + 1) + i));
-            s.fixture.push_back(0);
+            s.add({i * spacing, j * spacing, 0.0}, radius + grown, static_cast<uint32_t>(j * (n + 1) + i));
         }
     }
     return s;

@@ -24,16 +24,6 @@ Tool toolOf(const std::vector<Sphere>& leaves) {
     return Tool(buildSphereTree(leaves));
 }
 
-void addSphere(Fixtures& set, const dvec3& centre, double radius) {
-    RegionSpheres& s = set.spheres;
-    s.x.push_back(static_cast<float>(centre.x));
-    s.y.push_back(static_cast<float>(centre.y));
-    s.z.push_back(static_cast<float>(centre.z));
-    s.radius.push_back(static_cast<float>(radius));
-    s.source.push_back(static_cast<uint32_t>(s.source.size()));
-    s.fixture.push_back(0);
-}
-
 struct Scene {
     Fixtures set;
     RegionGrid grid;
@@ -45,7 +35,7 @@ Scene sceneOf(const std::vector<Sphere>& spheres, uint64_t generation, const dve
     scene.set.generation = generation;
     scene.set.origin = origin;
     for (const Sphere& sphere : spheres) {
-        addSphere(scene.set, sphere.centre, sphere.radius);
+        scene.set.spheres.add(sphere.centre, sphere.radius);
     }
     scene.grid.build(scene.set.spheres);
     return scene;
