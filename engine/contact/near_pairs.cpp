@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/contact/near_pairs.h"
 
+#include "engine/contact/exact_gap.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,12 +12,6 @@
 namespace fathom {
 
 namespace {
-
-// The same operations as gapOf().
-double gapTo(const glm::dvec4& leaf, const NearSphere& s) noexcept {
-    const double dx = leaf.x - double{s.x}, dy = leaf.y - double{s.y}, dz = leaf.z - double{s.z};
-    return std::sqrt(dx * dx + dy * dy + dz * dz) - (leaf.w + double{s.radius});
-}
 
 // Order of the spheres by source: a stable radix sort.
 void orderBySource(const std::vector<NearSphere>& spheres, DecideScratch& scratch) {
@@ -72,7 +68,8 @@ bool decidePairs(const Tool& tool, const NearPairs& near, size_t mostPairs, Deci
     for (const uint32_t i : scratch.order) {
         const NearSphere& s = near.spheres[i];
         for (const uint32_t leaf : near.leaves.subspan(s.first, s.count)) {
-            const double gap = gapTo(scratch.leaves[leaf], s);
+            const glm::dvec4& l = scratch.leaves[leaf];
+            const double gap = exactGap(l.x, l.y, l.z, l.w, s.x, s.y, s.z, s.radius);
             if (!(gap <= limit)) {
                 continue;
             }

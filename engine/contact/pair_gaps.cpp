@@ -2,6 +2,7 @@
 #include "engine/contact/pair_gaps.h"
 
 #include "engine/contact/clones.h"
+#include "engine/contact/exact_gap.h"
 
 #include <algorithm>
 #include <array>
@@ -27,10 +28,7 @@ int64_t gapsKernel(const float* __restrict x, const float* __restrict y, const f
                    double limit, double* __restrict gaps) noexcept {
     int64_t below = 0;
     for (size_t k = 0; k < count; ++k) {
-        const double dx = cx - static_cast<double>(x[k]);
-        const double dy = cy - static_cast<double>(y[k]);
-        const double dz = cz - static_cast<double>(z[k]);
-        const double gap = std::sqrt(dx * dx + dy * dy + dz * dz) - (r + static_cast<double>(radius[k]));
+        const double gap = exactGap(cx, cy, cz, r, x[k], y[k], z[k], radius[k]);
         gaps[k] = gap;
         below += gap <= limit ? 1 : 0;
     }
@@ -42,10 +40,7 @@ void memberKernel(const float* __restrict x, const float* __restrict y, const fl
                   const float* __restrict radius, size_t count, double cx, double cy, double cz, double r,
                   double members, double* __restrict gaps) noexcept {
     for (size_t k = 0; k < count; ++k) {
-        const double dx = cx - static_cast<double>(x[k]);
-        const double dy = cy - static_cast<double>(y[k]);
-        const double dz = cz - static_cast<double>(z[k]);
-        const double gap = std::sqrt(dx * dx + dy * dy + dz * dz) - (r + static_cast<double>(radius[k]));
+        const double gap = exactGap(cx, cy, cz, r, x[k], y[k], z[k], radius[k]);
         const double others = gaps[k] <= members ? 0.0 : kInfinity;
         gaps[k] = gap + others;
     }
@@ -237,10 +232,7 @@ void memberGaps(const PairArrays& run, const dvec3& centre, double leafRadius, d
 }
 
 double gapOf(const PairArrays& run, size_t k, const dvec3& centre, double leafRadius) noexcept {
-    const double dx = centre.x - static_cast<double>(run.x[k]);
-    const double dy = centre.y - static_cast<double>(run.y[k]);
-    const double dz = centre.z - static_cast<double>(run.z[k]);
-    return std::sqrt(dx * dx + dy * dy + dz * dz) - (leafRadius + static_cast<double>(run.radius[k]));
+    return exactGap(centre.x, centre.y, centre.z, leafRadius, run.x[k], run.y[k], run.z[k], run.radius[k]);
 }
 
 } // namespace fathom

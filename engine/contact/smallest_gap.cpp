@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/contact/smallest_gap.h"
 
+#include "engine/contact/exact_gap.h"
+
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <tuple>
 
@@ -37,9 +38,7 @@ bool comesBefore(const SmallestGap& a, const SmallestGap& b) noexcept {
 }
 
 double gapBetween(const glm::dvec4& leaf, const glm::vec4& sphere) noexcept {
-    const double dx = leaf.x - double{sphere.x}, dy = leaf.y - double{sphere.y},
-                 dz = leaf.z - double{sphere.z};
-    return std::sqrt(dx * dx + dy * dy + dz * dz) - (leaf.w + double{sphere.w});
+    return exactGap(leaf.x, leaf.y, leaf.z, leaf.w, sphere.x, sphere.y, sphere.z, sphere.w);
 }
 
 glm::dvec4 leafAt(const Sphere& leaf, const Pose& baseTtool, const dvec3& origin) noexcept {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The smallest gap between a tool at a pose and the region spheres of a set, at any distance. The gap of a
-// pair is sqrt(dx dx + dy dy + dz dz) - (r + R) in float64, left to right without contraction, with the
-// leaf's centre (position - origin) + rotation * centre. Whoever searches, the answer is the same to the last
-// bit: the smallest gap of all pairs; on ties the pair that comesBefore() all others.
+// pair is exactGap() with the leaf's centre (position - origin) + rotation * centre. Every search gives the
+// same answer to the last bit: the smallest gap of all pairs; on ties the pair that comesBefore() all others.
 #pragma once
 
 #include "engine/contact/fixtures.h"
