@@ -12,6 +12,7 @@
 #include "devices/simulated/hand_path.h"
 #include "engine/cycle/device_cycles.h"
 #include "engine/run/contact_loop.h"
+#include "engine/run/cycle_answers.h"
 #include "engine/run/device_handover.h"
 #include "engine/run/thread_placement.h"
 
@@ -50,18 +51,6 @@ inline const std::atomic<bool> kNeverStop{false};
 // after all classes, so that classes keep their rows when shapes are added or removed.
 Scene withSpareClasses(Scene scene);
 
-// Answers queries over the newest fixture set.
-class SessionAnswers final : public ContactAnswers {
-public:
-    explicit SessionAnswers(DeviceCycles& cycles)
-        : cycles_(cycles) {}
-    bool answer(const ToolState& place, ContactSet& out) override { return cycles_.answer(place, out); }
-    double clearance(const ToolState& place) override { return cycles_.clearance(place); }
-
-private:
-    DeviceCycles& cycles_;
-};
-
 // Members are destroyed in reverse order, so owners are declared before their users.
 struct Session {
     // stop: aborts the rendering of a simulated camera. Throws BadInput, Error, DeviceLost.
@@ -82,7 +71,7 @@ struct Session {
     std::vector<std::string> passNames; // also valid while the device is lost
     // Shares the device between frame thread and window; null = no window.
     std::unique_ptr<DeviceHandover> handover;
-    SessionAnswers answers;
+    CycleAnswers answers;
 
     // Null when the plan has no contact query.
     ContactAnswers* contacts() { return cycles.plan().query != Plan::Query::None ? &answers : nullptr; }

@@ -6,6 +6,7 @@
 #include "engine/front/observer_port.h"
 #include "engine/run/clearance.h"
 #include "engine/run/contact_loop.h"
+#include "engine/run/cycle_answers.h"
 #include "engine/run/frame_loop.h"
 #include "engine/types/log.h"
 
@@ -74,17 +75,6 @@ private:
     ComputeSide& compute_;
     Shared& shared_;
     std::optional<fathom::Frame> next_;
-};
-
-class CycleAnswers final : public ContactAnswers {
-public:
-    explicit CycleAnswers(DeviceCycles& cycles)
-        : cycles_(cycles) {}
-    bool answer(const ToolState& place, ContactSet& out) override { return cycles_.answer(place, out); }
-    double clearance(const ToolState& place) override { return cycles_.clearance(place); }
-
-private:
-    DeviceCycles& cycles_;
 };
 
 } // namespace fathom::front
@@ -170,7 +160,7 @@ struct Engine::Impl {
     std::shared_ptr<front::Shared> shared;
     front::ComputeSide compute;
     front::SubmittedFeed feed;
-    front::CycleAnswers answers;
+    CycleAnswers answers;
     FrameLoop frames;
     ContactLoop contacts;
     ClearanceLoop clearance;
