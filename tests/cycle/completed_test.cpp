@@ -3,6 +3,7 @@
 // host has its copy.
 #include "engine/cycle/contact_cycle.h"
 #include "tests/cycle/red_and_blue.h"
+#include "tests/cycle/same_contacts.h"
 
 #include <algorithm>
 #include <doctest/doctest.h>
@@ -65,24 +66,6 @@ struct StepRig {
     }
 };
 
-void checkSameAnswer(const ContactSet& a, const ContactSet& b) {
-    CHECK(a.frame == b.frame);
-    CHECK(a.generation == b.generation);
-    CHECK(a.captureTime == b.captureTime);
-    CHECK(a.source == b.source);
-    CHECK(a.fixture == b.fixture);
-    CHECK(a.x == b.x);
-    CHECK(a.radius == b.radius);
-    CHECK(a.pairSphere == b.pairSphere);
-    CHECK(a.pairBandEnd == b.pairBandEnd);
-    REQUIRE(a.behind.size() == b.behind.size());
-    for (size_t i = 0; i < a.behind.size(); ++i) {
-        CHECK(a.behind[i].leaf == b.behind[i].leaf);
-        CHECK(a.behind[i].clearance == b.behind[i].clearance);
-        CHECK(a.behind[i].towardsCamera == b.behind[i].towardsCamera);
-    }
-}
-
 } // namespace
 
 TEST_CASE("The device answers about a completed set without its host copy, as the CPU does with it, also for "
@@ -104,7 +87,7 @@ TEST_CASE("The device answers about a completed set without its host copy, as th
             CHECK(report.times.completed <= report.times.answerable);
             CHECK(report.times.answerable < report.times.collected);
             CHECK(report.answerableMs > 0.0);
-            checkSameAnswer(early, rig.onHost());
+            checkSameContacts(early, rig.onHost());
             found += early.size();
             behind += early.behind.size();
         }
@@ -123,12 +106,12 @@ TEST_CASE("A set with a class that has just been frozen waits for its host copy,
     CHECK(rig.sets().newestEarly()->host.generation == 1);
     const FrameReport report = rig.rig.cycle().finish();
     CHECK(report.times.answerable == report.times.published);
-    checkSameAnswer(rig.onDevice(), rig.onHost());
+    checkSameContacts(rig.onDevice(), rig.onHost());
     rig.waitForDevice(redAndBlueImage(rig.camera, 0.8, 0.51));
     const ContactSet early = rig.onDevice();
     CHECK(early.generation == 3);
     rig.rig.cycle().finish();
-    checkSameAnswer(early, rig.onHost());
+    checkSameContacts(early, rig.onHost());
     CHECK(std::count(early.fixture.begin(), early.fixture.end(), 0) > 0); // from the second frame
     rig.scene.fixtures[0].frozen = false;
     rig.rig.cycle().setScene(rig.scene);
@@ -137,7 +120,7 @@ TEST_CASE("A set with a class that has just been frozen waits for its host copy,
     CHECK(released.generation == 4);
     CHECK(std::count(released.fixture.begin(), released.fixture.end(), 0) == 0);
     rig.rig.cycle().finish();
-    checkSameAnswer(released, rig.onHost());
+    checkSameContacts(released, rig.onHost());
 }
 
 TEST_CASE("Where the CPU answers, no set is published before its host copy is complete") {

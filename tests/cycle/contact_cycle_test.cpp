@@ -4,6 +4,7 @@
 #include "devices/simulated/analytic_scene.h"
 #include "devices/simulated/simulated_camera.h"
 #include "engine/cycle/frame_cycle.h"
+#include "tests/cycle/same_contacts.h"
 #include "tests/support/vulkan.h"
 
 #include <cmath>
@@ -11,6 +12,7 @@
 #include <random>
 
 using namespace fathom;
+using fathom::test::checkSameContacts;
 using fathom::test::vulkan;
 
 namespace {
@@ -70,22 +72,6 @@ struct ContactRig {
     }
 };
 
-void checkEqual(const ContactSet& a, const ContactSet& b) {
-    CHECK(a.reach == b.reach);
-    CHECK(a.source == b.source);
-    CHECK(a.x == b.x);
-    CHECK(a.radius == b.radius);
-    CHECK(a.fixture == b.fixture);
-    CHECK(a.pairBegin == b.pairBegin);
-    CHECK(a.pairSphere == b.pairSphere);
-    CHECK(a.pairBandEnd == b.pairBandEnd);
-    CHECK(a.pairX == b.pairX);
-    CHECK(a.pairY == b.pairY);
-    CHECK(a.pairZ == b.pairZ);
-    CHECK(a.pairRadius == b.pairRadius);
-    CHECK(a.behind.size() == b.behind.size());
-}
-
 size_t compareQueries(ContactRig& rig, const Tool& tool, double reach, uint32_t seed) {
     Plan onCpu = rig.plan;
     onCpu.query = Plan::Query::Cpu;
@@ -102,7 +88,7 @@ size_t compareQueries(ContactRig& rig, const Tool& tool, double reach, uint32_t 
         ContactSet a, b;
         cpu.query(*set, pose, a);
         gpu.query(*set, pose, b);
-        checkEqual(a, b);
+        checkSameContacts(a, b);
         found += a.size();
     }
     return found;
@@ -146,7 +132,7 @@ TEST_CASE("A GPU answer that does not fit grows and keeps its whole reach") {
         fillContactSet(tool, pose, reach, set->host, {}, other);
         CHECK(decidePairs(tool, a, SIZE_MAX, scratch, one));
         CHECK(decidePairs(tool, b, SIZE_MAX, scratch, other));
-        checkEqual(one, other);
+        checkSameContacts(one, other);
     }
     CHECK(small.capacity() >= b.spheres.size());
     CHECK(small.capacity() < 1u << 17);
@@ -199,7 +185,7 @@ TEST_CASE("A contact answer that overflows certifies the reach that fits, and th
     }
     CHECK(within > 0);
     gpu.query(*set, pose, second);
-    checkEqual(second, whole);
+    checkSameContacts(second, whole);
     CHECK(gpu.statistics().overflows == 1);
 }
 

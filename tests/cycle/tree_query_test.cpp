@@ -5,6 +5,7 @@
 #include "engine/cycle/arm_rig.h"
 #include "engine/cycle/contact_cycle.h"
 #include "tests/cycle/red_and_blue.h"
+#include "tests/cycle/same_contacts.h"
 #include "tests/haptics/arm_rig.h"
 
 #include <doctest/doctest.h>
@@ -13,21 +14,6 @@ using namespace fathom;
 using namespace fathom::test;
 
 namespace {
-
-void checkSame(const ContactSet& a, const ContactSet& b) {
-    CHECK(a.reach == b.reach);
-    CHECK(a.source == b.source);
-    CHECK(a.fixture == b.fixture);
-    CHECK(a.x == b.x);
-    CHECK(a.y == b.y);
-    CHECK(a.z == b.z);
-    CHECK(a.radius == b.radius);
-    CHECK(a.pairSphere == b.pairSphere);
-    CHECK(a.pairBegin == b.pairBegin);
-    CHECK(a.pairBandEnd == b.pairBandEnd);
-    CHECK(a.pairX == b.pairX);
-    CHECK(a.pairRadius == b.pairRadius);
-}
 
 // Both answers for the rig's newest set. arm: null = the tool at the pose.
 struct Both {
@@ -51,7 +37,7 @@ struct Both {
         ContactSet a, b;
         cpu->query(rig.set(), place, a);
         gpu->query(rig.set(), place, b);
-        checkSame(a, b);
+        checkSameContacts(a, b);
         CHECK(rig.set().largestRadius == rig.set().grid.get().maxRadius());
         return b.size();
     }
@@ -109,7 +95,7 @@ TEST_CASE("A device without subgroup arithmetic lists the same pairs") {
         CHECK(query.list(rig.set(), pose, 0.01, near));
         CHECK(decidePairs(tool, near, SIZE_MAX, scratch, sets[subgroups]));
     }
-    checkSame(sets[0], sets[1]);
+    checkSameContacts(sets[0], sets[1]);
     CHECK(sets[0].size() > 100);
 }
 
