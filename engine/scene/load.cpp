@@ -8,12 +8,8 @@ namespace fathom {
 Pose loadPose(const YamlNode& node) {
     node.checkKeys({"xyz", "quat_xyzw"});
     Pose pose;
-    if (const auto xyz = node.find("xyz")) {
-        pose.position = xyz->vec3(Range::position());
-    }
-    if (const auto quat = node.find("quat_xyzw")) {
-        pose.rotation = quat->quatXyzw();
-    }
+    node.read("xyz", pose.position, Range::position());
+    node.read("quat_xyzw", pose.rotation);
     return pose;
 }
 
@@ -36,12 +32,8 @@ void loadImageSections(const YamlNode& root, Scene& scene) {
     if (const auto filter = root.find("filter")) {
         loadFilter(*filter, scene);
     }
-    if (const auto budget = root.find("error_budget")) {
-        scene.errorBudget = budget->number(Range::zeroOr(1e-7, 0.1));
-    }
-    if (const auto hold = root.find("hold_s")) {
-        scene.holdSeconds = hold->number(Range::between(0.0, 3600.0));
-    }
+    root.read("error_budget", scene.errorBudget, Range::zeroOr(1e-7, 0.1));
+    root.read("hold_s", scene.holdSeconds, Range::between(0.0, 3600.0));
 }
 
 void choosePilot(const YamlNode& pilot, Scene& scene) {

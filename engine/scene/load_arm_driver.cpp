@@ -27,9 +27,7 @@ void loadAxes(const YamlNode& list, Driver& driver) {
                 sign->refuse("1 or -1");
             }
         }
-        if (const auto zero = row.find("zero")) {
-            axis.zero = zero->number(Range::between(-10.0, 10.0));
-        }
+        row.read("zero", axis.zero, Range::between(-10.0, 10.0));
         driver.axes.push_back(axis);
     }
 }
@@ -44,12 +42,8 @@ SceneArm::Driver loadArmDriver(const YamlNode& node) {
                                                      {"reach_bravo7", Driver::Protocol::ReachBravo7},
                                                      {"eca_5e", Driver::Protocol::Eca5e}});
     const bool reach = driver.protocol != Driver::Protocol::Eca5e;
-    if (const auto baud = node.find("baud")) {
-        driver.baud = baud->integer(9600, 230400);
-    }
-    if (const auto rs485 = node.find("rs485")) {
-        driver.rs485 = rs485->boolean();
-    }
+    node.read("baud", driver.baud, 9600, 230400);
+    node.read("rs485", driver.rs485);
     loadAxes(node.at("axes"), driver);
     if (const auto jaws = node.find("jaws")) {
         jaws->checkKeys({"open", "closed"});
@@ -60,9 +54,7 @@ SceneArm::Driver loadArmDriver(const YamlNode& node) {
                          "two different numbers");
         }
     }
-    if (const auto current = node.find("current")) {
-        driver.current = current->number(reach ? Range::between(1e-3, 10.0) : Range::between(1.0, 255.0));
-    }
+    node.read("current", driver.current, reach ? Range::between(1e-3, 10.0) : Range::between(1.0, 255.0));
     return driver;
 }
 

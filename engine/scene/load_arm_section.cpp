@@ -10,11 +10,6 @@ namespace {
 
 const Range kJoint = Range::between(-1e4, 1e4); // [rad], [m]
 
-std::optional<double> loadOptional(const YamlNode& node, std::string_view key, const Range& range) {
-    const auto value = node.find(key);
-    return value ? std::optional(value->number(range)) : std::nullopt;
-}
-
 std::string nameOnce(const YamlNode& node, const std::vector<std::string>& before) {
     const std::string name = node.text();
     if (std::find(before.begin(), before.end(), name) != before.end()) {
@@ -29,10 +24,10 @@ void loadJoints(const YamlNode& list, SceneArm& arm) {
         row.checkKeys({"name", "lower", "upper", "speed", "start"});
         SceneArm::Joint joint;
         names.push_back(joint.name = nameOnce(row.at("name"), names));
-        joint.lower = loadOptional(row, "lower", kJoint);
-        joint.upper = loadOptional(row, "upper", kJoint);
-        joint.speed = loadOptional(row, "speed", Range::between(1e-6, 1e3));
-        joint.start = loadOptional(row, "start", kJoint);
+        row.read("lower", joint.lower, kJoint);
+        row.read("upper", joint.upper, kJoint);
+        row.read("speed", joint.speed, Range::between(1e-6, 1e3));
+        row.read("start", joint.start, kJoint);
         if (joint.lower && joint.upper && *joint.lower > *joint.upper) {
             row.refuse("lower " + row.at("lower").value() + ", upper " + row.at("upper").value(),
                        "lower <= upper");
@@ -48,8 +43,8 @@ void loadGrasp(const YamlNode& node, SceneArm& arm, uint32_t clutchBit) {
         row.checkKeys({"joint", "open", "closed"});
         SceneArm::Finger finger;
         names.push_back(finger.joint = nameOnce(row.at("joint"), names));
-        finger.open = loadOptional(row, "open", kJoint);
-        finger.closed = loadOptional(row, "closed", kJoint);
+        row.read("open", finger.open, kJoint);
+        row.read("closed", finger.closed, kJoint);
         arm.grasp.fingers.push_back(finger);
     }
     if (const auto button = node.find("button")) {
@@ -58,9 +53,7 @@ void loadGrasp(const YamlNode& node, SceneArm& arm, uint32_t clutchBit) {
     if (arm.grasp.button != 0 && arm.grasp.button == clutchBit) {
         node.refuse("button " + std::to_string(clutchBit), "another bit than hand.map.clutch");
     }
-    if (const auto seconds = node.find("seconds")) {
-        arm.grasp.seconds = seconds->number(Range::between(0.05, 60.0));
-    }
+    node.read("seconds", arm.grasp.seconds, Range::between(0.05, 60.0));
 }
 
 std::filesystem::path existing(const YamlNode& node, Scene& scene, bool folder) {
@@ -86,15 +79,9 @@ void loadArmSection(const YamlNode& node, Scene& scene) {
     if (const auto pose = node.find("base_T_arm")) {
         arm.baseTarm = loadPose(*pose);
     }
-    if (const auto base = node.find("base")) {
-        arm.base = base->text();
-    }
-    if (const auto tip = node.find("tip")) {
-        arm.tip = tip->text();
-    }
-    if (const auto leaves = node.find("leaves")) {
-        arm.leaves = leaves->integer(1, 2048);
-    }
+    node.read("base", arm.base);
+    node.read("tip", arm.tip);
+    node.read("leaves", arm.leaves, 1, 2048);
     if (const auto joints = node.find("joints")) {
         loadJoints(*joints, arm);
     }
@@ -103,13 +90,9 @@ void loadArmSection(const YamlNode& node, Scene& scene) {
             arm.locked[name] = value.number(Range::finite());
         }
     }
-    if (const auto stray = node.find("keep_stray")) {
-        arm.keepStray = stray->boolean();
-    }
-    if (const auto direction = node.find("direction")) {
-        arm.freeDirection = direction->choice<bool>({{"follow", false}, {"free", true}});
-    }
-    arm.selfFilter = loadOptional(node, "self_filter", Range::between(0.0, 0.5));
+    node.read("keep_stray", arm.keepStray);
+    node.read("direction", arm.freeDirection, {{"follow", false}, {"free", true}});
+    node.read("self_filter", arm.selfFilter, Range::between(0.0, 0.5));
     if (const auto grasp = node.find("grasp")) {
         loadGrasp(*grasp, arm, scene.hand.clutchBit);
     }

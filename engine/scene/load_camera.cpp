@@ -22,9 +22,7 @@ CameraSource simulatedSource(const YamlNode& node, const YamlNode& simulated) {
     if (source.showsArm && sonar) {
         arm->refuse("false: the simulated sonar draws none");
     }
-    if (const auto images = node.find("pictures")) {
-        source.images = static_cast<uint32_t>(images->integer(1, 100'000));
-    }
+    node.read("pictures", source.images, 1, 100'000);
     const auto colour = node.find("colour");
     source.yuyv = colour && colour->oneOf(kFormats) == 1;
     if (source.yuyv && sonar) {
@@ -116,9 +114,7 @@ void loadPort(const YamlNode& node, Scene& scene) {
     if (!(port.distance < scene.nearZ)) {
         node.at("distance").refuse("a number below camera.near = " + std::to_string(scene.nearZ));
     }
-    if (const auto index = node.find("index")) {
-        port.index = index->number(Range::between(1.0, 2.0));
-    }
+    node.read("index", port.index, Range::between(1.0, 2.0));
     scene.port = port;
 }
 
@@ -127,12 +123,8 @@ void loadBeam(const YamlNode& node, Scene& scene) {
     node.checkKeys({"width_deg", "sigma", "sigma_per_m"});
     Scene::Beam beam;
     beam.width = kRadian * node.at("width_deg").number(Range::between(0.0, 30.0));
-    if (const auto sigma = node.find("sigma")) {
-        beam.range = sigma->number(Range::between(0.0, 1.0));
-    }
-    if (const auto more = node.find("sigma_per_m")) {
-        beam.perMetre = more->number(Range::between(0.0, 1.0));
-    }
+    node.read("sigma", beam.range, Range::between(0.0, 1.0));
+    node.read("sigma_per_m", beam.perMetre, Range::between(0.0, 1.0));
     scene.beam = beam;
 }
 
@@ -141,12 +133,8 @@ void loadBeam(const YamlNode& node, Scene& scene) {
 void loadCamera(const YamlNode& camera, Scene& scene) {
     camera.checkKeys({"source", "near", "far", "base_T_camera", "registration_sigma", "port", "beam",
                       "attenuation", "static", "decimation"});
-    if (const auto decimation = camera.find("decimation")) {
-        scene.decimation = decimation->integer(1, kMaxDecimation);
-    }
-    if (const auto isStatic = camera.find("static")) {
-        scene.cameraStatic = isStatic->boolean();
-    }
+    camera.read("decimation", scene.decimation, 1, kMaxDecimation);
+    camera.read("static", scene.cameraStatic);
     if (const auto attenuation = camera.find("attenuation")) {
         scene.attenuation = attenuation->vec3(Range::between(0.0, 20.0));
     }
@@ -157,9 +145,7 @@ void loadCamera(const YamlNode& camera, Scene& scene) {
     if (const auto pose = camera.find("base_T_camera")) {
         scene.baseTcamera = loadPose(*pose);
     }
-    if (const auto sigma = camera.find("registration_sigma")) {
-        scene.registrationSigma = sigma->number(Range::between(0.0, 1.0));
-    }
+    camera.read("registration_sigma", scene.registrationSigma, Range::between(0.0, 1.0));
     if (const auto port = camera.find("port")) {
         loadPort(*port, scene);
     }
@@ -170,26 +156,14 @@ void loadCamera(const YamlNode& camera, Scene& scene) {
 
 void loadFilter(const YamlNode& filter, Scene& scene) {
     filter.checkKeys({"radius", "sigma", "edge", "isolated", "weights", "memory"});
-    if (const auto memory = filter.find("memory")) {
-        scene.filter.memory = memory->integer(0, 120);
-    }
-    if (const auto radius = filter.find("radius")) {
-        scene.filter.radius = radius->integer(0, 16);
-    }
-    if (const auto sigma = filter.find("sigma")) {
-        scene.filter.sigma = sigma->number(Range::between(1e-5, 10.0));
-    }
-    if (const auto edge = filter.find("edge")) {
-        scene.filter.edge = edge->number(Range::between(0.0, 10.0));
-    }
-    if (const auto isolated = filter.find("isolated")) {
-        scene.filter.isolated = isolated->choice<bool>({{"reject", true}, {"keep", false}});
-    }
-    if (const auto weights = filter.find("weights")) {
-        using Weights = Scene::Filter::Weights;
-        scene.filter.weights =
-            weights->choice<Weights>({{"exact", Weights::Exact}, {"polynomial", Weights::Polynomial}});
-    }
+    filter.read("memory", scene.filter.memory, 0, 120);
+    filter.read("radius", scene.filter.radius, 0, 16);
+    filter.read("sigma", scene.filter.sigma, Range::between(1e-5, 10.0));
+    filter.read("edge", scene.filter.edge, Range::between(0.0, 10.0));
+    filter.read("isolated", scene.filter.isolated, {{"reject", true}, {"keep", false}});
+    using Weights = Scene::Filter::Weights;
+    filter.read("weights", scene.filter.weights,
+                {{"exact", Weights::Exact}, {"polynomial", Weights::Polynomial}});
 }
 
 } // namespace fathom

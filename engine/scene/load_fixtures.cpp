@@ -58,24 +58,12 @@ void loadPoints(const YamlNode& row, FixtureClass& fixture) {
     if (const auto box = row.find("box")) {
         fixture.box = loadBox(*box);
     }
-    if (const auto radius = row.find("radius")) {
-        fixture.radius = radius->number(Range::between(1e-4, 10.0));
-    }
-    if (const auto standoff = row.find("standoff")) {
-        fixture.standoff = standoff->number(Range::between(-10.0, 10.0));
-    }
-    if (const auto quat = row.find("quat_xyzw")) {
-        fixture.orientation = quat->quatXyzw();
-    }
-    if (const auto count = row.find("min_count")) {
-        fixture.minCount = count->integer(1, kMaxPixels);
-    }
-    if (const auto largest = row.find("largest_part")) {
-        fixture.largestPart = largest->boolean();
-    }
-    if (const auto trim = row.find("trim")) {
-        fixture.trim = trim->number(Range::between(0.0, 0.5));
-    }
+    row.read("radius", fixture.radius, Range::between(1e-4, 10.0));
+    row.read("standoff", fixture.standoff, Range::between(-10.0, 10.0));
+    row.read("quat_xyzw", fixture.orientation);
+    row.read("min_count", fixture.minCount, 1, kMaxPixels);
+    row.read("largest_part", fixture.largestPart);
+    row.read("trim", fixture.trim, Range::between(0.0, 0.5));
 }
 
 // Number of components of `size` in use; these must be positive.
@@ -141,14 +129,13 @@ FixtureClass loadRow(const YamlNode& row) {
                    "size"});
     FixtureClass fixture;
     fixture.name = row.at("name").text();
-    if (const auto shape = row.find("shape")) {
-        fixture.shape = shape->choice<ShapeKind>({{"sphere", ShapeKind::Sphere},
-                                                  {"box", ShapeKind::Box},
-                                                  {"plane", ShapeKind::Plane},
-                                                  {"cylinder", ShapeKind::Cylinder},
-                                                  {"line", ShapeKind::Line},
-                                                  {"axis", ShapeKind::Axis}});
-    }
+    row.read("shape", fixture.shape,
+             {{"sphere", ShapeKind::Sphere},
+              {"box", ShapeKind::Box},
+              {"plane", ShapeKind::Plane},
+              {"cylinder", ShapeKind::Cylinder},
+              {"line", ShapeKind::Line},
+              {"axis", ShapeKind::Axis}});
     loadRole(row.at("role"), fixture);
     if (fixture.isPoints()) {
         refuseKeys(row, kShapeKeys, "only in a fixture with a shape");

@@ -25,12 +25,8 @@ std::vector<std::array<double, 4>> loadSpheres(const YamlNode& node) {
 
 void loadHandMap(const YamlNode& map, Scene::Hand& hand) {
     map.checkKeys({"base_R_device", "scale", "clutch"});
-    if (const auto rotation = map.find("base_R_device")) {
-        hand.baseRdevice = rotation->quatXyzw();
-    }
-    if (const auto scale = map.find("scale")) {
-        hand.scale = scale->number(Range::between(1e-3, 100.0));
-    }
+    map.read("base_R_device", hand.baseRdevice);
+    map.read("scale", hand.scale, Range::between(1e-3, 100.0));
     if (const auto clutch = map.find("clutch")) {
         hand.clutchBit = loadButtonBit(*clutch);
     }
@@ -38,15 +34,9 @@ void loadHandMap(const YamlNode& map, Scene::Hand& hand) {
 
 void loadHandLoop(const YamlNode& node, HandLoop& loop) {
     node.checkKeys({"mass", "damping", "stiffness"});
-    if (const auto mass = node.find("mass")) {
-        loop.mass = mass->number(Range::between(1e-3, 100.0));
-    }
-    if (const auto damping = node.find("damping")) {
-        loop.damping = damping->number(Range::between(0.0, 1e4));
-    }
-    if (const auto stiffness = node.find("stiffness")) {
-        loop.stiffness = stiffness->number(Range::between(0.0, 1e6));
-    }
+    node.read("mass", loop.mass, Range::between(1e-3, 100.0));
+    node.read("damping", loop.damping, Range::between(0.0, 1e4));
+    node.read("stiffness", loop.stiffness, Range::between(0.0, 1e6));
 }
 
 } // namespace
@@ -100,9 +90,7 @@ void loadHand(const YamlNode& hand, Scene& scene) {
     if (const auto loop = hand.find("loop")) {
         loadHandLoop(*loop, scene.hand.loop);
     }
-    if (const auto yields = hand.find("yields")) {
-        scene.hand.yields = yields->boolean();
-    }
+    hand.read("yields", scene.hand.yields);
 }
 
 } // namespace fathom

@@ -19,9 +19,7 @@ Scene::Pilot loadPilot(const YamlNode& row, const Scene& scene) {
         row.at("name").refuse("a name not used by an earlier pilot");
     }
     loadFeel(row, pilot.haptics);
-    if (const auto scale = row.find("scale")) {
-        pilot.scale = scale->number(Range::between(1e-3, 100.0));
-    }
+    row.read("scale", pilot.scale, Range::between(1e-3, 100.0));
     return pilot;
 }
 
@@ -42,27 +40,13 @@ void loadWindow(const YamlNode& window, Scene& scene) {
     window.checkKeys({"text_scale", "large", "yaw", "pitch", "distance", "layout", "tones"});
     scene.window = Scene::Window{};
     Scene::Window& w = *scene.window;
-    if (const auto scale = window.find("text_scale")) {
-        w.textScale = scale->number(Range::between(0.75, 2.5));
-    }
-    if (const auto large = window.find("large")) {
-        w.spaceIsLarge = large->choice<bool>({{"camera", false}, {"space", true}});
-    }
-    if (const auto layout = window.find("layout")) {
-        w.pilotLayout = layout->choice<bool>({{"engineer", false}, {"pilot", true}});
-    }
-    if (const auto tones = window.find("tones")) {
-        w.tones = tones->boolean();
-    }
-    if (const auto yaw = window.find("yaw")) {
-        w.yaw = yaw->number(Range::between(-1e3, 1e3));
-    }
-    if (const auto pitch = window.find("pitch")) {
-        w.pitch = pitch->number(Range::between(-1.571, 1.571));
-    }
-    if (const auto distance = window.find("distance")) {
-        w.distance = distance->number(Range::between(0.15, 8.0));
-    }
+    window.read("text_scale", w.textScale, Range::between(0.75, 2.5));
+    window.read("large", w.spaceIsLarge, {{"camera", false}, {"space", true}});
+    window.read("layout", w.pilotLayout, {{"engineer", false}, {"pilot", true}});
+    window.read("tones", w.tones);
+    window.read("yaw", w.yaw, Range::between(-1e3, 1e3));
+    window.read("pitch", w.pitch, Range::between(-1.571, 1.571));
+    window.read("distance", w.distance, Range::between(0.15, 8.0));
 }
 
 } // namespace fathom

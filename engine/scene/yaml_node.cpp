@@ -217,6 +217,48 @@ dquat YamlNode::quatXyzw() const {
     return glm::normalize(dquat(q[3] / largest, q[0] / largest, q[1] / largest, q[2] / largest));
 }
 
+void YamlNode::read(std::string_view key, double& out, const Range& range) const {
+    if (const auto node = find(key)) {
+        out = node->number(range);
+    }
+}
+
+void YamlNode::read(std::string_view key, std::optional<double>& out, const Range& range) const {
+    if (const auto node = find(key)) {
+        out = node->number(range);
+    }
+}
+
+void YamlNode::read(std::string_view key, uint32_t& out, uint32_t lo, uint32_t hi) const {
+    if (const auto node = find(key)) {
+        out = node->integer(lo, hi);
+    }
+}
+
+void YamlNode::read(std::string_view key, bool& out) const {
+    if (const auto node = find(key)) {
+        out = node->boolean();
+    }
+}
+
+void YamlNode::read(std::string_view key, std::string& out) const {
+    if (const auto node = find(key)) {
+        out = node->text();
+    }
+}
+
+void YamlNode::read(std::string_view key, dvec3& out, const Range& range) const {
+    if (const auto node = find(key)) {
+        out = node->vec3(range);
+    }
+}
+
+void YamlNode::read(std::string_view key, dquat& out) const {
+    if (const auto node = find(key)) {
+        out = node->quatXyzw();
+    }
+}
+
 void YamlNode::refuse(const std::string& allowed) const {
     refuse(value(), allowed);
 }

@@ -12,6 +12,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 #include <yaml-cpp/yaml.h>
@@ -72,6 +73,18 @@ public:
     dvec3 vec3(const Range& range) const; // list of three numbers
     dquat quatXyzw() const;               // list of four, x y z w; not zero; normalised
 
+    // Value of a key, by the function above that returns this type. Keeps `out` when the key is missing.
+    void read(std::string_view key, double& out, const Range& range) const;
+    void read(std::string_view key, std::optional<double>& out, const Range& range) const;
+    void read(std::string_view key, uint32_t& out, uint32_t lo, uint32_t hi) const;
+    void read(std::string_view key, bool& out) const;
+    void read(std::string_view key, std::string& out) const;
+    void read(std::string_view key, dvec3& out, const Range& range) const;
+    void read(std::string_view key, dquat& out) const;
+    template <class T>
+    void read(std::string_view key, T& out,
+              std::initializer_list<std::pair<std::string_view, std::type_identity_t<T>>> words) const;
+
     [[noreturn]] void refuse(const std::string& allowed) const; // throws for this node's value
     [[noreturn]] void refuse(const std::string& value, const std::string& allowed) const;
 
@@ -98,6 +111,14 @@ T YamlNode::choice(std::initializer_list<std::pair<std::string_view, T>> words) 
         names.push_back(entry.first);
     }
     return (words.begin() + oneOf(names))->second;
+}
+
+template <class T>
+void YamlNode::read(std::string_view key, T& out,
+                    std::initializer_list<std::pair<std::string_view, std::type_identity_t<T>>> words) const {
+    if (const auto node = find(key)) {
+        out = node->choice<T>(words);
+    }
 }
 
 } // namespace fathom
