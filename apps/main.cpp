@@ -24,6 +24,7 @@
 #include "engine/gpu/software_threads.h"
 #include "engine/scene/yaml_node.h"
 #include "engine/types/error.h"
+#include "engine/types/joined.h"
 #include "engine/types/version.h"
 
 #include <CLI/CLI.hpp>
@@ -41,12 +42,7 @@ namespace {
 std::string refusalOf(const CLI::App& app, const CLI::ParseError& error) {
     const std::vector<CLI::App*> chosen = app.get_subcommands();
     const std::vector<std::string> rest = app.remaining(true);
-    std::string allowed;
     std::vector<std::string> names;
-    const auto allow = [&](const std::string& name) {
-        allowed += (allowed.empty() ? "" : ", ") + name;
-        names.push_back(name);
-    };
     const auto unknown = [&](const std::string& word) {
         return "'" + word + "'" +
                fathom::suggestion(word, std::vector<std::string_view>(names.begin(), names.end()));
@@ -54,21 +50,22 @@ std::string refusalOf(const CLI::App& app, const CLI::ParseError& error) {
     if (chosen.empty()) {
         for (const CLI::App* command : app.get_subcommands(nullptr)) {
             if (!command->get_group().empty()) { // internal commands have no group
-                allow(command->get_name());
+                names.push_back(command->get_name());
             }
         }
-        return "subcommand: " + (rest.empty() ? "missing" : unknown(rest.front())) + " (allowed: " + allowed +
-               ")";
+        return "subcommand: " + (rest.empty() ? "missing" : unknown(rest.front())) +
+               " (allowed: " + fathom::joined(names) + ")";
     }
     if (!rest.empty()) {
         for (const CLI::App* owner : {static_cast<const CLI::App*>(chosen.back()), &app}) {
             for (const CLI::Option* option : owner->get_options()) {
                 if (owner != &app || option != app.get_help_ptr()) { // the subcommand has its own
-                    allow(option->get_name());
+                    names.push_back(option->get_name());
                 }
             }
         }
-        return chosen.back()->get_name() + ": " + unknown(rest.front()) + " (allowed: " + allowed + ")";
+        return chosen.back()->get_name() + ": " + unknown(rest.front()) +
+               " (allowed: " + fathom::joined(names) + ")";
     }
     std::string text = chosen.back()->get_name() + ": " + error.what();
     std::replace(text.begin(), text.end(), '\n', ' ');

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/scene/yaml_node.h"
+#include "engine/types/joined.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -31,7 +32,7 @@ inline CLI::Validator numberIn(const Range& range) {
 inline CLI::Validator wordIn(const std::vector<std::string>& words) {
     const auto check = [words](const std::string& text) -> std::string {
         const bool known = std::find(words.begin(), words.end(), text) != words.end();
-        return known ? "" : text + " (allowed: " + CLI::detail::join(words, ", ") + ")";
+        return known ? "" : text + " (allowed: " + joined(words) + ")";
     };
     return CLI::Validator(check, "{" + CLI::detail::join(words, ",") + "}");
 }

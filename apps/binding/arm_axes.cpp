@@ -2,6 +2,7 @@
 #include "apps/binding/arm_axes.h"
 
 #include "engine/types/error.h"
+#include "engine/types/joined.h"
 
 #include <algorithm>
 #include <cmath>
@@ -35,26 +36,23 @@ std::span<const char* const> namesOf(Driver::Protocol protocol) noexcept {
 }
 
 size_t axisNamed(const Scene& scene, size_t row, const Driver& driver) {
-    const auto names = namesOf(driver.protocol);
-    std::string listed;
-    for (size_t i = 0; i + 1 < names.size(); ++i) {
-        if (driver.axes[row].axis == names[i]) {
-            return i;
-        }
-        listed.append(listed.empty() ? "" : ", ").append(names[i]);
+    const auto all = namesOf(driver.protocol), names = all.first(all.size() - 1); // without the jaws
+    const auto found = std::find(names.begin(), names.end(), driver.axes[row].axis);
+    if (found == names.end()) {
+        refuse(scene, row, "axis", driver.axes[row].axis, joined(names));
     }
-    refuse(scene, row, "axis", driver.axes[row].axis, listed);
+    return static_cast<size_t>(found - names.begin());
 }
 
 size_t jointNamed(const Scene& scene, size_t row, const Driver& driver, const ArmRig& rig) {
-    std::string listed;
-    for (size_t k = 0; k < rig.model.count(); ++k) {
-        if (driver.axes[row].joint == rig.model.joints[k].name) {
-            return k;
-        }
-        listed += (listed.empty() ? "" : ", ") + rig.model.joints[k].name;
+    const std::vector<ArmJoint>& joints = rig.model.joints;
+    const std::string& name = driver.axes[row].joint;
+    const auto found =
+        std::find_if(joints.begin(), joints.end(), [&](const ArmJoint& j) { return j.name == name; });
+    if (found == joints.end()) {
+        refuse(scene, row, "joint", name, joined(joints, &ArmJoint::name));
     }
-    refuse(scene, row, "joint", driver.axes[row].joint, listed);
+    return static_cast<size_t>(found - joints.begin());
 }
 
 } // namespace

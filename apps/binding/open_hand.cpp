@@ -46,15 +46,11 @@ std::string listed(const AxisMask& axes) {
 
 std::unique_ptr<LiveHand> openLiveHand(const std::string& name, Scene& scene) {
     auto hand = open(name, scene.hand.clutchBit);
-    try {
-        scene.haptics.device = devicePreset(hand->preset()).name;
-    } catch (const BadInput&) {
-        std::string names;
-        for (const DevicePreset& preset : devicePresets()) {
-            names += (names.empty() ? "" : ", ") + preset.name;
-        }
-        throw BadInput("--hand-device", "preset", "'" + hand->preset() + "'", names);
+    const DevicePreset* preset = findPreset(hand->preset());
+    if (preset == nullptr) {
+        throw BadInput("--hand-device", "preset", "'" + hand->preset() + "'", presetNames());
     }
+    scene.haptics.device = preset->name;
     return hand;
 }
 

@@ -8,6 +8,7 @@
 #include "apps/profile/study_plot.h"
 #include "apps/replay/output_folder.h"
 #include "engine/types/error.h"
+#include "engine/types/joined.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -23,11 +24,7 @@ namespace {
 using namespace profile;
 
 std::string studyNames() {
-    std::string names;
-    for (const StudyEntry& entry : allStudies()) {
-        names += (names.empty() ? "" : ", ") + std::string(entry.name);
-    }
-    return names;
+    return joined(allStudies(), &StudyEntry::name);
 }
 
 void checkNames(const Settings& settings) {

@@ -4,6 +4,7 @@
 #include "apps/profile/frame_sequence.h"
 #include "engine/gpu/query_crossover.h"
 #include "engine/scene/plan.h"
+#include "engine/types/joined.h"
 
 #include <algorithm>
 #include <map>
@@ -63,11 +64,7 @@ std::string countOf(double value) {
 }
 
 std::string listOf(const std::vector<double>& values) {
-    std::string list;
-    for (const double value : values) {
-        list += (list.empty() ? "" : ", ") + countOf(value);
-    }
-    return list;
+    return joined(values, countOf);
 }
 
 double largestOf(const std::vector<Duel>& duels) {

@@ -32,12 +32,8 @@ FixtureClass spareClass(Role role) {
 Scene sceneFor(const SessionOptions& options) {
     Scene scene = openScene(options.scene);
     if (!options.pilot.empty() && !scene.choosePilot(options.pilot)) {
-        std::string names;
-        for (const Scene::Pilot& pilot : scene.pilots) {
-            names += (names.empty() ? "" : ", ") + pilot.name;
-        }
         throw BadInput(scene.file.string(), "--pilot", options.pilot,
-                       names.empty() ? "none: the scene has no pilots" : names);
+                       scene.pilots.empty() ? "none: the scene has no pilots" : scene.pilotNames());
     }
     if (!options.query.empty()) {
         scene.contact.where =

@@ -3,6 +3,7 @@
 
 #include "engine/model/arm_mimic.h"
 #include "engine/types/error.h"
+#include "engine/types/joined.h"
 
 #include <algorithm>
 #include <sstream>
@@ -87,14 +88,13 @@ private:
     }
 
     size_t indexOf(const std::string& field, const std::string& name) const {
-        std::string names;
-        for (size_t k = 0; k < rig_->model.count(); ++k) {
-            if (rig_->model.joints[k].name == name) {
-                return k;
-            }
-            names += (names.empty() ? "" : ", ") + rig_->model.joints[k].name;
+        const std::vector<ArmJoint>& joints = rig_->model.joints;
+        const auto found =
+            std::find_if(joints.begin(), joints.end(), [&](const ArmJoint& j) { return j.name == name; });
+        if (found == joints.end()) {
+            refuse(field + ".name", "'" + name + "'", joined(joints, &ArmJoint::name));
         }
-        refuse(field + ".name", "'" + name + "'", names);
+        return static_cast<size_t>(found - joints.begin());
     }
 
     static std::string text(double value) {

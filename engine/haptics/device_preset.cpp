@@ -2,7 +2,9 @@
 #include "engine/haptics/device_preset.h"
 
 #include "engine/types/error.h"
+#include "engine/types/joined.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace fathom {
@@ -85,15 +87,21 @@ std::span<const DevicePreset> devicePresets() {
     return table();
 }
 
+const DevicePreset* findPreset(const std::string& name) {
+    const auto found =
+        std::find_if(table().begin(), table().end(), [&](const DevicePreset& p) { return p.name == name; });
+    return found != table().end() ? &*found : nullptr;
+}
+
 const DevicePreset& devicePreset(const std::string& name) {
-    std::string names;
-    for (const DevicePreset& preset : table()) {
-        if (preset.name == name) {
-            return preset;
-        }
-        names += (names.empty() ? "" : ", ") + preset.name;
+    if (const DevicePreset* preset = findPreset(name)) {
+        return *preset;
     }
-    throw BadInput("haptics", "device", "'" + name + "'", names);
+    throw BadInput("haptics", "device", "'" + name + "'", presetNames());
+}
+
+std::string presetNames() {
+    return joined(table(), &DevicePreset::name);
 }
 
 } // namespace fathom

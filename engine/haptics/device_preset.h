@@ -29,6 +29,10 @@ struct DevicePreset {
 
 // Throws BadInput with the list of names.
 const DevicePreset& devicePreset(const std::string& name);
+const DevicePreset* findPreset(const std::string& name); // null when there is none of this name
+
+// All names, for messages.
+std::string presetNames();
 
 // All of them, in the order of the documentation.
 std::span<const DevicePreset> devicePresets();

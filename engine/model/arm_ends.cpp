@@ -2,6 +2,7 @@
 #include "engine/model/arm_ends.h"
 
 #include "engine/types/error.h"
+#include "engine/types/joined.h"
 
 #include <algorithm>
 #include <array>
@@ -95,10 +96,7 @@ public:
     LinkPtr named(const std::string& name) const {
         LinkPtr link = model_.getLink(name);
         if (!link) {
-            std::string names;
-            for (const auto& [other, ignored] : model_.links_) {
-                names += (names.empty() ? "" : ", ") + other;
-            }
+            const std::string names = joined(model_.links_, [](const auto& other) { return other.first; });
             throw BadInput(file_.string(), "link", "'" + excerpt(name) + "'", excerpt(names, 1000));
         }
         return link;

@@ -4,6 +4,7 @@
 #include "engine/model/sph_file.h"
 #include "engine/model/urdf_file.h"
 #include "engine/types/error.h"
+#include "engine/types/joined.h"
 #include "engine/types/printable.h"
 #include "engine/types/read_file.h"
 
@@ -45,11 +46,7 @@ Sphere collisionSphere(const urdf::Collision& collision, const std::filesystem::
 } // namespace
 
 std::string namesOf(const std::vector<LinkSpheres>& sets) {
-    std::string names;
-    for (const LinkSpheres& set : sets) {
-        names += (names.empty() ? "" : ", ") + set.link;
-    }
-    return excerpt(std::move(names), kShownNames);
+    return excerpt(joined(sets, &LinkSpheres::link), kShownNames);
 }
 
 std::vector<LinkSpheres> readSpherizedUrdf(const std::filesystem::path& file, const std::string& wanted,

@@ -38,14 +38,10 @@ Scene checked(Scene scene) {
     for (const std::string& path : scene.outside) {
         log::warn("{}: '{}' is outside the scene file's folder", file.string(), path);
     }
-    std::string names;
-    for (const DevicePreset& preset : devicePresets()) {
-        if (preset.name == scene.haptics.device) {
-            return scene;
-        }
-        names += (names.empty() ? "" : ", ") + preset.name;
+    if (findPreset(scene.haptics.device) == nullptr) {
+        throw BadInput(file.string(), "haptics.device", scene.haptics.device, presetNames());
     }
-    throw BadInput(file.string(), "haptics.device", scene.haptics.device, names);
+    return scene;
 }
 
 } // namespace

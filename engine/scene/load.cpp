@@ -37,12 +37,8 @@ void loadImageSections(const YamlNode& root, Scene& scene) {
 }
 
 void choosePilot(const YamlNode& pilot, Scene& scene) {
-    std::string names;
-    for (const Scene::Pilot& p : scene.pilots) {
-        names += (names.empty() ? "" : ", ") + p.name;
-    }
     if (!scene.choosePilot(pilot.text())) {
-        pilot.refuse(names.empty() ? "none: the file has no pilots" : names);
+        pilot.refuse(scene.pilots.empty() ? "none: the file has no pilots" : scene.pilotNames());
     }
 }
 

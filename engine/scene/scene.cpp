@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/scene/scene.h"
 
+#include "engine/types/joined.h"
+
 #include <algorithm>
 
 namespace fathom {
@@ -31,6 +33,10 @@ double Scene::filterBound() const {
         least = counts ? std::min(least, 0.4 * (f.radius + 3.0 * registrationSigma)) : least;
     }
     return least;
+}
+
+std::string Scene::pilotNames() const {
+    return joined(pilots, &Pilot::name);
 }
 
 bool Scene::choosePilot(const std::string& name) {

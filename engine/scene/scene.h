@@ -218,6 +218,7 @@ struct Scene {
     std::string pilot; // name of the active one; empty = none
     // Activates that pilot's haptics and scale; false when the name is unknown.
     bool choosePilot(const std::string& name);
+    std::string pilotNames() const; // for messages
 
     struct Window { // the operator's
         double textScale = 1.0;

@@ -2,6 +2,7 @@
 #include "engine/scene/yaml_node.h"
 
 #include "engine/types/error.h"
+#include "engine/types/joined.h"
 #include "engine/types/read_file.h"
 #include "engine/types/yaml_document.h"
 
@@ -16,14 +17,6 @@ namespace {
 
 constexpr size_t kMaxBytes = 1u << 20; // a scene has a few kB; the parser needs up to 250 bytes per byte
 constexpr size_t kShownCharacters = 80;
-
-std::string join(std::span<const std::string_view> words) {
-    std::string all;
-    for (std::string_view word : words) {
-        all += (all.empty() ? "" : ", ") + std::string(word);
-    }
-    return all;
-}
 
 bool isQuoted(const YAML::Node& node) {
     return node.Tag() == "!"; // yaml-cpp's tag of a scalar in quotes; a plain one has "?"
@@ -64,17 +57,17 @@ std::string YamlNode::childPath(std::string_view key) const {
 void YamlNode::checkKeys(std::initializer_list<std::string_view> known) const {
     const std::span<const std::string_view> words(known.begin(), known.size());
     if (!node_.IsMap()) {
-        refuse("a mapping with keys " + join(words));
+        refuse("a mapping with keys " + joined(words));
     }
     std::set<std::string> seen;
     for (const auto& entry : node_) {
         const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "";
         if (key == "<<") {
-            throw BadInput(file_, childPath(key), "a merge key", "keys written out: " + join(words));
+            throw BadInput(file_, childPath(key), "a merge key", "keys written out: " + joined(words));
         }
         if (std::find(known.begin(), known.end(), key) == known.end()) {
             throw BadInput(file_, childPath(excerpt(key)), "unknown key" + suggestion(key, words),
-                           join(words));
+                           joined(words));
         }
         if (!seen.insert(key).second) {
             throw BadInput(file_, childPath(key), "given twice", "each key once");
@@ -189,7 +182,7 @@ size_t YamlNode::oneOf(std::span<const std::string_view> words) const {
     const std::string word = node_.IsScalar() ? node_.Scalar() : "";
     const auto found = std::find(words.begin(), words.end(), word);
     if (found == words.end()) {
-        refuse(value() + suggestion(word, words), join(words));
+        refuse(value() + suggestion(word, words), joined(words));
     }
     return static_cast<size_t>(found - words.begin());
 }
