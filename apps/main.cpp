@@ -104,7 +104,7 @@ int run(int argc, char** argv) {
     fathom::addOperateCommand(app, global);
     fathom::addStabilityCommand(app, global, result);
     fathom::addTuneCommand(app, global, result);
-    fathom::addRecordCommand(app, global, result);
+    fathom::addRecordCommand(app, result);
     fathom::addLatencyCommand(app, global, fathom::operate::measureWindow, result);
     try {
         app.parse(argc, argv);

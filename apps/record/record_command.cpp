@@ -101,7 +101,7 @@ int runRecord(const RecordOptions& options) {
 
 } // namespace
 
-void addRecordCommand(CLI::App& app, const GlobalOptions&, int& result) {
+void addRecordCommand(CLI::App& app, int& result) {
     auto options = std::make_shared<RecordOptions>();
     CLI::App* command = app.add_subcommand("record", "record the frames of the scene's camera for replay");
     command->add_option("SCENE", options->scene, "scene file (YAML)")->required();

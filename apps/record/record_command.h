@@ -2,8 +2,6 @@
 // `fathom record SCENE.yaml --out DIR`: records the scene's camera for `replay`.
 #pragma once
 
-#include "apps/global_options.h"
-
 namespace CLI {
 class App;
 }
@@ -11,6 +9,6 @@ class App;
 namespace fathom {
 
 // result: exit code; 1 when a live camera lost frames.
-void addRecordCommand(CLI::App& app, const GlobalOptions& global, int& result);
+void addRecordCommand(CLI::App& app, int& result);
 
 } // namespace fathom

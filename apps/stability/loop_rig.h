@@ -78,10 +78,8 @@ public:
     const StepRecord& last() const { return record_; }
 
     // Energy at the hand since the start [J]. energyOut: work of the wrench, exact because the wrench is
-    // constant over a tick. dissipated: lower bound of the loss in the device's own damping. netEnergyOut:
-    // their difference.
+    // constant over a tick. netEnergyOut: less a lower bound of the loss in the device's own damping.
     double energyOut() const { return energyOut_; }
-    double dissipated() const { return dissipated_; }
     double netEnergyOut() const { return energyOut_ - dissipated_; }
     // [m] travelled by the hand; rotations count times the arm length
     double path() const { return pathLength_; }

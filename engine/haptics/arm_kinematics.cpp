@@ -55,7 +55,7 @@ void ArmKinematics::begin(const ProxyInput& input, ProxyRows&) noexcept {
     target_ = input.target;
     metricRadius_ = std::isfinite(input.metricRadius) ? std::clamp(input.metricRadius, 0.0, 10.0) : 0.0;
     start_ = now_.posture.q;
-    escapeLeft_ = options_.escapePerTick;
+    escapeLeft_ = ProxyOptions::kEscapePerTick;
 }
 
 void ArmKinematics::report(ArmStep& out) const noexcept {

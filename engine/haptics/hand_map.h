@@ -43,7 +43,6 @@ public:
         return baseRdevice_ * deviceThandle.rotation;
     }
     double scale() const noexcept { return scale_; }
-    bool clutched() const noexcept { return clutched_; }
     // Torque at the hand divided by torque at the tool.
     double torqueFactor() const noexcept { return 1.0 / scale_; }
 

@@ -71,7 +71,6 @@ void PassivityController::shift(const dvec3& by) noexcept {
 void PassivityController::giveUpWithoutRows(const PassivityStep& tick) noexcept {
     free_ = tick.rows ? 0.0 : free_ + tick.period;
     if (free_ > kFreeTime && debt_ > 0.0) {
-        unrepaid_ += debt_;
         debt_ = 0.0;
     }
 }

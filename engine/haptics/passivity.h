@@ -70,7 +70,6 @@ public:
     double debt() const noexcept { return debt_; }           // [J] > 0 = generated and not yet dissipated
     double generated() const noexcept { return generated_; } // [J] total energy generated
     double taken() const noexcept { return taken_; }         // [J] total energy dissipated by the controller
-    double unrepaid() const noexcept { return unrepaid_; }   // [J] total debt given up
 
     static constexpr double kSlow = 1e-4;     // [m/s] a slower hand is not damped
     static constexpr double kSlowTurn = 1e-3; // [rad/s]
@@ -110,7 +109,7 @@ private:
     bool started_ = false;
     Pose device_, end_;              // at the previous tick
     dvec3 moved_{0.0}, turned_{0.0}; // device motion since then
-    double stored_ = 0.0, debt_ = 0.0, generated_ = 0.0, taken_ = 0.0, unrepaid_ = 0.0;
+    double stored_ = 0.0, debt_ = 0.0, generated_ = 0.0, taken_ = 0.0;
     double slow_ = 0.0; // [J] part of debt_ that appeared with new data
     double free_ = 0.0; // [s] since the last active row
 };

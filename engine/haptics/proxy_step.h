@@ -12,13 +12,14 @@ namespace fathom {
 
 // Motion options of a proxy, fixed at construction.
 struct ProxyOptions {
-    double stepCap = 0.002;       // [m] largest travel of a leaf centre in one solve
-    uint32_t solves = 4;          // linearisations per tick, at most
-    double escapePerTick = 0.001; // [m] depth reduced per tick where new data overlaps a leaf
-    double period = 0.001;        // [s] tick
+    static constexpr double kEscapePerTick = 0.001; // [m] depth reduced where new data overlaps a leaf
     // [m/s] how much faster than the target a tool without an active row may approach it. A tool that lags
     // (late contact answers, a region that vanished) so never lunges at the hand.
-    double catchUp = 0.2;
+    static constexpr double kCatchUp = 0.2;
+
+    double stepCap = 0.002; // [m] largest travel of a leaf centre in one solve
+    uint32_t solves = 4;    // linearisations per tick, at most
+    double period = 0.001;  // [s] tick
     // mu of the friction between a free tool and the regions: the tool stays while the distance that it could
     // still slide is at most mu times the one that the regions keep it from. 0 = none.
     double friction = 0.0;

@@ -26,8 +26,7 @@ ToolKinematics::ToolKinematics(const Tool& tool, const ProxyOptions& options, co
     : places_(tool)
     , boundingRadius_(tool.boundingRadius())
     , stepCap_(options.stepCap)
-    , escapePerTick_(options.escapePerTick)
-    , catchUp_(options.catchUp * options.period)
+    , catchUp_(ProxyOptions::kCatchUp * options.period)
     , friction_(options.friction)
     , pose_{start.position, glm::normalize(start.rotation)} {}
 
@@ -45,7 +44,7 @@ void ToolKinematics::begin(const ProxyInput& input, ProxyRows& rows) noexcept {
     target_ = input.target;
     hasTarget_ = true;
     cutTravel_ = 0.0;
-    budget_ = {escapePerTick_, stepCap_, carried + moved + catchUp_};
+    budget_ = {ProxyOptions::kEscapePerTick, stepCap_, carried + moved + catchUp_};
     setMetric(input.metricRadius, rows);
 }
 

@@ -100,9 +100,9 @@ private:
     bool comesNearer(const Motion& taken) const noexcept;
 
     LeafPlaces places_;
-    double boundingRadius_;                    // [m]
-    double stepCap_, escapePerTick_, catchUp_; // [m] per solve, per tick, per tick
-    double friction_;                          // mu
+    double boundingRadius_;    // [m]
+    double stepCap_, catchUp_; // [m] per solve, per tick
+    double friction_;          // mu
     Pose pose_, nextPose_, target_;
     double metricRadius_ = 0.0;
     Budget budget_;

@@ -2,6 +2,8 @@
 // Section `fixtures` of a scene file: classes of points and placed shapes.
 #include "engine/scene/load.h"
 
+#include "shaders/shared/frame_params.h"
+
 #include <algorithm>
 #include <array>
 
@@ -9,7 +11,6 @@ namespace fathom {
 
 namespace {
 
-constexpr size_t kMaxPointClasses = 8; // one bit per class in a pixel's class byte
 constexpr uint32_t kMaxPixels = 3840u * 2160u;
 
 constexpr std::array<std::string_view, 12> kPointKeys{"hue",       "saturation", "lightness",    "intensity",
@@ -165,9 +166,9 @@ void loadFixtures(const YamlNode& fixtures, Scene& scene) {
         pointClasses += fixture.isPoints() ? 1 : 0;
         scene.fixtures.push_back(std::move(fixture));
     }
-    if (pointClasses > kMaxPointClasses) {
+    if (pointClasses > shared::kMaxClasses) {
         fixtures.refuse(std::to_string(pointClasses) + " classes of points",
-                        "at most " + std::to_string(kMaxPointClasses));
+                        "at most " + std::to_string(shared::kMaxClasses));
     }
 }
 

@@ -36,9 +36,9 @@ struct FrameParams {
     vec4 baseTcamera[3];   // rows of [R | t], t relative to the origin [m]
     vec4 cameraTbase[3];
     vec4 colourTdepth[3];
-    ClassParams classes[8];
+    ClassParams classes[kMaxClasses];
     vec4 beam;           // sigma along a beam = x + y r [m], across it z r [m] (BeamSigma); -
-    vec4 ranges[8];      // per class: least and largest range [m]; 1 = has a range gate; -
+    vec4 ranges[kMaxClasses]; // per class: least and largest range [m]; 1 = has a range gate; -
     vec4 water;          // attenuation of stored red, green, blue [1/m]; -
     vec4 lensMore;       // depth k4, k5, k6; square of Intrinsics::reach()
     vec4 colourLensMore; // the same of colour
@@ -87,12 +87,12 @@ struct FrameCounters {
     uint packedWords;    // words in all runs (packing.glsl)
     uint delivered;      // groups of `deliver` that are done; that pass alone uses it
     uint pad;
-    uint classPixels[8]; // marked pixels per class
-    uint leakSpacing[8]; // per class: float bits of the largest spacing [m] between neighbours that is >= R;
-                         // 0 = none
-    uint leakRange[8];   // per class: float bits of the largest range [m] of such neighbours
-    uint largestRadius[8]; // per class: float bits of the largest radius [m] of its finite spheres; 0 = none.
-                           // Only with a tree
+    uint classPixels[kMaxClasses]; // marked pixels per class
+    uint leakSpacing[kMaxClasses]; // per class: float bits of the largest spacing [m] between neighbours that
+                                   // is >= R; 0 = none
+    uint leakRange[kMaxClasses];   // per class: float bits of the largest range [m] of such neighbours
+    uint largestRadius[kMaxClasses]; // per class: float bits of the largest radius [m] of its finite spheres;
+                                     // 0 = none. Only with a tree
 };
 FATHOM_SIZE(FrameCounters, 224);
 FATHOM_CONST kDeliveredWord = 22; // FrameCounters::delivered
@@ -111,8 +111,8 @@ FATHOM_SIZE(PatchMoments, 64);
 // root.
 FATHOM_CONST kMaxLevels = 6;
 struct TreeParams {
-    uvec4 levels[6]; // nodes across, down; index of the first node; -
-    uvec4 run;       // number of levels; -, -, -
+    uvec4 levels[kMaxLevels]; // nodes across, down; index of the first node; -
+    uvec4 run;                // number of levels; -, -, -
 };
 FATHOM_SIZE(TreeParams, 112);
 
