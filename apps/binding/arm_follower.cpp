@@ -36,18 +36,18 @@ ArmStatus ArmFollower::exchange(double now, const ArmSetpoint& setpoint, double 
     }
     device_.step(now, command_);
     const ArmFeedback& feedback = device_.feedback();
-    ArmStatus told;
-    told.posture = axes_.postureOf(feedback);
-    told.known = feedback.homed && !feedback.stale;
-    told.age = feedback.age;
-    told.damaged = feedback.damaged;
-    told.lag = told.known ? axes_.lag(setpoint.posture, told.posture) : 0.0;
-    const bool lags = told.known && asked && told.lag > 1.0;
+    ArmStatus status;
+    status.posture = axes_.postureOf(feedback);
+    status.known = feedback.homed && !feedback.stale;
+    status.age = feedback.age;
+    status.damaged = feedback.damaged;
+    status.lag = status.known ? axes_.lag(setpoint.posture, status.posture) : 0.0;
+    const bool lags = status.known && asked && status.lag > 1.0;
     lagging_ = !lags ? 0.0 : lagging_ > 0.0 ? lagging_ : now;
-    behind_ =
-        behind_ ? !(told.known && told.lag < kBehindOver) : lagging_ > 0.0 && now - lagging_ > kBehindTime;
-    told.state = stateOf(asked);
-    return told;
+    behind_ = behind_ ? !(status.known && status.lag < kBehindOver)
+                      : lagging_ > 0.0 && now - lagging_ > kBehindTime;
+    status.state = stateOf(asked);
+    return status;
 }
 
 } // namespace fathom

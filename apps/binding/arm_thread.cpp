@@ -87,7 +87,7 @@ ArmPosture ArmThread::ready(const std::atomic<bool>& stop) {
     line_->awaitWatchdog(stop);
     const double began = secondsAt(Clock::now());
     double heard = began;
-    bool told = false;
+    bool logged = false;
     for (double now = began;; now = secondsAt(Clock::now())) {
         if (!line_->watched(now)) {
             throw Error(description() + ": its watchdog process ended");
@@ -100,9 +100,9 @@ ArmPosture ArmThread::ready(const std::atomic<bool>& stop) {
             thread_ = std::thread([this] { run(); });
             return posture;
         }
-        if (!told && !feedback.stale) {
+        if (!logged && !feedback.stale) {
             log::warn("{}: homing: each joint moves to its stop without collision checks", description());
-            told = true;
+            logged = true;
         }
         if (stop.load()) {
             throw Error(description() + ": stopped before it was ready");
@@ -135,7 +135,7 @@ void ArmThread::reopen(double now) noexcept {
 }
 
 ArmStatus ArmThread::exchange(double now) noexcept {
-    ArmStatus told;
+    ArmStatus status;
     if (!line_ || line_->gone()) {
         reopen(now);
     }
@@ -144,52 +144,52 @@ ArmStatus ArmThread::exchange(double now) noexcept {
         ArmSetpoint setpoint = link_.setpoint.front();
         const bool safe = line_->watched(now);
         setpoint.hold = setpoint.hold || !safe; // no motion without a watchdog
-        told = follower_->exchange(now, setpoint, now - secondsAt(setpoint.at));
+        status = follower_->exchange(now, setpoint, now - secondsAt(setpoint.at));
     }
     const bool gone = !line_ || line_->gone();
-    told.state = gone ? ArmState::Gone : told.state;
-    told.known = told.known && !gone;
-    told.reopened = reopened_;
+    status.state = gone ? ArmState::Gone : status.state;
+    status.known = status.known && !gone;
+    status.reopened = reopened_;
     gone_.store(gone, std::memory_order_relaxed);
-    return told;
+    return status;
 }
 
-void ArmThread::note(const ArmStatus& told, double now) {
-    if (told.state == noted_ || (now < quietUntil_ && told.state != ArmState::Gone)) {
+void ArmThread::note(const ArmStatus& status, double now) {
+    if (status.state == noted_ || (now < quietUntil_ && status.state != ArmState::Gone)) {
         return;
     }
-    if (isFault(told.state)) {
+    if (isFault(status.state)) {
         log::warn("{}: {}: the arm and the tool are held, forces fade out", description(),
-                  armStateName(told.state));
-        if (told.state == ArmState::Silent && line_) {
+                  armStateName(status.state));
+        if (status.state == ArmState::Silent && line_) {
             log::warn("{}: {}", description(), line_->silence());
         }
         quietUntil_ = now + kQuiet;
     } else if (isFault(noted_)) {
         log::warn("{}: follows again", description());
     }
-    noted_ = told.state;
+    noted_ = status.state;
 }
 
 void ArmThread::run() noexcept {
     while (!stop_.load(std::memory_order_relaxed)) {
         const Clock::time_point time = Clock::now();
         const double now = secondsAt(time);
-        ArmStatus told = exchange(now);
-        told.at = time;
-        const double taken = now - told.age;
-        if (told.known && taken > measuredAt_) {
+        ArmStatus status = exchange(now);
+        status.at = time;
+        const double taken = now - status.age;
+        if (status.known && taken > measuredAt_) {
             measuredAt_ = taken;
-            ArmPosture posture = told.posture;
+            ArmPosture posture = status.posture;
             posture.grasp =
                 std::isfinite(posture.grasp) ? posture.grasp : link_.setpoint.front().posture.grasp;
-            const std::chrono::duration<double> age(told.age);
+            const std::chrono::duration<double> age(status.age);
             link_.measured.add(time - std::chrono::duration_cast<Clock::duration>(age), posture);
         }
-        link_.status.back() = told;
+        link_.status.back() = status;
         link_.status.publish();
         try {
-            note(told, now);
+            note(status, now);
         } catch (...) { // a failing log must not stop the arm
         }
         std::this_thread::sleep_until(time + kPause);

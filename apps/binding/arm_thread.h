@@ -54,7 +54,7 @@ private:
     void run() noexcept;
     void reopen(double now) noexcept;
     ArmStatus exchange(double now) noexcept;
-    void note(const ArmStatus& told, double now);
+    void note(const ArmStatus& status, double now);
     void standStill() noexcept;
     ArmPosture inLimits(ArmPosture posture) const;
 

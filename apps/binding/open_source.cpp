@@ -64,11 +64,11 @@ std::string nameOf(const std::string& source) {
     return isRos2Request(source) ? "ros2" : parseSource(source).file;
 }
 
-// Says once which streams a recording is played from.
-std::unique_ptr<Camera> openAndSay(const std::string& source, Images images, double farthest) {
-    static std::set<std::string> said; // one thread opens cameras
+// Reports once which streams a recording is played from.
+std::unique_ptr<Camera> openAndReport(const std::string& source, Images images, double farthest) {
+    static std::set<std::string> reported; // one thread opens cameras
     std::unique_ptr<Camera> camera = openSource(source, images, farthest);
-    if (const std::string streams = camera->streams(); !streams.empty() && said.insert(source).second) {
+    if (const std::string streams = camera->streams(); !streams.empty() && reported.insert(source).second) {
         std::fprintf(stderr, "fathom: %s: %s\n", nameOf(source).c_str(), streams.c_str());
     }
     return camera;
@@ -77,15 +77,15 @@ std::unique_ptr<Camera> openAndSay(const std::string& source, Images images, dou
 std::unique_ptr<Camera> openDry(const Scene& scene, const std::optional<std::filesystem::path>& source,
                                 Images images) {
     if (source) {
-        return openAndSay(source->string(), images, scene.farZ);
+        return openAndReport(source->string(), images, scene.farZ);
     }
     switch (scene.source.kind) {
     case CameraSource::Kind::Simulated:
         return openSimulated(scene);
     case CameraSource::Kind::Recorded:
-        return openAndSay(scene.source.value, images, scene.farZ);
+        return openAndReport(scene.source.value, images, scene.farZ);
     case CameraSource::Kind::Ros2:
-        return openAndSay(withRos2(scene.source.value), images, scene.farZ);
+        return openAndReport(withRos2(scene.source.value), images, scene.farZ);
     case CameraSource::Kind::V4l2:
         break;
     }

@@ -18,7 +18,7 @@ public:
 
     HandSample read(double t) noexcept override {
         const HandSample sample = hand_.read(t);
-        there_.store(hand_.alive(), std::memory_order_relaxed);
+        present_.store(hand_.alive(), std::memory_order_relaxed);
         return sample;
     }
     void write(const Wrench& deviceWrench, double dt) noexcept override { hand_.write(deviceWrench, dt); }
@@ -26,19 +26,19 @@ public:
     // One log line per change, else empty. A loss and return between two calls is only counted
     // (LiveHandFigures::losses).
     std::string change() {
-        const bool there = there_.load(std::memory_order_relaxed);
-        if (there == reported_) {
+        const bool present = present_.load(std::memory_order_relaxed);
+        if (present == reported_) {
             return "";
         }
-        reported_ = there;
-        return name_ + (there ? ": back; the tool resumes from its position"
-                              : ": gone or silent: forces fade out, the tool stays; reconnecting");
+        reported_ = present;
+        return name_ + (present ? ": back; the tool resumes from its position"
+                                : ": gone or silent: forces fade out, the tool stays; reconnecting");
     }
 
 private:
     LiveHand& hand_;
     std::string name_; // a copy, because the haptic thread may change the device's own
-    std::atomic<bool> there_{true};
+    std::atomic<bool> present_{true};
     bool reported_ = true;
 };
 

@@ -106,8 +106,8 @@ void McapRecording::addColour(const Frame& frame, uint64_t time) {
 }
 
 void McapRecording::addPoses(const Frame& frame, uint64_t time) {
-    if (!told_ && camera_.hasColour && !camera_.registered) {
-        told_ = true;
+    if (!placed_ && camera_.hasColour && !camera_.registered) {
+        placed_ = true;
         tfStatic_ = channel("/tf_static", kTransforms);
         writer_.add(*tfStatic_, time,
                     ros2::transform({time, ""}, {kDepthFrame, kColourFrame, inverse(camera_.colourTdepth)}));

@@ -35,7 +35,7 @@ private:
     McapWriter writer_;
     uint16_t depth_ = 0, depthInfo_ = 0, colour_ = 0, colourInfo_ = 0;
     std::optional<uint16_t> tf_, tfStatic_;
-    bool told_ = false; // of the colour camera's pose
+    bool placed_ = false; // the colour camera's pose is written
     std::optional<ReplayTopics> replay_;
     std::vector<uint32_t> colours_;
     std::vector<uint8_t> bytes_;

@@ -17,7 +17,7 @@ CameraDesk::~CameraDesk() {
         const std::lock_guard lock(mutex_);
         ends_ = true;
     }
-    news_.notify_one();
+    changed_.notify_one();
     if (thread_.joinable()) {
         thread_.join();
     }
@@ -32,7 +32,7 @@ void CameraDesk::show(bool shown) {
         shown_ = shown;
         answer_.known = answer_.known && shown;
     }
-    news_.notify_one();
+    changed_.notify_one();
 }
 
 void CameraDesk::ask(const CameraControl& control, int64_t value) {
@@ -40,7 +40,7 @@ void CameraDesk::ask(const CameraControl& control, int64_t value) {
         const std::lock_guard lock(mutex_);
         wanted_.emplace(control, value);
     }
-    news_.notify_one();
+    changed_.notify_one();
 }
 
 CameraDesk::Answer CameraDesk::answer() const {
@@ -67,9 +67,9 @@ void CameraDesk::serve() {
         }
         const auto called = [&] { return ends_ || wanted_ || (shown_ && !answer_.known); };
         if (shown_) {
-            news_.wait_for(lock, kPeriod, called);
+            changed_.wait_for(lock, kPeriod, called);
         } else {
-            news_.wait(lock, called);
+            changed_.wait(lock, called);
         }
     }
 }

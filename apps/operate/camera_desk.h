@@ -41,7 +41,7 @@ private:
 
     std::shared_ptr<CameraControls> controls_;
     mutable std::mutex mutex_;
-    std::condition_variable news_;
+    std::condition_variable changed_;
     bool shown_ = false, ends_ = false;
     std::optional<std::pair<CameraControl, int64_t>> wanted_;
     Answer answer_;

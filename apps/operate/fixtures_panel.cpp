@@ -101,7 +101,7 @@ void renameButton(Console& console, const std::string& name) {
     }
 }
 
-void tellProblem(Console& console, const std::string& problem) {
+void showProblem(Console& console, const std::string& problem) {
     if (!problem.empty()) {
         console.notify(problem);
     }
@@ -145,7 +145,7 @@ void row(Console& console, FixtureEditor& editor, size_t i, const SceneSnapshot&
     if (removed) {
         editor.remove(i);
     } else if (done) {
-        tellProblem(console, editor.change(i, now));
+        showProblem(console, editor.change(i, now));
     }
     ImGui::PopID();
 }

@@ -48,7 +48,7 @@ LiveRun::LiveRun(const OperateOptions& options, Session& session, const StopSign
 }
 
 DeviceFacts LiveRun::device() const {
-    return {session_.liveHand ? session_.liveHand->description() : "", hand_->there(), hand_->held(),
+    return {session_.liveHand ? session_.liveHand->description() : "", hand_->present(), hand_->held(),
             &buttons_};
 }
 

@@ -47,7 +47,7 @@ public:
     std::exception_ptr failure() const { return thread_->failure(); }
     const HapticOptions& haptics() const { return haptics_; }
     SessionFeed& feed() { return feed_; }
-    bool handThere() const { return hand_->there(); }
+    bool handThere() const { return hand_->present(); }
     const RealtimeRun& engine() const { return *engine_; }
 
 private:

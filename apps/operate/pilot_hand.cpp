@@ -69,7 +69,7 @@ uint32_t GatedHand::buttonsOf(uint32_t raw) noexcept {
 HandSample GatedHand::read(double t) noexcept {
     HandSample sample = hand_.read(t);
     const bool there = live_ == nullptr || live_->alive();
-    there_.store(there, std::memory_order_relaxed);
+    present_.store(there, std::memory_order_relaxed);
     if (there && sample.present) {
         sample.buttons = buttonsOf(sample.buttons);
     }

@@ -54,7 +54,7 @@ public:
     void capture(bool on) noexcept { captures_.store(on, std::memory_order_relaxed); }
     uint32_t held() const noexcept { return held_.load(std::memory_order_relaxed); } // as the device has them
     uint32_t takePressed() noexcept { return pressed_.exchange(0, std::memory_order_relaxed); }
-    bool there() const noexcept { return there_.load(std::memory_order_relaxed); } // at the last tick
+    bool present() const noexcept { return present_.load(std::memory_order_relaxed); } // at the last tick
     HandSample read(double t) noexcept override;
     void write(const Wrench& wrench, double dt) noexcept override { hand_.write(wrench, dt); }
 
@@ -72,7 +72,7 @@ private:
     std::atomic<uint32_t> held_{0}, pressed_{0}; // down now; pressed since the last takePressed()
     std::atomic<bool> captures_{false};
     const std::atomic<bool>& ends_;
-    std::atomic<bool> off_{true}, there_{true}, silent_{false};
+    std::atomic<bool> off_{true}, present_{true}, silent_{false};
     std::atomic<uint32_t> calls_{0}; // of setForces()
     uint32_t callsSeen_ = 0;
     double calledAt_ = 0.0; // [s] first tick that saw the newest call

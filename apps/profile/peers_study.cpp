@@ -43,27 +43,27 @@ void judgeOurs(Study& study) {
 }
 
 // One sentence per source: Fathom's time, and every other time as a multiple of it.
-void sayRatios(Study& study) {
+void reportRatios(Study& study) {
     study.findings.push_back(
         "xN: N times Fathom's time on that source, in brackets for the build. Filter and points: device time "
         "of Fathom's pass, wall time of the others. Contact: CPU time of the calling thread, which does not "
         "depend on other work; for the GPU, wall time from submission to result");
     for (const std::string& source : sourcesOf(study)) {
-        std::string said;
+        std::string text;
         for (const StudyRow& row : study.rows) {
             if (row.source != source) {
                 continue;
             }
             if (row.isDefault) {
-                said = source + ": " + row.setting + " " + digits(peerTime(row)) + " ms";
-                said += std::isfinite(row.more[kBuild]) ? " (build " + digits(row.more[kBuild]) + ")" : "";
+                text = source + ": " + row.setting + " " + digits(peerTime(row)) + " ms";
+                text += std::isfinite(row.more[kBuild]) ? " (build " + digits(row.more[kBuild]) + ")" : "";
                 continue;
             }
-            said += "; " + row.setting + " x" + digits(row.more[kRatio]);
-            said += std::isfinite(row.more[kBuildRatio]) ? " (x" + digits(row.more[kBuildRatio]) + ")" : "";
-            said += row.error > 0.0 ? " [" + digits(row.error) + " wrong]" : "";
+            text += "; " + row.setting + " x" + digits(row.more[kRatio]);
+            text += std::isfinite(row.more[kBuildRatio]) ? " (x" + digits(row.more[kBuildRatio]) + ")" : "";
+            text += row.error > 0.0 ? " [" + digits(row.error) + " wrong]" : "";
         }
-        study.findings.push_back(said);
+        study.findings.push_back(text);
     }
 }
 
@@ -75,17 +75,17 @@ std::string tally(const Study& study, size_t column, double below) {
             all[row.setting].push_back(row.more[column]);
         }
     }
-    std::string said;
+    std::string text;
     for (const auto& [setting, values] : all) {
         const auto [least, most] = std::minmax_element(values.begin(), values.end());
-        said += (said.empty() ? "" : "; ") + setting + " on " + std::to_string(values.size()) +
+        text += (text.empty() ? "" : "; ") + setting + " on " + std::to_string(values.size()) +
                 " sources, x" + digits(*least) + " to x" + digits(*most);
     }
-    return said.empty() ? "none" : said;
+    return text.empty() ? "none" : text;
 }
 
 // Reports separately where other libraries are faster than Fathom, or wrong.
-void sayWinners(Study& study) {
+void reportWinners(Study& study) {
     std::string wrong;
     for (const StudyRow& row : study.rows) {
         if (row.error > 0.0) {
@@ -182,8 +182,8 @@ Study peersStudy(const StudyContext& context) {
     addPeerPoints(context, study.rows);
     addPeerCollision(context, study.rows);
     judgeOurs(study);
-    sayRatios(study);
-    sayWinners(study);
+    reportRatios(study);
+    reportWinners(study);
     for (const char* leaves : {"1", "64", "1024"}) {
         PlotPanel panel = contactPanel(
             study, leaves, std::string("what lies within reach, tool leaves: ") + leaves, peerTime);

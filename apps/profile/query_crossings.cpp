@@ -44,17 +44,17 @@ std::vector<Measured> measuredOf(const std::vector<StudyRow>& rows) {
     return all;
 }
 
-// Duels of the entries that `wanted` accepts and that both methods measured.
+// Pairs of the entries that `wanted` accepts and that both methods measured.
 template <class Wanted, class Size>
-std::vector<Duel> duelsOf(const std::vector<Measured>& all, MeasuredValue incumbent, MeasuredValue challenger,
-                          Wanted&& wanted, Size&& size) {
-    std::vector<Duel> duels;
+std::vector<TimePair> pairsOf(const std::vector<Measured>& all, MeasuredValue first, MeasuredValue second,
+                              Wanted&& wanted, Size&& size) {
+    std::vector<TimePair> pairs;
     for (const Measured& m : all) {
-        if (wanted(m) && std::isfinite(m.*incumbent) && std::isfinite(m.*challenger)) {
-            duels.push_back({size(m), m.*incumbent, m.*challenger});
+        if (wanted(m) && std::isfinite(m.*first) && std::isfinite(m.*second)) {
+            pairs.push_back({size(m), m.*first, m.*second});
         }
     }
-    return duels;
+    return pairs;
 }
 
 std::string countOf(double value) {
@@ -67,19 +67,19 @@ std::string listOf(const std::vector<double>& values) {
     return joined(values, countOf);
 }
 
-double largestOf(const std::vector<Duel>& duels) {
+double largestSize(const std::vector<TimePair>& pairs) {
     double most = 0.0;
-    for (const Duel& d : duels) {
-        most = std::max(most, d.size);
+    for (const TimePair& p : pairs) {
+        most = std::max(most, p.size);
     }
     return most;
 }
 
 // Text such as "from 60 k spheres on, and at 1000" or "never here (up to 1.024 M spheres), but at 1000".
-std::string fromWhere(const std::vector<Duel>& duels, const std::string& unit) {
-    const Crossing crossing = crossingOf(duels);
+std::string fromWhere(const std::vector<TimePair>& pairs, const std::string& unit) {
+    const Crossing crossing = crossingOf(pairs);
     const bool never = std::isinf(crossing.from);
-    std::string text = never ? "never here (up to " + countOf(largestOf(duels)) + " " + unit + ")"
+    std::string text = never ? "never here (up to " + countOf(largestSize(pairs)) + " " + unit + ")"
                              : "from " + countOf(crossing.from) + " " + unit + " on";
     if (!crossing.before.empty()) {
         text += (never ? ", but at " : ", and at ") + listOf(crossing.before);
@@ -87,21 +87,21 @@ std::string fromWhere(const std::vector<Duel>& duels, const std::string& unit) {
     return text;
 }
 
-std::vector<Duel> duelsByLeaves(const std::vector<Measured>& all, const std::string& source) {
-    return duelsOf(
+std::vector<TimePair> pairsByLeaves(const std::vector<Measured>& all, const std::string& source) {
+    return pairsOf(
         all, &Measured::cpuSet, &Measured::gpuSet, [&](const Measured& m) { return m.source == source; },
         [](const Measured& m) { return m.leaves; });
 }
 
-std::vector<Duel> duelsBySpheres(const std::vector<Measured>& all, double leaves) {
-    return duelsOf(
+std::vector<TimePair> pairsBySpheres(const std::vector<Measured>& all, double leaves) {
+    return pairsOf(
         all, &Measured::cpuSet, &Measured::gpuSet, [&](const Measured& m) { return m.leaves == leaves; },
         [](const Measured& m) { return m.spheres; });
 }
 
-std::vector<Duel> duelsByPairs(const std::vector<Measured>& all, MeasuredValue challenger) {
-    return duelsOf(
-        all, &Measured::brute, challenger, [](const Measured&) { return true; },
+std::vector<TimePair> pairsByWork(const std::vector<Measured>& all, MeasuredValue second) {
+    return pairsOf(
+        all, &Measured::brute, second, [](const Measured&) { return true; },
         [](const Measured& m) { return m.spheres * m.leaves; });
 }
 
@@ -127,22 +127,22 @@ std::set<double> toolsIn(const std::vector<Measured>& all) {
 
 } // namespace
 
-Crossing crossingOf(const std::vector<Duel>& duels) {
-    double lastLost = -1.0;
-    std::set<double> lost;
-    for (const Duel& d : duels) {
-        if (!(d.challenger < d.incumbent)) {
-            lost.insert(d.size);
-            lastLost = std::max(lastLost, d.size);
+Crossing crossingOf(const std::vector<TimePair>& pairs) {
+    double lastSlower = -1.0;
+    std::set<double> slower;
+    for (const TimePair& p : pairs) {
+        if (!(p.second < p.first)) {
+            slower.insert(p.size);
+            lastSlower = std::max(lastSlower, p.size);
         }
     }
     Crossing crossing;
     std::set<double> before;
-    for (const Duel& d : duels) {
-        if (d.size > lastLost) {
-            crossing.from = std::min(crossing.from, d.size);
-        } else if (lost.count(d.size) == 0) {
-            before.insert(d.size);
+    for (const TimePair& p : pairs) {
+        if (p.size > lastSlower) {
+            crossing.from = std::min(crossing.from, p.size);
+        } else if (slower.count(p.size) == 0) {
+            before.insert(p.size);
         }
     }
     crossing.before.assign(before.begin(), before.end());
@@ -153,7 +153,7 @@ uint32_t leavesForTheDevice(const std::vector<StudyRow>& rows) {
     const std::vector<Measured> all = measuredOf(rows);
     double most = 0.0;
     for (const std::string& source : sourcesIn(all)) {
-        most = std::max(most, crossingOf(duelsByLeaves(all, source)).from);
+        most = std::max(most, crossingOf(pairsByLeaves(all, source)).from);
     }
     return most > 0.0 && std::isfinite(most) ? static_cast<uint32_t>(most) : gpu::kNeverOnGpu;
 }
@@ -163,16 +163,16 @@ std::vector<std::string> crossingFindings(const std::vector<StudyRow>& rows) {
     std::vector<std::string> findings;
     for (const std::string& source : sourcesIn(all)) {
         findings.push_back("contact set in " + source + ", device faster than CPU: " +
-                           fromWhere(duelsByLeaves(all, source), "tool leaves"));
+                           fromWhere(pairsByLeaves(all, source), "tool leaves"));
     }
     for (const double leaves : toolsIn(all)) {
         findings.push_back("contact set with " + countOf(leaves) + " leaves, device faster than CPU: " +
-                           fromWhere(duelsBySpheres(all, leaves), "region spheres"));
+                           fromWhere(pairsBySpheres(all, leaves), "region spheres"));
     }
     for (const auto& [name, cull] : {std::pair{"the CPU's grid", &Measured::gridCull},
                                      std::pair{"the device's tree", &Measured::treeCull}}) {
         findings.push_back(std::string("cull alone, ") + name + " faster than brute force: " +
-                           fromWhere(duelsByPairs(all, cull), "spheres x leaves"));
+                           fromWhere(pairsByWork(all, cull), "spheres x leaves"));
     }
     return findings;
 }

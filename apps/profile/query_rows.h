@@ -40,7 +40,7 @@ std::vector<StudyRow> queryRows(const StudyContext& context, uint32_t width, uin
                                 const std::vector<uint32_t>& toolLeaves);
 
 // Culls by grid and by brute force for small tools and the 16, 64 and 256 nearest spheres of a wall, where
-// brute force wins. Throws Error as above.
+// brute force is faster. Throws Error as above.
 std::vector<StudyRow> fewSphereRows(const StudyContext& context);
 
 } // namespace fathom::profile

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Authored analytic fixtures: exact signed distance of a tool leaf to each shape, and the constraints of
+// Placed shapes: exact signed distance of a tool leaf to each shape, and the constraints of
 // lines and axes.
 #pragma once
 
@@ -25,7 +25,7 @@ struct Shape {
     bool isEquality() const { return kind == ShapeKind::Line || kind == ShapeKind::Axis; }
 };
 
-// Every authored shape of a scene, in file order.
+// Every placed shape of a scene, in file order.
 std::vector<Shape> shapesOf(const Scene& scene);
 
 // One side of a shape relative to a tool leaf.

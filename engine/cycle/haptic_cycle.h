@@ -54,7 +54,7 @@ public:
 
     // Call before a step when a real arm follows; from the first call on, the rules above apply. Returns true
     // when the tool moved to the measured arm, which changes pose() and place().
-    bool follow(const ArmFollow& told) noexcept;
+    bool follow(const ArmFollow& status) noexcept;
 
     // Replaces the placed shapes from the next step on; drops those beyond the room made by the
     // constructor. Haptic thread, between steps.

@@ -23,13 +23,13 @@ const ContactSet* HapticCycle::chooseSet(const StepInput& input, StepRecord& out
     return usable && (!armState_.placed || covers(*input.contacts)) ? input.contacts : nullptr;
 }
 
-bool HapticCycle::follow(const ArmFollow& told) noexcept {
+bool HapticCycle::follow(const ArmFollow& status) noexcept {
     armState_.connected = arm_.has_value();
-    armState_.follows = told.follows;
-    if (!armState_.connected || !told.known || !armState_.held || !stage_.off()) {
+    armState_.follows = status.follows;
+    if (!armState_.connected || !status.known || !armState_.held || !stage_.off()) {
         return false;
     }
-    arm_->setPosture(told.posture);
+    arm_->setPosture(status.posture);
     armState_.placed = true;
     tool_ = arm_->tip();
     map_.align(handle_, tool_);

@@ -113,8 +113,8 @@ Wrench WrenchStage::passivityWrench(const WrenchInput& input, const Wrench& reac
 }
 
 // Subtracts the guidance share of the delivered wrench, scaled as the size limit scaled it.
-void WrenchStage::tellPassivity(const WrenchInput& input, const Wrench& damper, const Wrench& asked,
-                                const Wrench& sized, const Wrench& delivered) noexcept {
+void WrenchStage::reportToPassivity(const WrenchInput& input, const Wrench& damper, const Wrench& asked,
+                                    const Wrench& sized, const Wrench& delivered) noexcept {
     const double ramp = ramps_.gain();
     const Wrench& pull = input.pull;
     const double force = shareOf(sized.force, asked.force), torque = shareOf(sized.torque, asked.torque);
@@ -162,7 +162,7 @@ WrenchStage::Output WrenchStage::step(const WrenchInput& input) noexcept {
     const auto projected = projectOnAxes(out.wrench, input.baseRhandle, options_.device.actuated);
     out.delivered = projected.delivered;
     out.residual = projected.residual;
-    tellPassivity(input, damper, asked, sized, projected.delivered);
+    reportToPassivity(input, damper, asked, sized, projected.delivered);
     return out;
 }
 

@@ -74,8 +74,8 @@ private:
     Wrench springWrench(const WrenchInput& input) noexcept;
     Wrench damping(const WrenchInput& input, const Wrench& reaction) noexcept;
     Wrench passivityWrench(const WrenchInput& input, const Wrench& reaction) noexcept;
-    void tellPassivity(const WrenchInput& input, const Wrench& damper, const Wrench& asked,
-                       const Wrench& sized, const Wrench& delivered) noexcept;
+    void reportToPassivity(const WrenchInput& input, const Wrench& damper, const Wrench& asked,
+                           const Wrench& sized, const Wrench& delivered) noexcept;
     uint32_t causeOf(const WrenchInput& input, const Wrench& damper, const Wrench& sized,
                      const Wrench& slewed) const noexcept;
     Wrench onActuatedAxes(const WrenchInput& input, const Wrench& wrench) const noexcept;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Everything that the leaves of a tool or an arm can touch: the active contact set with its trust region,
-// leaves behind a surface, and authored shapes.
+// leaves behind a surface, and placed shapes.
 #pragma once
 
 #include "engine/contact/contact_set.h"

@@ -33,11 +33,12 @@ bool says(const std::vector<std::string>& findings, const std::string& finding) 
 
 } // namespace
 
-TEST_CASE("A challenger's crossing is the size from which it wins every duel, in any input order") {
+TEST_CASE("The crossing is the size from which the second method is faster at every larger one, in any input "
+          "order") {
     const Crossing crossing =
         crossingOf({{300, 2, 1}, {10, 2, 1}, {100, 1, 1}, {900, 9, 3}, {50, 1, 2}, {20, 2, 1}, {20, 2, 3}});
     CHECK(crossing.from == 300);                       // at 100 they are equal
-    CHECK(crossing.before == std::vector<double>{10}); // one of two duels at 20 was lost
+    CHECK(crossing.before == std::vector<double>{10}); // in one of two pairs at 20 it is slower
     CHECK(std::isinf(crossingOf({{10, 2, 1}, {20, 1, 2}}).from));
     CHECK(crossingOf({{10, 2, 1}, {20, 2, 1}}).from == 10);
     CHECK(std::isinf(crossingOf({}).from));
@@ -69,7 +70,7 @@ TEST_CASE("The crossings of each set, each tool and brute force are reported, ev
     CHECK(says(
         said,
         "contact set with 64 leaves, device faster than CPU: from 300 k region spheres on, and at 1000"));
-    // The culls take half of the times above. Pairs that brute force skips are not duels.
+    // The culls take half of the times above. Sizes that brute force skips do not count.
     CHECK(says(said, "cull alone, the CPU's grid faster than brute force: from 60 k spheres x leaves on"));
     CHECK(says(said, "cull alone, the device's tree faster than brute force: from 64 k spheres x leaves on"));
 }
@@ -110,7 +111,7 @@ TEST_CASE("A run reports the crossing of each set and tool and the choice of 'wh
                                        [](const std::string& f) { return startsWith(f, "'where: auto' "); });
     CHECK(decision->find("this device is a CPU") != std::string::npos);
     CHECK(decision->find("a quick run stores no crossover") != std::string::npos);
-    for (const auto& row : study["rows"]) { // brute force is also measured where it wins
+    for (const auto& row : study["rows"]) { // brute force is also measured where it is faster
         if (startsWith(row["source"], "0.016 k spheres")) {
             CHECK(row["submit_to_result_p50_ms"].is_null() == !startsWith(row["setting"], "brute force"));
             CHECK(row["found_spheres"].get<double>() > 0.0);
