@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/binding/ros2_diagnosis.h"
 
+#include "engine/types/number_text.h"
+
 #include <cmath>
-#include <cstdio>
 #include <glm/geometric.hpp>
 
 namespace fathom {
@@ -11,12 +12,6 @@ namespace {
 
 using ros2::Diagnosis;
 using Level = Diagnosis::Level;
-
-std::string number(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.4g", value);
-    return text;
-}
 
 Level levelOf(StepState state) {
     switch (state) {
@@ -38,15 +33,15 @@ Diagnosis forcesOf(const StepRecord& r) {
     return {r.finite ? levelOf(r.state) : Level::Error,
             "fathom: forces",
             r.finite ? stateName(r.state) : "a number is not finite: no force",
-            {{"force_n", number(glm::length(r.wrench.force))},
-             {"torque_nm", number(glm::length(r.wrench.torque))},
+            {{"force_n", significant(glm::length(r.wrench.force), 4)},
+             {"torque_nm", significant(glm::length(r.wrench.torque), 4)},
              {"contacts", std::to_string(r.contacts)},
-             {"min_gap_m", number(r.minGap)},
-             {"clearance_m", number(r.clearance)},
-             {"lag_m", number(r.lag)},
-             {"guidance", number(r.guidance)},
-             {"margin_passive", number(r.marginPassive)},
-             {"margin_uncoupled", number(r.marginUncoupled)}}};
+             {"min_gap_m", significant(r.minGap, 4)},
+             {"clearance_m", significant(r.clearance, 4)},
+             {"lag_m", significant(r.lag, 4)},
+             {"guidance", significant(r.guidance, 4)},
+             {"margin_passive", significant(r.marginPassive, 4)},
+             {"margin_uncoupled", significant(r.marginUncoupled, 4)}}};
 }
 
 Diagnosis cameraOf(const StepRecord& r, double setRate) {
@@ -57,8 +52,8 @@ Diagnosis cameraOf(const StepRecord& r, double setRate) {
                    : (!old               ? "ok"
                       : r.sceneAge < 0.0 ? "the newest frame is ahead of the clock"
                                          : "the newest frame is too old"),
-            {{"sets_per_s", number(setRate)},
-             {"scene_age_s", number(r.sceneAge)},
+            {{"sets_per_s", significant(setRate, 4)},
+             {"scene_age_s", significant(r.sceneAge, 4)},
              {"frame", std::to_string(r.frame)}}};
 }
 
@@ -67,7 +62,7 @@ Diagnosis armOf(const Ros2Tick& tick) {
             "fathom: arm",
             armStateName(tick.armState),
             {{"at_limits", std::to_string(tick.record.arm.atLimits)},
-             {"residual_m", number(tick.record.arm.residual)}}};
+             {"residual_m", significant(tick.record.arm.residual, 4)}}};
 }
 
 } // namespace
@@ -84,10 +79,10 @@ std::vector<Diagnosis> Ros2Diagnosis::of(const Ros2Tick& tick, uint64_t unsent) 
     parts.push_back({missed > 0 ? Level::Warning : Level::Ok,
                      "fathom: haptic",
                      missed > 0 ? "periods without a step" : "ok",
-                     {{"ticks_per_s", number(rate(now.ticks, before_.ticks))},
+                     {{"ticks_per_s", significant(rate(now.ticks, before_.ticks), 4)},
                       {"late", std::to_string(now.late - before_.late)},
                       {"missed", std::to_string(missed)},
-                      {"worst_step_us", number(now.worstMicros)},
+                      {"worst_step_us", significant(now.worstMicros, 4)},
                       {"messages_not_sent", std::to_string(unsent)}}});
     if (tick.driven) {
         parts.push_back(armOf(tick));

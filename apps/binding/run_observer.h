@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whoever receives the state of a realtime run, outside of this process.
+// A receiver of the state of a realtime run, outside of this process.
 #pragma once
 
 #include "apps/binding/remote_requests.h"

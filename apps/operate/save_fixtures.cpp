@@ -4,6 +4,7 @@
 #include "apps/operate/fixture_editor.h"
 #include "apps/session/session.h"
 #include "engine/types/error.h"
+#include "engine/types/number_text.h"
 #include "engine/types/output_file.h"
 #include "engine/types/read_file.h"
 
@@ -71,25 +72,9 @@ void putPoints(std::ostream& out, const FixtureClass& f) {
     }
 }
 
-// As a YAML scalar in double quotes.
-std::string quoted(const std::string& text) {
-    std::string out = "\"";
-    for (const char c : text) {
-        if (c == '"' || c == '\\') {
-            out += '\\';
-        }
-        if (c == '\n') {
-            out += "\\n";
-        } else {
-            out += c;
-        }
-    }
-    return out + "\"";
-}
-
 void putRow(std::ostream& out, const FixtureClass& f) {
     constexpr const char* kShapes[] = {"", "sphere", "box", "plane", "cylinder", "line", "axis"};
-    out << "  - { name: " << quoted(f.name) << ", role: "
+    out << "  - { name: " << doubleQuoted(f.name) << ", role: "
         << (f.role == Role::Guidance ? "guidance"
             : f.keepIn               ? "keep_in"
                                      : "forbidden");
@@ -180,7 +165,7 @@ std::string FixtureEditor::textFrom(const std::string& old, bool spares) const {
     };
     std::string text = replaced(old, "fixtures:", rows == 0 ? "fixtures: []\n" : block.str());
     if (!scene_.pilot.empty()) {
-        text = replaced(text, "pilot:", "pilot: " + quoted(scene_.pilot) + "\n");
+        text = replaced(text, "pilot:", "pilot: " + doubleQuoted(scene_.pilot) + "\n");
     }
     return scene_.window ? replaced(text, "window:", windowBlock(*scene_.window)) : text;
 }

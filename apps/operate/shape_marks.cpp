@@ -2,6 +2,7 @@
 #include "apps/operate/shape_marks.h"
 
 #include "apps/operate/theme.h"
+#include "engine/types/angle.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +11,6 @@ namespace fathom::operate {
 
 namespace {
 
-constexpr double kFullTurn = 6.283185307179586;
 constexpr double kPlaneHalf = 0.2; // [m] shown part of a plane
 
 // Points on a shape whose hull is its outline in any view (own frame).
@@ -19,7 +19,7 @@ std::vector<dvec3> surfacePoints(const Shape& shape) {
     constexpr int kAround = 32, kUp = 16;
     const auto ring = [&](double r, double z) {
         for (int i = 0; i < kAround; ++i) {
-            const double a = kFullTurn * i / kAround;
+            const double a = kTurn * i / kAround;
             points.emplace_back(r * std::cos(a), r * std::sin(a), z);
         }
     };
@@ -27,7 +27,7 @@ std::vector<dvec3> surfacePoints(const Shape& shape) {
     switch (shape.kind) {
     case ShapeKind::Sphere:
         for (int k = 0; k <= kUp; ++k) {
-            const double a = 0.5 * kFullTurn * k / kUp;
+            const double a = 0.5 * kTurn * k / kUp;
             ring(shape.size.x * std::sin(a), shape.size.x * std::cos(a));
         }
         break;
@@ -168,7 +168,7 @@ void drawEdges(ImDrawList& list, const ViewPort& port, const Shape& shape, ImU32
     const auto at = [&](double x, double y, double z) { return shape.baseTshape.apply({x, y, z}); };
     const auto ring = [&](double r, double z, int axis) {
         for (int i = 0; i < 40; ++i) {
-            const double a = kFullTurn * i / 40, b = kFullTurn * (i + 1) / 40;
+            const double a = kTurn * i / 40, b = kTurn * (i + 1) / 40;
             const auto p = [&](double w) {
                 const double c = r * std::cos(w), s = r * std::sin(w);
                 return axis == 2 ? at(c, s, z) : axis == 1 ? at(c, z, s) : at(z, c, s);

@@ -3,6 +3,7 @@
 
 #include "apps/operate/theme.h"
 #include "apps/replay/silhouette.h"
+#include "engine/types/angle.h"
 
 #include <algorithm>
 #include <cmath>
@@ -50,7 +51,7 @@ SpaceBounds boundsOf(const Fixtures& set, std::span<const Sphere> arm) {
 }
 
 void lookFrom(Orbit& orbit, Side side) {
-    constexpr double kQuarter = 1.5707963267948966;
+    constexpr double kQuarter = 0.25 * kTurn;
     const Orbit fresh;
     orbit.yaw = side == Side::Right ? kQuarter : side == Side::Reset ? fresh.yaw : 0.0;
     orbit.pitch = side == Side::Top ? kQuarter : side == Side::Reset ? fresh.pitch : 0.0;

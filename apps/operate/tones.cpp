@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/operate/tones.h"
 
+#include "engine/types/angle.h"
+
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -48,7 +50,7 @@ const char* toneName(Tone tone) {
 }
 
 std::vector<int16_t> samplesOf(Tone tone) {
-    constexpr double kFullTurn = 6.283185307179586, kLoud = 0.35 * 32767.0;
+    constexpr double kLoud = 0.35 * 32767.0;
     constexpr double kEdge = 0.006; // [s] of rise and fall, without which a note clicks
     std::vector<int16_t> samples;
     for (const Note& note : notesOf(tone)) {
@@ -56,7 +58,7 @@ std::vector<int16_t> samplesOf(Tone tone) {
         for (size_t i = 0; i < count; ++i) {
             const double t = static_cast<double>(i) / kToneRate, left = note.seconds - t;
             const double loud = kLoud * std::clamp(std::min(t, left) / kEdge, 0.0, 1.0);
-            samples.push_back(static_cast<int16_t>(loud * std::sin(kFullTurn * note.hertz * t)));
+            samples.push_back(static_cast<int16_t>(loud * std::sin(kTurn * note.hertz * t)));
         }
     }
     return samples;

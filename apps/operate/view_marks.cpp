@@ -5,6 +5,7 @@
 #include "apps/operate/shape_marks.h"
 #include "apps/operate/theme.h"
 #include "apps/operate/view_lines.h"
+#include "engine/types/angle.h"
 
 #include <cmath>
 #include <cstdio>
@@ -12,8 +13,6 @@
 namespace fathom::operate {
 
 namespace {
-
-constexpr double kCircle = 6.283185307179586;
 
 // The spheres of a small tool, where nothing hides them.
 void leavesAt(ImDrawList& list, const MarksInput& input) {
@@ -93,8 +92,8 @@ void guidanceAt(ImDrawList& list, const MarksInput& input, const GuidancePose& g
         const dvec3 a = glm::normalize(glm::cross(std::abs(n.x) < 0.9 ? dvec3(1, 0, 0) : dvec3(0, 1, 0), n));
         const dvec3 b = glm::cross(n, a);
         for (int i = 0; i < 48; ++i) {
-            const auto p = input.port.of(guidance.position + 0.025 * (std::cos(kCircle * i / 48) * a +
-                                                                      std::sin(kCircle * i / 48) * b));
+            const auto p = input.port.of(
+                guidance.position + 0.025 * (std::cos(kTurn * i / 48) * a + std::sin(kTurn * i / 48) * b));
             if (p) {
                 list.PathLineTo(*p);
             }

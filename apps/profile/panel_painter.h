@@ -4,6 +4,7 @@
 
 #include "apps/profile/panel_colours.h"
 #include "apps/profile/plot_labels.h"
+#include "engine/types/angle.h"
 
 #include <algorithm>
 #include <string>
@@ -106,7 +107,7 @@ private:
 
     void dot(double x, double y, double radius, Colour colour, bool filled) const {
         p_.setColour(colour);
-        cairo_arc(p_.cr(), x, y, radius, 0, 6.2831853);
+        cairo_arc(p_.cr(), x, y, radius, 0, kTurn);
         cairo_set_line_width(p_.cr(), 2.0);
         filled ? cairo_fill(p_.cr()) : cairo_stroke(p_.cr());
     }
@@ -138,7 +139,7 @@ private:
         line(x0_, y0_, x0_, y1_, kInk, 1.2);
         cairo_save(p_.cr());
         cairo_translate(p_.cr(), x0_ - 64.0, 0.5 * (y0_ + y1_));
-        cairo_rotate(p_.cr(), -1.5707963);
+        cairo_rotate(p_.cr(), -0.25 * kTurn);
         p_.text(0.0, 0.0, panel_.yLabel, 14, kInk, Align::Centre);
         cairo_restore(p_.cr());
     }

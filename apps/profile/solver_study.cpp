@@ -4,6 +4,7 @@
 #include "apps/profile/drag.h"
 #include "apps/profile/interleave.h"
 #include "apps/profile/studies.h"
+#include "engine/types/angle.h"
 
 namespace fathom::profile {
 
@@ -75,7 +76,6 @@ Apart apartAll(const DragResult& a, const DragResult& b) {
 // Ways to reduce the default's rows: cull by reach, merge nearly parallel rows, solve the most binding rows
 // first and then check the rest, or use only the most binding rows.
 std::vector<RowReduction> reductionsOf(bool quick) {
-    constexpr double kDegree = M_PI / 180.0;
     if (quick) {
         return {{},
                 {1.0},

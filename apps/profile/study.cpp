@@ -2,6 +2,7 @@
 #include "apps/profile/study.h"
 
 #include "engine/types/error.h"
+#include "engine/types/number_text.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -160,10 +161,8 @@ void verify(bool holds, const std::string& study, const std::string& setting, co
     }
 }
 
-std::string digits(double value, int significant) {
-    char text[40];
-    std::snprintf(text, sizeof text, "%.*g", significant, value);
-    return text;
+std::string digits(double value, int most) {
+    return significant(value, most);
 }
 
 } // namespace fathom::profile

@@ -129,6 +129,6 @@ std::optional<PowerLaw> fitPower(const std::vector<PlotPoint>& points);
 void verify(bool holds, const std::string& study, const std::string& setting, const std::string& what);
 
 // Formats a number with a few digits, for labels and sentences.
-std::string digits(double value, int significant = 3);
+std::string digits(double value, int most = 3);
 
 } // namespace fathom::profile

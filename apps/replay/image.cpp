@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/replay/image.h"
 
+#include "engine/types/angle.h"
 #include "engine/types/error.h"
 #include "engine/types/output_file.h"
 
@@ -91,7 +92,7 @@ void Image::box(double x, double y, double width, double height, Colour colour) 
 
 void Image::dot(double x, double y, double radius, Colour colour) const {
     setColour(colour);
-    cairo_arc(cr_, x, y, radius, 0.0, 6.283185307179586);
+    cairo_arc(cr_, x, y, radius, 0.0, kTurn);
     cairo_fill(cr_);
 }
 
@@ -112,7 +113,7 @@ void Image::textUpwards(double x, double y, const std::string& words, double siz
                         bool bold) const {
     cairo_save(cr_);
     cairo_translate(cr_, x, y);
-    cairo_rotate(cr_, -1.5707963267948966);
+    cairo_rotate(cr_, -0.25 * kTurn);
     text(0.0, 0.0, words, size, colour, Align::Centre, bold);
     cairo_restore(cr_);
 }

@@ -3,6 +3,7 @@
 #include "apps/replay/haptics_csv.h"
 #include "apps/replay/overlay_layers.h"
 #include "apps/replay/plot_axis.h"
+#include "engine/types/angle.h"
 
 #include <algorithm>
 #include <cmath>
@@ -80,7 +81,7 @@ public:
     void outline(const char* words, bool dashed) {
         const double r = 6.5 * canvas_.size;
         cairo_new_sub_path(canvas_.image.cr());
-        cairo_arc(canvas_.image.cr(), x_ + 0.5 * swatch(), middle(), r, 0.0, 6.283185307179586);
+        cairo_arc(canvas_.image.cr(), x_ + 0.5 * swatch(), middle(), r, 0.0, kTurn);
         const double dashes[] = {3.4 * canvas_.size, 3.4 * canvas_.size};
         if (dashed) {
             cairo_set_dash(canvas_.image.cr(), dashes, 2, 0.0);

@@ -3,6 +3,7 @@
 #include "apps/replay/overlay_layers.h"
 #include "apps/replay/plot_axis.h"
 #include "apps/replay/silhouette.h"
+#include "engine/types/angle.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,7 +34,7 @@ void disc(const Canvas& canvas, const dvec3& centre, const dvec3& normal) {
     const dvec3 b = glm::cross(normal, a);
     cairo_t* cr = canvas.image.cr();
     for (int i = 0; i < kCorners; ++i) {
-        const double angle = 6.283185307179586 * i / kCorners;
+        const double angle = kTurn * i / kCorners;
         const Pixel pixel =
             canvas.view.ofBase(centre + kDiscRadius * (std::cos(angle) * a + std::sin(angle) * b));
         if (!pixel) {
@@ -124,8 +125,7 @@ void leafCircles(const Canvas& canvas, std::span<const Sphere> leaves, const Pos
         if (const Pixel pixel = canvas.view.ofCamera(centre)) {
             cairo_new_sub_path(cr);
             cairo_arc(cr, pixel->x, pixel->y,
-                      canvas.view.lens.fx * canvas.view.scale * leaf.radius / centre.z, 0.0,
-                      6.283185307179586);
+                      canvas.view.lens.fx * canvas.view.scale * leaf.radius / centre.z, 0.0, kTurn);
         }
     }
     canvas.image.setColour(kTool.alpha(0.45));
@@ -220,7 +220,7 @@ void drawTool(const Canvas& canvas, const OverlayInput& input) {
         cairo_move_to(cr, hand->x, hand->y);
         cairo_line_to(cr, tool->x, tool->y);
         strokeOnShade(canvas, kTool, 1.4);
-        cairo_arc(cr, hand->x, hand->y, 3.0 * canvas.size, 0.0, 6.283185307179586);
+        cairo_arc(cr, hand->x, hand->y, 3.0 * canvas.size, 0.0, kTurn);
         strokeOnShade(canvas, kTool, 1.6);
     }
 }

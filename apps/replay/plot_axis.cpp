@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/replay/plot_axis.h"
 
+#include "engine/types/number_text.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -48,9 +50,7 @@ std::string shortNumber(double value) {
 }
 
 std::string roundNumber(double value) {
-    char text[48];
-    std::snprintf(text, sizeof text, "%.4g", value);
-    return text;
+    return significant(value, 4);
 }
 
 } // namespace fathom

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/replay/silhouette.h"
 
+#include "engine/types/angle.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -28,7 +30,7 @@ Range slopesOf(double y, double z, double radius) {
     }
     const double middle = std::atan2(y, z);
     const double half = std::asin(radius / distance);
-    constexpr double kSide = 1.5707963267948966 - 1e-9;
+    constexpr double kSide = 0.25 * kTurn - 1e-9;
     if (middle - half > kSide || middle + half < -kSide) {
         return {0.0, -1.0}; // behind the eye
     }

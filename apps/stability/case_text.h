@@ -3,8 +3,8 @@
 #pragma once
 
 #include "apps/stability/stability_case.h"
+#include "engine/types/number_text.h"
 
-#include <cstdio>
 #include <limits>
 #include <string>
 #include <utility>
@@ -13,9 +13,7 @@ namespace fathom::stability {
 
 // Formats with four significant digits.
 inline std::string num(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.4g", value);
-    return text;
+    return significant(value, 4);
 }
 inline std::string num(uint64_t value) {
     return std::to_string(value);

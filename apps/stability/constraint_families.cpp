@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/stability/constraint_families.h"
 
+#include "engine/types/angle.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,8 +10,6 @@
 namespace fathom::stability {
 
 namespace {
-
-constexpr double kDegree = 0.017453292519943295;
 
 struct Draft {         // parameters shared by all rows of a set
     double lean = 0.0; // [rad] tilt of a groove's wall from vertical
@@ -51,7 +51,7 @@ void addRow(RowSet& set, RowFamily family, size_t index, const RowScale& scale, 
         set.addContact({side * std::cos(draft.lean), 0.0, std::sin(draft.lean)}, {0.0, arm.y, 0.0}, gap);
         break;
     case RowFamily::Needle: {
-        const double angle = rng.uniform(0.0, 6.283185307179586);
+        const double angle = rng.uniform(0.0, kTurn);
         set.addContact(glm::normalize(dvec3(std::cos(angle), std::sin(angle), 0.01 * noise.z)),
                        {0.0, 0.0, arm.z}, gap);
         break;

@@ -3,6 +3,7 @@
 #include "apps/stability/case_text.h"
 #include "apps/stability/hand_run.h"
 #include "devices/simulated/analytic_scene.h"
+#include "engine/types/angle.h"
 
 #include <array>
 
@@ -13,7 +14,7 @@ namespace {
 constexpr double kLimit = 1e-5;                            // [m]
 constexpr std::array<double, 3> kSpeeds{0.05, 0.5, 5.0};   // [m/s]
 constexpr std::array<uint32_t, 5> kLate{0, 1, 5, 20, 100}; // [ms]
-constexpr double kTwentyTurns = 20.0 * 6.283185307179586;  // [rad/s]
+constexpr double kTwentyTurns = 20.0 * kTurn;              // [rad/s]
 
 int ticksPerRun(RunLength runLength, int full) {
     return runLength == RunLength::Full ? full : full / 30;

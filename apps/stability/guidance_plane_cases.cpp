@@ -4,6 +4,7 @@
 #include "apps/stability/guidance_parts.h"
 #include "apps/stability/rng.h"
 #include "engine/cloud/guidance_pose.h"
+#include "engine/types/angle.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +13,6 @@ namespace fathom::stability {
 
 namespace {
 
-constexpr double kTwoPi = 6.28318530717958647692;
 const dvec3 kCamera(0.0);
 
 FixtureClass guided() {
@@ -41,7 +41,7 @@ std::vector<dvec3> disc(Rng& rng, const dvec3& centre, const dvec3& normal, doub
     const dvec3 v = glm::cross(normal, u);
     std::vector<dvec3> points;
     for (int i = 0; i < count; ++i) {
-        const double r = radius * std::sqrt(rng.uniform(0.0, 1.0)), a = rng.uniform(0.0, kTwoPi);
+        const double r = radius * std::sqrt(rng.uniform(0.0, 1.0)), a = rng.uniform(0.0, kTurn);
         points.push_back(centre + r * std::cos(a) * u + r * std::sin(a) * v + sigma * rng.normal() * normal);
     }
     return points;

@@ -2,6 +2,7 @@
 // Random numbers for the stability cases. A seed gives the same sequence with every compiler and library.
 #pragma once
 
+#include "engine/types/angle.h"
 #include "engine/types/pose.h"
 
 #include <cmath>
@@ -23,7 +24,7 @@ public:
     bool chance(double share) { return uniform(0.0, 1.0) < share; }
     double normal() {
         const double length = std::sqrt(-2.0 * std::log(uniform(1e-300, 1.0)));
-        return length * std::cos(6.283185307179586 * uniform(0.0, 1.0));
+        return length * std::cos(kTurn * uniform(0.0, 1.0));
     }
     dvec3 direction() {
         const double x = normal(), y = normal();

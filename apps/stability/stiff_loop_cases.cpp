@@ -6,6 +6,7 @@
 #include "apps/stability/rng.h"
 #include "apps/stability/stiff_cases.h"
 #include "apps/stability/worlds.h"
+#include "engine/types/angle.h"
 
 #include <algorithm>
 #include <cmath>
@@ -14,15 +15,13 @@ namespace fathom::stability {
 
 namespace {
 
-constexpr double kCycle = 6.28318530717958647692;
-
 // A closed path of the hand in all six degrees of freedom.
 struct ClosedPath {
     dvec3 focus{0.0};
     std::array<dvec3, 2> way{}, tick{}; // [m], [rad]
 
     Pose at(double phase) const {
-        const double a = kCycle * phase;
+        const double a = kTurn * phase;
         const dvec3 moved = way[0] * std::sin(a) + way[1] * (std::cos(a) - 1.0);
         return {focus + moved, rotationExp(tick[0] * std::sin(2.0 * a) + tick[1] * (1.0 - std::cos(a)))};
     }

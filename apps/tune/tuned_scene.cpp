@@ -5,6 +5,7 @@
 #include "apps/tune/tune_words.h"
 #include "engine/types/error.h"
 #include "engine/types/inside.h"
+#include "engine/types/number_text.h"
 #include "engine/types/output_file.h"
 
 #include <charconv>
@@ -65,14 +66,6 @@ std::string yamlOf(const Setting& s, Vary vary) {
     return "";
 }
 
-std::string quoted(const std::string& text) {
-    std::string out = "\"";
-    for (const char c : text) {
-        out += c == '"' || c == '\\' ? std::string{'\\', c} : std::string{c};
-    }
-    return out + "\"";
-}
-
 std::string wholeText(const fs::path& file) {
     std::ifstream in(file, std::ios::binary);
     std::string text{std::istreambuf_iterator<char>(in), {}};
@@ -119,7 +112,8 @@ std::vector<SceneValue> movedPaths(const std::string& text, const fs::path& home
         const bool copied = key.back() != "recorded" && staysInside(path);
         if (!path.is_absolute() && !copied) {
             const fs::path file = (fs::weakly_canonical(home) / path).lexically_normal();
-            values.push_back({key, quoted(file.lexically_proximate(fs::weakly_canonical(folder)).string())});
+            values.push_back(
+                {key, doubleQuoted(file.lexically_proximate(fs::weakly_canonical(folder)).string())});
         }
     }
     return values;

@@ -22,16 +22,16 @@ struct Image {
     std::vector<uint32_t> colour; // 0xAABBGGRR
 };
 
-// What the passes left of the last frame: class bits a pixel, and points in the base frame, none in patches
-// that are not listed. set: that frame's.
+// Results of the passes for the last frame: class bits per pixel, and points in the base frame, none in
+// patches that are not listed. set: the fixture set of that frame.
 std::vector<uint32_t> masksOf(gpu::Device& device, const FrameCycle& cycle, const CameraInfo& camera);
 reference::PointImage pointsOf(gpu::Device& device, const FrameCycle& cycle, const cloud::FixtureSet& set,
                                const CameraInfo& camera);
 // Depths of the occlusion cells [m]; needs Plan::occlusion.
 reference::CellImage cellsOf(gpu::Device& device, const FrameCycle& cycle);
 
-// One frame cycle. Everything below run() speaks of the last frame; positions are in the base frame. The
-// device must outlive it. One thread.
+// One frame cycle. The functions below run() return results of the last frame; positions are in the base
+// frame. The device must outlive it. One thread.
 class PassRig {
 public:
     using Change = std::function<void(Plan&)>;
@@ -40,8 +40,8 @@ public:
     PassRig(gpu::Device& device, Scene scene, const CameraInfo& camera, const Change& change = {},
             uint32_t readers = 1);
 
-    // captureTime < 0: 1/30 s after the one before. No pose: the scene's. The colours are packed to the
-    // camera's format; view() then has what they unpack to.
+    // captureTime < 0: 1/30 s after the previous frame. No pose: the scene's. The colours are packed to the
+    // camera's format; view() then has the unpacked colours.
     FrameReport run(Image image, double captureTime = -1.0, const std::optional<Pose>& pose = {});
 
     const Scene& scene() const { return scene_; }
@@ -57,12 +57,12 @@ public:
     const Fixtures& host() const { return lease_->host; }
     const dvec3& origin() const { return lease_->host.origin; }
 
-    std::vector<uint32_t> listed() const; // a patch
+    std::vector<uint32_t> listed() const; // per patch
     std::vector<uint32_t> masks() const;
     reference::PointImage points() const; // none in patches that are not listed
     std::vector<int> forbidden() const;   // class of the forbidden point, -1 = none
     std::vector<reference::CellThinning> thinning() const;
-    // A pixel, as published: of points seen now, or of those held for their pixels.
+    // Per pixel, as published: spheres of points seen now, or of points held from earlier frames.
     std::vector<reference::RegionSphere> spheres(bool held = false) const;
     // The same from the device's slots: whole spheres with Plan::tree, else radii and points; none with
     // Plan::pack alone. Classes are -1 with pack.

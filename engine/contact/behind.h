@@ -27,8 +27,8 @@ struct PatchBits {
 // Runs at contact cadence, once per query, after the set is filled. Allocates at first use only.
 //
 // A leaf is flagged when a NEW fixture set shows a forbidden surface in front of its centre, by more than
-// 3 sigma of depth, and the centre was in front of a forbidden surface same, at the last query on the
-// previous set. A leaf that gets behind a surface while the set is unchanged, or that was not in front of one
+// 3 sigma of depth, and the centre was in front of a forbidden surface at the last query on the previous
+// set. A leaf that gets behind a surface while the set is unchanged, or that was not in front of one
 // before, moved through free space or is hidden. It is occluded, not behind.
 //
 // The flag stays until the view to the leaf is free, or until the leaf is clear in front: R + r before the

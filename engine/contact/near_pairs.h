@@ -30,7 +30,7 @@ struct NearSphere {
 // In any order. A sphere may occur several times, each time with other leaves.
 struct NearPairs {
     std::vector<NearSphere> spheres;
-    std::span<const uint32_t> leaves; // in memory of whoever listed the pairs, until its next list
+    std::span<const uint32_t> leaves; // in memory of the query that listed the pairs, until its next list
 };
 
 // Pairs that are in the set.

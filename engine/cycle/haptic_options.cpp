@@ -3,21 +3,15 @@
 
 #include "engine/haptics/limits.h"
 #include "engine/types/error.h"
+#include "engine/types/number_text.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <limits>
 #include <optional>
 
 namespace fathom {
 
 namespace {
-
-std::string shortNumber(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.4g", value);
-    return text;
-}
 
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
@@ -37,30 +31,31 @@ constexpr double kUsualSpeed = 1.0; // [m/s] of a fast hand
 void noteLimit(std::vector<std::string>& notes, const char* field, std::optional<double> asked, double device,
                const char* unit, const std::string& name) {
     if (asked && *asked > device) {
-        notes.push_back(std::string("haptics.") + field + ": " + shortNumber(*asked) + " " + unit +
-                        " asked, " + shortNumber(device) + " " + unit + " used: the limit of device " + name);
+        notes.push_back(std::string("haptics.") + field + ": " + significant(*asked, 4) + " " + unit +
+                        " asked, " + significant(device, 4) + " " + unit + " used: the limit of device " +
+                        name);
     }
 }
 
 void noteSlew(std::vector<std::string>& notes, double slew) {
     const double usual = Scene::Haptics().slewForce;
     if (slew > usual) {
-        notes.push_back("haptics.limits.slew_N_per_s: " + shortNumber(slew) + " N/s, over the default of " +
-                        shortNumber(usual) + ": steps of the force are felt as clicks");
+        notes.push_back("haptics.limits.slew_N_per_s: " + significant(slew, 4) + " N/s, over the default of " +
+                        significant(usual, 4) + ": steps of the force are felt as clicks");
     }
 }
 
 void noteDelay(std::vector<std::string>& notes, double delay) {
     const double fades = HapticOptions().staleAfter;
     if (delay >= fades) {
-        notes.push_back("contact.delay: contact answers are " + shortNumber(delay) +
-                        " s late; forces fade when they are older than " + shortNumber(fades) + " s");
+        notes.push_back("contact.delay: contact answers are " + significant(delay, 4) +
+                        " s late; forces fade when they are older than " + significant(fades, 4) + " s");
     }
 }
 
 void noteSpeed(std::vector<std::string>& notes, const std::string& fields, double speed) {
     if (speed < kUsualSpeed) {
-        notes.push_back(fields + ": the tool follows a hand up to " + shortNumber(speed) +
+        notes.push_back(fields + ": the tool follows a hand up to " + significant(speed, 4) +
                         " m/s; it lags behind a faster one, without a force");
     }
 }
@@ -74,8 +69,8 @@ void checkDamping(const Scene& scene, const std::string& section, const Scene::H
     }
     const double most = *device.damping / scale;
     if (*haptics.damping >= most) {
-        throw BadInput(scene.file.string(), section + ".damping", shortNumber(*haptics.damping),
-                       "below " + shortNumber(most) + " N s/m, the damping of device '" + device.name +
+        throw BadInput(scene.file.string(), section + ".damping", significant(*haptics.damping, 4),
+                       "below " + significant(most, 4) + " N s/m, the damping of device '" + device.name +
                            "', unless stiffness is a number");
     }
 }

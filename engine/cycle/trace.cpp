@@ -3,6 +3,7 @@
 
 #include "engine/types/error.h"
 #include "engine/types/input_files.h"
+#include "engine/types/number_text.h"
 #include "engine/types/replaceable.h"
 
 #include <cmath>
@@ -15,27 +16,8 @@ namespace {
 
 constexpr uint64_t kRoomForTheEnd = 4096; // [bytes] of maxBytes reserved for track names and counts
 
-std::string quoted(const char* text) {
-    std::string out = "\"";
-    for (const char* c = text; *c != '\0'; ++c) {
-        const auto byte = static_cast<unsigned char>(*c);
-        if (byte == '"' || byte == '\\') {
-            out += '\\';
-            out += *c;
-        } else {
-            out += byte < 0x20 ? ' ' : *c;
-        }
-    }
-    return out + "\"";
-}
-
 std::string number(double value) {
-    if (!std::isfinite(value)) {
-        return "null";
-    }
-    char text[40];
-    std::snprintf(text, sizeof text, "%.9g", value);
-    return text;
+    return std::isfinite(value) ? significant(value, 9) : "null";
 }
 
 std::string micros(std::chrono::nanoseconds time) {
@@ -48,8 +30,8 @@ std::string arguments(const TraceDetail& detail) {
     if (detail.name == nullptr) {
         return {};
     }
-    const std::string value = detail.word != nullptr ? quoted(detail.word) : number(detail.number);
-    return ",\"args\":{" + quoted(detail.name) + ":" + value + "}";
+    const std::string value = detail.word != nullptr ? doubleQuoted(detail.word) : number(detail.number);
+    return ",\"args\":{" + doubleQuoted(detail.name) + ":" + value + "}";
 }
 
 // The finished trace replaces this file, so the name must be free or a regular file.
@@ -108,7 +90,7 @@ void Trace::write(const TraceEvent& event, size_t track) {
     const std::string kind =
         event.instant ? ",\"ph\":\"i\",\"s\":\"t\"" : ",\"ph\":\"X\",\"dur\":" + micros(event.length);
     const std::string text =
-        ",\n{\"name\":" + quoted(event.name) + kind + place + arguments(event.detail) + "}";
+        ",\n{\"name\":" + doubleQuoted(event.name) + kind + place + arguments(event.detail) + "}";
     if (bytes_ + text.size() + kRoomForTheEnd > maxBytes_) {
         ++leftOut_;
         return;
@@ -131,7 +113,7 @@ void Trace::writeNames() {
     for (size_t i = 0; i < tracks_.size(); ++i) {
         const std::string where = ",\"pid\":1,\"tid\":" + std::to_string(i + 1) + ",\"args\":{";
         put(",\n{\"ph\":\"M\",\"name\":\"thread_name\"" + where +
-            "\"name\":" + quoted(tracks_[i]->name_.c_str()) + "}}");
+            "\"name\":" + doubleQuoted(tracks_[i]->name_.c_str()) + "}}");
         put(",\n{\"ph\":\"M\",\"name\":\"thread_sort_index\"" + where +
             "\"sort_index\":" + std::to_string(i) + "}}");
     }

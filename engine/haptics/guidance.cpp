@@ -2,6 +2,7 @@
 #include "engine/haptics/guidance.h"
 
 #include "engine/haptics/limits.h"
+#include "engine/types/angle.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +17,7 @@ dvec3 axisTurn(const dquat& from, const dquat& to) noexcept {
         return normal * (std::atan2(sine, cosine) / sine);
     }
     // Opposite axes: all half rotations are equally short; use the one about the tool's x.
-    return cosine < 0.0 ? from * dvec3(3.14159265358979323846, 0.0, 0.0) : normal;
+    return cosine < 0.0 ? from * dvec3(0.5 * kTurn, 0.0, 0.0) : normal;
 }
 
 void Guidance::step(std::span<const GuidancePose> poses, const Pose& device, bool button, bool cut, double dt,

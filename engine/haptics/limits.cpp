@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/haptics/limits.h"
 
+#include "engine/types/angle.h"
+
 #include <cmath>
 
 namespace fathom {
@@ -28,7 +30,7 @@ Wrench limitSlew(const Wrench& wanted, const Wrench& previous, double forceStep,
 }
 
 double lowPassGain(double hz, double period) noexcept {
-    return hz > 0.0 ? -std::expm1(-2.0 * 3.14159265358979323846 * hz * period) : 1.0;
+    return hz > 0.0 ? -std::expm1(-kTurn * hz * period) : 1.0;
 }
 
 double lowPassDelayTicks(double gain) noexcept {

@@ -4,6 +4,7 @@
 #include "engine/model/find_mesh.h"
 #include "engine/model/sphere_cover.h"
 #include "engine/model/urdf_file.h"
+#include "engine/types/angle.h"
 #include "engine/types/inside.h"
 
 #include <algorithm>
@@ -22,7 +23,7 @@ constexpr double kMaxAlongCapsule = 256.0; // spheres
 TriangleMesh prism(uint32_t sides, const std::array<double, 2>& half, double length) {
     TriangleMesh mesh;
     for (uint32_t i = 0; i < sides; ++i) {
-        const double turn = 6.283185307179586 * (i + 0.5) / sides, wide = sides == 4 ? std::sqrt(2.0) : 1.0;
+        const double turn = kTurn * (i + 0.5) / sides, wide = sides == 4 ? std::sqrt(2.0) : 1.0;
         for (double z : {-0.5 * length, 0.5 * length}) {
             mesh.points.emplace_back(half[0] * wide * std::cos(turn), half[1] * wide * std::sin(turn), z);
         }

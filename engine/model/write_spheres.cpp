@@ -2,9 +2,9 @@
 #include "engine/model/write_spheres.h"
 
 #include "engine/model/xml_text.h"
+#include "engine/types/number_text.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <map>
 #include <string_view>
 #include <vector>
@@ -13,32 +13,17 @@ namespace fathom {
 
 namespace {
 
-std::string digits(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.17g", value);
-    return text;
-}
-
 std::string listOf(const dvec3& v, const char* between) {
-    return digits(v.x) + between + digits(v.y) + between + digits(v.z);
-}
-
-// For YAML and JSON.
-std::string quoted(const std::string& name) {
-    std::string out = "\"";
-    for (const char c : name) {
-        out += c == '"' || c == '\\' ? std::string("\\") + c : std::string(1, c);
-    }
-    return out + "\"";
+    return significant(v.x, 17) + between + significant(v.y, 17) + between + significant(v.z, 17);
 }
 
 std::string linksText(std::span<const LinkSpheres> sets, const std::string& indent) {
     std::string out;
     for (const LinkSpheres& set : sets) {
-        out += indent + quoted(set.link) + ":\n";
+        out += indent + doubleQuoted(set.link) + ":\n";
         for (const Sphere& s : set.spheres) {
-            out +=
-                indent + "  - {center: [" + listOf(s.centre, ", ") + "], radius: " + digits(s.radius) + "}\n";
+            out += indent + "  - {center: [" + listOf(s.centre, ", ") +
+                   "], radius: " + significant(s.radius, 17) + "}\n";
         }
     }
     return out;
@@ -52,7 +37,7 @@ std::string collisionsOf(const LinkSpheres& set, const std::string& name = "") {
         const std::string own = name.empty() || i == 0 ? name : name + "_" + std::to_string(i);
         out += "    <collision" + (own.empty() ? "" : " name=\"" + xmlEscaped(own) + "\"") +
                "><origin xyz=\"" + listOf(s.centre, " ") + "\" rpy=\"0 0 0\"/><geometry><sphere radius=\"" +
-               digits(s.radius) + "\"/></geometry></collision>\n";
+               significant(s.radius, 17) + "\"/></geometry></collision>\n";
     }
     return out;
 }
@@ -72,12 +57,12 @@ std::string xrdfText(std::span<const LinkSpheres> sets) {
 std::string foamText(std::span<const LinkSpheres> sets) {
     std::string out = "{";
     for (const LinkSpheres& set : sets) {
-        out += (&set == sets.data() ? "\n" : ",\n") + quoted(set.link + "::spheres") +
+        out += (&set == sets.data() ? "\n" : ",\n") + doubleQuoted(set.link + "::spheres") +
                ": {\"mean\": 0, \"best\": 0, \"worst\": 0, \"spheres\": [";
         for (size_t i = 0; i < set.spheres.size(); ++i) {
             out += (i == 0 ? "\n" : ",\n");
             out += "  {\"origin\": [" + listOf(set.spheres[i].centre, ", ") +
-                   "], \"radius\": " + digits(set.spheres[i].radius) + "}";
+                   "], \"radius\": " + significant(set.spheres[i].radius, 17) + "}";
         }
         out += "]}";
     }

@@ -3,9 +3,9 @@
 
 #include "engine/scene/yaml_node.h"
 #include "engine/types/error.h"
+#include "engine/types/number_text.h"
 
 #include <algorithm>
-#include <cstdio>
 
 namespace fathom {
 
@@ -14,12 +14,6 @@ namespace {
 constexpr double kNarrowest = 100.0; // focal length in image sizes: 0.6 degrees across the image
 constexpr double kSteepest = 60.0;   // slope of a ray: 89 degrees off the axis
 
-std::string shortly(double x) {
-    char text[40];
-    std::snprintf(text, sizeof text, "%.9g", x);
-    return text;
-}
-
 class Check {
 public:
     explicit Check(const std::string& source)
@@ -27,7 +21,7 @@ public:
 
     void number(const std::string& field, double x, const Range& range) const {
         if (!range.contains(x)) {
-            throw BadInput(source_, field, shortly(x), range.words());
+            throw BadInput(source_, field, significant(x, 9), range.words());
         }
     }
 
@@ -35,7 +29,8 @@ public:
     void slope(const std::string& field, double centre, double size, double focal) const {
         const double steepest = std::max(std::abs(centre), std::abs(size - centre)) / focal;
         if (!(steepest <= kSteepest)) {
-            throw BadInput(source_, field, shortly(centre) + " with a focal length of " + shortly(focal),
+            throw BadInput(source_, field,
+                           significant(centre, 9) + " with a focal length of " + significant(focal, 9),
                            "rays within 89 degrees of the axis");
         }
     }

@@ -2,10 +2,10 @@
 // Sections `camera` and `filter` of a scene file.
 #include "engine/scene/load.h"
 
+#include "engine/types/angle.h"
 #include "engine/types/decimation.h"
 
 #include <algorithm>
-#include <numbers>
 
 namespace fathom {
 
@@ -119,10 +119,9 @@ void loadPort(const YamlNode& node, Scene& scene) {
 }
 
 void loadBeam(const YamlNode& node, Scene& scene) {
-    constexpr double kRadian = std::numbers::pi / 180.0;
     node.checkKeys({"width_deg", "sigma", "sigma_per_m"});
     Scene::Beam beam;
-    beam.width = kRadian * node.at("width_deg").number(Range::between(0.0, 30.0));
+    beam.width = kDegree * node.at("width_deg").number(Range::between(0.0, 30.0));
     node.read("sigma", beam.range, Range::between(0.0, 1.0));
     node.read("sigma_per_m", beam.perMetre, Range::between(0.0, 1.0));
     scene.beam = beam;

@@ -1,19 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Text of the messages: nearest known key, ranges in English, choices.
 #include "engine/scene/yaml_node.h"
+#include "engine/types/number_text.h"
 
 #include <algorithm>
-#include <cstdio>
 
 namespace fathom {
 
 namespace {
-
-std::string shortNumber(double x) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.6g", x);
-    return text;
-}
 
 // Optimal string alignment distance: one typing error (insertion, deletion, substitution or swap) costs 1.
 size_t editDistance(std::string_view a, std::string_view b) {
@@ -42,7 +36,8 @@ std::string Range::words() const {
     if (hi == std::numeric_limits<double>::max()) {
         return "a finite number";
     }
-    return (orZero ? "0, or a number from " : "a number from ") + shortNumber(lo) + " to " + shortNumber(hi);
+    return (orZero ? "0, or a number from " : "a number from ") + significant(lo, 6) + " to " +
+           significant(hi, 6);
 }
 
 std::string suggestion(std::string_view word, std::span<const std::string_view> words) {

@@ -130,11 +130,11 @@ public:
     bool forcesOff = false, sourceEnded = false;
 };
 
-// A scene with one forbidden point class.
 inline double forceOf(const StepRecord& record) {
     return glm::length(record.wrench.force);
 }
 
+// A scene with one forbidden point class.
 inline Scene handScene(const char* device = "ideal") {
     Scene scene;
     scene.fixtures.emplace_back();
