@@ -18,9 +18,9 @@ namespace fathom {
 // jerk and at most 0.25 m/s. Outside the pushes the path touches no region. `grid` must be built over
 // firstSet.spheres.
 // - forbidden: approaches along the camera's ray the region's point nearest to its centroid, to 20 mm beyond
-// the first contact of a leaf, and there rotates by up to 4 degrees, so that long tools feel torque.
+//   the first contact of a leaf, and there rotates by up to 4 degrees, so that long tools feel torque.
 // - guidance: stops 60 mm before the target, or just before a region in the way, with button 1 down for the
-// last 1.5 s.
+//   last 1.5 s.
 std::vector<HandWaypoint> approachPath(const Scene& scene, const Tool& tool, const Fixtures& firstSet,
                                        const RegionGrid& grid);
 

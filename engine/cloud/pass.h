@@ -56,7 +56,7 @@ struct PassInfo {
     std::variant<Groups, GroupsCounted> groups;
     After after = After::Barrier;
     std::optional<shared::TreeParams> push = {};
-    // Zeroed before the dispatch, with a barrier.
+    // Filled with `fill` before the dispatch, with a barrier.
     gpu::Buffer WorkBuffers::*filled = nullptr;
     uint32_t fill = 0;
 };

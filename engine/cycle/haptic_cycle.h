@@ -17,13 +17,13 @@ namespace fathom {
 // Haptic thread only. Allocates only in the constructor; step() never locks, throws, waits or uses Vulkan.
 // The caller owns the device, the clock and the contact sets. Rules of a step:
 // - Until the first contact set (when the scene needs one): the tool is held, the wrench is zero, the state
-// is off.
+//   is off.
 // - The regions' force is the reaction of active rows (Reaction). A tool that lags behind the hand for
 //   another reason (late contact answers, slow joints) pulls with no force: the state is waiting, and after
 //   kLagTime the hand map takes up the lag of a free tool.
 // - Regions that disappear while they press: tool and hand stay, the force fades out.
-// - Forces off or dead-man open: the guidance weight is zero in that step; the wrench ramps to zero over 0.2
-//   s while the tool follows the hand and still obeys the regions.
+// - Forces off or dead-man open: the guidance weight is zero in that step; the wrench ramps to zero over
+//   0.2 s while the tool follows the hand and still obeys the regions.
 // - Trapped: the tool is held and the force ramps out over 0.2 s. The clutch ramps the same way.
 // - The clutch while forces are off and ramped out moves the hand map, so that the hand is at the tool again.
 // - Scene older than staleAfter: the force fades out over 0.5 s. Fading out uses measured time, so late ticks
@@ -31,13 +31,12 @@ namespace fathom {
 // - A force that returns is bounded by a share of the limits that rises from what the device renders
 //   (ForceRamps); rising counts ticks.
 // - Device gone or silent: nothing is rendered in that step, and recorded as such. The tool stays and the
-// hand
-//   is re-indexed when it is back. Three losses within 1 s keep the forces off until 1 s is clean.
+//   hand is re-indexed when it is back. Three losses within 1 s keep the forces off until 1 s is clean.
 // - A real arm follows the tool (follow()) and stands still, or must because forces are off, the frame is old
 //   or the sample is broken: the tool is held and the force ramps out over 0.2 s; then the tool moves to the
 //   measured arm and the hand is re-indexed to it, so that both resume from there.
 // - A number that is not finite: zero wrench in that step, which is counted; the force then returns from
-// zero.
+//   zero.
 class HapticCycle {
 public:
     // start: raw pose of the hand before the first step. The tool starts where the hand commands it or, if

@@ -7,11 +7,9 @@
 // ray:
 // - no sphere has grown: one word each, the float bits of z;
 // - some have grown: first the float bits of half the first z, then one word each: 24 bits of offset from
-// there in
-//   units of the last place, and 8 bits of growth steps;
+//   there in units of the last place, and 8 bits of growth steps;
 // - 24 bits do not suffice (some z is below half or from twice the first z on): the float bits of each z,
-// then the
-//   steps as bytes.
+//   then the steps as bytes.
 // Then come the held spheres as centre and R, because their rays belong to earlier poses. With beams
 // (kByDepth false) seen spheres are stored the same way: their radii need a root, which processors may round
 // differently.
