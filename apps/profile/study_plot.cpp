@@ -2,6 +2,7 @@
 #include "apps/profile/panel_painter.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace fathom::profile {
 
@@ -35,9 +36,8 @@ void writeStudyPlot(const Study& study, const std::string& subtitle, const std::
     const ColourTable colours = coloursOf(study.panels);
     for (size_t i = 0; i < study.panels.size(); ++i) {
         const int k = static_cast<int>(i), row = k / grid.across;
-        PanelPainter(image, study.panels[i], colours, (k % grid.across) * kPanelWidth,
-                     kHead + row * kPanelHeight)
-            .paint();
+        paintPanel(image, study.panels[i], colours, (k % grid.across) * kPanelWidth,
+                   kHead + row * kPanelHeight);
     }
     image.writePng(file);
 }
