@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Compares spheres.comp with its float64 twin: centres, radii, classes, forbidden pixels, leaks, order of the
 // host copy.
+#include "apps/verify/pass_agreement.h"
 #include "engine/cloud/frame_params.h"
 #include "tests/support/cloud_rig.h"
 #include "tests/support/sanitized.h"
@@ -14,29 +15,6 @@ using namespace fathom;
 using namespace fathom::test;
 
 namespace {
-
-struct SpheresAgreement {
-    uint32_t spheres = 0, wrong = 0;
-    double centre = 0.0, radius = 0.0; // [m] largest errors
-};
-
-SpheresAgreement compareSpheres(const CloudRig& rig) {
-    const std::vector<double> growth = rig.plan().thin
-                                           ? reference::keptGrowth(rig.width(), rig.height(), rig.thinning())
-                                           : std::vector<double>{};
-    const auto twin = reference::spheres(rig.scene(), rig.forbidden(), rig.points(), growth);
-    const auto spheres = rig.spheres();
-    SpheresAgreement a;
-    for (size_t i = 0; i < twin.size(); ++i) {
-        a.spheres += spheres[i].radius >= 0.0;
-        a.wrong += (spheres[i].radius >= 0.0) != (twin[i].radius >= 0.0) || spheres[i].cls != twin[i].cls;
-        if (spheres[i].radius >= 0.0 && twin[i].radius >= 0.0) {
-            a.centre = std::max(a.centre, glm::distance(spheres[i].centre, twin[i].centre));
-            a.radius = std::max(a.radius, std::abs(spheres[i].radius - twin[i].radius));
-        }
-    }
-    return a;
-}
 
 // The host copy has exactly the spheres of the slots, ordered by patch, sub-patch and pixel, and the
 // forbidden pixels of the masks.
@@ -85,12 +63,12 @@ void withSlots(Plan& plan) {
 
 TEST_CASE("Sphere centres and radii are within 1 um of the twin's, and classes and forbidden pixels are "
           "equal, for every size") {
-    SpheresAgreement all;
+    verify::SphereAgreement all;
     for (const CloudCase& c : cloudCases()) {
         CAPTURE(c.name);
         CloudRig rig(c.scene, c.camera, withSlots);
         const FrameReport report = rig.run(c.image);
-        const SpheresAgreement a = compareSpheres(rig);
+        const verify::SphereAgreement a = verify::sphereAgreement(rig);
         CHECK(a.wrong == 0);
         CHECK(a.centre < 1e-6);
         CHECK(a.radius < 1e-6);
@@ -131,7 +109,7 @@ TEST_CASE("Of several forbidden classes the largest radius wins, then file order
         CHECK(s.cls == (s.centre.x <= 0.0 ? 2 : 3)); // "first" where both apply
         CHECK(s.radius == doctest::Approx(0.036).epsilon(1e-6));
     }
-    CHECK(compareSpheres(rig).wrong == 0);
+    CHECK(verify::sphereAgreement(rig).wrong == 0);
 }
 
 TEST_CASE("A class with a smaller radius wins only where it is alone, for 1 to 8 classes") {
@@ -140,7 +118,7 @@ TEST_CASE("A class with a smaller radius wins only where it is alone, for 1 to 8
         CAPTURE(count);
         CloudRig rig(classesScene(count), camera, withSlots);
         const FrameReport report = rig.run(stressImage(camera, 40 + count));
-        CHECK(compareSpheres(rig).wrong == 0);
+        CHECK(verify::sphereAgreement(rig).wrong == 0);
         checkHost(rig, report);
         CHECK(report.counts.classPixels.size() == count);
         CHECK(report.counts.classSpheres.size() == count);

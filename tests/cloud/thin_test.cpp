@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Compares thin.comp with its float64 twin and checks the required property: the kept spheres cover the whole
 // region.
+#include "apps/verify/pass_agreement.h"
 #include "tests/support/cloud_rig.h"
 #include "tests/support/sanitized.h"
 
@@ -14,37 +15,6 @@ using namespace fathom::test;
 namespace {
 
 constexpr double kTolerance = 2.5e-7; // [m] loss of region by float32 rounding, metres from the origin
-
-struct ThinAgreement {
-    uint32_t cells = 0, thinned = 0, wrong = 0, unsure = 0;
-    double worst = 0.0; // [m] growth below the twin's, or more than a step above it
-};
-
-// Compares the decisions per cell: which cells are thinned, and the growth of their corners.
-ThinAgreement compareCells(const CloudRig& rig) {
-    const auto twin = reference::thin(rig.scene(), rig.width(), rig.height(), rig.forbidden(), rig.points());
-    const auto cells = rig.thinning();
-    REQUIRE(cells.size() == twin.size());
-    const double step = rig.scene().errorBudget / shared::kGrowthSteps;
-    ThinAgreement a;
-    for (size_t i = 0; i < cells.size(); ++i) {
-        const auto compare = [&](double here, double there) {
-            const bool different = (here >= 0.0) != (there >= 0.0);
-            a.wrong += different && !twin[i].unsure;
-            a.unsure += different && twin[i].unsure;
-            a.thinned += here >= 0.0;
-            if (here >= 0.0 && there >= 0.0) { // rounded up to a whole step
-                a.worst = std::max({a.worst, there - here, here - there - step});
-            }
-        };
-        ++a.cells;
-        compare(cells[i].whole, twin[i].whole);
-        for (size_t q = 0; q < 4 && cells[i].whole < 0.0 && twin[i].whole < 0.0; ++q) {
-            compare(cells[i].quarters[q], twin[i].quarters[q]);
-        }
-    }
-    return a;
-}
 
 struct Kept {
     uint32_t points = 0, spheres = 0;
@@ -90,7 +60,7 @@ Scene budgetScene(double budget) {
 
 TEST_CASE("Thinning makes the twin's decisions with the same growth for every size and option, as a separate "
           "pass and within spheres") {
-    ThinAgreement all;
+    verify::ThinAgreement all;
     std::vector<CloudCase> cases = cloudCases();
     std::erase_if(cases, [](const CloudCase& c) { return c.scene.errorBudget == 0.0; });
     for (size_t i = 0; i < 2 * cases.size(); ++i) {
@@ -104,14 +74,14 @@ TEST_CASE("Thinning makes the twin's decisions with the same growth for every si
         });
         CHECK(rig.plan().thins() != within);
         rig.run(c.image);
-        const ThinAgreement a = compareCells(rig);
+        const verify::ThinAgreement a = verify::thinAgreement(rig);
         CHECK(a.wrong == 0);
-        CHECK(a.worst < 1e-6);
+        CHECK(a.growth < 1e-6);
         all.cells += a.cells, all.thinned += a.thinned, all.unsure += a.unsure,
-            all.worst = std::max(all.worst, a.worst);
+            all.growth = std::max(all.growth, a.growth);
     }
     CHECK(all.thinned > (kSanitized ? 20 : 100));
-    MESSAGE("thin: largest error of a growth ", all.worst * 1e6, " um over ", all.thinned,
+    MESSAGE("thin: largest error of a growth ", all.growth * 1e6, " um over ", all.thinned,
             " thinned cells of ", all.cells, " (4x4); ", all.unsure, " decisions on the budget differ");
 }
 
@@ -139,10 +109,10 @@ TEST_CASE("Each of a cell's 25 points counts: one unlike the rest decides about 
                 plan.pixelGroup = group != 0 ? group : plan.pixelGroup;
             });
             rig.run(image);
-            const ThinAgreement a = compareCells(rig);
+            const verify::ThinAgreement a = verify::thinAgreement(rig);
             CHECK(a.wrong == 0);
             CHECK(a.unsure == 0);
-            CHECK(a.worst < 1e-6);
+            CHECK(a.growth < 1e-6);
             CHECK(a.thinned > 17 * 17 - 4 * 25);
         }
     }
@@ -219,7 +189,7 @@ TEST_CASE("Overlapping classes with different radii are covered class by class")
     CHECK(k.coverage.holes == 0);
     CHECK(k.largestGrowth <= 0.0004 + 1e-8);
     CHECK(k.share() < 0.7);
-    CHECK(compareCells(rig).wrong == 0);
+    CHECK(verify::thinAgreement(rig).wrong == 0);
 }
 
 TEST_CASE("On a plane without noise thinning keeps about a sixteenth of the points, and all of them with "

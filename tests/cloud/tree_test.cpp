@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Compares the region tree with the validator and the float64 twin.
+#include "apps/verify/pass_agreement.h"
 #include "tests/support/cloud_rig.h"
 #include "tests/support/sanitized.h"
 
@@ -12,67 +13,10 @@ using namespace fathom::test;
 
 namespace {
 
-struct TreeAgreement {
-    uint32_t nodes = 0, escaped = 0, wrong = 0; // escaped: spheres outside their sub-patch's bound
-    double centre = 0.0, radius = 0.0;          // [m] largest errors; relative for radii over 1 m
-};
-
-// Checks in float64 that every seen and held sphere is inside its sub-patch's bound. Returns the bounds.
-std::vector<reference::Bound> checkLeaves(const CloudRig& rig, const std::vector<reference::Bound>& bounds,
-                                          TreeAgreement& a) {
-    const auto seen = rig.spheres();
-    const auto held = rig.plan().hold ? rig.spheres(true) : std::vector<reference::RegionSphere>{};
-    std::vector<reference::Bound> twin;
-    for (size_t i = 0; i < bounds.size(); ++i) {
-        const int across = static_cast<int>(rig.cycle().layout().across) * 4;
-        const int u0 = static_cast<int>(i) % across * 4, v0 = static_cast<int>(i) / across * 4;
-        std::vector<reference::RegionSphere> inside;
-        for (int v = v0; v < std::min(v0 + 4, rig.height()); ++v) {
-            for (int u = u0; u < std::min(u0 + 4, rig.width()); ++u) {
-                const auto p = static_cast<size_t>(v * rig.width() + u);
-                inside.push_back(seen[p]);
-                inside.push_back(held.empty() ? reference::RegionSphere{} : held[p]);
-            }
-        }
-        for (const reference::RegionSphere& s : inside) {
-            a.escaped +=
-                s.radius >= 0.0 &&
-                !(glm::distance(s.centre - rig.origin(), bounds[i].centre - rig.origin()) + s.radius <=
-                  bounds[i].radius);
-        }
-        twin.push_back(reference::boundOf(inside));
-    }
-    return twin;
-}
-
-void compare(const std::vector<reference::Bound>& here, const std::vector<reference::Bound>& there,
-             TreeAgreement& a) {
-    REQUIRE(here.size() == there.size());
-    for (size_t i = 0; i < here.size(); ++i) {
-        a.wrong += here[i].count != there[i].count || (here[i].radius < 0.0) != (here[i].count == 0);
-        if (here[i].count != 0 && there[i].count != 0) {
-            ++a.nodes;
-            a.centre = std::max(a.centre, glm::distance(here[i].centre, there[i].centre));
-            a.radius = std::max(a.radius,
-                                std::abs(here[i].radius - there[i].radius) / std::max(1.0, there[i].radius));
-        }
-    }
-}
-
-// The twin computes each level from the device's level below, so that errors do not add up.
-TreeAgreement checkTree(CloudRig& rig, const FrameReport& report) {
-    auto levels = rig.tree();
-    TreeAgreement a;
-    compare(levels[0], checkLeaves(rig, levels[0], a), a);
-    for (size_t l = 1; l < levels.size(); ++l) {
-        compare(levels[l], reference::parents(rig.cycle().layout(), l, levels[l - 1]), a);
-    }
-    for (auto& level : levels) { // float32 centres relative to the origin are exact in float64
-        for (reference::Bound& b : level) {
-            b.centre -= rig.origin();
-        }
-    }
-    CHECK(reference::validateTree(rig.cycle().layout(), levels) == "");
+verify::TreeAgreement checkTree(CloudRig& rig, const FrameReport& report) {
+    const verify::TreeAgreement a = verify::treeAgreement(rig);
+    const auto levels = rig.tree();
+    CHECK(a.fault == "");
     CHECK(levels.back().size() == 1);
     CHECK(levels.back()[0].count == report.counts.spheres);
     CHECK(report.counts.nodes == a.nodes);
@@ -95,14 +39,14 @@ void withTreeByPatch(Plan& plan) {
 
 TEST_CASE("Every leaf sphere is inside its sub-patch and every child inside its parent, up to one root, for "
           "every size") {
-    TreeAgreement all;
+    verify::TreeAgreement all;
     for (const CloudCase& c : cloudCases()) {
         CAPTURE(c.name);
         CloudRig rig(c.scene, c.camera, withTree);
         const FrameReport report = rig.run(c.image);
-        const TreeAgreement a = checkTree(rig, report);
+        const verify::TreeAgreement a = checkTree(rig, report);
         CHECK(a.centre < 1e-6);
-        CHECK(a.radius < 2e-6); // rounded outward by 1e-6 (relative)
+        CHECK(a.radius < 2e-6);
         all.nodes += a.nodes, all.centre = std::max(all.centre, a.centre),
                               all.radius = std::max(all.radius, a.radius);
     }
