@@ -2,6 +2,7 @@
 #include "devices/v4l2/capture_stream.h"
 
 #include "engine/types/error.h"
+#include "engine/types/log.h"
 
 #include <cerrno>
 #include <cmath>
@@ -9,6 +10,7 @@
 #include <ctime>
 #include <linux/videodev2.h>
 #include <sys/mman.h>
+#include <utility>
 
 namespace fathom {
 
@@ -174,10 +176,17 @@ std::optional<CapturedBuffer> CaptureStream::take() {
 }
 
 double CaptureStream::stampOf(long seconds, long micros, uint32_t flags) {
+    const double now = monotonicNow();
     if ((flags & V4L2_BUF_FLAG_TIMESTAMP_MASK) != V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC) {
-        return monotonicNow();
+        return now;
     }
-    return static_cast<double>(seconds) + 1e-6 * static_cast<double>(micros);
+    const double stamp = static_cast<double>(seconds) + 1e-6 * static_cast<double>(micros);
+    const double usable = usableStamp(stamp, now);
+    if (usable != stamp && !std::exchange(ahead_, true)) {
+        log::warn("{}: a time stamp is {:.3f} s ahead: such frames are dated by their arrival (logged once)",
+                  node_.file().string(), stamp - now);
+    }
+    return usable;
 }
 
 void CaptureStream::giveBack(uint32_t index) noexcept {

@@ -38,6 +38,13 @@ constexpr uint32_t missingBetween(uint32_t before, uint32_t after) {
     return step == 0 || step >= 1u << 31 ? 0 : step - 1;
 }
 
+// [s] CLOCK_MONOTONIC: a driver's stamp, or `now` where it is more than kAhead after it and so of another
+// clock.
+constexpr double usableStamp(double stamp, double now) {
+    constexpr double kAhead = 0.005; // [s]
+    return stamp > now + kAhead ? now : stamp;
+}
+
 // Streams from construction to destruction. One thread takes; any thread returns. Buffers stay mapped at the
 // same addresses while the object or any user of their memory exists, even after the camera is unplugged.
 class CaptureStream {
@@ -74,7 +81,7 @@ private:
     bool queue(uint32_t index) noexcept;
     void start();
     [[noreturn]] void fail(const char* what) const;
-    static double stampOf(long seconds, long micros, uint32_t flags);
+    double stampOf(long seconds, long micros, uint32_t flags);
 
     VideoNode node_;
     StreamRequest request_;
@@ -89,6 +96,7 @@ private:
     std::atomic<uint32_t> queued_{0};
     std::optional<uint32_t> lastSequence_;
     uint64_t missing_ = 0;
+    bool ahead_ = false; // a stamp was, and it is logged
 };
 
 } // namespace fathom

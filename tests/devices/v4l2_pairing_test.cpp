@@ -154,3 +154,10 @@ TEST_CASE("Frames missing between two sequence numbers are counted across the 32
     CHECK(missingBetween(7, 7) == 0);
     CHECK(missingBetween(9, 0) == 0); // started anew
 }
+
+TEST_CASE("A driver's stamp that is ahead of the clock is the time of arrival") {
+    CHECK(usableStamp(99.5, 100.0) == 99.5);
+    CHECK(usableStamp(100.004, 100.0) == 100.004);
+    CHECK(usableStamp(100.006, 100.0) == 100.0);
+    CHECK(usableStamp(5000.0, 100.0) == 100.0);
+}
