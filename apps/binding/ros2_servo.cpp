@@ -24,11 +24,28 @@ uint64_t utcNow() {
     return static_cast<uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(now).count());
 }
 
-std::vector<RobotJoint> readJoints(const std::vector<Ros2Joint>& joints) {
+std::vector<size_t> drivenJoints(const std::vector<Ros2Joint>& joints) {
+    std::vector<size_t> driven;
+    for (size_t i = 0; i < joints.size(); ++i) {
+        if (!joints[i].follows) {
+            driven.push_back(i);
+        }
+    }
+    return driven;
+}
+
+std::vector<RobotJoint> readJoints(const std::vector<std::string>& names) {
     std::vector<RobotJoint> read;
-    std::transform(joints.begin(), joints.end(), std::back_inserter(read),
-                   [](const Ros2Joint& joint) { return RobotJoint{joint.name}; });
+    std::transform(names.begin(), names.end(), std::back_inserter(read),
+                   [](const std::string& name) { return RobotJoint{name}; });
     return read;
+}
+
+std::vector<std::string> namesAt(const std::vector<Ros2Joint>& joints, const std::vector<size_t>& places) {
+    std::vector<std::string> names;
+    std::transform(places.begin(), places.end(), std::back_inserter(names),
+                   [&](size_t place) { return joints[place].name; });
+    return names;
 }
 
 } // namespace
@@ -38,9 +55,10 @@ Ros2Servo::Ros2Servo(std::shared_ptr<Ros2Graph> graph, const Ros2OutputRequest& 
     : frame_(request.frame)
     , period_(1.0 / request.rate)
     , joints_(std::move(joints))
-    , measured_("ros2", request.measured, readJoints(joints_)) {
-    std::transform(joints_.begin(), joints_.end(), std::back_inserter(names_),
-                   [](const Ros2Joint& joint) { return joint.name; });
+    , own_(drivenJoints(joints_))
+    , names_(namesAt(joints_, own_))
+    , positions_(own_.size())
+    , measured_("ros2", request.measured, readJoints(names_)) {
     if (!request.twist.empty()) {
         twist_ = std::make_unique<Ros2Writer>(graph, request.twist, "geometry_msgs/msg/TwistStamped",
                                               Ros2Qos::Reliable);
@@ -104,10 +122,11 @@ std::string Ros2Servo::whyHeld(const Ros2Tick& tick) const {
     if (measured_.age(bootSeconds()) > kOld) {
         return "held: no measured joints";
     }
-    for (size_t i = 0; i < joints_.size(); ++i) {
-        const double apart = std::abs(measured_.positions()[i] - tick.record.arm.posture.q[i]);
-        if (!(apart <= (joints_[i].slides ? kFarSlide : kFarJoint))) {
-            return "held: joint " + joints_[i].name + " of the robot is elsewhere";
+    for (size_t i = 0; i < own_.size(); ++i) {
+        const Ros2Joint& joint = joints_[own_[i]];
+        const double apart = std::abs(measured_.positions()[i] - tick.record.arm.posture.q[own_[i]]);
+        if (!(apart <= (joint.slides ? kFarSlide : kFarJoint))) {
+            return "held: joint " + joint.name + " of the robot is elsewhere";
         }
     }
     return "";
@@ -117,9 +136,9 @@ void Ros2Servo::sendJoints(const Ros2Tick& tick) {
     receive();
     held_ = whyHeld(tick);
     if (held_.empty()) { // a stamp of 0: from now on
-        trajectory_->write(ros2::trajectory({0, frame_}, names_,
-                                            std::span(tick.record.arm.posture.q).first(joints_.size()),
-                                            kReachedIn * period_));
+        std::transform(own_.begin(), own_.end(), positions_.begin(),
+                       [&](size_t place) { return tick.record.arm.posture.q[place]; });
+        trajectory_->write(ros2::trajectory({0, frame_}, names_, positions_, kReachedIn * period_));
     }
 }
 

@@ -43,12 +43,14 @@ private:
     std::string whyHeld(const Ros2Tick& tick) const;
 
     std::string frame_;
-    double period_; // [s] between messages
-    std::vector<Ros2Joint> joints_;
-    std::vector<std::string> names_;                 // of joints_
+    double period_;                                  // [s] between messages
+    std::vector<Ros2Joint> joints_;                  // of the arm
+    std::vector<size_t> own_;                        // places of those that a controller drives: no <mimic>
+    std::vector<std::string> names_;                 // of these
+    std::vector<double> positions_;                  // of these, as sent
     std::unique_ptr<Ros2Writer> twist_, trajectory_; // null = not asked for
     std::unique_ptr<Ros2Inbox> measuredInbox_;
-    JointReadings measured_; // of joints_
+    JointReadings measured_; // of own_
     std::optional<Ros2Tick> before_;
     std::string held_;
 };

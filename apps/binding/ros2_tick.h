@@ -33,7 +33,8 @@ struct Ros2Tick {
 // A joint of the tool's arm.
 struct Ros2Joint {
     std::string name;
-    bool slides = false; // prismatic
+    bool slides = false;  // prismatic
+    bool follows = false; // another joint (<mimic>)
 };
 
 // Regions and shapes that are active now.

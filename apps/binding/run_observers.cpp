@@ -16,7 +16,7 @@ std::vector<Ros2Joint> jointsOf(const ArmRig* arm) {
     if (arm != nullptr) {
         std::transform(arm->model.joints.begin(), arm->model.joints.end(), std::back_inserter(joints),
                        [](const ArmJoint& joint) {
-                           return Ros2Joint{joint.name, joint.slides};
+                           return Ros2Joint{joint.name, joint.slides, joint.mimic.has_value()};
                        });
     }
     return joints;

@@ -12,7 +12,7 @@ using namespace fathom;
 
 namespace {
 
-const std::vector<Ros2Joint> kJoints{{"shoulder", false}, {"rail", true}}; // at 0.5 rad and -0.25 m
+const std::vector<Ros2Joint> kJoints{{"shoulder"}, {"rail", true}}; // at 0.5 rad and -0.25 m
 
 // Says the line every few milliseconds until it holds.
 template <class Holds>
@@ -125,6 +125,15 @@ TEST_CASE("A robot gets joints only while its own are known and close to them") 
     CHECK(joints.next().any());
     robot.isAt("");
     CHECK(reported("held: no measured joints"));
+}
+
+TEST_CASE("Joints that follow another one are neither awaited from the robot nor sent to it") {
+    FedRun run("/fathom,trajectory=/trajectory,measured=/joint_states",
+               {{"shoulder", false, true}, {"rail", true}});
+    Heard joints("/trajectory", "JointTrajectory");
+    Robot robot;
+    robot.isAt("rail -0.25");
+    CHECK(joints.next().is("base 0.008000000 rail -0.25"));
 }
 
 TEST_CASE("Frames of tool and camera are published if asked for") {
