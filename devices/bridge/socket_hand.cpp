@@ -170,9 +170,10 @@ void SocketHand::write(const Wrench& wrench, double) noexcept {
 void SocketHand::seek() noexcept {
     while (!stop_.load()) {
         std::this_thread::sleep_for(kSeekPause);
+        const bool wanted = seeking_.load(); // first: what lose() stored before it is closed below
         DeviceSocket(gone_.exchange(-1)).close();
         DeviceSocket next;
-        if (seeking_.load() && DeviceSocket::tryConnect(path_, next) == 0) {
+        if (wanted && DeviceSocket::tryConnect(path_, next) == 0) {
             seeking_.store(false);
             found_.store(next.release());
         }

@@ -105,8 +105,9 @@ void SpaceMouseHand::lose() noexcept {
 void SpaceMouseHand::seek() noexcept {
     while (!stop_.load()) {
         std::this_thread::sleep_for(kSeekPause);
+        const bool wanted = seeking_.load(); // first: what lose() stored before it is closed below
         closeIt(gone_.exchange(-1));
-        const int next = seeking_.load() ? reopen_() : -1;
+        const int next = wanted ? reopen_() : -1;
         if (next >= 0) {
             seeking_.store(false);
             found_.store(next);
