@@ -136,6 +136,7 @@ HandSample SpaceMouseHand::read(double t) noexcept {
     if (descriptor_ < 0) {
         descriptor_ = found_.exchange(-1);
     }
+    heard_ = std::min(heard_, t); // another run begins at 0
     takeReports(t);
     if (t - heard_ > kSilence) {
         state_.shift = state_.rotation = {};

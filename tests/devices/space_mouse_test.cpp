@@ -138,6 +138,15 @@ TEST_CASE("A cap that is silent while deflected counts as released, and a late t
     CHECK(cap.hand->read(cap.t).deviceThandle.position.x <= x + 0.05 * SpaceMouseHand::kMaxStep + 1e-12);
 }
 
+TEST_CASE("A cap that falls silent while a new run begins at 0 counts as released, too") {
+    Cap cap;
+    cap.run(5.0);
+    cap.run(0.2, {motion(1, {350, 0, 0})});
+    cap.t = 0.0;
+    const double before = cap.run(0.2).deviceThandle.position.x;
+    CHECK(cap.run(1.0).deviceThandle.position.x == before);
+}
+
 TEST_CASE("Buttons are guidance and dead-man; an unplugged cap is an open dead-man and a clutch") {
     Cap cap;
     CHECK(cap.run(0.01).buttons == 0);
