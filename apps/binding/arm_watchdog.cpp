@@ -64,22 +64,27 @@ ArmWatchdog::~ArmWatchdog() {
 }
 
 void ArmWatchdog::hear() noexcept {
-    char byte = 0;
-    const ssize_t got = ::recv(socket_, &byte, 1, MSG_DONTWAIT);
-    ready_ = ready_ || (got == 1 && byte == kWatchdogReady);
-    ended_ = ended_ || got == 0 || (got < 0 && errno != EAGAIN && errno != EINTR);
+    char bytes[64];
+    ssize_t got = 0;
+    while ((got = ::recv(socket_, bytes, sizeof bytes, MSG_DONTWAIT)) > 0) {
+        ready_ = true; // it sends nothing else
+        askedAt_ = -1.0;
+    }
+    ended_ = ended_ || got == 0 || (errno != EAGAIN && errno != EINTR);
 }
 
-bool ArmWatchdog::stands() noexcept {
+bool ArmWatchdog::stands(double now) noexcept {
     if (!ended_) {
         hear();
     }
-    return ready_ && !ended_;
+    const bool deaf = askedAt_ >= 0.0 && now - askedAt_ > kDeaf;
+    return ready_ && !ended_ && !deaf;
 }
 
 void ArmWatchdog::alive(double now) noexcept {
     if (now >= next_) {
         next_ = now + kBeat;
+        askedAt_ = askedAt_ < 0.0 ? now : askedAt_;
         ::send(socket_, &kWatchdogAlive, 1,
                MSG_NOSIGNAL | MSG_DONTWAIT); // a watchdog that hangs lets its socket fill up
     }

@@ -27,11 +27,14 @@ public:
     // Ends the process and waits for it, so that the port is free.
     ~ArmWatchdog();
 
-    // True when it runs and would stop the arm. False until it is ready, and after it was killed.
-    bool stands() noexcept;
+    // True when it runs and would stop the arm. False until it is ready, after it was killed, and while it
+    // has not answered alive() for kDeaf.
+    bool stands(double now) noexcept;
     bool ended() const noexcept { return ended_; }
     // now [s]: any monotonic clock. Before each exchange with the arm.
     void alive(double now) noexcept;
+
+    static constexpr double kDeaf = 0.5; // [s]
 
 private:
     void hear() noexcept;
@@ -39,7 +42,8 @@ private:
     int socket_ = -1;
     pid_t process_ = -1;
     bool ready_ = false, ended_ = false;
-    double next_ = -1e9; // [s]
+    double next_ = -1e9;    // [s]
+    double askedAt_ = -1.0; // [s] of the first alive() that is not answered; < 0 = none
 };
 
 } // namespace fathom

@@ -55,7 +55,7 @@ std::string SerialArm::description(const Driver& driver, const std::string& port
 
 void SerialArm::awaitWatchdog(const std::atomic<bool>& stop) {
     const auto until = SerialClock::now() + kWatchdogStart;
-    while (!watchdog_->stands()) {
+    while (!watchdog_->stands(0.0)) { // nothing has been asked of it
         if (stop.load() || watchdog_->ended() || SerialClock::now() > until) {
             throw Error(description_ + ": its watchdog process does not start");
         }
@@ -74,7 +74,7 @@ std::string SerialArm::silence() const {
 bool SerialArm::watched(double now) noexcept {
     if (watchdog_ && !watchdog_->ended()) {
         watchdog_->alive(now);
-        return watchdog_->stands();
+        return watchdog_->stands(now);
     }
     if (now < nextWatchdog_) {
         return false;

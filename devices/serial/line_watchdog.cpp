@@ -20,7 +20,8 @@ double seconds() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-// Reads everything pending, so that a backlog does not count as silence.
+// Reads everything pending, so that a backlog does not count as silence. Answers, so that the engine notices a
+// watchdog that hangs.
 void receive(int engine, LineWatchdog& watchdog) noexcept {
     char bytes[256];
     for (;;) {
@@ -38,6 +39,7 @@ void receive(int engine, LineWatchdog& watchdog) noexcept {
         for (char byte : std::span(bytes, static_cast<size_t>(got))) {
             byte == kWatchdogGoodbye ? watchdog.goodbye() : watchdog.alive(seconds());
         }
+        ::send(engine, &kWatchdogReady, 1, MSG_NOSIGNAL | MSG_DONTWAIT);
     }
 }
 
@@ -64,7 +66,8 @@ bool LineWatchdog::stopDue(double now) noexcept {
         stoppingSince_ = next_ = now;
         ++failures_;
     }
-    if (now < next_ || now - stoppingSince_ > kStopDuration) {
+    const bool enough = closed_ && now - stoppingSince_ > kStopDuration; // an engine that hangs may come back
+    if (now < next_ || enough) {
         return false;
     }
     next_ = now + period_;

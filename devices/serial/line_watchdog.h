@@ -22,8 +22,8 @@ public:
     void goodbye() noexcept { saidGoodbye_ = true; }
     void close() noexcept; // the engine's end is closed
 
-    // True when a stop telegram is due: after a silence until the engine is back, and in any case for
-    // kStopDuration.
+    // True when a stop telegram is due: after a silence until the engine is back, and for kStopDuration after
+    // the engine has ended.
     bool stopDue(double now) noexcept;
     bool over(double now) const noexcept; // the watchdog can exit
     bool closed() const noexcept { return closed_; }

@@ -130,8 +130,8 @@ TEST_CASE("The watchdog stops the arm after a silence, releases the line when th
     CHECK(tells(watchdog, 1.21, 1.32) > 1);
     watchdog.alive(1.32);
     CHECK(tells(watchdog, 1.32, 1.5) == 0);
-    CHECK(tells(watchdog, 1.5, 9.0) > 5); // half a second of it
-    CHECK(tells(watchdog, 9.0, 20.0) == 0);
+    CHECK(tells(watchdog, 1.5, 9.0) > 5);
+    CHECK(tells(watchdog, 9.0, 20.0) > 200); // as long as the engine hangs
     CHECK_FALSE(watchdog.over(20.0));
     watchdog.close();
     CHECK(tells(watchdog, 20.0, 22.0) > 5);

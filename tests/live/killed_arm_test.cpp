@@ -183,3 +183,25 @@ TEST_CASE("A watchdog process that is killed is replaced, and the arm resumes") 
     CHECK(stage.read("said").find("its watchdog process ended; the arm is held until a new one runs") !=
           std::string::npos);
 }
+
+TEST_CASE("While the watchdog process hangs the arm is held, and it resumes with it") {
+    const Stage stage;
+    ReachSimulator arm;
+    setUpSlowReach(stage, arm);
+    arm.speed.fill(0.05);
+    ArmBench bench(arm, stage / "line");
+    Engine engine(stage);
+    const double& shoulder = arm.position[4];
+    const double start = shoulder;
+    REQUIRE(bench.wait([&] { return std::abs(shoulder - start) > 0.001; }));
+    const pid_t watchdog = engine.watchdog();
+    REQUIRE(watchdog > 0);
+    ::kill(watchdog, SIGSTOP);
+    CHECK(comesToRest(bench, shoulder));
+    const double there = bench.with([&] { return shoulder; });
+    ::kill(watchdog, SIGCONT);
+    CHECK(bench.wait([&] { return std::abs(shoulder - there) > 0.001; }));
+    CHECK(engine.watchdog() == watchdog);
+    engine.signal(SIGINT);
+    CHECK(engine.wait() == 0);
+}
