@@ -2,7 +2,7 @@
 // Limits in arm.csv and in the summary, with postures that violate them.
 #include "apps/replay/arm_report.h"
 
-#include "tests/apps/scratch_folder.h"
+#include "tests/support/scratch_folder.h"
 
 #include <doctest/doctest.h>
 

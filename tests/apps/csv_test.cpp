@@ -3,7 +3,7 @@
 
 #include "apps/replay/frames_csv.h"
 #include "apps/replay/haptics_csv.h"
-#include "tests/apps/scratch_folder.h"
+#include "tests/support/scratch_folder.h"
 
 #include <bit>
 #include <cmath>

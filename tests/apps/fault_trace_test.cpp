@@ -2,7 +2,7 @@
 #include "apps/replay/fault_trace.h"
 
 #include "apps/replay/haptics_csv.h"
-#include "tests/apps/scratch_folder.h"
+#include "tests/support/scratch_folder.h"
 
 #include <algorithm>
 #include <doctest/doctest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/replay/fixtures_ply.h"
 
-#include "tests/apps/scratch_folder.h"
+#include "tests/support/scratch_folder.h"
 
 #include <cstring>
 #include <doctest/doctest.h>

@@ -3,8 +3,8 @@
 // sockets.
 #include "apps/devices/hand_devices.h"
 #include "devices/bridge/socket_server.h"
-#include "tests/apps/scratch_folder.h"
 #include "tests/support/sanitized.h"
+#include "tests/support/scratch_folder.h"
 
 #include <doctest/doctest.h>
 #include <sstream>

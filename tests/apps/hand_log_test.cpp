@@ -3,7 +3,7 @@
 #include "apps/record/hand_log.h"
 
 #include "devices/recorded/hand_csv.h"
-#include "tests/apps/scratch_folder.h"
+#include "tests/support/scratch_folder.h"
 
 #include <chrono>
 #include <cmath>

@@ -4,8 +4,8 @@
 #include "apps/inspect/frame_study.h"
 #include "apps/inspect/stream_report.h"
 #include "engine/types/error.h"
-#include "tests/apps/scratch_folder.h"
 #include "tests/devices/bag_maker.h"
+#include "tests/support/scratch_folder.h"
 
 #include <deque>
 #include <doctest/doctest.h>

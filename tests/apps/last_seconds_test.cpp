@@ -5,8 +5,8 @@
 
 #include "apps/operate/packed_image.h"
 #include "apps/operate/recorder.h"
-#include "tests/apps/scratch_folder.h"
 #include "tests/apps/viewed_run.h"
+#include "tests/support/scratch_folder.h"
 
 #include <doctest/doctest.h>
 #include <fstream>

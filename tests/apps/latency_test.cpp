@@ -3,6 +3,7 @@
 #include "apps/latency/latency_report.h"
 
 #include "engine/types/error.h"
+#include "tests/support/scratch_folder.h"
 
 #include <algorithm>
 #include <cmath>
@@ -117,7 +118,8 @@ TEST_CASE("The report counts every tick in its table and in its file") {
     }
     CHECK(late == 777);
     CHECK(tick == 777);
-    const auto file = std::filesystem::temp_directory_path() / "fathom-latency-test.json";
+    const testing::ScratchFolder scratch;
+    const auto file = scratch.path() / "latency.json";
     writeLatency(file, parts, 1000.0, "none");
     const auto read = nlohmann::json::parse(std::ifstream(file));
     uint64_t counted = 0;
@@ -125,6 +127,5 @@ TEST_CASE("The report counts every tick in its table and in its file") {
         counted += bin.at(1).get<uint64_t>();
     }
     CHECK(counted == 777);
-    std::filesystem::remove(file);
     CHECK_THROWS_AS(writeLatency("/nowhere/x.json", parts, 1000.0, "none"), Error);
 }

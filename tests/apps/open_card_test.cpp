@@ -3,7 +3,7 @@
 #include "apps/operate/open_card.h"
 
 #include "engine/types/error.h"
-#include "tests/apps/scratch_folder.h"
+#include "tests/support/scratch_folder.h"
 
 #include <doctest/doctest.h>
 #include <fstream>

@@ -3,7 +3,7 @@
 #include "apps/binding/open_source.h"
 
 #include "devices/recorded/recording_writer.h"
-#include "tests/apps/scratch_folder.h"
+#include "tests/support/scratch_folder.h"
 
 #include <doctest/doctest.h>
 

@@ -4,8 +4,8 @@
 #include "apps/replay/output_folder.h"
 #include "engine/types/error.h"
 #include "engine/types/read_file.h"
-#include "tests/apps/scratch_folder.h"
 #include "tests/rig/file_size_limit.h"
+#include "tests/support/scratch_folder.h"
 
 #include <doctest/doctest.h>
 #include <sys/wait.h>

@@ -4,7 +4,7 @@
 #include "apps/replay/image.h"
 #include "apps/replay/silhouette.h"
 #include "engine/types/error.h"
-#include "tests/apps/scratch_folder.h"
+#include "tests/support/scratch_folder.h"
 
 #include <algorithm>
 #include <chrono>

@@ -2,7 +2,7 @@
 // `replay --realtime` on a recording, with threads, device and files.
 #include "apps/replay/realtime_replay.h"
 
-#include "tests/apps/scratch_folder.h"
+#include "tests/support/scratch_folder.h"
 
 #include <algorithm>
 #include <csignal>

@@ -6,8 +6,8 @@
 #include "devices/recorded/hand_csv.h"
 #include "devices/recorded/recorded_camera.h"
 #include "engine/types/error.h"
-#include "tests/apps/scratch_folder.h"
 #include "tests/rig/file_size_limit.h"
+#include "tests/support/scratch_folder.h"
 
 #include <doctest/doctest.h>
 #include <sys/wait.h>

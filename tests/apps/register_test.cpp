@@ -4,7 +4,7 @@
 #include "apps/register/point_pairs.h"
 #include "apps/register/tag_finder.h"
 #include "engine/types/error.h"
-#include "tests/apps/scratch_folder.h"
+#include "tests/support/scratch_folder.h"
 
 #include <apriltag/apriltag.h>
 #include <apriltag/tag36h11.h>

@@ -2,7 +2,7 @@
 // What a replay reports about fixtures that were edited in the recording.
 #include "apps/replay/replay_recorder.h"
 
-#include "tests/apps/scratch_folder.h"
+#include "tests/support/scratch_folder.h"
 
 #include <doctest/doctest.h>
 

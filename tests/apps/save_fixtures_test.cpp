@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/operate/fixture_editor.h"
-#include "tests/apps/scratch_folder.h"
 #include "tests/rig/file_size_limit.h"
+#include "tests/support/scratch_folder.h"
 
 #include <doctest/doctest.h>
 

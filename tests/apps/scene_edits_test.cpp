@@ -6,7 +6,7 @@
 #include "apps/session/session.h"
 #include "engine/cloud/frame_params.h"
 #include "engine/types/error.h"
-#include "tests/apps/scratch_folder.h"
+#include "tests/support/scratch_folder.h"
 
 #include <algorithm>
 #include <doctest/doctest.h>

@@ -3,8 +3,8 @@
 
 #include "apps/replay/progress.h"
 #include "apps/replay/tick_totals.h"
-#include "tests/apps/scratch_folder.h"
 #include "tests/rig/summary_keys.h"
+#include "tests/support/scratch_folder.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #include "apps/operate/tick_log.h"
 
 #include "engine/types/error.h"
-#include "tests/apps/scratch_folder.h"
+#include "tests/support/scratch_folder.h"
 
 #include <cmath>
 #include <doctest/doctest.h>

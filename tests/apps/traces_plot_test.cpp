@@ -6,7 +6,7 @@
 #include "apps/replay/trace_phases.h"
 #include "apps/replay/traces_style.h"
 #include "engine/types/error.h"
-#include "tests/apps/scratch_folder.h"
+#include "tests/support/scratch_folder.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Names for screenshots, recordings and exports.
 #include "apps/operate/unused_name.h"
-#include "tests/apps/scratch_folder.h"
+#include "tests/support/scratch_folder.h"
 
 #include <doctest/doctest.h>
 

@@ -2,7 +2,7 @@
 // Videos, with an encoder that stores what it gets.
 #include "apps/operate/video_file.h"
 #include "engine/types/error.h"
-#include "tests/apps/scratch_folder.h"
+#include "tests/support/scratch_folder.h"
 
 #include <doctest/doctest.h>
 

@@ -2,6 +2,7 @@
 #include "devices/usb/falcon_firmware.h"
 #include "devices/usb/falcon_link.h"
 #include "tests/devices/fake_falcon.h"
+#include "tests/support/scratch_folder.h"
 
 #include <doctest/doctest.h>
 #include <filesystem>
@@ -95,8 +96,8 @@ TEST_CASE("A wrong answer during the firmware load stops it and reports the step
 }
 
 TEST_CASE("A firmware file that is missing, empty or too long is rejected") {
-    const auto file = std::filesystem::temp_directory_path() / "fathom-falcon-firmware.bin";
-    std::filesystem::remove(file);
+    const testing::ScratchFolder scratch;
+    const auto file = scratch.path() / "firmware.bin";
     CHECK_THROWS_AS(readFalconFirmware(file), BadInput);
     std::ofstream(file) << "";
     CHECK_THROWS_AS(readFalconFirmware(file), BadInput);
@@ -104,7 +105,6 @@ TEST_CASE("A firmware file that is missing, empty or too long is rejected") {
     CHECK(readFalconFirmware(file).size() == 65536);
     std::ofstream(file) << std::string(65537, 'x');
     CHECK_THROWS_AS(readFalconFirmware(file), BadInput);
-    std::filesystem::remove(file);
 }
 
 TEST_CASE("Only one command is in flight, and partial or duplicate answers do not stop the exchange") {

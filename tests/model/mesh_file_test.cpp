@@ -6,6 +6,7 @@
 #include "engine/types/error.h"
 #include "tests/model/meshes.h"
 #include "tests/support/sanitized.h"
+#include "tests/support/scratch_folder.h"
 
 #include <algorithm>
 #include <doctest/doctest.h>
@@ -179,22 +180,22 @@ TEST_CASE("A mesh of over two metres without a unit gives a warning, unless --sc
 
 TEST_CASE("Unsupported kinds of file are rejected, whatever they contain") {
     const ObjFile box(boxMesh(dvec3(0.0), dvec3(0.1)));
-    const auto file = std::filesystem::temp_directory_path() / "fathom-mesh-kind.ply";
+    const testing::ScratchFolder scratch;
+    const auto file = scratch.path() / "kind.ply";
     std::ofstream(file) << "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
                            "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
                            "end_header\n0 0 0\n0.1 0 0\n0 0.1 0\n3 0 1 2\n";
     CHECK(importTriangles(file).fault == ""); // the library can
     CHECK(refusalOfMesh(file).find("kind '.ply' (allowed: a readable STL, OBJ or COLLADA") !=
           std::string::npos);
-    std::filesystem::remove(file);
-    const std::filesystem::path upper = file.parent_path() / "fathom-mesh-kind.OBJ";
+    const std::filesystem::path upper = scratch.path() / "kind.OBJ";
     std::filesystem::copy_file(box.path(), upper, std::filesystem::copy_options::overwrite_existing);
     CHECK(refusalOfMesh(upper) == "");
-    std::filesystem::remove(upper);
 }
 
 TEST_CASE("A mesh that needs too much memory is rejected, and copies are counted before they are made") {
-    const auto file = std::filesystem::temp_directory_path() / "fathom-mesh-copies.dae";
+    const testing::ScratchFolder scratch;
+    const auto file = scratch.path() / "copies.dae";
     writeCopies(file, 10);
     CHECK(importTriangles(file).mesh.triangles.size() == 333'330);
     if (!kSanitized) {         // a sanitizer has no memory limit
@@ -208,7 +209,6 @@ TEST_CASE("A mesh that needs too much memory is rejected, and copies are counted
         importTriangles(file, {.mostMemory = 200 << 20}); // the copies would take 2400 MB
     CHECK(many.fault == "over 6000000 corners");
     CHECK(many.mesh.points.empty());
-    std::filesystem::remove(file);
 }
 
 TEST_CASE("Distance and winding agree with a box's formula inside, outside and where two boxes overlap") {
@@ -264,7 +264,8 @@ TEST_CASE("A file that crashes the mesh reader is rejected in one line, and so i
     std::ifstream in("tests/fuzz/corpus/mesh/finding-collada", std::ios::binary);
     const std::string input{std::istreambuf_iterator<char>(in), {}};
     REQUIRE(input.size() > 100);
-    const auto file = std::filesystem::temp_directory_path() / "fathom-mesh-finding.dae";
+    const testing::ScratchFolder scratch;
+    const auto file = scratch.path() / "finding.dae";
     for (size_t size = 1; size <= input.size(); size += 97) {
         std::ofstream(file, std::ios::binary)
             << input.substr(1, size); // the first byte belongs to the fuzz target
@@ -280,5 +281,4 @@ TEST_CASE("A file that crashes the mesh reader is rejected in one line, and so i
                        line.find("Not enough data for accessor") != std::string::npos),
                       line);
     }
-    std::filesystem::remove(file);
 }

@@ -4,7 +4,7 @@
 #include "apps/replay/image.h"
 #include "devices/recorded/png_image.h"
 #include "tests/apps/laid_screen.h"
-#include "tests/apps/scratch_folder.h"
+#include "tests/support/scratch_folder.h"
 #include "tests/support/vulkan.h"
 
 #include <doctest/doctest.h>

@@ -2,9 +2,9 @@
 // `fathom profile peers` as a program. Without the other libraries, it fails with a hint on how to build them
 // in. With them, all answers must match float64.
 #include "apps/profile/studies.h"
-#include "tests/apps/scratch_folder.h"
 #include "tests/profile/quick_run.h"
 #include "tests/rig/run_fathom.h"
+#include "tests/support/scratch_folder.h"
 
 #include <algorithm>
 #include <doctest/doctest.h>

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "apps/profile/studies.h"
-#include "tests/apps/scratch_folder.h"
 #include "tests/rig/run_fathom.h"
+#include "tests/support/scratch_folder.h"
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The shipped sonar scene through the whole program.
 #include "tests/rig/run_fathom.h"
+#include "tests/support/scratch_folder.h"
 
 #include <doctest/doctest.h>
 #include <filesystem>
@@ -10,8 +11,8 @@
 using namespace fathom;
 
 TEST_CASE("The sonar scene pushes back before the tool touches steel or block, and nothing enters a region") {
-    const auto out = std::filesystem::temp_directory_path() / "fathom-sonar-test";
-    std::filesystem::remove_all(out);
+    const testing::ScratchFolder scratch;
+    const auto out = scratch.path() / "out";
     const ProgramRun run = runFathom({"replay", "apps/scenes/sonar.yaml", "--out", out.string()});
     INFO(run.err);
     REQUIRE(run.exitCode == 0);
@@ -21,7 +22,6 @@ TEST_CASE("The sonar scene pushes back before the tool touches steel or block, a
     for (const auto& fixture : summary["fixtures"]) {
         CHECK(fixture["points_mean"].get<double>() > 100.0);
     }
-    std::filesystem::remove_all(out);
 }
 
 TEST_CASE("The plan of the sonar scene has beams and no thinning, and says why") {
@@ -33,10 +33,10 @@ TEST_CASE("The plan of the sonar scene has beams and no thinning, and says why")
 }
 
 TEST_CASE("The beam section of a scene is validated") {
-    const auto file = std::filesystem::temp_directory_path() / "fathom-beam.yaml";
+    const testing::ScratchFolder scratch;
+    const auto file = scratch.path() / "beam.yaml";
     std::ofstream(file) << "camera: {beam: {width_deg: 95}}\n";
     const ProgramRun run = runFathom({"plan", file.string()});
     CHECK(run.exitCode == 2);
     CHECK(run.err.find("camera.beam.width_deg: 95") != std::string::npos);
-    std::filesystem::remove(file);
 }

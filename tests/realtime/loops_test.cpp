@@ -15,6 +15,7 @@
 #include <thread>
 
 #include "tests/realtime/fake_scene.h"
+#include "tests/support/scratch_folder.h"
 
 using namespace fathom;
 using namespace fathom::testing;
@@ -23,7 +24,8 @@ TEST_CASE("A haptic tick allocates nothing, with contact sets, guidance and a tr
     FakeRun fake(2, wipingPath(2.0));
     Channels channels(4096);
     RunClock clock;
-    const auto file = std::filesystem::temp_directory_path() / "fathom-loops-test.json";
+    const testing::ScratchFolder scratch;
+    const auto file = scratch.path() / "trace.json";
     CadenceTrace trace(file, {});
     HapticCycle cycle(fake.tool, {}, fake.options, fake.path.at(0.0).deviceThandle);
     HapticLoop loop(cycle, fake.hand, channels, clock, {}, &trace);
@@ -59,7 +61,6 @@ TEST_CASE("A haptic tick allocates nothing, with contact sets, guidance and a tr
     CHECK(during == 0);
     CHECK(contacts > 100);
     trace.file().finish();
-    std::filesystem::remove(file);
 }
 
 TEST_CASE("A tick whose set has not reached the writer waits for it, and passes at the end in any case") {
@@ -140,7 +141,8 @@ TEST_CASE("A spooled camera returns exactly the frames of its source, once, and 
     options.height = 50;
     options.frames = 5;
     SimulatedCamera plain(*analyticScene("tank"), options);
-    const auto folder = std::filesystem::temp_directory_path() / "fathom-spool-test";
+    const testing::ScratchFolder scratch;
+    const auto folder = scratch.path() / "spool";
     std::filesystem::create_directories(folder);
     std::atomic<bool> stop{false};
     uint64_t told = 0;

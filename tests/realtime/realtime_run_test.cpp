@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "tests/realtime/fake_scene.h"
+#include "tests/support/scratch_folder.h"
 
 using namespace fathom;
 using namespace fathom::testing;
@@ -39,7 +40,8 @@ void checkEnded(const FakeRun& fake) {
 TEST_CASE(
     "A realtime run sends the writer every tick in order, uses new sets as they come and never penetrates") {
     FakeRun fake(45, wipingPath(1.5));
-    const auto file = std::filesystem::temp_directory_path() / "fathom-realtime-run-test.json";
+    const testing::ScratchFolder scratch;
+    const auto file = scratch.path() / "trace.json";
     CadenceTrace trace(file, {"only"});
     fake.realtime.trace = &trace;
     fake.go();
@@ -62,7 +64,6 @@ TEST_CASE(
     CHECK(fake.sink.rows.back().record.t > 1.4);
     CHECK(fake.sink.audit.ticks() > fake.sink.rows.size() / 2);
     CHECK(std::filesystem::file_size(file) > 10'000);
-    std::filesystem::remove(file);
 }
 
 TEST_CASE("The haptic thread never waits for an answer: one that comes only after 200 more ticks comes") {

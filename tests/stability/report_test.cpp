@@ -3,7 +3,7 @@
 #include "apps/stability/stability_plots.h"
 #include "apps/stability/stability_report.h"
 #include "engine/types/error.h"
-#include "tests/apps/scratch_folder.h"
+#include "tests/support/scratch_folder.h"
 
 #include <doctest/doctest.h>
 

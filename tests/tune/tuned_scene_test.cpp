@@ -2,7 +2,7 @@
 // Words and files of a tuned scene, from made-up points.
 #include "apps/tune/tune_words.h"
 #include "apps/tune/tuned_scene.h"
-#include "tests/apps/scratch_folder.h"
+#include "tests/support/scratch_folder.h"
 
 #include <doctest/doctest.h>
 

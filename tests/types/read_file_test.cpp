@@ -3,6 +3,7 @@
 
 #include "engine/types/error.h"
 #include "engine/types/inside.h"
+#include "tests/support/scratch_folder.h"
 
 #include <doctest/doctest.h>
 #include <fstream>
@@ -11,7 +12,8 @@
 using namespace fathom;
 
 TEST_CASE("A file is read to its end or to one byte beyond the limit") {
-    const auto file = std::filesystem::temp_directory_path() / "fathom-read-file-test";
+    const testing::ScratchFolder scratch;
+    const auto file = scratch.path() / "file";
     for (size_t size : {size_t{0}, size_t{1}, size_t{99}, size_t{100}, size_t{101}, size_t{200'000}}) {
         std::string content(size, 'a');
         for (size_t i = 0; i < size; ++i) {
@@ -23,11 +25,12 @@ TEST_CASE("A file is read to its end or to one byte beyond the limit") {
     }
     std::filesystem::remove(file);
     CHECK_FALSE(readFileAtMost(file, 100));
-    CHECK_FALSE(readFileAtMost(std::filesystem::temp_directory_path(), 100));
+    CHECK_FALSE(readFileAtMost(scratch.path(), 100));
 }
 
 TEST_CASE("A file larger than its reader's limit is rejected with both sizes") {
-    const auto file = std::filesystem::temp_directory_path() / "fathom-read-whole-file-test";
+    const testing::ScratchFolder scratch;
+    const auto file = scratch.path() / "file";
     const auto refusal = [](const std::filesystem::path& path) -> std::string {
         try {
             readWholeFile(path, 2u << 20, "a readable text");
@@ -48,9 +51,8 @@ TEST_CASE("A file larger than its reader's limit is rejected with both sizes") {
 }
 
 TEST_CASE("A pipe, a device or a folder is not readable as a file, and a link counts as its target") {
-    const auto folder = std::filesystem::temp_directory_path() / "fathom-no-file-test";
-    std::filesystem::remove_all(folder);
-    std::filesystem::create_directories(folder);
+    const testing::ScratchFolder scratch;
+    const auto& folder = scratch.path();
     std::ofstream(folder / "file") << "x";
     REQUIRE(::mkfifo((folder / "pipe").c_str(), 0600) == 0);
     std::filesystem::create_symlink("file", folder / "to-file");
@@ -67,12 +69,11 @@ TEST_CASE("A pipe, a device or a folder is not readable as a file, and a link co
         CHECK_FALSE(isRegularFile(path));
         CHECK(whyUnreadable(path) == "cannot be read");
     }
-    std::filesystem::remove_all(folder);
 }
 
 TEST_CASE("A file is inside a folder when the links on its path stay there, whatever its name") {
-    const auto above = std::filesystem::temp_directory_path() / "fathom-inside-test";
-    std::filesystem::remove_all(above);
+    const testing::ScratchFolder scratch;
+    const auto& above = scratch.path();
     std::filesystem::create_directories(above / "rec/rgb");
     std::ofstream(above / "secret") << "x";
     std::ofstream(above / "rec/rgb/0.png") << "x";
@@ -94,7 +95,6 @@ TEST_CASE("A file is inside a folder when the links on its path stay there, what
         }
     }
     CHECK(liesInside("tests", ""));
-    std::filesystem::remove_all(above);
 }
 
 TEST_CASE("A path stays inside when it is relative and never leads above its start") {
