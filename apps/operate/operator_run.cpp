@@ -18,8 +18,7 @@ float percentile(std::vector<float> values, double share) {
     if (values.empty()) {
         return 0.0f;
     }
-    const auto at =
-        values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    const auto at = values.begin() + static_cast<int>(share * static_cast<double>(values.size() - 1));
     std::nth_element(values.begin(), at, values.end());
     return *at;
 }
@@ -225,8 +224,7 @@ void OperatorRun::followPilot() {
     Console& console = display_.console;
     const std::string name = std::exchange(console.pilotWanted, "");
     if (!name.empty() && cameraSilent(display_.view.step().record, live_.haptics())) {
-        console.notify("no camera frames: choose the pilot when they are back");
-        return;
+        return console.notify("no camera frames: choose the pilot when they are back");
     }
     if (name.empty() || !session_.scene.choosePilot(name)) {
         return;
