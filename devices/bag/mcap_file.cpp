@@ -214,7 +214,7 @@ MessageBytes McapFile::bytes(const MessageEntry& entry) {
         throw Error("truncated");
     }
     message.view = message.view.subspan(kMcapHead);
-    return message;
+    return unpackMessage(std::move(message));
 }
 
 } // namespace fathom

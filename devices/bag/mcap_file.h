@@ -10,9 +10,9 @@
 
 namespace fathom {
 
-// Chunks are uncompressed, LZ4 frames or zstd. Opening reads the summary and the indexes behind chunks; a
-// file without a summary that agrees with them is read record by record, to its last whole record where it
-// was not finished, with a warning. Chunks are read when their messages are.
+// Chunks are uncompressed, LZ4 frames or zstd; messages may be zstd frames, too. Opening reads the summary
+// and the indexes behind chunks; a file without a summary that agrees with them is read record by record, to
+// its last whole record where it was not finished, with a warning. Chunks are read when their messages are.
 class McapFile final : public MessageFile {
 public:
     // Throws BadInput that names the file.

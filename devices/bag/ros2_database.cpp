@@ -13,7 +13,6 @@ namespace fathom {
 namespace {
 
 constexpr int kDatabaseBytes = 1 << 30;            // of one message
-constexpr uint64_t kMaxUnpacked = 1 << 28;         // [bytes] of one that is compressed
 constexpr uint64_t kDatabaseMessages = 20'000'000; // of a file
 constexpr size_t kDatabaseTopics = 10'000;
 constexpr int kStepsPerCall = 100'000; // of SQLite's machine
@@ -142,8 +141,7 @@ MessageBytes Ros2Database::bytes(const MessageEntry& entry) {
     const auto size = static_cast<size_t>(sqlite3_column_bytes(one_.get(), 0));
     std::vector<uint8_t> message(data, data + (data == nullptr ? 0 : size));
     sqlite3_reset(one_.get());
-    // No message in CDR begins as zstd does.
-    return MessageBytes::of(isZstd(message) ? unpackZstdFrame(message, kMaxUnpacked) : std::move(message));
+    return unpackMessage(MessageBytes::of(std::move(message)));
 }
 
 } // namespace fathom

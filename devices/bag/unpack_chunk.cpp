@@ -92,18 +92,20 @@ std::vector<uint8_t> unpackChunk(const std::string& compression, std::span<const
     return out;
 }
 
-bool isZstd(std::span<const uint8_t> bytes) {
+// No message begins with these bytes: not one in CDR, and in ROS 1 the sequence number would be over 4e9.
+MessageBytes unpackMessage(MessageBytes message) {
     constexpr std::array<uint8_t, 4> kZstdMagic{0x28, 0xb5, 0x2f, 0xfd};
-    return bytes.size() >= kZstdMagic.size() &&
-           std::equal(kZstdMagic.begin(), kZstdMagic.end(), bytes.begin());
-}
-
-std::vector<uint8_t> unpackZstdFrame(std::span<const uint8_t> packed, uint64_t most) {
-    const unsigned long long size = ZSTD_getFrameContentSize(packed.data(), packed.size());
-    if (size == ZSTD_CONTENTSIZE_UNKNOWN || size == ZSTD_CONTENTSIZE_ERROR || size > most) {
-        throw Error("zstd: no size, or one over " + std::to_string(most) + " bytes");
+    constexpr uint64_t kMaxUnpacked = 1 << 28; // [bytes]
+    const std::span<const uint8_t> packed = message.view;
+    if (packed.size() < kZstdMagic.size() ||
+        !std::equal(kZstdMagic.begin(), kZstdMagic.end(), packed.begin())) {
+        return message;
     }
-    return unpackChunk("zstd", packed, static_cast<uint32_t>(size));
+    const unsigned long long size = ZSTD_getFrameContentSize(packed.data(), packed.size());
+    if (size == ZSTD_CONTENTSIZE_UNKNOWN || size == ZSTD_CONTENTSIZE_ERROR || size > kMaxUnpacked) {
+        throw Error("zstd: no size, or one over " + std::to_string(kMaxUnpacked) + " bytes");
+    }
+    return MessageBytes::of(unpackChunk("zstd", packed, static_cast<uint32_t>(size)));
 }
 
 } // namespace fathom

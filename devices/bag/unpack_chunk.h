@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decompression of the chunks of bags and MCAP files, and of messages of ROS 2 databases.
+// Decompression of the chunks of bags and MCAP files, and of messages that are compressed one by one.
 #pragma once
+
+#include "devices/bag/message_bytes.h"
 
 #include <cstdint>
 #include <span>
@@ -14,9 +16,8 @@ namespace fathom {
 std::vector<uint8_t> unpackChunk(const std::string& compression, std::span<const uint8_t> packed,
                                  uint32_t size);
 
-// Whether the bytes begin as a zstd frame.
-bool isZstd(std::span<const uint8_t> bytes);
-// A zstd frame that states its size, at most `most` [bytes]. Throws Error.
-std::vector<uint8_t> unpackZstdFrame(std::span<const uint8_t> packed, uint64_t most);
+// A message that rosbag2 stored as a zstd frame (compression_mode: message), unpacked; another one unchanged.
+// Throws Error when the frame does not state its size, or more than 256 MiB.
+MessageBytes unpackMessage(MessageBytes message);
 
 } // namespace fathom

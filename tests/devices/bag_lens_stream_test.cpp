@@ -123,8 +123,11 @@ TEST_CASE(
     writeDatabase(path("a.db3"), all);
     writeDatabase(path("packed.db3"), packedOneByOne(all));
     writeChunks(path("chunks.mcap"), all);
+    writeChunks(path("packed_chunks.mcap"), packedOneByOne(all));
     folder.write("unchunked.mcap", unchunked(all));
-    for (const char* name : {"a.db3", "packed.db3", "chunks.mcap", "unchunked.mcap"}) {
+    folder.write("packed.mcap", unchunked(packedOneByOne(all)));
+    for (const char* name :
+         {"a.db3", "packed.db3", "chunks.mcap", "packed_chunks.mcap", "unchunked.mcap", "packed.mcap"}) {
         checkLensStream(path(name), kFrames);
     }
     std::filesystem::create_directory(path("split"));
