@@ -65,7 +65,9 @@ std::vector<const ImageStream*> StreamChooser::depths() const {
     }
     std::string seen;
     for (const ImageStream& stream : streams_) {
-        seen += (seen.empty() ? "" : ", ") + stream.name + " (" + stream.encoding + ")";
+        const bool unread = stream.encoding.empty() && !stream.noLens.empty();
+        seen += (seen.empty() ? "" : ", ") +
+                (unread ? stream.noLens : stream.name + " (" + stream.encoding + ")");
     }
     seen = seen.empty() ? "no images" + otherTopics() : seen;
     const std::string wanted = options_.depth.empty() ? "one of depth" : options_.depth;

@@ -243,6 +243,14 @@ TEST_CASE("Start and duration cut a bag, and a scene of frames can be sought") {
     CHECK(streamRefusal(folder, maker, {.start = 5.0}).find("start") != std::string::npos);
 }
 
+TEST_CASE("Images that cannot be read are named with their fault where a bag has no depth") {
+    const TemporaryFolder folder;
+    BagMaker maker;
+    maker.add("/c/depth/image_raw", "sensor_msgs/Image", 1.0,
+              imageMessage(1.0, depthImage(500)).substr(0, 30));
+    CHECK(lineSays(streamRefusal(folder, maker), "topics: /c/depth/image_raw: truncated (allowed: "));
+}
+
 TEST_CASE("A bag without a colour stream that is read says why") {
     const TemporaryFolder folder;
     BagMaker maker;
