@@ -155,7 +155,7 @@ std::string BagCamera::changed(uint64_t time) {
     const auto lensFault = [](const ImageStream& stream) {
         return [&stream](const MessageCursor& message) -> std::string {
             const ros::CameraInfo info = ros::cameraInfo(message);
-            const Intrinsics& now = stream.rectified ? info.rectified : info.raw;
+            const Intrinsics& now = info.lens(stream.rectified);
             return sameLens(now, *stream.lens)
                        ? ""
                        : "the lens of " + stream.name + " changes from fx " +

@@ -39,7 +39,7 @@ void readLens(MessageFile& file, const std::string& asked, ImageStream& stream) 
         return;
     }
     const ros::CameraInfo info = ros::cameraInfo(file.read(*topic, 0));
-    const Intrinsics lens = namedRectified(stream.name) ? info.rectified : info.raw;
+    const Intrinsics lens = info.lens(namedRectified(stream.name));
     const std::string told = topic->name + ": ";
     if (lens.width < 1 || lens.height < 1 || lens.width > kMaxImageWidth || lens.height > kMaxImageHeight) {
         stream.noLens = told + streamSize(lens.width, lens.height) + " (allowed: at most 3840x2160 pixels)";

@@ -137,18 +137,26 @@ CameraInfo cameraInfo(MessageCursor cursor) {
     const auto k = reals<9>(cursor), r = reals<9>(cursor);
     const auto p = reals<12>(cursor);
     const Crop crop = cropOf(cursor, width, height);
-    if (!(k[0] > 0.0) || !(k[4] > 0.0) || !std::isfinite(k[0] + k[2] + k[4] + k[5])) {
-        throw Error("camera_info without a focal length: the camera was not calibrated");
+    const auto projects = [](double fx, double fy, double cx, double cy) {
+        return fx > 0.0 && fy > 0.0 && std::isfinite(fx + fy + cx + cy);
+    };
+    const bool byK = projects(k[0], k[4], k[2], k[5]), byP = projects(p[0], p[5], p[2], p[6]);
+    if (!byK) {
+        info.rawFault = "camera_info without a focal length: the camera was not calibrated";
+    } else {
+        info.raw = cropped(k[0], k[4], k[2], k[5], crop);
     }
-    info.raw = cropped(k[0], k[4], k[2], k[5], crop);
-    const bool projects = p[0] > 0.0 && p[5] > 0.0 && std::isfinite(p[0] + p[2] + p[5] + p[6]);
-    info.rectified = projects ? cropped(p[0], p[5], p[2], p[6], crop) : info.raw;
+    if (!byK && !byP) {
+        throw Error(info.rawFault);
+    }
+    info.rectified = byP ? cropped(p[0], p[5], p[2], p[6], crop) : info.raw;
     const double diagonal = r[0] + r[4] + r[8];
     info.turned = diagonal != 0.0 && !(std::abs(diagonal - 3.0) < 1e-9);
     const std::string allowed = setDistortion(info.raw, model, distortion);
     if (!allowed.empty()) {
-        throw Error("distortion model '" + model + "' with " + std::to_string(distortion.size()) +
-                    " coefficients is not read: " + allowed);
+        info.raw = {};
+        info.rawFault = "distortion model '" + model + "' with " + std::to_string(distortion.size()) +
+                        " coefficients is not read: " + allowed;
     }
     return info;
 }

@@ -5,6 +5,7 @@
 
 #include "devices/bag/message_cursor.h"
 #include "engine/types/camera_info.h"
+#include "engine/types/error.h"
 
 #include <array>
 #include <vector>
@@ -33,8 +34,16 @@ double stamp(MessageCursor message); // [s] of any message that begins with a he
 struct CameraInfo {
     std::string frame;
     Intrinsics raw;       // K and D, in pixels of the images: binning and region of interest are applied
+    std::string rawFault; // why K or D cannot be used, `raw` is empty then; empty = nothing
     Intrinsics rectified; // P, without distortion; K where P is empty
     bool turned = false;  // rectification turns the camera (R)
+    // Of rectified images, or of others. Throws Error where that is not usable.
+    const Intrinsics& lens(bool ofRectified) const {
+        if (!ofRectified && !rawFault.empty()) {
+            throw Error(rawFault);
+        }
+        return ofRectified ? rectified : raw;
+    }
 };
 CameraInfo cameraInfo(MessageCursor message);
 

@@ -113,6 +113,35 @@ TEST_CASE("Rectified images are projected by P without distortion, others by K w
     CHECK_FALSE(playStreams(folder, maker).info().depth.distorted());
 }
 
+TEST_CASE("Rectified images need neither distortion that is read nor K, others say what is wrong") {
+    const TemporaryFolder folder;
+    const InfoMessage plain{.p = {6.5, 6.6, 3.1, 2.2}};
+    InfoMessage thinPrism = plain, twoSpheres = plain, unknown = plain, withoutK = plain;
+    thinPrism.model = "rational_polynomial";
+    thinPrism.distortion = {1, -2, 0, 0, 0.5, 0.1, 0.2, 0.3, 0.001, 0.002, 0.001, 0.002, 0, 0};
+    twoSpheres.model = "double_sphere";
+    twoSpheres.distortion = {0.1, 0.2};
+    unknown.distortion.assign(5, std::numeric_limits<double>::quiet_NaN());
+    withoutK.k = {};
+    for (const auto& [info, fault] : {std::pair(thinPrism, "no coefficients after k6"),
+                                      {twoSpheres, "'double_sphere' with 2"},
+                                      {unknown, "finite coefficients"},
+                                      {withoutK, "without a focal length"}}) {
+        BagMaker maker;
+        addStream(maker, "/c/depth/image_rect", depthImage(500), info);
+        addStream(maker, "/c/rgb/image_rect", redImage(), info);
+        maker.add("/c/depth/camera_info", "sensor_msgs/CameraInfo", 1.1, infoMessage(info));
+        BagCamera camera = playStreams(folder, maker);
+        CHECK(camera.info().registered);
+        CHECK(camera.info().depth.fx == 6.5);
+        CHECK(firstDepth(camera) == doctest::Approx(0.5));
+        CHECK(camera.next()); // its lens is no other one
+        BagMaker bent;
+        addStream(bent, "/c/depth/image_raw", depthImage(500), info);
+        CHECK(lineSays(streamRefusal(folder, bent), fault));
+    }
+}
+
 TEST_CASE("Binning and region of interest change the lens as image_geometry does") {
     const TemporaryFolder folder;
     BagMaker maker;
