@@ -19,6 +19,7 @@ public:
 
     // Calls fault(message) for the message that applies at `time` [ns], and for one that follows at once, as
     // drivers send it behind its image. Returns the fault, empty = none. Each message is read once in a row.
+    // Throws Error while a damaged message applies.
     template <class Fault>
     std::string at(uint64_t time, Fault&& fault) {
         constexpr uint64_t kAtOnce = 20'000'000; // [ns]
@@ -40,8 +41,7 @@ private:
     std::string one(size_t index, Fault& fault) {
         Known& known = known_[index % 2];
         if (known.index != index) {
-            known = {index, ""};
-            known.fault = fault(file_.read(topic_, index));
+            known = {index, fault(file_.read(topic_, index))};
         }
         return known.fault;
     }

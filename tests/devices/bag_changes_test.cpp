@@ -50,6 +50,17 @@ TEST_CASE("Frames of a bag after its lens has changed are skipped and counted, n
     CHECK(camera.skipped() == 2);
 }
 
+TEST_CASE("No frame of a bag is played while the lens that applies to it is damaged") {
+    const TemporaryFolder folder;
+    BagMaker maker;
+    addStream(maker, "/c/depth/image_raw", depthImage(500), {}, {1.0, 1.1, 1.2, 1.3});
+    maker.add("/c/depth/camera_info", "sensor_msgs/CameraInfo", 1.05, infoMessage({}).substr(0, 60));
+    maker.add("/c/depth/camera_info", "sensor_msgs/CameraInfo", 1.25, infoMessage({}));
+    BagCamera camera = playStreams(folder, maker);
+    CHECK(depthsOf(camera).size() == 2);
+    CHECK(camera.skipped() == 2);
+}
+
 TEST_CASE(
     "Frames of an SDK bag after its depth unit has changed are skipped, and a missing unit is reported") {
     const TemporaryFolder folder;
