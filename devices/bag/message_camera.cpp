@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/bag/message_camera.h"
 
+#include "devices/recorded/set_back.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
 
@@ -74,7 +75,25 @@ bool MessageCamera::seek(uint32_t index) {
     }
     cursor_ = index;
     lastStamp_.reset();
+    shift_ = 0.0;
     return true;
+}
+
+// Frames continue one period after the last one.
+void MessageCamera::followClock(uint32_t index, double stamp) {
+    const auto stampOf = [this](size_t i) { return depth_->stampOf(i); };
+    if (!lastStamp_ || stamp >= *lastStamp_ || !isSetBack(*lastStamp_, index, end_, stampOf)) {
+        return;
+    }
+    if (index >= setBack_) { // not named before a seek()
+        setBack_ = index + 1;
+        const std::string told = "the clock of depth goes back by " + std::to_string(*lastStamp_ - stamp) +
+                                 " s at frame " + std::to_string(index) + ": times continue from there";
+        log::warn("{}: {}", file_->file().string(), told);
+        say(told);
+    }
+    shift_ += *lastStamp_ - stamp + depth_->medianPeriod();
+    lastStamp_.reset();
 }
 
 std::string MessageCamera::faultOf(size_t index, FrameSlot& slot, double stamp, Frame::Content& content) {
@@ -93,6 +112,7 @@ std::optional<Frame> MessageCamera::next() {
     while (cursor_ < end_) {
         const uint32_t index = cursor_++;
         const double stamp = depth_->stampOf(index);
+        followClock(index, stamp);
         Frame::Content content;
         const std::string fault = faultOf(index, *slot, stamp, content);
         if (fault.empty()) {
@@ -100,7 +120,7 @@ std::optional<Frame> MessageCamera::next() {
             lastStamp_ = stamp;
             content.index = index;
             content.sourceNumber = index;
-            content.captureTime = stamp;
+            content.captureTime = stamp + shift_;
             content.depth = slot->depth().first(info().depth.pixels());
             if (info().hasColour && !content.isRaw()) {
                 content.colour = slot->colour().first(info().colour.pixels());

@@ -15,8 +15,9 @@
 
 namespace fathom {
 
-// Frame index and source number = message of the depth topic from 0, capture time = its header's stamp. A
-// message with a fault, and one whose stamp goes back, is skipped, counted and logged.
+// Frame index and source number = message of the depth topic from 0, capture time = its header's stamp, from
+// where a clock is set back later by as much. A message with a fault, and one whose stamp alone goes back, is
+// skipped, counted and logged.
 class MessageCamera : public Camera {
 public:
     std::optional<Frame> next() override;
@@ -58,11 +59,14 @@ protected:
 
 private:
     bool stampsRise();
+    void followClock(uint32_t index, double stamp);
     std::string faultOf(size_t index, FrameSlot& slot, double stamp, Frame::Content& content);
 
     uint32_t skipped_ = 0, first_ = 0;
     bool delivered_ = false, toldBeyond_ = false;
-    std::optional<double> lastStamp_; // [s] of the last delivered frame
+    std::optional<double> lastStamp_; // [s] of the last delivered frame, in its header
+    double shift_ = 0.0;              // [s] from headers to capture times
+    uint32_t setBack_ = 0;            // messages before this one are already named
     std::string firstFault_;
     std::vector<std::string> warnings_;
 };

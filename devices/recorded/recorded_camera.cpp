@@ -2,6 +2,7 @@
 #include "devices/recorded/recorded_camera.h"
 
 #include "devices/recorded/colour_image.h"
+#include "devices/recorded/index_times.h"
 #include "engine/types/error.h"
 #include "engine/types/inside.h"
 #include "engine/types/log.h"
@@ -33,24 +34,6 @@ PngSize sizeOf(const Intrinsics& lens) {
     return {lens.width, lens.height};
 }
 
-// Median of the times between usable frames [s]; 0 for a single frame. A mean would follow a single pause.
-double medianPeriod(const std::vector<IndexLine>& index) {
-    std::vector<double> gaps;
-    const IndexLine* last = nullptr;
-    for (const IndexLine& line : index) {
-        if (!line.fault.empty()) {
-            continue;
-        }
-        if (last != nullptr && line.depthStamp > last->depthStamp) {
-            gaps.push_back(line.depthStamp - last->depthStamp);
-        }
-        last = &line;
-    }
-    const auto middle = gaps.begin() + static_cast<long>(gaps.size() / 2);
-    std::nth_element(gaps.begin(), middle, gaps.end());
-    return gaps.empty() ? 0.0 : *middle;
-}
-
 std::string sizeWords(PngSize size) {
     return std::to_string(size.width) + "x" + std::to_string(size.height);
 }
@@ -61,38 +44,13 @@ RecordedCamera::RecordedCamera(const fs::path& folder, const SourceOptions& opti
     : folder_(existingFolder(folder))
     , layout_(readLayout(folder, options)) {
     options.checkNoTopics(folder_.string());
-    checkStamps();
+    warnings_ = settleTimes(layout_, folder_);
     mostApart_ = std::max(kMaxApart, 0.5 * medianPeriod(layout_.index));
     useOptions(options);
     if (info().hasColour) {
         takeColourFormat();
     }
     slots_.emplace(info().slotPixels(), info().hasColour, kFramesInFlight + 2);
-}
-
-// Stamps that go back now and then are faults of single frames. Where most do not rise, they are no times:
-// all frames are played in the order of the index.
-void RecordedCamera::checkStamps() {
-    double latest = -HUGE_VAL;
-    size_t still = 0; // or back
-    for (const IndexLine& line : layout_.index) {
-        still += line.fault.empty() && line.depthStamp <= latest ? 1 : 0;
-        latest = line.fault.empty() ? std::max(latest, line.depthStamp) : latest;
-    }
-    if (2 * still < layout_.index.size()) {
-        return;
-    }
-    const std::string told =
-        std::to_string(still) + " of " + std::to_string(layout_.index.size()) + " depth stamps do not rise";
-    if (layout_.poses) {
-        throw BadInput(folder_.string(), "index", told,
-                       "stamps that rise, because poses.txt is read by them");
-    }
-    log::warn("{}: {}: stamps are ignored, frames are played in the order of the index at 30 per second",
-              folder_.string(), told);
-    for (size_t i = 0; i < layout_.index.size(); ++i) {
-        layout_.index[i].depthStamp = layout_.index[i].colourStamp = static_cast<double>(i) / 30.0;
-    }
 }
 
 void RecordedCamera::useOptions(const SourceOptions& options) {

@@ -17,10 +17,10 @@
 
 namespace fathom {
 
-// Frame index and source number = data line of the index from 0; capture time = depth stamp. Every data line
-// is either delivered or skipped: a missing or damaged image, another size or type, a depth stamp that goes
-// back or has no pose in poses.txt, colour far from depth in time, or a PNG where the first colour image is a
-// JPEG (or the reverse) skips the frame and is logged once.
+// Frame index and source number = data line of the index from 0; capture time = depth stamp, later where
+// settleTimes() says so. Every data line is either delivered or skipped: a missing or damaged image, another
+// size or type, a depth stamp that goes back or has no pose in poses.txt, colour far from depth in time, or a
+// PNG where the first colour image is a JPEG (or the reverse) skips the frame and is logged once.
 // Frames are read on the calling thread. The camera must outlive its leases; leases may end on any thread.
 class RecordedCamera final : public Camera {
 public:
@@ -41,7 +41,6 @@ public:
 private:
     void takeColourFormat();
     void useOptions(const SourceOptions& options);
-    void checkStamps();
     // Returns the fault; empty = read.
     std::string read(const IndexLine& line, FrameSlot& slot, RawColour& raw);
     Frame lease(uint32_t index, FrameSlot& slot, const RawColour& raw) const;

@@ -99,6 +99,39 @@ TEST_CASE("Stamps that do not rise are no times: images are paired by the time o
     CHECK(depthsOf(once).size() == 2);
 }
 
+TEST_CASE(
+    "After the clock of a camera is set back, a bag plays on with times that rise, again after a seek") {
+    const TemporaryFolder folder;
+    BagMaker maker;
+    for (const char* topic : {"/c/depth_registered/camera_info", "/c/rgb/camera_info"}) {
+        maker.add(topic, "sensor_msgs/CameraInfo", 1.0, infoMessage({}));
+    }
+    constexpr uint32_t kAll = 40, kSetBack = 34;
+    for (uint32_t i = 0; i < kAll; ++i) {
+        const double recorded = 1.0 + 0.1 * i, stamp = 0.1 * (i < kSetBack ? 10'000 + i : i);
+        const std::string depth = imageMessage(stamp, depthImage(static_cast<uint16_t>(500 + i)));
+        maker.add("/c/depth_registered/image_raw", "sensor_msgs/Image", recorded,
+                  i == kSetBack + 2 ? depth.substr(0, 9) : depth);
+        maker.add("/c/rgb/image_raw", "sensor_msgs/Image", recorded, imageMessage(stamp, redImage()));
+    }
+    BagCamera camera = playStreams(folder, maker);
+    for (const uint32_t passes : {1u, 2u}) {
+        REQUIRE(camera.seek(0));
+        double last = 0.0;
+        uint32_t played = 0;
+        for (; const auto frame = camera.next(); ++played) {
+            CHECK(std::abs((*frame)->captureTime - (1000.0 + 0.1 * (*frame)->index)) < 1e-6);
+            CHECK((*frame)->captureTime > last);
+            last = (*frame)->captureTime;
+        }
+        CHECK(played == kAll - 1); // one is damaged
+        CHECK(camera.skipped() == passes);
+    }
+    REQUIRE(camera.warnings().size() == 1);
+    CHECK(camera.warnings()[0].find("goes back by 999.900000 s at frame 34: times continue") !=
+          std::string::npos);
+}
+
 TEST_CASE("A 16-bit grey image is depth only under a name of depth, or when it is asked for") {
     const TemporaryFolder folder;
     BagMaker maker;

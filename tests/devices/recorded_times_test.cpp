@@ -72,6 +72,29 @@ TEST_CASE("A heading without #, and a pause, change neither start nor what colou
     }
 }
 
+TEST_CASE("After a clock is set back, a folder plays on with times that rise, unless poses need its stamps") {
+    const TemporaryFolder folder;
+    writeSmallRecording(folder, 12);
+    std::string index;
+    for (int i = 0; i < 12; ++i) {
+        const std::string n = std::to_string(i) + ".png", stamp = std::to_string(0.1 * (i < 7 ? 100 + i : i));
+        index += stamp + " rgb/" + n + " " + stamp + " depth/" + n + "\n";
+    }
+    folder.write("associations.txt", index);
+    RecordedCamera camera(folder.path());
+    REQUIRE(camera.warnings().size() == 1);
+    CHECK(camera.warnings()[0].find("the clock of depth goes back by 9.900000 s at frame 7: times") == 0);
+    for (uint32_t i = 0; i < 12; ++i) {
+        const std::optional<Frame> frame = camera.next();
+        REQUIRE(frame.has_value());
+        CHECK((*frame)->index == i);
+        CHECK((*frame)->captureTime == doctest::Approx(10.0 + 0.1 * i));
+    }
+    CHECK(camera.skipped() == 0);
+    folder.write("poses.txt", "10 0 0 0 0 0 0 1\n10.7 0 0 0 0 0 0 1\n");
+    CHECK(playedDepths(folder.path()) == std::vector<uint16_t>{1000, 1001, 1002, 1003, 1004, 1005, 1006});
+}
+
 TEST_CASE("Where half of the stamps do not rise, all frames are played at 30 per second, unless poses need "
           "stamps") {
     const TemporaryFolder folder;
