@@ -141,7 +141,7 @@ void BagCamera::watchChanges() {
     const auto lens = [&](const ImageStream& stream, const Intrinsics& used) {
         return stream.info && sameLens(*stream.lens, used) ? &file_->topics()[*stream.info] : nullptr;
     };
-    if (!options_.scale && !ros::holdsMetres(imageOf(choice_.depth, cursor_))) {
+    if (!options_.scale && !choice_.depth.metres) {
         watch(units_, unitTopic());
     }
     watch(depthLenses_, lens(choice_.depth, info().depth));
@@ -195,7 +195,7 @@ ValueSpan BagCamera::sampledMetres() {
 // Metres get the finest unit that holds one and a half times the farthest depth seen, or the scene's far.
 void BagCamera::chooseUnit() {
     CameraInfo& camera = choice_.camera;
-    if (!ros::holdsMetres(imageOf(choice_.depth, cursor_))) {
+    if (!choice_.depth.metres) {
         options_.checkUnit(file_->file().string());
         camera.metresPerUnit = options_.scale ? *options_.scale : sensorUnit();
         return;
@@ -218,7 +218,7 @@ std::string BagCamera::read(size_t index, FrameSlot& slot, double stamp, Frame::
     const Image depth = imageOf(choice_.depth, index);
     const bool alike = (depth.compressed ? depth.format : depth.encoding) == choice_.depth.encoding;
     if (!alike || ros::sizeOf(depth) != std::pair(info().depth.width, info().depth.height)) {
-        return "size or encoding differs from the first frame";
+        return "size or encoding differs from the frames that are played";
     }
     if (const std::string other = changed(topicOf(choice_.depth).messages[index].time); !other.empty()) {
         return other;

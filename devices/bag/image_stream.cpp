@@ -4,6 +4,7 @@
 #include "devices/recorded/recording_intrinsics.h"
 #include "engine/types/error.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace fathom {
@@ -33,29 +34,97 @@ const MessageTopic* infoOf(const MessageFile& file, const std::string& asked, Im
     return nullptr;
 }
 
+// Calls use(index) for the first messages of a topic until it returns no fault: a camera may begin with an
+// empty image, or before its calibration is loaded. Returns the first fault, empty = none.
+template <class Use>
+std::string firstUsable(const MessageTopic& topic, Use&& use) {
+    constexpr size_t kMaxTried = 5;
+    std::string first;
+    for (size_t i = 0; i < std::min(kMaxTried, topic.messages.size()); ++i) {
+        std::string fault;
+        try {
+            fault = use(i);
+        } catch (const Error& e) {
+            fault = e.what();
+        }
+        if (fault.empty()) {
+            return "";
+        }
+        first = first.empty() ? fault : first;
+    }
+    return first;
+}
+
+// Why the lens is none of these images; empty = it is.
+std::string whyNotLens(const Intrinsics& lens, const ImageStream& stream) {
+    if (lens.width < 1 || lens.height < 1 || lens.width > kMaxImageWidth || lens.height > kMaxImageHeight) {
+        return streamSize(lens.width, lens.height) + " (allowed: at most 3840x2160 pixels)";
+    }
+    if (stream.width != lens.width || stream.height != lens.height) {
+        return streamSize(lens.width, lens.height) + " where the images of " + stream.name + " have " +
+               streamSize(stream.width, stream.height) +
+               " (allowed: the images' size, binning and region of interest applied)";
+    }
+    return lens.invertible() ? ""
+                             : "distortion (allowed: coefficients that can be inverted over the whole image)";
+}
+
 void readLens(MessageFile& file, const std::string& asked, ImageStream& stream) {
     const MessageTopic* topic = infoOf(file, asked, stream);
     if (topic == nullptr) {
         return;
     }
-    const ros::CameraInfo info = ros::cameraInfo(file.read(*topic, 0));
-    const Intrinsics lens = info.lens(namedRectified(stream.name));
-    const std::string told = topic->name + ": ";
-    if (lens.width < 1 || lens.height < 1 || lens.width > kMaxImageWidth || lens.height > kMaxImageHeight) {
-        stream.noLens = told + streamSize(lens.width, lens.height) + " (allowed: at most 3840x2160 pixels)";
-    } else if (stream.width != lens.width || stream.height != lens.height) {
-        stream.noLens = told + streamSize(lens.width, lens.height) + " where the images of " + stream.name +
-                        " have " + streamSize(stream.width, stream.height) +
-                        " (allowed: the images' size, binning and region of interest applied)";
-    } else if (!lens.invertible()) {
-        stream.noLens = told + "distortion (allowed: coefficients that can be inverted over the whole image)";
-    } else {
-        stream.lens = lens;
-        stream.info = static_cast<size_t>(topic - file.topics().data());
-        stream.raw = info.raw;
-        stream.rectified = namedRectified(stream.name);
-        stream.turned = info.turned;
+    const std::string fault = firstUsable(*topic, [&](size_t index) {
+        const ros::CameraInfo info = ros::cameraInfo(file.read(*topic, index));
+        const Intrinsics lens = info.lens(namedRectified(stream.name));
+        const std::string why = whyNotLens(lens, stream);
+        if (why.empty()) {
+            stream.lens = lens;
+            stream.info = static_cast<size_t>(topic - file.topics().data());
+            stream.raw = info.raw;
+            stream.rectified = namedRectified(stream.name);
+            stream.turned = info.turned;
+        }
+        return why;
+    });
+    stream.noLens = fault.empty() ? "" : topic->name + ": " + fault;
+}
+
+// Format and size of the images.
+std::string readHead(MessageFile& file, const MessageTopic& topic, size_t index, ImageStream& stream) {
+    const MessageCursor message = file.read(topic, index);
+    const ros::Image image = stream.compressed ? ros::compressedImage(message) : ros::image(message);
+    stream.frame = image.frame;
+    stream.encoding = stream.compressed ? image.format : image.encoding;
+    stream.content = ros::content(image);
+    stream.format = ros::colourFormat(image);
+    const auto size = ros::sizeOf(image);
+    stream.width = size ? size->first : 0;
+    stream.height = size ? size->second : 0;
+    stream.metres = ros::holdsMetres(image);
+    return stream.width == 0 || stream.height == 0 ? "an empty image" : "";
+}
+
+// By the first message whose lens is known, else by the first one that can be read.
+ImageStream usableStream(MessageFile& file, const std::string& info, const ImageStream& named) {
+    const MessageTopic& topic = file.topics()[named.topic];
+    ImageStream stream = named;
+    std::optional<ImageStream> readable;
+    const std::string fault = firstUsable(topic, [&](size_t index) {
+        stream = named;
+        std::string why = readHead(file, topic, index, stream);
+        if (!why.empty()) {
+            return why;
+        }
+        readLens(file, info, stream);
+        readable = readable ? readable : std::optional(stream);
+        return stream.noLens;
+    });
+    if (fault.empty() || readable) {
+        return fault.empty() ? stream : *readable;
     }
+    stream.noLens = stream.name + ": " + fault;
+    return stream;
 }
 
 } // namespace
@@ -85,21 +154,7 @@ std::vector<ImageStream> imageStreams(MessageFile& file, const std::string& info
         stream.name = topic.name;
         stream.compressed = compressed;
         stream.role = namedRole(topic.name);
-        try {
-            const MessageCursor message = file.read(topic, 0);
-            const ros::Image first = compressed ? ros::compressedImage(message) : ros::image(message);
-            stream.frame = first.frame;
-            stream.encoding = compressed ? first.format : first.encoding;
-            stream.content = ros::content(first);
-            stream.format = ros::colourFormat(first);
-            const auto size = ros::sizeOf(first);
-            stream.width = size ? size->first : 0;
-            stream.height = size ? size->second : 0;
-            readLens(file, info, stream);
-        } catch (const Error& e) {
-            stream.noLens = stream.name + ": " + e.what();
-        }
-        streams.push_back(std::move(stream));
+        streams.push_back(usableStream(file, info, stream));
     }
     return streams;
 }

@@ -18,8 +18,8 @@ struct ImageStream {
     std::string name, frame, encoding;
     ros::Content content = ros::Content::None;
     NamedRole role = NamedRole::None;
-    uint32_t width = 0, height = 0; // [pixels]; 0: not readable
-    bool compressed = false;
+    uint32_t width = 0, height = 0;           // [pixels]; 0: not readable
+    bool compressed = false, metres = false;  // metres: of depth
     ColourFormat format = ColourFormat::Rgba; // of colour
     // The lens of its images, rectified or not; `raw` compares with that of another topic of the same camera.
     std::optional<Intrinsics> lens;
@@ -35,8 +35,9 @@ bool sameLens(const Intrinsics& a, const Intrinsics& b);
 // 16 bits send: it is depth only under a name that says so.
 bool mayBeDepth(const ImageStream& stream);
 
-// Every topic of sensor_msgs/Image or CompressedImage that has messages, by its first message. The lens comes
-// from the topic `info`; if that is empty, from the camera_info next to the images.
+// Every topic of sensor_msgs/Image or CompressedImage that has messages, by the first of five messages that
+// can be read and has a lens. The lens comes likewise from the topic `info`; if that is empty, from the
+// camera_info next to the images.
 std::vector<ImageStream> imageStreams(MessageFile& file, const std::string& info);
 
 } // namespace fathom

@@ -50,6 +50,35 @@ TEST_CASE("Frames of a bag after its lens has changed are skipped and counted, n
     CHECK(camera.skipped() == 2);
 }
 
+TEST_CASE(
+    "A bag plays without its first images and lenses where these are empty, damaged or of another size") {
+    const TemporaryFolder folder;
+    const std::string whole = imageMessage(1.0, depthImage(500)), lens = infoMessage({});
+    const std::string empty = imageMessage(1.0, {.height = 0, .step = 1}),
+                      large =
+                          imageMessage(1.0, {.width = 16, .height = 12, .pixels = filled(uint16_t{5}, 192)});
+    InfoMessage unset;
+    unset.k = {};
+    const std::string none = infoMessage(unset);
+    for (const auto& [image, info] : {std::pair(empty, lens),
+                                      {whole.substr(0, 30), lens},
+                                      {large, lens},
+                                      {whole, none},
+                                      {whole, lens.substr(0, 60)},
+                                      {empty, none}}) {
+        BagMaker maker;
+        for (int i = 0; i < 5; ++i) {
+            const double t = 1.0 + 0.1 * i;
+            maker.add("/c/depth/camera_info", "sensor_msgs/CameraInfo", t - 0.01, i < 2 ? info : lens);
+            maker.add("/c/depth/image_raw", "sensor_msgs/Image", t,
+                      i < 2 ? image : imageMessage(t, depthImage(500)));
+        }
+        BagCamera camera = playStreams(folder, maker);
+        CHECK(depthsOf(camera) == std::vector<double>(3, 0.5));
+        CHECK(camera.skipped() == 2);
+    }
+}
+
 TEST_CASE("No frame of a bag is played while the lens that applies to it is damaged") {
     const TemporaryFolder folder;
     BagMaker maker;
