@@ -102,9 +102,8 @@ RecordingLayout readBop(const LayoutRequest& request) {
     if (!first) {
         throw BadInput(file.string(), "numbers of images", "none of a depth image", "those of depth/");
     }
-    layout.intrinsics = request.lens
-                            ? *request.lens
-                            : lensOf(*first, depthImageHead(layout.index.front().depth).size, file.string());
+    layout.intrinsics =
+        request.lens ? *request.lens : lensOf(*first, firstDepthSize(layout.index), file.string());
     if (!layout.intrinsics.scale) {
         layout.intrinsics.scale = layout.intrinsics.camera.metresPerUnit = unitOf(*first, file.string());
     }

@@ -40,9 +40,12 @@ Intrinsics scanNetLens(const fs::path& file, std::optional<PngSize> size) {
 }
 
 std::optional<PngSize> firstColourSize(const std::vector<IndexLine>& index) {
-    const auto first =
-        std::ranges::find_if(index, [](const IndexLine& line) { return !line.colour.empty(); });
-    return first == index.end() ? std::nullopt : colourImageSize(first->colour);
+    for (const IndexLine& line : index) {
+        if (const auto size = line.colour.empty() ? std::nullopt : colourImageSize(line.colour)) {
+            return size;
+        }
+    }
+    return std::nullopt;
 }
 
 void checkIdentity(const fs::path& file) {
@@ -56,8 +59,7 @@ void checkIdentity(const fs::path& file) {
 CameraInfo scanNetCamera(const fs::path& folder, const std::vector<IndexLine>& index, bool depthOnly) {
     CameraInfo camera;
     checkIdentity(folder / "extrinsic_depth.txt");
-    camera.depth = camera.colour =
-        scanNetLens(folder / "intrinsic_depth.txt", depthImageHead(index.front().depth).size);
+    camera.depth = camera.colour = scanNetLens(folder / "intrinsic_depth.txt", firstDepthSize(index));
     if (!depthOnly) {
         checkIdentity(folder / "extrinsic_color.txt");
         camera.colour = scanNetLens(folder / "intrinsic_color.txt", firstColourSize(index));
@@ -103,15 +105,10 @@ RecordingLayout readSevenScenes(const LayoutRequest& request) {
     return layout;
 }
 
-// By the first depth image that can be read. Depth scales are for integers.
+// Depth scales are for integers.
 bool holdsMetres(const RecordingLayout& layout) {
-    for (const IndexLine& line : layout.index) {
-        const DepthHead head = depthImageHead(line.depth);
-        if (line.fault.empty() && head.fault.empty()) {
-            return head.metres;
-        }
-    }
-    return false;
+    const DepthHead head = firstDepthHead(layout.index);
+    return head.fault.empty() && head.metres;
 }
 
 RecordingLayout readTum(const fs::path& folder, const fs::path& intrinsics, bool depthOnly) {
@@ -180,6 +177,29 @@ RecordingLayout readFolder(const fs::path& folder, const SourceOptions& options)
 }
 
 } // namespace
+
+DepthHead firstDepthHead(const std::vector<IndexLine>& index) {
+    std::optional<DepthHead> first;
+    for (const IndexLine& line : index) {
+        if (!line.fault.empty()) {
+            continue;
+        }
+        DepthHead head = depthImageHead(line.depth);
+        if (head.fault.empty()) {
+            return head;
+        }
+        first = first ? first : std::optional(std::move(head));
+    }
+    return first.value_or(DepthHead{.fault = "no usable pair of images"});
+}
+
+PngSize firstDepthSize(const std::vector<IndexLine>& index) {
+    const DepthHead head = firstDepthHead(index);
+    if (!head.fault.empty()) {
+        throw BadInput(index.front().depth.string(), "image", head.fault, "one depth image that can be read");
+    }
+    return head.size;
+}
 
 RecordingLayout readLayout(const fs::path& folder, const SourceOptions& options) {
     RecordingLayout layout = readFolder(folder, options);
