@@ -24,6 +24,9 @@ std::vector<fs::path> filesOf(const fs::path& folder) {
     std::vector<fs::path> files;
     std::error_code failed;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, failed)) {
+        if (entry.path().filename().string().starts_with('.')) { // of an archive of macOS
+            continue;
+        }
         const std::string ending = entry.path().extension().string();
         if (ending == ".zstd") {
             throw BadInput(entry.path().string(), "compression", "of the whole file",

@@ -8,8 +8,8 @@ namespace fathom {
 
 class SplitRecording final : public MessageFile {
 public:
-    // The .mcap and .db3 files of the folder, in order of the number that ends their name. Throws BadInput
-    // when there are none, and for files that are compressed as a whole.
+    // The .mcap and .db3 files of the folder that are not hidden, in order of the number that ends their
+    // name. Throws BadInput when there are none, and for files that are compressed as a whole.
     explicit SplitRecording(const std::filesystem::path& folder);
     MessageBytes bytes(const MessageEntry& entry) override;
 

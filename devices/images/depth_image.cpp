@@ -82,7 +82,8 @@ bool endsAs(const std::filesystem::path& file, std::span<const std::string_view>
     std::string ending = file.extension().string();
     std::transform(ending.begin(), ending.end(), ending.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return std::find(endings.begin(), endings.end(), ending) != endings.end();
+    const bool hidden = file.filename().string().starts_with('.');
+    return !hidden && std::find(endings.begin(), endings.end(), ending) != endings.end();
 }
 
 DepthHead depthImageHead(const std::filesystem::path& file) {

@@ -45,3 +45,18 @@ TEST_CASE("A damaged first image loses its own frame where a layout takes sizes 
         lineSays(recordingRefusal(folder->path()), "depth/0.png: image: ");
     }
 }
+
+TEST_CASE("Hidden files that an archive left beside images and messages are no part of a recording") {
+    const TemporaryFolder open3d, stamped;
+    addThreePairs(open3d, "color");
+    open3d.write("camera_intrinsic.json", kOpen3dLens);
+    open3d.write("depth/._0.png", "x");
+    open3d.write("color/._0.png", "x");
+    CHECK(playedDepths(open3d.path()) == Depths{500, 501, 502});
+    addThreePairs(stamped, "rgb");
+    stamped.write("rgb/._0.png", "x");
+    std::string lens = kSmallIntrinsics;
+    lens.insert(lens.find('{') + 1, R"("depth_stamps_s": [1, 2, 3], "color_stamps_s": [1, 2, 3], )");
+    stamped.write("intrinsics.json", lens);
+    CHECK(playedDepths(stamped.path()) == Depths{500, 501, 502});
+}
