@@ -93,7 +93,8 @@ void RecordedCamera::takeColourFormat() {
         }
     }
     if (other) {
-        throw BadInput((folder_ / "intrinsics.json").string(), "color.width, color.height",
+        const std::string& file = layout_.intrinsics.file; // empty: a lens that is known
+        throw BadInput(folder_.string() + (file.empty() ? "" : ": " + file), "color.width, color.height",
                        "colour images of " + sizeWords(*other) + " where " + sizeWords(wanted) + " is told",
                        "colour of the depth's size, or blocks depth and color with extrinsics_topic_tf");
     }

@@ -60,3 +60,13 @@ TEST_CASE("Hidden files that an archive left beside images and messages are no p
     stamped.write("intrinsics.json", lens);
     CHECK(playedDepths(stamped.path()) == Depths{500, 501, 502});
 }
+
+TEST_CASE("Colour of another size than the lens is said of the file that states the lens") {
+    const TemporaryFolder folder;
+    addThreePairs(folder, "color");
+    folder.write("camera_intrinsic.json", kOpen3dLens);
+    for (const char* name : {"color/0.png", "color/1.png", "color/2.png"}) {
+        writeColour(folder.path() / name, 14, 10, 1, 2, 3);
+    }
+    lineSays(recordingRefusal(folder.path()), ": camera_intrinsic.json: color.width, color.height: ");
+}
