@@ -7,17 +7,22 @@
 #include "devices/v4l2/jpeg_image.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <strings.h>
 
 namespace fathom::ros {
 
 namespace {
 
-bool isDepthEncoding(const std::string& encoding) {
-    return encoding == "16UC1" || encoding == "mono16" || encoding == "32FC1" || encoding == "z16" ||
-           encoding == "rvl";
+// As ROS spells it: SDKs and drivers write "Z16" and "16uc1", too.
+std::string depthEncoding(const std::string& encoding) {
+    constexpr std::array<const char*, 5> kDepth{"16UC1", "mono16", "32FC1", "z16", "rvl"};
+    const auto known = std::ranges::find_if(
+        kDepth, [&](const char* name) { return strcasecmp(name, encoding.c_str()) == 0; });
+    return known == kDepth.end() ? "" : *known;
 }
 
 bool isCompressedDepth(const Image& image) {
@@ -54,7 +59,7 @@ std::string compressedDepthRows(const Image& image, double metresPerUnit, std::s
     }
     const CompressedDepth depth = packed(image);
     const std::string fault = depth.values(size->first, size->second, out);
-    if (!fault.empty() || image.encoding != "32FC1") {
+    if (!fault.empty() || !holdsMetres(image)) {
         return fault;
     }
     for (uint16_t& value : out.first(size_t{size->first} * size->second)) {
@@ -68,10 +73,10 @@ std::string compressedDepthRows(const Image& image, double metresPerUnit, std::s
 Content content(const Image& image) {
     const ColourLayout* layout = colourLayout(image.encoding);
     if (!image.compressed) {
-        return isDepthEncoding(image.encoding) ? Content::Depth
-               : layout == nullptr             ? Content::None
-               : layout->grey()                ? Content::Grey
-                                               : Content::Colour;
+        return !depthEncoding(image.encoding).empty() ? Content::Depth
+               : layout == nullptr                    ? Content::None
+               : layout->grey()                       ? Content::Grey
+                                                      : Content::Colour;
     }
     if (isCompressedDepth(image)) {
         return Content::Depth;
@@ -101,14 +106,14 @@ std::optional<std::pair<uint32_t, uint32_t>> sizeOf(const Image& image) {
 }
 
 bool holdsMetres(const Image& image) {
-    return image.encoding == "32FC1" && (!image.compressed || isCompressedDepth(image));
+    return depthEncoding(image.encoding) == "32FC1" && (!image.compressed || isCompressedDepth(image));
 }
 
 std::string depthRows(const Image& image, double metresPerUnit, std::span<uint16_t> out, uint64_t& beyond) {
     if (image.compressed) {
         return compressedDepthRows(image, metresPerUnit, out, beyond);
     }
-    if (image.encoding == "rvl") { // the values alone
+    if (depthEncoding(image.encoding) == "rvl") { // the values alone
         return unpackRvl(image.data, out.first(size_t{image.width} * image.height)) ? "" : "RVL: damaged";
     }
     const bool metres = holdsMetres(image);

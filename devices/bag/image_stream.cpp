@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <strings.h>
 
 namespace fathom {
 
@@ -137,7 +138,7 @@ bool sameLens(const Intrinsics& a, const Intrinsics& b) {
 }
 
 bool mayBeDepth(const ImageStream& stream) {
-    const bool named = stream.role == NamedRole::Depth || stream.encoding != "mono16";
+    const bool named = stream.role == NamedRole::Depth || strcasecmp(stream.encoding.c_str(), "mono16") != 0;
     return stream.content == ros::Content::Depth && stream.role != NamedRole::Infrared && named;
 }
 

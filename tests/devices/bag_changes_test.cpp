@@ -174,6 +174,23 @@ TEST_CASE("A 16-bit grey image is depth only under a name of depth, or when it i
     CHECK(firstDepth(range) == doctest::Approx(0.7));
 }
 
+TEST_CASE("Encodings of depth are read in upper and lower case") {
+    const TemporaryFolder folder;
+    for (const char* encoding : {"16uc1", "Z16", "MONO16"}) {
+        BagMaker maker;
+        addStream(maker, "/c/depth/image", depthImage(500, "camera", encoding));
+        BagCamera camera = playStreams(folder, maker);
+        CHECK_MESSAGE(firstDepth(camera) == doctest::Approx(0.5), encoding);
+        BagMaker grey;
+        addStream(grey, "/c/image", depthImage(500, "camera", encoding));
+        CHECK(streamRefusal(folder, grey).empty() == (std::string(encoding) != "MONO16"));
+    }
+    BagMaker metres;
+    addStream(metres, "/c/depth/image", {.encoding = "32fc1", .pixels = filled(0.5f)});
+    BagCamera camera = playStreams(folder, metres);
+    CHECK(firstDepth(camera) == doctest::Approx(0.5));
+}
+
 TEST_CASE("Painted depth is not taken for colour unless it is asked for, and is named") {
     const TemporaryFolder folder;
     BagMaker maker;
