@@ -129,7 +129,7 @@ void addPanels(Study& study) {
     PlotPanel felt = frontPanel(study, "ripple that is felt as vibration", {}, band);
     felt.yLabel = "force in 10 to 35 Hz at 1000 N/m [N]";
     study.panels.push_back(std::move(felt));
-    PlotPanel age = frontPanel(study, "the same against the age of what is felt", meanAge, band);
+    PlotPanel age = frontPanel(study, "the same, against the age of the frame that is felt", meanAge, band);
     age.xLabel = "camera to force and half a frame [ms]";
     age.yLabel = "force in 10 to 35 Hz at 1000 N/m [N]";
     study.panels.push_back(std::move(age));

@@ -13,6 +13,8 @@ namespace fathom::profile {
 
 namespace {
 
+constexpr size_t kMostLabels = 24; // of points in a panel that all have a label
+
 // Draws one panel into its rectangle of the image.
 class PanelPainter {
 public:
@@ -109,7 +111,8 @@ private:
         }
     }
 
-    // Points on the front and defaults get their label places first.
+    // Points on the front and defaults get their label places first. Where there are many points, the others
+    // have no label: the table names them.
     void paintLabels() const {
         std::vector<PlotBox> taken;
         std::vector<LabelRequest> all, requests;
@@ -122,6 +125,9 @@ private:
                     points.push_back(&q);
                 }
             }
+        }
+        if (points.size() > kMostLabels) {
+            std::erase_if(points, [](const PlotPoint* q) { return !q->isFront && !q->isDefault; });
         }
         std::stable_sort(points.begin(), points.end(), [](const PlotPoint* a, const PlotPoint* b) {
             return std::pair(!a->isDefault, !a->isFront) < std::pair(!b->isDefault, !b->isFront);
@@ -142,7 +148,7 @@ private:
     }
 
     std::string textOf(const PlotPoint& q) const {
-        return q.isDefault ? q.label + " (" + panel_.ringed + ")" : q.label;
+        return q.isDefault && q.label != panel_.ringed ? q.label + " (" + panel_.ringed + ")" : q.label;
     }
 
     void paintLabel(const PlotPoint& q, const LabelRequest& request, const LabelPlace& place) const {
