@@ -109,7 +109,8 @@ struct ArmRecord {
     bool flipped = false;        // left a singularity to another side than it came from
 };
 
-// Forces fade. A scene from the future has stamps of another clock, whose age nobody knows.
+// Whether forces fade for the age of the scene. A negative age beyond the limit comes from stamps of another
+// clock and says nothing about the scene.
 inline bool isOld(double sceneAge, double staleAfter) noexcept {
     return std::abs(sceneAge) > staleAfter;
 }

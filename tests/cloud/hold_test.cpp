@@ -180,7 +180,7 @@ TEST_CASE("A held point stays fixed in the base frame while the camera moves, al
     CHECK(countOf(rig.spheres(true)) == 0);
 }
 
-TEST_CASE("A held point beside the image stays where the polynomials of the lens fold it into the image") {
+TEST_CASE("A held point outside the image stays where the polynomials of the lens fold it into the image") {
     CameraInfo camera = kCamera; // lens of TUM freiburg2, depth
     camera.depth.fx = camera.depth.fy = 43.5;
     camera.depth.distortion = {-0.2297, 1.4766, 0.0005, -0.0075, -3.4194};
