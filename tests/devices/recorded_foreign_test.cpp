@@ -61,7 +61,7 @@ TEST_CASE("Hidden files that an archive left beside images and messages are no p
     CHECK(playedDepths(stamped.path()) == Depths{500, 501, 502});
 }
 
-TEST_CASE("Colour of another size than the lens is said of the file that states the lens") {
+TEST_CASE("A lens of another size than colour is named with its file") {
     const TemporaryFolder folder;
     addThreePairs(folder, "color");
     folder.write("camera_intrinsic.json", kOpen3dLens);
