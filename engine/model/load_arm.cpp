@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // URDF to ArmModel.
+#include "engine/model/arm_doubts.h"
 #include "engine/model/arm_ends.h"
 #include "engine/model/arm_mimic.h"
 #include "engine/model/arm_model.h"
@@ -11,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <sstream>
 
 namespace fathom {
@@ -99,6 +99,7 @@ private:
         line << joint.name << " stays at " << drive.value << " (" << drive.why << ")";
         if (std::find(model_.held.begin(), model_.held.end(), line.str()) == model_.held.end()) {
             model_.held.push_back(line.str());
+            note(doubtHeld(joint.name, joint.type == urdf::Joint::PRISMATIC, drive.value));
         }
         return drive.value == 0.0 || !hasAxis(joint) ? Pose{} : motionOf(joint, drive.value);
     }
@@ -138,26 +139,16 @@ private:
         if (drive.kind == Kind::Follows) {
             out.mimic = drive.mimic;
         } else {
-            noteLimits(out);
+            note(doubtLimits(out.name, slides, out.lower, out.upper, kLongSlide));
         }
+        note(doubtSpeed(out.name, slides, joint.limits ? joint.limits->velocity : 0.0));
         model_.joints.push_back(out);
         moving_.push_back(joint.name);
     }
 
-    void noteLimits(const ArmJoint& joint) {
-        constexpr double kFourTurns = 8.0 * std::numbers::pi, kLongSlide = 100.0; // [m]
-        std::ostringstream line;
-        line << "joint " << joint.name << ": limits " << joint.lower << " to " << joint.upper
-             << (joint.slides ? " m" : " rad");
-        if (joint.lower == joint.upper) {
-            model_.notes.push_back(
-                line.str() + ": it cannot move" +
-                (joint.lower == 0.0 ? "; they are 0 where <limit> has no lower and upper" : ""));
-        } else if (joint.slides && joint.upper - joint.lower > kLongSlide) {
-            model_.notes.push_back(line.str() + " span more than 100 m; in millimetres, or without limits?");
-        } else if (!joint.slides && std::isfinite(joint.upper - joint.lower) &&
-                   joint.upper - joint.lower > kFourTurns) {
-            model_.notes.push_back(line.str() + " span more than four turns; in degrees?");
+    void note(const std::string& doubt) {
+        if (!doubt.empty()) {
+            model_.notes.push_back(doubt);
         }
     }
 
@@ -165,6 +156,7 @@ private:
         const double stated = joint.limits ? joint.limits->velocity : 0.0;
         if (stated > 0.0) {
             out.speed = std::min(stated, kMaxSpeed);
+            out.speedFrom = stated > kMaxSpeed ? "URDF, but at most this" : out.speedFrom;
         } else {
             out.speed = out.slides ? kUnknownSlide : kUnknownTurn;
             out.speedFrom = kNoSpeed;
@@ -230,6 +222,10 @@ private:
         } else if (joint.mimic) { // what it follows decides
             finger.lower = std::min({finger.lower, drive.open, drive.closed});
             finger.upper = std::max({finger.upper, drive.open, drive.closed});
+        }
+        if (drive.kind != Kind::Follows && drive.open != drive.closed) {
+            note(doubtLimits(finger.name, finger.slides, std::min(drive.open, drive.closed),
+                             std::max(drive.open, drive.closed), kLongFinger));
         }
         model_.fingers.push_back(finger);
     }

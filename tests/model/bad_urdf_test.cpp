@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is wrong with a robot is said in one line that names the file.
+#include "engine/model/arm_doubts.h"
 #include "tests/model/urdf_text.h"
 
 #include <doctest/doctest.h>
@@ -99,5 +100,26 @@ TEST_CASE("Joints that cannot move, and limits that look like degrees, are repor
               "joint j: the narrower limits of <safety_controller> are not read; arm.joints sets limits"});
     CHECK(notes("prismatic", "lower='0' upper='300'") ==
           std::vector<std::string>{
-              "joint j: limits 0 to 300 m span more than 100 m; in millimetres, or without limits?"});
+              "joint j: limits 0 to 300 m span more than 5 m; in millimetres, or without limits?"});
+}
+
+TEST_CASE("Speeds, fingers and held joints that look like degrees or millimetres are questioned") {
+    const auto arm = [](const std::string& type, const std::string& limits) {
+        return loadUrdf(
+            ballLink("a") + ballLink("b") +
+            jointText("j", type, "a", "b", "0 0 0", "0 0 1", "<limit effort='1' " + limits + "/>"));
+    };
+    const ArmModel degrees = arm("revolute", "lower='-2' upper='2' velocity='180'");
+    CHECK(degrees.notes == std::vector<std::string>{"joint j: speed 180 rad/s; in degrees per second?"});
+    CHECK(degrees.joints[0].speed == 100.0);
+    CHECK(degrees.joints[0].speedFrom == "URDF, but at most this");
+    CHECK(arm("revolute", "lower='-2' upper='2' velocity='12'").notes.empty());
+    CHECK(arm("prismatic", "lower='0' upper='0.5' velocity='250'").notes ==
+          std::vector<std::string>{"joint j: speed 250 m/s; in millimetres per second?"});
+    CHECK(doubtLimits("f", true, 0.0, 0.04, kLongFinger) == "");
+    CHECK(doubtLimits("f", true, 0.0, 40.0, kLongFinger) ==
+          "joint f: limits 0 to 40 m span more than 0.5 m; in millimetres, or without limits?");
+    CHECK(doubtHeld("f", true, 10.0) == "joint f: stays at 10 m; in millimetres?");
+    CHECK(doubtHeld("f", true, -0.3) == "");
+    CHECK(doubtHeld("f", false, 90.0) == "joint f: stays at 90 rad; in degrees?");
 }

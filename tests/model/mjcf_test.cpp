@@ -264,7 +264,7 @@ TEST_CASE("A slide without limits, as of a gantry, has a URDF's limits of 10 km 
         CHECK(arm.joints[0].lower == -1e4);
         CHECK(arm.joints[0].upper == 1e4);
         CHECK(std::any_of(arm.notes.begin(), arm.notes.end(), [](const std::string& note) {
-            return note.find("joint rail: limits -10000 to 10000 m span more than 100 m") == 0;
+            return note.find("joint rail: limits -10000 to 10000 m span more than 5 m") == 0;
         }));
     }
 }

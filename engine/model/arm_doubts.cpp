@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/model/arm_doubts.h"
+
+#include <cmath>
+#include <numbers>
+#include <sstream>
+
+namespace fathom {
+
+std::string doubtLimits(const std::string& joint, bool slides, double lower, double upper, double longSlide) {
+    constexpr double kFourTurns = 8.0 * std::numbers::pi;
+    const double span = std::isfinite(upper - lower) ? upper - lower : 0.0;
+    std::ostringstream line;
+    line << "joint " << joint << ": limits " << lower << " to " << upper << (slides ? " m" : " rad");
+    if (lower == upper) {
+        line << ": it cannot move"
+             << (lower == 0.0 ? "; they are 0 where <limit> has no lower and upper" : "");
+    } else if (slides && span > longSlide) {
+        line << " span more than " << longSlide << " m; in millimetres, or without limits?";
+    } else if (!slides && span > kFourTurns) {
+        line << " span more than four turns; in degrees?";
+    } else {
+        return "";
+    }
+    return line.str();
+}
+
+std::string doubtSpeed(const std::string& joint, bool slides, double stated) {
+    constexpr double kFastTurn = 4.0 * std::numbers::pi, kFastSlide = 5.0;
+    std::ostringstream line;
+    line << "joint " << joint << ": speed " << stated
+         << (slides ? " m/s; in millimetres per second?" : " rad/s; in degrees per second?");
+    return stated > (slides ? kFastSlide : kFastTurn) ? line.str() : "";
+}
+
+std::string doubtHeld(const std::string& joint, bool slides, double value) {
+    std::ostringstream line;
+    line << "joint " << joint << ": stays at " << value
+         << (slides ? " m; in millimetres?" : " rad; in degrees?");
+    return std::abs(value) > (slides ? kLongSlide : 4.0 * std::numbers::pi) ? line.str() : "";
+}
+
+} // namespace fathom

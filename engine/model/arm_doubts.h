@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// Questions about numbers of a robot description that are allowed and unlikely: other units, no limits.
+#pragma once
+
+#include <string>
+
+namespace fathom {
+
+inline constexpr double kLongSlide = 5.0, kLongFinger = 0.5; // [m] travel of a joint and of a finger
+
+// Each returns one line for ArmModel::notes, or an empty text. [rad], or [m] if the joint slides.
+std::string doubtLimits(const std::string& joint, bool slides, double lower, double upper, double longSlide);
+std::string doubtSpeed(const std::string& joint, bool slides, double stated); // [rad/s], [m/s]
+std::string doubtHeld(const std::string& joint, bool slides, double value);
+
+} // namespace fathom
