@@ -16,18 +16,23 @@ namespace {
 constexpr double kUsualRadius = 0.5;                      // [m] most
 constexpr double kUsualTool = 2.0, kUsualDistance = 20.0; // [m] most
 
+// Far from its origin a base frame is that of a map, not one in millimetres.
+void doubtPlace(const std::string& what, const dvec3& place) {
+    const double distance = glm::length(place);
+    doubtLength(what + ": reaches", distance < 1e3 * kUsualDistance ? distance : 0.0, kUsualDistance);
+}
+
 // Lengths that are as good as any by the rules of the scene file, but rare in metres.
 void doubtLengths(const Scene& scene) {
     const std::string file = scene.file.string() + ": ";
-    doubtLength(file + "camera.base_T_camera: reaches", glm::length(scene.baseTcamera.position),
-                kUsualDistance);
+    doubtPlace(file + "camera.base_T_camera", scene.baseTcamera.position);
     for (const FixtureClass& f : scene.fixtures) {
         const std::string name = file + "fixtures: " + f.name + ": ";
         if (f.isPoints()) {
             doubtLength(name + "radius: reaches", f.radius, kUsualRadius);
             continue;
         }
-        doubtLength(name + "base_T_shape: reaches", glm::length(f.baseTshape.position), kUsualDistance);
+        doubtPlace(name + "base_T_shape", f.baseTshape.position);
         doubtLength(name + "size: reaches", std::max({f.size.x, f.size.y, f.size.z}), kUsualDistance);
     }
 }
