@@ -24,6 +24,7 @@
 namespace {
 
 constexpr double kPeriod = 1e-3, kSlot = 0.5; // [s]
+constexpr double kCalm = 2.0;                 // [s] until the first contact
 
 enum class Fault {
     None,
@@ -112,7 +113,9 @@ public:
             if (peer_ < 0) {
                 continue; // interrupted
             }
-            ++connection_;
+            if (++connection_ == 1) { // however long the engine took to start
+                slotEnds_ = now() + kCalm;
+            }
             serve();
             ::close(peer_);
         }
@@ -254,7 +257,7 @@ private:
     Hand hand_;
     double force_ = 0.0, shift_ = 0.0; // [N], [m]
     Fault fault_ = Fault::None;
-    double slotEnds_ = now() + 2.0, faultEnds_ = 0.0; // [s] calm until the first contact
+    double slotEnds_ = 0.0, faultEnds_ = 0.0; // [s]
     bool once_ = false;
     unsigned slot_ = 0;
     std::vector<Row> rows_;
