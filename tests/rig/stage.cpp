@@ -267,11 +267,12 @@ std::vector<std::string> Stage::command(const std::vector<std::string>& more, co
 
 Replay Stage::replay(const std::vector<std::string>& more, const Terms& terms, const std::string& out) const {
     const ProgramRun run = runFathom(command(more, out));
-    if (terms.empty.empty()) {
+    const std::string warning = terms.empty.empty() ? terms.warning : "fixture '" + terms.empty + "' has no ";
+    if (warning.empty()) {
         CHECK(run.err == "");
     } else {
         REQUIRE(run.errorLines().size() == 1);
-        CHECK(run.err.rfind("warning: fixture '" + terms.empty + "' has no ", 0) == 0);
+        CHECK(run.err.rfind("warning: " + warning, 0) == 0);
     }
     REQUIRE_MESSAGE(run.exitCode == 0, run.err);
     const Replay replay = readReplay(*this / out, run);

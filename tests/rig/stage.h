@@ -32,7 +32,8 @@ struct Terms {
     double forceLimit = 20.0, torqueLimit = 2.0;  // [N], [N m]
     bool calm = true;                             // no force before the first contact, stall or guidance
     double slewForce = 2000.0, slewTorque = 50.0; // [N/s], [N m/s]
-    std::string empty; // the class that gets no region or target, which is warned about; else no warning
+    std::string empty;   // the class that gets no region or target, which is warned about; else no warning
+    std::string warning; // beginning of the only warning, if it is another one
 };
 
 // Reads a finished replay and checks files, keys, columns, counts, times and invariants.
