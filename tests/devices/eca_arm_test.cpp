@@ -164,8 +164,9 @@ TEST_CASE("An ECA arm that restarts during a silence is homed again, however nea
 }
 
 TEST_CASE("A joint of an ECA arm with few counts per turn loses its home by a jump, too") {
-    for (const auto& [joint, counts] :
+    for (const auto& [which, counts] :
          {std::pair(3, 60), std::pair(4, 400)}) { // wrist, gripper: 7 and 6 degrees
+        const int joint = which;                  // CAPTURE needs a variable
         CAPTURE(joint);
         Rig rig;
         rig.run(12.0, kGo);
