@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/run/haptic_stepper.h"
 
-#include <cmath>
-
 namespace fathom {
 
 namespace {
