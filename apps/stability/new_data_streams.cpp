@@ -289,7 +289,7 @@ void addStreamCases(std::vector<Case>& cases) {
         return restlessCase(e, {0.001, 0.0, 1, false, 0.8}, "a new set with noise of 1 mm in every tick.");
     });
     put("two-places", [](RunLength e) {
-        return restlessCase(e, {0.0, 0.02, 33, false, 0.11}, "a wall 20 mm nearer in every second frame.");
+        return restlessCase(e, {0.0, 0.02, 33, false, 0.14}, "a wall 20 mm nearer in every second frame.");
     });
     put("trapped-recognised", [](RunLength e) { return viceCase(e, ViceFigure::Recognised); });
     put("trapped-force-out", [](RunLength e) { return viceCase(e, ViceFigure::ForceOut); });

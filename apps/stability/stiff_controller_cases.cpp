@@ -42,7 +42,7 @@ struct Held {
     double restingRise(double jump) const { return jump * 1000.0 / (1000.0 + spec.hand.stiffness); }
 };
 
-constexpr int kRiseTicks = 45; // longer than a frame
+constexpr int kRiseTicks = 2500; // twice the longest time constant of the reaction
 
 Outcome injectionCounted(RunLength) {
     double most = 0.0, least = 1.0;

@@ -24,27 +24,39 @@ double sizeOf(const Wrench& wrench, double k) noexcept {
     return std::sqrt(glm::dot(wrench.force, wrench.force) + glm::dot(turn, turn));
 }
 
+Wrench sum(const Wrench& a, const Wrench& b, double share) noexcept {
+    return {a.force + share * b.force, a.torque + share * b.torque};
+}
+
+// A part of what is owed, one tick later: at most `band` [N], which falls with kSettle, a small part with kCalm.
+Wrench settled(const Wrench& owed, double band, double period, double k) noexcept {
+    const double size = sizeOf(owed, k), full = size < band ? size / band : 1.0;
+    const double share = std::exp(-period * (full / Reaction::kSettle + (1.0 - full) / Reaction::kCalm));
+    return scaled(owed, size * share > band ? band / size : share);
+}
+
 } // namespace
 
 // What new data changed in the spring, beyond what the hand's own motion can have changed, is owed to the
-// hand and paid over kSettle.
+// hand and paid slowly. Along the reaction this delays its size, across it its direction.
 Wrench Reaction::settling(const Wrench& raw, double travel, const ReactionInput& input) noexcept {
     const double k = std::max(1e-6, input.springs.metricRadius);
-    const Wrench change{raw.force - raw_.force, raw.torque - raw_.torque};
+    const Wrench change = sum(raw, raw_, -1.0);
     const double size = sizeOf(change, k), byHand = input.springs.stiffness * travel;
     if (since_ < kPushed * interval_ && size > byHand) {
         const double share = 1.0 - byHand / size;
-        owed_ = {owed_.force + share * change.force, owed_.torque + share * change.torque};
+        owed_ = sum(owed_, change, share);
     }
     raw_ = raw;
-    owed_ = scaled(owed_, std::exp(-input.period / kSettle));
-    const double owed = sizeOf(owed_, k);
-    const double most = std::min(kBand * input.springs.stiffness, kOwedShare * sizeOf(raw, k));
-    if (owed > most) {
-        owed_ = scaled(owed_, most / owed);
-    }
-    owes_ = std::min(owed, most) > kTurns;
-    return {raw.force - owed_.force, raw.torque - owed_.torque};
+    const double now = sizeOf(raw, k), most = kOwedShare * now;
+    const double band = std::min(kBand * input.springs.stiffness, most);
+    const double product = glm::dot(owed_.force, raw.force) + glm::dot(owed_.torque, raw.torque) / (k * k);
+    const Wrench along = scaled(raw, now > 0.0 ? product / (now * now) : 0.0);
+    const Wrench across = sum(owed_, along, -1.0);
+    owed_ = sum(settled(along, band, input.period, k),
+                settled(across, std::max(band, kTurnBand * now), input.period, k), 1.0);
+    owes_ = sizeOf(owed_, k) > kTurns;
+    return sum(raw, owed_, -1.0);
 }
 
 double Reaction::rate(double appeared) noexcept {
@@ -80,7 +92,7 @@ Wrench Reaction::turning(const Wrench& wrench, const ReactionInput& input) noexc
         turn_ = felt_ > kTurns && size > kTurns ? interval_ : 0.0;
         if (turn_ > 0.0) {
             const Wrench old = scaled(last_, 1.0 / felt_), now = scaled(wrench, 1.0 / size);
-            from_ = {old.force - now.force, old.torque - now.torque};
+            from_ = sum(old, now, -1.0);
         }
     }
     turn_ = std::max(0.0, turn_ - input.period);
@@ -88,7 +100,7 @@ Wrench Reaction::turning(const Wrench& wrench, const ReactionInput& input) noexc
     if (!(share > 0.0) || !(size > kTurns)) {
         return wrench;
     }
-    const Wrench mix{wrench.force + share * size * from_.force, wrench.torque + share * size * from_.torque};
+    const Wrench mix = sum(wrench, from_, share * size);
     const double length = sizeOf(mix, k);
     return length > kMinMix * size ? scaled(mix, size / length) : wrench;
 }
@@ -124,8 +136,7 @@ Wrench Reaction::step(const ReactionInput& input) noexcept {
     end_ = input.end;
     started_ = true;
     if (left_ > 0.0) {
-        const Wrench rest = tail(size_, input.period);
-        wrench = {wrench.force + rest.force, wrench.torque + rest.torque};
+        wrench = sum(wrench, tail(size_, input.period), 1.0);
     }
     last_ = wrench;
     felt_ = sizeOf(wrench, k);
