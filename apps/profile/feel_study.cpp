@@ -40,9 +40,9 @@ std::vector<FeelSetting> feelSettings() {
             }
         }
     }
-    for (const double mu : {0.0, 0.05, 0.2, 0.4}) {
+    for (const double mu : {0.05, 0.1, 0.2, 0.4}) {
         list.push_back({"friction " + digits(mu), [=](Scene& scene) { scene.haptics.friction = mu; },
-                        kUsualRate, false, mu == 0.0});
+                        kUsualRate, false, mu == 0.1});
     }
     for (const double budget : {0.0, 0.0003, 0.001}) {
         list.push_back({"budget " + digits(1e3 * budget) + "mm",

@@ -202,7 +202,7 @@ struct Scene {
         uint32_t delay = 0;                            // whole ticks from a wrench to the hand
         double pullForce = 2.0, pullTorque = 0.1;      // [N], [N m] largest guidance pull
         double pullSpeed = 0.1;                        // [m/s] at which guidance pulls, at most
-        double friction = 0.1;                         // mu between tool and regions
+        double friction = 0.0;                         // mu between tool and regions
         bool smooth = true;                            // slides on planes over the spheres of a region
         std::optional<double> damping;                 // [N s/m] rendered along the reaction; empty = auto
         double margin = 0.6; // share of the passive bound that automatic stiffness uses

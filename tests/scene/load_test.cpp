@@ -60,7 +60,7 @@ TEST_CASE("A scene with only fixtures and a tool has the documented default ever
     CHECK(scene.hand.builtIn);
     CHECK(scene.hand.clutchBit == 4);
     CHECK_FALSE(scene.haptics.stiffness.has_value());
-    CHECK(scene.haptics.friction == 0.1);
+    CHECK(scene.haptics.friction == 0.0);
     CHECK_FALSE(scene.haptics.damping.has_value());
     CHECK(scene.haptics.margin == 0.6);
     CHECK(scene.haptics.smooth);
