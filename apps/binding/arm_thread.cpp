@@ -180,11 +180,8 @@ void ArmThread::run() noexcept {
         const double taken = now - status.age;
         if (status.known && taken > measuredAt_) {
             measuredAt_ = taken;
-            ArmPosture posture = status.posture;
-            posture.grasp =
-                std::isfinite(posture.grasp) ? posture.grasp : link_.setpoint.front().posture.grasp;
             const std::chrono::duration<double> age(status.age);
-            link_.measured.add(time - std::chrono::duration_cast<Clock::duration>(age), posture);
+            link_.addMeasured(time - std::chrono::duration_cast<Clock::duration>(age), status.posture);
         }
         link_.status.back() = status;
         link_.status.publish();

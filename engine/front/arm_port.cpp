@@ -37,7 +37,8 @@ ReportStatus ArmPort::Impl::report(const MeasuredArm& arm) noexcept {
     status.at = timeOf(arm.stamp);
     shared->arm.status.back() = status;
     shared->arm.status.publish();
-    shared->arm.measured.add(status.at, posture);
+    shared->arm.setpoint.refresh();
+    shared->arm.addMeasured(status.at, posture);
     return ReportStatus::Accepted;
 }
 

@@ -3,8 +3,10 @@
 #include "tests/engine/arm_world.h"
 #include "tests/haptics/allocation_count.h"
 
+#include <algorithm>
 #include <cmath>
 #include <doctest/doctest.h>
+#include <limits>
 #include <optional>
 
 using namespace fathom;
@@ -155,4 +157,28 @@ TEST_CASE(
     CHECK(threadAllocationCount() == before);
     CHECK(status == ReportStatus::Accepted);
     CHECK(setpoint.hold);
+}
+
+TEST_CASE("An arm that does not know its grasp never sees its own fingers as a region") {
+    const ArmFolder folder;
+    for (const double grasp : {std::nan(""), -std::numeric_limits<double>::infinity(), 0.0}) {
+        Engine engine(folder.fingerScene(), smallCamera(), withArm());
+        CameraPort camera = engine.camera();
+        ArmPort arm = engine.openArm();
+        ObserverPort observer = engine.openObserver();
+        Wall nothing;
+        std::ranges::fill(nothing.depth, std::uint16_t{0});
+        for (const size_t row : {29, 30, 31}) { // the finger at grasp 0: 0.536 m before the camera
+            std::fill_n(nothing.depth.begin() + static_cast<std::ptrdiff_t>(row * 80 + 39), 3,
+                        std::uint16_t{536});
+        }
+        MeasuredArm report = measured(0.2);
+        report.posture.grasp = grasp;
+        CHECK(arm.report(report) == ReportStatus::Accepted);
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        CHECK(camera.submit(nothing.at(now())) == SubmitStatus::Accepted);
+        Regions regions;
+        CHECK(eventually([&] { return observer.regions(regions); }));
+        CHECK(regions.spheres.empty());
+    }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The wall of wall_world.h and an arm before it: one joint slides along z and carries a ball of 10 mm radius,
-// which is at z = q + 0.3 m. Fingers, meshes and other joints: none.
+// which is at z = q + 0.3 m. The scene `fingerScene` adds one finger at the tip, 20 mm beside the ball.
 #pragma once
 
 #include "tests/engine/wall_world.h"
@@ -25,6 +25,15 @@ public:
                "<sphere radius='0.01'/></geometry></collision></link><joint name='slide' type='prismatic'>"
                "<parent link='base'/><child link='tip'/><origin xyz='0 0 0.3'/><axis xyz='0 0 1'/>"
                "<limit effort='1' velocity='1' lower='0' upper='0.5'/></joint></robot>";
+        std::ofstream(path_ / "finger.urdf")
+            << "<robot name='finger'><link name='base'/><link name='tip'><collision><geometry>"
+               "<sphere radius='0.01'/></geometry></collision></link><link name='f'><collision>"
+               "<origin xyz='0 0.02 0.03'/><geometry><sphere radius='0.005'/></geometry></collision></link>"
+               "<joint name='slide' type='prismatic'><parent link='base'/><child link='tip'/>"
+               "<origin xyz='0 0 0.3'/><axis xyz='0 0 1'/><limit effort='1' velocity='1' lower='0' "
+               "upper='0.5'/></joint><joint name='finger' type='revolute'><parent link='tip'/>"
+               "<child link='f'/><axis xyz='1 0 0'/><limit effort='1' velocity='1' lower='-1' upper='1'/>"
+               "</joint></robot>";
         std::ofstream(path_ / "ball.urdf")
             << "<robot name='ball'><link name='ball'><collision><geometry><sphere radius='0.01'/></geometry>"
                "</collision></link></robot>";
@@ -44,6 +53,12 @@ public:
     Scene armScene() const {
         return scene("arm: { urdf: slide.urdf, tip: tip, direction: free, self_filter: 0.02,\n"
                      "       joints: [{ name: slide, start: 0.2 }] }\n"
+                     "haptics: { device: ideal, stiffness: 1000 }\n");
+    }
+    Scene fingerScene() const {
+        return scene("arm: { urdf: finger.urdf, tip: tip, direction: free, self_filter: 0.02,\n"
+                     "       joints: [{ name: slide, start: 0.2 }],\n"
+                     "       grasp: { fingers: [{ joint: finger, open: 0.5, closed: 0.0 }] } }\n"
                      "haptics: { device: ideal, stiffness: 1000 }\n");
     }
 
