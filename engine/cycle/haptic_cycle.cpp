@@ -72,8 +72,9 @@ StepRecord HapticCycle::step(const StepInput& input) noexcept {
                                           : guidance_.leadReach(watch_.springs()));
 
     const bool newData = regionsChanged(set);
+    const dvec3 before = tool_.position;
     ProxyStep moved = stepTool(input, set, now, out);
-    const bool vanished = regionsVanished(moved, newData);
+    const bool vanished = newData && regionsVanished(moved, before);
     takeUpLag(moved, vanished, out);
     allowed_ = moved.allowed;
     makeWrench(input, now, moved, newData, vanished, out);
@@ -138,11 +139,12 @@ bool HapticCycle::regionsChanged(const ContactSet* set) noexcept {
     return changed;
 }
 
-// Regions that pressed are gone, and neither hand nor tool moved away from them: their class is no longer
-// seen, or its shape was removed.
-bool HapticCycle::regionsVanished(const ProxyStep& moved, bool newData) const noexcept {
+// Regions that pressed are gone, and the hand did not move out of them: their class is no longer seen, or its
+// shape was removed. `before` is where the tool was when they pressed.
+bool HapticCycle::regionsVanished(const ProxyStep& moved, const dvec3& before) const noexcept {
     const bool near = moved.minGap <= kGone; // false for NaN: no set
-    return newData && pressing_.rows && moved.active.empty() && jointEnds_ == 0 && !moved.trapped && !near;
+    const bool left = glm::dot(before - springEnd_.position, pressing_.out) < 0.0;
+    return pressing_.rows && !left && moved.active.empty() && jointEnds_ == 0 && !moved.trapped && !near;
 }
 
 // Moves the hand map, and with it the pose that the hand commands.
@@ -225,6 +227,7 @@ void HapticCycle::makeWrench(const StepInput& input, const Situation& now, const
     out.finite = made.finite;
     out.cause = made.cause;
     pressing_.rows = !moved.active.empty() && stage_.reaction() > kFelt;
+    pressing_.out = moved.allowed.position - springEnd_.position;
 }
 
 StepState HapticCycle::stateOf(const Situation& now, const ProxyStep& moved, bool lags) const noexcept {

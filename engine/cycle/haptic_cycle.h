@@ -111,7 +111,7 @@ private:
     void recentre() noexcept;
     void takeSample(const StepInput& input, const Situation& now) noexcept;
     bool regionsChanged(const ContactSet* set) noexcept;
-    bool regionsVanished(const ProxyStep& moved, bool newData) const noexcept;
+    bool regionsVanished(const ProxyStep& moved, const dvec3& before) const noexcept;
     void takeUpLag(ProxyStep& moved, bool vanished, StepRecord& out) noexcept;
     void shiftHand(const dvec3& by) noexcept;
     void makeWrench(const StepInput& input, const Situation& now, const ProxyStep& moved, bool newData,
@@ -148,6 +148,7 @@ private:
     } scene_;
     struct Pressing {         // of the last step
         bool rows = false;    // with a force that can be felt
+        dvec3 out{0.0};       // [m] from the hand's end of the spring to where the rows held the tool
         double lagTime = 0.0; // [s] the tool has been lagging
         dvec3 shifted{0.0};   // [m] total shift of the hand map
         uint32_t vanished = 0;

@@ -164,6 +164,24 @@ TEST_CASE("Regions that disappear while they press leave the tool where it is, a
     CHECK(rig.gap() >= 0.0);
 }
 
+TEST_CASE("A hand that leaves a region within one late tick, as new data arrives, keeps its place") {
+    for (const double back : {0.006, 0.015, 0.03}) {
+        auto rig = pressedRig();
+        const StepRecord held = rig.step();
+        REQUIRE(forceOf(held) == doctest::Approx(5.0).epsilon(0.01));
+        rig.hand.position.z += back;
+        rig.show(wallSet(9));
+        rig.age = false;
+        StepRecord record = rig.step();
+        record = rig.ticks(1000);
+        CHECK(record.vanished == 0);
+        CHECK(glm::length(record.indexShift) == 0.0);
+        CHECK(record.device.position.z == doctest::Approx(held.device.position.z + back));
+        rig.hand.position.z -= back;
+        CHECK(forceOf(rig.ticks(1000)) == doctest::Approx(forceOf(held)).epsilon(0.01));
+    }
+}
+
 TEST_CASE(
     "A device that is gone renders nothing, is re-indexed where it returns, and its force returns by the "
     "limit") {
