@@ -12,7 +12,9 @@ void check(VkResult result, const char* call) {
         return;
     }
     const std::string text = std::string(call) + " failed with VkResult " + std::to_string(result);
-    if (result == VK_ERROR_DEVICE_LOST) {
+    // A driver that restarts after a reset also gives the other two; the device may be opened again.
+    if (result == VK_ERROR_DEVICE_LOST || result == VK_ERROR_UNKNOWN ||
+        result == VK_ERROR_INITIALIZATION_FAILED) {
         throw DeviceLost(text);
     }
     if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY || result == VK_ERROR_OUT_OF_HOST_MEMORY) {
