@@ -3,6 +3,7 @@
 
 #include "engine/scene/yaml_node.h"
 #include "engine/types/error.h"
+#include "engine/types/joined.h"
 #include "engine/types/number_text.h"
 
 #include <algorithm>
@@ -44,6 +45,12 @@ public:
         slope(name + " cy", lens.cy, lens.height, lens.fy);
         for (const double k : lens.distortion) {
             number(name + " distortion", k, Range::between(-1e6, 1e6));
+        }
+        if (!lens.invertible()) { // points that the lens folds would be lost
+            throw BadInput(source_, name + " distortion",
+                           joined(
+                               lens.distortion, [](double k) { return significant(k, 9); }, " "),
+                           "coefficients that can be inverted over the whole image");
         }
     }
 

@@ -69,6 +69,15 @@ TEST_CASE("Lenses of absurd or non-finite numbers are rejected with source, fiel
     }
 }
 
+TEST_CASE("A lens that folds its image is rejected, for depth and for colour") {
+    const auto folds = [](CameraInfo& c) { c.depth.fx = c.depth.fy = 450, c.depth.distortion[0] = -1.0; };
+    CHECK(fault(folds) == "recorded here: depth distortion: -1 0 0 0 0 (allowed: coefficients that can be "
+                          "inverted over the whole image)");
+    const auto colour = [](CameraInfo& c) { c.registered = false, c.colour.distortion[3] = 5.0; };
+    CHECK(fault(colour).find("colour distortion: 0 0 0 5 0 ") != std::string::npos);
+    CHECK(fault([](CameraInfo& c) { c.depth.distortion = {0.1, -0.2, 0.001, 0.001, 0.05}; }) == "");
+}
+
 TEST_CASE("A class that no point can pass is named with its cause, and others are not") {
     const auto colourless = [](CameraInfo& c) { c.hasColour = false; };
     CHECK(dead("radius: 0.04") == "");
