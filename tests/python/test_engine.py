@@ -185,3 +185,23 @@ class Exit(unittest.TestCase):
 
     def test_an_exception_in_the_main_thread_leaves_zero_force(self):
         self.assertIn("lost", self.ends_with_zero("raise RuntimeError('lost')").stderr)
+
+    def test_a_second_interrupt_while_zeros_are_written_leaves_zero_force(self):
+        script = textwrap.dedent("""
+            import os, types
+            import fathom, numpy
+            pressed = types.SimpleNamespace(force=numpy.array((0.0, 0.0, -5.0)), torque=numpy.zeros(3))
+            port = types.SimpleNamespace(period=0.001, step=lambda pose, buttons: pressed)
+            writes = 0
+            def write(force, torque):
+                global writes
+                writes += 1
+                if writes in (3, 4): raise KeyboardInterrupt  # in the loop, and while it leaves
+                os.write(1, b"%.3f\\n" % force[2])
+            try:
+                fathom.haptic_loop(port, lambda: None, write)
+            except KeyboardInterrupt:
+                pass
+        """)
+        done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=60, check=False)
+        self.assertEqual(done.stdout.split(), ["-5.000", "-5.000", "0.000"], done.stderr)

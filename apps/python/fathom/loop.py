@@ -25,14 +25,16 @@ def haptic_loop(hand: HandPort, pose, write, *, buttons=lambda: 0, running=lambd
     Python's threads and garbage collection delay single steps by milliseconds. The forces stay within the
     scene's limits, but a C++ loop feels better.
     """
-    ended = False
+    ended = zeroed = False
     writing = threading.Lock()  # no force is written after the zeros, also if the interpreter exits meanwhile
 
     def release():
-        nonlocal ended
+        nonlocal ended, zeroed
         with writing:
             ended = True
-            write(numpy.zeros(3), numpy.zeros(3))
+            if not zeroed:
+                write(numpy.zeros(3), numpy.zeros(3))
+                zeroed = True
 
     atexit.register(release)
     due = time.monotonic()
@@ -48,6 +50,5 @@ def haptic_loop(hand: HandPort, pose, write, *, buttons=lambda: 0, running=lambd
             due = max(due + hand.period, time.monotonic() - hand.period)  # late ticks are not made up for
             time.sleep(max(0.0, due - time.monotonic()))
     finally:
-        atexit.unregister(release)
-        if not ended:
-            release()
+        release()
+        atexit.unregister(release)  # stays if a second KeyboardInterrupt ended release()
