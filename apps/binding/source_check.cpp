@@ -37,8 +37,7 @@ std::vector<std::string> SourceCheck::warnings() const {
 
 SourceCheck::SourceCheck(std::unique_ptr<Camera> source, const Scene& scene)
     : CameraDecorator(std::move(source))
-    , nearZ_(scene.nearZ)
-    , farZ_(scene.farZ) {
+    , depth_(scene, CameraDecorator::info().metresPerUnit) {
     const std::string why = CameraDecorator::whyNoColour();
     bool asked = false;
     for (const FixtureClass& fixture : scene.fixtures) {
@@ -51,24 +50,8 @@ SourceCheck::SourceCheck(std::unique_ptr<Camera> source, const Scene& scene)
     colourSeen_ = !asked || !why.empty();
 }
 
-// Stops at the first pixel in range: for a good source that is soon.
-bool SourceCheck::inRange(std::span<const uint16_t> depth) {
-    const double unit = info().metresPerUnit;
-    for (const uint16_t raw : depth) {
-        if (raw == 0) {
-            continue;
-        }
-        least_ = std::min(least_, raw);
-        largest_ = std::max(largest_, raw);
-        if (raw * unit >= nearZ_ && raw * unit <= farZ_) {
-            return true;
-        }
-    }
-    return false;
-}
-
 void SourceCheck::look(const Frame& frame) {
-    depthSeen_ = depthSeen_ || inRange(frame->depth);
+    depth_.look(frame->depth);
     const auto lit = [&] {
         return frame->isRaw() ? isLit(frame->raw)
                               : std::ranges::any_of(frame->colour, [](uint32_t c) { return isLit(c); });
@@ -78,15 +61,8 @@ void SourceCheck::look(const Frame& frame) {
 
 void SourceCheck::end() {
     done_ = true;
-    const double unit = info().metresPerUnit;
-    if (!depthSeen_ && largest_ == 0) {
-        warn(fmt::format("{}: no depth in the first second: nothing is protected", description()));
-    } else if (!depthSeen_) {
-        warn(fmt::format(
-            "{}: no depth of the first second is between camera.near {} m and camera.far {} m: "
-            "nothing is protected; it is {:.4g} to {:.4g} m, so check the unit (scale=M) or near and "
-            "far",
-            description(), nearZ_, farZ_, least_ * unit, largest_ * unit));
+    if (!depth_.seen()) {
+        warn(description() + ": " + depth_.fault("the unit (scale=M)"));
     }
     if (!colourSeen_) {
         warn(fmt::format(
@@ -109,7 +85,7 @@ std::optional<Frame> SourceCheck::next() {
     }
     begin_ = begin_ ? begin_ : std::optional((*frame)->captureTime);
     look(*frame);
-    if (depthSeen_ && colourSeen_) {
+    if (depth_.seen() && colourSeen_) {
         done_ = true;
     } else if ((*frame)->captureTime - *begin_ >= 1.0) {
         end();

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "devices/camera_decorator.h"
-#include "engine/scene/scene.h"
+#include "engine/scene/first_depth.h"
 
 #include <string>
 #include <vector>
@@ -24,13 +24,11 @@ private:
     void warn(std::string text);
     void look(const Frame& frame);
     void end(); // of the first second, or of the source
-    bool inRange(std::span<const uint16_t> depth);
 
     std::vector<std::string> warned_;
-    double nearZ_, farZ_; // [m]
-    bool depthSeen_ = false, colourSeen_ = false, done_ = false;
-    std::optional<double> begin_;          // [s] first capture time
-    uint16_t least_ = 65535, largest_ = 0; // measured so far [raw]
+    FirstDepth depth_;
+    bool colourSeen_ = false, done_ = false;
+    std::optional<double> begin_; // [s] first capture time
 };
 
 } // namespace fathom

@@ -2,7 +2,9 @@
 #include "engine/front/core.h"
 
 #include "engine/run/open_scene.h"
+#include "engine/scene/dead_gates.h"
 #include "engine/types/decimation.h"
+#include "engine/types/log.h"
 
 #include <cmath>
 
@@ -62,9 +64,31 @@ ComputeSide::ComputeSide(const HapticSide& side, const CameraInfo& camera, const
     , cycles({instance.get(), device, haptic.scene, camera, haptic.tool, haptic.arm.get()},
              [&](const DeviceFacts& facts) {
                  return makePlan(haptic.scene, camera, static_cast<uint32_t>(haptic.tool.leafCount()), facts);
-             }) {
+             })
+    , firstDepth_(haptic.scene, camera.metresPerUnit)
+    , checked_(!haptic.scene.hasPoints()) {
+    for (const std::string& dead : deadGates(haptic.scene, camera)) {
+        log::warn("{}", dead);
+    }
     if (haptic.arm) {
         setArm(haptic.arm->startPosture());
+    }
+}
+
+FrameReport ComputeSide::process(fathom::Frame&& frame) {
+    if (!checked_) {
+        check(frame);
+    }
+    return cycles.frames().process(std::move(frame));
+}
+
+void ComputeSide::check(const fathom::Frame& frame) {
+    const double time = frame->captureTime;
+    firstTime_ = firstTime_.value_or(time);
+    firstDepth_.look(frame->depth);
+    checked_ = firstDepth_.seen() || time - *firstTime_ >= 1.0;
+    if (checked_ && !firstDepth_.seen()) {
+        log::warn("camera: {}", firstDepth_.fault("metresPerUnit"));
     }
 }
 

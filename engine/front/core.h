@@ -6,6 +6,7 @@
 #include "engine/cycle/device_cycles.h"
 #include "engine/cycle/haptic_cycle.h"
 #include "engine/front/public.h"
+#include "engine/scene/first_depth.h"
 #include "engine/types/flat_port.h"
 
 #include <memory>
@@ -50,6 +51,8 @@ struct ComputeSide {
 
     // Frame thread, before a frame: where the arm is in its image. No effect without a self-filter.
     void setArm(const ArmPosture& posture);
+    // Frame thread. Makes the newest fixture set. Warns after the first second if no depth was in range.
+    FrameReport process(fathom::Frame&& frame);
     // Any thread but the haptic one. The stamp of `out` stays as it is. Returns the capture time [s] of its
     // frame.
     double clearances(std::span<const v0::Pose> baseTtool, v0::Clearances& out);
@@ -60,7 +63,12 @@ struct ComputeSide {
     DeviceCycles cycles;
 
 private:
+    void check(const fathom::Frame& frame);
+
     ArmPosture posture_;
+    FirstDepth firstDepth_;
+    std::optional<double> firstTime_; // [s] capture time of the first frame
+    bool checked_ = false;
 };
 
 } // namespace fathom::front

@@ -40,7 +40,7 @@ public:
         next_->retime(t);
         std::optional<fathom::Frame> frame = std::exchange(next_, std::nullopt);
         try {
-            out.report = compute_.cycles.frames().process(std::move(*frame));
+            out.report = compute_.process(std::move(*frame));
         } catch (const DeviceFailed&) {
             lost.store(true);
             throw;
@@ -149,6 +149,7 @@ struct Engine::Impl {
         } catch (const std::exception& e) {
             const std::lock_guard lock(failureMutex);
             failure = failure.empty() ? e.what() : failure;
+            log::error("engine: forces are off: {}", e.what());
         }
         shared->ended.store(true);
         camera->close();

@@ -55,7 +55,7 @@ FrameTimes Lockstep::Impl::process(const Frame& frame) {
     const double t = seconds(frame.stamp);
     taken.retime(t);
     compute.setArm(cycle->place().arm);
-    const FrameReport report = compute.cycles.frames().process(std::move(taken));
+    const FrameReport report = compute.process(std::move(taken));
     update.captureTime = t;
     if (const auto set = compute.cycles.frames().sets().newest(); set && !report.unchanged) {
         update.show(set->host);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 #include <doctest/doctest.h>
+#include <mutex>
 #include <optional>
 #include <string>
 
@@ -264,6 +265,47 @@ TEST_CASE("A step reports a missing scene, an old scene and time that goes back"
     step = hand.step(handAt(std::nan("")), now());
     CHECK(warns(step, StepWarning::NotFinite));
     CHECK(step.wrench.force == Vec3{0.0, 0.0, 0.0});
+}
+
+TEST_CASE("A camera that protects nothing is said in the log: wrong unit, no depth, no colour") {
+    std::mutex mutex;
+    std::string lines;
+    const auto has = [&](const char* text) {
+        const std::lock_guard lock(mutex);
+        return lines.find(text) != std::string::npos;
+    };
+    setLogCallback([&](LogLevel level, std::string_view line) {
+        const std::lock_guard lock(mutex);
+        lines += level == LogLevel::Warning ? std::string(line) + "\n" : "";
+    });
+    const auto play = [](const Scene& scene, std::uint16_t depth) {
+        Lockstep lockstep(scene, smallCamera(), startAt(0.5));
+        Wall wall;
+        std::ranges::fill(wall.depth, depth);
+        for (const Nanoseconds stamp : {1'000'000'000, 1'500'000'000, 2'000'000'000}) {
+            lockstep.process(wall.at(stamp));
+        }
+    };
+    play(wallScene(), 600);
+    CHECK(lines.empty());
+    play(wallScene(), 6000); // a unit of 0.1 mm, said to be 1 mm
+    CHECK(has("camera: no depth of the first second is between camera.near 0.1 m and camera.far 3 m: nothing "
+              "is protected; it is 6 to 6 m, so check metresPerUnit"));
+    play(wallScene(), 0);
+    CHECK(has("no depth in the first second"));
+    {
+        Engine engine(wallScene(), smallCamera());
+        CameraPort camera = engine.camera();
+        Wall far;
+        std::ranges::fill(far.depth, std::uint16_t{7000});
+        CHECK(eventually(
+            [&] { return camera.submit(far.at(now())) == SubmitStatus::Accepted && has("it is 7 to 7 m"); }));
+    }
+    const Scene red = Scene::fromText("fixtures: [{ name: red, role: forbidden, hue: [345, 20] }]\n"
+                                      "tool: { spheres: [[0, 0, 0, 0.01]] }\n");
+    const Engine engine(red, smallCamera());
+    CHECK(has("'red' can have no point: it has a colour gate, and the camera has no colour"));
+    setLogCallback(nullptr);
 }
 
 TEST_CASE("Log lines go to the callback") {
