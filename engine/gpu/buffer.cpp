@@ -24,8 +24,7 @@ Buffer::Buffer(const Device& device, uint64_t bytes, MemoryKind kind, const char
     const VkMemoryRequirements needs = create(nullptr);
     VkMemoryAllocateInfo allocate{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
     allocate.allocationSize = needs.size;
-    allocate.memoryTypeIndex = device.memoryType(kind, needs.memoryTypeBits);
-    bind(allocate, name);
+    bind(allocate, device.memoryTypes(kind, needs.memoryTypeBits), name);
     if (kind != MemoryKind::Device) {
         check(vkMapMemory(device.handle(), memory_, 0, VK_WHOLE_SIZE, 0, &mapped_), "vkMapMemory");
     }
@@ -48,8 +47,7 @@ Buffer::Buffer(const Device& device, const HostPages& pages, const char* name)
     if (types == 0 || !whole || needs.size > allocate.allocationSize) {
         throw Error(std::string(name) + ": " + device.facts().name + " cannot read the host's memory there");
     }
-    allocate.memoryTypeIndex = static_cast<uint32_t>(std::countr_zero(types));
-    bind(allocate, name);
+    bind(allocate, {static_cast<uint32_t>(std::countr_zero(types))}, name);
 }
 
 VkMemoryRequirements Buffer::create(const void* next) {
@@ -64,8 +62,17 @@ VkMemoryRequirements Buffer::create(const void* next) {
     return needs;
 }
 
-void Buffer::bind(const VkMemoryAllocateInfo& allocate, const char* name) {
-    check(vkAllocateMemory(device_->handle(), &allocate, nullptr, &memory_), name);
+// In the first of the types that has room.
+void Buffer::bind(VkMemoryAllocateInfo allocate, const std::vector<uint32_t>& types, const char* name) {
+    VkResult result = VK_ERROR_OUT_OF_DEVICE_MEMORY;
+    for (size_t i = 0; i < types.size() && result == VK_ERROR_OUT_OF_DEVICE_MEMORY; ++i) {
+        allocate.memoryTypeIndex = types[i];
+        result = vkAllocateMemory(device_->handle(), &allocate, nullptr, &memory_);
+    }
+    memory_ = result == VK_SUCCESS ? memory_ : VK_NULL_HANDLE;
+    const std::string call =
+        "buffer " + std::string(name) + " of " + std::to_string(bytes_) + " bytes: vkAllocateMemory";
+    check(result, call.c_str());
     check(vkBindBufferMemory(device_->handle(), handle_, memory_, 0), "vkBindBufferMemory");
 }
 

@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <span>
+#include <vector>
 
 namespace fathom::gpu {
 
@@ -49,7 +50,7 @@ private:
     Buffer(const Device& device,
            uint64_t bytes); // leaves the handle null, so that delegating constructors may throw
     VkMemoryRequirements create(const void* next);
-    void bind(const VkMemoryAllocateInfo& allocate, const char* name);
+    void bind(VkMemoryAllocateInfo allocate, const std::vector<uint32_t>& types, const char* name);
     void swap(Buffer& other) noexcept;
 
     const Device* device_ = nullptr;

@@ -8,6 +8,7 @@
 #include "engine/types/log.h"
 
 #include <algorithm>
+#include <array>
 
 namespace fathom::gpu {
 
@@ -117,31 +118,44 @@ Device::~Device() {
     vkDestroyDevice(handle_, nullptr);
 }
 
-uint32_t Device::memoryType(MemoryKind kind, uint32_t typeBits) const {
+std::vector<uint32_t> memoryTypes(MemoryKind kind, const VkPhysicalDeviceMemoryProperties& memory,
+                                  uint32_t typeBits) {
     constexpr VkMemoryPropertyFlags kLocal = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
     constexpr VkMemoryPropertyFlags kShared =
         VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
     constexpr VkMemoryPropertyFlags kCached = VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
-    std::vector<VkMemoryPropertyFlags> setpoints; // best first
-    switch (kind) {
-    case MemoryKind::Device:
-        setpoints = {kLocal, 0};
-        break;
-    case MemoryKind::Upload:
-        setpoints = {kLocal | kShared, kShared};
-        break;
-    case MemoryKind::Readback:
-        setpoints = {kShared | kCached, kShared};
-        break;
-    }
-    for (VkMemoryPropertyFlags setpoint : setpoints) {
-        for (uint32_t t = 0; t < memory_.memoryTypeCount; ++t) {
-            if ((typeBits >> t & 1u) != 0 && (memory_.memoryTypes[t].propertyFlags & setpoint) == setpoint) {
-                return t;
+    const auto wanted = [&]() -> std::array<VkMemoryPropertyFlags, 2> { // best first
+        switch (kind) {
+        case MemoryKind::Upload:
+            return {kLocal | kShared, kShared};
+        case MemoryKind::Readback:
+            return {kShared | kCached, kShared};
+        default:
+            return {kLocal, 0};
+        }
+    }();
+    std::vector<uint32_t> types;
+    for (const VkMemoryPropertyFlags flags : wanted) {
+        for (uint32_t t = 0; t < memory.memoryTypeCount; ++t) {
+            const bool fits =
+                (typeBits >> t & 1u) != 0 && (memory.memoryTypes[t].propertyFlags & flags) == flags;
+            if (fits && std::ranges::find(types, t) == types.end()) {
+                types.push_back(t);
             }
         }
+        if (kind == MemoryKind::Device && !types.empty()) {
+            break; // a pass that reads the host's memory would take far too long
+        }
     }
-    throw Error("device " + facts_.name + " offers no memory of the kind needed");
+    return types;
+}
+
+std::vector<uint32_t> Device::memoryTypes(MemoryKind kind, uint32_t typeBits) const {
+    std::vector<uint32_t> types = gpu::memoryTypes(kind, memory_, typeBits);
+    if (types.empty()) {
+        throw Error("device " + facts_.name + " offers no memory of the kind needed");
+    }
+    return types;
 }
 
 uint32_t Device::hostPointerTypes(const void* memory) const {

@@ -21,6 +21,11 @@ enum class MemoryKind {
     Readback, // host-cached: the CPU reads it; the GPU may write to it directly
 };
 
+// Indices of the memory types of a kind among those allowed by typeBits, best first. The heap of a better one
+// may be full: the part of a graphics card's memory that the host can map is often 256 MiB for all processes.
+std::vector<uint32_t> memoryTypes(MemoryKind kind, const VkPhysicalDeviceMemoryProperties& memory,
+                                  uint32_t typeBits);
+
 // What a window needs in addition to compute.
 enum class Drawing {
     None,
@@ -44,8 +49,8 @@ public:
     PipelineStore& pipelines() const { return pipelines_; }
     uint32_t queueFamily() const { return family_; }
 
-    // Memory type of a kind among those allowed by typeBits; throws Error when there is none.
-    uint32_t memoryType(MemoryKind kind, uint32_t typeBits) const;
+    // Memory types of a kind among those allowed by typeBits, best first; throws Error when there is none.
+    std::vector<uint32_t> memoryTypes(MemoryKind kind, uint32_t typeBits) const;
     // Bits of the coherent memory types that can import the host memory at `memory`; 0 = none.
     uint32_t hostPointerTypes(const void* memory) const;
 

@@ -27,6 +27,25 @@ TEST_CASE("A device reports its facts and is in the list") {
     CHECK(gpu::Device::list(vulkan().instance).size() >= 1);
 }
 
+TEST_CASE("Memory of each kind has a second choice, for when the heap of the first is full") {
+    constexpr VkMemoryPropertyFlags kLocal = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT,
+                                    kShared = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT |
+                                              VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+    VkPhysicalDeviceMemoryProperties card{}; // without resizable BAR
+    card.memoryTypeCount = 4;
+    card.memoryTypes[0].propertyFlags = kLocal;
+    card.memoryTypes[1].propertyFlags = kShared;
+    card.memoryTypes[2].propertyFlags = kShared | VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
+    card.memoryTypes[3].propertyFlags = kShared | kLocal;
+    using Types = std::vector<uint32_t>;
+    CHECK(gpu::memoryTypes(gpu::MemoryKind::Device, card, 15) == Types{0, 3});
+    CHECK(gpu::memoryTypes(gpu::MemoryKind::Upload, card, 15) == Types{3, 1, 2});
+    CHECK(gpu::memoryTypes(gpu::MemoryKind::Readback, card, 15) == Types{2, 1, 3});
+    CHECK(gpu::memoryTypes(gpu::MemoryKind::Upload, card, 6) == Types{1, 2});
+    CHECK(gpu::memoryTypes(gpu::MemoryKind::Device, card, 4) == Types{2});
+    CHECK(gpu::memoryTypes(gpu::MemoryKind::Readback, card, 1).empty());
+}
+
 TEST_CASE("A missing device is rejected with the list of existing ones") {
     const std::string here = vulkan().device.facts().name;
     try {
