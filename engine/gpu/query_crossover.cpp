@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/gpu/query_crossover.h"
 
-#include <cstdlib>
+#include "engine/types/cache_folder.h"
+
 #include <exception>
 #include <filesystem>
 #include <fstream>
@@ -9,15 +10,12 @@
 namespace fathom::gpu {
 
 std::string cacheFileOf(VkPhysicalDevice device, const std::string& extension) {
-    const char* cache = std::getenv("XDG_CACHE_HOME");
-    const char* home = std::getenv("HOME");
-    if (cache == nullptr && home == nullptr) {
+    const std::filesystem::path folder = cacheFolder();
+    if (folder.empty()) {
         return {};
     }
     VkPhysicalDeviceProperties p;
     vkGetPhysicalDeviceProperties(device, &p);
-    const std::filesystem::path folder =
-        (cache ? std::filesystem::path(cache) : std::filesystem::path(home) / ".cache") / "fathom";
     return (folder / (std::to_string(p.vendorID) + "-" + std::to_string(p.deviceID) + "-" +
                       std::to_string(p.driverVersion) + extension))
         .string();

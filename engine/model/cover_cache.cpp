@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/model/cover_cache.h"
 
+#include "engine/types/cache_folder.h"
 #include "engine/types/read_file.h"
 
 #include <algorithm>
@@ -83,14 +84,9 @@ std::optional<ShapeSpheres> madeOf(const std::string& text) {
 
 } // namespace
 
-CoverCache::CoverCache() {
-    const char* cache = std::getenv("XDG_CACHE_HOME");
-    const char* home = std::getenv("HOME");
-    if (cache != nullptr && *cache != '\0') {
-        folder_ = std::filesystem::path(cache) / "fathom/covers";
-    } else if (home != nullptr && *home != '\0') {
-        folder_ = std::filesystem::path(home) / ".cache/fathom/covers";
-    }
+CoverCache::CoverCache()
+    : folder_(cacheFolder()) {
+    folder_ /= folder_.empty() ? "" : "covers";
 }
 
 std::string CoverCache::keyOf(const std::filesystem::path& mesh, const std::string& options) const {

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "engine/types/cache_folder.h"
 #include "engine/types/read_file.h"
 
 #include "engine/types/error.h"
 #include "engine/types/inside.h"
 #include "tests/support/scratch_folder.h"
 
+#include <cstdlib>
 #include <doctest/doctest.h>
 #include <fstream>
 #include <sys/stat.h>
@@ -106,4 +108,21 @@ TEST_CASE("A path stays inside when it is relative and never leads above its sta
         CAPTURE(outside);
         CHECK_FALSE(staysInside(outside));
     }
+}
+
+TEST_CASE("The folder for caches is absolute, or there is none") {
+    const auto folderWith = [](const char* cache, const char* home) {
+        for (const auto& [name, value] : {std::pair("XDG_CACHE_HOME", cache), std::pair("HOME", home)}) {
+            value != nullptr ? ::setenv(name, value, 1) : ::unsetenv(name);
+        }
+        return cacheFolder().string();
+    };
+    const std::string home = std::getenv("HOME") != nullptr ? std::getenv("HOME") : "";
+    CHECK(folderWith("/c", "/h") == "/c/fathom");
+    CHECK(folderWith("", "/h") == "/h/.cache/fathom");
+    CHECK(folderWith("c", "/h") == "/h/.cache/fathom");
+    CHECK(folderWith(nullptr, "/h") == "/h/.cache/fathom");
+    CHECK(folderWith(nullptr, "") == "");
+    CHECK(folderWith(nullptr, nullptr) == "");
+    ::setenv("HOME", home.c_str(), 1);
 }
