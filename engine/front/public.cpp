@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/front/public.h"
 
+#include "engine/types/error.h"
+#include "engine/types/number_text.h"
+#include "engine/types/printable.h"
 #include "engine/types/version.h"
 
 #include <algorithm>
@@ -32,6 +35,14 @@ ColourFormat formatOf(v0::ColourFormat format) {
     return format == v0::ColourFormat::Rgb    ? ColourFormat::Rgb
            : format == v0::ColourFormat::Yuyv ? ColourFormat::Yuyv
                                               : ColourFormat::Rgba;
+}
+
+// A value that the enumeration does not have, as other languages may pass it.
+template <class Enum>
+void checkKnown(const std::string& place, const char* field, Enum value, Enum last, const char* allowed) {
+    if (value < Enum{} || value > last) {
+        throw BadInput(place, field, std::to_string(static_cast<long long>(value)), allowed);
+    }
 }
 
 v0::State external(StepState state) noexcept {
@@ -118,11 +129,17 @@ CameraInfo internal(const v0::CameraModel& model) {
     info.metresPerUnit = model.depthFormat == v0::DepthFormat::Metres ? kFloatUnit : model.metresPerUnit;
     info.hasColour = model.colourFormat != v0::ColourFormat::None;
     info.colourFormat = formatOf(model.colourFormat);
-    if (!(info.metresPerUnit > 0.0) || !isFinite(info.colourTdepth) ||
-        (info.colourFormat == ColourFormat::Yuyv && info.colour.width % 2 != 0)) {
-        throw v0::BadInput("camera: " + model.name +
-                           ": unit, colour pose or YUYV width (allowed: a positive unit, a finite pose, an "
-                           "even width)");
+    const std::string place = "camera " + printable(model.name);
+    checkKnown(place, "depthFormat", model.depthFormat, v0::DepthFormat::Metres, "Uint16 or Metres");
+    checkKnown(place, "colourFormat", model.colourFormat, v0::ColourFormat::Yuyv, "None, Rgb, Rgba or Yuyv");
+    if (!(info.metresPerUnit > 0.0)) {
+        throw BadInput(place, "metresPerUnit", significant(info.metresPerUnit, 9), "a positive number");
+    }
+    if (!isFinite(info.colourTdepth)) {
+        throw BadInput(place, "colourTdepth", "not finite or without a rotation", "a pose");
+    }
+    if (info.colourFormat == ColourFormat::Yuyv && info.colour.width % 2 != 0) {
+        throw BadInput(place, "colour width", std::to_string(info.colour.width), "an even width for YUYV");
     }
     return info;
 }

@@ -267,6 +267,28 @@ TEST_CASE("A step reports a missing scene, an old scene and time that goes back"
     CHECK(step.wrench.force == Vec3{0.0, 0.0, 0.0});
 }
 
+TEST_CASE("A camera model that cannot be used is rejected by one line with its name, field and value") {
+    const auto fault = [](void (*change)(CameraModel&)) {
+        CameraModel model = smallCamera();
+        model.name = "arm\n\x1b[31m";
+        change(model);
+        try {
+            const Lockstep made(wallScene(), model, startAt(0.5));
+        } catch (const BadInput& e) {
+            return std::string(e.what());
+        }
+        return std::string();
+    };
+    CHECK(fault([](CameraModel&) {}) == "");
+    const std::string unit = fault([](CameraModel& m) { m.metresPerUnit = 0.0; });
+    CHECK(unit.find("metresPerUnit: 0 (allowed: a positive number)") != std::string::npos);
+    CHECK(std::ranges::none_of(unit, [](char c) { return c == '\n' || c == '\x1b'; }));
+    CHECK(fault([](CameraModel& m) { m.colourFormat = static_cast<ColourFormat>(17); }).find("Format: 17 ") !=
+          std::string::npos);
+    CHECK(fault([](CameraModel& m) { m.depthFormat = static_cast<DepthFormat>(-1); }).find("Format: -1 ") !=
+          std::string::npos);
+}
+
 TEST_CASE("A camera that protects nothing is said in the log: wrong unit, no depth, no colour") {
     std::mutex mutex;
     std::string lines;
