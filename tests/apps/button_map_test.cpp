@@ -2,7 +2,7 @@
 #include "apps/operate/button_map.h"
 #include "apps/operate/pilot_hand.h"
 #include "engine/cycle/step_record.h"
-#include "engine/types/error.h"
+#include "tests/support/refusal.h"
 #include "tests/support/scratch_folder.h"
 
 #include <doctest/doctest.h>
@@ -64,12 +64,7 @@ TEST_CASE("A mapping is read as it was saved, and a bad file is rejected in one 
     CHECK(read.chosen() == map.chosen());
     const auto refusal = [&](const std::string& text) -> std::string {
         std::ofstream(file) << text;
-        try {
-            read.load(file);
-        } catch (const BadInput& e) {
-            return e.what();
-        }
-        return "";
+        return testing::refusalOf([&] { read.load(file); });
     };
     CHECK(refusal("[]").find("content: no JSON object") != std::string::npos);
     CHECK(refusal(R"({"clutch": 3})").find("clutch: 3 (allowed: one bit") != std::string::npos);

@@ -3,6 +3,7 @@
 #include "apps/operate/event_marks.h"
 
 #include "engine/types/error.h"
+#include "tests/support/refusal.h"
 #include "tests/support/scratch_folder.h"
 
 #include <doctest/doctest.h>
@@ -14,14 +15,9 @@ using namespace fathom::testing;
 
 namespace {
 
-std::string refusalOf(const std::filesystem::path& folder, const std::string& text) {
+std::string marksRefusal(const std::filesystem::path& folder, const std::string& text) {
     std::ofstream(folder / kMarksFile) << text;
-    try {
-        (void)readMarks(folder);
-    } catch (const BadInput& e) {
-        return e.what();
-    }
-    return "";
+    return refusalOf([&] { readMarks(folder); });
 }
 
 } // namespace
@@ -46,9 +42,10 @@ TEST_CASE("Marks are added at any time, sorted, and come back from the file") {
 
 TEST_CASE("A damaged file of marks is refused in one line with file, line and what is allowed") {
     const ScratchFolder scratch;
-    CHECK(refusalOf(scratch.path(), "time\n1,a\n").find("t_s,name") != std::string::npos);
+    CHECK(marksRefusal(scratch.path(), "time\n1,a\n").find("t_s,name") != std::string::npos);
     for (const char* row : {"-1,a", "x,a", "nan,a", "1", "1,a,b"}) {
-        const std::string why = refusalOf(scratch.path(), std::string("t_s,name\n0.5,mark 1\n") + row + "\n");
+        const std::string why =
+            marksRefusal(scratch.path(), std::string("t_s,name\n0.5,mark 1\n") + row + "\n");
         CHECK(why.find("marks.csv") != std::string::npos);
         CHECK(why.find("line 3") != std::string::npos);
         CHECK(why.find("a time in seconds") != std::string::npos);
@@ -58,5 +55,5 @@ TEST_CASE("A damaged file of marks is refused in one line with file, line and wh
     for (int i = 0; i <= 10'000; ++i) {
         many += "1,a\n";
     }
-    CHECK(refusalOf(scratch.path(), many).find("10000 marks") != std::string::npos);
+    CHECK(marksRefusal(scratch.path(), many).find("10000 marks") != std::string::npos);
 }

@@ -3,6 +3,7 @@
 #include "apps/operate/open_card.h"
 
 #include "engine/types/error.h"
+#include "tests/support/refusal.h"
 #include "tests/support/scratch_folder.h"
 
 #include <doctest/doctest.h>
@@ -39,11 +40,6 @@ TEST_CASE(
     }
     CHECK(recordingsIn(scratch.path()) ==
           std::vector<std::string>{(scratch.path() / "new").string(), (scratch.path() / "old").string()});
-    try {
-        (void)recordingsIn(scratch.path() / "missing");
-        CHECK(false);
-    } catch (const Error& e) {
-        CHECK(std::string(e.what()) ==
-              (scratch.path() / "missing").string() + ": cannot be read (No such file or directory)");
-    }
+    CHECK(refusalOf<Error>([&] { recordingsIn(scratch.path() / "missing"); }) ==
+          (scratch.path() / "missing").string() + ": cannot be read (No such file or directory)");
 }

@@ -5,6 +5,7 @@
 #include "engine/types/error.h"
 #include "engine/types/read_file.h"
 #include "tests/rig/file_size_limit.h"
+#include "tests/support/refusal.h"
 #include "tests/support/scratch_folder.h"
 
 #include <doctest/doctest.h>
@@ -57,12 +58,7 @@ TEST_CASE("Writes of any size keep their order: none, one byte, beyond the buffe
 TEST_CASE("A missing folder, a folder in the file's place and a full disk are errors that name the file") {
     const ScratchFolder folder;
     const auto named = [](const std::string& name, auto&& action) {
-        try {
-            action();
-        } catch (const Error& error) {
-            return std::string(error.what()).find(name) != std::string::npos;
-        }
-        return false;
+        return refusalOf<Error>(action).find(name) != std::string::npos;
     };
     CHECK(named("gone/a.csv", [&] { OutputFile(folder.path() / "gone" / "a.csv"); }));
     std::filesystem::create_directories(folder.path() / "taken" / "inside");
@@ -119,14 +115,7 @@ TEST_CASE("A file that was read is not replaced, under its own name or by a link
 TEST_CASE("An output folder is locked by one process; the lock of a dead one and a file left behind do not "
           "count") {
     const ScratchFolder folder;
-    const auto refused = [&] {
-        try {
-            prepareOutputFolder(folder.path(), false);
-        } catch (const BadInput& error) {
-            return std::string(error.what());
-        }
-        return std::string();
-    };
+    const auto refused = [&] { return refusalOf([&] { prepareOutputFolder(folder.path(), false); }); };
     {
         const OutputLock lock = prepareOutputFolder(folder.path(), false);
         CHECK(refused().find("in use by process " + std::to_string(::getpid())) != std::string::npos);

@@ -5,7 +5,7 @@
 #include "apps/operate/fixture_editor.h"
 #include "apps/session/session.h"
 #include "engine/cloud/frame_params.h"
-#include "engine/types/error.h"
+#include "tests/support/refusal.h"
 #include "tests/support/scratch_folder.h"
 
 #include <algorithm>
@@ -159,12 +159,7 @@ TEST_CASE("Damaged edits are rejected with file, line, column and what is allowe
     const auto folder = pilot.folder.path() / "rec";
     const auto refused = [&](const std::string& rows) {
         put(folder / SceneEdits::kFile, rows);
-        try {
-            SceneEdits{folder};
-        } catch (const BadInput& e) {
-            return std::string(e.what());
-        }
-        return std::string();
+        return refusalOf([&] { SceneEdits{folder}; });
     };
     const std::string head = "picture,scene,held,still\n";
     const std::vector<std::pair<std::string, std::string>> cases{

@@ -2,7 +2,7 @@
 // The ticks of a recording, written and read.
 #include "apps/operate/tick_log.h"
 
-#include "engine/types/error.h"
+#include "tests/support/refusal.h"
 #include "tests/support/scratch_folder.h"
 
 #include <cmath>
@@ -52,12 +52,7 @@ void write(const std::filesystem::path& folder, const std::vector<uint32_t>& tou
 }
 
 std::string refusal(const std::filesystem::path& folder) {
-    try {
-        readTickLog(folder);
-    } catch (const BadInput& e) {
-        return e.what();
-    }
-    return "";
+    return refusalOf([&] { readTickLog(folder); });
 }
 
 } // namespace

@@ -7,6 +7,7 @@
 #include "engine/types/error.h"
 #include "tests/devices/bag_maker.h"
 #include "tests/devices/recorded_folder.h"
+#include "tests/support/refusal.h"
 
 #include <cmath>
 #include <doctest/doctest.h>
@@ -47,12 +48,7 @@ BagMaker smallBag(double colourFx = 4.0) {
 }
 
 std::string bagRefusal(const std::filesystem::path& file) {
-    try {
-        BagCamera camera(file);
-    } catch (const BadInput& e) {
-        return e.what();
-    }
-    return "";
+    return testing::refusalOf([&] { BagCamera camera(file); });
 }
 
 } // namespace

@@ -3,9 +3,9 @@
 // @foxglove/rosmsg2-serialization: three clouds of 9 x 7 points, a tilted wall from 1 m on, 0.1 m farther
 // each, seen with fx 10, fy 11, cx 4.25, cy 3.5; red; without the first point.
 #include "devices/bag/open_bag.h"
-#include "engine/types/error.h"
 #include "tests/devices/played_bag.h"
 #include "tests/realtime/listening.h"
+#include "tests/support/refusal.h"
 
 #include <spdlog/spdlog.h>
 
@@ -32,12 +32,7 @@ void checkWalls(Camera& camera) {
 }
 
 std::string cloudRefusal(const std::filesystem::path& file, const SourceOptions& options = {}) {
-    try {
-        openBag(file, options);
-    } catch (const BadInput& e) {
-        return e.what();
-    }
-    return "";
+    return testing::refusalOf([&] { openBag(file, options); });
 }
 
 // A cloud in ROS 1: 9 x 7 points of x, y, z at `distance` [m], `width` x `height` as stated.

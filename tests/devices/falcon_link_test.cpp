@@ -2,6 +2,7 @@
 #include "devices/usb/falcon_firmware.h"
 #include "devices/usb/falcon_link.h"
 #include "tests/devices/fake_falcon.h"
+#include "tests/support/refusal.h"
 #include "tests/support/scratch_folder.h"
 
 #include <doctest/doctest.h>
@@ -25,12 +26,7 @@ std::vector<uint8_t> blob(size_t size) {
 }
 
 std::string startFault(FakeFalcon& device, const std::vector<uint8_t>& firmware) {
-    try {
-        FalconLink(device).start(firmware);
-    } catch (const Error& e) {
-        return e.what();
-    }
-    return "none";
+    return refusalOf<Error>([&] { FalconLink(device).start(firmware); });
 }
 
 } // namespace

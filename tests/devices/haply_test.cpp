@@ -5,6 +5,7 @@
 #include "engine/types/error.h"
 #include "tests/devices/haply_service.h"
 #include "tests/devices/socket_rig.h"
+#include "tests/support/refusal.h"
 
 #include <cmath>
 #include <optional>
@@ -44,15 +45,6 @@ struct Loop {
     SocketHand hand;
     double t = 0.0;
 };
-
-std::string refusal(const std::function<void()>& body) {
-    try {
-        body();
-    } catch (const Error& e) {
-        return e.what();
-    }
-    return "";
-}
 
 } // namespace
 
@@ -174,7 +166,7 @@ TEST_CASE("A device pulled out of the service, and a service that ends, open the
 TEST_CASE("A missing service, WebSocket or Inverse3, or another Inverse3, is reported") {
     SocketFolder folder;
     const auto said = [&](uint16_t port, const std::string& device = "") {
-        return refusal([&] { HaplyBridge({folder.endpoint(), "127.0.0.1", port, device}); });
+        return refusalOf<Error>([&] { HaplyBridge({folder.endpoint(), "127.0.0.1", port, device}); });
     };
     uint16_t port = 0;
     {

@@ -4,6 +4,7 @@
 #include "engine/types/colour_copy.h"
 #include "tests/devices/matroska_maker.h"
 #include "tests/devices/played_bag.h"
+#include "tests/support/refusal.h"
 
 #include <fstream>
 #include <iterator>
@@ -57,12 +58,7 @@ BagCamera playMkv(const TemporaryFolder& folder, const std::string& bytes,
 }
 
 std::string mkvRefusal(const TemporaryFolder& folder, const std::string& bytes) {
-    try {
-        playMkv(folder, bytes);
-    } catch (const BadInput& e) {
-        return e.what();
-    }
-    return "";
+    return testing::refusalOf([&] { playMkv(folder, bytes); });
 }
 
 // Counts the frames. Each must be a recorded one, in order.

@@ -3,9 +3,9 @@
 
 #include "devices/images/metre_units.h"
 #include "devices/recorded/recorded_camera.h"
-#include "engine/types/error.h"
 #include "tests/devices/organised_cloud.h"
 #include "tests/devices/recorded_folder.h"
+#include "tests/support/refusal.h"
 
 #include <cmath>
 #include <cstring>
@@ -49,12 +49,7 @@ std::string farText(float depth) {
 }
 
 std::string refusal(const std::filesystem::path& file, const SourceOptions& options = {}) {
-    try {
-        PcdCamera camera(file, options);
-    } catch (const BadInput& e) {
-        return e.what();
-    }
-    return "";
+    return testing::refusalOf([&] { PcdCamera camera(file, options); });
 }
 
 } // namespace

@@ -3,9 +3,9 @@
 #pragma once
 
 #include "devices/bag/bag_camera.h"
-#include "engine/types/error.h"
 #include "tests/devices/bag_maker.h"
 #include "tests/devices/recorded_folder.h"
+#include "tests/support/refusal.h"
 
 #include <doctest/doctest.h>
 
@@ -30,12 +30,7 @@ inline BagCamera playStreams(const TemporaryFolder& folder, const BagMaker& make
 
 inline std::string streamRefusal(const TemporaryFolder& folder, const BagMaker& maker,
                                  const SourceOptions& options = {}) {
-    try {
-        playStreams(folder, maker, options);
-    } catch (const BadInput& e) {
-        return e.what();
-    }
-    return "";
+    return testing::refusalOf([&] { playStreams(folder, maker, options); });
 }
 
 // Whether a line says this; the line is shown where it does not.

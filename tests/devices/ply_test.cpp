@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Organised PLY files, with headers as the Point Cloud Library writes them.
 #include "devices/pcd/pcd_camera.h"
-#include "engine/types/error.h"
 #include "tests/devices/organised_cloud.h"
 #include "tests/devices/recorded_folder.h"
+#include "tests/support/refusal.h"
 
 #include <algorithm>
 #include <cmath>
@@ -112,12 +112,7 @@ std::string withCamera(const std::string& format) {
 std::string plyRefusal(const std::string& text) {
     const TemporaryFolder folder;
     folder.write("x.ply", text);
-    try {
-        PcdCamera camera(folder.path() / "x.ply");
-    } catch (const BadInput& e) {
-        return e.what();
-    }
-    return "";
+    return testing::refusalOf([&] { PcdCamera camera(folder.path() / "x.ply"); });
 }
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The driver of Reach arms against a simulated arm on a pseudo-terminal, on good lines and bad ones.
 #include "devices/serial/reach_arm.h"
-#include "engine/types/error.h"
 #include "tests/devices/pty_line.h"
+#include "tests/support/refusal.h"
 
 #include <cmath>
 #include <doctest/doctest.h>
@@ -228,12 +228,7 @@ TEST_CASE("A Reach arm that does not report the current of each motor is held") 
 
 TEST_CASE("A file that is not a serial port is rejected in one line") {
     const auto refusal = [](const std::string& name, uint32_t baud) -> std::string {
-        try {
-            SerialPort port(name, baud);
-        } catch (const BadInput& e) {
-            return e.what();
-        }
-        return "";
+        return refusalOf([&] { SerialPort port(name, baud); });
     };
     CHECK(refusal("/dev/no_such_line", 115200).find("No such file") != std::string::npos);
     CHECK(refusal("/dev/null", 115200).find("a terminal device") != std::string::npos);

@@ -3,6 +3,7 @@
 #include "engine/types/colour_copy.h"
 #include "tests/devices/database_maker.h"
 #include "tests/devices/played_bag.h"
+#include "tests/support/refusal.h"
 
 #include <limits>
 
@@ -67,12 +68,7 @@ BagCamera playDatabase(const TemporaryFolder& folder, const Messages& messages) 
 }
 
 std::string databaseRefusal(const TemporaryFolder& folder, const Messages& messages) {
-    try {
-        playDatabase(folder, messages);
-    } catch (const BadInput& e) {
-        return e.what();
-    }
-    return "";
+    return testing::refusalOf([&] { playDatabase(folder, messages); });
 }
 
 void checkPairs(BagCamera& camera) {

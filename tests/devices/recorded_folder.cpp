@@ -2,7 +2,7 @@
 #include "tests/devices/recorded_folder.h"
 
 #include "devices/recorded/recorded_camera.h"
-#include "engine/types/error.h"
+#include "tests/support/refusal.h"
 
 #include <array>
 #include <cstdio>
@@ -123,14 +123,11 @@ std::vector<uint16_t> playedDepths(const std::filesystem::path& folder, const So
 }
 
 std::string recordingRefusal(const std::filesystem::path& folder, const SourceOptions& options) {
-    try {
+    return testing::refusalOf([&] {
         RecordedCamera camera(folder, options);
         while (camera.next()) {
         }
-    } catch (const BadInput& e) {
-        return e.what();
-    }
-    return "";
+    });
 }
 
 } // namespace fathom

@@ -2,6 +2,7 @@
 #include "devices/recorded/hand_csv.h"
 #include "engine/types/error.h"
 #include "tests/devices/recorded_folder.h"
+#include "tests/support/refusal.h"
 
 #include <cmath>
 #include <doctest/doctest.h>
@@ -20,13 +21,7 @@ std::vector<HandWaypoint> read(const std::string& text) {
 }
 
 bool refusedWith(const std::string& text, const std::string& part) {
-    try {
-        read(text);
-    } catch (const BadInput& e) {
-        INFO(e.what());
-        return std::string(e.what()).find("way.csv: " + part) != std::string::npos;
-    }
-    return false;
+    return testing::refusalOf([&] { read(text); }).find("way.csv: " + part) != std::string::npos;
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 #include "devices/recorded/recorded_camera.h"
 #include "engine/types/error.h"
 #include "tests/devices/recorded_folder.h"
+#include "tests/support/refusal.h"
 
 #include <doctest/doctest.h>
 
@@ -20,12 +21,7 @@ uint32_t framesOf(RecordedCamera& camera, std::vector<double>& depths) {
 }
 
 std::string layoutRefusal(const fs::path& folder, const SourceOptions& options = {}) {
-    try {
-        RecordedCamera camera(folder, options);
-    } catch (const BadInput& e) {
-        return e.what();
-    }
-    return "";
+    return testing::refusalOf([&] { RecordedCamera camera(folder, options); });
 }
 
 } // namespace

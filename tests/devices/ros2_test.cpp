@@ -6,6 +6,7 @@
 #include "engine/types/colour_copy.h"
 #include "engine/types/error.h"
 #include "tests/devices/recorded_folder.h"
+#include "tests/support/refusal.h"
 
 #include <doctest/doctest.h>
 #include <fstream>
@@ -38,12 +39,7 @@ std::string rosBytes(const std::filesystem::path& file) {
 }
 
 std::string rosRefusal(const std::filesystem::path& file) {
-    try {
-        BagCamera camera(file);
-    } catch (const BadInput& e) {
-        return e.what();
-    }
-    return "";
+    return testing::refusalOf([&] { BagCamera camera(file); });
 }
 
 } // namespace

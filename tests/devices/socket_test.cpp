@@ -2,8 +2,8 @@
 // Both ends of the socket against each other and against invalid packets, in one process.
 #include "devices/bridge/socket_hand.h"
 #include "devices/bridge/socket_server.h"
-#include "engine/types/error.h"
 #include "tests/devices/socket_rig.h"
+#include "tests/support/refusal.h"
 
 #include <cstring>
 #include <fstream>
@@ -18,17 +18,6 @@ using namespace fathom::testing;
 namespace {
 
 constexpr uint32_t kReady = FATHOM_DOOR_PRESENT | FATHOM_DOOR_HOMED;
-
-// What a BadInput of `attempt` says.
-template <class Attempt>
-std::string refusalOf(Attempt&& attempt) {
-    try {
-        attempt();
-    } catch (const BadInput& e) {
-        return e.what();
-    }
-    return "nothing";
-}
 
 bool has(const std::string& text, const std::string& part) {
     const bool found = text.find(part) != std::string::npos;

@@ -5,6 +5,7 @@
 #include "devices/v4l2/inverse_distortion.h"
 #include "devices/v4l2/realsense_tables.h"
 #include "engine/types/error.h"
+#include "tests/support/refusal.h"
 
 #include <cmath>
 #include <cstring>
@@ -15,12 +16,7 @@ using namespace fathom;
 namespace {
 
 std::string refusal(const std::string& text) {
-    try {
-        parseCameraRequest(text);
-    } catch (const BadInput& e) {
-        return e.what();
-    }
-    return "";
+    return testing::refusalOf([&] { parseCameraRequest(text); });
 }
 
 } // namespace

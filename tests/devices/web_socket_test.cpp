@@ -2,6 +2,7 @@
 #include "devices/haply/haply_message.h"
 #include "devices/haply/web_socket.h"
 #include "engine/types/error.h"
+#include "tests/support/refusal.h"
 
 #include <doctest/doctest.h>
 
@@ -89,12 +90,7 @@ TEST_CASE("A state of Haply's service is parsed, and an invalid one is rejected 
         CHECK_FALSE(readHaplyState(none, ""));
     }
     const auto fault = [](const char* text) {
-        try {
-            readHaplyState(text, "");
-        } catch (const Error& e) {
-            return std::string(e.what());
-        }
-        return std::string();
+        return testing::refusalOf<Error>([&] { readHaplyState(text, ""); });
     };
     CHECK(fault("nonsense").find("not a JSON object") != std::string::npos);
     CHECK(fault("[1]").find("not a JSON object") != std::string::npos);

@@ -2,8 +2,8 @@
 #include "engine/model/cover_links.h"
 
 #include "engine/model/arm_model.h"
-#include "engine/types/error.h"
 #include "tests/model/meshes.h"
+#include "tests/support/refusal.h"
 
 #include <doctest/doctest.h>
 #include <fstream>
@@ -26,13 +26,8 @@ LinkGeometry ballShape(const std::string& link, double radius) {
     return {link, ball};
 }
 
-std::string refusalOf(const std::vector<LinkGeometry>& shapes) {
-    try {
-        spheresOf(shapes, {"arm.urdf", {}}, 8);
-    } catch (const BadInput& e) {
-        return e.what();
-    }
-    return "";
+std::string spheresRefusal(const std::vector<LinkGeometry>& shapes) {
+    return testing::refusalOf([&] { spheresOf(shapes, {"arm.urdf", {}}, 8); });
 }
 
 } // namespace
@@ -63,8 +58,8 @@ TEST_CASE(
     CHECK(spheresOf({}, {"arm.urdf", {}}, 8).empty());
 
     const LinkGeometry noFile = meshLink("none", "/nowhere/none.obj"), noSize = ballShape("flat", -0.1);
-    CHECK(refusalOf({ballShape("a", 0.1), noSize, noFile}).find("arm.urdf: link flat: ") == 0);
-    CHECK(refusalOf({ballShape("a", 0.1), noFile, noSize})
+    CHECK(spheresRefusal({ballShape("a", 0.1), noSize, noFile}).find("arm.urdf: link flat: ") == 0);
+    CHECK(spheresRefusal({ballShape("a", 0.1), noFile, noSize})
               .find("arm.urdf: link none: mesh '/nowhere/none.obj'") == 0);
     const auto skipped = spheresOf(std::vector{ballShape("flat", 0.0)}, {"arm.urdf", {}}, 8);
     REQUIRE(skipped.size() == 1);

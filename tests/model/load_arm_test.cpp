@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/model/arm_model.h"
 
-#include "engine/types/error.h"
 #include "tests/model/meshes.h"
+#include "tests/support/refusal.h"
 #include "tests/support/sanitized.h"
 
 #include <cmath>
@@ -39,13 +39,8 @@ ArmModel load(const std::string& text, const ArmOptions& options = {}) {
     return loadArm(file, options);
 }
 
-std::string refusalOf(const std::string& text, const ArmOptions& options = {}) {
-    try {
-        load(text, options);
-    } catch (const BadInput& e) {
-        return e.what();
-    }
-    return "";
+std::string armRefusal(const std::string& text, const ArmOptions& options = {}) {
+    return testing::refusalOf([&] { load(text, options); });
 }
 
 } // namespace
@@ -108,23 +103,23 @@ TEST_CASE("Boxes and cylinders become spheres that contain their corners and rim
 TEST_CASE("An unusable arm is rejected with the joint or link and the reason") {
     ArmOptions options;
     options.tip = "nowhere";
-    CHECK(refusalOf(kArm + "</robot>", options).find("link: 'nowhere' (allowed: ") != std::string::npos);
+    CHECK(armRefusal(kArm + "</robot>", options).find("link: 'nowhere' (allowed: ") != std::string::npos);
     options = {};
     options.base = "arm/b";
     options.tip = "base";
-    CHECK(refusalOf(kArm + "</robot>", options).find("tip: 'base'") != std::string::npos);
+    CHECK(armRefusal(kArm + "</robot>", options).find("tip: 'base'") != std::string::npos);
     const std::string two = "<robot name='r'><link name='a'>" + kBall + "</link><link name='b'/>";
     options = {};
     options.tip = "b";
-    CHECK(refusalOf(two + jointOf("j", "floating", "a", "b") + "</robot>", options)
+    CHECK(armRefusal(two + jointOf("j", "floating", "a", "b") + "</robot>", options)
               .find("joint j: planar, floating or a ball") != std::string::npos);
-    CHECK(refusalOf(
+    CHECK(armRefusal(
               two +
               jointOf("j", "prismatic", "a", "b", "<limit effort='1' lower='2' upper='1' velocity='1'/>") +
               "</robot>")
               .find("joint j: limits missing or crossed") != std::string::npos);
-    CHECK(refusalOf(two + "<link name='c'/>" + jointOf("j", "fixed", "a", "b") +
-                    jointOf("k", "fixed", "c", "c") + "</robot>")
+    CHECK(armRefusal(two + "<link name='c'/>" + jointOf("j", "fixed", "a", "b") +
+                     jointOf("k", "fixed", "c", "c") + "</robot>")
               .find("link c: in a loop of joints (allowed: a tree of links below one root)") !=
           std::string::npos);
     std::string many = "<robot name='r'><link name='l0'>" + kBall + "</link>";
@@ -136,13 +131,13 @@ TEST_CASE("An unusable arm is rejected with the joint or link and the reason") {
         name += number;
         many += "<link name='" + b + "'/>" + jointOf(name, "revolute", a, b);
     }
-    CHECK(refusalOf(many + "</robot>")
+    CHECK(armRefusal(many + "</robot>")
               .find("joint j12: one more moving joint (allowed: 12 at most from base to "
                     "tip; arm.locked holds joints") != std::string::npos);
     options = {};
     options.locked = {{"j3", 0.5}};
     CHECK(load(many + "</robot>", options).count() == 12);
-    CHECK(refusalOf("<robot name='r'><link name='a'/></robot>").find("collision: no shapes") !=
+    CHECK(armRefusal("<robot name='r'><link name='a'/></robot>").find("collision: no shapes") !=
           std::string::npos);
 }
 
@@ -160,11 +155,11 @@ TEST_CASE("A URDF that would overflow its reader's stack is rejected: deeply nes
         };
         chain += "<link name='" + name(i) + "'/>" + jointOf("j" + name(i), "fixed", name(i), name(i - 1));
     }
-    const std::string refusal = refusalOf(nested);
+    const std::string refusal = armRefusal(nested);
     CHECK_MESSAGE((refusal.find("robot: breaks the URDF reader") != std::string::npos ||
                    refusal.find("XML_ELEMENT_DEPTH_EXCEEDED") != std::string::npos), // newer TinyXML-2
                   refusal);
-    const std::string links = refusalOf(chain + "</robot>"); // a larger stack can survive them
+    const std::string links = armRefusal(chain + "</robot>"); // a larger stack can survive them
     CHECK_MESSAGE((links.find("robot: 50000 links (allowed: 1000 at most)") != std::string::npos ||
                    links.find("robot: breaks the URDF reader") != std::string::npos),
                   links);
@@ -205,8 +200,8 @@ TEST_CASE("A URDF's mesh is scaled by three factors, and a factor of 0 is reject
     CHECK(high.y < 0.14);
     CHECK(high.z > 0.20);
     CHECK(high.z < 0.24);
-    CHECK(refusalOf(text("1 0 1")).find("link a: a mesh scale that is 0") != std::string::npos);
-    const std::string large = refusalOf(text("1000 1000 1000"));
+    CHECK(armRefusal(text("1 0 1")).find("link a: a mesh scale that is 0") != std::string::npos);
+    const std::string large = armRefusal(text("1000 1000 1000"));
     INFO(large);
     CHECK(large.find(".urdf: link a: " + box.path().string() + ": size: 100 m") != std::string::npos);
     CHECK(large.find("<mesh scale=") != std::string::npos);
@@ -252,7 +247,7 @@ TEST_CASE("The grasp moves a finger off the chain from its open to its closed po
     CHECK(limits.fingers[0].open == -1.0);
     CHECK(limits.fingers[0].closed == 2.0);
     options.fingers = {{"turn", {}, {}}}; // of the chain
-    CHECK(refusalOf(kArm + "</robot>", options).find("outside the chain") != std::string::npos);
+    CHECK(armRefusal(kArm + "</robot>", options).find("outside the chain") != std::string::npos);
     options.fingers = {{"jaw", {}, {}}, {"jaw", {}, {}}};
-    CHECK(refusalOf(kArm + "</robot>", options).find("each finger once") != std::string::npos);
+    CHECK(armRefusal(kArm + "</robot>", options).find("each finger once") != std::string::npos);
 }

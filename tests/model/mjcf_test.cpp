@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Arms in MJCF: the same links, joints and limits as those of a URDF that was written by hand.
 #include "tests/model/urdf_text.h"
+#include "tests/support/refusal.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,12 +24,7 @@ ArmModel loadMjcf(const std::string& inside, const ArmOptions& options = {}) {
 }
 
 std::string mjcfRefusal(const std::string& inside, const ArmOptions& options = {}) {
-    try {
-        loadMjcf(inside, options);
-    } catch (const BadInput& e) {
-        return e.what();
-    }
-    return "";
+    return refusalOf([&] { loadMjcf(inside, options); });
 }
 
 std::string ball(const std::string& pos = "0 0 0") {

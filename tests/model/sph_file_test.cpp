@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/model/sph_file.h"
 #include "engine/types/error.h"
+#include "tests/support/refusal.h"
 
 #include <cmath>
 #include <doctest/doctest.h>
@@ -30,12 +31,7 @@ private:
 
 std::string refusal(const std::string& text) {
     const SphFile file(text);
-    try {
-        readSph(file.path());
-    } catch (const BadInput& e) {
-        return e.what();
-    }
-    return "";
+    return testing::refusalOf([&] { readSph(file.path()); });
 }
 
 size_t usedLeaves(const SphereTree& tree) {

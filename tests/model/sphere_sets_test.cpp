@@ -2,6 +2,7 @@
 #include "engine/model/sphere_sets.h"
 
 #include "engine/types/error.h"
+#include "tests/support/refusal.h"
 
 #include <doctest/doctest.h>
 #include <fstream>
@@ -29,14 +30,9 @@ private:
     std::filesystem::path path_;
 };
 
-std::string refusalOf(const std::string& kind, const std::string& text, const std::string& link = "") {
+std::string setRefusal(const std::string& kind, const std::string& text, const std::string& link = "") {
     const TextFile file(kind, text);
-    try {
-        readSphereTree(file.path(), link);
-    } catch (const BadInput& e) {
-        return e.what();
-    }
-    return "";
+    return testing::refusalOf([&] { readSphereTree(file.path(), link); });
 }
 
 std::string ball(const std::string& centre, const std::string& radius) {
@@ -75,12 +71,12 @@ TEST_CASE(
                                       {"<capsule radius='1' length='1'/>", "a capsule"},
                                       {"<mesh filename='a.stl'/>", "a mesh"}}) {
         for (const char* link : {"", "b"}) {
-            const std::string refusal = refusalOf(".urdf", robot(shape), link);
+            const std::string refusal = setRefusal(".urdf", robot(shape), link);
             CHECK_MESSAGE(refusal.find(std::string("link b, collision 1: ") + name +
                                        " (allowed: spheres; ") != std::string::npos,
                           refusal);
         }
-        CHECK(refusalOf(".urdf", robot(shape), "a") == "");
+        CHECK(setRefusal(".urdf", robot(shape), "a") == "");
     }
 }
 
@@ -102,8 +98,8 @@ TEST_CASE("cuRobo's YAML is read at the top and under its tables; disabled spher
         CHECK(sets[1].spheres[0].centre == dvec3(1, 2, 3));
         CHECK(readSphereTree(file.path(), "base").lastLevel()[0].radius == 0.5);
     }
-    CHECK(refusalOf(".yaml", spheres).find("link: not named (allowed: hand, base)") != std::string::npos);
-    CHECK(refusalOf(".yaml", spheres, "arm").find("link: 'arm' (allowed: hand, base)") != std::string::npos);
+    CHECK(setRefusal(".yaml", spheres).find("link: not named (allowed: hand, base)") != std::string::npos);
+    CHECK(setRefusal(".yaml", spheres, "arm").find("link: 'arm' (allowed: hand, base)") != std::string::npos);
 }
 
 TEST_CASE("cuRobo's buffer, one number or one per link, is added to the radii") {
@@ -122,7 +118,7 @@ TEST_CASE("cuRobo's buffer, one number or one per link, is added to the radii") 
     CHECK(glm::distance(radii("-0.005"), glm::dvec2(0.005, 0.015)) < 1e-12);
     CHECK(radii("") == glm::dvec2(0.01, 0.02));
     for (const char* buffer : {"{hnad: 0.05}", "[0.05]", "much", "{arm: much}"}) {
-        CHECK_MESSAGE(refusalOf(".yml", spheres + buffer, "arm") != "", buffer);
+        CHECK_MESSAGE(setRefusal(".yml", spheres + buffer, "arm") != "", buffer);
     }
 }
 
@@ -136,8 +132,8 @@ TEST_CASE(
     CHECK(sets[0].link == "hand");
     CHECK(sets[0].spheres[0].centre == dvec3(0, 0, 0.05));
     CHECK(sets[1].spheres[0].radius == 0.05);
-    CHECK(refusalOf(".yaml", "collision_spheres: [5]").find("line 1: no table") != std::string::npos);
-    CHECK(refusalOf(".yaml", "robot_cfg: {kinematics: {collision_spheres: spheres/franka_mesh.yml}}")
+    CHECK(setRefusal(".yaml", "collision_spheres: [5]").find("line 1: no table") != std::string::npos);
+    CHECK(setRefusal(".yaml", "robot_cfg: {kinematics: {collision_spheres: spheres/franka_mesh.yml}}")
               .find("collision_spheres: the name of a file, spheres/franka_mesh.yml (allowed: {LINK: ") !=
           std::string::npos);
     const std::string json = R"({"collision_spheres": {"hand": [{"center": [0, 0, 0], "radius": 0.01}]}})";
@@ -156,41 +152,41 @@ TEST_CASE("A repeated key of a set, and a second document, are rejected and not 
               "}}, g: {spheres: {arm: " + one + "}}}",
           "format: xrdf\ncollision: {buffer_distance: {hand: 1, hand: 2}}\ngeometry: {g: {spheres: {hand: " +
               one + "}}}"}) {
-        const std::string refusal = refusalOf(".yaml", text, "hand");
+        const std::string refusal = setRefusal(".yaml", text, "hand");
         CHECK_MESSAGE(refusal.find("given twice (allowed: each key once)") != std::string::npos, text,
                       refusal);
     }
-    CHECK(refusalOf(".yaml",
-                    "collision_spheres: {hand: " + one + "}\n---\ncollision_spheres: {arm: " + one + "}")
+    CHECK(setRefusal(".yaml",
+                     "collision_spheres: {hand: " + one + "}\n---\ncollision_spheres: {arm: " + one + "}")
               .find("line 2: more than a YAML document") != std::string::npos);
-    CHECK(refusalOf(".json", "{\"a::b\": {\"spheres\": []}, \"a::b\": {\"spheres\": []}}")
+    CHECK(setRefusal(".json", "{\"a::b\": {\"spheres\": []}, \"a::b\": {\"spheres\": []}}")
               .find("given twice") != std::string::npos);
-    CHECK(refusalOf(".yaml", "---\ncollision_spheres: {hand: " + one + "}\n...\n") == "");
+    CHECK(setRefusal(".yaml", "---\ncollision_spheres: {hand: " + one + "}\n...\n") == "");
 }
 
 TEST_CASE("A damaged set is rejected with the place of the error") {
-    CHECK(refusalOf(".urdf", "").find("file: empty") != std::string::npos);
-    CHECK(refusalOf(".urdf", "<robot").find("robot: ") != std::string::npos);
-    CHECK(refusalOf(".urdf", "<robot name='r'><link name='x'/></robot>").find("spheres: none") !=
+    CHECK(setRefusal(".urdf", "").find("file: empty") != std::string::npos);
+    CHECK(setRefusal(".urdf", "<robot").find("robot: ") != std::string::npos);
+    CHECK(setRefusal(".urdf", "<robot name='r'><link name='x'/></robot>").find("spheres: none") !=
           std::string::npos);
-    CHECK(refusalOf(".urdf", "<robot name='r'><link name='x'>" + ball("0 0 0", "-1") + "</link></robot>") !=
+    CHECK(setRefusal(".urdf", "<robot name='r'><link name='x'>" + ball("0 0 0", "-1") + "</link></robot>") !=
           "");
-    CHECK(refusalOf(".yaml", "collision_spheres: {a: [{center: [0, 0], radius: 1}]}")
+    CHECK(setRefusal(".yaml", "collision_spheres: {a: [{center: [0, 0], radius: 1}]}")
               .find("line 1: not a sphere") != std::string::npos);
-    CHECK(refusalOf(".yaml", "a: \"\\\x02\"\n").find_first_of("\n\x02") ==
+    CHECK(setRefusal(".yaml", "a: \"\\\x02\"\n").find_first_of("\n\x02") ==
           std::string::npos); // it quotes the input
-    CHECK(refusalOf(".yaml", "a: \"\\\x02\"\n").find("escape") != std::string::npos);
-    CHECK(refusalOf(".yaml", "collision_spheres:\n  a:\n    - {center: [0, 0, .nan], radius: 1}")
+    CHECK(setRefusal(".yaml", "a: \"\\\x02\"\n").find("escape") != std::string::npos);
+    CHECK(setRefusal(".yaml", "collision_spheres:\n  a:\n    - {center: [0, 0, .nan], radius: 1}")
               .find("line 3") != std::string::npos);
-    CHECK(refusalOf(".yaml", "other: 1").find("collision_spheres: missing") != std::string::npos);
-    CHECK(refusalOf(".yaml", "a: [").find("line") != std::string::npos);
-    CHECK(refusalOf(".txt", "x").find("kind of file: '.txt'") != std::string::npos);
+    CHECK(setRefusal(".yaml", "other: 1").find("collision_spheres: missing") != std::string::npos);
+    CHECK(setRefusal(".yaml", "a: [").find("line") != std::string::npos);
+    CHECK(setRefusal(".txt", "x").find("kind of file: '.txt'") != std::string::npos);
 }
 
 TEST_CASE("A set whose tables or lists reference themselves or each other is rejected") {
-    CHECK(refusalOf(".yaml", "&a {robot_cfg: {kinematics: *a}}").find("collision_spheres: missing") !=
+    CHECK(setRefusal(".yaml", "&a {robot_cfg: {kinematics: *a}}").find("collision_spheres: missing") !=
           std::string::npos);
-    CHECK(refusalOf(".yaml", "collision_spheres: &a {hand: &b [*b], arm: *a}").find("not a sphere") !=
+    CHECK(setRefusal(".yaml", "collision_spheres: &a {hand: &b [*b], arm: *a}").find("not a sphere") !=
           std::string::npos);
     std::string many = "collision_spheres:\n  base: &l [&s {center: [0, 0, 0], radius: 1}";
     for (int i = 0; i < 1000; ++i) {
@@ -200,14 +196,14 @@ TEST_CASE("A set whose tables or lists reference themselves or each other is rej
     for (int i = 0; i < 1000; ++i) {
         many += "  l" + std::to_string(i) + ": *l\n";
     }
-    CHECK(refusalOf(".yaml", many).find("collision_spheres: over 65536 (allowed: 65536 spheres at most)") !=
+    CHECK(setRefusal(".yaml", many).find("collision_spheres: over 65536 (allowed: 65536 spheres at most)") !=
           std::string::npos);
 }
 
 TEST_CASE("An oversized set is rejected before it takes memory, and quoted only in part") {
     const std::string set = "collision_spheres: {hand: [{center: [0, 0, 0], radius: 1}]}\n#";
-    CHECK(refusalOf(".yaml", set + std::string(900'000, 'x') + "\n") == "");
-    const std::string large = refusalOf(".yaml", set + std::string(1'100'000, 'x') + "\n");
+    CHECK(setRefusal(".yaml", set + std::string(900'000, 'x') + "\n") == "");
+    const std::string large = setRefusal(".yaml", set + std::string(1'100'000, 'x') + "\n");
     CHECK_MESSAGE(large.find("file: " + std::to_string(set.size() + 1'100'001) +
                              " bytes (allowed: a readable YAML file of at most 1 MiB)") != std::string::npos,
                   large);
@@ -218,7 +214,7 @@ TEST_CASE("An oversized set is rejected before it takes memory, and quoted only 
     const std::string word(500'000, 'x');
     for (const std::string& text :
          {names, "collision_spheres: {hand: [{center: [0, 0, " + word + "], radius: 1}]}"}) {
-        const std::string refusal = refusalOf(".yaml", text);
+        const std::string refusal = setRefusal(".yaml", text);
         CHECK(refusal != "");
         CHECK(refusal.size() < 1500);
     }

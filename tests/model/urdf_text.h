@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/model/arm_model.h"
-#include "engine/types/error.h"
+#include "tests/support/refusal.h"
 
 #include <fstream>
 #include <string>
@@ -37,12 +37,7 @@ inline ArmModel loadUrdf(const std::string& inside, const ArmOptions& options = 
 }
 
 inline std::string urdfRefusal(const std::string& inside, const ArmOptions& options = {}) {
-    try {
-        loadUrdf(inside, options);
-    } catch (const BadInput& e) {
-        return e.what();
-    }
-    return "";
+    return refusalOf([&] { loadUrdf(inside, options); });
 }
 
 } // namespace fathom::testing

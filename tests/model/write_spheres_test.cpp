@@ -4,8 +4,8 @@
 
 #include "engine/model/cover_urdf.h"
 #include "engine/model/sph_file.h"
-#include "engine/types/error.h"
 #include "tests/model/urdf_text.h"
+#include "tests/support/refusal.h"
 
 #include <doctest/doctest.h>
 #include <sstream>
@@ -48,12 +48,7 @@ bool same(const std::vector<LinkSpheres>& a, const std::vector<LinkSpheres>& b) 
 
 std::string refusal(const std::string& name, const std::string& text) {
     const SetFile file(name, text);
-    try {
-        readSets(file.path());
-    } catch (const BadInput& e) {
-        return e.what();
-    }
-    return "";
+    return refusalOf([&] { readSets(file.path()); });
 }
 
 const std::string kXrdf = "format: xrdf\nformat_version: 1.0\n";

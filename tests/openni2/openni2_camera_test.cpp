@@ -6,6 +6,7 @@
 #include "devices/openni2/open_openni2.h"
 #include "engine/types/colour_copy.h"
 #include "engine/types/error.h"
+#include "tests/support/refusal.h"
 
 #include <cmath>
 #include <doctest/doctest.h>
@@ -92,12 +93,7 @@ std::string recorded(const char* uri, int images, bool colour) {
 }
 
 std::string refusal(const std::string& source) {
-    try {
-        openOpenNi2(source);
-    } catch (const BadInput& e) {
-        return e.what();
-    }
-    return "";
+    return testing::refusalOf([&] { openOpenNi2(source); });
 }
 
 } // namespace
@@ -210,11 +206,7 @@ TEST_CASE("A missing file, a file that is not a recording, and an unknown lens a
 TEST_CASE(
     "A USB camera known to a driver is listed with its sizes, and one without a driver with the reason") {
     const auto refusalFor = [](uint16_t vendor, uint16_t product) {
-        try {
-            return "offered: " + openNi2Offer(vendor, product);
-        } catch (const BadInput& e) {
-            return std::string(e.what());
-        }
+        return testing::refusalOf([&] { openNi2Offer(vendor, product); });
     };
     CHECK(refusalFor(0x1d27, 0x0601).find("driver: no driver knows this camera") != std::string::npos);
     ::setenv("FATHOM_TEST_PLUGGED", "1", 1);

@@ -5,6 +5,7 @@
 #include "engine/types/error.h"
 #include "tests/haptics/arm_rig.h"
 #include "tests/ros2/robot.h"
+#include "tests/support/refusal.h"
 
 #include <doctest/doctest.h>
 #include <future>
@@ -62,12 +63,7 @@ bool isPosture(const ArmStatus& status, double first, double second) {
 }
 
 std::string requestFault(const std::string& text) {
-    try {
-        parseRos2ArmRequest(text);
-    } catch (const BadInput& e) {
-        return e.what();
-    }
-    return "";
+    return testing::refusalOf([&] { parseRos2ArmRequest(text); });
 }
 
 } // namespace
@@ -115,12 +111,7 @@ TEST_CASE("An arm without a topic of all its joints is refused with what is miss
     const std::atomic<bool> stop{false};
     const auto refused = [&] {
         ArmThread thread(armTarget(model, "2"), model.joints, chainAxes(model));
-        try {
-            thread.ready(stop);
-        } catch (const DeviceLost& e) {
-            return std::string(e.what());
-        }
-        return std::string();
+        return testing::refusalOf<DeviceLost>([&] { thread.ready(stop); });
     };
     CHECK(refused().find("arm: no message with joint 0, 1 in domain " + std::to_string(testDomain())) == 0);
     const auto becomes = [&](const std::string& joints, const std::string& part) { // once it is found

@@ -5,6 +5,7 @@
 #include "engine/types/error.h"
 #include "tests/ros2/bridge_loop.h"
 #include "tests/ros2/heard.h"
+#include "tests/support/refusal.h"
 
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
@@ -34,12 +35,7 @@ bool near(const HandSample& sample, const dvec3& position) {
 }
 
 std::string topicsRefusal(const std::string& text) {
-    try {
-        parseRos2HandRequest(text);
-    } catch (const BadInput& e) {
-        return e.what();
-    }
-    return "";
+    return refusalOf([&] { parseRos2HandRequest(text); });
 }
 
 } // namespace

@@ -5,6 +5,7 @@
 #include "engine/types/colour_copy.h"
 #include "engine/types/error.h"
 #include "tests/ros2/talker.h"
+#include "tests/support/refusal.h"
 
 #include <chrono>
 #include <doctest/doctest.h>
@@ -41,12 +42,7 @@ bool framesUntil(Ros2Camera& camera, const std::function<bool(const Frame*)>& se
 }
 
 std::string refused(const Ros2Request& request) {
-    try {
-        Ros2Camera camera(request);
-    } catch (const BadInput& e) {
-        return e.what();
-    }
-    return "";
+    return testing::refusalOf([&] { Ros2Camera camera(request); });
 }
 
 double nowMonotonic() {

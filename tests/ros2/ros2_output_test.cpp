@@ -2,9 +2,9 @@
 // Topics of a run. Their subscribers are processes of another program (tests/ros2_listener). Waits have
 // generous limits, and none is for a fixed time.
 #include "apps/binding/ros2_output.h"
-#include "engine/types/error.h"
 #include "tests/ros2/fed_run.h"
 #include "tests/ros2/heard.h"
+#include "tests/support/refusal.h"
 
 #include <doctest/doctest.h>
 
@@ -13,12 +13,7 @@ using namespace fathom;
 namespace {
 
 std::string outputRefusal(const std::string& text) {
-    try {
-        parseRos2OutputRequest(text);
-    } catch (const BadInput& e) {
-        return e.what();
-    }
-    return "";
+    return testing::refusalOf([&] { parseRos2OutputRequest(text); });
 }
 
 } // namespace
@@ -133,12 +128,9 @@ TEST_CASE("A topic gets at most the rate that was asked for, and a new run conti
 
 TEST_CASE("Another network than the one in use is refused, and so are words that are not known") {
     FedRun run("/fathom");
-    try {
-        openRos2Output(parseRos2OutputRequest("/fathom,domain=" + std::to_string(testDomain() + 1)), {});
-        FAIL("not refused");
-    } catch (const BadInput& e) {
-        CHECK(std::string(e.what()).find("which this program uses already") != std::string::npos);
-    }
+    const auto other = parseRos2OutputRequest("/fathom,domain=" + std::to_string(testDomain() + 1));
+    CHECK(testing::refusalOf([&] { openRos2Output(other, {}); }).find("which this program uses already") !=
+          std::string::npos);
     CHECK(outputRefusal("/fathom,colour=red").find("--ros2: colour: red (allowed: /PREFIX") == 0);
     CHECK(outputRefusal("/fathom,rate=0").find("--ros2: rate: 0 (allowed: a number above 0") == 0);
     CHECK(outputRefusal("/fathom,rate=1001") != "");

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Commands for robots, and requests from other programs, as topics of a run.
-#include "engine/types/error.h"
 #include "tests/ros2/fed_run.h"
 #include "tests/ros2/heard.h"
 #include "tests/ros2/robot.h"
+#include "tests/support/refusal.h"
 
 #include <doctest/doctest.h>
 #include <glm/gtc/quaternion.hpp>
@@ -33,12 +33,9 @@ bool isNear(const Line& line, size_t word, double value) {
 }
 
 std::string outputFault(const std::string& request, const std::vector<Ros2Joint>& joints) {
-    try {
+    return testing::refusalOf([&] {
         openRos2Output(parseRos2OutputRequest(request + ",domain=" + std::to_string(testDomain())), joints);
-    } catch (const BadInput& e) {
-        return e.what();
-    }
-    return "";
+    });
 }
 
 } // namespace

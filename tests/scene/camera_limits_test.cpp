@@ -3,6 +3,7 @@
 #include "engine/scene/camera_limits.h"
 #include "engine/scene/dead_gates.h"
 #include "tests/scene/scene_file.h"
+#include "tests/support/refusal.h"
 
 #include <cmath>
 #include <doctest/doctest.h>
@@ -22,12 +23,7 @@ CameraInfo camera() {
 std::string fault(const std::function<void(CameraInfo&)>& change) {
     CameraInfo info = camera();
     change(info);
-    try {
-        checkCamera(info, "recorded here");
-    } catch (const BadInput& e) {
-        return e.what();
-    }
-    return "";
+    return testing::refusalOf([&] { checkCamera(info, "recorded here"); });
 }
 
 std::string dead(const std::string& fixture, const std::function<void(CameraInfo&)>& change = {}) {

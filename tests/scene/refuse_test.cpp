@@ -2,6 +2,7 @@
 // Invalid scene files. The message names file, field, value and what is allowed.
 #include "engine/scene/yaml_node.h"
 #include "tests/scene/scene_file.h"
+#include "tests/support/refusal.h"
 
 #include <doctest/doctest.h>
 
@@ -276,12 +277,6 @@ TEST_CASE("A missing file, one that is not YAML and one nested too deep are reje
     for (const auto& [path, why] : {std::pair("no/such/scene.yaml", "cannot be read"),
                                     {"tests", "cannot be read"},
                                     {"/dev/zero", "a pipe or a device"}}) {
-        std::string message;
-        try {
-            loadScene(path);
-        } catch (const BadInput& e) {
-            message = e.what();
-        }
-        CHECK(message.find(std::string(path) + ": file: " + why) == 0);
+        CHECK(testing::refusalOf([&] { loadScene(path); }).find(std::string(path) + ": file: " + why) == 0);
     }
 }

@@ -4,6 +4,7 @@
 
 #include "engine/scene/scene.h"
 #include "engine/types/error.h"
+#include "tests/support/refusal.h"
 
 #include <filesystem>
 #include <fstream>
@@ -35,12 +36,7 @@ private:
 // The message of the BadInput that loading the text throws; empty when it loads.
 inline std::string refusal(const std::string& text) {
     const SceneFile file(text);
-    try {
-        loadScene(file.path());
-    } catch (const BadInput& e) {
-        return e.what();
-    }
-    return "";
+    return testing::refusalOf([&] { loadScene(file.path()); });
 }
 
 inline const std::string kTool = "tool: {spheres: [[0, 0, 0, 0.01]]}\n";

@@ -2,8 +2,8 @@
 #include "engine/types/cache_folder.h"
 #include "engine/types/read_file.h"
 
-#include "engine/types/error.h"
 #include "engine/types/inside.h"
+#include "tests/support/refusal.h"
 #include "tests/support/scratch_folder.h"
 
 #include <cstdlib>
@@ -34,12 +34,7 @@ TEST_CASE("A file larger than its reader's limit is rejected with both sizes") {
     const testing::ScratchFolder scratch;
     const auto file = scratch.path() / "file";
     const auto refusal = [](const std::filesystem::path& path) -> std::string {
-        try {
-            readWholeFile(path, 2u << 20, "a readable text");
-        } catch (const BadInput& e) {
-            return e.what();
-        }
-        return "";
+        return testing::refusalOf([&] { readWholeFile(path, 2u << 20, "a readable text"); });
     };
     std::ofstream(file, std::ios::binary) << std::string(2u << 20, 'x');
     CHECK(refusal(file) == "");

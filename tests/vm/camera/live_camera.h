@@ -4,6 +4,7 @@
 
 #include "devices/v4l2/v4l2_camera.h"
 #include "engine/types/error.h"
+#include "tests/support/refusal.h"
 #include "tests/vm/uvc_camera.h"
 #include "tests/vm/vhci_port.h"
 
@@ -56,23 +57,13 @@ inline std::unique_ptr<V4l2Camera> openLive(const std::string& options) {
 }
 
 // The error message; empty when the camera opens.
-inline std::string refusalOf(const std::string& text) {
-    try {
-        V4l2Camera camera(parseCameraRequest(text));
-    } catch (const std::exception& e) {
-        return e.what();
-    }
-    return "";
+inline std::string cameraRefusal(const std::string& text) {
+    return testing::refusalOf<std::exception>([&] { V4l2Camera camera(parseCameraRequest(text)); });
 }
 
 // Why the camera is lost; empty while it is not.
 inline std::string lossOf(V4l2Camera& camera) {
-    try {
-        camera.next();
-    } catch (const DeviceLost& e) {
-        return e.what();
-    }
-    return "";
+    return testing::refusalOf<DeviceLost>([&] { camera.next(); });
 }
 
 // True if the depth equals plainDepth() except for pixel 0.

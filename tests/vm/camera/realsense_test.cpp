@@ -74,18 +74,18 @@ TEST_CASE("A RealSense whose tables cannot be read is rejected with the reason")
     device.plug();
     REQUIRE(waitForCamera());
     device.wrongChecksum = true;
-    CHECK(refusalOf("v4l2:auto,size=320x240").find("calibration table 25: wrong checksum") !=
+    CHECK(cameraRefusal("v4l2:auto,size=320x240").find("calibration table 25: wrong checksum") !=
           std::string::npos);
     device.wrongChecksum = false;
     device.refuseTables = true;
-    CHECK(refusalOf("v4l2:auto,size=320x240").find("RealSense command 21: refused with -1") !=
+    CHECK(cameraRefusal("v4l2:auto,size=320x240").find("RealSense command 21: refused with -1") !=
           std::string::npos);
     device.refuseTables = false;
     device.stallMailbox = true;
-    CHECK(refusalOf("v4l2:auto,size=320x240").find("extension unit 3, control 1") != std::string::npos);
+    CHECK(cameraRefusal("v4l2:auto,size=320x240").find("extension unit 3, control 1") != std::string::npos);
     device.stallMailbox = false;
     device.mailboxDelayMs = 300; // late, but within the kernel's limit
-    CHECK(refusalOf("v4l2:auto,size=320x240").empty());
+    CHECK(cameraRefusal("v4l2:auto,size=320x240").empty());
 }
 
 TEST_CASE("A RealSense without a colour calibration continues with depth and rejects requested colour") {
@@ -111,7 +111,7 @@ TEST_CASE("A RealSense without a colour calibration continues with depth and rej
         REQUIRE(waitForCamera());
         CHECK(camera->next()); // found again, without its colour
     }
-    CHECK(refusalOf("v4l2:auto,size=320x240,colour_format=YUYV").find("RealSense command 21: refused") !=
+    CHECK(cameraRefusal("v4l2:auto,size=320x240,colour_format=YUYV").find("RealSense command 21: refused") !=
           std::string::npos);
     const IntrinsicsFile lens(320, 240);
     CHECK(openLive(",intrinsics=" + lens.path().string())->info().hasColour); // a user's own calibration

@@ -3,7 +3,6 @@
 #include "tests/vm/camera/live_camera.h"
 
 #include "engine/types/colour_copy.h"
-#include "engine/types/error.h"
 
 #include <set>
 #include <thread>
@@ -175,17 +174,20 @@ TEST_CASE("An unavailable format is rejected with the list of available ones") {
     REQUIRE(waitForCamera());
     const IntrinsicsFile lens(320, 240);
     const std::string file = ",intrinsics=" + lens.path().string();
-    CHECK(refusalOf("v4l2:auto").find("intrinsics: missing: this camera does not report its calibration") !=
-          std::string::npos);
-    CHECK(refusalOf("v4l2:auto,size=640x480" + file).find("320x240, the size that") != std::string::npos);
+    CHECK(
+        cameraRefusal("v4l2:auto").find("intrinsics: missing: this camera does not report its calibration") !=
+        std::string::npos);
+    CHECK(cameraRefusal("v4l2:auto,size=640x480" + file).find("320x240, the size that") != std::string::npos);
     const IntrinsicsFile large(640, 480);
-    CHECK(refusalOf("v4l2:auto,intrinsics=" + large.path().string()).find("(allowed: Z16 320x240)") !=
+    CHECK(cameraRefusal("v4l2:auto,intrinsics=" + large.path().string()).find("(allowed: Z16 320x240)") !=
           std::string::npos);
-    CHECK(refusalOf("v4l2:/dev/video77" + file).find("/dev/video77: device: No such file") !=
+    CHECK(cameraRefusal("v4l2:/dev/video77" + file).find("/dev/video77: device: No such file") !=
           std::string::npos);
-    CHECK(refusalOf("v4l2:/dev/null" + file).find("not a video device") != std::string::npos);
-    CHECK(refusalOf("v4l2:auto,format=Y16" + file).find("no depth among") != std::string::npos);
-    CHECK(refusalOf("v4l2:auto,colour_format=RGB3" + file).find("colour_format: RGB3") != std::string::npos);
+    CHECK(cameraRefusal("v4l2:/dev/null" + file).find("not a video device") != std::string::npos);
+    CHECK(cameraRefusal("v4l2:auto,format=Y16" + file).find("no depth among") != std::string::npos);
+    CHECK(cameraRefusal("v4l2:auto,colour_format=RGB3" + file).find("colour_format: RGB3") !=
+          std::string::npos);
     const auto camera = openLive(file);
-    CHECK(refusalOf("v4l2:auto" + file).find("a camera not in use by another program") != std::string::npos);
+    CHECK(cameraRefusal("v4l2:auto" + file).find("a camera not in use by another program") !=
+          std::string::npos);
 }

@@ -63,7 +63,7 @@ TEST_CASE("Grey formats of 10, 12 and 16 bits are read as depth when requested b
         }
         CHECK(camera.copied() == (most == 0xffff ? 0u : 3u));
     }
-    CHECK(refusalOf("v4l2:/dev/video0" + file).find("no depth on /dev/video0, which has YUYV") !=
+    CHECK(cameraRefusal("v4l2:/dev/video0" + file).find("no depth on /dev/video0, which has YUYV") !=
           std::string::npos);
 }
 
