@@ -5,12 +5,10 @@
 #include "engine/cycle/arm_rig.h"
 #include "engine/types/error.h"
 #include "tests/support/cloud_rig.h"
+#include "tests/support/scratch_folder.h"
 
 #include <doctest/doctest.h>
-#include <fstream>
 #include <random>
-
-#include <unistd.h>
 
 using namespace fathom;
 using namespace fathom::test;
@@ -87,18 +85,17 @@ TEST_CASE("Points of the arm, padding included, have no class, and all others ke
 }
 
 TEST_CASE("An arm is removed from a frame whose camera is off by three sigma of its registration") {
-    const auto urdf = std::filesystem::temp_directory_path() /
-                      ("fathom_registered_" + std::to_string(::getpid()) + ".urdf");
-    std::ofstream(urdf) << "<robot name='r'><link name='a'><collision><geometry><sphere radius='0.05'/>"
-                           "</geometry></collision></link><link name='b'/><joint name='j' type='continuous'>"
-                           "<parent link='a'/><child link='b'/><axis xyz='0 0 1'/></joint></robot>";
+    const testing::ScratchFile urdf(
+        "arm.urdf", "<robot name='r'><link name='a'><collision><geometry><sphere radius='0.05'/>"
+                    "</geometry></collision></link><link name='b'/><joint name='j' type='continuous'>"
+                    "<parent link='a'/><child link='b'/><axis xyz='0 0 1'/></joint></robot>");
     const dvec3 middle(0.0, 0.0, 0.6), off = 0.99 * 3.0 * 0.01 * glm::normalize(dvec3(0.8, 0.5, -0.4));
     for (const double sigma : {0.0, 0.01}) {
         CloudRig rig = filteredRig(160, 120);
         Scene scene = plainScene();
         scene.registrationSigma = sigma;
         scene.arm.emplace();
-        scene.arm->urdf = urdf;
+        scene.arm->urdf = urdf.path();
         scene.arm->selfFilter = 0.002;
         scene.arm->baseTarm.position = middle;
         const auto arm = makeArmRig(scene, {});
@@ -112,7 +109,6 @@ TEST_CASE("An arm is removed from a frame whose camera is off by three sigma of 
         CAPTURE(sigma);
         CHECK((left == 0) == (sigma > 0.0));
     }
-    std::filesystem::remove(urdf);
 }
 
 TEST_CASE("Two thousand spheres on twenty links, at a pose far from the base origin, agree with the twin") {

@@ -6,12 +6,12 @@
 #include "devices/simulated/simulated_camera.h"
 #include "engine/reference/contact_oracle.h"
 #include "tests/rig/losing.h"
+#include "tests/support/scratch_folder.h"
 #include "tests/support/vulkan.h"
 
 #include <doctest/doctest.h>
 #include <filesystem>
 #include <fstream>
-#include <unistd.h>
 
 using namespace fathom;
 using fathom::test::vulkan;
@@ -166,8 +166,8 @@ namespace {
 
 // A device that is lost at the next submission after lose().
 struct LosingRig {
-    const std::string trigger =
-        std::filesystem::temp_directory_path() / ("fathom-device-cycles-" + std::to_string(::getpid()));
+    const testing::ScratchFolder folder;
+    const std::string trigger = folder / "trigger";
     const Losing losing;
     const gpu::Instance instance{fathom::test::Vulkan::validation()};
     TwinRig twin{Scene::Contact::Where::Gpu, instance};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/cycle/cadence_trace.h"
 #include "engine/types/error.h"
+#include "tests/support/scratch_folder.h"
 
 #include <atomic>
 #include <cstdlib>
@@ -17,17 +18,9 @@ using Json = nlohmann::json;
 namespace {
 
 struct TraceFile {
-    TraceFile() {
-        std::string name = (std::filesystem::temp_directory_path() / "fathom-trace-XXXXXX").string();
-        folder = ::mkdtemp(name.data());
-        path = folder / "run.json";
-    }
-    ~TraceFile() { std::filesystem::remove_all(folder); }
-    Json read() const {
-        std::ifstream in(path);
-        return Json::parse(in);
-    }
-    std::filesystem::path folder, path;
+    Json read() const { return Json::parse(folder.read("run.json")); }
+    testing::ScratchFolder folder;
+    std::filesystem::path path = folder / "run.json";
 };
 
 std::vector<Json> eventsNamed(const Json& trace, const std::string& name) {
@@ -233,5 +226,5 @@ TEST_CASE("A trace that cannot be written is reported by name, and an earlier on
     CHECK(file.read()["traceEvents"].empty());
     trace.finish();
     CHECK(eventsNamed(file.read(), "tick").size() == 1);
-    CHECK(std::distance(std::filesystem::directory_iterator(file.folder), {}) == 1);
+    CHECK(std::distance(std::filesystem::directory_iterator(file.folder.path()), {}) == 1);
 }

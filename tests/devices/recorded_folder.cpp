@@ -7,11 +7,8 @@
 #include <array>
 #include <cstdio>
 #include <doctest/doctest.h>
-#include <fstream>
-#include <iterator>
 #include <png.h>
 #include <stdexcept>
-#include <unistd.h>
 
 namespace fathom {
 
@@ -25,27 +22,6 @@ bool haveRecording(const std::string& name) {
     }
     MESSAGE("SKIPPED ALOUD: there is no recording ", (kRecordings / name).string());
     return false;
-}
-
-TemporaryFolder::TemporaryFolder() {
-    static int count = 0;
-    const std::string name = "fathom_recorded_" + std::to_string(::getpid()) + "_" + std::to_string(count++);
-    path_ = std::filesystem::temp_directory_path() / name;
-    std::filesystem::create_directories(path_);
-}
-
-TemporaryFolder::~TemporaryFolder() {
-    std::filesystem::remove_all(path_);
-}
-
-void TemporaryFolder::write(const std::string& name, const std::string& text) const {
-    std::filesystem::create_directories((path_ / name).parent_path());
-    std::ofstream(path_ / name, std::ios::binary) << text;
-}
-
-std::string TemporaryFolder::read(const std::string& name) const {
-    std::ifstream in(path_ / name, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
 }
 
 void writePng(const std::filesystem::path& file, uint32_t width, uint32_t height, int bits, int colourType,

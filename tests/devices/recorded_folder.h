@@ -3,6 +3,7 @@
 #pragma once
 
 #include "devices/recorded/source_options.h"
+#include "tests/support/scratch_folder.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -17,21 +18,7 @@ inline const std::filesystem::path kRecordings = "../shared/data";
 // False, with a message, when the recording is missing.
 bool haveRecording(const std::string& name);
 
-// A temporary folder, removed at the end of the test.
-class TemporaryFolder {
-public:
-    TemporaryFolder();
-    ~TemporaryFolder();
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-    const std::filesystem::path& path() const { return path_; }
-    void write(const std::string& name, const std::string& text) const;
-    std::string read(const std::string& name) const;
-
-private:
-    std::filesystem::path path_;
-};
+using TemporaryFolder = testing::ScratchFolder;
 
 // PNG of rows of raw bytes as libpng takes them (16-bit values big-endian). colourType: 0 grey, 2 RGB, 3
 // palette, 4 grey + alpha, 6 RGBA. A palette has the three colours red, green, blue.

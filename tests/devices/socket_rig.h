@@ -3,6 +3,7 @@
 #pragma once
 
 #include "devices/bridge/socket_server.h"
+#include "tests/support/scratch_folder.h"
 
 #include <chrono>
 #include <doctest/doctest.h>
@@ -17,22 +18,8 @@
 
 namespace fathom::testing {
 
-// A folder for one test, removed at its end.
-class SocketFolder {
-public:
-    SocketFolder() {
-        std::string name = (std::filesystem::temp_directory_path() / "fathom-door-XXXXXX").string();
-        REQUIRE(::mkdtemp(name.data()) != nullptr);
-        folder_ = name;
-    }
-    SocketFolder(const SocketFolder&) = delete;
-    SocketFolder& operator=(const SocketFolder&) = delete;
-    ~SocketFolder() { std::filesystem::remove_all(folder_); }
-    std::filesystem::path endpoint() const { return folder_ / "test.door"; }
-    const std::filesystem::path& path() const { return folder_; }
-
-private:
-    std::filesystem::path folder_;
+struct SocketFolder : ScratchFolder {
+    std::filesystem::path endpoint() const { return path() / "test.door"; }
 };
 
 inline SocketServer::Options serverAt(const std::filesystem::path& path) {

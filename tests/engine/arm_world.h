@@ -4,51 +4,46 @@
 #pragma once
 
 #include "tests/engine/wall_world.h"
+#include "tests/support/scratch_folder.h"
 
 #include <filesystem>
-#include <fstream>
 #include <string>
-
-#include <unistd.h>
 
 namespace fathom::testing {
 
 // A folder with the arm's URDF.
 class ArmFolder {
 public:
-    ArmFolder()
-        : path_(std::filesystem::temp_directory_path() /
-                ("fathom-engine-arm-" + std::to_string(::getpid()))) {
-        std::filesystem::create_directories(path_);
-        std::ofstream(path_ / "slide.urdf")
-            << "<robot name='slide'><link name='base'/><link name='tip'><collision><geometry>"
-               "<sphere radius='0.01'/></geometry></collision></link><joint name='slide' type='prismatic'>"
-               "<parent link='base'/><child link='tip'/><origin xyz='0 0 0.3'/><axis xyz='0 0 1'/>"
-               "<limit effort='1' velocity='1' lower='0' upper='0.5'/></joint></robot>";
-        std::ofstream(path_ / "finger.urdf")
-            << "<robot name='finger'><link name='base'/><link name='tip'><collision><geometry>"
-               "<sphere radius='0.01'/></geometry></collision></link><link name='f'><collision>"
-               "<origin xyz='0 0.02 0.03'/><geometry><sphere radius='0.005'/></geometry></collision></link>"
-               "<joint name='slide' type='prismatic'><parent link='base'/><child link='tip'/>"
-               "<origin xyz='0 0 0.3'/><axis xyz='0 0 1'/><limit effort='1' velocity='1' lower='0' "
-               "upper='0.5'/></joint><joint name='finger' type='revolute'><parent link='tip'/>"
-               "<child link='f'/><axis xyz='1 0 0'/><limit effort='1' velocity='1' lower='-1' upper='1'/>"
-               "</joint></robot>";
-        std::ofstream(path_ / "ball.urdf")
-            << "<robot name='ball'><link name='ball'><collision><geometry><sphere radius='0.01'/></geometry>"
-               "</collision></link></robot>";
+    ArmFolder() {
+        folder_.write(
+            "slide.urdf",
+            "<robot name='slide'><link name='base'/><link name='tip'><collision><geometry>"
+            "<sphere radius='0.01'/></geometry></collision></link><joint name='slide' type='prismatic'>"
+            "<parent link='base'/><child link='tip'/><origin xyz='0 0 0.3'/><axis xyz='0 0 1'/>"
+            "<limit effort='1' velocity='1' lower='0' upper='0.5'/></joint></robot>");
+        folder_.write(
+            "finger.urdf",
+            "<robot name='finger'><link name='base'/><link name='tip'><collision><geometry>"
+            "<sphere radius='0.01'/></geometry></collision></link><link name='f'><collision>"
+            "<origin xyz='0 0.02 0.03'/><geometry><sphere radius='0.005'/></geometry></collision></link>"
+            "<joint name='slide' type='prismatic'><parent link='base'/><child link='tip'/>"
+            "<origin xyz='0 0 0.3'/><axis xyz='0 0 1'/><limit effort='1' velocity='1' lower='0' "
+            "upper='0.5'/></joint><joint name='finger' type='revolute'><parent link='tip'/>"
+            "<child link='f'/><axis xyz='1 0 0'/><limit effort='1' velocity='1' lower='-1' upper='1'/>"
+            "</joint></robot>");
+        folder_.write(
+            "ball.urdf",
+            "<robot name='ball'><link name='ball'><collision><geometry><sphere radius='0.01'/></geometry>"
+            "</collision></link></robot>");
     }
-    ~ArmFolder() { std::filesystem::remove_all(path_); }
-    ArmFolder(const ArmFolder&) = delete;
-    ArmFolder& operator=(const ArmFolder&) = delete;
-    std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+    std::filesystem::path operator/(const std::string& name) const { return folder_ / name; }
 
     // The wall's scene with other lines for `tool:`, and more.
     Scene scene(const std::string& more) const {
-        std::ofstream(path_ / "scene.yaml") << "camera: { near: 0.1, far: 3.0 }\nerror_budget: 0\n"
-                                               "fixtures: [{ name: wall, role: forbidden, radius: 0.04 }]\n"
-                                            << more;
-        return Scene::fromFile(path_ / "scene.yaml");
+        folder_.write("scene.yaml", "camera: { near: 0.1, far: 3.0 }\nerror_budget: 0\n"
+                                    "fixtures: [{ name: wall, role: forbidden, radius: 0.04 }]\n" +
+                                        more);
+        return Scene::fromFile(folder_ / "scene.yaml");
     }
     Scene armScene() const {
         return scene("arm: { urdf: slide.urdf, tip: tip, direction: free, self_filter: 0.02,\n"
@@ -63,7 +58,7 @@ public:
     }
 
 private:
-    std::filesystem::path path_;
+    ScratchFolder folder_;
 };
 
 } // namespace fathom::testing

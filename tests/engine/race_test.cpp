@@ -2,6 +2,7 @@
 // Concurrent submissions, steps, a lost device and destruction of the engine, for the thread sanitizer.
 #include "tests/engine/wall_world.h"
 #include "tests/rig/losing.h"
+#include "tests/support/scratch_folder.h"
 
 #include <atomic>
 #include <doctest/doctest.h>
@@ -13,8 +14,8 @@ using namespace fathom;
 using namespace fathom::testing;
 
 TEST_CASE("Frames, steps, a lost device and destruction may overlap") {
-    const auto trigger =
-        std::filesystem::temp_directory_path() / ("fathom-engine-race-" + std::to_string(now()));
+    const ScratchFolder folder;
+    const auto trigger = folder / "trigger";
     const Losing losing(trigger.string(), 1);
     std::optional<Engine> engine(std::in_place, wallScene(), smallCamera());
     std::atomic<bool> stop{false}, lost{false};
@@ -52,7 +53,7 @@ TEST_CASE("Frames, steps, a lost device and destruction may overlap") {
     haptic.join();
 }
 
-TEST_CASE("An engine without frames ends at once") {
+TEST_CASE("The end of an engine without frames does not hang") {
     for (int i = 0; i < 3; ++i) {
         const Engine engine(wallScene(), smallCamera());
     }

@@ -5,6 +5,7 @@
 #include "engine/types/error.h"
 #include "shaders/ceiling.h"
 #include "shaders/shared/constants.h"
+#include "tests/support/scratch_folder.h"
 #include "tests/support/vulkan.h"
 
 #include <array>
@@ -17,7 +18,6 @@
 
 #include <sys/resource.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 using namespace fathom;
 using fathom::test::Vulkan;
@@ -30,17 +30,14 @@ namespace fs = std::filesystem;
 // Sets the user's cache folder while it exists.
 class CacheFolder {
 public:
-    CacheFolder()
-        : path_(fs::temp_directory_path() / ("fathom-cache-" + std::to_string(::getpid()))) {
+    CacheFolder() {
         const char* was = std::getenv("XDG_CACHE_HOME");
         before_ = was == nullptr ? "" : was;
         vulkan(); // the shared device keeps its own folder
-        fs::remove_all(path_);
-        ::setenv("XDG_CACHE_HOME", path_.c_str(), 1);
+        ::setenv("XDG_CACHE_HOME", (folder_ / "new").c_str(), 1);
     }
     ~CacheFolder() {
         before_.empty() ? ::unsetenv("XDG_CACHE_HOME") : ::setenv("XDG_CACHE_HOME", before_.c_str(), 1);
-        fs::remove_all(path_);
     }
     CacheFolder(const CacheFolder&) = delete;
     CacheFolder& operator=(const CacheFolder&) = delete;
@@ -64,14 +61,9 @@ public:
     void write(const std::string& bytes) const { std::ofstream(file(), std::ios::binary) << bytes; }
 
 private:
-    fs::path path_;
+    testing::ScratchFolder folder_;
     std::string before_;
 };
-
-std::string contentOf(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
 
 } // namespace
 
@@ -80,7 +72,7 @@ TEST_CASE("A device opens with a pipeline file that is truncated, foreign, empty
     const CacheFolder cache;
     const size_t stored = cache.openOnce();
     REQUIRE(stored > 0);
-    const std::string whole = contentOf(cache.file());
+    const std::string whole = testing::textOf(cache.file());
     std::string changed = whole, longer = whole + "x";
     changed.back() = static_cast<char>(changed.back() ^ 1);
     for (const std::string& bytes :
@@ -98,11 +90,11 @@ TEST_CASE("A device opens with a pipeline file that is truncated, foreign, empty
 TEST_CASE("A pipeline file larger than any real one is not read and is replaced by a valid one") {
     const CacheFolder cache;
     const size_t stored = cache.openOnce();
-    const std::string whole = contentOf(cache.file());
+    const std::string whole = testing::textOf(cache.file());
     fs::resize_file(cache.file(), uint64_t{64} << 30); // sparse: takes no disk space
     CHECK(gpu::storedPipelines(cache.file()).empty());
     CHECK(cache.openOnce() == stored);
-    CHECK(contentOf(cache.file()).size() == whole.size());
+    CHECK(testing::textOf(cache.file()).size() == whole.size());
 }
 
 TEST_CASE("A device opens and closes with a folder in place of its pipeline file and leaves no file behind") {

@@ -61,9 +61,7 @@ public:
     explicit Compared(const Robot& robot)
         : arm_(loadUrdf(robot.inside, robot.options))
         , options_(robot.options) {
-        const auto file = std::filesystem::temp_directory_path() /
-                          ("fathom_urdf_" + std::to_string(::getpid()) + ".urdf"); // of loadUrdf()
-        urdf_ = readUrdf(file);
+        urdf_ = readUrdf(urdfFile(robot.inside).path());
         tree_ = KDL::Tree(urdf_->getRoot()->name);
         grow(tree_, *urdf_->getRoot());
     }

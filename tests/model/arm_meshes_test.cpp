@@ -4,16 +4,16 @@
 
 #include "engine/types/error.h"
 #include "tests/model/meshes.h"
+#include "tests/support/scratch_folder.h"
 
 #include <algorithm>
 #include <doctest/doctest.h>
 #include <fstream>
-#include <unistd.h>
 
 using namespace fathom;
 
 TEST_CASE("Meshes are found by URIs of Gazebo and with escaped characters") {
-    const auto folder = std::filesystem::temp_directory_path() / ("fathom_uri_" + std::to_string(::getpid()));
+    const testing::ScratchFolder folder;
     std::filesystem::create_directories(folder / "my arm/meshes");
     const testing::ObjFile box(testing::boxMesh(dvec3(0.0), dvec3(0.1)));
     std::filesystem::copy_file(box.path(), folder / "my arm/meshes/link one.obj");
@@ -26,12 +26,10 @@ TEST_CASE("Meshes are found by URIs of Gazebo and with escaped characters") {
                             << "'/></geometry></collision></link></robot>";
         CHECK_MESSAGE(!loadArm(file).leaves.empty(), name);
     }
-    std::filesystem::remove_all(folder);
 }
 
 TEST_CASE("A mesh of a package that is not there is not taken from another package") {
-    const auto folder =
-        std::filesystem::temp_directory_path() / ("fathom_package_" + std::to_string(::getpid()));
+    const testing::ScratchFolder folder;
     const testing::ObjFile box(testing::boxMesh(dvec3(0.0), dvec3(0.1)));
     const auto put = [&](const std::string& name) {
         std::filesystem::create_directories((folder / name).parent_path());
@@ -79,13 +77,10 @@ TEST_CASE("A mesh of a package that is not there is not taken from another packa
     CHECK(notesOf("flat/r.urdf", {"arm/meshes/base.obj", "grip/meshes/hand.obj"}).empty());
     CHECK(notesOf("flat/r.urdf", {"arm/meshes/base.obj", "grip/meshes/finger.obj"})[0].find("not found") !=
           std::string::npos);
-    std::filesystem::remove_all(folder);
 }
 
 TEST_CASE("An arm's meshes that are not closed are reported once") {
-    const auto folder =
-        std::filesystem::temp_directory_path() / ("fathom_open_" + std::to_string(::getpid()));
-    std::filesystem::create_directories(folder);
+    const testing::ScratchFolder folder;
     TriangleMesh mesh = testing::boxMesh(dvec3(0.0), dvec3(0.1));
     const testing::ObjFile closed(mesh);
     mesh.triangles.pop_back();
@@ -101,12 +96,10 @@ TEST_CASE("An arm's meshes that are not closed are reported once") {
             "meshes that are not closed, of which only the surface is covered: 2, the first on link a";
         CHECK(std::any_of(notes.begin(), notes.end(), [&](const std::string& note) { return note == told; }));
     }
-    std::filesystem::remove_all(folder);
 }
 
 TEST_CASE("Any number of meshes outside the URDF's folder is reported once") {
-    const auto folder =
-        std::filesystem::temp_directory_path() / ("fathom_outside_" + std::to_string(::getpid()));
+    const testing::ScratchFolder folder;
     std::filesystem::create_directories(folder / "urdf");
     const testing::ObjFile one(testing::boxMesh(dvec3(0.0), dvec3(0.1)));
     std::filesystem::copy_file(one.path(), folder / "one.obj");
@@ -126,5 +119,4 @@ TEST_CASE("Any number of meshes outside the URDF's folder is reported once") {
     const auto told = notes(shape("two.obj") + shape("one.obj") + shape("beside.obj") + shape("one.obj"));
     REQUIRE(told.size() == 1);
     CHECK(told[0] == "meshes outside their search folder: 2, the first " + (folder / "one.obj").string());
-    std::filesystem::remove_all(folder);
 }

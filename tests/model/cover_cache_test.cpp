@@ -3,33 +3,28 @@
 
 #include "engine/model/cover_links.h"
 #include "tests/model/meshes.h"
+#include "tests/support/scratch_folder.h"
 
 #include <cstdlib>
 #include <doctest/doctest.h>
 #include <fstream>
-#include <unistd.h>
 
 using namespace fathom;
+using fathom::testing::ScratchFolder;
 
 namespace {
 
-struct CacheFolder {
-    std::filesystem::path path =
-        std::filesystem::temp_directory_path() / ("fathom_cache_" + std::to_string(::getpid()));
-    CacheFolder() { std::filesystem::remove_all(path); }
-    CacheFolder(const CacheFolder&) = delete;
-    CacheFolder& operator=(const CacheFolder&) = delete;
-    ~CacheFolder() { std::filesystem::remove_all(path); }
-    std::filesystem::path only() const { return std::filesystem::directory_iterator(path)->path(); }
-};
+std::filesystem::path onlyFileOf(const ScratchFolder& folder) {
+    return std::filesystem::directory_iterator(folder.path())->path();
+}
 
 const ShapeSpheres kMade{{{{0.1, 1.0 / 3.0, -2.0}, 1.0 / 7.0}}, {"a note"}, {}};
 
 } // namespace
 
 TEST_CASE("A cached cover is given back bit by bit, and not for other content, options or a damaged file") {
-    const CacheFolder folder;
-    const CoverCache cache(folder.path);
+    const ScratchFolder folder;
+    const CoverCache cache(folder.path());
     const testing::ObjFile one(testing::boxMesh(dvec3(0.0), dvec3(0.1))),
         two(testing::boxMesh(dvec3(0.0), dvec3(0.2)));
     const std::string key = cache.keyOf(one.path(), "24");
@@ -43,17 +38,17 @@ TEST_CASE("A cached cover is given back bit by bit, and not for other content, o
     CHECK(cache.keyOf(two.path(), "24") != key);
     CHECK(cache.keyOf(one.path(), "25") != key);
     CHECK(cache.keyOf("no/such/file.obj", "24") == "");
-    std::filesystem::resize_file(folder.only(), std::filesystem::file_size(folder.only()) - 3);
+    std::filesystem::resize_file(onlyFileOf(folder), std::filesystem::file_size(onlyFileOf(folder)) - 3);
     CHECK_FALSE(cache.find(key));
     for (const char* text : {"", "\n", "fathom cover 1\n", "fathom cover 1\n1 2 3\n0000\n"}) {
-        std::ofstream(folder.path / key) << text;
+        std::ofstream(folder / key) << text;
         CHECK_FALSE(cache.find(key));
     }
 }
 
 TEST_CASE("A link's mesh is covered once, and the second time its cover comes from the cache") {
-    const CacheFolder folder;
-    REQUIRE(::setenv("XDG_CACHE_HOME", folder.path.c_str(), 1) == 0);
+    const ScratchFolder folder;
+    REQUIRE(::setenv("XDG_CACHE_HOME", folder.path().c_str(), 1) == 0);
     const testing::ObjFile file(testing::boxMesh(dvec3(0.0), dvec3(0.1)));
     const auto mesh = std::make_shared<urdf::Mesh>();
     mesh->filename = file.path().string();
@@ -71,14 +66,14 @@ TEST_CASE("A link's mesh is covered once, and the second time its cover comes fr
 }
 
 TEST_CASE("The cache keeps a bounded number of files, the newest ones") {
-    const CacheFolder folder;
-    const CoverCache cache(folder.path);
-    std::filesystem::create_directories(folder.path);
+    const ScratchFolder folder;
+    const CoverCache cache(folder.path());
+    std::filesystem::create_directories(folder.path());
     for (size_t i = 0; i < CoverCache::kMaxFiles + 20; ++i) {
-        std::ofstream(folder.path / ("old" + std::to_string(i))) << "x";
+        std::ofstream(folder / ("old" + std::to_string(i))) << "x";
     }
     cache.store("new", kMade);
-    const auto all = std::filesystem::directory_iterator(folder.path);
+    const auto all = std::filesystem::directory_iterator(folder.path());
     CHECK(static_cast<size_t>(std::distance(begin(all), end(all))) == CoverCache::kMaxFiles);
     CHECK(cache.find("new"));
 }

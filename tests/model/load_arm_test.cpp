@@ -4,11 +4,10 @@
 #include "tests/model/meshes.h"
 #include "tests/support/refusal.h"
 #include "tests/support/sanitized.h"
+#include "tests/support/scratch_folder.h"
 
 #include <cmath>
 #include <doctest/doctest.h>
-#include <fstream>
-#include <unistd.h>
 
 using namespace fathom;
 
@@ -33,10 +32,7 @@ const std::string kArm =
     jointOf("slide", "prismatic", "arm/b", "tip") + jointOf("jaw", "revolute", "arm/b", "finger");
 
 ArmModel load(const std::string& text, const ArmOptions& options = {}) {
-    const auto file =
-        std::filesystem::temp_directory_path() / ("fathom_arm_" + std::to_string(::getpid()) + ".urdf");
-    std::ofstream(file) << text;
-    return loadArm(file, options);
+    return loadArm(testing::ScratchFile("arm.urdf", text).path(), options);
 }
 
 std::string armRefusal(const std::string& text, const ArmOptions& options = {}) {
@@ -211,21 +207,24 @@ TEST_CASE("A URDF's mesh is scaled by three factors, and a factor of 0 is reject
 TEST_CASE("Parts of an arm's files without leaves are reported in one line each") {
     TriangleMesh mesh = testing::boxMesh(dvec3(0.0), dvec3(0.1));
     testing::addBox(mesh, {4.0, 0.0, 0.0}, dvec3(0.01));
-    const testing::ObjFile stray(mesh), large(testing::boxMesh(dvec3(0.0), {2.5, 0.2, 0.2}));
-    const auto meshLink = [](const std::string& name, const testing::ObjFile& file) {
-        return "<link name='" + name + "'><collision><geometry><mesh filename='" + file.path().string() +
-               "'/></geometry></collision></link>";
+    const testing::ScratchFolder folder;
+    const auto meshLink = [&](const std::string& name, const TriangleMesh& shape) {
+        std::filesystem::copy_file(testing::ObjFile(shape).path(), folder / (name + ".obj"));
+        return "<link name='" + name + "'><collision><geometry><mesh filename='" + name +
+               ".obj'/></geometry></collision></link>";
     };
     const std::string seen = "<visual><geometry><sphere radius='0.1'/></geometry></visual>";
-    const ArmModel arm =
-        load("<robot name='r'>" + meshLink("a", stray) + meshLink("b", large) + "<link name='c'>" + seen +
-             "</link><link name='frame'/>" + jointOf("ab", "revolute", "a", "b") +
-             jointOf("bc", "revolute", "b", "c") + jointOf("cf", "fixed", "c", "frame", "") + "</robot>");
+    folder.write("arm.urdf", "<robot name='r'>" + meshLink("a", mesh) +
+                                 meshLink("b", testing::boxMesh(dvec3(0.0), {2.5, 0.2, 0.2})) +
+                                 "<link name='c'>" + seen + "</link><link name='frame'/>" +
+                                 jointOf("ab", "revolute", "a", "b") + jointOf("bc", "revolute", "b", "c") +
+                                 jointOf("cf", "fixed", "c", "frame", "") + "</robot>");
+    const ArmModel arm = loadArm(folder / "arm.urdf");
     REQUIRE(arm.notes.size() == 3);
     CHECK(arm.notes[0] == "link c has no collision shape and can enter regions");
-    CHECK(arm.notes[1].find("link a: " + stray.path().string() +
+    CHECK(arm.notes[1].find("link a: " + (folder / "a.obj").string() +
                             ": stray geometry is dropped: 1 pieces up to") == 0);
-    CHECK(arm.notes[2].find("link b: " + large.path().string() + ": 2.5 m large") == 0);
+    CHECK(arm.notes[2].find("link b: " + (folder / "b.obj").string() + ": 2.5 m large") == 0);
     CHECK(load(kArm + "</robot>").notes.empty());
 }
 

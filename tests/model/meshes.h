@@ -3,12 +3,12 @@
 #pragma once
 
 #include "engine/model/triangle_mesh.h"
+#include "tests/support/scratch_folder.h"
 
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <string>
-#include <unistd.h>
 
 namespace fathom::testing {
 
@@ -52,11 +52,7 @@ inline TriangleMesh ringMesh(double large, double small, uint32_t around, uint32
 class ObjFile {
 public:
     explicit ObjFile(const TriangleMesh& mesh, double unit = 1.0) {
-        static int count = 0;
-        const std::string name =
-            "fathom_mesh_" + std::to_string(::getpid()) + "_" + std::to_string(count++) + ".obj";
-        path_ = std::filesystem::temp_directory_path() / name;
-        std::ofstream out(path_);
+        std::ofstream out(path());
         out.precision(9);
         for (const dvec3& p : mesh.points) {
             out << "v " << p.x / unit << " " << p.y / unit << " " << p.z / unit << "\n";
@@ -65,13 +61,10 @@ public:
             out << "f " << t[0] + 1 << " " << t[1] + 1 << " " << t[2] + 1 << "\n";
         }
     }
-    ObjFile(const ObjFile&) = delete;
-    ObjFile& operator=(const ObjFile&) = delete;
-    ~ObjFile() { std::filesystem::remove(path_); }
-    const std::filesystem::path& path() const { return path_; }
+    const std::filesystem::path& path() const { return file_.path(); }
 
 private:
-    std::filesystem::path path_;
+    ScratchFile file_{"mesh.obj"};
 };
 
 } // namespace fathom::testing

@@ -12,10 +12,9 @@ using namespace fathom::testing;
 
 namespace {
 
-std::filesystem::path folder() {
-    const auto path = std::filesystem::temp_directory_path() / ("fathom_mjcf_" + std::to_string(::getpid()));
-    std::filesystem::create_directories(path);
-    return path;
+const ScratchFolder& folder() {
+    static const ScratchFolder folder;
+    return folder;
 }
 
 ArmModel loadMjcf(const std::string& inside, const ArmOptions& options = {}) {

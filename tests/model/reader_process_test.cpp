@@ -5,10 +5,10 @@
 #include "engine/model/import_triangles.h"
 #include "engine/model/urdf_file.h"
 #include "engine/types/error.h"
+#include "tests/support/scratch_folder.h"
 
 #include <csignal>
 #include <doctest/doctest.h>
-#include <fstream>
 #include <stdexcept>
 #include <thread>
 #include <vector>
@@ -24,21 +24,17 @@ namespace {
 class Script {
 public:
     explicit Script(const std::string& text)
-        : path_(std::filesystem::temp_directory_path() / ("fathom-reader-" + std::to_string(::getpid()))) {
-        std::ofstream(path_) << "#!/bin/sh\n" << text << '\n';
-        std::filesystem::permissions(path_, std::filesystem::perms::owner_all);
+        : file_("reader", "#!/bin/sh\n" + text + '\n') {
+        std::filesystem::permissions(file_.path(), std::filesystem::perms::owner_all);
     }
-    ~Script() { std::filesystem::remove(path_); }
-    Script(const Script&) = delete;
-    Script& operator=(const Script&) = delete;
     ReaderOptions options() const {
         ReaderOptions options;
-        options.program = path_;
+        options.program = file_.path();
         return options;
     }
 
 private:
-    std::filesystem::path path_;
+    testing::ScratchFile file_;
 };
 
 const std::string kMark = "printf '" + std::string(kReaderMark) + "'; ";

@@ -2,35 +2,17 @@
 #include "engine/model/sph_file.h"
 #include "engine/types/error.h"
 #include "tests/support/refusal.h"
+#include "tests/support/scratch_folder.h"
 
 #include <cmath>
 #include <doctest/doctest.h>
-#include <fstream>
-#include <unistd.h>
 
 using namespace fathom;
 
 namespace {
 
-class SphFile {
-public:
-    explicit SphFile(const std::string& text = "") {
-        static int count = 0;
-        const std::string name = "fathom_tree_" + std::to_string(::getpid()) + "_" + std::to_string(count++);
-        path_ = std::filesystem::temp_directory_path() / (name + ".sph");
-        std::ofstream(path_) << text;
-    }
-    ~SphFile() { std::filesystem::remove(path_); }
-    SphFile(const SphFile&) = delete;
-    SphFile& operator=(const SphFile&) = delete;
-    const std::filesystem::path& path() const { return path_; }
-
-private:
-    std::filesystem::path path_;
-};
-
 std::string refusal(const std::string& text) {
-    const SphFile file(text);
+    const testing::ScratchFile file("tree.sph", text);
     return testing::refusalOf([&] { readSph(file.path()); });
 }
 
@@ -52,7 +34,7 @@ TEST_CASE("A written tree is read back with bit-identical leaves") {
             leaves.push_back({{std::sin(a) / 3, std::cos(2 * a) / 7, 0.1 * a}, 0.01 / (1 + a)});
         }
         const SphereTree tree = buildSphereTree(leaves);
-        const SphFile file;
+        const testing::ScratchFile file("tree.sph");
         writeSph(tree, file.path());
         const SphereTree back = readSph(file.path());
         CHECK(validate(back) == "");
@@ -70,8 +52,9 @@ TEST_CASE("A written tree is read back with bit-identical leaves") {
 }
 
 TEST_CASE("The toolkit's variants are read: four, five, nine and ten columns, blank lines, text at the end") {
-    const SphFile file("2 4\n\n0 0 0 9 1\n1 0 0 0.5\r\n0 1 0 0.5 0.75\n  0 0 1 0.5 1 2 3 4 0.1\n"
-                       "\n0 0 -1 0.5 0.9 1 2 3 4 0.1\nMean: 0.5\nBest 1\nWorst 2\n");
+    const testing::ScratchFile file("tree.sph",
+                                    "2 4\n\n0 0 0 9 1\n1 0 0 0.5\r\n0 1 0 0.5 0.75\n  0 0 1 0.5 1 2 3 4 0.1\n"
+                                    "\n0 0 -1 0.5 0.9 1 2 3 4 0.1\nMean: 0.5\nBest 1\nWorst 2\n");
     const SphereTree tree = readSph(file.path(), 0.001);
     CHECK(validate(tree) == "");
     REQUIRE(tree.nodes.size() == 5);
@@ -89,7 +72,8 @@ TEST_CASE("A byte order mark in front of a tree is skipped") {
 
 TEST_CASE("Radii above the leaves are recomputed, whether the file's are too small or too large") {
     for (const char* radius : {"0.001", "1000"}) {
-        const SphFile file("2 2\n0 0 0 " + std::string(radius) + "\n-1 0 0 0.25\n2 0 0 0.5\n");
+        const testing::ScratchFile file("tree.sph",
+                                        "2 2\n0 0 0 " + std::string(radius) + "\n-1 0 0 0.25\n2 0 0 0.5\n");
         const SphereTree tree = readSph(file.path());
         CHECK(tree.nodes[0].radius == doctest::Approx(2.5).epsilon(1e-9));
         CHECK(tree.nodes[0].radius >= 2.5);
@@ -98,7 +82,8 @@ TEST_CASE("Radii above the leaves are recomputed, whether the file's are too sma
 }
 
 TEST_CASE("Slots below an unused slot are unused, even when they contain garbage") {
-    const SphFile file("3 2\n0 0 0 5\n1 0 0 1\nnan nan 0 -1\n1 0 0 0.5\n1.5 0 0 0.5\n77 77 77 3\n88 0 0 9\n");
+    const testing::ScratchFile file(
+        "tree.sph", "3 2\n0 0 0 5\n1 0 0 1\nnan nan 0 -1\n1 0 0 0.5\n1.5 0 0 0.5\n77 77 77 3\n88 0 0 9\n");
     CHECK(refusal("1 1\n0 0 0 -1\n").find("root node: unused") != std::string::npos);
     const SphereTree tree = readSph(file.path());
     CHECK(usedLeaves(tree) == 2);
@@ -107,7 +92,8 @@ TEST_CASE("Slots below an unused slot are unused, even when they contain garbage
 }
 
 TEST_CASE("A sphere that the toolkit did not refine reaches the last level") {
-    const SphFile file("3 2\n0 0 0 5\n1 0 0 1\n-3 0 0 0.5\n1 0 0 0.5\n1.5 0 0 0.5\n0 0 0 -1\n0 0 0 -1\n");
+    const testing::ScratchFile file(
+        "tree.sph", "3 2\n0 0 0 5\n1 0 0 1\n-3 0 0 0.5\n1 0 0 0.5\n1.5 0 0 0.5\n0 0 0 -1\n0 0 0 -1\n");
     const SphereTree tree = readSph(file.path());
     CHECK(usedLeaves(tree) == 3);
     CHECK(tree.nodes[5].centre == dvec3(-3, 0, 0));
@@ -140,7 +126,7 @@ TEST_CASE("An invalid tree is not written, and an unwritable path is reported") 
     SphereTree tree = buildSphereTree(std::vector<Sphere>{{{0, 0, 0}, 1}, {{3, 0, 0}, 1}});
     CHECK_THROWS_AS(writeSph(tree, "no/such/folder/tree.sph"), Error);
     tree.nodes[1].radius = 5.0;
-    const SphFile file;
+    const testing::ScratchFile file("tree.sph");
     CHECK_THROWS_AS(writeSph(tree, file.path()), Error);
     CHECK(std::filesystem::file_size(file.path()) == 0);
 }

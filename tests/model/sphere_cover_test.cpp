@@ -6,6 +6,7 @@
 #include "engine/model/sph_file.h"
 #include "engine/types/error.h"
 #include "tests/model/meshes.h"
+#include "tests/support/scratch_folder.h"
 
 #include <doctest/doctest.h>
 
@@ -138,11 +139,9 @@ TEST_CASE("The tree of a real jaw contains the jaw: the leaves read from the fil
     const LoadedMesh loaded = loadMesh(file);
     const MeshDistance distance(loaded.mesh, loaded.facts.closed());
     const Cover cover = coverMesh(loaded.mesh, distance, leaves(48));
-    const auto sph =
-        std::filesystem::temp_directory_path() / ("fathom_jaw_" + std::to_string(::getpid()) + ".sph");
-    writeSph(buildSphereTree(cover.spheres), sph);
-    const SphereTree tree = readSph(sph);
-    std::filesystem::remove(sph);
+    const testing::ScratchFile sph("jaw.sph");
+    writeSph(buildSphereTree(cover.spheres), sph.path());
+    const SphereTree tree = readSph(sph.path());
     std::vector<Sphere> used;
     for (const Sphere& s : tree.lastLevel()) {
         if (s.radius >= 0.0) {

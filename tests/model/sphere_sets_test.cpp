@@ -3,35 +3,17 @@
 
 #include "engine/types/error.h"
 #include "tests/support/refusal.h"
+#include "tests/support/scratch_folder.h"
 
 #include <doctest/doctest.h>
-#include <fstream>
 #include <sys/stat.h>
-#include <unistd.h>
 
 using namespace fathom;
 
 namespace {
 
-class TextFile {
-public:
-    TextFile(const std::string& kind, const std::string& text) {
-        static int count = 0;
-        path_ = std::filesystem::temp_directory_path() /
-                ("fathom_set_" + std::to_string(::getpid()) + "_" + std::to_string(count++) + kind);
-        std::ofstream(path_) << text;
-    }
-    TextFile(const TextFile&) = delete;
-    TextFile& operator=(const TextFile&) = delete;
-    ~TextFile() { std::filesystem::remove(path_); }
-    const std::filesystem::path& path() const { return path_; }
-
-private:
-    std::filesystem::path path_;
-};
-
 std::string setRefusal(const std::string& kind, const std::string& text, const std::string& link = "") {
-    const TextFile file(kind, text);
+    const testing::ScratchFile file("set" + kind, text);
     return testing::refusalOf([&] { readSphereTree(file.path(), link); });
 }
 
@@ -46,7 +28,7 @@ const std::string kRobot =
 } // namespace
 
 TEST_CASE("A spherized URDF gives each link's spheres at their origins") {
-    const TextFile file(".urdf", kRobot + "</robot>");
+    const testing::ScratchFile file("set.urdf", kRobot + "</robot>");
     const auto sets = readSpherizedUrdf(file.path());
     REQUIRE(sets.size() == 1);
     CHECK(sets[0].link == "a/hand");
@@ -90,7 +72,7 @@ TEST_CASE("cuRobo's YAML is read at the top and under its tables; disabled spher
         nested += "    " + spheres.substr(at, end - at) + "\n";
     }
     for (const std::string& text : {spheres, nested}) {
-        const TextFile file(".yml", text);
+        const testing::ScratchFile file("set.yml", text);
         const auto sets = readCuroboYaml(file.path());
         REQUIRE(sets.size() == 2);
         CHECK(sets[0].link == "hand");
@@ -108,7 +90,7 @@ TEST_CASE("cuRobo's buffer, one number or one per link, is added to the radii") 
         "    arm: [{center: [0, 0, 0], radius: 0.02}]\n    off: [{center: [0, 0, 0], radius: -1}]\n"
         "  collision_sphere_buffer: ";
     const auto radii = [&](const std::string& buffer) {
-        const TextFile file(".yml", spheres + buffer);
+        const testing::ScratchFile file("set.yml", spheres + buffer);
         const auto sets = readCuroboYaml(file.path());
         REQUIRE(sets.size() == 2);
         return glm::dvec2(sets[0].spheres[0].radius, sets[1].spheres[0].radius);
@@ -124,9 +106,9 @@ TEST_CASE("cuRobo's buffer, one number or one per link, is added to the radii") 
 
 TEST_CASE(
     "cuRobo's spheres are also read as Lula's list and as JSON; the name of another file is passed on") {
-    const TextFile lula(".yaml",
-                        "api_version: 1.0\ncollision_spheres:\n  - hand:\n    - \"center\": [0, 0, 0.05]\n"
-                        "      \"radius\": 0.045\n  - arm:\n    - {center: [0, 0, 0.1], radius: 0.05}\n");
+    const testing::ScratchFile lula(
+        "set.yaml", "api_version: 1.0\ncollision_spheres:\n  - hand:\n    - \"center\": [0, 0, 0.05]\n"
+                    "      \"radius\": 0.045\n  - arm:\n    - {center: [0, 0, 0.1], radius: 0.05}\n");
     const auto sets = readCuroboYaml(lula.path());
     REQUIRE(sets.size() == 2);
     CHECK(sets[0].link == "hand");
@@ -137,7 +119,7 @@ TEST_CASE(
               .find("collision_spheres: the name of a file, spheres/franka_mesh.yml (allowed: {LINK: ") !=
           std::string::npos);
     const std::string json = R"({"collision_spheres": {"hand": [{"center": [0, 0, 0], "radius": 0.01}]}})";
-    CHECK(readFoam(TextFile(".json", json).path())[0].spheres[0].radius == 0.01);
+    CHECK(readFoam(testing::ScratchFile("set.json", json).path())[0].spheres[0].radius == 0.01);
 }
 
 TEST_CASE("A repeated key of a set, and a second document, are rejected and not dropped") {
@@ -222,7 +204,7 @@ TEST_CASE("An oversized set is rejected before it takes memory, and quoted only 
 
 TEST_CASE("A pipe instead of spheres or an arm is rejected without waiting") {
     for (const char* kind : {".yaml", ".urdf", ".sph"}) {
-        const TextFile file(kind, "");
+        const testing::ScratchFile file(std::string("set") + kind);
         std::filesystem::remove(file.path());
         REQUIRE(::mkfifo(file.path().c_str(), 0600) == 0);
         CHECK_THROWS_WITH_AS(readSphereTree(file.path()), doctest::Contains("file: a pipe or a device"),

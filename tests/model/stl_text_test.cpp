@@ -2,12 +2,11 @@
 // STL files as text: what the mesh library would lose without a word.
 #include "engine/model/mesh_file.h"
 #include "engine/types/error.h"
+#include "tests/support/scratch_folder.h"
 
 #include <algorithm>
 #include <cctype>
 #include <doctest/doctest.h>
-#include <fstream>
-#include <unistd.h>
 
 using namespace fathom;
 
@@ -22,17 +21,12 @@ const std::string kOther = facetText("vertex 0 0 0\nvertex 0 0.1 0\nvertex 0 0 0
 
 // Number of triangles, or the refusal.
 std::string readStl(const std::string& text) {
-    const auto file =
-        std::filesystem::temp_directory_path() / ("fathom_text_" + std::to_string(::getpid()) + ".stl");
-    std::ofstream(file, std::ios::binary) << text;
-    std::string result;
+    const testing::ScratchFile file("text.stl", text);
     try {
-        result = std::to_string(loadMesh(file).mesh.triangles.size());
+        return std::to_string(loadMesh(file.path()).mesh.triangles.size());
     } catch (const BadInput& e) {
-        result = e.what();
+        return e.what();
     }
-    std::filesystem::remove(file);
-    return result;
 }
 
 bool refusesStl(const std::string& text, const std::string& why) {

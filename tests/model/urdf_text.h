@@ -4,10 +4,9 @@
 
 #include "engine/model/arm_model.h"
 #include "tests/support/refusal.h"
+#include "tests/support/scratch_folder.h"
 
-#include <fstream>
 #include <string>
-#include <unistd.h>
 
 namespace fathom::testing {
 
@@ -29,11 +28,12 @@ inline std::string mimicText(const std::string& joint, const std::string& more =
     return "<mimic joint='" + joint + "' " + more + "/>";
 }
 
+inline ScratchFile urdfFile(const std::string& inside) {
+    return ScratchFile("arm.urdf", "<robot name='r'>" + inside + "</robot>");
+}
+
 inline ArmModel loadUrdf(const std::string& inside, const ArmOptions& options = {}) {
-    const auto file =
-        std::filesystem::temp_directory_path() / ("fathom_urdf_" + std::to_string(::getpid()) + ".urdf");
-    std::ofstream(file) << "<robot name='r'>" << inside << "</robot>";
-    return loadArm(file, options);
+    return loadArm(urdfFile(inside).path(), options);
 }
 
 inline std::string urdfRefusal(const std::string& inside, const ArmOptions& options = {}) {

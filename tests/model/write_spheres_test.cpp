@@ -15,21 +15,6 @@ using namespace fathom::testing;
 
 namespace {
 
-class SetFile {
-public:
-    SetFile(const std::string& name, const std::string& text)
-        : path_(std::filesystem::temp_directory_path() / (std::to_string(::getpid()) + "_" + name)) {
-        std::ofstream(path_) << text;
-    }
-    SetFile(const SetFile&) = delete;
-    SetFile& operator=(const SetFile&) = delete;
-    ~SetFile() { std::filesystem::remove(path_); }
-    const std::filesystem::path& path() const { return path_; }
-
-private:
-    std::filesystem::path path_;
-};
-
 const std::vector<LinkSpheres> kSets{
     {"arm/a", {{{0.1, -1.0 / 3.0, 1e-7}, 0.02}, {{0.0, 0.0, 0.3}, 1.0 / 7.0}}},
     {"hand \"left\"", {{{1.0, 2.0, 3.0}, 0.5}}}};
@@ -47,7 +32,7 @@ bool same(const std::vector<LinkSpheres>& a, const std::vector<LinkSpheres>& b) 
 }
 
 std::string refusal(const std::string& name, const std::string& text) {
-    const SetFile file(name, text);
+    const ScratchFile file(name, text);
     return refusalOf([&] { readSets(file.path()); });
 }
 
@@ -56,14 +41,14 @@ const std::string kXrdf = "format: xrdf\nformat_version: 1.0\n";
 } // namespace
 
 TEST_CASE("Sets written as cuRobo YAML, XRDF, foam JSON and URDF are read back bit by bit") {
-    CHECK(same(readSets(SetFile("a.yaml", curoboText(kSets)).path()), kSets));
-    CHECK(same(readSets(SetFile("a.xrdf", xrdfText(kSets)).path()), kSets));
-    CHECK(same(readSets(SetFile("b.yaml", xrdfText(kSets)).path()), kSets)); // by its format
-    CHECK(same(readSets(SetFile("a.json", foamText(kSets)).path()), kSets));
+    CHECK(same(readSets(ScratchFile("a.yaml", curoboText(kSets)).path()), kSets));
+    CHECK(same(readSets(ScratchFile("a.xrdf", xrdfText(kSets)).path()), kSets));
+    CHECK(same(readSets(ScratchFile("b.yaml", xrdfText(kSets)).path()), kSets)); // by its format
+    CHECK(same(readSets(ScratchFile("a.json", foamText(kSets)).path()), kSets));
     for (const LinkSpheres& set : kSets) {
-        CHECK(same(readSets(SetFile("a.urdf", spherizedText(set)).path()), {set}));
+        CHECK(same(readSets(ScratchFile("a.urdf", spherizedText(set)).path()), {set}));
     }
-    const SetFile tree("t.sph", "");
+    const ScratchFile tree("t.sph", "");
     writeSph(buildSphereTree(kSets[0].spheres), tree.path());
     const auto leaves = readSets(tree.path());
     REQUIRE(leaves.size() == 1);
@@ -76,7 +61,7 @@ TEST_CASE("XRDF uses the geometry that collisions name, with its buffer distance
         "collision: {geometry: g, buffer_distance: {a: 0.01}}\n"
         "geometry:\n  other: {spheres: {a: [{center: [9, 9, 9], radius: 1}]}}\n"
         "  g: {spheres: {a: [{center: [0, 0, 1], radius: 0.02}], b: [{center: [0, 0, 0], radius: 1}]}}\n";
-    const auto sets = readSets(SetFile("two.xrdf", two).path());
+    const auto sets = readSets(ScratchFile("two.xrdf", two).path());
     REQUIRE(sets.size() == 2);
     CHECK(sets[0].spheres[0].centre == dvec3(0, 0, 1));
     CHECK(sets[0].spheres[0].radius == doctest::Approx(0.03));
@@ -108,8 +93,8 @@ TEST_CASE("A damaged XRDF or foam file is rejected with the place of the error")
 TEST_CASE(
     "foam's output for one mesh belongs to a link named as the file, and of several levels the last counts") {
     const auto sets =
-        readSets(SetFile("foot.json", "[{\"spheres\": [{\"origin\": [0, 0, 0], \"radius\": 9}]},"
-                                      " {\"spheres\": [{\"origin\": [0, 0, 1], \"radius\": 0.1}]}]")
+        readSets(ScratchFile("foot.json", "[{\"spheres\": [{\"origin\": [0, 0, 0], \"radius\": 9}]},"
+                                          " {\"spheres\": [{\"origin\": [0, 0, 1], \"radius\": 0.1}]}]")
                      .path());
     REQUIRE(sets.size() == 1);
     CHECK(sets[0].link.ends_with("foot"));
@@ -124,14 +109,14 @@ TEST_CASE("A whole URDF becomes a spherized one: all else stays, and its spheres
         "0.1'/></geometry></collision></link>\n"
         "  <link name='b'/>\n" +
         jointText("j", "revolute", "a", "b", "0 0 1", "0 0 1") + "\n</robot>\n";
-    const SetFile file("robot.urdf", urdf);
+    const ScratchFile file("robot.urdf", urdf);
     const UrdfCover cover = coverUrdf(file.path(), {}, 16, false);
     REQUIRE(cover.links.size() == 1);
     const std::string text = spherizedText(urdf, cover.links);
     CHECK(text.find("<!-- <link name='no'><collision/></link> -->") != std::string::npos);
     CHECK(text.find("<visual><geometry><box size='1 1 1'/></geometry></visual>") != std::string::npos);
     CHECK(text.find("0.2 0.1 0.1") == std::string::npos);
-    const SetFile spherized("spherized.urdf", text);
+    const ScratchFile spherized("spherized.urdf", text);
     CHECK(same(readSets(spherized.path()), cover.links));
     CHECK(loadArm(spherized.path()).count() == 1);
     for (const double x : {-0.1, 0.1}) {
@@ -154,7 +139,7 @@ TEST_CASE("Only collisions of links become spheres; a name of one, which a conta
     CHECK(text.find("box") == std::string::npos);
     CHECK(text.find("<collision name=\"bumper\"><origin") != std::string::npos);
     CHECK(text.find("<collision name=\"bumper_1\"><origin") != std::string::npos);
-    CHECK(same(readSets(SetFile("sensor.urdf", text).path()), {{"a", kSets[0].spheres}}));
+    CHECK(same(readSets(ScratchFile("sensor.urdf", text).path()), {{"a", kSets[0].spheres}}));
 }
 
 TEST_CASE("Capsules are covered, and those of a negative size or of none are rejected") {

@@ -7,6 +7,7 @@
 #include "engine/types/colour_copy.h"
 #include "engine/types/error.h"
 #include "tests/support/refusal.h"
+#include "tests/support/scratch_folder.h"
 
 #include <cmath>
 #include <doctest/doctest.h>
@@ -16,7 +17,7 @@ using namespace fathom;
 
 namespace {
 
-const std::filesystem::path kFolder = std::filesystem::temp_directory_path() / "fathom-openni2-test";
+const testing::ScratchFolder kFolder;
 
 // True if every pixel belongs to one drawn frame; `n` receives its number.
 bool isDrawn(const Frame& frame, int& n) {
@@ -84,7 +85,6 @@ int record(const char* uri, const std::string& file, int images, bool colour) {
 }
 
 std::string recorded(const char* uri, int images, bool colour) {
-    std::filesystem::create_directories(kFolder);
     const std::string file = (kFolder / (std::string(uri) + (colour ? "" : "-depth") + ".oni")).string();
     for (int reads = images; record(uri, file, reads, colour) < images; reads *= 2) {
         REQUIRE(reads < 500);
@@ -177,7 +177,6 @@ TEST_CASE("An .oni file gives the recorded device's frames bit by bit, and ends"
         CHECK(count >= 6);
         CHECK_FALSE(openOpenNi2(recorded("fathom-test", 2, colour))->info().hasColour); // unless it is said
     }
-    std::filesystem::remove_all(kFolder);
 }
 
 TEST_CASE("A missing file, a file that is not a recording, and an unknown lens are rejected in one line") {
@@ -186,7 +185,6 @@ TEST_CASE("A missing file, a file that is not a recording, and an unknown lens a
     CHECK(refusal("openni2:fathom-test,focus=3").find("focus=3 (allowed: intrinsics=FILE, registered=yes)") !=
           std::string::npos);
     CHECK(refusal("openni2:fathom-test-plain").find("field of view: unknown") != std::string::npos);
-    std::filesystem::create_directories(kFolder);
     const auto lens = [](int width) {
         const std::string file = (kFolder / "lens.json").string();
         std::ofstream(file) << "{\"width\": " << width

@@ -2,6 +2,7 @@
 // `fathom spheres` as a program.
 #include "tests/model/meshes.h"
 #include "tests/rig/run_fathom.h"
+#include "tests/support/scratch_folder.h"
 
 #include <algorithm>
 #include <doctest/doctest.h>
@@ -12,23 +13,10 @@
 using namespace fathom;
 using namespace fathom::testing;
 
-namespace {
-
-struct Folder {
-    std::filesystem::path path =
-        std::filesystem::temp_directory_path() / ("fathom_spheres_" + std::to_string(::getpid()));
-    Folder() { std::filesystem::create_directories(path); }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-    ~Folder() { std::filesystem::remove_all(path); }
-};
-
-} // namespace
-
 TEST_CASE("spheres writes a tree and a report of its checks, and compares it with octree and grid") {
-    const Folder folder;
+    const ScratchFolder folder;
     const ObjFile mesh(boxMesh(dvec3(0.0), {0.1, 0.04, 0.03}));
-    const std::string out = (folder.path / "tool.sph").string(), json = (folder.path / "tool.json").string();
+    const std::string out = (folder / "tool.sph").string(), json = (folder / "tool.json").string();
     const ProgramRun run = runFathom(
         {"spheres", mesh.path().string(), "--out", out, "--leaves", "12", "--compare", "--json", json});
     CHECK(run.exitCode == 0);
@@ -47,17 +35,17 @@ TEST_CASE("spheres writes a tree and a report of its checks, and compares it wit
 }
 
 TEST_CASE("spheres decides by an ending in capital letters as by one in small ones") {
-    const Folder folder;
-    const std::string arm = (folder.path / "ARM.URDF").string();
+    const ScratchFolder folder;
+    const std::string arm = (folder / "ARM.URDF").string();
     std::ofstream(arm) << "<robot name='r'><link name='a'><collision><geometry><sphere radius='0.1'/>"
                           "</geometry></collision></link></robot>";
     for (const std::string ending : {".XRDF", ".URDF", ".JSON", ".YAML"}) {
         std::string small = ending;
         std::ranges::transform(small, small.begin(), [](unsigned char c) { return std::tolower(c); });
         const auto written = [&](const std::string& name) {
-            const ProgramRun run = runFathom({"spheres", arm, "--out", (folder.path / name).string()});
+            const ProgramRun run = runFathom({"spheres", arm, "--out", (folder / name).string()});
             CHECK_MESSAGE(run.exitCode == 0, run.err);
-            std::ifstream in(folder.path / name);
+            std::ifstream in(folder / name);
             return std::string(std::istreambuf_iterator<char>(in), {});
         };
         CHECK(written("out" + ending) == written("out" + small));
@@ -65,10 +53,9 @@ TEST_CASE("spheres decides by an ending in capital letters as by one in small on
 }
 
 TEST_CASE("spheres scales a set of spheres like a mesh, and warns about a mesh of three metres") {
-    const Folder folder;
+    const ScratchFolder folder;
     const ObjFile large(boxMesh(dvec3(0.0), {3.0, 0.4, 0.4}));
-    const std::string whole = (folder.path / "whole.sph").string(),
-                      half = (folder.path / "half.sph").string();
+    const std::string whole = (folder / "whole.sph").string(), half = (folder / "half.sph").string();
     const ProgramRun run = runFathom({"spheres", large.path().string(), "--out", whole, "--leaves", "8"});
     CHECK(run.exitCode == 0);
     REQUIRE(run.errorLines().size() == 1);
@@ -95,11 +82,11 @@ TEST_CASE("spheres scales a set of spheres like a mesh, and warns about a mesh o
 }
 
 TEST_CASE("spheres rejects unusable input in one line and with exit code 2") {
-    const Folder folder;
-    const std::string out = (folder.path / "tool.sph").string();
+    const ScratchFolder folder;
+    const std::string out = (folder / "tool.sph").string();
     const ObjFile millimetres(boxMesh(dvec3(0.0), {0.3, 0.2, 0.1}), 0.001);
     const ObjFile good(boxMesh(dvec3(0.0), dvec3(0.1)));
-    const std::string set = (folder.path / "set.sph").string();
+    const std::string set = (folder / "set.sph").string();
     REQUIRE(runFathom({"spheres", good.path().string(), "--out", set, "--leaves", "4"}).exitCode == 0);
     for (const std::vector<std::string>& arguments :
          {std::vector<std::string>{"spheres", "no/such.stl", "--out", out},

@@ -5,32 +5,18 @@
 #include "engine/scene/scene.h"
 #include "engine/types/error.h"
 #include "tests/support/refusal.h"
+#include "tests/support/scratch_folder.h"
 
 #include <filesystem>
-#include <fstream>
 #include <string>
-#include <unistd.h>
 
 namespace fathom {
 
-class SceneFile {
+class SceneFile : public testing::ScratchFile {
 public:
-    explicit SceneFile(const std::string& text) {
-        static int count = 0;
-        folder_ = std::filesystem::temp_directory_path() /
-                  ("fathom_scene_" + std::to_string(::getpid()) + "_" + std::to_string(count++));
-        std::filesystem::create_directories(folder_);
-        std::ofstream(path()) << text;
-    }
-    ~SceneFile() { std::filesystem::remove_all(folder_); }
-    SceneFile(const SceneFile&) = delete;
-    SceneFile& operator=(const SceneFile&) = delete;
-
-    std::filesystem::path path() const { return folder_ / "scene.yaml"; }
-    const std::filesystem::path& folder() const { return folder_; }
-
-private:
-    std::filesystem::path folder_;
+    explicit SceneFile(const std::string& text)
+        : ScratchFile("scene.yaml", text) {}
+    std::filesystem::path folder() const { return path().parent_path(); }
 };
 
 // The message of the BadInput that loading the text throws; empty when it loads.

@@ -5,6 +5,7 @@
 #include "devices/v4l2/v4l2_camera.h"
 #include "engine/types/error.h"
 #include "tests/support/refusal.h"
+#include "tests/support/scratch_folder.h"
 #include "tests/vm/uvc_camera.h"
 #include "tests/vm/vhci_port.h"
 
@@ -18,22 +19,15 @@
 namespace fathom::vm {
 
 // intrinsics.json of a registered camera of that size, removed at the end.
-class IntrinsicsFile {
+class IntrinsicsFile : public testing::ScratchFile {
 public:
     IntrinsicsFile(int width, int height, double scale = 0.001)
-        : path_(std::filesystem::temp_directory_path() / ("intrinsics-" + std::to_string(width) + ".json")) {
-        std::ofstream(path_) << "{\"width\": " << width << ", \"height\": " << height
-                             << ", \"fx\": 300, \"fy\": 300, \"cx\": " << width / 2
-                             << ", \"cy\": " << height / 2 << ", \"depth_scale_m_per_unit\": " << scale
-                             << "}";
+        : ScratchFile("intrinsics-" + std::to_string(width) + ".json") {
+        std::ofstream(path()) << "{\"width\": " << width << ", \"height\": " << height
+                              << ", \"fx\": 300, \"fy\": 300, \"cx\": " << width / 2
+                              << ", \"cy\": " << height / 2 << ", \"depth_scale_m_per_unit\": " << scale
+                              << "}";
     }
-    ~IntrinsicsFile() { std::filesystem::remove(path_); }
-    IntrinsicsFile(const IntrinsicsFile&) = delete;
-    IntrinsicsFile& operator=(const IntrinsicsFile&) = delete;
-    const std::filesystem::path& path() const { return path_; }
-
-private:
-    std::filesystem::path path_;
 };
 
 // Waits until the kernel offers a node with depth, and colour when wanted.

@@ -145,13 +145,14 @@ TEST_CASE(
     for (const VideoNode& node : openVideoNodes()) {
         colourNode = node.offers(fourccOf("YUYV")) ? node.file().string() : colourNode;
     }
-    const std::filesystem::path lens = std::filesystem::temp_directory_path() / "two-lenses.json";
-    std::ofstream(lens) << R"({"registered_to_color": false, "depth_scale_m_per_unit": 0.001,
+    const testing::ScratchFile lens("two-lenses.json",
+                                    R"({"registered_to_color": false, "depth_scale_m_per_unit": 0.001,
  "depth": {"width": 320, "height": 240, "fx": 300, "fy": 300, "cx": 160, "cy": 120},
  "color": {"width": 640, "height": 480, "fx": 610, "fy": 610, "cx": 320, "cy": 240},
- "extrinsics_topic_tf": {"Color": {"t": [0.1, 0, 0], "q_xyzw": [0, 0, 0, 1]}}})";
-    V4l2Camera camera(parseCameraRequest("v4l2:" + depthNode + ",colour=" + colourNode +
-                                         ",rate=30,colour_rate=15,frames=20,intrinsics=" + lens.string()));
+ "extrinsics_topic_tf": {"Color": {"t": [0.1, 0, 0], "q_xyzw": [0, 0, 0, 1]}}})");
+    V4l2Camera camera(
+        parseCameraRequest("v4l2:" + depthNode + ",colour=" + colourNode +
+                           ",rate=30,colour_rate=15,frames=20,intrinsics=" + lens.path().string()));
     CHECK(camera.info().colourTdepth.position.x == 0.1);
     std::set<uint32_t> colours; // pixel 0 encodes the frame number
     uint32_t count = 0;
@@ -165,7 +166,6 @@ TEST_CASE(
     CHECK(colours.size() >= 5);
     CHECK(colours.size() <= 14 + camera.lost()); // each is used twice, unless depth frames between were lost
     CHECK(camera.skipped() == 0);
-    std::filesystem::remove(lens);
 }
 
 TEST_CASE("An unavailable format is rejected with the list of available ones") {

@@ -5,6 +5,7 @@
 #include "devices/recorded/recorded_camera.h"
 #include "devices/v4l2/video_node.h"
 #include "tests/rig/run_fathom.h"
+#include "tests/support/scratch_folder.h"
 #include "tests/vm/uvc_camera.h"
 #include "tests/vm/vhci_port.h"
 
@@ -72,10 +73,7 @@ std::vector<CsvRow> readCsv(const std::filesystem::path& file) {
 
 struct Stage {
     Stage()
-        : folder(std::filesystem::temp_directory_path() / "fathom-vm-product")
-        , camera({.width = kWidth, .height = kHeight, .paintDepth = paintDepth, .paintColour = paintColour}) {
-        std::filesystem::remove_all(folder);
-        std::filesystem::create_directories(folder);
+        : camera({.width = kWidth, .height = kHeight, .paintDepth = paintDepth, .paintColour = paintColour}) {
         std::ofstream(folder / "lens.json")
             << R"({"width": 160, "height": 120, "fx": 150, "fy": 150, "cx": 80, "cy": 60, "depth_scale_m_per_unit": 0.001})";
         std::ofstream(folder / "scene.yaml")
@@ -94,13 +92,12 @@ struct Stage {
             return nodes == 2;
         }));
     }
-    ~Stage() { std::filesystem::remove_all(folder); }
     std::string file(const char* name) const { return (folder / name).string(); }
     nlohmann::json summary() const {
         return nlohmann::json::parse(std::ifstream(folder / "out/summary.json"));
     }
 
-    std::filesystem::path folder;
+    testing::ScratchFolder folder;
     UvcCamera camera;
 };
 
