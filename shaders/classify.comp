@@ -50,6 +50,7 @@ layout(std430, binding = 11) writeonly buffer Depth { uvec2 keptDepth[]; }; // u
 #include "shaders/lib/lists.glsl"
 #include "shaders/lib/raw_colour.glsl"
 #include "shaders/lib/slots.glsl"
+#include "shaders/lib/transform.glsl"
 
 // Looks up the colour of a point in the colour image. Returns false when the colour camera does not see the
 // point.

@@ -24,6 +24,7 @@ layout(std430, binding = 7) writeonly buffer Estimates { uvec4 estimates[]; };
 
 #include "shaders/lib/depth.glsl"
 #include "shaders/lib/lens.glsl"
+#include "shaders/lib/transform.glsl"
 #include "shaders/lib/pixel_point.glsl"
 #include "shaders/lib/slots.glsl"
 #include "shaders/lib/estimate.glsl"

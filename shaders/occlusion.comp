@@ -16,6 +16,7 @@ layout(std430, binding = 3) buffer Cells { uint nearest[]; };             // bit
 
 #include "shaders/lib/depth.glsl"
 #include "shaders/lib/lens.glsl"
+#include "shaders/lib/transform.glsl"
 
 void main() {
     uint pixel = gl_GlobalInvocationID.x;

@@ -30,8 +30,8 @@ layout(std430, binding = 4) readonly buffer List { uint list[]; };
 layout(std430, binding = 5) writeonly buffer Points { vec4 points[]; };
 
 #include "shaders/lib/depth.glsl"
-#include "shaders/lib/lens.glsl"
 #include "shaders/lib/masks.glsl"
+#include "shaders/lib/transform.glsl"
 #include "shaders/lib/pixel_point.glsl"
 #include "shaders/lib/slots.glsl"
 #include "shaders/lib/bilateral.glsl"

@@ -4,7 +4,8 @@
 # A block that follows a line '<!-- FILE -->' must equal that file, and some document must show each program of apps/examples.
 # Each document runs in a folder that looks like the repository's root with the built tree at build/, so commands run as written and
 # what they write stays out of the tree. The built program is first in PATH, and $OUT is an empty folder.
-# Ends with 'docs: N passed, N failed'. A block is a case, and so are the links of a document and each example.
+# The table of shaders/README.md must list the specialisation constants that each compute shader declares.
+# Ends with 'docs: N passed, N failed'. A block is a case, and so are the links of a document, each example and each compute shader.
 #   docs_test.sh BUILD_FOLDER
 set -uo pipefail
 build=$(realpath "$1")
@@ -45,6 +46,21 @@ shown_files() {
 # Prints the block behind the line '<!-- FILE -->' of a document.
 shown_block() {
     awk -v mark="<!-- $2 -->" '/^```/ && inside { exit } inside { print } /^```/ && next_is { inside = 1 } { next_is = ($0 == mark) }' "$1"
+}
+
+# Prints the specialisation constants that a shader and its includes declare.
+declared_constants() {
+    sed -nE 's/.*constant_id = kSpec([A-Za-z]+).*/\1/p' "$1"
+    local file
+    for file in $(sed -nE 's/^#include "(shaders\/lib\/.*)"$/\1/p' "$1"); do
+        declared_constants "$file"
+    done
+}
+
+# Prints the specialisation constants that shaders/README.md lists for a shader: in its row of the table, or "`NAME` (constant A, B)".
+listed_constants() {
+    awk -F '|' -v name="\`$1\`" 'NF > 2 && index($2, name) { print $(NF - 1) }' shaders/README.md
+    sed -nE "s/.*\`$1\` \(constant ([A-Za-z, ]+)\).*/\1/p" shaders/README.md
 }
 
 while read -r document; do
@@ -89,6 +105,16 @@ while read -r document; do
         rm -f "$block"
     done
 done < <(find . \( -name build -o -name out -o -name '.?*' \) -prune -o -name '*.md' -print | cut -c3- | sort)
+for shader in shaders/*.comp; do
+    declared=$(declared_constants "$shader" | sort -u | tr '\n' ' ')
+    listed=$(listed_constants "$(basename "$shader" .comp)" | tr -cs '[:alpha:]' '\n' | sed '/^$/d' | sort | tr '\n' ' ')
+    if [ "$declared" = "$listed" ]; then
+        passed=$((passed + 1))
+    else
+        echo "ERROR: shaders/README.md lists the constants ${listed}for $shader, which declares $declared"
+        failed=$((failed + 1))
+    fi
+done
 for example in apps/examples/*.cpp; do
     [[ $shown == *" $example "* ]] || { echo "ERROR: no document shows $example as it is"; failed=$((failed + 1)); }
 done

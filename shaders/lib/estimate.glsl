@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The estimate of a pixel's depth over frames. Needs params, estimatesBefore, estimates, lens.glsl, slots.glsl,
-// pixel_point.glsl.
+// The estimate of a pixel's depth over frames. Needs params, estimatesBefore, estimates, lens.glsl,
+// transform.glsl, slots.glsl, pixel_point.glsl.
 //
 // An estimate is the mean over at most params.memory.z frames. It is trusted while the depth as measured is
 // within 3 sigma of it, and the recent mean of its differences from the filtered depth within a tighter gate.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Memory of points that new frames do not contradict. Each slot stores two points: the one seen in the
-// previous frame and the held one. Needs params, forbidden.glsl, depth.glsl, lens.glsl, beam.glsl, seen,
-// kept, keptTime, kHold, kFan, kBeam.
+// previous frame and the held one. Needs params, forbidden.glsl, depth.glsl, lens.glsl, transform.glsl,
+// beam.glsl, seen, kept, keptTime, kHold, kFan, kBeam.
 
 // The memory after the previous frame. The including shader defines how to read it.
 vec4 seenAt(uint slot);

@@ -30,10 +30,3 @@ vec2 projectPoint(vec3 p, vec4 lens, vec4 k, float k3, vec4 more) {
                   r.y * radial + k.z * (rr + 2.0 * q.y * q.y) + 2.0 * k.w * q.x * q.y);
     return rr <= more.w ? d * lens.xy + lens.zw : kUnseen;
 }
-
-// The order of operations is the host's (engine/cloud/seen_points.h).
-vec3 transformPoint(vec4 rows[3], vec3 p) {
-    precise vec3 moved = vec3(rows[0].x, rows[1].x, rows[2].x) * p.x + vec3(rows[0].y, rows[1].y, rows[2].y) * p.y +
-                         vec3(rows[0].z, rows[1].z, rows[2].z) * p.z + vec3(rows[0].w, rows[1].w, rows[2].w);
-    return moved;
-}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Points of pixels. Needs params, depth.glsl, lens.glsl.
+// Points of pixels. Needs params, depth.glsl, transform.glsl.
 
 // Camera-frame point [m] at depth z [m]. Rounded here, so that a difference of points is the same whether they
 // come from shared memory, registers or directly.

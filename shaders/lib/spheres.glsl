@@ -45,6 +45,7 @@ const vec2 rays[1] = vec2[1](vec2(0.0));
 #include "shaders/lib/masks.glsl"
 #include "shaders/lib/forbidden.glsl"
 #include "shaders/lib/lens.glsl"
+#include "shaders/lib/transform.glsl"
 #include "shaders/lib/hold.glsl"
 #include "shaders/lib/slots.glsl"
 #include "shaders/lib/leaks.glsl"
