@@ -3,6 +3,7 @@
 #include "apps/register/board_corners.h"
 #include "apps/register/board_finder.h"
 #include "engine/types/error.h"
+#include "tests/apps/two_lens_camera.h"
 #include "tests/support/scratch_folder.h"
 
 #include <cmath>
@@ -11,20 +12,16 @@
 #include <random>
 
 using namespace fathom;
+using namespace fathom::testing;
 
 namespace {
 
-const Pose kTruth{{0.4, -0.3, 1.2}, glm::normalize(dquat(0.3, 0.8, -0.4, 0.2))};
 constexpr uint32_t kColumns = 7, kRows = 4;
 constexpr double kSquare = 0.04;
 
-double angleBetween(const dquat& a, const dquat& b) {
-    return 2.0 * std::acos(std::min(1.0, std::abs(glm::dot(a, b))));
-}
-
 // 7 x 4 inner corners on a grey wall, seen by a depth and a colour camera, with 4 x 4 rays per pixel.
 struct BoardImage {
-    CameraInfo info;
+    CameraInfo info = twoLensCamera();
     Pose cameraTboard;
     std::vector<uint16_t> depth;
     std::vector<uint32_t> colour;
@@ -33,36 +30,27 @@ struct BoardImage {
         : cameraTboard{{0.0, 0.0, 0.9},
                        rotationExp(dvec3(0.25, -0.35, 0.0)) * rotationExp(dvec3(0, 0, turn))} {
         cameraTboard.position = cameraTboard.position - cameraTboard.rotation * dvec3(0.12, 0.06, 0.0);
-        info.depth = {.width = 320, .height = 240, .fx = 280, .fy = 281, .cx = 161, .cy = 119};
-        info.colour = {.width = 640, .height = 480, .fx = 600, .fy = 601, .cx = 318, .cy = 243};
-        info.registered = false;
-        info.colourTdepth = {{0.015, 0.001, -0.002}, glm::normalize(dquat(1.0, 0.004, -0.006, 0.002))};
-        info.metresPerUnit = 0.0005;
         std::mt19937 random(3);
         std::normal_distribution<double> error(0.0, 1.0);
         for (uint32_t i = 0; i < info.depth.pixels(); ++i) {
             const uint32_t row = i / 320;
-            const dvec3 p = hit(info.depth.ray(i % 320, row), Pose{});
+            const dvec3 p = hitOnPlane(info.depth.ray(i % 320, row), cameraTboard);
             depth.push_back(
                 static_cast<uint16_t>(std::lround((p.z + noise * error(random)) / info.metresPerUnit)));
         }
-        const Pose boardTcolour = inverse(info.colourTdepth * cameraTboard);
+        const Pose colourTboard = info.colourTdepth * cameraTboard, boardTcolour = inverse(colourTboard);
         for (uint32_t i = 0; i < info.colour.pixels(); ++i) {
             const uint32_t row = i / 640;
             double sum = noise > 0.0 ? 4.0 * error(random) : 0.0;
             for (int s = 0; s < 16; ++s) {
                 const int line = s / 4;
                 const double u = i % 640 + (s % 4 - 1.5) / 4, v = row + (line - 1.5) / 4;
-                sum += greyAt(boardTcolour.apply(hit(info.colour.ray(u, v), info.colourTdepth)), blot) / 16.0;
+                sum +=
+                    greyAt(boardTcolour.apply(hitOnPlane(info.colour.ray(u, v), colourTboard)), blot) / 16.0;
             }
             const auto grey = static_cast<uint32_t>(std::clamp(sum, 0.0, 255.0));
             colour.push_back(grey * 0x010101u | 0xff000000u);
         }
-    }
-    dvec3 hit(const glm::dvec2& ray, const Pose& cameraTdepth) const {
-        const Pose t = cameraTdepth * cameraTboard;
-        const dvec3 n = t.rotation * dvec3(0, 0, 1), d(ray, 1.0);
-        return d * (glm::dot(t.position, n) / glm::dot(d, n));
     }
     // The square beyond the first corner is dark.
     static double greyAt(const dvec3& p, double blot) {
@@ -115,13 +103,13 @@ TEST_CASE("Corners of a chessboard are found to 0.2 pixels, in the board's order
 TEST_CASE("A chessboard in colour and noisy depth gives the camera's pose to millimetres") {
     for (const double noise : {0.0, 0.003}) {
         const BoardImage image(0.3, noise);
-        BoardFinder finder(image.info, {kColumns, kRows, kSquare, kTruth * image.cameraTboard});
+        BoardFinder finder(image.info, {kColumns, kRows, kSquare, kBaseTcamera * image.cameraTboard});
         const std::vector<PointPair> pairs = finder.find(image.frame());
         REQUIRE(pairs.size() == kColumns * kRows);
         const RigidFit fit = fitRigid(pairs, "test");
-        const double shift = glm::length(fit.baseTcamera.position - kTruth.position);
+        const double shift = glm::length(fit.baseTcamera.position - kBaseTcamera.position);
         CHECK(shift < (noise == 0.0 ? 0.003 : 0.006));
-        CHECK(angleBetween(fit.baseTcamera.rotation, kTruth.rotation) < (noise == 0.0 ? 0.003 : 0.006));
+        CHECK(angleBetween(fit.baseTcamera.rotation, kBaseTcamera.rotation) < (noise == 0.0 ? 0.003 : 0.006));
         CHECK(fit.sigma < 0.002);
         MESSAGE("noise " << noise << " m: position off by " << 1e3 * shift << " mm, sigma " << 1e3 * fit.sigma
                          << " mm");
@@ -147,7 +135,7 @@ TEST_CASE("A board that is partly covered, of another size, without depth or mis
 }
 
 TEST_CASE("A board's file is one row, and its corners distinguish its two ends") {
-    const testing::ScratchFolder folder;
+    const ScratchFolder folder;
     const auto read = [&](const std::string& text) {
         std::ofstream(folder.path() / "board.csv") << text;
         return readBoardPlace(folder.path() / "board.csv");

@@ -4,6 +4,7 @@
 #include "apps/replay/image.h"
 #include "apps/replay/silhouette.h"
 #include "engine/types/error.h"
+#include "tests/apps/png_image.h"
 #include "tests/support/scratch_folder.h"
 
 #include <algorithm>
@@ -51,24 +52,6 @@ void fill(Drawn& scene) {
     scene.input.colour = scene.colour;
     scene.input.set = &scene.set;
 }
-
-struct PngImage {
-    explicit PngImage(const std::filesystem::path& file)
-        : surface(cairo_image_surface_create_from_png(file.c_str())) {}
-    PngImage(const PngImage&) = delete;
-    PngImage& operator=(const PngImage&) = delete;
-    ~PngImage() { cairo_surface_destroy(surface); }
-    int width() const { return cairo_image_surface_get_width(surface); }
-    int height() const { return cairo_image_surface_get_height(surface); }
-    int channel(int u, int v, int shift) const {
-        const unsigned char* row =
-            cairo_image_surface_get_data(surface) + v * cairo_image_surface_get_stride(surface);
-        return static_cast<int>(reinterpret_cast<const uint32_t*>(row)[u] >> shift & 0xffu);
-    }
-    int red(int u, int v) const { return channel(u, v, 16); }
-    int blue(int u, int v) const { return channel(u, v, 0); }
-    cairo_surface_t* surface;
-};
 
 } // namespace
 

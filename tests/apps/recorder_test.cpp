@@ -7,6 +7,7 @@
 #include "devices/recorded/recorded_camera.h"
 #include "engine/types/error.h"
 #include "tests/rig/file_size_limit.h"
+#include "tests/support/eventually.h"
 #include "tests/support/scratch_folder.h"
 
 #include <doctest/doctest.h>
@@ -153,11 +154,10 @@ TEST_CASE("A full disk ends a recording with a message that names the file, and 
             const FileSizeLimit disk(bytes);
             RecordedRun session(recorder, ticks);
             recorder.start(folder, "camera: {}\n", someCamera());
-            for (int i = 0; i < 4000 && recorder.recording(); ++i) {
+            CHECK(eventually([&] {
                 session.image();
-                std::this_thread::sleep_for(std::chrono::milliseconds(1));
-            }
-            CHECK_FALSE(recorder.recording());
+                return !recorder.recording();
+            }));
             recorder.stop();
             recorder.finish();
         }
@@ -190,9 +190,7 @@ TEST_CASE("A process that is killed while it records leaves a recording up to th
             std::this_thread::sleep_for(std::chrono::milliseconds(2));
         }
     }
-    for (int i = 0; i < 20000 && !std::filesystem::exists(folder / "depth" / "000030.png"); ++i) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
+    CHECK(eventually([&] { return std::filesystem::exists(folder / "depth" / "000030.png"); }));
     ::kill(child, SIGKILL);
     ::waitpid(child, nullptr, 0);
     CHECK(imagesIn(folder) >= 29);

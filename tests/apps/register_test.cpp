@@ -4,6 +4,7 @@
 #include "apps/register/point_pairs.h"
 #include "apps/register/tag_finder.h"
 #include "engine/types/error.h"
+#include "tests/apps/point_pairs.h"
 #include "tests/support/scratch_folder.h"
 
 #include <apriltag/apriltag.h>
@@ -15,63 +16,33 @@
 #include <random>
 
 using namespace fathom;
+using namespace fathom::testing;
 
 namespace {
-
-const Pose kTruth{{0.4, -0.3, 1.2}, glm::normalize(dquat(0.3, 0.8, -0.4, 0.2))};
-
-double angleBetween(const dquat& a, const dquat& b) {
-    return 2.0 * std::acos(std::min(1.0, std::abs(glm::dot(a, b))));
-}
-
-std::vector<PointPair> somePairs(size_t count, double noise) {
-    std::mt19937 random(5);
-    std::uniform_real_distribution<double> place(-0.5, 0.5);
-    std::normal_distribution<double> error(0.0, 1.0);
-    std::vector<PointPair> pairs;
-    for (size_t i = 0; i < count; ++i) {
-        const dvec3 p(place(random), place(random), 1.0 + place(random));
-        const dvec3 e(error(random), error(random), error(random));
-        pairs.push_back({p, kTruth.rotation * p + kTruth.position + noise * e, std::to_string(i)});
-    }
-    return pairs;
-}
 
 // Tag 7, 0.2 m wide, tilted, 1 m in front of a depth and a colour camera, rendered with rays through each
 // pixel.
 struct TagImage {
-    CameraInfo info;
+    CameraInfo info = twoLensCamera();
     Pose cameraTtag{{0.03, -0.02, 1.0}, glm::normalize(dquat(1.0, 0.12, -0.2, 0.05))};
     std::vector<uint16_t> depth;
     std::vector<uint32_t> colour;
 
     explicit TagImage(double noise) {
-        info.depth = {.width = 320, .height = 240, .fx = 280, .fy = 281, .cx = 161, .cy = 119};
-        info.colour = {.width = 640, .height = 480, .fx = 600, .fy = 601, .cx = 318, .cy = 243};
-        info.registered = false;
-        info.colourTdepth = {{0.015, 0.001, -0.002}, glm::normalize(dquat(1.0, 0.004, -0.006, 0.002))};
-        info.metresPerUnit = 0.0005;
         std::mt19937 random(3);
         std::normal_distribution<double> error(0.0, noise);
         for (uint32_t i = 0; i < info.depth.pixels(); ++i) {
             const uint32_t row = i / 320;
-            const dvec3 p = hit(info.depth.ray(i % 320, row), Pose{});
+            const dvec3 p = hitOnPlane(info.depth.ray(i % 320, row), cameraTtag);
             depth.push_back(static_cast<uint16_t>(std::lround((p.z + error(random)) / info.metresPerUnit)));
         }
         draw();
-    }
-    // Intersection of a camera ray (camera at cameraTdepth) with the plane of the tag, in the depth camera's
-    // frame.
-    dvec3 hit(const glm::dvec2& ray, const Pose& cameraTdepth) const {
-        const Pose t = cameraTdepth * cameraTtag;
-        const dvec3 n = t.rotation * dvec3(0, 0, 1), d(ray, 1.0);
-        return d * (glm::dot(t.position, n) / glm::dot(d, n));
     }
     void draw() {
         apriltag_family_t* family = tag36h11_create();
         image_u8_t* tag =
             apriltag_to_image(family, 7); // 10 x 10 cells with the white border; the black square is 8 wide
-        const Pose tagTcolour = inverse(info.colourTdepth * cameraTtag);
+        const Pose colourTtag = info.colourTdepth * cameraTtag, tagTcolour = inverse(colourTtag);
         for (uint32_t i = 0; i < info.colour.pixels(); ++i) {
             const uint32_t row = i / 640;
             int sum = 0;
@@ -79,7 +50,7 @@ struct TagImage {
                 const int line = s / 4;
                 const double u = i % 640 + (s % 4 - 1.5) / 4, v = row + (line - 1.5) / 4;
                 const dvec3 p =
-                    tagTcolour.rotation * hit(info.colour.ray(u, v), info.colourTdepth) + tagTcolour.position;
+                    tagTcolour.rotation * hitOnPlane(info.colour.ray(u, v), colourTtag) + tagTcolour.position;
                 const int x = static_cast<int>(std::floor(p.x / 0.025)) + 5,
                           y = static_cast<int>(std::floor(p.y / 0.025)) + 5;
                 const bool on = x >= 0 && x < tag->width && y >= 0 && y < tag->height;
@@ -103,19 +74,18 @@ struct TagImage {
 } // namespace
 
 TEST_CASE("A pose is recovered from pairs of points up to rounding, and its sigma from noisy pairs") {
-    const RigidFit exact = fitRigid(somePairs(4, 0.0), "test");
-    CHECK(glm::length(exact.baseTcamera.position - kTruth.position) < 1e-12);
-    CHECK(angleBetween(exact.baseTcamera.rotation, kTruth.rotation) < 1e-7);
+    const RigidFit exact = fitRigid(pairsOf(4, 0.0), "test");
+    CHECK(glm::length(exact.baseTcamera.position - kBaseTcamera.position) < 1e-12);
+    CHECK(angleBetween(exact.baseTcamera.rotation, kBaseTcamera.rotation) < 1e-7);
     CHECK(exact.sigma < 1e-12);
-    const RigidFit noisy = fitRigid(somePairs(500, 0.003), "test");
-    CHECK(glm::length(noisy.baseTcamera.position - kTruth.position) < 0.002);
+    const RigidFit noisy = fitRigid(pairsOf(500, 0.003), "test");
+    CHECK(glm::length(noisy.baseTcamera.position - kBaseTcamera.position) < 0.002);
     CHECK(noisy.sigma == doctest::Approx(0.003 * std::sqrt(3.0)).epsilon(0.1)); // of three axes
     CHECK(noisy.worst > noisy.sigma);
 }
 
 TEST_CASE("Too few points, or points on a line, are rejected") {
-    CHECK_THROWS_WITH_AS(fitRigid(somePairs(3, 0.0), "p.csv"), doctest::Contains("p.csv: pairs: 3"),
-                         BadInput);
+    CHECK_THROWS_WITH_AS(fitRigid(pairsOf(3, 0.0), "p.csv"), doctest::Contains("p.csv: pairs: 3"), BadInput);
     std::vector<PointPair> line;
     for (int i = 0; i < 9; ++i) {
         const dvec3 p(0.1 * i, 0.2 * i, 1.0);
@@ -127,14 +97,14 @@ TEST_CASE("Too few points, or points on a line, are rejected") {
 TEST_CASE("A tag in colour and noisy depth gives the camera's pose to millimetres") {
     for (const double noise : {0.0, 0.003}) {
         const TagImage image(noise);
-        const Pose baseTtag = kTruth * image.cameraTtag;
+        const Pose baseTtag = kBaseTcamera * image.cameraTtag;
         TagFinder finder(image.info, {{7, {0.2, baseTtag}}, {8, {0.2, Pose{}}}});
         const std::vector<PointPair> pairs = finder.find(image.frame());
         REQUIRE(pairs.size() == 4);
         const RigidFit fit = fitRigid(pairs, "test");
-        const double shift = glm::length(fit.baseTcamera.position - kTruth.position);
+        const double shift = glm::length(fit.baseTcamera.position - kBaseTcamera.position);
         CHECK(shift < (noise == 0.0 ? 0.003 : 0.012));
-        CHECK(angleBetween(fit.baseTcamera.rotation, kTruth.rotation) < (noise == 0.0 ? 0.003 : 0.012));
+        CHECK(angleBetween(fit.baseTcamera.rotation, kBaseTcamera.rotation) < (noise == 0.0 ? 0.003 : 0.012));
         CHECK(fit.sigma < 0.002);
         MESSAGE("noise " << noise << " m: position off by " << 1e3 * shift << " mm, sigma " << 1e3 * fit.sigma
                          << " mm");
@@ -157,7 +127,7 @@ TEST_CASE("A tag that is not listed, or whose depth is missing or not a plane, i
 }
 
 TEST_CASE("Lists of tags and points are read, and an invalid line is rejected with its number") {
-    const testing::ScratchFolder folder;
+    const ScratchFolder folder;
     const auto write = [&](const std::string& text) {
         std::ofstream(folder.path() / "a.csv") << text;
         return folder.path() / "a.csv";
@@ -177,7 +147,7 @@ TEST_CASE("Lists of tags and points are read, and an invalid line is rejected wi
 }
 
 TEST_CASE("A list of points, tags or a board has its own header or none, and no names in front of rows") {
-    const testing::ScratchFolder folder;
+    const ScratchFolder folder;
     const auto file = folder.path() / "a.csv";
     const auto write = [&](const std::string& text) {
         std::ofstream(file) << text;
@@ -207,7 +177,7 @@ TEST_CASE("A list of points, tags or a board has its own header or none, and no 
 }
 
 TEST_CASE("An endless line in a list of points, tags or a board is rejected before memory runs out") {
-    const testing::ScratchFolder folder;
+    const ScratchFolder folder;
     const std::filesystem::path hole = folder.path() / "hole.csv";
     std::ofstream(hole).close();
     std::filesystem::resize_file(hole, uint64_t{64} << 30); // a sparse file, which needs no disk space

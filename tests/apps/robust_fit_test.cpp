@@ -2,6 +2,7 @@
 // Registrations that must not be believed: scale, mirror images, outliers, scatter.
 #include "apps/register/robust_fit.h"
 #include "engine/types/error.h"
+#include "tests/apps/point_pairs.h"
 
 #include <cmath>
 #include <doctest/doctest.h>
@@ -9,27 +10,14 @@
 #include <random>
 
 using namespace fathom;
+using namespace fathom::testing;
 
 namespace {
 
-const Pose kTrueFit{{0.4, -0.3, 1.2}, glm::normalize(dquat(0.3, 0.8, -0.4, 0.2))};
 const FitLimits kByHand{};
 
-std::vector<PointPair> pairsOf(size_t count, double noise, unsigned seed = 5) {
-    std::mt19937 random(seed);
-    std::uniform_real_distribution<double> place(-0.5, 0.5);
-    std::normal_distribution<double> error(0.0, 1.0);
-    std::vector<PointPair> pairs;
-    for (size_t i = 0; i < count; ++i) {
-        const dvec3 p(place(random), place(random), 1.0 + place(random));
-        const dvec3 e(error(random), error(random), error(random));
-        pairs.push_back({p, kTrueFit.apply(p) + noise * e, "line " + std::to_string(i + 2)});
-    }
-    return pairs;
-}
-
 double offBy(const RobustFit& robust) {
-    return glm::distance(robust.fit.baseTcamera.apply({0, 0, 1}), kTrueFit.apply({0, 0, 1}));
+    return glm::distance(robust.fit.baseTcamera.apply({0, 0, 1}), kBaseTcamera.apply({0, 0, 1}));
 }
 
 bool mentions(const std::string& text, const std::string& part) {
@@ -77,7 +65,7 @@ TEST_CASE("Points that are all far from the camera are doubted: both columns may
     }
     mentions(fitRobust(pairs, {.residual = 1e3}, "test").doubt, "m from the camera (millimetres?)");
     pairs[2].camera = {0.0, 0.0, 1.0}; // in metres
-    pairs[2].base = kTrueFit.position;
+    pairs[2].base = kBaseTcamera.position;
     CHECK(fitRobust(pairs, {.residual = 1e3}, "test").doubt.find("millimetres") == std::string::npos);
 }
 
@@ -104,8 +92,8 @@ TEST_CASE("Outliers are left out of the fit, listed farthest first, and doubted"
         const size_t outliers = count >= 10 ? 2 : 1;
         if (outliers == 2) {
             std::swap(pairs[7].base, pairs[8].base); // typed in the wrong order: two more
-            pairs[7].base = kTrueFit.apply(pairs[7].camera);
-            pairs[8].base = kTrueFit.apply(pairs[8].camera) + dvec3(0.0, 0.1, 0.0);
+            pairs[7].base = kBaseTcamera.apply(pairs[7].camera);
+            pairs[8].base = kBaseTcamera.apply(pairs[8].camera) + dvec3(0.0, 0.1, 0.0);
         }
         const RobustFit robust = fitRobust(pairs, kByHand, "test");
         REQUIRE(robust.outliers.size() == outliers);

@@ -6,6 +6,7 @@
 #include "apps/replay/trace_phases.h"
 #include "apps/replay/traces_style.h"
 #include "engine/types/error.h"
+#include "tests/apps/png_image.h"
 #include "tests/support/scratch_folder.h"
 
 #include <algorithm>
@@ -29,31 +30,15 @@ StepRecord tickAt(int i, double force, StepState state = StepState::Free) {
     return tick;
 }
 
-// A PNG read back as 0xAARRGGBB.
-struct PngImage {
-    explicit PngImage(const std::filesystem::path& file)
-        : surface(cairo_image_surface_create_from_png(file.c_str())) {}
-    PngImage(const PngImage&) = delete;
-    PngImage& operator=(const PngImage&) = delete;
-    ~PngImage() { cairo_surface_destroy(surface); }
-    int width() const { return cairo_image_surface_get_width(surface); }
-    int height() const { return cairo_image_surface_get_height(surface); }
-    uint32_t at(int u, int v) const {
-        const unsigned char* row =
-            cairo_image_surface_get_data(surface) + v * cairo_image_surface_get_stride(surface);
-        return reinterpret_cast<const uint32_t*>(row)[u] & 0xffffffu;
-    }
-    // Highest dark pixel of column u between the rows, or -1.
-    int topInk(int u, int from, int to) const {
-        for (int v = from; v < to; ++v) {
-            if ((at(u, v) >> 16 & 0xffu) < 90 && (at(u, v) & 0xffu) < 110) {
-                return v;
-            }
+// Highest dark pixel of column u between the rows, or -1.
+int topInk(const PngImage& image, int u, int from, int to) {
+    for (int v = from; v < to; ++v) {
+        if (image.red(u, v) < 90 && image.blue(u, v) < 110) {
+            return v;
         }
-        return -1;
     }
-    cairo_surface_t* surface;
-};
+    return -1;
+}
 
 } // namespace
 
@@ -175,10 +160,10 @@ TEST_CASE("The force trace follows the scale of its axis over 1 tick, 1 s and 1 
         if (count > 1) {
             int highest = bottom; // in a short run a column may be between two ticks
             for (int u = late; u < late + 6; ++u) {
-                highest = std::min(highest, image.topInk(u, top, bottom - 10));
+                highest = std::min(highest, topInk(image, u, top, bottom - 10));
             }
             CHECK(std::abs(highest - (bottom - 8.0 * newton)) <= 3.0);
-            CHECK(std::abs(image.topInk(early, top, bottom - 10) - (bottom - 4.0 * newton)) <= 3.0);
+            CHECK(std::abs(topInk(image, early, top, bottom - 10) - (bottom - 4.0 * newton)) <= 3.0);
         }
     }
 }
@@ -196,7 +181,7 @@ TEST_CASE("An empty run, a run of zeros and a run of NaN give an image without a
         writeTraces(path, history, {"t", "bad \xff byte", std::nullopt, std::nan("")});
         const PngImage image(path);
         CHECK(image.width() == 1600);
-        CHECK(image.topInk(static_cast<int>(traces::kLeft) + 300, 160, 300) == -1);
+        CHECK(topInk(image, static_cast<int>(traces::kLeft) + 300, 160, 300) == -1);
     }
     CHECK(folder.files() == 1);
     CHECK_THROWS_AS(writeTraces(folder.path() / "none" / "a.png", zeros, {}), Error);

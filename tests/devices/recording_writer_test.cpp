@@ -5,13 +5,13 @@
 #include "devices/recorded/recorded_camera.h"
 #include "engine/types/error.h"
 #include "tests/devices/recorded_folder.h"
+#include "tests/support/eventually.h"
 
 #include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <doctest/doctest.h>
 #include <random>
-#include <thread>
 
 #include <sys/wait.h>
 #include <unistd.h>
@@ -207,10 +207,7 @@ TEST_CASE("A recorder killed by SIGKILL leaves a shorter recording with complete
     }
     const auto index = folder.path() / "rec/associations.txt";
     std::error_code ignored;
-    for (int i = 0; i < 3000 && !(std::filesystem::file_size(index, ignored) > 500 && !ignored); ++i) {
-        std::this_thread::sleep_for(
-            std::chrono::milliseconds(10)); // a state, not a time: some frames are there
-    }
+    CHECK(testing::eventually([&] { return std::filesystem::file_size(index, ignored) > 500 && !ignored; }));
     ::kill(child, SIGKILL);
     ::waitpid(child, nullptr, 0);
     RecordedCamera camera(folder.path() / "rec");

@@ -38,6 +38,19 @@ double forceLasts(const std::function<double()>& tick) {
     return last;
 }
 
+// Connects once the bridge, in another process, listens.
+std::unique_ptr<SocketHand> connected(const SocketFolder& folder) {
+    std::unique_ptr<SocketHand> hand;
+    REQUIRE(eventually([&] {
+        try {
+            hand = std::make_unique<SocketHand>(folder.endpoint(), 4);
+        } catch (const BadInput&) { // not yet
+        }
+        return hand != nullptr;
+    }));
+    return hand;
+}
+
 // A silence of 10 ms, and the rest for a machine that has other things to do.
 constexpr double kLongestForce = 0.2; // [s]
 
@@ -85,14 +98,7 @@ TEST_CASE("After SIGKILL of a bridge the dead-man switch opens, and the engine r
           "itself") {
     SocketFolder folder;
     Child first([&] { return serve(folder.endpoint()); });
-    std::unique_ptr<SocketHand> hand;
-    REQUIRE(eventually([&] {
-        try {
-            hand = std::make_unique<SocketHand>(folder.endpoint(), 4);
-        } catch (const BadInput&) { // the child has not got there yet
-        }
-        return hand != nullptr;
-    }));
+    std::unique_ptr<SocketHand> hand = connected(folder);
     const auto tick = [&] {
         const HandSample sample = hand->read(0.0);
         hand->write({{1.0, 0.0, 0.0}, {}}, 0.001);
@@ -143,14 +149,7 @@ TEST_CASE("The example bridge acts as a device: its handle yields to the force a
     SocketFolder folder;
     const std::string endpoint = folder.endpoint().string();
     Child bridge([&] { return ::execl(EXAMPLE_BRIDGE, "example_bridge", endpoint.c_str(), nullptr); });
-    std::unique_ptr<SocketHand> hand;
-    REQUIRE(eventually([&] {
-        try {
-            hand = std::make_unique<SocketHand>(folder.endpoint(), 4);
-        } catch (const BadInput&) {
-        }
-        return hand != nullptr;
-    }));
+    std::unique_ptr<SocketHand> hand = connected(folder);
     CHECK(hand->preset() == "falcon");
     const auto height = [&](double fz) {
         const HandSample sample = hand->read(0.0);
@@ -178,14 +177,7 @@ TEST_CASE("The example bridge exits cleanly when its terminal closes, and contin
             std::signal(SIGHUP, SIG_DFL);
             return ::execl(EXAMPLE_BRIDGE, "example_bridge", endpoint.c_str(), nullptr);
         });
-        std::unique_ptr<SocketHand> hand;
-        REQUIRE(eventually([&] {
-            try {
-                hand = std::make_unique<SocketHand>(folder.endpoint(), 4);
-            } catch (const BadInput&) {
-            }
-            return hand != nullptr;
-        }));
+        std::unique_ptr<SocketHand> hand = connected(folder);
         bridge.signal(SIGPIPE);
         CHECK(eventually([&] {
             const HandSample sample = hand->read(0.0);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "devices/bridge/socket_server.h"
+#include "tests/support/eventually.h"
 #include "tests/support/scratch_folder.h"
 
 #include <chrono>
@@ -46,18 +47,6 @@ inline fathom_door_hand handPacket(uint64_t sequence, double x) {
 
 inline void pauseMs(int ms) {
     std::this_thread::sleep_for(std::chrono::milliseconds(ms));
-}
-
-// Waits until `done` or the timeout [s].
-inline bool eventually(const std::function<bool()>& done, int seconds = 20) {
-    const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(seconds);
-    while (std::chrono::steady_clock::now() < until) {
-        if (done()) {
-            return true;
-        }
-        pauseMs(1);
-    }
-    return false;
 }
 
 // A child process that runs `body` and exits with its result. Killed by the destructor at the latest.

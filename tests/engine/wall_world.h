@@ -3,10 +3,10 @@
 // 0.55 m.
 #pragma once
 
+#include "tests/support/eventually.h"
+
 #include <fathom/fathom.h>
 
-#include <chrono>
-#include <thread>
 #include <vector>
 
 namespace fathom::testing {
@@ -49,19 +49,6 @@ inline HandStart startAt(double z) {
 
 inline bool warns(const Step& step, StepWarning warning) {
     return (step.warnings & warning) != StepWarning::None;
-}
-
-// Waits for the condition; false after 60 s.
-template <class Condition>
-bool eventually(Condition&& condition) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-    while (!condition()) {
-        if (std::chrono::steady_clock::now() > end) {
-            return false;
-        }
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-    return true;
 }
 
 } // namespace fathom::testing

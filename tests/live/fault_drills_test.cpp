@@ -114,19 +114,13 @@ TEST_CASE("A hand path with a position that no hand has is rejected before the r
 TEST_CASE("A device that is unplugged while it presses gets no force, the tool stays, and the force returns "
           "with it") {
     Stage stage;
-    stage.recording(std::vector<Image>(3, Image(kWidth, kHeight, 600).paint(kWholeWall, kRed)));
-    SceneText scene;
-    scene.hand = "path: start.csv"; // the tool starts 20 mm before the region
-    stage.scene(scene);
-    stage.write("start.csv", handCsv({{0.0, {0.0, 0.0, 0.53}}}));
+    setUpNearWall(stage);
     std::optional<PlayedDevice> device;
     device.emplace(stage / "hand.door");
     const pid_t engine = startFathom(
         stage.command({"--realtime", "--hand-device", (stage / "hand.door").string(), "--seconds", "60"}),
         stage / "said");
-    for (int i = 0; i < 60000 && device->silent; ++i) {
-        waitMillis(1);
-    }
+    REQUIRE(device->awaitWrench());
     bool felt = device->pushUntil(-8.0 - 1e-9, -4.0);
     const auto unplugged = Clock::now();
     felt = felt && device->fz < -1.0; // in contact until the end

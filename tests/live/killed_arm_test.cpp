@@ -7,6 +7,7 @@
 #include <doctest/doctest.h>
 #include <fcntl.h>
 #include <fstream>
+#include <optional>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -58,24 +59,6 @@ private:
     pid_t id_ = -1;
 };
 
-// An ECA keeps its last commanded speed. During homing it would move on to its stop, which takes 15 s here.
-void setUpEca(const Stage& stage, EcaSimulator& arm) {
-    setUp(stage, kEca, pushing(30.0));
-    stage.write("scene.yaml",
-                stage.read("scene.yaml") +
-                    "  joints: [{name: slew, speed: 0.25}, {name: shoulder, speed: 0.25, lower: 0.8}, "
-                    "{name: elbow, speed: 0.25, lower: 0.4}]\n");
-    arm.upper.fill(1.6);
-    arm.angle.fill(1.5);
-}
-
-// A Reach moves on to its last setpoint, 0.05 rad ahead. This one is so slow that this takes 10 s.
-void setUpSlowReach(const Stage& stage, ReachSimulator& arm) {
-    setUp(stage, kReach, {{0.0, {0, 0, 0}}, {0.3, {0, 0, 0}}, {10.0, {0, 0, 0.1}}, {30.0, {0, 0, 0.1}}});
-    setStart(arm);
-    arm.speed.fill(0.005);
-}
-
 // [s] longest motion after the engine ends: the watchdog waits for 0.2 s of silence, and a busy machine may
 // add a second.
 constexpr double kUntold = 1.2;    // [s]
@@ -96,22 +79,70 @@ bool comesToRest(ArmBench& bench, const double& joint) {
     return false;
 }
 
+// An engine that homes an ECA. The arm keeps its last commanded speed: it would move on to its stop, which
+// takes 15 s here.
+struct EcaRun {
+    EcaRun() {
+        setUp(stage, kEca, pushing(30.0));
+        stage.write("scene.yaml",
+                    stage.read("scene.yaml") +
+                        "  joints: [{name: slew, speed: 0.25}, {name: shoulder, speed: 0.25, lower: 0.8}, "
+                        "{name: elbow, speed: 0.25, lower: 0.4}]\n");
+        arm.upper.fill(1.6);
+        arm.angle.fill(1.5);
+        bench.emplace(arm, stage / "line");
+        engine.emplace(stage);
+        REQUIRE(bench->wait([&] { return arm.angle[0] < 1.45; }));
+    }
+    double angle() {
+        return bench->with([&] { return arm.angle[0]; });
+    }
+
+    const Stage stage;
+    EcaSimulator arm;
+    std::optional<ArmBench> bench;
+    std::optional<Engine> engine;
+};
+
+// An engine that moves a Reach, whose last setpoint is 0.05 rad ahead.
+struct ReachRun {
+    explicit ReachRun(double speed) { // [rad/s]
+        setUp(stage, kReach, {{0.0, {0, 0, 0}}, {0.3, {0, 0, 0}}, {10.0, {0, 0, 0.1}}, {30.0, {0, 0, 0.1}}});
+        setStart(arm);
+        arm.speed.fill(speed);
+        bench.emplace(arm, stage / "line");
+        engine.emplace(stage);
+    }
+    double angle() {
+        return bench->with([&] { return shoulder; });
+    }
+    // Waits until the arm has moved on by `way` [rad].
+    bool moves(double way) {
+        const double then = angle();
+        return bench->wait([&] { return std::abs(shoulder - then) > way; });
+    }
+    bool hasOtherWatchdog(pid_t first) {
+        return bench->wait([&] { return engine->watchdog() > 0 && engine->watchdog() != first; });
+    }
+
+    const Stage stage;
+    ReachSimulator arm;
+    const double& shoulder = arm.position[4];
+    std::optional<ArmBench> bench;
+    std::optional<Engine> engine;
+};
+
 } // namespace
 
 TEST_CASE("An ECA stops far from its end stop when the engine is killed or crashes while homing it") {
     for (const int signal : {SIGKILL, SIGSEGV}) {
         CAPTURE(signal);
-        const Stage stage;
-        EcaSimulator arm;
-        setUpEca(stage, arm);
-        ArmBench bench(arm, stage / "line");
-        Engine engine(stage);
-        REQUIRE(bench.wait([&] { return arm.angle[0] < 1.45; }));
-        const double killed = bench.with([&] { return arm.angle[0]; });
-        engine.signal(signal);
-        CHECK(engine.wait() == (kSanitized && signal == SIGSEGV ? 1 : -1)); // sanitizers exit on a crash
-        CHECK(comesToRest(bench, arm.angle[0]));
-        CHECK(killed - arm.angle[0] < kUntold * kEcaHoming);
+        EcaRun run;
+        const double killed = run.angle();
+        run.engine->signal(signal);
+        CHECK(run.engine->wait() == (kSanitized && signal == SIGSEGV ? 1 : -1)); // sanitizers exit on a crash
+        CHECK(comesToRest(*run.bench, run.arm.angle[0]));
+        CHECK(killed - run.arm.angle[0] < kUntold * kEcaHoming);
     }
 }
 
@@ -119,89 +150,61 @@ TEST_CASE("A Reach stops before its last setpoint when the engine is killed, als
           "unplugged and back") {
     for (const bool replugged : {false, true}) {
         CAPTURE(replugged);
-        const Stage stage;
-        ReachSimulator arm;
-        setUpSlowReach(stage, arm);
-        ArmBench bench(arm, stage / "line");
-        Engine engine(stage);
-        const double& shoulder = arm.position[4];
-        const double start = shoulder;
-        REQUIRE(bench.wait([&] { return std::abs(shoulder - start) > 0.01; }));
+        ReachRun run(0.005); // so slow that the way to the last setpoint takes 10 s
+        REQUIRE(run.moves(0.01));
         if (replugged) {
-            const pid_t first = engine.watchdog();
+            const pid_t first = run.engine->watchdog();
             CHECK(first > 0);
-            bench.unplug();
-            bench.plug();
-            REQUIRE(bench.wait([&] { return engine.watchdog() > 0 && engine.watchdog() != first; }));
+            run.bench->unplug();
+            run.bench->plug();
+            REQUIRE(run.hasOtherWatchdog(first));
             CHECK(::kill(first, 0) != 0); // it has ended, so the line is free
-            const double then = bench.with([&] { return shoulder; });
-            REQUIRE(bench.wait([&] { return std::abs(shoulder - then) > 0.01; }));
+            REQUIRE(run.moves(0.01));
         }
-        const double killed = bench.with([&] { return shoulder; });
-        engine.kill();
-        CHECK(comesToRest(bench, shoulder));
-        CHECK(std::abs(shoulder - killed) < kUntold * arm.speed[4]);
+        const double killed = run.angle();
+        run.engine->kill();
+        CHECK(comesToRest(*run.bench, run.shoulder));
+        CHECK(std::abs(run.shoulder - killed) < kUntold * run.arm.speed[4]);
     }
 }
 
 TEST_CASE(
     "The watchdog stops the arm when the engine is stopped, and the engine resumes it when it continues") {
-    const Stage stage;
-    EcaSimulator arm;
-    setUpEca(stage, arm);
-    ArmBench bench(arm, stage / "line");
-    Engine engine(stage);
-    REQUIRE(bench.wait([&] { return arm.angle[0] < 1.45; }));
-    const double stopped = bench.with([&] { return arm.angle[0]; });
-    engine.signal(SIGSTOP);
-    CHECK(comesToRest(bench, arm.angle[0]));
-    const double rest = bench.with([&] { return arm.angle[0]; });
+    EcaRun run;
+    const double stopped = run.angle();
+    run.engine->signal(SIGSTOP);
+    CHECK(comesToRest(*run.bench, run.arm.angle[0]));
+    const double rest = run.angle();
     CHECK(stopped - rest < kUntold * kEcaHoming);
-    engine.signal(SIGCONT);
-    CHECK(bench.wait([&] { return arm.angle[0] < rest - 0.02; }));
+    run.engine->signal(SIGCONT);
+    CHECK(run.bench->wait([&] { return run.arm.angle[0] < rest - 0.02; }));
 }
 
 TEST_CASE("A watchdog process that is killed is replaced, and the arm resumes") {
-    const Stage stage;
-    ReachSimulator arm;
-    setUpSlowReach(stage, arm);
-    arm.speed.fill(0.05);
-    ArmBench bench(arm, stage / "line");
-    Engine engine(stage);
-    const double& shoulder = arm.position[4];
-    const double start = shoulder;
-    REQUIRE(bench.wait([&] { return std::abs(shoulder - start) > 0.001; }));
-    const pid_t first = engine.watchdog();
+    ReachRun run(0.05);
+    REQUIRE(run.moves(0.001));
+    const pid_t first = run.engine->watchdog();
     REQUIRE(first > 0);
     ::kill(first, SIGTERM); // ignored: only the engine ends it
     ::kill(first, SIGKILL);
-    REQUIRE(bench.wait([&] { return engine.watchdog() > 0 && engine.watchdog() != first; }));
-    const double then = bench.with([&] { return shoulder; });
-    CHECK(bench.wait([&] { return std::abs(shoulder - then) > 0.001; }));
-    engine.signal(SIGINT);
-    CHECK(engine.wait() == 0);
-    CHECK(stage.read("said").find("its watchdog process ended; the arm is held until a new one runs") !=
+    REQUIRE(run.hasOtherWatchdog(first));
+    CHECK(run.moves(0.001));
+    run.engine->signal(SIGINT);
+    CHECK(run.engine->wait() == 0);
+    CHECK(run.stage.read("said").find("its watchdog process ended; the arm is held until a new one runs") !=
           std::string::npos);
 }
 
 TEST_CASE("While the watchdog process hangs the arm is held, and it resumes with it") {
-    const Stage stage;
-    ReachSimulator arm;
-    setUpSlowReach(stage, arm);
-    arm.speed.fill(0.05);
-    ArmBench bench(arm, stage / "line");
-    Engine engine(stage);
-    const double& shoulder = arm.position[4];
-    const double start = shoulder;
-    REQUIRE(bench.wait([&] { return std::abs(shoulder - start) > 0.001; }));
-    const pid_t watchdog = engine.watchdog();
+    ReachRun run(0.05);
+    REQUIRE(run.moves(0.001));
+    const pid_t watchdog = run.engine->watchdog();
     REQUIRE(watchdog > 0);
     ::kill(watchdog, SIGSTOP);
-    CHECK(comesToRest(bench, shoulder));
-    const double there = bench.with([&] { return shoulder; });
+    CHECK(comesToRest(*run.bench, run.shoulder));
     ::kill(watchdog, SIGCONT);
-    CHECK(bench.wait([&] { return std::abs(shoulder - there) > 0.001; }));
-    CHECK(engine.watchdog() == watchdog);
-    engine.signal(SIGINT);
-    CHECK(engine.wait() == 0);
+    CHECK(run.moves(0.001));
+    CHECK(run.engine->watchdog() == watchdog);
+    run.engine->signal(SIGINT);
+    CHECK(run.engine->wait() == 0);
 }

@@ -35,9 +35,7 @@ public:
             ::execl(EXAMPLE_BRIDGE, "example_bridge", endpoint.c_str(), nullptr);
             ::_exit(99);
         }
-        for (int i = 0; i < 5000 && !std::filesystem::exists(endpoint); ++i) {
-            std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        }
+        REQUIRE(testing::eventually([&] { return std::filesystem::exists(endpoint); }));
     }
     Bridge(const Bridge&) = delete;
     Bridge& operator=(const Bridge&) = delete;
@@ -77,9 +75,7 @@ struct Observer {
         : thread([this, endpoint = std::move(path)] { look(endpoint); }) {}
     void look(const std::filesystem::path& path) {
         DeviceSocket endpoint;
-        for (int i = 0; i < 60000 && DeviceSocket::tryConnect(path, endpoint) != 0; ++i) {
-            std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        }
+        testing::eventually([&] { return DeviceSocket::tryConnect(path, endpoint) == 0; });
         union {
             fathom_door_header header;
             fathom_door_state state;
@@ -180,11 +176,7 @@ TEST_CASE("A live hand on a bridge socket drives a realtime replay, and an obser
 TEST_CASE("A device pressed into a region gets at most its force limit, and no force after the program ends "
           "or is killed") {
     Stage stage;
-    stage.recording(std::vector<Image>(3, Image(kWidth, kHeight, 600).paint(kAll, kRed)));
-    SceneText scene;
-    scene.hand = "path: start.csv"; // the tool starts 20 mm before the region
-    stage.scene(scene);
-    stage.write("start.csv", handCsv({{0.0, {0.0, 0.0, 0.53}}}));
+    setUpNearWall(stage);
     std::signal(SIGHUP, SIG_DFL); // the parent process may ignore it
     PlayedDevice device(stage / "hand.door");
     std::optional<BlockedOutput> blocked;
@@ -208,9 +200,7 @@ TEST_CASE("A device pressed into a region gets at most its force limit, and no f
     const pid_t engine = startFathom(stage.command({"-v", "--realtime", "--hand-device",
                                                     (stage / "hand.door").string(), "--seconds", "60"}),
                                      blocked ? blocked->path() : std::filesystem::path());
-    for (int i = 0; i < 60000 && device.silent; ++i) { // until the first wrench: the ticks run
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
+    REQUIRE(device.awaitWrench());
     CHECK(std::abs(device.fz) < 1e-9);
     const bool full = device.pushUntil(-8.0 - 1e-9, -7.9); // 15 mm at 3000 N/m, limited to the preset's 8 N
     device.push(0.0);
@@ -256,16 +246,9 @@ TEST_CASE("The log reports when a device disconnects during a run and when it is
         stage.command({"--realtime", "--hand-device", (stage / "hand.door").string(), "--seconds", "300"}),
         stage / "said");
     const auto says = [&](const char* words) {
-        bool found = false;
-        for (int i = 0; i < 6000 && !found; ++i) {
-            std::this_thread::sleep_for(std::chrono::milliseconds(10));
-            found = stage.read("said").find(words) != std::string::npos;
-        }
-        return found;
+        return testing::eventually([&] { return stage.read("said").find(words) != std::string::npos; });
     };
-    for (int i = 0; i < 60000 && device->silent; ++i) { // until the first wrench: the ticks run
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
+    REQUIRE(device->awaitWrench());
     device.reset();
     CHECK(says("gone or silent: forces fade out, the tool stays"));
     device.emplace(stage / "hand.door");

@@ -3,12 +3,12 @@
 #include "devices/serial/eca_arm.h"
 #include "devices/serial/reach_arm.h"
 #include "tests/rig/refusal.h"
+#include "tests/support/eventually.h"
 
 #include <chrono>
 #include <cmath>
 #include <csignal>
 #include <doctest/doctest.h>
-#include <functional>
 #include <sys/wait.h>
 #include <thread>
 
@@ -22,7 +22,7 @@ public:
     Simulator(const std::string& protocol, std::filesystem::path link, const std::filesystem::path& said)
         : link_(std::move(link))
         , process_(startFathom({"arm-simulator", protocol, "--link", link_.string()}, said)) {
-        CHECK(until([&] { return std::filesystem::exists(link_); }));
+        CHECK(testing::eventually([&] { return std::filesystem::exists(link_); }));
     }
     Simulator(const Simulator&) = delete;
     Simulator& operator=(const Simulator&) = delete;
@@ -33,16 +33,6 @@ public:
         CHECK(WIFEXITED(status));
         CHECK(WEXITSTATUS(status) == 0);
         CHECK_FALSE(std::filesystem::is_symlink(link_));
-    }
-    // Tests the state every 5 ms; false after 30 s.
-    static bool until(const std::function<bool()>& state) {
-        for (int i = 0; i < 6000; ++i) {
-            if (state()) {
-                return true;
-            }
-            std::this_thread::sleep_for(std::chrono::milliseconds(5));
-        }
-        return false;
     }
 
 private:
@@ -65,7 +55,7 @@ TEST_CASE("A simulated Reach moves where its driver commands, and a simulated EC
             SerialPort port((stage / "reach").string(), 115200);
             ReachArm arm(port, {}, kind);
             const ArmCommand go{{0.1, -0.1, 0.2, 0.05, 0.002, 0.01, 0.001}, false};
-            CHECK(Simulator::until([&] {
+            CHECK(testing::eventually([&] {
                 arm.step(now(), go);
                 double off = 0.0;
                 for (size_t k = 0; k < reachDevices(kind).size(); ++k) {
@@ -79,7 +69,7 @@ TEST_CASE("A simulated Reach moves where its driver commands, and a simulated EC
     const Simulator simulator("eca_5e", stage / "eca", stage / "said");
     SerialPort port((stage / "eca").string(), 115200);
     EcaArm arm(port);
-    CHECK(Simulator::until([&] {
+    CHECK(testing::eventually([&] {
         arm.step(now(), {{}, false});
         return arm.feedback().homed;
     }));

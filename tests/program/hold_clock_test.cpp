@@ -3,16 +3,15 @@
 // provide a fake driver library, and check runs where the clock cannot be held.
 #include "tests/rig/run_fathom.h"
 #include "tests/rig/stage.h"
+#include "tests/support/eventually.h"
 
 #include <csignal>
 #include <cstdlib>
 #include <doctest/doctest.h>
 #include <fstream>
-#include <functional>
 #include <optional>
 #include <string>
 #include <sys/wait.h>
-#include <thread>
 
 using namespace fathom;
 
@@ -75,13 +74,6 @@ std::string idOfDevice(const Short& stage) {
     return said.substr(at + 26, 32);
 }
 
-bool soon(const std::function<bool()>& holds) {
-    for (int i = 0; i < 1000 && !holds(); ++i) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-    return holds();
-}
-
 } // namespace
 
 TEST_CASE("The chosen device, and no other, is occupied while the program runs, and free when it has ended") {
@@ -111,10 +103,10 @@ TEST_CASE("The device is also free after the program was killed") {
                                            "--seconds",
                                            "600"};
     const pid_t program = startFathom(endless, stage / "said");
-    CHECK(soon([&] { return textOf(stage / "log") == "made\n"; }));
+    CHECK(testing::eventually([&] { return textOf(stage / "log") == "made\n"; }));
     ::kill(program, SIGKILL);
     ::waitpid(program, nullptr, 0);
-    CHECK(soon([&] { return textOf(stage / "log") == "made\nended\n"; }));
+    CHECK(testing::eventually([&] { return textOf(stage / "log") == "made\nended\n"; }));
 }
 
 TEST_CASE("Where the clock cannot be held, one line says why, and the run is otherwise the same") {

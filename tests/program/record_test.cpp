@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/rig/stage.h"
+#include "tests/support/eventually.h"
 
 #include <algorithm>
-#include <chrono>
 #include <csignal>
 #include <doctest/doctest.h>
 #include <sys/wait.h>
-#include <thread>
 
 using namespace fathom;
 
@@ -14,9 +13,7 @@ TEST_CASE("A recording that is ended by SIGINT is complete: every frame of its i
     const Stage stage;
     const std::string scene = "apps/scenes/demo.yaml", folder = (stage / "pictures").string();
     const pid_t engine = startFathom({"record", scene, "--out", folder}, stage / "said");
-    for (int i = 0; i < 20000 && !std::filesystem::exists(stage / "pictures/depth/000003.png"); ++i) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
+    CHECK(testing::eventually([&] { return std::filesystem::exists(stage / "pictures/depth/000003.png"); }));
     ::kill(engine, SIGINT);
     int status = 0;
     ::waitpid(engine, &status, 0);

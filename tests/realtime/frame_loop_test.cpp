@@ -34,6 +34,23 @@ private:
     RunClock::Time taken_;
 };
 
+// The loop on a live source of `frames` frames.
+struct LiveLoop {
+    explicit LiveLoop(uint32_t frames)
+        : fake(frames, pressingPath(1.0)) {}
+    void start() {
+        REQUIRE(loop.first());
+        clock.start(0.0);
+    }
+
+    FakeRun fake;
+    LiveFeed feed{fake.feed};
+    Channels channels{16};
+    RunClock clock;
+    FrameLoop loop{feed, channels, clock, 1000.0, nullptr}; // with pacing, a run would take hours
+    std::atomic<bool> stop{false};
+};
+
 } // namespace
 
 TEST_CASE("Frames are captured one period apart by the clock, and only a slow frame counts as lost") {
@@ -63,57 +80,39 @@ TEST_CASE("Frames are captured one period apart by the clock, and only a slow fr
 }
 
 TEST_CASE("Frames of a live source keep their capture time, and the loop does not pace them") {
-    FakeRun fake(8, pressingPath(1.0));
-    LiveFeed live(fake.feed);
-    Channels channels(16);
-    RunClock clock;
-    FrameLoop loop(live, channels, clock, 1000.0, nullptr); // with pacing, this would take hours
-    REQUIRE(loop.first());
-    clock.start(0.0);
+    LiveLoop live(8);
+    live.start();
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    std::atomic<bool> stop{false};
-    loop.run(stop);
-    REQUIRE(fake.feed.captured.size() == 8);
-    CHECK(fake.feed.captured[0] == 0.0);
-    CHECK(fake.feed.captured[1] >= 0.03 - 1e-6);
+    live.loop.run(live.stop);
+    REQUIRE(live.fake.feed.captured.size() == 8);
+    CHECK(live.fake.feed.captured[0] == 0.0);
+    CHECK(live.fake.feed.captured[1] >= 0.03 - 1e-6);
     for (size_t i = 1; i < 8; ++i) {
-        CHECK(fake.feed.captured[i] >= fake.feed.captured[i - 1]);
-        CHECK(fake.feed.captured[i] <= clock.now() - 0.02 + 1e-6);
+        CHECK(live.fake.feed.captured[i] >= live.fake.feed.captured[i - 1]);
+        CHECK(live.fake.feed.captured[i] <= live.clock.now() - 0.02 + 1e-6);
     }
-    CHECK(loop.lost() == 0);
-    CHECK(loop.update().live);
+    CHECK(live.loop.lost() == 0);
+    CHECK(live.loop.update().live);
 }
 
 TEST_CASE("A live camera whose stamps go back gives frames no older than the one before") {
-    FakeRun fake(10, pressingPath(1.0));
-    LiveFeed live(fake.feed);
-    live.age = [](uint32_t index) { return std::chrono::milliseconds(index == 5 ? 3600000 : 1); };
-    fake.feed.beforeFetch = [](uint32_t) { std::this_thread::sleep_for(std::chrono::milliseconds(5)); };
-    Channels channels(16);
-    RunClock clock;
-    FrameLoop loop(live, channels, clock, 1000.0, nullptr);
-    REQUIRE(loop.first());
-    clock.start(0.0);
-    std::atomic<bool> stop{false};
-    loop.run(stop);
-    const std::vector<double>& captured = fake.feed.captured;
+    LiveLoop live(10);
+    live.feed.age = [](uint32_t index) { return std::chrono::milliseconds(index == 5 ? 3600000 : 1); };
+    live.fake.feed.beforeFetch = [](uint32_t) { std::this_thread::sleep_for(std::chrono::milliseconds(5)); };
+    live.start();
+    live.loop.run(live.stop);
+    const std::vector<double>& captured = live.fake.feed.captured;
     REQUIRE(captured.size() == 10);
     CHECK(captured[4] > 0.0);
     CHECK(captured[5] == captured[4]);
     CHECK(captured[6] > captured[5]);
-    CHECK(loop.update().captureTime == captured[9]);
+    CHECK(live.loop.update().captureTime == captured[9]);
 }
 
 TEST_CASE("A run that is to stop ends although the writer returns none of its frames") {
-    FakeRun fake(4 * Channels::kFramesInFlight, pressingPath(1.0));
-    LiveFeed live(fake.feed);
-    Channels channels(16);
-    RunClock clock;
-    FrameLoop loop(live, channels, clock, 1000.0, nullptr);
-    REQUIRE(loop.first());
-    clock.start(0.0);
-    std::atomic<bool> stop{false};
-    fake.feed.beforeFetch = [&](uint32_t index) { stop = index == Channels::kFramesInFlight; };
-    loop.run(stop);
-    CHECK(fake.feed.captured.size() == Channels::kFramesInFlight);
+    LiveLoop live(4 * Channels::kFramesInFlight);
+    live.start();
+    live.fake.feed.beforeFetch = [&](uint32_t index) { live.stop = index == Channels::kFramesInFlight; };
+    live.loop.run(live.stop);
+    CHECK(live.fake.feed.captured.size() == Channels::kFramesInFlight);
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "tests/devices/pty_line.h"
+#include "tests/support/eventually.h"
 
 #include <atomic>
 #include <chrono>
@@ -49,15 +50,9 @@ public:
         const std::lock_guard lock(mutex_);
         return look();
     }
-    // Waits until `state` is true; false after 30 s.
+    // Waits until `state` is true of the arm between two of its steps.
     bool wait(const std::function<bool()>& state) {
-        for (int i = 0; i < 15000; ++i) {
-            if (with(state)) {
-                return true;
-            }
-            std::this_thread::sleep_for(std::chrono::milliseconds(2));
-        }
-        return false;
+        return eventually([&] { return with(state); });
     }
 
 private:

@@ -3,6 +3,8 @@
 #pragma once
 
 #include "devices/bridge/socket_server.h"
+#include "tests/rig/stage.h"
+#include "tests/support/eventually.h"
 
 #include <algorithm>
 #include <atomic>
@@ -33,6 +35,10 @@ struct PlayedDevice {
     ~PlayedDevice() {
         stop = true;
         thread.join();
+    }
+    // Waits for the first wrench: the ticks run.
+    bool awaitWrench() const {
+        return testing::eventually([this] { return !silent; });
     }
     // Moves the handle within 0.5 s.
     void push(double to) {
@@ -75,5 +81,14 @@ struct PlayedDevice {
     SocketServer server;
     std::thread thread;
 };
+
+// A red wall 0.6 m away. The tool starts 20 mm in front of its region and moves with the device.
+inline void setUpNearWall(const Stage& stage) {
+    stage.recording(std::vector<Image>(3, Image(kWidth, kHeight, 600).paint({0, 0, kWidth, kHeight}, kRed)));
+    SceneText scene;
+    scene.hand = "path: start.csv";
+    stage.scene(scene);
+    stage.write("start.csv", handCsv({{0.0, {0.0, 0.0, 0.53}}}));
+}
 
 } // namespace fathom

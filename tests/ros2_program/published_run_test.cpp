@@ -4,6 +4,7 @@
 #include "tests/rig/stage.h"
 #include "tests/ros2/client.h"
 #include "tests/ros2/heard.h"
+#include "tests/support/eventually.h"
 
 #include <csignal>
 #include <doctest/doctest.h>
@@ -63,13 +64,10 @@ json newestState(const Stage& stage) {
 }
 
 bool becomes(const Stage& stage, const std::function<bool(const json&)>& wanted) {
-    for (int i = 0; i < 6000; ++i) {
-        if (const json state = newestState(stage); !state.is_null() && wanted(state)) {
-            return true;
-        }
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-    return false;
+    return fathom::testing::eventually([&] {
+        const json state = newestState(stage);
+        return !state.is_null() && wanted(state);
+    });
 }
 
 } // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/vm/vhci_port.h"
+#include "tests/support/eventually.h"
 
 #include <cerrno>
 #include <cstring>
@@ -9,7 +10,6 @@
 #include <stdexcept>
 #include <string>
 #include <sys/socket.h>
-#include <thread>
 #include <unistd.h>
 
 namespace fathom::vm {
@@ -87,14 +87,7 @@ void waitUntilVhciFree(int wanted) {
 }
 
 bool waitFor(const std::function<bool()>& condition, std::chrono::milliseconds most) {
-    const auto end = std::chrono::steady_clock::now() + most;
-    while (!condition()) {
-        if (std::chrono::steady_clock::now() >= end) {
-            return false;
-        }
-        std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    }
-    return true;
+    return testing::eventually(condition, most);
 }
 
 bool waitForFile(const std::filesystem::path& file, std::chrono::milliseconds most) {

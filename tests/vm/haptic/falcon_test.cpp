@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <fstream>
 #include <glm/geometric.hpp>
+#include <optional>
 
 #include <fcntl.h>
 
@@ -73,6 +74,20 @@ bool pushes(const FalconDevice& device) {
     return m != kNoTorque && std::abs(m[0]) + std::abs(m[1]) + std::abs(m[2]) > 200;
 }
 
+// A Falcon on the bus and its bridge.
+struct PluggedFalcon {
+    explicit PluggedFalcon(bool homed = true) {
+        placeAt(device, kKnob);
+        device.homed = homed;
+        device.plug();
+        running.emplace(FalconBridge::Options{folder.endpoint(), {}});
+    }
+
+    SocketFolder folder;
+    FalconDevice device;
+    std::optional<Running> running;
+};
+
 std::string faultOf(const FalconBridge::Options& options) {
     std::string fault;
     vm::waitFor([&] { // "not found" means that it is not enumerated yet
@@ -91,13 +106,10 @@ std::string faultOf(const FalconBridge::Options& options) {
 
 TEST_CASE(
     "The knob's position reaches the engine, the force reaches the motors, and at the end they are at zero") {
-    SocketFolder folder;
-    FalconDevice device;
-    placeAt(device, kKnob);
-    device.plug();
-    Running running({folder.endpoint(), {}});
+    PluggedFalcon falcon;
+    FalconDevice& device = falcon.device;
     {
-        SocketHand hand(folder.endpoint(), 4);
+        SocketHand hand(falcon.folder.endpoint(), 4);
         CHECK(hand.preset() == "falcon");
         CHECK(eventually([&] { return glm::distance(step(hand).deviceThandle.position, kKnob) < 1e-4; }));
         CHECK(eventually([&] {
@@ -128,20 +140,17 @@ TEST_CASE(
             step(hand);
             return hand.alive() && pushes(device);
         }));
-        running.end(); // like Ctrl-C, with the engine still pushing
+        falcon.running->end(); // like Ctrl-C, with the engine still pushing
         CHECK(device.motors() == kNoTorque);
         step(hand);
     }
-    CHECK(running.bridge->figures().faults == 0);
+    CHECK(falcon.running->bridge->figures().faults == 0);
 }
 
 TEST_CASE("The exchange survives half a packet, two at once, and a late, dropped or wrong answer") {
-    SocketFolder folder;
-    FalconDevice device;
-    placeAt(device, kKnob);
-    device.plug();
-    Running running({folder.endpoint(), {}});
-    SocketHand hand(folder.endpoint(), 4);
+    PluggedFalcon falcon;
+    FalconDevice& device = falcon.device;
+    SocketHand hand(falcon.folder.endpoint(), 4);
     REQUIRE(eventually([&] { return step(hand).buttons == 0 && pushes(device); }));
     std::atomic<int>* fault = nullptr;
     SUBCASE("half a packet") {
@@ -178,21 +187,18 @@ TEST_CASE("The exchange survives half a packet, two at once, and a late, dropped
         return hand.alive() && pushes(device);
     }));
     CHECK(device.commands > commands);
-    running.end();
+    falcon.running->end();
     CHECK(device.motors() == kNoTorque);
-    const FalconFigures f = running.bridge->figures();
+    const FalconFigures f = falcon.running->bridge->figures();
     CHECK(f.surplus >= (twofold ? 3u : 0u));
     CHECK((f.late + f.faults + f.surplus > 0 || late));
     CHECK(f.faults <= 3);
 }
 
 TEST_CASE("A Falcon unplugged in mid-exchange opens the dead-man switch; plugged in again it resumes") {
-    SocketFolder folder;
-    FalconDevice device;
-    placeAt(device, kKnob);
-    device.plug();
-    Running running({folder.endpoint(), {}});
-    SocketHand hand(folder.endpoint(), 4);
+    PluggedFalcon falcon;
+    FalconDevice& device = falcon.device;
+    SocketHand hand(falcon.folder.endpoint(), 4);
     REQUIRE(eventually([&] { return step(hand).buttons == 0 && pushes(device); }));
     device.unplug();
     CHECK(eventually([&] { return step(hand).buttons == 6; }));
@@ -209,16 +215,13 @@ TEST_CASE("A Falcon unplugged in mid-exchange opens the dead-man switch; plugged
     CHECK(device.motors() == kNoTorque); // no position, no force
     device.homed = true;
     CHECK(eventually([&] { return step(hand).buttons == 0 && pushes(device); }));
-    CHECK(running.bridge->losses() >= 1);
+    CHECK(falcon.running->bridge->losses() >= 1);
 }
 
 TEST_CASE("A Falcon that is not homed gives neither a position nor a force") {
-    SocketFolder folder;
-    FalconDevice device;
-    device.homed = false;
-    device.plug();
-    Running running({folder.endpoint(), {}});
-    SocketHand hand(folder.endpoint(), 4);
+    PluggedFalcon falcon(false);
+    const FalconDevice& device = falcon.device;
+    SocketHand hand(falcon.folder.endpoint(), 4);
     for (int i = 0; i < 300; ++i) {
         CHECK(step(hand).buttons == 6);
     }
