@@ -12,17 +12,17 @@ namespace fathom {
 namespace {
 
 constexpr auto kConnect = std::chrono::milliseconds(2000);
-constexpr auto kWait = std::chrono::milliseconds(1); // for an answer, before the socket is polled again
-constexpr auto kSearchPause = std::chrono::milliseconds(250);
 constexpr double kNoTorque = 0.0; // the handle turns freely
 constexpr const char* kName = "fathom";
 
 } // namespace
 
 HaplyBridge::HaplyBridge(const Options& options)
-    : options_(options)
-    , device_(options.device)
-    , endpoint_({options.endpoint, "inverse3", "Haply Inverse3", kForceLimit, kNoTorque}) {
+    : DeviceBridge("")
+    , options_(options)
+    , device_(options.device) {
+    endpoint_.emplace(
+        SocketServer::Options{options.endpoint, "inverse3", "Haply Inverse3", kForceLimit, kNoTorque});
     connect();
 }
 
@@ -54,6 +54,11 @@ void HaplyBridge::connect() {
     heardAt_ = Clock::now();
 }
 
+void HaplyBridge::open() {
+    connect();
+    log::warn("inverse3 {}: back at {}", device_, place_);
+}
+
 void HaplyBridge::ask(const dvec3& force) {
     service_->send(haplyForce(device_, force, introduced_ ? "" : kName));
     introduced_ = true;
@@ -80,7 +85,7 @@ bool HaplyBridge::answered(std::chrono::microseconds most) {
         const auto state = readHaplyState(*message, device_);
         if (there_ != state.has_value()) {
             there_ = state.has_value();
-            figures_.losses += there_ ? 0 : 1;
+            losses_ += there_ ? 0 : 1;
             log::warn("inverse3 {}: {}", device_, there_ ? "back" : "gone from the service");
         }
         if (state) {
@@ -102,11 +107,11 @@ void HaplyBridge::giveUpLate(Clock::time_point now) {
     }
     ++figures_.late;
     awaited_ = heardAt_ > askedAt_ ? 0 : awaited_;
-    ask(there_ ? endpoint_.wrench().force : dvec3(0.0));
+    ask(there_ ? endpoint_->wrench().force : dvec3(0.0));
 }
 
 void HaplyBridge::exchange() {
-    endpoint_.poll();
+    endpoint_->poll();
     const auto now = Clock::now();
     if (now - heardAt_ > kDeaf) {
         throw DeviceLost(place_ + ": silent");
@@ -115,12 +120,12 @@ void HaplyBridge::exchange() {
     if (awaited_ == 0) {
         if (const auto since = now - askedAt_; since < kPeriod) {
             std::this_thread::sleep_for(kPeriod - since);
-            endpoint_.poll();
+            endpoint_->poll();
         }
-        ask(there_ ? endpoint_.wrench().force : dvec3(0.0));
+        ask(there_ ? endpoint_->wrench().force : dvec3(0.0));
     }
     if (answered(kWait)) {
-        endpoint_.send(sample_, there_ ? FATHOM_DOOR_PRESENT | FATHOM_DOOR_HOMED : 0);
+        endpoint_->send(sample_, there_ ? FATHOM_DOOR_PRESENT | FATHOM_DOOR_HOMED : 0);
     }
 }
 
@@ -136,38 +141,6 @@ void HaplyBridge::close() noexcept {
     }
     service_.reset();
     there_ = false;
-}
-
-void HaplyBridge::waitForService(const std::atomic<bool>& stop) {
-    const auto until = Clock::now() + kSearchPause;
-    while (!stop.load() && Clock::now() < until) {
-        endpoint_.poll();
-        endpoint_.send(sample_, 0);
-        std::this_thread::sleep_for(2 * kWait);
-    }
-    try {
-        connect();
-        log::warn("inverse3 {}: back at {}", device_, place_);
-    } catch (const Error& e) { // not present yet
-        log::debug("{}", e.what());
-    }
-}
-
-void HaplyBridge::run(const std::atomic<bool>& stop) {
-    while (!stop.load()) {
-        if (!service_) {
-            waitForService(stop);
-            continue;
-        }
-        try {
-            exchange();
-        } catch (const DeviceLost& e) {
-            ++figures_.losses;
-            log::warn("{}: reported to the engine, reconnecting", e.what());
-            close();
-        }
-    }
-    close();
 }
 
 } // namespace fathom

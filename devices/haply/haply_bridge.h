@@ -3,11 +3,10 @@
 // the engine fails in any way, the service gets zero force.
 #pragma once
 
-#include "devices/bridge/socket_server.h"
+#include "devices/bridge/device_bridge.h"
 #include "devices/haply/haply_message.h"
 #include "devices/haply/web_socket.h"
 
-#include <atomic>
 #include <chrono>
 #include <memory>
 
@@ -15,7 +14,7 @@ namespace fathom {
 
 // Counters since the start.
 struct HaplyFigures {
-    uint64_t replies = 0, losses = 0;
+    uint64_t replies = 0;
     uint64_t late = 0;    // requests without an answer in kReplyTime
     uint64_t surplus = 0; // answers to requests before the newest, dropped
     uint64_t faults = 0;  // invalid answers
@@ -23,7 +22,7 @@ struct HaplyFigures {
 
 // One thread. When this process dies, the service ends the force itself, because each force lasts one tick
 // (by its documentation; never tried on the device).
-class HaplyBridge {
+class HaplyBridge final : public DeviceBridge {
 public:
     // Path of the socket, and address of the service.
     struct Options {
@@ -34,16 +33,10 @@ public:
     };
     // Connects and opens the socket. Throws Error (no service, no Inverse3) or BadInput (socket).
     explicit HaplyBridge(const Options& options);
-    ~HaplyBridge(); // sends zero force
-
-    // Runs until `stop`, then sends zero force. A lost service or device is searched four times per second,
-    // and the engine is informed meanwhile.
-    void run(const std::atomic<bool>& stop);
+    ~HaplyBridge() override; // sends zero force
 
     std::string place() const { return device_ + " at " + place_; }
     const HaplyFigures& figures() const noexcept { return figures_; }
-    uint64_t losses() const noexcept { return figures_.losses; }
-    const SocketServer& endpoint() const noexcept { return endpoint_; }
 
     static constexpr double kForceLimit = 5.0; // [N] of the preset "inverse3"
     static constexpr auto kReplyTime = std::chrono::milliseconds(20);
@@ -52,13 +45,14 @@ public:
 
 private:
     using Clock = std::chrono::steady_clock;
+    void open() override;
+    bool isOpen() const noexcept override { return service_ != nullptr; }
+    void close() noexcept override;
+    void exchange() override;
     void connect();
-    void close() noexcept;
     void ask(const dvec3& force);
     bool answered(std::chrono::microseconds most);
     void giveUpLate(Clock::time_point now);
-    void exchange();
-    void waitForService(const std::atomic<bool>& stop);
 
     Options options_;
     std::unique_ptr<WebSocket> service_;
@@ -66,9 +60,7 @@ private:
     bool introduced_ = false, there_ = false;
     uint32_t awaited_ = 0; // requests without an answer so far
     Clock::time_point askedAt_{}, heardAt_{};
-    HandSample sample_;
     HaplyFigures figures_;
-    SocketServer endpoint_;
 };
 
 } // namespace fathom

@@ -5,23 +5,21 @@
 #include "engine/types/error.h"
 #include "engine/types/log.h"
 
-#include <thread>
-
 namespace fathom {
 
 namespace {
 
-constexpr auto kWait = std::chrono::milliseconds(1); // for an answer, before the socket is polled again
-constexpr auto kSearchPause = std::chrono::milliseconds(250);
 constexpr double kNoTorque = 0.0; // the knob only translates
 
 } // namespace
 
 FalconBridge::FalconBridge(const Options& options)
-    : firmware_(options.firmware.empty() ? std::vector<uint8_t>() : readFalconFirmware(options.firmware))
+    : DeviceBridge("falcon: ")
+    , firmware_(options.firmware.empty() ? std::vector<uint8_t>() : readFalconFirmware(options.firmware))
     , device_(std::make_unique<Device>())
-    , endpoint_({options.endpoint, "falcon", "Novint Falcon", FalconDrive::kForceLimit, kNoTorque})
     , place_(device_->port.place()) {
+    endpoint_.emplace(SocketServer::Options{options.endpoint, "falcon", "Novint Falcon",
+                                            FalconDrive::kForceLimit, kNoTorque});
     device_->link.start(firmware_);
 }
 
@@ -61,49 +59,18 @@ void FalconBridge::tellHoming(bool homed) {
 }
 
 void FalconBridge::exchange() {
-    endpoint_.poll();
+    endpoint_->poll();
     FalconCommand command;
-    command.motor = placed_ ? drive_.motors(endpoint_.wrench().force) : command.motor;
+    command.motor = placed_ ? drive_.motors(endpoint_->wrench().force) : command.motor;
     command.red = !placed_;
     command.green = placed_;
-    command.blue = placed_ && endpoint_.hasEngine();
+    command.blue = placed_ && endpoint_->hasEngine();
     if (device_->link.exchange(command, kWait)) {
         const FalconState& state = device_->link.state();
         placed_ = drive_.place(state, sample_);
         tellHoming(state.allHomed());
-        endpoint_.send(sample_, FATHOM_DOOR_PRESENT | (placed_ ? FATHOM_DOOR_HOMED : 0));
+        endpoint_->send(sample_, FATHOM_DOOR_PRESENT | (placed_ ? FATHOM_DOOR_HOMED : 0));
     }
-}
-
-void FalconBridge::waitForDevice(const std::atomic<bool>& stop) {
-    const auto until = std::chrono::steady_clock::now() + kSearchPause;
-    while (!stop.load() && std::chrono::steady_clock::now() < until) {
-        endpoint_.poll();
-        endpoint_.send(sample_, 0);
-        std::this_thread::sleep_for(2 * kWait);
-    }
-    try {
-        open();
-    } catch (const Error& e) { // not present yet, or not ready
-        log::debug("falcon: {}", e.what());
-    }
-}
-
-void FalconBridge::run(const std::atomic<bool>& stop) {
-    while (!stop.load()) {
-        if (!device_) {
-            waitForDevice(stop);
-            continue;
-        }
-        try {
-            exchange();
-        } catch (const DeviceLost& e) {
-            ++losses_;
-            log::warn("falcon: {}: reported to the engine, reconnecting", e.what());
-            close();
-        }
-    }
-    close();
 }
 
 } // namespace fathom

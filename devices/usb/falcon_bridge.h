@@ -3,12 +3,11 @@
 // socket; when the engine fails in any way, the device gets zero force.
 #pragma once
 
-#include "devices/bridge/socket_server.h"
+#include "devices/bridge/device_bridge.h"
 #include "devices/usb/falcon_drive.h"
 #include "devices/usb/falcon_link.h"
 #include "devices/usb/usb_ftdi.h"
 
-#include <atomic>
 #include <memory>
 #include <optional>
 
@@ -16,7 +15,7 @@ namespace fathom {
 
 // One thread. It is unknown what the hardware does when this process itself dies between two packets: no
 // source states whether the firmware stops the motors.
-class FalconBridge {
+class FalconBridge final : public DeviceBridge {
 public:
     // Path of the socket, and the firmware for a device after power-on.
     struct Options {
@@ -25,16 +24,10 @@ public:
     };
     // Opens the device and the socket. Throws BadInput, Error, DeviceLost.
     explicit FalconBridge(const Options& options);
-    ~FalconBridge(); // sends zero force
-
-    // Runs until `stop`, then sends zero force. A lost device is searched four times per second, and the
-    // engine is informed meanwhile.
-    void run(const std::atomic<bool>& stop);
+    ~FalconBridge() override; // sends zero force
 
     const std::string& place() const noexcept { return place_; } // "usb 1-1"
     const FalconFigures& figures() const noexcept { return figures_; }
-    uint64_t losses() const noexcept { return losses_; }
-    const SocketServer& endpoint() const noexcept { return endpoint_; }
 
     static constexpr uint16_t kVendor = 0x0403, kProduct = 0xcb48;
 
@@ -43,21 +36,18 @@ private:
         UsbFtdi port{"falcon", kVendor, kProduct};
         FalconLink link{port};
     };
-    void open();
-    void close() noexcept;
-    void exchange();
-    void waitForDevice(const std::atomic<bool>& stop);
+    void open() override;
+    bool isOpen() const noexcept override { return device_ != nullptr; }
+    void close() noexcept override;
+    void exchange() override;
     void tellHoming(bool homed);
 
     std::vector<uint8_t> firmware_;
     std::unique_ptr<Device> device_;
-    SocketServer endpoint_;
     FalconDrive drive_;
-    HandSample sample_;
     bool placed_ = false;
     std::optional<bool> told_; // homed or not, as last logged
     FalconFigures figures_;    // sum over earlier devices; at the end, over all
-    uint64_t losses_ = 0;
     std::string place_;
 };
 
