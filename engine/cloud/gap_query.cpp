@@ -39,12 +39,9 @@ uint64_t bytesOfPairs(uint32_t pairs) {
 // The pose as the device reads it. docs/architecture/query.md derives the margin.
 GapPose gapPoseOf(const Pose& baseTtool, const dvec3& origin, double toolRadius, double largest) {
     GapPose p{};
-    const dvec3 t = baseTtool.position - origin;
-    const glm::dmat3 rotation = glm::mat3_cast(baseTtool.rotation); // its columns are the rows of the inverse
-    for (int k = 0; k < 3; ++k) {
-        p.rows[k] = glm::vec4(glm::vec3(rotation[k]), static_cast<float>(t[k]));
-    }
-    const double margin = 0x1p-20 * (glm::length(t) + 16.0 * (toolRadius + largest));
+    writeRows(baseTtool, origin, p.rows);
+    const double margin =
+        0x1p-20 * (glm::length(baseTtool.position - origin) + 16.0 * (toolRadius + largest));
     p.margin.x = std::nextafter(static_cast<float>(margin), std::numeric_limits<float>::infinity());
     return p;
 }
@@ -67,9 +64,7 @@ GapQuery::GapQuery(gpu::Device& device, const Plan& plan, const PatchLayout& lay
     , pool_(pool)
     , hold_(plan.hold)
     , pipeline_(device, gapPipeline(plan))
-    , timeline_(device)
-    , commands_(device)
-    , watch_(device, 2)
+    , run_(device)
     , leaves_(device)
     , still_(device)
     , unused_(device, 16, gpu::MemoryKind::Device, "unused") {
@@ -91,11 +86,7 @@ const gpu::Bindings& GapQuery::bindingsOf(const FixtureSet& set) {
                                                                &answer_},
                                unused_);
     }
-    size_t index = 0;
-    while (&pool_.at(index) != &set) {
-        ++index;
-    }
-    return bindings_[index];
+    return bindings_[pool_.indexOf(set)];
 }
 
 void GapQuery::reserve(size_t poses) {
@@ -127,49 +118,39 @@ void GapQuery::writePoses(const Batch& batch, Part part) {
     }
 }
 
-void GapQuery::copyPairs(uint32_t pairs) {
+void GapQuery::copyPairs(gpu::Commands& commands, uint32_t pairs) {
     const std::pair<uint64_t, uint64_t> all[] = {{0, bytesOfPairs(pairs)}};
-    commands_.copyParts(answer_, back_, all);
+    commands.copyParts(answer_, back_, all);
     copied_ = pairs;
 }
 
 void GapQuery::record(const Batch& batch, Part part) {
-    commands_.begin();
+    gpu::Commands& commands = run_.begin();
     constexpr std::array<uint32_t, 4> kZero{};
-    commands_.update(answer_, 0, kCountBytes, kZero.data());
-    leaves_.upload(commands_);
-    still_.upload(commands_);
-    commands_.barrier();
-    if (timed_) {
-        watch_.reset();
-        watch_.mark(commands_.handle());
-    }
+    commands.update(answer_, 0, kCountBytes, kZero.data());
+    leaves_.upload(commands);
+    still_.upload(commands);
+    commands.barrier();
+    run_.startTime();
     GapParams p{};
     p.tool = leaves_.bound();
     p.live = {layout_.patches(), layout_.levels[1].first, hold_ ? 2u : 1u, stillClasses(batch.set)};
     p.rest = {still_.count(), still_.firstBound(), leaves_.count(), most_};
-    commands_.dispatch(pipeline_, bindingsOf(batch.set), static_cast<uint32_t>(part.size()), &p);
-    if (timed_) {
-        watch_.mark(commands_.handle());
-    }
-    commands_.barrier();
-    copyPairs(std::min(most_, std::max(kMinCopiedPairs, found_ + found_ / 4)));
-    commands_.end();
+    commands.dispatch(pipeline_, bindingsOf(batch.set), static_cast<uint32_t>(part.size()), &p);
+    run_.stopTime();
+    commands.barrier();
+    copyPairs(commands, std::min(most_, std::max(kMinCopiedPairs, found_ + found_ / 4)));
 }
 
 // False when the answer does not fit: then found_ says how many pairs there are.
 bool GapQuery::submit(const Batch& batch, Part part) {
     writePoses(batch, part);
     record(batch, part);
-    device_.submitQuery(commands_.handle(), batch.set.completed, {timeline_.handle(), ++ticket_});
-    timeline_.wait(ticket_);
+    run_.submit(batch.set.completed);
     found_ = back_.as<uint32_t>()[0];
     if (found_ > copied_ && found_ <= most_) {
-        commands_.begin();
-        copyPairs(found_);
-        commands_.end();
-        device_.submitQuery(commands_.handle(), {}, {timeline_.handle(), ++ticket_});
-        timeline_.wait(ticket_);
+        copyPairs(run_.begin(), found_);
+        run_.submit({});
     }
     return found_ <= most_;
 }
@@ -235,11 +216,6 @@ void GapQuery::find(const FixtureSet& set, const Tool& tool, std::span<const Pos
     for (size_t begin = 0; begin < near_.size(); begin += kMaxPosesAtOnce) {
         ask(batch, Part(near_).subspan(begin, std::min(kMaxPosesAtOnce, near_.size() - begin)));
     }
-}
-
-double GapQuery::gpuMs() const {
-    const std::vector<double> intervals = watch_.intervalsMs();
-    return intervals.empty() ? 0.0 : intervals.front();
 }
 
 } // namespace fathom::cloud

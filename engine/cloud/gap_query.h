@@ -4,11 +4,11 @@
 #pragma once
 
 #include "engine/cloud/fixture_set.h"
+#include "engine/cloud/query_run.h"
 #include "engine/cloud/sphere_blocks.h"
 #include "engine/cloud/tool_leaves.h"
 #include "engine/contact/smallest_gap.h"
 #include "engine/gpu/pipeline.h"
-#include "engine/gpu/stopwatch.h"
 #include "shaders/shared/gap_params.h"
 
 #include <span>
@@ -35,8 +35,8 @@ public:
 
     // Enables timestamps. gpuMs(): device time of the last submission without the copy of its answer; 0 when
     // not enabled or not supported.
-    void askForTime() { timed_ = true; }
-    double gpuMs() const;
+    void askForTime() { run_.askForTime(); }
+    double gpuMs() const { return run_.gpuMs(); }
     uint32_t pairs() const { return found_; } // that the device listed in the last submission
 
 private:
@@ -55,7 +55,7 @@ private:
     void askHost(const Batch& batch, uint32_t pose);
     bool submit(const Batch& batch, Part part);
     void record(const Batch& batch, Part part);
-    void copyPairs(uint32_t pairs);
+    void copyPairs(gpu::Commands& commands, uint32_t pairs);
     bool growTo(uint32_t pairs);
     void decide(const Batch& batch, Part part);
 
@@ -64,10 +64,7 @@ private:
     FixturePool& pool_;
     bool hold_;
     gpu::Pipeline pipeline_;
-    gpu::Timeline timeline_;
-    gpu::Commands commands_;
-    gpu::Stopwatch watch_;
-    bool timed_ = false;
+    QueryRun run_;
     ToolLeaves leaves_;
     SphereBlocks still_; // spheres of frozen classes
     gpu::Buffer poses_;  // GapPose per pose
@@ -78,7 +75,6 @@ private:
     std::vector<uint32_t> near_;          // poses for the device
     GapSearch host_;
     bool hostReady_ = false; // it searches the set of this batch
-    uint64_t ticket_ = 0;
 };
 
 } // namespace fathom::cloud

@@ -36,9 +36,7 @@ TreeQuery::TreeQuery(gpu::Device& device, const Plan& plan, const PatchLayout& l
     , pool_(pool)
     , hold_(plan.hold)
     , pipeline_(device, pipelineOf(plan, subgroups && device.facts().subgroupArithmetic))
-    , timeline_(device)
-    , commands_(device)
-    , watch_(device, 2)
+    , run_(device)
     , leaves_(device)
     , still_(device)
     , answer_(device, {capacity, kLeavesPerSphere * capacity})
@@ -72,18 +70,14 @@ TreeQuery::Blocks TreeQuery::stillBlocks() const {
 QueryParams TreeQuery::paramsAt(const Pose& baseTtool, const dvec3& origin, double reach,
                                 double largest) const {
     QueryParams p{};
-    const dvec3 t = baseTtool.position - origin;
-    const glm::dmat3 rotation = glm::mat3_cast(baseTtool.rotation); // its columns are the rows of the inverse
-    for (int k = 0; k < 3; ++k) {
-        p.rows[k] = glm::vec4(glm::vec3(rotation[k]), static_cast<float>(t[k]));
-    }
+    writeRows(baseTtool, origin, p.rows);
     p.tool = leaves_.bound();
-    p.reach = outwardReach(leaves_.radius(), glm::length(t), reach, largest);
+    p.reach = outwardReach(leaves_.radius(), glm::length(baseTtool.position - origin), reach, largest);
     return p;
 }
 
 // If there are few blocks, slices share the leaves among groups. A CPU device would gain nothing.
-void TreeQuery::dispatch(const Blocks& blocks, QueryParams p) {
+void TreeQuery::dispatch(gpu::Commands& commands, const Blocks& blocks, QueryParams p) {
     const bool cpu = device_.facts().kind == DeviceKind::Cpu;
     const uint32_t groups = cpu ? 4 * device_.facts().hostProcessors : kGroups;
     const uint32_t count = std::max(1u, blocks.count),
@@ -93,63 +87,47 @@ void TreeQuery::dispatch(const Blocks& blocks, QueryParams p) {
     p.blocks = {blocks.count, blocks.firstBound, leaves_.count(), (leaves_.count() + slices - 1) / slices};
     p.layer = blocks.layer, p.layers = blocks.layers;
     answer_.place(p);
-    commands_.dispatch(pipeline_, *blocks.bindings, {std::clamp(2 * groups / slices, 1u, count), slices, 1},
-                       &p);
+    commands.dispatch(pipeline_, *blocks.bindings, {std::clamp(2 * groups / slices, 1u, count), slices, 1},
+                      &p);
 }
 
 void TreeQuery::record(std::span<const Blocks> all, const QueryParams& params) {
-    commands_.begin();
+    gpu::Commands& commands = run_.begin();
     bool copied = answer_.isNew();
     if (answer_.isNew()) {
-        answer_.clear(commands_);
+        answer_.clear(commands);
     }
-    copied = leaves_.upload(commands_) || copied;
-    copied = still_.upload(commands_) || copied;
+    copied = leaves_.upload(commands) || copied;
+    copied = still_.upload(commands) || copied;
     if (copied) {
-        commands_.barrier();
+        commands.barrier();
     }
-    if (timed_) {
-        watch_.reset();
-        watch_.mark(commands_.handle());
-    }
+    run_.startTime();
     for (const Blocks& blocks : all) {
         if (&blocks != all.data()) {
-            commands_.barrier();
+            commands.barrier();
         }
-        dispatch(blocks, params);
+        dispatch(commands, blocks, params);
     }
-    if (timed_) {
-        watch_.mark(commands_.handle());
-    }
-    commands_.barrier();
-    answer_.copy(commands_);
-    commands_.end();
-}
-
-void TreeQuery::submit(const gpu::Device::At& after) {
-    device_.submitQuery(commands_.handle(), after, {timeline_.handle(), ++ticket_});
-    timeline_.wait(ticket_);
+    run_.stopTime();
+    commands.barrier();
+    answer_.copy(commands);
 }
 
 // Returns the number of spheres and leaves found. The answer is whole unless they exceed its capacity.
 Counts TreeQuery::run(std::span<const Blocks> all, const gpu::Device::At& after, const QueryParams& params) {
     record(all, params);
-    submit(after);
+    run_.submit(after);
     const Counts found = answer_.read();
     if (found.fits(answer_.most()) && !answer_.isWhole()) {
-        commands_.begin();
-        answer_.copyWhole(commands_);
-        commands_.end();
-        submit({});
+        answer_.copyWhole(run_.begin());
+        run_.submit({});
     }
     return found;
 }
 
 bool TreeQuery::list(const FixtureSet& set, const Pose& baseTtool, double reach, NearPairs& near) {
-    size_t index = 0;
-    while (&pool_.at(index) != &set) {
-        ++index;
-    }
+    const size_t index = pool_.indexOf(set);
     if (still_.fillStill(set)) {
         bindings_.clear();
     }
@@ -186,11 +164,6 @@ void TreeQuery::take(const FixtureSet& set, NearPairs& near) const {
                                     f.sphere.x, f.sphere.y, f.sphere.z, f.sphere.w});
         }
     }
-}
-
-double TreeQuery::gpuMs() const {
-    const std::vector<double> intervals = watch_.intervalsMs();
-    return intervals.empty() ? 0.0 : intervals.front();
 }
 
 } // namespace fathom::cloud

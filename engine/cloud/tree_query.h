@@ -5,11 +5,11 @@
 
 #include "engine/cloud/fixture_set.h"
 #include "engine/cloud/query_answer.h"
+#include "engine/cloud/query_run.h"
 #include "engine/cloud/sphere_blocks.h"
 #include "engine/cloud/tool_leaves.h"
 #include "engine/contact/near_pairs.h"
 #include "engine/gpu/pipeline.h"
-#include "engine/gpu/stopwatch.h"
 
 #include <span>
 #include <vector>
@@ -40,8 +40,8 @@ public:
 
     // Enables timestamps, which cost the device a little. gpuMs(): device time of the last query without the
     // copy of its answer; 0 when not enabled or not supported.
-    void askForTime() { timed_ = true; }
-    double gpuMs() const;
+    void askForTime() { run_.askForTime(); }
+    double gpuMs() const { return run_.gpuMs(); }
 
 private:
     // Blocks that one dispatch searches.
@@ -56,8 +56,7 @@ private:
     QueryAnswer::Counts run(std::span<const Blocks> all, const gpu::Device::At& after,
                             const shared::QueryParams& params);
     void record(std::span<const Blocks> all, const shared::QueryParams& params);
-    void dispatch(const Blocks& blocks, shared::QueryParams params);
-    void submit(const gpu::Device::At& after);
+    void dispatch(gpu::Commands& commands, const Blocks& blocks, shared::QueryParams params);
     void take(const FixtureSet& set, NearPairs& near) const;
 
     gpu::Device& device_;
@@ -65,10 +64,7 @@ private:
     FixturePool& pool_;
     bool hold_;
     gpu::Pipeline pipeline_;
-    gpu::Timeline timeline_;
-    gpu::Commands commands_;
-    gpu::Stopwatch watch_;
-    bool timed_ = false;
+    QueryRun run_;
 
     ToolLeaves leaves_;
     SphereBlocks still_; // spheres of frozen classes
@@ -76,7 +72,6 @@ private:
     gpu::Buffer unused_;
     std::vector<gpu::Bindings> bindings_; // one per set
     gpu::Bindings stillBindings_;
-    uint64_t ticket_ = 0;
 };
 
 } // namespace fathom::cloud

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -96,6 +97,15 @@ public:
     size_t size() const { return entries_.size(); }
     // For setting up values before the threads start.
     T& at(size_t i) { return *entries_[i].value; }
+    // Any thread. `value` must be one of the pool: throws std::logic_error.
+    size_t indexOf(const T& value) const {
+        for (size_t i = 0; i < entries_.size(); ++i) {
+            if (entries_[i].value.get() == &value) {
+                return i;
+            }
+        }
+        throw std::logic_error("a value of another pool");
+    }
 
 private:
     Lease leaseOf(const std::atomic<int32_t>& which) noexcept {

@@ -27,6 +27,14 @@ TEST_CASE("A pool has nothing to lease before the first publish") {
     CHECK_FALSE(pool.newest());
 }
 
+TEST_CASE("A value's place in its pool is found, and a value of another pool has none") {
+    auto pool = makePool(1), other = makePool(1);
+    for (size_t i = 0; i < pool.size(); ++i) {
+        CHECK(pool.indexOf(pool.at(i)) == i);
+    }
+    CHECK_THROWS_AS(pool.indexOf(other.at(0)), std::logic_error);
+}
+
 TEST_CASE("A leased value is never written while newer ones are published") {
     auto pool = makePool(1);
     pool.back().words.fill(1);
