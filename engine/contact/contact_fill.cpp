@@ -4,7 +4,6 @@
 #include "engine/contact/pair_gaps.h"
 
 #include <algorithm>
-#include <array>
 #include <numeric>
 #include <utility>
 
@@ -65,39 +64,6 @@ void orderBySphere(PairScratch& scratch, ContactSet& set) {
 }
 
 } // namespace
-
-void sortBySource(const RegionSpheres& spheres, std::vector<uint32_t>& indices, PairScratch& scratch) {
-    uint32_t largest = 0;
-    scratch.sortKeys.resize(indices.size() * 2);
-    scratch.sortValues.resize(indices.size());
-    uint32_t* keys = scratch.sortKeys.data();
-    uint32_t* keysTo = keys + indices.size();
-    for (size_t i = 0; i < indices.size(); ++i) {
-        keys[i] = spheres.source[indices[i]];
-        largest = std::max(largest, keys[i]);
-    }
-    constexpr uint32_t kBits = 11;
-    std::array<uint32_t, (1u << kBits)> begin;
-    for (uint32_t shift = 0; shift < 32 && (largest >> shift) != 0; shift += kBits) {
-        begin.fill(0);
-        for (size_t i = 0; i < indices.size(); ++i) {
-            ++begin[(keys[i] >> shift) & (begin.size() - 1)];
-        }
-        uint32_t sum = 0;
-        for (uint32_t& b : begin) {
-            const uint32_t count = b;
-            b = sum;
-            sum += count;
-        }
-        for (size_t i = 0; i < indices.size(); ++i) {
-            const uint32_t to = begin[(keys[i] >> shift) & (begin.size() - 1)]++;
-            scratch.sortValues[to] = indices[i];
-            keysTo[to] = keys[i];
-        }
-        indices.swap(scratch.sortValues);
-        std::swap(keys, keysTo);
-    }
-}
 
 void fillContactSet(const Tool& tool, const Pose& baseTtool, double reach, const Fixtures& fixtures,
                     std::span<const uint32_t> indices, ContactSet& out) {

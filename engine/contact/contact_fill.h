@@ -19,11 +19,7 @@ struct PairScratch {
     DecideScratch decide;     // its pairs: in the order of the leaves
     ListedPairs ordered;      // the same in the order of the spheres
     std::vector<uint32_t> count;
-    std::vector<uint32_t> sortKeys, sortValues;
 };
-
-// Sorts indices into `spheres` by source; equal sources keep their order.
-void sortBySource(const RegionSpheres& spheres, std::vector<uint32_t>& indices, PairScratch& scratch);
 
 // Fills everything except the pairs, the behind flags and ContactSet::query: identity of the fixture set,
 // pose, reach, leaf centres, and the spheres in the order of `indices` (sorted by source).

@@ -68,7 +68,11 @@ void CullCpu::query(const Tool& tool, const Pose& baseTtool, double reach, const
     const auto onGrid = [&](double tried, const QueryCapacity& most, ContactSet& set) {
         const double away = glm::distance(baseTtool.position, fixtures.origin);
         cull(leaves_, outwardReach(tool.boundingRadius(), away, tried, grid.maxRadius()), grid, found_);
-        sortBySource(fixtures.spheres, found_, scratch_);
+        std::vector<uint32_t>& sources = scratch_.decide.sort.keys;
+        sources.resize(found_.size());
+        std::ranges::transform(found_, sources.begin(),
+                               [&](uint32_t i) { return fixtures.spheres.source[i]; });
+        sortBySource(found_, scratch_.decide.sort);
         fillContactSet(tool, baseTtool, tried, fixtures, found_, set);
         return listPairs(tool, most.pairs, scratch_, set);
     };

@@ -4,7 +4,6 @@
 #include "engine/contact/exact_gap.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -13,31 +12,12 @@ namespace fathom {
 
 namespace {
 
-// Order of the spheres by source: a stable radix sort.
 void orderBySource(const std::vector<NearSphere>& spheres, DecideScratch& scratch) {
-    constexpr uint32_t kBits = 11;
-    const size_t count = spheres.size();
-    scratch.order.resize(count), scratch.sorted.resize(count);
+    scratch.order.resize(spheres.size());
     std::iota(scratch.order.begin(), scratch.order.end(), 0u);
-    uint32_t largest = 0;
-    bool ascending = true;
-    for (size_t i = 0; i < count; ++i) {
-        ascending = ascending && spheres[i].source >= largest;
-        largest = std::max(largest, spheres[i].source);
-    }
-    std::array<uint32_t, (1u << kBits)> begin;
-    for (uint32_t shift = 0; !ascending && shift < 32 && (largest >> shift) != 0; shift += kBits) {
-        begin.fill(0);
-        const auto digit = [&](uint32_t i) { return (spheres[i].source >> shift) & (begin.size() - 1); };
-        for (const uint32_t i : scratch.order) {
-            ++begin[digit(i)];
-        }
-        std::exclusive_scan(begin.begin(), begin.end(), begin.begin(), 0u);
-        for (const uint32_t i : scratch.order) {
-            scratch.sorted[begin[digit(i)]++] = i;
-        }
-        scratch.order.swap(scratch.sorted);
-    }
+    scratch.sort.keys.resize(spheres.size());
+    std::ranges::transform(spheres, scratch.sort.keys.begin(), &NearSphere::source);
+    sortBySource(scratch.order, scratch.sort);
 }
 
 void addSphere(const NearSphere& s, ContactSet& set) {

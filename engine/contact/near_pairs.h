@@ -5,6 +5,7 @@
 #pragma once
 
 #include "engine/contact/contact_set.h"
+#include "engine/contact/source_sort.h"
 
 #include <cstdint>
 #include <glm/vec4.hpp>
@@ -47,7 +48,8 @@ struct ListedPairs {
 struct DecideScratch {
     ListedPairs pairs;
     std::vector<glm::dvec4> leaves; // centre and radius
-    std::vector<uint32_t> order, sorted, next;
+    std::vector<uint32_t> order, next;
+    SourceSort sort;
 };
 
 // Adds spheres and pairs to `set`, which has no spheres yet: every pair whose gap at the query pose, in

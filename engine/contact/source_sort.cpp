@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/contact/source_sort.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+namespace fathom {
+
+void sortBySource(std::vector<uint32_t>& indices, SourceSort& sort) {
+    if (std::is_sorted(sort.keys.begin(), sort.keys.end())) {
+        return;
+    }
+    const size_t count = indices.size();
+    sort.sortedKeys.resize(count), sort.sorted.resize(count);
+    const uint32_t largest = *std::max_element(sort.keys.begin(), sort.keys.end());
+    constexpr uint32_t kBits = 11;
+    std::array<uint32_t, (1u << kBits)> begin;
+    for (uint32_t shift = 0; shift < 32 && (largest >> shift) != 0; shift += kBits) {
+        const auto digit = [&](size_t i) { return (sort.keys[i] >> shift) & (begin.size() - 1); };
+        begin.fill(0);
+        for (size_t i = 0; i < count; ++i) {
+            ++begin[digit(i)];
+        }
+        std::exclusive_scan(begin.begin(), begin.end(), begin.begin(), 0u);
+        for (size_t i = 0; i < count; ++i) {
+            const uint32_t to = begin[digit(i)]++;
+            sort.sorted[to] = indices[i];
+            sort.sortedKeys[to] = sort.keys[i];
+        }
+        indices.swap(sort.sorted);
+        sort.keys.swap(sort.sortedKeys);
+    }
+}
+
+} // namespace fathom
