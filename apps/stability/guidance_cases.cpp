@@ -4,7 +4,7 @@
 #include "apps/stability/case_text.h"
 #include "apps/stability/guidance_parts.h"
 #include "apps/stability/loop_rig.h"
-#include "apps/stability/rng.h"
+#include "engine/reference/rng.h"
 
 #include <algorithm>
 #include <cmath>

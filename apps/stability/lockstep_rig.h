@@ -8,7 +8,7 @@
 #include "engine/reference/penetration_audit.h"
 #include "engine/run/active_contacts.h"
 
-#include "apps/stability/rng.h"
+#include "engine/reference/rng.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include "apps/replay/digest.h"
 #include "apps/stability/case_text.h"
 #include "apps/stability/loop_rig.h"
-#include "apps/stability/rng.h"
+#include "engine/reference/rng.h"
 #include "apps/stability/worlds.h"
 
 #include <algorithm>

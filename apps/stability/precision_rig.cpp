@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/stability/precision_rig.h"
 
-#include "apps/stability/rng.h"
+#include "engine/reference/rng.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 // A scripted hand that moves violently: it wanders through an arena, leaps, spins and flips over.
 #pragma once
 
-#include "apps/stability/rng.h"
+#include "engine/reference/rng.h"
 #include "engine/types/pose.h"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 // rotation_device_cases.cpp.
 #include "apps/stability/case_text.h"
 #include "apps/stability/pressing.h"
-#include "apps/stability/rng.h"
+#include "engine/reference/rng.h"
 #include "apps/stability/step_timer.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Group rotation, devices: quaternions of any length, devices without torque or with an inactive axis.
 #include "apps/stability/case_text.h"
-#include "apps/stability/rng.h"
+#include "engine/reference/rng.h"
 #include "apps/stability/step_timer.h"
 
 #include <algorithm>

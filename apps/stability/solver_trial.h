@@ -3,7 +3,7 @@
 // long double.
 #pragma once
 
-#include "apps/stability/constraint_families.h"
+#include "engine/reference/row_sets.h"
 #include "engine/haptics/constraint_solver.h"
 #include "engine/reference/nearest_point.h"
 

@@ -3,7 +3,7 @@
 // solver's metric matches the springs.
 #include "apps/stability/case_text.h"
 #include "apps/stability/loop_rig.h"
-#include "apps/stability/rng.h"
+#include "engine/reference/rng.h"
 #include "apps/stability/stiff_cases.h"
 #include "apps/stability/worlds.h"
 #include "engine/types/angle.h"

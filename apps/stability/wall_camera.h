@@ -3,7 +3,7 @@
 #pragma once
 
 #include "apps/stability/image_fixtures.h"
-#include "apps/stability/rng.h"
+#include "engine/reference/rng.h"
 
 #include <cstdint>
 #include <vector>

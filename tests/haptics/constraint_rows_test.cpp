@@ -41,7 +41,7 @@ ConstraintSolver identitySolver(int n, size_t maxRows) {
 } // namespace
 
 TEST_CASE("The scan finds the same row and the same bits as a plain loop on every instruction set") {
-    Random random(3);
+    Rng random(3);
     for (const int n : {1, 2, 3, 4, 5, 6, 7, 8}) {
         for (const size_t count : {1, 7, 8, 9, 63, 64, 513}) {
             ConstraintRows rows(n, 513);
@@ -107,7 +107,7 @@ TEST_CASE("Without rows, or with none violated, the solution is exactly the targ
 
 TEST_CASE("One violated row moves the target along the metric's inverse by the closed formula") {
     ConstraintSolver solver(6, 1);
-    solver.setMetric(freeToolMetric(6, 0.02));
+    solver.setMetric(toolMetric(6, 0.02));
     const std::array<double, 6> row{0, 0, 1, 0.03, 0, 0};
     solver.addRow(row, 0.001);
     CHECK_FALSE(solver.addRow(row, 5.0)); // full
@@ -160,14 +160,14 @@ TEST_CASE("A number that is not finite is never returned as a solution") {
 }
 
 TEST_CASE("Changing an offset or the metric gives the solution of a newly built solver") {
-    Random random(11);
+    Rng random(11);
     for (int i = 0; i < 200; ++i) {
-        auto set = makeSet(SetKind::Feasible, 6, 1 + random.below(40), 0.05, random);
+        auto set = makeSet(RowFamily::Feasible, 6, 1 + random.below(40), 0.05, random);
         ConstraintSolver changed(6, 64), fresh(6, 64);
         load(changed, set);
         std::array<double, 6> x{}, y{};
         changed.solve(set.target, x);
-        set.metric = freeToolMetric(6, 0.5);
+        set.metric = toolMetric(6, 0.5);
         const size_t row = random.below(set.rows());
         set.offsets[row] -= 1e-3;
         changed.setMetric(set.metric);
@@ -197,10 +197,10 @@ TEST_CASE(
 }
 
 TEST_CASE("Loading and solving do not allocate") {
-    Random random(5);
-    std::vector<ConstraintSet> sets;
+    Rng random(5);
+    std::vector<RowSet> sets;
     for (int i = 0; i < 50; ++i) {
-        sets.push_back(makeSet(static_cast<SetKind>(i % kSetKinds), 6, 200, 0.03, random));
+        sets.push_back(makeSet(static_cast<RowFamily>(i % kRowFamilies), 6, 200, 0.03, random));
     }
     ConstraintSolver solver(6, 200);
     std::array<double, 6> x{};

@@ -23,18 +23,18 @@ struct Tally {
     double stationarity = 0.0, primal = 0.0, dual = 0.0, complementarity = 0.0, distance = 0.0;
 };
 
-double metricNorm(const ConstraintSet& set, const std::vector<double>& v) {
+double metricNorm(const RowSet& set, const std::vector<double>& v) {
     double sum = 0.0;
-    for (size_t i = 0; i < set.n; ++i) {
-        for (size_t j = 0; j < set.n; ++j) {
-            sum += v[i] * set.metric[i * set.n + j] * v[j];
+    for (size_t i = 0; i < set.unknowns; ++i) {
+        for (size_t j = 0; j < set.unknowns; ++j) {
+            sum += v[i] * set.metric[i * set.unknowns + j] * v[j];
         }
     }
     return std::sqrt(std::max(0.0, sum));
 }
 
-void compare(ConstraintSolver& solver, const ConstraintSet& set, Tally& tally) {
-    std::vector<double> x(set.n);
+void compare(ConstraintSolver& solver, const RowSet& set, Tally& tally) {
+    std::vector<double> x(set.unknowns);
     const SolveStatus status = solver.solve(set.target, x);
     const NearestPoint truth = nearestPoint(set.problem());
     ++tally.sets;
@@ -53,28 +53,21 @@ void compare(ConstraintSolver& solver, const ConstraintSet& set, Tally& tally) {
     tally.primal = std::max(tally.primal, kkt.primal);
     tally.dual = std::max(tally.dual, kkt.dual);
     tally.complementarity = std::max(tally.complementarity, kkt.complementarity);
-    std::vector<double> difference(set.n);
-    for (size_t i = 0; i < set.n; ++i) {
+    std::vector<double> difference(set.unknowns);
+    for (size_t i = 0; i < set.unknowns; ++i) {
         difference[i] = x[i] - truth.x[i];
     }
     const double scale = metricNorm(set, set.target) + metricNorm(set, truth.x);
     tally.distance = std::max(tally.distance, metricNorm(set, difference) / scale);
 }
 
-std::string nameOf(SetKind kind) {
-    constexpr std::array<const char*, kSetKinds> kNames{
-        "generic", "feasible",       "flat wall",  "groove 0.1 deg",   "needle",
-        "corner",  "opposing walls", "duplicates", "parallel to 1e-9", "contacts"};
-    return kNames[static_cast<size_t>(kind)];
-}
-
 } // namespace
 
 TEST_CASE(
     "Every solution on random sets satisfies the KKT conditions and agrees with least-distance programming") {
-    Random random(20240601);
+    Rng random(20240601);
     ConstraintSolver solver6(6, 512), solver3(3, 512), solver1(1, 512), solver8(8, 512);
-    for (int kind = 0; kind < kSetKinds; ++kind) {
+    for (size_t kind = 0; kind < kRowFamilies; ++kind) {
         Tally tally;
         for (const size_t n : {1, 3, 6, 8}) {
             ConstraintSolver& solver = n == 1 ? solver1 : n == 3 ? solver3 : n == 6 ? solver6 : solver8;
@@ -82,13 +75,13 @@ TEST_CASE(
                 const int repeats = (rows > 100 ? 16 : 120) / (kSanitized ? 4 : 1);
                 for (int i = 0; i < repeats; ++i) {
                     const double k = std::pow(10.0, random.uniform(-3.0, 0.0)); // 1 mm .. 1 m
-                    const auto set = makeSet(static_cast<SetKind>(kind), n, rows, k, random);
+                    const auto set = makeSet(static_cast<RowFamily>(kind), n, rows, k, random);
                     load(solver, set);
                     compare(solver, set, tally);
                 }
             }
         }
-        MESSAGE(nameOf(static_cast<SetKind>(kind))
+        MESSAGE(std::string(nameOf(static_cast<RowFamily>(kind)))
                 << ": " << tally.sets << " sets, " << tally.optimal << " optimal, " << tally.infeasible
                 << " infeasible; stationarity " << tally.stationarity << ", primal " << tally.primal
                 << ", dual " << tally.dual << ", complementarity " << tally.complementarity << ", distance "
@@ -105,11 +98,11 @@ TEST_CASE(
 }
 
 TEST_CASE("A warm start changes the solution only by rounding while rows are added, removed and reordered") {
-    Random random(99);
+    Rng random(99);
     double worst = 0.0;
     int compared = 0;
     for (int run = 0; run < 200; ++run) {
-        const auto kind = static_cast<SetKind>(random.below(kSetKinds));
+        const auto kind = static_cast<RowFamily>(random.below(kRowFamilies));
         auto set = makeSet(kind, 6, 40, 0.05, random);
         ConstraintSolver warm(6, 64), cold(6, 64);
         warm.setMetric(set.metric);
@@ -151,7 +144,7 @@ TEST_CASE("A warm start changes the solution only by rounding while rows are add
 TEST_CASE("Walls that just touch allow motion along them, and walls that overlap by a nanometre do not") {
     for (const double overlap : {-1e-9, 0.0, 1e-9}) {
         ConstraintSolver solver(6, 2);
-        solver.setMetric(freeToolMetric(6, 0.03));
+        solver.setMetric(toolMetric(6, 0.03));
         solver.addRow(std::array<double, 6>{0.6, 0, 0.8, 0, 0, 0}, 0.001);
         solver.addRow(std::array<double, 6>{-0.6, 0, -0.8, 0, 0, 0}, -0.001 + overlap);
         std::array<double, 6> x{};
@@ -166,12 +159,12 @@ TEST_CASE("Walls that just touch allow motion along them, and walls that overlap
 }
 
 TEST_CASE("The corner of two planes at an angle of only 1e-9 is found exactly") {
-    Random random(17);
+    Rng random(17);
     double primal = 0.0, stationarity = 0.0;
     int corners = 0;
     for (int i = 0; i < 3000; ++i) {
-        ConstraintSet set;
-        set.metric = freeToolMetric(6, 1.0);
+        RowSet set;
+        set.metric = toolMetric(6, 1.0);
         const dvec3 out = random.direction();
         const dvec3 side = glm::normalize(glm::cross(out, random.direction()));
         const double sign = i % 2 == 0 ? 1.0 : -1.0; // tilted the same way, or facing each other

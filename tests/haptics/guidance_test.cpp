@@ -2,7 +2,7 @@
 // Guidance: fading, saturation, choice, hold, slew, free roll, and both modes at rest.
 #include "engine/haptics/guidance.h"
 #include "engine/haptics/limits.h"
-#include "tests/haptics/constraint_sets.h"
+#include "engine/reference/rng.h"
 
 #include <doctest/doctest.h>
 
@@ -67,7 +67,7 @@ TEST_CASE(
 }
 
 TEST_CASE("The lead is clamped as a whole vector to F_g / K_t and tau_g / K_r") {
-    Random random(8);
+    Rng random(8);
     const auto springs = springs1000();
     for (int i = 0; i < 100; ++i) {
         const dquat turned = rotationExp(random.uniform(0.0, 3.0) * random.direction());
@@ -152,7 +152,7 @@ TEST_CASE("A target that jumps is followed at 0.1 m/s and 0.5 rad/s and reached 
 }
 
 TEST_CASE("With free roll there is no torque about the axis, but the axis itself is aligned") {
-    Random random(9);
+    Rng random(9);
     const auto springs = springs1000();
     for (int i = 0; i < 30; ++i) {
         std::vector<GuidancePose> poses{
@@ -245,7 +245,7 @@ TEST_CASE("What pulls never moves faster than the speed of the limits, however t
         limits.speed = speed;
         Guidance guidance(limits);
         Pose hand;
-        Random random(3);
+        Rng random(3);
         double before = 1e9, fastest = 0.0;
         for (int i = 0; i < 4000; ++i) {
             // It rests, is slower, is faster, goes back, and shakes.

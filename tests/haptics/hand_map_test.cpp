@@ -2,8 +2,8 @@
 // The hand map: formula, clutch, and no energy from closed paths of the hand at any scale.
 #include "engine/haptics/coupling.h"
 #include "engine/haptics/hand_map.h"
+#include "engine/reference/rng.h"
 #include "engine/types/error.h"
-#include "tests/haptics/constraint_sets.h"
 
 #include <doctest/doctest.h>
 
@@ -20,14 +20,14 @@ double angleBetween(const dquat& a, const dquat& b) {
     return glm::length(rotationLog(a * glm::conjugate(b)));
 }
 
-Pose randomPose(Random& random) {
+Pose randomPose(Rng& random) {
     return {0.1 * random.direction(), rotationExp(random.uniform(0.0, 3.0) * random.direction())};
 }
 
 } // namespace
 
 TEST_CASE("With the defaults the device pose is the raw pose, and in general it is offset + s R raw") {
-    Random random(4);
+    Rng random(4);
     HandMap plain({1, 0, 0, 0}, 1.0), map(kTurned, 2.5);
     for (int i = 0; i < 500; ++i) {
         const Pose raw = randomPose(random);
@@ -41,7 +41,7 @@ TEST_CASE("With the defaults the device pose is the raw pose, and in general it 
 
 TEST_CASE("A rotation of the hand about a base axis rotates the device pose about that axis, also after "
           "re-indexing") {
-    Random random(5);
+    Rng random(5);
     HandMap map(kTurned, 0.5);
     Pose raw = randomPose(random);
     map.map(raw, false);
@@ -55,7 +55,7 @@ TEST_CASE("A rotation of the hand about a base axis rotates the device pose abou
 }
 
 TEST_CASE("The clutch holds the device pose and releases it without a jump") {
-    Random random(6);
+    Rng random(6);
     HandMap map(kTurned, 3.0);
     Pose raw = randomPose(random);
     Pose device = map.map(raw, false);

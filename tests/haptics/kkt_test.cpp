@@ -60,10 +60,10 @@ TEST_CASE("The reference finds the corner, keeps a free target and detects overl
 }
 
 TEST_CASE("Every solution of the reference on random sets satisfies the KKT conditions") {
-    Random random(12);
+    Rng random(12);
     int feasible = 0;
     for (int i = 0; i < 1000; ++i) {
-        const auto kind = static_cast<SetKind>(i % kSetKinds);
+        const auto kind = static_cast<RowFamily>(i % kRowFamilies);
         const auto set = makeSet(kind, i % 3 == 0 ? 8 : 6, 1 + random.below(80), 0.05, random);
         const auto answer = nearestPoint(set.problem());
         if (answer.feasible) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The limit functions, for random wrenches and edge cases.
 #include "engine/haptics/limits.h"
-#include "tests/haptics/constraint_sets.h"
+#include "engine/reference/rng.h"
 
 #include <doctest/doctest.h>
 
@@ -11,7 +11,7 @@
 using namespace fathom;
 
 TEST_CASE("Force and torque are shortened as whole vectors and keep their direction") {
-    Random random(1);
+    Rng random(1);
     for (int i = 0; i < 5000; ++i) {
         const Wrench wrench{random.uniform(0.0, 50.0) * random.direction(),
                             random.uniform(0.0, 5.0) * random.direction()};
@@ -32,7 +32,7 @@ TEST_CASE("Force and torque are shortened as whole vectors and keep their direct
 }
 
 TEST_CASE("A slewed wrench moves by at most a step, arrives exactly, and stays inside the size limits") {
-    Random random(2);
+    Rng random(2);
     Wrench now;
     for (int i = 0; i < 5000; ++i) {
         const Wrench wanted = limitSize({40.0 * random.direction(), 4.0 * random.direction()}, 20.0, 2.0);
@@ -72,7 +72,7 @@ TEST_CASE("The low-pass reaches 63.2 percent after 1 / (2 pi f), and passes exac
 }
 
 TEST_CASE("Projection keeps the wrench that the handle's motors can render, and the residual is the rest") {
-    Random random(3);
+    Rng random(3);
     const AxisMask noRoll{true, true, true, true, true, false},
         forceOnly{true, true, true, false, false, false};
     for (int i = 0; i < 2000; ++i) {

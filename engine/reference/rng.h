@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random numbers for the stability cases. A seed gives the same sequence with every compiler and library.
+// Random numbers for tests and cases. A seed gives the same sequence with every compiler and library.
 #pragma once
 
 #include "engine/types/angle.h"
@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <random>
 
-namespace fathom::stability {
+namespace fathom {
 
 class Rng {
 public:
@@ -43,4 +43,4 @@ private:
     std::mt19937_64 engine_;
 };
 
-} // namespace fathom::stability
+} // namespace fathom

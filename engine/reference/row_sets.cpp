@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/stability/constraint_families.h"
+#include "engine/reference/row_sets.h"
 
 #include "engine/types/angle.h"
 
@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-namespace fathom::stability {
+namespace fathom {
 
 namespace {
 
@@ -88,9 +88,9 @@ void addCopy(RowSet& set, double looser, Rng& rng) {
 
 RowSet emptyRowSet(const RowScale& scale, Rng& rng) {
     RowSet set;
-    set.metric.assign(36, 0.0);
-    for (size_t i = 0; i < 6; ++i) {
-        set.metric[i * 7] = i < 3 ? 1.0 : scale.radius * scale.radius;
+    set.unknowns = scale.unknowns;
+    set.metric = toolMetric(set.unknowns, scale.radius);
+    for (size_t i = 0; i < set.unknowns; ++i) {
         set.target.push_back(rng.uniform(-1.0, 1.0) * (i < 3 ? scale.step : scale.turn));
     }
     return set;
@@ -108,7 +108,15 @@ const char* nameOf(RowFamily family) {
 void RowSet::addContact(const dvec3& normalOut, const dvec3& arm, double offset) {
     const dvec3 moment = glm::cross(arm, normalOut);
     const std::array<double, 6> row{normalOut.x, normalOut.y, normalOut.z, moment.x, moment.y, moment.z};
-    add(row, offset);
+    add(std::span(row).first(unknowns), offset);
+}
+
+std::vector<double> toolMetric(size_t unknowns, double radius) {
+    std::vector<double> metric(unknowns * unknowns, 0.0);
+    for (size_t i = 0; i < unknowns; ++i) {
+        metric[i * (unknowns + 1)] = i < 3 ? 1.0 : radius * radius;
+    }
+    return metric;
 }
 
 RowSet makeRowSet(RowFamily family, size_t rows, const RowScale& scale, Rng& rng) {
@@ -186,4 +194,4 @@ RowSet makeCertainSet(bool feasible, size_t rows, double margin, const RowScale&
     return set;
 }
 
-} // namespace fathom::stability
+} // namespace fathom

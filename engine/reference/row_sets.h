@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Families of random constraint rows for the solver: typical contacts of a sphere tool, and known hard cases.
+// Random sets of constraint rows for the solver, in families: typical contacts of a sphere tool, and known hard cases.
 #pragma once
 
-#include "apps/stability/rng.h"
 #include "engine/reference/kkt.h"
+#include "engine/reference/rng.h"
 
 #include <cstddef>
 #include <span>
 #include <vector>
 
-namespace fathom::stability {
+namespace fathom {
 
 enum class RowFamily {
     Generic,       // random normals and offsets: often infeasible
@@ -31,6 +31,7 @@ struct RowScale {
     double step = 0.01;   // [m] largest lead of the hand; offsets are up to a fifth of it
     double turn = 0.1;    // [rad] largest rotation of the hand
     double radius = 0.05; // [m] gyration radius k of the metric diag(I, k^2 I)
+    size_t unknowns = 6;  // 3: translations only
 };
 
 // One nearest-point problem. The rows are stored row-major.
@@ -47,9 +48,12 @@ struct RowSet {
         normals.insert(normals.end(), row.begin(), row.end());
         offsets.push_back(offset);
     }
-    // row: [n, arm x n] . x >= offset
+    // row: [n, arm x n] . x >= offset, without the moment when there are 3 unknowns
     void addContact(const dvec3& normalOut, const dvec3& arm, double offset);
 };
+
+// diag(I, radius^2 I) of a free tool.
+std::vector<double> toolMetric(size_t unknowns, double radius);
 
 RowSet makeRowSet(RowFamily family, size_t rows, const RowScale& scale, Rng& rng);
 
@@ -61,4 +65,4 @@ RowSet makeArmSet(size_t unknowns, size_t rows, double floor, Rng& rng);
 // Farkas certificate: positive weights with sum(w_i) = 1, sum(w_i n_i) = 0 and sum(w_i d_i) = margin.
 RowSet makeCertainSet(bool feasible, size_t rows, double margin, const RowScale& scale, Rng& rng);
 
-} // namespace fathom::stability
+} // namespace fathom
