@@ -4,33 +4,28 @@
 #   cmake -DSOURCE=repository root -P layers_test.cmake
 cmake_minimum_required(VERSION 3.25)
 
-set(layer_shaders/shared 0)
-set(layer_engine/types 0)
-set(layer_shaders/lib 1)
-set(layer_engine/gpu 1)
-set(layer_engine/scene 1)
-set(layer_engine/model 1)
-set(layer_shaders 2)
-set(layer_engine/reader 2)
-set(layer_engine/contact 2)
-set(layer_devices 2)
-set(layer_engine/haptics 3)
-set(layer_engine/cloud 3)
-set(layer_engine/cycle 4)
-set(layer_engine/run 5)
-set(layer_engine/front 6)
-set(layer_engine/include 0)
-set(layer_engine/reference 5)
-set(layer_apps/binding 6)
-set(layer_apps/verify 6)
-set(layer_apps 7)
-set(layer_apps/operate 8)
-set(layer_apps/stability 8)
-set(layer_apps/profile 8)
-set(layer_apps/tune 9)
-set(layer_apps/main.cpp 10)
+# FOLDER:LAYER. A folder includes only those of lower layers.
+set(layers
+    shaders/shared:0 engine/types:0 engine/include:0
+    shaders/lib:1 engine/gpu:1 engine/scene:1 engine/model:1
+    shaders:2 engine/reader:2 engine/contact:2 devices:2
+    engine/haptics:3 engine/cloud:3
+    engine/cycle:4
+    engine/run:5 engine/reference:5
+    engine/front:6 apps/binding:6 apps/verify:6
+    apps:7
+    apps/operate:8 apps/stability:8 apps/profile:8
+    apps/tune:9
+    apps/main.cpp:10)
+foreach(entry ${layers})
+    string(REGEX MATCH "^(.+):([0-9]+)$" ignored ${entry})
+    set(layer_${CMAKE_MATCH_1} ${CMAKE_MATCH_2})
+    list(APPEND folders ${CMAKE_MATCH_1})
+endforeach()
 
-set(with_vulkan engine/gpu engine/cloud engine/cycle engine/run engine/front apps/binding apps/verify apps apps/operate apps/stability apps/profile apps/tune apps/main.cpp) # every other folder must do without the GPU
+# Every other folder must do without the GPU.
+set(with_vulkan engine/gpu engine/cloud engine/cycle engine/run engine/front apps/binding apps/verify apps apps/operate
+    apps/stability apps/profile apps/tune apps/main.cpp)
 set(most_lines 300)
 set(sources h cpp comp vert frag glsl cmake)
 set(passed 0)
@@ -39,18 +34,14 @@ set(failed 0)
 # The longest folder of the table that contains `path`; empty when there is none.
 function(folder_of path result)
     set(best "")
-    foreach(folder shaders/shared shaders/lib shaders engine/types engine/gpu engine/scene engine/model engine/reader engine/contact
-            engine/haptics engine/cloud engine/cycle engine/run engine/front engine/include engine/reference devices apps/binding apps/verify apps/operate apps/stability apps/profile apps/tune apps)
+    foreach(folder ${folders})
         string(LENGTH "${folder}" length)
         string(LENGTH "${best}" longest)
-        string(FIND "${path}" "${folder}/" at)
+        string(FIND "${path}/" "${folder}/" at)
         if(at EQUAL 0 AND length GREATER longest)
             set(best ${folder})
         endif()
     endforeach()
-    if(path STREQUAL "apps/main.cpp")
-        set(best ${path})
-    endif()
     set(${result} "${best}" PARENT_SCOPE)
 endfunction()
 
