@@ -2,6 +2,7 @@
 #include "apps/operate/mode.h"
 
 #include "apps/operate/theme.h"
+#include "engine/cycle/wrench_stage.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,6 +28,15 @@ Mode forcesFading(const char* meaning) {
     return {"FORCES FADING", "~", colour::kCaution, Edge::Dashed, meaning};
 }
 
+// While no fixture pushes.
+const char* meaningOfArmed(uint32_t causes) {
+    if ((causes & cause::kGuidance) != 0) {
+        return "Forces are on; guidance pulls the tool. G ends guidance, Space all forces";
+    }
+    return causes != 0 ? "Forces are on; no fixture pushes. Space: forces off"
+                       : "Forces are on; nothing pushes now. Space: forces off";
+}
+
 Mode armedMode(const ModeInput& input) {
     const StepRecord& record = input.run.step().record;
     const StepState state = record.state;
@@ -50,8 +60,7 @@ Mode armedMode(const ModeInput& input) {
     }
     return state == StepState::Contact || state == StepState::Escape
                ? Mode{"CONTACT", kDot, colour::kTouch, Edge::Thick, "A fixture pushes the hand"}
-               : Mode{"ARMED", kDot, colour::kGood, Edge::Thin,
-                      "Forces are on; nothing pushes now. Space: forces off"};
+               : Mode{"ARMED", kDot, colour::kGood, Edge::Thin, meaningOfArmed(record.cause)};
 }
 
 const char* recordedWord(StepState state) {

@@ -3,6 +3,7 @@
 #include "apps/operate/arming.h"
 #include "apps/operate/mode.h"
 #include "apps/operate/theme.h"
+#include "engine/cycle/wrench_stage.h"
 #include "tests/apps/viewed_run.h"
 #include "tests/support/contrast.h"
 
@@ -78,6 +79,21 @@ TEST_CASE(
     run.row.record.state = StepState::Fading;
     run.step(0.001);
     CHECK(std::string(modeOf(input).word) == "STALE");
+}
+
+TEST_CASE("While guidance or a joint limit pushes the hand, ARMED does not say that nothing pushes") {
+    ViewedRun run;
+    const ModeInput input{run.console, run.view, run.haptics};
+    run.console.forces = true;
+    const auto meaning = [&](uint32_t causes) {
+        run.row.record.cause = causes;
+        run.step(0.001);
+        CHECK(std::string(modeOf(input).word) == "ARMED");
+        return std::string(modeOf(input).meaning);
+    };
+    CHECK(meaning(0).find("nothing pushes") != std::string::npos);
+    CHECK(meaning(cause::kGuidance | cause::kSlew).find("guidance pulls") != std::string::npos);
+    CHECK(meaning(cause::kJoint).find("no fixture pushes") != std::string::npos);
 }
 
 TEST_CASE("Words of states, chips and alarms have a contrast of 7 to 1 over a white and a black image") {
