@@ -36,13 +36,24 @@ float alarmLine(ImVec2 at, float width, const std::string& words, ImU32 colour, 
     return size.y + 1.2f * pad;
 }
 
+// A pilot must act on it, or at least see it.
+bool isBright(const Alarm& alarm) {
+    return alarm.active && !alarm.acknowledged;
+}
+
+std::string lineOf(const Alarm& alarm) {
+    return (alarm.active ? std::string(levelSign(alarm.level)) + " " : "") + alarm.words();
+}
+
 } // namespace
 
 void drawAlarmLines(Console& console, const Alarms& alarms, ImVec2 at, ImVec2 room) {
     console.places.erase("alarm");
     const std::vector<const Alarm*> shown = alarms.shown();
     std::vector<const Alarm*> order(shown);
-    std::stable_partition(order.begin(), order.end(), [](const Alarm* a) { return !a->acknowledged; });
+    std::stable_sort(order.begin(), order.end(), [](const Alarm* a, const Alarm* b) {
+        return std::pair(a->acknowledged, !a->active) < std::pair(b->acknowledged, !b->active);
+    });
     const ImVec2 first = at;
     const float width = room.x,
                 bottom = at.y + room.y - 2.2f * ImGui::GetTextLineHeight(); // one more line fits
@@ -53,10 +64,8 @@ void drawAlarmLines(Console& console, const Alarms& alarms, ImVec2 at, ImVec2 ro
             at.y += alarmLine(at, width, more, kDimmed, false) + 3.0f;
             break;
         }
-        const bool bright = !alarm->acknowledged;
-        const std::string words = std::string(levelSign(alarm->level)) + " " +
-                                  (alarm->active ? alarm->words() : alarm->what + " (over)") +
-                                  (bright && lines == 1 ? "   Q: seen" : "");
+        const bool bright = isBright(*alarm);
+        const std::string words = lineOf(*alarm) + (!alarm->acknowledged && lines == 1 ? "   Q: seen" : "");
         at.y += alarmLine(at, width, words, bright ? levelColour(alarm->level) : kDimmed, bright) + 3.0f;
     }
     if (!order.empty()) {
@@ -69,16 +78,14 @@ void drawAlarms(Console& console, const Alarms& alarms) {
         console.acknowledge = true;
     }
     markPlace(console, "acknowledge");
-    explain(console, "Q: dim the alarms that you have seen. Those that are over go to the history");
+    explain(console, "Q: dim the alarms that you have seen. Ended ones go to the history");
     const auto list = alarms.shown();
     if (list.empty()) {
         ImGui::TextDisabled("No alarm.");
     }
     for (const Alarm* alarm : list) {
-        colouredText(alarm->acknowledged ? kDimmed : levelColour(alarm->level),
-                     (levelSign(alarm->level) + std::string(" ") + timeText(alarm->since) + "  " +
-                      (alarm->active ? alarm->words() : alarm->what + " (over)"))
-                         .c_str());
+        colouredText(isBright(*alarm) ? levelColour(alarm->level) : kDimmed,
+                     (timeText(alarm->since) + "  " + lineOf(*alarm)).c_str());
         if (ImGui::IsItemHovered()) {
             ImGui::SetTooltip("%s, %s, since %.3f s", levelName(alarm->level), alarm->key.c_str(),
                               alarm->since);
@@ -88,7 +95,7 @@ void drawAlarms(Console& console, const Alarms& alarms) {
         return;
     }
     ImGui::Separator();
-    ImGui::TextDisabled("Over:");
+    ImGui::TextDisabled("Ended:");
     for (const EndedAlarm& ended : alarms.history()) {
         char lasted[32];
         std::snprintf(lasted, sizeof lasted, ", %.1f s", ended.end - ended.since);

@@ -17,13 +17,15 @@ namespace fathom::operate {
 
 enum class Level { Advisory, Caution, Warning };
 
-// One line for the pilot: what happens, then what to do.
+// One line for the pilot: what happens, then what to do; of an alarm that is over, only what happened.
 struct Alarm {
     Level level = Level::Advisory;
     std::string key, what, todo;
     double since = 0.0, last = 0.0; // [s] of the run: raised, and cause seen last
     bool active = false, acknowledged = false;
-    std::string words() const { return todo.empty() ? what : what + ": " + todo; }
+    std::string words() const {
+        return !active ? "ended: " + what : todo.empty() ? what : what + ": " + todo;
+    }
 };
 
 // An alarm that is over.
@@ -95,8 +97,8 @@ private:
 
 // Panel: present alarms, then the history.
 void drawAlarms(Console& console, const Alarms& alarms);
-// Lines over a view, the worst first, as many as there is room for; acknowledged ones are dimmed. at: upper
-// left corner; room: width and height.
+// Lines over a view, the worst first, as many as there is room for; acknowledged and ended ones are dimmed
+// and come last. at: upper left corner; room: width and height.
 void drawAlarmLines(Console& console, const Alarms& alarms, ImVec2 at, ImVec2 room);
 
 } // namespace fathom::operate

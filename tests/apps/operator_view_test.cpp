@@ -180,6 +180,7 @@ TEST_CASE("A cause that comes and goes is one alarm, and one that lasts a moment
     run.row.record.sceneAge = 0.0;
     run.row.record.wrench.force = limit;
     CHECK(run.step() == Words{"CAUTION active force"});
+    CHECK(run.alarms.shown()[0]->words().find("Force at its limit of 20 N: ") == 0);
     run.console.acknowledge = true;
     for (int i = 0; i < 10; ++i) { // the hand trembles at the limit
         run.row.record.wrench.force = i % 2 == 0 ? limit : 0.9 * limit;
@@ -193,6 +194,15 @@ TEST_CASE("A cause that comes and goes is one alarm, and one that lasts a moment
     REQUIRE(run.alarms.history().size() == 1);
     CHECK(run.alarms.history()[0].what == "Force at its limit of 20 N");
     CHECK(run.alarms.history()[0].end - run.alarms.history()[0].since == doctest::Approx(0.9).epsilon(0.05));
+}
+
+TEST_CASE("An alarm that is over and not acknowledged says first that it ended, and nothing to do") {
+    ViewedRun run;
+    run.console.forces = run.console.frozen = true;
+    run.step();
+    run.console.frozen = false;
+    CHECK(run.step() == Words{"ADVISORY latched frozen"});
+    CHECK(run.alarms.shown()[0]->words() == "ended: Fixtures frozen, new images do not change them");
 }
 
 TEST_CASE("Forces that are off raise no alarm about what only forces can do, but lost devices do") {
