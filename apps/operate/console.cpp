@@ -66,11 +66,14 @@ void showTip(Console& console, const char* tip) {
         return;
     }
     console.tooltip = tip;
+    const float pad = 8.0f * console.scale();
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {pad, pad}); // the stop plate has none
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(26.0f * ImGui::GetFontSize());
     ImGui::TextUnformatted(tip);
     ImGui::PopTextWrapPos();
     ImGui::EndTooltip();
+    ImGui::PopStyleVar();
 }
 
 } // namespace

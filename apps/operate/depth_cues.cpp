@@ -156,13 +156,13 @@ double drawBody(ImDrawList& list, const ViewPort& port, std::span<const Sphere> 
     return all == 0 ? 0.0 : static_cast<double>(hidden) / static_cast<double>(all);
 }
 
-void drawTether(ImDrawList& list, const ViewPort& port, const DepthCues& cues, bool label) {
+ImVec4 drawTether(ImDrawList& list, const ViewPort& port, const DepthCues& cues, bool label) {
     if (!cues.nearest) {
-        return;
+        return {};
     }
     const auto from = port.of(cues.nearest->from), to = port.of(cues.nearest->to);
     if (!from || !to) {
-        return;
+        return {};
     }
     const GapLook look = lookOf(cues.gap);
     const ImU32 colour = gapColour(look);
@@ -173,12 +173,13 @@ void drawTether(ImDrawList& list, const ViewPort& port, const DepthCues& cues, b
         list.AddCircleFilled(end, 1.2f + width, colour::kShade, 12);
         list.AddCircleFilled(end, 0.4f + width, colour, 12);
     }
-    if (label && std::isfinite(cues.gap) && cues.gap > 1e-3) {
-        const std::string text = gapText(cues.gap);
-        const ImVec2 size = ImGui::CalcTextSize(text.c_str());
-        const float x = 0.5f * (from->x + to->x) + 12.0f, y = 0.5f * (from->y + to->y) - size.y - 6.0f;
-        drawWords(list, {x, y}, text, colour);
+    if (!label || !std::isfinite(cues.gap) || !(cues.gap > 1e-3)) {
+        return {};
     }
+    const std::string text = gapText(cues.gap);
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+    const float x = 0.5f * (from->x + to->x) + 12.0f, y = 0.5f * (from->y + to->y) - size.y - 6.0f;
+    return drawWords(list, {x, y}, text, colour);
 }
 
 } // namespace fathom::operate

@@ -41,7 +41,9 @@ void drawShadow(ImDrawList& list, const ViewPort& port, const DepthCues& cues);
 // The outline of spheres, dotted where a surface is in front of them. Returns the hidden share of it.
 double drawBody(ImDrawList& list, const ViewPort& port, std::span<const Sphere> spheres,
                 const SurfaceDepth& surface, ImU32 colour, float width);
-void drawTether(ImDrawList& list, const ViewPort& port, const DepthCues& cues, bool label);
+// The line to the nearest region, and with `label` its length in words. Returns the plate of the words; empty
+// where there are none.
+ImVec4 drawTether(ImDrawList& list, const ViewPort& port, const DepthCues& cues, bool label);
 // From 0 to 200 mm, in the middle of a rectangle of the window.
 void drawGapBar(Console& console, const DepthCues& cues, const Letters& letters, const PixelRect& place);
 

@@ -48,21 +48,25 @@ bool beginTab(Console& console, const Alarms& alarms, const HudInput& hud, Tab t
     constexpr const char* kNames[] = {"Fixtures", "Why?", "Alarms", "Keys", "Camera", "Device"};
     constexpr const char* kTips[] = {
         "K, or F6 and arrows: fixtures, shapes, pilots", "W: why did the tool stop?",
-        "What is wrong, what to do, and what is over",   "F1: all keys",
+        "What is wrong, what to do, and what ended",     "F1: all keys",
         "F3: streams, delay, exposure, gain, laser",     "F4: what the buttons of the haptic device do"};
     const Alarm* worst = alarms.worst();
     const bool grey = isGrey(tab, hud), calls = tab == Tab::Alarms && worst != nullptr;
-    const std::string plain = kNames[static_cast<int>(tab)];
-    const std::string name =
-        plain + (calls ? std::string(" ") + levelSign(worst->level) : std::string()) + "###" + plain;
+    const char* const name = kNames[static_cast<int>(tab)];
     if (calls || grey) {
         ImGui::PushStyleColor(ImGuiCol_Text, grey ? colour::kQuiet : levelColour(worst->level));
     }
-    const bool open = ImGui::BeginTabItem(name.c_str(), nullptr, wanted ? ImGuiTabItemFlags_SetSelected : 0);
-    markPlace(console, "tab " + plain);
+    const bool open = ImGui::BeginTabItem(name, nullptr, wanted ? ImGuiTabItemFlags_SetSelected : 0);
+    markPlace(console, std::string("tab ") + name);
     explain(console, kTips[static_cast<int>(tab)]);
     if (calls || grey) {
         ImGui::PopStyleColor();
+    }
+    if (calls) { // in the corner: a sign in the name would cut the names of other tabs
+        const float r = 3.0f * console.scale();
+        const ImVec2 corner{ImGui::GetItemRectMax().x, ImGui::GetItemRectMin().y};
+        ImGui::GetWindowDrawList()->AddCircleFilled({corner.x - 1.6f * r, corner.y + 1.6f * r}, r,
+                                                    levelColour(worst->level));
     }
     return open;
 }

@@ -14,6 +14,19 @@ namespace fathom::operate {
 
 namespace {
 
+// The rectangle behind words.
+ImVec4 plateOf(ImVec2 at, const std::string& words) {
+    const ImVec2 size = ImGui::CalcTextSize(words.c_str());
+    return {at.x - 4.0f, at.y - 2.0f, at.x + size.x + 4.0f, at.y + size.y + 2.0f};
+}
+
+// `at`, or below the plate of other words where the two would overlap.
+ImVec2 besideWords(ImVec2 at, const std::string& words, const ImVec4& taken) {
+    const ImVec4 plate = plateOf(at, words);
+    const bool overlaps = plate.x < taken.z && plate.z > taken.x && plate.y < taken.w && plate.w > taken.y;
+    return overlaps ? ImVec2{at.x, taken.w + 4.0f} : at;
+}
+
 // The spheres of a small tool, where nothing hides them.
 void leavesAt(ImDrawList& list, const MarksInput& input) {
     if (input.tool.leafCount() > 96 || !input.arm.empty()) {
@@ -134,7 +147,8 @@ void touches(ImDrawList& list, const MarksInput& input) {
     }
 }
 
-void force(ImDrawList& list, const MarksInput& input) {
+// taken: the plate of other words.
+void force(ImDrawList& list, const MarksInput& input, const ImVec4& taken) {
     constexpr double kMetresPerNewton = 0.006, kLeast = 0.05;
     const StepRecord& record = input.run.step().record;
     const double size = glm::length(record.wrench.force);
@@ -147,17 +161,17 @@ void force(ImDrawList& list, const MarksInput& input) {
     if (input.names) {
         char text[32];
         std::snprintf(text, sizeof text, "%.2f N", size);
-        drawWords(list, {to->x + 10.0f, to->y - 8.0f}, text, colour::kForce);
+        drawWords(list, besideWords({to->x + 10.0f, to->y - 8.0f}, text, taken), text, colour::kForce);
     }
 }
 
 } // namespace
 
-void drawWords(ImDrawList& list, ImVec2 at, const std::string& words, ImU32 colour) {
-    const ImVec2 size = ImGui::CalcTextSize(words.c_str());
-    list.AddRectFilled({at.x - 4.0f, at.y - 2.0f}, {at.x + size.x + 4.0f, at.y + size.y + 2.0f},
-                       colour::kShade, 3.0f);
+ImVec4 drawWords(ImDrawList& list, ImVec2 at, const std::string& words, ImU32 colour) {
+    const ImVec4 plate = plateOf(at, words);
+    list.AddRectFilled({plate.x, plate.y}, {plate.z, plate.w}, colour::kShade, 3.0f);
     list.AddText(at, colour, words.c_str());
+    return plate;
 }
 
 void drawArrow(ImDrawList& list, ImVec2 a, ImVec2 b, ImU32 colour, float width) {
@@ -253,9 +267,9 @@ double drawMarks(ImDrawList& list, const MarksInput& input) {
     if (hand && tool) {
         dashed(list, *hand, *tool, IM_COL32(190, 204, 224, 230), 1.4f, 4.0f);
     }
-    drawTether(list, input.port, input.cues, input.names);
+    const ImVec4 distance = drawTether(list, input.port, input.cues, input.names);
     touches(list, input);
-    force(list, input);
+    force(list, input, distance);
     return input.arm.empty() ? toolHidden : armHidden;
 }
 

@@ -41,8 +41,8 @@ void drawCameraFrustum(ImDrawList& list, const ViewPort& port, const Fixtures& s
 // share of the tool's outline that is hidden.
 double drawMarks(ImDrawList& list, const MarksInput& input);
 
-// Text on a dark background.
-void drawWords(ImDrawList& list, ImVec2 at, const std::string& words, ImU32 colour);
+// Text on a dark plate, whose corners it returns.
+ImVec4 drawWords(ImDrawList& list, ImVec2 at, const std::string& words, ImU32 colour);
 void drawArrow(ImDrawList& list, ImVec2 from, ImVec2 to, ImU32 colour, float width);
 
 } // namespace fathom::operate

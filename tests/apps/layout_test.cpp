@@ -3,6 +3,7 @@
 // overlaps.
 #include "apps/operate/monitor_scale.h"
 #include "tests/apps/drawn_text.h"
+#include "tests/apps/flat_wall.h"
 #include "tests/apps/laid_screen.h"
 
 #include <algorithm>
@@ -66,6 +67,57 @@ TEST_CASE(
                 }
             }
         }
+    }
+}
+
+TEST_CASE("With alarms, every tab is as wide as its name") {
+    LaidScreen laid;
+    laid.run.console.forces = laid.run.console.frozen = true;
+    laid.run.step({.handGone = true, .recorderFailed = "the disk is full"});
+    for (const ImVec2 size : {ImVec2(1280, 720), ImVec2(1600, 1000)}) {
+        laid.fonts(size, 1.0);
+        laid.draw();
+        for (const char* name : {"Fixtures", "Why?", "Alarms", "Keys", "Camera", "Device"}) {
+            CAPTURE(std::string(name));
+            const float padding = ImGui::GetStyle().FramePadding.x;
+            CHECK(laid.run.console.places.at(std::string("tab ") + name)[2] >=
+                  ImGui::CalcTextSize(name).x + 2.0f * padding);
+        }
+    }
+}
+
+TEST_CASE("The tooltip of the stop plate has room round its text") {
+    LaidScreen laid;
+    laid.fonts({1280, 720}, 1.0);
+    laid.draw();
+    const auto stop = laid.run.console.places.at("stop");
+    ImGui::GetIO().MousePos = {stop[0] + 0.5f * stop[2], stop[1] + 0.5f * stop[3]};
+    ImGui::GetIO().DeltaTime = 0.25f;
+    laid.draw(5);
+    REQUIRE(laid.run.console.tooltip.find("Space, or a click") == 0);
+    size_t seen = 0;
+    for (const DrawnLetter& l : drawnLetters()) {
+        if (l.list.find("Tooltip") != std::string::npos) {
+            CHECK(l.box.x > l.clip.x + 3.0f);
+            ++seen;
+        }
+    }
+    CHECK(seen > 20);
+}
+
+TEST_CASE("The values of distance and force do not cover each other") {
+    LaidScreen laid;
+    Fixtures set = laid.run.view.scene().set;
+    addRegion(set, {0.05, 0.0, 0.7}, 0.02, 0);
+    laid.run.sink.frame({}, set);
+    laid.run.view.refresh();
+    laid.fonts({1280, 720}, 1.0);
+    for (const double up : {0.0, 1.0, 2.0, 3.0}) {
+        CAPTURE(up);
+        laid.run.row.record.wrench.force = {3.3, -up, 0.0};
+        laid.run.step(0.001);
+        laid.draw();
+        CHECK(placesOf(overlaps(drawnLetters())) == "");
     }
 }
 
