@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 namespace fathom::operate {
 
@@ -112,6 +113,29 @@ const char* eventWord(StepState state) {
     }
 }
 
+// Bars, and over them the names that have room.
+void drawSpans(const TraceArea& lane, std::vector<TraceSpan> spans) {
+    constexpr float kRoom = 12.0f; // [pixels] between names
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const float top = lane.at.y, bottom = lane.at.y + lane.size.y, right = lane.at.x + lane.size.x;
+    for (const TraceSpan& span : spans) {
+        constexpr ImU32 kDim = IM_COL32(255, 255, 255, 90); // under its name
+        list.AddRectFilled({lane.x(span.from), top + 2.0f},
+                           {std::max(lane.x(span.to), lane.x(span.from) + 2.0f), bottom - 3.0f},
+                           span.colour & kDim);
+    }
+    std::sort(spans.begin(), spans.end(),
+              [](const TraceSpan& a, const TraceSpan& b) { return a.from < b.from; });
+    float free = -1e9f;
+    for (const TraceSpan& span : spans) {
+        const float x = lane.x(span.from) + 4.0f, end = x + ImGui::CalcTextSize(span.word).x;
+        if (x > free && end < right) {
+            list.AddText({x, bottom - ImGui::GetTextLineHeight()}, span.colour, span.word);
+            free = end + kRoom;
+        }
+    }
+}
+
 } // namespace
 
 float scaleColumn() {
@@ -140,38 +164,43 @@ void drawTracePlot(const WrenchFigures& plot, const TraceArea& area, const Trace
     drawFigures(plot, area);
 }
 
+std::vector<TraceSpan> traceSpans(const std::deque<TraceSample>& trace) {
+    std::vector<TraceSpan> spans;
+    const auto collect = [&](ImU32 colour, auto wordOf) {
+        std::string_view before;
+        for (const TraceSample& sample : trace) {
+            const char* const name = wordOf(sample);
+            const std::string_view word = name;
+            if (!before.empty()) {
+                spans.back().to = sample.t;
+            }
+            if (word != before && !word.empty()) {
+                spans.push_back({sample.t, sample.t, name, colour});
+            }
+            before = word;
+        }
+    };
+    collect(colour::kGuidance, [](const TraceSample& s) { return s.guided ? "guide" : ""; });
+    collect(colour::kCaution, [](const TraceSample& s) { return eventWord(s.state); });
+    return spans;
+}
+
 void drawEvents(const TraceArea& lane, const std::deque<TraceSample>& trace) {
-    constexpr float kRoom = 12.0f; // [pixels] between marks, more with a name
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const float top = lane.at.y, bottom = lane.at.y + lane.size.y, right = lane.at.x + lane.size.x;
     list.AddRectFilled(lane.at, {right, bottom}, kPlotGround, 3.0f);
-    float free = -1e9f;
-    const auto mark = [&](float x, ImU32 colour, const char* word) {
-        list.AddTriangleFilled({x - 4.0f, bottom}, {x + 4.0f, bottom}, {x, bottom - 8.0f}, colour);
-        const float end = x + 6.0f + ImGui::CalcTextSize(word).x;
-        if (x > free && end < right) {
-            list.AddText({x + 6.0f, bottom - ImGui::GetTextLineHeight()}, colour, word);
-            free = end + kRoom;
-        }
-    };
     const auto column = [&](float x, float from, ImU32 colour) { // of whole pixels: hundreds are cheap
         list.AddRectFilled({std::floor(x), from}, {std::floor(x) + 1.0f, bottom}, colour);
     };
     for (size_t i = 1; i < trace.size(); ++i) {
-        const TraceSample &now = trace[i], &before = trace[i - 1];
-        const float x = lane.x(now.t);
-        if (now.frame != before.frame) {
-            column(x, bottom - 3.0f, IM_COL32(120, 134, 156, 200));
+        if (trace[i].frame != trace[i - 1].frame) {
+            column(lane.x(trace[i].t), bottom - 3.0f, IM_COL32(120, 134, 156, 200));
         }
-        if (now.late) {
-            column(x, top + 2.0f, colour::kWarning);
-        }
-        if (now.guided != before.guided) {
-            mark(x, colour::kGuidance, now.guided ? "guide" : "");
-        } else if (now.state != before.state && now.state >= StepState::Escape) {
-            mark(x, colour::kCaution, eventWord(now.state));
+        if (trace[i].late) {
+            column(lane.x(trace[i].t), top + 2.0f, colour::kWarning);
         }
     }
+    drawSpans(lane, traceSpans(trace));
 }
 
 } // namespace fathom::operate

@@ -25,7 +25,15 @@ float figuresColumn();
 // Delivered: three axes and, bold, the size; dashed: the size of the residual. The scale ends at the limit.
 // columns: as many as the area has pixels in a row.
 void drawTracePlot(const WrenchFigures& plot, const TraceArea& area, const TraceColumns& columns);
-// What happened, below the curves: new fixture sets, late ticks, guidance, states with their names.
+// A state that has a name, or guidance, from its begin to its end.
+struct TraceSpan {
+    double from = 0.0, to = 0.0; // [s]
+    const char* word = "";
+    ImU32 colour = 0;
+};
+// Guidance first, then states, each in order of time.
+std::vector<TraceSpan> traceSpans(const std::deque<TraceSample>& trace);
+// What happened, below the curves: new fixture sets, late ticks, guidance and states as bars with their names.
 void drawEvents(const TraceArea& lane, const std::deque<TraceSample>& trace);
 
 } // namespace fathom::operate

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Traces as one range per pixel column.
 #include "apps/operate/trace_columns.h"
+#include "apps/operate/trace_plot.h"
 
 #include <doctest/doctest.h>
 #include <map>
@@ -78,4 +79,25 @@ TEST_CASE("The columns of a trace begin anew at an earlier time, in another run 
     CHECK(trace.columns.size() == 64);
     trace.follow(0, 0, 2, 320);
     CHECK(trace.columns.empty());
+}
+
+TEST_CASE("A state that lasts is one bar from its begin to its end, however often it comes back") {
+    std::deque<TraceSample> trace;
+    for (int i = 0; i < 100; ++i) {
+        TraceSample sample;
+        sample.t = 0.01 * i;
+        const bool fades = (i >= 20 && i < 50) || i >= 60;
+        sample.state = fades ? StepState::Fading : StepState::Contact;
+        sample.guided = i >= 10 && i < 30;
+        trace.push_back(sample);
+    }
+    const std::vector<TraceSpan> spans = traceSpans(trace);
+    REQUIRE(spans.size() == 3);
+    CHECK(std::string(spans[0].word) == "guide");
+    CHECK(spans[0].from == doctest::Approx(0.1));
+    CHECK(spans[0].to == doctest::Approx(0.3));
+    CHECK(std::string(spans[1].word) == "fading");
+    CHECK(spans[1].from == doctest::Approx(0.2));
+    CHECK(spans[1].to == doctest::Approx(0.5));
+    CHECK(spans[2].to == doctest::Approx(0.99)); // it lasts
 }
