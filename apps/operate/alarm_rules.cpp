@@ -45,8 +45,8 @@ void Alarms::stepScene(const StepRecord& tick, const HapticOptions& haptics, boo
         tick.t);
     const bool ahead = tick.sceneAge < 0.0;
     set(stale && forces, Level::Caution, "stale",
-        {ahead ? printed("Image is %.1f s ahead of the clock, forces fade", -tick.sceneAge)
-               : printed("Image older than %.0f ms, forces fade", haptics.staleAfter * 1e3),
+        {ahead ? printed("Newest frame is %.1f s ahead of the clock, forces fade", -tick.sceneAge)
+               : printed("Newest frame is older than %.0f ms, forces fade", haptics.staleAfter * 1e3),
          ahead ? "check which clock the camera stamps with" : "wait; if it stays, close other programs"},
         tick.t, {0.25, 1.0});
 }

@@ -51,20 +51,24 @@ std::string marginText(double margin) {
 void passes(Console& console, const HudInput& input) {
     const std::vector<double>& ms = input.run.passMs();
     fontText(input.letters.body, colour::kText,
-             printed("GPU passes %.2f ms", std::accumulate(ms.begin(), ms.end(), 0.0)));
+             printed("Passes %.2f ms", std::accumulate(ms.begin(), ms.end(), 0.0)));
     ImGui::PushTextWrapPos(0.0f);
     fontText(input.letters.small, colour::kQuiet, passTimes(input.passNames, ms));
     ImGui::PopTextWrapPos();
     markPlace(console, "passes");
-    explain(console, "Time of the GPU for the newest frame, from image to regions, and of each pass");
+    explain(console, "Time of the passes for the newest frame, from image to regions, and of each pass");
 }
 
 } // namespace
 
 std::string passTimes(const std::vector<std::string>& names, const std::vector<double>& ms) {
+    const bool slow = std::any_of(ms.begin(), ms.end(), [](double t) { return t >= 1.0; });
     std::string parts;
-    for (size_t i = 0; i < ms.size() && i < names.size(); ++i) {
-        parts += (i != 0 ? ", " : "us per pass: ") + names[i] + printed(" %.0f", 1e3 * ms[i]);
+    for (size_t i = 0; i < ms.size() && i < names.size(); ++i) { // a line never breaks before a number
+        parts += (i != 0 ? ", "
+                  : slow ? "ms per pass: "
+                         : "us per pass: ") +
+                 names[i] + "\xc2\xa0" + (slow ? printed("%.2f", ms[i]) : printed("%.0f", 1e3 * ms[i]));
     }
     return parts.empty() ? "none yet" : parts;
 }

@@ -51,7 +51,7 @@ Mode armedMode(const ModeInput& input) {
     if (state == StepState::Fading) {
         return isOld(record.sceneAge, input.haptics.staleAfter)
                    ? Mode{"STALE", "~", colour::kCaution, Edge::Dashed,
-                          "The newest image is too old: forces fade until the next one"}
+                          "The newest frame is too old: forces fade until the next one"}
                    : forcesFading("The device's dead-man switch is open, or it is lost: forces fade");
     }
     if (atLimit(record, input.haptics)) {

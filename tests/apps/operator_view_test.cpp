@@ -137,7 +137,7 @@ TEST_CASE("A scene from the future raises an alarm that names the clock") {
         run.step();
     }
     CHECK(run.step() == Words{"CAUTION active stale"});
-    CHECK(run.alarms.shown()[0]->what == "Image is 5.0 s ahead of the clock, forces fade");
+    CHECK(run.alarms.shown()[0]->what == "Newest frame is 5.0 s ahead of the clock, forces fade");
 }
 
 TEST_CASE("The alarm names the cause of an old scene: the camera or a lost GPU") {
@@ -241,8 +241,11 @@ TEST_CASE("An alarm says what happens and then what to do") {
     }
 }
 
-TEST_CASE("Times of passes have microseconds, so that short passes do not show as zero") {
-    CHECK(passTimes({"classify", "moments"}, {0.0562, 0.0016}) == "us per pass: classify 56, moments 2");
+TEST_CASE("Times of passes have microseconds, or milliseconds if one is long, and stay beside their names") {
+    CHECK(passTimes({"classify", "moments"}, {0.0562, 0.0016}) ==
+          "us per pass: classify\xc2\xa0\x35\x36, moments\xc2\xa0\x32");
+    CHECK(passTimes({"classify", "list"}, {20.654, 0.1101}) ==
+          "ms per pass: classify\xc2\xa0\x32\x30.65, list\xc2\xa0\x30.11");
     CHECK(passTimes({"classify"}, {}) == "none yet");
 }
 
