@@ -233,7 +233,15 @@ CloseUpRooms closeUpRooms(PixelRect& gap, float scale) {
               beside = std::min((width - kBetween) / 2, gap.height);
     const int edge = std::min(most, std::max(below, beside));
     CloseUpRooms rooms;
-    if (edge < least) {
+    if (edge < least) { // both above the bar
+        const int barHigh = static_cast<int>(200.0f * scale);
+        const int above = std::min(gap.width - 2 * kBetween, (gap.height - barHigh) / 2 - kBetween);
+        if (above >= least) {
+            rooms.side = {gap.x + kBetween, gap.y, above, above};
+            rooms.top = {rooms.side.x, gap.y + above + kBetween, above, above};
+            const int high = 2 * (above + kBetween);
+            gap = {gap.x, gap.y + high, gap.width, gap.height - high};
+        }
         return rooms;
     }
     const bool stacked = below >= beside;

@@ -80,7 +80,7 @@ TEST_CASE("The view is larger than the tool, and a surface of the camera shows w
     CHECK(viewOf(set, arm, CloseUpSide::Top).reach == doctest::Approx(0.12)); // of its end
 }
 
-TEST_CASE("The views take the room left of the gap bar, and none where it is too small") {
+TEST_CASE("The views take the room left of the gap bar, or above it, and none where it is too small") {
     PixelRect gap{600, 60, 266, 418};
     const CloseUpRooms rooms = closeUpRooms(gap, 1.0f);
     CHECK(rooms.side.width >= 150);
@@ -91,6 +91,13 @@ TEST_CASE("The views take the room left of the gap bar, and none where it is too
     PixelRect flat{0, 0, 500, 160};
     const CloseUpRooms beside = closeUpRooms(flat, 1.0f);
     CHECK(beside.top.x >= beside.side.x + beside.side.width);
+    PixelRect column{744, 64, 154, 500}; // of a window of 1280x800
+    const CloseUpRooms above = closeUpRooms(column, 1.0f);
+    CHECK(above.side.width >= 140);
+    CHECK(above.top.y >= above.side.y + above.side.height);
+    CHECK(column.y >= above.top.y + above.top.height);
+    CHECK(column.y + column.height == 564);
+    CHECK(column.height >= 200);
     PixelRect narrow{0, 0, 120, 300};
     CHECK(closeUpRooms(narrow, 1.0f).side.width == 0);
     CHECK(narrow.width == 120);
