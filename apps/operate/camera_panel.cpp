@@ -12,7 +12,8 @@ namespace {
 
 void streamRows(const CameraFacts& camera) {
     for (const CameraStream& s : camera.streams) {
-        const std::string rate = s.rate > 0.0 ? printed("%.0f Hz", s.rate) : std::string("as it comes");
+        const std::string rate =
+            s.rate > 0.0 ? printed("%.0f Hz", s.rate) : std::string("rate of the source");
         ImGui::TextUnformatted(
             printed("%s  %ux%u  %s  %s", s.name.c_str(), s.width, s.height, rate.c_str(), s.format.c_str())
                 .c_str());

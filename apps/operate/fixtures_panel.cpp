@@ -114,6 +114,7 @@ void row(Console& console, FixtureEditor& editor, size_t i, const SceneSnapshot&
     ImGui::PushID(static_cast<int>(i));
     const bool guides = now.role == Role::Guidance;
     ImGui::TextColored(ImColor(guides ? colour::kGuidance : colour::kRegionSoft), "%s", guides ? "+" : "#");
+    explain(console, guides ? "+: guidance" : "#: forbidden");
     ImGui::SameLine();
     nameOf(console, editor, i);
     const float line = ImGui::GetTextLineHeight();

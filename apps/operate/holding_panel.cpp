@@ -64,7 +64,7 @@ bool boxCorners(Console& console, FixtureClass& now, int row) {
 bool drawHolding(Console& console, FixtureClass& now, int row, const SceneSnapshot& snapshot) {
     bool done = false;
     if (markedButton(console, now.frozen ? "Release" : "Freeze", "hold " + now.name,
-                     "Hold this fixture as it is; new images do not change it")) {
+                     "Freeze this fixture: new frames do not change it. Again: release")) {
         now.frozen = !now.frozen;
         done = true;
     }

@@ -125,9 +125,9 @@ void foundParts(const Console& console, const FixtureEditor& editor) {
     const PickedParts& found = console.pick.found;
     char text[96];
     if (console.pick.row >= 0) {
-        std::snprintf(text, sizeof text, "Would select %zu points (cyan)", editor.selectedPoints());
+        std::snprintf(text, sizeof text, "Selects %zu points (cyan)", editor.selectedPoints());
     } else {
-        std::snprintf(text, sizeof text, "Would select %zu points (cyan), %u of %u parts",
+        std::snprintf(text, sizeof text, "Selects %zu points (cyan): %u of %u connected parts",
                       editor.selectedPoints(), found.taken, found.parts);
     }
     ImGui::PushTextWrapPos(0.0f);

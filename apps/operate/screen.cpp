@@ -118,8 +118,8 @@ void Screen::findGhost(Console& console, const FixtureEditor& editor, const Scen
     console.pick.warnings = placed_ ? coverWarnings(*placed_, cues_.tool, scene.set.guidance, editor.scene())
                                     : coverWarnings(ghost_, cues_.tool, scene.set.guidance, editor.scene());
     if (console.pick.taken && console.pick.found.others > 0) {
-        console.pick.warnings.push_back("its box also holds " + std::to_string(console.pick.found.others) +
-                                        " points of other parts");
+        console.pick.warnings.push_back("The fixture's box also contains " +
+                                        std::to_string(console.pick.found.others) + " points of other parts");
     }
 }
 

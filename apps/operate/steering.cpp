@@ -38,10 +38,10 @@ void openTabs(Console& console) {
 std::span<const KeyHelp> keyHelp() {
     static constexpr std::array kHelp = {
         KeyHelp{"Space", "forces off, always"},
-        KeyHelp{"A", "arm: forces ramp up in 1.5 s or more"},
+        KeyHelp{"A", "forces on, rising over 1.5 s or more"},
         KeyHelp{"G", "guidance on or off"},
         KeyHelp{"J", "close or open the jaws of an arm"},
-        KeyHelp{"C held", "clutch: the hand moves, the tool stays; with forces off, hand to tool"},
+        KeyHelp{"hold C", "clutch: the hand moves, the tool stays; with forces off, hand to tool"},
         KeyHelp{"left drag, wheel", "move the tool; wheel: along the view"},
         KeyHelp{"right drag", "rotate the tool; in the 3D view, rotate the view"},
         KeyHelp{"arrows, PgUp, PgDn", "move the tool; with Shift rotate it"},

@@ -30,7 +30,7 @@ std::string hintOf(const Console& console, bool driven) {
     }
     const std::string hint = console.forces ? "Space: forces off   G: guidance   " + moves + "F1: all keys"
                                             : "A: arm the forces   " + moves + "Tab: 3D   F1: all keys";
-    return driven ? hint : "No haptic device: mouse and keyboard drive.   " + hint;
+    return driven ? hint : "No haptic device: mouse and keyboard move the tool.   " + hint;
 }
 
 } // namespace
