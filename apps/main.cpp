@@ -14,6 +14,7 @@
 #include "apps/plan/plan_command.h"
 #include "apps/profile/profile_command.h"
 #include "apps/record/record_command.h"
+#include "apps/refused_arguments.h"
 #include "apps/register/register_command.h"
 #include "apps/replay/replay_command.h"
 #include "apps/spheres/spheres_command.h"
@@ -22,54 +23,43 @@
 #include "apps/watchdog/arm_watchdog_command.h"
 #include "engine/gpu/instance.h"
 #include "engine/gpu/software_threads.h"
-#include "engine/scene/yaml_node.h"
 #include "engine/types/error.h"
-#include "engine/types/joined.h"
 #include "engine/types/version.h"
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
+#include <cerrno>
 #include <csignal>
+#include <cstdio>
+#include <cstring>
 #include <iostream>
 #include <memory>
+#include <poll.h>
 #include <spdlog/async.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
 namespace {
 
-// A command-line error as one line: option, value, what is allowed.
-std::string refusalOf(const CLI::App& app, const CLI::ParseError& error) {
-    const std::vector<CLI::App*> chosen = app.get_subcommands();
-    const std::vector<std::string> rest = app.remaining(true);
-    std::vector<std::string> names;
-    const auto unknown = [&](const std::string& word) {
-        return "'" + word + "'" +
-               fathom::suggestion(word, std::vector<std::string_view>(names.begin(), names.end()));
-    };
-    if (chosen.empty()) {
+// Also `fathom help [SUBCOMMAND]`, as many programs have it.
+void addHelpCommand(CLI::App& app) {
+    CLI::App* help =
+        app.add_subcommand("help", "print the help of the program or of a subcommand")->group("");
+    const auto name = std::make_shared<std::string>();
+    help->add_option("SUBCOMMAND", *name);
+    help->callback([&app, name] {
+        if (name->empty()) {
+            std::cout << app.get_formatter()->make_help(&app, app.get_name(), CLI::AppFormatMode::Normal);
+            return;
+        }
         for (const CLI::App* command : app.get_subcommands(nullptr)) {
-            if (!command->get_group().empty()) { // internal commands have no group
-                names.push_back(command->get_name());
+            if (command->check_name(*name)) {
+                std::cout << command->help(app.get_name());
+                return;
             }
         }
-        return "subcommand: " + (rest.empty() ? "missing" : unknown(rest.front())) +
-               " (allowed: " + fathom::joined(names) + ")";
-    }
-    if (!rest.empty()) {
-        for (const CLI::App* owner : {static_cast<const CLI::App*>(chosen.back()), &app}) {
-            for (const CLI::Option* option : owner->get_options()) {
-                if (owner != &app || option != app.get_help_ptr()) { // the subcommand has its own
-                    names.push_back(option->get_name());
-                }
-            }
-        }
-        return chosen.back()->get_name() + ": " + unknown(rest.front()) +
-               " (allowed: " + fathom::joined(names) + ")";
-    }
-    std::string text = chosen.back()->get_name() + ": " + error.what();
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    return text;
+        throw fathom::BadInput("help", "subcommand", *name, "a name that fathom --help lists");
+    });
 }
 
 int run(int argc, char** argv) {
@@ -88,31 +78,32 @@ int run(int argc, char** argv) {
     app.fallthrough();
     app.parse_complete_callback(
         [&global] { spdlog::set_level(global.verbose ? spdlog::level::debug : spdlog::level::warn); });
-    fathom::addPlanCommand(app, global);
-    fathom::addInspectCommand(app);
-    fathom::addConvertCommand(app);
-    fathom::addRegisterCommand(app, global);
-    fathom::addBridgeCommand(app);
-    fathom::addArmWatchdogCommand(app);
-    fathom::addArmSimulatorCommand(app);
-    fathom::addKeepClockCommand(app);
-    fathom::addDevicesCommand(app, global);
-    fathom::addProfileCommand(app, global);
     int result = 0;
     fathom::addReplayCommand(app, global, result);
-    fathom::addSpheresCommand(app);
     fathom::addOperateCommand(app, global);
-    fathom::addStabilityCommand(app, global, result);
-    fathom::addTuneCommand(app, global, result);
     fathom::addRecordCommand(app, result);
+    fathom::addInspectCommand(app);
+    fathom::addConvertCommand(app);
+    fathom::addDevicesCommand(app, global);
+    fathom::addBridgeCommand(app);
+    fathom::addPlanCommand(app, global);
+    fathom::addSpheresCommand(app);
+    fathom::addRegisterCommand(app, global);
+    fathom::addTuneCommand(app, global, result);
     fathom::addLatencyCommand(app, global, fathom::operate::measureWindow, result);
+    fathom::addProfileCommand(app, global);
+    fathom::addStabilityCommand(app, global, result);
+    fathom::addArmSimulatorCommand(app);
+    fathom::addArmWatchdogCommand(app);
+    fathom::addKeepClockCommand(app);
+    addHelpCommand(app);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
         if (e.get_exit_code() == 0) {
             return app.exit(e); // --help
         }
-        std::cerr << "fathom: " << refusalOf(app, e) << "\n";
+        std::cerr << "fathom: " << fathom::refusalOf(app, e) << "\n";
         return 2;
     }
     return result;
@@ -127,6 +118,22 @@ void startLog() {
         "fathom", std::make_shared<spdlog::sinks::stderr_sink_mt>(), spdlog::thread_pool(),
         spdlog::async_overflow_policy::overrun_oldest));
     spdlog::set_pattern("%l: %v");
+}
+
+// Reports a full disk under standard output. A reader that closed its pipe wants no more.
+int flushed(int result) {
+    errno = 0;
+    std::cout.flush();
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) {
+        return result;
+    }
+    const int reason = errno;
+    pollfd pipe{STDOUT_FILENO, POLLOUT, 0};
+    if (reason != EPIPE && !(::poll(&pipe, 1, 0) == 1 && (pipe.revents & POLLERR) != 0)) {
+        std::cerr << "fathom: standard output: cannot be written"
+                  << (reason != 0 ? std::string(" (") + std::strerror(reason) + ")" : std::string()) << "\n";
+    }
+    return result == 0 ? 1 : result;
 }
 
 // The exit code of the command, or 1 when the validation layer reported messages.
@@ -158,5 +165,5 @@ int main(int argc, char** argv) {
     if (!failure.empty()) {
         std::cerr << "fathom: " << failure << "\n";
     }
-    return judged(result);
+    return judged(flushed(result));
 }

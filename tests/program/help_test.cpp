@@ -2,11 +2,56 @@
 #include "tests/rig/run_fathom.h"
 
 #include <doctest/doctest.h>
+#include <string>
+#include <sys/wait.h>
+#include <vector>
 
 using namespace fathom;
+
+namespace {
+
+void checkRefusedArguments(const std::vector<std::string>& arguments, const std::string& line) {
+    const ProgramRun run = runFathom(arguments);
+    CAPTURE(run.err);
+    CHECK(run.exitCode == 2);
+    REQUIRE(run.errorLines().size() == 1);
+    CHECK(run.err.find(line) == 0);
+}
+
+} // namespace
 
 TEST_CASE("The help of an option names the words that it accepts") {
     CHECK(runFathom({"replay", "--help"}).out.find("--query TEXT:{cpu,gpu}") != std::string::npos);
     CHECK(runFathom({"guard", "--help"}).out.find("{falcon,haply,ros2}") != std::string::npos);
     CHECK(runFathom({"spheres", "--help"}).out.find("{x,y,z}") != std::string::npos);
+}
+
+TEST_CASE("A wrong command line is rejected in one line that says what is wrong with it") {
+    checkRefusedArguments({"--out", "X", "replay", "a.yaml"},
+                          "fathom: replay: --out: before the subcommand (allowed: after it: fathom replay");
+    checkRefusedArguments({"--device"}, "fathom: --device: value missing (");
+    checkRefusedArguments({"--nosuch"}, "fathom: option: '--nosuch' (allowed: --help, --device, ");
+    checkRefusedArguments({}, "fathom: subcommand: missing (allowed: replay, operate, ");
+    checkRefusedArguments({"a.yaml"},
+                          "fathom: subcommand: missing before 'a.yaml' (for example: fathom replay");
+    checkRefusedArguments({"replya"}, "fathom: subcommand: 'replya', did you mean 'replay'? (allowed: ");
+    checkRefusedArguments({"replay", "a.yaml", "b.yaml"}, "fathom: replay: 'b.yaml': one SCENE only");
+    checkRefusedArguments({"replay", "--scene", "a.yaml"}, "fathom: replay: --scene: SCENE is given without");
+    CHECK(runFathom({}).err.find("; see fathom --help\n") != std::string::npos);
+}
+
+TEST_CASE("fathom help prints the help of the program, or of a subcommand") {
+    CHECK(runFathom({"help"}).out == runFathom({"--help"}).out);
+    CHECK(runFathom({"help", "plan"}).out == runFathom({"plan", "--help"}).out);
+    checkRefusedArguments({"help", "plna"}, "fathom: help: subcommand: plna (allowed: ");
+}
+
+TEST_CASE("Standard output that takes nothing, as on a full disk, is an error") {
+    const auto exitCodeOf = [](const std::string& file) {
+        int status = 0;
+        REQUIRE(::waitpid(startFathom({"stability", "--list"}, file), &status, 0) > 0);
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    };
+    CHECK(exitCodeOf("/dev/null") == 0);
+    CHECK(exitCodeOf("/dev/full") == 1);
 }
