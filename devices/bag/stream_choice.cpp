@@ -107,9 +107,24 @@ std::vector<const ImageStream*> StreamChooser::colours() const {
     return all;
 }
 
+// Headers without a name of the frame say nothing, unless the topics are of one camera.
+bool StreamChooser::sharesFrame(const ImageStream& depth, const ImageStream& colour) const {
+    return depth.frame == colour.frame && (!depth.frame.empty() || namedOneCamera(depth.name, colour.name));
+}
+
+// By the topics' names; tf may contradict. The depth and colour lenses of a camera are centimetres apart.
+bool StreamChooser::oneCamera(const ImageStream& depth, const ImageStream& colour) {
+    constexpr double kMostApart = 0.1; // [m]
+    if (!namedOneCamera(depth.name, colour.name)) {
+        return false;
+    }
+    const auto apart = frames_.pose(depth.frame, colour.frame);
+    return !apart || glm::length(apart->position) <= kMostApart;
+}
+
 StreamChooser::Relation StreamChooser::relate(const ImageStream& depth, const ImageStream& colour) {
     const bool sdk = isSdkTopic(depth.name) || isSdkTopic(colour.name); // its frames are all "0"
-    const bool sameFrame = !sdk && depth.frame == colour.frame;
+    const bool sameFrame = !sdk && sharesFrame(depth, colour);
     const bool alike = !colour.lens && depth.width == colour.width && depth.height == colour.height;
     if (!options_.intrinsics.empty() && !depth.lens) {
         return {1, true, {}, ""}; // the file says the rest
@@ -124,7 +139,7 @@ StreamChooser::Relation StreamChooser::relate(const ImageStream& depth, const Im
     if (same && sameFrame) {
         return {4, true, {}, ""};
     }
-    if (same && !sdk && namedRegistered(depth.name)) {
+    if (same && !sdk && namedRegistered(depth.name) && oneCamera(depth, colour)) {
         return {sharedParts(depth.name, colour.name) > 0 ? 4 : 3, true, {}, ""};
     }
     // The same camera, one of the two images rectified.
@@ -143,7 +158,7 @@ StreamChooser::Relation StreamChooser::relateByPose(const ImageStream& depth, co
     // The Orbbec SDK records the pose to its colour camera, not to the cameras of a stereo pair.
     const std::string sensor = orbbecSensor(colour.name);
     if (!pose && !isRealSenseTopic(depth.name) && (sensor.empty() || sensor == "2")) {
-        pose = topicPose(depth);
+        pose = topicPose(depth, colour);
         pose = pose || depth.frame == colour.frame ? pose : frames_.pose(depth.frame, colour.frame);
     }
     if (pose) {
@@ -180,13 +195,12 @@ std::optional<Pose> StreamChooser::sdkPose(const ImageStream& depth, const Image
     return std::nullopt;
 }
 
-// The topic .../extrinsics/depth_to_color of realsense-ros, of the same camera.
-std::optional<Pose> StreamChooser::topicPose(const ImageStream& depth) {
+// The topic .../extrinsics/depth_to_color of realsense-ros, of the camera of both.
+std::optional<Pose> StreamChooser::topicPose(const ImageStream& depth, const ImageStream& colour) {
     const MessageTopic* best = nullptr;
     for (const MessageTopic& topic : file_.topics()) {
-        if (topic.type.ends_with("/Extrinsics") && topic.name.ends_with("depth_to_color") &&
-            !topic.messages.empty() &&
-            (best == nullptr || sharedParts(topic.name, depth.name) > sharedParts(best->name, depth.name))) {
+        if (topic.type.ends_with("/Extrinsics") && namedExtrinsicsOf(topic.name, depth.name, colour.name) &&
+            !topic.messages.empty() && (best == nullptr || topic.name.size() > best->name.size())) {
             best = &topic;
         }
     }

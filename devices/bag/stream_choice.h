@@ -45,10 +45,12 @@ private:
     const ImageStream* bestDepth() const;
     std::vector<const ImageStream*> depths() const;
     std::vector<const ImageStream*> colours() const;
+    bool sharesFrame(const ImageStream& depth, const ImageStream& colour) const;
+    bool oneCamera(const ImageStream& depth, const ImageStream& colour);
     Relation relate(const ImageStream& depth, const ImageStream& colour);
     Relation relateByPose(const ImageStream& depth, const ImageStream& colour);
     std::optional<Pose> sdkPose(const ImageStream& depth, const ImageStream& colour);
-    std::optional<Pose> topicPose(const ImageStream& depth);
+    std::optional<Pose> topicPose(const ImageStream& depth, const ImageStream& colour);
     bool keepsRelation() const;
     void replaceLenses(StreamChoice& choice) const;
     std::string unreadStreams() const;

@@ -44,6 +44,22 @@ std::vector<std::string> wordsOf(const std::string& topic) {
     return words;
 }
 
+// "/a/b/" of "/a/b/depth/image_raw"; without such a part of "/a/b/image_raw", too.
+std::string cameraOf(const std::string& topic) {
+    const std::string base = baseTopic(topic);
+    for (size_t start = 0; start < base.size();) {
+        const size_t end = std::min(base.find('/', start), base.size());
+        const auto words = wordsOf(base.substr(start, end - start));
+        if (std::any_of(words.begin(), words.end(), [](const std::string& word) {
+                return among(kDepthWords, word) || among(kColourWords, word) || among(kInfraredWords, word);
+            })) {
+            return base.substr(0, start);
+        }
+        start = end + 1;
+    }
+    return base.substr(0, base.find_last_of('/') + 1);
+}
+
 } // namespace
 
 NamedRole namedRole(const std::string& topic) {
@@ -138,6 +154,22 @@ size_t sharedParts(const std::string& a, const std::string& b) {
         parts += a[i] == '/' && i > 0 ? 1 : 0;
     }
     return parts;
+}
+
+bool namedOneCamera(const std::string& a, const std::string& b) {
+    const std::string ofA = cameraOf(a), ofB = cameraOf(b);
+    const size_t shorter = std::min(ofA.size(), ofB.size());
+    return shorter > 1 ? ofA.starts_with(ofB) || ofB.starts_with(ofA) : ofA.size() < 2 && ofB.size() < 2;
+}
+
+bool namedExtrinsicsOf(const std::string& extrinsics, const std::string& depth, const std::string& colour) {
+    constexpr std::string_view kParent = "extrinsics/", kName = "depth_to_color";
+    if (!extrinsics.ends_with(kName)) {
+        return false;
+    }
+    std::string camera = extrinsics.substr(0, extrinsics.size() - kName.size());
+    camera.erase(camera.ends_with(kParent) ? camera.size() - kParent.size() : camera.size());
+    return depth.starts_with(camera) && colour.starts_with(camera);
 }
 
 std::string parentTopic(std::string topic, int levels) {

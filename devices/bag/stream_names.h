@@ -34,6 +34,11 @@ bool namedDepthUnits(const std::string& topic);
 std::vector<std::string> lensTopics(const std::string& topic);
 // Number of path parts that both topics begin with.
 size_t sharedParts(const std::string& a, const std::string& b);
+// Whether the parts before the first one that names depth, colour or infrared are those of one camera:
+// "/a/depth/image" and "/a/rgb/image" or "/a/left/image_color", but not "/b/rgb/image".
+bool namedOneCamera(const std::string& a, const std::string& b);
+// Whether both image topics are of the camera that publishes .../extrinsics/depth_to_color as `extrinsics`.
+bool namedExtrinsicsOf(const std::string& extrinsics, const std::string& depth, const std::string& colour);
 // "/a/b/image_raw" -> "/a/b", `levels` times.
 std::string parentTopic(std::string topic, int levels);
 // Without the suffix of a compressed transport: "/a/image_raw/compressed" -> "/a/image_raw".

@@ -16,6 +16,15 @@ BagMaker unrelatedBag(const std::string& depth, const std::string& colour,
     return maker;
 }
 
+// Of realsense-ros; shifted along x.
+void addExtrinsics(BagMaker& maker, const std::string& topic, double x) {
+    Out extrinsics{stampedHeader(1.0, "")};
+    for (const double value : {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, x, 0.0, 0.001}) {
+        extrinsics.put(value);
+    }
+    maker.add(topic, "realsense2_camera/Extrinsics", 1.0, extrinsics.bytes);
+}
+
 // A message of tf with one transform.
 std::string frameLink(const std::string& parent, const std::string& child, double x) {
     return Out().put(uint32_t{1}).bytes + stampedHeader(1.0, parent) + Out().text(child).bytes +
@@ -30,11 +39,7 @@ TEST_CASE(
     const auto bare = [] { return unrelatedBag("depth", "color"); };
     CHECK(streamRefusal(folder, bare()).find("extrinsics: missing") != std::string::npos);
     BagMaker topic = bare();
-    Out extrinsics{stampedHeader(1.0, "")};
-    for (const double value : {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.015, 0.0, 0.001}) {
-        extrinsics.put(value);
-    }
-    topic.add("/camera/extrinsics/depth_to_color", "realsense2_camera/Extrinsics", 1.0, extrinsics.bytes);
+    addExtrinsics(topic, "/camera/extrinsics/depth_to_color", 0.015);
     CHECK(playStreams(folder, topic).info().colourTdepth.position.x == doctest::Approx(0.015));
     BagMaker frames = bare();
     frames.add("/tf_static", "tf2_msgs/TFMessage", 1.0, frameLink("base", "depth", 0.02));
@@ -48,6 +53,58 @@ TEST_CASE(
     CHECK(playStreams(folder, bare(), {.extrinsics = folder.path() / "e.json"})
               .info()
               .colourTdepth.position.x == doctest::Approx(0.03));
+}
+
+TEST_CASE("The extrinsics topic of one camera does not relate depth or colour of another camera") {
+    const TemporaryFolder folder;
+    const auto bagOf = [](const std::string& depth, const std::string& colour) {
+        BagMaker maker;
+        addStream(maker, depth, depthImage(900, "depth"), {.frame = "depth", .k = {6.0, 6.0, 3.0, 2.0}});
+        addStream(maker, colour, redImage("color"));
+        addExtrinsics(maker, "/ns/front/extrinsics/depth_to_color", 0.015);
+        return maker;
+    };
+    const std::string front = "/ns/front/depth/image_rect_raw", top = "/ns/top/depth/image_rect_raw";
+    CHECK(playStreams(folder, bagOf(front, "/ns/front/color/image_raw")).info().colourTdepth.position.x ==
+          doctest::Approx(0.015));
+    for (const auto& [depth, colour] :
+         {std::pair(front, "/ns/top/color/image_raw"), std::pair(top, "/ns/top/color/image_raw"),
+          std::pair(top, "/ns/front/color/image_raw")}) {
+        BagMaker maker = bagOf(depth, colour);
+        CHECK(lineSays(streamRefusal(folder, maker), "extrinsics: missing"));
+        maker.add("/tf_static", "tf2_msgs/TFMessage", 1.0, frameLink("depth", "color", -0.3));
+        CHECK(playStreams(folder, maker).info().colourTdepth.position.x == doctest::Approx(0.3));
+    }
+}
+
+TEST_CASE("Depth named registered is registered to the colour of its own camera, not of another one") {
+    const TemporaryFolder folder;
+    const auto bagOf = [](const std::string& depth, const std::string& colour, const std::string& frame) {
+        BagMaker maker;
+        addStream(maker, depth, depthImage(900, frame));
+        addStream(maker, colour, redImage(frame.empty() ? "" : "color"));
+        return maker;
+    };
+    for (const char* depth :
+         {"/ns/a/aligned_depth_to_color/image_raw", "/ns/a/depth_registered/image_rect"}) {
+        for (const char* own : {"/ns/a/color/image_raw", "/ns/a/left/image_rect_color", "/ns/a/image_raw"}) {
+            CHECK(playStreams(folder, bagOf(depth, own, "depth")).info().registered);
+            CHECK(playStreams(folder, bagOf(depth, own, "")).info().registered);
+        }
+        for (const char* other : {"/ns/b/color/image_raw", "/color/image_raw"}) {
+            CHECK(lineSays(streamRefusal(folder, bagOf(depth, other, "")), "extrinsics: missing"));
+            BagMaker maker = bagOf(depth, other, "depth");
+            CHECK(lineSays(streamRefusal(folder, maker), "extrinsics: missing"));
+            maker.add("/tf_static", "tf2_msgs/TFMessage", 1.0, frameLink("depth", "color", -0.05));
+            const CameraInfo apart = playStreams(folder, maker).info();
+            CHECK_FALSE(apart.registered);
+            CHECK(apart.colourTdepth.position.x == doctest::Approx(0.05));
+        }
+    }
+    // One name for all cameras of a robot: tf tells them apart.
+    BagMaker robot = bagOf("/robot/depth_registered/image_rect", "/robot/color/image_raw", "depth");
+    robot.add("/tf_static", "tf2_msgs/TFMessage", 1.0, frameLink("depth", "color", -1.0));
+    CHECK_FALSE(playStreams(folder, robot).info().registered);
 }
 
 TEST_CASE("Damaged messages and invalid transforms of other frames do not lose the extrinsics of a bag") {
