@@ -2,6 +2,7 @@
 #include "devices/bag/bag_camera.h"
 
 #include "devices/images/metre_units.h"
+#include "devices/recorded/lens_model.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
 

@@ -130,13 +130,6 @@ ImageStream usableStream(MessageFile& file, const std::string& info, const Image
 
 } // namespace
 
-bool sameLens(const Intrinsics& a, const Intrinsics& b) {
-    const auto equal = [](double one, double other) { return std::abs(one - other) < 1e-6; };
-    return a.width == b.width && a.height == b.height && equal(a.fx, b.fx) && equal(a.fy, b.fy) &&
-           equal(a.cx, b.cx) && equal(a.cy, b.cy) && a.distortion == b.distortion && a.divisor == b.divisor &&
-           a.model == b.model;
-}
-
 bool mayBeDepth(const ImageStream& stream) {
     const bool named = stream.role == NamedRole::Depth || strcasecmp(stream.encoding.c_str(), "mono16") != 0;
     return stream.content == ros::Content::Depth && stream.role != NamedRole::Infrared && named;

@@ -29,8 +29,6 @@ struct ImageStream {
     std::string noLens; // why there is no lens
 };
 
-// Within 1e-6 pixels.
-bool sameLens(const Intrinsics& a, const Intrinsics& b);
 // Depth by its encoding, and not said to be something else by its name. mono16 is also what grey cameras of
 // 16 bits send: it is depth only under a name that says so.
 bool mayBeDepth(const ImageStream& stream);

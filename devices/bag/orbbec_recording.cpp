@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/bag/orbbec_recording.h"
 
-#include "devices/bag/image_stream.h"
 #include "devices/bag/ros2_messages.h"
 #include "devices/bag/ros_messages.h"
 #include "devices/bag/stream_names.h"
+#include "devices/recorded/lens_model.h"
 #include "engine/types/log.h"
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/bag/stream_choice.h"
 
+#include "devices/recorded/lens_model.h"
 #include "devices/recorded/recording_intrinsics.h"
 #include "engine/types/error.h"
 

@@ -94,4 +94,11 @@ std::vector<double> distortionCoefficients(const Intrinsics& lens) {
     return all;
 }
 
+bool sameLens(const Intrinsics& a, const Intrinsics& b) {
+    const auto equal = [](double one, double other) { return std::abs(one - other) < 1e-6; };
+    return a.width == b.width && a.height == b.height && equal(a.fx, b.fx) && equal(a.fy, b.fy) &&
+           equal(a.cx, b.cx) && equal(a.cy, b.cy) && a.distortion == b.distortion && a.divisor == b.divisor &&
+           a.model == b.model;
+}
+
 } // namespace fathom

@@ -21,4 +21,7 @@ std::string setDistortion(Intrinsics& lens, const std::string& model, std::span<
 std::string distortionModel(const Intrinsics& lens);
 std::vector<double> distortionCoefficients(const Intrinsics& lens);
 
+// Within 1e-6 pixels.
+bool sameLens(const Intrinsics& a, const Intrinsics& b);
+
 } // namespace fathom

@@ -109,7 +109,10 @@ void readTwoLenses(const JsonField& root, const JsonField& colour, CameraInfo& c
     if (camera.colour.width != camera.depth.width || camera.colour.height != camera.depth.height) {
         registered->refuse("false (with extrinsics_topic_tf) where depth and colour differ in size");
     }
-    camera.colour = camera.depth; // both use the rays of the depth image
+    if (!sameLens(camera.depth, camera.colour)) { // which of them the images have is not known
+        registered->refuse("one lens, that of the images, where depth is registered to colour; or false with "
+                           "extrinsics_topic_tf");
+    }
 }
 
 void readOneLens(const JsonField& root, CameraInfo& camera) {

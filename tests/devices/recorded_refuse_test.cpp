@@ -258,9 +258,10 @@ TEST_CASE("two lenses without usable extrinsics are refused by their field") {
     CHECK(holds(
         refusalOf(twoLenses(R"(, "extrinsics_topic_tf": {"Color": {"t": [0,0,0], "q_xyzw": [0,0,0,0]}})")),
         "extrinsics_topic_tf.Color.q_xyzw: [0,0,0,0]"));
-    CHECK(holds(refusalOf(twoLenses(R"(, "registered_to_color": true)",
-                                    R"({"width": 6, "height": 5, "fx": 6, "fy": 6, "cx": 3, "cy": 2})")),
-                "registered_to_color: true"));
+    for (const char* other : {R"({"width": 6, "height": 5, "fx": 6, "fy": 6, "cx": 3, "cy": 2})",
+                              R"({"width": 7, "height": 5, "fx": 9, "fy": 6, "cx": 3, "cy": 2})"}) {
+        CHECK(holds(refusalOf(twoLenses(R"(, "registered_to_color": true)", other)), "to_color: true (allo"));
+    }
     CHECK(holds(refusalOf(R"({"depth": )" + kLens + R"(, "depth_scale_m_per_unit": 0.001})"),
                 "color: missing"));
     CHECK(holds(refusalOf(twoLenses("", R"({"width": 7})")), "color.height: missing"));
