@@ -4,6 +4,7 @@
 #include "devices/images/depth_image.h"
 #include "devices/recorded/bop_folder.h"
 #include "devices/recorded/colour_image.h"
+#include "devices/recorded/frame_folder.h"
 #include "devices/recorded/matrix_file.h"
 #include "devices/recorded/numbered_images.h"
 #include "engine/types/error.h"
@@ -84,27 +85,6 @@ RecordingLayout readScanNet(const LayoutRequest& request) {
     return layout;
 }
 
-RecordingLayout readSevenScenes(const LayoutRequest& request) {
-    const fs::path& folder = request.folder;
-    RecordingLayout layout;
-    CameraInfo& camera = layout.intrinsics.camera;
-    // The data set's own calibration.
-    camera.depth =
-        Intrinsics{.width = 640, .height = 480, .fx = 585.0, .fy = 585.0, .cx = 320.0, .cy = 240.0};
-    camera.colour = camera.depth;
-    layout.intrinsics = request.lens.value_or(layout.intrinsics);
-    layout.invalid = 65535;
-    constexpr std::array<std::string_view, 1> kPng{".png"};
-    layout.index =
-        pairByNumber({folder, kPng, ".depth"}, {folder, kColourEndings, ".color"}, request.depthOnly);
-    for (IndexLine& line : layout.index) {
-        std::string pose = line.depth.string();
-        pose.replace(pose.size() - std::string_view("depth.png").size(), std::string::npos, "pose.txt");
-        layout.posePerImage |= usePose(line, pose);
-    }
-    return layout;
-}
-
 // Depth scales are for integers.
 bool holdsMetres(const RecordingLayout& layout) {
     const DepthHead head = firstDepthHead(layout.index);
@@ -130,8 +110,17 @@ struct KnownLayout {
 };
 constexpr std::array kLayouts{KnownLayout{"camera_intrinsic.json", readOpen3d},
                               KnownLayout{"scene_camera.json", readBop},
-                              KnownLayout{"frame-000000.depth.png", readSevenScenes},
                               KnownLayout{"intrinsic/intrinsic_depth.txt", readScanNet}};
+
+// Null: none of them.
+RecordingLayout (*layoutOf(const fs::path& folder))(const LayoutRequest&) {
+    for (const KnownLayout& layout : kLayouts) {
+        if (fs::exists(folder / layout.mark)) {
+            return layout.read;
+        }
+    }
+    return hasFrameImages(folder) ? readFrameFolder : nullptr;
+}
 
 // The folder has no mark of a recording; it may hold files that are recordings.
 [[noreturn]] void refuseFolder(const fs::path& folder) {
@@ -149,8 +138,8 @@ constexpr std::array kLayouts{KnownLayout{"camera_intrinsic.json", readOpen3d},
     }
     throw BadInput((folder / "intrinsics.json").string(), "file", "missing",
                    "intrinsics.json (docs/guide/recordings.md has every field), or an index and "
-                   "intrinsics=FILE behind the folder's name, or a folder of Open3D, BOP, 7-Scenes or "
-                   "ScanNet");
+                   "intrinsics=FILE behind the folder's name, or a folder of Open3D, BOP, 7-Scenes, "
+                   "BundleFusion or ScanNet");
 }
 
 RecordingLayout readFolder(const fs::path& folder, const SourceOptions& options) {
@@ -160,15 +149,13 @@ RecordingLayout readFolder(const fs::path& folder, const SourceOptions& options)
     if (own || (given && index)) {
         return readTum(folder, intrinsics, options.depthOnly());
     }
-    for (const KnownLayout& layout : kLayouts) {
-        if (fs::exists(folder / layout.mark)) {
-            LayoutRequest request{folder, std::nullopt, options.depthOnly()};
-            if (given) {
-                request.lens = readIntrinsics(intrinsics, ScaleRule::Optional);
-                request.depthOnly |= !request.lens->camera.hasColour;
-            }
-            return layout.read(request);
+    if (const auto read = layoutOf(folder)) {
+        LayoutRequest request{folder, std::nullopt, options.depthOnly()};
+        if (given) {
+            request.lens = readIntrinsics(intrinsics, ScaleRule::Optional);
+            request.depthOnly |= !request.lens->camera.hasColour;
         }
+        return read(request);
     }
     if (given) { // its stamps may be the index
         return readTum(folder, intrinsics, options.depthOnly());

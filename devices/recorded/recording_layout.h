@@ -32,12 +32,10 @@ struct LayoutRequest {
 };
 
 // With intrinsics.json, or an index and options.intrinsics: TUM RGB-D (readIndex()), and poses.txt. Else:
-// Open3D
-// (camera_intrinsic.json, color/ and depth/ in order of names, millimetres), BOP (scene_camera.json, rgb/ and
-// depth/ by number, lens and depth_scale of each image, one lens for all), 7-Scenes (frame-N.color.png,
-// frame-N.depth.png, frame-N.pose.txt; Kinect's nominal lens, 65535 = no measurement). Frames without stamps
-// are 1/30 s apart. Where an image has a pose, images without one are faulty. Images of floating point need
-// no depth scale. Throws BadInput.
+// Open3D (camera_intrinsic.json, color/ and depth/ in order of names, millimetres), BOP (readBop()), images
+// frame-N (readFrameFolder()), or ScanNet (intrinsic/, color/ and depth/ by number, millimetres). Frames
+// without stamps are 1/30 s apart. Where an image has a pose, images without one are faulty. Images of floating
+// point need no depth scale. Throws BadInput.
 RecordingLayout readLayout(const std::filesystem::path& folder, const SourceOptions& options);
 
 } // namespace fathom

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/recorded/recording_writer.h"
 
+#include "devices/recorded/frame_folder.h"
 #include "devices/recorded/intrinsics_output.h"
 #include "devices/recorded/png_output.h"
 #include "engine/types/colour_copy.h"
@@ -48,7 +49,7 @@ std::string poseText(double stamp, const Pose& pose) {
 }
 
 // Files by which a folder is read as a recording, of any layout.
-constexpr std::array<const char*, 11> kMarks{"associations.txt",
+constexpr std::array<const char*, 10> kMarks{"associations.txt",
                                              "depth.txt",
                                              "rgb.txt",
                                              "poses.txt",
@@ -57,7 +58,6 @@ constexpr std::array<const char*, 11> kMarks{"associations.txt",
                                              "camera_intrinsic.json",
                                              "scene_camera.json",
                                              "intrinsic",
-                                             "frame-000000.depth.png",
                                              "metadata.yaml"};
 
 // Why the folder must not be written to; empty = it may.
@@ -67,6 +67,9 @@ std::string whyTaken(const fs::path& folder) {
         if (fs::exists(fs::symlink_status(folder / name, failed))) {
             return std::string("has ") + name;
         }
+    }
+    if (hasFrameImages(folder)) {
+        return "has images frame-N.depth.png";
     }
     for (const char* name : {"depth", "rgb"}) {
         const fs::path images = folder / name;

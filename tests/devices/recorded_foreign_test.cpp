@@ -23,6 +23,26 @@ const std::string kOpen3dLens =
 
 using Depths = std::vector<uint16_t>;
 
+const std::string kSensorInfo = "m_versionNumber = 4\nm_sensorName = Structure Sensor\n"
+                                "m_colorWidth = 14\nm_colorHeight = 10\nm_depthWidth = 7\nm_depthHeight = 5\n"
+                                "m_depthShift = 5000\n"
+                                "m_calibrationColorIntrinsic = 12 0 6 0 0 13 5 0 0 0 1 0 0 0 0 1 \n"
+                                "m_calibrationColorExtrinsic = 1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 \n"
+                                "m_calibrationDepthIntrinsic = 6 0 3 0 0 6.5 2 0 0 0 1 0 0 0 0 1 \n"
+                                "m_calibrationDepthExtrinsic = 1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 \n"
+                                "m_frames.size = 2\n";
+
+// Two frames in the size of kSensorInfo, from the given number.
+void addFrames(const TemporaryFolder& folder, int first) {
+    for (int i = first; i < first + 2; ++i) {
+        const std::string stem = "frame-00000" + std::to_string(i);
+        writeDepth(folder.path() / (stem + ".depth.png"), kSmallWidth, kSmallHeight,
+                   i == first ? 500 : 65535);
+        writeColour(folder.path() / (stem + ".color.png"), 14, 10, 1, 2, 3);
+        folder.write(stem + ".pose.txt", "1 0 0 0.5\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
+    }
+}
+
 } // namespace
 
 TEST_CASE("A damaged first image loses its own frame where a layout takes sizes from the images") {
@@ -69,4 +89,51 @@ TEST_CASE("A lens of another size than colour is named with its file") {
         writeColour(folder.path() / name, 14, 10, 1, 2, 3);
     }
     lineSays(recordingRefusal(folder.path()), ": camera_intrinsic.json: color.width, color.height: ");
+}
+
+TEST_CASE("Images frame-N with a calibration beside them have its lenses and unit, not those of 7-Scenes") {
+    for (const char* name : {"info.txt", "_info.txt"}) {
+        const TemporaryFolder folder;
+        addFrames(folder, 0);
+        folder.write(name, kSensorInfo);
+        RecordedCamera camera(folder.path());
+        CHECK(camera.info().depth.fx == 6.0);
+        CHECK(camera.info().depth.fy == 6.5);
+        CHECK(camera.info().colour.cx == 6.0);
+        CHECK(camera.info().colour.fy == 13.0);
+        CHECK_FALSE(camera.info().registered);
+        CHECK(camera.info().metresPerUnit == doctest::Approx(0.0002));
+        CHECK_FALSE(camera.info().poseless);
+        CHECK(playedDepths(folder.path()) == Depths{500, 65535});
+        folder.write("lens.json", R"({"width": 7, "height": 5, "fx": 9, "fy": 9, "cx": 3, "cy": 2})");
+        const SourceOptions lens{.colour = "none", .intrinsics = folder.path() / "lens.json"};
+        CHECK(RecordedCamera(folder.path(), lens).info().depth.fx == 9.0);
+        CHECK(RecordedCamera(folder.path(), lens).info().metresPerUnit == doctest::Approx(0.0002));
+    }
+}
+
+TEST_CASE("A calibration of images frame-N that cannot be used is named by its key") {
+    const TemporaryFolder folder;
+    addFrames(folder, 0);
+    const auto refused = [&](const std::string& part, const std::string& with) {
+        std::string text = kSensorInfo;
+        folder.write("info.txt", text.replace(text.find(part), part.size(), with));
+        return recordingRefusal(folder.path());
+    };
+    lineSays(refused("m_depthShift = 5000", ""), "info.txt: m_depthShift: missing (allowed: 1 number)");
+    lineSays(refused("5000", "0.001"), "m_depthShift: 0.001 (allowed: units per metre");
+    lineSays(refused("6 0 3 0 0 6.5", "0 0 3 0 0 6.5"), "m_calibrationDepthIntrinsic: 0 0 3");
+    lineSays(refused("12 0 6", "x 0 6"), "m_calibrationColorIntrinsic: x 0 6");
+    lineSays(refused("Extrinsic = 1", "Extrinsic = 0.9"), "m_calibrationColorExtrinsic: 0.9");
+    lineSays(refused("m_depthWidth = 7", "m_depthWidth = 7000"),
+             "m_depthWidth: 7000 (allowed: a whole number");
+    lineSays(refused("m_depthWidth = 7", "m_depthWidth = 8"), "frames: none");
+}
+
+TEST_CASE("Part of a sequence of images frame-N plays, whatever its first number is") {
+    const TemporaryFolder folder;
+    addFrames(folder, 5);
+    folder.write("info.txt", kSensorInfo);
+    CHECK(playedDepths(folder.path()) == Depths{500, 65535});
+    CHECK(RecordedCamera(folder.path()).info().depth.fx == 6.0);
 }

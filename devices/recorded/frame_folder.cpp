@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/recorded/frame_folder.h"
+
+#include "devices/images/depth_image.h"
+#include "devices/recorded/colour_image.h"
+#include "devices/recorded/lens_model.h"
+#include "devices/recorded/matrix_file.h"
+#include "devices/recorded/numbered_images.h"
+#include "devices/recorded/text_file.h"
+#include "engine/types/error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace fathom {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Lines KEY = VALUE, as SensReader writes them.
+class SensorInfo {
+public:
+    explicit SensorInfo(const fs::path& file)
+        : file_(file.string()) {
+        for (const TextLine& line : readDataLines(file)) {
+            const std::vector<std::string_view> parts = splitFields(line.text, '=');
+            if (parts.size() == 2) {
+                values_.emplace(parts[0], parts[1]);
+            }
+        }
+    }
+    bool has(const std::string& key) const { return values_.contains(key); }
+
+    // Size and lens of "Depth" or "Color".
+    Intrinsics lens(const std::string& stream) const {
+        const std::string small = stream == "Depth" ? "m_depth" : "m_color",
+                          matrix = "m_calibration" + stream + "Intrinsic";
+        const auto k = numbers(matrix, 16);
+        if (!(k[0] > 0.0 && k[5] > 0.0) || !std::isfinite(k[0] + k[2] + k[5] + k[6])) {
+            refuse(matrix, "fx 0 cx 0, 0 fy cy 0, 0 0 1 0, 0 0 0 1");
+        }
+        return {.width = size(small + "Width", kMaxImageWidth),
+                .height = size(small + "Height", kMaxImageHeight),
+                .fx = k[0],
+                .fy = k[5],
+                .cx = k[2],
+                .cy = k[6]};
+    }
+    void checkExtrinsic(const std::string& stream) const {
+        const std::string key = "m_calibration" + stream + "Extrinsic";
+        if (has(key) && !std::ranges::equal(numbers(key, 16), kIdentityMatrix)) {
+            refuse(key, "the identity; or intrinsics=FILE behind the folder's name");
+        }
+    }
+    double metresPerUnit() const {
+        const double unit = 1.0 / numbers("m_depthShift", 1)[0];
+        if (!(unit >= kFinestUnit && unit <= kCoarsestUnit)) {
+            refuse("m_depthShift", "units per metre, 10 to 1000000");
+        }
+        return unit;
+    }
+
+private:
+    [[noreturn]] void refuse(const std::string& key, const std::string& allowed) const {
+        throw BadInput(file_, key, has(key) ? values_.at(key) : "missing", allowed);
+    }
+    std::vector<double> numbers(const std::string& key, size_t count) const {
+        const std::string text = has(key) ? values_.at(key) : "";
+        std::vector<double> all;
+        for (const std::string_view word : splitWords(text)) {
+            all.push_back(std::nan(""));
+            if (!parseNumber(word, all.back())) {
+                refuse(key, "numbers");
+            }
+        }
+        if (all.size() != count) {
+            refuse(key, std::to_string(count) + (count == 1 ? " number" : " numbers"));
+        }
+        return all;
+    }
+    uint32_t size(const std::string& key, uint32_t most) const {
+        const double value = numbers(key, 1)[0];
+        if (!(value >= 1.0 && value <= most) || value != std::floor(value)) {
+            refuse(key, "a whole number, 1 to " + std::to_string(most));
+        }
+        return static_cast<uint32_t>(value);
+    }
+
+    std::string file_;
+    std::map<std::string, std::string> values_;
+};
+
+// Nothing: no such file, or a file of other content.
+std::optional<fs::path> calibrationOf(const fs::path& folder) {
+    for (const char* name : {"info.txt", "_info.txt"}) {
+        const fs::path file = folder / name;
+        if (fs::exists(file) && SensorInfo(file).has("m_calibrationDepthIntrinsic")) {
+            return file;
+        }
+    }
+    return std::nullopt;
+}
+
+RecordingIntrinsics readInfo(const fs::path& file, bool depthOnly) {
+    const SensorInfo info(file);
+    RecordingIntrinsics intrinsics;
+    intrinsics.file = file.filename().string();
+    CameraInfo& camera = intrinsics.camera;
+    info.checkExtrinsic("Depth");
+    camera.depth = camera.colour = info.lens("Depth");
+    if (!depthOnly) {
+        info.checkExtrinsic("Color");
+        camera.colour = info.lens("Color");
+        camera.registered = sameLens(camera.depth, camera.colour);
+    }
+    intrinsics.scale = camera.metresPerUnit = info.metresPerUnit();
+    return intrinsics;
+}
+
+// The data set's own calibration.
+RecordingIntrinsics sevenScenesLens() {
+    RecordingIntrinsics intrinsics;
+    intrinsics.camera.depth =
+        Intrinsics{.width = 640, .height = 480, .fx = 585.0, .fy = 585.0, .cx = 320.0, .cy = 240.0};
+    intrinsics.camera.colour = intrinsics.camera.depth;
+    return intrinsics;
+}
+
+constexpr std::string_view kFrameName = "frame-", kDepthName = ".depth";
+
+} // namespace
+
+bool hasFrameImages(const fs::path& folder) {
+    std::error_code failed;
+    const fs::directory_iterator files(folder, failed);
+    return std::any_of(begin(files), end(files), [](const fs::directory_entry& entry) {
+        const std::string stem = entry.path().stem().string();
+        return stem.starts_with(kFrameName) && stem.ends_with(kDepthName) &&
+               endsAs(entry.path(), kDepthEndings);
+    });
+}
+
+RecordingLayout readFrameFolder(const LayoutRequest& request) {
+    const fs::path& folder = request.folder;
+    const auto info = calibrationOf(folder);
+    RecordingLayout layout;
+    if (request.lens) {
+        layout.intrinsics = *request.lens;
+    } else {
+        layout.intrinsics = info ? readInfo(*info, request.depthOnly) : sevenScenesLens();
+    }
+    if (info && !layout.intrinsics.scale) { // a file of a lens alone
+        const double unit = SensorInfo(*info).metresPerUnit();
+        layout.intrinsics.scale = layout.intrinsics.camera.metresPerUnit = unit;
+    }
+    layout.invalid = info ? 0 : 65535;
+    layout.index = pairByNumber({folder, kDepthEndings, std::string(kDepthName)},
+                                {folder, kColourEndings, ".color"}, request.depthOnly);
+    for (IndexLine& line : layout.index) {
+        std::string stem = line.depth.stem().string();
+        stem.resize(stem.size() - kDepthName.size());
+        layout.posePerImage |= usePose(line, folder / (stem + ".pose.txt"));
+    }
+    return layout;
+}
+
+} // namespace fathom
