@@ -30,7 +30,8 @@ public:
 protected:
     MessageCamera(std::unique_ptr<MessageFile> file, SourceOptions options)
         : options_(std::move(options))
-        , file_(std::move(file)) {}
+        , file_(std::move(file))
+        , warnings_(file_->warnings()) {}
 
     // Start and duration of the options count from the topic's first message, by the time of recording.
     void useSpan(const MessageTopic& topic);

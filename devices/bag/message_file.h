@@ -40,6 +40,8 @@ public:
     // What was wrong with a message of the topic when the file was opened; empty = nothing.
     std::string faultOf(const std::string& topic) const;
     const std::filesystem::path& file() const { return file_; }
+    // Faults of the file as a whole that were logged when it was opened.
+    const std::vector<std::string>& warnings() const { return warnings_; }
     virtual MessageBytes bytes(const MessageEntry& entry) = 0; // as read()
 
 protected:
@@ -51,6 +53,7 @@ protected:
 
     std::vector<MessageTopic> topics_;
     std::map<std::string, std::string> faults_; // by topic
+    std::vector<std::string> warnings_;
 
 private:
     std::filesystem::path file_;

@@ -72,6 +72,68 @@ TEST_CASE("A folder of ROS 2 files is played as one recording, in the order of t
     CHECK(rosRefusal(folder.path()).find("compression") != std::string::npos);
 }
 
+namespace {
+
+// metadata.yaml that lists these files.
+void listFiles(const TemporaryFolder& folder, const std::string& names) {
+    folder.write("metadata.yaml", "rosbag2_bagfile_information:\n  version: 5\n  relative_file_paths: [" +
+                                      names + "]\n  files: []\n");
+}
+
+size_t depthMessages(const std::filesystem::path& folder) {
+    return openMessageFile(folder)->find("/camera/depth_registered/image_raw")->messages.size();
+}
+
+} // namespace
+
+TEST_CASE("Only the files that metadata.yaml lists are played, wherever it says that their folder is") {
+    const TemporaryFolder folder;
+    const std::string recording = rosBytes(kFiles / "mcap" / "zstd");
+    folder.write("rec_0.mcap", recording);
+    folder.write("rec_0 (copy).mcap", recording);
+    folder.write("rec_0.db3", rosBytes(kFiles / "database" / "small"));
+    folder.write("rec_0.mcap.zstd", "x");
+    for (const char* names :
+         {"rec_0.mcap", "old_name/rec_0.mcap", "../rec_0.mcap, rec_0.mcap", "rec_0.mcap.zstd"}) {
+        listFiles(folder, names);
+        CHECK_MESSAGE(rosPairs(folder.path()) == 3, names);
+        CHECK(openMessageFile(folder.path())->warnings().empty());
+    }
+    listFiles(folder, "other_0.mcap, rec_0.db3");
+    CHECK(rosPairs(folder.path()) == 3);
+    folder.write("other_0.mcap.zstd", "x");
+    CHECK(rosRefusal(folder.path()).find("other_0.mcap.zstd: compression") != std::string::npos);
+}
+
+TEST_CASE("A listed file that is missing or damaged is named, and the others are played") {
+    const TemporaryFolder folder;
+    folder.write("rec_0.mcap", rosBytes(kFiles / "mcap" / "zstd"));
+    folder.write("rec_1.DB3", rosBytes(kFiles / "database" / "small"));
+    folder.write("empty_2.db3", "");
+    listFiles(folder, "rec_0.mcap, rec_1.DB3, gone_2.mcap");
+    CHECK(depthMessages(folder.path()) == 6);
+    CHECK(BagCamera(folder.path()).warnings().at(0) == "metadata.yaml lists gone_2.mcap, which is missing");
+    listFiles(folder, "empty_2.db3, rec_0.mcap");
+    CHECK(rosPairs(folder.path()) == 3);
+    const std::string damaged = openMessageFile(folder.path())->warnings().at(0);
+    CHECK(damaged.find("a part is not played: ") == 0);
+    CHECK(damaged.find("empty_2.db3: tables") != std::string::npos);
+    listFiles(folder, "empty_2.db3");
+    CHECK(rosRefusal(folder.path()).find("empty_2.db3: tables") != std::string::npos);
+}
+
+TEST_CASE("Without a list of files that are there, a folder's files are played if they are of one kind") {
+    const TemporaryFolder folder;
+    folder.write("renamed_0.MCAP", rosBytes(kFiles / "mcap" / "zstd"));
+    for (const char* metadata : {"rosbag2_bagfile_information: {relative_file_paths: [rec_0.mcap]}\n",
+                                 "rosbag2_bagfile_information: {relative_file_paths: [", "- 1\n", ""}) {
+        folder.write("metadata.yaml", metadata);
+        CHECK_MESSAGE(rosPairs(folder.path()) == 3, metadata);
+    }
+    folder.write("renamed_0.db3", rosBytes(kFiles / "database" / "small"));
+    CHECK(rosRefusal(folder.path()).find("files of one kind") != std::string::npos);
+}
+
 TEST_CASE("A damaged MCAP chunk loses its own images only, and no byte crashes the reader") {
     const TemporaryFolder folder;
     const auto level = spdlog::get_level();
