@@ -221,6 +221,9 @@ std::string BagCamera::read(size_t index, FrameSlot& slot, double stamp, Frame::
     if (!alike || ros::sizeOf(depth) != std::pair(info().depth.width, info().depth.height)) {
         return "size or encoding differs from the frames that are played";
     }
+    if (const std::string other = otherFrame(choice_.depth.frame, depth.frame); !other.empty()) {
+        return choice_.depth.name + ": " + other;
+    }
     if (const std::string other = changed(topicOf(choice_.depth).messages[index].time); !other.empty()) {
         return other;
     }
@@ -241,6 +244,9 @@ std::string BagCamera::readColour(size_t depthIndex, double stamp, FrameSlot& sl
     const Image colour = imageOf(*choice_.colour, *pair);
     if (ros::sizeOf(colour) != std::pair(info().colour.width, info().colour.height)) {
         return "colour size differs from its camera_info";
+    }
+    if (const std::string other = otherFrame(choice_.colour->frame, colour.frame); !other.empty()) {
+        return choice_.colour->name + ": " + other;
     }
     return ros::colourFormat(colour) == info().colourFormat ? ros::colourRows(colour, slot.colour(), raw)
                                                             : "colour encoding differs from the first image";

@@ -123,6 +123,7 @@ void CloudCamera::chooseTopic() {
 // Fits lens and axes; why they do not fit, empty = they do.
 std::string CloudCamera::fit(const ros::Cloud& message, const PcdCloud& cloud) {
     fit_ = fitLens(cloud);
+    frame_ = message.frame;
     info_.hasColour = !cloud.colour.empty() && options_.colour != "none";
     return fit_.residual <= mostOff(fit_.lens) ? ""
                                                : "points of frame '" + message.frame +
@@ -165,6 +166,9 @@ std::string CloudCamera::read(size_t index, FrameSlot& slot, double, Frame::Cont
     const ros::Cloud message = cloudAt(index);
     if (message.width != info_.depth.width || message.height != info_.depth.height) {
         return "size differs from the first cloud";
+    }
+    if (const std::string other = otherFrame(frame_, message.frame); !other.empty()) {
+        return other;
     }
     if (const std::string why = ros::whyNoDepth(message); !why.empty()) {
         return why;

@@ -39,6 +39,7 @@ private:
     std::string said_;
     CameraInfo info_;
     FittedLens fit_;
+    std::string frame_; // of the cloud with that lens
     double metresPerValue_ = 1.0;
 };
 

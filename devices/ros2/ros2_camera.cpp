@@ -80,6 +80,9 @@ std::string Ros2Camera::fillDepth(const RawMessage& message, FrameSlot& slot) {
     if (!alike || ros::sizeOf(image) != std::pair(info().depth.width, info().depth.height)) {
         return "size or encoding differs from the first image";
     }
+    if (const std::string other = otherFrame(choice_.depth.frame, image.frame); !other.empty()) {
+        return other;
+    }
     uint64_t beyond = 0;
     const std::string fault = ros::depthRows(image, valuesPerUnit_, slot.depth(), beyond);
     const double limit = 65535.0 * info().metresPerUnit;
@@ -95,6 +98,9 @@ std::string Ros2Camera::fillColour(const RawMessage& message, FrameSlot& slot, R
     const ros::Image image = imageOf(*choice_.colour, message);
     if (ros::sizeOf(image) != std::pair(info().colour.width, info().colour.height)) {
         return "size differs from its camera_info";
+    }
+    if (const std::string other = otherFrame(choice_.colour->frame, image.frame); !other.empty()) {
+        return other;
     }
     return ros::colourFormat(image) == info().colourFormat ? ros::colourRows(image, slot.colour(), raw)
                                                            : "encoding differs from the first image";

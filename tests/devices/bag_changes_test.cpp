@@ -51,6 +51,33 @@ TEST_CASE("Frames of a bag after its lens has changed are skipped and counted, n
 }
 
 TEST_CASE(
+    "Images of another camera on the topics of the first one are skipped and named, not played as its own") {
+    const TemporaryFolder folder;
+    BagMaker maker;
+    addStream(maker, "/c/depth/image_raw", depthImage(500, "left"));
+    addStream(maker, "/c/color/image_raw", redImage("left"));
+    for (const double t : {1.3, 1.4}) {
+        const bool depth = t < 1.35;
+        maker.add("/c/depth/image_raw", "sensor_msgs/Image", t,
+                  imageMessage(t, depthImage(depth ? 900 : 600, depth ? "right" : "left")));
+        maker.add("/c/color/image_raw", "sensor_msgs/Image", t,
+                  imageMessage(t, redImage(depth ? "left" : "right")));
+    }
+    maker.add("/c/depth/image_raw", "sensor_msgs/Image", 1.5, imageMessage(1.5, depthImage(700, "")));
+    maker.add("/c/color/image_raw", "sensor_msgs/Image", 1.5, imageMessage(1.5, redImage("")));
+    BagCamera camera = playStreams(folder, maker);
+    const std::vector<double> played = depthsOf(camera);
+    CHECK(played.size() == 4);
+    CHECK(played.back() == doctest::Approx(0.7)); // a header without a frame says nothing
+    CHECK(camera.skipped() == 2);
+    BagCamera late = playStreams(folder, maker, {.start = 0.25, .duration = 0.1});
+    CHECK_THROWS_WITH_AS(
+        late.next(),
+        doctest::Contains("/c/depth/image_raw: its frame is 'right', that of the first one 'left'"),
+        BadInput);
+}
+
+TEST_CASE(
     "A bag plays without its first images and lenses where these are empty, damaged or of another size") {
     const TemporaryFolder folder;
     const std::string whole = imageMessage(1.0, depthImage(500)), lens = infoMessage({});

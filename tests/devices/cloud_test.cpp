@@ -36,9 +36,10 @@ std::string cloudRefusal(const std::filesystem::path& file, const SourceOptions&
 }
 
 // A cloud in ROS 1: 9 x 7 points of x, y, z at `distance` [m], `width` x `height` as stated.
-std::string cloudMessage(double t, uint32_t width, uint32_t height, uint8_t type = 7, float distance = 1.0f) {
+std::string cloudMessage(double t, uint32_t width, uint32_t height, uint8_t type = 7, float distance = 1.0f,
+                         const std::string& frame = "camera") {
     Out out;
-    out.bytes = stampedHeader(t, "camera");
+    out.bytes = stampedHeader(t, frame);
     out.put(height).put(width).put(uint32_t{3});
     for (uint32_t i = 0; i < 3; ++i) {
         out.text(std::string(1, static_cast<char>('x' + i))).put(4 * i).put(type).put(uint32_t{1});
@@ -135,7 +136,8 @@ TEST_CASE("A big-endian cloud gives the same depth and colour") {
     CHECK((*frame)->colour[30] == 0xff0a14c8u);
 }
 
-TEST_CASE("A cloud that is damaged, cut off or moved is skipped and counted, and the others are played") {
+TEST_CASE("A cloud that is damaged, cut off, moved or of another frame is skipped and counted, and the "
+          "others are played") {
     const TemporaryFolder folder;
     BagMaker maker;
     std::string cut = cloudMessage(1.1, 9, 7);
@@ -146,6 +148,7 @@ TEST_CASE("A cloud that is damaged, cut off or moved is skipped and counted, and
               cloudMessage(1.2, 9, 8)); // states more than it holds
     maker.add("/points", "sensor_msgs/PointCloud2", 1.3, cloudMessage(1.3, 9, 7));
     maker.add("/points", "sensor_msgs/PointCloud2", 1.4, cloudMessage(1.05, 9, 7)); // goes back
+    maker.add("/points", "sensor_msgs/PointCloud2", 1.5, cloudMessage(1.5, 9, 7, 7, 1.0f, "other"));
     folder.write("a.bag", maker.bag());
     const auto level = spdlog::get_level();
     spdlog::set_level(spdlog::level::off);
@@ -156,7 +159,7 @@ TEST_CASE("A cloud that is damaged, cut off or moved is skipped and counted, and
     }
     spdlog::set_level(level);
     CHECK(played == 2);
-    CHECK(camera->skipped() == 3);
+    CHECK(camera->skipped() == 4);
 }
 
 TEST_CASE(
