@@ -35,7 +35,7 @@ FrameTexture::FrameTexture(const gpu::Device& device, VkFormat format, VkExtent2
     vkGetImageMemoryRequirements(device.handle(), image_, &needs);
     VkMemoryAllocateInfo allocate{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO};
     allocate.allocationSize = needs.size;
-    allocate.memoryTypeIndex = device.memoryType(gpu::MemoryKind::Device, needs.memoryTypeBits);
+    allocate.memoryTypeIndex = device.memoryTypes(gpu::MemoryKind::Device, needs.memoryTypeBits).front();
     check(vkAllocateMemory(device.handle(), &allocate, nullptr, &memory_), "vkAllocateMemory of an image");
     check(vkBindImageMemory(device.handle(), image_, memory_, 0), "vkBindImageMemory");
     if ((usage & VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT) != 0) {

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstring>
 #include <doctest/doctest.h>
-#include <mutex>
 #include <optional>
 #include <string>
 
@@ -265,69 +264,6 @@ TEST_CASE("A step reports a missing scene, an old scene and time that goes back"
     step = hand.step(handAt(std::nan("")), now());
     CHECK(warns(step, StepWarning::NotFinite));
     CHECK(step.wrench.force == Vec3{0.0, 0.0, 0.0});
-}
-
-TEST_CASE("A camera model that cannot be used is rejected by one line with its name, field and value") {
-    const auto fault = [](void (*change)(CameraModel&)) {
-        CameraModel model = smallCamera();
-        model.name = "arm\n\x1b[31m";
-        change(model);
-        try {
-            const Lockstep made(wallScene(), model, startAt(0.5));
-        } catch (const BadInput& e) {
-            return std::string(e.what());
-        }
-        return std::string();
-    };
-    CHECK(fault([](CameraModel&) {}) == "");
-    const std::string unit = fault([](CameraModel& m) { m.metresPerUnit = 0.0; });
-    CHECK(unit.find("metresPerUnit: 0 (allowed: a positive number)") != std::string::npos);
-    CHECK(std::ranges::none_of(unit, [](char c) { return c == '\n' || c == '\x1b'; }));
-    CHECK(fault([](CameraModel& m) { m.colourFormat = static_cast<ColourFormat>(17); }).find("Format: 17 ") !=
-          std::string::npos);
-    CHECK(fault([](CameraModel& m) { m.depthFormat = static_cast<DepthFormat>(-1); }).find("Format: -1 ") !=
-          std::string::npos);
-}
-
-TEST_CASE("A camera that protects nothing is said in the log: wrong unit, no depth, no colour") {
-    std::mutex mutex;
-    std::string lines;
-    const auto has = [&](const char* text) {
-        const std::lock_guard lock(mutex);
-        return lines.find(text) != std::string::npos;
-    };
-    setLogCallback([&](LogLevel level, std::string_view line) {
-        const std::lock_guard lock(mutex);
-        lines += level == LogLevel::Warning ? std::string(line) + "\n" : "";
-    });
-    const auto play = [](const Scene& scene, std::uint16_t depth) {
-        Lockstep lockstep(scene, smallCamera(), startAt(0.5));
-        Wall wall;
-        std::ranges::fill(wall.depth, depth);
-        for (const Nanoseconds stamp : {1'000'000'000, 1'500'000'000, 2'000'000'000}) {
-            lockstep.process(wall.at(stamp));
-        }
-    };
-    play(wallScene(), 600);
-    CHECK(lines.empty());
-    play(wallScene(), 6000); // a unit of 0.1 mm, said to be 1 mm
-    CHECK(has("camera: no depth of the first second is between camera.near 0.1 m and camera.far 3 m: nothing "
-              "is protected; it is 6 to 6 m, so check metresPerUnit"));
-    play(wallScene(), 0);
-    CHECK(has("no depth in the first second"));
-    {
-        Engine engine(wallScene(), smallCamera());
-        CameraPort camera = engine.camera();
-        Wall far;
-        std::ranges::fill(far.depth, std::uint16_t{7000});
-        CHECK(eventually(
-            [&] { return camera.submit(far.at(now())) == SubmitStatus::Accepted && has("it is 7 to 7 m"); }));
-    }
-    const Scene red = Scene::fromText("fixtures: [{ name: red, role: forbidden, hue: [345, 20] }]\n"
-                                      "tool: { spheres: [[0, 0, 0, 0.01]] }\n");
-    const Engine engine(red, smallCamera());
-    CHECK(has("'red' can have no point: it has a colour gate, and the camera has no colour"));
-    setLogCallback(nullptr);
 }
 
 TEST_CASE("Log lines go to the callback") {
