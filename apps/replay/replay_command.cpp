@@ -2,21 +2,17 @@
 #include "apps/replay/replay_command.h"
 
 #include "apps/binding/arm_thread.h"
-#include "apps/binding/open_hand.h"
 #include "apps/binding/open_source.h"
 #include "apps/number_option.h"
-#include "apps/replay/budgets.h"
 #include "apps/replay/lockstep_replay.h"
 #include "apps/replay/realtime_replay.h"
+#include "apps/replay/replay_report.h"
 #include "devices/ros2/ros2_output_request.h"
 #include "engine/types/error.h"
 
 #include <CLI/CLI.hpp>
-#include <cmath>
-#include <iomanip>
 #include <iostream>
 #include <memory>
-#include <sstream>
 
 namespace fathom {
 
@@ -24,137 +20,34 @@ namespace {
 
 constexpr double kPenetrationLimit = 1e-5; // [m] limit of the penetration in every run
 
-// Four digits, but never an exponent for a large number.
-std::string decimal(double x) {
-    std::ostringstream text;
-    if (std::abs(x) >= 1e4) {
-        text << std::fixed << std::setprecision(0) << x;
-    } else {
-        text << std::setprecision(4) << x;
-    }
-    return text.str();
-}
-
-void printPart(const char* name, const Percentiles& p, const char* unit) {
-    if (p.p50) {
-        std::cout << name << " p50 " << decimal(*p.p50) << " p99 " << decimal(*p.p99) << " max "
-                  << decimal(*p.max) << " " << unit << "\n";
-    }
-}
-
-void print(const ReplaySummary::Arm& arm) {
-    std::cout << "arm          " << arm.leaves << " leaves on " << arm.links.size() << " links, "
-              << arm.joints.size() << " joints; at a limit in " << arm.limitedTicks << " ticks, singular in "
-              << arm.singularTicks << ", limits exceeded by " << arm.limitViolation << "\n";
-    for (const std::string& line : arm.description) {
-        std::cout << "  " << line << "\n";
-    }
-    printPart("  residual  ", arm.residual, "m");
-    for (const auto& link : arm.links) {
-        if (link.penetration) {
-            std::cout << "  link       " << link.name << ": " << link.leaves << " leaves, "
-                      << *link.penetration * 1e6 << " um deep\n";
-        }
-    }
-}
-
-void print(const ReplaySummary& s, const std::filesystem::path& out) {
-    std::cout << std::setprecision(4);
-    std::cout << "frames       " << s.frames.count << " used, " << s.frames.skipped << " skipped on "
-              << s.device << "\n";
-    if (s.frames.first) {
-        std::cout << "  first set  " << *s.frames.first << " s after program start\n";
-    }
-    printPart("  passes    ", s.frames.gpuMs, "ms");
-    printPart("  latency   ", s.frames.latencyMs, "ms");
-    std::cout << "haptic       " << s.haptic.ticks << " ticks, " << s.haptic.stalledTicks << " stalled, "
-              << s.haptic.trappedTicks << " trapped, " << s.haptic.escapeTicks << " escaping\n";
-    printPart("  step      ", s.haptic.stepMicros, "us");
-    printPart("  query     ", s.contact.queryMicros, "us");
-    std::cout << "  force      up to " << s.haptic.maxForce << " N, torque up to " << s.haptic.maxTorque
-              << " N m, stiffness " << s.haptic.stiffness.value_or(0.0) << " N/m\n"
-              << "  penetration ";
-    if (s.haptic.maxPenetration) {
-        std::cout << *s.haptic.maxPenetration * 1e6 << " um\n";
-    } else {
-        std::cout << "not audited\n";
-    }
-    if (s.arm) {
-        print(*s.arm);
-    }
-    for (const auto& f : s.fixtures) {
-        std::cout << "fixture      " << f.name << " (" << f.role << "): " << f.pointsMean.value_or(0.0)
-                  << " points, " << f.spheresMean.value_or(0.0) << " spheres per frame\n";
-    }
-    for (const std::string& warning : s.warnings) {
-        std::cout << "warning      " << warning << "\n";
-    }
-    std::cout << "digest       " << s.digest << "\nwritten to   " << out.string() << "\n";
-}
-
-void printBudgets(const ReplaySummary& summary, const Session& session) {
-    const size_t leaves = summary.arm ? summary.arm->leaves : session.tool.leafCount();
-    for (const BudgetFigure& f :
-         budgetFigures(summary, session.camera->info().depth, session.cycles.facts().kind, leaves)) {
-        std::cout << "budget       " << f.what << " " << decimal(f.measured) << " " << f.unit << ", at most "
-                  << f.budget << " " << f.unit << (f.note.empty() ? "" : " (" + f.note + ")")
-                  << (f.holds() ? ", met\n" : ", MISSED\n");
-    }
-}
-
-void print(const RealtimeFigures& f, const ThreadPlacement& placement, const ReplaySummary& s) {
-    std::cout << "realtime     " << describe(placement) << (f.stopped ? "; stopped by a signal" : "") << "\n";
-    printPart("  woken late", f.wokenLateMicros, "us");
-    printPart("  exposed   ", f.exposureMs, "ms before the set was published");
-    std::cout << "  ticks     " << s.haptic.late << " of " << s.haptic.ticks
-              << " ended over one period late, " << f.periodsMissed << " periods without one\n  frames    "
-              << f.framesLost << (f.live ? " lost" : " that a live camera would have lost") << ", "
-              << f.framesInPlace << " read where the camera left them; scene too old in " << f.staleTicks
-              << " ticks\n";
-    if (f.renewals > 0) {
-        std::cout << "  device    lost and reopened " << f.renewals << " times\n";
-    }
-    if (f.recordsLost > 0) {
-        std::cout << "  records   " << f.recordsLost << " lost: the writer could not keep up\n";
-    }
-}
-
-void print(const ReplaySummary::Arm::Driven& driven) {
-    std::cout << "real arm     " << driven.description << ": at the end " << driven.lastState << "; ticks";
-    for (const auto& [state, ticks] : driven.ticks) {
-        std::cout << (&state == &driven.ticks.front().first ? " " : ", ") << ticks << " " << state;
-    }
-    std::cout << "\n  line      " << driven.damaged << " frames damaged, opened again " << driven.reopened
-              << " times, feedback up to " << driven.oldest * 1e3 << " ms old\n";
-    printPart("  tip behind", driven.tipLag, "m");
-}
-
-void print(const LiveHand& hand) {
-    const LiveHandFigures f = hand.figures();
-    std::cout << "hand         " << hand.description() << ": " << axesOf(hand.preset()) << "\n  samples   "
-              << f.samples << ", oldest used " << f.worstAge * 1e3 << " ms; lost " << f.losses << " times, "
-              << f.unsent << " wrenches not taken\n";
-}
-
 std::unique_ptr<CadenceTrace> openTrace(const Session& session, const GlobalOptions& global) {
     return global.trace.empty()
                ? nullptr
                : std::make_unique<CadenceTrace>(global.trace, session.cycles.frames().passNames());
 }
 
+// realArm: its description; empty = none.
+ReplayRecorder recorderOf(Session& session, const ReplayOptions& options, const std::string& realArm) {
+    return ReplayRecorder(options.out, session.scene, {session.cycles.camera(), session.camera->streams()},
+                          session.cycles.frames().passNames(), options.saveFixtures, session.arm.get(),
+                          realArm, &session.edits);
+}
+
+void report(const ReplaySummary& summary, const ReplayOptions& options, const Session& session) {
+    printSummary(summary, options.out);
+    printBudgets(summary, session);
+}
+
 ReplaySummary runLockstep(const ReplayOptions& options, const GlobalOptions& global) {
     Session session(options, global);
     const auto trace = openTrace(session, global);
-    ReplayRecorder recorder(options.out, session.scene, {session.cycles.camera(), session.camera->streams()},
-                            session.cycles.frames().passNames(), options.saveFixtures, session.arm.get(), "",
-                            &session.edits);
+    ReplayRecorder recorder = recorderOf(session, options, "");
     LockstepReplay replay(session, options, recorder, trace.get());
     const ReplaySummary summary = recorder.finish(replay.run());
     if (trace) {
         trace->file().finish();
     }
-    print(summary, options.out);
-    printBudgets(summary, session);
+    report(summary, options, session);
     return summary;
 }
 
@@ -167,23 +60,21 @@ ReplaySummary runRealtime(const ReplayOptions& options, const GlobalOptions& glo
                        "with a recording or a simulated camera: a live one has a rate of its own");
     }
     const auto trace = openTrace(session, global);
-    ReplayRecorder recorder(options.out, session.scene, {session.cycles.camera(), session.camera->streams()},
-                            session.cycles.frames().passNames(), options.saveFixtures, session.arm.get(),
-                            session.realArm ? session.realArm->description() : "", &session.edits);
+    ReplayRecorder recorder =
+        recorderOf(session, options, session.realArm ? session.realArm->description() : "");
     RealtimeReplay replay(session, options, recorder, placement, trace.get());
     const ReplaySummary summary = recorder.finish(replay.run());
     if (trace) {
         trace->file().finish();
     }
     replay.rethrowFailure();
-    print(summary, options.out);
-    printBudgets(summary, session);
-    print(replay.figures(), placement, summary);
+    report(summary, options, session);
+    printRealtime(replay.figures(), placement, summary);
     if (session.liveHand) {
-        print(*session.liveHand);
+        printHand(*session.liveHand);
     }
     if (summary.arm && summary.arm->driven) {
-        print(*summary.arm->driven);
+        printDrivenArm(*summary.arm->driven);
     }
     if (session.realArm && session.realArm->gone()) {
         throw DeviceLost(session.realArm->description() + ": gone");
