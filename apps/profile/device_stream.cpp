@@ -180,7 +180,7 @@ double TimedSubmissions::once(const std::function<void(gpu::Commands&)>& record)
     watch_.mark(commands_.handle());
     commands_.end();
     const Clocks clocks;
-    device_.submit(commands_.handle(), timeline_.handle(), 0, ++ticket_);
+    device_.submit(commands_.handle(), {}, {timeline_.handle(), ++ticket_});
     timeline_.wait(ticket_);
     lastWallMs_ = clocks.wallMs();
     return watch_.works() ? watch_.intervalsMs().front() : lastWallMs_;

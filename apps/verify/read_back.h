@@ -18,7 +18,7 @@ std::vector<T> readBack(gpu::Device& device, const gpu::Buffer& buffer) {
     commands.begin();
     commands.copy(buffer, landing, buffer.bytes());
     commands.end();
-    device.submit(commands.handle(), timeline.handle(), 0, 1);
+    device.submit(commands.handle(), {}, {timeline.handle(), 1});
     timeline.wait(1);
     const auto view = landing.as<T>();
     return {view.begin(), view.end()};

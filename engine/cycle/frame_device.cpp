@@ -47,7 +47,7 @@ uint32_t FrameDevice::slotFor(const Frame& frame) {
 }
 
 void FrameDevice::submit(const gpu::Commands& commands) {
-    device_.submit(commands.handle(), timeline_.handle(), ticket_, ticket_ + 1);
+    device_.submit(commands.handle(), {timeline_.handle(), ticket_}, {timeline_.handle(), ticket_ + 1});
     ++ticket_;
 }
 

@@ -174,10 +174,9 @@ uint32_t Device::hostPointerTypes(const void* memory) const {
     return bits;
 }
 
-void Device::submit(VkCommandBuffer commands, VkSemaphore timeline, uint64_t waitValue,
-                    uint64_t signalValue) {
+void Device::submit(VkCommandBuffer commands, const At& wait, const At& signal) {
     const std::lock_guard lock(queueMutex_);
-    submitTo(queue_, commands, {timeline, waitValue}, {timeline, signalValue});
+    submitTo(queue_, commands, wait, signal);
 }
 
 void Device::submitQuery(VkCommandBuffer commands, const At& wait, const At& signal) {

@@ -59,9 +59,9 @@ public:
         VkSemaphore timeline = VK_NULL_HANDLE;
         uint64_t value = 0; // 0 = nothing to wait for
     };
-    // Submits one command buffer; waits for waitValue of the timeline when not 0 and signals signalValue.
-    // Holds the queue's mutex during the call. Never called by the haptic thread.
-    void submit(VkCommandBuffer commands, VkSemaphore timeline, uint64_t waitValue, uint64_t signalValue);
+    // Submits one command buffer between two values. Holds the queue's mutex during the call. Never called by
+    // the haptic thread.
+    void submit(VkCommandBuffer commands, const At& wait, const At& signal);
     // The same on the queue for contact queries, which does not wait for frames. It is the queue above if the
     // device has no other (ownQueryQueue() is false).
     void submitQuery(VkCommandBuffer commands, const At& wait, const At& signal);

@@ -86,7 +86,7 @@ TEST_CASE("Fill, update and copy take effect in the order in which they were rec
         commands.copy(a, b, a.bytes());
         commands.end();
         CHECK(commands.dispatches() == 0);
-        device.submit(commands.handle(), timeline.handle(), 0, 1);
+        device.submit(commands.handle(), {}, {timeline.handle(), 1});
         timeline.wait(1);
         CHECK(timeline.value() == 1);
         CHECK(b.as<uint32_t>()[0] == 42);
@@ -158,7 +158,7 @@ TEST_CASE("The stopwatch measures the work between two marks, in milliseconds") 
         watch.mark(commands.handle()); // one more than fits
         commands.end();
         const Clock::time_point started = Clock::now();
-        device.submit(commands.handle(), timeline.handle(), 0, ticket);
+        device.submit(commands.handle(), {}, {timeline.handle(), ticket});
         timeline.wait(ticket);
         return std::chrono::duration<double, std::milli>(Clock::now() - started).count();
     };
