@@ -19,6 +19,7 @@ TEST_CASE("The sonar scene pushes back before the tool touches steel or block, a
     const auto summary = nlohmann::json::parse(std::ifstream(out / "summary.json"));
     CHECK(summary["haptic"]["max_penetration_m"].get<double>() <= 1e-5);
     CHECK(summary["haptic"]["max_force_N"].get<double>() > 0.5);
+    REQUIRE(summary["fixtures"].size() == 2);
     for (const auto& fixture : summary["fixtures"]) {
         CHECK(fixture["points_mean"].get<double>() > 100.0);
     }
