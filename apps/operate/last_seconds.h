@@ -37,7 +37,7 @@ struct KeptPast {
     std::vector<std::shared_ptr<const KeptFrame>> frames;
     KeptScene first;              // the fixtures at the first frame
     std::vector<KeptScene> later; // and after
-    double seconds() const;       // from the first to the last frame
+    double seconds() const;       // [s] from the first to the last frame
 };
 
 class LastSeconds final : public RunSink {

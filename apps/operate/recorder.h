@@ -46,7 +46,7 @@ public:
     std::string failure() const;
     uint64_t lost() const { return lost_.load(); }
     uint64_t images() const { return images_.load(); }
-    double seconds() const { return seconds_.load(); } // from the first to the last frame of the recording
+    double seconds() const { return seconds_.load(); } // [s] from the first to the last frame
     uint64_t bytes() const;                            // on disk
 
     // Writer thread of the run.

@@ -16,12 +16,17 @@ double measuredBoundary(LoopSpec spec, double guess, bool rotational = false);
 // unit circle. The model has mass, damping, the hand's spring, zero-order hold, n ticks of delay, and virtual
 // damping B by backward difference. Damping and B act at the device.
 struct SampledLoop {
-    double mass, damping, handStiffness, period, virtualDamping;
-    uint32_t delay;
+    double mass;           // [kg], or [kg m^2] when rotational
+    double damping;        // [N s/m], or [N m s/rad]
+    double handStiffness;  // [N/m], or [N m/rad]
+    double period;         // [s]
+    double virtualDamping; // as damping
+    uint32_t delay;        // [ticks]
 };
 double computedBoundary(const SampledLoop& loop, double guess);
 
-// Analytic boundary (b + B) / (T/2 + n T), exact for a heavy device. With B = 0 it is the passive bound.
+// Analytic boundary (b + B) / (T/2 + n T), exact for a heavy device. With B = 0 it is the passive bound. Units
+// of SampledLoop.
 double lawOfBoundary(double damping, double virtualDamping, double period, uint32_t delay);
 
 } // namespace fathom::stability

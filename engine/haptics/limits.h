@@ -27,7 +27,7 @@ Wrench limitSlew(const Wrench& wanted, const Wrench& previous, double forceStep,
 // One-pole low-pass y += a (x - y), a = 1 - exp(-2 pi f T). Its delay in ticks is n = (1 - a)/a: with H =
 // a/(1 - r z^-1), r = 1 - a, Re{(1 - e^-jw) H}/(1 - cos w) = a (1 + r)/|1 - r e^-jw|^2, whose supremum at w =
 // 0 is (1 + r)/a = 1 + 2n. This is the delay term of the passivity bound in coupling.h. hz = 0 turns the
-// filter off: a = 1, n = 0.
+// filter off: a = 1, n = 0. period: of a tick [s].
 double lowPassGain(double hz, double period) noexcept;
 double lowPassDelayTicks(double gain) noexcept;
 Wrench lowPass(const Wrench& input, const Wrench& previous, double gain) noexcept;
