@@ -2,9 +2,9 @@
 #include "apps/stability/feel_noise_model.h"
 
 #include "apps/stability/case_text.h"
-#include "engine/reference/rng.h"
 #include "engine/reference/classify.h"
 #include "engine/reference/estimate.h"
+#include "engine/reference/rng.h"
 #include "engine/reference/surface.h"
 
 #include <algorithm>

@@ -2,8 +2,8 @@
 // Group guidance on point sets: non-planar sets, exact planes, noise against theory, eigenvectors.
 #include "apps/stability/case_text.h"
 #include "apps/stability/guidance_parts.h"
-#include "engine/reference/rng.h"
 #include "engine/cloud/guidance_pose.h"
+#include "engine/reference/rng.h"
 #include "engine/types/angle.h"
 
 #include <algorithm>

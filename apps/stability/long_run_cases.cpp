@@ -4,8 +4,8 @@
 #include "apps/replay/digest.h"
 #include "apps/stability/case_text.h"
 #include "apps/stability/loop_rig.h"
-#include "engine/reference/rng.h"
 #include "apps/stability/worlds.h"
+#include "engine/reference/rng.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,8 +3,8 @@
 // rotation_device_cases.cpp.
 #include "apps/stability/case_text.h"
 #include "apps/stability/pressing.h"
-#include "engine/reference/rng.h"
 #include "apps/stability/step_timer.h"
+#include "engine/reference/rng.h"
 
 #include <algorithm>
 #include <cmath>

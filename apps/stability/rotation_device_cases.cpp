@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Group rotation, devices: quaternions of any length, devices without torque or with an inactive axis.
 #include "apps/stability/case_text.h"
-#include "engine/reference/rng.h"
 #include "apps/stability/step_timer.h"
+#include "engine/reference/rng.h"
 
 #include <algorithm>
 #include <cmath>

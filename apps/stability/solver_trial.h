@@ -3,9 +3,9 @@
 // long double.
 #pragma once
 
-#include "engine/reference/row_sets.h"
 #include "engine/haptics/constraint_solver.h"
 #include "engine/reference/nearest_point.h"
+#include "engine/reference/row_sets.h"
 
 #include <array>
 #include <cstdint>

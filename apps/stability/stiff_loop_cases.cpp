@@ -3,9 +3,9 @@
 // solver's metric matches the springs.
 #include "apps/stability/case_text.h"
 #include "apps/stability/loop_rig.h"
-#include "engine/reference/rng.h"
 #include "apps/stability/stiff_cases.h"
 #include "apps/stability/worlds.h"
+#include "engine/reference/rng.h"
 #include "engine/types/angle.h"
 
 #include <algorithm>

@@ -40,8 +40,9 @@ void noteLimit(std::vector<std::string>& notes, const char* field, std::optional
 void noteSlew(std::vector<std::string>& notes, double slew) {
     const double usual = Scene::Haptics().slewForce;
     if (slew > usual) {
-        notes.push_back("haptics.limits.slew_N_per_s: " + significant(slew, 4) + " N/s, over the default of " +
-                        significant(usual, 4) + ": steps of the force are felt as clicks");
+        notes.push_back("haptics.limits.slew_N_per_s: " + significant(slew, 4) +
+                        " N/s, over the default of " + significant(usual, 4) +
+                        ": steps of the force are felt as clicks");
     }
 }
 
