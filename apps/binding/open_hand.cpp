@@ -27,8 +27,16 @@ std::unique_ptr<LiveHand> open(const std::string& name, uint32_t clutchBit) {
                                                 options);
     }
     const bool bridged = name == "falcon" || name == "haply" || name == "ros2"; // through `fathom guard`
-    return std::make_unique<SocketHand>(bridged ? defaultEndpoint(name) : std::filesystem::path(name),
-                                        clutchBit);
+    if (bridged) {
+        return std::make_unique<SocketHand>(
+            defaultEndpoint(name, "--hand-device PATH, the socket of the bridge"), clutchBit);
+    }
+    std::error_code failed;
+    if (name.find('/') == std::string::npos && !std::filesystem::exists(name, failed)) {
+        throw BadInput("--hand-device", name, "no such device and no socket",
+                       "falcon, haply, ros2, spacemouse, or the socket of a bridge");
+    }
+    return std::make_unique<SocketHand>(name, clutchBit);
 }
 
 std::string listed(const AxisMask& axes) {

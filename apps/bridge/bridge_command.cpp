@@ -65,8 +65,9 @@ HaplyBridge::Options haplyOptions(const BridgeOptions& options, const std::files
 
 void bridgeDevice(const BridgeOptions& options) {
     const StopSignals signals;
-    const std::filesystem::path endpoint =
-        options.endpoint.empty() ? defaultEndpoint(options.kind) : std::filesystem::path(options.endpoint);
+    const std::filesystem::path endpoint = options.endpoint.empty()
+                                               ? defaultEndpoint(options.kind, "--door PATH")
+                                               : std::filesystem::path(options.endpoint);
     if (options.kind == "haply") {
         HaplyBridge bridge(haplyOptions(options, endpoint));
         runBridge(bridge, options, signals);

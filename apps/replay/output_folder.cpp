@@ -70,6 +70,9 @@ void removeAll(const std::filesystem::path& folder, bool (*wanted)(const std::fi
 } // namespace
 
 void makeOutputFolder(const std::filesystem::path& folder) {
+    if (folder.empty()) {
+        throw BadInput("--out", "value", "empty", "a folder");
+    }
     std::error_code failed;
     std::filesystem::create_directories(folder, failed);
     if (failed == std::errc::no_space_on_device) {

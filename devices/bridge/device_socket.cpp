@@ -46,6 +46,12 @@ int newSocket() noexcept {
     throw BadInput("socket", path.string(), what, allowed);
 }
 
+// The device whose bridge makes this socket by default; of another path, an example.
+std::string deviceOf(const std::filesystem::path& path) {
+    const std::string name = path.stem().string(), begin = "fathom-";
+    return name.starts_with(begin) ? name.substr(begin.size()) : "falcon";
+}
+
 const char* const kPathAllowed = "a path of 1 to 107 characters";
 
 // A stale socket file without a listener may be replaced.
@@ -143,7 +149,8 @@ DeviceSocket DeviceSocket::connect(const std::filesystem::path& path) {
         refuse(path, "no permission", "a socket that you may write to (chmod)");
     case ENOENT:
     case ECONNREFUSED:
-        refuse(path, "no bridge listens", "the socket of a running bridge, such as `fathom guard falcon`");
+        refuse(path, "no bridge listens",
+               "the socket of a running bridge, such as `fathom guard " + deviceOf(path) + "`");
     case EAGAIN:
         refuse(path, "busy", "a bridge without another engine");
     case EPROTOTYPE:
@@ -199,10 +206,10 @@ SocketEvent DeviceSocket::receiveBytes(void* data, size_t size, size_t& got) noe
     return SocketEvent::Closed;
 }
 
-std::filesystem::path defaultEndpoint(const std::string& name) {
+std::filesystem::path defaultEndpoint(const std::string& name, const std::string& instead) {
     const char* folder = std::getenv("XDG_RUNTIME_DIR");
     if (folder == nullptr || *folder == '\0') {
-        throw BadInput("socket", "path", "missing, and XDG_RUNTIME_DIR is not set", "--door PATH");
+        throw BadInput("socket", "path", "missing, and XDG_RUNTIME_DIR is not set", instead);
     }
     return std::filesystem::path(folder) / ("fathom-" + name + ".door");
 }

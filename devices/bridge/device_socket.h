@@ -86,7 +86,7 @@ inline fathom_door_header socketHeader(uint16_t kind, size_t size, uint64_t sequ
 }
 
 // $XDG_RUNTIME_DIR/fathom-NAME.door. Throws BadInput when that variable is not set; the user must then give a
-// path.
-std::filesystem::path defaultEndpoint(const std::string& name);
+// path, as `instead` says.
+std::filesystem::path defaultEndpoint(const std::string& name, const std::string& instead);
 
 } // namespace fathom

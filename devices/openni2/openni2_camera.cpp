@@ -43,9 +43,8 @@ std::optional<openni::VideoMode> bestMode(const openni::VideoStream& stream, con
 
 void refuseOpenNi2(const std::string& uri, const std::string& field, const std::string& allowed) {
     std::string why = openni::OpenNI::getExtendedError();
-    while (!why.empty() && std::isspace(static_cast<unsigned char>(why.back())) != 0) {
-        why.pop_back();
-    }
+    const size_t first = why.find_first_not_of(" \t\r\n"), last = why.find_last_not_of(" \t\r\n");
+    why = first == std::string::npos ? "" : why.substr(first, last - first + 1);
     throw BadInput(uri.empty() ? "openni2" : uri, field, why.empty() ? "not to be had" : why, allowed);
 }
 

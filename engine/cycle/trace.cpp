@@ -6,8 +6,10 @@
 #include "engine/types/number_text.h"
 #include "engine/types/replaceable.h"
 
+#include <cerrno>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <system_error>
 
 namespace fathom {
@@ -52,7 +54,7 @@ Trace::Trace(std::filesystem::path file, uint64_t maxBytes)
     , out_(temporary_, std::ios::binary | std::ios::trunc)
     , start_(std::chrono::steady_clock::now()) {
     if (!out_) {
-        throw Error("trace " + file_.string() + ": cannot be written");
+        throw BadInput("trace", file_.string(), std::strerror(errno), "a file that can be written");
     }
     put("{\"displayTimeUnit\":\"ms\",\"traceEvents\":[\n");
     put(R"({"ph":"M","name":"process_name","pid":1,"tid":0,"args":{"name":"fathom"}})");

@@ -46,7 +46,7 @@ YamlNode YamlNode::parseText(const std::filesystem::path& file, const std::strin
         return YamlNode(onlyYamlDocument(file.string(), text), file.string(), "");
     } catch (const YAML::Exception& e) {
         const std::string where = e.mark.is_null() ? "syntax" : "line " + std::to_string(e.mark.line + 1);
-        throw BadInput(file.string(), where, excerpt(e.msg), "YAML");
+        throw BadInput(file.string(), where, excerpt(e.msg), "YAML, indented with spaces");
     }
 }
 

@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
 #include <fstream>
+#include <unistd.h>
 
 namespace fathom {
 
@@ -23,7 +25,18 @@ std::string endingOf(const std::filesystem::path& file) {
 
 std::string whyUnreadable(const std::filesystem::path& file) {
     std::error_code failed;
-    return std::filesystem::is_other(file, failed) ? "a pipe or a device" : "cannot be read";
+    switch (std::filesystem::status(file, failed).type()) {
+    case std::filesystem::file_type::not_found:
+        return "no such file";
+    case std::filesystem::file_type::directory:
+        return "a folder";
+    case std::filesystem::file_type::regular:
+        return ::access(file.c_str(), R_OK) != 0 && errno == EACCES ? "permission denied" : "cannot be read";
+    case std::filesystem::file_type::none:
+        return failed == std::errc::permission_denied ? "permission denied" : "cannot be read";
+    default:
+        return "a pipe or a device";
+    }
 }
 
 std::optional<std::string> readFileAtMost(const std::filesystem::path& file, size_t most) {
@@ -52,7 +65,7 @@ std::optional<std::string> readFileAtMost(const std::filesystem::path& file, siz
 std::string readWholeFile(const std::filesystem::path& file, size_t most, const std::string& kind) {
     std::optional<std::string> text = readFileAtMost(file, most);
     if (!text) {
-        throw BadInput(file.string(), "file", whyUnreadable(file), kind);
+        throw BadInput(file.empty() ? "''" : file.string(), "file", whyUnreadable(file), kind);
     }
     if (text->size() > most) {
         std::error_code failed;

@@ -216,8 +216,11 @@ TEST_CASE("A frame's passes follow each other from its submission on, on the dev
 
 TEST_CASE("A trace that cannot be written is reported by name, and an earlier one stays until the new one is "
           "complete") {
-    CHECK_THROWS_WITH_AS(Trace("/no/such/folder/run.json"),
-                         "trace /no/such/folder/run.json: cannot be written", Error);
+    CHECK_THROWS_WITH_AS(
+        Trace("/no/such/folder/run.json"),
+        "trace: /no/such/folder/run.json: No such file or directory (allowed: a file that can be "
+        "written)",
+        BadInput);
     TraceFile file;
     std::ofstream(file.path) << "{\"traceEvents\":[]}";
     Trace trace(file.path);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/rig/run_fathom.h"
+#include "tests/support/scratch_folder.h"
 
 #include <doctest/doctest.h>
 #include <string>
@@ -54,4 +55,34 @@ TEST_CASE("Standard output that takes nothing, as on a full disk, is an error") 
     };
     CHECK(exitCodeOf("/dev/null") == 0);
     CHECK(exitCodeOf("/dev/full") == 1);
+}
+
+TEST_CASE("An empty output folder or scene, and a trace that cannot be written, are rejected in one line") {
+    const testing::ScratchFolder folder;
+    checkRefusedArguments({"replay", "apps/scenes/demo.yaml", "--out", ""},
+                          "fathom: --out: value: empty (allowed");
+    checkRefusedArguments({"plan", ""}, "fathom: '': file: no such file (allowed: a readable scene file");
+    checkRefusedArguments({"plan", "apps/scenes/demo.yaml", "--source", "none.bag"},
+                          "fathom: none.bag: file: ");
+    checkRefusedArguments({"replay", "apps/scenes/demo.yaml", "--out", (folder.path() / "out").string(),
+                           "--trace", "/no/such/t.json"},
+                          "fathom: trace: /no/such/t.json: No such file");
+}
+
+TEST_CASE(
+    "A missing bridge is named with the command that starts it, and an unknown device with those there are") {
+    const auto refused = [](const std::string& hand, const std::string& line) {
+        checkRefusedArguments(
+            {"replay", "apps/scenes/demo.yaml", "--out", "none", "--realtime", "--hand-device", hand}, line);
+    };
+    refused("omega", "fathom: --hand-device: omega: no such device and no socket (allowed: falcon, ");
+    const testing::ScratchFolder folder;
+    ::setenv("XDG_RUNTIME_DIR", folder.path().c_str(), 1);
+    refused(
+        "haply",
+        "fathom: socket: " + (folder.path() / "fathom-haply.door").string() +
+            ": no bridge listens (allowed: the socket of a running bridge, such as `fathom guard haply`)");
+    ::unsetenv("XDG_RUNTIME_DIR");
+    refused("falcon",
+            "fathom: socket: path: missing, and XDG_RUNTIME_DIR is not set (allowed: --hand-device PATH");
 }

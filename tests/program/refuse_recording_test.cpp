@@ -96,7 +96,7 @@ TEST_CASE(
     Stage stage;
     stage.recording({bumpImage()});
     const std::string header = "t_s,x,y,z,qw,qx,qy,qz,button\n", path = (stage / "hand.csv").string();
-    checkRefused(stage, {"absent.csv", "cannot be read"}, {"--operator", (stage / "absent.csv").string()});
+    checkRefused(stage, {"absent.csv", "no such file"}, {"--operator", (stage / "absent.csv").string()});
     const auto refused = [&](const std::string& text, const std::vector<std::string>& parts) {
         stage.write("hand.csv", text);
         INFO(text);

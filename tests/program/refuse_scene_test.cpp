@@ -159,13 +159,13 @@ TEST_CASE("plan rejects an invalid scene with the same line as replay") {
     const std::string file = (stage / "scene.yaml").string();
     checkRefusal({"plan", file, "--source", (stage / "rec").string()},
                  {"scene.yaml", "haptics.device", "w5x", "ideal"});
-    checkRefusal({"plan", file + "x"}, {"scene.yamlx", "file", "cannot be read"});
+    checkRefusal({"plan", file + "x"}, {"scene.yamlx", "file", "no such file"});
 }
 
 TEST_CASE("A scene file that is missing, a folder, empty, not YAML or without fixtures is rejected") {
     Stage stage;
     std::filesystem::remove(stage / "scene.yaml");
-    checkRefused(stage, {"scene.yaml", "file", "cannot be read", "allowed: "});
+    checkRefused(stage, {"scene.yaml", "file", "no such file", "allowed: "});
     std::filesystem::create_directories(stage / "scene.yaml");
     checkRefused(stage, {"scene.yaml", "none", "a folder that the window recorded"});
     std::filesystem::remove(stage / "scene.yaml");

@@ -265,7 +265,7 @@ TEST_CASE("An oversized scene is rejected with its size and the limit") {
 TEST_CASE("A missing file, one that is not YAML and one nested too deep are rejected, with the line") {
     checkRefused({
         {kMinimal + "camera: {near: 1\n", "line ", "YAML"},
-        {kMinimal + "hold_s: 1\n\tcamera: 2\n", "line 4: ", "YAML"},
+        {kMinimal + "hold_s: 1\n\tcamera: 2\n", "line 4: ", "YAML, indented with spaces"},
         {kMinimal + "---\nhold_s: 1\n", "line 3: more than a YAML document", "one document"},
         {",", "line 1: more than a YAML document", "one document"},
         {kMinimal + "]\n", "line ", "YAML"},
@@ -274,8 +274,8 @@ TEST_CASE("A missing file, one that is not YAML and one nested too deep are reje
         {"fixtures: &a [*a]\n" + kTool, "fixtures[0]: ", "a mapping"},
         {std::string("\x00\x01\xff\xfe{", 5), "", ""},
     });
-    for (const auto& [path, why] : {std::pair("no/such/scene.yaml", "cannot be read"),
-                                    {"tests", "cannot be read"},
+    for (const auto& [path, why] : {std::pair("no/such/scene.yaml", "no such file"),
+                                    {"tests", "a folder"},
                                     {"/dev/zero", "a pipe or a device"}}) {
         CHECK(testing::refusalOf([&] { loadScene(path); }).find(std::string(path) + ": file: " + why) == 0);
     }
