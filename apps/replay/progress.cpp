@@ -2,6 +2,8 @@
 #include "apps/replay/progress.h"
 
 #include <algorithm>
+#include <cstdlib>
+#include <cstring>
 #include <unistd.h>
 
 namespace fathom {
@@ -10,6 +12,12 @@ namespace {
 
 constexpr auto kPeriod = std::chrono::milliseconds(100);
 constexpr uint32_t kCallsAClockReading = 32;
+
+// A terminal that can erase a line.
+bool isTerminal(std::FILE* out) {
+    const char* kind = std::getenv("TERM");
+    return ::isatty(::fileno(out)) == 1 && kind != nullptr && std::strcmp(kind, "dumb") != 0;
+}
 
 std::string rate(double count, double seconds) {
     const double value = seconds > 0.0 ? count / seconds : 0.0;
@@ -55,16 +63,14 @@ std::string progressText(const ProgressCounts& counts, double wallSeconds) {
     if (counts.framesOnly) {
         return text;
     }
-    text += ", ";
-    text += rate(static_cast<double>(counts.ticksDone), wallSeconds) + "ticks/s";
     char tail[64];
     const double pace = wallSeconds > 0.0 ? counts.runSeconds / wallSeconds : 0.0;
-    std::snprintf(tail, sizeof tail, ", %.1f s of run, %.2f x real time", counts.runSeconds, pace);
+    std::snprintf(tail, sizeof tail, ", %.2f x real time", pace);
     return text + tail;
 }
 
 Progress::Progress(std::FILE* out)
-    : Progress(out, ::isatty(::fileno(out)) == 1) {}
+    : Progress(out, isTerminal(out)) {}
 
 Progress::Progress(std::FILE* out, bool terminal)
     : out_(out)

@@ -17,11 +17,11 @@ struct ProgressCounts {
     bool framesOnly = false; // no ticks, and no clock of a run
 };
 
-// "frame 12 of 60, 5 s left, 31 frames/s, 8.4 k ticks/s, 2.1 s of run, 1.40 x real time". The time left is
+// "frame 12 of 60, 5 s left, 31 frames/s, 1.40 x real time". The time left is
 // shown from the first second on, by the run's time, else by its frames.
 std::string progressText(const ProgressCounts& counts, double wallSeconds);
 
-// Writes only when `out` is a terminal, and at most ten times per second, so update() may be called every
+// Writes only when `out` is a terminal that can erase a line, and at most ten times per second, so update() may be called every
 // tick and every frame. Never throws: a closed terminal must not fail a run.
 class Progress {
 public:

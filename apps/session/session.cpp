@@ -5,6 +5,7 @@
 #include "apps/binding/open_hand.h"
 #include "apps/binding/open_source.h"
 #include "apps/binding/raw_path.h"
+#include "apps/replay/progress.h"
 #include "apps/session/repeating_camera.h"
 #include "engine/types/error.h"
 #include "shaders/shared/frame_params.h"
@@ -61,13 +62,15 @@ std::unique_ptr<Camera> shuttle(const Scene& scene, const std::atomic<bool>& sto
             stderr,
             "fathom: the frames of the simulated camera are rendered in advance: they do not show the arm\n");
     }
-    auto camera =
-        std::make_unique<ShuttleCamera>(openCamera(scene, std::nullopt), kShuttled, stop, [](size_t taken) {
-            std::fprintf(stderr, "\rfathom: rendering the simulated camera, frame %zu of %zu", taken,
-                         kShuttled);
-        });
-    std::fprintf(stderr, "\n");
-    return camera;
+    Progress progress;
+    return std::make_unique<ShuttleCamera>(openCamera(scene, std::nullopt), kShuttled, stop,
+                                           [&progress](size_t taken) {
+                                               ProgressCounts counts;
+                                               counts.framesDone = taken;
+                                               counts.framesTotal = kShuttled;
+                                               counts.framesOnly = true;
+                                               progress.update(counts);
+                                           });
 }
 
 std::unique_ptr<Camera> openAny(const Scene& scene, const SessionOptions& options,
