@@ -63,8 +63,8 @@ void inspect(const std::string& source, const std::optional<std::filesystem::pat
 } // namespace
 
 void addInspectCommand(CLI::App& app) {
-    CLI::App* command =
-        app.add_subcommand("inspect", "say what a recording or camera holds, and what is taken of it");
+    CLI::App* command = app.add_subcommand(
+        "inspect", "print what a recording or camera contains, and which streams Fathom uses");
     const auto source = std::make_shared<std::string>();
     const auto out = std::make_shared<std::string>();
     command->add_option("SOURCE", *source, "a recording or a live camera, as for --source")->required();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `fathom inspect SOURCE`: what a recording or camera holds, and what Fathom takes of it.
+// `fathom inspect SOURCE`: what a recording or camera contains, and which streams Fathom uses.
 #pragma once
 
 namespace CLI {

@@ -131,7 +131,8 @@ void addOperateCommand(CLI::App& app, const GlobalOptions& global) {
         ->add_option("--job", options->job,
                      "a line under exported images, such as vessel or task; give it at most twice")
         ->allow_extra_args(false);
-    command->add_option("--folder", options->shots, "where screenshots, traces and recordings go");
+    command->add_option("--folder", options->shots,
+                        "folder for screenshots, traces, recordings and exports (default: the current one)");
     command->callback([options, &global] { runOperate(*options, global); });
 }
 

@@ -270,7 +270,9 @@ void addSpheresCommand(CLI::App& app) {
         ->check(numberIn(Range::between(1e-9, 1e6)));
     command->add_option("--up", options->up, "axis of the file that becomes +z (default: unchanged)")
         ->check(wordIn({"x", "y", "z"}));
-    command->add_flag("--drop-stray", options->file.dropStray, "drop pieces that are far from the rest");
+    command->add_flag(
+        "--drop-stray", options->file.dropStray,
+        "drop pieces that are far from the rest (default: a mesh with such pieces is rejected)");
     command->add_option("--link", options->link, "link of a .urdf, .yaml, .xrdf or .json");
     command->add_option("--meshes", options->meshes, "folder to use for package:// in a .urdf");
     command->add_flag("--keep-stray", options->file.keepStray, "keep pieces that are far from the rest");

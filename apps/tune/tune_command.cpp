@@ -29,12 +29,13 @@ void addTuneCommand(CLI::App& app, const GlobalOptions& global, int& result) {
     command->add_option("--source", settings->source, kSourceHelp);
     command
         ->add_option("--error", settings->request.error,
-                     "largest RMS error of the felt surface [mm]; the fastest settings within it are chosen")
+                     "largest RMS error of the felt surface [mm]; the fastest settings within it are chosen; "
+                     "one of --error and --time is required")
         ->check(numberIn(Range::between(1e-4, 1e3)));
     command
         ->add_option("--time", settings->request.time,
                      "longest time from camera to force [ms], p50; the most accurate settings within it are "
-                     "chosen")
+                     "chosen; one of --error and --time is required")
         ->check(numberIn(Range::between(1e-4, 1e5)));
     command->add_option("--frames", settings->frames, "frames per point (24)")
         ->check(numberIn(Range::between(8, 240)));
