@@ -58,10 +58,10 @@ bool beginTab(Console& console, const Alarms& alarms, const HudInput& hud, Tab t
     }
     const bool open = ImGui::BeginTabItem(name, nullptr, wanted ? ImGuiTabItemFlags_SetSelected : 0);
     markPlace(console, std::string("tab ") + name);
-    explain(console, kTips[static_cast<int>(tab)]);
     if (calls || grey) {
         ImGui::PopStyleColor();
     }
+    explain(console, kTips[static_cast<int>(tab)]);
     if (calls) { // in the corner: a sign in the name would cut the names of other tabs
         const float r = 3.0f * console.scale();
         const ImVec2 corner{ImGui::GetItemRectMax().x, ImGui::GetItemRectMin().y};
