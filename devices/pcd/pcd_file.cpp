@@ -2,6 +2,8 @@
 #include "devices/pcd/pcd_file.h"
 
 #include "devices/pcd/ascii_value.h"
+#include "devices/pcd/colour_levels.h"
+#include "devices/pcd/pcd_field.h"
 #include "engine/types/error.h"
 #include "engine/types/read_file.h"
 
@@ -22,14 +24,8 @@ constexpr uint32_t kMaxWidth = 3840, kMaxHeight = 2160;
 constexpr size_t kMaxBytes = size_t{1} << 30;
 constexpr size_t kMaxBytesOfPoint = 4096;
 
-struct Field {
-    std::string name;
-    size_t size = 4, count = 1, offset = 0; // [bytes], values, [bytes] in a point
-    char type = 'F';
-};
-
 struct Header {
-    std::vector<Field> fields;
+    std::vector<PcdField> fields;
     uint32_t width = 0, height = 0;
     std::string data;
     size_t bytes = 0; // a point
@@ -84,12 +80,12 @@ void readHeaderLine(const Source& source, const std::vector<std::string>& words,
     const std::string& key = words.front();
     if (key == "FIELDS" || key == "COLUMNS") {
         for (size_t i = 1; i < words.size(); ++i) {
-            header.fields.push_back({words[i]});
+            header.fields.push_back({.name = words[i]});
         }
     } else if (key == "SIZE" || key == "TYPE" || key == "COUNT") {
         checkCount(source, words, header);
         for (size_t i = 0; i < header.fields.size(); ++i) {
-            Field& field = header.fields[i];
+            PcdField& field = header.fields[i];
             if (key == "TYPE") {
                 field.type = words[i + 1][0];
             } else {
@@ -120,7 +116,7 @@ Header readHeader(Source& source) {
     if (header.width < 2 || header.width > kMaxWidth) {
         source.refuse("WIDTH", std::to_string(header.width), "2 to " + std::to_string(kMaxWidth));
     }
-    for (Field& field : header.fields) {
+    for (PcdField& field : header.fields) {
         field.offset = header.bytes;
         header.bytes += field.size * field.count;
     }
@@ -137,7 +133,7 @@ std::vector<uint8_t> readAscii(Source& source, const Header& header) {
     std::istringstream in(text);
     std::vector<uint8_t> out(header.bytes * header.width * header.height, 0);
     for (size_t point = 0; point < size_t{header.width} * header.height; ++point) {
-        for (const Field& field : header.fields) {
+        for (const PcdField& field : header.fields) {
             for (size_t i = 0; i < field.count; ++i) {
                 std::string word;
                 if (!(in >> word)) {
@@ -170,7 +166,7 @@ std::vector<uint8_t> readCompressed(const Source& source, const Header& header) 
                       std::to_string(wanted) + ", undamaged");
     }
     std::vector<uint8_t> out(wanted);
-    for (const Field& field : header.fields) {
+    for (const PcdField& field : header.fields) {
         const size_t size = field.size * field.count;
         const uint8_t* column = columns.data() + field.offset * points;
         for (size_t i = 0; i < points; ++i) {
@@ -199,59 +195,54 @@ std::vector<uint8_t> readPoints(Source& source, const Header& header) {
     return {begin, begin + static_cast<long>(wanted)};
 }
 
-const Field* find(const Header& header, const char* name) {
+const PcdField* find(const Header& header, const char* name) {
     const auto it = std::find_if(header.fields.begin(), header.fields.end(),
-                                 [&](const Field& f) { return f.name == name; });
+                                 [&](const PcdField& f) { return f.name == name; });
     return it == header.fields.end() ? nullptr : &*it;
 }
 
-double realAt(const uint8_t* point, const Field& field) {
-    if (field.type == 'F' && field.size == 8) {
-        double value = 0.0;
-        std::memcpy(&value, point + field.offset, 8);
-        return value;
-    }
-    float value = 0.0f;
-    std::memcpy(&value, point + field.offset, 4);
-    return value;
+const PcdField* packedOrTriple(const Header& header) {
+    const PcdField* rgb = find(header, "rgb");
+    return rgb != nullptr ? rgb : find(header, "rgba");
 }
 
-// Fields r, g, b of one colour each: 8-bit integers, or floats of 0 to 1 or 0 to 255.
-std::vector<uint32_t> separateColours(const Header& header, const std::vector<uint8_t>& bytes) {
-    std::array<const Field*, 3> fields{};
+// A red, green or blue value.
+struct Level {
+    const PcdField* field = nullptr;
+    size_t value = 0; // of its COUNT
+};
+
+// Three values of one field, or fields of one colour each; without fields: none.
+std::array<Level, 3> colourLevels(const Header& header) {
+    if (const PcdField* triple = packedOrTriple(header); triple != nullptr && triple->count >= 3) {
+        return {Level{triple, 0}, Level{triple, 1}, Level{triple, 2}};
+    }
+    std::array<Level, 3> levels{};
     const char* const kNames[2][3] = {{"r", "g", "b"}, {"red", "green", "blue"}};
     for (const auto& names : kNames) {
         for (size_t i = 0; i < 3; ++i) {
-            fields[i] = fields[i] != nullptr ? fields[i] : find(header, names[i]);
+            levels[i].field = levels[i].field != nullptr ? levels[i].field : find(header, names[i]);
         }
     }
-    std::vector<uint32_t> colours;
-    for (const Field* field : fields) {
-        if (field == nullptr || (field->type == 'F' ? field->size < 4 : field->size != 1)) {
-            return colours;
+    return levels;
+}
+
+std::vector<uint32_t> separateColours(const Header& header, const std::vector<uint8_t>& bytes) {
+    const std::array<Level, 3> levels = colourLevels(header);
+    bool real = false;
+    for (const Level& level : levels) {
+        if (level.field == nullptr || !level.field->isNumber()) {
+            return {};
         }
+        real = real || level.field->type == 'F';
     }
-    const size_t points = size_t{header.width} * header.height;
-    const auto level = [&](size_t point, const Field& field) {
-        const uint8_t* at = bytes.data() + point * header.bytes;
-        return field.type == 'F' ? realAt(at, field) : static_cast<double>(at[field.offset]);
-    };
-    double most = 0.0;
-    for (size_t i = 0; i < points; ++i) {
-        for (const Field* field : fields) {
-            most = field->type == 'F' ? std::max(most, level(i, *field)) : 255.0;
-        }
-    }
-    const double scale = most <= 1.0 ? 255.0 : 1.0;
-    for (size_t i = 0; i < points; ++i) {
-        uint32_t colour = 0xff000000u;
+    std::vector<std::array<double, 3>> colours(size_t{header.width} * header.height);
+    for (size_t i = 0; i < colours.size(); ++i) {
         for (size_t c = 0; c < 3; ++c) {
-            const double value = scale * level(i, *fields[c]);
-            colour |= static_cast<uint32_t>(value > 0.0 ? std::min(255.0, value + 0.5) : 0.0) << 8 * c;
+            colours[i][c] = levels[c].field->at(bytes.data() + i * header.bytes, levels[c].value);
         }
-        colours.push_back(colour);
     }
-    return colours;
+    return packColours(colours, real);
 }
 
 } // namespace
@@ -260,25 +251,27 @@ PcdCloud readPcd(const std::filesystem::path& file) {
     const std::string text = readWholeFile(file, kMaxBytes, "an organised PCD file");
     Source source{file.string(), {text.begin(), text.end()}, 0};
     const Header header = readHeader(source);
-    const Field *x = find(header, "x"), *y = find(header, "y"), *z = find(header, "z");
-    const Field* colour = find(header, "rgb") != nullptr ? find(header, "rgb") : find(header, "rgba");
-    const Field* intensity = find(header, "intensity");
-    for (const Field* field : {x, y, z}) {
-        if (field == nullptr || field->type != 'F' || field->size < 4) {
-            source.refuse("FIELDS", field == nullptr ? "no x, y, z" : field->name, "x, y and z of type F");
+    const PcdField *x = find(header, "x"), *y = find(header, "y"), *z = find(header, "z");
+    const PcdField* colour = packedOrTriple(header);
+    const PcdField* intensity = find(header, "intensity");
+    for (const PcdField* field : {x, y, z}) {
+        if (field == nullptr || field->type != 'F' || !field->isNumber()) {
+            source.refuse("FIELDS", field == nullptr ? "no x, y, z" : field->name,
+                          "x, y and z of type F and size 4 or 8");
         }
     }
     const std::vector<uint8_t> bytes = readPoints(source, header);
     PcdCloud cloud{header.width, header.height, {}, {}, {}};
     for (size_t i = 0; i < size_t{header.width} * header.height; ++i) {
         const uint8_t* point = bytes.data() + i * header.bytes;
-        cloud.points.push_back({realAt(point, *x), realAt(point, *y), realAt(point, *z)});
-        if (colour != nullptr && colour->size == 4) { // 0xAARRGGBB in an integer or in a float's bits
+        cloud.points.push_back({x->at(point), y->at(point), z->at(point)});
+        if (colour != nullptr && colour->size == 4 &&
+            colour->count == 1) { // 0xAARRGGBB in an integer or in a float's bits
             const uint8_t* c = point + colour->offset;
             cloud.colour.push_back(uint32_t{c[2]} | uint32_t{c[1]} << 8 | uint32_t{c[0]} << 16 | 0xff000000u);
         }
-        if (intensity != nullptr && intensity->type == 'F') {
-            cloud.intensity.push_back(static_cast<float>(realAt(point, *intensity)));
+        if (intensity != nullptr && intensity->isNumber()) {
+            cloud.intensity.push_back(static_cast<float>(intensity->at(point)));
         }
     }
     if (cloud.colour.empty()) {

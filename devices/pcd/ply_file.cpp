@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/pcd/ply_file.h"
 
+#include "devices/pcd/colour_levels.h"
 #include "devices/pcd/ply_values.h"
 #include "engine/types/error.h"
 #include "engine/types/read_file.h"
@@ -43,8 +44,7 @@ private:
     struct Places {
         std::array<size_t, 3> point{}, colour{};
         size_t intensity = 0;
-        bool coloured = false;
-        double perLevel = 1.0; // values of a colour per 8-bit level, 0 = floats
+        bool coloured = false, real = false; // real: of its colour
     };
 
     Places placesOf(const PlyElement& vertex) const {
@@ -62,14 +62,10 @@ private:
             {"red", "green", "blue"}, {"r", "g", "b"}, {"diffuse_red", "diffuse_green", "diffuse_blue"}};
         for (const auto& names : kNames) {
             places.colour = {vertex.find(names[0]), vertex.find(names[1]), vertex.find(names[2])};
-            places.coloured = std::all_of(places.colour.begin(), places.colour.end(), [&](size_t at) {
-                return at < all.size() && !all[at].list &&
-                       (plyReal(all[at].type) || all[at].type == PlyType::Uint8 ||
-                        all[at].type == PlyType::Uint16);
-            });
+            places.coloured = std::all_of(places.colour.begin(), places.colour.end(),
+                                          [&](size_t at) { return at < all.size() && !all[at].list; });
             if (places.coloured) {
-                const PlyType type = all[places.colour[0]].type;
-                places.perLevel = plyReal(type) ? 0.0 : (type == PlyType::Uint8 ? 1.0 : 257.0);
+                places.real = plyReal(all[places.colour[0]].type);
                 break;
             }
         }
@@ -84,7 +80,6 @@ private:
         }
         std::vector<double> record(vertex.properties.size());
         std::vector<std::array<double, 3>> colours;
-        double most = 0.0;
         for (uint64_t i = 0; i < vertex.count; ++i) {
             for (size_t p = 0; p < record.size(); ++p) {
                 record[p] = values_.property(vertex.properties[p], vertex.name, i);
@@ -93,24 +88,12 @@ private:
             if (places.coloured) {
                 colours.push_back(
                     {record[places.colour[0]], record[places.colour[1]], record[places.colour[2]]});
-                for (const double level : colours.back()) {
-                    most = std::max(most, level);
-                }
             }
             if (places.intensity < record.size()) {
                 intensity_.push_back(static_cast<float>(record[places.intensity]));
             }
         }
-        // Floats are 0 to 1, or 0 to 255.
-        const double scale = places.perLevel > 0.0 ? 1.0 / places.perLevel : (most <= 1.0 ? 255.0 : 1.0);
-        for (const auto& colour : colours) {
-            uint32_t packed = 0xff000000u;
-            for (size_t c = 0; c < 3; ++c) {
-                const double level = colour[c] * scale + 0.5;
-                packed |= static_cast<uint32_t>(level > 0.0 ? std::min(255.0, level) : 0.0) << 8 * c;
-            }
-            colours_.push_back(packed);
-        }
+        colours_ = packColours(colours, places.real);
     }
 
     void readGrid(const PlyElement& grid) {

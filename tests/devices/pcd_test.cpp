@@ -197,6 +197,25 @@ TEST_CASE(
     CHECK(doubtMetres("a.pcd", 1e9) == "a.pcd: the nearest point is at 1e+09 m");
 }
 
+TEST_CASE("Fields of sizes that no number has are not read beyond their bytes") {
+    const TemporaryFolder folder;
+    std::string text = cloudText("binary"), cut;
+    text.replace(text.find("rgb"), 3, "intensity");
+    text.replace(text.find("SIZE 4 4 4 4"), 12, "SIZE 4 4 4 2");
+    text.replace(text.find("F F F U"), 7, "F F F F");
+    const size_t head = text.find("binary\n") + 7;
+    for (size_t at = head; at < text.size(); at += 16) {
+        cut += text.substr(at, 14);
+    }
+    folder.write("half.pcd", text.substr(0, head) + cut);
+    CHECK_FALSE(PcdCamera(folder.path() / "half.pcd").info().hasColour);
+    text = cloudText("binary");
+    text.replace(text.find("SIZE 4 4 4 4"), 12, "SIZE 5 4 4 4");
+    folder.write("five.pcd", text);
+    CHECK(refusal(folder.path() / "five.pcd")
+              .find("FIELDS: x (allowed: x, y and z of type F and size 4 or 8)") != std::string::npos);
+}
+
 TEST_CASE("A cloud with fields r, g, b has colour, and one in millimetres is scaled when that is said") {
     const TemporaryFolder folder;
     std::string text = "FIELDS x y z r g b\nSIZE 4 4 4 1 1 1\nTYPE F F F U U U\nCOUNT 1 1 1 1 1 1\nWIDTH 9\n"

@@ -133,6 +133,18 @@ TEST_CASE("An organised PLY gives its lens, depth and colour in every format, by
     }
 }
 
+TEST_CASE("Colours of a PLY in more than a byte are levels of 0 to 255 where none is larger") {
+    const TemporaryFolder folder;
+    for (const char* type : {"ushort", "short", "int", "uint"}) {
+        std::string text = whole("ascii", kPlySize);
+        for (const char* colour : {" red", " green", " blue"}) {
+            text = replaced(text, std::string("uchar") + colour, type + std::string(colour));
+        }
+        folder.write("a.ply", text);
+        testing::checkOrganisedCloud(folder.path() / "a.ply");
+    }
+}
+
 TEST_CASE("A PLY that is unorganised, truncated or contradicts its size is rejected with the line") {
     const std::string good = gridded("binary_big_endian");
     CHECK(plyRefusal(good).empty());
