@@ -2,6 +2,7 @@
 #include "apps/binding/open_recording.h"
 
 #include "devices/bag/open_bag.h"
+#include "devices/bag/split_recording.h"
 #include "devices/pcd/pcd_camera.h"
 #include "devices/recorded/recorded_camera.h"
 #include "engine/types/error.h"
@@ -78,8 +79,7 @@ void checkExists(const std::string& file) {
 }
 
 bool isRos2Folder(const std::filesystem::path& folder) {
-    return std::filesystem::exists(folder / "metadata.yaml") &&
-           !std::filesystem::exists(folder / "intrinsics.json");
+    return !std::filesystem::exists(folder / "intrinsics.json") && isRos2Recording(folder);
 }
 
 bool isMessages(const std::filesystem::path& file) {

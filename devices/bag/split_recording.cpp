@@ -19,6 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kMetadata = "metadata.yaml";
+constexpr const char* kBagInformation = "rosbag2_bagfile_information";
 constexpr unsigned kTopicBits = 40; // an entry's offset: topic of its file, and message of that topic
 
 // "rec_10.mcap" after "rec_9.mcap".
@@ -58,11 +60,11 @@ std::vector<fs::path> messageFiles(const fs::path& folder) {
 // relative_file_paths of metadata.yaml, each once and in the folder: versions before 4 write
 // "folder/folder_0.db3". None where the file has no such list or is damaged.
 std::vector<fs::path> listedFiles(const fs::path& folder) {
-    const fs::path metadata = folder / "metadata.yaml";
+    const fs::path metadata = folder / kMetadata;
     std::vector<fs::path> files;
     try {
         const YAML::Node root = onlyYamlDocument(metadata.string(), readTextFile(metadata));
-        for (const YAML::Node& name : root["rosbag2_bagfile_information"]["relative_file_paths"]) {
+        for (const YAML::Node& name : root[kBagInformation]["relative_file_paths"]) {
             const fs::path file = folder / fs::path(name.as<std::string>()).filename();
             if (file.has_filename() && std::find(files.begin(), files.end(), file) == files.end()) {
                 files.push_back(file);
@@ -121,6 +123,14 @@ void tellUnlisted(const fs::path& folder, const std::vector<fs::path>& there,
 }
 
 } // namespace
+
+bool isRos2Recording(const fs::path& folder) {
+    if (!fs::exists(folder / kMetadata)) {
+        return false;
+    }
+    return !messageFiles(folder).empty() ||
+           readTextFile(folder / kMetadata).find(kBagInformation) != std::string::npos;
+}
 
 SplitRecording::SplitRecording(const fs::path& folder)
     : MessageFile(folder) {

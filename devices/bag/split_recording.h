@@ -6,6 +6,10 @@
 
 namespace fathom {
 
+// Whether a folder has a metadata.yaml of ROS 2 or one beside .mcap or .db3 files, packed or not: data sets of
+// images may have a metadata.yaml of their own.
+bool isRos2Recording(const std::filesystem::path& folder);
+
 class SplitRecording final : public MessageFile {
 public:
     // The files that metadata.yaml lists, in its order. A file that is missing or cannot be opened is logged

@@ -124,6 +124,23 @@ TEST_CASE("Recordings of cameras' SDKs are recognised by their first bytes, and 
     }
 }
 
+TEST_CASE(
+    "A metadata.yaml marks a recording of ROS 2 by its content or by the files beside it, not by its name") {
+    const testing::ScratchFolder folder;
+    const auto write = [&](const char* name, const std::string& text) {
+        testing::put(folder.path() / name, text);
+    };
+    write("camera_intrinsic.json", "{}");
+    write("metadata.yaml", "name: kitchen\nlicense: CC-BY\n"); // of a data set of images
+    CHECK(openMessages(folder.path().string()) == nullptr);
+    write("metadata.yaml", "rosbag2_bagfile_information: {relative_file_paths: [a_0.mcap]}\n");
+    CHECK_THROWS_WITH_AS(openMessages(folder.path().string()), doctest::Contains("files: none"), BadInput);
+    std::filesystem::copy("tests/fuzz/corpus/mcap/zstd", folder.path() / "a_0.mcap");
+    CHECK(openMessages(folder.path().string()) != nullptr);
+    write("metadata.yaml", ""); // lost with the power
+    CHECK(openMessages(folder.path().string()) != nullptr);
+}
+
 TEST_CASE("The frames of a camera are counted, timed and measured, and its first frame is saved") {
     const testing::ScratchFolder folder;
     PlainCamera camera(11, 500, 0xff0000ff);
