@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace fathom {
 
@@ -114,6 +115,10 @@ std::vector<StampedFile> stampFilesOf(const fs::path& folder, const std::vector<
     return files;
 }
 
+bool beforeStamp(const StampedFile& file, double stamp) {
+    return file.stamp < stamp;
+}
+
 struct Candidate {
     double distance; // [s]
     size_t depth, colour;
@@ -125,8 +130,7 @@ std::vector<Candidate> closePairs(const std::vector<StampedFile>& depth,
                                   const std::vector<StampedFile>& colour, double within) {
     std::vector<Candidate> pairs;
     for (size_t d = 0; d < depth.size(); ++d) {
-        const auto at = std::lower_bound(colour.begin(), colour.end(), depth[d].stamp,
-                                         [](const StampedFile& c, double t) { return c.stamp < t; });
+        const auto at = std::lower_bound(colour.begin(), colour.end(), depth[d].stamp, beforeStamp);
         const size_t middle = static_cast<size_t>(at - colour.begin());
         const size_t last = std::min(middle + kCandidates, colour.size());
         for (size_t c = middle - std::min(middle, kCandidates); c < last; ++c) {
@@ -141,11 +145,9 @@ std::vector<Candidate> closePairs(const std::vector<StampedFile>& depth,
     return pairs;
 }
 
-// In the order of `depth`.
-std::vector<IndexLine> associate(const std::vector<StampedFile>& depth, std::vector<StampedFile> colour,
-                                 double within) {
-    std::stable_sort(colour.begin(), colour.end(),
-                     [](const StampedFile& a, const StampedFile& b) { return a.stamp < b.stamp; });
+// In the order of `depth`; colour in order of its stamps.
+std::vector<IndexLine> associate(const std::vector<StampedFile>& depth,
+                                 const std::vector<StampedFile>& colour, double within) {
     const size_t none = colour.size();
     std::vector<size_t> colourOf(depth.size(), none);
     std::vector<bool> taken(colour.size(), false);
@@ -185,7 +187,33 @@ std::vector<StampedFile> stampedDepth(const fs::path& folder, const RecordingInt
 struct FoundIndex {
     std::vector<IndexLine> lines;
     std::string source;
+    std::string whyNone = {}; // there are no lines
 };
+
+// The smallest distance of a depth stamp from a colour stamp; colour in order of its stamps, not empty.
+double nearestApart(const std::vector<StampedFile>& depth, const std::vector<StampedFile>& colour) {
+    double nearest = HUGE_VAL;
+    for (const StampedFile& image : depth) {
+        const auto after = std::lower_bound(colour.begin(), colour.end(), image.stamp, beforeStamp);
+        nearest = after == colour.end() ? nearest : std::min(nearest, after->stamp - image.stamp);
+        nearest = after == colour.begin() ? nearest : std::min(nearest, image.stamp - (after - 1)->stamp);
+    }
+    return nearest;
+}
+
+FoundIndex pairedByStamp(const std::vector<StampedFile>& depth, std::vector<StampedFile> colour,
+                         double within, const std::string& source) {
+    std::stable_sort(colour.begin(), colour.end(),
+                     [](const StampedFile& a, const StampedFile& b) { return a.stamp < b.stamp; });
+    FoundIndex found{associate(depth, colour, within), source};
+    if (found.lines.empty() && !depth.empty() && !colour.empty()) { // in another unit all are too far apart
+        std::ostringstream why;
+        why << ": depth and colour are at least " << nearestApart(depth, colour) << " apart, more than "
+            << within << " (stamps are seconds)";
+        found.whyNone = why.str();
+    }
+    return found;
+}
 
 FoundIndex findIndex(const fs::path& folder, const RecordingIntrinsics& intrinsics, bool depthOnly) {
     const bool hasDepth = fs::exists(folder / "depth.txt");
@@ -199,19 +227,17 @@ FoundIndex findIndex(const fs::path& folder, const RecordingIntrinsics& intrinsi
         return {withoutColour(readStampedFiles(folder, "depth.txt")), "depth.txt"};
     }
     if (hasDepth && fs::exists(folder / "rgb.txt")) {
-        return {associate(readStampedFiles(folder, "depth.txt"), readStampedFiles(folder, "rgb.txt"),
-                          kTumTolerance),
-                "rgb.txt and depth.txt"};
+        return pairedByStamp(readStampedFiles(folder, "depth.txt"), readStampedFiles(folder, "rgb.txt"),
+                             kTumTolerance, "rgb.txt and depth.txt");
     }
     if (depthOnly && !intrinsics.depthStamps.empty()) {
         return {withoutColour(stampedDepth(folder, intrinsics)), "depth_stamps_s"};
     }
     if (!intrinsics.depthStamps.empty() && !intrinsics.colourStamps.empty()) {
-        return {
-            associate(stampedDepth(folder, intrinsics),
-                      stampFilesOf(folder / "rgb", intrinsics.colourStamps, "color_stamps_s", kColourEndings),
-                      intrinsics.pairWithin),
-            "depth_stamps_s and color_stamps_s"};
+        return pairedByStamp(
+            stampedDepth(folder, intrinsics),
+            stampFilesOf(folder / "rgb", intrinsics.colourStamps, "color_stamps_s", kColourEndings),
+            intrinsics.pairWithin, "depth_stamps_s and color_stamps_s");
     }
     throw BadInput(folder.string(), "associations.txt", "missing",
                    "associations.txt, or rgb.txt and depth.txt, or stamps in intrinsics.json; without colour "
@@ -224,7 +250,7 @@ std::vector<IndexLine> readIndex(const fs::path& folder, const RecordingIntrinsi
                                  bool depthOnly) {
     FoundIndex found = findIndex(folder, intrinsics, depthOnly);
     if (found.lines.empty()) {
-        throw BadInput(folder.string(), found.source, "no pair of images", "at least one");
+        throw BadInput(folder.string(), found.source, "no pair of images" + found.whyNone, "at least one");
     }
     return std::move(found.lines);
 }

@@ -72,6 +72,20 @@ TEST_CASE("A heading without #, and a pause, change neither start nor what colou
     }
 }
 
+TEST_CASE("Stamps that are no seconds, and so pair nothing, are named with their distance") {
+    const TemporaryFolder folder;
+    writeSmallRecording(folder, 2);
+    std::filesystem::remove(folder.path() / "associations.txt");
+    folder.write("depth.txt", "1000 depth/0.png\n1033 depth/1.png\n"); // milliseconds
+    folder.write("rgb.txt", "1038 rgb/1.png\n1006 rgb/0.png\n");
+    CHECK(recordingRefusal(folder.path())
+              .find("rgb.txt and depth.txt: no pair of images: depth and colour are at "
+                    "least 5 apart, more than 0.02 (stamps are seconds)") != std::string::npos);
+    folder.write("depth.txt", "1000000000 depth/0.png\n");
+    folder.write("rgb.txt", "990000000 rgb/0.png\n");
+    CHECK(recordingRefusal(folder.path()).find("at least 1e+07 apart") != std::string::npos);
+}
+
 TEST_CASE("After a clock is set back, a folder plays on with times that rise, unless poses need its stamps") {
     const TemporaryFolder folder;
     writeSmallRecording(folder, 12);
