@@ -18,15 +18,29 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Names of the folder of colour images, beside depth/.
+constexpr std::array kColourFolders{"color", "rgb", "image"};
+
+std::optional<fs::path> colourFolder(const fs::path& folder) {
+    for (const char* name : kColourFolders) {
+        if (fs::exists(folder / name)) {
+            return folder / name;
+        }
+    }
+    return std::nullopt;
+}
+
 RecordingLayout readOpen3d(const LayoutRequest& request) {
-    const fs::path& folder = request.folder;
+    const auto colour = colourFolder(request.folder);
+    if (!colour && !request.depthOnly) {
+        throw BadInput(request.folder.string(), "colour images", "none",
+                       "a folder color, rgb or image, or colour=none behind the folder's name");
+    }
     RecordingLayout layout;
-    layout.intrinsics =
-        request.lens ? *request.lens : readIntrinsics(folder / "camera_intrinsic.json", ScaleRule::Optional);
-    const bool colorSpelling = fs::exists(folder / "color");
-    layout.index =
-        pairByNumber({folder / "depth", kDepthEndings},
-                     {folder / (colorSpelling ? "color" : "rgb"), kColourEndings}, request.depthOnly);
+    layout.intrinsics = request.lens ? *request.lens : readIntrinsics(request.mark, ScaleRule::Optional);
+    layout.index = pairByNumber({request.folder / "depth", kDepthEndings},
+                                {colour.value_or(request.folder / kColourFolders[0]), kColourEndings},
+                                request.depthOnly);
     return layout;
 }
 
@@ -108,18 +122,19 @@ struct KnownLayout {
     const char* mark; // file that only this layout has
     RecordingLayout (*read)(const LayoutRequest&);
 };
-constexpr std::array kLayouts{KnownLayout{"camera_intrinsic.json", readOpen3d},
-                              KnownLayout{"scene_camera.json", readBop},
-                              KnownLayout{"intrinsic/intrinsic_depth.txt", readScanNet}};
+constexpr std::array kLayouts{
+    KnownLayout{"camera_intrinsic.json", readOpen3d}, KnownLayout{"intrinsic.json", readOpen3d},
+    KnownLayout{"camera_primesense.json", readOpen3d}, KnownLayout{"scene_camera.json", readBop},
+    KnownLayout{"intrinsic/intrinsic_depth.txt", readScanNet}};
 
-// Null: none of them.
-RecordingLayout (*layoutOf(const fs::path& folder))(const LayoutRequest&) {
+// read: null for none of them.
+KnownLayout layoutOf(const fs::path& folder) {
     for (const KnownLayout& layout : kLayouts) {
         if (fs::exists(folder / layout.mark)) {
-            return layout.read;
+            return layout;
         }
     }
-    return hasFrameImages(folder) ? readFrameFolder : nullptr;
+    return {"", hasFrameImages(folder) ? readFrameFolder : nullptr};
 }
 
 // The folder has no mark of a recording; it may hold files that are recordings.
@@ -149,13 +164,17 @@ RecordingLayout readFolder(const fs::path& folder, const SourceOptions& options)
     if (own || (given && index)) {
         return readTum(folder, intrinsics, options.depthOnly());
     }
-    if (const auto read = layoutOf(folder)) {
-        LayoutRequest request{folder, std::nullopt, options.depthOnly()};
-        if (given) {
-            request.lens = readIntrinsics(intrinsics, ScaleRule::Optional);
-            request.depthOnly |= !request.lens->camera.hasColour;
-        }
-        return read(request);
+    const KnownLayout known = layoutOf(folder);
+    LayoutRequest request{folder, std::nullopt, options.depthOnly(), folder / known.mark};
+    if (given) {
+        request.lens = readIntrinsics(intrinsics, ScaleRule::Optional);
+        request.depthOnly |= !request.lens->camera.hasColour;
+    }
+    if (known.read != nullptr) {
+        return known.read(request);
+    }
+    if (given && request.lens->depthStamps.empty() && fs::exists(folder / "depth") && colourFolder(folder)) {
+        return readOpen3d(request); // images that pair by number
     }
     if (given) { // its stamps may be the index
         return readTum(folder, intrinsics, options.depthOnly());

@@ -29,10 +29,12 @@ struct LayoutRequest {
     std::filesystem::path folder;
     std::optional<RecordingIntrinsics> lens; // replaces the folder's; with its scale if it states one
     bool depthOnly = false;                  // no colour is needed
+    std::filesystem::path mark = {};         // the file by which the layout was recognised
 };
 
 // With intrinsics.json, or an index and options.intrinsics: TUM RGB-D (readIndex()), and poses.txt. Else:
-// Open3D (camera_intrinsic.json, color/ and depth/ in order of names, millimetres), BOP (readBop()), images
+// Open3D (camera_intrinsic.json, intrinsic.json, camera_primesense.json, or the options' lens alone; depth/ and
+// color/, rgb/ or image/ by number, millimetres), BOP (readBop()), images
 // frame-N (readFrameFolder()), or ScanNet (intrinsic/, color/ and depth/ by number, millimetres). Frames
 // without stamps are 1/30 s apart. Where an image has a pose, images without one are faulty. Images of floating
 // point need no depth scale. Throws BadInput.

@@ -49,13 +49,15 @@ std::string poseText(double stamp, const Pose& pose) {
 }
 
 // Files by which a folder is read as a recording, of any layout.
-constexpr std::array<const char*, 10> kMarks{"associations.txt",
+constexpr std::array<const char*, 12> kMarks{"associations.txt",
                                              "depth.txt",
                                              "rgb.txt",
                                              "poses.txt",
                                              "groundtruth.txt",
                                              "intrinsics.json",
                                              "camera_intrinsic.json",
+                                             "intrinsic.json",
+                                             "camera_primesense.json",
                                              "scene_camera.json",
                                              "intrinsic",
                                              "metadata.yaml"};

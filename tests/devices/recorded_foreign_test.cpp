@@ -81,6 +81,28 @@ TEST_CASE("Hidden files that an archive left beside images and messages are no p
     CHECK(playedDepths(stamped.path()) == Depths{500, 501, 502});
 }
 
+TEST_CASE(
+    "Open3D's names of the lens file and of the folder of colour are all read, and a lens alone is enough") {
+    for (const char* lens : {"camera_intrinsic.json", "intrinsic.json", "camera_primesense.json"}) {
+        for (const char* colour : {"color", "rgb", "image"}) {
+            const TemporaryFolder folder;
+            addThreePairs(folder, colour);
+            folder.write(lens, kOpen3dLens);
+            CHECK(playedDepths(folder.path()) == Depths{500, 501, 502});
+            CHECK(RecordedCamera(folder.path()).info().depth.fy == 6.5);
+            std::filesystem::rename(folder.path() / lens, folder.path() / "my_lens.json");
+            lineSays(recordingRefusal(folder.path()), "intrinsics.json: file: missing");
+            const SourceOptions alone{.intrinsics = folder.path() / "my_lens.json"};
+            CHECK(playedDepths(folder.path(), alone) == Depths{500, 501, 502});
+        }
+    }
+    const TemporaryFolder bare;
+    writeDepth(bare.path() / "depth/0.png", kSmallWidth, kSmallHeight, 500);
+    bare.write("intrinsic.json", kOpen3dLens);
+    lineSays(recordingRefusal(bare.path()), "colour images: none (allowed: a folder color, rgb or image");
+    CHECK(playedDepths(bare.path(), {.colour = "none"}) == Depths{500});
+}
+
 TEST_CASE("A lens of another size than colour is named with its file") {
     const TemporaryFolder folder;
     addThreePairs(folder, "color");
