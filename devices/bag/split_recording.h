@@ -6,7 +6,7 @@
 
 namespace fathom {
 
-// Whether a folder has a metadata.yaml of ROS 2 or one beside .mcap or .db3 files, packed or not: data sets of
+// Whether a folder has a metadata.yaml of ROS 2, or any with .mcap or .db3 files, packed or not. Data sets of
 // images may have a metadata.yaml of their own.
 bool isRos2Recording(const std::filesystem::path& folder);
 

@@ -124,8 +124,8 @@ TEST_CASE("Recordings of cameras' SDKs are recognised by their first bytes, and 
     }
 }
 
-TEST_CASE(
-    "A metadata.yaml marks a recording of ROS 2 by its content or by the files beside it, not by its name") {
+TEST_CASE("A metadata.yaml marks a recording of ROS 2 by its content or by the files of its folder, not by "
+          "its name") {
     const testing::ScratchFolder folder;
     const auto write = [&](const char* name, const std::string& text) {
         testing::put(folder.path() / name, text);

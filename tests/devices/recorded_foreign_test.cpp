@@ -113,7 +113,7 @@ TEST_CASE("A lens of another size than colour is named with its file") {
     lineSays(recordingRefusal(folder.path()), ": camera_intrinsic.json: color.width, color.height: ");
 }
 
-TEST_CASE("Images frame-N with a calibration beside them have its lenses and unit, not those of 7-Scenes") {
+TEST_CASE("Images frame-N with a file of calibration have its lenses and unit, not those of 7-Scenes") {
     for (const char* name : {"info.txt", "_info.txt"}) {
         const TemporaryFolder folder;
         addFrames(folder, 0);
