@@ -19,7 +19,8 @@ constexpr size_t kMaxBytes = 1u << 20; // a scene has a few kB; the parser needs
 constexpr size_t kShownCharacters = 80;
 
 bool isQuoted(const YAML::Node& node) {
-    return node.Tag() == "!"; // yaml-cpp's tag of a scalar in quotes; a plain one has "?"
+    // yaml-cpp's tag of a scalar in quotes is "!", a plain one has "?".
+    return node.Tag() == "!" || node.Tag() == "tag:yaml.org,2002:str";
 }
 
 // For messages about numbers: quotes make text of them.

@@ -7,7 +7,8 @@
 
 namespace fathom {
 
-// `file` is for messages. Throws YAML::Exception for a syntax error, BadInput for a second document.
+// `file` is for messages. Throws YAML::Exception for a syntax error, BadInput for a second document or for
+// a tag that YAML itself does not define.
 YAML::Node onlyYamlDocument(const std::string& file, const std::string& text);
 
 } // namespace fathom

@@ -160,6 +160,8 @@ TEST_CASE("A damaged set is rejected with the place of the error") {
     CHECK(setRefusal(".yaml", "a: \"\\\x02\"\n").find("escape") != std::string::npos);
     CHECK(setRefusal(".yaml", "collision_spheres:\n  a:\n    - {center: [0, 0, .nan], radius: 1}")
               .find("line 3") != std::string::npos);
+    CHECK(setRefusal(".yaml", "collision_spheres: {a: [{center: [0, 0, 0], radius: !inches 1}]}")
+              .find("line 1: tag '!inches' (allowed: values without a tag") != std::string::npos);
     CHECK(setRefusal(".yaml", "other: 1").find("collision_spheres: missing") != std::string::npos);
     CHECK(setRefusal(".yaml", "a: [").find("line") != std::string::npos);
     CHECK(setRefusal(".txt", "x").find("kind of file: '.txt'") != std::string::npos);

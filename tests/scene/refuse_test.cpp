@@ -280,3 +280,16 @@ TEST_CASE("A missing file, one that is not YAML and one nested too deep are reje
         CHECK(testing::refusalOf([&] { loadScene(path); }).find(std::string(path) + ": file: " + why) == 0);
     }
 }
+
+TEST_CASE("Tags that the program does not know, such as xacro's !degrees, are rejected with their line") {
+    const std::string allowed = "(allowed: values without a tag; angles in rad)";
+    for (const char* text : {"!degrees 90", "!radians 1.5", "!list [1]", "!table {near: 1}", "!other"}) {
+        const std::string message = refusal(kMinimal + "camera:\n  near: " + text + "\n");
+        CAPTURE(message);
+        CHECK(message.find("scene.yaml: line 4: tag '!") != std::string::npos);
+        CHECK(message.find(allowed) != std::string::npos);
+    }
+    CHECK(refusal(kMinimal + "camera: {near: !!float 0.2, far: !!int 3}\n").empty());
+    CHECK(refusal(kMinimal + "camera: {near: !!str 0.2}\n").find("camera.near: '0.2' in quotes") !=
+          std::string::npos);
+}
