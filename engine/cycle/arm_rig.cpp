@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/cycle/arm_rig.h"
 
+#include "engine/model/arm_doubts.h"
 #include "engine/model/arm_mimic.h"
 #include "engine/types/error.h"
 #include "engine/types/joined.h"
@@ -112,7 +113,9 @@ private:
             const std::string field = "joints[" + std::to_string(i) + "]";
             const size_t k = indexOf(field, wanted.name);
             ArmJoint& joint = rig_->model.joints[k];
+            const ArmJoint urdf = joint;
             override(wanted, joint);
+            doubt(wanted, urdf, joint);
             const std::string range =
                 "lower <= upper, here " + text(joint.lower) + " to " + text(joint.upper);
             if (joint.lower > joint.upper) {
@@ -144,13 +147,31 @@ private:
         }
     }
 
+    void note(const std::string& line) {
+        std::vector<std::string>& notes = rig_->model.notes;
+        if (!line.empty() && std::find(notes.begin(), notes.end(), line) == notes.end()) {
+            notes.push_back(line);
+        }
+    }
+
+    // Asks whether the scene's numbers are in other units. urdf: the joint before they replaced its own.
+    void doubt(const SceneArm::Joint& wanted, const ArmJoint& urdf, const ArmJoint& joint) {
+        if (wanted.lower || wanted.upper) {
+            note(doubtLimits(joint.name, joint.slides, joint.lower, joint.upper, kLongSlide));
+            if (joint.lower < urdf.lower || joint.upper > urdf.upper) {
+                note("joint " + joint.name + ": the scene's limits " + text(joint.lower) + " to " +
+                     text(joint.upper) + " are wider than the URDF's, " + text(urdf.lower) + " to " +
+                     text(urdf.upper));
+            }
+        }
+        note(wanted.speed ? doubtSpeed(joint.name, joint.slides, *wanted.speed) : "");
+    }
+
     // The scene's limits of mimic joints bind the joints that they follow.
     void narrow() {
         ArmModel& model = rig_->model;
-        for (const std::string& note : narrowByMimics(model)) {
-            if (std::find(model.notes.begin(), model.notes.end(), note) == model.notes.end()) {
-                model.notes.push_back(note);
-            }
+        for (const std::string& line : narrowByMimics(model)) {
+            note(line);
         }
         for (size_t k = 0; k < model.count(); ++k) {
             rig_->start[k] = std::clamp(rig_->start[k], model.joints[k].lower, model.joints[k].upper);
