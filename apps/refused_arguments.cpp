@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/refused_arguments.h"
 
-#include "engine/scene/yaml_node.h"
 #include "engine/types/joined.h"
+#include "engine/types/suggestion.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

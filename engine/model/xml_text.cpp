@@ -82,6 +82,42 @@ bool XmlPieces::next() {
     return true;
 }
 
+bool XmlTags::next() {
+    if (!opened_.empty()) {
+        path_ += (path_.empty() ? "" : "/") + opened_;
+        opened_.clear();
+    }
+    while (pieces_.next()) {
+        const XmlPiece& piece = pieces_.piece();
+        if (piece.name.empty() || piece.name.starts_with('!')) {
+            continue;
+        }
+        if (!piece.closes) {
+            opened_ = piece.isEmpty ? "" : piece.name;
+            return true;
+        }
+        const size_t last = path_.rfind('/');
+        path_.resize(last == std::string::npos ? 0 : last);
+    }
+    return false;
+}
+
+std::vector<std::string_view> xmlAttributeNames(std::string_view tag) {
+    std::vector<std::string_view> names;
+    size_t at = tag.find_first_of(" \t\r\n"); // behind the tag's own name
+    while (at < tag.size() && (at = tag.find_first_not_of(" \t\r\n", at)) < tag.size()) {
+        const size_t end = std::min(tag.find_first_of("= \t\r\n/>", at), tag.size());
+        const size_t open = tag.find_first_of("'\"", end);
+        if (end == at || open == std::string_view::npos) {
+            break; // "/>"
+        }
+        names.push_back(tag.substr(at, end - at));
+        const size_t close = tag.find(tag[open], open + 1);
+        at = close == std::string_view::npos ? close : close + 1;
+    }
+    return names;
+}
+
 std::string xmlAttribute(std::string_view tag, std::string_view name) {
     char quote = 0;
     for (size_t i = 1; i < tag.size(); ++i) {

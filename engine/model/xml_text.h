@@ -5,6 +5,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace fathom {
 
@@ -28,6 +29,24 @@ private:
     std::string_view rest_;
     XmlPiece piece_;
 };
+
+// The opening tags of a text, each with the elements it is in. `text` must outlive it.
+class XmlTags {
+public:
+    explicit XmlTags(std::string_view text)
+        : pieces_(text) {}
+    bool next(); // false at the end
+    const XmlPiece& tag() const { return pieces_.piece(); }
+    // The elements around the tag, the outermost first: "robot/link".
+    std::string_view path() const { return path_; }
+
+private:
+    XmlPieces pieces_;
+    std::string path_, opened_; // opened_: the tag, if it is not empty
+};
+
+// Names of a tag's attributes, in order.
+std::vector<std::string_view> xmlAttributeNames(std::string_view tag);
 
 // The value of an attribute of a tag, without its quotes; the five predefined entities are resolved. Empty =
 // none.

@@ -6,6 +6,7 @@
 #include "engine/reader/answers.h"
 #include "engine/reader/lost_shapes.h"
 #include "engine/reader/mjcf.h"
+#include "engine/reader/urdf_spelling.h"
 #include "engine/types/error.h"
 #include "engine/types/printable.h"
 #include "engine/types/read_file.h"
@@ -172,6 +173,7 @@ std::string packetOf(const std::filesystem::path& file) {
         throw BadInput(file.string(), "robot", printable(faultOf(listener.errors(), text)), "a URDF robot");
     }
     checkLinks(*model, file.string());
+    checkSpelling(text, file.string(), notes);
     refuseLostShapes(*model, text, file.string(), listener.errors());
     noteSoftLimits(*model, notes);
     return packUrdf(*model, notes);

@@ -6,8 +6,6 @@
 #include "engine/types/printable.h"
 
 #include <algorithm>
-#include <cctype>
-#include <initializer_list>
 #include <map>
 
 namespace fathom {
@@ -17,55 +15,21 @@ namespace {
 // Tags of shapes by link, one list per collision.
 using WrittenShapes = std::map<std::string, std::vector<std::vector<std::string>>>;
 
-// The element that the parser would read if this one, in the element `parent` of a link or the link itself,
-// were spelt otherwise; empty = none.
-std::string meantBy(std::string_view name, std::string_view parent) {
-    std::string small(name);
-    std::ranges::transform(small, small.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    const std::string meant = small == "collisions" || small == "collision_group" ? "collision" : small;
-    const bool inLink = parent == "link" && meant == "collision";
-    const bool inCollision = parent == "collision" && (meant == "origin" || meant == "geometry");
-    return (inLink || inCollision) && meant != name ? meant : "";
-}
-
 bool isShape(std::string_view name) {
     return name != "material" && name.find(':') == std::string_view::npos;
 }
 
-// Throws BadInput for elements in links that the parser would skip because of their spelling.
-WrittenShapes shapesIn(const std::string& text, const std::string& file) {
+WrittenShapes shapesIn(const std::string& text) {
     WrittenShapes shapes;
     std::string link;
-    std::vector<std::string_view> open;
-    const auto isInside = [&](std::initializer_list<std::string_view> names) {
-        return std::ranges::equal(open, names);
-    };
-    for (XmlPieces pieces(text); pieces.next();) {
-        const XmlPiece& piece = pieces.piece();
-        if (piece.name.empty() || piece.name.starts_with('!')) {
-            continue;
-        }
-        if (piece.closes) {
-            open.resize(open.size() - std::min<size_t>(open.size(), 1));
-            continue;
-        }
-        const bool inLink = isInside({"robot", "link"}),
-                   inCollision = isInside({"robot", "link", "collision"});
-        const std::string meant = inLink || inCollision ? meantBy(piece.name, open.back()) : "";
-        if (!meant.empty()) {
-            throw BadInput(file, "link " + printable(link),
-                           "<" + printable(std::string(piece.name)) + ">: not read", "<" + meant + ">");
-        }
-        if (isInside({"robot"}) && piece.name == "link") {
-            link = xmlAttribute(piece.text, "name");
-        } else if (inLink && piece.name == "collision") {
+    for (XmlTags tags(text); tags.next();) {
+        const XmlPiece& tag = tags.tag();
+        if (tags.path() == "robot" && tag.name == "link") {
+            link = xmlAttribute(tag.text, "name");
+        } else if (tags.path() == "robot/link" && tag.name == "collision") {
             shapes[link].emplace_back();
-        } else if (isInside({"robot", "link", "collision", "geometry"}) && isShape(piece.name)) {
-            shapes[link].back().emplace_back(piece.text);
-        }
-        if (!piece.isEmpty) {
-            open.push_back(piece.name);
+        } else if (tags.path() == "robot/link/collision/geometry" && isShape(tag.name)) {
+            shapes[link].back().emplace_back(tag.text);
         }
     }
     return shapes;
@@ -93,7 +57,7 @@ Reason reasonFor(const std::string& link, const std::vector<std::string>& errors
 
 void refuseLostShapes(const urdf::ModelInterface& model, const std::string& text, const std::string& file,
                       const std::vector<std::string>& errors) {
-    for (const auto& [link, shapes] : shapesIn(text, file)) {
+    for (const auto& [link, shapes] : shapesIn(text)) {
         const std::string field = "link " + printable(link);
         const auto several = std::ranges::find_if(shapes, [](const auto& tags) { return tags.size() > 1; });
         if (several != shapes.end()) {

@@ -4,6 +4,7 @@
 #include "engine/types/error.h"
 #include "engine/types/joined.h"
 #include "engine/types/read_file.h"
+#include "engine/types/suggestion.h"
 #include "engine/types/yaml_document.h"
 
 #include <algorithm>

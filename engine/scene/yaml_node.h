@@ -100,10 +100,6 @@ private:
     std::string path_; // empty for the whole file
 };
 
-// ", did you mean 'NAME'?" with the word of the least edit distance (insert, delete, replace, swap of
-// neighbours) to `word`, the first of equals. Empty if at least half of the longer word would change.
-std::string suggestion(std::string_view word, std::span<const std::string_view> words);
-
 template <class T>
 T YamlNode::choice(std::initializer_list<std::pair<std::string_view, T>> words) const {
     std::vector<std::string_view> names;

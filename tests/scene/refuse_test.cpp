@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Invalid scene files. The message names file, field, value and what is allowed.
-#include "engine/scene/yaml_node.h"
+#include "engine/types/suggestion.h"
 #include "tests/scene/scene_file.h"
 #include "tests/support/refusal.h"
 
