@@ -2,7 +2,6 @@
 #include "engine/reader/mjcf_pose.h"
 
 #include <cmath>
-#include <optional>
 
 namespace fathom {
 
@@ -33,6 +32,48 @@ dquat ofEuler(const MjcfAngles& angles, const std::vector<double>& by) {
         all = along ? all * next : next * all;
     }
     return all;
+}
+
+// The form of the turn that applies: the element's own, of any form, replaces that of its class. Empty = none.
+std::string turnForm(const MjcfClasses& classes, const tinyxml2::XMLElement& element,
+                     const std::string& childClass) {
+    std::string own, inherited;
+    for (const char* form : {"quat", "axisangle", "euler", "xyaxes", "zaxis"}) {
+        if (element.Attribute(form) != nullptr) {
+            if (!own.empty()) {
+                classes.refuse(element, own + " and " + form,
+                               "one of quat, axisangle, euler, xyaxes and zaxis");
+            }
+            own = form;
+        } else if (inherited.empty() && classes.find(element, childClass, form) != nullptr) {
+            inherited = form;
+        }
+    }
+    return own.empty() ? inherited : own;
+}
+
+dquat turnOf(const MjcfClasses& classes, const MjcfAngles& angles, const tinyxml2::XMLElement& element,
+             const std::string& form, const std::vector<double>& v) {
+    if (form == "quat") {
+        const dquat quat(v[0], v[1], v[2], v[3]);
+        if (!(glm::length(quat) > kShortest)) {
+            classes.refuse(element, "quat of length 0", "a unit quaternion w x y z");
+        }
+        return glm::normalize(quat);
+    }
+    if (form == "euler") {
+        return ofEuler(angles, v);
+    }
+    const dvec3 first = direction(classes, element, {v[0], v[1], v[2]}, form.c_str());
+    if (form == "axisangle") {
+        return turn(first, v[3] * angles.perUnit);
+    }
+    if (form == "zaxis") {
+        return turnOfZ(first);
+    }
+    const dvec3 given(v[3], v[4], v[5]);
+    const dvec3 y = direction(classes, element, given - first * glm::dot(first, given), "xyaxes");
+    return glm::normalize(glm::quat_cast(glm::dmat3(first, y, glm::cross(first, y))));
 }
 
 } // namespace
@@ -83,24 +124,10 @@ Pose mjcfPose(const MjcfClasses& classes, const MjcfAngles& angles, const tinyxm
     if (const auto p = numbers("pos", 3); !p.empty()) {
         out.position = {p[0], p[1], p[2]};
     }
-    if (const auto q = numbers("quat", 4); !q.empty()) {
-        const dquat quat(q[0], q[1], q[2], q[3]);
-        if (!(glm::length(quat) > kShortest)) {
-            classes.refuse(element, "quat of length 0", "a unit quaternion w x y z");
-        }
-        out.rotation = glm::normalize(quat);
-    } else if (const auto a = numbers("axisangle", 4); !a.empty()) {
-        out.rotation =
-            turn(direction(classes, element, {a[0], a[1], a[2]}, "axisangle"), a[3] * angles.perUnit);
-    } else if (const auto e = numbers("euler", 3); !e.empty()) {
-        out.rotation = ofEuler(angles, e);
-    } else if (const auto xy = numbers("xyaxes", 6); !xy.empty()) {
-        const dvec3 x = direction(classes, element, {xy[0], xy[1], xy[2]}, "xyaxes");
-        const dvec3 given(xy[3], xy[4], xy[5]);
-        const dvec3 y = direction(classes, element, given - x * glm::dot(x, given), "xyaxes");
-        out.rotation = glm::normalize(glm::quat_cast(glm::dmat3(x, y, glm::cross(x, y))));
-    } else if (const auto z = numbers("zaxis", 3); !z.empty()) {
-        out.rotation = turnOfZ(direction(classes, element, {z[0], z[1], z[2]}, "zaxis"));
+    const std::string form = turnForm(classes, element, childClass);
+    if (!form.empty()) {
+        const size_t count = form == "xyaxes" ? 6 : form == "quat" || form == "axisangle" ? 4 : 3;
+        out.rotation = turnOf(classes, angles, element, form, numbers(form.c_str(), count));
     }
     return out;
 }

@@ -274,3 +274,26 @@ TEST_CASE("Constraints of an MJCF that are not read, as of closed loops, are rep
                        "stay open";
     }));
 }
+
+TEST_CASE("A turn that an element states itself, in any form, replaces the quat of its class") {
+    const std::string classes = "<default><geom quat='0 1 0 0' type='capsule' size='0.01 0.1'/></default>";
+    const auto top = [&](const std::string& turn) { // highest point of the capsule
+        const ArmModel arm =
+            loadMjcf("<compiler angle='radian'/>" + classes + "<worldbody><body name='a'>" + ball() +
+                     "<body name='b'><joint name='j' range='-1 1'/><geom name='g' " + turn +
+                     "/></body></body></worldbody>");
+        double highest = 0.0;
+        for (const ArmLeaf& leaf : arm.leaves) {
+            highest = std::max(highest, leaf.sphere.centre.z);
+        }
+        return highest;
+    };
+    CHECK(top("") > 0.05);
+    for (const char* turn : {"euler='0 1.5707963267948966 0'", "axisangle='0 1 0 1.5707963267948966'",
+                             "xyaxes='0 0 1 0 1 0'", "zaxis='1 0 0'", "quat='1 0 1 0'"}) {
+        CHECK_MESSAGE(top(turn) < 0.02, turn);
+    }
+    CHECK(mjcfRefusal("<worldbody><body name='b' euler='1 0 0' zaxis='1 0 0'/></worldbody>")
+              .find("<body name=\"b\">: euler and zaxis (allowed: one of quat, axisangle, euler, xyaxes and "
+                    "zaxis)") != std::string::npos);
+}
