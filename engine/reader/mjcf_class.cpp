@@ -43,7 +43,7 @@ void MjcfClasses::read(const tinyxml2::XMLElement& element, const std::string& a
         if (kind == "default") {
             read(*child, name, false);
         } else {
-            made.elements[kind] = child;
+            made.elements[kind].push_back(child);
         }
     }
 }
@@ -65,8 +65,10 @@ const char* MjcfClasses::find(const tinyxml2::XMLElement& element, const std::st
         }
         const auto stated = known->second.elements.find(element.Name());
         if (stated != known->second.elements.end()) {
-            if (const char* const text = stated->second->Attribute(name)) {
-                return text;
+            for (auto last = stated->second.rbegin(); last != stated->second.rend(); ++last) {
+                if (const char* const text = (*last)->Attribute(name)) {
+                    return text;
+                }
             }
         }
         at = known->second.above;

@@ -33,7 +33,8 @@ public:
 private:
     struct Class {
         std::string above; // empty = the main class has none
-        std::map<std::string, const tinyxml2::XMLElement*> elements;
+        // By kind, in the order of the file.
+        std::map<std::string, std::vector<const tinyxml2::XMLElement*>> elements;
     };
     void read(const tinyxml2::XMLElement& element, const std::string& above, bool main);
 

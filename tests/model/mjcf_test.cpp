@@ -297,3 +297,17 @@ TEST_CASE("A turn that an element states itself, in any form, replaces the quat 
               .find("<body name=\"b\">: euler and zaxis (allowed: one of quat, axisangle, euler, xyaxes and "
                     "zaxis)") != std::string::npos);
 }
+
+TEST_CASE("Elements of one kind in a class add their attributes, the last one first") {
+    const auto leaves = [](const std::string& defaults) {
+        return loadMjcf("<default>" + defaults + "</default><worldbody><body name='a'>" + ball() +
+                        "<body name='b'><joint name='j' range='-1 1'/><geom/></body></body></worldbody>")
+            .leaves;
+    };
+    CHECK(leaves("<geom size='0.5'/><geom size='0.03' type='sphere'/>").back().sphere.radius == 0.03);
+    CHECK(leaves("<geom size='0.03'/><geom type='sphere'/>").size() == 2);
+    CHECK(mjcfRefusal("<default><geom contype='0' conaffinity='0'/><geom size='0.03'/></default><worldbody>"
+                      "<body name='a'><body name='b'><joint name='j' range='-1 1'/><geom/></body></body>"
+                      "</worldbody>")
+              .find("collision: no shapes on any link") != std::string::npos);
+}
