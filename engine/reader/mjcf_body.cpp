@@ -52,6 +52,9 @@ void MjcfBodies::readEqualities() {
                 continue;
             }
             auto c = classes_.numbers(*joint, "", "polycoef", {0.0, 1.0}, 1, 5);
+            if (c.size() == 1) {
+                c.push_back(1.0); // MuJoCo keeps its default where none is given
+            }
             c.resize(5, 0.0);
             if (c[2] != 0.0 || c[3] != 0.0 || c[4] != 0.0) {
                 classes_.refuse(*joint, "polycoef with powers above 1", "c0 c1 0 0 0");

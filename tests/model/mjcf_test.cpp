@@ -182,6 +182,11 @@ TEST_CASE("An equality of two joints is a mimic joint, and one of a single joint
     JointVector q{0.4, 9.0};
     arm.follow(q);
     CHECK(q[1] == doctest::Approx(0.1 - 0.4));
+    const ArmModel shifted =
+        loadMjcf(bodies + "<equality><joint joint1='j2' joint2='j1' polycoef='0.25'/></equality>");
+    REQUIRE(shifted.joints[1].mimic);
+    CHECK(shifted.joints[1].mimic->offset == 0.25);
+    CHECK(shifted.joints[1].mimic->multiplier == 1.0); // MuJoCo's default of a coefficient that is not given
     const ArmModel held = loadMjcf(bodies + "<equality><joint joint1='j2' polycoef='0.3'/></equality>");
     CHECK(held.joints[1].lower == doctest::Approx(0.3));
     CHECK(held.joints[1].upper == doctest::Approx(0.3));
