@@ -89,8 +89,9 @@ std::string urdfOfMjcf(const std::filesystem::path& file, const std::string& tex
     parse(document, file.string(), text);
     Includes(file, document).expand(*document.RootElement());
     MjcfBodies bodies(file.string(), *document.RootElement());
+    std::string urdf = bodies.urdf();
     notes = bodies.notes();
-    return bodies.urdf();
+    return urdf;
 }
 
 } // namespace fathom

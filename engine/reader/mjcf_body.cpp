@@ -79,6 +79,10 @@ std::string MjcfBodies::urdf() {
             addBody(body, "world");
         }
     }
+    if (geoms_.fitted() > 0) {
+        notes_.push_back(std::to_string(geoms_.fitted()) +
+                         " primitives are fitted to meshes: the meshes are covered instead");
+    }
     return out_ + "</robot>";
 }
 

@@ -17,7 +17,7 @@ public:
     MjcfBodies(const std::string& file, const tinyxml2::XMLElement& root);
 
     std::string urdf(); // throws BadInput
-    // On constraints that are not read.
+    // On what is not read, or read otherwise; complete after urdf().
     const std::vector<std::string>& notes() const { return notes_; }
 
 private:

@@ -74,7 +74,7 @@ MjcfGeoms::MjcfGeoms(const MjcfClasses& classes, const MjcfAngles& angles, const
 }
 
 std::string MjcfGeoms::shape(const tinyxml2::XMLElement& geom, const std::string& childClass,
-                             const Pose& at) const {
+                             const Pose& at) {
     Pose pose = mjcfPose(classes_, angles_, geom, childClass);
     double half = 0.0;
     const auto ends = classes_.numbers(geom, childClass, "fromto", {}, 6, 6);
@@ -95,15 +95,13 @@ std::string MjcfGeoms::shape(const tinyxml2::XMLElement& geom, const std::string
 }
 
 std::string MjcfGeoms::geometry(const tinyxml2::XMLElement& geom, const std::string& childClass,
-                                const double* half) const {
+                                const double* half) {
     const char* const stated = classes_.find(geom, childClass, "type");
     const char* const mesh = classes_.find(geom, childClass, "mesh");
     const std::string type = stated != nullptr ? stated : mesh != nullptr ? "mesh" : "sphere";
-    if (type == "mesh") {
+    if (type == "mesh" || mesh != nullptr) {
+        fitted_ += type == "mesh" ? 0 : 1;
         return meshGeometry(geom, childClass);
-    }
-    if (mesh != nullptr) {
-        classes_.refuse(geom, "type=\"" + type + "\" fitted to a mesh", "type=\"mesh\", or a size");
     }
     const bool round = type == "capsule" || type == "cylinder", box = type == "box" || type == "ellipsoid";
     if (!round && !box && type != "sphere") {

@@ -19,7 +19,9 @@ public:
     MjcfGeoms(const MjcfClasses& classes, const MjcfAngles& angles, const tinyxml2::XMLElement& root);
 
     // <collision> or <visual> of a geom; at: pose of its frame in the link. Throws BadInput.
-    std::string shape(const tinyxml2::XMLElement& geom, const std::string& childClass, const Pose& at) const;
+    std::string shape(const tinyxml2::XMLElement& geom, const std::string& childClass, const Pose& at);
+    // Primitives so far that MuJoCo fits to a mesh; here the mesh takes their place.
+    int fitted() const { return fitted_; }
 
 private:
     struct Mesh {
@@ -32,13 +34,13 @@ private:
         double half;
     };
 
-    std::string geometry(const tinyxml2::XMLElement& geom, const std::string& childClass,
-                         const double* half) const;
+    std::string geometry(const tinyxml2::XMLElement& geom, const std::string& childClass, const double* half);
     std::string meshGeometry(const tinyxml2::XMLElement& geom, const std::string& childClass) const;
 
     const MjcfClasses& classes_;
     const MjcfAngles& angles_;
     std::map<std::string, Mesh> meshes_;
+    int fitted_ = 0;
 };
 
 } // namespace fathom

@@ -316,3 +316,15 @@ TEST_CASE("Elements of one kind in a class add their attributes, the last one fi
                       "</worldbody>")
               .find("collision: no shapes on any link") != std::string::npos);
 }
+
+TEST_CASE("A primitive that is fitted to a mesh becomes the mesh, with one note") {
+    std::ofstream(folder() / "tetra.obj")
+        << "v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0 0 0.1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+    const std::string fitted = "<geom type='capsule' mesh='tetra'/><geom type='box' mesh='tetra'/>";
+    const ArmModel arm =
+        loadMjcf("<asset><mesh file='tetra.obj'/></asset><worldbody><body name='a'>" + ball() +
+                 "<body name='b'><joint name='j' range='-90 90'/>" + fitted + "</body></body></worldbody>");
+    CHECK(arm.links == std::vector<std::string>{"a", "b"});
+    CHECK(std::count(arm.notes.begin(), arm.notes.end(),
+                     "2 primitives are fitted to meshes: the meshes are covered instead") == 1);
+}
