@@ -45,18 +45,32 @@ public:
     }
 
 private:
+    // Cloning loses the lines, so the elements keep their place in an attribute.
+    static void writePlaces(tinyxml2::XMLElement& element, const std::string& file) {
+        const std::string place = file + ": line " + std::to_string(element.GetLineNum());
+        if (element.Attribute(kPlaceAttribute) == nullptr) {
+            element.SetAttribute(kPlaceAttribute, place.c_str());
+        }
+        for (auto* child = element.FirstChildElement(); child != nullptr;
+             child = child->NextSiblingElement()) {
+            writePlaces(*child, file);
+        }
+    }
+
     // Returns the first element that came, null when there was none.
     tinyxml2::XMLElement* replace(tinyxml2::XMLElement& parent, tinyxml2::XMLElement& include) {
         const char* const named = include.Attribute("file");
-        const std::string line = "line " + std::to_string(include.GetLineNum()) + ": <include>";
+        const MjcfPlace place = mjcfPlace(include, file_.string());
         if (named == nullptr || ++count_ > kMaxIncludes) {
-            throw BadInput(file_.string(), line, named == nullptr ? "without file" : "one more",
+            throw BadInput(place.file, place.line + ": <include>",
+                           named == nullptr ? "without file" : "one more",
                            "a file, " + std::to_string(kMaxIncludes) + " at most");
         }
         const std::filesystem::path path = file_.parent_path() / named;
         tinyxml2::XMLDocument other;
-        const auto& root =
-            parse(other, path.string(), readWholeFile(path, kLargestFile, "a readable MJCF file"));
+        parse(other, path.string(), readWholeFile(path, kLargestFile, "a readable MJCF file"));
+        tinyxml2::XMLElement& root = *other.RootElement();
+        writePlaces(root, path.string());
         tinyxml2::XMLNode* after = &include;
         tinyxml2::XMLElement* first = nullptr;
         for (auto* child = root.FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {

@@ -64,8 +64,8 @@ void MjcfBodies::readEqualities() {
     }
     if (!others.empty()) {
         notes_.push_back(std::to_string(others.size()) + " equalities that are no <joint>, the first <" +
-                         printable(others[0]->Name()) + "> in line " +
-                         std::to_string(others[0]->GetLineNum()) + ", are not read: loops stay open");
+                         printable(others[0]->Name()) + "> in " + mjcfPlace(*others[0], "").line +
+                         ", are not read: loops stay open");
     }
 }
 

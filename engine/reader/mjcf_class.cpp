@@ -18,6 +18,13 @@ std::string attribute(const tinyxml2::XMLElement& element, const char* name) {
 
 } // namespace
 
+MjcfPlace mjcfPlace(const tinyxml2::XMLElement& element, const std::string& mainFile) {
+    const std::string place = attribute(element, kPlaceAttribute);
+    const size_t end = place.rfind(": ");
+    return place.empty() ? MjcfPlace{mainFile, "line " + std::to_string(element.GetLineNum())}
+                         : MjcfPlace{place.substr(0, end), place.substr(end + 2)};
+}
+
 MjcfClasses::MjcfClasses(const std::string& file, const tinyxml2::XMLElement& root)
     : file_(file)
     , main_(kMainClass) {
@@ -101,9 +108,9 @@ std::vector<double> MjcfClasses::numbers(const tinyxml2::XMLElement& element, co
 void MjcfClasses::refuse(const tinyxml2::XMLElement& element, const std::string& value,
                          const std::string& allowed) const {
     const std::string name = attribute(element, "name");
-    throw BadInput(file_,
-                   "line " + std::to_string(element.GetLineNum()) + ": <" + element.Name() +
-                       (name.empty() ? "" : " name=\"" + name + "\"") + ">",
+    const MjcfPlace place = mjcfPlace(element, file_);
+    throw BadInput(place.file,
+                   place.line + ": <" + element.Name() + (name.empty() ? "" : " name=\"" + name + "\"") + ">",
                    value, allowed);
 }
 

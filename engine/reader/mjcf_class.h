@@ -11,6 +11,15 @@
 
 namespace fathom {
 
+// "FILE: line N" of an element that comes from an included file.
+inline constexpr const char* kPlaceAttribute = "fathom_place";
+
+// Where an element was written.
+struct MjcfPlace {
+    std::string file, line; // "line N"
+};
+MjcfPlace mjcfPlace(const tinyxml2::XMLElement& element, const std::string& mainFile);
+
 // One file while it is read. Functions throw BadInput naming the element, the attribute and its value.
 class MjcfClasses {
 public:

@@ -328,3 +328,13 @@ TEST_CASE("A primitive that is fitted to a mesh becomes the mesh, with one note"
     CHECK(std::count(arm.notes.begin(), arm.notes.end(),
                      "2 primitives are fitted to meshes: the meshes are covered instead") == 1);
 }
+
+TEST_CASE("A fault in an included file is reported with that file and its line") {
+    std::ofstream(folder() / "hand.xml")
+        << "<mujoco><worldbody>\n<body>\n<geom type='box' size='1'/></body></worldbody></mujoco>";
+    std::ofstream(folder() / "robot.xml") << "<mujoco>\n<include file='hand.xml'/>\n<composite/></mujoco>";
+    const std::string line = mjcfRefusal("<include file='robot.xml'/>");
+    CAPTURE(line);
+    CHECK(line.find("hand.xml: line 3: <geom>: size=\"1\"") != std::string::npos);
+    CHECK(line.find("arm.xml") == std::string::npos);
+}
