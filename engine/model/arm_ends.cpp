@@ -1,34 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/model/arm_ends.h"
 
+#include "engine/model/arm_mimic.h"
+#include "engine/model/link_names.h"
 #include "engine/types/error.h"
 #include "engine/types/joined.h"
 
 #include <algorithm>
-#include <array>
-#include <cctype>
 #include <map>
 #include <span>
-#include <string_view>
 
 namespace fathom {
 
 namespace {
 
 using LinkPtr = std::shared_ptr<const urdf::Link>;
-
-// Usual names of tool frames, the best first: ROS-Industrial's tool0 and flange, then frames of hands.
-constexpr std::array<std::string_view, 22> kToolNames{
-    "tool0",       "tcp",  "tool_frame",   "tool_tip",  "tool_link", "ee_link",           "end_effector_link",
-    "ee",          "eef",  "end_effector", "link_eef",  "link_ee",   "grasping_frame",    "grasp_frame",
-    "flange",      "tool", "hand",         "hand_link", "palm_link", "gripper_base_link", "gripper_base",
-    "gripper_link"};
-
-constexpr std::array<std::string_view, 7> kGripperWords{"gripper", "finger", "jaw",   "knuckle",
-                                                        "claw",    "thumb",  "pincer"};
-
-// In the name of a joint these say that it turns a hand and does not close it.
-constexpr std::array<std::string_view, 6> kWristWords{"wrist", "roll", "rotat", "pitch", "yaw", "swivel"};
 
 constexpr size_t kMaxNamed = 6; // names in a note
 constexpr int kMaxBehind = 2;   // joints of an unknown gripper behind a tool frame
@@ -43,39 +29,6 @@ bool moves(const urdf::Joint& joint) {
     return joint.type != urdf::Joint::FIXED && !isFree(joint);
 }
 
-std::string lowered(std::string name) {
-    name = name.substr(name.rfind('/') + 1);
-    std::transform(name.begin(), name.end(), name.begin(),
-                   [](unsigned char c) { return c == '-' ? '_' : static_cast<char>(std::tolower(c)); });
-    return name;
-}
-
-// Rank of a tool frame's name, with or without a prefix such as "left_"; kToolNames.size() = none.
-size_t toolRank(const std::string& link) {
-    const std::string name = lowered(link);
-    size_t best = kToolNames.size();
-    for (size_t i = 0; i < kToolNames.size(); ++i) {
-        const std::string ending = "_" + std::string(kToolNames[i]);
-        if (name == kToolNames[i] || (name.size() > ending.size() && name.ends_with(ending))) {
-            best = std::min(best, i);
-        }
-    }
-    return best;
-}
-
-bool hasWord(const std::string& name, std::span<const std::string_view> words) {
-    const std::string low = lowered(name);
-    return std::any_of(words.begin(), words.end(),
-                       [&](std::string_view word) { return low.find(word) != std::string::npos; });
-}
-
-// The link "gripper" is often a wrist's.
-bool closesGripper(const urdf::Joint& joint) {
-    const std::span<const std::string_view> ofLinks(kGripperWords.begin() + 1, kGripperWords.end());
-    return !hasWord(joint.name, kWristWords) &&
-           (hasWord(joint.name, kGripperWords) || hasWord(joint.child_link_name, ofLinks));
-}
-
 bool isBareFrame(const urdf::Link& link) {
     return link.collision_array.empty() && link.visual_array.empty() && !link.inertial;
 }
@@ -86,9 +39,11 @@ public:
         : model_(model)
         , file_(file) {
         depthBelow(*model.getRoot());
-        for (const auto& [name, joint] : model.joints_) {
-            if (joint->mimic && moves(*joint)) {
-                tied_[name] = tied_[joint->mimic->joint_name] = true;
+        for (const auto& [name, tie] : tieJoints(model, file)) {
+            const urdf::Joint& joint = *model.joints_.at(name);
+            if (moves(joint) && moves(*model.joints_.at(tie.root))) {
+                roots_[name] = tie.root;
+                groups_[tie.root].push_back(&joint);
             }
         }
     }
@@ -114,9 +69,9 @@ public:
         const Seen* best = nullptr;
         for (const Seen& s : seen_) { // a named frame near the end of the longest chain
             const bool near = 2 * s.moving > most && most - s.moving <= kMaxBehind;
-            const bool fits = usable(s) && s.moving > 0 && near && s.rank < kToolNames.size();
+            const bool fits = usable(s) && s.moving > 0 && near && s.rank < kNoTool;
             if (fits && (best == nullptr || s.moving > best->moving ||
-                         (s.moving == best->moving && s.rank < best->rank))) {
+                         (s.moving == best->moving && (s.rank < best->rank || isBehind(s, *best))))) {
                 best = &s;
             }
         }
@@ -128,7 +83,7 @@ public:
                                              : "the end of the longest chain";
         }
         noteOthers(ends, *best, any);
-        ends.tip = best->rank < kToolNames.size() ? best->link : bareEnd(best->link, ends);
+        ends.tip = best->rank < kNoTool ? best->link : bareEnd(bodyAt(best->link), ends);
     }
 
 private:
@@ -140,6 +95,12 @@ private:
         size_t rank;
         const urdf::Joint* last = nullptr; // last moving joint above it
     };
+
+    // A bare frame that is as good as a part of the gripper: the tool centre behind it.
+    static bool isBehind(const Seen& frame, const Seen& part) {
+        return frame.rank == part.rank && frame.last == part.last && isBareFrame(*frame.link) &&
+               !isBareFrame(*part.link);
+    }
 
     int depthBelow(const urdf::Link& link) {
         int most = 0;
@@ -172,20 +133,31 @@ private:
             return false;
         }
         const bool tiedEnd =
-            moving >= 2 && tied_.count(joint.name) > 0 && depthThrough(joint) <= 2 && !tiedToChain(joint);
+            moving >= 2 && groupOf(joint).size() > 1 && depthThrough(joint) <= 2 && !tiedToChain(joint);
         return closesGripper(joint) || tiedEnd;
     }
 
-    // Whether the joint mimics one above it, as in a chain with coupled joints.
+    // The joint and those that are tied to it; empty if it follows one that cannot move.
+    std::span<const urdf::Joint* const> groupOf(const urdf::Joint& joint) const {
+        const auto root = roots_.find(joint.name);
+        return root == roots_.end() ? std::span<const urdf::Joint* const>{} : groups_.at(root->second);
+    }
+
+    // Whether the joint mimics one above it or is mimicked from below, as in a chain with coupled joints, or
+    // no joint of its group is on another branch, as in a gripper.
     bool tiedToChain(const urdf::Joint& joint) const {
-        if (!joint.mimic) { // followed: by a joint below it, or on another branch as in a gripper
-            return std::any_of(model_.joints_.begin(), model_.joints_.end(), [&](const auto& entry) {
-                return entry.second->mimic && entry.second->mimic->joint_name == joint.name &&
-                       isAbove(joint, *entry.second);
+        const auto group = groupOf(joint);
+        const bool coupled = std::any_of(group.begin(), group.end(), [&](const urdf::Joint* other) {
+            return joint.mimic
+                       ? other->name == joint.mimic->joint_name && isAbove(*other, joint)
+                       : other->mimic && other->mimic->joint_name == joint.name && isAbove(joint, *other);
+        });
+        const auto alongAll = [&](const urdf::Joint* one) {
+            return std::all_of(group.begin(), group.end(), [&](const urdf::Joint* other) {
+                return one == other || isAbove(*one, *other) || isAbove(*other, *one);
             });
-        }
-        const auto followed = model_.joints_.find(joint.mimic->joint_name);
-        return followed != model_.joints_.end() && isAbove(*followed->second, joint);
+        };
+        return coupled || std::all_of(group.begin(), group.end(), alongAll);
     }
 
     bool isAbove(const urdf::Joint& upper, const urdf::Joint& lower) const {
@@ -234,6 +206,16 @@ private:
                              std::to_string(best.moving) + " joints; arm.tip selects another: " + names);
     }
 
+    // The body that a frame without shapes only carries, such as the frame of an MJCF joint beside its body.
+    LinkPtr bodyAt(LinkPtr link) const {
+        if (isBareFrame(*link) && link->child_joints.size() == 1 &&
+            link->child_joints[0]->type == urdf::Joint::FIXED) {
+            const LinkPtr child = model_.getLink(link->child_joints[0]->child_link_name);
+            return isBareFrame(*child) ? link : child;
+        }
+        return link;
+    }
+
     // Follows fixed joints to frames without shapes, as long as there is only one.
     LinkPtr bareEnd(LinkPtr link, ArmEnds& ends) const {
         for (;;) {
@@ -255,8 +237,9 @@ private:
 
     const urdf::ModelInterface& model_;
     const std::filesystem::path& file_;
-    std::map<std::string, int> depths_; // moving joints below each link
-    std::map<std::string, bool> tied_;  // joints that follow or are followed
+    std::map<std::string, int> depths_;                             // moving joints below each link
+    std::map<std::string, std::string> roots_;                      // of moving joints, see JointTie
+    std::map<std::string, std::vector<const urdf::Joint*>> groups_; // by root
     std::vector<Seen> seen_;
 };
 

@@ -179,7 +179,9 @@ private:
             drive.value = tie.offset + tie.multiplier * group.held.value_or(0.0);
             drive.why = options_.locked.count(joint.name) > 0 ? "locked by the scene"
                         : tie.multiplier == 0.0               ? "mimic with multiplier 0"
-                                                              : "follows " + tie.root;
+                        : model_.getJoint(tie.root)->type == urdf::Joint::FIXED
+                            ? "follows " + tie.root + ", which is fixed"
+                            : "follows " + tie.root;
         } else if (group.leader) {
             follow(joint, tie, group, drive);
         } else if (!group.finger.empty()) {

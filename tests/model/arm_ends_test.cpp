@@ -155,3 +155,13 @@ TEST_CASE("A missing mesh names the places that were searched and the key that a
     CHECK(refusal.find("/some_arm/meshes/base.stl, ") != std::string::npos);
     CHECK(refusal.find("arm.meshes names the folder") != std::string::npos);
 }
+
+TEST_CASE("Among frames of one name the bare one behind the others is the tip, and a finger may be short") {
+    const std::string hand = ballLink("gripper_link") + "<link name='ee_gripper_link'/>" +
+                             jointText("f", "fixed", "c", "gripper_link", "0 0 0.1", "0 0 1") +
+                             jointText("g", "fixed", "gripper_link", "ee_gripper_link", "0 0 0.1", "0 0 1");
+    CHECK(tipOf(twoJoints(hand)) == "ee_gripper_link (a tool frame by its name)");
+    CHECK(tipOf(twoJoints(ballLink("arm_link_fngr") +
+                          jointText("f1x", "revolute", "c", "arm_link_fngr", "0 0 0.1", "0 1 0"))) ==
+          "c (the end of the longest chain before a gripper)");
+}

@@ -2,6 +2,7 @@
 // Mimic joints of a URDF: on the chain, in grippers, and off the chain.
 #include "tests/model/urdf_text.h"
 
+#include <algorithm>
 #include <doctest/doctest.h>
 
 using namespace fathom;
@@ -170,4 +171,43 @@ TEST_CASE("Limits of a mimic joint that leave no value for the followed joint ar
     REQUIRE(arm.notes.size() == 1);
     CHECK(arm.notes[0] ==
           "joint j2: its limits leave no value for joint j1, which it follows, and are ignored");
+}
+
+TEST_CASE("A joint of the chain that follows one behind it stays in the chain, and fingers do not") {
+    const auto chain = [](const std::string& first, const std::string& second, const std::string& more = "") {
+        return ballLink("a") + ballLink("b") + ballLink("c") + ballLink("d") + more +
+               jointText("j1", "revolute", "a", "b", "0 0 0.3", "0 1 0", kWide + first) +
+               jointText("j2", "revolute", "b", "c", "0 0 0.3", "0 1 0", kWide + second) +
+               jointText("j3", "revolute", "c", "d", "0 0 0.3", "0 1 0", kWide);
+    };
+    for (const auto& [first, second] :
+         {std::pair{mimicText("j3", "multiplier='-0.5' offset='0.1'"), std::string()},
+          {std::string(), mimicText("j3", "multiplier='2'")},
+          {mimicText("j2"), mimicText("j3", "multiplier='2'")}}) {
+        const ArmModel arm = loadUrdf(chain(first, second));
+        CHECK(arm.tipText == "d (the end of the longest chain)");
+        CHECK(arm.count() == 3);
+    }
+    CHECK(loadUrdf(chain(mimicText("j3"), "",
+                         "<link name='tool0'/>" + jointText("f", "fixed", "d", "tool0", "0 0 0.1", "0 0 1")))
+              .tipText == "tool0 (a tool frame by its name)");
+    const std::string fingers =
+        ballLink("e") + ballLink("f") + jointText("f1", "revolute", "d", "e", "0 0 0", "1 0 0", kWide) +
+        jointText("f2", "revolute", "d", "f", "0 0 0", "1 0 0", kWide + mimicText("f1"));
+    CHECK(loadUrdf(chain("", "", fingers)).tipText == "d (the end of the longest chain before a gripper)");
+    const std::string tipped =
+        fingers + ballLink("g") +
+        jointText("f3", "revolute", "f", "g", "0 0 0", "1 0 0", kWide + mimicText("f1"));
+    CHECK(loadUrdf(chain("", "", tipped)).tipText == "d (the end of the longest chain before a gripper)");
+}
+
+TEST_CASE("A joint that mimics a fixed joint is held, with a note, and does not end the chain") {
+    const ArmModel arm = loadUrdf(
+        ballLink("a") + ballLink("b") + ballLink("c") + ballLink("d") + "<link name='x'/>" +
+        jointText("fx", "fixed", "a", "x", "0 0 0", "1 0 0") +
+        jointText("j1", "revolute", "a", "b", "0 0 0.3", "0 1 0", kWide) +
+        jointText("j2", "revolute", "b", "c", "0 0 0.3", "0 1 0", kWide) +
+        jointText("j3", "revolute", "c", "d", "0 0 0.3", "0 1 0", kWide + mimicText("fx", "offset='0.2'")));
+    CHECK(arm.tipText == "d (the end of the longest chain)");
+    CHECK(arm.held == std::vector<std::string>{"j3 stays at 0.2 (follows fx, which is fixed)"});
 }

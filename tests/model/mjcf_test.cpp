@@ -338,3 +338,10 @@ TEST_CASE("A fault in an included file is reported with that file and its line")
     CHECK(line.find("hand.xml: line 3: <geom>: size=\"1\"") != std::string::npos);
     CHECK(line.find("arm.xml") == std::string::npos);
 }
+
+TEST_CASE("The tip of an MJCF is a body, also where its joint has an anchor beside the body's origin") {
+    const ArmModel arm = loadMjcf("<worldbody><body name='a'>" + ball() +
+                                  "<body name='b'><joint name='j' pos='0.1 0 0' range='-90 90'/>" + ball() +
+                                  "</body></body></worldbody>");
+    CHECK(arm.tipText == "b (the end of the longest chain)");
+}

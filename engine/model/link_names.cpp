@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/model/link_names.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <span>
+#include <string_view>
+
+namespace fathom {
+
+namespace {
+
+// Usual names of tool frames, the best first: ROS-Industrial's tool0 and flange, then frames of hands.
+constexpr std::array<std::string_view, 22> kToolNames{
+    "tool0",       "tcp",  "tool_frame",   "tool_tip",  "tool_link", "ee_link",           "end_effector_link",
+    "ee",          "eef",  "end_effector", "link_eef",  "link_ee",   "grasping_frame",    "grasp_frame",
+    "flange",      "tool", "hand",         "hand_link", "palm_link", "gripper_base_link", "gripper_base",
+    "gripper_link"};
+
+constexpr std::array<std::string_view, 8> kGripperWords{"gripper", "finger", "fngr",  "jaw",
+                                                        "knuckle", "claw",   "thumb", "pincer"};
+
+// In the name of a joint these say that it turns a hand and does not close it.
+constexpr std::array<std::string_view, 6> kWristWords{"wrist", "roll", "rotat", "pitch", "yaw", "swivel"};
+
+std::string lowered(std::string name) {
+    name = name.substr(name.rfind('/') + 1);
+    std::transform(name.begin(), name.end(), name.begin(),
+                   [](unsigned char c) { return c == '-' ? '_' : static_cast<char>(std::tolower(c)); });
+    return name;
+}
+
+bool hasWord(const std::string& name, std::span<const std::string_view> words) {
+    const std::string low = lowered(name);
+    return std::any_of(words.begin(), words.end(),
+                       [&](std::string_view word) { return low.find(word) != std::string::npos; });
+}
+
+} // namespace
+
+size_t toolRank(const std::string& link) {
+    const std::string name = lowered(link);
+    size_t best = kNoTool;
+    for (size_t i = 0; i < kToolNames.size(); ++i) {
+        const std::string ending = "_" + std::string(kToolNames[i]);
+        if (name == kToolNames[i] || (name.size() > ending.size() && name.ends_with(ending))) {
+            best = std::min(best, i);
+        }
+    }
+    return best;
+}
+
+// The link "gripper" is often a wrist's.
+bool closesGripper(const urdf::Joint& joint) {
+    const std::span<const std::string_view> ofLinks(kGripperWords.begin() + 1, kGripperWords.end());
+    return !hasWord(joint.name, kWristWords) &&
+           (hasWord(joint.name, kGripperWords) || hasWord(joint.child_link_name, ofLinks));
+}
+
+} // namespace fathom

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// What names of links and joints say about an arm: tool frames and gripper joints.
+#pragma once
+
+#include <limits>
+#include <string>
+#include <urdf_model/joint.h>
+
+namespace fathom {
+
+inline constexpr size_t kNoTool = std::numeric_limits<size_t>::max();
+
+// Rank of a tool frame's name, with or without a prefix such as "left_"; the best is 0. kNoTool = none.
+size_t toolRank(const std::string& link);
+
+// Whether the names say that the joint closes a gripper.
+bool closesGripper(const urdf::Joint& joint);
+
+} // namespace fathom
