@@ -40,4 +40,18 @@ std::string doubtHeld(const std::string& joint, bool slides, double value) {
     return std::abs(value) > (slides ? kLongSlide : 4.0 * std::numbers::pi) ? line.str() : "";
 }
 
+std::string doubtBeyond(const std::string& joint, double value, double lower, double upper) {
+    constexpr double kRounding = 1e-6; // [rad], [m]
+    std::ostringstream line;
+    line << "joint " << joint << ": stays at " << value << ", beyond its limits " << lower << " to " << upper;
+    return value < lower - kRounding || value > upper + kRounding ? line.str() : "";
+}
+
+std::string doubtEnds(const std::string& finger, double open, double closed) {
+    std::ostringstream line;
+    line << "finger " << finger << ": open at " << open << " and closed at " << closed
+         << " by default; grasp.fingers sets both";
+    return line.str();
+}
+
 } // namespace fathom

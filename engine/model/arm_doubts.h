@@ -12,5 +12,9 @@ inline constexpr double kLongSlide = 5.0, kLongFinger = 0.5; // [m] travel of a 
 std::string doubtLimits(const std::string& joint, bool slides, double lower, double upper, double longSlide);
 std::string doubtSpeed(const std::string& joint, bool slides, double stated); // [rad/s], [m/s]
 std::string doubtHeld(const std::string& joint, bool slides, double value);
+// On a joint that stays outside its limits.
+std::string doubtBeyond(const std::string& joint, double value, double lower, double upper);
+// On a finger whose open or closed position the program chose.
+std::string doubtEnds(const std::string& finger, double open, double closed);
 
 } // namespace fathom

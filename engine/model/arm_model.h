@@ -115,7 +115,8 @@ struct ArmOptions {
     // A gripper joint, which is not part of the chain.
     struct Finger {
         std::string joint;
-        std::optional<double> open, closed; // [rad], [m]; empty = the lower and the upper limit of the URDF
+        // [rad], [m]; empty = a limit of the URDF: the one farther from 0 is open if it slides, else the lower one
+        std::optional<double> open, closed;
     };
     std::vector<Finger> fingers;          // joints off the chain; one per group of mimic joints is enough
     std::string base, tip;                // links; empty = chosen by the tree, see chooseEnds()

@@ -120,6 +120,13 @@ private:
         }
     }
 
+    // Where fingers are open and closed in most descriptions: they slide towards 0, or turn from lower to upper.
+    static std::pair<double, double> usualEnds(const urdf::Joint& joint) {
+        const double lower = joint.limits->lower, upper = joint.limits->upper;
+        const bool down = joint.type == urdf::Joint::PRISMATIC && std::abs(upper) >= std::abs(lower);
+        return down ? std::pair{upper, lower} : std::pair{lower, upper};
+    }
+
     void grasp(const ArmOptions::Finger& wanted) {
         checkFinger(wanted);
         const urdf::Joint& joint = *model_.getJoint(wanted.joint);
@@ -128,8 +135,9 @@ private:
         const auto rootAt = [&](double value) { return (value - tie.offset) / tie.multiplier; };
         if (group.finger.empty()) {
             group.finger = wanted.joint;
-            group.open = rootAt(wanted.open.value_or(joint.limits->lower));
-            group.closed = rootAt(wanted.closed.value_or(joint.limits->upper));
+            const auto [open, closed] = usualEnds(joint);
+            group.open = rootAt(wanted.open.value_or(open));
+            group.closed = rootAt(wanted.closed.value_or(closed));
             return;
         }
         for (const auto& [given, root] :

@@ -251,11 +251,15 @@ private:
         }
     }
 
-    void checkFingers() const {
+    void checkFingers() {
         for (const auto& wanted : options_.fingers) {
             const auto same = [&](const ArmFinger& finger) { return finger.name == wanted.joint; };
-            if (std::none_of(model_.fingers.begin(), model_.fingers.end(), same)) {
+            const auto found = std::find_if(model_.fingers.begin(), model_.fingers.end(), same);
+            if (found == model_.fingers.end()) {
                 refuse("finger", "'" + wanted.joint + "'", "a joint that the arm's base carries");
+            }
+            if (!found->mimic && (!wanted.open || !wanted.closed)) {
+                note(doubtEnds(found->name, found->open, found->closed));
             }
         }
     }

@@ -211,3 +211,32 @@ TEST_CASE("A joint that mimics a fixed joint is held, with a note, and does not 
     CHECK(arm.tipText == "d (the end of the longest chain)");
     CHECK(arm.held == std::vector<std::string>{"j3 stays at 0.2 (follows fx, which is fixed)"});
 }
+
+TEST_CASE("Sliding fingers without stated positions close towards 0, and a note says which they are") {
+    const auto fingerOf = [](const std::string& type, const std::string& limits) {
+        ArmOptions options;
+        options.tip = "hand";
+        options.fingers = {{"f1", {}, {}}};
+        return loadUrdf(kHand + ballLink("x") +
+                            jointText("f1", type, "hand", "fl", "0 0 0", "0 1 0",
+                                      "<limit " + limits + " velocity='1' effort='1'/>") +
+                            jointText("f2", "fixed", "hand", "fr", "0 0 0", "0 1 0", "") +
+                            jointText("f3", "fixed", "hand", "x", "0 0 0", "0 1 0", ""),
+                        options);
+    };
+    for (const auto& [limits, open, closed] : {std::tuple{"lower='0' upper='0.04'", 0.04, 0.0},
+                                               {"lower='0.021' upper='0.057'", 0.057, 0.021},
+                                               {"lower='-0.05' upper='0.01'", -0.05, 0.01}}) {
+        const ArmModel arm = fingerOf("prismatic", limits);
+        CHECK(arm.fingers.at(0).open == open);
+        CHECK(arm.fingers.at(0).closed == closed);
+    }
+    const ArmModel arm = fingerOf("prismatic", "lower='0' upper='0.04'");
+    CHECK(
+        std::find(arm.notes.begin(), arm.notes.end(),
+                  "finger f1: open at 0.04 and closed at 0 by default; grasp.fingers sets both") !=
+        arm.notes.end());
+    const ArmModel turning = fingerOf("revolute", "lower='0' upper='0.8'");
+    CHECK(turning.fingers.at(0).open == 0.0);
+    CHECK(turning.fingers.at(0).closed == 0.8);
+}
