@@ -100,6 +100,9 @@ private:
         if (std::find(model_.held.begin(), model_.held.end(), line.str()) == model_.held.end()) {
             model_.held.push_back(line.str());
             note(doubtHeld(joint.name, joint.type == urdf::Joint::PRISMATIC, drive.value));
+            if (joint.limits && joint.type != urdf::Joint::CONTINUOUS && hasAxis(joint)) {
+                note(doubtBeyond(joint.name, drive.value, joint.limits->lower, joint.limits->upper));
+            }
         }
         return drive.value == 0.0 || !hasAxis(joint) ? Pose{} : motionOf(joint, drive.value);
     }

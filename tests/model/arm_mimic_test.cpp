@@ -212,6 +212,12 @@ TEST_CASE("A joint that mimics a fixed joint is held, with a note, and does not 
     CHECK(arm.held == std::vector<std::string>{"j3 stays at 0.2 (follows fx, which is fixed)"});
 }
 
+TEST_CASE("A joint that its mimic holds beyond its own limits is reported") {
+    const ArmModel arm = loadUrdf(chainWith(kWide + mimicText("j1", "multiplier='0' offset='5'")));
+    REQUIRE(arm.notes.size() == 1);
+    CHECK(arm.notes[0] == "joint j2: stays at 5, beyond its limits -3 to 3");
+}
+
 TEST_CASE("Sliding fingers without stated positions close towards 0, and a note says which they are") {
     const auto fingerOf = [](const std::string& type, const std::string& limits) {
         ArmOptions options;
