@@ -84,6 +84,7 @@ Wrench WrenchStage::springWrench(const WrenchInput& input) noexcept {
     tick.period = options_.period;
     tick.mayRise = input.mayRise && !input.trapped;
     tick.newData = input.newData;
+    tick.lags = input.lags;
     return reaction_.step(tick);
 }
 

@@ -31,6 +31,7 @@ struct WrenchInput {
     uint32_t pushes = 0;   // cause::kRow and kJoint of the solver's answer
     bool mayRise = true;   // as ReactionInput
     bool newData = false;  // as ReactionInput
+    bool lags = false;     // as ReactionInput
     bool escape = false;   // new data covers the tool, which is on its way out
     bool vanished = false; // the regions that pressed are gone although nothing moved
     bool power = false;    // forces are on, nothing holds them back

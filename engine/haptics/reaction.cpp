@@ -16,6 +16,7 @@ constexpr double kTurns = 1e-3;         // [N] a smaller reaction has no directi
 constexpr double kPushed = 0.3;         // of a frame, in which new data pushes a tool out
 constexpr double kLate = 1.25;          // of a frame, until which the next one is waited for
 constexpr double kMinMix = 0.3;         // directions that differ more than that are not mixed
+constexpr double kSameWay = 0.8;        // cosine between the reaction that returns and the former one
 constexpr double kOwedShare = 0.5;      // of the spring, so that force ends where contact ends
 
 // sqrt(|f|^2 + |tau / k|^2) [N]: the norm in which the spring wrench is K_t times the metric distance.
@@ -73,6 +74,24 @@ void Reaction::vanish() noexcept {
     replaced_ = 0.0;
 }
 
+// Begins the tail when new data took the reaction of a tool that lags, and ends it when the reaction is back.
+void Reaction::keepWhileLagging(const Wrench& wanted, double travel, const ReactionInput& input) noexcept {
+    const double k = std::max(1e-6, input.springs.metricRadius), size = sizeOf(wanted, k);
+    const double byHand = input.springs.stiffness * travel, band = kBand * input.springs.stiffness;
+    if (left_ > 0.0) {
+        const double along =
+            glm::dot(wanted.force, faded_.force) + glm::dot(wanted.torque, faded_.torque) / (k * k);
+        if (size >= felt_ && along > kSameWay * size * fadedSize_) {
+            size_ = felt_;
+            left_ = 0.0;
+        }
+    } else if (input.lags && since_ < kPushed * interval_ && size < felt_ - byHand - band) {
+        vanish();
+        owed_ = {}; // the tail contains it
+        raw_ = wanted;
+    }
+}
+
 // The fading rest of a reaction whose regions vanished. A new reaction takes its place for good: the tail
 // must not come back when the new reaction ends.
 Wrench Reaction::tail(double size, double period) noexcept {
@@ -118,6 +137,7 @@ Wrench Reaction::step(const ReactionInput& input) noexcept {
     const dvec3 moved = input.end.position - before.position,
                 turned = rotationLog(input.end.rotation * glm::conjugate(before.rotation));
     const double travel = std::sqrt(glm::dot(moved, moved) + glm::dot(k * turned, k * turned));
+    keepWhileLagging(wrench, travel, input);
     wrench = settling(wrench, travel, input);
     const double wanted = sizeOf(wrench, k);
     // Along the wanted reaction, which is out of the regions.

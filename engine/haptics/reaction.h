@@ -15,6 +15,7 @@ struct ReactionInput {
     double period = 0.001; // T [s]
     bool mayRise = true;   // false: rows are stale, the tool is trapped or the hand's sample is doubtful
     bool newData = false;  // the regions changed since the tick before
+    bool lags = false;     // the tool did not reach `allowed`
 };
 
 // One thread; noexcept, no allocation. In a region at rest the reaction grows by no more than the spring that
@@ -28,6 +29,10 @@ struct ReactionInput {
 // while the tool follows at once: of the size of the reaction the first kBand, of its direction as much or
 // kTurnBand of it. A full band is felt with the time constant kSettle, a small part of it with kCalm. What the
 // hand's own motion changes is felt in the same tick.
+//
+// A tool that lags, such as an arm, follows a surface that new data moved only after some ticks, and has lost its
+// rows meanwhile. So a fall that new data causes while it lags fades over kTail. If the reaction returns before,
+// in its former direction, it goes on from the force on the wire.
 class Reaction {
 public:
     // Wrench on the hand, base axes, before limits; without damping.
@@ -57,6 +62,7 @@ public:
 
 private:
     double rate(double appeared) noexcept;
+    void keepWhileLagging(const Wrench& wanted, double travel, const ReactionInput& input) noexcept;
     Wrench tail(double size, double period) noexcept;
     Wrench turning(const Wrench& wrench, const ReactionInput& input) noexcept;
 

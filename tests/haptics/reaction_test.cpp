@@ -255,6 +255,35 @@ TEST_CASE("New data that turns a reaction by up to 11 degrees is felt slowly, ho
     }
 }
 
+TEST_CASE("A tool that lags keeps its reaction while it follows a surface that new data moved") {
+    for (const bool lags : {true, false}) {
+        Reaction reaction = pressed(0.02);
+        ReactionInput tick = tickAt(-0.018, -0.02); // rows that hold back only 2 mm
+        tick.lags = lags;
+        double least = 20.0, before = 20.0, step = 0.0;
+        for (int i = 0; i < 400; ++i) {
+            tick.newData = i == 0;
+            tick.allowed.position.z = i < 10 ? -0.018 : 0.0; // it has caught up
+            const double force = forceOf(reaction.step(tick));
+            least = std::min(least, force), step = std::max(step, std::abs(force - before));
+            before = force;
+        }
+        CHECK((!lags || before == doctest::Approx(20.0)));
+        CHECK(lags == (least > 18.8));
+        CHECK(lags == (step < 0.11));
+    }
+    Reaction reaction = pressed(0.02); // what is really gone fades out
+    ReactionInput tick = tickAt(-0.02, -0.02);
+    tick.lags = true, tick.newData = true;
+    double before = 20.0 + 1e-9;
+    for (int i = 0; i < 200; ++i, tick.newData = false) {
+        const double force = forceOf(reaction.step(tick));
+        CHECK(force < before);
+        before = force;
+    }
+    CHECK(forceOf(reaction.step(tick)) == 0.0);
+}
+
 TEST_CASE("A surface that approaches is felt at most 2 mm late, and one that is gone is not felt") {
     Reaction reaction = pressed(0.01);
     double surface = 0.0;
