@@ -66,7 +66,7 @@ std::string_view meantBy(std::string_view written, const Words& words) {
                            [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     const auto same = std::ranges::find(words, small);
     const bool extension = written.find_first_of("_:") != std::string_view::npos;
-    return same != words.end() ? *same : extension ? std::string_view{} : nearestWord(small, words);
+    return same != words.end() ? *same : extension ? std::string_view{} : nearestWord(written, words);
 }
 
 // The element that other formats, or the plural, call so.
@@ -163,6 +163,9 @@ private:
         }
         if ((path == "robot/link/visual" || path == "robot/link/inertial") && tag.name == "collision") {
             refuse(path, "<collision> in " + quoted(holder) + ": not read", "<collision> in <link>");
+        }
+        if (path == "robot/link/collision/geometry" && tag.name == "origin") {
+            refuse(path, "<origin> in <geometry>: not read", "<origin> in <collision>");
         }
     }
 

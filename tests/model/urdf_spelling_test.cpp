@@ -81,7 +81,11 @@ TEST_CASE("Links, joints and collisions where the parser does not look for them 
                   "robot: <link> in <group>: not read (allowed: <link> in <robot>)"));
     CHECK(refuses(armOf(kLimit, "<link name='c'><visual><collision/></visual></link>"),
                   "link c: <collision> in <visual>: not read (allowed: <collision> in <link>)"));
-    CHECK(urdfRefusal(armOf(kLimit) + "<gazebo>" + ballLink("d") +
+    CHECK(
+        refuses(armOf(kLimit, "<link name='c'><collision><geometry><origin xyz='0 0 1'/><sphere radius='1'/>"
+                              "</geometry></collision></link>"),
+                "link c: <origin> in <geometry>: not read (allowed: <origin> in <collision>)"));
+    CHECK(urdfRefusal(armOf(kLimit) + "<RefLink/><gazebo>" + ballLink("d") +
                       "</gazebo><group><link name='a'/></group>"
                       "<transmission><joint name='j1' type='x'/></transmission>") == "");
 }
