@@ -117,6 +117,22 @@ void refuseXacro(const std::filesystem::path& file, const std::string& text) {
     }
 }
 
+// XML reads tabs and line ends in an attribute as spaces; the parser does not.
+std::string withSpaces(const std::string& text) {
+    std::string out;
+    out.reserve(text.size());
+    for (XmlPieces pieces(text); pieces.next();) {
+        const size_t start = out.size();
+        out += pieces.piece().text;
+        if (!pieces.piece().name.empty()) {
+            std::replace_if(
+                out.begin() + static_cast<std::ptrdiff_t>(start), out.end(),
+                [](char c) { return c == '\t' || c == '\r' || c == '\n'; }, ' ');
+        }
+    }
+    return out;
+}
+
 // The joint whose <mimic> has a value that an error quotes in brackets: the parser does not name it.
 std::string mimicWith(const std::string& error, const std::string& text) {
     const size_t open = error.find('('), close = error.rfind(')');
@@ -162,7 +178,7 @@ std::string packetOf(const std::filesystem::path& file) {
     }
     refuseXacro(file, text);
     std::vector<std::string> notes;
-    text = isMjcf(text) ? urdfOfMjcf(file, text, notes) : text;
+    text = isMjcf(text) ? urdfOfMjcf(file, text, notes) : withSpaces(text);
     const bool capsules = text.find("<capsule") != std::string::npos;
     const Listener listener;
     const std::shared_ptr<const urdf::ModelInterface> model = [&] {

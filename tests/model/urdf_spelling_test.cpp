@@ -127,3 +127,9 @@ TEST_CASE("Turns of over a full turn, and one limit without the other, are repor
     CHECK(notes("<limit upper='1' velocity='1' effort='1'/>") ==
           std::vector<std::string>{"joint j2: <limit> has no lower, which is 0 then"});
 }
+
+TEST_CASE("Tabs and line ends between the numbers of an attribute are spaces, as XML says") {
+    const ArmModel arm = loadUrdf(armOf(kLimit + "<origin xyz='\n0\t0\r\n0.3'/><axis\txyz='0\t1\n0'/>"));
+    CHECK(arm.joints.at(1).before.position.z == doctest::Approx(0.3));
+    CHECK(arm.joints.at(1).axis.y == 1.0);
+}
