@@ -12,6 +12,7 @@
 #include "engine/types/read_file.h"
 
 #include <algorithm>
+#include <array>
 #include <console_bridge/console.h>
 #include <iterator>
 #include <set>
@@ -93,27 +94,42 @@ std::string hideCapsules(const std::string& text) {
     return out;
 }
 
-// Elements of xacro, or its expressions in a link or joint.
-void refuseXacro(const std::filesystem::path& file, const std::string& text) {
+// Whether xacro makes parts of the robot here. An undefined macro stays in expanded files.
+bool isXacro(std::string_view path, const XmlPiece& tag) {
+    constexpr std::array<std::string_view, 7> kControl{"macro", "include", "property",    "arg",
+                                                       "if",    "unless",  "insert_block"};
+    const std::array<std::string_view, 4> unread{"robot/gazebo", "robot/transmission", "robot/ros2_control",
+                                                 "robot/link/visual"};
+    const auto around = [&](std::string_view place) {
+        return path == place || (path.starts_with(place) && path[place.size()] == '/');
+    };
+    if (tag.name.starts_with("xacro:")) {
+        return std::ranges::count(kControl, tag.name.substr(6)) > 0 || std::ranges::none_of(unread, around);
+    }
+    const bool part = path == "robot" && (tag.name == "link" || tag.name == "joint");
+    const bool expression =
+        tag.text.find("${") != std::string_view::npos || tag.text.find("$(") != std::string_view::npos;
+    return expression && (part || around("robot/link") || around("robot/joint"));
+}
+
+// Throws for elements of xacro, or its expressions in a link or joint; notes those that concern neither.
+void refuseXacro(const std::filesystem::path& file, const std::string& text,
+                 std::vector<std::string>& notes) {
     const std::string name = file.filename().string(), stem = file.stem().stem().string();
     const std::string expanded = stem + (stem + ".urdf" == name ? "_expanded.urdf" : ".urdf");
-    std::string_view part; // of the robot
-    size_t depth = 0;
-    for (XmlPieces pieces(text); pieces.next();) {
-        const XmlPiece& piece = pieces.piece();
-        if (piece.name.empty() || piece.name.starts_with('!')) {
-            continue;
-        }
-        depth -= piece.closes && depth > 0 ? 1 : 0;
-        part = depth == 1 ? piece.name : part;
-        const bool expression = piece.text.find("${") != std::string_view::npos ||
-                                piece.text.find("$(") != std::string_view::npos;
-        if (piece.name.starts_with("xacro:") ||
-            (expression && depth > 0 && (part == "link" || part == "joint"))) {
+    std::set<std::string> noted;
+    for (XmlTags tags(text); tags.next();) {
+        const std::string own(tags.tag().name);
+        if (isXacro(tags.path(), tags.tag())) {
             throw BadInput(file.string(), "robot", "a xacro file",
                            "a URDF; expand it with: xacro " + name + " > " + expanded);
         }
-        depth += piece.closes || piece.isEmpty ? 0 : 1;
+        if (own.starts_with("xacro:") && noted.insert(own).second) {
+            const std::string holder(tags.path().substr(tags.path().rfind('/') + 1));
+            std::string line = "<";
+            line += printable(own) + "> in <" + printable(holder);
+            notes.push_back(line + "> is not expanded and not read");
+        }
     }
 }
 
@@ -176,8 +192,8 @@ std::string packetOf(const std::filesystem::path& file) {
     if (text.empty()) {
         throw BadInput(file.string(), "file", "empty", "a readable URDF file");
     }
-    refuseXacro(file, text);
     std::vector<std::string> notes;
+    refuseXacro(file, text, notes);
     text = isMjcf(text) ? urdfOfMjcf(file, text, notes) : withSpaces(text);
     const bool capsules = text.find("<capsule") != std::string::npos;
     const Listener listener;

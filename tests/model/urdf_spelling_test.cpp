@@ -133,3 +133,12 @@ TEST_CASE("Tabs and line ends between the numbers of an attribute are spaces, as
     CHECK(arm.joints.at(1).before.position.z == doctest::Approx(0.3));
     CHECK(arm.joints.at(1).axis.y == 1.0);
 }
+
+TEST_CASE("An element of xacro beside links and joints gives a note, and any other rejects the URDF") {
+    const ArmModel arm = loadUrdf(armOf(kLimit) + "<gazebo><xacro:grey a='1'/><xacro:grey/></gazebo>");
+    CHECK(arm.notes == std::vector<std::string>{"<xacro:grey> in <gazebo> is not expanded and not read"});
+    const std::string wanted = "robot: a xacro file (allowed: a URDF; expand it with: xacro ";
+    CHECK(refuses(armOf(kLimit) + "<xacro:arm/>", wanted));
+    CHECK(refuses(armOf(kLimit + "<xacro:limits/>"), wanted));
+    CHECK(refuses(armOf(kLimit) + "<gazebo><xacro:property name='a' value='1'/></gazebo>", wanted));
+}
