@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Arms in MJCF: the same links, joints and limits as those of a URDF that was written by hand.
-#include "tests/model/urdf_text.h"
-#include "tests/support/refusal.h"
+#include "tests/model/mjcf_text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,24 +10,6 @@ using namespace fathom;
 using namespace fathom::testing;
 
 namespace {
-
-const ScratchFolder& folder() {
-    static const ScratchFolder folder;
-    return folder;
-}
-
-ArmModel loadMjcf(const std::string& inside, const ArmOptions& options = {}) {
-    std::ofstream(folder() / "arm.xml") << "<mujoco model='m'>" << inside << "</mujoco>";
-    return loadArm(folder() / "arm.xml", options);
-}
-
-std::string mjcfRefusal(const std::string& inside, const ArmOptions& options = {}) {
-    return refusalOf([&] { loadMjcf(inside, options); });
-}
-
-std::string ball(const std::string& pos = "0 0 0") {
-    return "<geom type='sphere' size='0.02' pos='" + pos + "'/>";
-}
 
 // Centre of the only leaf of a link.
 dvec3 mjcfCentre(const ArmModel& arm, const std::string& link, const JointVector& q) {
@@ -85,15 +66,15 @@ TEST_CASE("Bodies of an MJCF move as the links of the same arm in URDF, angles i
 <compiler eulerseq='zyx'/>
 <default><joint range='-90 90'/><default class='y'><joint axis='0 2 0'/></default></default>
 <worldbody><geom type='plane' size='1 1 1'/><body name='a'>)" +
-                                   ball() + R"(
+                                   mjcfBall() + R"(
 <body name='b' pos='0 0 0.3' euler='30 0 90'><joint name='j1'/>)" +
-                                   ball("0.1 0 0") + R"(
+                                   mjcfBall("0.1 0 0") + R"(
 <body name='c' pos='0.2 0 0' axisangle='1 0 0 90'><joint name='j2' class='y'/>)" +
-                                   ball("0 0 0.1") + R"(
+                                   mjcfBall("0 0 0.1") + R"(
 <body name='d' pos='0 0.1 0' xyaxes='0 1 0 -1 0 0'><joint name='j3' type='slide' axis='1 0 0' range='-0.1 0.2'/>)" +
-                                   ball("0 0.05 0") + R"(
+                                   mjcfBall("0 0.05 0") + R"(
 <body name='e' pos='0 0 0.1' zaxis='0 1 0'><joint name='j4' limited='false'/>)" +
-                                   ball("0.03 0 0") + "</body></body></body></body></body></worldbody>");
+                                   mjcfBall("0.03 0 0") + "</body></body></body></body></body></worldbody>");
     const auto at = [](const std::string& name, const std::string& centre) {
         return "<link name='" + name + "'><collision><origin xyz='" + centre +
                "'/><geometry><sphere radius='0.02'/></geometry></collision></link>";
@@ -115,15 +96,15 @@ TEST_CASE("Bodies of an MJCF move as the links of the same arm in URDF, angles i
 TEST_CASE("Anchors, several joints of one body, frames and reference angles are those of MuJoCo") {
     const ArmModel arm = loadMjcf(R"(
 <compiler angle='radian'/>
-<worldbody><body name='a'>)" + ball() +
+<worldbody><body name='a'>)" + mjcfBall() +
                                   R"(
 <body name='b' pos='0 0 1'>
   <joint name='turn' axis='0 0 1' pos='0.5 0 0' range='-1 2' ref='0.5'/>
   <joint name='lift' type='slide' axis='0 0 1' range='0 1'/>)" +
-                                  ball() + R"(
+                                  mjcfBall() + R"(
   <frame pos='0 0 0.5' axisangle='0 0 1 1.5707963267948966'>
     <body name='c' pos='1 0 0'><joint name='roll' axis='1 0 0' range='-1 1'/>)" +
-                                  ball("0 0 0.1") + R"(</body>
+                                  mjcfBall("0 0 0.1") + R"(</body>
   </frame>
 </body></body></worldbody>)");
     REQUIRE(arm.count() == 3);
@@ -171,11 +152,11 @@ TEST_CASE("Geoms become shapes of the same size: fromto, half sizes, classes and
 }
 
 TEST_CASE("An equality of two joints is a mimic joint, and one of a single joint holds it") {
-    const std::string bodies = "<compiler angle='radian'/><worldbody><body name='a'>" + ball() +
+    const std::string bodies = "<compiler angle='radian'/><worldbody><body name='a'>" + mjcfBall() +
                                "<body name='b' pos='0 0 1'><joint name='j1' axis='1 0 0' range='-1 1'/>" +
-                               ball() +
+                               mjcfBall() +
                                "<body name='c' pos='0 0 1'><joint name='j2' axis='1 0 0' range='-2 2'/>" +
-                               ball() + "</body></body></body></worldbody>";
+                               mjcfBall() + "</body></body></body></worldbody>";
     const ArmModel arm =
         loadMjcf(bodies + "<equality><joint joint1='j2' joint2='j1' polycoef='0.1 -1 0 0 0'/></equality>");
     REQUIRE(arm.joints[1].mimic);
@@ -193,15 +174,15 @@ TEST_CASE("An equality of two joints is a mimic joint, and one of a single joint
 }
 
 TEST_CASE("Included files are read from the main file's folder, also from within one another") {
-    std::ofstream(folder() / "limbs.xml")
-        << "<mujocoinclude><body name='b' pos='0 0 0.5'><joint name='j' axis='1 0 0' range='-9 9'/>" << ball()
-        << "<include file='more.xml'/></body></mujocoinclude>";
-    std::ofstream(folder() / "more.xml")
-        << "<mujoco><body name='c' pos='0 0 0.5'>" << ball() << "</body></mujoco>";
-    const ArmModel arm =
-        loadMjcf("<worldbody><body name='a'>" + ball() + "<include file='limbs.xml'/></body></worldbody>");
+    std::ofstream(mjcfFolder() / "limbs.xml")
+        << "<mujocoinclude><body name='b' pos='0 0 0.5'><joint name='j' axis='1 0 0' range='-9 9'/>"
+        << mjcfBall() << "<include file='more.xml'/></body></mujocoinclude>";
+    std::ofstream(mjcfFolder() / "more.xml")
+        << "<mujoco><body name='c' pos='0 0 0.5'>" << mjcfBall() << "</body></mujoco>";
+    const ArmModel arm = loadMjcf("<worldbody><body name='a'>" + mjcfBall() +
+                                  "<include file='limbs.xml'/></body></worldbody>");
     CHECK(glm::distance(mjcfCentre(arm, "c", JointVector{}), dvec3(0.0, 0.0, 1.0)) < 1e-12);
-    std::ofstream(folder() / "more.xml") << "<mujoco><include file='more.xml'/></mujoco>";
+    std::ofstream(mjcfFolder() / "more.xml") << "<mujoco><include file='more.xml'/></mujoco>";
     CHECK(mjcfRefusal("<worldbody><include file='limbs.xml'/></worldbody>").find("64 at most") !=
           std::string::npos);
 }
@@ -252,96 +233,4 @@ TEST_CASE("A thousand nested bodies and a body that is its own parent's name end
     }
     CHECK(mjcfRefusal(deep + "</worldbody>").find("XML_ELEMENT_DEPTH_EXCEEDED") != std::string::npos);
     CHECK_FALSE(mjcfRefusal("<worldbody><body name='a'><body name='a'/></body></worldbody>").empty());
-}
-
-TEST_CASE("A slide without limits, as of a gantry, has a URDF's limits of 10 km and a note") {
-    for (const char* limited : {"", "limited='false' range='-1 1'"}) {
-        const ArmModel arm = loadMjcf("<worldbody><body name='a'>" + ball() +
-                                      "<body name='b'><joint name='rail' type='slide' axis='1 0 0' " +
-                                      limited + "/>" + ball() + "</body></body></worldbody>");
-        REQUIRE(arm.count() == 1);
-        CHECK(arm.joints[0].slides);
-        CHECK(arm.joints[0].lower == -1e4);
-        CHECK(arm.joints[0].upper == 1e4);
-        CHECK(std::any_of(arm.notes.begin(), arm.notes.end(), [](const std::string& note) {
-            return note.find("joint rail: limits -10000 to 10000 m span more than 5 m") == 0;
-        }));
-    }
-}
-
-TEST_CASE("Constraints of an MJCF that are not read, as of closed loops, are reported") {
-    const ArmModel arm = loadMjcf(
-        "<equality><connect body1='a' body2='b' anchor='0 0 0'/><weld body1='a' body2='b'/>"
-        "<weld active='false' body1='a'/></equality><worldbody><body name='a'>" +
-        ball() + "<body name='b'><joint name='j' range='-90 90'/>" + ball() + "</body></body></worldbody>");
-    CHECK(std::any_of(arm.notes.begin(), arm.notes.end(), [](const std::string& note) {
-        return note == "2 equalities that are no <joint>, the first <connect> in line 1, are not read: loops "
-                       "stay open";
-    }));
-}
-
-TEST_CASE("A turn that an element states itself, in any form, replaces the quat of its class") {
-    const std::string classes = "<default><geom quat='0 1 0 0' type='capsule' size='0.01 0.1'/></default>";
-    const auto top = [&](const std::string& turn) { // highest point of the capsule
-        const ArmModel arm =
-            loadMjcf("<compiler angle='radian'/>" + classes + "<worldbody><body name='a'>" + ball() +
-                     "<body name='b'><joint name='j' range='-1 1'/><geom name='g' " + turn +
-                     "/></body></body></worldbody>");
-        double highest = 0.0;
-        for (const ArmLeaf& leaf : arm.leaves) {
-            highest = std::max(highest, leaf.sphere.centre.z);
-        }
-        return highest;
-    };
-    CHECK(top("") > 0.05);
-    for (const char* turn : {"euler='0 1.5707963267948966 0'", "axisangle='0 1 0 1.5707963267948966'",
-                             "xyaxes='0 0 1 0 1 0'", "zaxis='1 0 0'", "quat='1 0 1 0'"}) {
-        CHECK_MESSAGE(top(turn) < 0.02, turn);
-    }
-    CHECK(mjcfRefusal("<worldbody><body name='b' euler='1 0 0' zaxis='1 0 0'/></worldbody>")
-              .find("<body name=\"b\">: euler and zaxis (allowed: one of quat, axisangle, euler, xyaxes and "
-                    "zaxis)") != std::string::npos);
-}
-
-TEST_CASE("Elements of one kind in a class add their attributes, the last one first") {
-    const auto leaves = [](const std::string& defaults) {
-        return loadMjcf("<default>" + defaults + "</default><worldbody><body name='a'>" + ball() +
-                        "<body name='b'><joint name='j' range='-1 1'/><geom/></body></body></worldbody>")
-            .leaves;
-    };
-    CHECK(leaves("<geom size='0.5'/><geom size='0.03' type='sphere'/>").back().sphere.radius == 0.03);
-    CHECK(leaves("<geom size='0.03'/><geom type='sphere'/>").size() == 2);
-    CHECK(mjcfRefusal("<default><geom contype='0' conaffinity='0'/><geom size='0.03'/></default><worldbody>"
-                      "<body name='a'><body name='b'><joint name='j' range='-1 1'/><geom/></body></body>"
-                      "</worldbody>")
-              .find("collision: no shapes on any link") != std::string::npos);
-}
-
-TEST_CASE("A primitive that is fitted to a mesh becomes the mesh, with one note") {
-    std::ofstream(folder() / "tetra.obj")
-        << "v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0 0 0.1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
-    const std::string fitted = "<geom type='capsule' mesh='tetra'/><geom type='box' mesh='tetra'/>";
-    const ArmModel arm =
-        loadMjcf("<asset><mesh file='tetra.obj'/></asset><worldbody><body name='a'>" + ball() +
-                 "<body name='b'><joint name='j' range='-90 90'/>" + fitted + "</body></body></worldbody>");
-    CHECK(arm.links == std::vector<std::string>{"a", "b"});
-    CHECK(std::count(arm.notes.begin(), arm.notes.end(),
-                     "2 primitives are fitted to meshes: the meshes are covered instead") == 1);
-}
-
-TEST_CASE("A fault in an included file is reported with that file and its line") {
-    std::ofstream(folder() / "hand.xml")
-        << "<mujoco><worldbody>\n<body>\n<geom type='box' size='1'/></body></worldbody></mujoco>";
-    std::ofstream(folder() / "robot.xml") << "<mujoco>\n<include file='hand.xml'/>\n<composite/></mujoco>";
-    const std::string line = mjcfRefusal("<include file='robot.xml'/>");
-    CAPTURE(line);
-    CHECK(line.find("hand.xml: line 3: <geom>: size=\"1\"") != std::string::npos);
-    CHECK(line.find("arm.xml") == std::string::npos);
-}
-
-TEST_CASE("The tip of an MJCF is a body, also where its joint has an anchor beside the body's origin") {
-    const ArmModel arm = loadMjcf("<worldbody><body name='a'>" + ball() +
-                                  "<body name='b'><joint name='j' pos='0.1 0 0' range='-90 90'/>" + ball() +
-                                  "</body></body></worldbody>");
-    CHECK(arm.tipText == "b (the end of the longest chain)");
 }

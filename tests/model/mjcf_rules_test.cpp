@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rules of MuJoCo that a URDF does not have, and what is reported about an MJCF.
+#include "tests/model/mjcf_text.h"
+
+#include <algorithm>
+#include <doctest/doctest.h>
+
+using namespace fathom;
+using namespace fathom::testing;
+
+TEST_CASE("A slide without limits, as of a gantry, has a URDF's limits of 10 km and a note") {
+    for (const char* limited : {"", "limited='false' range='-1 1'"}) {
+        const ArmModel arm = loadMjcf("<worldbody><body name='a'>" + mjcfBall() +
+                                      "<body name='b'><joint name='rail' type='slide' axis='1 0 0' " +
+                                      limited + "/>" + mjcfBall() + "</body></body></worldbody>");
+        REQUIRE(arm.count() == 1);
+        CHECK(arm.joints[0].slides);
+        CHECK(arm.joints[0].lower == -1e4);
+        CHECK(arm.joints[0].upper == 1e4);
+        CHECK(std::any_of(arm.notes.begin(), arm.notes.end(), [](const std::string& note) {
+            return note.find("joint rail: limits -10000 to 10000 m span more than 5 m") == 0;
+        }));
+    }
+}
+
+TEST_CASE("Constraints of an MJCF that are not read, as of closed loops, are reported") {
+    const ArmModel arm =
+        loadMjcf("<equality><connect body1='a' body2='b' anchor='0 0 0'/><weld body1='a' body2='b'/>"
+                 "<weld active='false' body1='a'/></equality><worldbody><body name='a'>" +
+                 mjcfBall() + "<body name='b'><joint name='j' range='-90 90'/>" + mjcfBall() +
+                 "</body></body></worldbody>");
+    CHECK(std::any_of(arm.notes.begin(), arm.notes.end(), [](const std::string& note) {
+        return note == "2 equalities that are no <joint>, the first <connect> in line 1, are not read: loops "
+                       "stay open";
+    }));
+}
+
+TEST_CASE("A turn that an element states itself, in any form, replaces the quat of its class") {
+    const std::string classes = "<default><geom quat='0 1 0 0' type='capsule' size='0.01 0.1'/></default>";
+    const auto top = [&](const std::string& turn) { // highest point of the capsule
+        const ArmModel arm =
+            loadMjcf("<compiler angle='radian'/>" + classes + "<worldbody><body name='a'>" + mjcfBall() +
+                     "<body name='b'><joint name='j' range='-1 1'/><geom name='g' " + turn +
+                     "/></body></body></worldbody>");
+        double highest = 0.0;
+        for (const ArmLeaf& leaf : arm.leaves) {
+            highest = std::max(highest, leaf.sphere.centre.z);
+        }
+        return highest;
+    };
+    CHECK(top("") > 0.05);
+    for (const char* turn : {"euler='0 1.5707963267948966 0'", "axisangle='0 1 0 1.5707963267948966'",
+                             "xyaxes='0 0 1 0 1 0'", "zaxis='1 0 0'", "quat='1 0 1 0'"}) {
+        CHECK_MESSAGE(top(turn) < 0.02, turn);
+    }
+    CHECK(mjcfRefusal("<worldbody><body name='b' euler='1 0 0' zaxis='1 0 0'/></worldbody>")
+              .find("<body name=\"b\">: euler and zaxis (allowed: one of quat, axisangle, euler, xyaxes and "
+                    "zaxis)") != std::string::npos);
+}
+
+TEST_CASE("Elements of one kind in a class add their attributes, the last one first") {
+    const auto leaves = [](const std::string& defaults) {
+        return loadMjcf("<default>" + defaults + "</default><worldbody><body name='a'>" + mjcfBall() +
+                        "<body name='b'><joint name='j' range='-1 1'/><geom/></body></body></worldbody>")
+            .leaves;
+    };
+    CHECK(leaves("<geom size='0.5'/><geom size='0.03' type='sphere'/>").back().sphere.radius == 0.03);
+    CHECK(leaves("<geom size='0.03'/><geom type='sphere'/>").size() == 2);
+    CHECK(mjcfRefusal("<default><geom contype='0' conaffinity='0'/><geom size='0.03'/></default><worldbody>"
+                      "<body name='a'><body name='b'><joint name='j' range='-1 1'/><geom/></body></body>"
+                      "</worldbody>")
+              .find("collision: no shapes on any link") != std::string::npos);
+}
+
+TEST_CASE("A primitive that is fitted to a mesh becomes the mesh, with one note") {
+    std::ofstream(mjcfFolder() / "tetra.obj")
+        << "v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0 0 0.1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+    const std::string fitted = "<geom type='capsule' mesh='tetra'/><geom type='box' mesh='tetra'/>";
+    const ArmModel arm =
+        loadMjcf("<asset><mesh file='tetra.obj'/></asset><worldbody><body name='a'>" + mjcfBall() +
+                 "<body name='b'><joint name='j' range='-90 90'/>" + fitted + "</body></body></worldbody>");
+    CHECK(arm.links == std::vector<std::string>{"a", "b"});
+    CHECK(std::count(arm.notes.begin(), arm.notes.end(),
+                     "2 primitives are fitted to meshes: the meshes are covered instead") == 1);
+}
+
+TEST_CASE("A fault in an included file is reported with that file and its line") {
+    std::ofstream(mjcfFolder() / "hand.xml")
+        << "<mujoco><worldbody>\n<body>\n<geom type='box' size='1'/></body></worldbody></mujoco>";
+    std::ofstream(mjcfFolder() / "robot.xml")
+        << "<mujoco>\n<include file='hand.xml'/>\n<composite/></mujoco>";
+    const std::string line = mjcfRefusal("<include file='robot.xml'/>");
+    CAPTURE(line);
+    CHECK(line.find("hand.xml: line 3: <geom>: size=\"1\"") != std::string::npos);
+    CHECK(line.find("arm.xml") == std::string::npos);
+}
+
+TEST_CASE("The tip of an MJCF is a body, also where its joint has an anchor beside the body's origin") {
+    const ArmModel arm = loadMjcf("<worldbody><body name='a'>" + mjcfBall() +
+                                  "<body name='b'><joint name='j' pos='0.1 0 0' range='-90 90'/>" +
+                                  mjcfBall() + "</body></body></worldbody>");
+    CHECK(arm.tipText == "b (the end of the longest chain)");
+}
