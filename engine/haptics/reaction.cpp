@@ -29,7 +29,7 @@ Wrench sum(const Wrench& a, const Wrench& b, double share) noexcept {
     return {a.force + share * b.force, a.torque + share * b.torque};
 }
 
-// A part of what is owed, one tick later: at most `band` [N], which falls with kSettle, a small part with kCalm.
+// A part of the owed wrench, one tick later: at most `band` [N], which falls with kSettle, a small part with kCalm.
 Wrench settled(const Wrench& owed, double band, double period, double k) noexcept {
     const double size = sizeOf(owed, k), full = size < band ? size / band : 1.0;
     const double share = std::exp(-period * (full / Reaction::kSettle + (1.0 - full) / Reaction::kCalm));

@@ -32,7 +32,7 @@ struct ReactionInput {
 //
 // A tool that lags, such as an arm, follows a surface that new data moved only after some ticks, and has lost its
 // rows meanwhile. So a fall that new data causes while it lags fades over kTail. If the reaction returns before,
-// in its former direction, it goes on from the force on the wire.
+// in its former direction, it rises from the force on the wire.
 class Reaction {
 public:
     // Wrench on the hand, base axes, before limits; without damping.

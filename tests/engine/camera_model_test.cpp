@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the library says of a camera that it cannot use, and of one that protects nothing.
+// Messages about cameras that the library cannot use, and about those that protect nothing.
 #include "tests/engine/wall_world.h"
 
 #include <algorithm>
@@ -32,7 +32,7 @@ TEST_CASE("A camera model that cannot be used is rejected by one line with its n
           std::string::npos);
 }
 
-TEST_CASE("A camera that protects nothing is said in the log: wrong unit, no depth, no colour") {
+TEST_CASE("A camera that protects nothing is named in the log: wrong unit, no depth, no colour") {
     std::mutex mutex;
     std::string lines;
     const auto has = [&](const char* text) {

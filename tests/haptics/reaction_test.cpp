@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The reaction of the regions, and how forces fade and return.
-#include "engine/haptics/force_ramps.h"
-#include "engine/haptics/limits.h"
+// The reaction of the regions.
 #include "engine/haptics/reaction.h"
 
 #include <algorithm>
@@ -141,29 +139,6 @@ TEST_CASE(
     follow(-0.0046, 50); // another one
     const double left = forceOf(reaction.step(tickAt(-0.005, -0.005)));
     CHECK(left == doctest::Approx(force - 0.4).epsilon(0.02));
-}
-
-TEST_CASE("Forces fade out by a factor and return by their limit, from what the device renders") {
-    ForceRamps ramps;
-    const auto ticks = [&](int count, std::array<bool, 3> on, double rendered) {
-        for (int i = 0; i < count; ++i) {
-            ramps.step(on, kPeriod, kPeriod, rendered, 1.5);
-        }
-    };
-    ticks(150, {true, true, true}, 0.0); // first time: 1.5 s
-    CHECK(ramps.share() == doctest::Approx(0.1));
-    CHECK(ramps.gain() == 1.0);
-    ticks(1400, {true, true, true}, 0.5);
-    CHECK(ramps.share() == 1.0);
-    ticks(100, {true, false, true}, 0.5); // trapped: half of 0.2 s
-    CHECK(ramps.gain() == doctest::Approx(0.5));
-    ticks(1, {true, true, true}, 0.3); // the limit starts where the device is
-    CHECK(ramps.gain() == 1.0);
-    CHECK(ramps.share() == doctest::Approx(0.3 + 0.005));
-    ramps.cut();
-    CHECK(ramps.off());
-    ticks(1, {true, true, true}, 0.0);
-    CHECK(ramps.share() == doctest::Approx(kPeriod / 1.5));
 }
 
 TEST_CASE("New data that turns a reaction by much is felt as an even turn over a frame, and the rest over "
