@@ -96,10 +96,14 @@ private:
         const urdf::Joint* last = nullptr; // last moving joint above it
     };
 
-    // A bare frame that is as good as a part of the gripper: the tool centre behind it.
+    // A frame without shapes whose name is as good as that of a part: the tool centre of this gripper. It may
+    // have a mass for simulators.
     static bool isBehind(const Seen& frame, const Seen& part) {
-        return frame.rank == part.rank && frame.last == part.last && isBareFrame(*frame.link) &&
-               !isBareFrame(*part.link);
+        const auto isPart = [](const urdf::Link& link) {
+            return !link.collision_array.empty() || !link.visual_array.empty();
+        };
+        return frame.rank == part.rank && frame.last == part.last && !isPart(*frame.link) &&
+               isPart(*part.link);
     }
 
     int depthBelow(const urdf::Link& link) {
@@ -208,8 +212,8 @@ private:
 
     // The body that a frame without shapes only carries, such as the frame of an MJCF joint beside its body.
     LinkPtr bodyAt(LinkPtr link) const {
-        if (isBareFrame(*link) && link->child_joints.size() == 1 &&
-            link->child_joints[0]->type == urdf::Joint::FIXED) {
+        if (isBareFrame(*link) && link->parent_joint && moves(*link->parent_joint) &&
+            link->child_joints.size() == 1 && link->child_joints[0]->type == urdf::Joint::FIXED) {
             const LinkPtr child = model_.getLink(link->child_joints[0]->child_link_name);
             return isBareFrame(*child) ? link : child;
         }

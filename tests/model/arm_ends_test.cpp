@@ -157,7 +157,9 @@ TEST_CASE("A missing mesh names the places that were searched and the key that a
 }
 
 TEST_CASE("Among frames of one name the bare one behind the others is the tip, and a finger may be short") {
-    const std::string hand = ballLink("gripper_link") + "<link name='ee_gripper_link'/>" +
+    const std::string hand = ballLink("gripper_link") +
+                             "<link name='ee_gripper_link'><inertial><mass value='0.001'/><inertia ixx='1' "
+                             "ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial></link>" +
                              jointText("f", "fixed", "c", "gripper_link", "0 0 0.1", "0 0 1") +
                              jointText("g", "fixed", "gripper_link", "ee_gripper_link", "0 0 0.1", "0 0 1");
     CHECK(tipOf(twoJoints(hand)) == "ee_gripper_link (a tool frame by its name)");
