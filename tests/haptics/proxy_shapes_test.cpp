@@ -69,7 +69,8 @@ TEST_CASE("No hand pushes the tool into a forbidden shape or out of a keep-in sh
 TEST_CASE("A plate with more leaves than the solver has rows rolls over its edges and slides on a plane") {
     std::vector<Sphere> leaves;
     for (int i = 0; i < 4096; ++i) {
-        leaves.push_back({dvec3(0.001 * (i % 64) - 0.0315, 0.001 * (i / 64) - 0.0315, 0.0), 0.001});
+        const int row = i / 64;
+        leaves.push_back({dvec3(0.001 * (i % 64) - 0.0315, 0.001 * row - 0.0315, 0.0), 0.001});
     }
     const Tool plate = makeTool(leaves);
     Shape ground; // z <= 0 is forbidden

@@ -8,8 +8,8 @@
 namespace fathom::testing {
 
 inline const ScratchFolder& mjcfFolder() {
-    static const ScratchFolder folder;
-    return folder;
+    static const ScratchFolder kFolder;
+    return kFolder;
 }
 
 inline ArmModel loadMjcf(const std::string& inside, const ArmOptions& options = {}) {

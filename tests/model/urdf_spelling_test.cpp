@@ -36,10 +36,10 @@ TEST_CASE("Elements of joints that the parser skips because of their spelling re
                                          {"axes", "axis"},
                                          {"Mimic", "mimic"},
                                          {"limits", "limit"}}) {
-        CHECK_MESSAGE(
-            refuses(armOf(kLimit + "<" + written + " xyz='0 0 1'/>"),
-                    std::string("joint j2: <") + written + ">: not read (allowed: <" + meant + ">)"),
-            written);
+        const std::string element = written;
+        CHECK_MESSAGE(refuses(armOf(kLimit + "<" + element + " xyz='0 0 1'/>"),
+                              "joint j2: <" + element + ">: not read (allowed: <" + meant + ">)"),
+                      element);
     }
     CHECK(urdfRefusal(armOf(kLimit + "<dynamics damping='1'/><anchor/><traits/><a:limit/>"
                                      "<joint_properties/><safety_controller k_velocity='1'/>")) == "");
@@ -98,12 +98,13 @@ TEST_CASE("A second element of which the parser reads the first rejects the URDF
                                               {"mimic", "joint='j1'", "joint='j1' offset='1'"},
                                               {"parent", "link='a'", "link='b'"},
                                               {"child", "link='a'", "link='c'"}}) {
-        const std::string one = std::string("<") + name + " " + first + "/>",
-                          other = std::string("<") + name + " " + second + "></" + name + ">";
-        const std::string more = std::string(name) == "limit" ? "" : kLimit;
-        CHECK_MESSAGE(refuses(armOf(more + one + other), std::string("joint j2: several <") + name +
-                                                             "> that differ (allowed: one <" + name + ">)"),
-                      name);
+        const std::string element = name, one = "<" + element + " " + first + "/>",
+                          other = "<" + element + " " + second + "></" + element + ">",
+                          more = element == "limit" ? "" : kLimit;
+        CHECK_MESSAGE(
+            refuses(armOf(more + one + other),
+                    "joint j2: several <" + element + "> that differ (allowed: one <" + element + ">)"),
+            element);
     }
     CHECK(urdfRefusal(armOf(kLimit + kLimit + "<axis xyz='0 1 0'/><axis  xyz='0 1 0'></axis>")) == "");
     CHECK(refuses(armOf(kLimit, "<link name='c'><collision><origin xyz='0 0 1'/><origin xyz='0 0 2'/>"
