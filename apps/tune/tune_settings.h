@@ -15,7 +15,7 @@ struct Setting {
     double sigma = 0.01;         // [m] of the depth filter
     uint32_t memory = 0;         // [frames]
     double errorBudget = 0.0001; // [m]
-    double friction = 0.1;
+    double friction = 0.0;
     double reach = 0.01;     // [m] of a contact query
     uint32_t decimation = 1; // image size: every nth column and row of the camera's
 
