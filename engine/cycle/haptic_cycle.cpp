@@ -211,7 +211,7 @@ void HapticCycle::makeWrench(const StepInput& input, const Situation& now, const
         (moved.active.empty() && !moved.blocked ? 0 : cause::kRow) | (jointEnds_ == 0 ? 0 : cause::kJoint);
     tick.mayRise = !moved.stale && !input.doubtful;
     tick.newData = newData;
-    tick.lags = moved.cut;
+    tick.lags = arm_ && moved.cut; // a free tool follows within a tick
     tick.escape = moved.escape;
     tick.vanished = vanished;
     tick.power = now.running && !now.off && !now.clutch;

@@ -85,6 +85,7 @@ Wrench WrenchStage::springWrench(const WrenchInput& input) noexcept {
     tick.mayRise = input.mayRise && !input.trapped;
     tick.newData = input.newData;
     tick.lags = input.lags;
+    tick.limit = ramps_.share() * options_.forceLimit;
     return reaction_.step(tick);
 }
 

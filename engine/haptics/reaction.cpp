@@ -68,8 +68,9 @@ double Reaction::rate(double appeared) noexcept {
 }
 
 void Reaction::vanish() noexcept {
-    faded_ = last_;
-    fadedSize_ = felt_;
+    const double share = std::min(1.0, limit_ / std::max(1e-9, glm::length(last_.force)));
+    faded_ = scaled(last_, share);
+    fadedSize_ = share * felt_;
     left_ = kTail;
     replaced_ = 0.0;
 }
@@ -128,6 +129,7 @@ Wrench Reaction::step(const ReactionInput& input) noexcept {
     const double k = std::max(1e-6, input.springs.metricRadius);
     Wrench wrench = couple(input.springs, input.allowed, input.end, dvec3(0.0), dvec3(0.0));
     since_ += input.period;
+    limit_ = input.limit;
     if (input.newData) {
         interval_ = std::clamp(since_, input.period, kLongestFrame);
         since_ = 0.0;

