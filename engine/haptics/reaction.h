@@ -26,10 +26,10 @@ struct ReactionInput {
 // Falls that the hand causes are immediate. After new data the direction, too, turns evenly over the time
 // between frames.
 //
-// New data also changes a surface at rest, by the sensor's noise. So a part of what it changes is felt slowly,
-// while the tool follows at once: of the size of the reaction the first kBand, of its direction as much or
-// kTurnBand of it. A full band is felt with the time constant kSettle, a small part of it with kCalm. What the
-// hand's own motion changes is felt in the same tick.
+// New data also changes a surface at rest, by the sensor's noise. So a part of each change is felt slowly, while
+// the tool follows at once: the first kBand of a change in size, and the first kBand, or kTurnBand of the
+// reaction if that is more, of a change in direction. A full band is felt with the time constant kSettle, a
+// small part of it with kCalm. What the hand's own motion changes is felt in the same tick.
 //
 // A tool that lags, such as an arm, follows a surface that new data moved only after some ticks, and has lost its
 // rows meanwhile. So a fall that new data causes while it lags fades over kTail. If the reaction returns before,
@@ -57,7 +57,7 @@ public:
     static constexpr double kTail = 0.2;           // [s]
     static constexpr double kLongestFrame = 0.033; // [s]
     static constexpr double kBand = 0.002;         // [m] of motion of the surface
-    static constexpr double kTurnBand = 0.2;       // of the reaction: 11 degrees
+    static constexpr double kTurnBand = 0.2;       // share of the reaction: 11 degrees
     static constexpr double kSettle = 0.3;         // [s] time constant
     static constexpr double kCalm = 1.2;           // [s] time constant
 
