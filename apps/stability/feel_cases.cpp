@@ -70,7 +70,7 @@ Outcome stillCase(RunLength runLength, double depth, StillFigure what, double li
 // Small debts of noisy frames must not brake a hand that moves in.
 Outcome landingCase(RunLength runLength) {
     double worst = 0.0;
-    Outcome out = outcomeOf(0.0, 0.5, "N", "");
+    Outcome out = outcomeOf(0.0, 0.2, "N", "");
     const int places = some(runLength, 4, 1);
     for (int place = 0; place < places; ++place) {
         FeelRig felt({});
@@ -82,7 +82,7 @@ Outcome landingCase(RunLength runLength) {
     }
     const std::string failed = out.note;
     out =
-        outcomeOf(worst, 0.5, "N",
+        outcomeOf(worst, 0.2, "N",
                   "Largest change of the force from tick to tick while a hand moves 20 mm into a noisy ring "
                   "at 80 mm/s. " +
                       num(uint64_t(places)) + " places.");
@@ -122,7 +122,7 @@ Outcome rimCase(RunLength runLength) {
 
 Outcome rimClicksCase(RunLength runLength) {
     const FeelRig felt = alongRim(runLength);
-    Outcome out = outcomeOf(felt.trace().forceBand(100.0, 500.0), 0.1, "N",
+    Outcome out = outcomeOf(felt.trace().forceBand(100.0, 500.0), 0.06, "N",
                             "The same run: force above 100 Hz, which is felt as clicks.");
     requireFelt(out, felt);
     return out;
@@ -178,7 +178,7 @@ Outcome pivotCase(RunLength runLength) {
     felt.run(t - kSettled);
     const FeltTrace& felts = felt.trace();
     Outcome out = outcomeOf(
-        felts.forceBand(100.0, 500.0), 0.1, "N",
+        felts.forceBand(100.0, 500.0), 0.03, "N",
         "Force above 100 Hz while a gripper that presses 8 mm deep rolls by 0.7 and tilts by "
         "0.4 rad. Force step at most " +
             num(felts.forceStep()) + " N, torque step at most " + num(felts.torqueStep()) + " N m.");
@@ -208,7 +208,7 @@ Outcome slideCase(RunLength runLength, double errorBudget) {
     felt.forget();
     felt.run(way - 0.3);
     const double tooth = felt.trace().sawtooth(glm::normalize(to.position - from.position), 0.3);
-    Outcome out = outcomeOf(tooth, 0.03, "N",
+    Outcome out = outcomeOf(tooth, 0.02, "N",
                             "Lateral sawtooth (half of peak to peak) of a ball that slides 20 mm deep over a "
                             "clean wall, error budget " +
                                 num(1e3 * errorBudget) + " mm; mean force " +
@@ -233,10 +233,10 @@ std::vector<Case> feelCases() {
     const auto put = [&](const std::string& name, std::function<Outcome(RunLength)> run) {
         cases.push_back({"feel-" + name, Group::Feel, std::move(run)});
     };
-    put("still-5mm", [](RunLength e) { return stillCase(e, 0.005, StillFigure::Rms, 0.15); });
-    put("still-20mm", [](RunLength e) { return stillCase(e, 0.02, StillFigure::Rms, 0.3); });
-    put("still-20mm-10-35-hz", [](RunLength e) { return stillCase(e, 0.02, StillFigure::Band, 0.04); });
-    put("still-20mm-torque", [](RunLength e) { return stillCase(e, 0.02, StillFigure::Torque, 0.007); });
+    put("still-5mm", [](RunLength e) { return stillCase(e, 0.005, StillFigure::Rms, 0.05); });
+    put("still-20mm", [](RunLength e) { return stillCase(e, 0.02, StillFigure::Rms, 0.2); });
+    put("still-20mm-10-35-hz", [](RunLength e) { return stillCase(e, 0.02, StillFigure::Band, 0.025); });
+    put("still-20mm-torque", [](RunLength e) { return stillCase(e, 0.02, StillFigure::Torque, 0.005); });
     put("landing", landingCase);
     put("rim", rimCase);
     put("rim-clicks", rimClicksCase);

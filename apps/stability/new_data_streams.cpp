@@ -283,13 +283,13 @@ void addStreamCases(std::vector<Case>& cases) {
     put("dropout-frames", [](RunLength e) { return dropoutCase(e, false); });
     put("dropout-frames-hold", [](RunLength e) { return dropoutCase(e, true); });
     put("noise-5mm", [](RunLength e) {
-        return restlessCase(e, {0.005, 0.0, 33, true, 0.1}, "new noise of 5 mm in every frame.");
+        return restlessCase(e, {0.005, 0.0, 33, true, 0.03}, "new noise of 5 mm in every frame.");
     });
     put("every-turn", [](RunLength e) {
-        return restlessCase(e, {0.001, 0.0, 1, false, 0.8}, "a new set with noise of 1 mm in every tick.");
+        return restlessCase(e, {0.001, 0.0, 1, false, 0.2}, "a new set with noise of 1 mm in every tick.");
     });
     put("two-places", [](RunLength e) {
-        return restlessCase(e, {0.0, 0.02, 33, false, 0.14}, "a wall 20 mm nearer in every second frame.");
+        return restlessCase(e, {0.0, 0.02, 33, false, 0.11}, "a wall 20 mm nearer in every second frame.");
     });
     put("trapped-recognised", [](RunLength e) { return viceCase(e, ViceFigure::Recognised); });
     put("trapped-force-out", [](RunLength e) { return viceCase(e, ViceFigure::ForceOut); });

@@ -13,7 +13,7 @@ namespace {
 constexpr double kSlowest = 10.0;       // [N/s] of a rise after new data
 constexpr double kRoundingForce = 1e-6; // [N] rounding
 constexpr double kTurns = 1e-3;         // [N] a smaller reaction has no direction that is felt
-constexpr double kPushed = 0.3;         // of a frame, in which new data pushes a tool out
+constexpr double kPushed = 0.012;       // [s] in which new data pushes a tool out, or half a frame
 constexpr double kLate = 1.25;          // of a frame, until which the next one is waited for
 constexpr double kMinMix = 0.3;         // directions that differ more than that are not mixed
 constexpr double kSameWay = 0.8;        // cosine between the reaction that returns and the former one
@@ -44,7 +44,7 @@ Wrench Reaction::settling(const Wrench& raw, double travel, const ReactionInput&
     const double k = std::max(1e-6, input.springs.metricRadius);
     const Wrench change = sum(raw, raw_, -1.0);
     const double size = sizeOf(change, k), byHand = input.springs.stiffness * travel;
-    if (since_ < kPushed * interval_ && size > byHand) {
+    if (pushed() && size > byHand) {
         const double share = 1.0 - byHand / size;
         owed_ = sum(owed_, change, share);
     }
@@ -60,8 +60,13 @@ Wrench Reaction::settling(const Wrench& raw, double travel, const ReactionInput&
     return sum(raw, owed_, -1.0);
 }
 
+// The newest data may still be moving the tool.
+bool Reaction::pushed() const noexcept {
+    return since_ < std::min(kPushed, 0.5 * interval_);
+}
+
 double Reaction::rate(double appeared) noexcept {
-    if (since_ < kPushed * interval_) { // the tool may still be on its way out
+    if (pushed()) {
         rate_ = std::clamp(appeared / (interval_ - since_), rate_, kAppear);
     }
     return since_ < kLate * interval_ ? rate_ : kAppear;
@@ -85,8 +90,10 @@ void Reaction::keepWhileLagging(const Wrench& wanted, double travel, const React
         if (size >= felt_ && along > kSameWay * size * fadedSize_) {
             size_ = felt_;
             left_ = 0.0;
+            owed_ = {};
+            raw_ = wanted;
         }
-    } else if (input.lags && since_ < kPushed * interval_ && size < felt_ - byHand - band) {
+    } else if (input.lags && pushed() && size < felt_ - byHand - band) {
         vanish();
         owed_ = {}; // the tail contains it
         raw_ = wanted;

@@ -62,6 +62,7 @@ public:
     static constexpr double kCalm = 1.2;           // [s] time constant
 
 private:
+    bool pushed() const noexcept;
     double rate(double appeared) noexcept;
     void keepWhileLagging(const Wrench& wanted, double travel, const ReactionInput& input) noexcept;
     Wrench tail(double size, double period) noexcept;
