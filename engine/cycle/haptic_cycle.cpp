@@ -71,11 +71,16 @@ StepRecord HapticCycle::step(const StepInput& input) noexcept {
                    options_.paperGuidance ? guidance_.pullReach(watch_.springs())
                                           : guidance_.leadReach(watch_.springs()));
 
-    const bool newData = regionsChanged(set);
-    const dvec3 before = tool_.position;
-    ProxyStep moved = stepTool(input, set, now, out);
-    const bool vanished = newData && regionsVanished(moved, before);
-    takeUpLag(moved, vanished, out);
+    now.looks = now.running && now.sane && !now.held;
+    const bool newData = now.looks && regionsChanged(set);
+    const Pose before = tool_, endBefore = springEnd_;
+    ProxyStep moved = stepTool(input, set, now, newData, out);
+    const dvec3 gone = newData ? vanishedAlong(moved, before.position, endBefore.position) : dvec3(0.0);
+    const bool vanished = gone != dvec3(0.0);
+    if (vanished) {
+        keepHandAtTool(before, gone, moved);
+    }
+    takeUpLag(moved, out);
     allowed_ = moved.allowed;
     makeWrench(input, now, moved, newData, vanished, out);
 
@@ -115,14 +120,14 @@ void HapticCycle::takeSample(const StepInput& input, const Situation& now) noexc
 }
 
 ProxyStep HapticCycle::stepTool(const StepInput& input, const ContactSet* set, const Situation& now,
-                                StepRecord& out) noexcept {
+                                bool newData, StepRecord& out) noexcept {
     ProxyStep moved;
     moved.minGap = kNotKnown;
     springEnd_ = device_;
     jointEnds_ = 0;
     out.arm.posture = place().arm;
-    if (now.running && now.sane && !now.held) {
-        moved = moveTool(input, set, out);
+    if (now.looks) {
+        moved = moveTool(input, set, newData, out);
     } else {
         moved.allowed = allowed_; // held: the last reaction fades out
     }
@@ -137,42 +142,6 @@ bool HapticCycle::regionsChanged(const ContactSet* set) noexcept {
     scene_.generation = generation;
     scene_.edited = false;
     return changed;
-}
-
-// Regions that pressed are gone, and the hand did not move out of them: their class is no longer seen, or its
-// shape was removed. `before` is where the tool was when they pressed.
-bool HapticCycle::regionsVanished(const ProxyStep& moved, const dvec3& before) const noexcept {
-    const bool near = moved.minGap <= kGone; // false for NaN: no set
-    const bool left = glm::dot(before - springEnd_.position, pressing_.out) < 0.0;
-    return pressing_.rows && !left && moved.active.empty() && jointEnds_ == 0 && !moved.trapped && !near;
-}
-
-// Moves the hand map, and with it the pose that the hand commands.
-void HapticCycle::shiftHand(const dvec3& by) noexcept {
-    map_.shift(by);
-    device_.position += by;
-    springEnd_.position += by;
-    stage_.shift(by);
-    pressing_.shifted += by;
-}
-
-void HapticCycle::takeUpLag(ProxyStep& moved, bool vanished, StepRecord& out) noexcept {
-    const dvec3 lag = moved.cut ? moved.allowed.position - tool_.position : dvec3(0.0);
-    out.lag = glm::length(lag);
-    if (vanished) { // otherwise the tool would jump at the hand, through what can no longer be seen
-        shiftHand(tool_.position - springEnd_.position);
-        moved.allowed = springEnd_;
-        ++pressing_.vanished;
-        out.lag = pressing_.lagTime = 0.0;
-    }
-    pressing_.lagTime = out.lag > kLagLength ? pressing_.lagTime + options_.period : 0.0;
-    if (pressing_.lagTime > kLagTime && !arm_) {
-        const dvec3 by = -(options_.period / kTakeUp) * lag;
-        shiftHand(by);
-        moved.allowed.position += by;
-    }
-    out.indexShift = pressing_.shifted;
-    out.vanished = pressing_.vanished;
 }
 
 void HapticCycle::report(const Situation& now, const ProxyStep& moved, bool hasSet,
@@ -211,7 +180,7 @@ void HapticCycle::makeWrench(const StepInput& input, const Situation& now, const
         (moved.active.empty() && !moved.blocked ? 0 : cause::kRow) | (jointEnds_ == 0 ? 0 : cause::kJoint);
     tick.mayRise = !moved.stale && !input.doubtful;
     tick.newData = newData;
-    tick.lags = arm_ && moved.cut; // a free tool follows within a tick
+    tick.lags = arm_ && out.lag > kLagLength; // a free tool follows within some ticks
     tick.escape = moved.escape;
     tick.vanished = vanished;
     tick.power = now.running && !now.off && !now.clutch;
@@ -227,8 +196,10 @@ void HapticCycle::makeWrench(const StepInput& input, const Situation& now, const
     out.residual = made.residual;
     out.finite = made.finite;
     out.cause = made.cause;
-    pressing_.rows = !moved.active.empty() && stage_.reaction() > kFelt;
-    pressing_.out = moved.allowed.position - springEnd_.position;
+    if (now.sane) { // else nothing was seen to press
+        pressing_.rows = !moved.active.empty() && stage_.reaction() > kFelt;
+        pressing_.out = moved.allowed.position - springEnd_.position;
+    }
 }
 
 StepState HapticCycle::stateOf(const Situation& now, const ProxyStep& moved, bool lags) const noexcept {
@@ -249,6 +220,9 @@ StepState HapticCycle::stateOf(const Situation& now, const ProxyStep& moved, boo
     }
     if (moved.contact) {
         return StepState::Contact;
+    }
+    if (stage_.fades()) {
+        return StepState::Fading;
     }
     const bool jointPushes = jointEnds_ != 0 && stage_.reaction() > 0.0;
     return lags && !jointPushes ? StepState::Waiting : StepState::Free;

@@ -21,7 +21,7 @@ namespace fathom {
 // - The regions' force is the reaction of active rows (Reaction). A tool that lags behind the hand for
 //   another reason (late contact answers, slow joints) pulls with no force: the state is waiting, and after
 //   kLagTime the hand map takes up the lag of a free tool.
-// - Regions that disappear while they press: tool and hand stay, the force fades out.
+// - Regions that disappear while they press, all or some of them: tool and hand stay, their force fades out.
 // - Forces off or dead-man open: the guidance weight is zero in that step; the wrench ramps to zero over
 //   0.2 s while the tool follows the hand and still obeys the regions.
 // - Trapped: the tool is held and the force ramps out over 0.2 s. The clutch ramps the same way.
@@ -78,10 +78,11 @@ public:
     uint64_t notFinite() const { return stage_.notFinite(); } // steps with a number that is not finite
 
     static constexpr double kRampTime = ForceRamps::kRampTime;
-    static constexpr double kLagLength = 1e-4;     // [m] a smaller lag counts as none
-    static constexpr double kLagTime = 0.05;       // [s] of lag before the hand map takes it up
-    static constexpr double kTakeUp = 0.2;         // [s] time constant of that
-    static constexpr double kGone = 0.002;         // [m] regions farther away than this have disappeared
+    static constexpr double kLagLength = 1e-4; // [m] a smaller lag counts as none
+    static constexpr double kLagTime = 0.05;   // [s] of lag before the hand map takes it up
+    static constexpr double kTakeUp = 0.2;     // [s] time constant of that
+    static constexpr double kGone =
+        0.002; // [m] all regions farther away than this: those that pressed vanished
     static constexpr double kResumeWithin = 0.005; // [m] tool to hand, before an arm moves again
 
 private:
@@ -92,15 +93,16 @@ private:
         bool recentre = false; // the clutch's button is down, and there is no force
         bool running = false;  // there is a set, or none is needed
         bool stale = false;
-        bool held = false; // a real arm stands still
+        bool held = false;  // a real arm stands still
+        bool looks = false; // the tool is moved in this step
     };
 
     const ContactSet* chooseSet(const StepInput& input, StepRecord& out) noexcept;
     double sceneAge(const StepInput& input, const ContactSet* set) noexcept;
     bool covers(const ContactSet& set) noexcept;
-    ProxyStep moveTool(const StepInput& input, const ContactSet* set, StepRecord& out) noexcept;
+    ProxyStep moveTool(const StepInput& input, const ContactSet* set, bool newData, StepRecord& out) noexcept;
     void freeDirection(ProxyStep& moved) noexcept;
-    ProxyStep stepTool(const StepInput& input, const ContactSet* set, const Situation& now,
+    ProxyStep stepTool(const StepInput& input, const ContactSet* set, const Situation& now, bool newData,
                        StepRecord& out) noexcept;
     ProxyStep moveArm(const StepInput& input, const ProxyInput& wanted, StepRecord& out) noexcept;
     std::span<const Shape> shapes() const noexcept { return arm_ ? arm_->shapes() : proxy_->shapes(); }
@@ -111,9 +113,10 @@ private:
     void recentre() noexcept;
     void takeSample(const StepInput& input, const Situation& now) noexcept;
     bool regionsChanged(const ContactSet* set) noexcept;
-    bool regionsVanished(const ProxyStep& moved, const dvec3& before) const noexcept;
-    void takeUpLag(ProxyStep& moved, bool vanished, StepRecord& out) noexcept;
-    void shiftHand(const dvec3& by) noexcept;
+    dvec3 vanishedAlong(const ProxyStep& moved, const dvec3& before, const dvec3& endBefore) const noexcept;
+    void keepHandAtTool(const Pose& before, const dvec3& along, ProxyStep& moved) noexcept;
+    void takeUpLag(ProxyStep& moved, StepRecord& out) noexcept;
+    void shiftHand(const dvec3& by, const dquat& turn) noexcept;
     void makeWrench(const StepInput& input, const Situation& now, const ProxyStep& moved, bool newData,
                     bool vanished, StepRecord& out) noexcept;
     Wrench guidancePull() const noexcept;

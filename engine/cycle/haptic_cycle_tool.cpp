@@ -39,14 +39,6 @@ bool HapticCycle::follow(const ArmFollow& status) noexcept {
     return true;
 }
 
-// A region stopped the tool, and the hand moved farther. The shift changes no force, because there is none.
-void HapticCycle::recentre() noexcept {
-    const dvec3 by = tool_.position - device_.position;
-    map_.align(handle_, tool_);
-    device_ = tool_;
-    stage_.shift(by);
-}
-
 double HapticCycle::sceneAge(const StepInput& input, const ContactSet* set) noexcept {
     // The active set may be older than the newest fixture set. While they are the same, the frame that
     // confirms it may be newer.
@@ -57,12 +49,14 @@ double HapticCycle::sceneAge(const StepInput& input, const ContactSet* set) noex
     return scene_.age;
 }
 
-ProxyStep HapticCycle::moveTool(const StepInput& input, const ContactSet* set, StepRecord& out) noexcept {
+ProxyStep HapticCycle::moveTool(const StepInput& input, const ContactSet* set, bool newData,
+                                StepRecord& out) noexcept {
     ProxyInput wanted;
     wanted.target = device_;
     wanted.metricRadius = watch_.springs().metricRadius;
     wanted.contacts = set;
     wanted.deadline = input.deadline;
+    wanted.surfaceMoved = newData && pressing_.rows;
     if (!options_.paperGuidance) {
         // The rotation is composed, not added to log(q_dev q^-1): equal to first order, and at rest the
         // torque is exactly K_r times the lead.

@@ -24,7 +24,7 @@ enum class StepState : uint8_t {
     Contact, // some region or shape pushes
     Escape,  // new data covers the tool, which moves out
     Trapped, // no motion obeys every row: the tool is held, the force ramps out
-    Fading,  // scene too old, or forces off and not yet ramped out
+    Fading,  // scene too old, forces off or regions that pressed vanished, and not yet ramped out
     Waiting, // nothing pushes, and the tool lags behind the hand: no force
 };
 

@@ -2,6 +2,7 @@
 #include "engine/cycle/wrench_stage.h"
 
 #include "engine/haptics/limits.h"
+#include "engine/haptics/wrench_metric.h"
 
 #include <algorithm>
 
@@ -20,10 +21,6 @@ double shareOf(const dvec3& part, const dvec3& whole) {
     return length > 0.0 ? glm::length(part) / length : 1.0;
 }
 
-Wrench sumOf(const Wrench& a, const Wrench& b) {
-    return {a.force + b.force, a.torque + b.torque};
-}
-
 bool isZero(const Wrench& wrench) {
     return wrench.force == dvec3(0.0) && wrench.torque == dvec3(0.0);
 }
@@ -40,10 +37,10 @@ WrenchStage::WrenchStage(const HapticOptions& options)
     : options_(options)
     , passivity_(passivityOf(options)) {}
 
-void WrenchStage::shift(const dvec3& by) noexcept {
-    reaction_.shift(by);
-    passivity_.shift(by);
-    deviceBefore_.position += by;
+void WrenchStage::shift(const dvec3& by, const dquat& turn) noexcept {
+    reaction_.shift(by, turn);
+    passivity_.shift(by, turn);
+    deviceBefore_ = {deviceBefore_.position + by, turn * deviceBefore_.rotation};
 }
 
 void WrenchStage::stepRamps(const WrenchInput& input) noexcept {
@@ -74,18 +71,18 @@ Wrench WrenchStage::damping(const WrenchInput& input, const Wrench& reaction) no
 }
 
 Wrench WrenchStage::springWrench(const WrenchInput& input) noexcept {
-    if (input.vanished) {
-        reaction_.vanish();
-    }
     ReactionInput tick;
     tick.allowed = input.allowed;
     tick.end = input.end;
     tick.springs = input.springs;
     tick.period = options_.period;
+    tick.elapsed = input.period;
     tick.mayRise = input.mayRise && !input.trapped;
     tick.newData = input.newData;
+    tick.vanished = input.vanished;
     tick.lags = input.lags;
-    tick.limit = ramps_.share() * options_.forceLimit;
+    tick.forceLimit = ramps_.share() * options_.forceLimit;
+    tick.torqueLimit = ramps_.share() * options_.torqueLimit;
     return reaction_.step(tick);
 }
 

@@ -33,7 +33,7 @@ struct WrenchInput {
     bool newData = false;  // as ReactionInput
     bool lags = false;     // as ReactionInput
     bool escape = false;   // new data covers the tool, which is on its way out
-    bool vanished = false; // the regions that pressed are gone although nothing moved
+    bool vanished = false; // as ReactionInput
     bool power = false;    // forces are on, nothing holds them back
     bool off = false;      // forces off or dead-man open: the next rise takes HapticOptions::armTime
     bool trapped = false;
@@ -60,12 +60,13 @@ public:
     };
     Output step(const WrenchInput& input) noexcept;
 
-    // The hand's end of the spring was moved by `by` [m], not by the hand.
-    void shift(const dvec3& by) noexcept;
+    // The hand's end of the spring was moved by `by` [m] and turned by `turn`, not by the hand.
+    void shift(const dvec3& by, const dquat& turn) noexcept;
     // Tool and hand start anew at `pose`, without force.
     void restart(const Pose& pose) noexcept { deviceBefore_ = pose; }
 
     bool off() const noexcept { return ramps_.off(); }            // ramped out, or never on
+    bool fades() const noexcept { return reaction_.fades(); }     // the force of regions that are gone
     double reaction() const noexcept { return reaction_.size(); } // [N] of the last tick
     const PassivityController& passivity() const noexcept { return passivity_; }
     uint64_t notFinite() const noexcept { return notFinite_; }

@@ -121,7 +121,8 @@ bool LeafContacts::insideTrustRegion() const noexcept {
 }
 
 double LeafContacts::smallestGap() noexcept {
-    return set_ == nullptr ? 0.0 : narrow_.smallestGapAt(*set_, leaves.now);
+    return set_ == nullptr ? std::numeric_limits<double>::quiet_NaN()
+                           : narrow_.smallestGapAt(*set_, leaves.now);
 }
 
 double LeafContacts::tangentTravel(std::span<const ActiveContact> rows) const noexcept {

@@ -63,9 +63,9 @@ double PassivityController::storedIn(const PassivityStep& tick) const noexcept {
                     tick.torqueLimit);
 }
 
-void PassivityController::shift(const dvec3& by) noexcept {
-    device_.position += by;
-    end_.position += by;
+void PassivityController::shift(const dvec3& by, const dquat& turn) noexcept {
+    device_ = {device_.position + by, turn * device_.rotation};
+    end_ = {end_.position + by, turn * end_.rotation};
 }
 
 void PassivityController::giveUpWithoutRows(const PassivityStep& tick) noexcept {

@@ -64,8 +64,8 @@ public:
     // The wrench sent to the device from now on: the springs' part and the part that step() added.
     void delivered(const Wrench& contact, const Wrench& damper) noexcept;
     void reset() noexcept;
-    // The hand's end of the spring was moved by `by` [m], not by the hand.
-    void shift(const dvec3& by) noexcept;
+    // The hand's end of the spring was moved by `by` [m] and turned by `turn`, not by the hand.
+    void shift(const dvec3& by, const dquat& turn) noexcept;
 
     double debt() const noexcept { return debt_; }           // [J] > 0 = generated and not yet dissipated
     double generated() const noexcept { return generated_; } // [J] total energy generated

@@ -17,6 +17,8 @@ public:
     const Pose& pose() const noexcept { return kinematics_.pose(); }
     // Moves the tool without any check (start of a run, arm re-indexed). Ignores a pose that is not finite.
     void setPose(const Pose& pose) noexcept { kinematics_.setPose(pose); }
+    // The target was moved to `target`, not by the hand: the tool may not travel as far at once.
+    void setTarget(const Pose& target) noexcept { kinematics_.setTarget(target); }
 };
 
 } // namespace fathom

@@ -2,6 +2,7 @@
 #include "engine/haptics/reaction.h"
 
 #include "engine/haptics/limits.h"
+#include "engine/haptics/wrench_metric.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,46 +19,41 @@ constexpr double kLate = 1.25;          // of a frame, until which the next one 
 constexpr double kMinMix = 0.3;         // directions that differ more than that are not mixed
 constexpr double kSameWay = 0.8;        // cosine between the reaction that returns and the former one
 constexpr double kOwedShare = 0.5;      // of the spring, so that force ends where contact ends
-
-// sqrt(|f|^2 + |tau / k|^2) [N]: the norm in which the spring wrench is K_t times the metric distance.
-double sizeOf(const Wrench& wrench, double k) noexcept {
-    const dvec3 turn = wrench.torque / k;
-    return std::sqrt(glm::dot(wrench.force, wrench.force) + glm::dot(turn, turn));
-}
-
-Wrench sum(const Wrench& a, const Wrench& b, double share) noexcept {
-    return {a.force + share * b.force, a.torque + share * b.torque};
-}
+// Of the tool's motion round a ball, over the hand's: most, margin over what was seen, kept from tick to tick.
+constexpr double kMaxGain = 8.0, kGainMargin = 1.2, kGainKept = 0.95;
 
 // A part of the owed wrench, one tick later: at most `band` [N], which falls with kSettle, a small part with kCalm.
-Wrench settled(const Wrench& owed, double band, double period, double k) noexcept {
-    const double size = sizeOf(owed, k), full = size < band ? size / band : 1.0;
-    const double share = std::exp(-period * (full / Reaction::kSettle + (1.0 - full) / Reaction::kCalm));
+Wrench settled(const Wrench& owed, double band, double elapsed, double k) noexcept {
+    const double size = metricSize(owed, k), full = size < band ? size / band : 1.0;
+    const double share = std::exp(-elapsed * (full / Reaction::kSettle + (1.0 - full) / Reaction::kCalm));
     return scaled(owed, size * share > band ? band / size : share);
 }
 
 } // namespace
 
-// What new data changed in the spring, beyond what the hand's own motion can have changed, is owed to the
-// hand and paid slowly. Along the reaction this delays its size, across it its direction.
-Wrench Reaction::settling(const Wrench& raw, double travel, const ReactionInput& input) noexcept {
-    const double k = std::max(1e-6, input.springs.metricRadius);
-    const Wrench change = sum(raw, raw_, -1.0);
-    const double size = sizeOf(change, k), byHand = input.springs.stiffness * travel;
-    if (pushed() && size > byHand) {
-        const double share = 1.0 - byHand / size;
-        owed_ = sum(owed_, change, share);
+void Reaction::shift(const dvec3& by, const dquat& turn) noexcept {
+    end_ = {end_.position + by, turn * end_.rotation};
+}
+
+void Reaction::keepTime(const ReactionInput& input) noexcept {
+    elapsed_ = std::max(input.period, input.elapsed);
+    since_ += elapsed_;
+    if (input.newData) {
+        interval_ = std::clamp(since_, input.period, kLongestFrame);
+        since_ = 0.0;
+        rate_ = kSlowest;
     }
-    raw_ = raw;
-    const double now = sizeOf(raw, k), most = kOwedShare * now;
-    const double band = std::min(kBand * input.springs.stiffness, most);
-    const double product = glm::dot(owed_.force, raw.force) + glm::dot(owed_.torque, raw.torque) / (k * k);
-    const Wrench along = scaled(raw, now > 0.0 ? product / (now * now) : 0.0);
-    const Wrench across = sum(owed_, along, -1.0);
-    owed_ = sum(settled(along, band, input.period, k),
-                settled(across, std::max(band, kTurnBand * now), input.period, k), 1.0);
-    owes_ = sizeOf(owed_, k) > kTurns;
-    return sum(raw, owed_, -1.0);
+}
+
+Reaction::Travel Reaction::travelOf(const Pose& end) noexcept {
+    const Pose before = started_ ? end_ : end;
+    end_ = end;
+    started_ = true;
+    Travel travel{end.position - before.position, rotationLog(end.rotation * glm::conjugate(before.rotation)),
+                  0.0};
+    travel.length =
+        std::sqrt(glm::dot(travel.moved, travel.moved) + glm::dot(k_ * travel.turned, k_ * travel.turned));
+    return travel;
 }
 
 // The newest data may still be moving the tool.
@@ -72,103 +68,123 @@ double Reaction::rate(double appeared) noexcept {
     return since_ < kLate * interval_ ? rate_ : kAppear;
 }
 
-void Reaction::vanish() noexcept {
-    const double share = std::min(1.0, limit_ / std::max(1e-9, glm::length(last_.force)));
-    faded_ = scaled(last_, share);
-    fadedSize_ = share * felt_;
-    left_ = kTail;
-    replaced_ = 0.0;
+void Reaction::beginFade(const Wrench& wanted, const ReactionInput& input) noexcept {
+    fade_.begin(sumOf(limitSize(last_, input.forceLimit, input.torqueLimit), wanted, -1.0),
+                metricSize(wanted, k_), k_);
+    owed_ = {}; // what fades contains it
+    raw_ = wanted;
 }
 
-// Begins the tail when new data took the reaction of a tool that lags, and ends it when the reaction is back.
-void Reaction::keepWhileLagging(const Wrench& wanted, double travel, const ReactionInput& input) noexcept {
-    const double k = std::max(1e-6, input.springs.metricRadius), size = sizeOf(wanted, k);
-    const double byHand = input.springs.stiffness * travel, band = kBand * input.springs.stiffness;
-    if (left_ > 0.0) {
-        const double along =
-            glm::dot(wanted.force, faded_.force) + glm::dot(wanted.torque, faded_.torque) / (k * k);
-        if (size >= felt_ && along > kSameWay * size * fadedSize_) {
+// Begins to fade when new data took the reaction of a tool that lags, and ends when the reaction is back.
+void Reaction::keepWhileLagging(const Wrench& wanted, double byHand, const ReactionInput& input) noexcept {
+    const double size = metricSize(wanted, k_), band = kBand * input.springs.stiffness;
+    if (fade_.active()) {
+        if (size >= felt_ && metricProduct(wanted, fade_.lost(), k_) > kSameWay * size * fade_.size()) {
+            fade_.end();
             size_ = felt_;
-            left_ = 0.0;
             owed_ = {};
             raw_ = wanted;
         }
     } else if (input.lags && pushed() && size < felt_ - byHand - band) {
-        vanish();
-        owed_ = {}; // the tail contains it
-        raw_ = wanted;
+        beginFade(wanted, input);
     }
 }
 
-// The fading rest of a reaction whose regions vanished. A new reaction takes its place for good: the tail
-// must not come back when the new reaction ends.
-Wrench Reaction::tail(double size, double period) noexcept {
-    replaced_ = fadedSize_ > 0.0 ? std::max(replaced_, size / fadedSize_) : 1.0;
-    left_ -= period;
-    const double share = left_ / kTail - replaced_;
-    left_ = share > 0.0 ? left_ : 0.0;
-    return scaled(faded_, std::max(0.0, share));
+// What new data changed in the spring, beyond what the hand's own motion can have changed, is owed to the
+// hand and paid slowly. Along the reaction this delays its size, across it its direction. Round a convex region
+// the tool moves farther than the hand: by how much is seen while the regions rest.
+Wrench Reaction::settling(const Wrench& raw, double byHand, const ReactionInput& input) noexcept {
+    const Wrench change = sumOf(raw, raw_, -1.0);
+    const double size = metricSize(change, k_);
+    if (!pushed()) {
+        const double seen = byHand > kRoundingForce ? kGainMargin * size / byHand : 1.0;
+        gain_ = std::clamp(std::max(seen, kGainKept * gain_), 1.0, kMaxGain);
+    } else if (size > gain_ * byHand) {
+        owed_ = sumOf(owed_, change, 1.0 - gain_ * byHand / size);
+    }
+    raw_ = raw;
+    const double now = metricSize(raw, k_), most = kOwedShare * now;
+    const double band = std::min(kBand * input.springs.stiffness, most);
+    const Wrench along = scaled(raw, now > 0.0 ? metricProduct(owed_, raw, k_) / (now * now) : 0.0);
+    const Wrench across = sumOf(owed_, along, -1.0);
+    owed_ = sumOf(settled(along, band, elapsed_, k_),
+                  settled(across, std::max(band, kTurnBand * now), elapsed_, k_));
+    owes_ = metricSize(owed_, k_) > kTurns;
+    return sumOf(raw, owed_, -1.0);
 }
 
-// The change of direction that new data made at its adoption is taken back by a share that falls to zero.
+Wrench Reaction::limitRise(const Wrench& wrench, const Travel& travel, const ReactionInput& input) noexcept {
+    const double wanted = metricSize(wrench, k_);
+    // Along the wanted reaction, which is out of the regions.
+    const double out =
+        wanted > 0.0
+            ? (glm::dot(travel.moved, wrench.force) + glm::dot(travel.turned, wrench.torque)) / wanted
+            : 0.0;
+    const double compressed = out > 0.0 ? 0.0 : input.springs.stiffness * travel.length;
+    const double calm = std::clamp(1.0 - out / (kLeaves * elapsed_), 0.0, 1.0);
+    const double rises = std::min(rate(wanted - compressed - size_) * elapsed_, kAppear * input.period);
+    const double most = size_ + (input.mayRise ? compressed + calm * rises : 0.0);
+    appears_ = wanted > size_ + compressed * (1.0 + 1e-9) + kRoundingForce;
+    size_ = std::min(wanted, most);
+    return wanted > most ? scaled(wrench, most / wanted) : wrench;
+}
+
+// New data that turns the reaction by more than a right angle begins a new one, from zero: the former direction
+// would push the hand into what has appeared.
+void Reaction::beginTurn(const Wrench& wrench, const ReactionInput& input) noexcept {
+    if (!input.newData) {
+        return;
+    }
+    const double size = metricSize(wrench, k_);
+    turn_ = 0.0;
+    if (fade_.active() || !(felt_ > kTurns) || !(size > kTurns)) {
+        return;
+    }
+    if (metricProduct(last_, wrench, k_) < 0.0) {
+        size_ = 0.0;
+        return;
+    }
+    turn_ = interval_;
+    turned_ = felt_;
+    from_ = sumOf(scaled(last_, 1.0 / felt_), scaled(wrench, 1.0 / size), -1.0);
+}
+
+// The change of direction that new data made at its adoption is taken back by a share that falls to zero, for
+// as much of the reaction as there was before.
 // What the hand turns meanwhile is felt at once: a lag of it would feed energy into a light hand.
 Wrench Reaction::turning(const Wrench& wrench, const ReactionInput& input) noexcept {
-    const double k = std::max(1e-6, input.springs.metricRadius);
-    const double size = sizeOf(wrench, k);
-    if (input.newData) {
-        turn_ = felt_ > kTurns && size > kTurns ? interval_ : 0.0;
-        if (turn_ > 0.0) {
-            const Wrench old = scaled(last_, 1.0 / felt_), now = scaled(wrench, 1.0 / size);
-            from_ = sum(old, now, -1.0);
-        }
-    }
-    turn_ = std::max(0.0, turn_ - input.period);
+    turn_ = std::max(0.0, turn_ - (input.newData ? input.period : elapsed_));
     const double share = turn_ / interval_;
-    if (!(share > 0.0) || !(size > kTurns)) {
+    if (!(share > 0.0) || !(size_ > kTurns)) {
         return wrench;
     }
-    const Wrench mix = sum(wrench, from_, share * size);
-    const double length = sizeOf(mix, k);
-    return length > kMinMix * size ? scaled(mix, size / length) : wrench;
+    const Wrench mix = sumOf(wrench, from_, share * std::min(size_, turned_));
+    const double length = metricSize(mix, k_);
+    return length > kMinMix * size_ ? scaled(mix, size_ / length) : wrench;
 }
 
 Wrench Reaction::step(const ReactionInput& input) noexcept {
-    const double k = std::max(1e-6, input.springs.metricRadius);
+    k_ = std::max(1e-6, input.springs.metricRadius);
+    keepTime(input);
     Wrench wrench = couple(input.springs, input.allowed, input.end, dvec3(0.0), dvec3(0.0));
-    since_ += input.period;
-    limit_ = input.limit;
-    if (input.newData) {
-        interval_ = std::clamp(since_, input.period, kLongestFrame);
-        since_ = 0.0;
-        rate_ = kSlowest;
+    const Travel travel = travelOf(input.end);
+    const double byHand = input.springs.stiffness * travel.length;
+    if (input.vanished) {
+        beginFade(wrench, input);
+    } else {
+        keepWhileLagging(wrench, byHand, input);
     }
-    const Pose& before = started_ ? end_ : input.end;
-    const dvec3 moved = input.end.position - before.position,
-                turned = rotationLog(input.end.rotation * glm::conjugate(before.rotation));
-    const double travel = std::sqrt(glm::dot(moved, moved) + glm::dot(k * turned, k * turned));
-    keepWhileLagging(wrench, travel, input);
-    wrench = settling(wrench, travel, input);
-    const double wanted = sizeOf(wrench, k);
-    // Along the wanted reaction, which is out of the regions.
-    const double out =
-        wanted > 0.0 ? (glm::dot(moved, wrench.force) + glm::dot(turned, wrench.torque)) / wanted : 0.0;
-    const double compressed = out > 0.0 ? 0.0 : input.springs.stiffness * travel;
-    const double calm = std::clamp(1.0 - out / (kLeaves * input.period), 0.0, 1.0);
-    const double grows = compressed + calm * rate(wanted - compressed - size_) * input.period;
-    const double most = size_ + (input.mayRise ? grows : 0.0);
-    appears_ = wanted > size_ + compressed * (1.0 + 1e-9) + kRoundingForce;
-    if (wanted > most) {
-        wrench = scaled(wrench, most / wanted);
-    }
-    size_ = std::min(wanted, most);
-    wrench = turning(wrench, input);
-    end_ = input.end;
-    started_ = true;
-    if (left_ > 0.0) {
-        wrench = sum(wrench, tail(size_, input.period), 1.0);
+    wrench = settling(wrench, byHand, input);
+    beginTurn(wrench, input);
+    wrench = turning(limitRise(wrench, travel, input), input);
+    if (fade_.active()) {
+        const Wrench& lost = fade_.lost();
+        const double out = glm::dot(travel.moved, lost.force) + glm::dot(travel.turned, lost.torque); // [N m]
+        const double released = input.springs.stiffness * std::max(0.0, out) / std::max(kTurns, fade_.size());
+        wrench = sumOf(wrench, fade_.step(wrench, released, k_, elapsed_));
     }
     last_ = wrench;
-    felt_ = sizeOf(wrench, k);
+    felt_ = metricSize(wrench, k_);
     return wrench;
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "engine/haptics/coupling.h"
+#include "engine/haptics/reaction_fade.h"
 
 namespace fathom {
 
@@ -13,10 +14,12 @@ struct ReactionInput {
     Pose end;              // the hand's end of the spring: device pose plus the guidance lead
     Springs springs;       // active
     double period = 0.001; // T [s]
+    double elapsed = 0.0;  // [s] measured since the tick before; less than T counts as T
     bool mayRise = true;   // false: rows are stale, the tool is trapped or the hand's sample is doubtful
     bool newData = false;  // the regions changed since the tick before
+    bool vanished = false; // the regions that pressed, or some of them, are gone although nothing moved
     bool lags = false;     // the tool did not reach `allowed`
-    double limit = 1e9;    // [N] that is delivered at most: what fades begins there
+    double forceLimit = 1e9, torqueLimit = 1e9; // [N], [N m] delivered at most: what fades begins there
 };
 
 // One thread; noexcept, no allocation. In a region at rest the reaction grows by no more than the spring that
@@ -32,20 +35,20 @@ struct ReactionInput {
 // small part of it with kCalm. What the hand's own motion changes is felt in the same tick.
 //
 // A tool that lags, such as an arm, follows a surface that new data moved only after some ticks, and has lost its
-// rows meanwhile. So a fall that new data causes while it lags fades over kTail. If the reaction returns before,
-// in its former direction, it rises from the force on the wire.
+// rows meanwhile. So a fall that new data causes while it lags fades out. If the reaction returns before, in
+// its former direction, it rises from the force on the wire.
+//
+// Times are measured ones, so that late ticks delay nothing; a rise counts ticks.
 class Reaction {
 public:
     // Wrench on the hand, base axes, before limits; without damping.
     Wrench step(const ReactionInput& input) noexcept;
 
-    // The regions that pressed are gone although nothing moved. The last reaction fades out over kTail.
-    void vanish() noexcept;
-    // The hand's end of the spring was moved by `by` [m], not by the hand.
-    void shift(const dvec3& by) noexcept { end_.position += by; }
+    // The hand's end of the spring was moved by `by` [m] and turned by `turn`, not by the hand.
+    void shift(const dvec3& by, const dquat& turn) noexcept;
 
-    double size() const noexcept { return size_; }      // [N] of the last tick, torque counted as torque / k
-    bool fades() const noexcept { return left_ > 0.0; } // the tail after vanish()
+    double size() const noexcept { return size_; } // [N] of the last tick, torque counted as torque / k
+    bool fades() const noexcept { return fade_.active(); }
     // In the last tick the reaction grew by more than the hand compressed, or new data still changes or turns
     // it: work that the hand did not do.
     bool appears() const noexcept { return appears_ || turn_ > 0.0 || owes_; }
@@ -54,7 +57,6 @@ public:
 
     static constexpr double kAppear = 100.0;       // [N/s]
     static constexpr double kLeaves = 0.25;        // [m/s] a hand that leaves this fast needs no further rise
-    static constexpr double kTail = 0.2;           // [s]
     static constexpr double kLongestFrame = 0.033; // [s]
     static constexpr double kBand = 0.002;         // [m] of motion of the surface
     static constexpr double kTurnBand = 0.2;       // share of the reaction: 11 degrees
@@ -62,24 +64,32 @@ public:
     static constexpr double kCalm = 1.2;           // [s] time constant
 
 private:
+    struct Travel { // of the hand's end of the spring in this tick, not by shift()
+        dvec3 moved, turned;
+        double length; // [m] metric
+    };
+    void keepTime(const ReactionInput& input) noexcept;
+    Travel travelOf(const Pose& end) noexcept;
     bool pushed() const noexcept;
     double rate(double appeared) noexcept;
-    void keepWhileLagging(const Wrench& wanted, double travel, const ReactionInput& input) noexcept;
-    Wrench tail(double size, double period) noexcept;
+    void beginFade(const Wrench& wanted, const ReactionInput& input) noexcept;
+    void keepWhileLagging(const Wrench& wanted, double byHand, const ReactionInput& input) noexcept;
+    Wrench settling(const Wrench& raw, double byHand, const ReactionInput& input) noexcept;
+    Wrench limitRise(const Wrench& wrench, const Travel& travel, const ReactionInput& input) noexcept;
+    void beginTurn(const Wrench& wrench, const ReactionInput& input) noexcept;
     Wrench turning(const Wrench& wrench, const ReactionInput& input) noexcept;
 
-    Wrench settling(const Wrench& raw, double travel, const ReactionInput& input) noexcept;
-
+    double k_ = 1.0; // [m] metric radius of this tick
     Pose end_;
-    Wrench raw_, owed_;   // the spring of the last tick; the part of it that is not yet felt
-    Wrench last_, faded_; // of the last tick; when the regions vanished
-    double limit_ = 1e9;  // [N] of the last tick
-    Wrench from_;         // per newton: change of direction that the newest data made
-    double turn_ = 0.0;   // [s] for which a share of it is still taken back
+    Wrench raw_, owed_; // the spring of the last tick; the part of it that is not yet felt
+    double gain_ = 1.0; // change of the spring per compression by the hand, while the regions rest
+    Wrench last_;       // of the last tick
+    ReactionFade fade_;
+    Wrench from_;                      // per newton: change of direction that the newest data made
+    double turned_ = 0.0, turn_ = 0.0; // [N] that turned; [s] for which a share is still taken back
     double size_ = 0.0;
     double felt_ = 0.0;                                       // [N] size of last_
-    double fadedSize_ = 0.0, left_ = 0.0;                     // [N], [s] of the tail
-    double replaced_ = 0.0;                                   // share of the tail whose place was taken
+    double elapsed_ = 0.001;                                  // [s] since the last tick
     double since_ = kLongestFrame, interval_ = kLongestFrame; // [s] since the newest data; between data
     double rate_ = kAppear;                                   // [N/s] until the next frame is due
     bool started_ = false, appears_ = false, owes_ = false;

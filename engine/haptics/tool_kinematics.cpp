@@ -39,8 +39,9 @@ void ToolKinematics::setPose(const Pose& pose) noexcept {
 void ToolKinematics::begin(const ProxyInput& input, ProxyRows& rows) noexcept {
     // The tool may travel as far as the target did, plus a little to make up for a lag.
     const double carried = std::min(cutTravel_, budget_.follow);
-    const double moved = hasTarget_ ? places_.travelBound(pose_, remaining(target_, input.target))
-                                    : std::numeric_limits<double>::infinity();
+    const double moved = hasTarget_ && !input.surfaceMoved
+                             ? places_.travelBound(pose_, remaining(target_, input.target))
+                             : std::numeric_limits<double>::infinity();
     target_ = input.target;
     hasTarget_ = true;
     cutTravel_ = 0.0;

@@ -30,6 +30,7 @@ public:
     const dvec3& origin() const noexcept { return pose_.position; } // of the leaves without an active set
     const Pose& nextPose() const noexcept { return nextPose_; }
     void setPose(const Pose& pose) noexcept;
+    void setTarget(const Pose& target) noexcept { target_ = target; }
     void place(LeafState& leaves) const noexcept { places_.place(pose_, leaves.origin, leaves.now); }
 
     void begin(const ProxyInput& input, ProxyRows& rows) noexcept;

@@ -42,7 +42,8 @@ enum class State {
     Contact, ///< at least one fixture pushes
     Escape,  ///< new fixtures cover the tool; it moves out
     Trapped, ///< no motion obeys every fixture: the tool is held and the force ramps out
-    Fading,  ///< the newest frame is too old, or forces were switched off: the force ramps out
+    Fading,  ///< the newest frame is too old, forces were switched off, or pressed regions disappeared: the
+             ///< force ramps out
     Waiting  ///< nothing pushes, and the tool lags (late contact answers, slow joints): no force
 };
 

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// The part of a step that moves the hand map: pressed regions that vanish, a tool that lags, the clutch.
+#include "engine/cycle/haptic_cycle.h"
+
+namespace fathom {
+namespace {
+
+// [m] of the spring that one of several regions must have held to count as vanished, more than noise moves it,
+// and the most that may still hold there.
+constexpr double kPartGone = 0.005, kStillHeld = 0.0005;
+constexpr dquat kNoTurn{1.0, 0.0, 0.0, 0.0};
+
+} // namespace
+
+// A region stopped the tool, and the hand moved farther. The shift changes no force, because there is none.
+void HapticCycle::recentre() noexcept {
+    const dvec3 by = tool_.position - device_.position;
+    map_.align(handle_, tool_);
+    device_ = tool_;
+    stage_.shift(by, kNoTurn);
+}
+
+// The direction along which regions that pressed are gone although the hand did not move out of them: their class
+// is no longer seen, or their shape was removed. 0 = none. `before` and `endBefore` are where the tool and the
+// hand's end of the spring were when they pressed.
+dvec3 HapticCycle::vanishedAlong(const ProxyStep& moved, const dvec3& before,
+                                 const dvec3& endBefore) const noexcept {
+    const bool left = glm::dot(before - springEnd_.position, pressing_.out) < 0.0;
+    if (!pressing_.rows || left || jointEnds_ != 0 || moved.trapped) {
+        return dvec3(0.0);
+    }
+    const bool rows = !moved.active.empty();
+    // An arm may not yet have followed a surface that lies between it and the hand.
+    const double reach =
+        kGone + (arm_ && moved.cut ? glm::distance(tool_.position, springEnd_.position) : 0.0);
+    if (!rows && !(moved.minGap <= reach)) { // NaN: no set
+        return pressing_.out;
+    }
+    // Other regions press or are near. Those that pressed are gone where the spring lost its length and nothing
+    // else holds.
+    const dvec3 held = rows ? moved.allowed.position - springEnd_.position : dvec3(0.0);
+    const dvec3 lost = pressing_.out - held;
+    const double byHand = glm::distance(springEnd_.position, endBefore);
+    const bool fell = glm::length(held) < glm::length(pressing_.out) - byHand - kPartGone;
+    return !arm_ && fell && glm::dot(held, lost) <= kStillHeld * glm::length(lost) ? lost : dvec3(0.0);
+}
+
+// Moves the hand map by `by` [m], and with it the pose that the hand commands. `turn` turns that pose.
+void HapticCycle::shiftHand(const dvec3& by, const dquat& turn) noexcept {
+    device_ = {device_.position + by, glm::normalize(turn * device_.rotation)};
+    springEnd_ = {springEnd_.position + by, glm::normalize(turn * springEnd_.rotation)};
+    map_.shift(by);
+    if (turn != kNoTurn) {
+        map_.align(handle_, device_);
+    }
+    stage_.shift(by, turn);
+    pressing_.shifted += by;
+    if (proxy_) {
+        proxy_->setTarget(springEnd_);
+    }
+}
+
+// Pressed regions vanished: the tool stays where it was before, and the hand with it. Otherwise the tool would
+// jump at the hand, through what can no longer be seen.
+void HapticCycle::keepHandAtTool(const Pose& before, const dvec3& along, ProxyStep& moved) noexcept {
+    const bool all = moved.active.empty();
+    if (proxy_ && !moved.escape) { // else it had to leave
+        tool_ = moved.pose = before;
+        proxy_->setPose(before);
+    }
+    const dvec3 apart = tool_.position - springEnd_.position;
+    const dvec3 by = all ? apart : along * (glm::dot(apart, along) / glm::dot(along, along));
+    shiftHand(by, all ? tool_.rotation * glm::conjugate(springEnd_.rotation) : kNoTurn);
+    moved.allowed = all ? springEnd_ : Pose{moved.allowed.position + by, moved.allowed.rotation};
+    moved.cut = !all;
+    ++pressing_.vanished;
+    pressing_.lagTime = 0.0;
+}
+
+void HapticCycle::takeUpLag(ProxyStep& moved, StepRecord& out) noexcept {
+    const dvec3 lag = moved.cut ? moved.allowed.position - tool_.position : dvec3(0.0);
+    out.lag = glm::length(lag);
+    pressing_.lagTime = out.lag > kLagLength ? pressing_.lagTime + options_.period : 0.0;
+    if (pressing_.lagTime > kLagTime && !arm_) {
+        const dvec3 by = -(options_.period / kTakeUp) * lag;
+        shiftHand(by, kNoTurn);
+        moved.allowed.position += by;
+    }
+    out.indexShift = pressing_.shifted;
+    out.vanished = pressing_.vanished;
+}
+
+} // namespace fathom

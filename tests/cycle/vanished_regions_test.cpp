@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pressed regions that vanish: tool and hand stay, and the force fades out, whatever else is there.
+#include "tests/cycle/haptic_rig.h"
+#include "tests/haptics/arm_rig.h"
+
+#include <doctest/doctest.h>
+
+#include <array>
+
+using namespace fathom;
+using namespace fathom::testing;
+
+namespace {
+
+constexpr double kFade = 0.2; // [s]
+
+Shape planeAt(const dvec3& point, const dvec3& turn) { // its normal is z, turned
+    Shape plane;
+    plane.kind = ShapeKind::Plane;
+    plane.baseTshape = {point, rotationExp(turn)};
+    return plane;
+}
+
+const Shape kFloor = planeAt({0.0, 0.0, 0.0}, {0.0, 0.0, 0.0});
+const Shape kWall = planeAt({0.03, 0.0, 0.0}, {0.0, -0.5 * M_PI, 0.0}); // faces -x
+
+// Placed shapes only.
+struct ShapesRig : HapticRig {
+    explicit ShapesRig(std::vector<Shape> all)
+        : HapticRig(Scene{}, at(0.0, 0.0, 0.02)) {
+        cycle = std::make_unique<HapticCycle>(tool, all, options, hand);
+        ticks(300);
+    }
+    void move(const Pose& to, int count) {
+        const dvec3 by = (to.position - hand.position) / double(count);
+        for (int i = 0; i < count; ++i) {
+            hand.position += by;
+            step();
+        }
+        hand = to;
+    }
+};
+
+// Largest travel of the tool in a tick, over `count` ticks; each tick has less force than the one before.
+double travelOf(HapticRig& rig, int count, double force) {
+    double most = 0.0;
+    Pose before = rig.cycle->pose();
+    for (int i = 0; i < count; ++i) {
+        const StepRecord record = rig.step();
+        most = std::max(most, glm::distance(record.tool.position, before.position));
+        CHECK(forceOf(record) < force);
+        force = forceOf(record) + 1e-9;
+        before = record.tool;
+    }
+    return most;
+}
+
+// A tip of 1.2 m and a ball beside it, which the arm's last leaf touches.
+struct ArmAtBall {
+    explicit ArmAtBall(double speed) {
+        rig.model = makeArm(4, 8, 1.2);
+        for (auto& joint : rig.model.joints) {
+            joint.speed = speed;
+        }
+        rig.freeDirection = true;
+        rig.proxy.stepCap = 0.002;
+        show(0.16);
+        cycle =
+            std::make_unique<HapticCycle>(ballTool(), std::span<const Shape>{}, options, hand, &hand, &rig);
+    }
+    void show(double y) {
+        world.fixtures.spheres = RegionSpheres{};
+        world.fixtures.spheres.add({0.95, y, 0.0}, 0.05);
+        world.grid.build(world.fixtures.spheres);
+        ++generation;
+    }
+    StepRecord step() {
+        contacts.offer([this] {
+            auto set = std::make_unique<ContactSet>();
+            world.cull.query(rig.toolAt(cycle->place().arm), Pose{}, 0.03, world.fixtures, world.grid, *set);
+            set->frame = 0;
+            set->generation = generation;
+            set->query = ++queries;
+            return set;
+        });
+        StepInput input;
+        input.time = input.captureTime = time;
+        input.deviceThandle = hand;
+        input.frame = 0;
+        input.generation = generation;
+        input.sourceEnded = true;
+        time += options.period;
+        return contacts.step(*cycle, input);
+    }
+
+    ArmRig rig;
+    World world;
+    HapticOptions options = makeHapticOptions(springsAlone(handScene()), ballTool());
+    Pose hand = at(0, 0, 0);
+    std::unique_ptr<HapticCycle> cycle;
+    ActiveContacts<std::unique_ptr<ContactSet>> contacts;
+    uint64_t queries = 0, generation = 1;
+    double time = 0.0;
+};
+
+} // namespace
+
+TEST_CASE(
+    "A placed shape that is removed while it presses leaves the tool where it is, also without points") {
+    ShapesRig rig({kFloor, kWall});
+    rig.move(at(0.035, 0.0, 0.02), 200);
+    const double force = forceOf(rig.ticks(1000));
+    REQUIRE(force == doctest::Approx(15.0).epsilon(0.01));
+    rig.cycle->setShapes(std::array{kFloor});
+    CHECK(travelOf(rig, 199, force) <= 0.0003);
+    CHECK(rig.step().vanished == 1);
+    CHECK(forceOf(rig.ticks(5)) == 0.0);
+}
+
+TEST_CASE("If one of two pressed regions vanishes, its force fades out and the other one stays") {
+    ShapesRig rig({kFloor, kWall});
+    rig.move(at(0.035, 0.0, 0.009), 200);
+    const StepRecord pressed = rig.ticks(1000);
+    REQUIRE(pressed.wrench.force.x == doctest::Approx(-15.0).epsilon(0.01));
+    REQUIRE(pressed.wrench.force.z == doctest::Approx(1.0).epsilon(0.01));
+    rig.cycle->setShapes(std::array{kFloor});
+    CHECK(travelOf(rig, 199, forceOf(pressed)) <= 0.0003);
+    const StepRecord after = rig.ticks(5);
+    CHECK(after.vanished == 1);
+    CHECK(after.wrench.force.x == doctest::Approx(0.0));
+    CHECK(after.wrench.force.z == doctest::Approx(1.0).epsilon(0.01));
+    CHECK(after.tool.position.x - pressed.tool.position.x <= 0.0003);
+}
+
+TEST_CASE("A wall that goes back under a hand is followed, not lost, also with a floor below") {
+    ShapesRig rig({kFloor, kWall});
+    rig.move(at(0.035, 0.0, 0.009), 200);
+    rig.ticks(1000);
+    Shape wall = kWall;
+    wall.baseTshape.position.x += 0.008;
+    rig.cycle->setShapes(std::array{kFloor, wall});
+    const StepRecord after = rig.ticks(6000);
+    CHECK(after.vanished == 0);
+    CHECK(after.wrench.force.x == doctest::Approx(-7.0).epsilon(0.01));
+    CHECK(after.tool.position.x == doctest::Approx(0.028).epsilon(0.001));
+}
+
+TEST_CASE("Another region beside the tool does not hide that the pressed one vanished") {
+    HapticRig rig(handScene(), at(0, 0, 0.02));
+    const auto show = [&](bool pressed, double beside, uint64_t generation) {
+        rig.show(pressed ? wallSet(generation) : emptySet(generation));
+        rig.fixtures->spheres.add({0.0, 0.06 + beside, 0.01}, 0.05);
+        rig.grid.build(rig.fixtures->spheres);
+        rig.age = false;
+    };
+    show(true, 0.0015, 1);
+    rig.ticks(250);
+    rig.hand = at(0, 0, -0.005);
+    const double force = forceOf(rig.ticks(1000));
+    REQUIRE(force == doctest::Approx(15.0).epsilon(0.02));
+    show(false, 0.0015, 2);
+    CHECK(travelOf(rig, 199, force + 1e-9) <= 0.0003);
+    CHECK(rig.step().vanished == 1);
+}
+
+TEST_CASE("A broken sample in the tick of a new frame costs that tick's force and nothing else") {
+    auto rig = pressedRig();
+    const Pose hand = rig.hand;
+    rig.hand.position.x = std::nan("");
+    rig.show(wallSet(9));
+    rig.age = false;
+    CHECK(forceOf(rig.step()) == 0.0);
+    rig.hand = hand;
+    const StepRecord after = rig.ticks(500);
+    CHECK(after.vanished == 0);
+    CHECK(forceOf(after) == doctest::Approx(5.0).epsilon(0.01));
+}
+
+TEST_CASE("A tool that a region turned does not swing round when the region vanishes") {
+    const std::array<Sphere, 2> balls{Sphere{{-0.05, 0.0, 0.0}, 0.01}, Sphere{{0.05, 0.0, 0.0}, 0.01}};
+    HapticRig rig(handScene(), at(0, 0, 0.03), Tool(buildSphereTree(balls)));
+    rig.show(wallSet());
+    rig.age = false;
+    rig.ticks(250);
+    for (int i = 1; i <= 500; ++i) {
+        rig.hand = {{0.0, 0.0, 0.03 - 0.00003 * i}, rotationExp({0.0, 0.001 * i, 0.0})};
+        rig.step();
+    }
+    const StepRecord held = rig.ticks(300);
+    REQUIRE(glm::length(held.wrench.torque) > 0.1);
+    rig.show(emptySet(9));
+    rig.age = false;
+    const auto tip = [](const Pose& tool) { return tool.position + tool.rotation * dvec3(0.05, 0.0, 0.0); };
+    dvec3 before = tip(held.tool);
+    for (int i = 0; i < 300; ++i) {
+        const StepRecord record = rig.step();
+        CHECK(glm::distance(tip(record.tool), before) <= 0.0003);
+        before = tip(record.tool);
+    }
+    CHECK(glm::distance(before, tip(held.tool)) <= 0.001);
+}
+
+TEST_CASE("Late ticks do not delay the fade of regions that vanished") {
+    for (const double period : {0.001, 0.002, 0.005}) {
+        CAPTURE(period);
+        auto rig = pressedRig();
+        rig.measured = period;
+        rig.ticks(1000);
+        rig.show(emptySet(9));
+        rig.age = false;
+        const double begin = rig.time;
+        rig.step();
+        while (forceOf(rig.step()) > 0.0 && rig.time < begin + 1.0) {
+        }
+        CHECK(rig.time - begin <= kFade + 3.0 * period);
+    }
+}
+
+TEST_CASE("A slow arm keeps its force while it follows a surface that goes back with the hand") {
+    for (const double speed : {0.5, 3.0}) { // [rad/s] of the joints
+        for (const double back : {0.1, 0.3}) {
+            CAPTURE(speed);
+            CAPTURE(back);
+            ArmAtBall arm(speed);
+            for (int i = 0; i < 4000; ++i) {
+                arm.hand = at(0.0, 0.12 * std::min(1.0, i / 2000.0), 0.0);
+                arm.step();
+            }
+            double least = 1e9;
+            StepRecord record = arm.step();
+            const double force = forceOf(record);
+            REQUIRE(force > 15.0);
+            for (int i = 0; i < 198; ++i) {
+                if (i % 33 == 0) {
+                    arm.show(0.16 + back * 0.033 * (1 + i / 33));
+                }
+                arm.hand.position.y += back * 0.001;
+                record = arm.step();
+                least = std::min(least, forceOf(record));
+            }
+            CHECK(record.vanished == 0);
+            CHECK(least >= 0.9 * force);
+        }
+    }
+}
