@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/serial/eca_arm.h"
 
+#include "engine/types/angle.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,11 +11,13 @@ namespace fathom {
 
 namespace {
 
-constexpr double kDegree = 0.017453292519943295;
 constexpr int kPressedFrames = 3; // consecutive readings at the stop: a single one may be noise
 constexpr double kAmpere = 0.094e-3;
-constexpr double kAtRest = 0.02; // [rad] by which a joint at rest may move
-constexpr double kFaster = 1.5;  // share of fullSpeed, which is not verified
+constexpr double kAtRest = 0.02;      // [rad] by which a joint at rest may move
+constexpr double kFullSpeed = 0.5;    // [rad/s] at speed 4095; not verified
+constexpr double kFaster = 1.5;       // share of it that a joint may move at
+constexpr double kOverloadTime = 0.3; // [s]
+constexpr double kMostCounts = 8000;  // of an encoder between two frames
 
 } // namespace
 
@@ -38,9 +42,9 @@ void EcaArm::loseHome() noexcept {
 
 // [counts] between two frames that are `silence` [s] apart, or were delivered together.
 int EcaArm::mostMoved(size_t joint, double silence) const noexcept {
-    const double moving = kFaster * options_.fullSpeed * std::max(silence, options_.period);
+    const double moving = kFaster * kFullSpeed * std::max(silence, options_.period);
     const double most = silence > options_.staleAfter ? kAtRest : moving + kAtRest;
-    return static_cast<int>(std::min<double>(options_.mostCounts, most / radiansPerCount(joint)));
+    return static_cast<int>(std::min(kMostCounts, most / radiansPerCount(joint)));
 }
 
 void EcaArm::heard(const std::array<EcaStatus, kEcaJoints>& status, double now) noexcept {
@@ -62,15 +66,11 @@ void EcaArm::heard(const std::array<EcaStatus, kEcaJoints>& status, double now) 
 }
 
 void EcaArm::receive(double now) noexcept {
-    std::array<uint8_t, 256> bytes{};
-    for (size_t got = port_.read(bytes); got > 0; got = port_.read(bytes)) {
-        for (size_t i = 0; i < got; ++i) {
-            const auto frame = reader_.take(bytes[i]);
-            if (frame && *frame != sent_) { // a half-duplex line echoes sent bytes
-                heard(statusOf(*frame), now);
-            }
+    readPackets(port_, reader_, [&](const EcaBytes& frame) {
+        if (frame != sent_) { // a half-duplex line echoes sent bytes
+            heard(statusOf(frame), now);
         }
-    }
+    });
     feedback_.damaged = reader_.damaged();
 }
 
@@ -80,7 +80,7 @@ void EcaArm::watch(double now, const ArmCommand& command) noexcept {
     for (size_t j = 0; j < kEcaJoints; ++j) {
         const bool over = current_[j] > options_.mostCurrent;
         overSince_[j] = over ? std::min(overSince_[j], now) : std::numeric_limits<double>::infinity();
-        feedback_.overloaded = feedback_.overloaded || now - overSince_[j] > options_.overloadTime;
+        feedback_.overloaded = feedback_.overloaded || now - overSince_[j] > kOverloadTime;
     }
     feedback_.holding = command.hold || feedback_.stale || feedback_.overloaded || homing_ < kEcaJoints;
 }
@@ -88,7 +88,7 @@ void EcaArm::watch(double now, const ArmCommand& command) noexcept {
 EcaDemand EcaArm::speedDemand(double speed) const noexcept {
     EcaDemand demand;
     demand.currentLimit = options_.currentLimit;
-    const double counts = std::min(4095.0, std::round(4095.0 * std::abs(speed) / options_.fullSpeed));
+    const double counts = std::min(4095.0, std::round(4095.0 * std::abs(speed) / kFullSpeed));
     if (!(counts >= 1.0)) {
         return demand;
     }

@@ -17,14 +17,11 @@ struct EcaOptions {
     double period = 0.05;                  // [s] between frames, as in the public driver
     double staleAfter = 0.25;              // [s]
     double gain = 4.0;                     // [1/s] speed per radian of error
-    double fullSpeed = 0.5;                // [rad/s] at speed 4095
     double homingSpeed = 0.1;              // [rad/s]
     uint8_t stopCurrent = 120;             // current byte of a joint at its stop
-    uint8_t mostCurrent = 200;             // current byte that latches a hold after overloadTime
-    double overloadTime = 0.3;             // [s]
+    uint8_t mostCurrent = 200;             // current byte that latches a hold after 0.3 s
     uint16_t currentLimit = 4095;          // the arm's own, 0..4095
     std::array<double, kEcaJoints> stop{}; // [rad] of each joint at its clockwise stop
-    int mostCounts = 8000;                 // encoder counts between two frames at most, of any joint
 };
 
 // Axes: shoulder, slew, elbow, wrist, gripper [rad]. Homing starts with the first command other than hold,

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/serial/line_watchdog.h"
 
-#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <poll.h>

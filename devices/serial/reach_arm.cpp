@@ -10,6 +10,9 @@ namespace fathom {
 namespace {
 
 constexpr double kNever = -1e9;
+constexpr double kJawLead = 0.005;    // [m] of setpoints of the jaws before the measurement
+constexpr double kOverloadTime = 0.1; // [s]
+constexpr double kEchoTime = 0.05;    // [s] window in which a packet equal to a sent one is its echo
 constexpr uint8_t kPosition = 0x03, kCurrent = 0x05, kRequest = 0x60;
 // Base, shoulder, elbow, wrist, jaws.
 constexpr std::array<uint8_t, 5> kAlpha{5, 4, 3, 2, 1};
@@ -51,7 +54,7 @@ bool ReachArm::isEcho(const ReachPacket& packet, double now) noexcept {
     }
     for (Sent& sent : sent_) {
         const ReachPacket& p = sent.packet;
-        if (now - sent.at <= options_.echoTime && p.id == packet.id && p.device == packet.device &&
+        if (now - sent.at <= kEchoTime && p.id == packet.id && p.device == packet.device &&
             p.size == packet.size &&
             std::equal(p.data.begin(), p.data.begin() + p.size, packet.data.begin())) {
             sent.at = kNever;
@@ -79,14 +82,7 @@ void ReachArm::heard(const ReachPacket& packet, double now) noexcept {
 }
 
 void ReachArm::receive(double now) noexcept {
-    std::array<uint8_t, 256> bytes{};
-    for (size_t got = port_.read(bytes); got > 0; got = port_.read(bytes)) {
-        for (size_t i = 0; i < got; ++i) {
-            if (const auto packet = reader_.take(bytes[i])) {
-                heard(*packet, now);
-            }
-        }
-    }
+    readPackets(port_, reader_, [&](const ReachPacket& packet) { heard(packet, now); });
     feedback_.damaged = reader_.damaged();
 }
 
@@ -103,7 +99,7 @@ void ReachArm::watch(double now, const ArmCommand& command) noexcept {
     for (size_t k = 0; k < devices_.size(); ++k) {
         const bool over = std::abs(feedback_.current[k]) > options_.mostCurrent;
         overSince_[k] = over ? std::min(overSince_[k], now) : std::numeric_limits<double>::infinity();
-        feedback_.overloaded = feedback_.overloaded || now - overSince_[k] > options_.overloadTime;
+        feedback_.overloaded = feedback_.overloaded || now - overSince_[k] > kOverloadTime;
     }
     feedback_.holding = command.hold || feedback_.stale || feedback_.overloaded;
 }
@@ -118,7 +114,7 @@ void ReachArm::send(const ReachPacket& packet, double now) noexcept {
 
 void ReachArm::sendAll(double now, const ArmCommand& command) noexcept {
     for (size_t k = 0; k < devices_.size(); ++k) {
-        const double most = k == jaws() ? options_.jawLead : options_.lead;
+        const double most = k == jaws() ? kJawLead : options_.lead;
         const double ahead = std::clamp(command.position[k] - feedback_.position[k], -most, most);
         if (feedback_.holding || !std::isfinite(ahead)) {
             send(ReachPacket::ofFloat(kVelocity, devices_[k], 0.0f), now);

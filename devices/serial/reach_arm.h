@@ -9,7 +9,6 @@
 #include "devices/serial/serial_port.h"
 
 #include <span>
-#include <vector>
 
 namespace fathom {
 
@@ -28,11 +27,7 @@ struct ReachOptions {
     double currentStaleAfter = 0.5; // [s] the same of a motor current, which the host limits
     double lead = 0.05; // [rad] setpoints lead the measurement by at most this, which bounds the motion after
                         // a lost line
-    double jawLead = 0.005;    // [m] the same for the jaws
-    double mostCurrent = 1.5;  // [A] motor current that latches a hold after overloadTime
-    double overloadTime = 0.1; // [s]
-    double echoTime =
-        0.05; // [s] window in which, on a line that echoes, a packet equal to a sent one is its echo
+    double mostCurrent = 1.5; // [A] motor current that latches a hold after 0.1 s
 };
 
 // Axes [rad], the last one the jaws [m]. Absolute sensors: no homing. Sends positions, each at most `lead`

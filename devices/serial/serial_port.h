@@ -3,6 +3,7 @@
 // tty_ioctl(4)).
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -32,5 +33,18 @@ private:
     int file_ = -1;
     bool gone_ = false;
 };
+
+// Reads pending bytes. Calls heard(packet) for each packet that they complete in `reader`.
+template <class Reader, class Heard>
+void readPackets(SerialPort& port, Reader& reader, const Heard& heard) {
+    std::array<uint8_t, 256> bytes{};
+    for (size_t got = port.read(bytes); got > 0; got = port.read(bytes)) {
+        for (size_t i = 0; i < got; ++i) {
+            if (const auto packet = reader.take(bytes[i])) {
+                heard(*packet);
+            }
+        }
+    }
+}
 
 } // namespace fathom

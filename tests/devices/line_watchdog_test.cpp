@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <doctest/doctest.h>
-#include <memory>
 #include <sys/socket.h>
 #include <thread>
 #include <unistd.h>
