@@ -6,9 +6,9 @@
 #include "apps/stability/hand_run.h"
 #include "apps/stability/image_fixtures.h"
 #include "devices/simulated/simulated_camera.h"
+#include "engine/types/angle.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace fathom::stability {
@@ -76,7 +76,7 @@ Outcome grazingCase(RunLength runLength) {
     double worst = 0.0, spacing = 0.0;
     Rng rng(12);
     for (const double degrees : {60.0, 75.0, 82.0, 86.0}) {
-        const double tilt = degrees * 0.017453292519943295;
+        const double tilt = degrees * kDegree;
         AnalyticScene scene;
         scene.name = "grazing";
         scene.objects = {"surroundings", "red"};

@@ -5,7 +5,7 @@
 #include "devices/recorded/recorded_camera.h"
 #include "devices/simulated/simulated_camera.h"
 #include "engine/reference/contact_oracle.h"
-#include "engine/scene/load.h"
+#include "engine/types/angle.h"
 #include "engine/types/error.h"
 
 #include <algorithm>
@@ -114,7 +114,7 @@ World slotWorld() {
 
 World grooveWorld(double degrees) {
     World w = emptyWorld("groove", crossLeaves(0.006), dvec3(0.0));
-    const double half = 0.5 * degrees * 0.017453292519943295;
+    const double half = 0.5 * degrees * kDegree;
     for (const double side : {-1.0, 1.0}) {
         const dvec3 up(side * std::sin(half), 0, std::cos(half));
         addWall(w.fixtures, up * 0.15, kY, up, 0.15, 0.008, 0.02);

@@ -50,7 +50,7 @@ void HaplyBridge::connect() {
     service_ = std::move(service);
     introduced_ = false;
     awaited_ = 0;
-    there_ = true;
+    present_ = true;
     heardAt_ = Clock::now();
 }
 
@@ -83,10 +83,10 @@ bool HaplyBridge::answered(std::chrono::microseconds most) {
     awaited_ = 0;
     try {
         const auto state = readHaplyState(*message, device_);
-        if (there_ != state.has_value()) {
-            there_ = state.has_value();
-            losses_ += there_ ? 0 : 1;
-            log::warn("inverse3 {}: {}", device_, there_ ? "back" : "gone from the service");
+        if (present_ != state.has_value()) {
+            present_ = state.has_value();
+            losses_ += present_ ? 0 : 1;
+            log::warn("inverse3 {}: {}", device_, present_ ? "back" : "gone from the service");
         }
         if (state) {
             sample_ = state->sample;
@@ -107,7 +107,7 @@ void HaplyBridge::giveUpLate(Clock::time_point now) {
     }
     ++figures_.late;
     awaited_ = heardAt_ > askedAt_ ? 0 : awaited_;
-    ask(there_ ? endpoint_->wrench().force : dvec3(0.0));
+    ask(present_ ? endpoint_->wrench().force : dvec3(0.0));
 }
 
 void HaplyBridge::exchange() {
@@ -122,10 +122,10 @@ void HaplyBridge::exchange() {
             std::this_thread::sleep_for(kPeriod - since);
             endpoint_->poll();
         }
-        ask(there_ ? endpoint_->wrench().force : dvec3(0.0));
+        ask(present_ ? endpoint_->wrench().force : dvec3(0.0));
     }
     if (answered(kWait)) {
-        endpoint_->send(sample_, there_ ? FATHOM_DOOR_PRESENT | FATHOM_DOOR_HOMED : 0);
+        endpoint_->send(sample_, present_ ? FATHOM_DOOR_PRESENT | FATHOM_DOOR_HOMED : 0);
     }
 }
 
@@ -140,7 +140,7 @@ void HaplyBridge::close() noexcept {
     } catch (const std::exception&) { // already lost
     }
     service_.reset();
-    there_ = false;
+    present_ = false;
 }
 
 } // namespace fathom

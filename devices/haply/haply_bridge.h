@@ -57,7 +57,7 @@ private:
     Options options_;
     std::unique_ptr<WebSocket> service_;
     std::string device_, place_;
-    bool introduced_ = false, there_ = false;
+    bool introduced_ = false, present_ = false;
     uint32_t awaited_ = 0; // requests without an answer so far
     Clock::time_point askedAt_{}, heardAt_{};
     HaplyFigures figures_;

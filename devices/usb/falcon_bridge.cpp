@@ -32,7 +32,7 @@ void FalconBridge::open() {
     device->link.start(firmware_);
     place_ = device->port.place();
     device_ = std::move(device);
-    told_.reset();
+    loggedHomed_.reset();
     log::warn("falcon: back at {}", place_);
 }
 
@@ -51,9 +51,9 @@ void FalconBridge::close() noexcept {
     placed_ = false;
 }
 
-void FalconBridge::tellHoming(bool homed) {
-    if (told_ != homed) {
-        told_ = homed;
+void FalconBridge::logHoming(bool homed) {
+    if (loggedHomed_ != homed) {
+        loggedHomed_ = homed;
         log::warn("falcon: {}", homed ? "homed" : "not homed: pull the knob out and push it in");
     }
 }
@@ -68,7 +68,7 @@ void FalconBridge::exchange() {
     if (device_->link.exchange(command, kWait)) {
         const FalconState& state = device_->link.state();
         placed_ = drive_.place(state, sample_);
-        tellHoming(state.allHomed());
+        logHoming(state.allHomed());
         endpoint_->send(sample_, FATHOM_DOOR_PRESENT | (placed_ ? FATHOM_DOOR_HOMED : 0));
     }
 }

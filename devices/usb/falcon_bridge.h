@@ -40,14 +40,14 @@ private:
     bool isOpen() const noexcept override { return device_ != nullptr; }
     void close() noexcept override;
     void exchange() override;
-    void tellHoming(bool homed);
+    void logHoming(bool homed);
 
     std::vector<uint8_t> firmware_;
     std::unique_ptr<Device> device_;
     FalconDrive drive_;
     bool placed_ = false;
-    std::optional<bool> told_; // homed or not, as last logged
-    FalconFigures figures_;    // sum over earlier devices; at the end, over all
+    std::optional<bool> loggedHomed_; // homed or not, as last logged
+    FalconFigures figures_;           // sum over earlier devices; at the end, over all
     std::string place_;
 };
 

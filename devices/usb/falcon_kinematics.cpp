@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/usb/falcon_kinematics.h"
 
+#include "engine/types/angle.h"
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
-#include <numbers>
 
 namespace fathom {
 
@@ -15,7 +16,6 @@ namespace {
 // Lengths [m] in Stamper's letters; d = e.
 constexpr double kA = 0.060, kB = 0.1025, kC = 0.01443, kDE = 2 * 0.01125, kF = -0.025, kR = 0.0400,
                  kS = -0.02309;
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kLegs[3] = {105.0 * kDegree, -15.0 * kDegree, -135.0 * kDegree}; // 90, -30, -150, all + 15
 constexpr double kPerCount = 0.01425 * 360.0 / (320.0 * 4.0 * 0.110) * kDegree;   // [rad]
 constexpr double kAtZero = 35.0 * kDegree;

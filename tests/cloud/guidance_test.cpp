@@ -2,6 +2,7 @@
 // Guidance poses from points: planes at several angles through all passes, and poses compared with the twin.
 #include "engine/cloud/guidance_pose.h"
 #include "engine/reference/guidance.h"
+#include "engine/types/angle.h"
 #include "tests/support/cloud_rig.h"
 
 #include <algorithm>
@@ -14,7 +15,6 @@ using namespace fathom::test;
 
 namespace {
 
-constexpr double kDegree = 0.017453292519943295;
 const dvec3 kX(1, 0, 0), kZ(0, 0, 1);
 
 FixtureClass goal() {

@@ -2,19 +2,17 @@
 #include "devices/usb/falcon_kinematics.h"
 
 #include "devices/usb/falcon_drive.h"
+#include "engine/types/angle.h"
 
 #include <algorithm>
 #include <cmath>
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <numbers>
 
 using namespace fathom;
 
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 // Places over the workspace, a ball of 40 mm about home, in steps that are no round part of it.
 template <class Visit>
