@@ -3,6 +3,7 @@
 
 #include "apps/stability/case_text.h"
 #include "engine/types/error.h"
+#include "engine/types/joined.h"
 
 #include <algorithm>
 #include <array>
@@ -21,11 +22,7 @@ const char* nameOfGroup(Group group) {
 }
 
 std::string groupNames() {
-    std::string names;
-    for (const char* group : kGroupNames) {
-        names += (names.empty() ? "" : ", ") + std::string(group);
-    }
-    return names;
+    return joined(kGroupNames);
 }
 
 } // namespace

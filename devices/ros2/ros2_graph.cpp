@@ -3,6 +3,7 @@
 
 #include "devices/ros2/dds_library.h"
 #include "engine/types/error.h"
+#include "engine/types/joined.h"
 #include "engine/types/printable.h"
 
 #include <cstdlib>
@@ -115,11 +116,7 @@ std::string Ros2Graph::publications() const {
     if (reader > 0) {
         dds().destroy(reader);
     }
-    std::string text;
-    for (const std::string& name : names) {
-        text += (text.empty() ? "" : ", ") + name;
-    }
-    return text.empty() ? "none" : text;
+    return names.empty() ? "none" : joined(names);
 }
 
 } // namespace fathom

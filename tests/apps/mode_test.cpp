@@ -4,6 +4,7 @@
 #include "apps/operate/mode.h"
 #include "apps/operate/theme.h"
 #include "engine/cycle/wrench_stage.h"
+#include "engine/types/joined.h"
 #include "tests/apps/viewed_run.h"
 #include "tests/support/contrast.h"
 
@@ -23,13 +24,7 @@ TEST_CASE(
         run.step(0.001);
         return std::string(modeOf(input).word);
     };
-    const auto chips = [&] {
-        std::string all;
-        for (const Chip& chip : chipsOf(input)) {
-            all += (all.empty() ? "" : ", ") + chip.word;
-        }
-        return all;
-    };
+    const auto chips = [&] { return joined(chipsOf(input), &Chip::word); };
     CHECK(mode(StepState::Free) == "FORCES OFF");
     CHECK(mode(StepState::Contact) == "FORCES OFF");
     CHECK(mode(StepState::Fading) == "FORCES FADING"); // they fade over some time

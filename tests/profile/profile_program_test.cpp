@@ -3,6 +3,7 @@
 // with the documented fields. Only the duration of the whole run is checked, no other times.
 #include "tests/profile/quick_run.h"
 
+#include "engine/types/joined.h"
 #include "engine/types/version.h"
 #include "tests/support/sanitized.h"
 
@@ -171,13 +172,8 @@ TEST_CASE("An unknown study is rejected in one line that lists the known ones") 
     const ProgramRun run = runFathom({"profile", "filtre", "--out", (folder.path() / "out").string()});
     CHECK(run.exitCode == 2);
     REQUIRE(run.errorLines().size() == 1);
-    CHECK(run.errorLines().front() == "fathom: profile: STUDY: 'filtre' (allowed: " + [] {
-        std::string names;
-        for (const auto& entry : profile::allStudies()) {
-            names += (names.empty() ? "" : ", ") + std::string(entry.name);
-        }
-        return names;
-    }() + ")");
+    CHECK(run.errorLines().front() == "fathom: profile: STUDY: 'filtre' (allowed: " +
+                                          joined(profile::allStudies(), &profile::StudyEntry::name) + ")");
 }
 
 TEST_CASE("A recording gives the scatter between its frames") {
