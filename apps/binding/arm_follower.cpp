@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/binding/arm_follower.h"
 
-#include <cmath>
-
 namespace fathom {
 
 bool ArmFollower::home(double now) noexcept {

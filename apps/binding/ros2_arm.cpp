@@ -3,7 +3,6 @@
 
 #include "devices/ros2/joint_readings.h"
 #include "devices/ros2/ros2_graph.h"
-#include "engine/types/error.h"
 
 #include <algorithm>
 #include <chrono>

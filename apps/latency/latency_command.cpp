@@ -7,7 +7,6 @@
 #include "apps/number_option.h"
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <iostream>
 
 namespace fathom {

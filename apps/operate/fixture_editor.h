@@ -8,7 +8,6 @@
 #include "engine/contact/shapes.h"
 
 #include <array>
-#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // The fixtures panel: existing fixtures, the preview of a picked colour, shapes to place.
+#include "apps/binding/scene_edits.h"
 #include "apps/operate/fixture_editor.h"
 #include "apps/operate/holding_panel.h"
 #include "apps/operate/keys.h"
 #include "apps/operate/pick_panel.h"
 #include "apps/operate/theme.h"
-#include "apps/session/session.h"
 
 #include <GLFW/glfw3.h>
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace fathom::operate {
 

@@ -9,12 +9,10 @@
 #include "apps/operate/swapchain.h"
 
 #include <array>
-#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <span>
-#include <vector>
 
 namespace fathom {
 class Image; // apps/replay/image.h

@@ -10,7 +10,6 @@
 #include "apps/operate/run_display.h"
 #include "apps/operate/steering.h"
 #include "apps/operate/time_line_panel.h"
-#include "engine/run/thread_placement.h"
 
 namespace fathom::operate {
 

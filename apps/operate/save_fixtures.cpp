@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Writes the fixtures back into the scene file: replaces the rows, with comments between them, and keeps
 // every other line.
+#include "apps/binding/scene_edits.h"
 #include "apps/operate/fixture_editor.h"
-#include "apps/session/session.h"
-#include "engine/types/error.h"
 #include "engine/types/number_text.h"
 #include "engine/types/output_file.h"
 #include "engine/types/read_file.h"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/operate/stop_plate.h"
 
-#include "apps/operate/view_marks.h"
-
 #include <algorithm>
 
 namespace fathom::operate {

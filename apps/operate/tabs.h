@@ -5,7 +5,6 @@
 #include "apps/operate/alarms.h"
 #include "apps/operate/fixture_editor.h"
 #include "apps/operate/hud.h"
-#include "apps/operate/layout.h"
 
 namespace fathom::operate {
 

@@ -6,7 +6,6 @@
 
 #include <filesystem>
 #include <optional>
-#include <string>
 #include <sys/types.h>
 
 namespace fathom::operate {

@@ -10,10 +10,8 @@
 #include <algorithm>
 #include <backends/imgui_impl_glfw.h>
 #include <chrono>
-#include <cstdio>
 #include <cstdlib>
 #include <imgui.h>
-#include <iterator>
 #include <optional>
 #include <thread>
 #include <utility>

@@ -6,7 +6,6 @@
 #include "engine/gpu/instance.h"
 
 #include <functional>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>

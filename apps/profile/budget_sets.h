@@ -3,8 +3,6 @@
 // contacts.
 #pragma once
 
-#include "engine/contact/contact_row.h"
-#include "engine/contact/contact_set.h"
 #include "engine/contact/nearest_spheres.h"
 #include "engine/reference/kkt.h"
 

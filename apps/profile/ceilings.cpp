@@ -7,7 +7,6 @@
 #include "shaders/shared/constants.h"
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 
 namespace fathom::profile {

@@ -7,7 +7,6 @@
 #include "shaders/stream.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdlib>
 #include <numeric>
 

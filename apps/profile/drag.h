@@ -6,8 +6,6 @@
 #include "apps/profile/spread.h"
 #include "engine/haptics/proxy.h"
 
-#include <functional>
-
 namespace fathom::profile {
 
 struct DragSetting {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/profile/frame_sequence.h"
 
-#include "apps/binding/open_source.h"
 #include "devices/recorded/recorded_camera.h"
 #include "devices/simulated/analytic_scene.h"
+#include "engine/run/open_scene.h"
 #include "engine/types/colour_copy.h"
 #include "engine/types/error.h"
 

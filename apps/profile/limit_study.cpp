@@ -6,9 +6,6 @@
 #include "apps/profile/frame_work.h"
 #include "apps/profile/query_limit.h"
 #include "apps/profile/studies.h"
-#include "engine/cloud/frame_params.h"
-
-#include <algorithm>
 
 namespace fathom::profile {
 

@@ -2,7 +2,6 @@
 #include "apps/profile/plot_labels.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 

@@ -7,7 +7,6 @@
 #include "engine/types/joined.h"
 
 #include <algorithm>
-#include <map>
 #include <set>
 
 namespace fathom::profile {

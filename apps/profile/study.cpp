@@ -5,7 +5,6 @@
 #include "engine/types/number_text.h"
 
 #include <algorithm>
-#include <cstdio>
 
 namespace fathom::profile {
 

@@ -5,8 +5,6 @@
 
 #include <pybind11/functional.h>
 
-#include <mutex>
-
 namespace py = pybind11;
 
 namespace {

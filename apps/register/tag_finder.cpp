@@ -9,7 +9,6 @@
 #include <apriltag/apriltag.h>
 #include <apriltag/tag36h11.h>
 #include <cmath>
-#include <optional>
 #include <sstream>
 
 namespace fathom {

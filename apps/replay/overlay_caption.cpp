@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The caption of overlay.png: state and force at the moment shown, and the legend.
-#include "apps/replay/haptics_csv.h"
 #include "apps/replay/overlay_layers.h"
 #include "apps/replay/plot_axis.h"
 #include "engine/types/angle.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace fathom::overlay {

@@ -6,7 +6,6 @@
 #include "engine/cycle/step_record.h"
 #include "engine/reference/penetration_audit.h"
 
-#include <optional>
 #include <vector>
 
 namespace fathom {

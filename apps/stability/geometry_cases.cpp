@@ -6,7 +6,6 @@
 #include "apps/stability/hand_run.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace fathom::stability {

@@ -10,8 +10,6 @@
 #include "engine/types/camera_info.h"
 #include "engine/types/frame.h"
 
-#include <optional>
-
 namespace fathom::stability {
 
 // Turns the frames of one camera into fixture sets. For one thread; allocates.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/stability/lockstep_rig.h"
 
-#include "engine/haptics/coupling.h"
 #include "engine/reference/contact_oracle.h"
 #include "engine/types/error.h"
 

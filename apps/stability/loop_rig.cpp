@@ -3,8 +3,6 @@
 
 #include "engine/haptics/limits.h"
 
-#include <algorithm>
-
 namespace fathom::stability {
 
 namespace {

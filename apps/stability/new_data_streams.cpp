@@ -6,7 +6,6 @@
 #include "apps/stability/wall_camera.h"
 #include "apps/stability/worlds.h"
 #include "devices/recorded/recorded_camera.h"
-#include "engine/scene/load.h"
 
 #include <algorithm>
 #include <cmath>

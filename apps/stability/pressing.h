@@ -3,7 +3,6 @@
 #pragma once
 
 #include "apps/stability/loop_rig.h"
-#include "apps/stability/stability_case.h"
 
 #include <functional>
 

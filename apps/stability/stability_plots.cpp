@@ -6,7 +6,6 @@
 #include "apps/replay/plot_axis.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace fathom::stability {

@@ -8,7 +8,6 @@
 #include "engine/types/read_file.h"
 
 #include <algorithm>
-#include <cerrno>
 
 namespace fathom {
 

@@ -8,7 +8,6 @@
 
 #include <fstream>
 #include <map>
-#include <span>
 
 namespace fathom {
 

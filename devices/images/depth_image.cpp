@@ -11,7 +11,6 @@
 #include <cctype>
 #include <cmath>
 #include <fstream>
-#include <optional>
 #include <vector>
 
 namespace fathom {

@@ -2,7 +2,6 @@
 #include "devices/recorded/frame_folder.h"
 
 #include "devices/images/depth_image.h"
-#include "devices/recorded/colour_image.h"
 #include "devices/recorded/lens_model.h"
 #include "devices/recorded/matrix_file.h"
 #include "devices/recorded/numbered_images.h"

@@ -2,7 +2,6 @@
 #include "devices/recorded/intrinsics_output.h"
 
 #include "devices/recorded/lens_model.h"
-#include "engine/types/error.h"
 #include "engine/types/output_file.h"
 
 #include <nlohmann/json.hpp>

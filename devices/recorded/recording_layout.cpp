@@ -9,7 +9,6 @@
 #include "devices/recorded/numbered_images.h"
 #include "engine/types/error.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace fathom {

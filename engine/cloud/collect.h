@@ -6,7 +6,6 @@
 #include "engine/cloud/fixture_set.h"
 #include "engine/cloud/seen_points.h"
 #include "engine/scene/scene.h"
-#include "shaders/shared/frame_params.h"
 
 namespace fathom::cloud {
 

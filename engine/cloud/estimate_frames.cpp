@@ -3,8 +3,6 @@
 
 #include "engine/cloud/frame_params.h"
 
-#include <algorithm>
-
 namespace fathom::cloud {
 
 namespace {

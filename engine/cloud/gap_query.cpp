@@ -2,7 +2,6 @@
 #include "engine/cloud/gap_query.h"
 
 #include "shaders/shared/constants.h"
-#include "shaders/shared/query_params.h"
 #include "shaders/smallest_gap.h"
 
 #include <algorithm>

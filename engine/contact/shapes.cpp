@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/contact/shapes.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace fathom {

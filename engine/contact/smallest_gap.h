@@ -10,7 +10,6 @@
 #include <cstdint>
 #include <glm/vec4.hpp>
 #include <limits>
-#include <span>
 #include <utility>
 #include <vector>
 

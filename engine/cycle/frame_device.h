@@ -7,7 +7,6 @@
 #include "engine/cycle/frame_passes.h"
 #include "engine/gpu/timeline.h"
 
-#include <optional>
 #include <string>
 #include <vector>
 

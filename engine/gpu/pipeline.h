@@ -4,7 +4,6 @@
 
 #include "engine/gpu/buffer.h"
 
-#include <span>
 #include <vector>
 
 namespace fathom::gpu {

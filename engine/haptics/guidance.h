@@ -7,7 +7,6 @@
 #include "engine/types/pose.h"
 #include "engine/types/wrench.h"
 
-#include <cstdint>
 #include <limits>
 #include <span>
 

@@ -6,7 +6,6 @@
 #include "engine/contact/leaf_centres.h"
 #include "engine/contact/tool.h"
 
-#include <span>
 #include <vector>
 
 namespace fathom {

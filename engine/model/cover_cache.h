@@ -4,7 +4,6 @@
 
 #include "engine/model/link_spheres.h"
 
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>

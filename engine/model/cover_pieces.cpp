@@ -2,7 +2,6 @@
 #include "engine/model/cover_pieces.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace fathom {

@@ -6,7 +6,6 @@
 #include "engine/types/printable.h"
 #include "engine/types/read_file.h"
 
-#include <algorithm>
 #include <charconv>
 
 namespace fathom {

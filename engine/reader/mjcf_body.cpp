@@ -4,7 +4,6 @@
 #include "engine/model/xml_text.h"
 #include "engine/types/printable.h"
 
-#include <algorithm>
 #include <set>
 
 namespace fathom {

@@ -9,7 +9,6 @@
 #include <fstream>
 #include <iomanip>
 #include <locale>
-#include <string_view>
 
 namespace fathom {
 

@@ -3,7 +3,6 @@
 // proxy.
 #pragma once
 
-#include "engine/contact/contact_set.h"
 #include "engine/contact/smallest_gap.h"
 
 #include <cstdint>

@@ -4,8 +4,6 @@
 
 #include "engine/cycle/step_record.h"
 
-#include <cmath>
-
 namespace fathom {
 
 // A hand does not move faster than kFastest. A faster sample is either an outlier or correct after a gap. It

@@ -2,8 +2,6 @@
 // Section `arm.driver` of a scene file: the connection to a real arm.
 #include "engine/scene/load.h"
 
-#include <algorithm>
-
 namespace fathom {
 
 namespace {

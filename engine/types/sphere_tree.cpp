@@ -4,7 +4,6 @@
 #include "engine/types/error.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace fathom {
 

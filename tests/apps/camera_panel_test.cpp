@@ -2,7 +2,6 @@
 // The tab of the camera, driven by the mouse, with a camera made by the test.
 #include "tests/apps/laid_screen.h"
 
-#include <algorithm>
 #include <chrono>
 #include <doctest/doctest.h>
 #include <mutex>

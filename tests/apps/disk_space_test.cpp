@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The free space for a recording, and how sizes and times are written.
 #include "apps/operate/disk_space.h"
-#include "apps/operate/recorder.h"
 #include "tests/support/scratch_folder.h"
 
 #include <doctest/doctest.h>

@@ -5,7 +5,6 @@
 
 #include <doctest/doctest.h>
 #include <limits>
-#include <utility>
 
 using namespace fathom;
 using namespace fathom::operate;

@@ -7,7 +7,6 @@
 #include "tests/devices/bag_maker.h"
 #include "tests/support/scratch_folder.h"
 
-#include <deque>
 #include <doctest/doctest.h>
 #include <fstream>
 #include <sstream>

@@ -8,7 +8,6 @@
 #include "tests/apps/viewed_run.h"
 
 #include <functional>
-#include <string>
 #include <vector>
 
 namespace fathom::testing {

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <doctest/doctest.h>
-#include <functional>
 #include <string>
 
 using namespace fathom;

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Registrations that must not be believed: scale, mirror images, outliers, scatter.
 #include "apps/register/robust_fit.h"
-#include "engine/types/error.h"
 #include "tests/apps/point_pairs.h"
 
 #include <cmath>
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
-#include <random>
 
 using namespace fathom;
 using namespace fathom::testing;

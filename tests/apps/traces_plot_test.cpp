@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <doctest/doctest.h>
-#include <vector>
 
 using namespace fathom;
 using namespace fathom::testing;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Compares occlusion.comp with its float64 twin, and checks its purpose: points hidden from the colour camera
 // have no class.
-#include "engine/reference/surface.h"
 #include "tests/support/cloud_rig.h"
 #include "tests/support/sanitized.h"
 

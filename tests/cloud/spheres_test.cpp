@@ -7,7 +7,6 @@
 #include "tests/support/sanitized.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <doctest/doctest.h>
 

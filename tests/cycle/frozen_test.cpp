@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Frozen classes keep their spheres while the others follow the frame.
-#include "engine/types/error.h"
 #include "tests/cycle/red_and_blue.h"
 
 #include <doctest/doctest.h>

@@ -4,7 +4,6 @@
 #include "tests/cycle/haptic_rig.h"
 
 #include "engine/haptics/limits.h"
-#include "engine/types/error.h"
 
 #include <doctest/doctest.h>
 

@@ -10,7 +10,6 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <cstring>
 
 using namespace fathom;
 using namespace fathom::testing;

@@ -2,7 +2,6 @@
 // Live devices in the haptic cycle: any start pose, recovery after a loss, axes without motors.
 #include "tests/cycle/haptic_rig.h"
 
-#include <cmath>
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 

@@ -4,7 +4,6 @@
 
 #include "tests/model/urdf_text.h"
 
-#include <algorithm>
 #include <doctest/doctest.h>
 
 using namespace fathom;

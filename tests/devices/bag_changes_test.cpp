@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bags whose lens, unit or stamps change, and streams that only look like depth or colour.
-#include "devices/bag/open_bag.h"
 #include "engine/types/colour_copy.h"
 #include "tests/devices/played_bag.h"
 

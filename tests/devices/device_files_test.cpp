@@ -6,7 +6,6 @@
 #include "tests/devices/socket_rig.h"
 
 #include <fstream>
-#include <set>
 
 #include <sys/stat.h>
 

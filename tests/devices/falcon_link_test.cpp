@@ -6,7 +6,6 @@
 #include "tests/support/scratch_folder.h"
 
 #include <doctest/doctest.h>
-#include <filesystem>
 #include <fstream>
 #include <thread>
 

@@ -6,8 +6,6 @@
 #include "tests/devices/played_bag.h"
 #include "tests/support/refusal.h"
 
-#include <fstream>
-#include <iterator>
 #include <spdlog/spdlog.h>
 
 using namespace fathom;

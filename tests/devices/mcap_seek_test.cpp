@@ -2,7 +2,6 @@
 // How much of a long MCAP file is read to open it and to play a part.
 #include "devices/bag/mcap_file.h"
 #include "devices/bag/mcap_writer.h"
-#include "devices/bag/ros2_messages.h"
 #include "tests/devices/recorded_folder.h"
 
 #include <doctest/doctest.h>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Recordings of the Orbbec SDK, made by the serialisers of its messages (OrbbecSDK_v2, 3rdparty/rosbag).
-#include "devices/bag/open_bag.h"
 #include "engine/types/colour_copy.h"
 #include "tests/devices/played_bag.h"
 

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
-#include <vector>
 
 using namespace fathom;
 

@@ -10,7 +10,6 @@
 #include <doctest/doctest.h>
 #include <filesystem>
 #include <functional>
-#include <string>
 #include <thread>
 
 #include <csignal>

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <doctest/doctest.h>
 #include <limits>
-#include <optional>
 
 using namespace fathom;
 using namespace fathom::testing;

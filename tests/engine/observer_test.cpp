@@ -3,7 +3,6 @@
 #include "tests/engine/wall_world.h"
 #include "tests/haptics/allocation_count.h"
 
-#include <cmath>
 #include <doctest/doctest.h>
 #include <optional>
 

@@ -2,7 +2,6 @@
 // A system that starts no more threads (RLIMIT_NPROC, a limit of processes of a container). Not under
 // sanitizers, which replace pthread_create themselves.
 #include "tests/engine/wall_world.h"
-#include "tests/support/sanitized.h"
 
 #include <cerrno>
 #include <dlfcn.h>

@@ -17,7 +17,6 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
-#include <string_view>
 
 namespace fathom::testing {
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/gpu/physical_device.h"
 #include "engine/gpu/pipeline.h"
 #include "engine/gpu/software_threads.h"
 #include "engine/gpu/stopwatch.h"

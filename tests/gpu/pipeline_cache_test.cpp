@@ -8,7 +8,6 @@
 #include "tests/support/scratch_folder.h"
 #include "tests/support/vulkan.h"
 
-#include <array>
 #include <csignal>
 #include <cstdlib>
 #include <doctest/doctest.h>

@@ -4,7 +4,6 @@
 #include "tests/support/sanitized.h"
 
 #include "engine/reference/nearest_point.h"
-#include "engine/types/error.h"
 
 #include <doctest/doctest.h>
 

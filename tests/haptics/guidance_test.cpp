@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Guidance: fading, saturation, choice, hold, slew, free roll, and both modes at rest.
 #include "engine/haptics/guidance.h"
-#include "engine/haptics/limits.h"
 #include "engine/reference/rng.h"
 
 #include <doctest/doctest.h>

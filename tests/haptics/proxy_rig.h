@@ -10,9 +10,7 @@
 #include "tests/contact/clouds.h"
 
 #include <deque>
-#include <functional>
 #include <memory>
-#include <optional>
 
 namespace fathom::testing {
 

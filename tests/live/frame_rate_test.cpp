@@ -2,7 +2,6 @@
 // Frame rates above and below 30 per second.
 #include "tests/rig/refusal.h"
 
-#include <algorithm>
 #include <doctest/doctest.h>
 
 using namespace fathom;

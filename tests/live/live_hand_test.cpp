@@ -2,11 +2,9 @@
 // `replay --realtime` with a live hand on a bridge socket, and an observer on the view socket.
 #include "tests/rig/cause_check.h"
 #include "tests/rig/played_device.h"
-#include "tests/rig/refusal.h"
 #include "tests/rig/stage.h"
 #include "tests/support/sanitized.h"
 
-#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <doctest/doctest.h>

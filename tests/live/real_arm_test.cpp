@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <doctest/doctest.h>
-#include <fstream>
 #include <future>
 #include <glm/geometric.hpp>
 #include <sstream>

@@ -16,7 +16,6 @@
 #include "tests/losing_layer/next_device.h"
 #include "tests/losing_layer/ours.h"
 
-#include <cstring>
 #include <map>
 #include <mutex>
 #include <vulkan/vk_layer.h>

@@ -6,7 +6,6 @@
 #include "tests/support/refusal.h"
 
 #include <doctest/doctest.h>
-#include <fstream>
 #include <unistd.h>
 
 using namespace fathom;

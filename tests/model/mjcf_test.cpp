@@ -2,7 +2,6 @@
 // Arms in MJCF: the same links, joints and limits as those of a URDF that was written by hand.
 #include "tests/model/mjcf_text.h"
 
-#include <algorithm>
 #include <cmath>
 #include <doctest/doctest.h>
 

@@ -7,10 +7,8 @@
 #include <chrono>
 #include <cstdlib>
 #include <cstring>
-#include <mutex>
 #include <string>
 #include <thread>
-#include <vector>
 
 // The export macro creates objects with these functions.
 #define XN_NEW(type, ...) new type(__VA_ARGS__)

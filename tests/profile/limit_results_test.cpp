@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Floors and ratios of the limit study in a quick run: figures that hold on any machine, no times.
 #include "tests/profile/quick_run.h"
-#include "tests/support/vulkan.h"
 
 #include <algorithm>
 #include <limits>

@@ -10,7 +10,6 @@
 #include <csignal>
 #include <doctest/doctest.h>
 #include <sys/wait.h>
-#include <thread>
 
 using namespace fathom;
 

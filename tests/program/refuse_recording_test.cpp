@@ -3,7 +3,6 @@
 #include "tests/rig/refusal.h"
 
 #include <doctest/doctest.h>
-#include <functional>
 
 using namespace fathom;
 

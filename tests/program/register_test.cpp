@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // `fathom register` as a program: its input, its output, and that a scene accepts the result.
-#include "tests/rig/refusal.h"
 #include "tests/rig/stage.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 #include <sstream>

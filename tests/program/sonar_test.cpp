@@ -4,7 +4,6 @@
 #include "tests/support/scratch_folder.h"
 
 #include <doctest/doctest.h>
-#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 

@@ -4,7 +4,6 @@
 #include "engine/types/error.h"
 
 #include <doctest/doctest.h>
-#include <limits>
 #include <thread>
 #include <utility>
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // A hand with non-finite samples.
-#include "engine/run/realtime_run.h"
 
 #include <doctest/doctest.h>
 #include <limits>

@@ -7,8 +7,6 @@
 #include "tests/rig/run_fathom.h"
 #include "tests/rig/small_recording.h"
 
-#include <optional>
-
 namespace fathom {
 
 // The files of a finished replay.

@@ -2,7 +2,6 @@
 // Services of a run.
 #include "tests/ros2/client.h"
 #include "tests/ros2/fed_run.h"
-#include "tests/ros2/speaker.h"
 
 #include <doctest/doctest.h>
 

@@ -2,7 +2,6 @@
 // Topics of ROS 2 with a program on Fast DDS, which reads and writes messages with Fast CDR
 // (tests/ros2_fast_peer).
 #include "devices/ros2/ros2_camera.h"
-#include "engine/types/error.h"
 #include "tests/ros2/bridge_loop.h"
 #include "tests/ros2/client.h"
 #include "tests/ros2/fed_run.h"

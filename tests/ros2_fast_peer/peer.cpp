@@ -7,7 +7,6 @@
 // answered by "ok".
 #include "tests/ros2_fast_peer/fast_messages.h"
 
-#include <chrono>
 #include <cstdlib>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
@@ -24,7 +23,6 @@
 #include <memory>
 #include <string>
 #include <unistd.h>
-#include <vector>
 
 namespace fast = eprosima::fastdds::dds;
 namespace rtps = eprosima::fastrtps::rtps;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // The whole program with topics of ROS 2, in real time.
-#include "tests/rig/refusal.h"
 #include "tests/rig/stage.h"
 #include "tests/ros2/client.h"
 #include "tests/ros2/heard.h"

@@ -4,7 +4,6 @@
 
 #include "engine/types/error.h"
 
-#include <algorithm>
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 #include <set>

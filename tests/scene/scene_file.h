@@ -3,7 +3,6 @@
 #pragma once
 
 #include "engine/scene/scene.h"
-#include "engine/types/error.h"
 #include "tests/support/refusal.h"
 #include "tests/support/scratch_folder.h"
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where a camera stands still, how large its noise is, and the mean image.
 #include "apps/tune/still_part.h"
-#include "apps/tune/tune_source.h"
 #include "devices/simulated/counter_noise.h"
 
 #include <doctest/doctest.h>

@@ -6,7 +6,6 @@
 #include <atomic>
 #include <doctest/doctest.h>
 #include <thread>
-#include <vector>
 
 using namespace fathom;
 

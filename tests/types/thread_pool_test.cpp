@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <chrono>
 #include <doctest/doctest.h>
-#include <numeric>
 
 using namespace fathom;
 

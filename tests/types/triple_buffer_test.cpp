@@ -3,7 +3,6 @@
 #include "engine/types/triple_buffer.h"
 
 #include <array>
-#include <atomic>
 #include <doctest/doctest.h>
 #include <thread>
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/vm/uvc_camera.h"
 
-#include <cerrno>
-
 namespace fathom::vm {
 
 namespace {

@@ -2,7 +2,6 @@
 // The window without a mouse: panels, colours and places by keys alone, and the priority of the space bar.
 #include "tests/window/window_rig.h"
 
-#include <cmath>
 #include <doctest/doctest.h>
 
 using namespace fathom;

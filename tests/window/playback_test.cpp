@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdio>
 #include <doctest/doctest.h>
-#include <fstream>
 
 using namespace fathom;
 using namespace fathom::window;

@@ -8,7 +8,6 @@
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
-#include <thread>
 
 using namespace fathom;
 using namespace fathom::window;

@@ -2,7 +2,6 @@
 // Editing fixtures during a run: gates of an active class, lines, boxes.
 #include "tests/window/window_rig.h"
 
-#include <cmath>
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>

@@ -3,10 +3,8 @@
 #include "tests/rig/run_fathom.h"
 #include "tests/window/window_rig.h"
 
-#include <cstdio>
 #include <doctest/doctest.h>
 #include <fstream>
-#include <thread>
 
 using namespace fathom;
 using namespace fathom::window;

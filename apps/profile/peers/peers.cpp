@@ -2,8 +2,6 @@
 #include "apps/profile/peers/peers.h"
 #include "engine/types/processors.h"
 
-#include <algorithm>
-
 namespace fathom::peers {
 
 namespace {

@@ -10,10 +10,8 @@
 #include "tests/vm/vhci_port.h"
 
 #include <doctest/doctest.h>
-#include <filesystem>
 #include <fstream>
 #include <memory>
-#include <optional>
 #include <string>
 
 namespace fathom::vm {

@@ -8,7 +8,6 @@
 #include "tests/vm/haptic/falcon_device.h"
 #include "tests/vm/vhci_port.h"
 
-#include <cstdio>
 #include <fstream>
 #include <glm/geometric.hpp>
 #include <optional>

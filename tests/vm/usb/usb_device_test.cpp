@@ -6,7 +6,6 @@
 #include <array>
 #include <doctest/doctest.h>
 #include <libusb-1.0/libusb.h>
-#include <string>
 
 using namespace fathom::vm;
 
