@@ -13,10 +13,11 @@ set(layers
     engine/cycle:4
     engine/run:5 engine/reference:5
     engine/front:6 apps/binding:6 apps/verify:6
-    apps:7
-    apps/operate:8 apps/stability:8 apps/profile:8
-    apps/tune:9
-    apps/main.cpp:10)
+    apps/output:7
+    apps:8
+    apps/operate:9 apps/stability:9 apps/profile:9
+    apps/tune:10
+    apps/main.cpp:11)
 foreach(entry ${layers})
     string(REGEX MATCH "^(.+):([0-9]+)$" ignored ${entry})
     set(layer_${CMAKE_MATCH_1} ${CMAKE_MATCH_2})
@@ -24,8 +25,8 @@ foreach(entry ${layers})
 endforeach()
 
 # Every other folder must do without the GPU.
-set(with_vulkan engine/gpu engine/cloud engine/cycle engine/run engine/front apps/binding apps/verify apps apps/operate
-    apps/stability apps/profile apps/tune apps/main.cpp)
+set(with_vulkan engine/gpu engine/cloud engine/cycle engine/run engine/front apps/binding apps/verify apps/output apps
+    apps/operate apps/stability apps/profile apps/tune apps/main.cpp)
 set(most_lines 300)
 set(sources h cpp comp vert frag glsl cmake)
 set(passed 0)

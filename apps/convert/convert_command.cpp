@@ -4,8 +4,8 @@
 #include "apps/binding/open_source.h"
 #include "apps/convert/mcap_recording.h"
 #include "apps/convert/tum_folder.h"
-#include "apps/replay/output_folder.h"
-#include "apps/replay/progress.h"
+#include "apps/output/output_folder.h"
+#include "apps/output/progress.h"
 #include "engine/scene/camera_limits.h"
 #include "engine/types/error.h"
 

@@ -3,7 +3,7 @@
 
 #include "apps/convert/message_time.h"
 #include "apps/convert/regions_ply.h"
-#include "apps/replay/fixtures_ply.h"
+#include "apps/output/fixtures_ply.h"
 #include "devices/bag/ros2_messages.h"
 #include "engine/types/error.h"
 

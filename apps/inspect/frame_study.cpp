@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/inspect/frame_study.h"
 
-#include "apps/replay/image.h"
-#include "apps/replay/output_folder.h"
+#include "apps/output/image.h"
+#include "apps/output/output_folder.h"
 #include "engine/types/colour_copy.h"
 
 #include <algorithm>

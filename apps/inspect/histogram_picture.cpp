@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/inspect/histogram_picture.h"
 
-#include "apps/replay/image.h"
+#include "apps/output/image.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #include "apps/operate/alarms.h"
 #include "apps/operate/hud.h"
 #include "apps/operate/printed.h"
-#include "apps/replay/silhouette.h"
+#include "apps/output/silhouette.h"
 
 #include <algorithm>
 #include <cmath>
@@ -51,7 +51,7 @@ void Alarms::stepScene(const StepRecord& tick, const HapticOptions& haptics, boo
         tick.t, {0.25, 1.0});
 }
 
-// What replay lists as warnings (apps/session/run_watch.h), from what the window holds of the run.
+// What replay lists as warnings (apps/replay/run_watch.h), from what the window holds of the run.
 void Alarms::stepProtection(const RunView& run, const Scene& scene, const StepRecord& tick, bool forces) {
     const Fixtures& shown = run.scene().set;
     regionSeen_.resize(scene.fixtures.size(), tick.t);

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "apps/operate/snapshots.h"
-#include "apps/replay/image_view.h"
-#include "apps/replay/silhouette.h"
+#include "apps/output/image_view.h"
+#include "apps/output/silhouette.h"
 
 #include <vector>
 

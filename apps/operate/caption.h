@@ -4,7 +4,7 @@
 
 #include "apps/operate/depth_cues.h"
 #include "apps/operate/mode.h"
-#include "apps/replay/image.h"
+#include "apps/output/image.h"
 
 #include <string>
 #include <vector>

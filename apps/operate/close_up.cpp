@@ -3,7 +3,7 @@
 
 #include "apps/operate/shape_marks.h"
 #include "apps/operate/view_lines.h"
-#include "apps/replay/silhouette.h"
+#include "apps/output/silhouette.h"
 
 #include <algorithm>
 #include <cmath>

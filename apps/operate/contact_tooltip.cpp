@@ -3,7 +3,7 @@
 
 #include "apps/operate/theme.h"
 #include "apps/operate/why_panel.h"
-#include "apps/replay/silhouette.h"
+#include "apps/output/silhouette.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 #include "apps/operate/holding_panel.h"
 
 #include "apps/operate/theme.h"
-#include "apps/replay/silhouette.h"
+#include "apps/output/silhouette.h"
 
 #include <imgui.h>
 #include <limits>

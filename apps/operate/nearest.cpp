@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/operate/nearest.h"
 
-#include "apps/replay/image_view.h"
-#include "apps/replay/silhouette.h"
+#include "apps/output/image_view.h"
+#include "apps/output/silhouette.h"
 
 #include <algorithm>
 #include <glm/geometric.hpp>

@@ -7,7 +7,7 @@
 #include "apps/operate/recorder_control.h"
 #include "apps/operate/run_display.h"
 #include "apps/operate/speaker.h"
-#include "apps/replay/fault_trace.h"
+#include "apps/output/fault_trace.h"
 
 #include <memory>
 

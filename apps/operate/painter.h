@@ -15,7 +15,7 @@
 #include <span>
 
 namespace fathom {
-class Image; // apps/replay/image.h
+class Image; // apps/output/image.h
 }
 
 namespace fathom::operate {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Records the commands of a window frame, and reads it back for screenshots.
 #include "apps/operate/painter.h"
-#include "apps/replay/image.h"
+#include "apps/output/image.h"
 #include "engine/gpu/result.h"
 
 #include <algorithm>

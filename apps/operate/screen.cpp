@@ -9,7 +9,7 @@
 #include "apps/operate/stop_plate.h"
 #include "apps/operate/tabs.h"
 #include "apps/operate/view_click.h"
-#include "apps/replay/silhouette.h"
+#include "apps/output/silhouette.h"
 
 #include <algorithm>
 #include <utility>

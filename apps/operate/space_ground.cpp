@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/operate/space_ground.h"
 
-#include "apps/replay/silhouette.h"
+#include "apps/output/silhouette.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 
 #include "apps/operate/console.h"
 #include "apps/operate/snapshots.h"
-#include "apps/replay/image_view.h"
+#include "apps/output/image_view.h"
 
 #include <span>
 #include <vector>

@@ -2,7 +2,7 @@
 #include "apps/operate/space_marks.h"
 
 #include "apps/operate/theme.h"
-#include "apps/replay/silhouette.h"
+#include "apps/output/silhouette.h"
 #include "engine/types/angle.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 // An MP4 file, encoded by the program ffmpeg where it is installed (Debian: ffmpeg).
 #pragma once
 
-#include "apps/replay/image.h"
+#include "apps/output/image.h"
 
 #include <filesystem>
 #include <optional>

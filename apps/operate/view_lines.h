@@ -3,7 +3,7 @@
 #pragma once
 
 #include "apps/operate/view_port.h"
-#include "apps/replay/silhouette.h"
+#include "apps/output/silhouette.h"
 
 #include <imgui.h>
 #include <vector>

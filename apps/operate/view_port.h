@@ -3,7 +3,7 @@
 #pragma once
 
 #include "apps/operate/painter.h"
-#include "apps/replay/image_view.h"
+#include "apps/output/image_view.h"
 
 #include <imgui.h>
 #include <optional>

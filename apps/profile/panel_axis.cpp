@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "apps/output/plot_axis.h"
 #include "apps/profile/study_plot.h"
-#include "apps/replay/plot_axis.h"
 
 #include <algorithm>
 #include <cmath>

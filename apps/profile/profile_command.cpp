@@ -2,11 +2,11 @@
 #include "apps/profile/profile_command.h"
 
 #include "apps/clock/clock_keeper.h"
+#include "apps/output/output_folder.h"
 #include "apps/profile/profile_trace.h"
 #include "apps/profile/report.h"
 #include "apps/profile/studies.h"
 #include "apps/profile/study_plot.h"
-#include "apps/replay/output_folder.h"
 #include "engine/types/error.h"
 #include "engine/types/joined.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/profile/report.h"
 
+#include "apps/output/csv.h"
 #include "apps/profile/frame_sequence.h"
-#include "apps/replay/csv.h"
 #include "engine/types/output_file.h"
 #include "engine/types/processors.h"
 #include "engine/types/version.h"

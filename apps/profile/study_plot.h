@@ -3,8 +3,8 @@
 // Pareto front as a line.
 #pragma once
 
+#include "apps/output/image.h"
 #include "apps/profile/study.h"
-#include "apps/replay/image.h"
 
 namespace fathom::profile {
 

@@ -5,8 +5,8 @@
 #include "apps/binding/open_source.h"
 #include "apps/binding/stop_signals.h"
 #include "apps/number_option.h"
+#include "apps/output/output_folder.h"
 #include "apps/record/hand_log.h"
-#include "apps/replay/output_folder.h"
 #include "devices/recorded/recording_writer.h"
 #include "engine/types/error.h"
 

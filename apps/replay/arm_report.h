@@ -2,7 +2,7 @@
 // Reports the arm of a run: arm.csv with one row per tick, and the section `arm` of summary.json.
 #pragma once
 
-#include "apps/replay/csv.h"
+#include "apps/output/csv.h"
 #include "apps/replay/summary.h"
 #include "engine/cycle/arm_rig.h"
 #include "engine/run/channels.h"

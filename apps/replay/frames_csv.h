@@ -2,7 +2,7 @@
 // Writes frames.csv, one row per processed frame, in constant memory.
 #pragma once
 
-#include "apps/replay/csv.h"
+#include "apps/output/csv.h"
 #include "engine/cycle/frame_cycle.h"
 #include "engine/cycle/step_record.h"
 #include "engine/types/output_file.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/replay/lockstep_replay.h"
 
-#include "apps/replay/progress.h"
+#include "apps/output/progress.h"
 #include "apps/session/path_hand.h"
 #include "engine/types/colour_copy.h"
 #include "engine/types/error.h"

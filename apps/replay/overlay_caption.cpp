@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The caption of overlay.png: state and force at the moment shown, and the legend.
+#include "apps/output/plot_axis.h"
 #include "apps/replay/overlay_layers.h"
-#include "apps/replay/plot_axis.h"
 #include "engine/types/angle.h"
 
 #include <cmath>

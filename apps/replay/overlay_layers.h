@@ -2,10 +2,10 @@
 // The layers of overlay.png, in drawing order. Layers are independent of each other.
 #pragma once
 
-#include "apps/replay/image.h"
-#include "apps/replay/image_view.h"
+#include "apps/output/image.h"
+#include "apps/output/image_view.h"
+#include "apps/output/silhouette.h"
 #include "apps/replay/overlay_image.h"
-#include "apps/replay/silhouette.h"
 
 namespace fathom::overlay {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The marks of overlay.png: guidance targets, tool and hand, force.
+#include "apps/output/plot_axis.h"
+#include "apps/output/silhouette.h"
 #include "apps/replay/overlay_layers.h"
-#include "apps/replay/plot_axis.h"
-#include "apps/replay/silhouette.h"
 #include "engine/types/angle.h"
 
 #include <algorithm>

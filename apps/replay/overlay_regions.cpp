@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The forbidden regions in overlay.png: tinted and hatched silhouettes, their outlines, and their source
 // points.
+#include "apps/output/silhouette.h"
 #include "apps/replay/overlay_layers.h"
-#include "apps/replay/silhouette.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,9 +5,9 @@
 
 #include "apps/binding/stop_signals.h"
 #include "apps/binding/watched_hand.h"
-#include "apps/replay/fault_trace.h"
+#include "apps/output/fault_trace.h"
+#include "apps/output/progress.h"
 #include "apps/replay/percentiles.h"
-#include "apps/replay/progress.h"
 #include "apps/replay/replay_command.h"
 #include "apps/replay/replay_recorder.h"
 #include "apps/replay/tool_audit.h"

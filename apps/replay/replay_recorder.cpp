@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/replay/replay_recorder.h"
 
-#include "apps/replay/fixtures_ply.h"
+#include "apps/output/fixtures_ply.h"
 #include "apps/replay/overlay_image.h"
 #include "apps/replay/traces_plot.h"
 #include "engine/cloud/frame_params.h"

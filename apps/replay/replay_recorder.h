@@ -2,14 +2,14 @@
 // Collects the results of a replay and writes the files of `replay --out`.
 #pragma once
 
+#include "apps/output/haptics_csv.h"
+#include "apps/output/output_folder.h"
 #include "apps/replay/arm_report.h"
 #include "apps/replay/frames_csv.h"
-#include "apps/replay/haptics_csv.h"
-#include "apps/replay/output_folder.h"
+#include "apps/replay/run_watch.h"
 #include "apps/replay/summary.h"
 #include "apps/replay/tick_totals.h"
 #include "apps/replay/trace_history.h"
-#include "apps/session/run_watch.h"
 #include "apps/session/session.h"
 #include "engine/contact/query_loop.h"
 #include "engine/contact/tool.h"

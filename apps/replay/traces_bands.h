@@ -2,8 +2,8 @@
 // The background of traces.png: shaded bands, the strip of lettered phases, frame ticks, the legend.
 #pragma once
 
-#include "apps/replay/image.h"
-#include "apps/replay/plot_axis.h"
+#include "apps/output/image.h"
+#include "apps/output/plot_axis.h"
 #include "apps/replay/trace_history.h"
 
 #include <string>

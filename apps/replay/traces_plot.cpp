@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/replay/traces_plot.h"
 
-#include "apps/replay/plot_axis.h"
+#include "apps/output/plot_axis.h"
 #include "apps/replay/traces_bands.h"
 #include "apps/replay/traces_style.h"
 

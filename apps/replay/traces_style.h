@@ -2,7 +2,7 @@
 // Layout and colours of traces.png.
 #pragma once
 
-#include "apps/replay/plot_colours.h"
+#include "apps/output/plot_colours.h"
 
 namespace fathom::traces {
 

@@ -5,7 +5,7 @@
 #include "apps/binding/open_hand.h"
 #include "apps/binding/open_source.h"
 #include "apps/binding/raw_path.h"
-#include "apps/replay/progress.h"
+#include "apps/output/progress.h"
 #include "apps/session/repeating_camera.h"
 #include "engine/types/error.h"
 #include "shaders/shared/frame_params.h"

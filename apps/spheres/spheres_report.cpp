@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/spheres/spheres_report.h"
 
-#include "apps/replay/curve_plot.h"
+#include "apps/output/curve_plot.h"
 #include "engine/types/output_file.h"
 
 #include <iomanip>

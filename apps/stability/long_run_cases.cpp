@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Group long-run: one million ticks in lockstep with frames, guidance, dead-man button and a roaming hand.
 // Nothing drifts or grows, and a repeated run gives the same digest.
-#include "apps/replay/digest.h"
+#include "apps/output/digest.h"
 #include "apps/stability/case_text.h"
 #include "apps/stability/loop_rig.h"
 #include "apps/stability/worlds.h"

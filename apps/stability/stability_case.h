@@ -2,7 +2,7 @@
 // One case of the stability suite: its figure, the limit, and whether the figure meets the limit.
 #pragma once
 
-#include "apps/replay/curve_plot.h"
+#include "apps/output/curve_plot.h"
 
 #include <cstdint>
 #include <functional>

@@ -2,7 +2,7 @@
 #include "apps/stability/stability_command.h"
 
 #include "apps/clock/clock_keeper.h"
-#include "apps/replay/output_folder.h"
+#include "apps/output/output_folder.h"
 #include "apps/stability/stability_plots.h"
 #include "apps/stability/stability_report.h"
 #include "engine/gpu/device.h"

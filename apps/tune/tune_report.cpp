@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tune/tune_report.h"
 
+#include "apps/output/csv.h"
 #include "apps/profile/study_plot.h"
-#include "apps/replay/csv.h"
 #include "apps/tune/tune_words.h"
 #include "engine/types/output_file.h"
 

@@ -2,7 +2,7 @@
 #include "apps/tune/tune_run.h"
 
 #include "apps/clock/clock_keeper.h"
-#include "apps/replay/output_folder.h"
+#include "apps/output/output_folder.h"
 #include "apps/tune/tune_report.h"
 #include "apps/tune/tune_words.h"
 #include "apps/tune/tuned_scene.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tune/tune_settings.h"
 
-#include "apps/replay/plot_axis.h"
+#include "apps/output/plot_axis.h"
 
 #include <array>
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/replay/csv.h"
+#include "apps/output/csv.h"
 
+#include "apps/output/haptics_csv.h"
 #include "apps/replay/frames_csv.h"
-#include "apps/replay/haptics_csv.h"
 #include "tests/support/scratch_folder.h"
 
 #include <bit>

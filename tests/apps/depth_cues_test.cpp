@@ -2,7 +2,7 @@
 // Distance to the nearest region, looks by distance, the tool's shadow, sides of the 3D view.
 #include "apps/operate/depth_cues.h"
 #include "apps/operate/space_marks.h"
-#include "apps/replay/silhouette.h"
+#include "apps/output/silhouette.h"
 #include "tests/apps/flat_wall.h"
 
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/replay/fault_trace.h"
+#include "apps/output/fault_trace.h"
 
-#include "apps/replay/haptics_csv.h"
+#include "apps/output/haptics_csv.h"
 #include "tests/support/scratch_folder.h"
 
 #include <algorithm>

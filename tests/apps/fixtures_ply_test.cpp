@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/replay/fixtures_ply.h"
+#include "apps/output/fixtures_ply.h"
 
 #include "tests/support/scratch_folder.h"
 

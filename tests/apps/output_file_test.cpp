@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/types/output_file.h"
 
-#include "apps/replay/output_folder.h"
+#include "apps/output/output_folder.h"
 #include "engine/types/error.h"
 #include "engine/types/read_file.h"
 #include "tests/rig/file_size_limit.h"

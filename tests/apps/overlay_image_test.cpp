@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/replay/overlay_image.h"
 
-#include "apps/replay/image.h"
-#include "apps/replay/silhouette.h"
+#include "apps/output/image.h"
+#include "apps/output/silhouette.h"
 #include "engine/types/error.h"
 #include "tests/apps/png_image.h"
 #include "tests/support/scratch_folder.h"

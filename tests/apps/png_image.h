@@ -2,7 +2,7 @@
 // A PNG, read back by pixel.
 #pragma once
 
-#include "apps/replay/image.h"
+#include "apps/output/image.h"
 
 #include <filesystem>
 

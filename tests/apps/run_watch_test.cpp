@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Warnings about protection that is silently off.
-#include "apps/session/run_watch.h"
+#include "apps/replay/run_watch.h"
 
 #include "engine/cycle/haptic_options.h"
 

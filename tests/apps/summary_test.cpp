@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/replay/summary.h"
 
-#include "apps/replay/progress.h"
+#include "apps/output/progress.h"
 #include "apps/replay/tick_totals.h"
 #include "tests/rig/summary_keys.h"
 #include "tests/support/scratch_folder.h"

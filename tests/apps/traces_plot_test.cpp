@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/replay/traces_plot.h"
 
-#include "apps/replay/image.h"
-#include "apps/replay/plot_axis.h"
+#include "apps/output/image.h"
+#include "apps/output/plot_axis.h"
 #include "apps/replay/trace_phases.h"
 #include "apps/replay/traces_style.h"
 #include "engine/types/error.h"

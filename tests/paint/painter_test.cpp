@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The same frame of the window drawn by the device and by the CPU.
 #include "apps/operate/painter.h"
-#include "apps/replay/image.h"
+#include "apps/output/image.h"
 #include "devices/recorded/png_image.h"
 #include "tests/apps/laid_screen.h"
 #include "tests/support/scratch_folder.h"

@@ -2,7 +2,7 @@
 // The outline of many spheres in a camera image: their union as a mask, and the border of a mask as lines.
 #pragma once
 
-#include "apps/replay/image_view.h"
+#include "apps/output/image_view.h"
 #include "engine/contact/fixtures.h"
 #include "engine/types/sphere_tree.h"
 

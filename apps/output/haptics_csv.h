@@ -2,8 +2,8 @@
 // Writes haptics.csv, one row per tick, in constant memory, and computes the digest of its numbers.
 #pragma once
 
-#include "apps/replay/csv.h"
-#include "apps/replay/digest.h"
+#include "apps/output/csv.h"
+#include "apps/output/digest.h"
 #include "engine/cycle/step_record.h"
 #include "engine/types/output_file.h"
 

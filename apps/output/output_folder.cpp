@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/replay/output_folder.h"
+#include "apps/output/output_folder.h"
 
 #include "engine/types/error.h"
 

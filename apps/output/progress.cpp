@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/replay/progress.h"
+#include "apps/output/progress.h"
 
 #include <algorithm>
 #include <cstdlib>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/replay/image.h"
+#include "apps/output/image.h"
 
 #include "engine/types/angle.h"
 #include "engine/types/error.h"

@@ -2,7 +2,7 @@
 // Colours shared by all plots.
 #pragma once
 
-#include "apps/replay/image.h"
+#include "apps/output/image.h"
 
 namespace fathom {
 

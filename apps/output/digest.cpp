@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/replay/digest.h"
+#include "apps/output/digest.h"
 
 #include <bit>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/replay/fixtures_ply.h"
+#include "apps/output/fixtures_ply.h"
 
-#include "apps/replay/silhouette.h"
+#include "apps/output/silhouette.h"
 #include "engine/types/output_file.h"
 
 #include <bit>

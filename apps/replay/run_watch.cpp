@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/session/run_watch.h"
+#include "apps/replay/run_watch.h"
 
 #include "apps/binding/scene_edits.h"
 #include "engine/cloud/frame_params.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/replay/image_view.h"
+#include "apps/output/image_view.h"
 
 #include <algorithm>
 #include <cmath>

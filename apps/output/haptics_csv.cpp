@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/replay/haptics_csv.h"
+#include "apps/output/haptics_csv.h"
 
 namespace fathom {
 

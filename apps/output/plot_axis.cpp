@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/replay/plot_axis.h"
+#include "apps/output/plot_axis.h"
 
 #include "engine/types/number_text.h"
 

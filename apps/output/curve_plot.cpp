@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/replay/curve_plot.h"
+#include "apps/output/curve_plot.h"
 
-#include "apps/replay/image.h"
-#include "apps/replay/plot_axis.h"
-#include "apps/replay/plot_colours.h"
+#include "apps/output/image.h"
+#include "apps/output/plot_axis.h"
+#include "apps/output/plot_colours.h"
 
 #include <algorithm>
 #include <array>

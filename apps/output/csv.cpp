@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/replay/csv.h"
+#include "apps/output/csv.h"
 
 #include <charconv>
 #include <cmath>
