@@ -11,10 +11,9 @@ namespace fathom {
 
 struct ProgressCounts {
     uint64_t framesDone = 0, framesTotal = 0; // total 0 = unknown
-    uint64_t ticksDone = 0;
-    double runSeconds = 0.0; // [s] run time so far, on the run's own clock
-    double runTotal = 0.0;   // [s] when it will end; 0 = unknown
-    bool framesOnly = false; // no ticks, and no clock of a run
+    double runSeconds = 0.0;                  // [s] run time so far, on the run's own clock
+    double runTotal = 0.0;                    // [s] when it will end; 0 = unknown
+    bool framesOnly = false;                  // no ticks, and no clock of a run
 };
 
 // "frame 12 of 60, 5 s left, 31 frames/s, 1.40 x real time". The time left is

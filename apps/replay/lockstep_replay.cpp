@@ -204,7 +204,7 @@ ReplayRecorder::Ending LockstepReplay::run() {
         takeDueFrames(t);
         query();
         tick(t);
-        progress.update({framesDone_, frames, ticks_, t, total});
+        progress.update({framesDone_, frames, t, total});
     }
     progress.finish();
 

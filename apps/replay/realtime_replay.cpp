@@ -64,9 +64,7 @@ RealtimeOptions RealtimeReplay::runOptions(CadenceTrace* trace) {
     o.staleAfter = haptics_.staleAfter;
     o.trace = trace;
     o.arm = session_.realArm ? &session_.realArm->link() : nullptr;
-    o.progress = [this](double t, uint64_t frames, uint64_t ticks) {
-        progress_.update({frames, 0, ticks, t});
-    };
+    o.progress = [this](double t, uint64_t frames) { progress_.update({frames, 0, t}); };
     return o;
 }
 
@@ -76,10 +74,9 @@ void RealtimeReplay::spool() {
         log::warn("the simulated camera's frames are taken beforehand: they do not show the arm");
     }
     const CpuConfinement everywhere(placement_.all);
-    session_.camera = std::make_unique<SpooledCamera>(std::move(session_.camera), recorder_.folder(),
-                                                      signals_.asked(), [&](uint64_t frames) {
-                                                          progress_.update({frames, 0, 0, 0.0});
-                                                      });
+    session_.camera =
+        std::make_unique<SpooledCamera>(std::move(session_.camera), recorder_.folder(), signals_.asked(),
+                                        [&](uint64_t frames) { progress_.update({.framesDone = frames}); });
 }
 
 ReplayRecorder::Ending RealtimeReplay::run() {

@@ -63,14 +63,10 @@ std::unique_ptr<Camera> shuttle(const Scene& scene, const std::atomic<bool>& sto
             "fathom: the frames of the simulated camera are rendered in advance: they do not show the arm\n");
     }
     Progress progress;
-    return std::make_unique<ShuttleCamera>(openCamera(scene, std::nullopt), kShuttled, stop,
-                                           [&progress](size_t taken) {
-                                               ProgressCounts counts;
-                                               counts.framesDone = taken;
-                                               counts.framesTotal = kShuttled;
-                                               counts.framesOnly = true;
-                                               progress.update(counts);
-                                           });
+    return std::make_unique<ShuttleCamera>(
+        openCamera(scene, std::nullopt), kShuttled, stop, [&progress](size_t taken) {
+            progress.update({.framesDone = taken, .framesTotal = kShuttled, .framesOnly = true});
+        });
 }
 
 std::unique_ptr<Camera> openAny(const Scene& scene, const SessionOptions& options,

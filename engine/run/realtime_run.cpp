@@ -194,7 +194,7 @@ void RealtimeRun::write(RecordDrain& drain, const std::atomic<bool>& stop) {
             options_.trace->file().drain();
         }
         if (options_.progress) {
-            options_.progress(clock_.now(), drain.frames(), drain.ticks());
+            options_.progress(clock_.now(), drain.frames());
         }
         if (stop.load(std::memory_order_relaxed)) {
             stop_.store(true);

@@ -25,7 +25,7 @@ struct RealtimeOptions {
     double staleAfter = 0.1;         // [s] scene age above which the run logs a warning
     CadenceTrace* trace = nullptr;
     ArmLink* arm = nullptr; // a real arm that follows; must outlive the run
-    std::function<void(double t, uint64_t frames, uint64_t ticks)>
+    std::function<void(double t, uint64_t frames)>
         progress; // called on the writer thread, every few milliseconds
 };
 

@@ -77,7 +77,6 @@ void RecordDrain::pass(const TickRow& row) {
         known = !notes_.empty() && notes_.front().query == row.query;
         behind = known ? std::span<const uint32_t>(notes_.front().behind) : behind;
     }
-    ++ticks_;
     sink_.step(row, obeyed, known, behind);
 }
 

@@ -35,7 +35,6 @@ public:
     void drain(bool all = false);
 
     const PublishedFrame* newest() const { return kept_.empty() ? nullptr : kept_.back(); }
-    uint64_t ticks() const { return ticks_; }
     uint64_t frames() const { return frames_; }
 
 private:
@@ -53,7 +52,7 @@ private:
     std::deque<QueryNote> notes_;      // by query; the front is the one that the last step obeyed
     std::optional<TickRow> waiting_;
     uint64_t newestGeneration_ = 0;
-    uint64_t ticks_ = 0, frames_ = 0;
+    uint64_t frames_ = 0;
 };
 
 } // namespace fathom
