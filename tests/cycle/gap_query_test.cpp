@@ -3,7 +3,7 @@
 // held points, frozen classes, ties, and poses far away.
 #include "engine/cloud/gap_query.h"
 #include "engine/reference/contact_oracle.h"
-#include "tests/support/cloud_rig.h"
+#include "tests/cycle/red_and_blue.h"
 
 #include <cmath>
 #include <doctest/doctest.h>
@@ -88,11 +88,7 @@ TEST_CASE("Tools of 1 to 1025 leaves, in any order, have the smallest gaps of on
 
 TEST_CASE("Frozen classes count where they were frozen, and nowhere else") {
     const CameraInfo camera = pinholeCamera(60, 40);
-    Scene scene = plainScene();
-    scene.fixtures[0].hue = Band{345, 15};
-    FixtureClass blue = forbiddenClass("blue", 0.03);
-    blue.hue = Band{225, 255};
-    scene.fixtures.push_back(blue);
+    Scene scene = redAndBlueScene();
     CloudRig rig(scene, camera, queriedByGpu(false));
     cloud::GapQuery query = queryOf(rig);
     const auto show = [&](double z) {

@@ -65,6 +65,13 @@ struct Loop {
         controller.delivered(contact, damper);
         return damper;
     }
+    // Two ticks: the hand stretches the spring by 3 mm, then the tool moves on by `jump` [m].
+    void generate(double jump) {
+        hand.position.z = -0.003;
+        step();
+        tool.position.z = jump;
+        step();
+    }
 };
 
 bool isZero(const Wrench& w) {
@@ -122,10 +129,7 @@ TEST_CASE(
     "A wall that jumps by delta at penetration p is counted as K p delta + K delta^2 / 2 in the same tick") {
     for (const double jump : {0.0005, 0.002, 0.005}) {
         Loop loop;
-        loop.hand.position.z = -0.003;
-        loop.step();
-        loop.tool.position.z = jump;
-        loop.step();
+        loop.generate(jump);
         CHECK(loop.controller.generated() ==
               doctest::Approx(1000.0 * (0.003 * jump + 0.5 * jump * jump)).epsilon(1e-9));
         CHECK(loop.controller.debt() ==
@@ -165,10 +169,7 @@ TEST_CASE("The damper opposes the hand, is capped, and stops when the debt is di
 TEST_CASE(
     "Below 0.1 mm/s and 1 mrad/s nothing is damped; a rotation of the hand is damped only by a torque") {
     Loop loop;
-    loop.hand.position.z = -0.003;
-    loop.step();
-    loop.tool.position.z = 0.002;
-    loop.step();
+    loop.generate(0.002);
     loop.hand.position.x += 0.9e-7;
     loop.tool.position.x += 0.9e-7;
     loop.hand.rotation = loop.tool.rotation = rotationExp({0.0, 0.9e-6, 0.0});
@@ -229,10 +230,7 @@ TEST_CASE("With a delay of n ticks the wrench is paired with the motion n ticks 
 TEST_CASE("Faded out, or given NaN, the controller resets and requests no damping") {
     for (const bool bad : {false, true}) {
         Loop loop;
-        loop.hand.position.z = -0.003;
-        loop.step();
-        loop.tool.position.z = 0.002;
-        loop.step();
+        loop.generate(0.002);
         REQUIRE(loop.controller.debt() > 0.007);
         const Pose good = loop.hand;
         if (bad) {
