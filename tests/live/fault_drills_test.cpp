@@ -11,7 +11,6 @@
 #include <glm/geometric.hpp>
 #include <map>
 #include <optional>
-#include <sys/wait.h>
 #include <thread>
 
 using namespace fathom;
@@ -24,12 +23,6 @@ using Clock = std::chrono::steady_clock;
 
 void waitMillis(int count) {
     std::this_thread::sleep_for(std::chrono::milliseconds(count));
-}
-
-int exitCodeOf(pid_t engine) { // -1 = ended by a signal
-    int status = 0;
-    ::waitpid(engine, &status, 0);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
 // Waits as an observer on the view socket for a tick with more than this force [N] on the hand.

@@ -8,8 +8,8 @@
 #include <fcntl.h>
 #include <fstream>
 #include <optional>
-#include <sys/wait.h>
 #include <unistd.h>
+#include <utility>
 
 using namespace fathom;
 using namespace fathom::testing;
@@ -30,16 +30,8 @@ public:
         }
     }
     void signal(int number) const { ::kill(id_, number); }
-    void kill() {
-        signal(SIGKILL);
-        wait();
-    }
-    int wait() { // exit code; -1 = ended by a signal
-        int status = 0;
-        ::waitpid(id_, &status, 0);
-        id_ = -1;
-        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    }
+    void kill() { wait(SIGKILL); }
+    int wait(int signal = 0) { return exitCodeOf(std::exchange(id_, -1), signal); }
     pid_t watchdog() const { // -1 = none runs
         const auto tasks = "/proc/" + std::to_string(id_) + "/task";
         for (const auto& task : std::filesystem::directory_iterator(tasks)) {

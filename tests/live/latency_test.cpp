@@ -5,7 +5,6 @@
 #include <csignal>
 #include <cstdlib>
 #include <doctest/doctest.h>
-#include <sys/wait.h>
 #include <thread>
 
 using namespace fathom;
@@ -89,13 +88,10 @@ TEST_CASE("A soak test that is interrupted exits with code 1") {
     const Stage stage;
     const pid_t child = startFathom(latencyCommand(stage, {"--soak", "60"}), stage / "said");
     std::this_thread::sleep_for(std::chrono::seconds(2));
-    ::kill(child, SIGINT);
-    int status = 0;
-    REQUIRE(::waitpid(child, &status, 0) == child);
+    const int exitCode = exitCodeOf(child, SIGINT);
     const std::string said = stage.read("said");
     CAPTURE(said);
-    REQUIRE(WIFEXITED(status));
-    CHECK(WEXITSTATUS(status) == 1);
+    CHECK(exitCode == 1);
     CHECK(said.find("soak         MISSED: asked are 3600.0 s") != std::string::npos);
 }
 

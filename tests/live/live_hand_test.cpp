@@ -251,11 +251,7 @@ TEST_CASE("The log reports when a device disconnects during a run and when it is
     CHECK(says("gone or silent: forces fade out, the tool stays"));
     device.emplace(stage / "hand.door");
     CHECK(says("back; the tool resumes from its position"));
-    ::kill(engine, SIGINT);
-    int status = 0;
-    ::waitpid(engine, &status, 0);
-    CHECK(WIFEXITED(status));
-    CHECK(WEXITSTATUS(status) == 0);
+    CHECK(exitCodeOf(engine, SIGINT) == 0);
 }
 
 TEST_CASE("A live hand without --realtime, with a path or without a bridge is rejected in one line") {

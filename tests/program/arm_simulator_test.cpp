@@ -9,7 +9,6 @@
 #include <cmath>
 #include <csignal>
 #include <doctest/doctest.h>
-#include <sys/wait.h>
 
 using namespace fathom;
 
@@ -26,11 +25,7 @@ public:
     Simulator(const Simulator&) = delete;
     Simulator& operator=(const Simulator&) = delete;
     ~Simulator() {
-        ::kill(process_, SIGTERM);
-        int status = 0;
-        ::waitpid(process_, &status, 0);
-        CHECK(WIFEXITED(status));
-        CHECK(WEXITSTATUS(status) == 0);
+        CHECK(exitCodeOf(process_, SIGTERM) == 0);
         CHECK_FALSE(std::filesystem::is_symlink(link_));
     }
 

@@ -11,7 +11,6 @@
 #include <fstream>
 #include <optional>
 #include <string>
-#include <sys/wait.h>
 
 using namespace fathom;
 
@@ -104,8 +103,7 @@ TEST_CASE("The device is also free after the program was killed") {
                                            "600"};
     const pid_t program = startFathom(endless, stage / "said");
     CHECK(testing::eventually([&] { return textOf(stage / "log") == "made\n"; }));
-    ::kill(program, SIGKILL);
-    ::waitpid(program, nullptr, 0);
+    exitCodeOf(program, SIGKILL);
     CHECK(testing::eventually([&] { return textOf(stage / "log") == "made\nended\n"; }));
 }
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <csignal>
 #include <doctest/doctest.h>
-#include <sys/wait.h>
 
 using namespace fathom;
 
@@ -14,11 +13,7 @@ TEST_CASE("A recording that is ended by SIGINT is complete: every frame of its i
     const std::string scene = "apps/scenes/demo.yaml", folder = (stage / "pictures").string();
     const pid_t engine = startFathom({"record", scene, "--out", folder}, stage / "said");
     CHECK(testing::eventually([&] { return std::filesystem::exists(stage / "pictures/depth/000003.png"); }));
-    ::kill(engine, SIGINT);
-    int status = 0;
-    ::waitpid(engine, &status, 0);
-    CHECK(WIFEXITED(status));
-    CHECK(WEXITSTATUS(status) == 0);
+    CHECK(exitCodeOf(engine, SIGINT) == 0);
     std::string index = stage.read("pictures/associations.txt");
     REQUIRE_FALSE(index.empty());
     CHECK(index.back() == '\n');

@@ -178,11 +178,16 @@ ProgramRun runFathom(const std::vector<std::string>& arguments, const RunSetting
         ::kill(child, SIGKILL);
         run.err += "\nthe test's time limit";
     }
+    run.exitCode = exitCodeOf(child);
+    return run;
+}
+
+int exitCodeOf(pid_t child, int signal) {
+    ::kill(child, signal);
     int status = 0;
     while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
     }
-    run.exitCode = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    return run;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
 } // namespace fathom

@@ -35,6 +35,9 @@ ProgramRun runFathom(const std::vector<std::string>& arguments, const RunSetting
 // to the test's own output. Throws std::runtime_error when no child can be created.
 pid_t startFathom(const std::vector<std::string>& arguments, const std::filesystem::path& said = {});
 
+// Sends the signal to a child, unless it is 0, and waits for its end. Its exit code; -1 = ended by a signal.
+int exitCodeOf(pid_t child, int signal = 0);
+
 // Sanitized programs started from now on ignore memory that third-party libraries never free
 // (support/sanitizer_options.cpp).
 void allowLibraryLeaks();

@@ -9,8 +9,8 @@
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 #include <set>
-#include <sys/wait.h>
 #include <thread>
+#include <utility>
 
 using namespace fathom;
 using nlohmann::json;
@@ -39,16 +39,14 @@ public:
     ~Started() { end(); }
     int end() {
         if (process_ > 0) {
-            ::kill(process_, SIGINT);
-            ::waitpid(process_, &status_, 0);
-            process_ = 0;
+            code_ = exitCodeOf(std::exchange(process_, 0), SIGINT);
         }
-        return WIFEXITED(status_) ? WEXITSTATUS(status_) : -1;
+        return code_;
     }
 
 private:
     pid_t process_;
-    int status_ = 0;
+    int code_ = 0;
 };
 
 // The newest whole line of a state file; null when there is none yet.

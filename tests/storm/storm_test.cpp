@@ -14,7 +14,6 @@
 #include <random>
 #include <spawn.h>
 #include <sstream>
-#include <sys/wait.h>
 #include <thread>
 
 extern char** environ;
@@ -105,13 +104,6 @@ void storm(pid_t engine, pid_t bridge, double seconds, unsigned seed) {
     }
 }
 
-int endOf(pid_t process, int signal) {
-    ::kill(process, signal);
-    int status = 0;
-    ::waitpid(process, &status, 0);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-}
-
 // The fault of the first packet that breaks an invariant; empty = none.
 std::string faultOf(const std::vector<WirePacket>& packets, const Terms& terms) {
     dvec3 before(0.0);
@@ -178,9 +170,9 @@ TEST_CASE("Under a storm of faults every wrench on the wire has a cause, a limit
         stage / "said");
     waitMillis(3000);
     storm(engine, bridge, 60.0, 31);
-    CHECK(endOf(engine, SIGINT) == 0);
+    CHECK(exitCodeOf(engine, SIGINT) == 0);
     waitMillis(100);
-    REQUIRE(endOf(bridge, SIGTERM) == 0);
+    REQUIRE(exitCodeOf(bridge, SIGTERM) == 0);
 
     const std::vector<WirePacket> packets = readWire(stage / "wire.csv");
     const Replay replay = readReplay(stage / "out", {});
