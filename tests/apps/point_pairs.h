@@ -2,9 +2,10 @@
 // Pairs of points for registration.
 #pragma once
 
-#include "apps/register/point_pairs.h"
+#include "apps/register/rigid_fit.h"
 #include "tests/apps/two_lens_camera.h"
 
+#include <doctest/doctest.h>
 #include <random>
 #include <string>
 #include <vector>
@@ -23,6 +24,18 @@ inline std::vector<PointPair> pairsOf(size_t count, double noise, unsigned seed 
         pairs.push_back({p, kBaseTcamera.apply(p) + noise * e, "line " + std::to_string(i + 2)});
     }
     return pairs;
+}
+
+// The camera at kBaseTcamera is found from pairs of an image whose depth has this noise [m]. most: error of
+// the pose [m], [rad].
+inline void checkRegistered(const std::vector<PointPair>& pairs, double noise, double most) {
+    const RigidFit fit = fitRigid(pairs, "test");
+    const double shift = glm::length(fit.baseTcamera.position - kBaseTcamera.position);
+    CHECK(shift < most);
+    CHECK(angleBetween(fit.baseTcamera.rotation, kBaseTcamera.rotation) < most);
+    CHECK(fit.sigma < 0.002);
+    MESSAGE("noise " << noise << " m: position off by " << 1e3 * shift << " mm, sigma " << 1e3 * fit.sigma
+                     << " mm");
 }
 
 } // namespace fathom::testing

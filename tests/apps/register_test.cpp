@@ -101,13 +101,7 @@ TEST_CASE("A tag in colour and noisy depth gives the camera's pose to millimetre
         TagFinder finder(image.info, {{7, {0.2, baseTtag}}, {8, {0.2, Pose{}}}});
         const std::vector<PointPair> pairs = finder.find(image.frame());
         REQUIRE(pairs.size() == 4);
-        const RigidFit fit = fitRigid(pairs, "test");
-        const double shift = glm::length(fit.baseTcamera.position - kBaseTcamera.position);
-        CHECK(shift < (noise == 0.0 ? 0.003 : 0.012));
-        CHECK(angleBetween(fit.baseTcamera.rotation, kBaseTcamera.rotation) < (noise == 0.0 ? 0.003 : 0.012));
-        CHECK(fit.sigma < 0.002);
-        MESSAGE("noise " << noise << " m: position off by " << 1e3 * shift << " mm, sigma " << 1e3 * fit.sigma
-                         << " mm");
+        checkRegistered(pairs, noise, noise == 0.0 ? 0.003 : 0.012);
     }
 }
 
