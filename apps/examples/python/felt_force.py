@@ -33,16 +33,20 @@ for row, y in enumerate(ys):
 strength = numpy.linalg.norm(force, axis=2)
 figure, axes = pyplot.subplots(1, 2, figsize=(11, 4.2), layout="constrained")
 image = axes[0].pcolormesh(xs * 1000, ys * 1000, strength, cmap="viridis", shading="nearest")
-step = (slice(None, None, 3), slice(None, None, 6))
-axes[0].quiver(*numpy.meshgrid(xs[step[1]] * 1000, ys[step[0]] * 1000), force[step][..., 0], force[step][..., 1],
+touched = numpy.zeros_like(strength, dtype=bool)
+touched[::3, ::6] = strength[::3, ::6] > 0.05  # [N] a smaller force would be drawn as a dot
+rows, columns = numpy.nonzero(touched)
+axes[0].quiver(xs[columns] * 1000, ys[rows] * 1000, force[rows, columns, 0], force[rows, columns, 1],
                color="white", angles="xy")
 axes[0].set(title="force on the hand", xlabel="x [mm]", ylabel="y [mm]", aspect="equal")
 axes[0].invert_yaxis()
-figure.colorbar(image, label="force [N]")
+figure.colorbar(image, label="size of the force [N]")
 middle = len(ys) // 2
 axes[1].plot(xs * 1000, -force[middle, :, 2], label="out of the wheel")
 axes[1].plot(xs * 1000, force[middle, :, 0], label="sideways")
-axes[1].set(title="along the middle row", xlabel="x [mm]", ylabel="force [N]")
+axes[1].set(title="along the middle row", xlabel="x [mm]", ylabel="components [N]")
 axes[1].legend(frameon=False)
 figure.savefig(sys.argv[1], dpi=110)
-print(f"largest force {strength.max():.2f} N; {numpy.mean(strength > 0.01):.0%} of the positions touch")
+sideways = force[middle, :, 0]
+print(f"largest force {strength.max():.1f} N, sideways {sideways.min():.1f} to {sideways.max():.1f} N; "
+      f"{numpy.mean(strength > 0.01):.0%} of the positions touch")
