@@ -19,7 +19,7 @@ enum class Kind { Unknown, Messages, Cloud };
 
 constexpr const char* kKinds =
     "a recording folder, a ROS bag (.bag), MCAP (.mcap), a ROS 2 database (.db3), "
-    "a recording of an Azure Kinect (.mkv) an organised cloud (.pcd, .ply), or a live camera: "
+    "a recording of an Azure Kinect (.mkv), an organised cloud (.pcd, .ply), or a live camera: "
     "v4l2:auto, v4l2:/dev/videoN, openni2, ros2:depth=TOPIC";
 
 struct KnownFile {
