@@ -118,10 +118,12 @@ done
 for example in apps/examples/*.cpp; do
     [[ $shown == *" $example "* ]] || { echo "ERROR: no document shows $example as it is"; failed=$((failed + 1)); }
 done
-# The README's row on Embree has the extremes of the table.
+# The README's row on Embree has the extremes of the table; the benchmarks have the number of stability cases without recordings.
 extremes=$(awk -F, '/^contact .* x (64|1024) leaves,Embree points/ { if (!most || $19 < least) least = $19; if ($19 > most) most = $19 }
                     END { printf "%.2f to %.1f times as fast", least, most }' docs/peers.csv)
 grep -qF "| $extremes |" README.md || { echo "ERROR: README.md: compared with Embree: not '$extremes'"; failed=$((failed + 1)); }
+cases=$(fathom stability --list | grep -vc -- -recording-)
+grep -qF "measures $cases cases" docs/benchmarks.md || { echo "ERROR: docs/benchmarks.md: not 'measures $cases cases'"; failed=$((failed + 1)); }
 [ "$blocks" -gt 0 ] || { echo "ERROR: no document has a runnable block"; failed=$((failed + 1)); }
 echo "docs: took $SECONDS s"
 echo "docs: $passed passed, $failed failed"
