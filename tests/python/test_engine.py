@@ -97,16 +97,21 @@ class Live(unittest.TestCase):
                 pass
         finally:
             fathom.set_log(None)
+        self.assertTrue(lines)
         self.assertTrue(all(level in ("debug", "info", "warning", "error") for level, _ in lines))
 
     def test_a_receiver_that_raises_does_not_end_the_engine(self):
+        called = []
+
         def receiver(level, line):
+            called.append(line)
             raise RuntimeError("receiver")
 
         fathom.set_log(receiver)
         try:
             with engine() as made:
                 self.assertEqual(made.failure, "")
+            self.assertTrue(called)
         finally:
             fathom.set_log(None)
             gc.collect()
