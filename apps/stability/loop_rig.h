@@ -76,9 +76,9 @@ public:
     double time() const { return time_; }
     const StepRecord& last() const { return record_; }
 
-    // Energy at the hand since the start [J]. energyOut: work of the wrench, exact because the wrench is
-    // constant over a tick. netEnergyOut: less a lower bound of the loss in the device's own damping.
+    // [J] since the start: work of the wrench at the hand, exact because the wrench is constant over a tick.
     double energyOut() const { return energyOut_; }
+    // [J] the same less a lower bound of the loss in the device's own damping.
     double netEnergyOut() const { return energyOut_ - dissipated_; }
     // [m] travelled by the hand; rotations count times the arm length
     double path() const { return pathLength_; }
