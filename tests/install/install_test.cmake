@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # Installs the built tree into an empty folder and builds the example hello.cpp outside of the sources, once by find_package and once
-# by pkg-config; both must feel 10 N within 0.1 %. Compiles the README's program. Checks which files are installed, that none of
-# them names the build folder, and that the library exports the public API only.
+# by pkg-config; both must feel 10 N within 0.1 %. Compiles the README's program, the examples and designated initialisers with the
+# warnings that a client may ask for. Checks which files are installed, that none of them names the build folder, and that the library
+# exports the public API only.
 #   cmake -DSOURCE= -DBINARY= -DCXX= -DVERSION= -P install_test.cmake
 #   cmake -DSOURCE= -DPREFIX=/usr -DCXX= -DVERSION= -P install_test.cmake    tests the installation there
 cmake_minimum_required(VERSION 3.25)
@@ -126,9 +127,13 @@ string(REPLACE "int main() {" "struct MyDevice {
 
 int main() {" program "${program}")
 file(WRITE ${stage}/readme.cpp "${program}")
-execute_process(COMMAND ${CXX} -std=c++20 -Wall -Wextra -Werror -fsyntax-only ${stage}/readme.cpp ${flags} OUTPUT_VARIABLE log ERROR_VARIABLE log
-                RESULT_VARIABLE result)
-check("the README's program does not build: ${log}" result EQUAL 0 AND program MATCHES "MyDevice device;")
+check("the README's program has no MyDevice" program MATCHES "MyDevice device;")
+file(GLOB examples ${SOURCE}/apps/examples/*.cpp)
+foreach(client ${stage}/readme.cpp ${examples} ${CMAKE_CURRENT_LIST_DIR}/designated.cpp)
+    execute_process(COMMAND ${CXX} -std=c++20 -Wall -Wextra -Werror -fsyntax-only ${client} ${flags} OUTPUT_VARIABLE log ERROR_VARIABLE log
+                    RESULT_VARIABLE result)
+    check("${client} does not compile without warnings: ${log}" result EQUAL 0)
+endforeach()
 
 # By Python, where the module is built.
 if(EXISTS "${BINARY}/python")

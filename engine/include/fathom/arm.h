@@ -22,7 +22,7 @@ struct ArmPosture {
 
 /// What the real arm measured.
 struct MeasuredArm {
-    ArmPosture posture;    ///< of the joints' encoders
+    ArmPosture posture{};  ///< of the joints' encoders
     Nanoseconds stamp = 0; ///< when it was measured
     bool ready = true; ///< false: it cannot follow (not homed, a motor fault, too far behind the setpoint)
 };
@@ -38,9 +38,9 @@ enum class ReportStatus {
 
 /// Where the real arm should be.
 struct ArmSetpoint {
-    ArmPosture posture; ///< meaningless while `hold` is true
-    bool hold = true;   ///< stand still: forces are off, the newest frame is too old, the tool is trapped, or
-                        ///< the newest step is more than 0.1 s old
+    ArmPosture posture{}; ///< meaningless while `hold` is true
+    bool hold = true; ///< stand still: forces are off, the newest frame is too old, the tool is trapped, or
+                      ///< the newest step is more than 0.1 s old
     bool forcesOff = true; ///< the pilot has switched forces off: faults of the arm may be cleared
     Nanoseconds stamp = 0; ///< `now` of the step; 0 = no step yet
 };

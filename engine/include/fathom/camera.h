@@ -43,14 +43,14 @@ struct Intrinsics {
 /// Camera frames have z forward, x right, y down.
 struct CameraModel {
     std::string name = "camera";                    ///< for Engine::camera() and messages
-    Intrinsics depth;                               ///< lens of the depth images
+    Intrinsics depth{};                             ///< lens of the depth images
     DepthFormat depthFormat = DepthFormat::Uint16;  ///< of Frame::depth
     double metresPerUnit = 0.001;                   ///< of DepthFormat::Uint16
     ColourFormat colourFormat = ColourFormat::None; ///< of Frame::colour
     /// The colour lens, if colour is not registered to depth. Empty: colour pixel (u, v) shows depth pixel
     /// (u, v).
-    std::optional<Intrinsics> colour;
-    Pose colourTdepth; ///< from the depth camera to the colour camera; used with `colour` only
+    std::optional<Intrinsics> colour{};
+    Pose colourTdepth{}; ///< from the depth camera to the colour camera; used with `colour` only
 };
 
 /// One frame. The pointers must stay valid during submit() only.

@@ -31,10 +31,10 @@ FATHOM_API void setLogCallback(LogCallback callback);
 
 /// How an engine runs. The defaults suit most programs.
 struct EngineOptions {
-    std::string computeDevice; ///< part of a Vulkan device's name, or its index; empty = the best one
+    std::string computeDevice{}; ///< part of a Vulkan device's name, or its index; empty = the best one
     /// Path of the program fathom-reader, which reads the scene's URDFs and meshes in a separate process.
     /// Empty = the one installed with the library, or in the library's folder.
-    std::string reader;
+    std::string reader{};
     /// A real arm follows the scene's arm. The tool stands still until Engine::openArm() and its first
     /// report.
     bool measuredArm = false;

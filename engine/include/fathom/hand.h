@@ -31,7 +31,7 @@ constexpr Button operator&(Button a, Button b) noexcept {
 
 /// One sample of the haptic device.
 struct Hand {
-    Pose deviceThandle;            ///< raw pose of the handle in the device's frame
+    Pose deviceThandle{};          ///< raw pose of the handle in the device's frame
     Button buttons = Button::None; ///< those that are down
 };
 
@@ -82,11 +82,11 @@ struct Contact {
 struct Step {
     /// Force and torque on the hand, for the device: device axes, torque about the handle; zero on axes that
     /// the scene's device does not drive.
-    Wrench wrench;
-    Wrench residual;   ///< for a display: what the device cannot render. Base axes, torque about the tool
-    ArmPosture arm;    ///< the scene's arm; zeros without one
-    Pose baseTtool;    ///< the tool, which never enters a forbidden region
-    Pose baseTcommand; ///< tool pose that the hand commands, after hand map and clutch
+    Wrench wrench{};
+    Wrench residual{};   ///< for a display: what the device cannot render. Base axes, torque about the tool
+    ArmPosture arm{};    ///< the scene's arm; zeros without one
+    Pose baseTtool{};    ///< the tool, which never enters a forbidden region
+    Pose baseTcommand{}; ///< tool pose that the hand commands, after hand map and clutch
     State state = State::Off;                 ///< what the forces do
     StepWarning warnings = StepWarning::None; ///< what limits them
     double sceneAge = 0.0;                    ///< [s] of the newest frame; NaN before the first
@@ -106,7 +106,7 @@ struct Step {
 
 /// Where hand and tool are at the start.
 struct HandStart {
-    Pose deviceThandle; ///< the handle's pose now
+    Pose deviceThandle{}; ///< the handle's pose now
     /// Where the tool starts; empty = where the hand commands it. An arm's tip starts where the scene says; a
     /// pose here makes the hand's motion begin there.
     std::optional<Pose> baseTtool = std::nullopt;

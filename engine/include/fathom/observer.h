@@ -23,16 +23,16 @@ struct RegionSphere {
 struct GuidanceTarget {
     std::uint32_t fixture = 0; ///< index into the scene's fixtures
     bool present = false;      ///< seen in this frame; else `baseTtool` is meaningless
-    Pose baseTtool;            ///< where the tool is pulled to
+    Pose baseTtool{};          ///< where the tool is pulled to
 };
 
 /// All regions of one frame.
 struct Regions {
-    std::int64_t frame = -1;             ///< number of the frame; -1 = none
-    Nanoseconds stamp = 0;               ///< of the frame
-    Vec3 origin{};                       ///< [m] base frame
-    std::vector<RegionSphere> spheres;   ///< their union is protected
-    std::vector<GuidanceTarget> targets; ///< one per guidance fixture of the camera's points
+    std::int64_t frame = -1;               ///< number of the frame; -1 = none
+    Nanoseconds stamp = 0;                 ///< of the frame
+    Vec3 origin{};                         ///< [m] base frame
+    std::vector<RegionSphere> spheres{};   ///< their union is protected
+    std::vector<GuidanceTarget> targets{}; ///< one per guidance fixture of the camera's points
 };
 
 /// The smallest gap of the tool at one pose, and the pair of spheres that has it. Exact in float64: no other
@@ -52,15 +52,15 @@ struct Clearance {
 
 /// Answers for one frame.
 struct Clearances {
-    std::int64_t frame = -1;      ///< number of the frame whose regions they are about; -1 = no frame yet
-    Nanoseconds stamp = 0;        ///< of that frame, rounded to a microsecond
-    std::vector<Clearance> poses; ///< one per pose, in order; empty before the first frame
+    std::int64_t frame = -1;        ///< number of the frame whose regions they are about; -1 = no frame yet
+    Nanoseconds stamp = 0;          ///< of that frame, rounded to a microsecond
+    std::vector<Clearance> poses{}; ///< one per pose, in order; empty before the first frame
 };
 
 /// One step of the hand.
 struct StepSnapshot {
-    Step step;           ///< its result
-    Hand hand;           ///< its input
+    Step step{};         ///< its result
+    Hand hand{};         ///< its input
     Nanoseconds now = 0; ///< its time
 };
 

@@ -23,8 +23,8 @@ struct Quaternion {
 
 /// Rigid pose. A pose named aTb maps points from frame b to frame a.
 struct Pose {
-    Vec3 position{};     ///< [m]
-    Quaternion rotation; ///< of the axes of frame b
+    Vec3 position{};       ///< [m]
+    Quaternion rotation{}; ///< of the axes of frame b
 };
 
 /// Force [N] and torque [N m]. Each use says in which axes and about which point.
