@@ -16,7 +16,7 @@ static void sendFrames(fathom::CameraPort port, const std::atomic<bool>& stop) {
     for (; !stop; std::this_thread::sleep_for(std::chrono::milliseconds(33))) {
         const auto status = port.submit({.depth = depth.data(), .stamp = fathom::now()});
         if (status != fathom::SubmitStatus::Accepted) {
-            std::fprintf(stderr, "frame rejected: %d\n", static_cast<int>(status));
+            std::fprintf(stderr, "frame rejected: %s\n", fathom::name(status));
         }
     }
 }

@@ -49,7 +49,7 @@ tool: { spheres: [[0, 0, 0, 0.01]] }
         const auto status =
             port.submit({camera.depth.data(), camera.colour.data(), baseTcamera, fathom::now()});
         if (status != fathom::SubmitStatus::Accepted) {
-            std::fprintf(stderr, "frame %d rejected: %d\n", frame, static_cast<int>(status));
+            std::fprintf(stderr, "frame %d rejected: %s\n", frame, fathom::name(status));
             return 1;
         }
     }

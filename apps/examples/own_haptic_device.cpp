@@ -11,9 +11,13 @@
 // Replace this by your device's driver. z only; 0.2 kg, 5 N s/m, pulled to 0.57 m by 300 N/m.
 struct MyDevice {
     double z = 0.5, speed = 0.0, force = 0.0;
+    bool held = true; // does not move
     fathom::Pose pose() const { return {.position = {0, 0, z}}; }
     void write(const fathom::Wrench& wrench) {
         force = wrench.force[2];
+        if (held) {
+            return;
+        }
         speed += 0.001 * (force + 300.0 * (0.57 - z) - 5.0 * speed) / 0.2;
         z += 0.001 * speed;
     }
@@ -45,11 +49,10 @@ haptics: { device: ideal, rate_hz: 1000 }
         std::this_thread::sleep_until(due);
         step = hand.step({.deviceThandle = device.pose()}, fathom::now());
         shown += step.frame >= 0 ? 1 : 0;
-        if (step.frame >= 0) { // hold the handle until the engine has seen a frame
-            device.write(step.wrench);
-        }
+        device.held = step.frame < 0; // until the engine has seen a frame
+        device.write(step.wrench);    // in every tick: some drivers repeat the last force otherwise
         if (step.warnings != fathom::StepWarning::None && tick % 500 == 0) {
-            std::fprintf(stderr, "warnings 0x%x\n", static_cast<unsigned>(step.warnings));
+            std::fprintf(stderr, "warning: %s\n", fathom::name(step.warnings));
         }
     }
     device.write({}); // no force stays on the hand

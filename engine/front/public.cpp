@@ -72,7 +72,7 @@ Intrinsics internal(const v0::Intrinsics& lens, const char* field) {
                         std::ranges::all_of(lens.distortion, [](double k) { return std::isfinite(k); });
     if (!sized || !finite || lens.fx <= 0.0 || lens.fy <= 0.0) {
         throw v0::BadInput(std::string("camera: ") + field + ": " + std::to_string(lens.width) + "x" +
-                           std::to_string(lens.height) + ", fx " + std::to_string(lens.fx) +
+                           std::to_string(lens.height) + ", fx " + significant(lens.fx, 9) +
                            " (allowed: a size, positive focal lengths and finite numbers)");
     }
     return {lens.width, lens.height, lens.fx, lens.fy, lens.cx, lens.cy, lens.distortion, false};

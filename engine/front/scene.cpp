@@ -30,4 +30,16 @@ Scene Scene::fromText(const std::string& yaml) {
     });
 }
 
+std::size_t Scene::fixtures() const noexcept {
+    return data_->scene.fixtures.size();
+}
+
+const std::string& Scene::fixtureName(std::size_t fixture) const {
+    if (fixture >= fixtures()) {
+        throw BadInput("fixture " + std::to_string(fixture) + " (allowed: below " +
+                       std::to_string(fixtures()) + ")");
+    }
+    return data_->scene.fixtures[fixture].name;
+}
+
 } // namespace fathom::v0

@@ -25,6 +25,8 @@ TEST_CASE("A camera model that cannot be used is rejected by one line with its n
     CHECK(fault([](CameraModel&) {}) == "");
     const std::string unit = fault([](CameraModel& m) { m.metresPerUnit = 0.0; });
     CHECK(unit.find("metresPerUnit: 0 (allowed: a positive number)") != std::string::npos);
+    CHECK(fault([](CameraModel& m) { m.depth.fx = 0.0; }).find("depth: 80x60, fx 0 (allowed: ") !=
+          std::string::npos);
     CHECK(std::ranges::none_of(unit, [](char c) { return c == '\n' || c == '\x1b'; }));
     CHECK(fault([](CameraModel& m) { m.colourFormat = static_cast<ColourFormat>(17); }).find("Format: 17 ") !=
           std::string::npos);

@@ -36,12 +36,15 @@ enum class ReportStatus {
     BadPosture    ///< a joint is not finite
 };
 
+/// The enumerator's name, for messages: "BadPosture". Any thread.
+FATHOM_API const char* name(ReportStatus status) noexcept;
+
 /// Where the real arm should be.
 struct ArmSetpoint {
     ArmPosture posture{}; ///< meaningless while `hold` is true
     bool hold = true; ///< stand still: forces are off, the newest frame is too old, the tool is trapped, or
                       ///< the newest step is more than 0.1 s old
-    bool forcesOff = true; ///< the pilot has switched forces off: faults of the arm may be cleared
+    bool forcesOff = true; ///< forces are off (Button::DeadManOpen): faults of the arm may be cleared
     Nanoseconds stamp = 0; ///< `now` of the step; 0 = no step yet
 };
 

@@ -72,6 +72,9 @@ enum class SubmitStatus {
     Closed        ///< the engine is destroyed, or its frame thread failed: see Engine::failure()
 };
 
+/// The enumerator's name, for messages: "StampAhead". Any thread.
+FATHOM_API const char* name(SubmitStatus status) noexcept;
+
 /// Takes the frames of one camera. A handle that you may copy, and that may outlive its engine. submit(),
 /// lend() and clockJumped() belong to one thread, the camera thread.
 class FATHOM_API CameraPort {

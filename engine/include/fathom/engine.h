@@ -45,7 +45,8 @@ struct EngineOptions {
 /// not fork; the constructor starts the program fathom-reader for scenes with URDFs or meshes.
 class FATHOM_API Engine {
 public:
-    /// Opens the compute device and compiles the passes; takes up to seconds.
+    /// Opens the compute device and compiles the passes, if the scene has classes of points; takes up to
+    /// seconds.
     /// @throws BadInput, ComputeDeviceLost, Error
     Engine(const Scene& scene, const CameraModel& camera, const EngineOptions& options = {});
     /// For later versions: several cameras. @throws BadInput unless there is exactly one
@@ -81,7 +82,8 @@ public:
     /// True while the engine reopens a lost compute device. Any thread.
     bool computeDeviceLost() const noexcept;
     std::string failure() const; ///< why a thread of the engine ended; empty = none ended. Any thread.
-    std::string computeDeviceName() const; ///< of the Vulkan device. Any thread.
+    std::string computeDeviceName()
+        const; ///< of the Vulkan device; "none" if the scene has no classes of points. Any thread.
 
 private:
     struct FATHOM_LOCAL Impl;

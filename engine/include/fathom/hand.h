@@ -37,15 +37,18 @@ struct Hand {
 
 /// What the forces do.
 enum class State {
-    Off,     ///< no fixtures yet, or forces are off: the wrench is zero
+    Off,     ///< no fixtures yet, or forces are off (Button::DeadManOpen): the wrench is zero
     Free,    ///< no fixture pushes; a joint's limit of an arm may
     Contact, ///< at least one fixture pushes
     Escape,  ///< new fixtures cover the tool; it moves out
     Trapped, ///< no motion obeys every fixture: the tool is held and the force ramps out
-    Fading,  ///< the newest frame is too old, forces were switched off, or pressed regions disappeared: the
-             ///< force ramps out
+    Fading,  ///< the newest frame is too old, Button::DeadManOpen switched forces off, or pressed regions
+             ///< disappeared: the force ramps out
     Waiting  ///< nothing pushes, and the tool lags (late contact answers, slow joints): no force
 };
+
+/// The enumerator's name, for messages: "Contact". Any thread.
+FATHOM_API const char* name(State state) noexcept;
 
 /// What limits a step, one bit each.
 enum class StepWarning : std::uint32_t {
@@ -70,6 +73,9 @@ constexpr StepWarning operator&(StepWarning a, StepWarning b) noexcept {
     return static_cast<StepWarning>(static_cast<std::uint32_t>(a) & static_cast<std::uint32_t>(b));
 }
 
+/// The name of the lowest bit that is set, for messages: "OldScene"; "None" if there is none. Any thread.
+FATHOM_API const char* name(StepWarning warnings) noexcept;
+
 /// A contact that pushed in the last solve. Base frame.
 struct Contact {
     Vec3 point{};              ///< [m] on the tool's surface
@@ -85,7 +91,7 @@ struct Step {
     Wrench wrench{};
     Wrench residual{};   ///< for a display: what the device cannot render. Base axes, torque about the tool
     ArmPosture arm{};    ///< the scene's arm; zeros without one
-    Pose baseTtool{};    ///< the tool, which never enters a forbidden region
+    Pose baseTtool{};    ///< the tool; its own motion never enters a forbidden region
     Pose baseTcommand{}; ///< tool pose that the hand commands, after hand map and clutch
     State state = State::Off;                 ///< what the forces do
     StepWarning warnings = StepWarning::None; ///< what limits them

@@ -27,7 +27,7 @@ public:
     Lockstep& operator=(const Lockstep&) = delete;
 
     /// Computes the fixture set of a frame and makes it the newest. The stamp is compared with `now` of
-    /// step() only. Returns how long it took. @throws ComputeDeviceLost, Error;
+    /// step() only: it may be 0, and unlike submit() the order is not checked. Returns how long it took. @throws ComputeDeviceLost, Error;
     /// BadInput for a missing image or pose
     FrameTimes process(const Frame& frame);
 
@@ -40,10 +40,12 @@ public:
     /// example when memory is exhausted
     bool queryContacts();
 
-    /// As Engine::clearances(), for the frame of the last process().
+    /// As Engine::clearances(), for the frame of the last process(). @throws Error, for example when memory
+    /// is exhausted
     void clearances(std::span<const Pose> baseTtool, Clearances& out);
 
-    /// One haptic step at `now`.
+    /// One haptic step at `now`, which must not go back: the last time is used then, and
+    /// StepWarning::TimeBack set.
     Step step(const Hand& hand, Nanoseconds now) noexcept;
 
     /// No frame will follow: the last one does not age.

@@ -5,6 +5,7 @@
 
 #include <fathom/export.h>
 
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -21,6 +22,10 @@ public:
     /// The same from the text of a scene file. Relative paths start at the working directory. @throws
     /// BadInput
     static Scene fromText(const std::string& yaml);
+
+    std::size_t fixtures() const noexcept; ///< number of fixtures, in the order of the scene file
+    /// Name of a fixture, for example of Contact::fixture. @throws BadInput beyond fixtures()
+    const std::string& fixtureName(std::size_t fixture) const;
 
     struct FATHOM_LOCAL Data;
     const Data& data() const noexcept { return *data_; } ///< for the library itself
