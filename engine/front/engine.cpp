@@ -11,6 +11,7 @@
 #include "engine/types/log.h"
 
 #include <cmath>
+#include <limits>
 #include <thread>
 
 namespace fathom::front {
@@ -122,6 +123,9 @@ struct Engine::Impl {
             if (compute.cycles.plan().query != Plan::Query::None) {
                 threads.emplace_back([this] { guarded([this] { contacts.run(stop); }); });
                 threads.emplace_back([this] { guarded([this] { clearance.run(stop); }); });
+            } else { // no regions of points, ever
+                shared->channels.clearance.back() = std::numeric_limits<double>::infinity();
+                shared->channels.clearance.publish();
             }
         } catch (...) { // std::system_error: threads already started would use a destroyed engine
             end();

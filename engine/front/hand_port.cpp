@@ -33,7 +33,7 @@ Step HandPort::Impl::step(const Hand& hand, Nanoseconds now) noexcept {
     const StepRecord& record = stepper.step(sample, t, t + kShare * stepper.period());
     Step step = front::external(record, shared->haptic.options.staleAfter);
     // Contacts of the first set may come before what the frame thread says about it.
-    const bool none = stepper.scene().frame < 0 && record.frame < 0;
+    const bool none = shared->haptic.scene.hasPoints() && stepper.scene().frame < 0 && record.frame < 0;
     const bool armStill = stepper.row().driven && isFault(stepper.row().armStatus.state);
     step.warnings = step.warnings | front::when(none, StepWarning::NoScene) |
                     front::when(stepper.scene().gone, StepWarning::ComputeDeviceLost) |

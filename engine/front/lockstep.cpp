@@ -119,7 +119,8 @@ Step Lockstep::step(const Hand& hand, Nanoseconds now) noexcept {
     StepRecord record = impl_->contacts.step(*impl_->cycle, input);
     record.clearance = impl_->clearance.gap();
     Step step = front::external(record, impl_->haptic.options.staleAfter);
-    step.warnings = step.warnings | front::when(impl_->update.frame < 0, StepWarning::NoScene);
+    const bool none = impl_->haptic.scene.hasPoints() && impl_->update.frame < 0;
+    step.warnings = step.warnings | front::when(none, StepWarning::NoScene);
     return step;
 }
 

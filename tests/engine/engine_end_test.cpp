@@ -28,12 +28,7 @@ TEST_CASE("Forces fade once the engine is gone, as without frames") {
 }
 
 TEST_CASE("The force of a placed shape, which needs no frames, fades once the engine is gone") {
-    const Scene box = Scene::fromText(R"(
-fixtures: [{ name: box, role: forbidden, shape: box, base_T_shape: { xyz: [0, 0, 1] }, size: [1, 1, 0.9] }]
-tool: { spheres: [[0, 0, 0, 0.01]] }
-haptics: { device: ideal, stiffness: 1000 }
-)");
-    auto engine = std::make_unique<Engine>(box, smallCamera());
+    auto engine = std::make_unique<Engine>(boxScene(), smallCamera());
     HandPort hand = engine->openHand(startAt(0.5));
     double z = 0.5;
     Step step;

@@ -21,6 +21,15 @@ haptics: { device: ideal, stiffness: 1000 }
 )");
 }
 
+// Nothing but a box, whose front is at z = 0.55 m: the tool rests at 0.54 m.
+inline Scene boxScene() {
+    return Scene::fromText(R"(
+fixtures: [{ name: box, role: forbidden, shape: box, base_T_shape: { xyz: [0, 0, 1] }, size: [1, 1, 0.9] }]
+tool: { spheres: [[0, 0, 0, 0.01]] }
+haptics: { device: ideal, stiffness: 1000 }
+)");
+}
+
 inline CameraModel smallCamera() {
     CameraModel model;
     model.depth = {80, 60, 70.0, 70.0, 40.0, 30.0, {}};

@@ -82,8 +82,8 @@ public:
     /// True while the engine reopens a lost compute device. Any thread.
     bool computeDeviceLost() const noexcept;
     std::string failure() const; ///< why a thread of the engine ended; empty = none ended. Any thread.
-    std::string computeDeviceName()
-        const; ///< of the Vulkan device; "none" if the scene has no classes of points. Any thread.
+    /// Of the Vulkan device; "none" for a scene without fixtures of points. Any thread.
+    std::string computeDeviceName() const;
 
 private:
     struct FATHOM_LOCAL Impl;

@@ -53,8 +53,9 @@ FATHOM_API const char* name(State state) noexcept;
 /// What limits a step, one bit each.
 enum class StepWarning : std::uint32_t {
     None = 0,              ///< nothing does
-    NoScene = 1,           ///< no fixture set yet
-    OldScene = 2,          ///< the newest frame is too old, or as far in the future: forces fade
+    NoScene = 1,           ///< no fixture set yet, and the scene has fixtures of points
+    OldScene = 2,          ///< the newest frame is too old, or as far in the future: forces fade, also those
+                           ///< of placed shapes. Before the first frame nothing is old.
     ComputeDeviceLost = 4, ///< the engine opens the compute device again
     NotFinite = 8,         ///< the hand sample or a result is not finite: the wrench is zero
     TimeBack = 16,         ///< `now` is before the last step; the last time was used
