@@ -18,8 +18,8 @@ namespace fathom {
 // The device answers about the newest set whose passes have completed, the CPU about the newest one with a
 // host copy. While the device is lost, answer() uses the CPU query on the newest host copy, which may be
 // older than the device's last answer; sets and answers carry their own generation and capture time. The
-// contact thread calls answer(), any thread smallestGaps() and clearance(), the frame thread everything else;
-// the calls may overlap.
+// contact thread calls answer(), any thread smallestGaps(), clearance() and newestInUse(), the frame thread
+// everything else; the calls may overlap.
 class DeviceCycles {
 public:
     // Referenced objects must outlive this. arm: null = the tool moves freely.
@@ -71,6 +71,15 @@ public:
     // yet.
     bool newestSet(Fixtures& set, RegionGrid& grid);
 
+    // The newest fixture set with a host copy, also after the device is lost. Keep it for a
+    // moment only: it occupies one of the frame cycle's leases.
+    struct SetInUse { // one of the two, or none
+        cloud::FixturePool::Lease lease;
+        std::shared_ptr<const cloud::FixtureSet> stale;
+        const cloud::FixtureSet* get() const { return lease ? &*lease : stale.get(); }
+    };
+    SetInUse newestInUse();
+
     // Call after frames() threw DeviceFailed: closes the device and opens it again. Origin, generations and
     // edited fixtures continue (FrameCycle::Mark); held points are dropped. Throws DeviceFailed while the
     // device is missing: retry later.
@@ -82,12 +91,6 @@ private:
     std::unique_ptr<FrameCycle> openFrames() const;
     void useDevice();
     void close();
-    struct SetInUse { // one of the two, or none
-        cloud::FixturePool::Lease lease;
-        std::shared_ptr<const cloud::FixtureSet> stale;
-        const cloud::FixtureSet* get() const { return lease ? &*lease : stale.get(); }
-    };
-    SetInUse newestInUse();
     bool answerOnDevice(const ToolState& place, ContactSet& out);
     void findGaps(const cloud::FixtureSet& set, const Tool& tool, std::span<const Pose> baseTtool,
                   std::vector<SmallestGap>& out);

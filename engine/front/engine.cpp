@@ -12,6 +12,7 @@
 
 #include <cmath>
 #include <limits>
+#include <mutex>
 #include <thread>
 
 namespace fathom::front {
@@ -51,7 +52,11 @@ public:
             out.fixtures.frame = set->host.frame;
             out.fixtures.generation = set->host.generation;
             out.fixtures.guidance = set->host.guidance;
-            show(set->host, captured);
+            const std::lock_guard lock(showing_);
+            shown_ = {set->host.frame, std::llround(captured * 1e9)};
+            if (observed_) {
+                show(set->host);
+            }
         }
         ++camera_.processed;
     }
@@ -61,21 +66,36 @@ public:
         lost.store(false);
     }
 
+    // Any thread: publishes the regions of the newest frame, and from now on those of each frame.
+    void observe() {
+        const std::lock_guard lock(showing_);
+        observed_ = true;
+        const DeviceCycles::SetInUse newest = compute_.cycles.newestInUse();
+        if (newest.get() != nullptr && newest.get()->host.frame == shown_.frame) { // else publish() shows it
+            show(newest.get()->host);
+        }
+    }
+
     std::atomic<bool> lost{false}; // the device is lost
 
 private:
-    void show(const Fixtures& set, double captured) {
-        if (shared_.observed.load()) {
-            fill(shared_.regions.back(), set);
-            shared_.regions.back().stamp = std::llround(captured * 1e9);
-            shared_.regions.publish();
-        }
+    // Under the lock.
+    void show(const Fixtures& set) {
+        fill(shared_.regions.back(), set);
+        shared_.regions.back().stamp = shown_.stamp;
+        shared_.regions.publish();
     }
 
     v0::CameraPort::Impl& camera_;
     ComputeSide& compute_;
     Shared& shared_;
     std::optional<fathom::Frame> next_;
+    std::mutex showing_; // between publish() and observe()
+    bool observed_ = false;
+    struct {
+        int64_t frame = -1;
+        v0::Nanoseconds stamp = 0;
+    } shown_; // the newest set that publish() has seen
 };
 
 } // namespace fathom::front
@@ -220,8 +240,11 @@ ArmPort Engine::openArm() {
 
 ObserverPort Engine::openObserver() {
     return front::translated([&] {
-        return openOnce(impl_->shared->observed, "observer",
-                        [&] { return ObserverPort(std::make_unique<ObserverPort::Impl>(impl_->shared)); });
+        return openOnce(impl_->shared->observerOpen, "observer", [&] {
+            ObserverPort port(std::make_unique<ObserverPort::Impl>(impl_->shared));
+            impl_->feed.observe();
+            return port;
+        });
     });
 }
 

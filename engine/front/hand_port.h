@@ -27,10 +27,10 @@ struct Shared {
     RunClock clock; // t = 0 is in the past, so that frames older than the engine keep their age
     Channels channels;
     ArmLink arm;                          // of a real arm, if channels.arm points to it
-    TripleBuffer<v0::Regions> regions;    // frame thread -> display, once `observed`
+    TripleBuffer<v0::Regions> regions;    // frame thread -> display, once there is one
     TripleBuffer<v0::StepSnapshot> steps; // haptic thread -> display
     std::atomic<bool> ended{false};       // the engine is destroyed, or one of its threads failed
-    std::atomic<bool> handOpen{false}, armOpen{false}, observed{false};
+    std::atomic<bool> handOpen{false}, armOpen{false}, observerOpen{false};
 
     static constexpr uint64_t kRows = 16;  // capacity of queues that are never read
     static constexpr double kPast = 100.0; // [s]

@@ -70,7 +70,7 @@ struct PlannedTuning {
 };
 
 // Fixture sets of a program: one that is written, the newest, and four that are leased: by the contact query,
-// by batches of poses, by the camera feed, and at the start of a run (engine/types/lease_pool.h).
+// by batches of poses, by the camera feed, and at the start of a run or of an observer (engine/types/lease_pool.h).
 inline constexpr uint32_t kFixtureSets = 6;
 
 struct PatchLayout;

@@ -41,6 +41,28 @@ TEST_CASE("An observer gets the newest regions once, as they protect the wall") 
     CHECK(regions.frame == 50);
 }
 
+TEST_CASE("An observer that is opened after the last frame gets its regions, and once") {
+    Engine engine(wallScene(), smallCamera());
+    CameraPort camera = engine.camera();
+    const Wall wall;
+    Nanoseconds stamp = 0;
+    for (uint64_t i = 1; i <= 3; ++i) {
+        stamp = now();
+        CHECK(camera.submit(wall.at(stamp)) == SubmitStatus::Accepted);
+        REQUIRE(eventually([&] { return camera.processed() == i; }));
+    }
+    ObserverPort observer = engine.openObserver();
+    Regions regions;
+    REQUIRE(observer.regions(regions));
+    CHECK(regions.frame == 2);
+    CHECK(regions.stamp == stamp);
+    CHECK(regions.spheres.size() > 100);
+    CHECK_FALSE(observer.regions(regions));
+    CHECK(camera.submit(wall.at(now())) == SubmitStatus::Accepted);
+    CHECK(eventually([&] { return observer.regions(regions); }));
+    CHECK(regions.frame == 3);
+}
+
 TEST_CASE("An observer gets the newest step once, without allocation") {
     std::optional<Engine> engine(std::in_place, wallScene(), smallCamera());
     HandPort hand = engine->openHand(startAt(0.5));
