@@ -52,7 +52,7 @@ void Device::chooseDrawQueue() {
         drawFamily_ = draws(f) ? f : drawFamily_;
     }
     if (!draws(drawFamily_)) {
-        throw BadInput("--device", "window", facts_.name, "a device that draws: this one only computes");
+        throw BadInput("device", "window", facts_.name, "a device that draws: this one only computes");
     }
     drawIndex_ = drawFamily_ == family_ && families[family_].queueCount > 1 ? 1 : 0;
 }
@@ -104,7 +104,7 @@ std::vector<const char*> Device::extensionsFor(Drawing drawing) const {
     }
     if (drawing == Drawing::Surface) {
         if (!hasExtension(physical_, VK_KHR_SWAPCHAIN_EXTENSION_NAME)) {
-            throw BadInput("--device", "window", facts_.name,
+            throw BadInput("device", "window", facts_.name,
                            "a device that can present to a display (VK_KHR_swapchain)");
         }
         extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);

@@ -47,7 +47,7 @@ bool layerPresent() {
 // Throws when the loader found no driver or could not load any.
 [[noreturn]] void refuseDrivers() {
     throw BadInput(
-        "--device", "Vulkan driver", "none is installed",
+        "device", "Vulkan driver", "none is installed",
         "a Vulkan 1.2 driver: install your GPU's, or mesa-vulkan-drivers, which also runs on the CPU");
 }
 

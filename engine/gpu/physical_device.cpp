@@ -176,7 +176,7 @@ VkPhysicalDevice choosePhysicalDevice(const Instance& instance, const std::strin
         }
     }
     if (best == VK_NULL_HANDLE) {
-        throw BadInput("--device", "name or index", "'" + selector + "'", describeAll(devices));
+        throw BadInput("device", "name or index", "'" + selector + "'", describeAll(devices));
     }
     return best;
 }

@@ -52,7 +52,7 @@ TEST_CASE("A missing device is rejected with the list of existing ones") {
         FAIL("accepted");
     } catch (const BadInput& e) {
         CHECK(e.exitCode() == 2);
-        CHECK(std::string(e.what()).find("--device") == 0);
+        CHECK(std::string(e.what()).find("device: name or index: ") == 0);
         CHECK(std::string(e.what()).find(here) != std::string::npos);
     }
     CHECK_THROWS_AS(gpu::Device(vulkan().instance, "99"), BadInput);
