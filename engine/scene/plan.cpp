@@ -3,6 +3,7 @@
 
 #include "engine/scene/camera_limits.h"
 #include "engine/scene/plan_items.h"
+#include "engine/types/decimation.h"
 #include "engine/types/error.h"
 
 #include <algorithm>
@@ -111,6 +112,36 @@ Plan decide(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, c
     return plan;
 }
 
+// Buffers of one value per slot bound the image. The largest ones: texels of `points` or `estimates`, bytes of
+// `points`, `estimates` or `packed`.
+uint64_t mostSlots(const Plan& plan, const DeviceFacts& device) {
+    const uint64_t texels = plan.estimates ? 2 : 1;
+    const uint64_t bytes = std::max<uint64_t>(plan.estimates ? 32 : 16, plan.pack ? plan.packedBytes() : 0);
+    return std::min(device.maxTexels / texels, device.maxStorageBufferBytes / bytes);
+}
+
+uint64_t slotsOf(const CameraInfo& camera, uint32_t every) {
+    return patchLayout((camera.depth.width + every - 1) / every, (camera.depth.height + every - 1) / every)
+        .slots();
+}
+
+void checkSize(const Plan& plan, const Scene& scene, const CameraInfo& camera, const DeviceFacts& device) {
+    const uint64_t most = mostSlots(plan, device);
+    if (!plan.cloud || slotsOf(camera, 1) <= most) {
+        return;
+    }
+    uint32_t every = 1;
+    while (every <= kMaxDecimation && slotsOf(camera, every) > most) {
+        ++every;
+    }
+    every *= scene.decimation;
+    throw BadInput(
+        "camera", "image size",
+        std::to_string(camera.depth.width) + "x" + std::to_string(camera.depth.height),
+        "at most " + std::to_string(most) + " pixels in squares of 16x16 on " + device.name +
+            (every > kMaxDecimation ? "" : ", for example with camera.decimation: " + std::to_string(every)));
+}
+
 } // namespace
 
 // Points are z (rho, 1), rho of neighbours at most 1 / f apart. With a the distance of two, |dz| <= 0.7 a:
@@ -168,6 +199,7 @@ uint64_t Plan::setBytes(const PatchLayout& layout) const {
 Plan makePlan(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, const DeviceFacts& device) {
     checkCamera(camera, "camera");
     Plan plan = decide(scene, camera, toolLeaves, device);
+    checkSize(plan, scene, camera, device);
     explainPlan(plan, scene, camera);
     return plan;
 }

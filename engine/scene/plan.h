@@ -131,7 +131,8 @@ inline uint32_t slotOfPixel(uint32_t u, uint32_t v, uint32_t patchesAcross) {
 }
 
 // toolLeaves chooses between CPU and GPU query for `auto`: the GPU from DeviceFacts::gpuQueryLeaves on,
-// unless the device is a CPU. Both answers are equal to the last bit.
+// unless the device is a CPU. Both answers are equal to the last bit. Throws BadInput for a camera out of range,
+// and for an image whose buffers exceed what the device can read.
 Plan makePlan(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, const DeviceFacts& device);
 
 } // namespace fathom

@@ -2,6 +2,7 @@
 // What a camera states about itself: absurd lenses, and gates that no point of it can pass.
 #include "engine/scene/camera_limits.h"
 #include "engine/scene/dead_gates.h"
+#include "engine/scene/plan.h"
 #include "tests/scene/scene_file.h"
 #include "tests/support/refusal.h"
 
@@ -37,6 +38,20 @@ std::string dead(const std::string& fixture, const std::function<void(CameraInfo
         all += sentence + "\n";
     }
     return all;
+}
+
+// What a plan says of an image of this size on a device with these limits.
+std::string tooLarge(const std::string& keys, uint32_t width, uint32_t height, uint32_t texels,
+                     uint64_t bytes) {
+    CameraInfo info = camera();
+    info.depth.width = width, info.depth.height = height;
+    DeviceFacts device;
+    device.name = "Small GPU";
+    device.kind = DeviceKind::Integrated;
+    device.maxTexels = texels;
+    device.maxStorageBufferBytes = bytes;
+    const SceneFile file(keys + kTool);
+    return testing::refusalOf([&] { makePlan(loadScene(file.path()), info, 1, device); });
 }
 
 } // namespace
@@ -92,4 +107,26 @@ TEST_CASE("A class that no point can pass is named with its cause, and others ar
           "a depth unit of 1 m leaves 3 depth values between camera.near 0.1 and camera.far 3 m\n");
     CHECK(dead("radius: 0.04", [](CameraInfo& c) { c.metresPerUnit = 1e-6; }).find("leaves 0 depth values") !=
           std::string::npos);
+}
+
+TEST_CASE("An image that a device cannot read is rejected with the decimation that makes it small enough") {
+    constexpr uint32_t kTexels = 1u << 16; // the least that Vulkan guarantees
+    constexpr uint64_t kBytes = 1u << 27;
+    const std::string all = "fixtures: [{name: all, role: forbidden}]\n";
+    CHECK(tooLarge(all, 640, 480, kTexels, kBytes) ==
+          "camera: image size: 640x480 (allowed: at most 65536 pixels in squares of 16x16 on Small GPU, for "
+          "example with camera.decimation: 3)");
+    CHECK(tooLarge(all, 256, 256, kTexels, kBytes) == "");
+    CHECK(tooLarge(all, 257, 256, kTexels, kBytes) != "");
+    CHECK(tooLarge(all, 3840, 2160, kTexels, kBytes).ends_with("on Small GPU)")); // not even an eighth fits
+    // The size is the decimated one.
+    CHECK(tooLarge("camera: {decimation: 2}\n" + all, 320, 240, kTexels, kBytes).ends_with("decimation: 4)"));
+    // Estimates take two texels per pixel.
+    const std::string memory = "camera: {static: true}\nfilter: {memory: 8}\n";
+    CHECK(tooLarge(memory + all, 256, 256, kTexels, kBytes) != "");
+    CHECK(tooLarge("hold_s: 0\n" + all, 640, 480, 1u << 27, 307200 * 16) == "");
+    CHECK(tooLarge("hold_s: 0\n" + all, 640, 480, 1u << 27, 307200 * 16 - 1) != "");
+    const std::string box = "fixtures: [{name: box, role: forbidden, shape: box, base_T_shape: {xyz: [0, 0, "
+                            "1]}, size: [1, 1, 1]}]\n";
+    CHECK(tooLarge(box, 640, 480, kTexels, kBytes) == ""); // no pass reads an image
 }

@@ -24,6 +24,7 @@ DeviceFacts deviceOf(DeviceKind kind) {
     DeviceFacts facts;
     facts.kind = kind;
     facts.maxInvocations = 1024;
+    facts.maxTexels = 1u << 27; // enough for any image
     return facts;
 }
 
