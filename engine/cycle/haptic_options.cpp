@@ -83,8 +83,8 @@ void checkDamping(const Scene& scene) {
     checkDamping(scene, "haptics", scene.haptics, scene.hand.scale);
 }
 
-// `options`: with period, device, low-pass filter, guidance and slew.
-CouplingOptions couplingOf(const Scene& scene, const Tool& tool, const HapticOptions& options) {
+// `options`: with period, device, low-pass filter, guidance and slew. The result lacks the tool's radius.
+CouplingOptions couplingOf(const Scene& scene, const HapticOptions& options) {
     const Scene::Haptics& haptics = scene.haptics;
     const DevicePreset& device = options.device;
     CouplingOptions coupling;
@@ -94,7 +94,6 @@ CouplingOptions couplingOf(const Scene& scene, const Tool& tool, const HapticOpt
     coupling.margin = haptics.margin;
     coupling.delayTicks = haptics.delay + lowPassDelayTicks(options.lowPassGain);
     coupling.handScale = scene.hand.scale;
-    coupling.toolRadius = tool.gyrationRadius();
     // The hand feels s K_t and K_r / s (hand_map.h); a scene cannot exceed what the device renders.
     coupling.stiffness = smaller(haptics.stiffness, device.stiffness / scene.hand.scale);
     coupling.rotationalStiffness = smaller(haptics.rotationalStiffness,
@@ -105,10 +104,13 @@ CouplingOptions couplingOf(const Scene& scene, const Tool& tool, const HapticOpt
     return coupling;
 }
 
-} // namespace
+// The hand feels torque / s (hand_map.h), so with a fine map (s < 1) the hand's limit is the tighter one.
+double torqueShareOf(const Scene& scene) {
+    return std::min(1.0, scene.hand.scale);
+}
 
-HapticOptions makeHapticOptions(const Scene& scene, const Tool& tool) {
-    checkDamping(scene);
+// The options that do not depend on the tool.
+HapticOptions handOptions(const Scene& scene) {
     const Scene::Haptics& haptics = scene.haptics;
     HapticOptions options;
     options.period = 1.0 / haptics.rateHz;
@@ -120,11 +122,37 @@ HapticOptions makeHapticOptions(const Scene& scene, const Tool& tool) {
     options.paperGuidance = haptics.guidance == Scene::Haptics::GuidanceMode::Paper && scene.hasGuidance();
 
     options.deviceDelayTicks = haptics.delay;
-    // The hand feels torque / s (hand_map.h), so with a fine map (s < 1) the hand's limit is the tighter one.
-    const double torqueShare = std::min(1.0, scene.hand.scale);
     options.slewForce = haptics.slewForce;
-    options.slewTorque = haptics.slewTorque * torqueShare;
-    options.coupling = couplingOf(scene, tool, options);
+    options.slewTorque = haptics.slewTorque * torqueShareOf(scene);
+    options.coupling = couplingOf(scene, options);
+    return options;
+}
+
+void noteTurn(std::vector<std::string>& notes, const Scene& scene) {
+    const HapticOptions options = handOptions(scene);
+    const std::optional<double> asked = options.coupling.rotationalStiffness;
+    if (!asked) {
+        return;
+    }
+    const Springs springs = makeSprings(options.device, options.coupling);
+    if (springs.rotationalStiffness != *asked) {
+        notes.push_back("haptics.rotational_stiffness: " + significant(*asked, 4) + " N m/rad asked, " +
+                        significant(springs.rotationalStiffness, 4) + " N m/rad used: with a stiffness of " +
+                        significant(springs.stiffness, 4) + " N/m, from " +
+                        significant(Springs::kMinRadius * Springs::kMinRadius, 4) + " to " +
+                        significant(Springs::kMaxRadius * Springs::kMaxRadius, 4) +
+                        " times that are possible");
+    }
+}
+
+} // namespace
+
+HapticOptions makeHapticOptions(const Scene& scene, const Tool& tool) {
+    checkDamping(scene);
+    const Scene::Haptics& haptics = scene.haptics;
+    HapticOptions options = handOptions(scene);
+    const double torqueShare = torqueShareOf(scene);
+    options.coupling.toolRadius = tool.gyrationRadius();
     options.springs = makeSprings(options.device, options.coupling);
 
     options.proxy.stepCap = haptics.stepCap;
@@ -158,6 +186,7 @@ std::vector<std::string> hapticNotes(const Scene& scene) {
     noteLimit(notes, "stiffness", haptics.stiffness, device.stiffness / scene.hand.scale, "N/m", device.name);
     noteLimit(notes, "rotational_stiffness", haptics.rotationalStiffness,
               device.rotationalStiffness.value_or(kNoLimit) * scene.hand.scale, "N m/rad", device.name);
+    noteTurn(notes, scene);
     noteSlew(notes, haptics.slewForce);
     const double scale = scene.hand.scale;
     const std::string byScale = scale > 1.0 ? " / hand.map.scale" : "";

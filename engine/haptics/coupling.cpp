@@ -32,6 +32,12 @@ std::optional<double> handLimit(std::optional<double> figure, std::optional<doub
 
 } // namespace
 
+void Springs::setRotational(double wanted) noexcept {
+    rotationalStiffness =
+        std::clamp(wanted, kMinRadius * kMinRadius * stiffness, kMaxRadius * kMaxRadius * stiffness);
+    metricRadius = std::clamp(std::sqrt(rotationalStiffness / stiffness), kMinRadius, kMaxRadius);
+}
+
 double passiveStiffness(double deviceDamping, double damping, double period, double delayTicks) noexcept {
     return 2.0 * (deviceDamping - std::abs(damping)) / (period * (1.0 + 2.0 * delayTicks));
 }
@@ -70,7 +76,7 @@ Springs makeSprings(const DevicePreset& preset, const CouplingOptions& options) 
     }
     demandPositive(springs.rotationalStiffness,
                    "rotational stiffness (damping B_r takes all of the device's?)");
-    springs.metricRadius = std::sqrt(springs.rotationalStiffness / springs.stiffness);
+    springs.setRotational(springs.rotationalStiffness);
     return springs;
 }
 

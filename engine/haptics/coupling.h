@@ -31,6 +31,10 @@ struct Springs {
     // k = sqrt(K_r / K_t) [m]: the solver's metric diag(I, k^2 I). It must follow from the springs: only then
     // is the wrench the gradient of the energy that the solver minimises.
     double metricRadius = 0.0;
+    static constexpr double kMinRadius = 1e-4, kMaxRadius = 10.0; // [m] that every solver can use
+
+    // Sets K_r, moved to the nearest value that k allows, and k. K_t must be positive.
+    void setRotational(double wanted) noexcept;
 };
 
 // Inputs for sizing the springs.
@@ -64,7 +68,8 @@ double passiveStiffness(double deviceDamping, double damping, double period, dou
 // Auto: K_t + K_g is the smallest of the preset's stiffness, a share of the passive bound (margin) and the
 // stiffness that the slew limit can follow, divided by the hand map's scale s, because the hand feels s K
 // (hand_map.h). K_r = k0^2 K_t, or its own bound times s when that is lower (the hand feels K_r / s). With b
-// unknown only the preset's figure applies. k = sqrt(K_r / K_t). Throws Error when no positive stiffness
+// unknown only the preset's figure applies. k = sqrt(K_r / K_t); a given K_r is moved to where k is in
+// its range. Throws Error when no positive stiffness
 // remains or an input is invalid.
 Springs makeSprings(const DevicePreset& preset, const CouplingOptions& options);
 

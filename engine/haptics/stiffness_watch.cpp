@@ -40,19 +40,18 @@ void StiffnessWatch::step(double measuredPeriod) noexcept {
     springs_ = planned_;
     springs_.stiffness = share_ * planned_.stiffness;
     springs_.guidanceStiffness = share_ * planned_.guidanceStiffness;
+    double turn = planned_.rotationalStiffness;
     if (!options_.rotationalStiffness) {
         // The smallest of the planned K_r, k0^2 K_t and the rotational bound. All change slowly.
-        double turn = std::min(planned_.rotationalStiffness,
-                               options_.toolRadius * options_.toolRadius * springs_.stiffness);
+        turn = std::min(turn, options_.toolRadius * options_.toolRadius * springs_.stiffness);
         if (rotationalDamping_) {
             const double bound =
                 options_.margin * passiveStiffness(*rotationalDamping_, options_.rotationalDamping, period_,
                                                    options_.delayTicks);
             turn = std::min(turn, std::max(bound, kMinShare * planned_.rotationalStiffness));
         }
-        springs_.rotationalStiffness = turn;
     }
-    springs_.metricRadius = std::sqrt(springs_.rotationalStiffness / springs_.stiffness);
+    springs_.setRotational(turn);
 }
 
 } // namespace fathom

@@ -246,6 +246,17 @@ TEST_CASE("Settings that cannot follow a hand are named with the speed that they
     CHECK(notes[1].find("up to 0.1 m/s") != std::string::npos);
 }
 
+TEST_CASE("A rotational stiffness beyond what the solvers can use is named with the one that is used") {
+    Scene scene = handScene();
+    scene.haptics.stiffness = 0.1;
+    scene.haptics.rotationalStiffness = 15.0;
+    CHECK(hapticNotes(scene) ==
+          std::vector<std::string>{"haptics.rotational_stiffness: 15 N m/rad asked, 10 N m/rad used: with a "
+                                   "stiffness of 0.1 N/m, from 1e-08 to 100 times that are possible"});
+    scene.haptics.rotationalStiffness = 9.0;
+    CHECK(hapticNotes(scene).empty());
+}
+
 TEST_CASE("A coarse hand map, late answers and a fast slew limit are named with what they do") {
     Scene scene = handScene();
     scene.hand.scale = 50.0; // 8 and 10 m/s of the tool are less of the hand

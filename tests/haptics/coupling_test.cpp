@@ -133,6 +133,21 @@ TEST_CASE("When its bound lowers the rotational stiffness, k follows") {
           doctest::Approx(std::sqrt(1.0 / 250.0)));
 }
 
+TEST_CASE("A rotational stiffness that no solver's metric can follow is moved to where k is in its range") {
+    CouplingOptions options;
+    options.stiffness = 1.0;
+    options.rotationalStiffness = 1000.0; // k = 31.6 m
+    const Springs high = makeSprings(devicePreset("ideal"), options);
+    CHECK(high.metricRadius == 10.0);
+    CHECK(high.rotationalStiffness == doctest::Approx(100.0));
+    options.rotationalStiffness = 1e-10;
+    const Springs low = makeSprings(devicePreset("ideal"), options);
+    CHECK(low.metricRadius == 1e-4);
+    CHECK(low.rotationalStiffness == doctest::Approx(1e-8));
+    options.rotationalStiffness = 99.0;
+    CHECK(makeSprings(devicePreset("ideal"), options).rotationalStiffness == 99.0);
+}
+
 TEST_CASE("With paper guidance both springs together stay within the bound, for automatic and given K_t") {
     CouplingOptions options;
     options.paperGuidance = true;

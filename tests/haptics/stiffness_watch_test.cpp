@@ -72,6 +72,17 @@ TEST_CASE("K_r has its own bound, and k follows both springs") {
     CHECK(watch.springs().metricRadius == doctest::Approx(std::sqrt(10.0 / 500.0)));
 }
 
+TEST_CASE("A given K_r follows a falling K_t where k would leave the range of the solvers") {
+    CouplingOptions options;
+    options.rotationalStiffness = 80'000.0; // k = 8.9 m at 1000 N/m
+    StiffnessWatch watch = watchOf(options);
+    CHECK(watch.springs().rotationalStiffness == 80'000.0);
+    run(watch, 0.002, 2.0);
+    CHECK(watch.springs().stiffness == doctest::Approx(500.0));
+    CHECK(watch.springs().rotationalStiffness == doctest::Approx(50'000.0));
+    CHECK(watch.springs().metricRadius == 10.0);
+}
+
 TEST_CASE("With a margin both springs keep that share of their bound at every rate") {
     CouplingOptions options;
     options.toolRadius = 0.2;
