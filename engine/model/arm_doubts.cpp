@@ -47,10 +47,12 @@ std::string doubtBeyond(const std::string& joint, double value, double lower, do
     return value < lower - kRounding || value > upper + kRounding ? line.str() : "";
 }
 
-std::string doubtEnds(const std::string& finger, double open, double closed) {
+std::string doubtEnds(const std::string& finger, double open, double closed, bool seen) {
     std::ostringstream line;
     line << "finger " << finger << ": open at " << open << " and closed at " << closed
-         << " by default; grasp.fingers sets both";
+         << (seen ? ", as the shapes of the fingers show"
+                  : " by default; the shapes of the fingers do not tell")
+         << "; grasp.fingers sets both";
     return line.str();
 }
 

@@ -14,7 +14,7 @@ std::string doubtSpeed(const std::string& joint, bool slides, double stated); //
 std::string doubtHeld(const std::string& joint, bool slides, double value);
 // On a joint that stays outside its limits.
 std::string doubtBeyond(const std::string& joint, double value, double lower, double upper);
-// On a finger whose open or closed position the program chose.
-std::string doubtEnds(const std::string& finger, double open, double closed);
+// On a finger whose open or closed position the program chose. seen: by the shapes of the fingers.
+std::string doubtEnds(const std::string& finger, double open, double closed, bool seen);
 
 } // namespace fathom

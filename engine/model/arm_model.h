@@ -114,7 +114,8 @@ struct ArmOptions {
     // A gripper joint, which is not part of the chain.
     struct Finger {
         std::string joint;
-        // [rad], [m]; empty = a limit of the URDF: the one farther from 0 is open if it slides, else the lower one
+        // [rad], [m]; empty = a limit of the URDF: see chooseFingerEnds(). If the shapes do not tell, the one
+        // farther from 0 is open if it slides, else the lower one.
         std::optional<double> open, closed;
     };
     std::vector<Finger> fingers;          // joints off the chain; one per group of mimic joints is enough

@@ -120,7 +120,7 @@ private:
         }
     }
 
-    // Where fingers are open and closed in most descriptions: they slide towards 0, or turn from lower to upper.
+    // Where fingers are open and closed in most descriptions, unless their shapes tell (finger_ends.h): they slide towards 0, or turn from lower to upper.
     static std::pair<double, double> usualEnds(const urdf::Joint& joint) {
         const double lower = joint.limits->lower, upper = joint.limits->upper;
         const bool down = joint.type == urdf::Joint::PRISMATIC && std::abs(upper) >= std::abs(lower);

@@ -5,6 +5,7 @@
 #include "engine/model/arm_mimic.h"
 #include "engine/model/arm_model.h"
 #include "engine/model/arm_shapes.h"
+#include "engine/model/finger_ends.h"
 #include "engine/model/joint_drives.h"
 #include "engine/model/urdf_file.h"
 #include "engine/types/error.h"
@@ -43,8 +44,12 @@ public:
         if (model_.leaves.empty()) {
             refuse("collision", "no shapes on any link", "links with collision geometry");
         }
-        const auto narrowed = narrowByMimics(model_);
-        model_.notes.insert(model_.notes.end(), narrowed.begin(), narrowed.end());
+        for (const std::string& line : chooseFingerEnds(model_, options_, tieJoints(*urdf_, file_))) {
+            note(line);
+        }
+        for (const std::string& line : narrowByMimics(model_)) {
+            note(line);
+        }
         return std::move(model_);
     }
 
@@ -260,9 +265,6 @@ private:
             const auto found = std::find_if(model_.fingers.begin(), model_.fingers.end(), same);
             if (found == model_.fingers.end()) {
                 refuse("finger", "'" + wanted.joint + "'", "a joint that the arm's base carries");
-            }
-            if (!found->mimic && (!wanted.open || !wanted.closed)) {
-                note(doubtEnds(found->name, found->open, found->closed));
             }
         }
     }

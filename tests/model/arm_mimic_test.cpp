@@ -238,9 +238,11 @@ TEST_CASE("Sliding fingers without stated positions close towards 0, and a note 
         CHECK(arm.fingers.at(0).closed == closed);
     }
     const ArmModel arm = fingerOf("prismatic", "lower='0' upper='0.04'");
-    CHECK(std::find(arm.notes.begin(), arm.notes.end(),
-                    "finger f1: open at 0.04 and closed at 0 by default; grasp.fingers sets both") !=
-          arm.notes.end());
+    CHECK(
+        std::find(
+            arm.notes.begin(), arm.notes.end(),
+            "finger f1: open at 0.04 and closed at 0, as the shapes of the fingers show; grasp.fingers sets "
+            "both") != arm.notes.end());
     const ArmModel turning = fingerOf("revolute", "lower='0' upper='0.8'");
     CHECK(turning.fingers.at(0).open == 0.0);
     CHECK(turning.fingers.at(0).closed == 0.8);
