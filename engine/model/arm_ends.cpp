@@ -226,7 +226,8 @@ private:
             std::vector<LinkPtr> bare;
             for (const auto& joint : link->child_joints) {
                 const LinkPtr child = model_.getLink(joint->child_link_name);
-                if (joint->type == urdf::Joint::FIXED && isBareFrame(*child) &&
+                const bool site = joint->name.ends_with(kSiteEnding); // of a sensor or tendon, by its name
+                if (joint->type == urdf::Joint::FIXED && isBareFrame(*child) && !site &&
                     depths_.at(child->name) == 0) {
                     bare.push_back(child);
                 }

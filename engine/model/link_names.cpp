@@ -11,12 +11,35 @@ namespace fathom {
 
 namespace {
 
-// Usual names of tool frames, the best first: ROS-Industrial's tool0 and flange, then frames of hands.
-constexpr std::array<std::string_view, 22> kToolNames{
-    "tool0",       "tcp",  "tool_frame",   "tool_tip",  "tool_link", "ee_link",           "end_effector_link",
-    "ee",          "eef",  "end_effector", "link_eef",  "link_ee",   "grasping_frame",    "grasp_frame",
-    "flange",      "tool", "hand",         "hand_link", "palm_link", "gripper_base_link", "gripper_base",
-    "gripper_link"};
+// Usual names of tool frames, the best first: ROS-Industrial's tool0 and flange, sites of MuJoCo's models, then
+// frames of hands.
+constexpr std::array<std::string_view, 27> kToolNames{"tool0",
+                                                      "tcp",
+                                                      "tool_frame",
+                                                      "tool_tip",
+                                                      "tool_link",
+                                                      "ee_link",
+                                                      "end_effector_link",
+                                                      "ee",
+                                                      "eef",
+                                                      "end_effector",
+                                                      "link_eef",
+                                                      "link_ee",
+                                                      "grasping_frame",
+                                                      "grasp_frame",
+                                                      "attachment_site",
+                                                      "tcp_site",
+                                                      "ee_site",
+                                                      "eef_site",
+                                                      "pinch",
+                                                      "flange",
+                                                      "tool",
+                                                      "hand",
+                                                      "hand_link",
+                                                      "palm_link",
+                                                      "gripper_base_link",
+                                                      "gripper_base",
+                                                      "gripper_link"};
 
 constexpr std::array<std::string_view, 8> kGripperWords{"gripper", "finger", "fngr",  "jaw",
                                                         "knuckle", "claw",   "thumb", "pincer"};

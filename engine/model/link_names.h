@@ -10,6 +10,9 @@ namespace fathom {
 
 inline constexpr size_t kNoTool = std::numeric_limits<size_t>::max();
 
+// Ends the name of the fixed joint that carries the site of an MJCF file.
+inline constexpr const char* kSiteEnding = "__site";
+
 // Rank of a tool frame's name, with or without a prefix such as "left_"; the best is 0. kNoTool = none.
 size_t toolRank(const std::string& link);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/reader/mjcf_body.h"
 
+#include "engine/model/link_names.h"
 #include "engine/model/xml_text.h"
 #include "engine/types/printable.h"
 
@@ -35,6 +36,16 @@ MjcfBodies::MjcfBodies(const std::string& file, const tinyxml2::XMLElement& root
         autoLimits_ = stated(*compiler, "autolimits", autoLimits_ ? "true" : "false") != "false";
     }
     readEqualities();
+    readNames(root);
+}
+
+void MjcfBodies::readNames(const tinyxml2::XMLElement& element) {
+    for (auto* child = element.FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
+        if (std::string(child->Name()) == "body") {
+            bodyNames_.insert(stated(*child, "name"));
+        }
+        readNames(*child);
+    }
 }
 
 // joint1 = c0 + c1 joint2, each measured from its `ref`; higher powers are no mimic joint.
@@ -96,6 +107,8 @@ void MjcfBodies::collect(const tinyxml2::XMLElement& element, const std::string&
             out.geoms.push_back({child, childClass, at});
         } else if (kind == "body") {
             out.bodies.push_back({child, inner, at});
+        } else if (kind == "site") {
+            out.sites.push_back({child, childClass, at});
         } else if (kind == "frame") {
             collect(*child, inner, at * mjcfPose(classes_, angles_, *child, ""), out);
         } else if (unread().count(kind) != 0) {
@@ -128,11 +141,12 @@ void MjcfBodies::addBody(const Part& body, const std::string& parent) {
         link = child;
     }
     if (link != name) {
-        out_ += "<joint name='" + xmlEscaped(name) + "__fixed' type='fixed'><parent link='" +
-                xmlEscaped(link) + "'/><child link='" + xmlEscaped(name) + "'/>" + urdfOrigin(before) +
-                "</joint>";
+        addFixed(name + "__fixed", link, name, before);
     }
     addLink(name, contents.geoms);
+    for (const Part& site : contents.sites) {
+        addSite(site, name);
+    }
     for (const Part& inner : contents.bodies) {
         addBody(inner, name);
     }
@@ -207,6 +221,24 @@ void MjcfBodies::addLink(const std::string& name, const std::vector<Part>& geoms
         out_ += geoms_.shape(*geom.element, geom.childClass, geom.at);
     }
     out_ += "</link>";
+}
+
+void MjcfBodies::addFixed(const std::string& name, const std::string& parent, const std::string& child,
+                          const Pose& parentTchild) {
+    out_ += "<joint name='" + xmlEscaped(name) + "' type='fixed'><parent link='" + xmlEscaped(parent) +
+            "'/><child link='" + xmlEscaped(child) + "'/>" + urdfOrigin(parentTchild) + "</joint>";
+}
+
+// A link without shapes, which may be the tip. Sites and bodies have names of their own in MuJoCo.
+void MjcfBodies::addSite(const Part& site, const std::string& body) {
+    const std::string name = stated(*site.element, "name");
+    if (name.empty()) {
+        return;
+    }
+    const std::string link = bodyNames_.count(name) != 0 ? name + kSiteEnding : name;
+    addLink(link, {});
+    addFixed(name + kSiteEnding, body, link,
+             site.at * mjcfPose(classes_, angles_, *site.element, site.childClass));
 }
 
 } // namespace fathom

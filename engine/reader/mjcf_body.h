@@ -6,6 +6,7 @@
 #include "engine/reader/mjcf_pose.h"
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -28,10 +29,11 @@ private:
         Pose at; // of the frame in the body
     };
     struct Contents {
-        std::vector<Part> joints, geoms, bodies;
+        std::vector<Part> joints, geoms, bodies, sites;
     };
 
     void readEqualities();
+    void readNames(const tinyxml2::XMLElement& element);
     void collect(const tinyxml2::XMLElement& element, const std::string& childClass, const Pose& at,
                  Contents& out) const;
     void addBody(const Part& body, const std::string& parent);
@@ -42,6 +44,9 @@ private:
     Pose anchorOf(const Part& joint) const;
     std::string limitsOf(const Part& joint, const std::string& name, bool slides, bool& continuous) const;
     void addLink(const std::string& name, const std::vector<Part>& geoms);
+    void addFixed(const std::string& name, const std::string& parent, const std::string& child,
+                  const Pose& parentTchild);
+    void addSite(const Part& site, const std::string& body);
     std::string nameOf(const tinyxml2::XMLElement& element, const char* otherwise);
 
     const tinyxml2::XMLElement& root_;
@@ -56,6 +61,7 @@ private:
     std::map<std::string, Equality> equalities_;
     std::string out_;
     std::vector<std::string> notes_;
+    std::set<std::string> bodyNames_; // stated ones
     int unnamed_ = 0;
 };
 

@@ -101,3 +101,25 @@ TEST_CASE("The tip of an MJCF is a body, also where its joint has an anchor besi
                                   mjcfBall() + "</body></body></worldbody>");
     CHECK(arm.tipText == "b (the end of the longest chain)");
 }
+
+TEST_CASE("A site of an MJCF can be the tip, and one with a usual name is") {
+    const auto with = [](const std::string& sites, const std::string& tip = "") {
+        ArmOptions options;
+        options.tip = tip;
+        return loadMjcf(
+            "<default><site pos='0 0 0.5'/></default><worldbody><site name='far'/><body name='a'>" +
+                mjcfBall() + "<body name='b' pos='0 0 0.3'><joint name='j' range='-90 90'/>" + mjcfBall() +
+                sites + "</body></body></worldbody>",
+            options);
+    };
+    const std::string flange = "<site name='attachment_site' pos='0.1 0 0' euler='0 90 0'/>";
+    const ArmModel arm = with(flange + "<site/><site name='imu' pos='0 1 0'/>");
+    CHECK(arm.tipText == "attachment_site (a tool frame by its name)");
+    CHECK(glm::distance(arm.lastTtip.position, dvec3(0.1, 0.0, 0.0)) < 1e-12);
+    CHECK(glm::distance(arm.lastTtip.rotation * dvec3(0.0, 0.0, 1.0), dvec3(1.0, 0.0, 0.0)) < 1e-12);
+    CHECK(arm.notes.size() == with("").notes.size()); // a site has nothing that could enter a region
+    CHECK(with("<site name='imu'/>").tipText == "b (the end of the longest chain)");
+    const ArmModel named = with("<frame pos='0.2 0 0'><site name='imu'/></frame>", "imu");
+    CHECK(glm::distance(named.lastTtip.position, dvec3(0.2, 0.0, 0.5)) < 1e-12); // with its class
+    CHECK(with("<site name='b'/>", "b__site").lastTtip.position.z == doctest::Approx(0.5));
+}
