@@ -160,7 +160,7 @@ private:
             note(doubtLimits(joint.name, joint.slides, joint.lower, joint.upper, kLongSlide));
             if (joint.lower < urdf.lower || joint.upper > urdf.upper) {
                 note("joint " + joint.name + ": the scene's limits " + text(joint.lower) + " to " +
-                     text(joint.upper) + " are wider than the URDF's, " + text(urdf.lower) + " to " +
+                     text(joint.upper) + " are wider than the file's, " + text(urdf.lower) + " to " +
                      text(urdf.upper));
             }
         }
@@ -187,7 +187,7 @@ private:
             }
         }
         if (!names.empty()) {
-            rig_->model.notes.push_back("no speed in the URDF for " + names + ": " + text(kUnknownTurn) +
+            rig_->model.notes.push_back("no speed in the file for " + names + ": " + text(kUnknownTurn) +
                                         " rad/s or " + text(kUnknownSlide) +
                                         " m/s is used; arm.joints sets another");
         }

@@ -19,7 +19,7 @@ inline constexpr size_t kMaxJoints = 12;     // moving joints of a chain, mimic 
 inline constexpr size_t kMaxFingers = 16;    // moving joints off the chain
 inline constexpr double kUnknownTurn = 1.0;  // [rad/s] speed of a revolute joint whose URDF states none
 inline constexpr double kUnknownSlide = 0.1; // [m/s] the same for a prismatic joint
-inline constexpr const char* kNoSpeed = "default, the URDF states none"; // their source, for messages
+inline constexpr const char* kNoSpeed = "default, the file states none"; // their source, for messages
 
 // A joint at offset + multiplier * (another joint).
 struct ArmMimic {
@@ -36,7 +36,7 @@ struct ArmJoint {
     double lower, upper;       // [rad], [m]; +-inf for continuous joints
     double speed;              // [rad/s], [m/s] > 0
     std::optional<ArmMimic> mimic{};
-    std::string limitsFrom = "URDF", speedFrom = "URDF"; // for the user
+    std::string limitsFrom = "file", speedFrom = "file"; // for the user
 };
 
 // A moving joint off the chain. A gripper joint is at `open` when grasp is 0 and at `closed` when grasp is 1;

@@ -164,7 +164,7 @@ private:
         const double stated = joint.limits ? joint.limits->velocity : 0.0;
         if (stated > 0.0) {
             out.speed = std::min(stated, kMaxSpeed);
-            out.speedFrom = stated > kMaxSpeed ? "URDF, but at most this" : out.speedFrom;
+            out.speedFrom = stated > kMaxSpeed ? "file, but at most this" : out.speedFrom;
         } else {
             out.speed = out.slides ? kUnknownSlide : kUnknownTurn;
             out.speedFrom = kNoSpeed;

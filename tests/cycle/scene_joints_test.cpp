@@ -30,7 +30,7 @@ std::vector<std::string> notesOn(const SceneArm::Joint& joint, const std::string
 
 TEST_CASE("Limits and speeds of the scene that look like degrees or millimetres are questioned") {
     using Notes = std::vector<std::string>;
-    const std::string wider = "joint j: the scene's limits -90 to 90 are wider than the URDF's, -2 to 2";
+    const std::string wider = "joint j: the scene's limits -90 to 90 are wider than the file's, -2 to 2";
     CHECK(notesOn({"j", -90.0, 90.0, {}, {}}) ==
           Notes{"joint j: limits -90 to 90 rad span more than four turns; in degrees?", wider});
     CHECK(notesOn({"j", -90.0, 90.0, {}, {}}, "prismatic") ==

@@ -112,7 +112,7 @@ TEST_CASE("Speeds, fingers and held joints that look like degrees or millimetres
     const ArmModel degrees = arm("revolute", "lower='-2' upper='2' velocity='180'");
     CHECK(degrees.notes == std::vector<std::string>{"joint j: speed 180 rad/s; in degrees per second?"});
     CHECK(degrees.joints[0].speed == 100.0);
-    CHECK(degrees.joints[0].speedFrom == "URDF, but at most this");
+    CHECK(degrees.joints[0].speedFrom == "file, but at most this");
     CHECK(arm("revolute", "lower='-2' upper='2' velocity='12'").notes.empty());
     CHECK(arm("prismatic", "lower='0' upper='0.5' velocity='250'").notes ==
           std::vector<std::string>{"joint j: speed 250 m/s; in millimetres per second?"});

@@ -230,7 +230,7 @@ TEST_CASE("plan, and replay in one line, report a link with a visual but no coll
                      "arm.base name others") != std::string::npos);
     CHECK(run.err.find("arm41.urdf: " + note) != std::string::npos);
     CHECK(plan.out.find(
-              "        joint elbow: revolute, -2.4 to -0.05 rad (URDF), 1 rad/s (URDF), starts at -0.05\n") !=
+              "        joint elbow: revolute, -2.4 to -0.05 rad (file), 1 rad/s (file), starts at -0.05\n") !=
           std::string::npos);
     CHECK(plan.out.find("        joint pinch stays at 0 (not between base and tip)\n") != std::string::npos);
 }
