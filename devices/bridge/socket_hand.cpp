@@ -2,6 +2,8 @@
 #include "devices/bridge/socket_hand.h"
 
 #include "engine/types/error.h"
+#include "engine/types/log.h"
+#include "engine/types/printable.h"
 
 #include <algorithm>
 #include <array>
@@ -94,6 +96,10 @@ void SocketHand::take(const fathom_door_hand& packet) noexcept {
     // A device of another kind has other limits, so the springs do not fit it.
     const bool same = std::strncmp(packet.preset, preset_.c_str(), sizeof packet.preset) == 0;
     status_ = same && soundPose(packet, pose) ? packet.status : 0;
+    if (!same && !changed_.load(std::memory_order_relaxed)) {
+        std::copy_n(packet.preset, sizeof otherPreset_, otherPreset_);
+        changed_.store(true, std::memory_order_release);
+    }
     if ((status_ & kReady) == kReady) {
         last_.deviceThandle = pose;
     }
@@ -172,11 +178,20 @@ void SocketHand::seek() noexcept {
         std::this_thread::sleep_for(kSeekPause);
         const bool wanted = seeking_.load(); // first: what lose() stored before it is closed below
         DeviceSocket(gone_.exchange(-1)).close();
+        reportChange();
         DeviceSocket next;
         if (wanted && DeviceSocket::tryConnect(path_, next) == 0) {
             seeking_.store(false);
             found_.store(next.release());
         }
+    }
+}
+
+void SocketHand::reportChange() {
+    if (!reported_ && changed_.load(std::memory_order_acquire)) {
+        reported_ = true;
+        log::warn("{}: the device is now a {}, not a {}: no force until a restart", path_.string(),
+                  printable(textOf(otherPreset_)), preset_);
     }
 }
 

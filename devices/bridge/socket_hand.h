@@ -37,6 +37,7 @@ private:
     void drain() noexcept;
     void lose() noexcept;
     void seek() noexcept; // body of the thread
+    void reportChange();  // on that thread
 
     std::filesystem::path path_;
     uint32_t away_; // buttons while the device is absent
@@ -52,6 +53,9 @@ private:
     // To the thread and back: descriptors, -1 = none.
     std::atomic<int> gone_{-1}, found_{-1};
     std::atomic<bool> seeking_{false}, stop_{false};
+    char otherPreset_[sizeof fathom_door_hand::preset]{}; // of a bridge for another device, once `changed_`
+    std::atomic<bool> changed_{false};
+    bool reported_ = false; // of the thread
     std::thread seeker_;
 };
 

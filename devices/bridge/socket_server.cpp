@@ -39,22 +39,25 @@ SocketServer::~SocketServer() {
     ::unlink(path_.c_str());
 }
 
+// In this order: an engine that follows one that has ended is no second engine.
 void SocketServer::poll() {
-    takeNewcomers();
     takeWrenches();
+    takeNewcomer();
 }
 
-void SocketServer::takeNewcomers() {
-    for (DeviceSocket newcomer = endpoint_.accept(); newcomer.open(); newcomer = endpoint_.accept()) {
-        if (engine_.open()) {
-            log::warn("{}: rejected a second engine", path_.string());
-            continue; // closes it
-        }
-        engine_ = std::move(newcomer);
-        gate_.close();
-        hand_.wrench_sequence = 0;
-        log::info("{}: engine connected", path_.string());
+void SocketServer::takeNewcomer() {
+    DeviceSocket newcomer = endpoint_.accept();
+    if (!newcomer.open()) {
+        return;
     }
+    if (engine_.open()) {
+        log::warn("{}: rejected a second engine", path_.string());
+        return; // closes it
+    }
+    engine_ = std::move(newcomer);
+    gate_.close();
+    hand_.wrench_sequence = 0;
+    log::info("{}: engine connected", path_.string());
 }
 
 void SocketServer::takeWrenches() {

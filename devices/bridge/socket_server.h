@@ -28,7 +28,7 @@ public:
     SocketServer& operator=(const SocketServer&) = delete;
     ~SocketServer();
 
-    // Accepts a pending connection and reads all pending wrenches. Drops an engine that breaks the contract
+    // Reads all pending wrenches, then accepts one pending connection. Drops an engine that breaks the contract
     // and rejects a second one. Never blocks; logs connects and disconnects.
     void poll();
 
@@ -45,7 +45,7 @@ public:
     const std::filesystem::path& path() const noexcept { return path_; }
 
 private:
-    void takeNewcomers();
+    void takeNewcomer();
     void takeWrenches();
     void drop(const std::string& why);
 

@@ -3,9 +3,9 @@
 #pragma once
 
 #include <memory>
-#include <spdlog/sinks/ostream_sink.h>
+#include <mutex>
+#include <spdlog/sinks/base_sink.h>
 #include <spdlog/spdlog.h>
-#include <sstream>
 #include <string>
 
 namespace fathom::testing {
@@ -15,16 +15,16 @@ class Listening {
 public:
     Listening()
         : before_(spdlog::default_logger()) {
-        auto sink = std::make_shared<spdlog::sinks::ostream_sink_mt>(text_);
-        spdlog::set_default_logger(std::make_shared<spdlog::logger>("test", sink));
+        spdlog::set_default_logger(std::make_shared<spdlog::logger>("test", sink_));
     }
     Listening(const Listening&) = delete;
     Listening& operator=(const Listening&) = delete;
     ~Listening() { spdlog::set_default_logger(before_); }
 
+    // Other threads may log meanwhile.
     size_t count(const std::string& part) const {
         size_t found = 0;
-        const std::string text = text_.str();
+        const std::string text = sink_->text();
         for (size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
             ++found;
         }
@@ -32,7 +32,21 @@ public:
     }
 
 private:
-    std::ostringstream text_;
+    struct Sink final : spdlog::sinks::base_sink<std::mutex> {
+        std::string text() {
+            const std::lock_guard lock(mutex_);
+            return text_;
+        }
+        void sink_it_(const spdlog::details::log_msg& line) override {
+            text_.append(line.payload.data(), line.payload.size());
+            text_ += '\n';
+        }
+        void flush_() override {}
+
+    private:
+        std::string text_;
+    };
+    std::shared_ptr<Sink> sink_ = std::make_shared<Sink>();
     std::shared_ptr<spdlog::logger> before_;
 };
 
