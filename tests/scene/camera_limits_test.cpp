@@ -40,7 +40,7 @@ std::string dead(const std::string& fixture, const std::function<void(CameraInfo
     return all;
 }
 
-// What a plan says of an image of this size on a device with these limits.
+// How the plan rejects an image of this size on a device with these limits.
 std::string tooLarge(const std::string& keys, uint32_t width, uint32_t height, uint32_t texels,
                      uint64_t bytes) {
     CameraInfo info = camera();
