@@ -7,6 +7,7 @@
 #include "devices/recorded/recorded_camera.h"
 #include "engine/types/error.h"
 #include "engine/types/read_file.h"
+#include "engine/types/stand_in.h"
 
 #include <array>
 #include <fstream>
@@ -111,6 +112,7 @@ std::unique_ptr<Camera> openRecording(const SourceRequest& request) {
     case Kind::Cloud:
         return std::make_unique<PcdCamera>(file, request.options);
     case Kind::Unknown:
+        refuseStandIn(file, kKinds);
         break;
     }
     const bool exists = std::filesystem::exists(file, failed);

@@ -9,6 +9,7 @@
 #include "devices/bag/ros2_database.h"
 #include "devices/bag/split_recording.h"
 #include "engine/types/read_file.h"
+#include "engine/types/stand_in.h"
 
 #include <fstream>
 
@@ -79,6 +80,9 @@ std::unique_ptr<MessageFile> openMessageFile(const std::filesystem::path& file) 
     const bool bag = begin.starts_with("#ROSBAG"), database = begin.starts_with("SQLite format 3"),
                mcap = begin.starts_with("\x89MCAP"), matroska = begin.starts_with("\x1a\x45\xdf\xa3"),
                known = bag || database || mcap || matroska;
+    if (!known) {
+        refuseStandIn(file, "a ROS bag, an MCAP file, a ROS 2 database or an Azure Kinect recording");
+    }
     if (matroska || (!known && ending == ".mkv")) { // the first bytes decide, not the name
         return std::make_unique<MatroskaFile>(file);
     }

@@ -6,6 +6,7 @@
 #include "devices/images/pgm_image.h"
 #include "devices/images/tiff_image.h"
 #include "engine/types/read_file.h"
+#include "engine/types/stand_in.h"
 
 #include <algorithm>
 #include <cctype>
@@ -20,8 +21,11 @@ namespace {
 constexpr size_t kMaxDepthFile = 256u << 20; // [bytes]; float64 of 3840x2160 is 64 MiB
 
 // Why no reader knows the file.
-const char* unknown(const std::filesystem::path& file) {
-    return isRegularFile(file) ? "not PNG, PGM (P5), TIFF, NPY or EXR" : "cannot be read";
+std::string unknown(const std::filesystem::path& file) {
+    const std::string other = standInOf(file);
+    return !isRegularFile(file) ? "cannot be read"
+           : other.empty()      ? "not PNG, PGM (P5), TIFF, NPY or EXR"
+                                : other;
 }
 
 struct DepthFormat {

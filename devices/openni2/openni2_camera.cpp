@@ -5,6 +5,7 @@
 #include "devices/recorded/recording_intrinsics.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
+#include "engine/types/stand_in.h"
 
 #include <chrono>
 #include <cmath>
@@ -92,6 +93,7 @@ OpenNi2Camera::~OpenNi2Camera() {
 }
 
 void OpenNi2Camera::open(const std::string& uri) {
+    refuseStandIn(uri, "a device or an .oni file of OpenNI2");
     if (device_.open(uri.empty() ? openni::ANY_DEVICE : uri.c_str()) != openni::STATUS_OK) {
         refuseOpenNi2(uri, "device", "an OpenNI2 device that is plugged in and accessible, or an .oni file");
     }

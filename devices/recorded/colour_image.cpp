@@ -3,7 +3,9 @@
 
 #include "devices/v4l2/jpeg_image.h"
 #include "engine/types/read_file.h"
+#include "engine/types/stand_in.h"
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 
@@ -12,6 +14,17 @@ namespace fathom {
 namespace {
 
 constexpr size_t kMaxJpeg = 64u << 20; // [bytes]
+
+// Of a file that is no JPEG: why it is no image that is read; empty for a PNG and for one that cannot be opened.
+std::string whyUnknown(const std::filesystem::path& file) {
+    const auto text = readFileAtMost(file, kPngSignature.size() - 1);
+    if (!text ||
+        std::ranges::equal(*text, kPngSignature, {}, [](char c) { return static_cast<uint8_t>(c); })) {
+        return "";
+    }
+    const std::string other = standInOf(file);
+    return !other.empty() ? other : text->empty() ? "an empty file" : "not PNG or JPEG";
+}
 
 bool beginsAsJpeg(const std::filesystem::path& file) {
     std::array<char, 3> head{};
@@ -37,7 +50,8 @@ ColourFormat colourImageFormat(const std::filesystem::path& file) {
 std::string readColourImage(const std::filesystem::path& file, PngSize size, std::span<uint32_t> target,
                             RawColour& raw) {
     if (!beginsAsJpeg(file)) {
-        return readColourPng(file, size, target);
+        const std::string unknown = whyUnknown(file);
+        return unknown.empty() ? readColourPng(file, size, target) : unknown;
     }
     const auto text = readFileAtMost(file, kMaxJpeg);
     return text ? readJpeg(std::as_bytes(std::span(*text)), {size.width, size.height},

@@ -170,8 +170,7 @@ std::optional<PngSize> readPngSize(const std::filesystem::path& file) {
 
 std::optional<PngHead> pngHead(std::span<const uint8_t> bytes) {
     constexpr size_t kHead = 26; // signature, length and name of IHDR, width, height, bits, colour type
-    constexpr std::array<uint8_t, 8> kSignature{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
-    if (bytes.size() < kHead || !std::equal(kSignature.begin(), kSignature.end(), bytes.begin())) {
+    if (bytes.size() < kHead || !std::equal(kPngSignature.begin(), kPngSignature.end(), bytes.begin())) {
         return std::nullopt;
     }
     const auto word = [&](size_t at) {

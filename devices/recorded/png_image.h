@@ -2,6 +2,7 @@
 // PNG images of a recording, decoded by libpng straight into the camera's memory.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -28,6 +29,8 @@ std::string readDepthPng(std::span<const uint8_t> bytes, PngSize size, std::span
 // file has none.
 std::string readColourPng(const std::filesystem::path& file, PngSize size, std::span<uint32_t> target);
 std::string readColourPng(std::span<const uint8_t> bytes, PngSize size, std::span<uint32_t> target);
+
+inline constexpr std::array<uint8_t, 8> kPngSignature{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
 
 // What the first bytes of a PNG state; empty when they are not those of a PNG.
 struct PngHead {

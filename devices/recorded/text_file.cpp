@@ -4,6 +4,7 @@
 #include "engine/types/error.h"
 #include "engine/types/input_files.h"
 #include "engine/types/read_file.h"
+#include "engine/types/stand_in.h"
 
 #include <algorithm>
 #include <charconv>
@@ -42,6 +43,7 @@ DataLines::DataLines(const std::filesystem::path& file)
     if (!in_.is_open()) {
         throw BadInput(name_, "file", whyUnreadable(file), "a readable text file");
     }
+    refuseStandIn(file, "a readable text file");
     noteInput(file);
 }
 

@@ -5,6 +5,7 @@
 #include "engine/types/error.h"
 #include "engine/types/input_files.h"
 #include "engine/types/read_file.h"
+#include "engine/types/stand_in.h"
 
 #include <algorithm>
 #include <cmath>
@@ -53,6 +54,7 @@ TriangleMesh readTriangles(const std::filesystem::path& file, const ReaderOption
         throw BadInput(file.string(), "mesh", std::to_string(bytes) + " bytes",
                        "at most " + std::to_string(kLargestMesh));
     }
+    refuseStandIn(file, kinds);
     noteInput(file);
     auto [mesh, fault] = importTriangles(file, reader);
     if (!fault.empty()) {

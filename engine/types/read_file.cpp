@@ -3,6 +3,7 @@
 
 #include "engine/types/error.h"
 #include "engine/types/input_files.h"
+#include "engine/types/stand_in.h"
 
 #include <algorithm>
 #include <cctype>
@@ -73,6 +74,9 @@ std::string readWholeFile(const std::filesystem::path& file, size_t most, const 
         throw BadInput(file.string(), "file",
                        failed || size <= most ? "grows" : std::to_string(size) + " bytes",
                        kind + " of at most " + std::to_string(most >> 20) + " MiB");
+    }
+    if (const std::string other = standIn(*text); !other.empty()) {
+        throw BadInput(file.string(), "content", other, kind);
     }
     return *std::move(text);
 }

@@ -123,6 +123,20 @@ TEST_CASE("Recordings of cameras' SDKs are recognised by their first bytes, and 
     }
 }
 
+TEST_CASE("A recording that is a pointer of Git LFS or an archive is refused as such, whatever its name") {
+    const testing::ScratchFolder folder;
+    for (const char* name : {"a.bag", "a.mcap", "a.db3", "a.mkv", "a.pcd", "a.ply", "a.zip"}) {
+        for (const auto& [begin, what] :
+             {std::pair("version https://git-lfs.github.com/spec/v1\n", "Git LFS"),
+              {"PK\x03\x04", "ZIP archive"}}) {
+            folder.write(name, begin);
+            CAPTURE(name);
+            CHECK_THROWS_WITH_AS(openRecording({(folder / name).string(), {}}), doctest::Contains(what),
+                                 BadInput);
+        }
+    }
+}
+
 TEST_CASE("A metadata.yaml marks a recording of ROS 2 by its content or by the files of its folder, not by "
           "its name") {
     const testing::ScratchFolder folder;

@@ -109,8 +109,7 @@ TEST_CASE("Depth in a format that is not read is named as such, and a PGM may en
     const auto file = folder.path() / "a";
     std::vector<uint16_t> depth(2);
     uint64_t beyond = 0;
-    for (const char* text :
-         {"P2\n2 1\n65535\n1 2\n", "Pf\n2 1\n-1.0\n12345678", "PK\x03\x04 of a .npz", ""}) {
+    for (const char* text : {"P2\n2 1\n65535\n1 2\n", "Pf\n2 1\n-1.0\n12345678", ""}) {
         std::ofstream(file) << text;
         CHECK(readDepthImage(file, {2, 1}, {}, depth, beyond) == "not PNG, PGM (P5), TIFF, NPY or EXR");
     }

@@ -159,3 +159,36 @@ TEST_CASE("Part of a sequence of images frame-N plays, whatever its first number
     CHECK(playedDepths(folder.path()) == Depths{500, 65535});
     CHECK(RecordedCamera(folder.path()).info().depth.fx == 6.0);
 }
+
+TEST_CASE(
+    "Images, index and lens that are pointers of Git LFS are named as such, and one loses its own frame") {
+    const std::string pointer = "version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\nsize 12345\n";
+    for (const char* name : {"intrinsics.json", "associations.txt", "depth/0.png", "rgb/0.png"}) {
+        const TemporaryFolder folder;
+        writeSmallRecording(folder, 1);
+        folder.write(name, pointer);
+        CAPTURE(name);
+        lineSays(recordingRefusal(folder.path()), name);
+        lineSays(recordingRefusal(folder.path()), "Git LFS pointer");
+    }
+    const TemporaryFolder folder;
+    addThreePairs(folder, "color");
+    folder.write("camera_intrinsic.json", kOpen3dLens);
+    folder.write("depth/0.png", pointer);
+    folder.write("color/2.png", pointer);
+    CHECK(playedDepths(folder.path()) == Depths{501});
+}
+
+TEST_CASE("Colour in a format that is not read is named as such") {
+    const std::string bmp = std::string("BM") + std::string(60, '\0'), webp = "RIFF1234WEBPVP8 ";
+    for (const auto& [text, fault] : {std::pair(bmp, "not PNG or JPEG"),
+                                      {webp, "not PNG or JPEG"},
+                                      {"P6\n7 5\n255\n", "not PNG or JPEG"},
+                                      {"", "an empty file"},
+                                      {"\x89PNG\r\n\x1a\nx", "libpng: "}}) {
+        const TemporaryFolder folder;
+        writeSmallRecording(folder, 1);
+        folder.write("rgb/0.png", text);
+        lineSays(recordingRefusal(folder.path()), "rgb/0.png: " + std::string(fault));
+    }
+}

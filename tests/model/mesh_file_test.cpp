@@ -57,6 +57,14 @@ bool present(const std::filesystem::path& file) {
 
 } // namespace
 
+TEST_CASE("A mesh that is a pointer of Git LFS is refused as such") {
+    const ScratchFolder scratch;
+    for (const char* name : {"a.stl", "a.obj", "a.dae"}) {
+        scratch.write(name, "version https://git-lfs.github.com/spec/v1\noid sha256:4d\nsize 9\n");
+        CHECK(refusalOfMesh(scratch / name).find(": content: a Git LFS pointer") != std::string::npos);
+    }
+}
+
 TEST_CASE("A closed mesh is read completely: size, volume, closed, nothing dropped") {
     const ObjFile file(boxMesh({0.1, -0.2, 0.3}, {0.2, 0.1, 0.05}));
     const LoadedMesh loaded = loadMesh(file.path());
