@@ -43,7 +43,7 @@ std::optional<openni::VideoMode> bestMode(const openni::VideoStream& stream, con
 } // namespace
 
 void refuseOpenNi2(const std::string& uri, const std::string& field, const std::string& allowed) {
-    std::string why = openni::OpenNI::getExtendedError();
+    std::string why = standInOf(uri).empty() ? openni::OpenNI::getExtendedError() : standInOf(uri);
     const size_t first = why.find_first_not_of(" \t\r\n"), last = why.find_last_not_of(" \t\r\n");
     why = first == std::string::npos ? "" : why.substr(first, last - first + 1);
     throw BadInput(uri.empty() ? "openni2" : uri, field, why.empty() ? "not to be had" : why, allowed);
@@ -93,7 +93,6 @@ OpenNi2Camera::~OpenNi2Camera() {
 }
 
 void OpenNi2Camera::open(const std::string& uri) {
-    refuseStandIn(uri, "a device or an .oni file of OpenNI2");
     if (device_.open(uri.empty() ? openni::ANY_DEVICE : uri.c_str()) != openni::STATUS_OK) {
         refuseOpenNi2(uri, "device", "an OpenNI2 device that is plugged in and accessible, or an .oni file");
     }
