@@ -3,6 +3,7 @@
 
 #include "devices/recorded/colour_image.h"
 #include "devices/recorded/index_times.h"
+#include "devices/recorded/unread_poses.h"
 #include "engine/types/error.h"
 #include "engine/types/inside.h"
 #include "engine/types/log.h"
@@ -47,6 +48,9 @@ RecordedCamera::RecordedCamera(const fs::path& folder, const SourceOptions& opti
     warnings_ = settleTimes(layout_, folder_);
     mostApart_ = std::max(kMaxApart, 0.5 * medianPeriod(layout_.index));
     useOptions(options);
+    if (const std::string poses = info().poseless ? unreadPoses(folder_) : ""; !poses.empty()) {
+        log::warn("{}: {}", folder_.string(), poses);
+    }
     if (info().hasColour) {
         takeColourFormat();
     }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Folders as other programs and systems leave them: damaged first images, other names, files of archives.
 #include "devices/recorded/recorded_camera.h"
+#include "devices/recorded/unread_poses.h"
 #include "tests/devices/played_bag.h"
+#include "tests/realtime/listening.h"
 
 #include <doctest/doctest.h>
 
@@ -191,4 +193,28 @@ TEST_CASE("Colour in a format that is not read is named as such") {
         folder.write("rgb/0.png", text);
         lineSays(recordingRefusal(folder.path()), "rgb/0.png: " + std::string(fault));
     }
+}
+
+TEST_CASE("Poses in a file that is not read are named, and those that are read are not") {
+    for (const auto& [name, advice] : {std::pair("groundtruth.txt", "copy it to poses.txt"),
+                                       {"trajectory.log", "needs poses.txt beside"},
+                                       {"transforms.json", "needs poses.txt"},
+                                       {"pose/0.txt", "pose is not read"},
+                                       {"Camera_Poses.csv", "Camera_Poses.csv is not read"}}) {
+        const TemporaryFolder folder;
+        folder.write("objects.txt", "");
+        CHECK(unreadPoses(folder.path()) == "");
+        folder.write(name, "");
+        lineSays(unreadPoses(folder.path()), advice);
+        lineSays(unreadPoses(folder.path()), "the camera counts as fixed");
+    }
+    const TemporaryFolder folder;
+    writeSmallRecording(folder, 1);
+    folder.write("groundtruth.txt", "0 0 0 0 0 0 0 1\n");
+    const testing::Listening log;
+    RecordedCamera(folder.path()).next();
+    CHECK(log.count("groundtruth.txt is not read") == 1);
+    folder.write("poses.txt", "0 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n");
+    RecordedCamera(folder.path()).next();
+    CHECK(log.count("is not read") == 1);
 }

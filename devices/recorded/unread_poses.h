@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// Poses of a recording folder in files that are not read.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace fathom {
+
+// For a folder whose camera counts as fixed: the file or folder in it that holds poses by its name
+// ("groundtruth.txt", "trajectory.log", "transforms.json", "pose/"), with what to do; empty = none.
+std::string unreadPoses(const std::filesystem::path& folder);
+
+} // namespace fathom
