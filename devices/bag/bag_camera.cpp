@@ -156,7 +156,11 @@ std::string BagCamera::changed(uint64_t time) {
     const auto lensFault = [](const ImageStream& stream) {
         return [&stream](const MessageCursor& message) -> std::string {
             const ros::CameraInfo info = ros::cameraInfo(message);
-            const Intrinsics& now = info.lens(stream.rectified);
+            Intrinsics now = info.lens(stream.rectified);
+            if (stream.unsized) {
+                now.width = stream.lens->width;
+                now.height = stream.lens->height;
+            }
             return sameLens(now, *stream.lens)
                        ? ""
                        : "the lens of " + stream.name + " changes from fx " +

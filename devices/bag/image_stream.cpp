@@ -56,8 +56,23 @@ std::string firstUsable(const MessageTopic& topic, Use&& use) {
     return first;
 }
 
+// Of a camera_info that states no size: that of the images, if the lens looks through their middle.
+void takeImageSize(Intrinsics& lens, const ImageStream& stream) {
+    constexpr double kMostOff =
+        0.15; // of the principal point from the middle, in widths; 0.25 at half the size
+    const double w = stream.width, h = stream.height;
+    if (std::abs(lens.cx - 0.5 * w) <= kMostOff * w && std::abs(lens.cy - 0.5 * h) <= kMostOff * h) {
+        lens.width = stream.width;
+        lens.height = stream.height;
+    }
+}
+
 // Why the lens is none of these images; empty = it is.
 std::string whyNotLens(const Intrinsics& lens, const ImageStream& stream) {
+    if (lens.width == 0 && lens.height == 0) {
+        return "it states no size, and its principal point is not in the middle of images of " +
+               streamSize(stream.width, stream.height) + " (allowed: width and height of the images)";
+    }
     if (lens.width < 1 || lens.height < 1 || lens.width > kMaxImageWidth || lens.height > kMaxImageHeight) {
         return streamSize(lens.width, lens.height) + " (allowed: at most 3840x2160 pixels)";
     }
@@ -76,7 +91,12 @@ void readLens(MessageFile& file, const std::string& asked, ImageStream& stream) 
         return;
     }
     const std::string fault = firstUsable(*topic, [&](size_t index) {
-        const ros::CameraInfo info = ros::cameraInfo(file.read(*topic, index));
+        ros::CameraInfo info = ros::cameraInfo(file.read(*topic, index));
+        const bool sized = info.rectified.width != 0 || info.rectified.height != 0;
+        if (!sized) {
+            takeImageSize(info.raw, stream);
+            takeImageSize(info.rectified, stream);
+        }
         const Intrinsics lens = info.lens(namedRectified(stream.name));
         const std::string why = whyNotLens(lens, stream);
         if (why.empty()) {
@@ -85,6 +105,7 @@ void readLens(MessageFile& file, const std::string& asked, ImageStream& stream) 
             stream.raw = info.raw;
             stream.rectified = namedRectified(stream.name);
             stream.turned = info.turned;
+            stream.unsized = !sized;
         }
         return why;
     });

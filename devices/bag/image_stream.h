@@ -26,7 +26,8 @@ struct ImageStream {
     Intrinsics raw;
     std::optional<size_t> info; // topic of the lens, in MessageFile::topics()
     bool rectified = false, turned = false;
-    std::string noLens; // why there is no lens
+    bool unsized = false; // the lens states no size: that of the images is taken
+    std::string noLens;   // why there is no lens
 };
 
 // Depth by its encoding, and not said to be something else by its name. mono16 is also what grey cameras of

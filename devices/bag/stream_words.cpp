@@ -11,6 +11,13 @@ std::string StreamChooser::describe(const StreamChoice& choice) const {
     std::string said = "depth " + named(choice.depth);
     said += choice.colour ? ", colour " + named(*choice.colour) : ", no colour";
     said += !choice.colour ? "" : (choice.camera.registered ? ", registered" : ", by extrinsics");
+    for (const ImageStream* stream : {&choice.depth, choice.colour ? &*choice.colour : nullptr}) {
+        if (stream != nullptr && stream->unsized && options_.intrinsics.empty()) {
+            said += ", " + file_.topics()[*stream->info].name +
+                    " without width and height (taken: " + std::to_string(stream->width) + "x" +
+                    std::to_string(stream->height) + ")";
+        }
+    }
     std::string rest;
     for (const ImageStream& stream : streams_) {
         if (stream.topic != choice.depth.topic && (!choice.colour || stream.topic != choice.colour->topic)) {

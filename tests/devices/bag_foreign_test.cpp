@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bags as bridges, scripts and crashed recorders leave them: lenses without size, bytes behind the end.
+#include "tests/devices/played_bag.h"
+
+using namespace fathom;
+using namespace fathom::test;
+
+TEST_CASE(
+    "A lens without width and height counts for the size of its images if it looks through their middle") {
+    const TemporaryFolder folder;
+    for (const uint32_t binning : {0u, 2u}) {
+        InfoMessage info{.width = 0, .height = 0, .binning = binning};
+        if (binning == 2) {
+            info.k = {14.0, 14.0, 7.0, 5.0};
+        }
+        BagMaker maker;
+        addStream(maker, "/c/depth", depthImage(500), info);
+        addStream(maker, "/c/rgb", redImage(), info);
+        BagCamera camera = playStreams(folder, maker);
+        CHECK(camera.info().depth.width == 8);
+        CHECK(camera.info().depth.height == 6);
+        CHECK(camera.info().depth.fx == 7.0);
+        CHECK(camera.info().registered);
+        lineSays(camera.streams(), "/c/camera_info without width and height (taken: 8x6)");
+        for (int frame = 0; frame < 3; ++frame) {
+            CHECK(firstDepth(camera) == 0.5);
+        }
+        CHECK(camera.skipped() == 0);
+    }
+    BagMaker ofOtherSize;
+    addStream(ofOtherSize, "/c/depth", depthImage(500),
+              {.width = 0, .height = 0, .k = {14.0, 14.0, 7.0, 5.0}});
+    lineSays(streamRefusal(folder, ofOtherSize),
+             "it states no size, and its principal point is not in the middle of images of 8x6");
+}
