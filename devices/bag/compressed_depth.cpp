@@ -79,12 +79,34 @@ bool unpackRvl(std::span<const uint8_t> in, std::span<uint16_t> out) {
     return true;
 }
 
+bool CompressedDepth::holdsPng() const {
+    return data.size() > kDepthHead && pngHead(data.subspan(kDepthHead)).has_value();
+}
+
+std::array<float, 2> CompressedDepth::quantum() const {
+    std::array<float, 2> quantum{};
+    if (rvl || holdsPng()) {
+        std::memcpy(quantum.data(), data.data() + 4, sizeof quantum);
+    }
+    return quantum;
+}
+
+// q (q + 1) and 1 - q (q + 1) / farthest, with a quantum q of 1 and more.
+bool CompressedDepth::quantised() const {
+    const auto [factor, offset] = quantum();
+    return factor >= 1.0f && factor < 1e9f && offset < 1.0f && offset > -1e9f && offset != 0.0f;
+}
+
+std::span<const uint8_t> CompressedDepth::png() const {
+    return holdsPng() ? data.subspan(kDepthHead) : data;
+}
+
 std::optional<std::pair<uint32_t, uint32_t>> CompressedDepth::size() const {
     if (data.size() < kDepthHead + kRvlHead) {
         return std::nullopt;
     }
     if (!rvl) {
-        const auto head = pngHead(data.subspan(kDepthHead));
+        const auto head = pngHead(png());
         return head ? std::optional(std::pair(head->size.width, head->size.height)) : std::nullopt;
     }
     uint32_t words[2];
@@ -97,18 +119,17 @@ std::string CompressedDepth::values(uint32_t width, uint32_t height, std::span<u
         return "a compressed depth image of another size, or without a head";
     }
     if (!rvl) {
-        return readDepthPng(data.subspan(kDepthHead), {width, height}, out);
+        return readDepthPng(png(), {width, height}, out);
     }
     return unpackRvl(data.subspan(kDepthHead + kRvlHead), out.first(size_t{width} * height)) ? ""
                                                                                              : "RVL: damaged";
 }
 
 double CompressedDepth::metres(uint16_t stored) const {
-    float quantum[2]; // stored = quantum[0] / metres + quantum[1]
-    std::memcpy(quantum, data.data() + 4, sizeof quantum);
-    const double inverse = static_cast<double>(stored) - double{quantum[1]};
-    const bool sound = inverse > 0.0 && quantum[0] > 0.0f && std::isfinite(quantum[0]);
-    return stored == 0 || !sound ? 0.0 : double{quantum[0]} / inverse;
+    const auto [factor, offset] = quantum();
+    const double inverse = static_cast<double>(stored) - double{offset};
+    const bool sound = inverse > 0.0 && factor > 0.0f && std::isfinite(factor);
+    return stored == 0 || !sound ? 0.0 : double{factor} / inverse;
 }
 
 } // namespace fathom

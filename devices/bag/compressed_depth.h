@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Depth images as compressed_depth_image_transport publishes them: PNG or RVL behind a head of 12 bytes.
+// Depth images as compressed_depth_image_transport publishes them: PNG or RVL behind a head of 12 bytes. Some
+// bridges send the PNG without that head.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -19,6 +21,11 @@ struct CompressedDepth {
     std::span<const uint8_t> data;
     bool rvl = false;
 
+    // Whether a PNG lies behind the head.
+    bool holdsPng() const;
+    // Whether the head quantises inverse depth, as that of a 32FC1 image does. Heads of 16UC1 images hold no
+    // numbers there.
+    bool quantised() const;
     // Width and height; empty without a readable head.
     std::optional<std::pair<uint32_t, uint32_t>> size() const;
     // The values as stored: raw units of a 16UC1 image, inverse depth of a 32FC1 image. Returns the fault, or
@@ -26,6 +33,12 @@ struct CompressedDepth {
     std::string values(uint32_t width, uint32_t height, std::span<uint16_t> out) const;
     // Metres of a stored value of a 32FC1 image; 0 = no measurement.
     double metres(uint16_t stored) const;
+
+private:
+    // stored = quantum[0] / metres + quantum[1]; zeros without the head.
+    std::array<float, 2> quantum() const;
+    // The bytes of the PNG, behind the head or without one.
+    std::span<const uint8_t> png() const;
 };
 
 } // namespace fathom

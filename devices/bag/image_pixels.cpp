@@ -25,12 +25,13 @@ std::string depthEncoding(const std::string& encoding) {
     return known == kDepth.end() ? "" : *known;
 }
 
-bool isCompressedDepth(const Image& image) {
-    return image.format.find("compressedDepth") != std::string::npos;
-}
-
 CompressedDepth packed(const Image& image) {
     return {image.data, image.format.find("rvl") != std::string::npos};
+}
+
+// By its format, or by its content where a bridge states only "png".
+bool isCompressedDepth(const Image& image) {
+    return image.format.find("compressedDepth") != std::string::npos || packed(image).holdsPng();
 }
 
 std::string checkBytes(const Image& image, size_t row) {
@@ -58,6 +59,9 @@ std::string compressedDepthRows(const Image& image, double metresPerUnit, std::s
         return readDepthPng(image.data, {size->first, size->second}, out);
     }
     const CompressedDepth depth = packed(image);
+    if (holdsMetres(image) && !depth.rvl && !depth.holdsPng()) {
+        return "a compressed image of 32FC1 without the head that holds its scale";
+    }
     const std::string fault = depth.values(size->first, size->second, out);
     if (!fault.empty() || !holdsMetres(image)) {
         return fault;
@@ -105,8 +109,12 @@ std::optional<std::pair<uint32_t, uint32_t>> sizeOf(const Image& image) {
     return jpeg ? std::optional(std::pair(jpeg->width, jpeg->height)) : std::nullopt;
 }
 
+// A format without encoding leaves that to the head of the compressed image.
 bool holdsMetres(const Image& image) {
-    return depthEncoding(image.encoding) == "32FC1" && (!image.compressed || isCompressedDepth(image));
+    const std::string encoding = depthEncoding(image.encoding);
+    return encoding == "32FC1" ? !image.compressed || isCompressedDepth(image)
+                               : encoding.empty() && image.compressed && isCompressedDepth(image) &&
+                                     packed(image).quantised();
 }
 
 std::string depthRows(const Image& image, double metresPerUnit, std::span<uint16_t> out, uint64_t& beyond) {

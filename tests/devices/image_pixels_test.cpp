@@ -230,6 +230,24 @@ TEST_CASE("Compressed depth as PNG and RVL gives the same values as plain depth"
     CHECK_FALSE(ros::depthRows(packedImage("16UC1; compressedDepth rvl", cut), 0.001, out, beyond).empty());
 }
 
+TEST_CASE("Compressed depth is recognised without its format, and without its head") {
+    const TemporaryFolder folder;
+    const std::string png = pngOf(folder, true, 3124), plain(12, '\0'),
+                      quantised = raw(uint32_t{1}) + raw(10100.0f) + raw(-1009.0f);
+    CHECK(depthsOf(packedImage("png", plain + png))[kCentre] == 3124);
+    CHECK(depthsOf(packedImage("16UC1; compressedDepth png", png))[kCentre] == 3124);
+    CHECK(depthsOf(packedImage("16UC1; compressedDepth png", quantised + png))[kCentre] == 3124);
+    const std::string metres = pngOf(folder, true, 19191); // 10100 / 0.5 - 1009
+    CHECK(ros::holdsMetres(packedImage("png", quantised + metres)));
+    CHECK(depthsOf(packedImage("png", quantised + metres))[kCentre] == 5000);
+    std::vector<uint16_t> out(kAcross * kDown);
+    uint64_t beyond = 0;
+    const std::string fault =
+        ros::depthRows(packedImage("32FC1; compressedDepth png", png), 0.001, out, beyond);
+    CHECK(fault.find("without the head") != std::string::npos);
+    CHECK(ros::content(packedImage("png", pngOf(folder, false, 0))) == ros::Content::Colour);
+}
+
 TEST_CASE("Compressed depth of metres is inverse depth with its two factors") {
     const TemporaryFolder folder;
     // stored = A / z + B
