@@ -68,7 +68,8 @@ public:
         if (setjmp(png_jmpbuf(png_)) != 0) {
             return false;
         }
-        png_set_expand(png_); // palette -> RGB, grey of 1, 2, 4 bits -> 8, transparent colour -> alpha
+        png_set_scale_16(png_); // 16 bits -> the nearest level of 8
+        png_set_expand(png_);   // palette -> RGB, grey of 1, 2, 4 bits -> 8, transparent colour -> alpha
         png_set_gray_to_rgb(png_);
         png_set_add_alpha(png_, 0xff, PNG_FILLER_AFTER);
         return readRows(rows, sizeof(uint32_t));
@@ -131,18 +132,15 @@ std::string words(PngSize size) {
 }
 
 // Returns why the image does not match the request; empty = it matches.
-std::string checkHead(const PngReader& png, PngSize size, int bits) {
+std::string checkHead(const PngReader& png, PngSize size) {
     if (!png.fault().empty()) {
         return png.fault();
     }
-    if (png.size() != size) {
-        return words(png.size()) + " pixels, not " + words(size);
-    }
-    return png.bits() > bits ? std::to_string(png.bits()) + " bits a channel, not 8" : "";
+    return png.size() == size ? "" : words(png.size()) + " pixels, not " + words(size);
 }
 
 std::string readDepth(PngReader& png, PngSize size, std::span<uint16_t> target) {
-    if (std::string fault = checkHead(png, size, 16); !fault.empty()) {
+    if (std::string fault = checkHead(png, size); !fault.empty()) {
         return fault;
     }
     if (png.bits() != 16 || png.kind() != PNG_COLOR_TYPE_GRAY) {
@@ -154,7 +152,7 @@ std::string readDepth(PngReader& png, PngSize size, std::span<uint16_t> target) 
 }
 
 std::string readColour(PngReader& png, PngSize size, std::span<uint32_t> target) {
-    if (std::string fault = checkHead(png, size, 8); !fault.empty()) {
+    if (std::string fault = checkHead(png, size); !fault.empty()) {
         return fault;
     }
     std::vector<png_bytep> rows = rowPointers(size, target);

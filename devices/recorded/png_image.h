@@ -25,8 +25,8 @@ std::optional<PngSize> readPngSize(const std::filesystem::path& file);
 std::string readDepthPng(const std::filesystem::path& file, PngSize size,
                          std::span<uint16_t> target); // 16-bit grey
 std::string readDepthPng(std::span<const uint8_t> bytes, PngSize size, std::span<uint16_t> target);
-// 8-bit RGB, RGBA, grey (with or without alpha) or palette -> R8 G8 B8 A8 (0xAABBGGRR); alpha 255 when the
-// file has none.
+// RGB, RGBA, grey (with or without alpha) of 8 or 16 bits, or palette -> R8 G8 B8 A8 (0xAABBGGRR); alpha 255
+// when the file has none.
 std::string readColourPng(const std::filesystem::path& file, PngSize size, std::span<uint32_t> target);
 std::string readColourPng(std::span<const uint8_t> bytes, PngSize size, std::span<uint32_t> target);
 

@@ -106,8 +106,6 @@ TEST_CASE("An image of another size or pixel type skips only its frame") {
                        [&](const auto& f) { writePng(f.path() / "depth/1.png", 7, 5, 8, 0, grey8); });
     checkSkipsFrameOne("RGB depth",
                        [&](const auto& f) { writePng(f.path() / "depth/1.png", 7, 5, 16, 2, rgb16); });
-    checkSkipsFrameOne("16-bit colour",
-                       [&](const auto& f) { writePng(f.path() / "rgb/1.png", 7, 5, 16, 2, rgb16); });
 }
 
 TEST_CASE("A malformed line, an invalid stamp or one that goes back skips only its frame") {
@@ -157,6 +155,20 @@ TEST_CASE("colour is read from grey, palette, alpha and interlaced frames") {
     CHECK(frames[3]->colour[9] == 0xff000000);
     CHECK(frames[4]->colour[33] == 0x803c3221);
     CHECK(camera.skipped() == 0);
+}
+
+TEST_CASE("Colour of 16 bits per channel becomes the nearest level of 8 bits") {
+    const TemporaryFolder folder;
+    writeSmallRecording(folder, 2);
+    std::vector<uint8_t> rgb16;
+    for (uint8_t i = 0; i < 35; ++i) { // 0xc800 is nearer to 0xc7 * 257 than to 0xc8 * 257
+        rgb16.insert(rgb16.end(), {i, i, 0xc8, 0xc8, 0xc8, 0});
+    }
+    writePng(folder / "rgb/0.png", 7, 5, 16, 2, rgb16);
+    writePng(folder / "rgb/1.png", 7, 5, 16, 0, std::vector<uint8_t>(70, 77));
+    RecordedCamera camera(folder.path());
+    CHECK((*camera.next())->colour[33] == 0xffc7c821);
+    CHECK((*camera.next())->colour[9] == 0xff4d4d4d);
 }
 
 TEST_CASE("A lease owns its page-aligned memory until it ends, on any thread") {
