@@ -3,6 +3,7 @@
 
 #include "devices/bag/image_stream.h"
 #include "devices/images/metre_units.h"
+#include "devices/pcd/colour_fields.h"
 #include "engine/types/error.h"
 
 #include <algorithm>
@@ -99,7 +100,8 @@ void CloudCamera::chooseTopic() {
         try {
             const ros::Cloud first = ros::cloud(file_->read(topic, 0));
             why = ros::whyNoDepth(first);
-            rank += first.find("rgb") != nullptr || first.find("rgba") != nullptr ? 1 : 0;
+            const std::vector<PcdField> fields = first.insideFields();
+            rank += ColourFields(fields) ? 1 : 0;
         } catch (const Error& e) {
             why = e.what();
         }
@@ -125,6 +127,7 @@ std::string CloudCamera::fit(const ros::Cloud& message, const PcdCloud& cloud) {
     fit_ = fitLens(cloud);
     frame_ = message.frame;
     info_.hasColour = !cloud.colour.empty() && options_.colour != "none";
+    uncoloured_ = cloud.colour.empty() ? cloud.uncoloured : uncoloured_;
     return fit_.residual <= mostOff(fit_.lens) ? ""
                                                : "points of frame '" + message.frame +
                                                      "' deviate from the rays of a pinhole and of a fan by " +
@@ -140,7 +143,7 @@ void CloudCamera::learnLens() {
             if (const std::string why = ros::whyNoDepth(message); !why.empty()) {
                 throw Error(why);
             }
-            const PcdCloud cloud = ros::pointsOf(message);
+            const PcdCloud cloud = ros::pointsOf(message, largestLevel_);
             fault = fault.empty() ? "" : fit(message, cloud);
             for (const dvec3& point : cloud.points) {
                 const dvec3 p = metresPerValue_ * (fit_.opticalTcloud * point);
@@ -173,9 +176,9 @@ std::string CloudCamera::read(size_t index, FrameSlot& slot, double, Frame::Cont
     if (const std::string why = ros::whyNoDepth(message); !why.empty()) {
         return why;
     }
-    const PcdCloud cloud = ros::pointsOf(message);
+    const PcdCloud cloud = ros::pointsOf(message, largestLevel_);
     if (info_.hasColour && cloud.colour.empty()) {
-        return "no field rgb";
+        return cloud.uncoloured;
     }
     if (const double off = deviation(cloud, fit_); off > mostOff(info_.depth)) {
         return "its points deviate from the lens of the first cloud by " + std::to_string(off) + " pixels";

@@ -22,7 +22,7 @@ public:
     std::string description() const override { return "clouds of " + file_->file().string(); }
     std::string streams() const override { return said_; }
     std::string streamOptions() const override { return ",depth=" + topic().name; }
-    std::string whyNoColour() const override { return info_.hasColour ? "" : "the clouds have no field rgb"; }
+    std::string whyNoColour() const override { return info_.hasColour ? "" : uncoloured_; }
 
 private:
     [[noreturn]] void refuse(const std::string& field, const std::string& value,
@@ -39,8 +39,10 @@ private:
     std::string said_;
     CameraInfo info_;
     FittedLens fit_;
-    std::string frame_; // of the cloud with that lens
+    std::string frame_;                                 // of the cloud with that lens
+    std::string uncoloured_ = "no colour is asked for"; // why there is none
     double metresPerValue_ = 1.0;
+    double largestLevel_ = 0.0; // of colours (ColourFields::read())
 };
 
 } // namespace fathom

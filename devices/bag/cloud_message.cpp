@@ -1,48 +1,44 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/bag/cloud_message.h"
 
+#include "devices/pcd/colour_fields.h"
 #include "devices/recorded/recording_intrinsics.h"
 
 #include <algorithm>
-#include <array>
-#include <bit>
-#include <cstring>
+#include <string_view>
 
 namespace fathom::ros {
 
 namespace {
 
 constexpr uint32_t kMaxFields = 64;
-constexpr uint8_t kFloat32 = 7;
 
-bool fourBytes(const Cloud::Field& field) {
-    return field.type >= 5 && field.type <= 7; // int32, uint32, float32
-}
-
-const Cloud::Field* colourField(const Cloud& cloud) {
-    const Cloud::Field* field = cloud.find("rgb");
-    field = field != nullptr ? field : cloud.find("rgba");
-    return field != nullptr && fourBytes(*field) && field->offset + uint64_t{4} <= cloud.pointStep ? field
-                                                                                                   : nullptr;
-}
-
-double coordinate(const uint8_t* point, uint32_t offset, bool bigEndian) {
-    uint32_t bits = 0;
-    std::memcpy(&bits, point + offset, sizeof bits);
-    return double{std::bit_cast<float>(bigEndian ? __builtin_bswap32(bits) : bits)};
+// By the constants INT8 to FLOAT64 of sensor_msgs/PointField, from 1 on.
+void takeType(PcdField& field, uint8_t type) {
+    constexpr std::string_view kTypes = "IUIUIUFF", kSizes = "11224448";
+    const bool known = type >= 1 && type <= kTypes.size();
+    field.type = known ? kTypes[type - 1] : '?';
+    field.size = known ? kSizes[type - 1] - size_t{'0'} : 0;
 }
 
 } // namespace
 
-const Cloud::Field* Cloud::find(const std::string& name) const {
-    const auto found =
-        std::find_if(fields.begin(), fields.end(), [&](const Field& field) { return field.name == name; });
+const PcdField* Cloud::find(const std::string& name) const {
+    const auto found = std::ranges::find(fields, name, &PcdField::name);
     return found == fields.end() ? nullptr : &*found;
+}
+
+std::vector<PcdField> Cloud::insideFields() const {
+    std::vector<PcdField> inside = fields;
+    std::erase_if(inside, [&](const PcdField& f) {
+        return f.offset + std::max<size_t>(1, f.count) * f.size > pointStep;
+    });
+    return inside;
 }
 
 std::string Cloud::words() const {
     std::string text = std::to_string(width) + "x" + std::to_string(height) + " points of";
-    for (const Field& field : fields) {
+    for (const PcdField& field : fields) {
         text += ' ';
         text += field.name.substr(0, 40);
     }
@@ -64,10 +60,10 @@ Cloud cloud(MessageCursor cursor) {
         throw Error("a cloud with " + std::to_string(count) + " fields (allowed: at most 64)");
     }
     for (uint32_t i = 0; i < count; ++i) {
-        Cloud::Field field;
+        PcdField field;
         field.name = cursor.name();
         field.offset = cursor.word();
-        field.type = cursor.value<uint8_t>();
+        takeType(field, cursor.value<uint8_t>());
         field.count = cursor.word();
         out.fields.push_back(std::move(field));
     }
@@ -91,10 +87,14 @@ std::string whyNoDepth(const Cloud& cloud) {
                " points (allowed: at most 3840x2160)";
     }
     for (const char* name : {"x", "y", "z"}) {
-        const Cloud::Field* field = cloud.find(name);
-        if (field == nullptr || field->type != kFloat32 || field->offset + uint64_t{4} > cloud.pointStep) {
-            return std::string("field ") + name + (field == nullptr ? ": missing" : ": not float32") +
-                   " (allowed: x, y and z of type float32)";
+        const PcdField* field = cloud.find(name);
+        const bool real = field != nullptr && field->type == 'F';
+        if (!real || field->offset + field->size > cloud.pointStep) {
+            return std::string("field ") + name +
+                   (field == nullptr ? ": missing"
+                    : real           ? ": beyond the bytes of a point"
+                                     : ": not floating point") +
+                   " (allowed: x, y and z of type float32 or float64)";
         }
     }
     const uint64_t row = uint64_t{cloud.pointStep} * cloud.width;
@@ -106,28 +106,22 @@ std::string whyNoDepth(const Cloud& cloud) {
     return "";
 }
 
-PcdCloud pointsOf(const Cloud& cloud) {
-    PcdCloud out{cloud.width, cloud.height, {}, {}, {}};
-    const uint32_t x = cloud.find("x")->offset, y = cloud.find("y")->offset, z = cloud.find("z")->offset;
-    const Cloud::Field* colour = colourField(cloud);
-    const size_t count = size_t{cloud.width} * cloud.height;
-    out.points.reserve(count);
-    out.colour.reserve(colour != nullptr ? count : 0);
+PcdCloud pointsOf(const Cloud& cloud, double& largest) {
+    PcdCloud out{cloud.width, cloud.height, {}, {}, {}, {}};
+    const PcdField *x = cloud.find("x"), *y = cloud.find("y"), *z = cloud.find("z");
+    out.points.reserve(size_t{cloud.width} * cloud.height);
     for (uint32_t v = 0; v < cloud.height; ++v) {
         const uint8_t* point = cloud.data.data() + size_t{v} * cloud.rowStep;
         for (uint32_t u = 0; u < cloud.width; ++u, point += cloud.pointStep) {
-            out.points.push_back({coordinate(point, x, cloud.bigEndian),
-                                  coordinate(point, y, cloud.bigEndian),
-                                  coordinate(point, z, cloud.bigEndian)});
-            if (colour != nullptr) {
-                const uint8_t* c = point + colour->offset;
-                const std::array<uint8_t, 3> rgb =
-                    cloud.bigEndian ? std::array{c[1], c[2], c[3]} : std::array{c[2], c[1], c[0]};
-                out.colour.push_back(0xff000000u | uint32_t{rgb[2]} << 16 | uint32_t{rgb[1]} << 8 |
-                                     uint32_t{rgb[0]});
-            }
+            const auto at = [&](const PcdField& field) { return field.at(point, 0, cloud.bigEndian); };
+            out.points.push_back({at(*x), at(*y), at(*z)});
         }
     }
+    const std::vector<PcdField> fields = cloud.insideFields();
+    out.colour = ColourFields(fields).read(
+        {cloud.data.data(), cloud.width, cloud.height, cloud.pointStep, cloud.rowStep, cloud.bigEndian},
+        largest);
+    out.uncoloured = out.colour.empty() ? whyUncoloured(cloud.fields) : "";
     return out;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "devices/bag/message_cursor.h"
+#include "devices/pcd/pcd_field.h"
 #include "devices/pcd/pcd_file.h"
 
 #include <string>
@@ -15,20 +16,16 @@ inline constexpr const char* kCloudType = "sensor_msgs/PointCloud2";
 
 // A view into the message, whose memory it keeps.
 struct Cloud {
-    // One value of each point, for example x.
-    struct Field {
-        std::string name;
-        uint32_t offset = 0, count = 0; // [bytes] in a point, values
-        uint8_t type = 0;               // of sensor_msgs/PointField
-    };
     std::string frame;
     uint32_t width = 0, height = 0, pointStep = 0, rowStep = 0; // points, [bytes]
     bool bigEndian = false;
-    std::vector<Field> fields;
+    std::vector<PcdField> fields; // of unknown types: size 0
     std::span<const uint8_t> data;
     std::shared_ptr<const void> memory; // as MessageCursor::memory()
 
-    const Field* find(const std::string& name) const;
+    const PcdField* find(const std::string& name) const;
+    // Those that lie inside of a point.
+    std::vector<PcdField> insideFields() const;
     // "640x480 points of x y z rgb, frame 'camera'".
     std::string words() const;
 };
@@ -37,10 +34,10 @@ struct Cloud {
 Cloud cloud(MessageCursor message);
 
 // Why it is not played, with what is allowed; empty = it can be: 2 to 3840 columns, 2 to 2160 rows, x, y and
-// z as float32 that lie inside of the points, all points inside of the data.
+// z as float32 or float64 that lie inside of the points, all points inside of the data.
 std::string whyNoDepth(const Cloud& cloud);
-// The points in row-major order, with colour from the field rgb or rgba (four bytes, 0xAARRGGBB). Only where
-// whyNoDepth() is empty.
-PcdCloud pointsOf(const Cloud& cloud);
+// The points in row-major order, with colour from the fields that ColourFields finds. largest: as for
+// ColourFields::read(). Only where whyNoDepth() is empty.
+PcdCloud pointsOf(const Cloud& cloud, double& largest);
 
 } // namespace fathom::ros

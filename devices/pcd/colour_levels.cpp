@@ -17,8 +17,8 @@ double levelsPerValue(double largest, bool real) {
 
 } // namespace
 
-std::vector<uint32_t> packColours(std::span<const std::array<double, 3>> colours, bool real) {
-    double largest = 0.0;
+std::vector<uint32_t> packColours(std::span<const std::array<double, 3>> colours, bool real,
+                                  double& largest) {
     for (const auto& colour : colours) {
         for (const double value : colour) {
             largest = std::max(largest, value);

@@ -190,6 +190,11 @@ std::vector<std::string> PcdCamera::warnings() const {
     return doubt_.empty() ? std::vector<std::string>() : std::vector<std::string>{doubt_};
 }
 
+std::string PcdCamera::whyNoColour() const {
+    const std::string why = Camera::whyNoColour();
+    return why.empty() || cloud_.uncoloured.empty() ? why : cloud_.uncoloured;
+}
+
 std::optional<Frame> PcdCamera::next() {
     if (done_) {
         return std::nullopt;

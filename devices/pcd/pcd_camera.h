@@ -39,6 +39,7 @@ public:
     std::optional<Frame> next() override;
     uint32_t skipped() const override { return 0; }
     std::vector<std::string> warnings() const override;
+    std::string whyNoColour() const override;
     std::string description() const override { return "cloud " + file_.string(); }
 
 private:

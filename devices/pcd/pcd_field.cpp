@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/pcd/pcd_field.h"
 
+#include <algorithm>
+#include <array>
 #include <cstring>
 
 namespace fathom {
@@ -20,8 +22,13 @@ bool PcdField::isNumber() const {
     return type == 'F' ? size == 4 || size == 8 : size == 1 || size == 2 || size == 4;
 }
 
-double PcdField::at(const uint8_t* point, size_t value) const {
+double PcdField::at(const uint8_t* point, size_t value, bool bigEndian) const {
     const uint8_t* from = point + offset + value * size;
+    std::array<uint8_t, 8> swapped;
+    if (bigEndian) {
+        std::reverse_copy(from, from + size, swapped.begin());
+        from = swapped.data();
+    }
     if (type == 'F') {
         return size == 8 ? valueAs<double>(from) : valueAs<float>(from);
     }

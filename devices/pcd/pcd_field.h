@@ -17,7 +17,7 @@ struct PcdField {
     // Whether at() can read it: F of 4 or 8 bytes, others of 1, 2 or 4.
     bool isNumber() const;
     // One of its `count` values. point: the first byte of a point that has the whole field.
-    double at(const uint8_t* point, size_t value = 0) const;
+    double at(const uint8_t* point, size_t value = 0, bool bigEndian = false) const;
 };
 
 } // namespace fathom

@@ -2,7 +2,7 @@
 #include "devices/pcd/pcd_file.h"
 
 #include "devices/pcd/ascii_value.h"
-#include "devices/pcd/colour_levels.h"
+#include "devices/pcd/colour_fields.h"
 #include "devices/pcd/pcd_field.h"
 #include "engine/types/error.h"
 #include "engine/types/read_file.h"
@@ -201,50 +201,6 @@ const PcdField* find(const Header& header, const char* name) {
     return it == header.fields.end() ? nullptr : &*it;
 }
 
-const PcdField* packedOrTriple(const Header& header) {
-    const PcdField* rgb = find(header, "rgb");
-    return rgb != nullptr ? rgb : find(header, "rgba");
-}
-
-// A red, green or blue value.
-struct Level {
-    const PcdField* field = nullptr;
-    size_t value = 0; // of its COUNT
-};
-
-// Three values of one field, or fields of one colour each; without fields: none.
-std::array<Level, 3> colourLevels(const Header& header) {
-    if (const PcdField* triple = packedOrTriple(header); triple != nullptr && triple->count >= 3) {
-        return {Level{triple, 0}, Level{triple, 1}, Level{triple, 2}};
-    }
-    std::array<Level, 3> levels{};
-    const char* const kNames[2][3] = {{"r", "g", "b"}, {"red", "green", "blue"}};
-    for (const auto& names : kNames) {
-        for (size_t i = 0; i < 3; ++i) {
-            levels[i].field = levels[i].field != nullptr ? levels[i].field : find(header, names[i]);
-        }
-    }
-    return levels;
-}
-
-std::vector<uint32_t> separateColours(const Header& header, const std::vector<uint8_t>& bytes) {
-    const std::array<Level, 3> levels = colourLevels(header);
-    bool real = false;
-    for (const Level& level : levels) {
-        if (level.field == nullptr || !level.field->isNumber()) {
-            return {};
-        }
-        real = real || level.field->type == 'F';
-    }
-    std::vector<std::array<double, 3>> colours(size_t{header.width} * header.height);
-    for (size_t i = 0; i < colours.size(); ++i) {
-        for (size_t c = 0; c < 3; ++c) {
-            colours[i][c] = levels[c].field->at(bytes.data() + i * header.bytes, levels[c].value);
-        }
-    }
-    return packColours(colours, real);
-}
-
 } // namespace
 
 PcdCloud readPcd(const std::filesystem::path& file) {
@@ -252,7 +208,6 @@ PcdCloud readPcd(const std::filesystem::path& file) {
     Source source{file.string(), {text.begin(), text.end()}, 0};
     const Header header = readHeader(source);
     const PcdField *x = find(header, "x"), *y = find(header, "y"), *z = find(header, "z");
-    const PcdField* colour = packedOrTriple(header);
     const PcdField* intensity = find(header, "intensity");
     for (const PcdField* field : {x, y, z}) {
         if (field == nullptr || field->type != 'F' || !field->isNumber()) {
@@ -261,22 +216,19 @@ PcdCloud readPcd(const std::filesystem::path& file) {
         }
     }
     const std::vector<uint8_t> bytes = readPoints(source, header);
-    PcdCloud cloud{header.width, header.height, {}, {}, {}};
+    PcdCloud cloud{header.width, header.height, {}, {}, {}, {}};
     for (size_t i = 0; i < size_t{header.width} * header.height; ++i) {
         const uint8_t* point = bytes.data() + i * header.bytes;
         cloud.points.push_back({x->at(point), y->at(point), z->at(point)});
-        if (colour != nullptr && colour->size == 4 &&
-            colour->count == 1) { // 0xAARRGGBB in an integer or in a float's bits
-            const uint8_t* c = point + colour->offset;
-            cloud.colour.push_back(uint32_t{c[2]} | uint32_t{c[1]} << 8 | uint32_t{c[0]} << 16 | 0xff000000u);
-        }
         if (intensity != nullptr && intensity->isNumber()) {
             cloud.intensity.push_back(static_cast<float>(intensity->at(point)));
         }
     }
-    if (cloud.colour.empty()) {
-        cloud.colour = separateColours(header, bytes);
-    }
+    const size_t row = header.bytes * header.width;
+    double largest = 0.0;
+    cloud.colour = ColourFields(header.fields)
+                       .read({bytes.data(), header.width, header.height, header.bytes, row}, largest);
+    cloud.uncoloured = cloud.colour.empty() ? whyUncoloured(header.fields) : "";
     return cloud;
 }
 

@@ -93,7 +93,8 @@ private:
                 intensity_.push_back(static_cast<float>(record[places.intensity]));
             }
         }
-        colours_ = packColours(colours, places.real);
+        double largest = 0.0;
+        colours_ = packColours(colours, places.real, largest);
     }
 
     void readGrid(const PlyElement& grid) {

@@ -84,9 +84,11 @@ TEST_CASE("Clouds that are no depth images are rejected in one line with topic, 
     holds(cloudRefusal(kClouds / "cloud", {.colour = "/rgb"}), "colour: /rgb (allowed: colour=none");
     const TemporaryFolder folder;
     BagMaker maker;
-    maker.add("/points", "sensor_msgs/PointCloud2", 1.0, cloudMessage(1.0, 9, 7, 8));
+    maker.add("/points", "sensor_msgs/PointCloud2", 1.0, cloudMessage(1.0, 9, 7, 6));
+    maker.add("/long", "sensor_msgs/PointCloud2", 1.0, cloudMessage(1.0, 9, 7, 8)); // of 12 bytes
     folder.write("a.bag", maker.bag());
-    holds(cloudRefusal(folder.path() / "a.bag"), "/points: field x: not float32 (allowed: x, y and z");
+    holds(cloudRefusal(folder.path() / "a.bag"), "/points: field x: not floating point (allowed: x, y and z");
+    holds(cloudRefusal(folder.path() / "a.bag", {.depth = "/long"}), "field z: beyond the bytes of a point");
 }
 
 TEST_CASE("A bag of ROS 1 plays its depth images before its clouds, unless a cloud is asked for") {

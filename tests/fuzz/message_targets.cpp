@@ -92,7 +92,8 @@ void readOf(uint8_t kind, const MessageCursor& message) {
         if (!ros::whyNoDepth(cloud).empty() || uint64_t{cloud.width} * cloud.height > 1u << 16) {
             throw Error("no depth, or too large to be quick");
         }
-        need(ros::pointsOf(cloud).points.size() == size_t{cloud.width} * cloud.height);
+        double largest = 0.0;
+        need(ros::pointsOf(cloud, largest).points.size() == size_t{cloud.width} * cloud.height);
         break;
     }
     default:
