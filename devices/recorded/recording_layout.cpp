@@ -7,6 +7,7 @@
 #include "devices/recorded/frame_folder.h"
 #include "devices/recorded/matrix_file.h"
 #include "devices/recorded/numbered_images.h"
+#include "devices/recorded/unknown_folder.h"
 #include "engine/types/error.h"
 
 #include <cmath>
@@ -136,24 +137,8 @@ KnownLayout layoutOf(const fs::path& folder) {
     return {"", hasFrameImages(folder) ? readFrameFolder : nullptr};
 }
 
-// The folder has no mark of a recording; it may hold files that are recordings.
-[[noreturn]] void refuseFolder(const fs::path& folder) {
-    constexpr std::array<std::string_view, 4> kMessages{".mcap", ".db3", ".bag", ".mkv"};
-    fs::path first;
-    std::error_code failed;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder, failed)) {
-        if (endsAs(entry.path(), kMessages) && (first.empty() || entry.path() < first)) {
-            first = entry.path();
-        }
-    }
-    if (!first.empty()) {
-        throw BadInput(folder.string(), "metadata.yaml", "missing",
-                       "metadata.yaml of a ROS 2 recording, or the name of one file: " + first.string());
-    }
-    throw BadInput((folder / "intrinsics.json").string(), "file", "missing",
-                   "intrinsics.json (docs/guide/recordings.md has every field), or an index and "
-                   "intrinsics=FILE behind the folder's name, or a folder of Open3D, BOP, 7-Scenes, "
-                   "BundleFusion or ScanNet");
+bool isRecordingFolder(const fs::path& folder) {
+    return fs::exists(folder / "intrinsics.json") || layoutOf(folder).read != nullptr;
 }
 
 RecordingLayout readFolder(const fs::path& folder, const SourceOptions& options) {
@@ -178,7 +163,7 @@ RecordingLayout readFolder(const fs::path& folder, const SourceOptions& options)
     if (given) { // its stamps may be the index
         return readTum(folder, intrinsics, options.depthOnly());
     }
-    refuseFolder(folder);
+    refuseUnknownFolder(folder, isRecordingFolder);
 }
 
 } // namespace

@@ -195,6 +195,24 @@ TEST_CASE("Colour in a format that is not read is named as such") {
     }
 }
 
+TEST_CASE("A folder around a recording is refused with the recording's name, up to two levels below") {
+    const TemporaryFolder folder;
+    const auto names = [&](const std::string& inner) {
+        lineSays(recordingRefusal(folder.path()), "no recording itself (allowed: the one inside of it: " +
+                                                      (folder.path() / inner).string() + ")");
+    };
+    folder.write("readme.txt", "unpacked");
+    folder.write(".hidden/intrinsics.json", "{}");
+    folder.write("z/b/c/intrinsics.json", "{}"); // too deep
+    lineSays(recordingRefusal(folder.path()), "intrinsics.json: file: missing");
+    folder.write("test/000001/scene_camera.json", "{}");
+    names("test/000001");
+    folder.write("m/a.bag", "");
+    names("m/a.bag");
+    folder.write("inner/intrinsics.json", "{}");
+    names("inner");
+}
+
 TEST_CASE("Poses in a file that is not read are named, and those that are read are not") {
     for (const auto& [name, advice] : {std::pair("groundtruth.txt", "copy it to poses.txt"),
                                        {"trajectory.log", "needs poses.txt beside"},

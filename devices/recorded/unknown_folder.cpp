@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/recorded/unknown_folder.h"
+
+#include "devices/images/depth_image.h"
+#include "engine/types/error.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <vector>
+
+namespace fathom {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr size_t kMostBelow = 200; // folders that are looked at on each level
+constexpr std::array<std::string_view, 4> kMessageFiles{".mcap", ".db3", ".bag", ".mkv"};
+
+struct Entries {
+    std::vector<fs::path> folders;
+    fs::path file; // the first one of messages, in order of names; empty = none
+};
+
+Entries entriesOf(const fs::path& folder) {
+    Entries entries;
+    std::error_code failed;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, failed)) {
+        const fs::path& path = entry.path();
+        if (entry.is_directory(failed)) {
+            if (!path.filename().string().starts_with('.') && entries.folders.size() < kMostBelow) {
+                entries.folders.push_back(path);
+            }
+        } else if (endsAs(path, kMessageFiles) && (entries.file.empty() || path < entries.file)) {
+            entries.file = path;
+        }
+    }
+    std::ranges::sort(entries.folders);
+    return entries;
+}
+
+// A recording one or two levels below; empty = none.
+fs::path recordingBelow(const fs::path& folder, bool (*isRecording)(const fs::path&)) {
+    std::vector<fs::path> level = entriesOf(folder).folders;
+    for (int depth = 0; depth < 2; ++depth) {
+        std::vector<fs::path> next;
+        for (const fs::path& one : level) {
+            const Entries entries = entriesOf(one);
+            if (isRecording(one) || fs::exists(one / "metadata.yaml")) {
+                return one;
+            }
+            if (!entries.file.empty()) {
+                return entries.file;
+            }
+            next.insert(next.end(), entries.folders.begin(), entries.folders.end());
+            next.resize(std::min(next.size(), kMostBelow));
+        }
+        level = std::move(next);
+    }
+    return {};
+}
+
+} // namespace
+
+void refuseUnknownFolder(const fs::path& folder, bool (*isRecording)(const fs::path&)) {
+    if (const fs::path file = entriesOf(folder).file; !file.empty()) {
+        throw BadInput(folder.string(), "metadata.yaml", "missing",
+                       "metadata.yaml of a ROS 2 recording, or the name of one file: " + file.string());
+    }
+    if (const fs::path below = recordingBelow(folder, isRecording); !below.empty()) {
+        throw BadInput(folder.string(), "folder", "no recording itself",
+                       "the one inside of it: " + below.string());
+    }
+    throw BadInput(
+        (folder / "intrinsics.json").string(), "file", "missing",
+        "intrinsics.json (docs/guide/recordings.md has every field), or an index and intrinsics=FILE "
+        "behind the folder's name, or a folder of Open3D (camera_intrinsic.json), BOP "
+        "(scene_camera.json), 7-Scenes or BundleFusion (frame-000000.depth.png), or ScanNet (intrinsic/)");
+}
+
+} // namespace fathom

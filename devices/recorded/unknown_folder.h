@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a folder that is no recording says about the one that was meant.
+#pragma once
+
+#include <filesystem>
+
+namespace fathom {
+
+// Throws BadInput for a folder without any mark of a recording: it names a file of messages in it, or a recording
+// one or two levels below, else what is read. isRecording: whether a folder has such a mark.
+[[noreturn]] void refuseUnknownFolder(const std::filesystem::path& folder,
+                                      bool (*isRecording)(const std::filesystem::path&));
+
+} // namespace fathom
