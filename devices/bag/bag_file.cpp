@@ -70,11 +70,15 @@ BagFile::BagFile(const std::filesystem::path& file)
             throw BadInput(file.string(), "index", "no index: the bag was not closed",
                            "an indexed bag (rosbag reindex)");
         }
-        readIndex(indexAt);
+        const auto count = [&](const char* name) { // unknown: the index is complete at the end of the file
+            return header.fields.contains(name) ? number<uint32_t>(header.fields, name) : UINT64_MAX;
+        };
+        readIndex(indexAt, count("conn_count"), count("chunk_count"));
     } catch (const BadInput&) {
         throw;
     } catch (const Error& e) {
-        throw BadInput(file.string(), "content", e.what(), "a complete ROS 1 bag of version 2.0");
+        throw BadInput(file.string(), "content", e.what(),
+                       "a complete ROS 1 bag of version 2.0 (rosbag reindex)");
     }
 }
 
@@ -99,12 +103,31 @@ BagFile::Record BagFile::readRecord() {
     return record;
 }
 
-void BagFile::readIndex(uint64_t indexAt) {
+// The next record of the index. Empty at the end of the file, and at bytes that are no record where the index is
+// complete: file systems and archives leave zeros there.
+std::optional<BagFile::Record> BagFile::nextOfIndex(bool complete) {
+    if (static_cast<uint64_t>(in_.tellg()) >= size_) {
+        return std::nullopt;
+    }
+    try {
+        Record record = readRecord();
+        number<uint8_t>(record.fields, "op");
+        return record;
+    } catch (const Error&) {
+        if (!complete) {
+            throw;
+        }
+        in_.clear();
+        return std::nullopt;
+    }
+}
+
+void BagFile::readIndex(uint64_t indexAt, uint64_t connections, uint64_t chunkInfos) {
     std::map<uint32_t, size_t> topicOf; // of a connection
     std::vector<uint64_t> chunks;
     in_.seekg(static_cast<std::streamoff>(indexAt));
-    while (static_cast<uint64_t>(in_.tellg()) < size_) {
-        const Record record = readRecord();
+    while (const auto next = nextOfIndex(topicOf.size() >= connections && chunks.size() >= chunkInfos)) {
+        const Record& record = *next;
         const auto op = number<uint8_t>(record.fields, "op");
         if (op == kConnection) {
             const std::string name = word(record.fields, "topic");

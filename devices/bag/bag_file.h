@@ -8,6 +8,7 @@
 
 #include <fstream>
 #include <map>
+#include <optional>
 
 namespace fathom {
 
@@ -27,7 +28,9 @@ private:
 
     Record readRecord();
     std::vector<uint8_t> readBlock();
-    void readIndex(uint64_t indexAt);
+    std::optional<Record> nextOfIndex(bool complete);
+    // connections, chunkInfos: records of the index by the bag's head.
+    void readIndex(uint64_t indexAt, uint64_t connections, uint64_t chunkInfos);
     void readChunkIndex(uint64_t chunkAt, std::map<uint32_t, size_t>& topicOf);
     UnpackedChunk unpack(uint64_t chunkAt);
 

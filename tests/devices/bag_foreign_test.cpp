@@ -33,3 +33,21 @@ TEST_CASE(
     lineSays(streamRefusal(folder, ofOtherSize),
              "it states no size, and its principal point is not in the middle of images of 8x6");
 }
+
+TEST_CASE("Bytes behind the last record of a closed bag are no part of it, and a lost end is named") {
+    const TemporaryFolder folder;
+    BagMaker maker;
+    addStream(maker, "/c/depth", depthImage(500));
+    const std::string bag = maker.bag();
+    for (const std::string& rest :
+         {std::string(512, '\0'), std::string("\n"), std::string("\xff\xff\xff\xff")}) {
+        folder.write("a.bag", bag + rest);
+        BagCamera camera(folder.path() / "a.bag");
+        CHECK(firstDepth(camera) == 0.5);
+        CHECK(camera.images() == 3);
+    }
+    folder.write("a.bag", bag.substr(0, bag.size() - 40));
+    lineSays(testing::refusalOf([&] { BagCamera(folder.path() / "a.bag"); }),
+             "truncated (allowed: a complete");
+    lineSays(testing::refusalOf([&] { BagCamera(folder.path() / "a.bag"); }), "rosbag reindex");
+}

@@ -53,7 +53,11 @@ void BagMaker::add(const std::string& topic, const std::string& type, double t, 
 std::string BagMaker::bag(const std::string& compression, bool indexed) const {
     const std::string magic = "#ROSBAG V2.0\n";
     const auto header = [&](uint64_t at) {
-        return bagRecord({{"op", "\x03"}, {"index_pos", raw(at)}}, std::string(64, ' '));
+        return bagRecord({{"op", "\x03"},
+                          {"index_pos", raw(at)},
+                          {"conn_count", raw(static_cast<uint32_t>(topics_.size()))},
+                          {"chunk_count", raw(uint32_t{1})}},
+                         std::string(64, ' '));
     };
     const size_t chunkAt = magic.size() + header(0).size();
     std::string body = bagRecord(
