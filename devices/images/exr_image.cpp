@@ -3,24 +3,16 @@
 
 #include "devices/bag/byte_cursor.h"
 #include "devices/images/exr_head.h"
+#include "devices/images/half_value.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <vector>
 #include <zlib.h>
 
 namespace fathom {
 
 namespace {
-
-float halfValue(uint16_t bits) {
-    const int exponent = bits >> 10 & 31, mantissa = bits & 1023;
-    const float size = exponent == 31  ? (mantissa == 0 ? HUGE_VALF : NAN)
-                       : exponent == 0 ? std::ldexp(static_cast<float>(mantissa), -24)
-                                       : std::ldexp(static_cast<float>(mantissa + 1024), exponent - 25);
-    return (bits & 0x8000) != 0 ? -size : size;
-}
 
 // ZIP stores differences of bytes, the even bytes before the odd ones.
 bool unpackExr(ImageBytes packed, std::vector<uint8_t>& scratch, std::span<uint8_t> out) {

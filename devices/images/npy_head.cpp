@@ -60,8 +60,9 @@ std::map<std::string_view, std::string_view> npyFields(std::string_view text) {
 }
 
 bool takeDescr(std::string_view descr, NpyHead& head) {
-    constexpr std::array<std::string_view, 6> kRead{"'<u2'", "'>u2'", "'<f4'", "'>f4'", "'<f8'", "'>f8'"};
-    if (std::find(kRead.begin(), kRead.end(), descr) == kRead.end()) {
+    const auto oneOf = [](std::string_view all, char c) { return all.find(c) != std::string_view::npos; };
+    if (descr.size() != 5 || descr.front() != '\'' || descr.back() != '\'' || !oneOf("<>", descr[1]) ||
+        !oneOf("uif", descr[2]) || !oneOf("248", descr[3])) {
         return false;
     }
     head.bigEndian = descr[1] == '>';
@@ -100,8 +101,7 @@ NpyHead parseNpyHead(ImageBytes bytes) {
     if (!fields.contains("descr") || !fields.contains("fortran_order") || !fields.contains("shape")) {
         head.fault = "NPY: a head without descr, fortran_order and shape, or cut off";
     } else if (!takeDescr(fields["descr"], head)) {
-        head.fault =
-            npyFault("descr", fields["descr"], "uint16, float32 or float64, <u2 >u2 <f4 >f4 <f8 >f8");
+        head.fault = npyFault("descr", fields["descr"], "integers or floating point of 2, 4 or 8 bytes: <u2");
     } else if (fields["fortran_order"] != "False") {
         head.fault = npyFault("fortran_order", fields["fortran_order"], "False: save ascontiguousarray()");
     } else if (!takeShape(fields["shape"], head)) {

@@ -8,8 +8,8 @@ namespace fathom {
 
 struct NpyHead {
     uint32_t width = 0, height = 0;
-    char kind = 0;      // 'u' integers without sign, 'f' floating point
-    uint32_t bytes = 0; // of one value
+    char kind = 0;      // 'u' integers without sign, 'i' with sign, 'f' floating point
+    uint32_t bytes = 0; // of one value: 2, 4 or 8
     bool bigEndian = false;
     size_t values = 0; // where they begin
     std::string fault; // names the field, its value and what is allowed; empty = all above is set

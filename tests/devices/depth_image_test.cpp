@@ -62,8 +62,8 @@ void writeRecording(const TemporaryFolder& folder, const std::string& name, cons
 } // namespace
 
 TEST_CASE("Depth of 16 bits is read from PGM, TIFF and NPY as other programs write them") {
-    for (const char* name : {"pgm_u2", "npy_u2", "npy_u2_big", "tiff_u2", "tiff_u2_big", "tiff_u2_lzw",
-                             "tiff_u2_packbits", "tiff_bigtiff"}) {
+    for (const char* name : {"pgm_u2", "npy_u2", "npy_u2_big", "npy_i4", "tiff_u2", "tiff_u2_big",
+                             "tiff_u2_lzw", "tiff_u2_packbits", "tiff_bigtiff"}) {
         CAPTURE(name);
         checkValues(depthOf(name, false), 0);
     }
@@ -94,7 +94,6 @@ TEST_CASE("Depth images that are not read name the field, its value and what is 
         CAPTURE(text);
         CHECK(text.find(part) != std::string::npos);
     };
-    holds(faultOf("npy_i4"), "descr: '<i4' (allowed: uint16, float32 or float64");
     holds(faultOf("npy_fortran"), "fortran_order: True (allowed: False");
     holds(faultOf("npy_flat"), "shape: (35,) (allowed: (height, width)");
     holds(faultOf("pgm_8bit"), "maximum value 255 (allowed: 256 to 65535");
@@ -102,6 +101,44 @@ TEST_CASE("Depth images that are not read name the field, its value and what is 
     holds(faultOf("tiff_tiles"), "tiles (allowed: strips)");
     holds(faultOf("exr_z_piz"), "compression: PIZ (allowed: none, ZIPS, ZIP)");
     holds(faultOf("exr_ab"), "channels: A, B (allowed: Z, depth");
+}
+
+TEST_CASE("Arrays of every size of integers, and of half floats, hold depth as np.save of a scaled array "
+          "writes it") {
+    const TemporaryFolder folder;
+    const auto file = folder.path() / "a.npy";
+    const auto readAs = [&](const std::string& descr, const std::string& values,
+                            std::vector<uint16_t>& depth) {
+        std::string head = "{'descr': '" + descr + "', 'fortran_order': False, 'shape': (1, 2), }";
+        head.resize(118, ' ');
+        std::ofstream(file, std::ios::binary) << std::string("\x93NUMPY\x01\x00v\x00", 10) << head << values;
+        const DepthHead found = depthImageHead(file);
+        uint64_t beyond = 0;
+        return found.fault.empty() ? readDepthImage(file, {2, 1}, {found.metres, 0.001}, depth, beyond)
+                                   : found.fault;
+    };
+    using namespace std::string_literals;
+    const std::string zeros6(6, '\0'), ones6(6, '\xff');
+    for (const auto& [descr, values] : {std::pair("<i2"s, "\xe8\x03\xff\xff"s),
+                                        {">i2"s, "\x03\xe8\xff\xff"s},
+                                        {"<i4"s, "\xe8\x03\0\0\xff\xff\xff\xff"s},
+                                        {"<u4"s, "\xe8\x03\0\0\0\0\0\0"s},
+                                        {"<i8"s, "\xe8\x03"s + zeros6 + "\xff\xff"s + ones6},
+                                        {">u8"s, zeros6 + "\x03\xe8\0\0"s + zeros6},
+                                        {"<f2"s, "\0\x3c\0\xbc"s}}) { // 1.0 and -1.0
+        CAPTURE(descr);
+        std::vector<uint16_t> depth(2, 9);
+        CHECK(readAs(descr, values, depth) == "");
+        CHECK(depth == std::vector<uint16_t>{1000, 0});
+    }
+    std::vector<uint16_t> depth(2);
+    CHECK(readAs("<u4", "\0\0\x01\0\0\0\0\0"s, depth) == "NPY: a value of 65536 (allowed: up to 65535)");
+    CHECK(readAs("<u8", zeros6 + "\0\x80"s + std::string(8, '\0'), depth).find("9223372036854775808") !=
+          std::string::npos);
+    for (const char* other : {"|u1", "<c8", "<b2", "|O8", "<f16"}) {
+        CHECK(readAs(other, "", depth).find("descr: '"s + other + "' (allowed: integers or floating") !=
+              std::string::npos);
+    }
 }
 
 TEST_CASE("Depth in a format that is not read is named as such, and a PGM may end in a line end") {
