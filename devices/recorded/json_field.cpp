@@ -72,10 +72,10 @@ double JsonField::finite() const {
     return x;
 }
 
-double JsonField::positive() const {
+double JsonField::positive(const std::string& hint) const {
     const double x = value_->is_number() ? value_->get<double>() : std::nan("");
     if (!std::isfinite(x) || !(x > 0.0)) {
-        refuse("a number above 0");
+        refuse("a number above 0" + hint);
     }
     return x;
 }

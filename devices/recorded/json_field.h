@@ -25,8 +25,8 @@ public:
 
     // This value as the given type; throws otherwise.
     double finite() const;
-    double positive() const;
-    uint32_t integer(uint32_t lo, uint32_t hi) const; // lo..hi, both allowed
+    double positive(const std::string& hint = "") const; // hint: behind what is allowed
+    uint32_t integer(uint32_t lo, uint32_t hi) const;    // lo..hi, both allowed
     bool boolean() const;
     std::string text() const;
     bool allZero() const;                        // the number 0, or a list of nothing else

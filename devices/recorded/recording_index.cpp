@@ -6,6 +6,7 @@
 #include "engine/types/error.h"
 #include "engine/types/inside.h"
 #include "engine/types/log.h"
+#include "engine/types/read_file.h"
 
 #include <algorithm>
 #include <cmath>
@@ -215,6 +216,18 @@ FoundIndex pairedByStamp(const std::vector<StampedFile>& depth, std::vector<Stam
     return found;
 }
 
+// A file whose name is that of an index in other words, "associate.txt"; empty = none.
+std::string likeAssociations(const fs::path& folder) {
+    std::string first;
+    std::error_code failed;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, failed)) {
+        const std::string name = entry.path().filename().string();
+        const bool like = name.find("assoc") != std::string::npos && endingOf(entry.path()) == ".txt";
+        first = like && (first.empty() || name < first) ? name : first;
+    }
+    return first;
+}
+
 FoundIndex findIndex(const fs::path& folder, const RecordingIntrinsics& intrinsics, bool depthOnly) {
     const bool hasDepth = fs::exists(folder / "depth.txt");
     if (!intrinsics.camera.hasColour) {
@@ -239,7 +252,9 @@ FoundIndex findIndex(const fs::path& folder, const RecordingIntrinsics& intrinsi
             stampFilesOf(folder / "rgb", intrinsics.colourStamps, "color_stamps_s", kColourEndings),
             intrinsics.pairWithin, "depth_stamps_s and color_stamps_s");
     }
-    throw BadInput(folder.string(), "associations.txt", "missing",
+    const std::string other = likeAssociations(folder);
+    throw BadInput(folder.string(), "associations.txt",
+                   other.empty() ? "missing" : "missing; " + other + " is there",
                    "associations.txt, or rgb.txt and depth.txt, or stamps in intrinsics.json; without colour "
                    "depth.txt, and \"has_color\": false or colour=none behind the folder's name");
 }

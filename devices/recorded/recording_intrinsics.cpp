@@ -34,11 +34,26 @@ void readDistortion(const JsonField& block, Intrinsics& lens) {
     }
 }
 
+// Names by which other programs store a lens.
+constexpr std::array kForeignLens{"K",         "k",      "camera_matrix", "cam_K", "intrinsics",
+                                  "intrinsic", "matrix", "fl_x",          "f_x",   "focal_length",
+                                  "focal",     "f"};
+
+void refuseForeignLens(const JsonField& block) {
+    for (const char* name : kForeignLens) {
+        if (const auto foreign = block.find("fx") ? std::nullopt : block.find(name)) {
+            foreign->refuse("fx, fy, cx and cy as numbers, or \"intrinsic_matrix\" column by column");
+        }
+    }
+}
+
 void readPinhole(const JsonField& block, Intrinsics& lens) {
     const auto matrix = block.find("intrinsic_matrix"); // Open3D, column by column
     if (!matrix) {
+        refuseForeignLens(block);
         lens.fx = block.at("fx").positive();
-        lens.fy = block.at("fy").positive();
+        lens.fy =
+            block.at("fy").positive("; y points down here: give a negative fy without its sign"); // ICL-NUIM
         lens.cx = block.at("cx").finite();
         lens.cy = block.at("cy").finite();
         return;

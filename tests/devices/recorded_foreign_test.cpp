@@ -195,6 +195,28 @@ TEST_CASE("Colour in a format that is not read is named as such") {
     }
 }
 
+TEST_CASE(
+    "A lens and an index in the words of other programs are refused by name, with the words that are read") {
+    const TemporaryFolder folder;
+    writeSmallRecording(folder, 1);
+    const auto refused = [&](const std::string& part, const std::string& with) {
+        std::string text = kSmallIntrinsics;
+        folder.write("intrinsics.json", text.replace(text.find(part), part.size(), with));
+        return recordingRefusal(folder.path());
+    };
+    lineSays(
+        refused(R"("fy": 6.25)", R"("fy": -6.25)"), // as ICL-NUIM publishes it
+        "fy: -6.25 (allowed: a number above 0; y points down here: give a negative fy without its sign)");
+    lineSays(refused(R"("fx": 6.5)", R"("K": [6.5, 0, 3, 0, 6.25, 2, 0, 0, 1])"),
+             "K: [6.5,0,3,0,6.25,2,0,0,1] (allowed: fx, fy, cx and cy as numbers");
+    lineSays(refused(R"("fx": 6.5)", R"("camera_matrix": {"data": []})"),
+             "camera_matrix: an object (allowed: fx");
+    lineSays(refused(R"("fx": 6.5,)", ""), "fx: missing");
+    folder.write("intrinsics.json", kSmallIntrinsics);
+    std::filesystem::rename(folder / "associations.txt", folder / "associate.txt");
+    lineSays(recordingRefusal(folder.path()), "associations.txt: missing; associate.txt is there (allowed: ");
+}
+
 TEST_CASE("A folder around a recording is refused with the recording's name, up to two levels below") {
     const TemporaryFolder folder;
     const auto names = [&](const std::string& inner) {
