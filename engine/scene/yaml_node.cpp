@@ -29,6 +29,16 @@ std::string withQuotes(const YAML::Node& node, const std::string& value) {
     return isQuoted(node) && !node.Scalar().empty() ? "'" + value + "' in quotes" : value;
 }
 
+// line: from 0. The parser blames a value for a tab before it.
+bool beginsWithTab(const std::string& text, int line) {
+    size_t begin = 0;
+    for (int i = 0; i < line && begin < text.size(); ++i) {
+        begin = std::min(text.find('\n', begin), text.size()) + 1;
+    }
+    const size_t first = text.find_first_not_of(' ', begin);
+    return first != std::string::npos && text[first] == '\t';
+}
+
 } // namespace
 
 YamlNode::YamlNode(const YAML::Node& node, std::string file, std::string path)
@@ -48,7 +58,9 @@ YamlNode YamlNode::parseText(const std::filesystem::path& file, const std::strin
         return YamlNode(onlyYamlDocument(file.string(), text), file.string(), "");
     } catch (const YAML::Exception& e) {
         const std::string where = e.mark.is_null() ? "syntax" : "line " + std::to_string(e.mark.line + 1);
-        throw BadInput(file.string(), where, excerpt(e.msg), "YAML, indented with spaces");
+        const bool tab = !e.mark.is_null() && beginsWithTab(text, e.mark.line);
+        throw BadInput(file.string(), where, tab ? "a tab at the beginning" : excerpt(e.msg),
+                       "YAML, indented with spaces");
     }
 }
 

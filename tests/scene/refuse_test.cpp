@@ -265,7 +265,8 @@ TEST_CASE("An oversized scene is rejected with its size and the limit") {
 TEST_CASE("A missing file, one that is not YAML and one nested too deep are rejected, with the line") {
     checkRefused({
         {kMinimal + "camera: {near: 1\n", "line ", "YAML"},
-        {kMinimal + "hold_s: 1\n\tcamera: 2\n", "line 4: ", "YAML, indented with spaces"},
+        {kMinimal + "hold_s: 1\n\tcamera: 2\n", "line 4: a tab at the beginning",
+         "YAML, indented with spaces"},
         {kMinimal + "---\nhold_s: 1\n", "line 3: more than a YAML document", "one document"},
         {",", "line 1: more than a YAML document", "one document"},
         {kMinimal + "]\n", "line ", "YAML"},
