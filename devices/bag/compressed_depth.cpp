@@ -85,7 +85,7 @@ bool CompressedDepth::holdsPng() const {
 
 std::array<float, 2> CompressedDepth::quantum() const {
     std::array<float, 2> quantum{};
-    if (rvl || holdsPng()) {
+    if ((rvl && data.size() >= kDepthHead) || holdsPng()) {
         std::memcpy(quantum.data(), data.data() + 4, sizeof quantum);
     }
     return quantum;

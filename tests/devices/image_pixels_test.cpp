@@ -246,6 +246,7 @@ TEST_CASE("Compressed depth is recognised without its format, and without its he
         ros::depthRows(packedImage("32FC1; compressedDepth png", png), 0.001, out, beyond);
     CHECK(fault.find("without the head") != std::string::npos);
     CHECK(ros::content(packedImage("png", pngOf(folder, false, 0))) == ros::Content::Colour);
+    CHECK_FALSE(ros::holdsMetres(packedImage("compressedDepth rvl", "cut off")));
 }
 
 TEST_CASE("Compressed depth of metres is inverse depth with its two factors") {
