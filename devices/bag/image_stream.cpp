@@ -73,7 +73,7 @@ std::string whyNotLens(const Intrinsics& lens, const ImageStream& stream) {
         return "it states no size, and its principal point is not in the middle of images of " +
                streamSize(stream.width, stream.height) + " (allowed: width and height of the images)";
     }
-    if (lens.width < 1 || lens.height < 1 || lens.width > kMaxImageWidth || lens.height > kMaxImageHeight) {
+    if (lens.width > kMaxImageWidth || lens.height > kMaxImageHeight) {
         return streamSize(lens.width, lens.height) + " (allowed: at most 3840x2160 pixels)";
     }
     if (stream.width != lens.width || stream.height != lens.height) {
@@ -124,7 +124,10 @@ std::string readHead(MessageFile& file, const MessageTopic& topic, size_t index,
     stream.width = size ? size->first : 0;
     stream.height = size ? size->second : 0;
     stream.metres = ros::holdsMetres(image);
-    return stream.width == 0 || stream.height == 0 ? "an empty image" : "";
+    if (stream.width > 0 && stream.height > 0) {
+        return "";
+    }
+    return size || image.data.empty() ? "an empty image" : "a compressed image without a head that is read";
 }
 
 // By the first message whose lens is known, else by the first one that can be read.

@@ -27,11 +27,26 @@ TEST_CASE(
         }
         CHECK(camera.skipped() == 0);
     }
+    BagMaker half;
+    addStream(half, "/c/depth", depthImage(500), {.width = 0});
+    lineSays(streamRefusal(folder, half), "0x6 where the images of /c/depth have 8x6");
     BagMaker ofOtherSize;
     addStream(ofOtherSize, "/c/depth", depthImage(500),
               {.width = 0, .height = 0, .k = {14.0, 14.0, 7.0, 5.0}});
     lineSays(streamRefusal(folder, ofOtherSize),
              "it states no size, and its principal point is not in the middle of images of 8x6");
+}
+
+TEST_CASE("Compressed images of unknown content and empty ones are named apart") {
+    const TemporaryFolder folder;
+    for (const auto& [bytes, fault] :
+         {std::pair(std::string(40, '\1'), "a compressed image without a head that is read"),
+          {"", "an empty image"}}) {
+        BagMaker maker;
+        maker.add("/c/depth", "sensor_msgs/CompressedImage", 1.0,
+                  compressedMessage(1.0, "camera", "16UC1; compressedDepth png", bytes));
+        lineSays(streamRefusal(folder, maker), fault);
+    }
 }
 
 TEST_CASE("Bytes behind the last record of a closed bag are no part of it, and a lost end is named") {
