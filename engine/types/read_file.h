@@ -22,7 +22,8 @@ std::string whyUnreadable(const std::filesystem::path& file);
 std::optional<std::string> readFileAtMost(const std::filesystem::path& file, size_t most);
 
 // Reads the whole file. Throws BadInput when it cannot be read, has more than `most` bytes (a whole number of
-// MiB; the message has both sizes), or holds something else in place of its content (standIn()). kind: the allowed kind of file, "a readable ...".
+// MiB; the message has both sizes), or holds something else in place of its content (standIn()). kind: the
+// allowed kind of file, "a readable ...".
 std::string readWholeFile(const std::filesystem::path& file, size_t most, const std::string& kind);
 
 } // namespace fathom
