@@ -2,10 +2,10 @@
 #include "devices/images/exr_head.h"
 
 #include "devices/bag/byte_cursor.h"
+#include "devices/images/exr_channel.h"
 #include "devices/recorded/recording_intrinsics.h"
 
 #include <algorithm>
-#include <cctype>
 #include <map>
 
 namespace fathom {
@@ -14,11 +14,6 @@ namespace {
 
 constexpr size_t kMaxExrChannels = 64, kMaxExrAttributes = 1000, kMaxExrName = 255;
 constexpr uint32_t kExrPlain = 2, kExrLongNames = 0x400; // version 2, and a flag that changes nothing here
-
-struct ExrChannel {
-    std::string name;
-    uint32_t kind = 0; // 0 uint32, 1 half, 2 float
-};
 
 struct ExrBox {
     int32_t left = 0, top = 0, right = 0, bottom = 0; // all inside
@@ -70,32 +65,21 @@ ImageBytes exrAttribute(const std::map<std::string, ImageBytes>& all, const char
     return found->second;
 }
 
-// 3: names depth, down to 0: may not be it.
-int depthRank(const std::string& name, bool alone) {
-    std::string last = name.substr(name.rfind('.') + 1);
-    std::transform(last.begin(), last.end(), last.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return last == "z" || last == "depth" ? 3 : (alone || last == "y" ? 2 : (last == "r" ? 1 : 0));
-}
-
 void chooseChannel(const std::vector<ExrChannel>& channels, ExrHead& head) {
-    int best = 0;
-    std::string names;
-    uint32_t kind = 0;
-    for (const ExrChannel& channel : channels) {
-        names += (names.empty() ? "" : ", ") + channel.name;
-        if (const int rank = depthRank(channel.name, channels.size() == 1); rank > best) {
-            best = rank;
-            head.channelAt = head.rowBytes;
-            kind = channel.kind;
-        }
-        head.rowBytes += size_t{head.width} * (channel.kind == 1 ? 2 : 4);
-    }
-    if (best == 0 || kind == 0) {
-        throw Error("EXR: channels: " + names.substr(0, 80) +
-                    " (allowed: Z, depth, Y, R or a single one, of floating point)");
-    }
+    const ExrDepth chosen = chooseExrDepth(channels);
+    const uint32_t kind = channels[chosen.depth].kind;
     head.half = kind == 1;
+    for (size_t i = 0; i < channels.size(); ++i) {
+        if (i == chosen.depth) {
+            head.channelAt = head.rowBytes;
+        } else if (std::ranges::count(chosen.equal, i) != 0) {
+            if (channels[i].kind != kind) {
+                throw Error("EXR: channels: R, G and B of different types (allowed: depth)");
+            }
+            head.equalAt.push_back(head.rowBytes);
+        }
+        head.rowBytes += head.width * channels[i].bytes();
+    }
 }
 
 void takeWindow(const std::map<std::string, ImageBytes>& all, ExrHead& head) {

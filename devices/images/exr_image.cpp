@@ -31,9 +31,23 @@ bool unpackExr(ImageBytes packed, std::vector<uint8_t>& scratch, std::span<uint8
     return true;
 }
 
+// Programs that write depth to R leave G and B at 0 or copy it there. An image of colours is no depth.
+void checkEqual(const ExrHead& head, std::span<const uint8_t> row) {
+    const size_t size = head.width * (head.half ? sizeof(uint16_t) : sizeof(float));
+    const std::span<const uint8_t> depth = row.subspan(head.channelAt, size);
+    for (const size_t at : head.equalAt) {
+        const std::span<const uint8_t> other = row.subspan(at, size);
+        if (!std::ranges::equal(other, depth) &&
+            std::ranges::any_of(other, [](uint8_t b) { return b != 0; })) {
+            throw Error("EXR: channels: R, G and B with different values, a colour image (allowed: depth)");
+        }
+    }
+}
+
 // The rows of one chunk, to `out` from its first row on.
 void takeRows(const ExrHead& head, std::span<const uint8_t> rows, std::span<float> out) {
     for (size_t row = 0; row * head.rowBytes < rows.size(); ++row) {
+        checkEqual(head, rows.subspan(row * head.rowBytes, head.rowBytes));
         const uint8_t* from = rows.data() + row * head.rowBytes + head.channelAt;
         for (uint32_t x = 0; x < head.width; ++x) {
             uint16_t half = 0;

@@ -101,6 +101,9 @@ TEST_CASE("Depth images that are not read name the field, its value and what is 
     holds(faultOf("tiff_tiles"), "tiles (allowed: strips)");
     holds(faultOf("exr_z_piz"), "compression: PIZ (allowed: none, ZIPS, ZIP)");
     holds(faultOf("exr_ab"), "channels: A, B (allowed: Z, depth");
+    std::vector<uint16_t> depth(259);
+    uint64_t beyond = 0;
+    holds(readDepthImage(kMade / "exr_colours", {7, 37}, {true, 0.001}, depth, beyond), "a colour image");
 }
 
 TEST_CASE("Arrays of every size of integers, and of half floats, hold depth as np.save of a scaled array "
