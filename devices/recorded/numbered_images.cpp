@@ -2,78 +2,95 @@
 #include "devices/recorded/numbered_images.h"
 
 #include "devices/images/depth_image.h"
+#include "devices/recorded/name_number.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
 
 #include <algorithm>
 #include <map>
-#include <tuple>
+#include <vector>
 
 namespace fathom {
 
 namespace {
 
 constexpr double kPeriod = 1.0 / 30.0; // [s] of layouts without stamps
-constexpr std::string_view kDigits = "0123456789";
+using ImageKey = std::vector<NameNumber>;
 
-// Of any length, which no integer type holds: stamps in nanoseconds have 19 digits.
-struct NameNumber {
-    std::string whole, fraction; // without leading and trailing zeros
-
-    bool operator<(const NameNumber& other) const {
-        const size_t length = whole.size(), otherLength = other.whole.size();
-        return std::tie(length, whole, fraction) < std::tie(otherLength, other.whole, other.fraction);
+std::string keyText(const ImageKey& key) {
+    std::string text;
+    for (const NameNumber& number : key) {
+        text += (text.empty() ? "" : "-") + number.text();
     }
-    std::string text() const {
-        return (whole.empty() ? "0" : whole) + (fraction.empty() ? "" : "." + fraction);
-    }
-};
-
-// In the order of the name.
-std::vector<NameNumber> numbersIn(const std::string& name) {
-    std::vector<NameNumber> numbers;
-    for (size_t begin = name.find_first_of(kDigits); begin != std::string::npos;
-         begin = name.find_first_of(kDigits, begin)) {
-        size_t end = std::min(name.find_first_not_of(kDigits, begin), name.size());
-        NameNumber number;
-        number.whole = name.substr(begin, end - begin);
-        number.whole.erase(0, number.whole.find_first_not_of('0'));
-        if (end + 1 < name.size() && name[end] == '.' && kDigits.find(name[end + 1]) != std::string::npos) {
-            begin = end + 1;
-            end = std::min(name.find_first_not_of(kDigits, begin), name.size());
-            number.fraction = name.substr(begin, end - begin);
-            number.fraction.erase(number.fraction.find_last_not_of('0') + 1);
-        }
-        numbers.push_back(std::move(number));
-        begin = end;
-    }
-    return numbers;
+    return text;
 }
 
 struct NamedImage {
     std::filesystem::path file;
-    NameNumber first, last;
+    ImageKey first, last; // one number each; `last` is all numbers where the names tell times
 };
 
-std::vector<NamedImage> imagesIn(const NumberedImages& images) {
-    std::vector<NamedImage> found;
+// A file, and the part of its name that tells its number.
+struct NamedFile {
+    std::filesystem::path file;
+    std::string stem;
+
+    bool endsInNumber() const { return kDigits.find(stem.back()) != std::string::npos; }
+};
+
+std::vector<NamedFile> filesIn(const NumberedImages& images) {
+    std::vector<NamedFile> found;
     std::error_code failed;
     for (const auto& entry : std::filesystem::directory_iterator(images.folder, failed)) {
         std::string stem = entry.path().stem().string();
-        if (!endsAs(entry.path(), images.endings) || !stem.ends_with(images.before)) {
-            continue;
-        }
-        stem.resize(stem.size() - images.before.size());
-        if (!stem.empty() && kDigits.find(stem.back()) != std::string::npos) {
-            const std::vector<NameNumber> numbers = numbersIn(stem);
-            found.push_back({entry.path(), numbers.front(), numbers.back()});
+        if (endsAs(entry.path(), images.endings) && stem.ends_with(images.before) && stem != images.before) {
+            stem.resize(stem.size() - images.before.size());
+            found.push_back({entry.path(), std::move(stem)});
         }
     }
-    std::ranges::sort(found, {}, &NamedImage::file); // one result whatever the order of the folder
+    std::ranges::sort(found, {}, &NamedFile::file); // one result whatever the order of the folder
     return found;
 }
 
-using ByNumber = std::map<NameNumber, std::filesystem::path>;
+// Those whose names end in a number; if there are none, those with a number anywhere (0000_depth.png). The
+// others are images of another kind, or have hexadecimal numbers.
+std::vector<NamedFile> numberedFiles(const NumberedImages& images) {
+    std::vector<NamedFile> files = filesIn(images), others;
+    const bool atEnd = std::ranges::any_of(files, &NamedFile::endsInNumber);
+    std::erase_if(files, [&](const NamedFile& file) {
+        const bool other =
+            atEnd ? !file.endsInNumber() : file.stem.find_first_of(kDigits) == std::string::npos;
+        if (other) {
+            others.push_back(file);
+        }
+        return other;
+    });
+    if (!others.empty() && !files.empty()) {
+        log::warn("{}: {} of {} images are not played, because their names do not {} a decimal number; "
+                  "first: {}",
+                  images.folder.string(), others.size(), others.size() + files.size(),
+                  atEnd ? "end in" : "have", others.front().file.filename().string());
+    }
+    return files;
+}
+
+std::vector<NamedImage> imagesIn(const NumberedImages& images) {
+    std::vector<NamedImage> found;
+    bool times = true;
+    for (NamedFile& named : numberedFiles(images)) {
+        ImageKey numbers = numbersIn(named.stem);
+        times = times && tellsTime(numbers);
+        found.push_back({std::move(named.file), {numbers.front()}, std::move(numbers)});
+    }
+    for (NamedImage& image : found) {
+        if (!times) {
+            image.last = {image.last.back()};
+        }
+    }
+    return found;
+}
+
+using ByNumber = std::map<ImageKey, std::filesystem::path>;
 
 // Both folders by the first or the last number of their names.
 struct Match {
@@ -82,19 +99,19 @@ struct Match {
     size_t pairs = 0;
 };
 
-void sortImages(const std::vector<NamedImage>& images, NameNumber NamedImage::*number, ByNumber& sorted,
+void sortImages(const std::vector<NamedImage>& images, ImageKey NamedImage::*number, ByNumber& sorted,
                 std::string& twice) {
     for (const NamedImage& image : images) {
         const auto [at, added] = sorted.emplace(image.*number, image.file);
         if (!added && twice.empty()) {
             twice = at->second.filename().string() + " and " + image.file.filename().string() + " with " +
-                    at->first.text();
+                    keyText(at->first);
         }
     }
 }
 
 Match matchBy(const std::vector<NamedImage>& depth, const std::vector<NamedImage>& colour,
-              NameNumber NamedImage::*number) {
+              ImageKey NamedImage::*number) {
     Match match;
     sortImages(depth, number, match.depth, match.twice);
     sortImages(colour, number, match.colour, match.twice);
@@ -136,7 +153,7 @@ std::vector<IndexLine> pairsOf(const Match& match, const std::filesystem::path& 
         IndexLine line = lineOf(index.size(), file);
         const auto pair = inOrder ? next++ : match.colour.find(number);
         if (pair == match.colour.end()) {
-            line.fault = "no colour image with the number " + number.text();
+            line.fault = "no colour image with the number " + keyText(number);
         } else {
             line.colour = pair->second;
         }

@@ -2,6 +2,7 @@
 #include "devices/recorded/recording_index.h"
 
 #include "devices/images/depth_image.h"
+#include "devices/recorded/name_number.h"
 #include "devices/recorded/text_file.h"
 #include "engine/types/error.h"
 #include "engine/types/inside.h"
@@ -103,7 +104,7 @@ std::vector<StampedFile> stampFilesOf(const fs::path& folder, const std::vector<
             names.push_back(entry.path());
         }
     }
-    std::sort(names.begin(), names.end());
+    sortByName(names);
     if (names.size() != stamps.size()) {
         throw BadInput((folder.parent_path() / "intrinsics.json").string(), field,
                        std::to_string(stamps.size()) + " stamps",

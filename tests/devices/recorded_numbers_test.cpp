@@ -2,6 +2,7 @@
 // Folders without an index: images in order of the numbers in their names, and pairs by them.
 #include "devices/recorded/recorded_camera.h"
 #include "tests/devices/recorded_folder.h"
+#include "tests/realtime/listening.h"
 
 #include <doctest/doctest.h>
 
@@ -72,4 +73,52 @@ TEST_CASE("Two images of one number are rejected, whatever the order of the fold
     CHECK(recordingRefusal(folder.path())
               .find("names of images: 00000.png and left_0.png with 0 (allowed: one image of each number)") !=
           std::string::npos);
+}
+
+TEST_CASE(
+    "Names of a date or a time play in order of time, though the milliseconds at their end begin anew") {
+    for (const std::vector<std::string>& names :
+         {std::vector<std::string>{"20240101_120000_000", "20240101_120000_666", "20240101_120001_333",
+                                   "20240101_120002_000"},
+          {"12-00-00.333", "12-00-00.9", "12-00-01.333", "12-01-00.100"},
+          {"2024-01-31_23-59-58", "2024-01-31_23-59-59", "2024-02-01_00-00-00", "2024-02-01_00-00-01"},
+          {"1600000000_000000000", "1600000000_500000000", "1600000001_000000000", "1600000001_500000000"}}) {
+        CAPTURE(names[0]);
+        CHECK(depthsOfNames(names, names) == Depths{500, 600, 700, 800});
+        const TemporaryFolder folder;
+        writeNamed(folder, names, {});
+        CHECK(playedDepths(folder.path(), {.colour = "none"}) == Depths{500, 600, 700, 800});
+    }
+    CHECK(depthsOfNames({"cam10_1", "cam9_2"}, {"1", "2"}) == Depths{500, 600}); // a counter orders alone
+}
+
+TEST_CASE("A number in front of the image's kind counts where no name ends in a number") {
+    CHECK(depthsOfNames({"0000_depth", "0001_depth"}, {"0000_color", "0001_color"}) == Depths{500, 600});
+    CHECK(depthsOfNames({"frame0000.depth", "frame0001.depth"}, {"1", "0"}) == Depths{500, 600});
+    CHECK(depthsOfNames({"0_640x480", "1_640x480"}, {"0_1280x720", "1_1280x720"}) == Depths{500, 600});
+    CHECK(depthsOfNames({"0", "1", "0_view", "1_view"}, {"0", "1"}) == Depths{500, 600});
+}
+
+TEST_CASE("Images whose names do not end in a decimal number are counted in one warning") {
+    const TemporaryFolder folder;
+    writeNamed(folder, {"frame_8", "frame_9", "frame_a", "frame_b"}, {"frame_8", "frame_9"});
+    const testing::Listening log;
+    CHECK(playedDepths(folder.path()) == Depths{500, 600});
+    CHECK(
+        log.count("2 of 4 images are not played, because their names do not end in a decimal number; first: "
+                  "frame_a.png") == 1);
+}
+
+TEST_CASE("Stamps of intrinsics.json belong to images in order of the numbers in their names") {
+    const TemporaryFolder folder;
+    std::string stamps;
+    for (uint16_t i = 0; i < 12; ++i) {
+        addPair(folder, "depth/" + std::to_string(i) + ".png", "rgb/" + std::to_string(i) + ".png", 500 + i);
+        stamps += (i == 0 ? "" : ", ") + std::to_string(i);
+    }
+    std::string lens = kSmallIntrinsics;
+    folder.write("intrinsics.json",
+                 lens.insert(lens.find('{') + 1, R"("depth_stamps_s": [)" + stamps +
+                                                     R"(], "color_stamps_s": [)" + stamps + "], "));
+    CHECK(playedDepths(folder.path()) == Depths{500, 501, 502, 503, 504, 505, 506, 507, 508, 509, 510, 511});
 }
