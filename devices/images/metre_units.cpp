@@ -28,12 +28,33 @@ void ValueSpan::add(double value) {
     if (value > 0.0 && std::isfinite(value)) {
         nearest = std::min(nearest, value);
         farthest = std::max(farthest, value);
+        constexpr int kMiddle = 32, kLast = 63; // 2^-32 to 2^31: depths in metres to micrometres
+        double& octave = octaves[static_cast<size_t>(std::clamp(std::ilogb(value) + kMiddle, 0, kLast))];
+        octave = std::max(octave, value);
     }
 }
 
 void ValueSpan::add(const ValueSpan& other) {
     nearest = std::min(nearest, other.nearest);
     farthest = std::max(farthest, other.farthest);
+    std::ranges::transform(octaves, other.octaves, octaves.begin(),
+                           [](double a, double b) { return std::max(a, b); });
+}
+
+ValueSpan ValueSpan::scaled(double factor) const {
+    ValueSpan span{factor * nearest, factor * farthest, octaves};
+    for (double& octave : span.octaves) {
+        octave *= factor;
+    }
+    return span;
+}
+
+double ValueSpan::farthestWithin(double bound) const {
+    double within = 0.0;
+    for (const double octave : octaves) {
+        within = octave <= bound ? std::max(within, octave) : within;
+    }
+    return within;
 }
 
 double unitForMetres(double farthest) {
@@ -42,9 +63,15 @@ double unitForMetres(double farthest) {
     return std::min(unit, kCoarsestUnit);
 }
 
-double unitForMetres(const ValueSpan& seen, double ofInterest) {
-    const double most = 1.5 * seen.farthest;
-    return unitForMetres(seen.nearest <= ofInterest ? std::min(most, ofInterest) : most);
+double unitForMetres(const ValueSpan& seen, double ofInterest, double spare) {
+    constexpr double kBackground = 65.0; // [m] up to here the unit is 1 mm or finer, as that of most cameras
+    const bool open = std::isinf(ofInterest);
+    const double bound = open ? kBackground : ofInterest;
+    if (!(seen.nearest <= bound)) {
+        return unitForMetres(spare * seen.farthest);
+    }
+    const double within = open ? seen.farthestWithin(bound) : 0.0;
+    return unitForMetres(std::min(spare * (within > 0.0 ? within : seen.farthest), bound));
 }
 
 std::string doubtMetres(const std::string& file, double nearest) {

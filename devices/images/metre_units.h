@@ -2,6 +2,7 @@
 // Depth in metres as 16-bit values.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -11,19 +12,24 @@ namespace fathom {
 // Least and largest of measured values.
 struct ValueSpan {
     double nearest = HUGE_VAL, farthest = 0.0; // without a value: infinity and 0
+    std::array<double, 64> octaves{};          // the largest value of each power of two; 0 = none
 
     // Zero, negative values, NaN and infinity are not measured.
     void add(double value);
     void add(const ValueSpan& other);
-    ValueSpan scaled(double factor) const { return {factor * nearest, factor * farthest}; }
+    ValueSpan scaled(double factor) const;
+    // The largest value up to `bound`, without those of its own power of two if one of them is beyond; 0 = none.
+    double farthestWithin(double bound) const;
 };
 
 // The unit [m] for depth of up to `farthest` metres: 0.1 mm or the least multiple of it with which 16 bits
 // are enough, at most kCoarsestUnit.
 double unitForMetres(double farthest);
-// The unit [m] for frames, from the depths [m] in samples of them. It allows for depths half as large again,
-// but for none beyond `ofInterest` [m], unless all samples are beyond it.
-double unitForMetres(const ValueSpan& seen, double ofInterest);
+// The unit [m] for frames, from the depths [m] in samples of them. It allows for depths larger by `spare`, but
+// for none beyond `ofInterest` [m], unless all samples are beyond it. If that is infinite, depths beyond 65 m
+// are the background that renderers write where nothing is, unless all samples are: they do not cost the
+// others their precision.
+double unitForMetres(const ValueSpan& seen, double ofInterest, double spare = 1.5);
 
 // Warns when the nearest point of a recording is farther than any camera sees: its values are no metres, but
 // likely of the unit that it names.

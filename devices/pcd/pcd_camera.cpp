@@ -181,8 +181,7 @@ void PcdCamera::scalePoints(const FittedLens& fit, const SourceOptions& options)
         seen.add(measured(p) ? p.z : 0.0);
     }
     doubt_ = doubtMetres(file_.string(), seen.nearest);
-    const bool near = seen.nearest <= options.farthest;
-    info_.metresPerUnit = unitForMetres(near ? std::min(seen.farthest, options.farthest) : seen.farthest);
+    info_.metresPerUnit = unitForMetres(seen, options.farthest, 1.0);
     farthest_ = options.farthest;
 }
 

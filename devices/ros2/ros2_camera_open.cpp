@@ -132,9 +132,9 @@ std::string Ros2Camera::missing(const std::string& why) const {
 }
 
 // Metres get the finest unit that holds the scene's far; without one, one and a half times the farthest depth
-// of the first image, and at least 6.5 m.
+// of the first image that is no background.
 void Ros2Camera::chooseUnit() {
-    constexpr double kMillimetre = 0.001, kFinest = 0.0001; // REP 118: 16-bit depth is in millimetres
+    constexpr double kMillimetre = 0.001; // REP 118: 16-bit depth is in millimetres
     const MessageCursor message = messages_.read(messages_.topics()[choice_.depth.topic], 0);
     const ros::Image first = choice_.depth.compressed ? ros::compressedImage(message) : ros::image(message);
     CameraInfo& camera = choice_.camera;
@@ -144,11 +144,9 @@ void Ros2Camera::chooseUnit() {
         return;
     }
     const double metresPerValue = request_.options.scale.value_or(1.0), farthest = request_.options.farthest;
-    const double needed =
-        std::isfinite(farthest)
-            ? farthest
-            : std::max(65535.0 * kFinest, 1.5 * metresPerValue * ros::valueSpan(first).farthest);
-    camera.metresPerUnit = unitForMetres(needed);
+    camera.metresPerUnit = std::isfinite(farthest)
+                               ? unitForMetres(farthest)
+                               : unitForMetres(ros::valueSpan(first).scaled(metresPerValue), farthest);
     valuesPerUnit_ = camera.metresPerUnit / metresPerValue;
 }
 
