@@ -2,7 +2,9 @@
 // Meshes by Assimp.
 #include "engine/model/import_triangles.h"
 #include "engine/reader/answers.h"
+#include "engine/reader/obj_text.h"
 #include "engine/reader/stl_text.h"
+#include "engine/types/read_file.h"
 
 #include <assimp/Importer.hpp>
 #include <assimp/config.h>
@@ -49,7 +51,7 @@ void addNode(const aiScene& scene, const aiNode& node, const aiMatrix4x4& above,
     }
 }
 
-// instead: an STL to parse in place of the file, unless empty.
+// instead: what to parse in place of the file, of the same kind, unless empty.
 std::string readWithAssimp(const std::filesystem::path& file, const std::string& instead,
                            TriangleMesh& mesh) {
     Assimp::Importer importer;
@@ -59,7 +61,8 @@ std::string readWithAssimp(const std::filesystem::path& file, const std::string&
         const ParserAtWork parser;
         constexpr unsigned kSteps = aiProcess_Triangulate | aiProcess_SortByPType;
         return instead.empty() ? importer.ReadFile(file.string(), kSteps)
-                               : importer.ReadFileFromMemory(instead.data(), instead.size(), kSteps, "stl");
+                               : importer.ReadFileFromMemory(instead.data(), instead.size(), kSteps,
+                                                             endingOf(file).c_str() + 1);
     }();
     if (scene == nullptr || scene->mRootNode == nullptr) {
         const std::string why = importer.GetErrorString();
@@ -79,7 +82,7 @@ bool answerMesh(const std::filesystem::path& file, int pipe, uint64_t mostMemory
     std::string text;
     try {
         std::string instead;
-        text = stlFault(file, instead);
+        text = endingOf(file) == ".obj" ? plainObj(file, instead) : stlFault(file, instead);
         text = text.empty() ? readWithAssimp(file, instead, mesh) : text;
     } catch (const std::bad_alloc&) {
         mesh = {};
