@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kNever = -1e9;
 constexpr double kJawLead = 0.005;    // [m] of setpoints of the jaws before the measurement
-constexpr double kOverloadTime = 0.1; // [s]
+constexpr double kReachOverloadTime = 0.1; // [s]
 constexpr double kEchoTime = 0.05;    // [s] window in which a packet equal to a sent one is its echo
 constexpr uint8_t kPosition = 0x03, kCurrent = 0x05, kRequest = 0x60;
 // Base, shoulder, elbow, wrist, jaws.
@@ -99,7 +99,7 @@ void ReachArm::watch(double now, const ArmCommand& command) noexcept {
     for (size_t k = 0; k < devices_.size(); ++k) {
         const bool over = std::abs(feedback_.current[k]) > options_.mostCurrent;
         overSince_[k] = over ? std::min(overSince_[k], now) : std::numeric_limits<double>::infinity();
-        feedback_.overloaded = feedback_.overloaded || now - overSince_[k] > kOverloadTime;
+        feedback_.overloaded = feedback_.overloaded || now - overSince_[k] > kReachOverloadTime;
     }
     feedback_.holding = command.hold || feedback_.stale || feedback_.overloaded;
 }
