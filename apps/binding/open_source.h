@@ -14,13 +14,11 @@ namespace fathom {
 
 // Help text of --source.
 inline constexpr const char* kSourceHelp =
-    "instead of the scene's camera: a recording folder, a ROS bag, MCAP, .db3 or .mkv file, "
-    "an organised PCD or PLY, an .oni file, or a live camera as v4l2:auto, openni2 or ros2:depth=TOPIC; "
-    "append to a recording's name any of "
-    ",depth=TOPIC,colour=TOPIC,info=TOPIC,intrinsics=FILE,extrinsics=FILE,scale=M,start=S,duration=S";
+    "instead of the scene's camera: a recording, or a live camera such as v4l2:auto (man fathom, SOURCES)";
 
-// For a live camera: the newest frame at each call, or every frame in order (for recordings).
-enum class Images { Newest, Every };
+// For a live camera: the newest frame at each call, or every frame in order (for recordings). NewestAgain: the
+// source was open before, and what it lacks was said then.
+enum class Images { Newest, NewestAgain, Every };
 
 // A recording or a live camera ("v4l2:..."), as --source names it. farthest [m]: beyond, readings do not
 // matter. Throws BadInput.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/binding/source_check.h"
 
+#include "apps/binding/scene_edits.h"
 #include "engine/types/log.h"
 
 #include <algorithm>
@@ -41,8 +42,9 @@ SourceCheck::SourceCheck(std::unique_ptr<Camera> source, const Scene& scene)
     const std::string why = CameraDecorator::whyNoColour();
     bool asked = false;
     for (const FixtureClass& fixture : scene.fixtures) {
-        asked = asked || fixture.usesColour();
-        if (!why.empty() && fixture.usesColour()) {
+        const bool uses = fixture.usesColour() && !isSpare(fixture);
+        asked = asked || uses;
+        if (!why.empty() && uses) {
             warn(fmt::format("fixture '{}' will have no point: it asks for colour, but {}", fixture.name,
                              why));
         }

@@ -3,6 +3,7 @@
 #include "apps/binding/open_source.h"
 
 #include "devices/recorded/recording_writer.h"
+#include "tests/realtime/listening.h"
 #include "tests/support/scratch_folder.h"
 
 #include <doctest/doctest.h>
@@ -72,4 +73,24 @@ TEST_CASE("A recording is decimated as its scene says, unless it was recorded so
     CHECK(again->info().decimation == 2);
     CHECK(again->info().depth.width == 32);
     CHECK(openCamera(scene, folder.path() / "raw", Images::Every)->info().depth.width == 64);
+}
+
+TEST_CASE(
+    "A source without colour is named once for a class that asks for colour, and not for spare classes") {
+    const ScratchFolder folder;
+    record(folder.path() / "grey", plainCamera());
+    Scene scene;
+    FixtureClass valve;
+    valve.name = "valve";
+    valve.hue = Band{0.0, 30.0};
+    scene.fixtures = {valve};
+    const std::string words = "fixture 'valve' will have no point: it asks for colour";
+    const Listening log;
+    openCamera(scene, folder.path() / "grey", Images::Newest);
+    CHECK(log.count(words) == 1);
+    openCamera(scene, folder.path() / "grey", Images::NewestAgain); // as a recording that is repeated
+    CHECK(log.count(words) == 1);
+    scene.fixtures[0].name = ""; // spare
+    openCamera(scene, folder.path() / "grey", Images::Newest);
+    CHECK(log.count("will have no point") == 1);
 }
