@@ -102,10 +102,6 @@ ArmAxes chainAxes(const ArmModel& model) {
 }
 
 ArmAxes armAxes(const Scene& scene, const ArmRig& rig) {
-    if (!scene.arm || !scene.arm->driver) {
-        throw BadInput(scene.file.string(), "arm.driver", "missing",
-                       "a driver, because --arm names a serial port");
-    }
     const Driver& driver = *scene.arm->driver;
     ArmAxes axes = chainAxes(rig.model);
     std::vector<bool> found(rig.model.count(), false);

@@ -19,9 +19,12 @@ inline constexpr const char* kArmHelp = "the real arm: serial port of the scene'
 
 class ArmThread;
 
-// rig: the arm of the scene. port: of --arm. Throws BadInput when the scene has no arm, or no driver for a
-// serial port, and whatever ArmThread throws.
-std::unique_ptr<ArmThread> openRealArm(const Scene& scene, const ArmRig* rig, const std::string& port);
+// Before the arm's files are read, which takes seconds. port: of --arm. Throws BadInput when the scene has no
+// arm, or no driver for a serial port.
+void checkRealArm(const Scene& scene, const std::string& port);
+
+// rig: the arm of the scene, which passed checkRealArm(). Throws BadInput and whatever ArmThread throws.
+std::unique_ptr<ArmThread> openRealArm(const Scene& scene, const ArmRig& rig, const std::string& port);
 
 // One thread constructs, homes and starts it; afterwards the haptic thread uses only link().
 class ArmThread {

@@ -36,6 +36,9 @@ Scene sceneFor(const SessionOptions& options) {
         throw BadInput(scene.file.string(), "--pilot", options.pilot,
                        scene.pilots.empty() ? "none: the scene has no pilots" : scene.pilotNames());
     }
+    if (!options.arm.empty()) {
+        checkRealArm(scene, options.arm);
+    }
     if (!options.query.empty()) {
         scene.contact.where =
             options.query == "cpu" ? Scene::Contact::Where::Cpu : Scene::Contact::Where::Gpu;
@@ -135,7 +138,7 @@ Session::Session(const SessionOptions& asked, const GlobalOptions& global, const
     , liveHand(options.handDevice.empty() ? nullptr : openLiveHand(options.handDevice, scene))
     , camera(cameraFor(scene, options, stop))
     , arm(openArm(scene))
-    , realArm(options.arm.empty() ? nullptr : openRealArm(scene, arm.get(), options.arm))
+    , realArm(options.arm.empty() ? nullptr : openRealArm(scene, *arm, options.arm))
     , tool(openTool(scene, arm.get()))
     , instance(needsDevice(scene, window)
                    ? std::make_unique<gpu::Instance>(global.validation(), window.extensions)

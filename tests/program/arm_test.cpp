@@ -123,7 +123,8 @@ size_t spheresInWindow(const Stage& stage) {
     return nlohmann::json::parse(text.substr(from + 1)).at("run").at("spheres").get<size_t>();
 }
 
-void refused(const std::string& arm, const std::vector<std::string>& parts, const std::string& contact = "") {
+void refused(const std::string& arm, const std::vector<std::string>& parts, const std::string& contact = "",
+             const std::vector<std::string>& more = {}) {
     Stage stage;
     stage.recording({bumpImage()});
     SceneText scene;
@@ -132,7 +133,7 @@ void refused(const std::string& arm, const std::vector<std::string>& parts, cons
     stage.write("scene.yaml", stage.read("scene.yaml") + "arm: {" + arm + "}\n");
     stage.write("arm41.urdf", ballArm());
     CAPTURE(arm);
-    checkRefused(stage, parts);
+    checkRefused(stage, parts, more);
 }
 
 } // namespace
@@ -261,4 +262,9 @@ TEST_CASE(
             {"arm.grasp.fingers[0].open", "0.6", "0 to 0.5"});
     refused(urdf + "grasp: {fingers: [{joint: pinch, closed: -0.1}]}",
             {"arm.grasp.fingers[0].closed", "-0.1", "0 to 0.5"});
+}
+
+TEST_CASE("A missing driver of a real arm is rejected before the arm's files are read") {
+    refused("urdf: arm41.urdf, tip: nothing", {"arm.driver: missing", "--arm names a serial port"}, "",
+            {"--realtime", "--arm", "/dev/null"});
 }
