@@ -110,7 +110,8 @@ std::string refusalOf(const CLI::App& app, const CLI::ParseError& error) {
     if (!rest.empty()) {
         return notTaken(*chosen.back(), app, rest.front());
     }
-    std::string text = chosen.back()->get_name() + ": " + error.what();
+    const std::string name = chosen.back()->get_name();
+    std::string text = name + ": " + error.what() + "; see fathom " + name + " --help";
     std::replace(text.begin(), text.end(), '\n', ' ');
     return text;
 }

@@ -9,12 +9,14 @@
 #include "apps/profile/study_plot.h"
 #include "engine/types/error.h"
 #include "engine/types/joined.h"
+#include "engine/types/suggestion.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <ctime>
 #include <iostream>
+#include <iterator>
 #include <memory>
 
 namespace fathom {
@@ -35,7 +37,9 @@ void checkNames(const Settings& settings) {
                 throw BadInput("profile", "STUDY", "'peers' is not in this build",
                                "a build with -DFATHOM_PEERS=ON, which './run peers' makes and runs");
             }
-            throw BadInput("profile", "STUDY", "'" + name + "'", studyNames());
+            std::vector<std::string_view> names;
+            std::ranges::transform(allStudies(), std::back_inserter(names), &StudyEntry::name);
+            throw BadInput("profile", "STUDY", "'" + name + "'" + suggestion(name, names), studyNames());
         }
     }
 }

@@ -4,11 +4,13 @@
 #include "apps/stability/case_text.h"
 #include "engine/types/error.h"
 #include "engine/types/joined.h"
+#include "engine/types/suggestion.h"
 
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <iomanip>
+#include <iterator>
 #include <limits>
 #include <ostream>
 #include <set>
@@ -48,11 +50,13 @@ std::vector<Case> chosenCases(const std::vector<Case>& all, const std::vector<st
         return all;
     }
     for (const std::string& name : names) {
-        const bool known = std::any_of(all.begin(), all.end(), [&](const Case& c) {
+        const bool exists = std::any_of(all.begin(), all.end(), [&](const Case& c) {
             return c.name == name || nameOfGroup(c.group) == name;
         });
-        if (!known) {
-            throw BadInput("stability", "CASE", "'" + name + "'",
+        if (!exists) {
+            std::vector<std::string_view> known(std::begin(kGroupNames), std::end(kGroupNames));
+            std::ranges::transform(all, std::back_inserter(known), &Case::name);
+            throw BadInput("stability", "CASE", "'" + name + "'" + suggestion(name, known),
                            "a group (" + groupNames() + ") or a case that fathom stability --list prints");
         }
     }

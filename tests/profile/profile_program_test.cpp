@@ -172,7 +172,7 @@ TEST_CASE("An unknown study is rejected in one line that lists the known ones") 
     const ProgramRun run = runFathom({"profile", "filtre", "--out", (folder.path() / "out").string()});
     CHECK(run.exitCode == 2);
     REQUIRE(run.errorLines().size() == 1);
-    CHECK(run.errorLines().front() == "fathom: profile: STUDY: 'filtre' (allowed: " +
+    CHECK(run.errorLines().front() == "fathom: profile: STUDY: 'filtre', did you mean 'filter'? (allowed: " +
                                           joined(profile::allStudies(), &profile::StudyEntry::name) + ")");
 }
 

@@ -13,5 +13,8 @@ TEST_CASE("stability lists its cases without an output folder, and requires the 
     CHECK(list.out.find("feel") == std::string::npos);
     const ProgramRun run = runFathom({"stability", "solver-needle"});
     CHECK(run.exitCode == 2);
-    CHECK(run.err == "fathom: stability: --out is required\n");
+    CHECK(run.err == "fathom: stability: --out is required; see fathom stability --help\n");
+    CHECK(
+        runFathom({"stability", "solvr", "--list"}).err.find("'solvr', did you mean 'solver'? (allowed: ") !=
+        std::string::npos);
 }
