@@ -56,7 +56,7 @@ ReplaySummary runRealtime(const ReplayOptions& options, const GlobalOptions& glo
     const CpuConfinement confined(placement.rest); // inherited by a software device's workers
     Session session(options, global);
     if (options.frameRate > 0.0 && session.camera->live()) {
-        throw BadInput("replay", "--picture-rate", std::to_string(options.frameRate),
+        throw BadInput("replay", "--frame-rate", std::to_string(options.frameRate),
                        "with a recording or a simulated camera: a live one has a rate of its own");
     }
     const auto trace = openTrace(session, global);
@@ -118,7 +118,7 @@ int runReplay(const ReplayOptions& asked, const GlobalOptions& global) {
         throw BadInput("replay", "--ros2", options.observers.ros2, "commands=on only with operate");
     }
     if (options.frameRate > 0.0 && !options.realtime) {
-        throw BadInput("replay", "--picture-rate", std::to_string(options.frameRate),
+        throw BadInput("replay", "--frame-rate", std::to_string(options.frameRate),
                        "together with --realtime");
     }
     if (options.seconds > 0.0 && options.handDevice.empty()) {
@@ -165,7 +165,7 @@ void addReplayCommand(CLI::App& app, const GlobalOptions& global, int& result) {
     command->add_flag("--realtime", options->realtime,
                       "run on threads and the real clock instead of in lockstep");
     command
-        ->add_option("--picture-rate", options->frameRate,
+        ->add_option("--frame-rate,--picture-rate", options->frameRate,
                      "with --realtime: frames per second of a recording or simulated camera (default 30)")
         ->check(numberIn(Range::between(1.0, 240.0)));
     command->add_flag(

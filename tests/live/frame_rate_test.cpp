@@ -28,8 +28,8 @@ TEST_CASE("Frames come at the requested rate, and none before it is due") {
         CAPTURE(rate);
         Stage stage;
         prepare(stage);
-        const ProgramRun run =
-            runFathom(stage.command({"--realtime", "--picture-rate", std::to_string(rate)}));
+        const ProgramRun run = runFathom(stage.command(
+            {"--realtime", rate > 30.0 ? "--frame-rate" : "--picture-rate", std::to_string(rate)}));
         INFO(run.err);
         REQUIRE(run.exitCode == 0);
         const Replay replay = readReplay(stage / "out", run);
@@ -47,7 +47,7 @@ TEST_CASE("Frames come at the requested rate, and none before it is due") {
 TEST_CASE("A frame rate without --realtime, or one that no camera has, is rejected in one line") {
     Stage stage;
     prepare(stage);
-    checkRefused(stage, {"together with --realtime"}, {"--picture-rate", "90"});
-    checkRefused(stage, {"--picture-rate", "0"}, {"--realtime", "--picture-rate", "0"});
-    checkRefused(stage, {"--picture-rate", "1000"}, {"--realtime", "--picture-rate", "1000"});
+    checkRefused(stage, {"together with --realtime"}, {"--frame-rate", "90"});
+    checkRefused(stage, {"--frame-rate", "0"}, {"--realtime", "--frame-rate", "0"});
+    checkRefused(stage, {"--frame-rate", "1000"}, {"--realtime", "--picture-rate", "1000"});
 }

@@ -40,7 +40,7 @@ TEST_CASE("Numeric options reject NaN, infinity and numbers out of range in one 
             checkRefusal(command, {option, bad, "allowed: "});
         };
         refused({"replay", scene, "--realtime", "--out", out}, "--seconds");
-        refused({"replay", scene, "--realtime", "--out", out}, "--picture-rate");
+        refused({"replay", scene, "--realtime", "--out", out}, "--frame-rate");
         refused({"operate", scene}, "--seconds");
         refused({"operate", scene}, "--text-scale");
         refused({"record", scene, "--out", out}, "--seconds");
