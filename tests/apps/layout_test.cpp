@@ -130,7 +130,8 @@ TEST_CASE("Text is as large as asked where the window has room, and smaller wher
     CHECK(scaleThatFits({9000, 9000}, 6.25, true) == 4.0);
 }
 
-TEST_CASE("Text follows the desktop's scale, or the resolution of the monitor where its size makes sense") {
+TEST_CASE(
+    "Text follows the desktop's scale, else the monitor's pixels per inch if its stated size is plausible") {
     CHECK(monitorScale({}) == 1.0);
     CHECK(monitorScale({.width = 1920, .millimetres = 508}) == 1.0);                 // 96 per inch
     CHECK(monitorScale({.width = 3840, .millimetres = 597}) == 1.625);               // 27 inches, 4K
