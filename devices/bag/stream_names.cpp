@@ -19,6 +19,10 @@ constexpr std::array<std::string_view, 32> kInfraredWords{
     "signal", "reflectance", "ambient",      "noise",      "uncertainty", "variance",  "temperature",
     "label",  "labels",      "segmentation", "semantic",   "mask",        "instances", "gray",
     "grey",   "mono",        "fisheye",      "phase"};
+// What depth cameras publish about their depth, and maps of a height. No part of a camera's name.
+constexpr std::array<std::string_view, 16> kBesideWords{
+    "error",   "err",       "std",    "stddev", "sigma",   "snr",     "quality",  "cost",
+    "costmap", "elevation", "height", "normal", "normals", "surface", "validity", "age"};
 constexpr std::array<std::string_view, 4> kPainted{"colored", "coloured", "colorized", "colourized"};
 
 template <size_t N>
@@ -79,7 +83,7 @@ NamedRole namedRole(const std::string& topic) {
             role = NamedRole::Depth;
         } else if (among(kColourWords, word)) {
             role = NamedRole::Colour;
-        } else if (among(kInfraredWords, word)) {
+        } else if (among(kInfraredWords, word) || among(kBesideWords, word)) {
             role = NamedRole::Infrared;
         }
     }

@@ -9,7 +9,7 @@
 namespace fathom {
 
 // What the images of a topic hold, by its name.
-enum class NamedRole { None, Depth, Colour, Infrared }; // Infrared: also confidence, amplitude and the like
+enum class NamedRole { None, Depth, Colour, Infrared }; // Infrared: also confidence, error and the like
 
 // By the last word that decides: "/camera/ir/image" is Infrared, "/kinect2/sd/image_depth_rect" Depth. Words
 // after "to" are a target: "/aligned_depth_to_color/image_raw" is Depth.
