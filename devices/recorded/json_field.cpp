@@ -135,6 +135,14 @@ nlohmann::json parseJsonFile(const std::filesystem::path& file) {
     try {
         return nlohmann::json::parse(text);
     } catch (const nlohmann::json::exception& e) { // its message has line, column and the last token
+        const size_t first = std::min(text.find_first_not_of(" \t\r\n"), text.size());
+        if (first < text.size() && std::string_view("{[\xef").find(text[first]) == std::string_view::npos) {
+            throw BadInput(
+                file.string(), "syntax",
+                "not JSON, begins with " +
+                    excerpt(text.substr(first, text.find('\n', first) - first), kShownCharacters),
+                "JSON with the fields of docs/guide/recordings.md; YAML calibrations are not read");
+        }
         throw BadInput(file.string(), "syntax", reasonOf(e), "JSON (which has no NaN or infinity)");
     }
 }

@@ -34,28 +34,52 @@ void readDistortion(const JsonField& block, Intrinsics& lens) {
     }
 }
 
-// Names by which other programs store a lens.
-constexpr std::array kForeignLens{"K",         "k",      "camera_matrix", "cam_K", "intrinsics",
-                                  "intrinsic", "matrix", "fl_x",          "f_x",   "focal_length",
-                                  "focal",     "f"};
+// Names by which other programs store the same value, or all four of a pinhole.
+struct ForeignName {
+    const char *own, *other, *allowed;
+};
+constexpr const char* kFourNumbers =
+    "fx, fy, cx and cy, each under its name, or \"intrinsic_matrix\" column by column";
+constexpr std::array kForeignNames{ForeignName{"width", "w", "the name width"},
+                                   ForeignName{"width", "image_width", "the name width"},
+                                   ForeignName{"height", "h", "the name height"},
+                                   ForeignName{"height", "image_height", "the name height"},
+                                   ForeignName{"fx", "fl_x", "the name fx"},
+                                   ForeignName{"fy", "fl_y", "the name fy"},
+                                   ForeignName{"cx", "ppx", "the name cx"},
+                                   ForeignName{"cy", "ppy", "the name cy"},
+                                   ForeignName{"fx", "K", kFourNumbers},
+                                   ForeignName{"fx", "cam_K", kFourNumbers},
+                                   ForeignName{"fx", "camera_matrix", kFourNumbers},
+                                   ForeignName{"fx", "k", kFourNumbers},
+                                   ForeignName{"fx", "matrix", kFourNumbers},
+                                   ForeignName{"fx", "intrinsics", kFourNumbers},
+                                   ForeignName{"fx", "intrinsic", kFourNumbers},
+                                   ForeignName{"fx", "f_x", "the name fx"},
+                                   ForeignName{"fx", "f", kFourNumbers},
+                                   ForeignName{"fx", "focal", kFourNumbers},
+                                   ForeignName{"fx", "focal_length", kFourNumbers}};
 
-void refuseForeignLens(const JsonField& block) {
-    for (const char* name : kForeignLens) {
-        if (const auto foreign = block.find("fx") ? std::nullopt : block.find(name)) {
-            foreign->refuse("fx, fy, cx and cy as numbers, or \"intrinsic_matrix\" column by column");
+JsonField ownField(const JsonField& block, std::string_view name) {
+    if (const auto own = block.find(name)) {
+        return *own;
+    }
+    for (const ForeignName& foreign : kForeignNames) {
+        if (const auto other = foreign.own == name ? block.find(foreign.other) : std::nullopt) {
+            other->refuse(foreign.allowed);
         }
     }
+    return block.at(name);
 }
 
 void readPinhole(const JsonField& block, Intrinsics& lens) {
     const auto matrix = block.find("intrinsic_matrix"); // Open3D, column by column
     if (!matrix) {
-        refuseForeignLens(block);
-        lens.fx = block.at("fx").positive();
-        lens.fy =
-            block.at("fy").positive("; y points down here: give a negative fy without its sign"); // ICL-NUIM
-        lens.cx = block.at("cx").finite();
-        lens.cy = block.at("cy").finite();
+        lens.fx = ownField(block, "fx").positive();
+        lens.fy = ownField(block, "fy")
+                      .positive("; y points down here: give a negative fy without its sign"); // ICL-NUIM
+        lens.cx = ownField(block, "cx").finite();
+        lens.cy = ownField(block, "cy").finite();
         return;
     }
     const std::vector<double> k = matrix->numbers(9);
@@ -70,8 +94,8 @@ void readPinhole(const JsonField& block, Intrinsics& lens) {
 
 Intrinsics readLens(const JsonField& block) {
     Intrinsics lens;
-    lens.width = block.at("width").integer(1, kMaxImageWidth);
-    lens.height = block.at("height").integer(1, kMaxImageHeight);
+    lens.width = ownField(block, "width").integer(1, kMaxImageWidth);
+    lens.height = ownField(block, "height").integer(1, kMaxImageHeight);
     readPinhole(block, lens);
     readDistortion(block, lens);
     if (!lens.invertible()) {

@@ -74,9 +74,11 @@ void refuseUnknownFolder(const fs::path& folder, bool (*isRecording)(const fs::p
     }
     throw BadInput(
         (folder / "intrinsics.json").string(), "file", "missing",
-        "intrinsics.json (docs/guide/recordings.md has every field), or an index and intrinsics=FILE "
-        "behind the folder's name, or a folder of Open3D (camera_intrinsic.json), BOP "
-        "(scene_camera.json), 7-Scenes or BundleFusion (frame-000000.depth.png), or ScanNet (intrinsic/)");
+        "intrinsics.json (docs/guide/recordings.md has every field), or intrinsics=FILE behind the "
+        "folder's name (its images pair by an index, or by number in depth/ and rgb/, color/ or image/), or "
+        "a "
+        "folder of Open3D (camera_intrinsic.json), BOP (scene_camera.json), 7-Scenes or BundleFusion "
+        "(frame-000000.depth.png), or ScanNet (intrinsic/)");
 }
 
 } // namespace fathom

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// Files of lenses as other programs write them, and images without one.
+#include "devices/recorded/recorded_camera.h"
+#include "tests/devices/played_bag.h"
+#include "tests/realtime/listening.h"
+
+using namespace fathom;
+using namespace fathom::test;
+
+namespace {
+
+std::string lensRefusal(const std::string& lens) {
+    const TemporaryFolder folder;
+    addPair(folder, "depth/0.png", "rgb/0.png", 500);
+    folder.write("lens.yaml", lens);
+    return recordingRefusal(folder.path(), {.intrinsics = folder.path() / "lens.yaml"});
+}
+
+} // namespace
+
+TEST_CASE("A lens file in YAML is refused as not JSON, with its first line and where the fields are told") {
+    lineSays(lensRefusal("\nimage_width: 640\nimage_height: 480\n"),
+             "lens.yaml: syntax: not JSON, begins with image_width: 640 (allowed: JSON with the fields of "
+             "docs/guide/recordings.md; YAML calibrations are not read)");
+    lineSays(lensRefusal("%YAML:1.0\n---\n"), "not JSON, begins with %YAML:1.0 (allowed");
+    lineSays(lensRefusal("# Camera list"), "not JSON, begins with # Camera list (allowed");
+    lineSays(lensRefusal(R"({"width": 7,,})"), "(allowed: JSON (which has no NaN or infinity))");
+}
+
+TEST_CASE("A field of a lens under the name of another program is refused with the name that is read") {
+    const std::string size = R"({"width": 7, "height": 5, )", focal = R"("fx": 6, "fy": 6, )";
+    lineSays(lensRefusal(size + focal + R"("ppx": 3, "ppy": 2})"), "ppx: 3 (allowed: the name cx)");
+    lineSays(lensRefusal(size + focal + R"("cx": 3, "ppy": 2})"), "ppy: 2 (allowed: the name cy)");
+    lineSays(lensRefusal(R"({"w": 7, "h": 5, "fl_x": 6, "fl_y": 6, "cx": 3, "cy": 2})"),
+             "w: 7 (allowed: the name width)");
+    lineSays(lensRefusal(R"({"width": 7, "image_height": 5})"), "image_height: 5 (allowed: the name height)");
+    lineSays(lensRefusal(size + R"("fl_x": 6, "fl_y": 6, "cx": 3, "cy": 2})"),
+             "fl_x: 6 (allowed: the name fx)");
+    lineSays(lensRefusal(size + R"("K": [6, 0, 3, 0, 6, 2, 0, 0, 1]})"),
+             "(allowed: fx, fy, cx and cy, each under");
+}
+
+TEST_CASE("Images without a lens file are refused with the option that names one, and play with it") {
+    const TemporaryFolder folder;
+    addPair(folder, "depth/0.png", "rgb/0.png", 500);
+    folder.write("cam_K.txt", "6 0 3\n0 6 2\n0 0 1\n");
+    lineSays(recordingRefusal(folder.path()),
+             "or intrinsics=FILE behind the folder's name (its images pair by "
+             "an index, or by number in depth/ and rgb/, color/ or image/)");
+    folder.write("lens.json", kSmallIntrinsics);
+    CHECK(playedDepths(folder.path(), {.intrinsics = folder.path() / "lens.json"}) ==
+          std::vector<uint16_t>{500});
+}
+
+TEST_CASE("Images that are named as ranges, but played as z, have a warning that names depth_is") {
+    const auto warned = [](const std::string& depth, const std::string& kind) {
+        const TemporaryFolder folder;
+        addPair(folder, "depth/" + depth + ".png", "rgb/0.png", 500);
+        std::string lens = kSmallIntrinsics;
+        folder.write("camera_intrinsic.json", lens.insert(lens.find('{') + 1, kind));
+        const testing::Listening log;
+        CHECK(playedDepths(folder.path()).size() == 1);
+        return log.count("\"depth_is\": \"range\" in the file of the lens");
+    };
+    CHECK(warned("distance_to_camera_0", "") == 1);
+    CHECK(warned("DepthPerspective_0", "") == 1);
+    CHECK(warned("distance_to_camera_0", R"("depth_is": "range", )") == 0);
+    CHECK(warned("distance_to_image_plane_0", "") == 0);
+}
