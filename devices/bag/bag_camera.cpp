@@ -25,6 +25,7 @@ BagCamera::BagCamera(std::unique_ptr<MessageFile> file, SourceOptions options)
     : MessageCamera(std::move(file), std::move(options)) {
     try {
         choice_ = StreamChooser(*file_, options_).choose();
+        doubtRelation();
         useSpan(topicOf(choice_.depth));
         chooseUnit();
         useClocks();
@@ -35,6 +36,13 @@ BagCamera::BagCamera(std::unique_ptr<MessageFile> file, SourceOptions options)
         throw BadInput(file_->file().string(), "content", e.what(), "whole messages");
     }
     slots_.emplace(info().slotPixels(), info().hasColour, kFramesInFlight + 1);
+}
+
+void BagCamera::doubtRelation() {
+    if (!choice_.doubt.empty()) {
+        log::warn("{}: {}", file_->file().string(), choice_.doubt);
+        say(choice_.doubt);
+    }
 }
 
 std::string BagCamera::streamOptions() const {

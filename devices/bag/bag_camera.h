@@ -29,6 +29,7 @@ public:
 
 private:
     using Image = ros::Image;
+    void doubtRelation();
     void useClocks();
     bool pairsByStamp();
     void chooseUnit();

@@ -5,6 +5,7 @@
 #include "engine/types/log.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -17,7 +18,24 @@ bool samePose(const Pose& a, const Pose& b) {
            std::abs(glm::dot(a.rotation, b.rotation)) > 1.0 - 1e-9;
 }
 
+bool unturned(const dquat& rotation) {
+    return std::abs(rotation.w) > 1.0 - 1e-9;
+}
+
+bool namedOptical(std::string frame) {
+    std::ranges::transform(frame, frame.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return frame.find("optical") != std::string::npos;
+}
+
 } // namespace
+
+void FrameTree::readOnce() {
+    if (!read_) {
+        read_ = true;
+        read();
+    }
+}
 
 void FrameTree::read() {
     constexpr size_t kMaxMessages = 2000;
@@ -69,10 +87,7 @@ std::map<std::string, Pose> FrameTree::ancestors(const std::string& frame) const
 }
 
 std::optional<Pose> FrameTree::pose(const std::string& from, const std::string& to) {
-    if (!read_) {
-        read_ = true;
-        read();
-    }
+    readOnce();
     const auto ofFrom = ancestors(from), ofTo = ancestors(to);
     for (const auto& [frame, pose] : ofFrom) {
         if (const auto common = ofTo.find(frame); common != ofTo.end()) {
@@ -80,6 +95,28 @@ std::optional<Pose> FrameTree::pose(const std::string& from, const std::string& 
         }
     }
     return std::nullopt;
+}
+
+bool FrameTree::hasOpticalChild(const std::string& frame) const {
+    return std::ranges::any_of(links_, [&](const auto& named) {
+        const auto& [child, link] = named;
+        return link.parent == frame && namedOptical(child) && !unturned(link.parentTchild.rotation);
+    });
+}
+
+std::string FrameTree::doubtAxes(const std::string& from, const std::string& to) {
+    const std::optional<Pose> between = pose(from, to);
+    if (!between || namedOptical(from) || namedOptical(to) || glm::length(between->position) < 1e-3) {
+        return "";
+    }
+    const bool body = hasOpticalChild(from) || hasOpticalChild(to);
+    return !body && !unturned(between->rotation)
+               ? ""
+               : "tf between the frames '" + from + "' and '" + to +
+                     "' is taken in axes of images (x right, y down, " + "z forward)" +
+                     (body ? ", but tf has optical frames below them" : "") +
+                     "; if x is forward, regions by colour are shifted: extrinsics=FILE behind the file's "
+                     "name";
 }
 
 } // namespace fathom

@@ -106,6 +106,7 @@ void readLens(MessageFile& file, const std::string& asked, ImageStream& stream) 
             stream.rectified = namedRectified(stream.name);
             stream.turned = info.turned;
             stream.unsized = !sized;
+            stream.shift = info.shift;
         }
         return why;
     });

@@ -27,6 +27,7 @@ struct ImageStream {
     std::optional<size_t> info; // topic of the lens, in MessageFile::topics()
     bool rectified = false, turned = false;
     bool unsized = false; // the lens states no size: that of the images is taken
+    dvec3 shift{0.0};     // [m] as in ros::CameraInfo
     std::string noLens;   // why there is no lens
 };
 

@@ -150,6 +150,9 @@ CameraInfo cameraInfo(MessageCursor cursor) {
         throw Error(info.rawFault);
     }
     info.rectified = byP ? cropped(p[0], p[5], p[2], p[6], crop) : info.raw;
+    if (byP && std::isfinite(p[3] + p[7])) {
+        info.shift = {p[3] / p[0], p[7] / p[5], 0.0};
+    }
     const double diagonal = r[0] + r[4] + r[8];
     info.turned = diagonal != 0.0 && !(std::abs(diagonal - 3.0) < 1e-9);
     const std::string allowed = setDistortion(info.raw, model, distortion);

@@ -37,6 +37,9 @@ struct CameraInfo {
     std::string rawFault; // why K or D cannot be used, `raw` is empty then; empty = nothing
     Intrinsics rectified; // P, without distortion; K where P is empty
     bool turned = false;  // rectification turns the camera (R)
+    // [m] What is added to points of the header's frame to be seen from the camera's centre: Tx / fx and Ty / fy
+    // of P, which are not 0 for the second camera of a rectified stereo pair.
+    dvec3 shift{0.0};
     // Of rectified images, or of others. Throws Error where that is not usable.
     const Intrinsics& lens(bool ofRectified) const {
         if (!ofRectified && !rawFault.empty()) {

@@ -28,6 +28,13 @@ bool isIdentity(const Pose& pose) {
     return glm::length(pose.position) < 1e-9 && std::abs(std::abs(pose.rotation.w) - 1.0) < 1e-12;
 }
 
+constexpr double kSameCentre = 1e-5; // [m]
+
+// That of rectified images; in others, R may turn the camera.
+dvec3 shiftOf(const ImageStream& stream) {
+    return stream.rectified || !stream.turned ? stream.shift : dvec3(0.0);
+}
+
 // How well a name fits a use: 2 names it, 1 says nothing, 0 names another.
 int fits(NamedRole role, NamedRole use) {
     return role == use ? 2 : (role == NamedRole::None ? 1 : 0);
@@ -136,6 +143,10 @@ StreamChooser::Relation StreamChooser::relate(const ImageStream& depth, const Im
     if (!options_.extrinsics.empty()) {
         return {3, false, readExtrinsics(options_.extrinsics), ""};
     }
+    const dvec3 apart = shiftOf(colour) - shiftOf(depth);
+    if (sameFrame && colour.lens && !namedRegistered(depth.name) && glm::length(apart) > kSameCentre) {
+        return {3, false, {apart}, ""}; // a stereo pair in the frame of its first camera
+    }
     const bool same = !colour.lens || sameLens(*depth.lens, *colour.lens);
     if (same && sameFrame) {
         return {4, true, {}, ""};
@@ -156,15 +167,19 @@ StreamChooser::Relation StreamChooser::relate(const ImageStream& depth, const Im
 
 StreamChooser::Relation StreamChooser::relateByPose(const ImageStream& depth, const ImageStream& colour) {
     std::optional<Pose> pose = sdkPose(depth, colour);
+    std::string doubt;
     // The Orbbec SDK records the pose to its colour camera, not to the cameras of a stereo pair.
     const std::string sensor = orbbecSensor(colour.name);
     if (!pose && !isRealSenseTopic(depth.name) && (sensor.empty() || sensor == "2")) {
         pose = topicPose(depth, colour);
-        pose = pose || depth.frame == colour.frame ? pose : frames_.pose(depth.frame, colour.frame);
+        if (!pose && depth.frame != colour.frame) {
+            pose = frames_.pose(depth.frame, colour.frame);
+            doubt = pose ? frames_.doubtAxes(depth.frame, colour.frame) : "";
+        }
     }
     if (pose) {
         const bool registered = isIdentity(*pose) && sameLens(*depth.lens, *colour.lens);
-        return {2, registered, registered ? Pose{} : *pose, ""};
+        return {2, registered, registered ? Pose{} : *pose, "", doubt};
     }
     const std::string topic = isRealSenseTopic(depth.name)
                                   ? parentTopic(baseTopic(colour.name), 2) + "/tf/0"
@@ -264,6 +279,7 @@ StreamChoice StreamChooser::choose() {
         camera.registered = relation.registered;
         camera.colour = relation.registered || !colour->lens ? camera.depth : *colour->lens;
         camera.colourTdepth = relation.colourTdepth;
+        choice.doubt = keepsRelation() ? relation.doubt : "";
     }
     if (!options_.intrinsics.empty()) {
         replaceLenses(choice);

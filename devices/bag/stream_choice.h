@@ -17,6 +17,7 @@ struct StreamChoice {
     std::optional<ImageStream> colour;
     CameraInfo camera;  // lenses, registration, extrinsics; not the depth unit
     std::string said;   // what was chosen, and what else there is, in one line
+    std::string doubt;  // why colour may be placed wrongly; empty = no reason
     std::string unread; // image topics that may be colour but whose encoding is not read
 };
 
@@ -36,6 +37,7 @@ private:
         bool registered = false;
         Pose colourTdepth;
         std::string fault;
+        std::string doubt = {}; // of a pose that is used
     };
     struct Pair {
         const ImageStream *depth = nullptr, *colour = nullptr; // colour: null = none

@@ -57,6 +57,7 @@ private:
     Topic subscribeImages(const std::string& topic);
     void subscribeOthers();
     void awaitStreams();
+    void doubtRelation() const;
     bool gather();
     void chooseUnit();
     void receive();

@@ -3,6 +3,7 @@
 #include "devices/images/metre_units.h"
 #include "devices/ros2/ros2_camera.h"
 #include "engine/types/error.h"
+#include "engine/types/log.h"
 
 #include <algorithm>
 #include <chrono>
@@ -99,6 +100,12 @@ bool Ros2Camera::gather() {
     return any;
 }
 
+void Ros2Camera::doubtRelation() const {
+    if (!choice_.doubt.empty()) {
+        log::warn("{}: {}", request_.text, choice_.doubt);
+    }
+}
+
 // The choice is repeated with each new message until it succeeds: lenses and transforms may come late.
 void Ros2Camera::awaitStreams() {
     using Clock = std::chrono::steady_clock;
@@ -111,6 +118,7 @@ void Ros2Camera::awaitStreams() {
                 choice_.camera.poseless = !moving_;
                 why = moving_ ? moving_->follow(choice_.depth.frame) : "";
                 if (why.empty()) {
+                    doubtRelation();
                     return;
                 }
             } catch (const Error& e) {

@@ -2,6 +2,8 @@
 // Where the pose between depth and colour of a bag comes from.
 #include "tests/devices/played_bag.h"
 
+#include <algorithm>
+
 using namespace fathom;
 using namespace fathom::test;
 
@@ -53,6 +55,53 @@ TEST_CASE(
     CHECK(playStreams(folder, bare(), {.extrinsics = folder.path() / "e.json"})
               .info()
               .colourTdepth.position.x == doctest::Approx(0.03));
+}
+
+TEST_CASE(
+    "Colour of the second camera of a rectified stereo pair is apart from depth by the baseline of its P") {
+    const TemporaryFolder folder;
+    const auto pair = [](double depth, double colour, const std::string& frame) {
+        BagMaker maker;
+        addStream(maker, "/cam/depth/image_rect", depthImage(900, "cam"),
+                  {.frame = "cam", .p = {7.0, 7.0, 3.5, 2.5}, .tx = depth});
+        addStream(maker, "/cam/color/image_rect", redImage(frame),
+                  {.frame = frame, .p = {7.0, 7.0, 3.5, 2.5}, .tx = colour});
+        return maker;
+    };
+    CHECK(playStreams(folder, pair(0.0, 0.0, "cam")).info().registered);
+    CHECK(playStreams(folder, pair(-0.35, -0.35, "cam")).info().registered);
+    const CameraInfo right = playStreams(folder, pair(0.0, -0.35, "cam")).info();
+    CHECK_FALSE(right.registered);
+    CHECK(right.colourTdepth.position.x == doctest::Approx(-0.05));
+    const CameraInfo left = playStreams(folder, pair(-0.35, 0.0, "cam")).info();
+    CHECK_FALSE(left.registered);
+    CHECK(left.colourTdepth.position.x == doctest::Approx(0.05));
+    BagMaker frames = pair(0.0, -0.35, "right"); // of its own frame: tf has the baseline
+    frames.add("/tf_static", "tf2_msgs/TFMessage", 1.0, frameLink("cam", "right", 0.05));
+    CHECK(playStreams(folder, frames).info().colourTdepth.position.x == doctest::Approx(-0.05));
+}
+
+TEST_CASE("A pose of tf between frames that may be those of a robot's body, not of images, has a warning") {
+    const TemporaryFolder folder;
+    const auto doubts = [&](const std::string& depth, const std::string& colour, bool opticalChild = false) {
+        BagMaker maker = unrelatedBag(depth, colour, {.frame = depth, .k = {6.0, 6.0, 3.0, 2.0}});
+        maker.add("/tf_static", "tf2_msgs/TFMessage", 1.0, frameLink(depth, colour, 0.05));
+        if (opticalChild) {
+            Out turned{Out().put(uint32_t{1}).bytes + stampedHeader(1.0, colour)};
+            turned.text("color_optical_frame");
+            for (const double value : {0.0, 0.0, 0.0, -0.5, 0.5, -0.5, 0.5}) {
+                turned.put(value);
+            }
+            maker.add("/tf_static", "tf2_msgs/TFMessage", 1.0, turned.bytes);
+        }
+        const auto said = playStreams(folder, maker).warnings();
+        return std::any_of(said.begin(), said.end(), [](const std::string& line) {
+            return line.find("in axes of images (x right, y down, z forward)") != std::string::npos;
+        });
+    };
+    CHECK(doubts("depth_link", "color_link"));
+    CHECK(doubts("depth_link", "color_link", true));
+    CHECK_FALSE(doubts("depth_optical_frame", "color_Optical"));
 }
 
 TEST_CASE("The extrinsics topic of one camera does not relate depth or colour of another camera") {

@@ -114,7 +114,7 @@ std::string infoMessage(const InfoMessage& info) {
         out.put(r);
     }
     for (const double p :
-         {info.p[0], 0.0, info.p[2], 0.0, 0.0, info.p[1], info.p[3], 0.0, 0.0, 0.0, 1.0, 0.0}) {
+         {info.p[0], 0.0, info.p[2], info.tx, 0.0, info.p[1], info.p[3], 0.0, 0.0, 0.0, 1.0, 0.0}) {
         out.put(p);
     }
     out.put(info.binning).put(info.binning);

@@ -64,6 +64,7 @@ struct InfoMessage {
     std::array<double, 4> k{7.0, 7.0, 3.5, 2.5}, p{}; // fx, fy, cx, cy
     uint32_t binning = 0;
     std::array<uint32_t, 4> roi{}; // x, y, height, width
+    double tx = 0.0;               // P[3], if p is given
 };
 std::string infoMessage(const InfoMessage& info);
 std::string transformMessage(double x, double y, double z); // geometry_msgs/Transform without rotation
