@@ -8,6 +8,7 @@
 #include "apps/register/robust_fit.h"
 #include "apps/register/tag_finder.h"
 #include "engine/types/error.h"
+#include "engine/types/input_files.h"
 #include "engine/types/output_file.h"
 
 #include <CLI/CLI.hpp>
@@ -101,6 +102,9 @@ void runRegister(const RegisterOptions& options) {
         throw BadInput("register", "--points, --tags, --board", given == 0 ? "none" : "several",
                        "one of them");
     }
+    noteInput(options.scene); // points need no scene, but the lines are often meant for it
+    noteInput(*from);
+    refuseInput(options.out); // now, before the work
     const bool fromPoints = from == &options.points;
     const std::vector<PointPair> pairs = fromPoints ? readPointPairs(options.points) : seenTargets(options);
     const RobustFit robust = fitRobust(pairs, {options.bound, fromPoints ? 0.0 : kBadCorners}, *from);

@@ -9,6 +9,7 @@
 #include "apps/replay/replay_report.h"
 #include "devices/ros2/ros2_output_request.h"
 #include "engine/types/error.h"
+#include "engine/types/input_files.h"
 
 #include <CLI/CLI.hpp>
 #include <iostream>
@@ -124,6 +125,7 @@ int runReplay(const ReplayOptions& asked, const GlobalOptions& global) {
     if (options.seconds > 0.0 && options.handDevice.empty()) {
         throw BadInput("replay", "--seconds", decimal(options.seconds), "together with --hand-device");
     }
+    noteInput(options.operatorCsv); // it is read after the outputs were opened
     const ReplaySummary summary =
         options.realtime ? runRealtime(options, global) : runLockstep(options, global);
     if (summary.haptic.maxPenetration.value_or(0.0) > kPenetrationLimit) {

@@ -81,6 +81,21 @@ void check(const SpheresOptions& options) {
     }
 }
 
+// Each output needs a file of its own.
+void refuseShared(const SpheresOptions& options) {
+    const auto full = [](const std::filesystem::path& file) {
+        std::error_code unknown;
+        return std::filesystem::weakly_canonical(std::filesystem::absolute(file, unknown), unknown);
+    };
+    for (const auto& [name, file, other] :
+         {std::tuple("--json", options.json, options.out), std::tuple("--plot", options.plot, options.out),
+          std::tuple("--plot", options.plot, options.json)}) {
+        if (!file.empty() && full(file) == full(other)) {
+            throw BadInput("spheres", name, file.string(), "a file that no other option writes");
+        }
+    }
+}
+
 void drawErrors(const SpheresOptions& options, Maker& maker, size_t leaves) {
     for (uint32_t n = 4; n <= std::min<size_t>(2 * leaves, 1024); n *= 2) {
         CoverOptions at = options.cover;
@@ -209,6 +224,7 @@ void runSpheres(SpheresOptions options) {
     check(options);
     noteInput(options.mesh);
     refuseInput(options.out); // now, before the work
+    refuseShared(options);
     if (isSphereFile(options.mesh)) {
         convert(options);
         return;

@@ -3,7 +3,6 @@
 
 #include "devices/bag/byte_cursor.h"
 #include "devices/bag/unpack_chunk.h"
-#include "engine/types/input_files.h"
 #include "engine/types/printable.h"
 #include "engine/types/read_file.h"
 
@@ -59,7 +58,6 @@ BagFile::BagFile(const std::filesystem::path& file)
         throw BadInput(file.string(), "format", in_.is_open() ? "no bag" : whyUnreadable(file),
                        "a ROS 1 bag of version 2.0");
     }
-    noteInput(file);
     try {
         const Record header = readRecord();
         if (number<uint8_t>(header.fields, "op") != kBagHeader) {

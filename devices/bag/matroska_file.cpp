@@ -4,7 +4,6 @@
 #include "devices/bag/byte_cursor.h"
 #include "devices/bag/kinect_calibration.h"
 #include "devices/bag/ros2_messages.h"
-#include "engine/types/input_files.h"
 #include "engine/types/log.h"
 #include "engine/types/read_file.h"
 
@@ -46,7 +45,6 @@ MatroskaFile::MatroskaFile(const std::filesystem::path& file)
     if (!data_.open()) {
         throw BadInput(file.string(), "file", whyUnreadable(file), "a Matroska file (.mkv)");
     }
-    noteInput(file);
     try {
         data_.readAhead(false); // the images are not read yet
         readSegment();

@@ -8,6 +8,7 @@
 #include "devices/bag/realsense_recording.h"
 #include "devices/bag/ros2_database.h"
 #include "devices/bag/split_recording.h"
+#include "engine/types/input_files.h"
 #include "engine/types/read_file.h"
 #include "engine/types/stand_in.h"
 
@@ -73,6 +74,7 @@ std::unique_ptr<MessageFile> openMessageFile(const std::filesystem::path& file) 
     if (std::filesystem::is_directory(file, failed)) {
         return std::make_unique<SplitRecording>(file);
     }
+    noteInput(file);
     std::string begin(16, '\0');
     std::ifstream in(isRegularFile(file) ? std::ifstream(file, std::ios::binary) : std::ifstream());
     in.read(begin.data(), static_cast<std::streamsize>(begin.size()));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/recorded/png_image.h"
 
+#include "engine/types/input_files.h"
 #include "engine/types/read_file.h"
 
 #include <algorithm>
@@ -40,6 +41,7 @@ class PngReader {
 public:
     explicit PngReader(const std::filesystem::path& file)
         : file_(isRegularFile(file) ? std::fopen(file.c_str(), "rb") : nullptr) {
+        noteInput(file);
         open(whyUnreadable(file));
     }
     explicit PngReader(std::span<const uint8_t> bytes)

@@ -2,15 +2,11 @@
 #include "engine/cycle/trace.h"
 
 #include "engine/types/error.h"
-#include "engine/types/input_files.h"
 #include "engine/types/number_text.h"
 #include "engine/types/replaceable.h"
 
-#include <cerrno>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
-#include <system_error>
 
 namespace fathom {
 
@@ -36,26 +32,25 @@ std::string arguments(const TraceDetail& detail) {
     return ",\"args\":{" + doubleQuoted(detail.name) + ":" + value + "}";
 }
 
-// The finished trace replaces this file, so the name must be free or a regular file.
-std::filesystem::path replaceable(std::filesystem::path file) {
+OutputFile openTraceFile(const std::filesystem::path& file) {
     if (!isReplaceable(file)) {
         throw Error("trace " + file.string() + ": cannot be written: a folder, a device or a pipe");
     }
-    refuseInput(file);
-    return file;
+    try {
+        return OutputFile(file);
+    } catch (const BadInput&) {
+        throw;
+    } catch (const Error& e) {
+        throw BadInput("trace", "file", e.what(), "a file that can be written");
+    }
 }
 
 } // namespace
 
-Trace::Trace(std::filesystem::path file, uint64_t maxBytes)
-    : file_(replaceable(std::move(file)))
-    , temporary_(file_.string() + ".part")
+Trace::Trace(const std::filesystem::path& file, uint64_t maxBytes)
+    : out_(openTraceFile(file))
     , maxBytes_(maxBytes)
-    , out_(temporary_, std::ios::binary | std::ios::trunc)
     , start_(std::chrono::steady_clock::now()) {
-    if (!out_) {
-        throw BadInput("trace", file_.string(), std::strerror(errno), "a file that can be written");
-    }
     put("{\"displayTimeUnit\":\"ms\",\"traceEvents\":[\n");
     put(R"({"ph":"M","name":"process_name","pid":1,"tid":0,"args":{"name":"fathom"}})");
 }
@@ -78,8 +73,15 @@ const char* Trace::keep(std::string text) {
 }
 
 void Trace::put(const std::string& text) {
-    out_.write(text.data(), static_cast<std::streamsize>(text.size()));
-    bytes_ += text.size();
+    if (!fault_.empty()) {
+        return;
+    }
+    try {
+        out_.write(text);
+        bytes_ += text.size();
+    } catch (const Error& e) { // a full disk must not end the run
+        fault_ = e.what();
+    }
 }
 
 void Trace::write(const TraceEvent& event, size_t track) {
@@ -135,16 +137,10 @@ void Trace::finish() {
     put("\n],\"otherData\":{\"events\":" + std::to_string(written_) +
         ",\"short_frequent_spans_left_out\":" + std::to_string(shortLeftOut_) +
         ",\"left_out_for_size\":" + std::to_string(leftOut_) + ",\"lost\":" + std::to_string(lost) + "}}\n");
-    out_.close();
-    std::error_code fault;
-    if (out_) {
-        std::filesystem::rename(temporary_, file_, fault);
+    if (!fault_.empty()) {
+        throw Error("trace " + fault_);
     }
-    if (!out_ || fault) {
-        std::error_code ignored;
-        std::filesystem::remove(temporary_, ignored);
-        throw Error("trace " + file_.string() + ": cannot be written");
-    }
+    out_.commit();
 }
 
 } // namespace fathom

@@ -3,12 +3,12 @@
 // tracks.
 #pragma once
 
+#include "engine/types/output_file.h"
 #include "engine/types/spsc_queue.h"
 
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <string>
 #include <vector>
@@ -67,8 +67,8 @@ private:
 // nothing beyond maxBytes. The file counts the dropped events.
 class Trace {
 public:
-    // Throws Error that names the file. finish() renames the complete file to its name.
-    explicit Trace(std::filesystem::path file, uint64_t maxBytes = 50'000'000);
+    // Throws Error that names the file. Only finish() replaces a file of this name.
+    explicit Trace(const std::filesystem::path& file, uint64_t maxBytes = 50'000'000);
     Trace(const Trace&) = delete;
     Trace& operator=(const Trace&) = delete;
     ~Trace(); // finishes; ignores a failure to write
@@ -79,7 +79,8 @@ public:
 
     // Moves the events of all tracks to the file. Cheap without events; call it before the queues fill up.
     void drain();
-    // Drains and closes the file. Throws Error that names it. No events may follow.
+    // Drains and closes the file. No events may follow. Throws Error that names it, also if the disk was full
+    // before, or if this process has read the file since.
     void finish();
 
     static constexpr std::chrono::microseconds kLongSpan{100};
@@ -89,9 +90,9 @@ private:
     void writeNames();
     void put(const std::string& text);
 
-    std::filesystem::path file_, temporary_;
+    OutputFile out_;
+    std::string fault_; // of the first write that failed
     uint64_t maxBytes_;
-    std::ofstream out_;
     uint64_t bytes_ = 0, written_ = 0, shortLeftOut_ = 0, leftOut_ = 0;
     bool finished_ = false;
     TraceTime start_;

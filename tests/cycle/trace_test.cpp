@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/cycle/cadence_trace.h"
 #include "engine/types/error.h"
+#include "engine/types/input_files.h"
+#include "tests/rig/file_size_limit.h"
 #include "tests/support/scratch_folder.h"
 
 #include <atomic>
@@ -218,8 +220,8 @@ TEST_CASE("A trace that cannot be written is reported by name, and an earlier on
           "complete") {
     CHECK_THROWS_WITH_AS(
         Trace("/no/such/folder/run.json"),
-        "trace: /no/such/folder/run.json: No such file or directory (allowed: a file that can be "
-        "written)",
+        "trace: file: /no/such/folder/run.json: cannot create: No such file or directory (allowed: a file "
+        "that can be written)",
         BadInput);
     TraceFile file;
     std::ofstream(file.path) << "{\"traceEvents\":[]}";
@@ -229,5 +231,39 @@ TEST_CASE("A trace that cannot be written is reported by name, and an earlier on
     CHECK(file.read()["traceEvents"].empty());
     trace.finish();
     CHECK(eventsNamed(file.read(), "tick").size() == 1);
+    CHECK(std::distance(std::filesystem::directory_iterator(file.folder.path()), {}) == 1);
+}
+
+TEST_CASE("A trace does not replace a file that was read while it was recorded, and follows no link") {
+    TraceFile file;
+    file.folder.write("hand.csv", "0 0 0 0\n");
+    std::filesystem::create_symlink(file.folder / "hand.csv", file.folder / "run.json.part");
+    std::filesystem::create_symlink(file.folder / "hand.csv", file.folder / "run.json.partial");
+    Trace(file.path).finish();
+    CHECK(file.folder.read("hand.csv") == "0 0 0 0\n");
+    CHECK(std::filesystem::is_regular_file(std::filesystem::symlink_status(file.path)));
+
+    Trace over(file.folder / "hand.csv");
+    noteInput(file.folder / "hand.csv");
+    CHECK_THROWS_AS(over.finish(), BadInput);
+    CHECK(file.folder.read("hand.csv") == "0 0 0 0\n");
+}
+
+TEST_CASE("A disk that is full is reported at the end of the trace, not while events are collected") {
+    TraceFile file;
+    std::ofstream(file.path) << "old";
+    {
+        const FileSizeLimit small(1000);
+        Trace trace(file.path, 10'000'000);
+        TraceTrack& track = trace.track("busy", 8192);
+        for (int i = 0; i < 30; ++i) { // more than the write buffer
+            for (int k = 0; k < 1000; ++k) {
+                track.instant("an event with a name of some length", std::chrono::steady_clock::now());
+            }
+            CHECK_NOTHROW(trace.drain());
+        }
+        CHECK_THROWS_AS(trace.finish(), Error);
+    }
+    CHECK(file.folder.read("run.json") == "old");
     CHECK(std::distance(std::filesystem::directory_iterator(file.folder.path()), {}) == 1);
 }

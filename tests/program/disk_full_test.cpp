@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A full disk: files may not grow beyond a limit; for a trace, its temporary name is a link to /dev/full.
+// Files that cannot be written: on a full disk (files may not grow beyond a limit), in place of devices or
+// inputs.
 #include "tests/rig/file_size_limit.h"
 #include "tests/rig/stage.h"
 
@@ -64,19 +65,22 @@ TEST_CASE("A disk that is full ends a replay in one line that names the file, an
     }
 }
 
-TEST_CASE("A full disk under a trace is reported in one line after the replay's own files are written") {
+TEST_CASE("A trace that may not be written in the end is reported in one line after the replay's own files "
+          "are written") {
     for (const bool realtime : {false, true}) {
         CAPTURE(realtime);
         const Stage stage;
-        setUpFullDisk(stage, 0.1, "trace.json.part");
-        stage.write("trace.json", "old trace");
-        std::vector<std::string> more{"--trace", (stage / "trace.json").string()};
+        setUpFullDisk(stage, 0.1, "");
+        const std::string image = "rec/depth/000001.png", before = stage.read(image); // read by the run
+        std::vector<std::string> more{"--trace", (stage / image).string()};
         if (realtime) {
             more.insert(more.end(), {"--realtime", "--hand"});
         }
-        checkFull(stage, runFathom(stage.command(more)), "trace.json");
-        CHECK(stage.read("trace.json") == "old trace");
-        CHECK_FALSE(std::filesystem::exists(std::filesystem::symlink_status(stage / "trace.json.part")));
+        const ProgramRun run = runFathom(stage.command(more));
+        CHECK(run.exitCode == 2);
+        REQUIRE(run.errorLines().size() == 1);
+        CHECK(run.err.find((stage / image).string() + ": output: the input itself") != std::string::npos);
+        CHECK(stage.read(image) == before);
         CHECK(readTicks(stage / "out/haptics.csv").size() > 100);
         CHECK(nlohmann::json::parse(stage.read("out/summary.json")).at("lockstep") == !realtime);
     }

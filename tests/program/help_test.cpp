@@ -60,7 +60,7 @@ TEST_CASE("An empty output folder or scene, and a trace that cannot be written, 
                           "fathom: none.bag: file: ");
     checkRefusedArguments({"replay", "apps/scenes/demo.yaml", "--out", (folder.path() / "out").string(),
                            "--trace", "/no/such/t.json"},
-                          "fathom: trace: /no/such/t.json: No such file");
+                          "fathom: trace: file: /no/such/t.json: cannot create: No such file");
 }
 
 TEST_CASE(

@@ -111,11 +111,21 @@ TEST_CASE("No command replaces a file that it reads") {
     refused({"spheres", at("ball.obj"), "--out", at("same.sph")}, "ball.obj");
     refused({"spheres", at("tool.sph"), "--out", at("tool.sph")}, "tool.sph");
     refused({"register", scene, "--points", at("points.csv"), "--out", at("points.csv")}, "points.csv");
+    refused({"register", scene, "--points", at("points.csv"), "--out", scene}, "scene.yaml");
     std::filesystem::create_directories(stage / "out");
     std::filesystem::copy(stage / "hand.csv", stage / "out/haptics.csv");
     refused({"replay", scene, "--source", at("rec"), "--operator", at("out/haptics.csv"), "--out", at("out")},
             "out/haptics.csv");
     refused(stage.command({"--trace", scene}), "scene.yaml");
+    refused(stage.command({"--trace", at("hand.csv")}), "hand.csv");
+    REQUIRE(runFathom({"convert", at("rec"), "--out", at("mcap"), "--format", "mcap"}).exitCode == 0);
+    const std::string mcap = at("mcap/recording.mcap");
+    const std::string before = stage.read("mcap/recording.mcap");
+    const ProgramRun run =
+        runFathom({"replay", scene, "--source", mcap, "--out", at("mcap_out"), "--trace", mcap});
+    CHECK(run.exitCode == 2);
+    has(run.err, mcap + ": output: the input itself");
+    CHECK(stage.read("mcap/recording.mcap") == before);
 }
 
 TEST_CASE("Spheres of a needle of 0.5 m by 1 nm are made in seconds and contain it") {

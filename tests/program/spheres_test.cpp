@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // `fathom spheres` as a program.
 #include "tests/model/meshes.h"
+#include "tests/rig/refusal.h"
 #include "tests/rig/run_fathom.h"
 #include "tests/support/scratch_folder.h"
 
@@ -32,6 +33,21 @@ TEST_CASE("spheres writes a tree and a report of its checks, and compares it wit
     CHECK(report["covers"][0]["leaves"] <= 12);
     CHECK(report["covers"][0]["protrusion_max_m"] > 0.001);
     CHECK(std::filesystem::file_size(out) > 200);
+}
+
+TEST_CASE("spheres writes no two of its outputs to one file") {
+    const ScratchFolder folder;
+    const ObjFile mesh(boxMesh(dvec3(0.0), {0.1, 0.04, 0.03}));
+    const std::string out = (folder / "o").string();
+    for (const auto& [name, file] : {std::pair("--json", out), std::pair("--plot", out),
+                                     std::pair("--json", folder.path().string() + "/./o")}) {
+        checkRefusal({"spheres", mesh.path().string(), "--out", out, name, file},
+                     {std::string("spheres: ") + name + ": " + file, "a file that no other option writes"});
+    }
+    const std::string report = (folder / "r").string();
+    checkRefusal({"spheres", mesh.path().string(), "--out", out, "--json", report, "--plot", report},
+                 {"spheres: --plot: " + report});
+    CHECK(folder.files() == 0);
 }
 
 TEST_CASE("spheres decides by an ending in capital letters as by one in small ones") {
