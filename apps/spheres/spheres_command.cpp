@@ -2,13 +2,12 @@
 #include "apps/spheres/spheres_command.h"
 
 #include "apps/number_option.h"
+#include "apps/spheres/cover_maker.h"
 #include "apps/spheres/spheres_report.h"
 #include "engine/model/cover_urdf.h"
 #include "engine/model/sph_file.h"
-#include "engine/model/sphere_cover.h"
 #include "engine/model/sphere_sets.h"
 #include "engine/model/write_spheres.h"
-#include "engine/reference/cell_cover.h"
 #include "engine/types/error.h"
 #include "engine/types/input_files.h"
 #include "engine/types/log.h"
@@ -17,11 +16,9 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <iostream>
 #include <memory>
-#include <utility>
 
 namespace fathom {
 
@@ -40,39 +37,6 @@ struct SpheresOptions {
 
 const std::vector<std::string> kOfMeshes{"--leaves",  "--protrusion", "--up",  "--drop-stray",
                                          "--compare", "--plot",       "--json"};
-
-class Maker {
-public:
-    explicit Maker(const LoadedMesh& loaded)
-        : mesh_(loaded.mesh)
-        , distance_(loaded.mesh, loaded.facts.closed()) {}
-
-    Cover ours(const CoverOptions& options) {
-        const auto start = std::chrono::steady_clock::now();
-        Cover cover = coverMesh(mesh_, distance_, options);
-        add("fathom", cover.spheres, start);
-        return cover;
-    }
-    void others(size_t leaves) {
-        auto start = std::chrono::steady_clock::now();
-        add("octree", reference::octreeCover(mesh_, distance_, leaves), start);
-        start = std::chrono::steady_clock::now();
-        add("grid", reference::gridCover(mesh_, distance_, leaves), start);
-    }
-    const std::vector<CoverRow>& rows() const { return rows_; }
-    std::vector<CoverRow> takeRows() { return std::exchange(rows_, {}); }
-
-private:
-    void add(const std::string& name, const std::vector<Sphere>& spheres,
-             std::chrono::steady_clock::time_point start) {
-        const double took = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-        rows_.push_back({name, spheres.size(), measureCover(spheres, mesh_, distance_), took});
-    }
-
-    const TriangleMesh& mesh_;
-    MeshDistance distance_;
-    std::vector<CoverRow> rows_;
-};
 
 void check(const SpheresOptions& options) {
     if (options.cover.leaves < 1 || options.cover.leaves > kMaxCoverSpheres) {
@@ -96,7 +60,7 @@ void refuseShared(const SpheresOptions& options) {
     }
 }
 
-void drawErrors(const SpheresOptions& options, Maker& maker, size_t leaves) {
+void drawErrors(const SpheresOptions& options, CoverMaker& maker, size_t leaves) {
     for (uint32_t n = 4; n <= std::min<size_t>(2 * leaves, 1024); n *= 2) {
         CoverOptions at = options.cover;
         at.leaves = n;
@@ -201,7 +165,7 @@ void convert(const SpheresOptions& options) {
     holdsLinks(options.out) ? convertSets(options) : convertTree(options);
 }
 
-Cover coverOf(Maker& maker, const SpheresOptions& options) {
+Cover coverOf(CoverMaker& maker, const SpheresOptions& options) {
     try {
         return maker.ours(options.cover);
     } catch (const BadInput&) {
@@ -239,7 +203,7 @@ void runSpheres(SpheresOptions options) {
     if (!loaded.doubt.empty()) {
         log::warn("{}: {}; set the unit with --scale", options.mesh.string(), loaded.doubt);
     }
-    Maker maker(loaded);
+    CoverMaker maker(loaded);
     const Cover cover = coverOf(maker, options);
     writeCover(options, cover);
     if (options.compare) {
