@@ -146,9 +146,13 @@ std::string geometryOf(const std::filesystem::path& file, const YAML::Node& root
     return geometry.begin()->first.Scalar();
 }
 
-// Adds distances, {LINK: d} or one for all links, to the radii, and drops links without spheres.
-void grow(const std::filesystem::path& file, const std::string& field, const YAML::Node& distances,
-          std::vector<LinkSpheres>& sets) {
+// Adds the distances of a key, {LINK: d} or one for all links, to the radii, and drops links without spheres.
+void growBy(const std::filesystem::path& file, const YAML::Node& table, const std::string& key,
+            const std::string& field, std::vector<LinkSpheres>& sets) {
+    const YAML::Node distances = tableOf(file.string(), table, key);
+    if (distances && distances.IsSequence()) {
+        throw BadInput(file.string(), field, "a list", "distance or {LINK: distance}");
+    }
     const bool same = distances.IsDefined() && distances.IsScalar();
     const double all = same ? number(file.string(), distances) : 0.0;
     std::set<std::string> links;
@@ -176,17 +180,19 @@ std::vector<LinkSpheres> xrdfSets(const std::filesystem::path& file, const YAML:
         throw BadInput(name, "geometry", "missing or not a table", "{NAME: {spheres: {LINK: [...]}}}");
     }
     const std::string used = geometryOf(file, root, geometry);
-    const YAML::Node spheres = tableOf(name, tableOf(name, geometry, used), "spheres");
+    const YAML::Node model = tableOf(name, geometry, used), spheres = tableOf(name, model, "spheres");
     if (!spheres || !spheres.IsMap()) {
         throw BadInput(name, "geometry." + excerpt(used) + ".spheres", "missing or not a table", kLinks);
     }
-    const YAML::Node distances = tableOf(name, tableOf(name, root, "collision"), "buffer_distance");
-    if (distances && !distances.IsMap()) {
-        throw BadInput(name, "collision.buffer_distance",
-                       distances.IsScalar() ? excerpt(distances.Scalar()) : "a list", "{LINK: distance}");
+    for (const auto& entry : model) { // such as `clone`, whose spheres would be missing
+        if (!entry.first.IsScalar() || entry.first.Scalar() != "spheres") {
+            throw BadInput(name, "geometry." + excerpt(used),
+                           "'" + (entry.first.IsScalar() ? excerpt(entry.first.Scalar()) : "?") + "'",
+                           "only spheres");
+        }
     }
     std::vector<LinkSpheres> sets = linksOf(file, spheres);
-    grow(file, "collision.buffer_distance", distances, sets);
+    growBy(file, tableOf(name, root, "collision"), "buffer_distance", "collision.buffer_distance", sets);
     return sets;
 }
 
@@ -201,11 +207,7 @@ std::vector<LinkSpheres> curoboSets(const std::filesystem::path& file, const YAM
         throw BadInput(file.string(), "collision_spheres", "missing or not a table", kLinks);
     }
     std::vector<LinkSpheres> sets = linksOf(file, section);
-    const YAML::Node distances = tableOf(file.string(), holder, "collision_sphere_buffer");
-    if (distances && distances.IsSequence()) {
-        throw BadInput(file.string(), "collision_sphere_buffer", "a list", "distance or {LINK: distance}");
-    }
-    grow(file, "collision_sphere_buffer", distances, sets);
+    growBy(file, holder, "collision_sphere_buffer", "collision_sphere_buffer", sets);
     return sets;
 }
 

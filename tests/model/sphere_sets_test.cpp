@@ -105,6 +105,27 @@ TEST_CASE("cuRobo's buffer, one number or one per link, is added to the radii") 
 }
 
 TEST_CASE(
+    "An XRDF's buffer is one number, as cuRobo writes it, or one per link, and only spheres are geometry") {
+    const auto text = [](const std::string& buffer, const std::string& more = "") {
+        return "format: xrdf\ncollision: {geometry: g, buffer_distance: " + buffer + "}\ngeometry: {g: {" +
+               more + "spheres: {hand: [{center: [0, 0, 0], radius: 0.01}]}}, other: {clone: g}}\n";
+    };
+    const auto radius = [&](const std::string& buffer) {
+        const testing::ScratchFile file("set.xrdf", text(buffer));
+        return readXrdf(file.path())[0].spheres[0].radius;
+    };
+    CHECK(radius("0.0") == 0.01);
+    CHECK(radius("0.005") == doctest::Approx(0.015).epsilon(1e-12));
+    CHECK(radius("{hand: 0.005}") == doctest::Approx(0.015).epsilon(1e-12));
+    CHECK(radius("{}") == 0.01);
+    CHECK(setRefusal(".xrdf", text("[0.005]")).find("collision.buffer_distance: a list") !=
+          std::string::npos);
+    CHECK(setRefusal(".xrdf", text("{hnad: 0.005}")).find("link 'hnad'") != std::string::npos);
+    CHECK(setRefusal(".xrdf", text("0", "clone: other, "))
+              .find("geometry.g: 'clone' (allowed: only spheres)") != std::string::npos);
+}
+
+TEST_CASE(
     "cuRobo's spheres are also read as Lula's list and as JSON; the name of another file is passed on") {
     const testing::ScratchFile lula(
         "set.yaml", "api_version: 1.0\ncollision_spheres:\n  - hand:\n    - \"center\": [0, 0, 0.05]\n"
