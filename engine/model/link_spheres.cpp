@@ -12,12 +12,14 @@
 #include <cmath>
 #include <numbers>
 #include <utility>
+#include <vector>
 
 namespace fathom {
 
 namespace {
 
 constexpr double kMaxAlongCapsule = 256.0; // spheres
+constexpr double kThinnest = 1e-6;         // [m]
 
 // Upright about z; a rectangle for four corners.
 TriangleMesh prism(uint32_t sides, const std::array<double, 2>& half, double length) {
@@ -60,30 +62,35 @@ LoadedMesh readMesh(const urdf::Mesh& mesh, const ShapeSource& source, ShapeSphe
     return loaded;
 }
 
+// A size of 0 belongs to a plate, disc or rod, which an arm must keep out of regions like any other part.
+double thick(double size) {
+    return std::max(size, kThinnest);
+}
+
 // Spheres along the axis of a capsule, so close that they contain it with 5 % of its radius.
 std::vector<Sphere> capsuleSpheres(const CapsuleSize& capsule) {
-    const double radius = 1.05 * capsule.radius, half = 0.5 * capsule.length;
-    const double reach = std::sqrt(radius * radius - capsule.radius * capsule.radius);
+    const double own = thick(capsule.radius), radius = 1.05 * own, half = 0.5 * capsule.length;
+    const double reach = std::sqrt(radius * radius - own * own);
     const auto count = static_cast<size_t>(std::min(kMaxAlongCapsule, std::ceil(half / reach))) + 1;
     const double step = capsule.length / static_cast<double>(count);
-    const double grown = std::hypot(capsule.radius, 0.5 * step); // of spheres in the middle of each step
+    const double grown = std::hypot(own, 0.5 * step); // of spheres in the middle of each step
     std::vector<Sphere> spheres;
     for (size_t i = 0; i < count; ++i) {
         spheres.push_back({{0.0, 0.0, -half + (static_cast<double>(i) + 0.5) * step}, grown});
     }
-    spheres.push_back({{0.0, 0.0, -half}, capsule.radius});
-    spheres.push_back({{0.0, 0.0, half}, capsule.radius});
+    spheres.push_back({{0.0, 0.0, -half}, own});
+    spheres.push_back({{0.0, 0.0, half}, own});
     return spheres;
 }
 
 LoadedMesh meshOf(const urdf::Geometry& shape, const ShapeSource& source, ShapeSpheres& made) {
     LoadedMesh loaded;
     if (const auto* box = dynamic_cast<const urdf::Box*>(&shape)) {
-        loaded.mesh = prism(4, {0.5 * box->dim.x, 0.5 * box->dim.y}, box->dim.z);
+        loaded.mesh = prism(4, {0.5 * thick(box->dim.x), 0.5 * thick(box->dim.y)}, thick(box->dim.z));
     } else if (const auto* tube = dynamic_cast<const urdf::Cylinder*>(&shape)) {
         // Twenty-four sides about the circle: the flats lie outside it.
-        const double radius = tube->radius / std::cos(std::numbers::pi / 24.0);
-        loaded.mesh = prism(24, {radius, radius}, tube->length);
+        const double radius = thick(tube->radius) / std::cos(std::numbers::pi / 24.0);
+        loaded.mesh = prism(24, {radius, radius}, thick(tube->length));
     } else if (const auto* mesh = dynamic_cast<const urdf::Mesh*>(&shape)) {
         return readMesh(*mesh, source, made);
     }
@@ -91,19 +98,20 @@ LoadedMesh meshOf(const urdf::Geometry& shape, const ShapeSource& source, ShapeS
     return loaded;
 }
 
-// The smallest size of a box, cylinder or sphere [m].
-double leastSize(const urdf::Geometry& shape) {
+// The sizes [m] of a shape that may not all be 0; a capsule without length is a sphere.
+std::vector<double> sizesOf(const urdf::Geometry& shape) {
     if (const auto* box = dynamic_cast<const urdf::Box*>(&shape)) {
-        return std::min({box->dim.x, box->dim.y, box->dim.z});
+        return {box->dim.x, box->dim.y, box->dim.z};
     }
     if (const auto* tube = dynamic_cast<const urdf::Cylinder*>(&shape)) {
-        return std::min(tube->radius, tube->length);
+        return {tube->radius, tube->length};
     }
     if (const auto capsule = capsuleOf(shape)) {
-        return capsule->length < 0.0 ? capsule->length : capsule->radius;
+        return capsule->length == 0.0 ? std::vector{capsule->radius}
+                                      : std::vector{capsule->radius, capsule->length};
     }
     const auto* ball = dynamic_cast<const urdf::Sphere*>(&shape);
-    return ball != nullptr ? ball->radius : 1.0;
+    return {ball != nullptr ? ball->radius : 1.0};
 }
 
 } // namespace
@@ -119,13 +127,17 @@ std::filesystem::path outsideOf(const std::filesystem::path& file, const ShapeSo
 
 LinkShape readLinkShape(const urdf::Geometry& shape, const ShapeSource& source) {
     LinkShape out;
-    const double size = leastSize(shape);
-    if (!(size >= 0.0)) {
+    const std::vector<double> sizes = sizesOf(shape);
+    if (!std::all_of(sizes.begin(), sizes.end(), [](double size) { return size >= 0.0; })) {
         throw ShapeRefused{"a shape with a negative size", "sizes above 0"};
     }
-    if (size == 0.0) {
+    const auto none = std::count(sizes.begin(), sizes.end(), 0.0);
+    if (none == std::ssize(sizes)) {
         out.made.notes.push_back("a shape of size 0 is skipped");
         return out;
+    }
+    if (none > 0) {
+        out.made.notes.push_back("a shape with a size of 0 is covered as a surface or line");
     }
     if (const auto capsule = capsuleOf(shape)) {
         out.made.spheres = capsuleSpheres(*capsule);

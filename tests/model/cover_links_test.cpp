@@ -65,3 +65,31 @@ TEST_CASE(
     CHECK(skipped[0].spheres.empty());
     CHECK(skipped[0].notes == std::vector<std::string>{"a shape of size 0 is skipped"});
 }
+
+TEST_CASE("A plate, disc or rod with one size of 0 is covered, with a note") {
+    const auto plate = std::make_shared<urdf::Box>();
+    plate->dim = urdf::Vector3(0.1, 0.1, 0.0);
+    const auto line = std::make_shared<urdf::Box>();
+    line->dim = urdf::Vector3(0.0, 0.0, 0.3);
+    const auto disc = std::make_shared<urdf::Cylinder>(), rod = std::make_shared<urdf::Cylinder>();
+    disc->radius = 0.1;
+    disc->length = 0.0;
+    rod->radius = 0.0;
+    rod->length = 0.3;
+    const std::vector<LinkGeometry> shapes{{"plate", plate}, {"line", line}, {"disc", disc}, {"rod", rod}};
+    const std::vector<std::vector<dvec3>> inside{{{0.05, 0.05, 0.0}, {-0.05, 0.05, 0.0}, {0.01, 0.02, 0.0}},
+                                                 {{0.0, 0.0, 0.15}, {0.0, 0.0, -0.07}},
+                                                 {{0.1, 0.0, 0.0}, {0.0, -0.1, 0.0}, {0.03, 0.02, 0.0}},
+                                                 {{0.0, 0.0, 0.15}, {0.0, 0.0, -0.07}}};
+    const auto made = spheresOf(shapes, {"arm.urdf", {}}, 24);
+    for (size_t i = 0; i < shapes.size(); ++i) {
+        CAPTURE(shapes[i].link);
+        CHECK(made[i].notes ==
+              std::vector<std::string>{"a shape with a size of 0 is covered as a surface or line"});
+        for (const dvec3& p : inside[i]) {
+            CHECK(std::ranges::any_of(made[i].spheres, [&](const Sphere& s) {
+                return glm::distance(s.centre, p) <= s.radius + 1e-9;
+            }));
+        }
+    }
+}
