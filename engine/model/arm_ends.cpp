@@ -2,6 +2,7 @@
 #include "engine/model/arm_ends.h"
 
 #include "engine/model/arm_mimic.h"
+#include "engine/model/jaw_joint.h"
 #include "engine/model/link_names.h"
 #include "engine/types/error.h"
 #include "engine/types/joined.h"
@@ -83,6 +84,11 @@ public:
                                              : "the end of the longest chain";
         }
         noteOthers(ends, *best, any);
+        if (best->rank == kNoTool && best->moving > 2 && !turnsHand(*best->last)) {
+            if (const std::string doubt = jawDoubt(*best->last); !doubt.empty()) {
+                ends.notes.push_back(doubt);
+            }
+        }
         ends.tip = best->rank < kNoTool ? best->link : bareEnd(bodyAt(best->link), ends);
     }
 
@@ -132,13 +138,14 @@ private:
                moving >= deepest;
     }
 
-    bool isGripper(const urdf::Joint& joint, int moving) const {
+    bool isGripper(const urdf::Joint& joint, int moving, const urdf::Joint* last) const {
         if (!moves(joint)) {
             return false;
         }
         const bool tiedEnd =
             moving >= 2 && groupOf(joint).size() > 1 && depthThrough(joint) <= 2 && !tiedToChain(joint);
-        return closesGripper(joint) || tiedEnd;
+        const bool jaw = moving >= 2 && depthThrough(joint) == 1 && slidesLikeJaw(model_, joint, last);
+        return closesGripper(joint) || tiedEnd || (jaw && !turnsHand(joint));
     }
 
     // The joint and those that are tied to it; empty if it follows one that cannot move.
@@ -181,7 +188,7 @@ private:
             if (isFree(*joint) && moving > 0 && depthThrough(*joint) == 0) {
                 continue; // it would end the chain
             }
-            const bool grips = moves(*joint) && (fingers || isGripper(*joint, moving));
+            const bool grips = moves(*joint) && (fingers || isGripper(*joint, moving, last));
             seen_[at].gripperBelow = seen_[at].gripperBelow || grips;
             walk(model_.getLink(joint->child_link_name), moving + moves(*joint), inGripper || grips,
                  moves(*joint) ? joint.get() : last);

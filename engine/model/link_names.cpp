@@ -41,8 +41,11 @@ constexpr std::array<std::string_view, 27> kToolNames{"tool0",
                                                       "gripper_base",
                                                       "gripper_link"};
 
-constexpr std::array<std::string_view, 8> kGripperWords{"gripper", "finger", "fngr",  "jaw",
-                                                        "knuckle", "claw",   "thumb", "pincer"};
+// Also in names of links; the links "gripper" and "grasp_link" are often a wrist's.
+constexpr std::array<std::string_view, 12> kGripperWords{"finger", "fngr",  "jaw",     "knuckle",
+                                                         "claw",   "thumb", "pincer",  "clamp",
+                                                         "pinch",  "tong",  "forceps", "scissor"};
+constexpr std::array<std::string_view, 3> kGripperJoints{"grip", "grasp", "opening"};
 
 // In the name of a joint these say that it turns a hand and does not close it.
 constexpr std::array<std::string_view, 6> kWristWords{"wrist", "roll", "rotat", "pitch", "yaw", "swivel"};
@@ -74,11 +77,13 @@ size_t toolRank(const std::string& link) {
     return best;
 }
 
-// The link "gripper" is often a wrist's.
+bool turnsHand(const urdf::Joint& joint) {
+    return hasWord(joint.name, kWristWords);
+}
+
 bool closesGripper(const urdf::Joint& joint) {
-    const std::span<const std::string_view> ofLinks(kGripperWords.begin() + 1, kGripperWords.end());
-    return !hasWord(joint.name, kWristWords) &&
-           (hasWord(joint.name, kGripperWords) || hasWord(joint.child_link_name, ofLinks));
+    return !turnsHand(joint) && (hasWord(joint.name, kGripperJoints) || hasWord(joint.name, kGripperWords) ||
+                                 hasWord(joint.child_link_name, kGripperWords));
 }
 
 } // namespace fathom

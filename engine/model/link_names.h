@@ -16,6 +16,9 @@ inline constexpr const char* kSiteEnding = "__site";
 // Rank of a tool frame's name, with or without a prefix such as "left_"; the best is 0. kNoTool = none.
 size_t toolRank(const std::string& link);
 
+// Whether the name says that the joint turns a hand, as that of a wrist, and does not close it.
+bool turnsHand(const urdf::Joint& joint);
+
 // Whether the names say that the joint closes a gripper.
 bool closesGripper(const urdf::Joint& joint);
 

@@ -57,6 +57,46 @@ TEST_CASE("A chain ends at the hand before fingers, whatever their names") {
     CHECK(tipOf(twoJoints(fingers)) == "c (the end of the longest chain before a gripper)");
 }
 
+TEST_CASE("A single jaw ends the chain by its names, or by its motion across the hand") {
+    const auto jawTip = [](const std::string& joint, const std::string& kind, const std::string& at,
+                           const std::string& axis, const std::string& limit) {
+        return tipOf(twoJoints(ballLink("e") + jointText(joint, kind, "c", "e", at, axis, limit)));
+    };
+    const std::string turn = "<limit lower='0' upper='1' velocity='1' effort='1'/>",
+                      slide = "<limit lower='0' upper='0.04' velocity='0.2' effort='1'/>",
+                      before = "c (the end of the longest chain before a gripper)",
+                      end = "e (the end of the longest chain)";
+    for (const char* joint :
+         {"grip", "grasp_joint", "clamp", "pinch", "tongs", "forceps", "scissors", "opening"}) {
+        CHECK_MESSAGE(jawTip(joint, "revolute", "0 0 0.1", "0 1 0", turn) == before, joint);
+    }
+    CHECK(jawTip("grip_rotation", "revolute", "0 0 0.1", "0 1 0", turn) == end);
+    CHECK(jawTip("drive_x", "prismatic", "0 0 0.1", "0 1 0", slide) == before); // j2 turns about x
+    CHECK(jawTip("drive_x", "prismatic", "0 0 0", "0 1 0", slide) == before);
+    CHECK(jawTip("needle", "prismatic", "0 0 0.1", "0 0 1", slide) == end);
+    CHECK(jawTip("quill", "prismatic", "0 0 0", "1 0 0", slide) == end);
+    CHECK(jawTip("long", "prismatic", "0 0 0.1", "0 1 0",
+                 "<limit lower='0' upper='0.3' velocity='0.2' effort='1'/>") == end);
+    CHECK(jawTip("both", "prismatic", "0 0 0.1", "0 1 0",
+                 "<limit lower='-0.04' upper='0.04' velocity='0.2' effort='1'/>") == end);
+}
+
+TEST_CASE("A last joint that moves little and to one side gives a note that it may close a gripper") {
+    const auto notes = [](const std::string& joint, const std::string& limit) {
+        return loadUrdf(
+                   twoJoints(ballLink("e") + jointText(joint, "revolute", "c", "e", "0 0 0.1", "0 1 0",
+                                                       "<limit " + limit + " velocity='1' effort='1'/>")))
+            .notes;
+    };
+    CHECK(notes("m6", "lower='0' upper='1.2'") ==
+          std::vector<std::string>{
+              "joint m6 (0 to 1.2 rad) is the last of the chain and may close a gripper; if so, "
+              "set arm.tip to c"});
+    CHECK(notes("m6", "lower='-1.2' upper='1.2'").empty());
+    CHECK(notes("m6", "lower='0' upper='3'").empty());
+    CHECK(notes("wrist_3", "lower='0' upper='1.2'").empty());
+}
+
 TEST_CASE("Without a usual name the tip is the end of the longest chain, or the frame fixed to it") {
     CHECK(tipOf(twoJoints("")) == "c (the end of the longest chain)");
     CHECK(tipOf(twoJoints("<link name='t'/>" + jointText("f", "fixed", "c", "t", "0 0 0.4", "0 0 1"))) ==

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the motion of the last joint of a chain says: whether it closes a gripper, whatever its name.
+#pragma once
+
+#include <string>
+#include <urdf_model/model.h>
+
+namespace fathom {
+
+// Whether the joint slides like a jaw: at most 0.1 m to one side of 0, across the way from `last` to it, and
+// not along the axis of `last`, the turning joint before it. False without `last`. A quill or a needle slides
+// along these.
+bool slidesLikeJaw(const urdf::ModelInterface& model, const urdf::Joint& joint, const urdf::Joint* last);
+
+// A note that the joint may close a gripper, if it moves only a little and to one side of 0; else empty.
+std::string jawDoubt(const urdf::Joint& joint);
+
+} // namespace fathom
