@@ -69,10 +69,10 @@ size_t toolRank(const std::string& link) {
     const std::string name = lowered(link);
     size_t best = kNoTool;
     for (size_t i = 0; i < kToolNames.size(); ++i) {
-        const std::string ending = "_" + std::string(kToolNames[i]);
-        if (name == kToolNames[i] || (name.size() > ending.size() && name.ends_with(ending))) {
-            best = std::min(best, i);
-        }
+        const std::string_view word = kToolNames[i];
+        const bool ends = name.size() > word.size() + 1 && name.ends_with(word) &&
+                          name[name.size() - word.size() - 1] == '_';
+        best = name == word || ends ? std::min(best, i) : best;
     }
     return best;
 }
