@@ -19,6 +19,7 @@
 #include <cmath>
 #include <iostream>
 #include <memory>
+#include <set>
 
 namespace fathom {
 
@@ -43,18 +44,12 @@ void check(const SpheresOptions& options) {
         throw BadInput("spheres", "--leaves", std::to_string(options.cover.leaves),
                        "1 to " + std::to_string(kMaxCoverSpheres));
     }
-}
-
-// Each output needs a file of its own.
-void refuseShared(const SpheresOptions& options) {
-    const auto full = [](const std::filesystem::path& file) {
-        std::error_code unknown;
-        return std::filesystem::weakly_canonical(std::filesystem::absolute(file, unknown), unknown);
-    };
-    for (const auto& [name, file, other] :
-         {std::tuple("--json", options.json, options.out), std::tuple("--plot", options.plot, options.out),
-          std::tuple("--plot", options.plot, options.json)}) {
-        if (!file.empty() && full(file) == full(other)) {
+    std::set<std::filesystem::path> files; // each output needs its own
+    std::error_code unknown;
+    for (const auto& [name, file] :
+         {std::pair("--out", options.out), {"--json", options.json}, {"--plot", options.plot}}) {
+        const auto full = std::filesystem::absolute(file, unknown);
+        if (!file.empty() && !files.insert(std::filesystem::weakly_canonical(full, unknown)).second) {
             throw BadInput("spheres", name, file.string(), "a file that no other option writes");
         }
     }
@@ -188,7 +183,6 @@ void runSpheres(SpheresOptions options) {
     check(options);
     noteInput(options.mesh);
     refuseInput(options.out); // now, before the work
-    refuseShared(options);
     if (isSphereFile(options.mesh)) {
         convert(options);
         return;
