@@ -38,13 +38,15 @@ private:
 template <class Reader, class Heard>
 void readPackets(SerialPort& port, Reader& reader, const Heard& heard) {
     std::array<uint8_t, 256> bytes{};
-    for (size_t got = port.read(bytes); got > 0; got = port.read(bytes)) {
+    size_t got = 0;
+    do {
+        got = port.read(bytes);
         for (size_t i = 0; i < got; ++i) {
             if (const auto packet = reader.take(bytes[i])) {
                 heard(*packet);
             }
         }
-    }
+    } while (got > 0);
 }
 
 } // namespace fathom

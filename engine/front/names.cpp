@@ -10,9 +10,9 @@ namespace fathom::v0 {
 namespace {
 
 // A value that the enumeration does not have may come from another language.
-template <size_t count>
-const char* nameAt(const std::array<const char*, count>& names, size_t index) noexcept {
-    return index < count ? names[index] : "unknown";
+template <size_t kCount>
+const char* nameAt(const std::array<const char*, kCount>& names, size_t index) noexcept {
+    return index < kCount ? names[index] : "unknown";
 }
 
 } // namespace

@@ -232,7 +232,7 @@ TEST_CASE("A slow arm keeps its force while it follows a surface that goes back 
             REQUIRE(force > 15.0);
             for (int i = 0; i < 198; ++i) {
                 if (i % 33 == 0) {
-                    arm.show(0.16 + back * 0.033 * (1 + i / 33));
+                    arm.show(0.16 + back * (0.033 + 0.001 * i));
                 }
                 arm.hand.position.y += back * 0.001;
                 record = arm.step();

@@ -51,7 +51,8 @@ std::unique_ptr<Camera> cloudsWith(const TemporaryFolder& folder, const std::vec
         const auto step = static_cast<uint32_t>(12 + word.size());
         std::string points;
         for (uint32_t i = 0; i < 63; ++i) {
-            const auto column = static_cast<float>(i % 9), row = static_cast<float>(i / 9);
+            const uint32_t down = i / 9;
+            const auto column = static_cast<float>(i % 9), row = static_cast<float>(down);
             const float z = 1.0f + 0.05f * column;
             points += raw((column - 4.0f) / 10.0f * z) + raw((row - 3.0f) / 10.0f * z) + raw(z) + word;
         }
@@ -119,7 +120,8 @@ TEST_CASE("Points of float64 are played as those of float32") {
     }
     std::string points;
     for (uint32_t i = 0; i < 63; ++i) {
-        const double column = i % 9, row = i / 9;
+        const uint32_t down = i / 9;
+        const double column = i % 9, row = down;
         points += raw((column - 4.0) / 10.0) + raw((row - 3.0) / 10.0) + raw(1.25);
     }
     out.put(uint8_t{0}).put(uint32_t{24}).put(uint32_t{9 * 24}).text(points).put(uint8_t{1});

@@ -129,7 +129,7 @@ TEST_CASE("Arrays of every size of integers, and of half floats, hold depth as n
                                         {"<i8"s, "\xe8\x03"s + zeros6 + "\xff\xff"s + ones6},
                                         {">u8"s, zeros6 + "\x03\xe8\0\0"s + zeros6},
                                         {"<f2"s, "\0\x3c\0\xbc"s}}) { // 1.0 and -1.0
-        CAPTURE(descr);
+        INFO(descr);
         std::vector<uint16_t> depth(2, 9);
         CHECK(readAs(descr, values, depth) == "");
         CHECK(depth == std::vector<uint16_t>{1000, 0});

@@ -65,10 +65,10 @@ TEST_CASE("A heading without #, and a pause, change neither start nor what colou
         folder.write("associations.txt", heading + late);
         CHECK(recordingRefusal(folder.path()).find("is usable; first: ") != std::string::npos);
         folder.write("associations.txt", heading + good);
-        using Depths = std::vector<uint16_t>;
-        CHECK(playedDepths(folder.path()) == Depths{1000, 1001, 1002, 1003, 1004});
-        CHECK(playedDepths(folder.path(), {.start = 1.0, .duration = 2.0}) == Depths{1001, 1002});
-        CHECK(playedDepths(folder.path(), {.start = 2.0}) == Depths{1002, 1003, 1004});
+        using Played = std::vector<uint16_t>;
+        CHECK(playedDepths(folder.path()) == Played{1000, 1001, 1002, 1003, 1004});
+        CHECK(playedDepths(folder.path(), {.start = 1.0, .duration = 2.0}) == Played{1001, 1002});
+        CHECK(playedDepths(folder.path(), {.start = 2.0}) == Played{1002, 1003, 1004});
     }
 }
 

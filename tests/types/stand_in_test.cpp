@@ -25,7 +25,7 @@ TEST_CASE(
           std::tuple("BZh9"s, "bzip2"), std::tuple("7z\xbc\xaf\x27\x1c"s, "7z"),
           std::tuple("Rar!\x1a"s, "RAR"), std::tuple(tar, "tar archive")}) {
         scratch.write("a", begin);
-        CAPTURE(what);
+        INFO(what);
         CHECK(standInOf(scratch / "a").find(what) != std::string::npos);
         const std::string refusal =
             testing::refusalOf([&] { readWholeFile(scratch / "a", 1u << 20, "a lens"); });
