@@ -48,8 +48,14 @@ std::vector<PointPair> readPointPairs(const std::filesystem::path& file) {
         std::string more;
         dvec3 &c = pair.camera, &b = pair.base;
         if (!(words >> c.x >> c.y >> c.z >> b.x >> b.y >> b.z) || words >> more || !isNear(c) || !isNear(b)) {
+            throw BadInput(
+                file.string(), "line " + std::to_string(line.number), line.text.substr(0, 160),
+                "six numbers camera_x,camera_y,camera_z,base_x,base_y,base_z, up to 1e6 m, separated "
+                "by commas or spaces");
+        }
+        if (!(c.z > 0.0)) {
             throw BadInput(file.string(), "line " + std::to_string(line.number), line.text.substr(0, 160),
-                           "six numbers camera_x,camera_y,camera_z,base_x,base_y,base_z, up to 1e6 m");
+                           "camera_z above 0: x right, y down, z forward; of axes with y up negate y and z");
         }
         pair.name = "line " + std::to_string(line.number);
         pairs.push_back(pair);

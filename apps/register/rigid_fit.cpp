@@ -4,7 +4,10 @@
 #include "engine/types/error.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <vector>
 
 namespace fathom {
 
@@ -54,6 +57,16 @@ Pose poseOf(const Moments& m) {
     return pose;
 }
 
+// A pair that is listed twice tells nothing new.
+size_t differentPoints(std::span<const PointPair> pairs) {
+    std::vector<std::array<double, 3>> points;
+    for (const PointPair& pair : pairs) {
+        points.push_back({pair.camera.x, pair.camera.y, pair.camera.z});
+    }
+    std::ranges::sort(points);
+    return static_cast<size_t>(std::ranges::unique(points).begin() - points.begin());
+}
+
 } // namespace
 
 Pose poseOf(std::span<const PointPair> pairs) {
@@ -62,8 +75,9 @@ Pose poseOf(std::span<const PointPair> pairs) {
 
 RigidFit fitRigid(std::span<const PointPair> pairs, const std::string& source) {
     const auto count = static_cast<double>(pairs.size());
-    if (pairs.size() < 4) {
-        throw BadInput(source, "pairs", std::to_string(pairs.size()), "4 or more, not on one line");
+    if (const size_t points = differentPoints(pairs); points < 4) {
+        throw BadInput(source, "pairs", std::to_string(points),
+                       "4 or more, of different points, not on one line");
     }
     const Moments moments(pairs);
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> shape(moments.spread);

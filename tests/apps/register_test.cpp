@@ -86,6 +86,9 @@ TEST_CASE("A pose is recovered from pairs of points up to rounding, and its sigm
 
 TEST_CASE("Too few points, or points on a line, are rejected") {
     CHECK_THROWS_WITH_AS(fitRigid(pairsOf(3, 0.0), "p.csv"), doctest::Contains("p.csv: pairs: 3"), BadInput);
+    std::vector<PointPair> twice = pairsOf(3, 0.0);
+    twice.insert(twice.end(), 5, twice.front());
+    CHECK_THROWS_WITH_AS(fitRigid(twice, "p.csv"), doctest::Contains("p.csv: pairs: 3"), BadInput);
     std::vector<PointPair> line;
     for (int i = 0; i < 9; ++i) {
         const dvec3 p(0.1 * i, 0.2 * i, 1.0);
@@ -137,6 +140,10 @@ TEST_CASE("Lists of tags and points are read, and an invalid line is rejected wi
     CHECK(readPointPairs(write(header + "1,2,3,4,5,6\n"))[0].base.z == 6.0);
     CHECK(readPointPairs(write("\xEF\xBB\xBF# by hand\n" + header + "1 2 3 4 5 6\n"))[0].base.z == 6.0);
     CHECK_THROWS_WITH_AS(readPointPairs(write("\n1,2,3,4,5\n")), doctest::Contains("line 2"), BadInput);
+    CHECK_THROWS_WITH_AS(readPointPairs(write("1;2;3;4;5;6\n")), doctest::Contains("commas or spaces"),
+                         BadInput);
+    CHECK_THROWS_WITH_AS(readPointPairs(write("1,2,3,4,5,6\n1,2,-3,4,5,6\n")),
+                         doctest::Contains("line 2: 1,2,-3,4,5,6 (allowed: camera_z above 0"), BadInput);
     CHECK_THROWS_AS(readPointPairs(folder.path() / "none.csv"), BadInput);
 }
 
