@@ -62,6 +62,7 @@ public:
     }
     bool renewable() const override { return true; }
     void renew(const std::atomic<bool>&) override {
+        const std::lock_guard lock(showing_); // observe() reads a set that this frees
         compute_.renew();
         lost.store(false);
     }
