@@ -52,7 +52,9 @@ Mode armedMode(const ModeInput& input) {
         return isOld(record.sceneAge, input.haptics.staleAfter)
                    ? Mode{"STALE", "~", colour::kCaution, Edge::Dashed,
                           "The newest frame is too old: forces fade until the next one"}
-                   : forcesFading("The device's dead-man switch is open, or it is lost: forces fade");
+                   : forcesFading("Forces fade: pressed regions disappeared, or the device's dead-man switch "
+                                  "is open, or "
+                                  "it is lost");
     }
     if (atLimit(record, input.haptics)) {
         return {"AT LIMIT", "!", colour::kWarningWord, Edge::Hatched,

@@ -221,7 +221,7 @@ StepState HapticCycle::stateOf(const Situation& now, const ProxyStep& moved, boo
     if (moved.contact) {
         return StepState::Contact;
     }
-    if (stage_.fades()) {
+    if (stage_.fades() && !arm_) { // an arm's force also fades while it follows a surface
         return StepState::Fading;
     }
     const bool jointPushes = jointEnds_ != 0 && stage_.reaction() > 0.0;

@@ -21,7 +21,8 @@ namespace fathom {
 // - The regions' force is the reaction of active rows (Reaction). A tool that lags behind the hand for
 //   another reason (late contact answers, slow joints) pulls with no force: the state is waiting, and after
 //   kLagTime the hand map takes up the lag of a free tool.
-// - Regions that disappear while they press, all or some of them: tool and hand stay, their force fades out.
+// - Regions that disappear while they press, for a free tool also some of them: tool and hand stay, their
+//   force fades out.
 // - Forces off or dead-man open: the guidance weight is zero in that step; the wrench ramps to zero over
 //   0.2 s while the tool follows the hand and still obeys the regions.
 // - Trapped: the tool is held and the force ramps out over 0.2 s. The clutch ramps the same way.

@@ -33,7 +33,7 @@ Wrench ReactionFade::step(const Wrench& reaction, double released, double k, dou
         left_ = 0.0;
         return {};
     }
-    replaced_ = std::max(replaced_, (size - kept_) / size_);
+    replaced_ = product < 0.0 ? replaced_ : std::max(replaced_, (size - kept_) / size_);
     left_ -= elapsed + kTime * released / size_;
     const double share = left_ / kTime - replaced_;
     left_ = share > 0.0 ? left_ : 0.0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/haptics/tool_kinematics.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -27,6 +28,7 @@ ToolKinematics::ToolKinematics(const Tool& tool, const ProxyOptions& options, co
     , boundingRadius_(tool.boundingRadius())
     , stepCap_(options.stepCap)
     , catchUp_(ProxyOptions::kCatchUp * options.period)
+    , mostTravel_(options.solves * options.stepCap)
     , friction_(options.friction)
     , pose_{start.position, glm::normalize(start.rotation)} {}
 
@@ -39,9 +41,9 @@ void ToolKinematics::setPose(const Pose& pose) noexcept {
 void ToolKinematics::begin(const ProxyInput& input, ProxyRows& rows) noexcept {
     // The tool may travel as far as the target did, plus a little to make up for a lag.
     const double carried = std::min(cutTravel_, budget_.follow);
-    const double moved = hasTarget_ && !input.surfaceMoved
-                             ? places_.travelBound(pose_, remaining(target_, input.target))
-                             : std::numeric_limits<double>::infinity();
+    const double byHand = hasTarget_ ? places_.travelBound(pose_, remaining(target_, input.target))
+                                     : std::numeric_limits<double>::infinity();
+    const double moved = input.surfaceMoved ? std::max(byHand, mostTravel_) : byHand;
     target_ = input.target;
     hasTarget_ = true;
     cutTravel_ = 0.0;

@@ -42,9 +42,8 @@ constexpr std::array<std::string_view, 27> kToolNames{"tool0",
                                                       "gripper_link"};
 
 // Also in names of links; the links "gripper" and "grasp_link" are often a wrist's.
-constexpr std::array<std::string_view, 12> kGripperWords{"finger", "fngr",  "jaw",     "knuckle",
-                                                         "claw",   "thumb", "pincer",  "clamp",
-                                                         "pinch",  "tong",  "forceps", "scissor"};
+constexpr std::array<std::string_view, 11> kGripperWords{
+    "finger", "fngr", "jaw", "knuckle", "claw", "thumb", "pincer", "clamp", "pinch", "tong", "forceps"};
 constexpr std::array<std::string_view, 3> kGripperJoints{"grip", "grasp", "opening"};
 
 // In the name of a joint these say that it turns a hand and does not close it.
