@@ -2,6 +2,7 @@
 #include "devices/recorded/name_number.h"
 
 #include <algorithm>
+#include <functional>
 #include <tuple>
 #include <utility>
 
@@ -69,6 +70,11 @@ bool tellsTime(const std::vector<NameNumber>& numbers) {
 }
 
 void sortByName(std::vector<std::filesystem::path>& files) {
+    const auto lengthOf = [](const std::filesystem::path& file) { return file.stem().native().size(); };
+    if (std::ranges::adjacent_find(files, std::not_equal_to<>(), lengthOf) == files.end()) {
+        std::ranges::sort(files); // right for decimal and hexadecimal numbers
+        return;
+    }
     std::vector<std::pair<std::string, std::filesystem::path>> sorted;
     for (std::filesystem::path& file : files) {
         sorted.emplace_back(sortingText(file.stem().string()), std::move(file));

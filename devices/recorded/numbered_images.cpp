@@ -27,7 +27,7 @@ std::string keyText(const ImageKey& key) {
 
 struct NamedImage {
     std::filesystem::path file;
-    ImageKey first, last; // one number each; `last` is all numbers where the names tell times
+    ImageKey first, last, all; // numbers of the name
 };
 
 // A file, and the part of its name that tells its number.
@@ -76,18 +76,15 @@ std::vector<NamedFile> numberedFiles(const NumberedImages& images) {
 
 std::vector<NamedImage> imagesIn(const NumberedImages& images) {
     std::vector<NamedImage> found;
-    bool times = true;
     for (NamedFile& named : numberedFiles(images)) {
         ImageKey numbers = numbersIn(named.stem);
-        times = times && tellsTime(numbers);
-        found.push_back({std::move(named.file), {numbers.front()}, std::move(numbers)});
-    }
-    for (NamedImage& image : found) {
-        if (!times) {
-            image.last = {image.last.back()};
-        }
+        found.push_back({std::move(named.file), {numbers.front()}, {numbers.back()}, std::move(numbers)});
     }
     return found;
+}
+
+bool tellTimes(const std::vector<NamedImage>& images) {
+    return std::ranges::all_of(images, [](const NamedImage& image) { return tellsTime(image.all); });
 }
 
 using ByNumber = std::map<ImageKey, std::filesystem::path>;
@@ -163,7 +160,8 @@ std::vector<IndexLine> pairsOf(const Match& match, const std::filesystem::path& 
 }
 
 std::vector<IndexLine> depthByNumber(const NumberedImages& depth) {
-    const Match images = matchBy(depthImagesIn(depth), {}, &NamedImage::last);
+    const std::vector<NamedImage> found = depthImagesIn(depth);
+    const Match images = matchBy(found, {}, tellTimes(found) ? &NamedImage::all : &NamedImage::last);
     refuseTwice(depth, images.twice);
     std::vector<IndexLine> index;
     for (const auto& [number, file] : images.depth) {
@@ -186,6 +184,15 @@ std::vector<IndexLine> pairByNumber(const NumberedImages& depth, const NumberedI
     }
     const Match last = matchBy(depthImages, colourImages, &NamedImage::last);
     const Match first = matchBy(depthImages, colourImages, &NamedImage::first);
+    if (tellTimes(depthImages) && tellTimes(colourImages)) {
+        const Match all = matchBy(depthImages, colourImages, &NamedImage::all);
+        const auto isBetter = [](const Match& other, const Match& than) {
+            return other.twice.empty() && other.pairs > than.pairs;
+        };
+        if (all.twice.empty() && !isBetter(last, all) && !isBetter(first, all)) {
+            return pairsOf(all, depth.folder);
+        }
+    }
     const bool byFirst = first.twice.empty() && (!last.twice.empty() || first.pairs > last.pairs);
     refuseTwice(depth, byFirst ? "" : last.twice);
     return pairsOf(byFirst ? first : last, depth.folder);

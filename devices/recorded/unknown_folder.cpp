@@ -46,8 +46,10 @@ fs::path recordingBelow(const fs::path& folder, bool (*isRecording)(const fs::pa
     for (int depth = 0; depth < 2; ++depth) {
         std::vector<fs::path> next;
         for (const fs::path& one : level) {
+            std::error_code failed;
             const Entries entries = entriesOf(one);
-            if (isRecording(one) || fs::exists(one / "metadata.yaml")) {
+            if (fs::exists(one / ".", failed) &&
+                (isRecording(one) || fs::exists(one / "metadata.yaml", failed))) {
                 return one;
             }
             if (!entries.file.empty()) {

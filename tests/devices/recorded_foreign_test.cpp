@@ -208,7 +208,7 @@ TEST_CASE(
         refused(R"("fy": 6.25)", R"("fy": -6.25)"), // as ICL-NUIM publishes it
         "fy: -6.25 (allowed: a number above 0; y points down here: give a negative fy without its sign)");
     lineSays(refused(R"("fx": 6.5)", R"("K": [6.5, 0, 3, 0, 6.25, 2, 0, 0, 1])"),
-             "K: [6.5,0,3,0,6.25,2,0,0,1] (allowed: fx, fy, cx and cy as numbers");
+             "K: [6.5,0,3,0,6.25,2,0,0,1] (allowed: fx, fy, cx and cy, each under its name");
     lineSays(refused(R"("fx": 6.5)", R"("camera_matrix": {"data": []})"),
              "camera_matrix: an object (allowed: fx");
     lineSays(refused(R"("fx": 6.5,)", ""), "fx: missing");

@@ -47,6 +47,31 @@ TEST_CASE("Names that are stamps in seconds or nanoseconds play in order of time
     }
 }
 
+TEST_CASE("Names of a stamp or a size and a counter pair by the counter, and of a counter and a stamp by the "
+          "stamp") {
+    using Names = std::vector<std::string>;
+    for (const auto& [depth, colour] :
+         {std::pair(
+              Names{"1305031102175_0001", "1305031102242_0002", "1305031102375_0004"},
+              Names{"1305031102180_0001", "1305031102247_0002", "1305031102313_0003", "1305031102380_0004"}),
+          std::pair(
+              Names{"depth_640x480_0000", "depth_640x480_0001", "depth_640x480_0003"},
+              Names{"rgb_1280x720_0000", "rgb_1280x720_0001", "rgb_1280x720_0002", "rgb_1280x720_0003"}),
+          std::pair(Names{"0000002-000000000000", "0000003-000000033369", "0000004-000000100107"},
+                    Names{"0000001-000000000000", "0000002-000000033369", "0000003-000000066738",
+                          "0000004-000000100107"})}) {
+        INFO(depth.front());
+        const TemporaryFolder folder;
+        writeNamed(folder, depth, colour);
+        RecordedCamera camera(folder.path());
+        for (const uint32_t i : {0u, 1u, 3u}) {
+            const auto frame = camera.next();
+            REQUIRE(frame);
+            CHECK(((*frame)->colour[0] & 0xff) == 10 * i);
+        }
+    }
+}
+
 TEST_CASE("Names of a frame and a time pair by the frame where the times of depth and colour differ") {
     const TemporaryFolder folder;
     writeNamed(folder, {"0000001-000000000000", "0000002-000000033369", "0000003-000000066738"},
