@@ -13,8 +13,9 @@
 namespace fathom {
 
 // Help text of --source.
-inline constexpr const char* kSourceHelp =
-    "instead of the scene's camera: a recording, or a live camera such as v4l2:auto (man fathom, SOURCES)";
+inline constexpr const char* kSourceHelp = "instead of the scene's camera: a recording, or a live camera as "
+                                           "v4l2:auto, openni2 or ros2:depth=TOPIC; see "
+                                           "man fathom, SOURCES";
 
 // For a live camera: the newest frame at each call, or every frame in order (for recordings). NewestAgain: the
 // source was open before, and what it lacks was said then.

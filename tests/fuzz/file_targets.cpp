@@ -87,7 +87,7 @@ void readPng(Bytes input) {
     std::vector<uint32_t> colour(depth.size());
     const std::string noDepth = readDepthPng(file, *size, depth),
                       noColour = readColourPng(file, *size, colour);
-    need(!noDepth.empty() || !noColour.empty()); // never both
+    need(!noDepth.empty() || noColour.empty()); // 16-bit grey can be either
     need(!readDepthPng(file, {size->width + 1, size->height}, depth).empty());
 }
 

@@ -151,7 +151,7 @@ TEST_CASE("A forbidden point without depth is held for hold_s, and one with a de
     CHECK(replay.frames.at(7).spheres == 0);
     CHECK(replay.at(0.09).state == "contact"); // stopped by held points
     CHECK(replay.at(0.09).tool.position.z < 0.551);
-    CHECK(replay.at(0.16).state == "free"); // nothing is left
+    CHECK(replay.at(0.16).state == "fading"); // nothing is left
     // The tool stays where the region vanished under it; the hand map takes up the distance to the hand.
     CHECK(replay.at(0.16).tool.position.z == doctest::Approx(replay.at(0.09).tool.position.z).epsilon(0.002));
     CHECK(replay.at(0.16).device.position.z == doctest::Approx(replay.at(0.16).tool.position.z));

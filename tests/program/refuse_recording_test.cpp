@@ -128,8 +128,8 @@ TEST_CASE("An invalid command line is rejected with what is allowed") {
                  {"replay", "'--fast'", "--source", "--operator", "--device"});
     checkRefusal({"replay", scene, "--out", out, "more"}, {"replay", "'more'"});
     checkRefused(stage, {"--query", "both", "cpu", "gpu"}, {"--query", "both"});
-    checkRefused(stage, {"--device", "no such thing", "0 = "}, {"--device", "no such thing"});
-    checkRefused(stage, {"--device", "99", "0 = "}, {"--device", "99"});
+    checkRefused(stage, {"device", "no such thing", "0 = "}, {"--device", "no such thing"});
+    checkRefused(stage, {"device", "99", "0 = "}, {"--device", "99"});
 }
 
 TEST_CASE("An output folder that is a file is rejected; one that holds a folder in the way is a failure") {
