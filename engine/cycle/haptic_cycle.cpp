@@ -75,14 +75,14 @@ StepRecord HapticCycle::step(const StepInput& input) noexcept {
     const bool newData = now.looks && regionsChanged(set);
     const Pose before = tool_, endBefore = springEnd_;
     ProxyStep moved = stepTool(input, set, now, newData, out);
-    const dvec3 gone = newData ? vanishedAlong(moved, before.position, endBefore.position) : dvec3(0.0);
-    const bool vanished = gone != dvec3(0.0);
-    if (vanished) {
-        keepHandAtTool(before, gone, moved);
+    const std::optional<dvec3> gone =
+        newData ? vanishedAlong(moved, before.position, endBefore.position) : std::nullopt;
+    if (gone) {
+        keepHandAtTool(before, *gone, moved);
     }
     takeUpLag(moved, out);
     allowed_ = moved.allowed;
-    makeWrench(input, now, moved, newData, vanished, out);
+    makeWrench(input, now, moved, newData, gone.has_value(), out);
 
     report(now, moved, set != nullptr, out);
     recordTouches(set, moved, out);

@@ -114,7 +114,8 @@ private:
     void recentre() noexcept;
     void takeSample(const StepInput& input, const Situation& now) noexcept;
     bool regionsChanged(const ContactSet* set) noexcept;
-    dvec3 vanishedAlong(const ProxyStep& moved, const dvec3& before, const dvec3& endBefore) const noexcept;
+    std::optional<dvec3> vanishedAlong(const ProxyStep& moved, const dvec3& before,
+                                       const dvec3& endBefore) const noexcept;
     void keepHandAtTool(const Pose& before, const dvec3& along, ProxyStep& moved) noexcept;
     void takeUpLag(ProxyStep& moved, StepRecord& out) noexcept;
     void shiftHand(const dvec3& by, const dquat& turn) noexcept;

@@ -21,13 +21,13 @@ void HapticCycle::recentre() noexcept {
 }
 
 // The direction along which regions that pressed are gone although the hand did not move out of them: their class
-// is no longer seen, or their shape was removed. 0 = none. `before` and `endBefore` are where the tool and the
+// is no longer seen, or their shape was removed. Empty = none are. `before` and `endBefore` are where the tool and the
 // hand's end of the spring were when they pressed.
-dvec3 HapticCycle::vanishedAlong(const ProxyStep& moved, const dvec3& before,
-                                 const dvec3& endBefore) const noexcept {
+std::optional<dvec3> HapticCycle::vanishedAlong(const ProxyStep& moved, const dvec3& before,
+                                                const dvec3& endBefore) const noexcept {
     const bool left = glm::dot(before - springEnd_.position, pressing_.out) < 0.0;
     if (!pressing_.rows || left || jointEnds_ != 0 || moved.trapped) {
-        return dvec3(0.0);
+        return std::nullopt;
     }
     const bool rows = !moved.active.empty();
     // An arm may not yet have followed a surface that lies between it and the hand.
@@ -42,7 +42,8 @@ dvec3 HapticCycle::vanishedAlong(const ProxyStep& moved, const dvec3& before,
     const dvec3 lost = pressing_.out - held;
     const double byHand = glm::distance(springEnd_.position, endBefore);
     const bool fell = glm::length(held) < glm::length(pressing_.out) - byHand - kPartGone;
-    return !arm_ && fell && glm::dot(held, lost) <= kStillHeld * glm::length(lost) ? lost : dvec3(0.0);
+    const bool gone = !arm_ && fell && glm::dot(held, lost) <= kStillHeld * glm::length(lost);
+    return gone ? std::optional(lost) : std::nullopt;
 }
 
 // Moves the hand map by `by` [m], and with it the pose that the hand commands. `turn` turns that pose.
