@@ -18,7 +18,7 @@ namespace fathom {
 // The device answers about the newest set whose passes have completed, the CPU about the newest one with a
 // host copy. While the device is lost, answer() uses the CPU query on the newest host copy, which may be
 // older than the device's last answer; sets and answers carry their own generation and capture time. The
-// contact thread calls answer(), any thread smallestGaps(), clearance() and newestInUse(), the frame thread
+// contact thread calls answer(), any thread smallestGaps() and clearance(), the frame thread
 // everything else; the calls may overlap.
 class DeviceCycles {
 public:
@@ -78,6 +78,7 @@ public:
         std::shared_ptr<const cloud::FixtureSet> stale;
         const cloud::FixtureSet* get() const { return lease ? &*lease : stale.get(); }
     };
+    // Any thread, but not while renew() runs: it frees the sets.
     SetInUse newestInUse();
 
     // Call after frames() threw DeviceFailed: closes the device and opens it again. Origin, generations and

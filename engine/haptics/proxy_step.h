@@ -13,8 +13,8 @@ namespace fathom {
 // Motion options of a proxy, fixed at construction.
 struct ProxyOptions {
     static constexpr double kEscapePerTick = 0.001; // [m] depth reduced where new data overlaps a leaf
-    // [m/s] how much faster than the target a tool without an active row may approach it. A tool that lags
-    // (late contact answers, a region that vanished) so never lunges at the hand.
+    // [m/s] how much faster than the target a tool without an active row may approach it, but for
+    // ProxyInput::surfaceMoved. A tool that lags (late contact answers) so never lunges at the hand.
     static constexpr double kCatchUp = 0.2;
 
     double stepCap = 0.002; // [m] largest travel of a leaf centre in one solve
