@@ -72,7 +72,7 @@ class Results(unittest.TestCase):
 
 
 def names_of(body):
-    """Public names that statements of a stub define, with those of classes inside."""
+    """Public names that statements define, with those of classes inside."""
     found = {}
     for part in body:
         if isinstance(part, ast.AnnAssign):
@@ -85,9 +85,9 @@ def names_of(body):
 
 
 class Documentation(unittest.TestCase):
-    def test_the_stubs_name_what_the_module_has_and_nothing_else(self):
-        stub = pathlib.Path(fathom.__file__).with_name("_fathom.pyi")
-        stated = names_of(ast.parse(stub.read_text()).body)
+    def test_the_type_file_names_what_the_module_has_and_nothing_else(self):
+        types = pathlib.Path(fathom.__file__).with_name("_fathom.pyi")
+        stated = names_of(ast.parse(types.read_text()).body)
         made = {name for name in dir(fathom._fathom) if not name.startswith("_")}
         self.assertEqual(set(stated), made)
         for name, inner in stated.items():
