@@ -35,9 +35,7 @@ uint32_t wholeSteps(uint32_t begin, uint32_t end, uint32_t slots) noexcept {
 
 } // namespace
 
-void CullCpu::cull(const PosedLeaves& leaves, float reach, const RegionGrid& grid,
-                   std::vector<uint32_t>& found) {
-    marks_.assign((grid.size() + 7) / 8 * 8, 0);
+void CullCpu::markByLeaf(const PosedLeaves& leaves, float reach, const RegionGrid& grid) {
     const auto slots = static_cast<uint32_t>(grid.size());
     for (size_t i = 0; i < leaves.x.size(); ++i) {
         const float limit = reach + leaves.radius[i];
@@ -49,6 +47,16 @@ void CullCpu::cull(const PosedLeaves& leaves, float reach, const RegionGrid& gri
                        grid.radius().data() + begin, wholeSteps(begin, end, slots), leaves.x[i], leaves.y[i],
                        leaves.z[i], limit, marks_.data() + begin);
         });
+    }
+}
+
+void CullCpu::cull(const PosedLeaves& leaves, float reach, const RegionGrid& grid,
+                   std::vector<uint32_t>& found) {
+    marks_.assign((grid.size() + 7) / 8 * 8, 0);
+    if (PatchCull::isFaster(leaves, reach, grid)) {
+        patches_.mark(leaves, reach, grid, marks_);
+    } else {
+        markByLeaf(leaves, reach, grid);
     }
     found.clear();
     for (size_t slot = 0; slot < marks_.size(); slot += 8) {

@@ -5,6 +5,7 @@
 
 #include "engine/contact/contact_fill.h"
 #include "engine/contact/query_loop.h"
+#include "engine/contact/patch_cull.h"
 #include "engine/contact/region_grid.h"
 
 #include <cstdint>
@@ -32,7 +33,10 @@ public:
     const QueryCapacity& capacity() const { return loop_.capacity(); }
 
 private:
+    void markByLeaf(const PosedLeaves& leaves, float reach, const RegionGrid& grid);
+
     QueryLoop loop_;
+    PatchCull patches_;
     PosedLeaves leaves_;
     std::vector<uint32_t> found_;
     PairScratch scratch_;

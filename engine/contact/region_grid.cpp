@@ -149,7 +149,7 @@ void RegionGrid::buildOf(const Columns& columns, ThreadPool* workers) {
     }
     order_.resize(n);
     if (n == 0) {
-        maxRadius_ = 0.0;
+        maxRadius_ = spheresPerMetre_ = 0.0;
         nx_ = ny_ = nz_ = 0;
         return;
     }
@@ -226,6 +226,11 @@ void RegionGrid::markUsedCells(ThreadPool* workers) {
             }
         }
     });
+    int64_t cells = 0;
+    for (const UsedCells& used : used_) {
+        cells += used.first > used.last ? 0 : used.last - used.first + 1;
+    }
+    spheresPerMetre_ = static_cast<double>(x_.size()) * perMetre_ / static_cast<double>(cells);
 }
 
 } // namespace fathom

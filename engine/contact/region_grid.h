@@ -30,6 +30,8 @@ public:
 
     size_t size() const { return x_.size(); }
     double maxRadius() const { return maxRadius_; } // [m], 0 when empty
+    // Mean number of spheres per metre of x, between the first and the last sphere of each row of cells.
+    double spheresPerMetre() const { return spheresPerMetre_; }
 
     // Calls visit(index into RegionSpheres) for a superset of the spheres whose centre is within `distance`
     // of `point` (about the set's origin) [m].
@@ -96,7 +98,7 @@ private:
     std::vector<uint32_t> cell_;      // build scratch: cell of each sphere
     std::vector<Extent> extents_;     // build scratch: extent of each run of spheres
     CellSort sort_;                   // build scratch
-    double maxRadius_ = 0.0;
+    double maxRadius_ = 0.0, spheresPerMetre_ = 0.0;
     dvec3 lo_{0.0}, hi_{0.0};
     double size_ = 1.0, perMetre_ = 1.0;
     int64_t nx_ = 0, ny_ = 0, nz_ = 0;

@@ -132,6 +132,29 @@ TEST_CASE("A tool kilometres from the origin keeps its whole reach and misses no
     checkPairs(tool, pose, fixtures, set);
 }
 
+TEST_CASE("A sparse set is searched by patches of leaves, a dense one leaf by leaf, both like brute force") {
+    std::mt19937_64 random(16);
+    size_t byPatch = 0, byLeaf = 0, found = 0;
+    for (const size_t spheres : {1, 700, 60000}) {
+        const Fixtures fixtures = randomCloud(random, spheres, spheres > 1000 ? 0.1 : 0.3, 0.01, 0.03);
+        for (const size_t leaves : {7, 8, 32, 33, 65, 300}) {
+            const Tool tool = randomTool(random, leaves, 0.1, 0.01);
+            Query query;
+            const Pose pose{randomIn(random, 0.2), randomRotation(random)};
+            CHECK(query(tool, pose, 0.01, fixtures).source == oracleSources(tool, pose, 0.01, fixtures));
+            found += query.set.size();
+            PosedLeaves posed;
+            poseLeaves(tool, pose, fixtures.origin, posed);
+            const bool patches = PatchCull::isFaster(posed, 0.01f, query.grid);
+            CHECK(!(patches && leaves < 8));
+            (patches ? byPatch : byLeaf) += 1;
+        }
+    }
+    CHECK(byPatch == 10); // 5 tools of 8 leaves or more, 2 sparse sets
+    CHECK(byLeaf == 8);
+    CHECK(found > 10000);
+}
+
 TEST_CASE("No spheres, or none within reach, give an empty set that certifies its reach") {
     std::mt19937_64 random(14);
     const Tool tool = randomTool(random, 9, 0.1, 0.01);
