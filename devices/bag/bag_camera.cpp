@@ -25,7 +25,7 @@ BagCamera::BagCamera(std::unique_ptr<MessageFile> file, SourceOptions options)
     : MessageCamera(std::move(file), std::move(options)) {
     try {
         choice_ = StreamChooser(*file_, options_).choose();
-        doubtRelation();
+        tellDoubts();
         useSpan(topicOf(choice_.depth));
         chooseUnit();
         useClocks();
@@ -35,13 +35,14 @@ BagCamera::BagCamera(std::unique_ptr<MessageFile> file, SourceOptions options)
     } catch (const Error& e) {
         throw BadInput(file_->file().string(), "content", e.what(), "whole messages");
     }
+    toAxis_ = choice_.rangeImages ? RangeToAxis(info().depth) : RangeToAxis();
     slots_.emplace(info().slotPixels(), info().hasColour, kFramesInFlight + 1);
 }
 
-void BagCamera::doubtRelation() {
-    if (!choice_.doubt.empty()) {
-        log::warn("{}: {}", file_->file().string(), choice_.doubt);
-        say(choice_.doubt);
+void BagCamera::tellDoubts() {
+    for (const std::string& doubt : choice_.doubts) {
+        log::warn("{}: {}", file_->file().string(), doubt);
+        say(doubt);
     }
 }
 
@@ -245,6 +246,7 @@ std::string BagCamera::read(size_t index, FrameSlot& slot, double stamp, Frame::
         return fault;
     }
     tellBeyond(index, beyond);
+    toAxis_.convert(slot.depth());
     return colour_ ? readColour(index, stamp, slot, content.raw) : "";
 }
 

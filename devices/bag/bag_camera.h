@@ -6,6 +6,7 @@
 #include "devices/bag/changed_messages.h"
 #include "devices/bag/message_camera.h"
 #include "devices/bag/stream_choice.h"
+#include "devices/recorded/range_images.h"
 
 #include <optional>
 
@@ -29,7 +30,7 @@ public:
 
 private:
     using Image = ros::Image;
-    void doubtRelation();
+    void tellDoubts();
     void useClocks();
     bool pairsByStamp();
     void chooseUnit();
@@ -46,8 +47,9 @@ private:
     StreamChoice choice_;
     std::optional<StampedStream> colour_;
     std::optional<ChangedMessages> units_, depthLenses_, colourLenses_; // only where there may be several
-    double valuesPerUnit_ = 1.0;                                        // of depth in metres
-    double tolerance_ = 0.0;                                            // [s]
+    RangeToAxis toAxis_;
+    double valuesPerUnit_ = 1.0; // of depth in metres
+    double tolerance_ = 0.0;     // [s]
 };
 
 } // namespace fathom

@@ -190,14 +190,20 @@ Pose transform(MessageCursor cursor) {
     return *pose;
 }
 
-Pose extrinsics(MessageCursor cursor) {
+Pose extrinsics(MessageCursor cursor, ExtrinsicsOf driver) {
     constexpr size_t kBare = 12 * sizeof(double); // some versions have no header
     if (cursor.left() != kBare) {
         header(cursor);
     }
     const auto rotation = reals<9>(cursor);
     const auto [x, y, z] = reals<3>(cursor);
-    return rigidPose(rotation, {x, y, z});
+    Pose pose = rigidPose(rotation, {x, y, z});
+    if (driver == ExtrinsicsOf::Orbbec) {
+        constexpr double kMostApart = 1.0; // [m] of two lenses in one housing
+        pose.rotation = glm::conjugate(pose.rotation);
+        pose.position *= glm::length(pose.position) > kMostApart ? 1e-3 : 1.0;
+    }
+    return pose;
 }
 
 float float32(MessageCursor cursor) {

@@ -55,9 +55,12 @@ void skipHeader(MessageCursor& cursor);
 // From a rotation matrix, column by column. Throws Error when it is none.
 Pose rigidPose(const std::array<double, 9>& rotation, const dvec3& translation);
 
-Pose transform(MessageCursor message);  // geometry_msgs/Transform
-Pose extrinsics(MessageCursor message); // realsense2_camera_msgs/Extrinsics
-float float32(MessageCursor message);   // std_msgs/Float32
+Pose transform(MessageCursor message); // geometry_msgs/Transform
+// The driver whose message it is. realsense2_camera_msgs/Extrinsics has its rotation column by column, those of
+// Orbbec row by row, and with millimetres in older versions.
+enum class ExtrinsicsOf { RealSense, Orbbec };
+Pose extrinsics(MessageCursor message, ExtrinsicsOf driver);
+float float32(MessageCursor message); // std_msgs/Float32
 
 // One transform of a tf2_msgs/TFMessage.
 struct FrameLink {

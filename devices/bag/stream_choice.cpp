@@ -2,6 +2,7 @@
 #include "devices/bag/stream_choice.h"
 
 #include "devices/recorded/lens_model.h"
+#include "devices/recorded/range_images.h"
 #include "devices/recorded/recording_intrinsics.h"
 #include "engine/types/error.h"
 
@@ -22,10 +23,6 @@ bool resizedLens(const Intrinsics& a, const Intrinsics& b) {
     return a.pinhole() && b.pinhole() && close(x, y, 1e-3 * x) && close(a.fx * x, b.fx, 1e-3 * b.fx) &&
            close(a.fy * y, b.fy, 1e-3 * b.fy) && close(a.cx * x, b.cx, std::max(1.0, x)) &&
            close(a.cy * y, b.cy, std::max(1.0, y));
-}
-
-bool isIdentity(const Pose& pose) {
-    return glm::length(pose.position) < 1e-9 && std::abs(std::abs(pose.rotation.w) - 1.0) < 1e-12;
 }
 
 constexpr double kSameCentre = 1e-5; // [m]
@@ -67,6 +64,11 @@ std::vector<const ImageStream*> StreamChooser::depths() const {
             }
             all.push_back(&stream);
         }
+    }
+    // Simulators publish both kinds.
+    const auto range = [](const ImageStream* stream) { return namedRangeImage(stream->name); };
+    if (!std::all_of(all.begin(), all.end(), range)) {
+        std::erase_if(all, range);
     }
     if (!all.empty()) {
         return all;
@@ -127,7 +129,8 @@ bool StreamChooser::oneCamera(const ImageStream& depth, const ImageStream& colou
         return false;
     }
     const auto apart = frames_.pose(depth.frame, colour.frame);
-    return !apart || glm::length(apart->position) <= kMostApart;
+    const bool second = namedRight(colour.name) && !namedRight(depth.name); // of a stereo pair
+    return !apart || glm::length(apart->position) <= (second ? kSameCentre : kMostApart);
 }
 
 StreamChooser::Relation StreamChooser::relate(const ImageStream& depth, const ImageStream& colour) {
@@ -152,7 +155,11 @@ StreamChooser::Relation StreamChooser::relate(const ImageStream& depth, const Im
         return {4, true, {}, ""};
     }
     if (same && !sdk && namedRegistered(depth.name) && oneCamera(depth, colour)) {
-        return {sharedParts(depth.name, colour.name) > 0 ? 4 : 3, true, {}, ""};
+        if (colour.lens && glm::length(apart) > kSameCentre) {
+            return {3, false, {apart}, ""};
+        }
+        const bool otherFrame = !depth.frame.empty() && !colour.frame.empty();
+        return {sharedParts(depth.name, colour.name) > 0 && !otherFrame ? 4 : 3, true, {}, ""};
     }
     // The same camera, one of the two images rectified.
     if (sameFrame && depth.rectified != colour.rectified && sameLens(depth.raw, colour.raw) &&
@@ -163,64 +170,6 @@ StreamChooser::Relation StreamChooser::relate(const ImageStream& depth, const Im
         return {3, false, {}, ""};
     }
     return relateByPose(depth, colour);
-}
-
-StreamChooser::Relation StreamChooser::relateByPose(const ImageStream& depth, const ImageStream& colour) {
-    std::optional<Pose> pose = sdkPose(depth, colour);
-    std::string doubt;
-    // The Orbbec SDK records the pose to its colour camera, not to the cameras of a stereo pair.
-    const std::string sensor = orbbecSensor(colour.name);
-    if (!pose && !isRealSenseTopic(depth.name) && (sensor.empty() || sensor == "2")) {
-        pose = topicPose(depth, colour);
-        if (!pose && depth.frame != colour.frame) {
-            pose = frames_.pose(depth.frame, colour.frame);
-            doubt = pose ? frames_.doubtAxes(depth.frame, colour.frame) : "";
-        }
-    }
-    if (pose) {
-        const bool registered = isIdentity(*pose) && sameLens(*depth.lens, *colour.lens);
-        return {2, registered, registered ? Pose{} : *pose, "", doubt};
-    }
-    const std::string topic = isRealSenseTopic(depth.name)
-                                  ? parentTopic(baseTopic(colour.name), 2) + "/tf/0"
-                                  : "tf_static between the frames, .../extrinsics/depth_to_color";
-    return {0,
-            false,
-            {},
-            "extrinsics: missing (allowed: depth registered to colour (same frame and lens), or the topic " +
-                topic + ", or extrinsics=FILE or colour=none behind the file's name)"};
-}
-
-// Maps points of the common reference to the stream, as in a recording folder (recording_intrinsics.cpp).
-std::optional<Pose> StreamChooser::sdkPose(const ImageStream& depth, const ImageStream& colour) {
-    if (!isRealSenseTopic(depth.name) || !isRealSenseTopic(colour.name)) {
-        return std::nullopt;
-    }
-    const std::string ofDepth = parentTopic(baseTopic(depth.name), 2) + "/tf/",
-                      ofColour = parentTopic(baseTopic(colour.name), 2) + "/tf/";
-    for (const MessageTopic& topic : file_.topics()) {
-        if (!topic.name.starts_with(ofDepth) || topic.messages.empty()) {
-            continue;
-        }
-        const MessageTopic* other = file_.find(ofColour + topic.name.substr(ofDepth.size()));
-        if (other != nullptr && !other->messages.empty()) {
-            const Pose depthTf = ros::transform(file_.read(topic, 0));
-            return ros::transform(file_.read(*other, 0)) * inverse(depthTf);
-        }
-    }
-    return std::nullopt;
-}
-
-// The topic .../extrinsics/depth_to_color of realsense-ros, of the camera of both.
-std::optional<Pose> StreamChooser::topicPose(const ImageStream& depth, const ImageStream& colour) {
-    const MessageTopic* best = nullptr;
-    for (const MessageTopic& topic : file_.topics()) {
-        if (topic.type.ends_with("/Extrinsics") && namedExtrinsicsOf(topic.name, depth.name, colour.name) &&
-            !topic.messages.empty() && (best == nullptr || topic.name.size() > best->name.size())) {
-            best = &topic;
-        }
-    }
-    return best != nullptr ? std::optional(ros::extrinsics(file_.read(*best, 0))) : std::nullopt;
 }
 
 // Of a file without colour.
@@ -279,10 +228,15 @@ StreamChoice StreamChooser::choose() {
         camera.registered = relation.registered;
         camera.colour = relation.registered || !colour->lens ? camera.depth : *colour->lens;
         camera.colourTdepth = relation.colourTdepth;
-        choice.doubt = keepsRelation() ? relation.doubt : "";
+        if (keepsRelation() && !relation.doubt.empty()) {
+            choice.doubts.push_back(relation.doubt);
+        }
     }
     if (!options_.intrinsics.empty()) {
         replaceLenses(choice);
+    }
+    if (namedRangeImage(depth->name) && !choice.rangeImages) {
+        choice.doubts.push_back(doubtAxis(depth->name, "a file of the lens (intrinsics=FILE)"));
     }
     camera.colourFormat = colour != nullptr ? colour->format : ColourFormat::Rgba;
     choice.unread = unreadStreams();

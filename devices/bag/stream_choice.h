@@ -15,10 +15,11 @@ namespace fathom {
 struct StreamChoice {
     ImageStream depth;
     std::optional<ImageStream> colour;
-    CameraInfo camera;  // lenses, registration, extrinsics; not the depth unit
-    std::string said;   // what was chosen, and what else there is, in one line
-    std::string doubt;  // why colour may be placed wrongly; empty = no reason
-    std::string unread; // image topics that may be colour but whose encoding is not read
+    CameraInfo camera;               // lenses, registration, extrinsics; not the depth unit
+    std::string said;                // what was chosen, and what else there is, in one line
+    bool rangeImages = false;        // depth holds ranges along the rays
+    std::vector<std::string> doubts; // why colour or depth may be wrong
+    std::string unread;              // image topics that may be colour but whose encoding is not read
 };
 
 // Chooses the streams of a bag. One thread.
@@ -51,6 +52,8 @@ private:
     bool oneCamera(const ImageStream& depth, const ImageStream& colour);
     Relation relate(const ImageStream& depth, const ImageStream& colour);
     Relation relateByPose(const ImageStream& depth, const ImageStream& colour);
+    std::pair<std::optional<Pose>, std::string> driverPose(const ImageStream& depth,
+                                                           const ImageStream& colour);
     std::optional<Pose> sdkPose(const ImageStream& depth, const ImageStream& colour);
     std::optional<Pose> topicPose(const ImageStream& depth, const ImageStream& colour);
     bool keepsRelation() const;

@@ -37,6 +37,7 @@ void StreamChooser::replaceLenses(StreamChoice& choice) const {
     fits(choice.depth, given.camera.depth);
     const CameraInfo recorded = choice.camera;
     choice.camera = given.camera;
+    choice.rangeImages = given.rangeImages;
     choice.camera.poseless = true;
     choice.camera.hasColour = recorded.hasColour;
     if (recorded.hasColour && !recorded.registered && keepsRelation()) {

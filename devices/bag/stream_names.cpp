@@ -111,6 +111,11 @@ bool namedRegistered(const std::string& topic) {
                        [](const std::string& word) { return word == "aligned" || word == "registered"; });
 }
 
+bool namedRight(const std::string& topic) {
+    const std::vector<std::string> words = wordsOf(topic);
+    return std::find(words.begin(), words.end(), "right") != words.end();
+}
+
 bool isRealSenseTopic(const std::string& topic) {
     return topic.starts_with("/device_") && baseTopic(topic).ends_with("/image/data");
 }

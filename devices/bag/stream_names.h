@@ -20,6 +20,8 @@ bool namedDepthImage(const std::string& topic);
 bool namedRectified(const std::string& topic);
 // "aligned_depth...", "depth_registered": shown by another camera's lens.
 bool namedRegistered(const std::string& topic);
+// "/zed/right/image_rect_color": of the right camera of a stereo pair.
+bool namedRight(const std::string& topic);
 // Images of the RealSense SDK: /device_D/sensor_S/Stream_I/image/data, also with the suffix of a transport.
 bool isRealSenseTopic(const std::string& topic);
 // The sensor of images of the Orbbec SDK, /cam/sensor_S/frameType_F: "S"; empty for another topic.

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
 
 namespace fathom {
 
@@ -24,12 +23,7 @@ FolderDepth::FolderDepth(const std::filesystem::path& folder, const RecordingLay
     } else {
         options.checkUnit(folder_);
     }
-    const Intrinsics& lens = layout.intrinsics.camera.depth;
-    for (uint32_t i = 0; layout.intrinsics.rangeImages && i < lens.pixels(); ++i) {
-        const uint32_t row = i / lens.width;
-        const dvec3 ray(lens.ray(i % lens.width, row), 1.0);
-        axisShare_.push_back(static_cast<float>(1.0 / glm::length(ray)));
-    }
+    toAxis_ = layout.intrinsics.rangeImages ? RangeToAxis(layout.intrinsics.camera.depth) : RangeToAxis();
 }
 
 void FolderDepth::chooseUnit(const RecordingLayout& layout, const SourceOptions& options) {
@@ -57,12 +51,6 @@ void FolderDepth::dropInvalid(std::span<uint16_t> depth) const {
     }
 }
 
-void FolderDepth::toAxis(std::span<uint16_t> ranges) const {
-    for (size_t i = 0; i < axisShare_.size(); ++i) {
-        ranges[i] = static_cast<uint16_t>(static_cast<float>(ranges[i]) * axisShare_[i] + 0.5f);
-    }
-}
-
 std::string FolderDepth::read(const std::filesystem::path& file, std::span<uint16_t> depth) {
     uint64_t beyond = 0;
     std::string fault = readDepthImage(file, size_, units_, depth, beyond);
@@ -76,7 +64,7 @@ std::string FolderDepth::read(const std::filesystem::path& file, std::span<uint1
                   limit);
     }
     dropInvalid(depth);
-    toAxis(depth);
+    toAxis_.convert(depth);
     return "";
 }
 

@@ -3,10 +3,9 @@
 #pragma once
 
 #include "devices/images/depth_image.h"
+#include "devices/recorded/range_images.h"
 #include "devices/recorded/recording_layout.h"
 #include "devices/recorded/source_options.h"
-
-#include <vector>
 
 namespace fathom {
 
@@ -28,7 +27,6 @@ public:
 private:
     void chooseUnit(const RecordingLayout& layout, const SourceOptions& options);
     void dropInvalid(std::span<uint16_t> depth) const;
-    void toAxis(std::span<uint16_t> ranges) const;
 
     std::string folder_, doubt_;
     PngSize size_;
@@ -36,7 +34,7 @@ private:
     double metresPerUnit_ = 0.0, farthest_ = 0.0; // [m]
     uint16_t invalid_ = 0;
     bool toldBeyond_ = false;
-    std::vector<float> axisShare_; // z of a unit step along each ray; empty = images hold z
+    RangeToAxis toAxis_;
 };
 
 } // namespace fathom

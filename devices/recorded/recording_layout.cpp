@@ -7,6 +7,7 @@
 #include "devices/recorded/frame_folder.h"
 #include "devices/recorded/matrix_file.h"
 #include "devices/recorded/numbered_images.h"
+#include "devices/recorded/range_images.h"
 #include "devices/recorded/unknown_folder.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
@@ -170,19 +171,13 @@ RecordingLayout readFolder(const fs::path& folder, const SourceOptions& options)
 }
 
 // Simulators write both kinds of depth, under names that tell them apart.
-void doubtAxis(const RecordingLayout& layout, const fs::path& folder) {
-    constexpr std::array<std::string_view, 2> kRanges{"distance_to_camera", "depthperspective"};
-    std::string name =
-        layout.index.empty() ? "" : layout.index.front().depth.lexically_relative(folder).string();
-    std::ranges::transform(name, name.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    const bool range = std::ranges::any_of(
-        kRanges, [&](std::string_view word) { return name.find(word) != std::string::npos; });
-    if (range && !layout.intrinsics.rangeImages) {
-        log::warn("{}: named as ranges along the rays, played as depth along the axis: \"depth_is\": "
-                  "\"range\" in the "
-                  "file of the lens takes them as ranges",
-                  layout.index.front().depth.string());
+void doubtAxisOf(const RecordingLayout& layout, const fs::path& folder) {
+    if (layout.index.empty() || layout.intrinsics.rangeImages) {
+        return;
+    }
+    const fs::path& first = layout.index.front().depth;
+    if (namedRangeImage(first.lexically_relative(folder).string())) {
+        log::warn("{}", doubtAxis(first.string(), "the file of the lens"));
     }
 }
 
@@ -215,7 +210,7 @@ RecordingLayout readLayout(const fs::path& folder, const SourceOptions& options)
     RecordingLayout layout = readFolder(folder, options);
     layout.metres = holdsMetres(layout);
     layout.statedUnit = layout.intrinsics.scale;
-    doubtAxis(layout, folder);
+    doubtAxisOf(layout, folder);
     for (IndexLine& line : layout.index) {
         if (layout.posePerImage && !line.baseTcamera && line.fault.empty()) {
             line.fault = "it has no pose, but other images have";

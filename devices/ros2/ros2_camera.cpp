@@ -91,6 +91,7 @@ std::string Ros2Camera::fillDepth(const RawMessage& message, FrameSlot& slot) {
                  " m count as not measured",
              0);
     }
+    toAxis_.convert(slot.depth());
     return fault;
 }
 

@@ -5,6 +5,7 @@
 #include "devices/bag/stream_choice.h"
 #include "devices/camera.h"
 #include "devices/frame_slots.h"
+#include "devices/recorded/range_images.h"
 #include "devices/ros2/first_publisher.h"
 #include "devices/ros2/live_pairs.h"
 #include "devices/ros2/live_stamps.h"
@@ -57,7 +58,7 @@ private:
     Topic subscribeImages(const std::string& topic);
     void subscribeOthers();
     void awaitStreams();
-    void doubtRelation() const;
+    void tellDoubts() const;
     bool gather();
     void chooseUnit();
     void receive();
@@ -84,6 +85,7 @@ private:
     std::optional<LivePairs> pairs_;
     std::optional<LiveStamps> depthStamps_, colourStamps_;
     std::optional<FrameSlots> slots_;
+    RangeToAxis toAxis_;
     double valuesPerUnit_ = 1.0; // of depth in metres
     double lastDepth_ = 0.0;     // [s] CLOCK_MONOTONIC, arrival of the newest depth image
     uint32_t delivered_ = 0;

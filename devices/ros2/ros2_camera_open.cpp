@@ -100,9 +100,9 @@ bool Ros2Camera::gather() {
     return any;
 }
 
-void Ros2Camera::doubtRelation() const {
-    if (!choice_.doubt.empty()) {
-        log::warn("{}: {}", request_.text, choice_.doubt);
+void Ros2Camera::tellDoubts() const {
+    for (const std::string& doubt : choice_.doubts) {
+        log::warn("{}: {}", request_.text, doubt);
     }
 }
 
@@ -118,7 +118,8 @@ void Ros2Camera::awaitStreams() {
                 choice_.camera.poseless = !moving_;
                 why = moving_ ? moving_->follow(choice_.depth.frame) : "";
                 if (why.empty()) {
-                    doubtRelation();
+                    tellDoubts();
+                    toAxis_ = choice_.rangeImages ? RangeToAxis(info().depth) : RangeToAxis();
                     return;
                 }
             } catch (const Error& e) {

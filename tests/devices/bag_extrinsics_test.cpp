@@ -18,13 +18,15 @@ BagMaker unrelatedBag(const std::string& depth, const std::string& colour,
     return maker;
 }
 
-// Of realsense-ros; shifted along x.
-void addExtrinsics(BagMaker& maker, const std::string& topic, double x) {
+// Shifted along x. sine: of a turn about x, whose matrix is written column by column.
+void addExtrinsics(BagMaker& maker, const std::string& topic, double x,
+                   const std::string& type = "realsense2_camera/Extrinsics", double sine = 0.0) {
+    const double cosine = std::sqrt(1.0 - sine * sine);
     Out extrinsics{stampedHeader(1.0, "")};
-    for (const double value : {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, x, 0.0, 0.001}) {
+    for (const double value : {1.0, 0.0, 0.0, 0.0, cosine, sine, 0.0, -sine, cosine, x, 0.0, 0.001}) {
         extrinsics.put(value);
     }
-    maker.add(topic, "realsense2_camera/Extrinsics", 1.0, extrinsics.bytes);
+    maker.add(topic, type, 1.0, extrinsics.bytes);
 }
 
 // A message of tf with one transform.
@@ -154,6 +156,79 @@ TEST_CASE("Depth named registered is registered to the colour of its own camera,
     BagMaker robot = bagOf("/robot/depth_registered/image_rect", "/robot/color/image_raw", "depth");
     robot.add("/tf_static", "tf2_msgs/TFMessage", 1.0, frameLink("depth", "color", -1.0));
     CHECK_FALSE(playStreams(folder, robot).info().registered);
+}
+
+TEST_CASE(
+    "Extrinsics of Orbbec's driver are read row by row, and as millimetres where they are metres apart") {
+    const TemporaryFolder folder;
+    const auto poseOf = [&](const std::string& type, double x) {
+        BagMaker maker = unrelatedBag("depth", "color");
+        addExtrinsics(maker, "/camera/depth_to_color", x, type, 0.1);
+        return playStreams(folder, maker).info().colourTdepth;
+    };
+    const double half = std::sin(0.5 * std::asin(0.1));
+    CHECK(poseOf("realsense2_camera_msgs/Extrinsics", 0.03).rotation.x == doctest::Approx(half));
+    for (const char* type :
+         {"orbbec_camera_msgs/Extrinsics", "orbbec_camera/Extrinsics", "astra_camera_msgs/Extrinsics"}) {
+        CHECK(poseOf(type, 0.03).rotation.x == doctest::Approx(-half));
+        CHECK(poseOf(type, 0.03).position.x == doctest::Approx(0.03));
+        CHECK(poseOf(type, 32.0).position.x == doctest::Approx(0.032));
+    }
+}
+
+TEST_CASE(
+    "An extrinsics topic that is the inverse of tf gives way to it; another contradiction has a warning") {
+    const TemporaryFolder folder;
+    const auto bagOf = [](double topic, double tf) {
+        BagMaker maker = unrelatedBag("depth_optical", "color_optical",
+                                      {.frame = "depth_optical", .k = {6.0, 6.0, 3.0, 2.0}});
+        addExtrinsics(maker, "/camera/extrinsics/depth_to_color", topic);
+        maker.add("/tf_static", "tf2_msgs/TFMessage", 1.0, frameLink("depth_optical", "color_optical", tf));
+        return maker;
+    };
+    const auto shown = [&](double topic, double tf, bool warned) {
+        const BagCamera camera = playStreams(folder, bagOf(topic, tf));
+        const auto said = camera.warnings();
+        CHECK(warned == std::any_of(said.begin(), said.end(), [](const std::string& line) {
+                  return line.find("depth_to_color, which is used, and tf between") != std::string::npos;
+              }));
+        return camera.info().colourTdepth.position.x;
+    };
+    CHECK(shown(0.015, -0.015, false) == doctest::Approx(0.015)); // tf has the pose of the other frame
+    CHECK(shown(0.015, -0.017, false) == doctest::Approx(0.015)); // a drawing is not a calibration
+    CHECK(shown(-0.015, -0.015, false) == doctest::Approx(0.015));
+    CHECK(shown(0.015, -0.06, true) == doctest::Approx(0.015));
+}
+
+TEST_CASE("Colour of the right camera of a stereo pair is not registered to depth of the left one") {
+    const TemporaryFolder folder;
+    const auto bagOf = [](bool left, double tx, double tf) {
+        const std::array<double, 4> lens{7.0, 7.0, 3.5, 2.5};
+        BagMaker maker;
+        addStream(maker, "/zed/right/image_rect_color", redImage("right_optical"),
+                  {.frame = "right_optical", .p = lens, .tx = tx});
+        addStream(maker, "/zed/depth/depth_registered", depthImage(900, "left_optical"),
+                  {.frame = "left_optical", .p = lens});
+        if (left) {
+            addStream(maker, "/zed/left/image_rect_color", redImage("left_optical"),
+                      {.frame = "left_optical", .p = lens});
+        }
+        if (tf != 0.0) {
+            maker.add("/tf_static", "tf2_msgs/TFMessage", 1.0,
+                      frameLink("left_optical", "right_optical", tf));
+        }
+        return maker;
+    };
+    for (const double tf : {0.0, 0.063}) {
+        const BagCamera both = playStreams(folder, bagOf(true, 0.0, tf));
+        CHECK(both.streamOptions().find("colour=/zed/left") != std::string::npos);
+        CHECK(both.info().registered);
+    }
+    CHECK(playStreams(folder, bagOf(false, -0.44, 0.0)).info().colourTdepth.position.x ==
+          doctest::Approx(-0.44 / 7.0));
+    const CameraInfo right = playStreams(folder, bagOf(false, 0.0, 0.063)).info();
+    CHECK_FALSE(right.registered);
+    CHECK(right.colourTdepth.position.x == doctest::Approx(-0.063));
 }
 
 TEST_CASE("Damaged messages and invalid transforms of other frames do not lose the extrinsics of a bag") {
