@@ -25,6 +25,7 @@ bool resizedLens(const Intrinsics& a, const Intrinsics& b) {
            close(a.cy * y, b.cy, std::max(1.0, y));
 }
 
+constexpr int kOneLens = 4;          // rank of registered images
 constexpr double kSameCentre = 1e-5; // [m]
 
 // That of rectified images; in others, R may turn the camera.
@@ -50,23 +51,18 @@ void StreamChooser::refuse(const std::string& field, const std::string& value,
     throw BadInput(file_.file().string(), field, value, allowed);
 }
 
-std::vector<const ImageStream*> StreamChooser::depths() const {
-    std::vector<const ImageStream*> all;
-    int best = 1;
+std::vector<StreamChooser::Candidate> StreamChooser::depths() const {
+    std::vector<Candidate> all;
     for (const ImageStream& stream : streams_) {
         const bool named = stream.name == options_.depth;
         const bool fit = options_.depth.empty() ? mayBeDepth(stream) : named;
         const int how = named ? 2 : fits(stream.role, NamedRole::Depth);
-        if (stream.content == ros::Content::Depth && fit && how >= best) {
-            if (how > best) {
-                all.clear();
-                best = how;
-            }
-            all.push_back(&stream);
+        if (stream.content == ros::Content::Depth && fit && how > 0) {
+            all.push_back({&stream, how});
         }
     }
     // Simulators publish both kinds.
-    const auto range = [](const ImageStream* stream) { return namedRangeImage(stream->name); };
+    const auto range = [](const Candidate& one) { return namedRangeImage(one.stream->name); };
     if (!std::all_of(all.begin(), all.end(), range)) {
         std::erase_if(all, range);
     }
@@ -89,12 +85,11 @@ std::vector<const ImageStream*> StreamChooser::depths() const {
                     : ""));
 }
 
-std::vector<const ImageStream*> StreamChooser::colours() const {
-    std::vector<const ImageStream*> all;
+std::vector<StreamChooser::Candidate> StreamChooser::colours() const {
+    std::vector<Candidate> all;
     if (options_.colour == "none") {
         return all;
     }
-    int best = 0;
     for (const ImageStream& stream : streams_) {
         const bool usable = stream.content == ros::Content::Colour || stream.content == ros::Content::Grey;
         const bool named = stream.name == options_.colour;
@@ -102,14 +97,8 @@ std::vector<const ImageStream*> StreamChooser::colours() const {
             continue;
         }
         // Grey comes last: it is no colour, but shows something.
-        const int how = stream.content == ros::Content::Grey ? 0 : 1 + fits(stream.role, NamedRole::Colour);
-        if (how > best) {
-            all.clear();
-            best = how;
-        }
-        if (how == best) {
-            all.push_back(&stream);
-        }
+        const bool grey = stream.content == ros::Content::Grey;
+        all.push_back({&stream, grey ? 0 : 1 + fits(stream.role, NamedRole::Colour)});
     }
     if (all.empty() && !options_.colour.empty()) {
         refuse("colour", options_.colour, std::string("a topic with encoding ") + ros::kColourEncodings);
@@ -152,14 +141,14 @@ StreamChooser::Relation StreamChooser::relate(const ImageStream& depth, const Im
     }
     const bool same = !colour.lens || sameLens(*depth.lens, *colour.lens);
     if (same && sameFrame) {
-        return {4, true, {}, ""};
+        return {kOneLens, true, {}, ""};
     }
     if (same && !sdk && namedRegistered(depth.name) && oneCamera(depth, colour)) {
         if (colour.lens && glm::length(apart) > kSameCentre) {
             return {3, false, {apart}, ""};
         }
         const bool otherFrame = !depth.frame.empty() && !colour.frame.empty();
-        return {sharedParts(depth.name, colour.name) > 0 && !otherFrame ? 4 : 3, true, {}, ""};
+        return {sharedParts(depth.name, colour.name) > 0 && !otherFrame ? kOneLens : 3, true, {}, ""};
     }
     // The same camera, one of the two images rectified.
     if (sameFrame && depth.rectified != colour.rectified && sameLens(depth.raw, colour.raw) &&
@@ -174,28 +163,36 @@ StreamChooser::Relation StreamChooser::relate(const ImageStream& depth, const Im
 
 // Of a file without colour.
 const ImageStream* StreamChooser::bestDepth() const {
+    using Score = std::tuple<int, bool, bool>;
+    Score best;
     const ImageStream* depth = nullptr;
-    for (const ImageStream* d : depths()) {
-        if (depth == nullptr || (!depth->lens && d->lens) ||
-            (depth->lens.has_value() == d->lens.has_value() && depth->compressed && !d->compressed)) {
+    for (const auto& [d, how] : depths()) {
+        const Score score{how, d->lens.has_value(), !d->compressed};
+        if (depth == nullptr || score > best) {
+            best = score;
             depth = d;
         }
     }
     return depth;
 }
 
+// Images of one frame and lens belong together, whatever their names say of other topics, unless the names say
+// that they are of another kind.
 StreamChooser::Pair StreamChooser::bestPair() {
-    const std::vector<const ImageStream*> ofDepth = depths(), ofColour = colours();
+    const std::vector<Candidate> ofDepth = depths(), ofColour = colours();
     if (ofColour.empty()) {
         return {bestDepth(), nullptr, {}};
     }
-    using Score = std::tuple<int, size_t, bool, bool>;
+    using Score = std::tuple<bool, int, int, int, size_t, bool, bool>;
     Score best;
     Pair pair;
-    for (const ImageStream* d : ofDepth) {
-        for (const ImageStream* c : ofColour) {
+    for (const auto& [d, depthFit] : ofDepth) {
+        for (const auto& [c, colourFit] : ofColour) {
             const Relation found = relate(*d, *c);
-            const Score score{found.rank, sharedParts(d->name, c->name), !d->compressed, !c->compressed};
+            const bool together = found.rank == kOneLens && colourFit > 1;
+            const Score score{
+                together,       depthFit,      colourFit, found.rank, sharedParts(d->name, c->name),
+                !d->compressed, !c->compressed};
             if (pair.depth == nullptr || score > best) {
                 best = score;
                 pair = {d, c, found};

@@ -26,7 +26,7 @@ struct StreamChoice {
 class StreamChooser {
 public:
     StreamChooser(MessageFile& file, const SourceOptions& options);
-    // Depth and colour of one camera: registered before extrinsics, then names, shared path, uncompressed,
+    // Depth and colour of one camera: of one frame and lens, then names, extrinsics, shared path, uncompressed,
     // order. Infrared and the like are never depth, and colour only as grey where nothing else is. Throws
     // BadInput that names file and topic.
     StreamChoice choose();
@@ -46,8 +46,13 @@ private:
     };
     Pair bestPair();
     const ImageStream* bestDepth() const;
-    std::vector<const ImageStream*> depths() const;
-    std::vector<const ImageStream*> colours() const;
+    // fit: how well the name fits; 0 only for grey.
+    struct Candidate {
+        const ImageStream* stream;
+        int fit;
+    };
+    std::vector<Candidate> depths() const;
+    std::vector<Candidate> colours() const;
     bool sharesFrame(const ImageStream& depth, const ImageStream& colour) const;
     bool oneCamera(const ImageStream& depth, const ImageStream& colour);
     Relation relate(const ImageStream& depth, const ImageStream& colour);

@@ -66,3 +66,37 @@ TEST_CASE("Bytes behind the last record of a closed bag are no part of it, and a
              "truncated (allowed: a complete");
     lineSays(testing::refusalOf([&] { BagCamera(folder.path() / "a.bag"); }), "rosbag reindex");
 }
+
+TEST_CASE("Images of one frame and lens are played together where other topics have better names") {
+    const TemporaryFolder folder;
+    const auto bagOf = [](const std::string& depth, const std::string& colour, bool tf) {
+        BagMaker maker;
+        for (const std::string& topic :
+             {std::string("/wrist/color/image_raw"), std::string("/tof/depth/image_raw")}) {
+            const bool isDepth = topic.starts_with("/tof");
+            addStream(maker, topic, isDepth ? depthImage(500, "tof_optical") : redImage("wrist_optical"),
+                      {.frame = isDepth ? "tof_optical" : "wrist_optical", .k = {6.0, 6.0, 3.0, 2.0}});
+        }
+        addStream(maker, colour, redImage("body_optical"), {.frame = "body_optical"});
+        addStream(maker, depth, depthImage(900, "body_optical"), {.frame = "body_optical"});
+        for (const char* child : {"wrist_optical", "tof_optical"}) {
+            if (tf) {
+                maker.add("/tf_static", "tf2_msgs/TFMessage", 1.0,
+                          Out().put(uint32_t{1}).bytes + stampedHeader(1.0, "body_optical") +
+                              Out().text(child).bytes + transformMessage(0.3, 0.0, 0.0));
+            }
+        }
+        return maker;
+    };
+    for (const bool tf : {false, true}) {
+        for (const auto& [depth, colour] : {std::pair("/rgbd_camera/depth_image", "/rgbd_camera/image"),
+                                            std::pair("/stereo/depth", "/stereo/left/image_rect"),
+                                            std::pair("/oak/stereo/image_raw", "/oak/rgb/image_raw")}) {
+            CAPTURE(depth);
+            BagCamera camera = playStreams(folder, bagOf(depth, colour, tf));
+            CHECK(camera.info().registered);
+            CHECK(camera.streamOptions() == std::string(",depth=") + depth + ",colour=" + colour);
+            CHECK(firstDepth(camera) == doctest::Approx(0.9));
+        }
+    }
+}

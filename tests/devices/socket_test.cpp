@@ -85,7 +85,10 @@ TEST_CASE("Samples reach the engine, wrenches reach the device, and the last wre
             return sample.deviceThandle.position.x == 0.01 * 7.0 && sample.buttons == 1;
         }));
         CHECK(hand.alive());
-        CHECK(hand.figures().samples > 10);
+        CHECK(eventually([&] {
+            tick(hand, 2.0);
+            return hand.figures().samples > 10;
+        }));
     }
     CHECK(eventually([&] { return bridge.felt.load() == 0.0 && !bridge.engine.load(); }));
     bridge.end();
