@@ -5,9 +5,56 @@
 #include "engine/types/log.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <set>
 
 namespace fathom {
+
+namespace {
+
+constexpr size_t kSamples = 9; // images of the index
+
+// Calls visit(file) for a few images over the whole index.
+template <class Visit>
+void sampleImages(const RecordingLayout& layout, Visit&& visit) {
+    const size_t step = std::max<size_t>(1, layout.index.size() / kSamples);
+    for (size_t i = 0; i < layout.index.size(); i += step) {
+        visit(layout.index[i].depth);
+    }
+}
+
+// "0000001-000000033369.png": as SUN3D names its depth images.
+bool namedSun3d(const std::string& name) {
+    return name.size() == 24 && name.ends_with(".png") && name.find_first_not_of("0123456789") == 7 &&
+           name[7] == '-' && name.find_first_not_of("0123456789", 8) == 20;
+}
+
+// SUN3D and SUN RGB-D rotate the bits of millimetres by three, so that nearer than 8 m all values are multiples of
+// eight. So can be a few values of a plain image, but not the many of a scene.
+bool looksRotated(const RecordingLayout& layout, PngSize size) {
+    constexpr size_t kFewestValues = 32;
+    std::vector<uint16_t> image(size_t{size.width} * size.height);
+    std::set<uint16_t> values;
+    bool rotated = true;
+    sampleImages(layout, [&](const std::filesystem::path& file) {
+        uint64_t beyond = 0;
+        if (!rotated || !readDepthImage(file, size, {}, image, beyond).empty()) {
+            return;
+        }
+        for (const uint16_t value : image) {
+            rotated = rotated && (value & 7u) <= 1u; // one: farther than 8 m
+            if (value != 0 && values.size() < kFewestValues) {
+                values.insert(value);
+            }
+        }
+    });
+    const bool sun3d = !layout.index.empty() && namedSun3d(layout.index.front().depth.filename().string());
+    const bool near = std::ranges::any_of(values, [](uint16_t value) { return (value & 7u) == 0; });
+    return rotated && near && (sun3d || values.size() >= kFewestValues);
+}
+
+} // namespace
 
 FolderDepth::FolderDepth(const std::filesystem::path& folder, const RecordingLayout& layout,
                          const SourceOptions& options)
@@ -22,22 +69,26 @@ FolderDepth::FolderDepth(const std::filesystem::path& folder, const RecordingLay
         chooseUnit(layout, options);
     } else {
         options.checkUnit(folder_);
+        const bool millimetres = std::abs(metresPerUnit_ - 1e-3) < 1e-5;
+        rotated_ = millimetres && !options.scale && looksRotated(layout, size_);
+        if (rotated_) {
+            log::warn(
+                "{}: its depths are multiples of eight: read as millimetres rotated by three bits, as of "
+                "SUN3D and SUN RGB-D; scale=0.001 behind the folder's name reads them as they are",
+                folder_);
+        }
     }
     toAxis_ = layout.intrinsics.rangeImages ? RangeToAxis(layout.intrinsics.camera.depth) : RangeToAxis();
 }
 
 void FolderDepth::chooseUnit(const RecordingLayout& layout, const SourceOptions& options) {
-    constexpr size_t kSamples = 9;
     if (layout.statedUnit && *layout.statedUnit != 1.0 && !options.scale) {
         log::warn("{}: its depth images hold floating point, read as metres: the depth scale {} is not "
                   "applied; scale=M behind the folder's name is",
                   folder_, *layout.statedUnit);
     }
     ValueSpan seen;
-    const size_t step = std::max<size_t>(1, layout.index.size() / kSamples);
-    for (size_t i = 0; i < layout.index.size(); i += step) {
-        seen.add(valueSpan(layout.index[i].depth, size_));
-    }
+    sampleImages(layout, [&](const std::filesystem::path& file) { seen.add(valueSpan(file, size_)); });
     const double metresPerValue = options.scale.value_or(1.0);
     seen = seen.scaled(metresPerValue);
     doubt_ = doubtMetres(folder_, seen.nearest);
@@ -62,6 +113,9 @@ std::string FolderDepth::read(const std::filesystem::path& file, std::span<uint1
         toldBeyond_ = true;
         log::warn("{}: {} pixels are farther than {:.4g} m and count as not measured", file.string(), beyond,
                   limit);
+    }
+    if (rotated_) {
+        std::ranges::transform(depth, depth.begin(), [](uint16_t value) { return std::rotr(value, 3); });
     }
     dropInvalid(depth);
     toAxis_.convert(depth);

@@ -33,6 +33,7 @@ private:
     DepthUnits units_;
     double metresPerUnit_ = 0.0, farthest_ = 0.0; // [m]
     uint16_t invalid_ = 0;
+    bool rotated_ = false; // the bits of each value are rotated to the left by three
     bool toldBeyond_ = false;
     RangeToAxis toAxis_;
 };

@@ -4,6 +4,7 @@
 #include "tests/devices/recorded_folder.h"
 #include "tests/realtime/listening.h"
 
+#include <bit>
 #include <doctest/doctest.h>
 
 using namespace fathom;
@@ -146,4 +147,33 @@ TEST_CASE("Stamps of intrinsics.json belong to images in order of the numbers in
                  lens.insert(lens.find('{') + 1, R"("depth_stamps_s": [)" + stamps +
                                                      R"(], "color_stamps_s": [)" + stamps + "], "));
     CHECK(playedDepths(folder.path()) == Depths{500, 501, 502, 503, 504, 505, 506, 507, 508, 509, 510, 511});
+}
+
+TEST_CASE("Millimetres rotated by three bits are read as SUN3D wrote them, not where a scale is given") {
+    const auto folderOf = [](const TemporaryFolder& folder, const std::string& name, uint16_t farthest,
+                             uint16_t step, int rotation) {
+        folder.write("intrinsics.json", kSmallIntrinsics);
+        std::vector<uint8_t> bytes;
+        for (uint16_t i = 0; i < kSmallWidth * kSmallHeight; ++i) {
+            const uint16_t value = std::rotl(static_cast<uint16_t>(farthest - i * step), rotation);
+            bytes.push_back(static_cast<uint8_t>(value >> 8));
+            bytes.push_back(static_cast<uint8_t>(value & 0xff));
+        }
+        std::filesystem::create_directories(folder.path() / "depth");
+        writePng(folder.path() / "depth" / name, kSmallWidth, kSmallHeight, 16, 0, bytes);
+        folder.write("depth.txt", "0.0 depth/" + name + "\n");
+        return folder.path();
+    };
+    const SourceOptions depthOnly{.colour = "none"};
+    const SourceOptions scaled{.colour = "none", .scale = 0.001};
+    const auto first = [](const std::filesystem::path& folder, const SourceOptions& options) {
+        return playedDepths(folder, options).front();
+    };
+    const std::string sun3d = "0000001-000000033369.png";
+    const TemporaryFolder scene, flat, plain, coarse;
+    CHECK(first(folderOf(scene, "1.png", 8200, 7, 3), depthOnly) == 8200);
+    CHECK(first(scene.path(), scaled) == std::rotl(uint16_t{8200}, 3));
+    CHECK(first(folderOf(flat, sun3d, 704, 0, 3), depthOnly) == 704); // one value
+    CHECK(first(folderOf(plain, sun3d, 8200, 7, 0), depthOnly) == 8200);
+    CHECK(first(folderOf(coarse, "1.png", 704, 0, 0), depthOnly) == 704); // one multiple of eight
 }
