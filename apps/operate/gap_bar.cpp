@@ -26,7 +26,7 @@ void barTicks(ImDrawList& list, const Letters& letters, ImVec2 a, ImVec2 b) {
     const bool dense = b.y - a.y < 6.0f * letters.small->FontSize;
     for (int mm = 0; mm <= 200; mm += dense ? 100 : 50) {
         const float y = b.y - (b.y - a.y) * static_cast<float>(mm) / 200.0f;
-        char text[8];
+        char text[12];
         std::snprintf(text, sizeof text, "%d", mm);
         const ImVec2 size = letters.small->CalcTextSizeA(letters.small->FontSize, 1e9f, 0.0f, text);
         list.AddLine({a.x - 4.0f, y}, {a.x, y}, colour::kQuiet, 1.2f);

@@ -16,12 +16,11 @@ class ByteWriter {
 public:
     template <class T>
     void value(T number) {
-        const auto* first = reinterpret_cast<const uint8_t*>(&number); // host order is little-endian
-        bytes_.insert(bytes_.end(), first, first + sizeof number);
+        append({reinterpret_cast<const uint8_t*>(&number), sizeof number}); // host order is little-endian
     }
     void append(std::span<const uint8_t> bytes) {
         const size_t before = bytes_.size();
-        bytes_.resize(before + bytes.size()); // GCC 12 warns about insert() into an empty vector
+        bytes_.resize(before + bytes.size()); // GCC 12 and 14 warn about insert()
         std::copy(bytes.begin(), bytes.end(), bytes_.begin() + static_cast<std::ptrdiff_t>(before));
     }
     // A count of bytes (32 bits), then the bytes.
