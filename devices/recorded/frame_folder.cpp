@@ -91,10 +91,10 @@ private:
     std::map<std::string, std::string> values_;
 };
 
-// Nothing: no such file, or a file of other content.
+// Nothing: no such file, or a file of other content. 12-Scenes has it beside the folder of images.
 std::optional<fs::path> calibrationOf(const fs::path& folder) {
-    for (const char* name : {"info.txt", "_info.txt"}) {
-        const fs::path file = folder / name;
+    const fs::path above = fs::weakly_canonical(folder).parent_path();
+    for (const fs::path& file : {folder / "info.txt", folder / "_info.txt", above / "info.txt"}) {
         if (fs::exists(file) && SensorInfo(file).has("m_calibrationDepthIntrinsic")) {
             return file;
         }

@@ -161,7 +161,10 @@ std::vector<IndexLine> pairsOf(const Match& match, const std::filesystem::path& 
 
 std::vector<IndexLine> depthByNumber(const NumberedImages& depth) {
     const std::vector<NamedImage> found = depthImagesIn(depth);
-    const Match images = matchBy(found, {}, tellTimes(found) ? &NamedImage::all : &NamedImage::last);
+    Match images = matchBy(found, {}, tellTimes(found) ? &NamedImage::all : &NamedImage::last);
+    if (Match first = matchBy(found, {}, &NamedImage::first); !images.twice.empty() && first.twice.empty()) {
+        images = std::move(first); // 0000_depth16
+    }
     refuseTwice(depth, images.twice);
     std::vector<IndexLine> index;
     for (const auto& [number, file] : images.depth) {

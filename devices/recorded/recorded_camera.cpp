@@ -98,9 +98,13 @@ void RecordedCamera::takeColourFormat() {
     }
     if (other) {
         const std::string& file = layout_.intrinsics.file; // empty: a lens that is known
-        throw BadInput(folder_.string() + (file.empty() ? "" : ": " + file), "color.width, color.height",
-                       "colour images of " + sizeWords(*other) + " where " + sizeWords(wanted) + " is told",
-                       "colour of the depth's size, or blocks depth and color with extrinsics_topic_tf");
+        throw BadInput(
+            folder_.string() + (file.empty() ? "" : ": " + file), "color.width, color.height",
+            "colour images of " + sizeWords(*other) + " where " +
+                (file.empty() ? "the usual lens of this layout has " + sizeWords(wanted)
+                              : sizeWords(wanted) + " is stated"),
+            "colour of the depth's size, or blocks depth and color with extrinsics_topic_tf, in the "
+            "layout's file or in intrinsics=FILE behind the folder's name");
     }
 }
 
@@ -240,11 +244,13 @@ std::optional<Frame> RecordedCamera::next() {
     if (any_) {
         nameSkipped();
     } else {
-        throw BadInput(
-            folder_.string(), "frames",
-            "none of " + std::to_string(layout_.index.size()) + " is usable; first: " + firstFault_,
-            "at least one usable pair of images" +
-                (layout_.intrinsics.file.empty() ? "" : ", of the size in " + layout_.intrinsics.file));
+        throw BadInput(folder_.string(), "frames",
+                       "none of " + std::to_string(layout_.index.size()) +
+                           " is usable; first: " + firstFault_,
+                       "at least one usable pair of images" +
+                           (layout_.intrinsics.file.empty() ? ", of the size of this layout's usual lens; or "
+                                                              "intrinsics=FILE behind the folder's name"
+                                                            : ", of the size in " + layout_.intrinsics.file));
     }
     return std::nullopt;
 }

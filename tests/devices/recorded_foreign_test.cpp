@@ -35,9 +35,10 @@ const std::string kSensorInfo = "m_versionNumber = 4\nm_sensorName = Structure S
                                 "m_frames.size = 2\n";
 
 // Two frames in the size of kSensorInfo, from the given number.
-void addFrames(const TemporaryFolder& folder, int first) {
+void addFrames(const TemporaryFolder& folder, int first, const std::string& inside = "") {
+    std::filesystem::create_directories(folder.path() / inside);
     for (int i = first; i < first + 2; ++i) {
-        const std::string stem = "frame-00000" + std::to_string(i);
+        const std::string stem = inside + "frame-00000" + std::to_string(i);
         writeDepth(folder.path() / (stem + ".depth.png"), kSmallWidth, kSmallHeight,
                    i == first ? 500 : 65535);
         writeColour(folder.path() / (stem + ".color.png"), 14, 10, 1, 2, 3);
@@ -134,6 +135,20 @@ TEST_CASE("Images frame-N with a file of calibration have its lenses and unit, n
         CHECK(RecordedCamera(folder.path(), lens).info().depth.fx == 9.0);
         CHECK(RecordedCamera(folder.path(), lens).info().metresPerUnit == doctest::Approx(0.0002));
     }
+}
+
+TEST_CASE("Images frame-N have the calibration beside their folder, as in 12-Scenes, however it is named") {
+    const TemporaryFolder scene;
+    addFrames(scene, 0, "data/");
+    lineSays(recordingRefusal(scene.path() / "data"), "of the size of this layout's usual lens; or intrinsics=FILE");
+    scene.write("info.txt", kSensorInfo);
+    for (const char* name : {"data", "data/", "./data"}) {
+        CHECK(RecordedCamera(scene.path() / name).info().depth.fx == 6.0);
+    }
+    const auto before = std::filesystem::current_path();
+    std::filesystem::current_path(scene.path() / "data");
+    CHECK(RecordedCamera(".").info().depth.fx == 6.0);
+    std::filesystem::current_path(before);
 }
 
 TEST_CASE("A calibration of images frame-N that cannot be used is named by its key") {

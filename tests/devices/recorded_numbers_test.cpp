@@ -122,6 +122,9 @@ TEST_CASE("A number in front of the image's kind counts where no name ends in a 
     CHECK(depthsOfNames({"0000_depth", "0001_depth"}, {"0000_color", "0001_color"}) == Depths{500, 600});
     CHECK(depthsOfNames({"frame0000.depth", "frame0001.depth"}, {"1", "0"}) == Depths{500, 600});
     CHECK(depthsOfNames({"0_640x480", "1_640x480"}, {"0_1280x720", "1_1280x720"}) == Depths{500, 600});
+    const TemporaryFolder depthOnly;
+    writeNamed(depthOnly, {"0000_depth16", "0001_depth16"}, {});
+    CHECK(playedDepths(depthOnly.path(), {.colour = "none"}) == Depths{500, 600});
     CHECK(depthsOfNames({"0", "1", "0_view", "1_view"}, {"0", "1"}) == Depths{500, 600});
 }
 

@@ -104,7 +104,7 @@ TEST_CASE("Colour of another size than depth is rejected when the registration i
     writeColour(folder.path() / "rgb/1.png", 14, 10, 1, 2, 3);
     const std::string message = recordingRefusal(folder.path());
     CHECK(holds(message,
-                "intrinsics.json: color.width, color.height: colour images of 14x10 where 7x5 is told"));
+                "intrinsics.json: color.width, color.height: colour images of 14x10 where 7x5 is stated"));
     const std::string wide = R"({"width": 14, "height": 10, "fx": 13, "fy": 12.5, "cx": 6, "cy": 4})";
     folder.write(
         "intrinsics.json",
