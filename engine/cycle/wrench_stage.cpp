@@ -126,7 +126,8 @@ void WrenchStage::reportToPassivity(const WrenchInput& input, const Wrench& damp
 
 uint32_t WrenchStage::causeOf(const WrenchInput& input, const Wrench& damper, const Wrench& sized,
                               const Wrench& slewed) const noexcept {
-    const bool fades = ramps_.active() || reaction_.fades();
+    const bool caused = input.pushes != 0 || !isZero(input.pull);
+    const bool fades = ramps_.active() || reaction_.fades() || (!caused && !isZero(smooth_));
     const bool held = slewed.force != sized.force || slewed.torque != sized.torque;
     return input.pushes | (isZero(input.pull) ? 0 : cause::kGuidance) |
            (isZero(damper) ? 0 : cause::kDamping) | (fades ? cause::kRamp : 0) | (held ? cause::kSlew : 0);
@@ -138,18 +139,43 @@ void WrenchStage::cut() noexcept {
     passivity_.reset();
 }
 
+// Largest change in a tick [N] or [N m]. However low the slew limit is, a fall takes no longer than a ramp.
+double WrenchStage::stepOf(const dvec3& wanted, const dvec3& before, double slew,
+                           double limit) const noexcept {
+    const bool falls = glm::dot(wanted, wanted) < glm::dot(before, before);
+    return options_.period * (falls ? std::max(slew, limit / ForceRamps::kRampTime) : slew);
+}
+
+// The low-pass of the wanted wrench. A force that is no longer wanted ends within the time of a ramp, however
+// slow the filter is.
+Wrench WrenchStage::smoothed(const WrenchInput& input, const Wrench& wanted) noexcept {
+    const double share = std::max(options_.period, input.period) / ForceRamps::kRampTime;
+    const auto most = [&](const dvec3& now, const dvec3& before, double limit) {
+        return std::max(glm::length(now), glm::length(before) - share * limit);
+    };
+    const double force = most(wanted.force, smooth_.force, options_.forceLimit),
+                 torque = most(wanted.torque, smooth_.torque, options_.torqueLimit);
+    smooth_ = lowPass(wanted, smooth_, options_.lowPassGain);
+    if (options_.lowPassGain < 1.0) {
+        smooth_ = ramps_.off() ? Wrench{} : limitSize(smooth_, force, torque);
+    }
+    return smooth_;
+}
+
 WrenchStage::Output WrenchStage::step(const WrenchInput& input) noexcept {
     stepRamps(input);
     const Wrench reaction = springWrench(input);
     const Wrench contact = sumOf(reaction, damping(input, reaction));
-    smooth_ = lowPass(scaled(sumOf(contact, input.pull), ramps_.gain()), smooth_, options_.lowPassGain);
+    const Wrench wanted = sumOf(contact, input.pull);
+    const Wrench smooth = scaled(smoothed(input, wanted), ramps_.gain());
     const Wrench damper = passivityWrench(input, reaction);
-    const Wrench asked = sumOf(smooth_, damper);
+    const Wrench asked = sumOf(smooth, damper);
     const Wrench sized =
         limitSize(asked, ramps_.share() * options_.forceLimit, ramps_.share() * options_.torqueLimit);
     Output out;
-    out.wrench = limitSlew(sized, previous_, options_.slewForce * options_.period,
-                           options_.slewTorque * options_.period);
+    out.wrench = limitSlew(sized, previous_,
+                           stepOf(sized.force, previous_.force, options_.slewForce, options_.forceLimit),
+                           stepOf(sized.torque, previous_.torque, options_.slewTorque, options_.torqueLimit));
     out.cause = causeOf(input, damper, sized, out.wrench);
     out.finite = input.sane && isFinite(out.wrench);
     notFinite_ += out.finite ? 0 : 1;

@@ -44,8 +44,8 @@ struct WrenchInput {
 };
 
 // One thread; noexcept, no allocation. Guarantees, whatever the input: force and torque stay within their
-// limits and slew limits; after a tick in which the device rendered nothing, and after every fade, the force
-// rises from there within the ramp.
+// limits and slew limits, but a fall to zero takes at most ForceRamps::kRampTime; after a tick in which the
+// device rendered nothing, and after every fade, the force rises from there within the ramp.
 class WrenchStage {
 public:
     explicit WrenchStage(const HapticOptions& options);
@@ -74,6 +74,8 @@ public:
 private:
     void stepRamps(const WrenchInput& input) noexcept;
     Wrench springWrench(const WrenchInput& input) noexcept;
+    double stepOf(const dvec3& wanted, const dvec3& before, double slew, double limit) const noexcept;
+    Wrench smoothed(const WrenchInput& input, const Wrench& wanted) noexcept;
     Wrench damping(const WrenchInput& input, const Wrench& reaction) noexcept;
     Wrench passivityWrench(const WrenchInput& input, const Wrench& reaction) noexcept;
     void reportToPassivity(const WrenchInput& input, const Wrench& damper, const Wrench& asked,
