@@ -159,6 +159,10 @@ void CloudCamera::learnLens() {
                "and z up");
     }
     say(doubtMetres(file_->file().string(), seen.nearest));
+    if (const std::string doubt = doubtLens(fit_.lens); !doubt.empty()) {
+        log::warn("{}: {}: {}", file_->file().string(), topic().name, doubt);
+        say(doubt);
+    }
     info_.depth = info_.colour = fit_.lens;
     info_.poseless = true;
     info_.metresPerUnit = unitForMetres(seen, options_.farthest);

@@ -183,16 +183,21 @@ StreamChooser::Pair StreamChooser::bestPair() {
     if (ofColour.empty()) {
         return {bestDepth(), nullptr, {}};
     }
-    using Score = std::tuple<bool, int, int, int, size_t, bool, bool>;
+    using Score = std::tuple<bool, int, int, int, size_t, size_t, bool, bool>;
     Score best;
     Pair pair;
     for (const auto& [d, depthFit] : ofDepth) {
         for (const auto& [c, colourFit] : ofColour) {
             const Relation found = relate(*d, *c);
             const bool together = found.rank == kOneLens && colourFit > 1;
-            const Score score{
-                together,       depthFit,      colourFit, found.rank, sharedParts(d->name, c->name),
-                !d->compressed, !c->compressed};
+            const Score score{together,
+                              depthFit,
+                              colourFit,
+                              found.rank,
+                              sharedParts(d->name, c->name),
+                              sharedWords(d->name, c->name),
+                              !d->compressed,
+                              !c->compressed};
             if (pair.depth == nullptr || score > best) {
                 best = score;
                 pair = {d, c, found};

@@ -30,8 +30,8 @@ bool among(const std::array<std::string_view, N>& words, const std::string& word
     return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-// Lower-case words without digits at their end.
-std::vector<std::string> wordsOf(const std::string& topic) {
+// Lower-case words.
+std::vector<std::string> wholeWordsOf(const std::string& topic) {
     std::vector<std::string> words(1);
     for (const char c : topic) {
         if (std::isalnum(static_cast<unsigned char>(c)) != 0) {
@@ -40,6 +40,12 @@ std::vector<std::string> wordsOf(const std::string& topic) {
             words.emplace_back();
         }
     }
+    return words;
+}
+
+// Without digits at their end.
+std::vector<std::string> wordsOf(const std::string& topic) {
+    std::vector<std::string> words = wholeWordsOf(topic);
     for (std::string& word : words) {
         while (word.size() > 1 && std::isdigit(static_cast<unsigned char>(word.back())) != 0) {
             word.pop_back();
@@ -163,6 +169,13 @@ size_t sharedParts(const std::string& a, const std::string& b) {
         parts += a[i] == '/' && i > 0 ? 1 : 0;
     }
     return parts;
+}
+
+size_t sharedWords(const std::string& a, const std::string& b) {
+    const std::vector<std::string> ofA = wholeWordsOf(a), ofB = wholeWordsOf(b);
+    return static_cast<size_t>(std::count_if(ofA.begin(), ofA.end(), [&](const std::string& word) {
+        return !word.empty() && std::find(ofB.begin(), ofB.end(), word) != ofB.end();
+    }));
 }
 
 bool namedOneCamera(const std::string& a, const std::string& b) {

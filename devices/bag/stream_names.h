@@ -36,6 +36,8 @@ bool namedDepthUnits(const std::string& topic);
 std::vector<std::string> lensTopics(const std::string& topic);
 // Number of path parts that both topics begin with.
 size_t sharedParts(const std::string& a, const std::string& b);
+// Number of words that both topics have, whatever their order: 1 of "/depth_left" and "/rgb_left".
+size_t sharedWords(const std::string& a, const std::string& b);
 // Whether the parts before the first one that names depth, colour or infrared are those of one camera:
 // "/a/depth/image" and "/a/rgb/image" or "/a/left/image_color", but not "/b/rgb/image".
 bool namedOneCamera(const std::string& a, const std::string& b);

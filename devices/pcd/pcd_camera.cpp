@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 #include <glm/matrix.hpp>
 
@@ -143,6 +144,22 @@ FittedLens fitLens(const PcdCloud& cloud) {
     return *best;
 }
 
+std::string doubtLens(const Intrinsics& lens) {
+    constexpr double kMostRatio = 1.25; // of the focal lengths
+    const bool inside = lens.cx > 0.0 && lens.cx < lens.width && lens.cy > 0.0 && lens.cy < lens.height;
+    const double ratio = std::max(lens.fx, lens.fy) / std::min(lens.fx, lens.fy);
+    if (lens.fan || (inside && ratio <= kMostRatio)) {
+        return "";
+    }
+    char text[200];
+    std::snprintf(
+        text, sizeof text,
+        "the lens of its points has fx %.1f, fy %.1f and the principal point (%.1f, %.1f): they may be in "
+        "another frame than their camera's",
+        lens.fx, lens.fy, lens.cx, lens.cy);
+    return text;
+}
+
 PcdCamera::PcdCamera(const std::filesystem::path& file, const SourceOptions& options)
     : file_(file)
     , cloud_(readCloud(file)) {
@@ -159,6 +176,9 @@ PcdCamera::PcdCamera(const std::filesystem::path& file, const SourceOptions& opt
                            " pixels",
                        "a cloud from a depth camera or a scan with equal angles: x right and y down, y up "
                        "and z backward, or x forward and z up");
+    }
+    if (const std::string doubt = doubtLens(fit.lens); !doubt.empty()) {
+        log::warn("{}: {}", file.string(), doubt);
     }
     scalePoints(fit, options);
     if (options.depthOnly()) {

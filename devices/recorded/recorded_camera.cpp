@@ -67,17 +67,28 @@ void RecordedCamera::useOptions(const SourceOptions& options) {
         camera.registered = false;
         camera.colourTdepth = readExtrinsics(options.extrinsics);
     }
+    std::vector<IndexLine>& index = layout_.index;
+    constexpr double kSlowest = 10.0; // [s] between frames
+    if (index.size() > 1) {
+        const double whole = index.back().depthStamp - index.front().depthStamp;
+        const double period = whole / static_cast<double>(index.size() - 1);
+        if (period > kSlowest) {
+            log::warn("{}: {:.6g} s between its frames: stamps are read as seconds", folder_.string(),
+                      period);
+        }
+    }
     if (options.start == 0.0 && std::isinf(options.duration)) {
         return;
     }
-    std::vector<IndexLine>& index = layout_.index;
     const double first = index.front().depthStamp + options.start;
     std::erase_if(index, [&](const IndexLine& line) {
         return line.depthStamp < first || line.depthStamp >= first + options.duration;
     });
     if (index.empty()) {
-        throw BadInput(folder_.string(), "start", std::to_string(options.start),
-                       "a time before the last frame");
+        const bool start = options.start != 0.0;
+        throw BadInput(folder_.string(), start ? "start" : "duration",
+                       std::to_string(start ? options.start : options.duration),
+                       start ? "a time before the last frame" : "a time with at least one frame");
     }
 }
 

@@ -155,11 +155,12 @@ std::string YamlNode::text() const {
     return node_.Scalar();
 }
 
-bool YamlNode::boolean() const {
-    if (isQuoted(node_) || !(is("true") || is("false"))) {
+bool YamlNode::boolean() const { // in the spellings of YAML 1.2
+    const bool yes = is("true") || is("True") || is("TRUE"), no = is("false") || is("False") || is("FALSE");
+    if (isQuoted(node_) || !(yes || no)) {
         refuse(withQuotes(node_, value()), "true or false");
     }
-    return is("true");
+    return yes;
 }
 
 double YamlNode::number(const Range& range, const std::string& orElse) const {

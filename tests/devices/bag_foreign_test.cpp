@@ -100,3 +100,20 @@ TEST_CASE("Images of one frame and lens are played together where other topics h
         }
     }
 }
+
+TEST_CASE("Of several colours that fit equally the one whose name is most like that of depth is played") {
+    const TemporaryFolder folder;
+    for (const auto& [other, depth, own] :
+         {std::tuple("/rgb_right", "/depth_left", "/rgb_left"),
+          std::tuple("/right_rgb", "/left_depth", "/left_rgb"), std::tuple("/rgb_1", "/depth_2", "/rgb_2")}) {
+        for (const char* frame : {"sim_camera", ""}) {
+            BagMaker maker;
+            for (const char* topic : {other, depth, own}) {
+                addStream(maker, std::string(topic) + "/image",
+                          topic == depth ? depthImage(900, frame) : redImage(frame), {.frame = frame});
+            }
+            const BagCamera camera = playStreams(folder, maker);
+            CHECK(lineSays(camera.streamOptions(), std::string(",colour=") + own));
+        }
+    }
+}

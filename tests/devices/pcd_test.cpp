@@ -285,3 +285,14 @@ TEST_CASE("A cloud of unknown axes is rejected, although a part of its points fi
     folder.write("a.pcd", text);
     CHECK(refusal(folder.path() / "a.pcd").find("x right and y down") != std::string::npos);
 }
+
+TEST_CASE("A lens that no camera has says that the points may be in another frame") {
+    const Intrinsics usual{.width = 80, .height = 60, .fx = 70.0, .fy = 71.0, .cx = 38.0, .cy = 31.0};
+    CHECK(doubtLens(usual).empty());
+    Intrinsics outside = usual, stretched = usual;
+    outside.cy = 98.9;
+    stretched.fx = 95.0;
+    CHECK(doubtLens(outside).find("principal point (38.0, 98.9): they may be in another frame") !=
+          std::string::npos);
+    CHECK(doubtLens(stretched).find("fx 95.0, fy 71.0") != std::string::npos);
+}

@@ -140,7 +140,8 @@ TEST_CASE("Images frame-N with a file of calibration have its lenses and unit, n
 TEST_CASE("Images frame-N have the calibration beside their folder, as in 12-Scenes, however it is named") {
     const TemporaryFolder scene;
     addFrames(scene, 0, "data/");
-    lineSays(recordingRefusal(scene.path() / "data"), "of the size of this layout's usual lens; or intrinsics=FILE");
+    lineSays(recordingRefusal(scene.path() / "data"),
+             "of the size of this layout's usual lens; or intrinsics=FILE");
     scene.write("info.txt", kSensorInfo);
     for (const char* name : {"data", "data/", "./data"}) {
         CHECK(RecordedCamera(scene.path() / name).info().depth.fx == 6.0);

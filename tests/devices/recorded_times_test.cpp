@@ -2,6 +2,7 @@
 // Times of a recording that do not belong together: poses and colour far from depth.
 #include "devices/recorded/recorded_camera.h"
 #include "tests/devices/recorded_folder.h"
+#include "tests/realtime/listening.h"
 
 #include <doctest/doctest.h>
 
@@ -132,4 +133,25 @@ TEST_CASE("Where half of the stamps do not rise, all frames are played at 30 per
                   .find("of 4 depth stamps do not rise (allowed: stamps that rise") != std::string::npos);
         std::filesystem::remove(folder.path() / "poses.txt");
     }
+}
+
+TEST_CASE("Stamps of another unit than seconds have a warning where depth and colour have the same ones") {
+    const TemporaryFolder folder;
+    writeSmallRecording(folder, 3);
+    const auto warnings = [&](double unit) {
+        std::string index;
+        for (int i = 0; i < 3; ++i) {
+            const std::string n = std::to_string(i) + ".png", stamp = std::to_string(i * 0.033 * unit);
+            index += stamp + " rgb/" + n + " " + stamp + " depth/" + n + "\n";
+        }
+        folder.write("associations.txt", index);
+        const testing::Listening log;
+        CHECK(playedDepths(folder.path()).size() == 3);
+        return log.count("s between its frames: stamps are read as seconds");
+    };
+    CHECK(warnings(1.0) == 0);
+    CHECK(warnings(1e3) == 1);
+    CHECK(warnings(1e9) == 1);
+    folder.write("associations.txt", "1.7e18 rgb/0.png 1.7e18 depth/0.png\n");
+    CHECK(recordingRefusal(folder.path(), {.duration = 0.1}).find("duration: 0.1") != std::string::npos);
 }

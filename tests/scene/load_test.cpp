@@ -207,6 +207,18 @@ TEST_CASE("Bounds are inclusive; an empty list of fixtures and the words auto an
     }
 }
 
+TEST_CASE("The words true and false may be spelled as YAML 1.2 does") {
+    const auto shows = [](const std::string& word) {
+        return loadScene(SceneFile(kMinimal + "haptics: {smooth: " + word + "}\n").path()).haptics.smooth;
+    };
+    for (const char* yes : {"true", "True", "TRUE"}) {
+        CHECK(shows(yes));
+    }
+    for (const char* no : {"false", "False", "FALSE"}) {
+        CHECK_FALSE(shows(no));
+    }
+}
+
 TEST_CASE("A scene uses every pixel unless it names a decimation, from 1 to 8") {
     CHECK(loadScene(SceneFile(kMinimal).path()).decimation == 1);
     CHECK(loadScene(SceneFile(kMinimal + "camera: {decimation: 8}\n").path()).decimation == 8);
