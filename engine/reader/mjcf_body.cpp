@@ -238,7 +238,7 @@ void MjcfBodies::addSite(const Part& site, const std::string& body) {
     const std::string link = bodyNames_.count(name) != 0 ? name + kSiteEnding : name;
     addLink(link, {});
     addFixed(name + kSiteEnding, body, link,
-             site.at * mjcfPose(classes_, angles_, *site.element, site.childClass));
+             site.at * mjcfShapePose(classes_, angles_, *site.element, site.childClass).pose);
 }
 
 } // namespace fathom

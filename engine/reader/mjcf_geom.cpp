@@ -75,23 +75,13 @@ MjcfGeoms::MjcfGeoms(const MjcfClasses& classes, const MjcfAngles& angles, const
 
 std::string MjcfGeoms::shape(const tinyxml2::XMLElement& geom, const std::string& childClass,
                              const Pose& at) {
-    Pose pose = mjcfPose(classes_, angles_, geom, childClass);
-    double half = 0.0;
-    const auto ends = classes_.numbers(geom, childClass, "fromto", {}, 6, 6);
-    if (!ends.empty()) {
-        const dvec3 from(ends[0], ends[1], ends[2]), to(ends[3], ends[4], ends[5]);
-        half = 0.5 * glm::distance(from, to);
-        if (!(half > 1e-10)) {
-            classes_.refuse(geom, "fromto of length 0", "two points");
-        }
-        pose = {0.5 * (from + to), turnOfZ(to - from)};
-    }
+    const MjcfShapePose place = mjcfShapePose(classes_, angles_, geom, childClass);
     const auto touches = [&](const char* name) {
         return classes_.numbers(geom, childClass, name, {1.0}, 1, 1)[0] != 0.0;
     };
     const std::string kind = touches("contype") || touches("conaffinity") ? "collision" : "visual";
-    return "<" + kind + ">" + urdfOrigin(at * pose) + "<geometry>" +
-           geometry(geom, childClass, ends.empty() ? nullptr : &half) + "</geometry></" + kind + ">";
+    return "<" + kind + ">" + urdfOrigin(at * place.pose) + "<geometry>" +
+           geometry(geom, childClass, place.half ? &*place.half : nullptr) + "</geometry></" + kind + ">";
 }
 
 std::string MjcfGeoms::geometry(const tinyxml2::XMLElement& geom, const std::string& childClass,

@@ -132,4 +132,18 @@ Pose mjcfPose(const MjcfClasses& classes, const MjcfAngles& angles, const tinyxm
     return out;
 }
 
+MjcfShapePose mjcfShapePose(const MjcfClasses& classes, const MjcfAngles& angles,
+                            const tinyxml2::XMLElement& element, const std::string& childClass) {
+    const auto ends = classes.numbers(element, childClass, "fromto", {}, 6, 6);
+    if (ends.empty()) {
+        return {mjcfPose(classes, angles, element, childClass), std::nullopt};
+    }
+    const dvec3 from(ends[0], ends[1], ends[2]), to(ends[3], ends[4], ends[5]);
+    const double half = 0.5 * glm::distance(from, to);
+    if (!(half > kShortest)) {
+        classes.refuse(element, "fromto of length 0", "two points");
+    }
+    return {{0.5 * (from + to), turnOfZ(from - to)}, half};
+}
+
 } // namespace fathom

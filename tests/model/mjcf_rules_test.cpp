@@ -123,3 +123,26 @@ TEST_CASE("A site of an MJCF can be the tip, and one with a usual name is") {
     CHECK(glm::distance(named.lastTtip.position, dvec3(0.2, 0.0, 0.5)) < 1e-12); // with its class
     CHECK(with("<site name='b'/>", "b__site").lastTtip.position.z == doctest::Approx(0.5));
 }
+
+TEST_CASE("A site with fromto lies between its ends, and its z axis leads from the second to the first") {
+    const auto with = [](const std::string& site) {
+        ArmOptions options;
+        options.tip = "s";
+        return loadMjcf("<default><default class='c'><site type='capsule' fromto='0 0 0 0 0 2'/></default>"
+                        "</default><worldbody><body name='a'>" +
+                            mjcfBall() + "<body name='b'><joint name='j' range='-90 90'/>" + mjcfBall() +
+                            site + "</body></body></worldbody>",
+                        options)
+            .lastTtip;
+    };
+    // MuJoCo 3.2, mjCSite::Compile: pos = (from + to) / 2, z along from - to, also of what a class states.
+    const Pose along = with("<site name='s' type='box' size='0.01' fromto='0.1 0 0 0.3 0 0'/>");
+    CHECK(glm::distance(along.position, dvec3(0.2, 0.0, 0.0)) < 1e-12);
+    CHECK(glm::distance(along.rotation * dvec3(0.0, 0.0, 1.0), dvec3(-1.0, 0.0, 0.0)) < 1e-12);
+    CHECK(glm::distance(along.rotation * dvec3(0.0, 1.0, 0.0), dvec3(0.0, 1.0, 0.0)) < 1e-12);
+    const Pose inherited = with("<site name='s' class='c'/>");
+    CHECK(glm::distance(inherited.position, dvec3(0.0, 0.0, 1.0)) < 1e-12);
+    CHECK(glm::distance(inherited.rotation * dvec3(0.0, 1.0, 0.0), dvec3(0.0, -1.0, 0.0)) < 1e-12);
+    CHECK(mjcfRefusal("<worldbody><body><site name='s' fromto='0 0 1 0 0 1'/></body></worldbody>")
+              .find("fromto of length 0") != std::string::npos);
+}
