@@ -56,4 +56,13 @@ std::string doubtEnds(const std::string& finger, double open, double closed, boo
     return line.str();
 }
 
+std::string doubtOneEnd(const std::string& finger, bool openGiven, double open, double closed) {
+    std::ostringstream line;
+    line << "finger " << finger << ": " << (openGiven ? "closed at " : "open at ")
+         << (openGiven ? closed : open) << " is assumed, the limit farther from "
+         << (openGiven ? "open at " : "closed at ") << (openGiven ? open : closed)
+         << "; grasp.fingers sets both";
+    return line.str();
+}
+
 } // namespace fathom

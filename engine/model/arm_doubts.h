@@ -16,5 +16,7 @@ std::string doubtHeld(const std::string& joint, bool slides, double value);
 std::string doubtBeyond(const std::string& joint, double value, double lower, double upper);
 // On a finger whose open or closed position the program chose. seen: by the shapes of the fingers.
 std::string doubtEnds(const std::string& finger, double open, double closed, bool seen);
+// On a finger of which the scene gives one end: openGiven, or else the closed one.
+std::string doubtOneEnd(const std::string& finger, bool openGiven, double open, double closed);
 
 } // namespace fathom

@@ -103,6 +103,10 @@ std::vector<std::string> chooseFingerEnds(ArmModel& model, const ArmOptions& opt
         if (named == model.fingers.end() || named->mimic || (wanted.open && wanted.closed)) {
             continue;
         }
+        if (wanted.open || wanted.closed) {
+            notes.push_back(doubtOneEnd(wanted.joint, wanted.open.has_value(), named->open, named->closed));
+            continue;
+        }
         const std::string& root = ties.at(wanted.joint).root;
         const double closing = given.count(root) == 0 ? closingOf(model, groups[root]) : 0.0;
         for (const uint32_t f : closing < -kTells ? groups[root] : std::vector<uint32_t>()) {

@@ -120,11 +120,29 @@ private:
         }
     }
 
-    // Where fingers are open and closed in most descriptions, unless their shapes tell (finger_ends.h): they slide towards 0, or turn from lower to upper.
+    // Where fingers are open and closed in most descriptions, unless their shapes tell (finger_ends.h): they slide
+    // towards 0, or turn from lower to upper.
     static std::pair<double, double> usualEnds(const urdf::Joint& joint) {
         const double lower = joint.limits->lower, upper = joint.limits->upper;
         const bool down = joint.type == urdf::Joint::PRISMATIC && std::abs(upper) >= std::abs(lower);
         return down ? std::pair{upper, lower} : std::pair{lower, upper};
+    }
+
+    // Of a finger with one given end: the limit farther from it, so that the finger moves. On a tie the usual one.
+    static double farther(const urdf::Joint& joint, double given, double usual) {
+        const double lower = joint.limits->lower, upper = joint.limits->upper;
+        const double down = given - lower, up = upper - given;
+        return down == up ? usual : down > up ? lower : upper;
+    }
+
+    static std::pair<double, double> endsOf(const ArmOptions::Finger& wanted, const urdf::Joint& joint) {
+        const auto [open, closed] = usualEnds(joint);
+        return {wanted.open     ? *wanted.open
+                : wanted.closed ? farther(joint, *wanted.closed, open)
+                                : open,
+                wanted.closed ? *wanted.closed
+                : wanted.open ? farther(joint, *wanted.open, closed)
+                              : closed};
     }
 
     void grasp(const ArmOptions::Finger& wanted) {
@@ -135,9 +153,9 @@ private:
         const auto rootAt = [&](double value) { return (value - tie.offset) / tie.multiplier; };
         if (group.finger.empty()) {
             group.finger = wanted.joint;
-            const auto [open, closed] = usualEnds(joint);
-            group.open = rootAt(wanted.open.value_or(open));
-            group.closed = rootAt(wanted.closed.value_or(closed));
+            const auto [open, closed] = endsOf(wanted, joint);
+            group.open = rootAt(open);
+            group.closed = rootAt(closed);
             return;
         }
         for (const auto& [given, root] :

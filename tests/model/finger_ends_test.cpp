@@ -80,9 +80,24 @@ TEST_CASE("A single finger closes towards what carries it, and given ends are ke
     const ArmModel given = handWith(single("0 0 -1"), {{"f1", 0.03, 0.01}});
     CHECK(given.fingers.at(0).open == 0.03);
     CHECK(given.fingers.at(0).closed == 0.01);
-    const ArmModel half = handWith(single("0 0 -1"), {{"f1", 0.03, {}}});
-    CHECK(half.fingers.at(0).open == 0.03);
-    CHECK(half.fingers.at(0).closed == 0.0);
+}
+
+TEST_CASE("Where one end of a finger is given, the other is the limit farther away, and one note says so") {
+    const auto hand = [](std::optional<double> open, std::optional<double> closed) {
+        return handWith(jaws("0.08", "0 -1 0", limit("0", "0.04")), {{"f1", open, closed}});
+    };
+    const auto ends = [](const ArmModel& arm, double open, double closed, const std::string& words) {
+        CHECK(arm.fingers.at(0).open == open);
+        CHECK(arm.fingers.at(0).closed == closed);
+        CHECK(arm.fingers.at(1).open == -open); // follows
+        CHECK(std::ranges::count_if(
+                  arm.notes, [&](const std::string& note) { return note.starts_with("finger f1: "); }) == 1);
+        CHECK(std::ranges::count(arm.notes, "finger f1: " + words + "; grasp.fingers sets both") == 1);
+    };
+    ends(hand(0.03, {}), 0.03, 0.0, "closed at 0 is assumed, the limit farther from open at 0.03");
+    ends(hand(0.0, {}), 0.0, 0.04, "closed at 0.04 is assumed, the limit farther from open at 0");
+    ends(hand({}, 0.04), 0.0, 0.04, "open at 0 is assumed, the limit farther from closed at 0.04");
+    ends(hand({}, 0.01), 0.04, 0.01, "open at 0.04 is assumed, the limit farther from closed at 0.01");
 }
 
 TEST_CASE("Fingers whose shapes do not tell keep the usual ends, and a note says so") {
