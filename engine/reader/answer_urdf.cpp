@@ -133,6 +133,30 @@ void refuseXacro(const std::filesystem::path& file, const std::string& text,
     }
 }
 
+// Names files that belong to a robot, or describe one in another form.
+void refuseOtherKinds(const std::filesystem::path& file, const std::string& text) {
+    static const std::set<std::string_view> kSemantic{"group",
+                                                      "group_state",
+                                                      "end_effector",
+                                                      "virtual_joint",
+                                                      "passive_joint",
+                                                      "disable_collisions",
+                                                      "disable_default_collisions"};
+    bool links = false, semantic = false;
+    for (XmlTags tags(text); tags.next();) {
+        if (tags.path().empty() && tags.tag().name == "sdf") {
+            throw BadInput(file.string(), "robot", "an SDF", "a URDF or MJCF of the robot");
+        }
+        const bool part = tags.path() == "robot";
+        links = links || (part && tags.tag().name == "link");
+        semantic = semantic || (part && kSemantic.count(tags.tag().name) > 0);
+    }
+    if (semantic && !links) {
+        throw BadInput(file.string(), "robot", "an SRDF of MoveIt, without links and joints",
+                       "the URDF that it belongs to");
+    }
+}
+
 // XML reads tabs and line ends in an attribute as spaces; the parser does not.
 std::string withSpaces(const std::string& text) {
     std::string out;
@@ -194,6 +218,7 @@ std::string packetOf(const std::filesystem::path& file) {
     }
     std::vector<std::string> notes;
     refuseXacro(file, text, notes);
+    refuseOtherKinds(file, text);
     text = isMjcf(text) ? urdfOfMjcf(file, text, notes) : withSpaces(text);
     const bool capsules = text.find("<capsule") != std::string::npos;
     const Listener listener;

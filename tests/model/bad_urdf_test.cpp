@@ -123,3 +123,16 @@ TEST_CASE("Speeds, fingers and held joints that look like degrees or millimetres
     CHECK(doubtHeld("f", true, -0.3) == "");
     CHECK(doubtHeld("f", false, 90.0) == "joint f: stays at 90 rad; in degrees?");
 }
+
+TEST_CASE("A file of MoveIt or SDF in place of a URDF is named as such, with what to give instead") {
+    const std::string groups = "<group name='arm'><chain base_link='a' tip_link='b'/></group>"
+                               "<disable_collisions link1='a' link2='b' reason='Never'/>";
+    const std::string srdf = urdfRefusal(groups);
+    CHECK(saysOnly(srdf, "robot: an SRDF of MoveIt, without links and joints (allowed: the URDF that it "
+                         "belongs to)"));
+    CHECK(saysOnly(urdfRefusal("<!-- <link name='a'/> -->" + groups), "an SRDF of MoveIt"));
+    CHECK_FALSE(saysOnly(urdfRefusal("<group name='arm'/>" + withLimit("")), "SRDF"));
+    CHECK_FALSE(saysOnly(urdfRefusal(""), "SRDF"));
+    const ScratchFile sdf("arm.urdf", "<?xml version='1.0'?><sdf version='1.7'><model name='r'/></sdf>");
+    CHECK(saysOnly(refusalOf([&] { loadArm(sdf.path(), {}); }), "robot: an SDF (allowed: a URDF or MJCF"));
+}
