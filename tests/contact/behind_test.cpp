@@ -2,6 +2,7 @@
 #include "engine/contact/behind.h"
 
 #include "engine/contact/contact_fill.h"
+#include "engine/contact/cull_cpu.h"
 #include "tests/contact/images.h"
 
 #include <doctest/doctest.h>
@@ -14,10 +15,19 @@ namespace {
 struct Watch {
     Tool tool = ballTool(0.01);
     BehindTracker tracker;
+    CullCpu cull;
     ContactSet set;
 
     const std::vector<ContactSet::Behind>& operator()(const Fixtures& fixtures, const dvec3& position) {
         fillContactSet(tool, {position, kUpright}, 0.01, fixtures, {}, set);
+        tracker.update(tool, fixtures, 0.04, set);
+        return set.behind;
+    }
+    // The same with the pairs of the fixtures' spheres.
+    const std::vector<ContactSet::Behind>& withPairs(const Fixtures& fixtures, const dvec3& position) {
+        RegionGrid grid;
+        grid.build(fixtures.spheres);
+        cull.query(tool, {position, kUpright}, 0.01, fixtures, grid, set);
         tracker.update(tool, fixtures, 0.04, set);
         return set.behind;
     }
@@ -46,6 +56,40 @@ TEST_CASE("The flag stays while the leaf is under or near the surface and is cle
     CHECK(watch(near, dvec3(0, 0, 0.43)).size() == 1);
     CHECK(watch(near, dvec3(0, 0, 0.4199)).empty());
     CHECK(watch(near, dvec3(0, 0, 0.43)).empty()); // back at the surface: in contact, not behind
+}
+
+TEST_CASE("A flagged leaf that overlaps a sphere before its surface keeps the flag until it is out of that") {
+    Watch watch;
+    watch(wallImage(0.6, 1), dvec3(0, 0, 0.5));
+    Fixtures near = wallImage(0.47, 2);
+    near.spheres.add({0, 0, 0.45}, 0.04); // noise: 20 mm before the depth of its pixel
+    REQUIRE(watch.withPairs(near, dvec3(0, 0, 0.5)).size() == 1);
+    const auto& flags = watch.withPairs(near, dvec3(0, 0, 0.4199));
+    REQUIRE(flags.size() == 1);
+    CHECK(flags[0].clearance == doctest::Approx(0.05 - 0.0301).epsilon(1e-6));
+    CHECK(watch.withPairs(near, dvec3(0, 0, 0.3999)).empty());
+}
+
+TEST_CASE("The way out of a surface that comes nearer grows by as much") {
+    Watch watch;
+    watch(wallImage(0.6, 1), dvec3(0, 0, 0.5));
+    REQUIRE(watch(wallImage(0.47, 2), dvec3(0, 0, 0.5)).size() == 1);
+    const auto& flags = watch(wallImage(0.45, 3), dvec3(0, 0, 0.5));
+    REQUIRE(flags.size() == 1);
+    CHECK(flags[0].clearance == doctest::Approx(0.05 + 0.05).epsilon(1e-6));
+}
+
+TEST_CASE("The pixel nearest to a leaf decides whether it is behind, not the one before it") {
+    for (const bool wallHere : {false, true}) {
+        Watch watch;
+        const dvec3 leaf(1.1 / 140.0 * 0.5, 0, 0.5); // at column 80.6
+        watch(wallImage(0.6, 1), leaf);
+        Fixtures next = wallImage(0.47, 2);
+        for (uint32_t v = 0; v < 120; ++v) {
+            next.depth[v * 160 + (wallHere ? 80 : 81)] = 8000; // 0.8 m
+        }
+        CHECK(watch(next, leaf).size() == (wallHere ? 1 : 0));
+    }
 }
 
 TEST_CASE("A leaf that moves behind a surface of the same set is occluded, not behind") {

@@ -84,6 +84,21 @@ TEST_CASE("A leaf that moves along the plane, by as much as its gap, enters no s
     }
 }
 
+TEST_CASE("A raised sphere that the patch reaches lowers the plane's gap without a step") {
+    Patch wall = wallOf(0.002, 0.0);
+    wall.spheres.add({0.001, 0.001, -kBall + 1e-4}, kBall);
+    double before = HUGE_VAL, most = 0.0, lowest = HUGE_VAL;
+    for (double x = 0.012; x > 0.005; x -= 1e-5) {
+        SmoothPlane plane;
+        REQUIRE(wall.plane({x, 0.001, kLeaf + 2e-4}, plane));
+        most = before == HUGE_VAL ? 0.0 : std::max(most, std::abs(plane.gap - before));
+        before = plane.gap;
+        lowest = std::min(lowest, plane.gap);
+    }
+    CHECK(lowest < 1.3e-4);
+    CHECK(most < 2e-5);
+}
+
 TEST_CASE("One sphere alone and two opposite ones give no plane") {
     SmoothPlane plane;
     Patch one;
