@@ -50,3 +50,14 @@ TEST_CASE("The force gate scales to the limits without a change of direction and
     CHECK(gate.at(150 * kMs).force.y == 0.0);
     CHECK(gate.notFinite() == 1);
 }
+
+TEST_CASE("A wrench that is older than the one before changes nothing") {
+    ForceGate gate(8.0, 0.2);
+    for (uint64_t ms = 1; ms <= 200; ++ms) {
+        gate.accept({{3.0, 0.0, 0.0}, {}}, ms * kMs);
+    }
+    gate.accept({{7.0, 0.0, 0.0}, {}}, 198 * kMs);
+    CHECK(gate.at(205 * kMs).force.x == 3.0);
+    gate.accept({{7.0, 0.0, 0.0}, {}}, 200 * kMs);
+    CHECK(gate.at(205 * kMs).force.x == 7.0);
+}

@@ -2,6 +2,7 @@
 // The bridge of an Inverse3 between an engine and a simulated service.
 #include "devices/bridge/socket_hand.h"
 #include "devices/haply/haply_bridge.h"
+#include "devices/haply/haply_message.h"
 #include "engine/types/error.h"
 #include "tests/devices/haply_service.h"
 #include "tests/devices/socket_rig.h"
@@ -83,6 +84,22 @@ TEST_CASE("A VerseGrip gives orientation and buttons; without one the orientatio
     CHECK(loop.until([](const HandSample& s) {
         return std::abs(s.deviceThandle.rotation.x) > 0.999 && (s.buttons & FATHOM_DOOR_GUIDANCE) != 0;
     }));
+}
+
+TEST_CASE("Of a VerseGrip's buttons a is guidance and b is the clutch") {
+    for (const bool a : {false, true}) {
+        for (const bool b : {false, true}) {
+            const auto text = [](bool down) { return std::string(down ? "true" : "false"); };
+            const auto state = readHaplyState(
+                R"({"inverse3": [{"device_id": "1", "state": {"cursor_position": {"x": 0, "y": 0, "z": 0}}}],
+                    "verse_grip": [{"device_id": "2", "state": {"orientation": {"w": 1, "x": 0, "y": 0, "z": 0},
+                    "buttons": {"a": )" +
+                    text(a) + R"(, "b": )" + text(b) + "}}}]}",
+                "");
+            REQUIRE(state.has_value());
+            CHECK(state->sample.buttons == ((a ? FATHOM_DOOR_GUIDANCE : 0u) | (b ? FATHOM_DOOR_CLUTCH : 0u)));
+        }
+    }
 }
 
 TEST_CASE("Fragmented, invalid and missing answers do not stop the exchange") {

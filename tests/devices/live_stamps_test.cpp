@@ -78,3 +78,14 @@ TEST_CASE("A message with the stamp of the one before never counts, however ofte
     CHECK(log.count("was set back") == 0);
     CHECK(stamps.forward(1.7e9 + 0.1));
 }
+
+TEST_CASE("No message is dated after its arrival, or before a message that came earlier") {
+    LiveStamps stamps("/camera/depth");
+    CHECK(Delivered(4.0, 0.03).age(stamps) == doctest::Approx(0.03).epsilon(1e-5));
+    const Delivered ahead(5.0, -0.003); // clocks of machines in step
+    CHECK(ahead.age(stamps) == 0.0);
+    Delivered late(5.03, 0.01);
+    late.message.arrivalUtc += 0.2; // this machine's clock was set
+    const double before = stamps.captureTime(ahead.stamp, ahead.message);
+    CHECK(stamps.captureTime(late.stamp, late.message) == before);
+}

@@ -17,6 +17,7 @@ using namespace fathom::testing;
 
 namespace {
 
+constexpr dquat kTurned(0.5, -0.1, 0.7, 0.5); // of unit length
 constexpr uint32_t kReady = FATHOM_DOOR_PRESENT | FATHOM_DOOR_HOMED;
 
 bool has(const std::string& text, const std::string& part) {
@@ -35,7 +36,7 @@ struct Talk {
             while (!stop.load()) {
                 server.poll();
                 HandSample sample;
-                sample.deviceThandle.position = {0.01 * level.load(), 0.0, 0.0};
+                sample.deviceThandle = {{0.01 * level.load(), 0.02, 0.03}, kTurned};
                 sample.buttons = 1;
                 if (!mute.load()) {
                     server.send(sample, status.load());
@@ -82,8 +83,9 @@ TEST_CASE("Samples reach the engine, wrenches reach the device, and the last wre
         CHECK(eventually([&] {
             tick(hand, 2.0);
             const HandSample sample = hand.read(0.0);
-            return sample.deviceThandle.position.x == 0.01 * 7.0 && sample.buttons == 1;
+            return sample.deviceThandle.position == dvec3(0.01 * 7.0, 0.02, 0.03) && sample.buttons == 1;
         }));
+        CHECK(std::abs(glm::dot(hand.read(0.0).deviceThandle.rotation, kTurned)) > 1.0 - 1e-12);
         CHECK(hand.alive());
         CHECK(eventually([&] {
             tick(hand, 2.0);

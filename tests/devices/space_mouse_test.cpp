@@ -127,6 +127,17 @@ TEST_CASE(
     CHECK(cap.hand->preset() == "none");
 }
 
+TEST_CASE("A turned hand still rotates about the axes of the device, not about its own") {
+    Cap cap;
+    const dquat tipped = cap.run(3.0, {motion(2, {350, 0, 0})}).deviceThandle.rotation;
+    cap.report(motion(2, {0, 0, 0}));
+    REQUIRE(rotationLog(tipped).x == doctest::Approx(1.5).epsilon(0.01));
+    const dquat turned = cap.run(1.0, {motion(2, {0, 0, -350})}).deviceThandle.rotation;
+    const dvec3 since = rotationLog(turned * glm::conjugate(tipped));
+    CHECK(since.z == doctest::Approx(0.5).epsilon(0.01));
+    CHECK(std::hypot(since.x, since.y) < 1e-9);
+}
+
 TEST_CASE("A cap that is silent while deflected counts as released, and a late tick causes no jump") {
     Cap cap;
     cap.run(0.2, {motion(1, {350, 0, 0})});
