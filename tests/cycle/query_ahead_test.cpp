@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// Late answers are asked for where the tool will be.
+#include "engine/cycle/query_ahead.h"
+
+#include <doctest/doctest.h>
+
+using namespace fathom;
+
+namespace {
+
+constexpr double kTick = 0.001;
+
+// A tool that moved at `speed` [m/s] and `spin` [rad/s] until now.
+struct Steady {
+    QueryAhead ahead{kTick};
+    ToolState now;
+
+    Steady(const dvec3& speed, const dvec3& spin, double jointRate = 0.0) {
+        for (int i = 0; i < 500; ++i) {
+            now.pose = {i * kTick * speed, rotationExp(i * kTick * spin)};
+            now.arm.q[1] = i * kTick * jointRate;
+            ahead.moved(now);
+        }
+    }
+};
+
+} // namespace
+
+TEST_CASE(
+    "After late answers queries look ahead along the tool's motion, its rotation and the arm's joints") {
+    Steady tool({0.1, 0, -0.2}, {0, 0, 2.0}, 0.5);
+    CHECK(tool.ahead.ask(tool.now, 0.5, 3).pose.position == tool.now.pose.position); // none was late
+    tool.ahead.answered(0.47, 0.5);
+    const ToolState asked = tool.ahead.ask(tool.now, 0.5, 3);
+    const dvec3 way = asked.pose.position - tool.now.pose.position;
+    CHECK(glm::distance(way, 0.03 * dvec3(0.1, 0, -0.2)) < 1e-6);
+    const dvec3 turn = rotationLog(asked.pose.rotation * glm::conjugate(tool.now.pose.rotation));
+    CHECK(glm::distance(turn, {0, 0, 0.06}) < 1e-6);
+    CHECK(asked.arm.q[1] - tool.now.arm.q[1] == doctest::Approx(0.015));
+    CHECK(asked.moreReach ==
+          doctest::Approx(0.25 * 0.03 * std::sqrt(0.05) + 0.5 * QueryAhead::kHandAccel * 0.03 * 0.03));
+}
+
+TEST_CASE("The reach of a query grows by at most 20 mm, and a tool that was placed elsewhere has no speed") {
+    Steady fast({5.0, 0, 0}, dvec3(0.0));
+    fast.ahead.answered(0.0, 0.5);
+    CHECK(fast.ahead.ask(fast.now, 0.5, 0).moreReach == QueryAhead::kMaxReach);
+    fast.ahead.restart();
+    ToolState elsewhere;
+    elsewhere.pose.position = {7, 7, 7};
+    fast.ahead.moved(elsewhere);
+    CHECK(fast.ahead.ask(elsewhere, 0.5, 0).pose.position == elsewhere.pose.position);
+}
