@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a haptic loop tells the arm, and what it does with ticks that it missed.
+#include "engine/run/haptic_loop.h"
+
+#include <doctest/doctest.h>
+#include <thread>
+
+#include "tests/haptics/arm_rig.h"
+#include "tests/realtime/fake_scene.h"
+
+using namespace fathom;
+using namespace fathom::testing;
+
+namespace {
+
+// A loop with an arm of four joints, without regions.
+struct ArmLoop {
+    FakeRun fake{2, pressingPath(1.0)};
+    ArmRig rig;
+    Pose start = at(0, 0, 0);
+    HapticCycle cycle;
+    Channels channels{4096};
+    ArmLink link;
+    RunClock clock;
+    HapticLoop loop;
+
+    explicit ArmLoop(double seconds)
+        : rig(madeRig())
+        , cycle(fake.tool, {}, options(), start, &start, &rig)
+        , loop(cycle, fake.hand, channels, clock, {seconds, 0.0}, nullptr) {
+        channels.arm = &link;
+        channels.scene.back().live = true; // no end of the frames to wait for
+        channels.scene.publish();
+    }
+    static ArmRig madeRig() {
+        ArmRig rig;
+        rig.model = makeArm(4, 4);
+        rig.freeDirection = true;
+        return rig;
+    }
+    HapticOptions options() const {
+        HapticOptions options = fake.options;
+        options.needsContacts = false;
+        return options;
+    }
+    void run() {
+        const std::atomic<bool> stop{false};
+        clock.start(0.0);
+        loop.run(stop, stop);
+    }
+};
+
+} // namespace
+
+TEST_CASE("At the end of a run the arm is told to hold and to clear its faults") {
+    ArmLoop arm(0.03);
+    arm.run();
+    REQUIRE(arm.link.setpoint.refresh());
+    CHECK(arm.link.setpoint.front().hold);
+    CHECK(arm.link.setpoint.front().off);
+    CHECK(arm.fake.hand.last.force == dvec3(0.0));
+}
+
+TEST_CASE("The arm is told in each tick whether the dead-man switch is open") {
+    ArmLoop arm(1.0);
+    for (const bool open : {true, false, true}) {
+        arm.fake.hand.spoil = [open](double, HandSample& sample) {
+            sample.buttons = open ? kDeadManOpen : 0;
+        };
+        arm.loop.step(arm.clock.now());
+        REQUIRE(arm.link.setpoint.refresh());
+        CHECK(arm.link.setpoint.front().off == open);
+    }
+}
+
+TEST_CASE("Periods that a late tick overran are skipped, not caught up in a burst") {
+    ArmLoop arm(0.06);
+    int reads = 0;
+    arm.fake.hand.spoil = [&reads](double, HandSample&) {
+        if (++reads == 5) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        }
+    };
+    arm.run();
+    CHECK(arm.loop.missed() >= 18);
+    CHECK(reads <= 60 - 18);
+}
