@@ -121,14 +121,10 @@ void LockstepRig::judge(const Pose& before, const StepRecord& record) {
         figures.forceStep = std::max(figures.forceStep, glm::distance(record.wrench.force, before_->force));
         figures.torqueStep =
             std::max(figures.torqueStep, glm::distance(record.wrench.torque, before_->torque));
-    }
-    const Wrench& asked = record.wrench;
-    if (askedBefore_) {
-        figures.askedForce.add(glm::length(asked.force) - glm::length(askedBefore_->force));
-        figures.askedTorque.add(glm::length(asked.torque) - glm::length(askedBefore_->torque));
+        figures.forceRise.add(glm::length(record.wrench.force) - glm::length(before_->force));
+        figures.torqueRise.add(glm::length(record.wrench.torque) - glm::length(before_->torque));
     }
     before_ = record.wrench;
-    askedBefore_ = asked;
 }
 
 double LockstepRig::depth() const {

@@ -42,8 +42,8 @@ struct RigFigures {
     double path = 0.0;                        // [m] travelled by the tool's centre
     double force = 0.0, torque = 0.0;         // largest [N], [N m]
     double forceStep = 0.0, torqueStep = 0.0; // largest between two ticks [N], [N m]
-    // Rises of the springs' force and torque before the magnitude and slew limits.
-    Rise askedForce, askedTorque; // [N], [N m]
+    // Rises of the delivered force and torque from tick to tick.
+    Rise forceRise, torqueRise; // [N], [N m]
 };
 
 // Options for a scene with one forbidden class and the device `ideal`.
@@ -109,7 +109,7 @@ private:
     uint64_t generation_ = 0, queries_ = 0, now_ = 0;
     double captured_ = 0.0;
     bool fresh_ = true;
-    std::optional<Wrench> before_, askedBefore_;
+    std::optional<Wrench> before_;
 };
 
 } // namespace fathom::stability

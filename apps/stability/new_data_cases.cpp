@@ -35,7 +35,7 @@ struct JumpFigures {
     double growth = 0.0;                      // [m]
     double front = 1.0;                       // [m] smallest distance in front of the wall at the end
     double forceStep = 0.0;                   // [N]
-    double forceRise = 0.0, torqueRise = 0.0; // [N] largest, [N m] RMS; before the limiter, after the jump
+    double forceRise = 0.0, torqueRise = 0.0; // largest [N], RMS [N m], after the jump
     uint64_t runs = 0, stuck = 0, flagged = 0;
     double ticks = 0.0; // largest of all runs
 };
@@ -56,7 +56,7 @@ void jumpOnce(const Tool& tool, double jump, double noise, double press, uint32_
         rig.step(hand);
     }
     const double resting = rig.pose().position.z;
-    rig.figures.askedForce = rig.figures.askedTorque = {}; // the approach does not count
+    rig.figures.forceRise = rig.figures.torqueRise = {}; // the approach does not count
     rig.show(camera.look({kWall - jump, noise, 0.0}));
     const EscapeFigures e = escape(rig, hand, 3000, inFrontOf(kWall - jump));
     const double way = std::max(0.0, resting - (kWall - jump - kStand)) + 3.0 * noise;
@@ -67,8 +67,8 @@ void jumpOnce(const Tool& tool, double jump, double noise, double press, uint32_
     f.growth = std::max(f.growth, rig.audit().maxPenetration());
     f.front = std::min(f.front, kWall - jump - rig.pose().position.z);
     f.forceStep = std::max(f.forceStep, rig.figures.forceStep);
-    f.forceRise = std::max(f.forceRise, rig.figures.askedForce.most);
-    f.torqueRise = std::max(f.torqueRise, rig.figures.askedTorque.rms());
+    f.forceRise = std::max(f.forceRise, rig.figures.forceRise.most);
+    f.torqueRise = std::max(f.torqueRise, rig.figures.torqueRise.rms());
     f.stuck += e.out ? 0 : 1;
     f.flagged += rig.audit().behindTicks() > 0 ? 1 : 0;
     ++f.runs;

@@ -134,10 +134,10 @@ Outcome restlessCase(RunLength runLength, const Restless& stream, const std::str
         for (int k = 0; k < (frame < 0 ? 200 : stream.ticksPerFrame); ++k) {
             rig.step(hand);
         }
-        rig.figures.askedForce = frame < 0 ? Rise{} : rig.figures.askedForce;
+        rig.figures.forceRise = frame < 0 ? Rise{} : rig.figures.forceRise;
     }
     Outcome out = outcomeOf(
-        stream.rms ? rig.figures.askedForce.rms() : rig.figures.askedForce.most, stream.limit, "N",
+        stream.rms ? rig.figures.forceRise.rms() : rig.figures.forceRise.most, stream.limit, "N",
         std::string(stream.rms ? "RMS" : "Largest") +
             " rise per tick of the force, which must stay far below the slew limit of 2 N: " + what +
             " Limit: measured, with a margin. " + wordsOf(rig));
