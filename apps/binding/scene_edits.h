@@ -26,7 +26,7 @@ struct SceneEdit {
     bool still = false; // all fixtures are held: frames make no new set
 };
 
-// edits.csv of a recording, `frame,scene,held,still`: scene is a file in the same folder, held lists the
+// edits.csv of a recording, `picture,scene,held,still`: scene is a file in the same folder, held lists the
 // rows of frozen classes, separated by blanks. The first row is for frame 0.
 class SceneEdits {
 public:
