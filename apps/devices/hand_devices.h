@@ -8,7 +8,7 @@
 
 namespace fathom {
 
-// Reads sysfs and the sockets in `doors`; opens a device only to test permission.
+// Reads sysfs and the sockets in the folder `endpoints`; opens a device only to test permission.
 void printHandDevices(std::ostream& out, const std::filesystem::path& root,
                       const std::filesystem::path& endpoints);
 
