@@ -44,8 +44,6 @@ struct SessionWindow {
     std::span<const char* const> extensions; // instance extensions
 };
 
-inline const std::atomic<bool> kNeverStop{false};
-
 // Adds spare classes of points after the scene's own. A class that the pilot picks by colour takes one of
 // them, so no buffer or pipeline changes while forces are on. A spare class selects no pixel. Shapes come
 // after all classes, so that classes keep their rows when shapes are added or removed.

@@ -33,7 +33,7 @@ bool FrameLoop::first() {
     }
     firstIndex_ = *index;
     update_.live = feed_.captured().has_value();
-    publish(0.0, false);
+    publish(0.0, kNeverStop);
     return true;
 }
 

@@ -9,6 +9,9 @@
 
 namespace fathom {
 
+// For calls that nothing stops.
+inline const std::atomic<bool> kNeverStop{false};
+
 // Call start() before the threads that read the clock. All else is for any thread, noexcept and without
 // allocation.
 class RunClock {
