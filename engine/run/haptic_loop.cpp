@@ -23,9 +23,9 @@ bool HapticLoop::ended(double t) const noexcept {
     return frames && t >= ends_.pathDuration;
 }
 
-void HapticLoop::run(const std::atomic<bool>& stop, const std::atomic<bool>& asked) noexcept {
+void HapticLoop::run(const std::atomic<bool>& ending, const std::atomic<bool>& userStop) noexcept {
     uint64_t slot = 0;
-    while (!stop.load(std::memory_order_relaxed) && !asked.load(std::memory_order_relaxed)) {
+    while (!ending.load(std::memory_order_relaxed) && !userStop.load(std::memory_order_relaxed)) {
         const double due = static_cast<double>(slot) * period_;
         clock_.sleepUntil(due);
         const double woken = clock_.now();

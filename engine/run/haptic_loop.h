@@ -18,9 +18,10 @@ public:
     HapticLoop(HapticCycle& cycle, HapticDevice& hand, Channels& channels, const RunClock& clock,
                const Ends& ends, CadenceTrace* trace);
 
-    // Runs ticks by the clock until the end, `stop` or `asked`. The last wrench written is zero. A period
-    // that a late step overran is skipped and counted, so steps never come in bursts.
-    void run(const std::atomic<bool>& stop, const std::atomic<bool>& asked) noexcept;
+    // Runs ticks by the clock until the end, `ending` (set by the other threads) or `userStop`. The last
+    // wrench written is zero. A period that a late step overran is skipped and counted, so steps never come
+    // in bursts.
+    void run(const std::atomic<bool>& ending, const std::atomic<bool>& userStop) noexcept;
 
     // One tick as in run(), due at `due` [s] and started now. Returns its end time [s].
     double step(double due) noexcept;

@@ -143,7 +143,7 @@ void RealtimeRun::guarded(const std::function<void()>& body) noexcept {
     } catch (...) {
         const std::lock_guard lock(failureMutex_);
         failure_ = failure_ ? failure_ : std::current_exception();
-        stop_.store(true);
+        ending_.store(true);
     }
 }
 
@@ -156,18 +156,19 @@ void RealtimeRun::run(HapticCycle& cycle, HapticDevice& hand, double pathDuratio
     channels_.proxy.publish();
     clock_.start(kHeadStart);
     {
-        Joined camera(
-            stop_, [this] { guarded([this] { pinThread(options_.placement.rest), frames_.run(stop_); }); });
+        Joined camera(ending_, [this] {
+            guarded([this] { pinThread(options_.placement.rest), frames_.run(ending_); });
+        });
         std::optional<Joined> contact, clearance;
         if (contact_) {
-            contact.emplace(stop_, [this] {
-                guarded([this] { pinThread(options_.placement.contact), contact_->run(stop_); });
+            contact.emplace(ending_, [this] {
+                guarded([this] { pinThread(options_.placement.contact), contact_->run(ending_); });
             });
-            clearance.emplace(stop_, [this] {
-                guarded([this] { pinThread(options_.placement.rest), clearance_->run(stop_); });
+            clearance.emplace(ending_, [this] {
+                guarded([this] { pinThread(options_.placement.rest), clearance_->run(ending_); });
             });
         }
-        Joined ticks(stop_, [this, &haptic, &stop] {
+        Joined ticks(ending_, [this, &haptic, &stop] {
             std::string refused;
             guarded([&] { refused = makeHapticThread(options_.placement); });
             if (!refused.empty()) {
@@ -175,7 +176,7 @@ void RealtimeRun::run(HapticCycle& cycle, HapticDevice& hand, double pathDuratio
                           "PERMISSIONS)",
                           refused);
             }
-            haptic.run(stop_, stop); // not only stop_, which the writer sets: its output may be blocked
+            haptic.run(ending_, stop); // not only ending_, which the writer sets: its output may be blocked
         });
         write(drain, stop);
     }
@@ -197,7 +198,7 @@ void RealtimeRun::write(RecordDrain& drain, const std::atomic<bool>& stop) {
             options_.progress(clock_.now(), drain.frames());
         }
         if (stop.load(std::memory_order_relaxed)) {
-            stop_.store(true);
+            ending_.store(true);
         }
         if (!done) {
             std::this_thread::sleep_for(kWriterPause);

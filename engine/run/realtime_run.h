@@ -65,7 +65,7 @@ private:
     FrameLoop frames_;
     std::optional<ContactLoop> contact_;
     std::optional<ClearanceLoop> clearance_;
-    std::atomic<bool> stop_{false};
+    std::atomic<bool> ending_{false};
     std::mutex failureMutex_; // never taken by the haptic thread
     std::exception_ptr failure_;
     uint64_t missed_ = 0, staleTicks_ = 0;
