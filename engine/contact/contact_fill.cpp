@@ -74,7 +74,6 @@ void fillContactSet(const Tool& tool, const Pose& baseTtool, double reach, const
     out.reach = reach;
     out.origin = fixtures.origin;
     out.camera = fixtures.baseTcamera.position - fixtures.origin;
-    out.queryPose = baseTtool;
     const RegionSpheres& from = fixtures.spheres;
     const size_t count = indices.size();
     out.x.resize(count), out.y.resize(count), out.z.resize(count), out.radius.resize(count);

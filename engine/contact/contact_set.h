@@ -31,7 +31,6 @@ struct ContactSet {
     double reach = 0.0;                                      // [m] certified
     dvec3 origin{0.0};                                       // [m] base frame: origin of all positions here
     dvec3 camera{0.0}; // [m] camera centre of that fixture set, about the origin
-    Pose queryPose;    // base_T_tool of the query
 
     std::vector<double> x, y, z, radius; // spheres, about the origin [m]
     std::vector<uint32_t> source;        // slot in the fixture set

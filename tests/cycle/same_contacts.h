@@ -16,8 +16,6 @@ inline void checkSameContacts(const ContactSet& a, const ContactSet& b) {
     CHECK(a.reach == b.reach);
     CHECK(a.origin == b.origin);
     CHECK(a.camera == b.camera);
-    CHECK(a.queryPose.position == b.queryPose.position);
-    CHECK(a.queryPose.rotation == b.queryPose.rotation);
     CHECK(a.x == b.x);
     CHECK(a.y == b.y);
     CHECK(a.z == b.z);
