@@ -2,6 +2,7 @@
 #include "apps/record/hand_log.h"
 
 #include "engine/types/error.h"
+#include "engine/types/frame.h"
 
 #include <chrono>
 #include <iomanip>
@@ -77,7 +78,8 @@ void HandLog::flush(double from, double to, double start, double scale) {
 
 void HandLog::frame(double captureTime) {
     if (frames_ > 0 && captureTime > last_) {
-        flush(last_, captureTime, (frames_ - 1) * kFramePeriod, kFramePeriod / (captureTime - last_));
+        flush(last_, captureTime, (frames_ - 1) * kLockstepFramePeriod,
+              kLockstepFramePeriod / (captureTime - last_));
     } else if (frames_ == 0) { // samples before the first frame are dropped
         const std::lock_guard lock(mutex_);
         std::erase_if(waiting_, [=](const Sample& s) { return s.t < captureTime; });
@@ -92,7 +94,7 @@ void HandLog::finish() {
         thread_.join();
     }
     if (frames_ > 0) {
-        flush(last_, last_ + kFramePeriod, (frames_ - 1) * kFramePeriod, 1.0);
+        flush(last_, last_ + kLockstepFramePeriod, (frames_ - 1) * kLockstepFramePeriod, 1.0);
     }
     out_.close();
     if (!out_) {

@@ -34,8 +34,6 @@ public:
     uint64_t samples() const noexcept { return samples_.load(); } // samples read so far
     const LiveHand& hand() const { return *hand_; }
 
-    static constexpr double kFramePeriod = 1.0 / 30.0; // [s] of lockstep
-
 private:
     struct Sample {
         double t = 0.0; // [s]

@@ -5,6 +5,7 @@
 #include "apps/session/path_hand.h"
 #include "engine/types/colour_copy.h"
 #include "engine/types/error.h"
+#include "engine/types/frame.h"
 
 #include <algorithm>
 #include <chrono>
@@ -41,7 +42,7 @@ void LockstepReplay::fetch() {
     }
     next_ = session_.camera->next();
     if (next_) {
-        nextTime_ = ((*next_)->index - session_.camera->firstImage()) * kFramePeriod;
+        nextTime_ = ((*next_)->index - session_.camera->firstImage()) * kLockstepFramePeriod;
         next_->retime(nextTime_);
     } else {
         scene_.sourceEnded = true;
@@ -100,14 +101,15 @@ void LockstepReplay::takeDueFrames(double t) {
 }
 
 bool LockstepReplay::ended(double t) const {
-    const double frames = scene_.sourceEnded ? scene_.captureTime + kFramePeriod : t + 1.0;
+    const double frames = scene_.sourceEnded ? scene_.captureTime + kLockstepFramePeriod : t + 1.0;
     return t >= std::max(frames, pathStart_ + path_->duration()) - kClockSlack;
 }
 
 // A run ends with the hand's path or with its recording, whichever is later. 0 = not known beforehand.
 double LockstepReplay::expectedEnd(uint64_t frames) const {
-    return frames > 0 ? std::max(static_cast<double>(frames) * kFramePeriod, pathStart_ + path_->duration())
-                      : 0.0;
+    return frames > 0
+               ? std::max(static_cast<double>(frames) * kLockstepFramePeriod, pathStart_ + path_->duration())
+               : 0.0;
 }
 
 void LockstepReplay::query() {

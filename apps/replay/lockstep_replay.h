@@ -31,8 +31,6 @@ public:
     // Runs to the end; returns the results that only the loop knows.
     ReplayRecorder::Ending run();
 
-    static constexpr double kFramePeriod = 1.0 / 30.0; // [s]
-
 private:
     // A published set. Kept for the audit as long as a contact set may refer to it.
     struct Kept {

@@ -4,9 +4,9 @@
 #include "apps/binding/open_hand.h"
 #include "apps/binding/raw_path.h"
 #include "apps/binding/spooled_camera.h"
-#include "apps/replay/lockstep_replay.h"
 #include "apps/session/path_hand.h"
 #include "engine/types/error.h"
+#include "engine/types/frame.h"
 #include "engine/types/log.h"
 
 namespace fathom {
@@ -60,7 +60,7 @@ RealtimeOptions RealtimeReplay::runOptions(CadenceTrace* trace) {
     RealtimeOptions o;
     o.placement = placement_;
     o.hapticPeriod = haptics_.period;
-    o.framePeriod = options_.frameRate > 0.0 ? 1.0 / options_.frameRate : LockstepReplay::kFramePeriod;
+    o.framePeriod = options_.frameRate > 0.0 ? 1.0 / options_.frameRate : kLockstepFramePeriod;
     o.staleAfter = haptics_.staleAfter;
     o.trace = trace;
     o.arm = session_.realArm ? &session_.realArm->link() : nullptr;

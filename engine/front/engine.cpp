@@ -8,6 +8,7 @@
 #include "engine/run/contact_loop.h"
 #include "engine/run/cycle_answers.h"
 #include "engine/run/frame_loop.h"
+#include "engine/types/frame.h"
 #include "engine/types/log.h"
 
 #include <cmath>
@@ -136,7 +137,8 @@ struct Engine::Impl {
         , compute(shared->haptic, camera->info, options.computeDevice)
         , feed(*camera, compute, *shared)
         , answers(compute.cycles)
-        , frames(feed, shared->channels, shared->clock, kFramePeriod, nullptr)
+        // A nominal period: submitted frames have their own times.
+        , frames(feed, shared->channels, shared->clock, kLockstepFramePeriod, nullptr)
         , contacts(answers, shared->channels, shared->clock, 0.5 * shared->haptic.options.period, nullptr)
         , clearance(answers, shared->channels, shared->clock) {
         try {
@@ -179,8 +181,6 @@ struct Engine::Impl {
         shared->ended.store(true);
         camera->close();
     }
-
-    static constexpr double kFramePeriod = 1.0 / 30.0; // [s] nominal: submitted frames have their own times
 
     std::shared_ptr<CameraPort::Impl> camera;
     std::shared_ptr<front::Shared> shared;

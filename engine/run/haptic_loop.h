@@ -4,6 +4,7 @@
 
 #include "engine/cycle/cadence_trace.h"
 #include "engine/run/haptic_stepper.h"
+#include "engine/types/frame.h"
 #include "engine/types/haptic_device.h"
 
 namespace fathom {
@@ -11,9 +12,9 @@ namespace fathom {
 // Never allocates, locks, throws or waits, except for the next tick.
 class HapticLoop {
 public:
-    struct Ends {                        // the run ends when both the hand's path and the frames have ended
-        double pathDuration = 0.0;       // [s]
-        double framePeriod = 1.0 / 30.0; // [s] duration of the last frame
+    struct Ends {                  // the run ends when both the hand's path and the frames have ended
+        double pathDuration = 0.0; // [s]
+        double framePeriod = kLockstepFramePeriod; // [s] duration of the last frame
     };
     HapticLoop(HapticCycle& cycle, HapticDevice& hand, Channels& channels, const RunClock& clock,
                const Ends& ends, CadenceTrace* trace);

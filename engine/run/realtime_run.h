@@ -10,6 +10,7 @@
 #include "engine/run/haptic_loop.h"
 #include "engine/run/record_drain.h"
 #include "engine/run/thread_placement.h"
+#include "engine/types/frame.h"
 
 #include <exception>
 #include <functional>
@@ -20,9 +21,9 @@ namespace fathom {
 
 struct RealtimeOptions {
     ThreadPlacement placement;
-    double hapticPeriod = 0.001;     // [s]
-    double framePeriod = 1.0 / 30.0; // [s]
-    double staleAfter = 0.1;         // [s] scene age above which the run logs a warning
+    double hapticPeriod = 0.001;               // [s]
+    double framePeriod = kLockstepFramePeriod; // [s]
+    double staleAfter = 0.1;                   // [s] scene age above which the run logs a warning
     CadenceTrace* trace = nullptr;
     ArmLink* arm = nullptr; // a real arm that follows; must outlive the run
     std::function<void(double t, uint64_t frames)>

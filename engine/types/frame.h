@@ -14,6 +14,9 @@
 
 namespace fathom {
 
+// [s] between frames of a run in lockstep, whatever their stamps say. Recordings are written for it.
+inline constexpr double kLockstepFramePeriod = 1.0 / 30.0;
+
 // The memory belongs to the camera. Destroying the lease returns it. Depth: width x height
 // uint16 rows without gaps, 0 = no measurement. Colour: `colour` if CameraInfo::colourFormat is Rgba, else
 // `raw`; the other one is empty. Both are empty when the camera has no colour.
