@@ -40,9 +40,9 @@ const std::vector<std::string> kOfMeshes{"--leaves",  "--protrusion", "--up",  "
                                          "--compare", "--plot",       "--json"};
 
 void check(const SpheresOptions& options) {
-    if (options.cover.leaves < 1 || options.cover.leaves > kMaxCoverSpheres) {
+    if (options.cover.leaves < 1 || options.cover.leaves > kMaxLeaves) {
         throw BadInput("spheres", "--leaves", std::to_string(options.cover.leaves),
-                       "1 to " + std::to_string(kMaxCoverSpheres));
+                       "1 to " + std::to_string(kMaxLeaves));
     }
     std::set<std::filesystem::path> files; // each output needs its own
     std::error_code unknown;

@@ -15,7 +15,7 @@ struct LinkSpheres {
     std::vector<Sphere> spheres;
     std::vector<uint32_t> ends; // per link: end of its spheres
 
-    static constexpr size_t kMaxSpheres = 4096, kMaxLinks = 256;
+    static constexpr size_t kMaxSpheres = kMaxLeaves, kMaxLinks = 256;
     static constexpr size_t kMaxEntries = 1 + 2 * kMaxLinks + kMaxSpheres; // vec4 entries in the buffer
 };
 

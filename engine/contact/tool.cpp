@@ -13,8 +13,6 @@ namespace fathom {
 
 namespace {
 
-constexpr size_t kMaxLeaves = 4096;
-
 void checkTree(const SphereTree& tree) {
     const std::string fault = validate(tree);
     if (!fault.empty()) {

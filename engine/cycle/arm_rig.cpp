@@ -13,8 +13,6 @@ namespace fathom {
 
 namespace {
 
-constexpr size_t kMaxLeaves = 4096; // leaves of a Tool
-
 class RigMaker {
 public:
     RigMaker(const Scene& scene, const SceneArm& arm, const ReaderOptions& reader)

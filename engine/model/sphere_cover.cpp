@@ -112,10 +112,10 @@ Cover coverMesh(const TriangleMesh& mesh, const MeshDistance& distance, const Co
     CoverFitting f = makeFitting(mesh, distance, edge);
     Cover cover;
     if (options.protrusion > 0.0) {
-        cover.spheres = greedyCover(f.groups, f.seats, options.protrusion, kMaxCoverSpheres);
+        cover.spheres = greedyCover(f.groups, f.seats, options.protrusion, kMaxLeaves);
         if (cover.spheres.empty()) {
             throw Error("a protrusion of " + std::to_string(options.protrusion) + " m requires more than " +
-                        std::to_string(kMaxCoverSpheres) + " spheres: allow more");
+                        std::to_string(kMaxLeaves) + " spheres: allow more");
         }
         cover.spheres = fitSpheres(f, cover.spheres);
     } else {

@@ -28,10 +28,8 @@ struct Cover {
     size_t pieces = 0; // small triangles, and cells of the inside, that were covered
 };
 
-inline constexpr uint32_t kMaxCoverSpheres = 4096; // as many leaves as a tool may have
-
 // The interior of a solid mesh is covered as well, by cells. Deterministic. Throws Error when more than
-// kMaxCoverSpheres would be needed, or `protrusion` is too small for two million pieces.
+// kMaxLeaves would be needed, or `protrusion` is too small for two million pieces.
 Cover coverMesh(const TriangleMesh& mesh, const MeshDistance& distance, const CoverOptions& options);
 
 } // namespace fathom

@@ -7,6 +7,8 @@
 #include "engine/types/error.h"
 #include "engine/types/log.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 
 namespace fathom {
@@ -81,8 +83,10 @@ Tool builtTool(const Scene& scene, const ReaderOptions& reader) {
     } catch (const BadInput&) {
         throw;
     } catch (const Error& e) {
-        throw BadInput(file.string(), "tool", e.what(),
-                       "1 to 4096 spheres with coordinates up to 50 m and radii above 0, up to 10 m");
+        throw BadInput(
+            file.string(), "tool", e.what(),
+            fmt::format("1 to {} spheres with coordinates up to {} m and radii above 0, up to {} m",
+                        kMaxLeaves, kMaxToolReach, kMaxLeafRadius));
     }
 }
 

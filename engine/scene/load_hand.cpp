@@ -6,7 +6,6 @@ namespace fathom {
 
 namespace {
 
-constexpr size_t kMaxLeaves = 4096;
 const Range kPlace{-kMaxToolReach, kMaxToolReach}, kRadius{kMinLeafRadius, kMaxLeafRadius};
 
 std::vector<std::array<double, 4>> loadSpheres(const YamlNode& node) {

@@ -5,6 +5,7 @@
 
 #include "engine/types/pose.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -18,6 +19,7 @@ struct Sphere {
     double radius = -1.0; // [m]; negative = unused slot
 };
 
+inline constexpr size_t kMaxLeaves = 4096; // of a tool, or of an arm and its tool
 // Limits of a tool's leaves [m]: what the contact query computes in float32 without losing a micrometre.
 inline constexpr double kMaxToolReach = 50.0;  // of a coordinate of the centre
 inline constexpr double kMinLeafRadius = 1e-5, // smallest radius
