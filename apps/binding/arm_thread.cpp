@@ -3,6 +3,7 @@
 
 #include "apps/binding/ros2_arm.h"
 #include "apps/binding/serial_arm.h"
+#include "engine/types/clock.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
 
@@ -13,18 +14,12 @@ namespace fathom {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr auto kPause = std::chrono::milliseconds(2);
 constexpr double kHomingTime = 300.0; // [s]
 constexpr double kRetry = 0.5;        // [s] between attempts to reopen the line
 constexpr double kFinalStop = 0.2;    // [s] stop commands at the end
 constexpr double kQuiet = 2.0;        // [s] minimum time between two log lines
 constexpr double kOutside = 0.02;     // [rad], [m] tolerance of the joint limits for calibration errors
-
-double secondsAt(Clock::time_point time) {
-    return std::chrono::duration<double>(time.time_since_epoch()).count();
-}
 
 } // namespace
 
@@ -92,10 +87,10 @@ ArmPosture ArmThread::inLimits(ArmPosture posture) const {
 
 ArmPosture ArmThread::ready(const std::atomic<bool>& stop) {
     line_->awaitWatchdog(stop);
-    const double began = secondsAt(Clock::now());
+    const double began = monotonicSeconds();
     double heard = began;
     bool logged = false;
-    for (double now = began;; now = secondsAt(Clock::now())) {
+    for (double now = began;; now = monotonicSeconds()) {
         if (!line_->watched(now)) {
             throw Error(description() + ": its watchdog process ended");
         }
@@ -151,7 +146,7 @@ ArmStatus ArmThread::exchange(double now) noexcept {
         ArmSetpoint setpoint = link_.setpoint.front();
         const bool safe = line_->watched(now);
         setpoint.hold = setpoint.hold || !safe; // no motion without a watchdog
-        status = follower_->exchange(now, setpoint, now - secondsAt(setpoint.at));
+        status = follower_->exchange(now, setpoint, now - secondsOf(setpoint.at));
     }
     const bool gone = !line_ || line_->gone();
     status.state = gone ? ArmState::Gone : status.state;
@@ -181,7 +176,7 @@ void ArmThread::note(const ArmStatus& status, double now) {
 void ArmThread::run() noexcept {
     while (!stop_.load(std::memory_order_relaxed)) {
         const Clock::time_point time = Clock::now();
-        const double now = secondsAt(time);
+        const double now = secondsOf(time);
         ArmStatus status = exchange(now);
         status.at = time;
         const double taken = now - status.age;
@@ -204,8 +199,8 @@ void ArmThread::standStill() noexcept {
     if (!line_) {
         return;
     }
-    const double end = secondsAt(Clock::now()) + kFinalStop;
-    for (double now = end - kFinalStop; now < end && !line_->gone(); now = secondsAt(Clock::now())) {
+    const double end = monotonicSeconds() + kFinalStop;
+    for (double now = end - kFinalStop; now < end && !line_->gone(); now = monotonicSeconds()) {
         line_->watched(now);
         line_->device().step(now, ArmCommand{});
         std::this_thread::sleep_for(kPause);

@@ -33,10 +33,10 @@ double ballOver(double x, double y, double radius) {
     return height;
 }
 
-struct Clock {
+struct EndTime {
     std::chrono::steady_clock::time_point end;
     static bool passed(const void* clock) {
-        return std::chrono::steady_clock::now() >= static_cast<const Clock*>(clock)->end;
+        return std::chrono::steady_clock::now() >= static_cast<const EndTime*>(clock)->end;
     }
 };
 
@@ -150,9 +150,9 @@ private:
             pending_.pop_front();
         }
         const Pose hand = handAt(k, height_ - setting_.press);
-        Clock clock{std::chrono::steady_clock::now() +
-                    std::chrono::nanoseconds(static_cast<int64_t>(setting_.deadlineMicros * 1e3))};
-        const Deadline deadline{setting_.deadlineMicros > 0.0 ? &Clock::passed : nullptr, &clock};
+        EndTime clock{std::chrono::steady_clock::now() +
+                      std::chrono::nanoseconds(static_cast<int64_t>(setting_.deadlineMicros * 1e3))};
+        const Deadline deadline{setting_.deadlineMicros > 0.0 ? &EndTime::passed : nullptr, &clock};
         const Clocks clocks;
         const ProxyStep step = proxy_.step({hand, 0.05, &inForce_, deadline});
         result_.steps.take(clocks);

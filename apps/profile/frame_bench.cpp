@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/profile/frame_bench.h"
 
+#include "engine/types/clock.h"
+
 #include <algorithm>
 #include <malloc.h>
 #include <numeric>
@@ -10,10 +12,6 @@ namespace fathom::profile {
 namespace {
 
 constexpr uint32_t kStill = 0xffffffffu; // source number that no frame uses
-
-double millis(std::chrono::steady_clock::duration d) {
-    return std::chrono::duration<double, std::milli>(d).count();
-}
 
 } // namespace
 
@@ -26,15 +24,15 @@ void FrameSamples::add(const FrameReport& report, const Clocks& clocks) {
     if (const double sum = std::accumulate(report.passMs.begin(), report.passMs.end(), 0.0); sum > 0.0) {
         gpu.push_back(sum); // 0 means that the passes were not timed
     }
-    submit.push_back(millis(report.times.completed - report.times.submitted));
+    submit.push_back(millis(report.times.submitted, report.times.completed));
     cpu.push_back(clocks.cpuMs());
-    total.push_back(millis(report.times.published - report.times.started));
+    total.push_back(millis(report.times.started, report.times.published));
     upload.push_back(report.uploadMs);
-    collected.push_back(millis(report.times.collected - report.times.started));
+    collected.push_back(millis(report.times.started, report.times.collected));
     answerable.push_back(report.answerableMs);
     publish.push_back(report.publishMs);
-    collect.push_back(millis(report.times.collected - report.times.completed));
-    grid.push_back(millis(report.times.published - report.times.collected));
+    collect.push_back(millis(report.times.completed, report.times.collected));
+    grid.push_back(millis(report.times.collected, report.times.published));
     passes.resize(report.passMs.size());
     for (size_t i = 0; i < report.passMs.size(); ++i) {
         passes[i].push_back(report.passMs[i]);

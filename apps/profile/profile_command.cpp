@@ -7,13 +7,13 @@
 #include "apps/profile/report.h"
 #include "apps/profile/studies.h"
 #include "apps/profile/study_plot.h"
+#include "engine/types/clock.h"
 #include "engine/types/error.h"
 #include "engine/types/joined.h"
 #include "engine/types/suggestion.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <chrono>
 #include <ctime>
 #include <iostream>
 #include <iterator>
@@ -92,7 +92,7 @@ void runProfile(const Settings& settings, const GlobalOptions& global) {
     ClockKeeper clock(global, device.facts());
     const bool held = clock.held();
     const StudyContext context{device, settings};
-    const auto began = std::chrono::steady_clock::now();
+    const auto began = Clock::now();
     Facts facts = runFacts(device, settings, commandOf(settings, global));
     std::vector<Study> studies;
     for (const StudyEntry& entry : allStudies()) {
@@ -105,8 +105,7 @@ void runProfile(const Settings& settings, const GlobalOptions& global) {
     if (!global.trace.empty()) {
         writeTimeLine(context, global.trace);
     }
-    const RunTime time{std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count(),
-                       static_cast<double>(std::clock()) / CLOCKS_PER_SEC};
+    const RunTime time{secondsSince(began), static_cast<double>(std::clock()) / CLOCKS_PER_SEC};
     if (global.holdClock) {
         facts.emplace_back("clock", !held          ? "as the driver sees fit"
                                     : clock.held() ? "held"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/profile/spread.h"
 
+#include "engine/types/clock.h"
+
 #include <algorithm>
 #include <ctime>
 #include <limits>
@@ -33,10 +35,10 @@ Spread spreadOf(std::vector<double> values) {
 
 Clocks::Clocks()
     : cpu_(threadSeconds())
-    , wall_(std::chrono::steady_clock::now()) {}
+    , wall_(Clock::now()) {}
 
 double Clocks::wallMs() const {
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - wall_).count();
+    return millis(wall_, Clock::now());
 }
 
 double Clocks::cpuMs() const {

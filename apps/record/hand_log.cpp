@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/record/hand_log.h"
 
+#include "engine/types/clock.h"
 #include "engine/types/error.h"
 #include "engine/types/frame.h"
 
@@ -11,12 +12,7 @@ namespace fathom {
 
 namespace {
 
-using Clock = std::chrono::steady_clock; // CLOCK_MONOTONIC
 constexpr auto kPeriod = std::chrono::milliseconds(1);
-
-double secondsOf(Clock::time_point t) {
-    return std::chrono::duration<double>(t.time_since_epoch()).count();
-}
 
 } // namespace
 
@@ -41,7 +37,7 @@ HandLog::~HandLog() {
 void HandLog::watch() noexcept {
     Clock::time_point next = Clock::now();
     while (!stop_.load()) {
-        const double t = secondsOf(Clock::now());
+        const double t = monotonicSeconds();
         const HandSample sample = hand_->read(t);
         hand_->write({}, 0.001);
         {

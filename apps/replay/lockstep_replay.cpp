@@ -3,22 +3,18 @@
 
 #include "apps/output/progress.h"
 #include "apps/session/path_hand.h"
+#include "engine/types/clock.h"
 #include "engine/types/colour_copy.h"
 #include "engine/types/error.h"
 #include "engine/types/frame.h"
 
 #include <algorithm>
-#include <chrono>
 
 namespace fathom {
 
 namespace {
 
 constexpr double kClockSlack = 1e-9; // [s] tolerance: a frame due exactly at a tick is active in that tick
-
-double micros(std::chrono::steady_clock::time_point since) {
-    return std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - since).count();
-}
 
 } // namespace
 
@@ -115,11 +111,11 @@ double LockstepReplay::expectedEnd(uint64_t frames) const {
 void LockstepReplay::query() {
     if (published_) {
         auto answer = std::make_unique<ContactSet>();
-        const auto start = std::chrono::steady_clock::now();
+        const auto start = Clock::now();
         session_.cycles.answer(cycle_->queryPlace(), *answer);
-        recorder_.query(micros(start));
+        recorder_.query(micros(start, Clock::now()));
         if (trace_ != nullptr) {
-            trace_->query(start, std::chrono::steady_clock::now(), answer->size());
+            trace_->query(start, Clock::now(), answer->size());
         }
         answers_.push_back(std::move(answer));
         clearance_.update([this] { return session_.cycles.clearance(cycle_->place()); });
@@ -159,15 +155,15 @@ void LockstepReplay::audit(const StepRecord& record, const ToolState& start) {
 void LockstepReplay::tick(double t) {
     const StepInput input = stepInput(scene_, hand_->read(std::max(0.0, t - pathStart_)), t);
     const ToolState start = cycle_->place();
-    const auto began = std::chrono::steady_clock::now();
+    const auto began = Clock::now();
     TickRow row;
     row.record = contacts_.step(*cycle_, input);
     row.record.clearance = clearance_.gap();
     row.startArm = start.arm;
-    row.micros = micros(began);
+    row.micros = micros(began, Clock::now());
     row.late = row.micros > haptics_.period * 1e6;
     if (trace_ != nullptr) {
-        trace_->step(began, std::chrono::steady_clock::now(), 0.0);
+        trace_->step(began, Clock::now(), 0.0);
         trace_->file().drain();
     }
     if (row.record.adopted) {

@@ -5,8 +5,8 @@
 #include "apps/spheres/spheres_report.h"
 #include "engine/model/sphere_cover.h"
 #include "engine/reference/cell_cover.h"
+#include "engine/types/clock.h"
 
-#include <chrono>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,24 +21,23 @@ public:
         , distance_(loaded.mesh, loaded.facts.closed()) {}
 
     Cover ours(const CoverOptions& options) {
-        const auto start = std::chrono::steady_clock::now();
+        const auto start = Clock::now();
         Cover cover = coverMesh(mesh_, distance_, options);
         add("fathom", cover.spheres, start);
         return cover;
     }
     void others(size_t leaves) {
-        auto start = std::chrono::steady_clock::now();
+        auto start = Clock::now();
         add("octree", reference::octreeCover(mesh_, distance_, leaves), start);
-        start = std::chrono::steady_clock::now();
+        start = Clock::now();
         add("grid", reference::gridCover(mesh_, distance_, leaves), start);
     }
     const std::vector<CoverRow>& rows() const { return rows_; }
     std::vector<CoverRow> takeRows() { return std::exchange(rows_, {}); }
 
 private:
-    void add(const std::string& name, const std::vector<Sphere>& spheres,
-             std::chrono::steady_clock::time_point start) {
-        const double took = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    void add(const std::string& name, const std::vector<Sphere>& spheres, Clock::time_point start) {
+        const double took = secondsSince(start);
         rows_.push_back({name, spheres.size(), measureCover(spheres, mesh_, distance_), took});
     }
 

@@ -2,13 +2,13 @@
 #include "apps/stability/stability_run.h"
 
 #include "apps/stability/case_text.h"
+#include "engine/types/clock.h"
 #include "engine/types/error.h"
 #include "engine/types/joined.h"
 #include "engine/types/suggestion.h"
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <iomanip>
 #include <iterator>
 #include <limits>
@@ -79,14 +79,14 @@ void listCases(std::ostream& out, const std::vector<Case>& cases) {
 
 CaseResult runCase(const Case& one, RunLength runLength) {
     CaseResult result{one.name, one.group, {}, 0.0};
-    const auto start = std::chrono::steady_clock::now();
+    const auto start = Clock::now();
     try {
         result.outcome = one.run(runLength);
     } catch (const Error& e) {
         result.outcome = outcomeOf(std::numeric_limits<double>::quiet_NaN(), 0.0, "1", "");
         require(result.outcome, false, e.what());
     }
-    result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    result.seconds = secondsSince(start);
     return result;
 }
 

@@ -2,6 +2,7 @@
 #include "apps/tune/tuner.h"
 
 #include "apps/output/plot_axis.h"
+#include "engine/types/clock.h"
 #include "engine/types/decimation.h"
 #include "engine/types/error.h"
 
@@ -98,7 +99,7 @@ Tuner::Tuner(gpu::Device& device, const TuneSource& source, const Tool& tool, Tu
 Tuner::~Tuner() = default;
 
 double Tuner::elapsed() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
+    return secondsSince(began_);
 }
 
 const FrameSequence& Tuner::framesOf(uint32_t nth) {

@@ -2,6 +2,7 @@
 #include "engine/gpu/timeline.h"
 
 #include "engine/gpu/result.h"
+#include "engine/types/clock.h"
 
 #include <chrono>
 #include <thread>
@@ -27,7 +28,6 @@ uint64_t Timeline::value() const noexcept {
 }
 
 bool Timeline::comesSoon(uint64_t value) const {
-    using Clock = std::chrono::steady_clock;
     const auto until = Clock::now() + std::chrono::duration<double>(kAsk);
     do {
         if (this->value() >= value) {

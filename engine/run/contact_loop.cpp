@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/run/contact_loop.h"
 
+#include "engine/types/clock.h"
+
 namespace fathom {
 
 void ContactLoop::run(const std::atomic<bool>& stop) {
@@ -15,13 +17,13 @@ void ContactLoop::run(const std::atomic<bool>& stop) {
 
 void ContactLoop::answerOne(const ToolState& place) {
     ContactSet& set = channels_.contacts.back();
-    const auto begin = std::chrono::steady_clock::now();
+    const auto begin = Clock::now();
     if (!answers_.answer(place, set)) {
         return;
     }
-    const auto end = std::chrono::steady_clock::now();
+    const auto end = Clock::now();
     note_.query = set.query;
-    note_.micros = std::chrono::duration<double, std::micro>(end - begin).count();
+    note_.micros = micros(begin, end);
     note_.behind.clear();
     for (const ContactSet::Behind& b : set.behind) {
         note_.behind.push_back(b.leaf);

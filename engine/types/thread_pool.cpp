@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/types/thread_pool.h"
 
+#include "engine/types/clock.h"
+
 namespace fathom {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr uint32_t kPolls = 256; // polls between two reads of the clock, or between two yields
 

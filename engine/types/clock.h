@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// The host's monotonic clock (CLOCK_MONOTONIC), and times as numbers. For any thread.
+#pragma once
+
+#include <chrono>
+
+namespace fathom {
+
+using Clock = std::chrono::steady_clock;
+
+// [s] since the machine started, the same for all of its processes.
+inline double secondsOf(Clock::time_point time) noexcept {
+    return std::chrono::duration<double>(time.time_since_epoch()).count();
+}
+inline double monotonicSeconds() noexcept {
+    return secondsOf(Clock::now());
+}
+
+inline double secondsSince(Clock::time_point begin) noexcept { // [s]
+    return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+inline double millis(Clock::time_point begin, Clock::time_point end) noexcept { // [ms]
+    return std::chrono::duration<double, std::milli>(end - begin).count();
+}
+inline double micros(Clock::time_point begin, Clock::time_point end) noexcept { // [us]
+    return std::chrono::duration<double, std::micro>(end - begin).count();
+}
+
+} // namespace fathom
