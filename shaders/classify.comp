@@ -29,8 +29,8 @@ layout(constant_id = kSpecFormat) const uint kFormat = 0;
 layout(std140, binding = 0) uniform Params { FrameParams params; };
 layout(binding = 1) uniform usamplerBuffer depths; // uint16 per pixel; kFour: four per texel
 layout(std430, binding = 2) readonly buffer Rays { vec2 rays[]; };
-// Four bytes per texel, or one word if the format is of single bytes; kFour = 2: words, of four pixels if the
-// format has words.
+// Four bytes per texel, or one word if the format is of single bytes; kFourDepthAndColour: words, of four pixels
+// if the format has words.
 layout(binding = 3) uniform usamplerBuffer colours;
 layout(std430, binding = 4) readonly buffer Cells { uint nearest[]; };
 layout(std430, binding = 5) writeonly buffer Masks { uint masks[]; };       // one byte per slot: class bits
@@ -80,7 +80,7 @@ vec3 withoutWater(vec3 rgb, vec3 p) {
 
 // Avoids && and ||, which branch.
 bool inClass(ClassParams c, Hsl colourHere, bool seen, vec3 base) {
-    float inside = kColour != 1 && !seen ? c.boxMax.w : insideGates(colourHere, c);
+    float inside = kColour != kColourRegistered && !seen ? c.boxMax.w : insideGates(colourHere, c);
     if (kBox != 0) {
         vec3 box = min(base - c.boxMin.xyz, c.boxMax.xyz - base);
         inside = c.boxMin.w == 0.0 ? inside : min(inside, min(box.x, min(box.y, box.z)) >= 0.0 ? 0.0 : -1.0);
@@ -117,7 +117,7 @@ bool onArm(vec3 p) {
 // rgb: colour of the same pixel; used only when the colour image is registered.
 uint classBits(uvec2 at, float z, vec3 rgb) {
     vec3 p = vec3(rayOf(at) * z, z);
-    bool seen = kColour == 2 ? colourOf(p, rgb) : kColour == 1;
+    bool seen = kColour == kColourLookedUp ? colourOf(p, rgb) : kColour == kColourRegistered;
     Hsl colourHere = hslOf(withoutWater(rgb, p));
     vec3 base = kBox != 0 || kArm != 0 ? transformPoint(params.baseTcamera, p) : vec3(0.0);
     float range = kRange != 0 ? length(p) : 0.0;
@@ -159,9 +159,9 @@ vec4 depthsAt(uvec2 at) {
 vec3[4] coloursAt(uvec2 at) {
     vec3 rgb[4] = vec3[4](vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
     uvec2 from = all(lessThan(at, params.size.xy)) ? at : uvec2(0);
-    if (kColour == 1 && kFour == 2) {
+    if (kColour == kColourRegistered && kFour == kFourDepthAndColour) {
         rgb = fourColoursAt(from);
-    } else if (kColour == 1) {
+    } else if (kColour == kColourRegistered) {
         [[unroll]] for (uint k = 0; k < 4u; ++k) {
             rgb[k] = colourAt(from.x + k < params.size.x ? from + uvec2(k, 0) : uvec2(0));
         }

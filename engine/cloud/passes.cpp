@@ -67,7 +67,9 @@ VkFormat colourTexels(ColourFormat format, bool four) {
 PassInfo classify(const CloudContext& c) {
     const Plan& plan = c.plan;
     const uint32_t colour = !plan.colour ? kColourNone : plan.occlusion ? kColourLookedUp : kColourRegistered;
-    const uint32_t four = c.camera.depth.width % 4 != 0 ? 0u : (colour == kColourRegistered ? 2u : 1u);
+    const uint32_t four = c.camera.depth.width % 4 != 0 ? kFourNone
+                          : colour == kColourRegistered ? kFourDepthAndColour
+                                                        : kFourDepth;
     // A patch takes 64 invocations of four pixels in one row, or 16 of four pixels in four rows. A wide group
     // covers four patches.
     const uint32_t rows = plan.byPixel ? 1u : 4u, invocations = plan.byPixel ? 256u : 16u;
@@ -75,9 +77,9 @@ PassInfo classify(const CloudContext& c) {
     return {"classify",
             classify_spv,
             {&Up::params,
-             {&Up::depth, four != 0 ? kFourDepths : kDepthTexels},
+             {&Up::depth, four != kFourNone ? kFourDepths : kDepthTexels},
              &Work::rays,
-             {&Up::colour, colourTexels(c.camera.colourFormat, four == 2)},
+             {&Up::colour, colourTexels(c.camera.colourFormat, four == kFourDepthAndColour)},
              &Work::nearest,
              &Work::masks,
              &Work::listed,

@@ -32,12 +32,11 @@ FATHOM_CONST kSpecTiled = 19;     // window from shared memory
 FATHOM_CONST kSpecBlock = 20;     // one invocation per 4x4 sub-patch, window in registers
 FATHOM_CONST kSpecPair = 21;      // two pixels per invocation
 // The device.
-FATHOM_CONST kSpecFour =
-    22; // width is a multiple of four: one texel holds four pixels; 1 = depth, 2 = also registered colour
-FATHOM_CONST kSpecRows = 23;     // rows of four pixels per invocation
-FATHOM_CONST kSpecWide = 24;     // a group covers four patches side by side
-FATHOM_CONST kSpecKeep = 26;     // `classify` copies the depth to device memory for later passes
-FATHOM_CONST kSpecLists = 27;    // `classify` makes the patch lists
+FATHOM_CONST kSpecFour = 22;  // a texel holds four pixels, if the width is a multiple of four; a kFour value
+FATHOM_CONST kSpecRows = 23;  // rows of four pixels per invocation
+FATHOM_CONST kSpecWide = 24;  // a group covers four patches side by side
+FATHOM_CONST kSpecKeep = 26;  // `classify` copies the depth to device memory for later passes
+FATHOM_CONST kSpecLists = 27; // `classify` makes the patch lists
 FATHOM_CONST kSpecSubGroup = 28; // group size of the sub-patch passes
 FATHOM_CONST kSpecTexels = 29;   // the memory of points is read as texels
 FATHOM_CONST kSpecPack = 30;     // the host reads packed runs
@@ -53,6 +52,10 @@ FATHOM_CONST kSpecCopy = 34;   // 1: `stream` copies; 0: it sums
 FATHOM_CONST kColourNone = 0, // no colour
     kColourRegistered = 1,    // registered to depth
     kColourLookedUp = 2;      // of a colour camera with its own lens
+// Values of kSpecFour: the images whose texels hold four pixels.
+FATHOM_CONST kFourNone = 0,  // none
+    kFourDepth = 1,          // depth
+    kFourDepthAndColour = 2; // depth and registered colour
 // Values of kSpecFormat, those of ColourFormat.
 FATHOM_CONST kFormatRgba = 0;
 FATHOM_CONST kFormatYuyv = 1;
