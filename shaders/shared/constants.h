@@ -11,42 +11,42 @@ FATHOM_CONST kSpecGroupSize = 0; // local_size_x, in every shader
 FATHOM_CONST kSpecRays = 1;    // rays come from a table: distorted lens or fan
 FATHOM_CONST kSpecFan = 2;     // pixels are beams at equal angles
 FATHOM_CONST kSpecBeam = 3;    // each sphere grows by 3 sigma of its own point
-FATHOM_CONST kSpecColour = 4;  // kColourNone, kColourRegistered or kColourLookedUp
-FATHOM_CONST kSpecFormat = 5;  // kFormat value of the colour image
-FATHOM_CONST kSpecWater = 6;   // colours are corrected for attenuation in water
-FATHOM_CONST kSpecClasses = 7; // number of point classes; loops over them unroll
-FATHOM_CONST kSpecBox = 8;     // some class has a box
-FATHOM_CONST kSpecRange = 9;   // some class has a range gate
-FATHOM_CONST kSpecGuidance = 10;
-FATHOM_CONST kSpecSelfFilter = 11; // points inside the arm's spheres belong to no class
-FATHOM_CONST kSpecThin = 12;       // points are removed within the error budget
-FATHOM_CONST kSpecHold = 13;       // points out of view are held; `spheres` takes a kHold value
-FATHOM_CONST kSpecLeaks = 14;      // neighbouring points may be a region radius apart
-FATHOM_CONST kSpecTree = 15;       // the GPU query reads spheres and bounds
+FATHOM_CONST kSpecMoves = 4;   // the camera may move
+FATHOM_CONST kSpecLens = 5;    // kLens value of the lens that points are projected through
+FATHOM_CONST kSpecColour = 6;  // kColourNone, kColourRegistered or kColourLookedUp
+FATHOM_CONST kSpecFormat = 7;  // kFormat value of the colour image
+FATHOM_CONST kSpecWater = 8;   // colours are corrected for attenuation in water
+FATHOM_CONST kSpecClasses = 9; // number of point classes; loops over them unroll
+FATHOM_CONST kSpecBox = 10;    // some class has a box
+FATHOM_CONST kSpecRange = 11;  // some class has a range gate
+FATHOM_CONST kSpecGuidance = 12;
+FATHOM_CONST kSpecSelfFilter = 13; // points inside the arm's spheres belong to no class
+FATHOM_CONST kSpecThin = 14;       // points are removed within the error budget
+FATHOM_CONST kSpecHold = 15;       // points out of view are held; `spheres` takes a kHold value
+FATHOM_CONST kSpecLeaks = 16;      // neighbouring points may be a region radius apart
+FATHOM_CONST kSpecTree = 17;       // the GPU query reads spheres and bounds
 // The filter.
-FATHOM_CONST kSpecRadius = 16;    // window (2 r + 1)^2; 0 = no filter
-FATHOM_CONST kSpecEdge = 17;      // flying pixels are rejected
-FATHOM_CONST kSpecIsolation = 37; // isolated pixels are rejected
-FATHOM_CONST kSpecWeights = 18;   // a kWeights value
-FATHOM_CONST kSpecTiled = 19;     // window from shared memory
-FATHOM_CONST kSpecBlock = 20;     // one invocation per 4x4 sub-patch, window in registers
-FATHOM_CONST kSpecPair = 21;      // two pixels per invocation
+FATHOM_CONST kSpecRadius = 18;    // window (2 r + 1)^2; 0 = no filter
+FATHOM_CONST kSpecEdge = 19;      // flying pixels are rejected
+FATHOM_CONST kSpecIsolation = 20; // isolated pixels are rejected
+FATHOM_CONST kSpecWeights = 21;   // a kWeights value
+FATHOM_CONST kSpecTiled = 22;     // window from shared memory
+FATHOM_CONST kSpecBlock = 23;     // one invocation per 4x4 sub-patch, window in registers
+FATHOM_CONST kSpecPair = 24;      // two pixels per invocation
 // The device.
-FATHOM_CONST kSpecFour = 22;  // a texel holds four pixels, if the width is a multiple of four; a kFour value
-FATHOM_CONST kSpecRows = 23;  // rows of four pixels per invocation
-FATHOM_CONST kSpecWide = 24;  // a group covers four patches side by side
-FATHOM_CONST kSpecKeep = 26;  // `classify` copies the depth to device memory for later passes
-FATHOM_CONST kSpecLists = 27; // `classify` makes the patch lists
-FATHOM_CONST kSpecSubGroup = 28; // group size of the sub-patch passes
-FATHOM_CONST kSpecTexels = 29;   // the memory of points is read as texels
-FATHOM_CONST kSpecPack = 30;     // the host reads packed runs
-FATHOM_CONST kSpecShared = 31;   // moments of sub-patches are merged in shared memory
-FATHOM_CONST kSpecPatches = 32;  // `tree` builds the level of patches
-FATHOM_CONST kSpecMoves = 35;    // the camera may move
-FATHOM_CONST kSpecLens = 36;     // kLens value of the lens that points are projected through
+FATHOM_CONST kSpecFour = 25;  // a texel holds four pixels, if the width is a multiple of four; a kFour value
+FATHOM_CONST kSpecRows = 26;  // rows of four pixels per invocation
+FATHOM_CONST kSpecWide = 27;  // a group covers four patches side by side
+FATHOM_CONST kSpecKeep = 28;  // `classify` copies the depth to device memory for later passes
+FATHOM_CONST kSpecLists = 29; // `classify` makes the patch lists
+FATHOM_CONST kSpecSubGroup = 30; // group size of the sub-patch passes
+FATHOM_CONST kSpecTexels = 31;   // the memory of points is read as texels
+FATHOM_CONST kSpecPack = 32;     // the host reads packed runs
+FATHOM_CONST kSpecShared = 33;   // moments of sub-patches are merged in shared memory
+FATHOM_CONST kSpecPatches = 34;  // `tree` builds the level of patches
 // Measurements of the device.
-FATHOM_CONST kSpecRounds = 33; // rounds of four multiply-adds per chain
-FATHOM_CONST kSpecCopy = 34;   // 1: `stream` copies; 0: it sums
+FATHOM_CONST kSpecRounds = 35; // rounds of four multiply-adds per chain
+FATHOM_CONST kSpecCopy = 36;   // 1: `stream` copies; 0: it sums
 
 // Values of kSpecColour.
 FATHOM_CONST kColourNone = 0, // no colour
