@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/binding/approach_path.h"
 
+#include "engine/cycle/step_record.h"
+
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -27,7 +29,6 @@ constexpr double kRotation = 4.0;       // [degree]
 constexpr double kRotationTime = 1.4;   // [s]
 constexpr double kHoldTime = 2.2;       // [s] at a guidance target
 constexpr double kButtonTime = 1.5;     // [s] of that, at the end, with the button down
-constexpr uint32_t kGuidanceButton = 1;
 
 struct Goal {
     int fixture = 0;
