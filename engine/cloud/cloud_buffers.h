@@ -40,9 +40,9 @@ struct WorkBuffers {
     uint32_t cellEdge = 1, cellsAcross = 1, cellsDown = 1; // occlusion cells [colour pixels]
 };
 
-// Texel formats of uploads, points and class bits.
+// Texel formats of uploads, of points and other vec4 buffers, and of class bits.
 inline constexpr VkFormat kDepthTexels = VK_FORMAT_R16_UINT;
-inline constexpr VkFormat kPointTexels = VK_FORMAT_R32G32B32A32_SFLOAT;
+inline constexpr VkFormat kVec4Texels = VK_FORMAT_R32G32B32A32_SFLOAT;
 inline constexpr VkFormat kColourTexels = VK_FORMAT_R8G8B8A8_UINT;
 inline constexpr VkFormat kMaskTexels = VK_FORMAT_R32G32B32A32_UINT; // one texel per sub-patch
 

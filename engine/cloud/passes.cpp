@@ -27,7 +27,6 @@ using Set = SetBuffers;
 static_assert(offsetof(FrameCounters, subs) == kArgumentWords * sizeof(uint32_t));
 
 constexpr VkFormat kFourDepths = VK_FORMAT_R16G16B16A16_UINT;
-constexpr VkFormat kVector = VK_FORMAT_R32G32B32A32_SFLOAT;
 
 Groups groupsFor(uint64_t invocations, uint32_t groupSize) {
     return {static_cast<uint32_t>((invocations + groupSize - 1) / groupSize), 1, 1};
@@ -179,7 +178,7 @@ PassInfo thin(const CloudContext& c) {
             thin_spv,
             {&Up::params,
              {&Work::masks, kMaskTexels},
-             {&Work::points, kPointTexels},
+             {&Work::points, kVec4Texels},
              &Work::listed,
              &Work::list,
              &Work::counters,
@@ -196,7 +195,7 @@ PassInfo moments(const CloudContext& c) {
             moments_spv,
             {&Up::params,
              {&Work::masks, kMaskTexels},
-             {&Work::points, kPointTexels},
+             {&Work::points, kVec4Texels},
              &Work::list,
              &Set::moments,
              &Work::counters},
@@ -213,7 +212,7 @@ PassInfo treeLevels(const CloudContext& c, bool patches) {
             {&Work::listed,
              &Set::nodes,
              &Set::nodeCounts,
-             {&Set::nodes, kVector},
+             {&Set::nodes, kVec4Texels},
              {&Set::nodeCounts, VK_FORMAT_R32G32B32A32_UINT}},
             {{kSpecGroupSize, group}, {kSpecPatches, patches}},
             groupsFor(patches ? c.layout.patches() : 1, group),

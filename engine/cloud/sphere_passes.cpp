@@ -17,8 +17,6 @@ using Up = UploadBuffers;
 using Work = WorkBuffers;
 using Set = SetBuffers;
 
-constexpr VkFormat kVector = VK_FORMAT_R32G32B32A32_SFLOAT;
-
 // Bindings and constants that both forms of `spheres` share (shaders/lib/spheres.glsl).
 PassInfo spheresOf(const CloudContext& c, std::span<const uint32_t> spirv, size_t counted) {
     const Plan& plan = c.plan;
@@ -27,7 +25,7 @@ PassInfo spheresOf(const CloudContext& c, std::span<const uint32_t> spirv, size_
             {&Up::params,
              depthOf(plan, kDepthTexels),
              {&Work::masks, kMaskTexels},
-             {&Work::points, kPointTexels},
+             {&Work::points, kVec4Texels},
              &Work::listed,
              &Work::list,
              &Work::counters,
@@ -67,9 +65,9 @@ PassInfo spheresByPatch(const CloudContext& c) {
 // hold: kHold... of shaders/shared/constants.h.
 PassInfo spheresBySub(const CloudContext& c, uint32_t hold, size_t counted) {
     PassInfo pass = spheresOf(c, spheres_spv, counted);
-    pass.bindings.insert(pass.bindings.end(), {{&Work::growth, kVector},
-                                               {&Work::seen, kVector},
-                                               {&Work::kept, kVector},
+    pass.bindings.insert(pass.bindings.end(), {{&Work::growth, kVec4Texels},
+                                               {&Work::seen, kVec4Texels},
+                                               {&Work::kept, kVec4Texels},
                                                {&Work::keptTime, VK_FORMAT_R32_UINT},
                                                &Set::classes});
     pass.constants.insert(
