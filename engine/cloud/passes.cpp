@@ -234,9 +234,9 @@ shared::TreeParams treeParams(const PatchLayout& layout) {
 
 std::vector<PassInfo> framePasses(const CloudContext& c) {
     std::vector<PassInfo> passes;
-    const auto add = [&](bool in, auto... describe) {
+    const auto add = [&](bool in, PassInfo (*describe)(const CloudContext&)) {
         if (in) {
-            (passes.push_back(describe(c)), ...);
+            passes.push_back(describe(c));
         }
     };
     add(c.plan.occlusion, occlusion);
