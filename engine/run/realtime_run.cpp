@@ -12,8 +12,9 @@ namespace fathom {
 
 namespace {
 
-constexpr double kWriterBacklog = 8.0; // [s] of steps that the writer may fall behind
-constexpr double kHeadStart = 0.02;    // [s] for the threads to get ready before t = 0
+constexpr double kWriterBacklog = 8.0;     // [s] of steps that the writer may fall behind
+constexpr double kHeadStart = 0.02;        // [s] for the threads to get ready before t = 0
+constexpr double kQuietAfterWarning = 5.0; // [s] without another one of the same kind
 constexpr auto kWriterPause = std::chrono::milliseconds(2);
 
 uint64_t tickCapacity(double period) {
@@ -21,15 +22,15 @@ uint64_t tickCapacity(double period) {
 }
 
 // Sets the flag and joins the thread at the end of the scope, also on exceptions.
-class Joined {
+class StoppedThread {
 public:
     template <class Body>
-    Joined(std::atomic<bool>& stop, Body&& body)
+    StoppedThread(std::atomic<bool>& stop, Body&& body)
         : stop_(stop)
         , thread_(std::forward<Body>(body)) {}
-    Joined(const Joined&) = delete;
-    Joined& operator=(const Joined&) = delete;
-    ~Joined() {
+    StoppedThread(const StoppedThread&) = delete;
+    StoppedThread& operator=(const StoppedThread&) = delete;
+    ~StoppedThread() {
         stop_.store(true);
         thread_.join();
     }
@@ -53,7 +54,7 @@ public:
             log::warn("at {:.2f} s the newest frame is {:.0f} ms {}: forces fade", record.t,
                       std::abs(record.sceneAge) * 1e3,
                       ahead ? "ahead of the clock (allowed: stamps of the monotonic clock)" : "old");
-            quietUntil_ = record.t + kQuiet;
+            quietUntil_ = record.t + kQuietAfterWarning;
             warned_ = true;
         } else if (!stale && warned_) {
             log::warn("at {:.2f} s frames are fresh again", record.t);
@@ -64,7 +65,6 @@ public:
     uint64_t staleTicks() const { return staleTicks_; }
 
 private:
-    static constexpr double kQuiet = 5.0; // [s]
     double staleAfter_;
     double quietUntil_ = 0.0;
     bool stale_ = false, warned_ = false;
@@ -80,13 +80,12 @@ public:
             const bool fromHand = !isFinite(row.hand.deviceThandle);
             log::warn("at {:.2f} s {} not finite: no force in such ticks", row.record.t,
                       fromHand ? "the hand's sample is" : "a number of the tick is");
-            quietUntil_ = row.record.t + kQuiet;
+            quietUntil_ = row.record.t + kQuietAfterWarning;
         }
         broken_ = broken;
     }
 
 private:
-    static constexpr double kQuiet = 5.0; // [s]
     double quietUntil_ = 0.0;
     bool broken_ = false;
 };
@@ -156,10 +155,10 @@ void RealtimeRun::run(HapticCycle& cycle, HapticDevice& hand, double pathDuratio
     channels_.proxy.publish();
     clock_.start(kHeadStart);
     {
-        Joined camera(ending_, [this] {
+        StoppedThread camera(ending_, [this] {
             guarded([this] { pinThread(options_.placement.rest), frames_.run(ending_); });
         });
-        std::optional<Joined> contact, clearance;
+        std::optional<StoppedThread> contact, clearance;
         if (contact_) {
             contact.emplace(ending_, [this] {
                 guarded([this] { pinThread(options_.placement.contact), contact_->run(ending_); });
@@ -168,7 +167,7 @@ void RealtimeRun::run(HapticCycle& cycle, HapticDevice& hand, double pathDuratio
                 guarded([this] { pinThread(options_.placement.rest), clearance_->run(ending_); });
             });
         }
-        Joined ticks(ending_, [this, &haptic, &stop] {
+        StoppedThread ticks(ending_, [this, &haptic, &stop] {
             std::string refused;
             guarded([&] { refused = makeHapticThread(options_.placement); });
             if (!refused.empty()) {
