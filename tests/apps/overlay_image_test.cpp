@@ -8,7 +8,6 @@
 #include "tests/support/scratch_folder.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <doctest/doctest.h>
 #include <random>
@@ -211,7 +210,7 @@ TEST_CASE(
     CHECK(folder.files() == 1);
 }
 
-TEST_CASE("An overlay of 60 thousand spheres is timed") {
+TEST_CASE("An overlay of 60 thousand spheres has twice the width of its camera's images") {
     const ScratchFolder folder;
     Drawn scene;
     fill(scene);
@@ -232,10 +231,7 @@ TEST_CASE("An overlay of 60 thousand spheres is timed") {
         s.source[i] = static_cast<uint32_t>(i);
         s.fixture[i] = 0;
     }
-    const auto begin = std::chrono::steady_clock::now();
     writeOverlay(folder.path() / "overlay.png", scene.input);
-    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - begin;
-    MESSAGE("overlay of 60000 spheres at 1280 x 960: ", took.count(), " ms");
     CHECK(PngImage(folder.path() / "overlay.png").width() == 1280);
 }
 

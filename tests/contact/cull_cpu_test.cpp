@@ -5,7 +5,6 @@
 #include "tests/contact/clouds.h"
 
 #include <algorithm>
-#include <chrono>
 #include <doctest/doctest.h>
 #include <set>
 
@@ -228,32 +227,4 @@ TEST_CASE("An overflow halves the reach until the result fits, certifies it, and
         CHECK(set.source == oracleSources(tool, deep, set.reach, fixtures));
         checkPairs(tool, deep, fixtures, set);
     }
-}
-
-TEST_CASE("The time of a query at 10 mm reach, 60 k spheres and 256 leaves in contact, is printed") {
-    std::mt19937_64 random(17);
-    Fixtures fixtures = emptySet();
-    addWall(fixtures, dvec3(0, 0, 0), dvec3(1, 0, 0), dvec3(0, 1, 0), 0.2144, 0.00175, 0.04);
-    const Tool tool = randomTool(random, 256, 0.06, 0.008);
-    Query query;
-    std::vector<double> times;
-    for (int k = 0; k < 60; ++k) {
-        Pose pose{dvec3(0.0), randomRotation(random)};
-        pose.position.z = 0.0;
-        double lowest = 1.0;
-        for (const Sphere& leaf : tool.leaves()) {
-            lowest = std::min(lowest, (pose.rotation * leaf.centre).z - leaf.radius);
-        }
-        pose.position.z = 0.04 - lowest - 0.002;
-        query.grid.build(fixtures.spheres);
-        const auto start = std::chrono::steady_clock::now();
-        query.cull.query(tool, pose, 0.01, fixtures, query.grid, query.set);
-        const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - start;
-        times.push_back(took.count());
-    }
-    std::sort(times.begin(), times.end());
-    MESSAGE(fixtures.spheres.size() << " spheres, query p50 " << times[times.size() / 2]
-                                    << " us, most spheres " << query.cull.statistics().spheresMax
-                                    << ", most pairs " << query.cull.statistics().pairsMax);
-    CHECK(query.set.size() > 0);
 }

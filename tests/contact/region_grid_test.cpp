@@ -5,7 +5,6 @@
 #include "tests/contact/clouds.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <doctest/doctest.h>
 #include <limits>
@@ -143,22 +142,4 @@ TEST_CASE("Building again discards the earlier contents") {
     const Fixtures set = randomCloud(random, 77, 0.2, 0.01, 0.02);
     grid.build(set.spheres);
     CHECK(checkAgainstBruteForce(set.spheres, grid, dvec3(0.0), 10.0) == 77);
-}
-
-TEST_CASE("The time to build the grid of 60 k and 300 k spheres is printed") {
-    for (const int side : {245, 548}) {
-        Fixtures set = emptySet();
-        const double spacing = 1.0 / side;
-        addWall(set, dvec3(0, 0, 1), dvec3(1, 0, 0), glm::normalize(dvec3(0, 1, 0.5)), 0.5, spacing, 0.04);
-        RegionGrid grid;
-        double best = 1e9;
-        for (int k = 0; k < 10; ++k) {
-            const auto start = std::chrono::steady_clock::now();
-            grid.build(set.spheres);
-            const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
-            best = std::min(best, took.count());
-        }
-        MESSAGE(set.spheres.size() << " spheres: " << best << " ms");
-        CHECK(grid.size() == set.spheres.size());
-    }
 }

@@ -6,7 +6,6 @@
 #include "tests/haptics/arm_rig.h"
 #include "tests/support/sanitized.h"
 
-#include <ctime>
 #include <doctest/doctest.h>
 #include <limits>
 
@@ -14,13 +13,6 @@ using namespace fathom;
 using namespace fathom::testing;
 
 namespace {
-
-// CPU time of this thread [us], so that other load on the machine does not count.
-double cpuMicros() {
-    timespec t{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return 1e6 * static_cast<double>(t.tv_sec) + 1e-3 * static_cast<double>(t.tv_nsec);
-}
 
 double worstLimit(const ArmModel& arm, const JointVector& q) {
     double worst = 0.0;
@@ -225,15 +217,13 @@ TEST_CASE("The smallest singular value and the damping match the textbook formul
     CHECK(dampingFor(0.05, 0.1, 0.001, 0.05) == doctest::Approx(0.025));
 }
 
-TEST_CASE("A tick of a whole arm does not allocate; its time by leaf count is printed") {
+TEST_CASE("A tick of a whole arm of up to 2000 leaves allocates nothing and enters no region") {
     std::mt19937_64 random(3);
     for (size_t leaves : {500u, 1000u, 2000u}) {
         const ArmModel arm = makeArm(5, leaves / 5);
         ArmProxy proxy(arm, Pose{}, {}, JointVector{});
         World world;
         scatter(world, arm, proxy.frames(), random, 3000);
-        std::vector<double> micros;
-        micros.reserve(300);
         uint64_t allocated = 0;
         Pose target;
         for (int i = 0; i < 300; ++i) {
@@ -242,13 +232,9 @@ TEST_CASE("A tick of a whole arm does not allocate; its time by leaf count is pr
             }
             world.query(arm, proxy);
             const uint64_t held = allocationCount();
-            const double start = cpuMicros();
             proxy.step(target, 0.05, &world.set);
-            micros.push_back(cpuMicros() - start);
             allocated += allocationCount() - held;
         }
-        std::sort(micros.begin(), micros.end());
-        MESSAGE(leaves << " leaves: step p50 " << micros[150] << " us, p99 " << micros[297] << " us");
         CHECK(world.depth(arm, proxy.frames()) <= 1e-9);
         CHECK(allocated == 0);
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a tool does while it slides: friction as a play, and smooth planes over the spheres.
 #include "tests/haptics/proxy_rig.h"
+#include "tests/support/sanitized.h"
 
 #include <doctest/doctest.h>
 
@@ -77,4 +78,35 @@ TEST_CASE("With friction the tool stays behind the hand by mu times its depth, e
     CHECK(there == doctest::Approx(0.2 * depth).epsilon(0.05));
     CHECK(rest == doctest::Approx(there).epsilon(0.02));
     CHECK(back == doctest::Approx(-0.2 * depth).epsilon(0.05));
+}
+
+TEST_CASE("A tool dragged over a noisy wall of 60 k spheres never enters it") {
+    std::mt19937_64 random(21);
+    Fixtures fixtures = emptySet();
+    std::normal_distribution<double> noise(0.0, 0.0003);
+    addWall(fixtures, dvec3(0.0), dvec3(1, 0, 0), dvec3(0, 1, 0), 0.2144, 0.00175, 0.04);
+    for (float& z : fixtures.spheres.z) { // a bulging, noisy surface
+        const size_t i = static_cast<size_t>(&z - fixtures.spheres.z.data());
+        const double x = fixtures.spheres.x[i], y = fixtures.spheres.y[i];
+        z = static_cast<float>(0.01 * std::sin(20.0 * x) * std::cos(17.0 * y) + noise(random));
+    }
+    const Tool tool = randomTool(random, 256, 0.06, 0.008);
+    for (const double speed : {0.05, 0.3, 2.0}) {
+        ProxyRig rig(tool, fixtures, {dvec3(0, 0, 0.16), kUpright});
+        const int ticks = kSanitized ? 400 : 3000, pressed = 300;
+        int contact = 0;
+        Pose hand = rig.proxy().pose();
+        for (int k = 0; k < ticks; ++k) {
+            // Presses the tool 2 mm in and drags it around.
+            const double a = speed / 0.08 * 0.001 * k;
+            hand.position = dvec3(0.08 * std::cos(a), 0.08 * std::sin(a), k < 200 ? 0.16 - 0.001 * k : 0.0);
+            hand.position.z = std::max(hand.position.z, rig.proxy().pose().position.z - 0.002);
+            hand.rotation = rotationExp(dvec3(0.3 * std::sin(a), 0.3 * std::cos(1.3 * a), 0.0));
+            rig.query();
+            const ProxyStep tick = rig.turnOnly(hand);
+            contact += k >= pressed && tick.contact ? 1 : 0;
+            REQUIRE(tick.minGap >= 0.0);
+        }
+        CHECK(contact > (ticks - pressed) / 2);
+    }
 }

@@ -4,7 +4,6 @@
 #include "engine/types/error.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
@@ -244,7 +243,7 @@ TEST_CASE("A set with a sphere that is not finite is audited without it") {
     CHECK(audit.maxPenetration() == doctest::Approx(0.005).epsilon(1e-6));
 }
 
-TEST_CASE("The audit of 256 leaves and 60 thousand spheres is timed in free space and in contact") {
+TEST_CASE("The audit finds no penetration of 256 leaves that move close to 60 thousand spheres") {
     std::vector<Sphere> leaves, wall;
     for (int i = 0; i < 256; ++i) {
         const int row = i / 16;
@@ -260,13 +259,9 @@ TEST_CASE("The audit of 256 leaves and 60 thousand spheres is timed in free spac
     for (const double height :
          {0.12, 0.0442}) { // far above the wall, and just above it: the regions end at 44 mm
         PenetrationAudit audit(tool);
-        const auto begin = std::chrono::steady_clock::now();
-        constexpr int kTurns = 200;
-        for (int i = 0; i < kTurns; ++i) {
+        for (int i = 0; i < 200; ++i) {
             audit.tick(scene.set, scene.grid, at(1e-5 * i, 0, height), at(1e-5 * (i + 1), 0, height));
         }
-        const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - begin;
-        MESSAGE("audit at ", height, " m above the wall: ", took.count() / kTurns, " us per tick");
         CHECK(audit.maxPenetration() == 0.0);
     }
 }
