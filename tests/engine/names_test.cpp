@@ -3,28 +3,62 @@
 #include "tests/engine/wall_world.h"
 
 #include <doctest/doctest.h>
+#include <initializer_list>
 #include <string>
+#include <utility>
 
 using namespace fathom;
 using namespace fathom::testing;
 
+namespace {
+
+// Checks the names of a whole enumeration, in the order of its values.
+template <class Enumeration>
+void checkNames(std::initializer_list<std::pair<Enumeration, const char*>> enumerators) {
+    for (const std::pair<Enumeration, const char*>& one : enumerators) {
+        CHECK(name(one.first) == std::string(one.second));
+    }
+}
+
+} // namespace
+
 TEST_CASE("States, warnings and statuses have the names of their enumerators, other values none") {
-    CHECK(name(State::Off) == std::string("Off"));
-    CHECK(name(State::Contact) == std::string("Contact"));
-    CHECK(name(State::Waiting) == std::string("Waiting"));
-    CHECK(name(static_cast<State>(-1)) == std::string("unknown"));
-    CHECK(name(StepWarning::None) == std::string("None"));
-    CHECK(name(StepWarning::NoScene) == std::string("NoScene"));
-    CHECK(name(StepWarning::OldScene | StepWarning::OtherClock) == std::string("OldScene"));
-    CHECK(name(StepWarning::Stalled) == std::string("Stalled"));
-    CHECK(name(StepWarning::OtherClock) == std::string("OtherClock"));
-    CHECK(name(static_cast<StepWarning>(1u << 31)) == std::string("unknown"));
-    CHECK(name(SubmitStatus::Accepted) == std::string("Accepted"));
-    CHECK(name(SubmitStatus::MissingImage) == std::string("MissingImage"));
-    CHECK(name(SubmitStatus::Closed) == std::string("Closed"));
-    CHECK(name(ReportStatus::Accepted) == std::string("Accepted"));
-    CHECK(name(ReportStatus::BadPosture) == std::string("BadPosture"));
-    CHECK(name(static_cast<ReportStatus>(5)) == std::string("unknown"));
+    checkNames<State>({{State::Off, "Off"},
+                       {State::Free, "Free"},
+                       {State::Contact, "Contact"},
+                       {State::Escape, "Escape"},
+                       {State::Trapped, "Trapped"},
+                       {State::Fading, "Fading"},
+                       {State::Waiting, "Waiting"},
+                       {static_cast<State>(7), "unknown"},
+                       {static_cast<State>(-1), "unknown"}});
+    checkNames<StepWarning>({{StepWarning::None, "None"},
+                             {StepWarning::NoScene, "NoScene"},
+                             {StepWarning::OldScene, "OldScene"},
+                             {StepWarning::ComputeDeviceLost, "ComputeDeviceLost"},
+                             {StepWarning::NotFinite, "NotFinite"},
+                             {StepWarning::TimeBack, "TimeBack"},
+                             {StepWarning::Stalled, "Stalled"},
+                             {StepWarning::EngineFailed, "EngineFailed"},
+                             {StepWarning::ArmStill, "ArmStill"},
+                             {StepWarning::OtherClock, "OtherClock"},
+                             {StepWarning::OldScene | StepWarning::OtherClock, "OldScene"},
+                             {static_cast<StepWarning>(512), "unknown"},
+                             {static_cast<StepWarning>(1u << 31), "unknown"}});
+    checkNames<SubmitStatus>({{SubmitStatus::Accepted, "Accepted"},
+                              {SubmitStatus::MissingStamp, "MissingStamp"},
+                              {SubmitStatus::StampAhead, "StampAhead"},
+                              {SubmitStatus::StampBack, "StampBack"},
+                              {SubmitStatus::MissingImage, "MissingImage"},
+                              {SubmitStatus::BadPose, "BadPose"},
+                              {SubmitStatus::Closed, "Closed"},
+                              {static_cast<SubmitStatus>(7), "unknown"}});
+    checkNames<ReportStatus>({{ReportStatus::Accepted, "Accepted"},
+                              {ReportStatus::MissingStamp, "MissingStamp"},
+                              {ReportStatus::StampAhead, "StampAhead"},
+                              {ReportStatus::StampBack, "StampBack"},
+                              {ReportStatus::BadPosture, "BadPosture"},
+                              {static_cast<ReportStatus>(5), "unknown"}});
 }
 
 TEST_CASE("A scene names the fixture of each index, and no compute device runs for placed shapes alone") {
