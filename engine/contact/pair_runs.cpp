@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/contact/pair_runs.h"
 
+#include "engine/contact/query_loop.h"
+
 #include <algorithm>
 
 namespace fathom {
 
 namespace {
 
-constexpr size_t kMaxGaps = 262144; // pairs of a contact set, unless a query overflowed
-constexpr size_t kMaxNear = 65536;  // copies
-constexpr size_t kLanes = 8;        // the number of copied pairs is a multiple of this
-constexpr float kNowhere = 1e18f;   // [m] position of padding; its square is far from overflow
+constexpr size_t kMaxNear = 65536; // copies
+constexpr size_t kLanes = 8;       // the number of copied pairs is a multiple of this
+constexpr float kNowhere = 1e18f;  // [m] position of padding; its square is far from overflow
 
 } // namespace
 
@@ -24,7 +25,7 @@ PairRuns::Columns::Columns(size_t capacity)
 PairRuns::PairRuns(size_t leaves)
     : centres_(leaves)
     , runs_(leaves)
-    , gaps_(kMaxGaps)
+    , gaps_(QueryCapacity{}.pairs) // of a contact set, unless a query overflowed
     , near_(kMaxNear)
     , some_(kPairChunk)
     , chosen_(kPairChunk) {}
