@@ -24,40 +24,26 @@ constexpr double kBatchGoalMs = 1.0;   // 4096 poses of 256 leaves at 60 k spher
 const char* const kGpuBatch = "GPU";
 const char* const kCpuBatch = "CPU";
 
-// A wall as a fixture set, and poses of a tool before it.
-struct BatchRig {
-    FrameSequence source;
-    FrameBench bench;
+// Poses from 5 mm inside of contact to 0.3 m before the wall, up to 0.2 m sideways, turned at random.
+std::vector<Pose> batchPoses(const WallRig& rig, const Tool& tool, size_t count) {
+    const Pose touch = touchingPose(tool, rig.host(), Pose{});
+    std::mt19937_64 random(3);
+    std::uniform_real_distribution<double> side(-0.2, 0.2), back(-0.005, 0.3), turn(-2.0, 2.0);
+    std::vector<Pose> poses;
+    for (size_t i = 0; i < count; ++i) {
+        const dvec3 move(side(random), side(random), -back(random));
+        poses.push_back({touch.position + move, rotationExp({turn(random), turn(random), turn(random)})});
+    }
+    return poses;
+}
 
-    BatchRig(gpu::Device& device, uint32_t width, uint32_t height)
-        : source(wallFrame(width, height, 1.0))
-        , bench(device, everyPointScene(), source.camera) {
-        bench.run(source.frames.front());
-    }
-    std::string name() const {
-        return digits(static_cast<double>(bench.set().host.spheres.size()) / 1000.0, 4) + " k spheres";
-    }
-    // From 5 mm inside of contact to 0.3 m before the wall, up to 0.2 m sideways, turned at random.
-    std::vector<Pose> posesOf(const Tool& tool, size_t count) const {
-        const Pose touch = touchingPose(tool, bench.set().host, Pose{});
-        std::mt19937_64 random(3);
-        std::uniform_real_distribution<double> side(-0.2, 0.2), back(-0.005, 0.3), turn(-2.0, 2.0);
-        std::vector<Pose> poses;
-        for (size_t i = 0; i < count; ++i) {
-            const dvec3 move(side(random), side(random), -back(random));
-            poses.push_back({touch.position + move, rotationExp({turn(random), turn(random), turn(random)})});
-        }
-        return poses;
-    }
-};
-
-StudyRow batchRow(const BatchRig& rig, const char* way, const Tool& tool, size_t poses) {
+StudyRow batchRow(const WallRig& rig, const char* way, const Tool& tool, size_t poses) {
     StudyRow row;
-    row.source = rig.name();
+    row.source = sizeName(rig.host().spheres);
     row.setting = std::string(way) + " " + std::to_string(poses) + " poses, " +
                   std::to_string(tool.leafCount()) + " leaves";
     row.more = {static_cast<double>(poses), static_cast<double>(tool.leafCount()),
-                static_cast<double>(rig.bench.set().host.spheres.size()), NAN};
+                static_cast<double>(rig.host().spheres.size()), NAN};
     return row;
 }
 
@@ -68,8 +54,8 @@ struct Expected {
 };
 
 // By the search on the host, and for a few poses also by brute force over all pairs.
-Expected expectedOf(const BatchRig& rig, const Tool& tool, const std::vector<Pose>& poses) {
-    const Fixtures& set = rig.bench.set().host;
+Expected expectedOf(const WallRig& rig, const Tool& tool, const std::vector<Pose>& poses) {
+    const Fixtures& set = rig.host();
     GapSearch search;
     search.build(set);
     Expected expected;
@@ -84,7 +70,8 @@ Expected expectedOf(const BatchRig& rig, const Tool& tool, const std::vector<Pos
     const double pairs = static_cast<double>(tool.leafCount()) * static_cast<double>(set.spheres.size());
     const auto brute = static_cast<size_t>(std::min(4.0, kMaxPairs / pairs));
     for (size_t i = 0; i < std::min(brute, poses.size()); ++i) {
-        verify(expected.gaps[i].second == oracleSmallestPair(tool, poses[i], set), "batch", rig.name(),
+        verify(expected.gaps[i].second == oracleSmallestPair(tool, poses[i], set), "batch",
+               sizeName(rig.host().spheres),
                "the search on the host differs from brute force at pose " + std::to_string(i));
     }
     return expected;
@@ -102,7 +89,7 @@ Repeats repeatsOnGpu(const StudyContext& context) {
 }
 
 // Device time and time to result in separate runs, because timestamps take time.
-StudyRow gpuBatchRow(const StudyContext& context, const BatchRig& rig, const Tool& tool,
+StudyRow gpuBatchRow(const StudyContext& context, const WallRig& rig, const Tool& tool,
                      const std::vector<Pose>& poses, const Expected& expected) {
     StudyRow row = batchRow(rig, kGpuBatch, tool, poses.size());
     std::vector<double> gpu, submit;
@@ -129,10 +116,10 @@ StudyRow gpuBatchRow(const StudyContext& context, const BatchRig& rig, const Too
     return row;
 }
 
-StudyRow cpuBatchRow(const BatchRig& rig, const Tool& tool, const std::vector<Pose>& poses) {
+StudyRow cpuBatchRow(const WallRig& rig, const Tool& tool, const std::vector<Pose>& poses) {
     StudyRow row = batchRow(rig, kCpuBatch, tool, poses.size());
     GapSearch search;
-    search.build(rig.bench.set().host);
+    search.build(rig.host());
     double sum = 0.0; // so that no search is optimised away
     row.cost = timeCpu(kOnCpu, [&] {
         for (const Pose& pose : poses) {
@@ -143,11 +130,11 @@ StudyRow cpuBatchRow(const BatchRig& rig, const Tool& tool, const std::vector<Po
     return row;
 }
 
-void addRows(const StudyContext& context, Study& study, const BatchRig& rig,
+void addRows(const StudyContext& context, Study& study, const WallRig& rig,
              const std::vector<uint32_t>& tools, const std::vector<size_t>& batches) {
     for (const uint32_t leaves : tools) {
         const Tool tool = ballTool(leaves);
-        const std::vector<Pose> poses = rig.posesOf(tool, batches.back());
+        const std::vector<Pose> poses = batchPoses(rig, tool, batches.back());
         const Expected expected = expectedOf(rig, tool, poses);
         for (const size_t count : batches) {
             const std::vector<Pose> some(poses.begin(), poses.begin() + static_cast<long>(count));
@@ -215,7 +202,7 @@ Study batchStudy(const StudyContext& context) {
     const bool quick = context.settings.quick;
     const Sizes sizes = quick ? Sizes{{64, 48}} : Sizes{{300, 200}, {640, 480}};
     for (const auto& [width, height] : sizes) {
-        const BatchRig rig(context.device, width, height);
+        const WallRig rig(context.device, width, height);
         addRows(context, study, rig, quick ? std::vector<uint32_t>{16} : std::vector<uint32_t>{16, 256, 1024},
                 quick ? std::vector<size_t>{1, 16} : std::vector<size_t>{1, 64, 256, 4096});
     }

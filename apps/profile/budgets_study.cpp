@@ -265,7 +265,6 @@ Study budgetsStudy(const StudyContext& context) {
     study.verified = "nearest spheres against brute force in float64; culls equal to brute force; grids hold "
                      "each sphere once, in the same order; solutions satisfy the optimality conditions to "
                      "1e-9; no leaf enters a sphere; tools are at the stated depth in the wall";
-    study.errorName = "error", study.errorUnit = "none";
     study.noDefault = "its rows are different work, each with its own budget";
     study.timeName = "wall time p50";
     study.moreNames = {"budget_p50_ms", "budget_p99_ms", "kept", "share_in_contact"};

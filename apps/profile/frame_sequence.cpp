@@ -171,6 +171,10 @@ Scene everyPointScene() {
     return scene;
 }
 
+std::string sizeName(const RegionSpheres& spheres) {
+    return digits(static_cast<double>(spheres.size()) / 1000.0, 4) + " k spheres";
+}
+
 Scene studyScene(const Settings& settings) {
     if (!settings.scene.empty()) {
         return openScene(settings.scene);

@@ -41,6 +41,22 @@ FrameSequence inYuyv(FrameSequence source);
 // many spheres as points, in sets that support both CPU and GPU queries.
 Scene everyPointScene();
 
+// A wall of width x height points as a fixture set with as many spheres. The device must outlive it.
+struct WallRig {
+    FrameSequence source;
+    FrameBench bench;
+
+    WallRig(gpu::Device& device, uint32_t width, uint32_t height)
+        : source(wallFrame(width, height, 1.0))
+        , bench(device, everyPointScene(), source.camera) {
+        bench.run(source.frames.front());
+    }
+    const Fixtures& host() const { return bench.set().host; }
+};
+
+// "60 k spheres", as the source of a row.
+std::string sizeName(const RegionSpheres& spheres);
+
 // Sources of a study: the recording if the command line gives one, otherwise these analytic scenes.
 std::vector<FrameSequence> studySources(const Settings& settings, const std::vector<std::string>& analytic,
                                         uint32_t frames);

@@ -247,7 +247,6 @@ Study leaveOutStudy(const StudyContext& context) {
     study.title = "Leave out: what each optional stage costs a scene that uses all of them";
     study.verified = "every row: occlusion cells, class bits, points and guidance against the float64 twins; "
                      "every region sphere is around its own forbidden point";
-    study.errorName = "error", study.errorUnit = "none";
     study.noDefault = "its rows are scenes with fewer features; the plan skips what a scene does not use";
     study.timeName = "upload to published p50";
     study.moreNames = {"upload_to_published_p50_ms", "saved_ms",

@@ -163,7 +163,6 @@ Study limitStudy(const StudyContext& context) {
     study.title = "Limit: steps of a frame, and a query, against what the machine allows";
     study.verified = "results of the bandwidth and compute measurements; class bits and points of a frame "
                      "against the float64 twins; the device's query against brute force";
-    study.errorName = "error", study.errorUnit = "none";
     study.noDefault = "its rows are the steps of one frame and one query, at the default settings";
     study.timeName = "GPU time p50 of passes, wall time p50 of host steps";
     study.moreNames = {"MB_that_must_move", "million_operations", "moving_ms",

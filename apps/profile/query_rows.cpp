@@ -24,25 +24,11 @@ struct SphereSet {
     const RegionSpheres& spheres;
     const RegionGrid& grid;
     dvec3 origin; // [m] in the base frame
-
-    std::string name() const {
-        return digits(static_cast<double>(spheres.size()) / 1000.0, 4) + " k spheres";
-    }
 };
 
-// The wall as a fixture set of width x height spheres.
-struct QueryRig {
-    FrameSequence source;
-    FrameBench bench;
-
-    QueryRig(gpu::Device& device, uint32_t width, uint32_t height)
-        : source(wallFrame(width, height, 1.0))
-        , bench(device, everyPointScene(), source.camera) {
-        bench.run(source.frames.front());
-    }
-    const Fixtures& host() const { return bench.set().host; }
-    SphereSet set() const { return {host().spheres, bench.set().grid.get(), host().origin}; }
-};
+SphereSet setOf(const WallRig& rig) {
+    return {rig.host().spheres, rig.bench.set().grid.get(), rig.host().origin};
+}
 
 // One tool in contact with a set, and the brute-force answer at that pose.
 struct TouchingTool {
@@ -62,8 +48,8 @@ struct TouchingTool {
         return static_cast<double>(tool.leafCount()) * static_cast<double>(set.spheres.size());
     }
     StudyRow row(const SphereSet& set, const char* way) const {
-        StudyRow row =
-            queryRow(set.name(), std::string(way) + " " + std::to_string(tool.leafCount()) + " leaves");
+        StudyRow row = queryRow(sizeName(set.spheres),
+                                std::string(way) + " " + std::to_string(tool.leafCount()) + " leaves");
         row.more[kToolLeaves] = static_cast<double>(tool.leafCount());
         row.more[kRegionSpheres] = static_cast<double>(set.spheres.size());
         row.more[kFoundSpheres] = static_cast<double>(truth.size());
@@ -76,10 +62,10 @@ struct TouchingTool {
 struct Way {
     Plan plan;
     ContactCycle cycle;
-    Way(gpu::Device& device, const QueryRig& rig, Plan::Query query, const Tool& tool)
+    Way(gpu::Device& device, const WallRig& rig, Plan::Query query, const Tool& tool)
         : plan(planOf(rig, query))
         , cycle(device, plan, rig.bench.cycle().layout(), rig.bench.cycle().sets(), tool, kQueryReach) {}
-    static Plan planOf(const QueryRig& rig, Plan::Query query) {
+    static Plan planOf(const WallRig& rig, Plan::Query query) {
         Plan plan = rig.bench.plan();
         plan.query = query;
         return plan;
@@ -92,7 +78,7 @@ void verifyCull(std::vector<uint32_t>& found, const TouchingTool& at, const Stud
 }
 
 // The device lists a superset; the host decides later.
-void verifyList(const NearPairs& near, const QueryRig& rig, const TouchingTool& at, const StudyRow& row) {
+void verifyList(const NearPairs& near, const WallRig& rig, const TouchingTool& at, const StudyRow& row) {
     std::set<uint32_t> listed;
     for (const NearSphere& s : near.spheres) {
         listed.insert(s.source);
@@ -104,7 +90,7 @@ void verifyList(const NearPairs& near, const QueryRig& rig, const TouchingTool& 
 
 // Times the list alone: device time, and submission to result. Separate runs, because timestamps take time;
 // on a CPU device, more than a cull of few spheres.
-void timeGpuCull(const StudyContext& context, const QueryRig& rig, const TouchingTool& at, StudyRow& row) {
+void timeGpuCull(const StudyContext& context, const WallRig& rig, const TouchingTool& at, StudyRow& row) {
     NearPairs near;
     std::vector<double> gpu, submit;
     for (const bool stamped : {false, true}) {
@@ -150,20 +136,20 @@ StudyRow bruteRow(const StudyContext& context, const SphereSet& set, const Touch
 }
 
 // CPU, GPU and brute-force rows of one tool on one set.
-std::vector<StudyRow> rowsOfTool(const StudyContext& context, const QueryRig& rig, const TouchingTool& at) {
+std::vector<StudyRow> rowsOfTool(const StudyContext& context, const WallRig& rig, const TouchingTool& at) {
     Way cpu(context.device, rig, Plan::Query::Cpu, at.tool),
         gpu(context.device, rig, Plan::Query::Gpu, at.tool);
     ContactSet a, b;
     cpu.cycle.query(rig.bench.set(), at.pose, a);
     gpu.cycle.query(rig.bench.set(), at.pose, b);
-    std::vector<StudyRow> rows{at.row(rig.set(), kCpuWay), at.row(rig.set(), kGpuWay)};
+    std::vector<StudyRow> rows{at.row(setOf(rig), kCpuWay), at.row(setOf(rig), kGpuWay)};
     verify(a.source == b.source && a.pairSphere == b.pairSphere && a.reach == b.reach, "query",
            rows[1].setting, "the contact sets of CPU and GPU differ");
     rows[0].cost = timeCpu(context.settings.repeats(), [&] { cpu.cycle.query(rig.bench.set(), at.pose, a); });
-    timeCpuCull(context, rig.set(), at, rows[0]);
+    timeCpuCull(context, setOf(rig), at, rows[0]);
     rows[1].cost = timeCpu(context.settings.repeats(), [&] { gpu.cycle.query(rig.bench.set(), at.pose, b); });
     timeGpuCull(context, rig, at, rows[1]);
-    rows.push_back(bruteRow(context, rig.set(), at));
+    rows.push_back(bruteRow(context, setOf(rig), at));
     for (StudyRow& row : rows) {
         row.more[kFoundSpheres] = static_cast<double>(a.size());
         row.more[kReachMm] = a.reach * 1e3;
@@ -215,11 +201,11 @@ double cullTime(const StudyRow& row) {
 
 std::vector<StudyRow> queryRows(const StudyContext& context, uint32_t width, uint32_t height,
                                 const std::vector<uint32_t>& toolLeaves) {
-    const QueryRig rig(context.device, width, height);
+    const WallRig rig(context.device, width, height);
     const Pose touch = touchingPose(ballTool(256), rig.host(), Pose{});
     std::vector<StudyRow> rows;
     for (const uint32_t leaves : toolLeaves) {
-        for (StudyRow& row : rowsOfTool(context, rig, TouchingTool(rig.set(), leaves, touch))) {
+        for (StudyRow& row : rowsOfTool(context, rig, TouchingTool(setOf(rig), leaves, touch))) {
             rows.push_back(std::move(row));
         }
     }
@@ -227,7 +213,7 @@ std::vector<StudyRow> queryRows(const StudyContext& context, uint32_t width, uin
 }
 
 std::vector<StudyRow> fewSphereRows(const StudyContext& context) {
-    const QueryRig rig(context.device, 128, 80);
+    const WallRig rig(context.device, 128, 80);
     const Pose touch = touchingPose(ballTool(256), rig.host(), Pose{});
     std::vector<StudyRow> rows;
     for (const size_t count : {16, 64, 256}) {

@@ -188,8 +188,7 @@ void writeStudyCsv(const Study& study, const std::filesystem::path& file) {
     for (const char* name : {"source", "setting", "default", "on_front"}) {
         row.add(std::string_view(name));
     }
-    row.add(
-        std::string_view(word(study.errorName.empty() ? "error" : study.errorName + "_" + study.errorUnit)));
+    row.add(std::string_view(word(study.errorName + "_" + study.errorUnit)));
     for (const auto& [name, value] : timesOf({})) {
         row.add(std::string_view(name));
     }

@@ -237,7 +237,6 @@ Study scalingStudy(const StudyContext& context) {
                              "planes of YUV are NV12, those "
                              "of JPEG 4:2:2");
     study.findings.push_back("where the GPU answers contacts, the grid is built only to measure it");
-    study.errorName = "error", study.errorUnit = "none";
     study.noDefault = "its rows are sizes and scenes, which camera and scene file determine";
     study.timeName = "upload to published p50";
     study.moreNames = {"pixels",

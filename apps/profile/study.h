@@ -98,7 +98,7 @@ struct Study {
     std::string title;    // readable
     std::string verified; // what was verified before timing
     std::string served;   // source of its data: recording or generated; set by the caller
-    std::string errorName, errorUnit;
+    std::string errorName = "error", errorUnit = "none";
     std::string timeName; // name of the plotted time
     RankingRule rankBy;
     std::vector<std::string> moreNames;
