@@ -17,7 +17,8 @@ constexpr uint32_t kMaxWidth = 3840, kMaxHeight = 2160;
 constexpr uint32_t kManyPatches = 6000; // measured on an H100; 1280x720 has 3600 patches, 1920x1080 has 8160
 constexpr uint64_t kCounterBytes = 224; // of FrameCounters
 constexpr uint32_t kManyProcessors = 8, kMaxPublishers = 12;
-constexpr uint32_t kOtherThreads = 4;    // haptic, contact, writer or window, and one for the system
+// Haptic, contact, writer or window, and one for the system and the clearance (a tenth of a CPU).
+constexpr uint32_t kOtherThreads = 4;
 constexpr uint64_t kSmallestPage = 4096; // [bytes] on any host: camera memory consists of whole pages
 
 bool mayLeak(const Scene& scene, const Intrinsics& lens) {
