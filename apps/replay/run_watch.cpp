@@ -113,7 +113,7 @@ void RunWatch::setFixtures(const std::vector<FixtureClass>& fixtures) {
 void RunWatch::frame(double t, const cloud::FrameCounts& counts, const Fixtures& set,
                      std::span<const uint32_t> colour) {
     watchRate(t);
-    framed_ = true;
+    rate_.framed = true;
     const auto at = [](const std::vector<uint32_t>& list, size_t c) {
         return c < list.size() ? list[c] : 0u;
     };
@@ -153,43 +153,43 @@ void RunWatch::tick(double t, std::string_view state, int64_t frame, uint32_t va
     }
     if (state == "free" || state == "contact") {
         ++loud_;
-        quiet_.clear();
+        quiet_.state.clear();
         return;
     }
-    if (quiet_ != state) {
-        quiet_ = state;
-        quietSince_ = t;
+    if (quiet_.state != state) {
+        quiet_.state = state;
+        quiet_.since = t;
     }
-    quietFrame_ = frame;
-    if (t - quietSince_ >= kPatience) {
+    quiet_.frame = frame;
+    if (t - quiet_.since >= kPatience) {
         warnState(kPatience);
     }
 }
 
 std::string RunWatch::causeOfState() const {
-    if (quiet_ == "waiting") {
+    if (quiet_.state == "waiting") {
         return "the tool cannot follow the hand";
     }
-    if (quiet_ == "trapped") {
+    if (quiet_.state == "trapped") {
         return "no motion of the tool obeys all fixtures at once, so there is no force";
     }
-    if (quiet_ == "escape") {
+    if (quiet_.state == "escape") {
         return "a placed shape or new data covers the tool, and pushes it out";
     }
-    if (!framed_) {
+    if (!rate_.framed) {
         return "no frame has become a set of regions";
     }
-    if (quiet_ == "fading") {
+    if (quiet_.state == "fading") {
         return "the regions in use are too old: frames or contact answers are late";
     }
-    return quietFrame_ < 0 ? "no contact answer covers the tool"
-                           : "forces are off by the dead-man switch, or the haptic device is lost";
+    return quiet_.frame < 0 ? "no contact answer covers the tool"
+                            : "forces are off by the dead-man switch, or the haptic device is lost";
 }
 
 void RunWatch::warnState(double seconds) {
-    warnings_.add("state " + quiet_, "state '" + quiet_ + "' from " +
-                                         print("%.2f s on for %.3g s: ", quietSince_, seconds) +
-                                         causeOfState());
+    warnings_.add("state " + quiet_.state, "state '" + quiet_.state + "' from " +
+                                               print("%.2f s on for %.3g s: ", quiet_.since, seconds) +
+                                               causeOfState());
 }
 
 // The tool stays where it was, and the hand feels nothing there any more.
@@ -205,10 +205,10 @@ void RunWatch::warnVanished(double t) {
 
 // Below 10 frames per second forces fade between two frames.
 void RunWatch::watchRate(double t) {
-    const double fades = HapticOptions().staleAfter, interval = t - std::exchange(frameAt_, t);
-    intervals_ += framed_ ? 1 : 0;
-    longIntervals_ += framed_ && interval > fades ? 1 : 0;
-    if (intervals_ >= kIntervals && longIntervals_ == intervals_) {
+    const double fades = HapticOptions().staleAfter, interval = t - std::exchange(rate_.frameAt, t);
+    rate_.intervals += rate_.framed ? 1 : 0;
+    rate_.longIntervals += rate_.framed && interval > fades ? 1 : 0;
+    if (rate_.intervals >= kIntervals && rate_.longIntervals == rate_.intervals) {
         warnings_.add("frame rate",
                       print("frames come %.3g s apart: forces fade %.3g s after each", interval, fades));
     }
@@ -221,7 +221,7 @@ void RunWatch::end() {
         }
     }
     if (ticks_ > 0 && loud_ == 0) {
-        warnState(last_ - quietSince_);
+        warnState(last_ - quiet_.since);
     }
 }
 

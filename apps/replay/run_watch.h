@@ -49,6 +49,17 @@ private:
         bool ever = false;          // it had a point in the run
         std::string cause;
     };
+    // A state without the force of a contact, while it lasts.
+    struct Quiet {
+        std::string state;
+        double since = 0.0; // [s]
+        int64_t frame = -1; // of the active set; -1 = none
+    };
+    struct Rate {
+        double frameAt = 0.0;                      // [s] of the newest frame
+        uint32_t intervals = 0, longIntervals = 0; // between frames; those in which forces fade
+        bool framed = false;
+    };
     // Why the class has no point in the frame of this set.
     std::string causeOf(const FixtureClass& f, uint32_t marked, uint32_t valid, const Fixtures& set,
                         std::span<const uint32_t> colour) const;
@@ -63,14 +74,11 @@ private:
     double nearZ_, farZ_;             // [m]
     std::vector<ClassState> classes_; // in the order of the mask's bits
     RunWarnings warnings_;
-    std::string quiet_;                    // state without the force of a contact, while it lasts
-    double quietSince_ = 0.0, last_ = 0.0; // [s]
-    int64_t quietFrame_ = -1;
+    Quiet quiet_;
+    double last_ = 0.0;             // [s] of the newest tick
     uint64_t ticks_ = 0, loud_ = 0; // loud: ticks in another state
     uint32_t vanished_ = 0;
-    double frameAt_ = 0.0;                       // [s] of the newest frame
-    uint32_t intervals_ = 0, longIntervals_ = 0; // between frames; those in which forces fade
-    bool framed_ = false;
+    Rate rate_;
 };
 
 } // namespace fathom
