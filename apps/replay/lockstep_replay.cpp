@@ -117,13 +117,10 @@ void LockstepReplay::query() {
         if (trace_ != nullptr) {
             trace_->query(start, Clock::now(), answer->size());
         }
-        answers_.push_back(std::move(answer));
+        contacts_.push(std::move(answer));
         clearance_.update([this] { return session_.cycles.clearance(cycle_->place()); });
     }
-    if (answers_.size() > session_.scene.contact.delay) {
-        contacts_.offer([this] { return std::move(answers_.front()); });
-        answers_.pop_front();
-    }
+    contacts_.offerDue(session_.scene.contact.delay);
 }
 
 const LockstepReplay::Kept* LockstepReplay::keptSet(uint64_t generation) const {

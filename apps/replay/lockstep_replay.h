@@ -8,8 +8,8 @@
 #include "apps/replay/tool_audit.h"
 #include "apps/session/session.h"
 #include "engine/cycle/cadence_trace.h"
-#include "engine/run/active_contacts.h"
 #include "engine/run/clearance.h"
+#include "engine/run/delayed_contacts.h"
 #include "engine/run/scene_update.h"
 
 #include <deque>
@@ -71,8 +71,7 @@ private:
     std::vector<uint32_t> lastColour_;
 
     std::deque<std::unique_ptr<Kept>> kept_;
-    std::deque<std::unique_ptr<ContactSet>> answers_; // query answers that are not due yet, oldest first
-    ActiveContacts<std::unique_ptr<ContactSet>> contacts_;
+    DelayedContacts contacts_;
     SceneUpdate scene_; // from the newest frame that is due
     uint64_t ticks_ = 0, framesDone_ = 0;
 };

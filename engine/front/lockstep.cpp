@@ -3,11 +3,9 @@
 #include "engine/front/core.h"
 #include "engine/front/float_mode.h"
 #include "engine/front/observer_port.h"
-#include "engine/run/active_contacts.h"
 #include "engine/run/clearance.h"
+#include "engine/run/delayed_contacts.h"
 #include "engine/run/scene_update.h"
-
-#include <deque>
 
 namespace fathom::v0 {
 
@@ -30,8 +28,7 @@ struct Lockstep::Impl {
     front::HapticSide haptic;
     front::ComputeSide compute;
     std::unique_ptr<HapticCycle> cycle;
-    ActiveContacts<std::unique_ptr<ContactSet>> contacts;
-    std::deque<std::unique_ptr<ContactSet>> answers; // not yet on offer, oldest first
+    DelayedContacts contacts;
     SceneUpdate update;
     Nanoseconds stamp = 0; // of the newest frame
     SteppedClearance clearance;
@@ -68,16 +65,10 @@ bool Lockstep::Impl::queryContacts() {
     auto set = std::make_unique<ContactSet>();
     const bool any = compute.cycles.answer(cycle->queryPlace(), *set);
     if (any) {
-        answers.push_back(std::move(set));
+        contacts.push(std::move(set));
         clearance.update([this] { return compute.cycles.clearance(cycle->place()); });
     }
-    if (answers.size() > haptic.scene.contact.delay) {
-        contacts.offer([this] {
-            auto due = std::move(answers.front());
-            answers.pop_front();
-            return due;
-        });
-    }
+    contacts.offerDue(haptic.scene.contact.delay);
     return any;
 }
 
