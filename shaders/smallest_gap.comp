@@ -93,7 +93,8 @@ Candidate candidateOf(uint block, uint layer, uint i) {
 uint nearestOf(float gap, uint index) {
     barrier();
     if (gl_LocalInvocationID.x == 0u) {
-        best = keyOf(kFar), nearest = kNobody;
+        best = keyOf(kFar);
+        nearest = kNobody;
     }
     barrier();
     atomicMin(best, keyOf(gap));

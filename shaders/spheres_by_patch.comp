@@ -166,7 +166,10 @@ void prepareGroup(uint patchIndex, ivec2 patchAt) {
         present[w] = 0;
     }
     if (gl_LocalInvocationID.x == 0) {
-        rememberedOfPatch = 0, classesOfPatch = 0, wideOfPatch = 0, reachOfPatch = 0;
+        rememberedOfPatch = 0;
+        classesOfPatch = 0;
+        wideOfPatch = 0;
+        reachOfPatch = 0;
     }
     for (uint c = gl_LocalInvocationID.x; kTree != 0 && c < kClasses; c += gl_WorkGroupSize.x) {
         largestOfPatch[c] = 0;

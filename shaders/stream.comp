@@ -20,7 +20,10 @@ void main() {
     for (; i + 3 * stride < count; i += 4 * stride) {
         vec4 a = from[i], b = from[i + stride], c = from[i + 2 * stride], d = from[i + 3 * stride];
         if (kCopy != 0) {
-            to[i] = a, to[i + stride] = b, to[i + 2 * stride] = c, to[i + 3 * stride] = d;
+            to[i] = a;
+            to[i + stride] = b;
+            to[i + 2 * stride] = c;
+            to[i + 3 * stride] = d;
         } else {
             sum += (a + b) + (c + d);
         }

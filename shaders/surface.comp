@@ -56,7 +56,9 @@ void fillTile(ivec2 patchOrigin) {
     for (uint i = gl_LocalInvocationID.x; i < kTileEdge * kTileEdge; i += gl_WorkGroupSize.x) {
         ivec2 at = patchOrigin - int(kHalo) + ivec2(i % kTileEdge, i / kTileEdge);
         vec3 p = windowPointAt(at, depthOfPixel(at));
-        tileX[i] = p.x, tileY[i] = p.y, tileZ[i] = p.z;
+        tileX[i] = p.x;
+        tileY[i] = p.y;
+        tileZ[i] = p.z;
     }
     barrier();
 }
@@ -134,7 +136,8 @@ bool isRejected(vec3 around[9]) {
     float z[9], square[9];
     [[unroll]] for (int k = 0; k < 9; ++k) {
         vec3 apart = around[k] - around[4];
-        z[k] = around[k].z, square[k] = dot(apart, apart);
+        z[k] = around[k].z;
+        square[k] = dot(apart, apart);
     }
     return isRejected(z, square);
 }

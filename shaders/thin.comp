@@ -51,7 +51,8 @@ void readPoints(uvec2 at) {
     [[unroll]] for (uint i = 0; i < kEdge * kEdge; ++i) {
         const uint x = i % kEdge, y = i / kEdge;
         vec4 here = texelFetch(points, int(quarters[y / 4u * 2u + x / 4u].slot + (y & 3u) * 4u + (x & 3u)));
-        point[i] = here.xyz, ranges[i] = here.w;
+        point[i] = here.xyz;
+        ranges[i] = here.w;
     }
     [[unroll]] for (uint i = 0; i < kEdge * kEdge; ++i) {
         const uint x = i % kEdge, y = i / kEdge;

@@ -29,7 +29,10 @@ Children subPatchesOf(uint patchIndex) {
     [[unroll]] for (uint k = 0; k < 16u; k += 4u) {
         uvec4 four = texelFetch(subCounts, int(patchIndex * 4u + k / 4u));
         four = used ? four : uvec4(0);
-        c.count[k] = four.x, c.count[k + 1u] = four.y, c.count[k + 2u] = four.z, c.count[k + 3u] = four.w;
+        c.count[k] = four.x;
+        c.count[k + 1u] = four.y;
+        c.count[k + 2u] = four.z;
+        c.count[k + 3u] = four.w;
     }
     return c;
 }

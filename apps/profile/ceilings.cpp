@@ -116,7 +116,8 @@ Ceilings measureCeilings(gpu::Device& device, uint32_t hostThreads, const Repeat
     };
     const StreamRate uploads = reads(StreamMemory::Upload);
     c.oneMemory = oneMemory(device);
-    c.deviceBytes = own.bytesPerSecond, c.uploadBytes = uploads.bytesPerSecond;
+    c.deviceBytes = own.bytesPerSecond;
+    c.uploadBytes = uploads.bytesPerSecond;
     c.how = "the device's memory by " + own.way + ", what the CPU writes by " + uploads.way;
     const StreamRate host =
         device.facts().hostPointerAlignment != 0 ? reads(StreamMemory::Import) : StreamRate{};

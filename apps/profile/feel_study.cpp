@@ -22,7 +22,10 @@ struct FeelSetting {
 };
 
 std::function<void(Scene&)> filter(uint32_t radius, double sigma) {
-    return [=](Scene& scene) { scene.filter.radius = radius, scene.filter.sigma = sigma; };
+    return [=](Scene& scene) {
+        scene.filter.radius = radius;
+        scene.filter.sigma = sigma;
+    };
 }
 
 // One line per setting; each changes one thing of the default, and the last ones combine them.
@@ -142,7 +145,8 @@ Study feelStudy(const StudyContext& context) {
     study.name = "feel";
     study.title = "Feel: error of the felt surface and ripple of the force against time from camera to force";
     study.verified = "class bits and points of a frame of every setting against the float64 twins, 20 um";
-    study.errorName = "distance of the felt surface from the true one, RMS", study.errorUnit = "mm";
+    study.errorName = "distance of the felt surface from the true one, RMS";
+    study.errorUnit = "mm";
     study.rankBy.time = cameraToForce;
     study.rankBy.reason = "the noise of other cameras differs (compare ripple_N and the scenes)";
     study.timeName = "camera to force p50 (published frame, contact query, haptic step)";

@@ -115,7 +115,11 @@ struct FeltSums {
     CpuSamples query, ticks;
     double squares = 0.0, sum = 0.0, samples = 0.0;
 
-    void addGap(double gap) { squares += gap * gap, sum += gap, samples += 1.0; }
+    void addGap(double gap) {
+        squares += gap * gap;
+        sum += gap;
+        samples += 1.0;
+    }
 };
 
 } // namespace

@@ -59,7 +59,8 @@ FrameReport FrameBench::run(const SampleFrame& image) {
 
 void FrameBench::place(size_t at, const SampleFrame& image) {
     if (at >= memory_.size()) {
-        memory_.resize(at + 1), placed_.resize(at + 1);
+        memory_.resize(at + 1);
+        placed_.resize(at + 1);
     }
     if (!memory_[at]) {
         memory_[at] = std::make_unique<FrameSlot>(camera_.slotPixels(), true);

@@ -23,7 +23,8 @@ SimulatedCamera cameraOn(const std::string& scene, uint32_t width, uint32_t heig
         throw Error("no analytic scene '" + scene + "'");
     }
     SimulatedCameraOptions options;
-    options.width = width, options.height = height;
+    options.width = width;
+    options.height = height;
     options.motion = firstFrame.has_value();
     options.firstFrame = firstFrame.value_or(0);
     options.noise = options.water = noise;
@@ -105,9 +106,11 @@ FrameSequence recordedFrames(const std::filesystem::path& folder, uint32_t frame
 FrameSequence wallFrame(uint32_t width, uint32_t height, double share, WallNoise noise) {
     FrameSequence source{std::to_string(width) + "x" + std::to_string(height), {}, {}};
     Intrinsics& lens = source.camera.depth;
-    lens.width = width, lens.height = height;
+    lens.width = width;
+    lens.height = height;
     lens.fx = lens.fy = 0.9 * width;
-    lens.cx = 0.5 * (width - 1.0), lens.cy = 0.5 * (height - 1.0);
+    lens.cx = 0.5 * (width - 1.0);
+    lens.cy = 0.5 * (height - 1.0);
     source.camera.colour = lens;
     source.camera.metresPerUnit = 0.0001;
     SampleFrame& image = source.frames.emplace_back();

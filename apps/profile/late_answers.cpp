@@ -52,7 +52,9 @@ PlotPanel stallPanel(const std::vector<StudyRow>& rows, uint32_t ticks) {
 void addLateAnswers(const StudyContext& context, Study& study) {
     Study late; // separate, so that fronts use only these rows
     late.name = study.name;
-    late.errorName = study.errorName, late.errorUnit = study.errorUnit, late.timeName = study.timeName;
+    late.errorName = study.errorName;
+    late.errorUnit = study.errorUnit;
+    late.timeName = study.timeName;
     late.rankBy.reason =
         "a shorter reach is enough when answers are in time; 10 mm is enough when they come 10 ticks late";
     const bool quick = context.settings.quick;

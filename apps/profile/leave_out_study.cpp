@@ -84,7 +84,8 @@ void dropClasses(Scene& scene, Role role) {
 void gateNothing(Setup& s) {
     registerColour(s.camera);
     for (FixtureClass& f : s.scene.fixtures) {
-        f.hue.reset(), f.saturation.reset();
+        f.hue.reset();
+        f.saturation.reset();
         f.lightness = Band{0.0, 0.9999};
     }
 }
@@ -96,7 +97,8 @@ void dropColour(Setup& s) {
 
 void dropGuidancePoints(Setup& s) {
     for (FixtureClass& f : s.scene.fixtures) {
-        f.largestPart = false, f.trim = 0.0;
+        f.largestPart = false;
+        f.trim = 0.0;
     }
 }
 

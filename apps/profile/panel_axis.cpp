@@ -68,7 +68,8 @@ PanelAxis signedLogAxis(const std::vector<double>& values, double from, double t
     for (const double v : values) {
         most = std::max(most, std::abs(v));
     }
-    axis.from = from, axis.to = to;
+    axis.from = from;
+    axis.to = to;
     axis.linear = std::pow(10.0, std::floor(std::log10(most > 0.0 ? most : 1.0)) - 2.0);
     for (const double v : values) {
         axis.lo = std::min(axis.lo, 1.1 * signedLog(v, axis.linear));
@@ -122,7 +123,8 @@ std::vector<PanelAxis::Tick> PanelAxis::ticks() const {
 
 PanelAxis panelAxis(const std::vector<double>& values, bool log, double from, double to) {
     PanelAxis axis = log ? logAxis(values) : linearAxis(values);
-    axis.from = from, axis.to = to;
+    axis.from = from;
+    axis.to = to;
     return axis;
 }
 

@@ -68,7 +68,9 @@ void timePoses(const StudyContext& context, Work&& work, StudyRow& row) {
         }
     });
     for (Spread* s : {&row.cost.submit, &row.cost.cpu}) {
-        s->p50 /= kPoses, s->p90 /= kPoses, s->p99 /= kPoses;
+        s->p50 /= kPoses;
+        s->p90 /= kPoses;
+        s->p99 /= kPoses;
     }
 }
 
@@ -138,7 +140,8 @@ StudyRow ourWholeAnswer(const StudyContext& context, const Rig& rig, const Workl
     for (size_t i = 0; i < kPoses; ++i) {
         cull.query(work.tool, work.poses[i], kPeerReach, rig.host(), rig.bench.set().grid.get(), set);
         const peers::Disagreement d = wholeDisagreement(rig, work.leaves[i], set);
-        all.differ += d.differ, all.ties += d.ties;
+        all.differ += d.differ;
+        all.ties += d.ties;
     }
     row.error = static_cast<double>(all.differ);
     row.more[kTies] = static_cast<double>(all.ties);

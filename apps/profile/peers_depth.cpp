@@ -187,7 +187,8 @@ void addPeerPoints(const StudyContext& context, std::vector<StudyRow>& rows) {
     frames.camera.metresPerUnit = 0.001;
     const std::string source = "points " + frames.name;
     Scene scene = everyPoint(0);
-    scene.filter.edge = 0.0, scene.filter.isolated = false;
+    scene.filter.edge = 0.0;
+    scene.filter.isolated = false;
     FrameBench bench(context.device, scene, frames.camera);
     bench.run(image);
     const reference::FrameView view(scene, frames.camera, image.baseTcamera, image.depth, image.colour);

@@ -21,7 +21,8 @@ enum PeerColumn : size_t {
 };
 inline StudyRow peerRow(std::string source, std::string setting) {
     StudyRow row;
-    row.source = std::move(source), row.setting = std::move(setting);
+    row.source = std::move(source);
+    row.setting = std::move(setting);
     row.more.assign(kPeerColumns, std::numeric_limits<double>::quiet_NaN());
     return row;
 }

@@ -60,7 +60,11 @@ namespace {
 template <class T>
 struct Columns {
     std::vector<T> x, y, z;
-    void add(T px, T py, T pz) { x.push_back(px), y.push_back(py), z.push_back(pz); }
+    void add(T px, T py, T pz) {
+        x.push_back(px);
+        y.push_back(py);
+        z.push_back(pz);
+    }
     size_t size() const { return x.size(); }
 };
 

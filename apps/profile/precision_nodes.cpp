@@ -117,8 +117,9 @@ struct Leaves {
     std::vector<T> x, y, z;
     explicit Leaves(const std::vector<dvec3>& leaves) {
         for (const dvec3& l : leaves) {
-            x.push_back(static_cast<T>(l.x)), y.push_back(static_cast<T>(l.y)),
-                z.push_back(static_cast<T>(l.z));
+            x.push_back(static_cast<T>(l.x));
+            y.push_back(static_cast<T>(l.y));
+            z.push_back(static_cast<T>(l.z));
         }
     }
 };

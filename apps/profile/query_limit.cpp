@@ -70,7 +70,8 @@ QueryLimit measureQuery(const StudyContext& context, const FrameBench& bench, co
     CullCpu({SIZE_MAX, SIZE_MAX}).query(tool, pose, kLimitReach, set.host, set.grid.get(), host);
     verify(device.source == host.source && device.pairSphere == host.pairSphere && device.size() > 0, "limit",
            "tree_query", "the contact sets of CPU and GPU differ");
-    limit.leaves = tool.leafCount(), limit.found = device.size();
+    limit.leaves = tool.leafCount();
+    limit.found = device.size();
     limit.least = leastQueryWork(layout, bench.plan().hold ? 2 : 1, tool.leafCount(),
                                  patchesOf(set.host, set.host.spheres.source, layout),
                                  patchesOf(set.host, device.source, layout), device.pairSphere.size());

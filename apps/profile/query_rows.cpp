@@ -187,7 +187,8 @@ std::vector<std::string> queryColumnNames() {
 
 StudyRow queryRow(std::string source, std::string setting) {
     StudyRow row;
-    row.source = std::move(source), row.setting = std::move(setting);
+    row.source = std::move(source);
+    row.setting = std::move(setting);
     row.more.assign(kQueryColumns, NAN);
     return row;
 }

@@ -143,7 +143,11 @@ std::optional<PowerLaw> fitPower(const std::vector<PlotPoint>& points) {
     for (const PlotPoint& p : points) {
         if (p.x > 0.0 && p.y > 0.0) {
             const double x = std::log(p.x), y = std::log(p.y);
-            n += 1, sx += x, sy += y, sxx += x * x, sxy += x * y;
+            n += 1;
+            sx += x;
+            sy += y;
+            sxx += x * x;
+            sxy += x * y;
         }
     }
     const double spread = n * sxx - sx * sx;

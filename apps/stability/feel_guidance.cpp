@@ -61,7 +61,8 @@ public:
 private:
     static SimulatedCamera cameraOf(const std::string& scene) {
         SimulatedCameraOptions options;
-        options.width = 320, options.height = 240;
+        options.width = 320;
+        options.height = 240;
         options.frames = 100000;
         options.threads = 1;
         return SimulatedCamera(analyticScene(scene).value(), options);

@@ -30,9 +30,11 @@ Scene estimatedScene() {
 
 CameraInfo smallCamera() {
     CameraInfo info;
-    info.depth.width = kAcross, info.depth.height = kDown;
+    info.depth.width = kAcross;
+    info.depth.height = kDown;
     info.depth.fx = info.depth.fy = 50.0;
-    info.depth.cx = 0.5 * (kAcross - 1), info.depth.cy = 0.5 * (kDown - 1);
+    info.depth.cx = 0.5 * (kAcross - 1);
+    info.depth.cy = 0.5 * (kDown - 1);
     info.colour = info.depth;
     info.metresPerUnit = 0.0001;
     info.hasColour = false;
@@ -80,7 +82,8 @@ BehindTruth watchWall(double share, double range, double speed) {
                        frame > 0 ? std::optional(Pose{}) : std::nullopt, masks, points);
         for (size_t i = 0; i < plain.size(); ++i) {
             if (frame >= (speed > 0.0 ? kRest : kRest / 2) && plain[i] != 0.0 && points.z[i] != 0.0) {
-                behind.estimated.push_back(points.z[i] - z), behind.plain.push_back(plain[i] - z);
+                behind.estimated.push_back(points.z[i] - z);
+                behind.plain.push_back(plain[i] - z);
             }
         }
     }

@@ -46,7 +46,8 @@ FeelRig::FeelRig(const FeelSpec& spec)
 
 SimulatedCamera FeelRig::cameraOf(bool noise) const {
     SimulatedCameraOptions options;
-    options.width = kWide, options.height = kHigh;
+    options.width = kWide;
+    options.height = kHigh;
     options.focal = spec_.focal;
     options.frames = kMaxFrames;
     options.metresPerUnit = 0.0001;

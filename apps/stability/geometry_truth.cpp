@@ -183,9 +183,11 @@ Outcome cameraOriginCase(RunLength runLength) {
         const Pose start{dvec3(0.0, 0.0, i % 3 == 0 ? 0.0 : -rng.logUniform(1e-12, 1e-6)), kUpright};
         LockstepRig rig(ballTool(kBall), start);
         const auto withImage = [](Fixtures set, uint16_t depth) {
-            set.camera.depth.width = 16, set.camera.depth.height = 12;
+            set.camera.depth.width = 16;
+            set.camera.depth.height = 12;
             set.camera.depth.fx = set.camera.depth.fy = 14.0;
-            set.camera.depth.cx = 7.5, set.camera.depth.cy = 5.5;
+            set.camera.depth.cx = 7.5;
+            set.camera.depth.cy = 5.5;
             set.depth.assign(192, depth);
             set.forbiddenBits.assign(6, ~0u);
             return set;

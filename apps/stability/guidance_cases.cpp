@@ -36,7 +36,9 @@ Outcome farTarget(RunLength runLength) {
             guidance.step({&target, 1}, {}, true, false, 0.001);
         }
         Springs springs;
-        springs.stiffness = 1000.0, springs.rotationalStiffness = 1.0, springs.metricRadius = 0.0316,
+        springs.stiffness = 1000.0;
+        springs.rotationalStiffness = 1.0;
+        springs.metricRadius = 0.0316;
         springs.guidanceStiffness = 250.0;
         const Guidance::Lead lead = guidance.lead({}, springs);
         const Wrench pull = guidance.pull({}, springs);

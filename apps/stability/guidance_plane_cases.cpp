@@ -137,8 +137,10 @@ Outcome noisyPlane(RunLength runLength) {
         const double axis = std::sqrt(0.5 * sum / std::max(1, planar)),
                      expected = sigma / (0.5 * radius * std::sqrt(count));
         worst = planar == trials ? std::max(worst, std::abs(axis / expected - 1.0)) : 1e9;
-        measured.x.push_back(sigma), measured.y.push_back(axis);
-        theory.x.push_back(sigma), theory.y.push_back(expected);
+        measured.x.push_back(sigma);
+        measured.y.push_back(axis);
+        theory.x.push_back(sigma);
+        theory.y.push_back(expected);
     }
     // The mean square of 2 x trials normal samples has a standard deviation of 1/sqrt(trials); its root has
     // half of that.

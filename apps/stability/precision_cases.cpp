@@ -91,9 +91,11 @@ Outcome surfaceNoisy(const DeviceSource& device, RunLength runLength) {
 Outcome occlusion(const DeviceSource& device, RunLength runLength) {
     const Change apart = [](Scene&, CameraInfo& camera, double range) {
         camera.registered = false;
-        camera.colour.width = 120, camera.colour.height = 90;
+        camera.colour.width = 120;
+        camera.colour.height = 90;
         camera.colour.fx = camera.colour.fy = 130.0;
-        camera.colour.cx = 60.3, camera.colour.cy = 44.1;
+        camera.colour.cx = 60.3;
+        camera.colour.cy = 44.1;
         camera.colourTdepth = {{0.05 * range, 0.002 * range, 0.001 * range},
                                rotationExp({0.002, 0.004, -0.003})};
     };

@@ -10,9 +10,12 @@ namespace fathom::stability {
 
 CameraInfo cameraFor(double range, uint32_t width, uint32_t height) {
     CameraInfo camera;
-    camera.depth.width = width, camera.depth.height = height;
-    camera.depth.fx = 1.1 * width, camera.depth.fy = 1.12 * width;
-    camera.depth.cx = 0.49 * width, camera.depth.cy = 0.53 * height;
+    camera.depth.width = width;
+    camera.depth.height = height;
+    camera.depth.fx = 1.1 * width;
+    camera.depth.fy = 1.12 * width;
+    camera.depth.cx = 0.49 * width;
+    camera.depth.cy = 0.53 * height;
     camera.colour = camera.depth;
     camera.metresPerUnit = range / 20000.0;
     return camera;
@@ -20,7 +23,8 @@ CameraInfo cameraFor(double range, uint32_t width, uint32_t height) {
 
 Scene sceneFor(double range) {
     Scene scene;
-    scene.nearZ = 0.3 * range, scene.farZ = 2.5 * range;
+    scene.nearZ = 0.3 * range;
+    scene.farZ = 2.5 * range;
     scene.baseTcamera = {{0.4 * range, -0.3 * range, 0.2 * range}, rotationExp({0.5, -0.7, 0.2})};
     scene.filter = {2, 0.01 * range, 0.03};
     scene.errorBudget = 3e-3 * range;

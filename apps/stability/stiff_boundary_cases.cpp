@@ -71,8 +71,10 @@ Outcome against(const Deviation& all, bool byModel, double limit, const std::str
     std::vector<std::array<double, 3>> points = all.points;
     std::sort(points.begin(), points.end());
     for (const auto& [k, overModel, overLaw] : points) {
-        model.x.push_back(k), model.y.push_back(overModel);
-        law.x.push_back(k), law.y.push_back(overLaw);
+        model.x.push_back(k);
+        model.y.push_back(overModel);
+        law.x.push_back(k);
+        law.y.push_back(overLaw);
     }
     out.curves = {model, law};
     return out;

@@ -24,9 +24,11 @@ Scene WallCamera::scene() {
 
 CameraInfo WallCamera::camera() {
     CameraInfo info;
-    info.depth.width = 160, info.depth.height = 120;
+    info.depth.width = 160;
+    info.depth.height = 120;
     info.depth.fx = info.depth.fy = 140.0;
-    info.depth.cx = 79.5, info.depth.cy = 59.5;
+    info.depth.cx = 79.5;
+    info.depth.cy = 59.5;
     info.colour = info.depth;
     info.metresPerUnit = 0.0001;
     info.hasColour = false;

@@ -168,7 +168,8 @@ void SphereCollector::takeSlots(uint32_t first, uint32_t end, SphereColumns& col
         }
         if (n > 0) {
             s.held = n - s.seen;
-            s.places = places.data(), s.whole = spheres.data();
+            s.places = places.data();
+            s.whole = spheres.data();
             s.classOf = &classes[size_t{patch} * 256];
             columns.put(patch, begins_[patch], s);
         }

@@ -59,7 +59,9 @@ void GuidanceEstimates::Settled::turn(const GuidancePose& pose) {
     }
     const dvec3 measured = rotationLog(pose.target.rotation * glm::conjugate(reference));
     if (!same || glm::length(measured) > kLargestTurn) {
-        planar = pose.planar, rollFree = pose.rollFree, others = 0;
+        planar = pose.planar;
+        rollFree = pose.rollFree;
+        others = 0;
         reference = pose.target.rotation;
         rotation = SteadyVector(kTurnGate, kTurnPlay);
         rotation.step(dvec3(0.0));
@@ -80,7 +82,8 @@ void GuidanceEstimates::settle(Settled& settled, GuidancePose& pose, double stan
     if (pose.planar != settled.planar) {
         pose.normal = settled.planar ? axis : dvec3(0.0);
     }
-    pose.planar = settled.planar, pose.rollFree = settled.rollFree;
+    pose.planar = settled.planar;
+    pose.rollFree = settled.rollFree;
     pose.standoff = standoff * axis;
     pose.target = {position + pose.standoff, settled.turned};
 }

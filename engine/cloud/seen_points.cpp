@@ -26,7 +26,9 @@ FATHOM_CLONES void toPoints(const uint16_t* slots, size_t n, const float* depths
     const glm::vec4 toX = rows[0], toY = rows[1], toZ = rows[2];
     for (size_t i = 0; i < n; ++i) {
         const float pz = depths[i], px = column[acrossOf(slots[i])] * pz, py = row[downOf(slots[i])] * pz;
-        x[i] = moved(toX, px, py, pz), y[i] = moved(toY, px, py, pz), z[i] = moved(toZ, px, py, pz);
+        x[i] = moved(toX, px, py, pz);
+        y[i] = moved(toY, px, py, pz);
+        z[i] = moved(toZ, px, py, pz);
     }
 }
 
@@ -38,7 +40,9 @@ FATHOM_CLONES void toPointsByTable(const uint16_t* slots, size_t n, const float*
     for (size_t i = 0; i < n; ++i) {
         const glm::vec2& ray = rays[downOf(slots[i]) * width + acrossOf(slots[i])];
         const float pz = depths[i], px = ray.x * pz, py = ray.y * pz;
-        x[i] = moved(toX, px, py, pz), y[i] = moved(toY, px, py, pz), z[i] = moved(toZ, px, py, pz);
+        x[i] = moved(toX, px, py, pz);
+        y[i] = moved(toY, px, py, pz);
+        z[i] = moved(toZ, px, py, pz);
     }
 }
 

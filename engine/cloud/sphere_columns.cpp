@@ -30,7 +30,10 @@ constexpr auto kBitsOfBytes = bitsOfBytes();
 FATHOM_CLONES void toColumns(const glm::vec4* spheres, size_t n, float* __restrict x, float* __restrict y,
                              float* __restrict z, float* __restrict radius) noexcept {
     for (size_t i = 0; i < n; ++i) {
-        x[i] = spheres[i].x, y[i] = spheres[i].y, z[i] = spheres[i].z, radius[i] = spheres[i].w;
+        x[i] = spheres[i].x;
+        y[i] = spheres[i].y;
+        z[i] = spheres[i].z;
+        radius[i] = spheres[i].w;
     }
 }
 

@@ -32,7 +32,8 @@ PatchSpheres SphereRun::take(const uint32_t* words, uint32_t n, uint32_t mark,
     s.classes = mark & 0xff;
     if (depths_ && grown != 0 && wide == 0) {
         takeApart(words + 1, s.seen, words[0], z_.data(), steps_.data());
-        s.depths = z_.data(), s.steps = steps_.data();
+        s.depths = z_.data();
+        s.steps = steps_.data();
         words += s.seen + 1;
     } else if (depths_) {
         s.depths = reinterpret_cast<const float*>(words);

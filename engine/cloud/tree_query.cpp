@@ -85,7 +85,8 @@ void TreeQuery::dispatch(gpu::Commands& commands, const Blocks& blocks, QueryPar
                    most = cpu ? fewest : std::max(fewest, leaves_.count() / kFewestLeaves);
     const uint32_t slices = std::clamp(groups / count, fewest, most);
     p.blocks = {blocks.count, blocks.firstBound, leaves_.count(), (leaves_.count() + slices - 1) / slices};
-    p.layer = blocks.layer, p.layers = blocks.layers;
+    p.layer = blocks.layer;
+    p.layers = blocks.layers;
     answer_.place(p);
     commands.dispatch(pipeline_, *blocks.bindings, {std::clamp(2 * groups / slices, 1u, count), slices, 1},
                       &p);

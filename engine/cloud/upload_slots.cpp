@@ -78,7 +78,8 @@ bool UploadSlots::import(uint32_t slot, const Images& images) {
     try {
         auto buffers = std::make_unique<UploadBuffers>(device_, plan_, camera_, images.depth, images.colour);
         if (slot == slots_.size()) {
-            slots_.emplace_back(), images_.emplace_back();
+            slots_.emplace_back();
+            images_.emplace_back();
         }
         slots_[slot] = std::move(buffers);
         images_[slot] = images;

@@ -47,14 +47,21 @@ void orderBySphere(PairScratch& scratch, ContactSet& set) {
     uint32_t kept = 0;
     for (uint32_t s = 0; s < count.size(); ++s) { // count becomes the new index of the sphere
         if (std::exchange(count[s], kept) != 0) {
-            set.x[kept] = set.x[s], set.y[kept] = set.y[s], set.z[kept] = set.z[s];
+            set.x[kept] = set.x[s];
+            set.y[kept] = set.y[s];
+            set.z[kept] = set.z[s];
             set.radius[kept] = set.radius[s];
-            set.source[kept] = set.source[s], set.fixture[kept] = set.fixture[s];
+            set.source[kept] = set.source[s];
+            set.fixture[kept] = set.fixture[s];
             ++kept;
         }
     }
-    set.x.resize(kept), set.y.resize(kept), set.z.resize(kept), set.radius.resize(kept);
-    set.source.resize(kept), set.fixture.resize(kept);
+    set.x.resize(kept);
+    set.y.resize(kept);
+    set.z.resize(kept);
+    set.radius.resize(kept);
+    set.source.resize(kept);
+    set.fixture.resize(kept);
     ordered.resize(pairs.size());
     for (size_t k = 0; k < pairs.size(); ++k) {
         const uint32_t at = next[pairs.sphere[k]]++;
@@ -76,12 +83,20 @@ void fillContactSet(const Tool& tool, const Pose& baseTtool, double reach, const
     out.camera = fixtures.baseTcamera.position - fixtures.origin;
     const RegionSpheres& from = fixtures.spheres;
     const size_t count = indices.size();
-    out.x.resize(count), out.y.resize(count), out.z.resize(count), out.radius.resize(count);
-    out.source.resize(count), out.fixture.resize(count);
+    out.x.resize(count);
+    out.y.resize(count);
+    out.z.resize(count);
+    out.radius.resize(count);
+    out.source.resize(count);
+    out.fixture.resize(count);
     for (size_t i = 0; i < count; ++i) {
         const uint32_t s = indices[i];
-        out.x[i] = from.x[s], out.y[i] = from.y[s], out.z[i] = from.z[s], out.radius[i] = from.radius[s];
-        out.source[i] = from.source[s], out.fixture[i] = from.fixture[s];
+        out.x[i] = from.x[s];
+        out.y[i] = from.y[s];
+        out.z[i] = from.z[s];
+        out.radius[i] = from.radius[s];
+        out.source[i] = from.source[s];
+        out.fixture[i] = from.fixture[s];
     }
     const dvec3 centre = baseTtool.position - fixtures.origin;
     out.leafAtQuery.resize(tool.leafCount());
@@ -92,7 +107,10 @@ void fillContactSet(const Tool& tool, const Pose& baseTtool, double reach, const
 
 bool listPairs(const Tool& tool, size_t capacity, PairScratch& scratch, ContactSet& set) {
     const size_t count = set.size();
-    scratch.x.resize(count), scratch.y.resize(count), scratch.z.resize(count), scratch.radius.resize(count);
+    scratch.x.resize(count);
+    scratch.y.resize(count);
+    scratch.z.resize(count);
+    scratch.radius.resize(count);
     for (size_t i = 0; i < count; ++i) { // exact: the values were floats
         scratch.x[i] = static_cast<float>(set.x[i]);
         scratch.y[i] = static_cast<float>(set.y[i]);

@@ -21,7 +21,12 @@ struct RegionSpheres {
 
     size_t size() const { return x.size(); }
     void resize(size_t n) {
-        x.resize(n), y.resize(n), z.resize(n), radius.resize(n), source.resize(n), fixture.resize(n);
+        x.resize(n);
+        y.resize(n);
+        z.resize(n);
+        radius.resize(n);
+        source.resize(n);
+        fixture.resize(n);
     }
     // Appends a sphere. aboutOrigin, r [m]: rounded to float32.
     void add(const dvec3& aboutOrigin, double r, uint32_t slot, uint8_t row = 0) {
@@ -29,14 +34,19 @@ struct RegionSpheres {
         y.push_back(static_cast<float>(aboutOrigin.y));
         z.push_back(static_cast<float>(aboutOrigin.z));
         radius.push_back(static_cast<float>(r));
-        source.push_back(slot), fixture.push_back(row);
+        source.push_back(slot);
+        fixture.push_back(row);
     }
     // The same with its index as source.
     void add(const dvec3& aboutOrigin, double r) { add(aboutOrigin, r, static_cast<uint32_t>(size())); }
     // Overwrites sphere `at` with sphere i of `from`, which may be *this.
     void replace(size_t at, const RegionSpheres& from, size_t i) {
-        x[at] = from.x[i], y[at] = from.y[i], z[at] = from.z[i], radius[at] = from.radius[i];
-        source[at] = from.source[i], fixture[at] = from.fixture[i];
+        x[at] = from.x[i];
+        y[at] = from.y[i];
+        z[at] = from.z[i];
+        radius[at] = from.radius[i];
+        source[at] = from.source[i];
+        fixture[at] = from.fixture[i];
     }
     // Appends sphere i of another set.
     void addFrom(const RegionSpheres& from, size_t i) {

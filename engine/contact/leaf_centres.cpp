@@ -46,9 +46,12 @@ double farthestKernel(const double* __restrict fx, const double* __restrict fy, 
     DisplacementLanes most{}, ax, ay, az, bx, by, bz;
     size_t i = 0;
     for (; i + kDisplacementLanes <= count; i += kDisplacementLanes) {
-        std::memcpy(&ax, fx + i, sizeof ax), std::memcpy(&bx, tx + i, sizeof bx);
-        std::memcpy(&ay, fy + i, sizeof ay), std::memcpy(&by, ty + i, sizeof by);
-        std::memcpy(&az, fz + i, sizeof az), std::memcpy(&bz, tz + i, sizeof bz);
+        std::memcpy(&ax, fx + i, sizeof ax);
+        std::memcpy(&bx, tx + i, sizeof bx);
+        std::memcpy(&ay, fy + i, sizeof ay);
+        std::memcpy(&by, ty + i, sizeof by);
+        std::memcpy(&az, fz + i, sizeof az);
+        std::memcpy(&bz, tz + i, sizeof bz);
         const DisplacementLanes dx = bx - ax, dy = by - ay, dz = bz - az;
         const DisplacementLanes square = dx * dx + dy * dy + dz * dz;
         most = square > most ? square : most;

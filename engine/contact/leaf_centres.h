@@ -20,11 +20,31 @@ struct LeafCentres {
         , z(count) {}
     size_t size() const { return x.size(); }
     dvec3 operator[](size_t i) const { return {x[i], y[i], z[i]}; }
-    void set(size_t i, const dvec3& c) { x[i] = c.x, y[i] = c.y, z[i] = c.z; }
-    void swap(LeafCentres& other) noexcept { x.swap(other.x), y.swap(other.y), z.swap(other.z); }
-    void resize(size_t count) { x.resize(count), y.resize(count), z.resize(count); }
-    void reserve(size_t count) { x.reserve(count), y.reserve(count), z.reserve(count); }
-    void clear() noexcept { x.clear(), y.clear(), z.clear(); }
+    void set(size_t i, const dvec3& c) {
+        x[i] = c.x;
+        y[i] = c.y;
+        z[i] = c.z;
+    }
+    void swap(LeafCentres& other) noexcept {
+        x.swap(other.x);
+        y.swap(other.y);
+        z.swap(other.z);
+    }
+    void resize(size_t count) {
+        x.resize(count);
+        y.resize(count);
+        z.resize(count);
+    }
+    void reserve(size_t count) {
+        x.reserve(count);
+        y.reserve(count);
+        z.reserve(count);
+    }
+    void clear() noexcept {
+        x.clear();
+        y.clear();
+        z.clear();
+    }
 };
 
 // Displacement of each leaf [m] into `displacements`. Both have the same number of leaves and the same

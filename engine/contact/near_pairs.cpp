@@ -21,7 +21,10 @@ void orderBySource(const std::vector<NearSphere>& spheres, DecideScratch& scratc
 }
 
 void addSphere(const NearSphere& s, ContactSet& set) {
-    set.x.push_back(s.x), set.y.push_back(s.y), set.z.push_back(s.z), set.radius.push_back(s.radius);
+    set.x.push_back(s.x);
+    set.y.push_back(s.y);
+    set.z.push_back(s.z);
+    set.radius.push_back(s.radius);
     set.source.push_back(s.source);
     set.fixture.push_back(static_cast<uint8_t>(s.fixture));
 }
@@ -89,7 +92,10 @@ void placePairs(const ListedPairs& pairs, std::vector<uint32_t>& next, ContactSe
     for (size_t k = 0; k < count; ++k) {
         set.pairSphere[next[pairs.bucket[k]]++] = pairs.sphere[k];
     }
-    set.pairX.resize(count), set.pairY.resize(count), set.pairZ.resize(count), set.pairRadius.resize(count);
+    set.pairX.resize(count);
+    set.pairY.resize(count);
+    set.pairZ.resize(count);
+    set.pairRadius.resize(count);
     for (size_t k = 0; k < count; ++k) { // exact: the values were floats
         const uint32_t s = set.pairSphere[k];
         set.pairX[k] = static_cast<float>(set.x[s]);

@@ -40,8 +40,14 @@ struct ListedPairs {
     std::vector<uint32_t> sphere; // index in the set
 
     size_t size() const { return bucket.size(); }
-    void clear() { bucket.clear(), sphere.clear(); }
-    void resize(size_t n) { bucket.resize(n), sphere.resize(n); }
+    void clear() {
+        bucket.clear();
+        sphere.clear();
+    }
+    void resize(size_t n) {
+        bucket.resize(n);
+        sphere.resize(n);
+    }
 };
 
 // Scratch of decidePairs() and placePairs(), kept to save allocations. One thread.

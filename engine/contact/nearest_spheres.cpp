@@ -77,7 +77,8 @@ void nearestOfFew(const RegionGrid& grid, uint32_t begin, uint32_t end, const dv
         const float dx = cx - grid.x()[k], dy = cy - grid.y()[k], dz = cz - grid.z()[k];
         const float gap = std::sqrt(dx * dx + dy * dy + dz * dz) - (r + grid.radius()[k]);
         if (gap < minima.gap[0]) {
-            minima.gap[0] = gap, minima.slot[0] = k;
+            minima.gap[0] = gap;
+            minima.slot[0] = k;
         }
     }
 }

@@ -92,7 +92,9 @@ size_t PairRuns::copy(const ContactSet& set, const PairRun& run, double limit, u
         const size_t chosen = pairsWithin(gapsOf(run) + from, window, most, chosen_.data());
         for (size_t i = 0; i < chosen; ++i, ++end) {
             const uint32_t pair = run.first + from + chosen_[i];
-            to.x[end] = set.pairX[pair], to.y[end] = set.pairY[pair], to.z[end] = set.pairZ[pair];
+            to.x[end] = set.pairX[pair];
+            to.y[end] = set.pairY[pair];
+            to.z[end] = set.pairZ[pair];
             to.radius[end] = set.pairRadius[pair];
             to.pair[end] = pair;
         }

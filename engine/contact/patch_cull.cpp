@@ -52,12 +52,15 @@ bool PatchCull::isFaster(const PosedLeaves& leaves, float reach, const RegionGri
 
 PatchCull::Patch PatchCull::patchOf(const PosedLeaves& leaves, size_t begin, float reach) noexcept {
     Patch patch{};
-    patch.x = leaves.x.data() + begin, patch.y = leaves.y.data() + begin, patch.z = leaves.z.data() + begin;
+    patch.x = leaves.x.data() + begin;
+    patch.y = leaves.y.data() + begin;
+    patch.z = leaves.z.data() + begin;
     patch.count = std::min(kPatchLeaves, leaves.x.size() - begin);
     dvec3 lo(std::numeric_limits<double>::infinity()), hi(-lo);
     for (size_t l = 0; l < patch.count; ++l) {
         const dvec3 leaf(patch.x[l], patch.y[l], patch.z[l]);
-        lo = glm::min(lo, leaf), hi = glm::max(hi, leaf);
+        lo = glm::min(lo, leaf);
+        hi = glm::max(hi, leaf);
         patch.limit[l] = reach + leaves.radius[begin + l];
     }
     patch.centre = 0.5 * (lo + hi);
@@ -79,10 +82,13 @@ size_t PatchCull::collect(const Patch& patch, const RegionGrid& grid, std::span<
             for (std::vector<float>* column : {&x_, &y_, &z_, &radius_}) {
                 column->resize(2 * most);
             }
-            slot_.resize(2 * most), found_.resize(2 * most);
+            slot_.resize(2 * most);
+            found_.resize(2 * most);
         }
         for (uint32_t slot = begin; slot < end; ++slot) {
-            x_[count] = grid.x()[slot], y_[count] = grid.y()[slot], z_[count] = grid.z()[slot];
+            x_[count] = grid.x()[slot];
+            y_[count] = grid.y()[slot];
+            z_[count] = grid.z()[slot];
             radius_[count] = grid.radius()[slot];
             slot_[count] = slot;
             count += marks[slot] == 0 ? 1 : 0;

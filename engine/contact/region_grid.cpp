@@ -55,13 +55,15 @@ FATHOM_CLONES void boundsOf(const float* v, size_t n, float& lo, float& hi) noex
             high[row] = some > high[row] ? some : high[row];
         }
     }
-    lo = kFar, hi = -kFar;
+    lo = kFar;
+    hi = -kFar;
     for (size_t l = 0; l < kBoundRows * kBoundLanes; ++l) {
         lo = std::min(lo, low[l / kBoundLanes][l % kBoundLanes]);
         hi = std::max(hi, high[l / kBoundLanes][l % kBoundLanes]);
     }
     for (; i < n; ++i) {
-        lo = std::min(lo, v[i]), hi = std::max(hi, v[i]);
+        lo = std::min(lo, v[i]);
+        hi = std::max(hi, v[i]);
     }
 }
 
@@ -110,7 +112,9 @@ void RegionGrid::build(std::span<const float> x, std::span<const float> y, std::
     std::vector<uint32_t> from;
     for (size_t i = 0; i < x.size(); ++i) {
         if ((isPlaceless(x[i]) | isPlaceless(y[i]) | isPlaceless(z[i]) | isPlaceless(radius[i])) == 0) {
-            kept[0].push_back(x[i]), kept[1].push_back(y[i]), kept[2].push_back(z[i]);
+            kept[0].push_back(x[i]);
+            kept[1].push_back(y[i]);
+            kept[2].push_back(z[i]);
             kept[3].push_back(radius[i]);
             from.push_back(static_cast<uint32_t>(i));
         }
@@ -157,7 +161,8 @@ void RegionGrid::buildOf(const Columns& columns, ThreadPool* workers) {
     for (size_t run = 1; run < extents_.size(); ++run) {
         const Extent& e = extents_[run];
         for (size_t a = 0; a < 4; ++a) {
-            all.lo[a] = std::min(all.lo[a], e.lo[a]), all.hi[a] = std::max(all.hi[a], e.hi[a]);
+            all.lo[a] = std::min(all.lo[a], e.lo[a]);
+            all.hi[a] = std::max(all.hi[a], e.hi[a]);
         }
         all.radii += e.radii;
     }
@@ -208,7 +213,10 @@ void RegionGrid::layOut(const Columns& columns, ThreadPool* workers) {
         cell_, cells, cellBegin_,
         [=](uint32_t i, uint32_t slot) {
             order[slot] = i;
-            toX[slot] = x[i], toY[slot] = y[i], toZ[slot] = z[i], toRadius[slot] = radius[i];
+            toX[slot] = x[i];
+            toY[slot] = y[i];
+            toZ[slot] = z[i];
+            toRadius[slot] = radius[i];
         },
         workers);
     markUsedCells(workers);

@@ -12,7 +12,8 @@ void sortBySource(std::vector<uint32_t>& indices, SourceSort& sort) {
         return;
     }
     const size_t count = indices.size();
-    sort.sortedKeys.resize(count), sort.sorted.resize(count);
+    sort.sortedKeys.resize(count);
+    sort.sorted.resize(count);
     const uint32_t largest = *std::max_element(sort.keys.begin(), sort.keys.end());
     constexpr uint32_t kBits = 11;
     std::array<uint32_t, (1u << kBits)> begin;

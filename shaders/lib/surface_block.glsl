@@ -58,7 +58,8 @@ bool rejectedInWindow(vec3 window[kWide * kWide], const int centre) {
     [[unroll]] for (int i = 0; i < 9; ++i) {
         const int at = centre + (i / 3 - 1) * kWide + i % 3 - 1;
         vec3 apart = between(window, centre, at);
-        z[i] = window[at].z, square[i] = dot(apart, apart);
+        z[i] = window[at].z;
+        square[i] = dot(apart, apart);
     }
     return isRejected(z, square);
 }

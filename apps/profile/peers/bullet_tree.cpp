@@ -47,7 +47,9 @@ public:
         visit.set = &found_;
         visit.found = &found;
         for (size_t l = 0; l < leaves.x.size(); ++l) {
-            visit.x = leaves.x[l], visit.y = leaves.y[l], visit.z = leaves.z[l];
+            visit.x = leaves.x[l];
+            visit.y = leaves.y[l];
+            visit.z = leaves.z[l];
             visit.limit = reach + leaves.radius[l];
             const btDbvtVolume box =
                 btDbvtVolume::FromCR(btVector3(visit.x, visit.y, visit.z), visit.limit * 1.00001f);
