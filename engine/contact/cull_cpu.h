@@ -4,8 +4,8 @@
 #pragma once
 
 #include "engine/contact/contact_fill.h"
-#include "engine/contact/query_loop.h"
 #include "engine/contact/patch_cull.h"
+#include "engine/contact/query_loop.h"
 #include "engine/contact/region_grid.h"
 
 #include <cstdint>
