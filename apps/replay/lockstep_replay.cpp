@@ -20,13 +20,8 @@ constexpr double kClockSlack = 1e-9; // [s] tolerance: a frame due exactly at a 
 
 LockstepReplay::LockstepReplay(Session& session, const ReplayOptions& options, ReplayRecorder& recorder,
                                CadenceTrace* trace)
-    : session_(session)
-    , options_(options)
-    , recorder_(recorder)
+    : ReplayParts(session, options, recorder)
     , trace_(trace)
-    , shapes_(shapesOf(session.scene))
-    , haptics_(makeHapticOptions(session.scene, session.tool))
-    , audit_(session.tool, session.arm.get())
     , clearance_(haptics_.period) {}
 
 void LockstepReplay::fetch() {

@@ -3,10 +3,7 @@
 // haptics.csv contains no measured times.
 #pragma once
 
-#include "apps/replay/replay_command.h"
-#include "apps/replay/replay_recorder.h"
-#include "apps/replay/tool_audit.h"
-#include "apps/session/session.h"
+#include "apps/replay/replay_parts.h"
 #include "engine/cycle/cadence_trace.h"
 #include "engine/run/clearance.h"
 #include "engine/run/delayed_contacts.h"
@@ -22,7 +19,7 @@ namespace fathom {
 // tick at or after that. Before each step, one contact query runs at the step's start pose; its answer
 // arrives contact.delay ticks later. The run ends when both the frames (plus 1/30 s) and the hand path have
 // ended.
-class LockstepReplay {
+class LockstepReplay final : private ReplayParts {
 public:
     // trace: records when each cadence runs; null = no trace.
     LockstepReplay(Session& session, const ReplayOptions& options, ReplayRecorder& recorder,
@@ -50,16 +47,9 @@ private:
     const Kept* keptSet(uint64_t generation) const;
     void dropOldSets();
 
-    Session& session_;
-    const ReplayOptions& options_;
-    ReplayRecorder& recorder_;
     CadenceTrace* trace_;
-    std::vector<Shape> shapes_;
-    HapticOptions haptics_;
     std::optional<HandPath> path_;
     std::unique_ptr<HapticDevice> hand_;
-    std::optional<HapticCycle> cycle_;
-    ToolAudit audit_;
     SteppedClearance clearance_;
 
     std::optional<Frame> next_;        // fetched, not yet due

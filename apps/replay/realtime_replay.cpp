@@ -29,13 +29,8 @@ public:
 
 RealtimeReplay::RealtimeReplay(Session& session, const ReplayOptions& options, ReplayRecorder& recorder,
                                const ThreadPlacement& placement, CadenceTrace* trace)
-    : session_(session)
-    , options_(options)
-    , recorder_(recorder)
+    : ReplayParts(session, options, recorder)
     , placement_(placement)
-    , shapes_(shapesOf(session.scene))
-    , haptics_(makeHapticOptions(session.scene, session.tool))
-    , audit_(session.tool, session.arm.get())
     , faults_(recorder.folder(), haptics_.period, *this)
     , observers_(options.observers, session.arm.get())
     , feed_(std::make_unique<Feed>(session, [this](const std::vector<Shape>& shapes) { takeShapes(shapes); }))

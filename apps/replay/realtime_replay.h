@@ -8,9 +8,7 @@
 #include "apps/output/fault_trace.h"
 #include "apps/output/progress.h"
 #include "apps/replay/percentiles.h"
-#include "apps/replay/replay_command.h"
-#include "apps/replay/replay_recorder.h"
-#include "apps/replay/tool_audit.h"
+#include "apps/replay/replay_parts.h"
 #include "apps/session/session_feed.h"
 #include "engine/run/realtime_run.h"
 
@@ -37,7 +35,7 @@ struct RealtimeFigures {
 // captured at (index j - index 0) / 30 s (ReplayOptions::frameRate). The run ends when the frames (plus one
 // such period) and the hand path have ended, or on a signal of StopSignals; all files are complete in both
 // cases.
-class RealtimeReplay final : private RunSink {
+class RealtimeReplay final : private ReplayParts, private RunSink {
 public:
     // Build the session on a thread confined to placement.rest, because the workers of a software device
     // inherit its CPUs. Renders the frames of a simulated camera in advance (SpooledCamera), so that the run
@@ -68,21 +66,14 @@ private:
     void runLive(const HandPath& path);
     ReplayRecorder::Ending ending();
 
-    Session& session_;
-    const ReplayOptions& options_;
-    ReplayRecorder& recorder_;
     ThreadPlacement placement_;
     StopSignals signals_;
     Progress progress_;
-    std::vector<Shape> shapes_;
-    HapticOptions haptics_;
-    ToolAudit audit_;
     bool audited_ = true; // every step so far was audited
     FaultTrace faults_;   // receives every tick first
     RunObservers observers_;
     std::unique_ptr<Feed> feed_;
     std::unique_ptr<RealtimeRun> run_;
-    std::optional<HapticCycle> cycle_;
     std::optional<WatchedHand> watched_; // only with a live hand
     std::vector<float> wokenLateMicros_;
     RealtimeFigures figures_;
