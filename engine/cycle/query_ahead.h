@@ -6,8 +6,10 @@
 
 namespace fathom {
 
-// Extrapolates the tool by its own velocity over the measured age of the answers. Answers that are not late
-// are asked for where the tool is. Haptic thread; noexcept, no allocation.
+// Chooses the pose that the next contact query asks for. While answers are at most kInTime ticks old, that is
+// the tool's present pose. While they are later, it is the pose that the tool will have when the answer becomes
+// active: the present one, moved by its own velocity for lead(). The reach then grows by what the hand may add
+// meanwhile. Haptic thread; noexcept, no allocation.
 class QueryAhead {
 public:
     // T [s]: haptic period.
