@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/bag/bag_file.h"
 
+#include "devices/bag/bag_records.h"
 #include "devices/bag/byte_cursor.h"
 #include "devices/bag/unpack_chunk.h"
 #include "engine/types/printable.h"
@@ -13,11 +14,10 @@ namespace fathom {
 namespace {
 
 constexpr char kBagMagic[] = "#ROSBAG V2.0\n";
-constexpr uint8_t kMessage = 2, kBagHeader = 3, kIndexData = 4, kChunk = 5, kChunkInfo = 6, kConnection = 7;
-constexpr uint32_t kBagBytes = 1u << 30; // of one record or chunk
+} // namespace
 
-std::map<std::string, std::string> parseFields(std::span<const uint8_t> bytes) {
-    std::map<std::string, std::string> fields;
+bag::Fields bag::parseFields(std::span<const uint8_t> bytes) {
+    Fields fields;
     for (ByteCursor cursor(bytes); !cursor.empty();) {
         const std::string field = cursor.text();
         const size_t equals = field.find('=');
@@ -29,23 +29,10 @@ std::map<std::string, std::string> parseFields(std::span<const uint8_t> bytes) {
     return fields;
 }
 
-template <class T>
-T number(const std::map<std::string, std::string>& fields, const char* name) {
-    const auto it = fields.find(name);
-    if (it == fields.end() || it->second.size() != sizeof(T)) {
-        throw Error(std::string("a header without '") + name + "'");
-    }
-    T value;
-    std::memcpy(&value, it->second.data(), sizeof(T));
-    return value;
-}
-
-std::string word(const std::map<std::string, std::string>& fields, const char* name) {
+std::string bag::word(const Fields& fields, const char* name) {
     const auto it = fields.find(name);
     return it == fields.end() ? "" : printable(it->second);
 }
-
-} // namespace
 
 BagFile::BagFile(const std::filesystem::path& file)
     : MessageFile(file)
@@ -58,32 +45,33 @@ BagFile::BagFile(const std::filesystem::path& file)
         throw BadInput(file.string(), "format", in_.is_open() ? "no bag" : whyUnreadable(file),
                        "a ROS 1 bag of version 2.0");
     }
+    uint64_t chunksAt = 0;
+    std::string lost = "no index";
     try {
         const Record header = readRecord();
-        if (number<uint8_t>(header.fields, "op") != kBagHeader) {
+        if (bag::number<uint8_t>(header.fields, "op") != bag::kBagHeader) {
             throw Error("no bag header");
         }
-        const auto indexAt = number<uint64_t>(header.fields, "index_pos");
-        if (indexAt == 0 || indexAt >= size_) {
-            throw BadInput(file.string(), "index", "no index: the bag was not closed",
-                           "an indexed bag (rosbag reindex)");
-        }
+        chunksAt = static_cast<uint64_t>(in_.tellg());
+        const auto indexAt = bag::number<uint64_t>(header.fields, "index_pos");
         const auto count = [&](const char* name) { // unknown: the index is complete at the end of the file
-            return header.fields.contains(name) ? number<uint32_t>(header.fields, name) : UINT64_MAX;
+            return header.fields.contains(name) ? bag::number<uint32_t>(header.fields, name) : UINT64_MAX;
         };
-        readIndex(indexAt, count("conn_count"), count("chunk_count"));
-    } catch (const BadInput&) {
-        throw;
+        if (indexAt != 0 && indexAt < size_) {
+            lost = readIndex(indexAt, count("conn_count"), count("chunk_count"));
+        }
     } catch (const Error& e) {
-        throw BadInput(file.string(), "content", e.what(),
-                       "a complete ROS 1 bag of version 2.0 (rosbag reindex)");
+        throw BadInput(file.string(), "content", e.what(), "a ROS 1 bag of version 2.0");
+    }
+    if (!lost.empty()) {
+        scan(chunksAt, lost);
     }
 }
 
 std::vector<uint8_t> BagFile::readBlock() {
     uint32_t count = 0;
     in_.read(reinterpret_cast<char*>(&count), sizeof count);
-    if (!in_ || count > kBagBytes || count > size_) {
+    if (!in_ || count > bag::kMostBytes || count > size_) {
         throw Error("truncated");
     }
     std::vector<uint8_t> bytes(count);
@@ -96,7 +84,7 @@ std::vector<uint8_t> BagFile::readBlock() {
 
 BagFile::Record BagFile::readRecord() {
     Record record;
-    record.fields = parseFields(readBlock());
+    record.fields = bag::parseFields(readBlock());
     record.data = readBlock();
     return record;
 }
@@ -109,7 +97,7 @@ std::optional<BagFile::Record> BagFile::nextOfIndex(bool complete) {
     }
     try {
         Record record = readRecord();
-        number<uint8_t>(record.fields, "op");
+        bag::number<uint8_t>(record.fields, "op");
         return record;
     } catch (const Error&) {
         if (!complete) {
@@ -120,19 +108,29 @@ std::optional<BagFile::Record> BagFile::nextOfIndex(bool complete) {
     }
 }
 
-void BagFile::readIndex(uint64_t indexAt, uint64_t connections, uint64_t chunkInfos) {
+// Returns why it cannot be used; empty = it can.
+std::string BagFile::readIndex(uint64_t indexAt, uint64_t connections, uint64_t chunkInfos) {
+    try {
+        useIndex(indexAt, connections, chunkInfos);
+        return "";
+    } catch (const Error& e) {
+        return "damaged index (" + std::string(e.what()) + ")";
+    }
+}
+
+void BagFile::useIndex(uint64_t indexAt, uint64_t connections, uint64_t chunkInfos) {
     std::map<uint32_t, size_t> topicOf; // of a connection
     std::vector<uint64_t> chunks;
     in_.seekg(static_cast<std::streamoff>(indexAt));
     while (const auto next = nextOfIndex(topicOf.size() >= connections && chunks.size() >= chunkInfos)) {
         const Record& record = *next;
-        const auto op = number<uint8_t>(record.fields, "op");
-        if (op == kConnection) {
-            const std::string name = word(record.fields, "topic");
-            topicOf[number<uint32_t>(record.fields, "conn")] =
-                topicAt(name, word(parseFields(record.data), "type"), false);
-        } else if (op == kChunkInfo) {
-            chunks.push_back(number<uint64_t>(record.fields, "chunk_pos"));
+        const auto op = bag::number<uint8_t>(record.fields, "op");
+        if (op == bag::kConnection) {
+            const std::string name = bag::word(record.fields, "topic");
+            topicOf[bag::number<uint32_t>(record.fields, "conn")] =
+                topicAt(name, bag::word(bag::parseFields(record.data), "type"), false);
+        } else if (op == bag::kChunkInfo) {
+            chunks.push_back(bag::number<uint64_t>(record.fields, "chunk_pos"));
         }
     }
     std::sort(chunks.begin(), chunks.end());
@@ -148,7 +146,7 @@ void BagFile::readIndex(uint64_t indexAt, uint64_t connections, uint64_t chunkIn
 // A chunk is followed by its index records, one per connection, with time and offset of each message.
 void BagFile::readChunkIndex(uint64_t chunkAt, std::map<uint32_t, size_t>& topicOf) {
     in_.seekg(static_cast<std::streamoff>(chunkAt));
-    if (number<uint8_t>(parseFields(readBlock()), "op") != kChunk) {
+    if (bag::number<uint8_t>(bag::parseFields(readBlock()), "op") != bag::kChunk) {
         throw Error("the index does not point to a chunk");
     }
     uint32_t size = 0; // of the chunk, which is not read
@@ -158,12 +156,12 @@ void BagFile::readChunkIndex(uint64_t chunkAt, std::map<uint32_t, size_t>& topic
         throw Error("truncated");
     }
     while (static_cast<uint64_t>(in_.tellg()) < size_) {
-        const Fields fields = parseFields(readBlock());
-        if (number<uint8_t>(fields, "op") != kIndexData) {
+        const Fields fields = bag::parseFields(readBlock());
+        if (bag::number<uint8_t>(fields, "op") != bag::kIndexData) {
             return; // the next chunk, which is not read either
         }
         const std::vector<uint8_t> index = readBlock();
-        const auto topic = topicOf.find(number<uint32_t>(fields, "conn"));
+        const auto topic = topicOf.find(bag::number<uint32_t>(fields, "conn"));
         if (topic == topicOf.end()) {
             throw Error("the index names a missing connection");
         }
@@ -179,11 +177,14 @@ UnpackedChunk BagFile::unpack(uint64_t chunkAt) {
         in_.clear();
         in_.seekg(static_cast<std::streamoff>(chunkAt));
         const Record record = readRecord();
-        const auto size = number<uint32_t>(record.fields, "size");
-        if (size > kBagBytes) {
+        if (chunkAt == begun_) {
+            return begunChunk();
+        }
+        const auto size = bag::number<uint32_t>(record.fields, "size");
+        if (size > bag::kMostBytes) {
             throw Error("a chunk of " + std::to_string(size) + " bytes");
         }
-        return unpackChunk(word(record.fields, "compression"), record.data, size);
+        return unpackChunk(bag::word(record.fields, "compression"), record.data, size);
     });
 }
 
@@ -191,7 +192,7 @@ MessageBytes BagFile::bytes(const MessageEntry& entry) {
     const UnpackedChunk chunk = unpack(entry.chunk);
     ByteCursor cursor(*chunk);
     cursor.take(entry.offset);
-    if (number<uint8_t>(parseFields(cursor.block()), "op") != kMessage) {
+    if (bag::number<uint8_t>(bag::parseFields(cursor.block()), "op") != bag::kMessage) {
         throw Error("the index does not point to a message");
     }
     return {cursor.block(), chunk};

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A ROS 1 bag, format 2.0: its topics and, through its index, any message. Source:
-// wiki.ros.org/Bags/Format/2.0.
+// A ROS 1 bag, format 2.0: its topics and any message. Source: wiki.ros.org/Bags/Format/2.0.
 #pragma once
 
 #include "devices/bag/message_file.h"
@@ -15,7 +14,9 @@ namespace fathom {
 // One thread. Chunks are uncompressed, bz2 or LZ4 frames; the four most recent ones stay unpacked in memory.
 class BagFile final : public MessageFile {
 public:
-    // Throws BadInput that names the file: not a bag of version 2.0, not indexed (not closed), or damaged.
+    // Without an index, as after a crash, or with a damaged one, all chunks are unpacked once to find the
+    // messages, and one line says so. Throws BadInput that names the file: not a bag of version 2.0, or without
+    // a whole message.
     explicit BagFile(const std::filesystem::path& file);
     MessageBytes bytes(const MessageEntry& entry) override;
 
@@ -25,17 +26,30 @@ private:
         Fields fields;
         std::vector<uint8_t> data;
     };
+    struct Head {
+        Fields fields;
+        uint8_t op = 0;
+        uint64_t end = 0; // of the record [bytes of the file]
+        bool empty = false;
+    };
 
     Record readRecord();
     std::vector<uint8_t> readBlock();
     std::optional<Record> nextOfIndex(bool complete);
     // connections, chunkInfos: records of the index by the bag's head.
-    void readIndex(uint64_t indexAt, uint64_t connections, uint64_t chunkInfos);
+    std::string readIndex(uint64_t indexAt, uint64_t connections, uint64_t chunkInfos);
+    void useIndex(uint64_t indexAt, uint64_t connections, uint64_t chunkInfos);
     void readChunkIndex(uint64_t chunkAt, std::map<uint32_t, size_t>& topicOf);
+    // lost: why there is no index.
+    void scan(uint64_t chunksAt, const std::string& lost);
+    std::optional<Head> headAt(uint64_t at);
+    uint64_t scanChunk(uint64_t chunkAt, std::map<uint32_t, size_t>& topicOf);
+    std::vector<uint8_t> begunChunk();
     UnpackedChunk unpack(uint64_t chunkAt);
 
     std::ifstream in_;
     uint64_t size_ = 0;
+    std::optional<uint64_t> begun_; // chunk whose size the recorder did not state yet
     UnpackedChunks unpacked_;
 };
 

@@ -4,7 +4,6 @@
 #include "devices/bag/mcap_records.h"
 #include "devices/bag/mcap_summary.h"
 #include "engine/types/error.h"
-#include "engine/types/log.h"
 
 #include <algorithm>
 #include <array>
@@ -81,8 +80,7 @@ void McapFile::scan() {
         messages_ -= std::erase_if(
             entries, [&](const MessageEntry& e) { return !chunks_.empty() && e.chunk == chunks_.back().at; });
     }
-    log::warn("{}: ends early: it was not finished; {} whole chunks are used", file().string(),
-              chunks_.size());
+    tell("ends early: it was not finished; " + std::to_string(chunks_.size()) + " whole chunks are used");
 }
 
 bool McapFile::record(uint8_t kind, uint64_t at, uint64_t size) {

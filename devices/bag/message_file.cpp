@@ -9,6 +9,7 @@
 #include "devices/bag/ros2_database.h"
 #include "devices/bag/split_recording.h"
 #include "engine/types/input_files.h"
+#include "engine/types/log.h"
 #include "engine/types/read_file.h"
 #include "engine/types/stand_in.h"
 
@@ -45,6 +46,11 @@ void MessageFile::sortByTime() {
         std::stable_sort(topic.messages.begin(), topic.messages.end(),
                          [](const MessageEntry& a, const MessageEntry& b) { return a.time < b.time; });
     }
+}
+
+void MessageFile::tell(const std::string& warning) {
+    log::warn("{}: {}", file_.string(), warning);
+    warnings_.push_back(warning);
 }
 
 namespace {

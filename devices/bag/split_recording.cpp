@@ -167,13 +167,11 @@ std::vector<fs::path> SplitRecording::chooseFiles() {
     return chosen;
 }
 
-void SplitRecording::tell(const std::string& warning) {
-    log::warn("{}: {}", file().string(), warning);
-    warnings_.push_back(warning);
-}
-
 void SplitRecording::add(std::unique_ptr<MessageFile> file) {
     files_.push_back(std::move(file));
+    for (const std::string& warning : files_.back()->warnings()) {
+        warnings_.push_back(files_.back()->file().filename().string() + ": " + warning);
+    }
     const std::vector<MessageTopic>& parts = files_.back()->topics();
     for (uint64_t t = 0; t < parts.size(); ++t) {
         MessageTopic& whole = topics_[topicAt(parts[t].name, parts[t].type, parts[t].cdr)];

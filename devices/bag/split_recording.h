@@ -22,7 +22,6 @@ public:
 private:
     std::vector<std::filesystem::path> chooseFiles();
     void add(std::unique_ptr<MessageFile> file);
-    void tell(const std::string& warning);
 
     std::vector<std::unique_ptr<MessageFile>> files_;
 };

@@ -16,6 +16,7 @@ TranslatedFile::TranslatedFile(std::unique_ptr<MessageFile> original)
     : MessageFile(original->file())
     , original_(std::move(original)) {
     topics_ = original_->topics();
+    warnings_ = original_->warnings();
 }
 
 MessageBytes TranslatedFile::bytes(const MessageEntry& entry) {

@@ -51,7 +51,7 @@ TEST_CASE("Compressed images of unknown content and empty ones are named apart")
     }
 }
 
-TEST_CASE("Bytes behind the last record of a closed bag are no part of it, and a lost end is named") {
+TEST_CASE("Bytes behind the last record of a closed bag are no part of it") {
     const TemporaryFolder folder;
     BagMaker maker;
     addStream(maker, "/c/depth", depthImage(500));

@@ -42,6 +42,7 @@ void BagMaker::add(const std::string& topic, const std::string& type, double t, 
     if (conn == topics_.size()) {
         topics_.emplace_back(topic, type);
         index_.emplace_back();
+        chunk_ += connection(conn);
     }
     const auto seconds = static_cast<uint32_t>(t),
                nanos = static_cast<uint32_t>(std::lround((t - seconds) * 1e9));
@@ -50,27 +51,45 @@ void BagMaker::add(const std::string& topic, const std::string& type, double t, 
     chunk_ += bagRecord({{"op", "\x02"}, {"conn", raw(conn)}, {"time", time}}, message);
 }
 
-std::string BagMaker::bag(const std::string& compression, bool indexed) const {
-    const std::string magic = "#ROSBAG V2.0\n";
-    const auto header = [&](uint64_t at) {
-        return bagRecord({{"op", "\x03"},
-                          {"index_pos", raw(at)},
-                          {"conn_count", raw(static_cast<uint32_t>(topics_.size()))},
-                          {"chunk_count", raw(uint32_t{1})}},
-                         std::string(64, ' '));
-    };
-    const size_t chunkAt = magic.size() + header(0).size();
-    std::string body = bagRecord(
+std::string BagMaker::headAt(uint64_t indexAt) const {
+    return "#ROSBAG V2.0\n" + bagRecord({{"op", "\x03"},
+                                         {"index_pos", raw(indexAt)},
+                                         {"conn_count", raw(static_cast<uint32_t>(topics_.size()))},
+                                         {"chunk_count", raw(uint32_t{1})}},
+                                        std::string(64, ' '));
+}
+
+std::string BagMaker::chunkRecord(const std::string& compression) const {
+    return bagRecord(
         {{"op", "\x05"}, {"compression", compression}, {"size", raw(static_cast<uint32_t>(chunk_.size()))}},
         packed(chunk_, compression));
-    std::string tail;
+}
+
+std::string BagMaker::bag(const std::string& compression, bool indexed) const {
+    std::string body = chunkRecord(compression), tail;
     for (uint32_t conn = 0; conn < topics_.size(); ++conn) {
         body += bagRecord({{"op", "\x04"}, {"conn", raw(conn)}}, index_[conn]);
-        tail += bagRecord({{"op", "\x07"}, {"conn", raw(conn)}, {"topic", topics_[conn].first}},
-                          Out().text("type=" + topics_[conn].second).bytes);
+        tail += connection(conn);
     }
-    tail += bagRecord({{"op", "\x06"}, {"chunk_pos", raw(uint64_t{chunkAt})}}, "");
-    return magic + header(indexed ? chunkAt + body.size() : 0) + body + tail;
+    tail += bagRecord({{"op", "\x06"}, {"chunk_pos", raw(uint64_t{headSize()})}}, "");
+    return headAt(indexed ? headSize() + body.size() : 0) + body + tail;
+}
+
+std::string BagMaker::chunks(const std::string& compression, bool head) const {
+    return (head ? headAt(0) : "") + chunkRecord(compression);
+}
+
+std::string BagMaker::begunChunk() const {
+    return bagRecord({{"op", "\x05"}, {"compression", "none"}, {"size", raw(uint32_t{0})}}, "") + chunk_;
+}
+
+size_t BagMaker::headSize() const {
+    return headAt(0).size();
+}
+
+std::string BagMaker::connection(uint32_t conn) const {
+    return bagRecord({{"op", "\x07"}, {"conn", raw(conn)}, {"topic", topics_[conn].first}},
+                     Out().text("type=" + topics_[conn].second).bytes);
 }
 
 std::string stampedHeader(double t, const std::string& frame) {

@@ -39,8 +39,16 @@ class BagMaker {
 public:
     void add(const std::string& topic, const std::string& type, double t, const std::string& message);
     std::string bag(const std::string& compression = "none", bool indexed = true) const;
+    // As a crash leaves a bag: head, and the chunk without indexes. head = false: the chunk alone.
+    std::string chunks(const std::string& compression, bool head = true) const;
+    std::string begunChunk() const; // as a recorder has written it before it states the chunk's size
+    size_t headSize() const;        // of a bag [bytes]
 
 private:
+    std::string headAt(uint64_t indexAt) const;
+    std::string chunkRecord(const std::string& compression) const;
+    std::string connection(uint32_t conn) const;
+
     std::vector<std::pair<std::string, std::string>> topics_;
     std::vector<std::string> index_;
     std::string chunk_;

@@ -75,7 +75,8 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("A bag that is not closed, truncated, damaged or without depth is rejected in one line") {
+TEST_CASE("A bag that is truncated in its first chunk, of another version or without depth is rejected in "
+          "one line") {
     const TemporaryFolder folder;
     const auto refused = [&](const std::string& bytes) {
         folder.write("a.bag", bytes);
@@ -84,31 +85,25 @@ TEST_CASE("A bag that is not closed, truncated, damaged or without depth is reje
         return said;
     };
     const std::string whole = smallBag().bag("none");
-    CHECK(refused(smallBag().bag("none", false)).find("rosbag reindex") != std::string::npos);
     CHECK(refused("#ROSBAG V1.2\nxxxx").find("version 2.0") != std::string::npos);
     CHECK(refused("").find("version 2.0") != std::string::npos);
     CHECK(refused(smallBag(5.0).bag("lz4")).find("extrinsics: missing") != std::string::npos);
     BagMaker none;
     none.add("/ta\nlk", "std_msgs/String\n", 1.0, "hello");
     CHECK(refused(none.bag("none")).find("no images") != std::string::npos);
-    for (size_t keep = 0; keep < whole.size(); keep += 97) { // never a crash, never a frame from nowhere
+    const size_t chunkEnd = smallBag().chunks("none").size();
+    for (size_t keep = 0; keep < chunkEnd; keep += 97) { // never a crash, never a frame from nowhere
         CHECK_FALSE(refused(whole.substr(0, keep)).empty());
     }
 }
 
 TEST_CASE("A bag that claims more data than its bytes can hold is rejected before memory is allocated") {
-    const TemporaryFolder folder;
     for (const char* compression : {"lz4", "bz2"}) {
         const std::string few(100, 'x');
         const std::span<const uint8_t> packed(reinterpret_cast<const uint8_t*>(few.data()), few.size());
         CHECK_THROWS_WITH_AS(unpackChunk(compression, packed, 1u << 30),
                              "a chunk of 100 bytes cannot hold the 1073741824 that it declares", Error);
     }
-    std::string twice = smallBag().bag("none");
-    const size_t last = twice.rfind(Out().text("op=\x06").bytes) - 4;
-    twice += twice.substr(last); // the chunk's record once more
-    folder.write("a.bag", twice);
-    CHECK(bagRefusal(folder.path() / "a.bag").find("names a chunk twice") != std::string::npos);
 }
 
 TEST_CASE("A bag with any byte changed is either rejected or read, and never crashes the reader") {

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bags whose recorder was stopped before it wrote the index.
+#include "tests/devices/played_bag.h"
+#include "tests/realtime/listening.h"
+
+using namespace fathom;
+using namespace fathom::test;
+using testing::Listening;
+
+namespace {
+
+BagMaker threeDepths(uint16_t value, double from) {
+    BagMaker maker;
+    addStream(maker, "/c/depth", depthImage(value), {}, {from, from + 0.1, from + 0.2});
+    return maker;
+}
+
+// The depths that are played, with the note of the file.
+std::vector<uint16_t> depthsOf(const TemporaryFolder& folder, const std::string& bag,
+                               const std::string& note) {
+    folder.write("a.bag", bag);
+    const Listening log;
+    BagCamera camera(folder.path() / "a.bag");
+    CHECK(log.count(note) == 1);
+    CHECK(log.count("rosbag reindex") == 1);
+    REQUIRE(camera.warnings().size() == 1);
+    lineSays(camera.warnings()[0], note);
+    std::vector<uint16_t> depths; // [mm]
+    while (const auto frame = camera.next()) {
+        depths.push_back((*frame)->depth[0]);
+    }
+    CHECK(camera.skipped() == 0);
+    return depths;
+}
+
+} // namespace
+
+TEST_CASE("A bag without an index is read chunk by chunk, with one note") {
+    const TemporaryFolder folder;
+    const std::vector<uint16_t> first(3, 500), both{500, 500, 500, 700, 700, 700};
+    for (const char* compression : {"none", "bz2", "lz4"}) {
+        CAPTURE(compression);
+        const std::string chunks = threeDepths(500, 1.0).chunks(compression),
+                          more = threeDepths(700, 1.3).chunks(compression, false);
+        CHECK(depthsOf(folder, chunks + more, "no index: 2 chunks") == both);
+        CHECK(depthsOf(folder, chunks + more.substr(0, more.size() - 5), "no index: 1 chunk") == first);
+        CHECK(depthsOf(folder, threeDepths(500, 1.0).bag(compression, false), "no index: 1 chunk") == first);
+    }
+}
+
+TEST_CASE("The chunk that a recorder had begun is read to its last whole message") {
+    const TemporaryFolder folder;
+    const std::string begun = threeDepths(500, 1.0).chunks("none") + threeDepths(700, 1.3).begunChunk();
+    CHECK(depthsOf(folder, begun, "no index: 2 chunks") ==
+          std::vector<uint16_t>{500, 500, 500, 700, 700, 700});
+    CHECK(depthsOf(folder, begun.substr(0, begun.size() - 20), "no index: 2 chunks") ==
+          std::vector<uint16_t>{500, 500, 500, 700, 700});
+    const std::string only = BagMaker().chunks("none").substr(0, BagMaker().headSize());
+    CHECK(depthsOf(folder, only + threeDepths(700, 1.0).begunChunk(), "no index: 1 chunk").size() == 3);
+}
+
+TEST_CASE("A bag with a damaged index is read chunk by chunk, and each chunk once") {
+    const TemporaryFolder folder;
+    const std::string whole = threeDepths(500, 1.0).bag();
+    CHECK(depthsOf(folder, whole.substr(0, whole.size() - 40), "damaged index (truncated): 1 chunk").size() ==
+          3);
+    const size_t last = whole.rfind(Out().text("op=\x06").bytes) - 4;
+    CHECK(depthsOf(folder, whole + whole.substr(last), "names a chunk twice").size() == 3);
+}
+
+TEST_CASE("A bag without an index and without a message is rejected with the fault of its index") {
+    const TemporaryFolder folder;
+    folder.write("a.bag", BagMaker().chunks("none"));
+    lineSays(testing::refusalOf([&] { BagCamera(folder.path() / "a.bag"); }),
+             "a.bag: index: no index: the bag was not closed, and no whole chunk holds a message (allowed: ");
+}
