@@ -128,10 +128,11 @@ std::string CloudCamera::fit(const ros::Cloud& message, const PcdCloud& cloud) {
     frame_ = message.frame;
     info_.hasColour = !cloud.colour.empty() && options_.colour != "none";
     uncoloured_ = cloud.colour.empty() ? cloud.uncoloured : uncoloured_;
-    return fit_.residual <= mostOff(fit_.lens) ? ""
-                                               : "points of frame '" + message.frame +
-                                                     "' deviate from the rays of a pinhole and of a fan by " +
-                                                     std::to_string(fit_.residual) + " pixels";
+    if (fit_.residual <= mostOff(fit_.lens)) {
+        return "";
+    }
+    return "points of frame '" + message.frame + "' deviate from the rays of a pinhole and of a fan" +
+           (fit_.fault.empty() ? " by " + std::to_string(fit_.residual) + " pixels" : ": " + fit_.fault);
 }
 
 void CloudCamera::learnLens() {

@@ -128,6 +128,22 @@ void checkOptions(const std::string& file, const SourceOptions& options) {
 
 } // namespace
 
+namespace {
+
+// Why a cloud fits in none of the axes.
+std::string whyNoAxes(const PcdCloud& cloud) {
+    size_t before = 0, behind = 0;
+    for (const dvec3& p : cloud.points) {
+        before += p.z > 0.0 ? 1 : 0;
+        behind += p.z < 0.0 ? 1 : 0;
+    }
+    return before == 0 && behind > 0
+               ? "all lie behind the camera if z is forward, and are mirrored or upside down if z is backward"
+               : "they lie behind the camera or are mirrored or upside down in all axes that are read";
+}
+
+} // namespace
+
 FittedLens fitLens(const PcdCloud& cloud) {
     const dvec3 x(1.0, 0.0, 0.0), y(0.0, 1.0, 0.0), z(0.0, 0.0, 1.0);
     const glm::dmat3 kinds[] = {axes(x, y, z), axes(x, -y, -z), axes(-y, -z, x)};
@@ -141,6 +157,7 @@ FittedLens fitLens(const PcdCloud& cloud) {
     if (!best) {
         throw Error("too few points to find the lens");
     }
+    best->fault = std::isfinite(best->residual) ? "" : whyNoAxes(cloud);
     return *best;
 }
 
@@ -171,11 +188,12 @@ PcdCamera::PcdCamera(const std::filesystem::path& file, const SourceOptions& opt
         throw BadInput(file.string(), "points", e.what(), "at least 16, spread over the image");
     }
     if (fit.residual > kMaxResidual) {
-        throw BadInput(file.string(), "points",
-                       "deviates from the rays of a pinhole and of a fan by " + std::to_string(fit.residual) +
-                           " pixels",
-                       "a cloud from a depth camera or a scan with equal angles: x right and y down, y up "
-                       "and z backward, or x forward and z up");
+        throw BadInput(
+            file.string(), "points",
+            "deviates from the rays of a pinhole and of a fan" +
+                (fit.fault.empty() ? " by " + std::to_string(fit.residual) + " pixels" : ": " + fit.fault),
+            "a cloud from a depth camera or a scan with equal angles: x right and y down, y up "
+            "and z backward, or x forward and z up");
     }
     if (const std::string doubt = doubtLens(fit.lens); !doubt.empty()) {
         log::warn("{}: {}", file.string(), doubt);

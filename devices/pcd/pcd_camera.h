@@ -9,6 +9,7 @@
 
 #include <glm/mat3x3.hpp>
 #include <optional>
+#include <string>
 
 namespace fathom {
 
@@ -17,6 +18,7 @@ struct FittedLens {
     Intrinsics lens;
     double residual = 0.0;         // [pixels] root of the mean square
     glm::dmat3 opticalTcloud{1.0}; // the cloud's axes to x right, y down, z forward
+    std::string fault;             // of the points, if they fit in no axes; the residual is infinite then
 };
 
 // The cloud's axes may be optical, y up and z backward (graphics), or x forward, y left, z up (robots). Tries

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Clouds whose points no camera could see.
+#include "devices/pcd/pcd_camera.h"
+#include "tests/devices/recorded_folder.h"
+#include "tests/support/refusal.h"
+
+#include <doctest/doctest.h>
+
+using namespace fathom;
+
+namespace {
+
+// A tilted wall, with its axes multiplied.
+std::string turnedWall(double x, double y, double z) {
+    std::string text = "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 9\nHEIGHT 7\n"
+                       "VIEWPOINT 0 0 0 1 0 0 0\nPOINTS 63\nDATA ascii\n";
+    for (int i = 0; i < 63; ++i) {
+        const double u = i % 9, v = i / 9, depth = 1.0 + 0.05 * u;
+        text += std::to_string(x * (u - 4.25) / 10.0 * depth) + " " +
+                std::to_string(y * (v - 3.5) / 11.0 * depth) + " " + std::to_string(z * depth) + "\n";
+    }
+    return text;
+}
+
+} // namespace
+
+TEST_CASE("A cloud behind its camera, or upside down or mirrored in all axes, is rejected in these words") {
+    const TemporaryFolder folder;
+    const auto refusal = [&](double x, double y, double z) {
+        folder.write("a.pcd", turnedWall(x, y, z));
+        return testing::refusalOf([&] { PcdCamera camera(folder.path() / "a.pcd", {}); });
+    };
+    const std::string behind = refusal(1.0, 1.0, -1.0), mirrored = refusal(-1.0, 1.0, 1.0);
+    CAPTURE(behind);
+    CAPTURE(mirrored);
+    CHECK(behind.find("fan: all lie behind the camera if z is forward, and are mirrored or upside "
+                      "down if z is backward (allowed: ") != std::string::npos);
+    CHECK(mirrored.find("fan: they lie behind the camera or are mirrored or upside down in all axes that are "
+                        "read (allowed: ") != std::string::npos);
+    CHECK(refusal(1.0, 1.0, 1.0).empty());
+    CHECK(refusal(1.0, -1.0, -1.0).empty());
+}
