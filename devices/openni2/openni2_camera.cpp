@@ -6,6 +6,7 @@
 #include "engine/types/error.h"
 #include "engine/types/log.h"
 #include "engine/types/stand_in.h"
+#include "engine/types/steady_seconds.h"
 
 #include <chrono>
 #include <cmath>
@@ -263,9 +264,7 @@ Frame OpenNi2Camera::deliver() {
     Frame::Content content;
     content.index = index_++;
     content.sourceNumber = static_cast<uint64_t>(depth_.newest.getFrameIndex());
-    content.captureTime =
-        file_ ? 1e-6 * static_cast<double>(depth_.newest.getTimestamp())
-              : std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+    content.captureTime = file_ ? 1e-6 * static_cast<double>(depth_.newest.getTimestamp()) : steadySeconds();
     content.depth = slot->depth().first(info_.depth.pixels());
     if (hasColour_) {
         content.raw = {info_.colourFormat, width, info_.depth.height,

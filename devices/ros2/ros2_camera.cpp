@@ -3,6 +3,7 @@
 
 #include "engine/types/error.h"
 #include "engine/types/log.h"
+#include "engine/types/steady_seconds.h"
 
 #include <algorithm>
 #include <chrono>
@@ -13,10 +14,6 @@ namespace {
 
 constexpr double kLongestWait = 0.1; // [s]
 constexpr double kPoseWait = 0.02;   // [s] while images wait for transforms
-
-double monotonicNow() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 } // namespace
 
@@ -156,7 +153,7 @@ std::optional<MovingCamera::Posed> Ros2Camera::choose(double now) {
 }
 
 std::optional<Frame> Ros2Camera::deliver() {
-    const std::optional<MovingCamera::Posed> chosen = choose(monotonicNow());
+    const std::optional<MovingCamera::Posed> chosen = choose(steadySeconds());
     if (const size_t unpaired = pairs_->takeUnpaired()) {
         skip(choice_.depth.name + ": no colour image with a stamp that near",
              static_cast<uint32_t>(unpaired));
@@ -184,13 +181,13 @@ std::optional<Frame> Ros2Camera::deliver() {
 }
 
 std::optional<Frame> Ros2Camera::next() {
-    const double called = monotonicNow();
+    const double called = steadySeconds();
     for (;;) {
         receive();
         if (std::optional<Frame> frame = deliver()) {
             return frame;
         }
-        const double now = monotonicNow();
+        const double now = steadySeconds();
         if (now - std::max(lastDepth_, called - 0.5 * request_.silence) > request_.silence) {
             throw DeviceLost(description() + ": no depth image for " + std::to_string(now - lastDepth_) +
                              " s");

@@ -4,6 +4,7 @@
 #include "devices/bag/byte_writer.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
+#include "engine/types/steady_seconds.h"
 
 #include <chrono>
 
@@ -13,10 +14,6 @@ namespace {
 
 // A client that has found the service may not have been found yet: its reply waits for that.
 constexpr double kDiscovery = 0.1; // [s], as rmw_cyclonedds waits
-
-double serviceSeconds() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 } // namespace
 
@@ -36,7 +33,7 @@ void Ros2Service::answer(const RawMessage& request, const std::function<std::str
     reply.value(number);
     reply.value(uint8_t{1}); // success
     reply.text(obey(cursor));
-    waiting_.push_back({reply.bytes(), serviceSeconds()});
+    waiting_.push_back({reply.bytes(), steadySeconds()});
 }
 
 void Ros2Service::serve(const std::function<std::string(MessageCursor& request)>& obey) {
@@ -58,7 +55,7 @@ void Ros2Service::serve(const std::function<std::string(MessageCursor& request)>
 void Ros2Service::sendReplies() {
     const bool all = replies_.subscribers() >= inbox_.publishers(requests_);
     while (!waiting_.empty() &&
-           (all || waiting_.size() > kMaxWaiting || serviceSeconds() - waiting_.front().asked > kDiscovery)) {
+           (all || waiting_.size() > kMaxWaiting || steadySeconds() - waiting_.front().asked > kDiscovery)) {
         replies_.write(waiting_.front().bytes);
         waiting_.pop_front();
     }

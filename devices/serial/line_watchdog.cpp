@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/serial/line_watchdog.h"
 
+#include "engine/types/steady_seconds.h"
+
 #include <cerrno>
 #include <chrono>
 #include <poll.h>
@@ -14,10 +16,6 @@ namespace fathom {
 namespace {
 
 constexpr int kBeat = 10; // [ms] poll period
-
-double seconds() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 // Reads everything pending, so that a backlog does not count as silence. Answers, so that the engine notices a
 // watchdog that hangs.
@@ -36,7 +34,7 @@ void receive(int engine, LineWatchdog& watchdog) noexcept {
             return;
         }
         for (char byte : std::span(bytes, static_cast<size_t>(got))) {
-            byte == kWatchdogGoodbye ? watchdog.goodbye() : watchdog.alive(seconds());
+            byte == kWatchdogGoodbye ? watchdog.goodbye() : watchdog.alive(steadySeconds());
         }
         ::send(engine, &kWatchdogReady, 1, MSG_NOSIGNAL | MSG_DONTWAIT);
     }
@@ -81,10 +79,10 @@ bool LineWatchdog::over(double now) const noexcept {
 int watchLine(int engine, int line, const StandStill& still) noexcept {
     LineWatchdog watchdog(still.period);
     ::send(engine, &kWatchdogReady, 1, MSG_NOSIGNAL);
-    for (double now = seconds(); !watchdog.over(now); now = seconds()) {
+    for (double now = steadySeconds(); !watchdog.over(now); now = steadySeconds()) {
         receive(engine, watchdog);
         const int before = watchdog.failures();
-        if (watchdog.stopDue(seconds())) {
+        if (watchdog.stopDue(steadySeconds())) {
             if (watchdog.failures() > before) { // pending output would move the arm first
                 ::tcflush(line, TCOFLUSH);
             }
