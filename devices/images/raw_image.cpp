@@ -44,7 +44,8 @@ ColourPlanes placesOf(RawKind kind, uint32_t width, uint32_t height) {
     const uint32_t second = luma + (paired ? 1 : pairs * ((height + 1) / 2));
     ColourPlanes places;
     places.lumaStep = width;
-    places.blue = blueFirst ? luma : second, places.red = blueFirst ? second : luma;
+    places.blue = blueFirst ? luma : second;
+    places.red = blueFirst ? second : luma;
     places.chromaStep = paired ? 2 * pairs : pairs;
     places.across = places.down = 1;
     places.apart = paired ? 1 : 0;

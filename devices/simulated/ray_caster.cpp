@@ -83,8 +83,10 @@ void RayCaster::setView(const Pose& sceneTcamera, const Intrinsics& intrinsics) 
     sceneRcamera_ = glm::mat3_cast(sceneTcamera.rotation);
     intrinsics_ = intrinsics;
     TangentGrid grid;
-    grid.x0 = (-0.5 - intrinsics.cx) / intrinsics.fx, grid.y0 = (-0.5 - intrinsics.cy) / intrinsics.fy;
-    grid.stepX = kTilePixels / intrinsics.fx, grid.stepY = kTilePixels / intrinsics.fy;
+    grid.x0 = (-0.5 - intrinsics.cx) / intrinsics.fx;
+    grid.y0 = (-0.5 - intrinsics.cy) / intrinsics.fy;
+    grid.stepX = kTilePixels / intrinsics.fx;
+    grid.stepY = kTilePixels / intrinsics.fy;
     grid.columns = static_cast<uint32_t>(std::ceil(intrinsics.width / kTilePixels));
     grid.rows = static_cast<uint32_t>(std::ceil(intrinsics.height / kTilePixels));
     view_.build(scene_, sceneTcamera, grid);

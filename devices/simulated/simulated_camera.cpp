@@ -54,9 +54,11 @@ SimulatedCameraOptions checked(SimulatedCameraOptions options) {
 
 CameraInfo infoOf(const SimulatedCameraOptions& options) {
     CameraInfo info;
-    info.depth.width = options.width, info.depth.height = options.height;
+    info.depth.width = options.width;
+    info.depth.height = options.height;
     info.depth.fx = info.depth.fy = options.focal;
-    info.depth.cx = 0.5 * (options.width - 1.0), info.depth.cy = 0.5 * (options.height - 1.0);
+    info.depth.cx = 0.5 * (options.width - 1.0);
+    info.depth.cy = 0.5 * (options.height - 1.0);
     info.colour = info.depth;
     info.metresPerUnit = options.metresPerUnit;
     info.colourFormat = options.yuyv ? ColourFormat::Yuyv : ColourFormat::Rgba;
@@ -198,7 +200,8 @@ double SimulatedCamera::acrossJump(uint32_t pixel) const {
     double across = 0.0, largest = kFlyingJump * z;
     const auto look = [&](bool there, uint32_t other) {
         if (there && depth_[other] > 0.0 && std::abs(depth_[other] - z) > largest) {
-            across = depth_[other], largest = std::abs(depth_[other] - z);
+            across = depth_[other];
+            largest = std::abs(depth_[other] - z);
         }
     };
     look(u > 0, pixel - 1);

@@ -26,9 +26,11 @@ const SimulatedSonarOptions& checked(const SimulatedSonarOptions& o) {
 
 CameraInfo infoOf(const SimulatedSonarOptions& o) {
     CameraInfo info;
-    info.depth.width = o.width, info.depth.height = o.height;
+    info.depth.width = o.width;
+    info.depth.height = o.height;
     info.depth.fx = info.depth.fy = 1.0 / o.step;
-    info.depth.cx = 0.5 * (o.width - 1.0), info.depth.cy = 0.5 * (o.height - 1.0);
+    info.depth.cx = 0.5 * (o.width - 1.0);
+    info.depth.cy = 0.5 * (o.height - 1.0);
     info.depth.fan = true;
     info.colour = info.depth;
     info.metresPerUnit = o.metresPerUnit;
@@ -43,7 +45,8 @@ Intrinsics viewOf(const SimulatedSonarOptions& o) {
     view.fx = view.fy = kViewFocal;
     view.width = static_cast<uint32_t>(std::ceil(2.1 * kViewFocal * std::tan(az))) + 2;
     view.height = static_cast<uint32_t>(std::ceil(2.1 * kViewFocal * std::tan(el) / std::cos(az))) + 2;
-    view.cx = 0.5 * (view.width - 1.0), view.cy = 0.5 * (view.height - 1.0);
+    view.cx = 0.5 * (view.width - 1.0);
+    view.cy = 0.5 * (view.height - 1.0);
     return view;
 }
 

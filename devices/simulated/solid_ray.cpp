@@ -17,7 +17,9 @@ constexpr double kMiss = HUGE_VAL;
 double enterRound(const dvec3& o, const dvec3& d, double radius, int axes) noexcept {
     double a = d.x * d.x + d.y * d.y, b = o.x * d.x + o.y * d.y, c = o.x * o.x + o.y * o.y - radius * radius;
     if (axes == 3) {
-        a += d.z * d.z, b += o.z * d.z, c += o.z * o.z;
+        a += d.z * d.z;
+        b += o.z * d.z;
+        c += o.z * o.z;
     }
     const double discriminant = b * b - a * c;
     if (c <= 0.0 || b >= 0.0 || discriminant < 0.0) {
@@ -38,7 +40,8 @@ double enterBox(const dvec3& o, const dvec3& d, const dvec3& half) noexcept {
     for (int axis = 0; axis < 3; ++axis) {
         const double inverse = 1.0 / d[axis];
         const double low = (-half[axis] - o[axis]) * inverse, high = (half[axis] - o[axis]) * inverse;
-        in = std::max(in, std::min(low, high)), out = std::min(out, std::max(low, high));
+        in = std::max(in, std::min(low, high));
+        out = std::min(out, std::max(low, high));
     }
     return in > 0.0 && in <= out ? in : kMiss;
 }

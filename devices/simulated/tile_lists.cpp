@@ -25,7 +25,8 @@ bool touching(double across, double z, double radius, double& low, double& high)
     if (middle - half <= -limit || middle + half >= limit) {
         return false;
     }
-    low = std::min(low, std::tan(middle - half)), high = std::max(high, std::tan(middle + half));
+    low = std::min(low, std::tan(middle - half));
+    high = std::max(high, std::tan(middle + half));
     return true;
 }
 

@@ -54,7 +54,8 @@ void sampleSurface(std::span<const Sphere> spheres, const TriangleMesh& mesh, do
             double u = fraction(0.7548776662466927 * static_cast<double>(n));
             double v = fraction(0.5698402909980532 * static_cast<double>(n));
             if (u + v > 1.0) {
-                u = 1.0 - u, v = 1.0 - v;
+                u = 1.0 - u;
+                v = 1.0 - v;
             }
             look(mesh.corner(t, 0) + u * (mesh.corner(t, 1) - mesh.corner(t, 0)) +
                  v * (mesh.corner(t, 2) - mesh.corner(t, 0)));

@@ -33,7 +33,8 @@ std::pair<size_t, size_t> cheapestPair(const CoverFitting& f, const std::vector<
         for (size_t j = 0; j < parts.size(); ++j) {
             const double d = glm::distance(parts[i].sphere.centre, parts[j].sphere.centre);
             if (j != i && j != without && d < apart) {
-                apart = d, near = j;
+                apart = d;
+                near = j;
             }
         }
         if (i == without || near == parts.size()) {
@@ -44,7 +45,8 @@ std::pair<size_t, size_t> cheapestPair(const CoverFitting& f, const std::vector<
         const double along = apart > 0.0 ? std::clamp((radius - a.radius) / apart, 0.0, 1.0) : 0.0;
         const double out = protrusionOf(f.distance, {glm::mix(a.centre, b.centre, along), radius});
         if (out < least) {
-            least = out, best = {i, near};
+            least = out;
+            best = {i, near};
         }
     }
     return best;
