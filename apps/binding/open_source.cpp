@@ -121,8 +121,7 @@ std::unique_ptr<Camera> openCamera(const Scene& scene, const std::optional<std::
                                    Images images) {
     std::unique_ptr<Camera> camera = openDry(scene, source, images);
     checkCamera(camera->info(), camera->description());
-    const bool real = source || scene.source.kind != CameraSource::Kind::Simulated;
-    if (real && images != Images::NewestAgain) {
+    if (source || scene.source.kind != CameraSource::Kind::Simulated) {
         camera = std::make_unique<SourceCheck>(std::move(camera), scene);
     }
     if (scene.beam) {

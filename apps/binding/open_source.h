@@ -17,9 +17,8 @@ inline constexpr const char* kSourceHelp = "instead of the scene's camera: a rec
                                            "v4l2:auto, openni2 or ros2:depth=TOPIC; see "
                                            "man fathom, SOURCES";
 
-// For a live camera: the newest frame at each call, or every frame in order (for recordings). NewestAgain: the
-// source was open before, and what it lacks was said then.
-enum class Images { Newest, NewestAgain, Every };
+// For a live camera: the newest frame at each call, or every frame in order (for recordings).
+enum class Images { Newest, Every };
 
 // A recording or a live camera ("v4l2:..."), as --source names it. farthest [m]: beyond, readings do not
 // matter. Throws BadInput.

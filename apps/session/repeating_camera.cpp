@@ -9,12 +9,16 @@ namespace fathom {
 
 RepeatedCamera::RepeatedCamera(std::function<std::unique_ptr<Camera>()> open)
     : open_(std::move(open))
-    , source_(open_())
+    , source_([this] {
+        const log::SayOnce once(said_);
+        return open_();
+    }())
     , info_(source_->info())
     , description_(source_->description())
     , controls_(source_->controls()) {}
 
 std::optional<Frame> RepeatedCamera::next() {
+    const log::SayOnce once(said_);
     std::optional<Frame> frame = source_->next();
     if (!frame) {
         skipped_ += source_->skipped();

@@ -4,6 +4,7 @@
 
 #include "devices/camera.h"
 #include "devices/frame_slots.h"
+#include "engine/types/said_once.h"
 
 #include <atomic>
 #include <functional>
@@ -12,7 +13,7 @@
 
 namespace fathom {
 
-// Reopens the source when it has ended. Frame index and source number keep counting. Any thread may call
+// Reopens the source when it has ended, without logging the same lines again. Frame index and source number keep counting. Any thread may call
 // info() and description().
 class RepeatedCamera final : public Camera {
 public:
@@ -31,6 +32,7 @@ public:
     std::string description() const override { return description_; }
 
 private:
+    log::SaidLines said_; // before source_, which logs when it is opened
     std::function<std::unique_ptr<Camera>()> open_;
     std::unique_ptr<Camera> source_;
     CameraInfo info_; // of the first source; constant, because other threads read it

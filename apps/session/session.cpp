@@ -84,9 +84,7 @@ std::unique_ptr<Camera> openAny(const Scene& scene, const SessionOptions& option
     if (!source && scene.source.kind == CameraSource::Kind::Simulated) {
         return shuttle(scene, stop);
     }
-    return std::make_unique<RepeatedCamera>([scene, source, images = Images::Newest]() mutable {
-        return openCamera(scene, source, std::exchange(images, Images::NewestAgain));
-    });
+    return std::make_unique<RepeatedCamera>([scene, source] { return openCamera(scene, source); });
 }
 
 // Rejects a live camera in lockstep, where its frames would have no time on the simulated clock.

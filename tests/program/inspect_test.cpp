@@ -3,6 +3,7 @@
 #include "tests/rig/refusal.h"
 
 #include <doctest/doctest.h>
+#include <fstream>
 
 using namespace fathom;
 
@@ -74,4 +75,21 @@ TEST_CASE("inspect rejects what is not a source in one line, after the list of s
     checkRefusal({"inspect", (stage / "notes.txt").string()}, {"notes.txt", "kind", "MCAP"});
     checkRefusal({"inspect", (stage / "nowhere").string()}, {"nowhere", "missing"});
     checkRefusal({"inspect"}, {"SOURCE"});
+}
+
+TEST_CASE("inspect says what is wrong with a folder of ROS 2 once") {
+    const Stage stage;
+    std::filesystem::create_directory(stage / "rec");
+    std::filesystem::copy_file("tests/fuzz/corpus/mcap/zstd", stage / "rec/a_0.mcap");
+    std::filesystem::copy_file("tests/fuzz/corpus/mcap/zstd", stage / "rec/b_0.mcap");
+    std::ofstream(stage / "rec/metadata.yaml")
+        << "rosbag2_bagfile_information: {relative_file_paths: [a_0.mcap, gone_1.mcap]}\n";
+    const ProgramRun run = runFathom({"inspect", (stage / "rec").string()});
+    CHECK_MESSAGE(run.exitCode == 0, run.err);
+    for (const char* warning : {"metadata.yaml lists gone_1.mcap", "does not list it: b_0.mcap"}) {
+        CAPTURE(warning);
+        const size_t first = run.err.find(warning);
+        CHECK(first != std::string::npos);
+        CHECK(run.err.find(warning, first + 1) == std::string::npos);
+    }
 }

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// Keeps a source that is opened and read again from logging the same lines again.
+#pragma once
+
+#include <set>
+#include <string>
+
+namespace fathom::log {
+
+// Lines that were logged; at most kMost, later ones repeat. One thread at a time.
+class SaidLines {
+public:
+    // False where the line is known. Adds it.
+    bool isNew(const std::string& line) {
+        return lines_.size() >= kMost ? lines_.count(line) == 0 : lines_.insert(line).second;
+    }
+
+private:
+    static constexpr size_t kMost = 1000;
+    std::set<std::string> lines_;
+};
+
+// While it lives, its thread logs no line that `said` holds, and `said` takes those that it logs. The innermost
+// one applies.
+class SayOnce {
+public:
+    explicit SayOnce(SaidLines& said) noexcept;
+    SayOnce(const SayOnce&) = delete;
+    SayOnce& operator=(const SayOnce&) = delete;
+    ~SayOnce();
+
+private:
+    SaidLines* before_;
+};
+
+} // namespace fathom::log

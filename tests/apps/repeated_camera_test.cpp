@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/binding/open_source.h"
+#include "apps/session/repeating_camera.h"
+#include "tests/devices/recorded_folder.h"
+#include "tests/realtime/listening.h"
+
+#include <doctest/doctest.h>
+
+using namespace fathom;
+using namespace fathom::testing;
+
+namespace {
+
+// A recording of three frames: one image is missing, and its poses have a name that is not read.
+void writeDoubtful(const TemporaryFolder& folder) {
+    writeSmallRecording(folder, 3);
+    std::filesystem::remove(folder.path() / "depth/1.png");
+    folder.write("groundtruth.txt", "0 0 0 0 0 0 0 1\n");
+}
+
+} // namespace
+
+TEST_CASE("A recording that is repeated says each warning once, and again where it is another one") {
+    const TemporaryFolder folder;
+    writeDoubtful(folder);
+    Scene scene;
+    FixtureClass valve;
+    valve.name = "valve";
+    valve.hue = Band{0.0, 30.0};
+    scene.fixtures = {valve};
+    const Listening log;
+    RepeatedCamera camera([&] { return openCamera(scene, folder.path().string() + ",colour=none"); });
+    for (int frame = 0; frame < 9; ++frame) {
+        REQUIRE(camera.next());
+        if (frame == 5) {
+            std::filesystem::remove(folder.path() / "depth/2.png");
+        }
+    }
+    CHECK(log.count("groundtruth.txt") == 1);
+    CHECK(log.count("1.png") == 1);
+    CHECK(log.count("2.png") == 1);
+    CHECK(log.count("fixture 'valve' will have no point") == 1);
+    CHECK_FALSE(camera.warnings().empty()); // of the newest round, for displays
+}
+
+TEST_CASE("A recording that is opened twice says its warnings twice") {
+    const TemporaryFolder folder;
+    writeDoubtful(folder);
+    const Listening log;
+    openSource(folder.path().string(), Images::Newest);
+    openSource(folder.path().string(), Images::Newest);
+    CHECK(log.count("groundtruth.txt") == 2);
+}
