@@ -38,9 +38,32 @@ std::vector<TextLine> readRows(const std::filesystem::path& file, const std::str
     return rows;
 }
 
+namespace {
+
+// Throws BadInput where points lie behind the camera: rows are those of the pairs.
+void refuseBehind(const std::filesystem::path& file, const std::vector<TextLine>& rows,
+                  const std::vector<PointPair>& pairs) {
+    constexpr const char* kAllowed =
+        "camera_z above 0: x right, y down, z forward; of axes with y up negate y and z";
+    const auto behind = [](const PointPair& pair) { return !(pair.camera.z > 0.0); };
+    if (pairs.size() > 1 && std::all_of(pairs.begin(), pairs.end(), behind)) {
+        throw BadInput(file.string(), "camera_z",
+                       "all " + std::to_string(pairs.size()) + " points are behind the camera", kAllowed);
+    }
+    const auto first = std::find_if(pairs.begin(), pairs.end(), behind);
+    if (first != pairs.end()) {
+        const TextLine& line = rows[static_cast<size_t>(first - pairs.begin())];
+        throw BadInput(file.string(), "line " + std::to_string(line.number),
+                       line.text.substr(0, 160) + ", which is behind the camera", kAllowed);
+    }
+}
+
+} // namespace
+
 std::vector<PointPair> readPointPairs(const std::filesystem::path& file) {
+    const std::vector<TextLine> rows = readRows(file, "camera_x,camera_y,camera_z,base_x,base_y,base_z");
     std::vector<PointPair> pairs;
-    for (const TextLine& line : readRows(file, "camera_x,camera_y,camera_z,base_x,base_y,base_z")) {
+    for (const TextLine& line : rows) {
         std::string spaced = line.text;
         std::replace(spaced.begin(), spaced.end(), ',', ' ');
         std::istringstream words(spaced);
@@ -53,13 +76,10 @@ std::vector<PointPair> readPointPairs(const std::filesystem::path& file) {
                 "six numbers camera_x,camera_y,camera_z,base_x,base_y,base_z, up to 1e6 m, separated "
                 "by commas or spaces");
         }
-        if (!(c.z > 0.0)) {
-            throw BadInput(file.string(), "line " + std::to_string(line.number), line.text.substr(0, 160),
-                           "camera_z above 0: x right, y down, z forward; of axes with y up negate y and z");
-        }
         pair.name = "line " + std::to_string(line.number);
         pairs.push_back(pair);
     }
+    refuseBehind(file, rows, pairs);
     return pairs;
 }
 

@@ -143,7 +143,13 @@ TEST_CASE("Lists of tags and points are read, and an invalid line is rejected wi
     CHECK_THROWS_WITH_AS(readPointPairs(write("1;2;3;4;5;6\n")), doctest::Contains("commas or spaces"),
                          BadInput);
     CHECK_THROWS_WITH_AS(readPointPairs(write("1,2,3,4,5,6\n1,2,-3,4,5,6\n")),
-                         doctest::Contains("line 2: 1,2,-3,4,5,6 (allowed: camera_z above 0"), BadInput);
+                         doctest::Contains("line 2: 1,2,-3,4,5,6, which is behind the camera (allowed: "
+                                           "camera_z above 0"),
+                         BadInput);
+    CHECK_THROWS_WITH_AS(readPointPairs(write(header + "1,2,-3,4,5,6\n1,2,-4,4,5,6\n")),
+                         doctest::Contains("camera_z: all 2 points are behind the camera (allowed: camera_z "
+                                           "above 0"),
+                         BadInput);
     CHECK_THROWS_AS(readPointPairs(folder.path() / "none.csv"), BadInput);
 }
 
