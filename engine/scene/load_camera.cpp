@@ -11,6 +11,15 @@ namespace fathom {
 
 namespace {
 
+// `frames`, or `pictures`, its former name.
+std::optional<YamlNode> frameCount(const YamlNode& node) {
+    const auto frames = node.find("frames"), pictures = node.find("pictures");
+    if (frames && pictures) {
+        pictures->refuse("none: it is the former name of frames");
+    }
+    return frames ? frames : pictures;
+}
+
 CameraSource simulatedSource(const YamlNode& node, const YamlNode& simulated) {
     constexpr std::string_view kScenes[] = {"tank", "sphere", "plane",  "torus", "slot",
                                             "gap",  "plate",  "corner", "sonar", "wetmate"};
@@ -22,7 +31,9 @@ CameraSource simulatedSource(const YamlNode& node, const YamlNode& simulated) {
     if (source.showsArm && sonar) {
         arm->refuse("false: the simulated sonar draws none");
     }
-    node.read("pictures", source.images, 1, 100'000);
+    if (const auto frames = frameCount(node)) {
+        source.images = static_cast<uint32_t>(frames->integer(1, 100'000));
+    }
     const auto colour = node.find("colour");
     source.yuyv = colour && colour->oneOf(kFormats) == 1;
     if (source.yuyv && sonar) {
@@ -60,7 +71,7 @@ std::string recordingBesideScene(Scene& scene, const std::string& text) {
 }
 
 CameraSource loadSource(const YamlNode& node, Scene& scene) {
-    node.checkKeys({"simulated", "recorded", "v4l2", "ros2", "arm", "pictures", "colour"});
+    node.checkKeys({"simulated", "recorded", "v4l2", "ros2", "arm", "frames", "pictures", "colour"});
     const auto simulated = node.find("simulated"), recorded = node.find("recorded"), v4l2 = node.find("v4l2"),
                ros2 = node.find("ros2");
     const int given = int(simulated.has_value()) + int(recorded.has_value()) + int(v4l2.has_value()) +
@@ -74,8 +85,10 @@ CameraSource loadSource(const YamlNode& node, Scene& scene) {
     if (const auto arm = node.find("arm")) {
         arm->refuse("none: only a simulated camera draws an arm");
     }
-    if (const auto images = node.find("pictures")) {
-        images->refuse("none: only a simulated camera has a selectable number");
+    if (const auto frames = frameCount(node)) {
+        frames->refuse(
+            std::string("none: only a simulated camera has a selectable number") +
+            (recorded ? "; of a recording, ,start=S and ,duration=S behind PATH play a part" : ""));
     }
     if (const auto colour = node.find("colour")) {
         colour->refuse("none: only a simulated camera has a selectable format");
