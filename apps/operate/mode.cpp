@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/operate/mode.h"
 
+#include "apps/operate/arming.h"
 #include "apps/operate/theme.h"
 #include "engine/cycle/wrench_stage.h"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace fathom::operate {
 
@@ -28,6 +30,42 @@ Mode forcesFading(const char* meaning) {
     return {"FORCES FADING", "~", colour::kCaution, Edge::Dashed, meaning};
 }
 
+// Why the device gets no force, or a fading one, although forces are on and the scene is fresh.
+struct LossCause {
+    const char* word;
+    const char* meaning;
+};
+
+LossCause lossCause(const RunView& run) {
+    const TickRow& tick = run.step();
+    if ((tick.hand.buttons & kDeadManOpen) != 0) {
+        return {"DEAD-MAN OPEN", "No force: the device's dead-man switch is open. Close it"};
+    }
+    if (!tick.hand.present) {
+        return {"DEVICE LOST", "No force: the haptic device is lost or silent. Check its cable"};
+    }
+    if (tick.record.state == StepState::Fading && run.regionsVanished()) {
+        return {"REGION GONE", "Forces fade: a region that pressed the hand disappeared"};
+    }
+    return {"DEVICE LOST", "No force: the haptic device was lost, several times or a moment ago. Wait"};
+}
+
+Mode staleMode(const ModeInput& input) {
+    const StepRecord& record = input.run.step().record;
+    return {
+        "STALE", "~", colour::kCaution, Edge::Dashed,
+        record.sceneAge < 0.0
+            ? "The newest frame is ahead of the clock: forces fade. Check which clock the camera stamps with"
+        : cameraSilent(record, input.haptics)
+            ? "There is no camera image: forces fade until one comes. Check the camera"
+            : "The newest frame is too old: forces fade until the next one"};
+}
+
+bool isStale(const ModeInput& input) {
+    const StepRecord& record = input.run.step().record;
+    return record.state == StepState::Fading && isOld(record.sceneAge, input.haptics.staleAfter);
+}
+
 // While no fixture pushes.
 const char* meaningOfArmed(uint32_t causes) {
     if ((causes & cause::kGuidance) != 0) {
@@ -46,15 +84,10 @@ Mode armedMode(const ModeInput& input) {
                 "The tool is trapped between regions, or a real arm stands still: forces fade. W says why"};
     }
     if (state == StepState::Off && record.frame >= 0) {
-        return forcesOff("The device gets no force: its dead-man switch is open, or it is lost");
+        return forcesOff(lossCause(input.run).meaning);
     }
     if (state == StepState::Fading) {
-        return isOld(record.sceneAge, input.haptics.staleAfter)
-                   ? Mode{"STALE", "~", colour::kCaution, Edge::Dashed,
-                          "The newest frame is too old: forces fade until the next one"}
-                   : forcesFading("Forces fade: pressed regions disappeared, or the device's dead-man switch "
-                                  "is open, or "
-                                  "it is lost");
+        return isStale(input) ? staleMode(input) : forcesFading(lossCause(input.run).meaning);
     }
     if (atLimit(record, input.haptics)) {
         return {"AT LIMIT", "!", colour::kWarningWord, Edge::Hatched,
@@ -128,6 +161,35 @@ Mode modeOf(const ModeInput& input) {
     return armedMode(input);
 }
 
+namespace {
+
+// Why forces that are on do not come, or come late. Empty = nothing to say.
+Chip reasonChip(const ModeInput& input) {
+    const StepRecord& record = input.run.step().record;
+    if (record.state == StepState::Off && record.frame < 0) {
+        return {"NO REGIONS YET", colour::kCaution, "No force before regions are known"};
+    }
+    if (record.state == StepState::Waiting) {
+        return {"LAGS", colour::kCaution,
+                "Late contacts or slow joints: no force until the tool has caught up"};
+    }
+    if (record.state == StepState::Escape) {
+        return {"ESCAPING", colour::kCaution, "A region now covers the tool, which moves out"};
+    }
+    if (isStale(input)) {
+        return cameraSilent(record, input.haptics) && record.sceneAge > 0.0
+                   ? Chip{"NO CAMERA IMAGE", colour::kCaution, staleMode(input).meaning}
+                   : Chip{};
+    }
+    if (record.state == StepState::Off || record.state == StepState::Fading) {
+        const LossCause cause = lossCause(input.run);
+        return {cause.word, colour::kCaution, cause.meaning};
+    }
+    return {};
+}
+
+} // namespace
+
 std::vector<Chip> chipsOf(const ModeInput& input) {
     const Console& console = input.console;
     const StepRecord& record = input.run.step().record;
@@ -143,17 +205,8 @@ std::vector<Chip> chipsOf(const ModeInput& input) {
                          "Guidance is on: the tool is pulled to the nearest target. G: off"});
     }
     if (console.forces && !console.timeLine.on) {
-        constexpr std::pair<const char*, const char*> kUnknown{"NO REGIONS YET",
-                                                               "No force before regions are known"},
-            kLags{"LAGS", "Late contacts or slow joints: no force until the tool has caught up"},
-            kEscaping{"ESCAPING", "A region now covers the tool, which moves out"}, kNone{nullptr, ""};
-        const bool unknown = record.state == StepState::Off && record.frame < 0;
-        const auto [word, tip] = unknown                              ? kUnknown
-                                 : record.state == StepState::Waiting ? kLags
-                                 : record.state == StepState::Escape  ? kEscaping
-                                                                      : kNone;
-        if (word != nullptr) {
-            chips.push_back({word, colour::kCaution, tip});
+        if (Chip reason = reasonChip(input); !reason.word.empty()) {
+            chips.push_back(std::move(reason));
         }
     }
     if (console.clutch) {

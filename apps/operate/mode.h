@@ -34,8 +34,8 @@ struct ModeInput {
 // LOOK-BACK, FORCES OFF, FORCES FADING, HELD, STALE, AT LIMIT, CONTACT or ARMED.
 Mode modeOf(const ModeInput& input);
 
-// What does not replace the word: GUIDE, FROZEN, REC, CLUTCH, NO REGIONS YET, LAGS, ESCAPING; in playback the
-// recorded state.
+// What does not replace the word: GUIDE, FROZEN, REC, CLUTCH; why there is no force: NO REGIONS YET, LAGS,
+// ESCAPING, DEAD-MAN OPEN, DEVICE LOST, REGION GONE, NO CAMERA IMAGE; in playback the recorded state.
 struct Chip {
     std::string word;
     ImU32 colour = 0;

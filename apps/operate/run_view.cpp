@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/operate/run_view.h"
 
+#include "engine/cycle/haptic_options.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -76,6 +78,7 @@ void RunView::rewind() {
 }
 
 void RunView::take(const TickRow& row) {
+    vanishedAt_ = row.record.vanished > tick_.record.vanished ? row.record.t : vanishedAt_;
     tick_ = row;
     ++ticks_;
     late_ += row.late ? 1 : 0;
@@ -90,6 +93,7 @@ void RunView::take(const TickRow& row) {
         measured_ = Measured{r.t - row.armStatus.age, row.armStatus.posture};
     }
     trace_.push_back(sampleOf(row));
+    trace_.back().fade = fadeOf(row);
     const TraceWrench felt = trace_.back().delivered();
     ripple_.add(r.t, r.frame, {dvec3(felt.force), dvec3(felt.torque)});
     force_.add(r.t, glm::length(felt.force), kSpan);
@@ -99,6 +103,19 @@ void RunView::take(const TickRow& row) {
     }
     noteDelay(r);
     noteBlocks(row);
+}
+
+Fade RunView::fadeOf(const TickRow& row) const {
+    if ((row.hand.buttons & kDeadManOpen) != 0) { // also by the window's switch
+        return Fade::SwitchedOff;
+    }
+    if (!row.hand.present) {
+        return Fade::DeviceLost;
+    }
+    if (isOld(row.record.sceneAge, HapticOptions().staleAfter)) {
+        return Fade::OldFrame;
+    }
+    return regionsVanished() ? Fade::RegionGone : Fade::Unknown;
 }
 
 void RunView::noteDelay(const StepRecord& r) {

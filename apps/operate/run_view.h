@@ -19,6 +19,9 @@ struct TraceWrench {
     glm::vec3 torque{0.0f}; // [N m]
 };
 
+// Why the state of a tick is fading, as far as the tick shows it.
+enum class Fade : uint8_t { Unknown, SwitchedOff, DeviceLost, RegionGone, OldFrame };
+
 // One tick in the traces.
 struct TraceSample {
     double t = 0.0;       // [s]
@@ -27,6 +30,7 @@ struct TraceSample {
     int64_t frame = -1;   // frame whose set was used
     StepState state = StepState::Off;
     bool guided = false, late = false;
+    Fade fade = Fade::Unknown; // of the state Fading
     // What the hand gets; without a known residual, all of it.
     TraceWrench delivered() const;
 };
@@ -94,6 +98,8 @@ public:
         return measured_;
     } // last measurement; empty = never measured
     bool anyTick() const { return ticks_ > 0; }
+    // Whether regions disappeared while they pressed, so recently that their force may still fade.
+    bool regionsVanished() const { return tick_.record.t - vanishedAt_ <= 5.0; }
     uint64_t ticks() const { return ticks_; }
     const std::deque<TraceSample>& trace() const { return trace_; }
     Peaks peaks() const { return {force_.value(), torque_.value()}; } // of the trace
@@ -113,10 +119,12 @@ public:
 private:
     void noteDelay(const StepRecord& record);
     void noteBlocks(const TickRow& row);
+    Fade fadeOf(const TickRow& row) const;
 
     SnapshotSink& sink_;
     TickRow tick_;
     std::optional<Measured> measured_;
+    double vanishedAt_ = -1e9; // [s]
     uint64_t ticks_ = 0, late_ = 0;
     uint64_t restarts_ = 0;
     std::deque<TraceSample> trace_;

@@ -98,14 +98,19 @@ void drawPeak(const WrenchFigures& plot, const TraceArea& area, float y) {
                                                   plot.colour);
 }
 
-const char* eventWord(StepState state) {
-    switch (state) {
+const char* fadeWord(Fade fade) {
+    constexpr const char* kWords[]{"fading", "off", "device lost", "region gone", "old frame"};
+    return kWords[static_cast<size_t>(fade)];
+}
+
+const char* eventWord(const TraceSample& sample) {
+    switch (sample.state) {
     case StepState::Escape:
         return "escape";
     case StepState::Trapped:
         return "trapped";
     case StepState::Fading:
-        return "fading";
+        return fadeWord(sample.fade);
     case StepState::Waiting:
         return "lags";
     default:
@@ -181,7 +186,7 @@ std::vector<TraceSpan> traceSpans(const std::deque<TraceSample>& trace) {
         }
     };
     collect(colour::kGuidance, [](const TraceSample& s) { return s.guided ? "guide" : ""; });
-    collect(colour::kCaution, [](const TraceSample& s) { return eventWord(s.state); });
+    collect(colour::kCaution, [](const TraceSample& s) { return eventWord(s); });
     return spans;
 }
 

@@ -64,16 +64,55 @@ TEST_CASE(
     run.row.record.state = StepState::Fading;
     run.step(0.001);
     CHECK(std::string(modeOf(input).word) == "FORCES FADING");
-    CHECK(chipsOf(input).empty());
     run.row.record.state = StepState::Off;
     run.step(0.001);
     CHECK(std::string(modeOf(input).word) == "FORCES OFF");
-    CHECK(std::string(modeOf(input).meaning).find("dead-man switch") != std::string::npos);
-    CHECK(chipsOf(input).empty());
     run.row.record.sceneAge = -0.2; // a camera on another clock, ahead of the hand's
     run.row.record.state = StepState::Fading;
     run.step(0.001);
     CHECK(std::string(modeOf(input).word) == "STALE");
+}
+
+TEST_CASE(
+    "Forces that fade or are off name one cause: the dead-man switch, the device, regions or the camera") {
+    ViewedRun run;
+    const ModeInput input{run.console, run.view, run.haptics};
+    run.console.forces = true;
+    run.row.record.frame = 3;
+    std::vector<Fade> fades;
+    const auto says = [&](StepState state, const std::string& chip, const std::string& meaning) {
+        run.row.record.state = state;
+        run.step(0.001);
+        CAPTURE(std::string(modeOf(input).meaning));
+        CHECK(joined(chipsOf(input), &Chip::word) == chip);
+        fades.push_back(run.view.trace().back().fade);
+        CHECK(std::string(modeOf(input).meaning).find(meaning) != std::string::npos);
+    };
+    for (const StepState state : {StepState::Fading, StepState::Off}) {
+        run.row.hand = {};
+        run.row.hand.buttons = kDeadManOpen | kGuidanceButton;
+        says(state, "DEAD-MAN OPEN", "dead-man switch is open");
+        run.row.hand.buttons = 0;
+        run.row.hand.present = false;
+        says(state, "DEVICE LOST", "device is lost");
+        run.row.hand.present = true;
+        says(state, "DEVICE LOST", "device was lost"); // several times: forces wait
+    }
+    ++run.row.record.vanished;
+    says(StepState::Fading, "REGION GONE", "disappeared");
+    run.row.record.t += 60.0;
+    says(StepState::Fading, "DEVICE LOST", "device was lost");
+    run.row.record.sceneAge = 0.11;
+    says(StepState::Fading, "", "newest frame is too old");
+    run.row.record.sceneAge = 0.6;
+    says(StepState::Fading, "NO CAMERA IMAGE", "no camera image");
+    run.row.record.sceneAge = -0.2;
+    says(StepState::Fading, "", "ahead of the clock");
+    run.console.forces = false;
+    says(StepState::Fading, "", "being switched off");
+    using enum Fade;
+    CHECK(fades == std::vector<Fade>{SwitchedOff, DeviceLost, Unknown, SwitchedOff, DeviceLost, Unknown,
+                                     RegionGone, Unknown, OldFrame, OldFrame, OldFrame, OldFrame});
 }
 
 TEST_CASE("While guidance or a joint limit pushes the hand, ARMED does not say that nothing pushes") {

@@ -88,16 +88,19 @@ TEST_CASE("A state that lasts is one bar from its begin to its end, however ofte
         sample.t = 0.01 * i;
         const bool fades = (i >= 20 && i < 50) || i >= 60;
         sample.state = fades ? StepState::Fading : StepState::Contact;
+        sample.fade = i < 80 ? Fade::OldFrame : Fade::RegionGone;
         sample.guided = i >= 10 && i < 30;
         trace.push_back(sample);
     }
     const std::vector<TraceSpan> spans = traceSpans(trace);
-    REQUIRE(spans.size() == 3);
+    REQUIRE(spans.size() == 4);
     CHECK(std::string(spans[0].word) == "guide");
     CHECK(spans[0].from == doctest::Approx(0.1));
     CHECK(spans[0].to == doctest::Approx(0.3));
-    CHECK(std::string(spans[1].word) == "fading");
+    CHECK(std::string(spans[1].word) == "old frame");
     CHECK(spans[1].from == doctest::Approx(0.2));
     CHECK(spans[1].to == doctest::Approx(0.5));
-    CHECK(spans[2].to == doctest::Approx(0.99)); // it lasts
+    CHECK(spans[2].to == doctest::Approx(0.8)); // another cause
+    CHECK(std::string(spans[3].word) == "region gone");
+    CHECK(spans[3].to == doctest::Approx(0.99)); // it lasts
 }
