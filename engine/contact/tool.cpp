@@ -2,6 +2,7 @@
 #include "engine/contact/tool.h"
 
 #include "engine/types/error.h"
+#include "engine/types/leaf_limit.h"
 
 #include <algorithm>
 #include <cmath>
@@ -48,9 +49,9 @@ Tool::Tool(SphereTree tree)
         largestRadius = std::max(largestRadius, leaf.radius);
         boundingRadius_ = std::max(boundingRadius_, glm::length(leaf.centre) + leaf.radius);
     }
-    if (leaves_.empty() || leaves_.size() > kMaxLeaves) {
+    if (leaves_.empty() || leaves_.size() > kMaxToolLeaves) {
         throw Error(std::to_string(leaves_.size()) + " leaf spheres (allowed: 1 to " +
-                    std::to_string(kMaxLeaves) + ")");
+                    std::to_string(kMaxToolLeaves) + ")");
     }
     gyrationRadius_ = std::max(std::sqrt(sumOfSquares / static_cast<double>(leaves_.size())), largestRadius);
 }
