@@ -3,6 +3,7 @@
 
 #include "devices/ros2/joint_readings.h"
 #include "devices/ros2/ros2_graph.h"
+#include "engine/types/steady_seconds.h"
 
 #include <algorithm>
 #include <chrono>
@@ -12,10 +13,6 @@ namespace fathom {
 namespace {
 
 constexpr double kOldPosture = 0.25; // [s]
-
-double armSeconds() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 // Joints of the chain that follow no other.
 std::vector<RobotJoint> ownJoints(const ArmModel& model) {
@@ -77,7 +74,7 @@ void MeasuredDevice::step(double, const ArmCommand& command) noexcept {
     }
     model_.follow(q);
     std::copy_n(q.begin(), model_.count(), feedback_.position.begin());
-    feedback_.age = readings_.age(armSeconds());
+    feedback_.age = readings_.age(steadySeconds());
     feedback_.stale = !(feedback_.age <= kOldPosture);
     feedback_.holding = command.hold;
     feedback_.damaged = readings_.skipped();

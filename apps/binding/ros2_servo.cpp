@@ -2,6 +2,7 @@
 #include "apps/binding/ros2_servo.h"
 
 #include "engine/types/error.h"
+#include "engine/types/steady_seconds.h"
 
 #include <algorithm>
 #include <chrono>
@@ -14,10 +15,6 @@ namespace {
 
 constexpr double kLongestGap = 0.1; // [s] between two steps of one velocity
 constexpr double kReachedIn = 2.0;  // periods from a message to its joints
-
-double bootSeconds() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 uint64_t utcNow() {
     const auto now = std::chrono::system_clock::now().time_since_epoch();
@@ -119,7 +116,7 @@ std::string Ros2Servo::whyHeld(const Ros2Tick& tick) const {
     if (tick.record.armHold) {
         return "held: forces are off, the newest frame is too old, or the tool is trapped";
     }
-    if (measured_.age(bootSeconds()) > kOld) {
+    if (measured_.age(steadySeconds()) > kOld) {
         return "held: no measured joints";
     }
     for (size_t i = 0; i < own_.size(); ++i) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/binding/ros2_tick.h"
 
+#include "engine/types/steady_seconds.h"
+
 #include <algorithm>
 #include <chrono>
 
@@ -17,8 +19,7 @@ bool MessagePace::due(double t) noexcept {
 }
 
 uint64_t TickStamps::at(double t) noexcept {
-    const double now =
-        std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+    const double now = steadySeconds();
     const auto utc = std::chrono::system_clock::now().time_since_epoch();
     zero_ = any_ && t >= last_ ? std::min(zero_, now - t) : now - t;
     last_ = t;

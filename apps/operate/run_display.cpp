@@ -5,6 +5,7 @@
 #include "apps/operate/closing.h"
 #include "apps/operate/open_card.h"
 #include "engine/types/error.h"
+#include "engine/types/steady_seconds.h"
 
 #include <algorithm>
 #include <chrono>
@@ -13,10 +14,6 @@
 namespace fathom::operate {
 
 namespace {
-
-double seconds() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 Console consoleFor(const Scene& scene, double textScale) {
     Console console;
@@ -42,7 +39,7 @@ RunDisplay::RunDisplay(const OperateOptions& options, Window& window, Session& s
 }
 
 void RunDisplay::begin() {
-    started_ = lastFrame_ = seconds();
+    started_ = lastFrame_ = steadySeconds();
     if (!options_.notice.empty()) {
         console.notify(options_.notice);
     }
@@ -51,9 +48,9 @@ void RunDisplay::begin() {
 double RunDisplay::beginFrame() {
     window_.setFullScreen(console.fullScreen);
     const double period = pace_.period();
-    window_.beginFrame(std::clamp(period - (seconds() - lastFrame_), 0.0, period));
+    window_.beginFrame(std::clamp(period - (steadySeconds() - lastFrame_), 0.0, period));
     pace_.note(threadCpuTime());
-    const double now = seconds(), dt = now - lastFrame_;
+    const double now = steadySeconds(), dt = now - lastFrame_;
     windowHz_ += 0.05 * (1.0 / std::max(1e-3, dt) - windowHz_);
     lastFrame_ = now;
     console.monitorScale = window_.monitorScale();
@@ -73,7 +70,7 @@ void RunDisplay::followClosing(FixtureEditor& editor, bool forcesGone) {
 }
 
 double RunDisplay::elapsed() const {
-    return seconds() - started_;
+    return steadySeconds() - started_;
 }
 
 bool RunDisplay::wantsToEnd() const {

@@ -6,6 +6,7 @@
 #include "apps/operate/why_panel.h"
 #include "engine/gpu/instance.h"
 #include "engine/types/error.h"
+#include "engine/types/steady_seconds.h"
 
 #include <chrono>
 #include <cmath>
@@ -208,8 +209,7 @@ StateLog::StateLog(const std::filesystem::path& file)
 
 void StateLog::write(const ShownState& s, bool now) {
     constexpr double kPeriod = 1.0 / 30.0; // [s]
-    const double t =
-        std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+    const double t = steadySeconds();
     if (!out_.is_open() || (!now && t < next_)) {
         return;
     }
