@@ -144,7 +144,8 @@ std::optional<dvec3> middleSphere(const Fixtures& set, int fixture) {
         const dvec3 centre(s.x[i], s.y[i], s.z[i]);
         const double distance = glm::length(centre - sum / static_cast<double>(count));
         if (s.fixture[i] == fixture && distance < nearest) {
-            middle = set.origin + centre, nearest = distance;
+            middle = set.origin + centre;
+            nearest = distance;
         }
     }
     return middle;

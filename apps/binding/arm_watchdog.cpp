@@ -39,7 +39,8 @@ ArmWatchdog::ArmWatchdog(const SerialPort& port, SceneArm::Driver::Protocol prot
         const std::string name = protocolName(protocol);
         const char* words[] = {"fathom", kArmWatchdogCommand, name.c_str(), nullptr};
         std::array<int, kWatchdogLine + 1> files{kNullDevice, kNullDevice, STDERR_FILENO};
-        files[kWatchdogEngine] = ends[1], files[kWatchdogLine] = port.descriptor();
+        files[kWatchdogEngine] = ends[1];
+        files[kWatchdogLine] = port.descriptor();
         fault = startOwnProcess(process_, files, words);
         ::close(ends[1]);
     }

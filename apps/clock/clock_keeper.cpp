@@ -49,7 +49,8 @@ ClockKeeper::ClockKeeper(const GlobalOptions& options, const DeviceFacts& device
     }
     ::close(life[0]);
     ::close(answer[1]);
-    life_ = life[1], answer_ = answer[0];
+    life_ = life[1];
+    answer_ = answer[0];
     if (fault != 0) {
         process_ = -1;
         log::warn("--hold-clock: cannot lock the clock of '{}': {}", device.name, std::strerror(fault));

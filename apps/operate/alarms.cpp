@@ -59,7 +59,8 @@ void Alarms::update(Alarm& alarm, bool on, const Text& text, double t, Filter fi
             alarm.since = t;
             alarm.acknowledged = false;
         }
-        alarm.what = text.what, alarm.todo = text.todo;
+        alarm.what = text.what;
+        alarm.todo = text.todo;
         alarm.last = t;
         alarm.active = true;
     } else if (alarm.active && t - alarm.last >= settle_ * filter.hold) {

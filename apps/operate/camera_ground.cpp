@@ -82,8 +82,10 @@ ImageView halved(ImageView view) {
     Intrinsics& lens = view.lens;
     lens.width = std::max(1u, lens.width / 2);
     lens.height = std::max(1u, lens.height / 2);
-    lens.fx *= 0.5, lens.fy *= 0.5;
-    lens.cx = 0.5 * lens.cx - 0.25, lens.cy = 0.5 * lens.cy - 0.25; // pixel centres are at integers
+    lens.fx *= 0.5;
+    lens.fy *= 0.5;
+    lens.cx = 0.5 * lens.cx - 0.25;
+    lens.cy = 0.5 * lens.cy - 0.25; // pixel centres are at integers
     return view;
 }
 

@@ -38,7 +38,8 @@ public:
         double least = 1e300;
         for (size_t i = 0; i < discs_.size(); ++i) {
             if (const double here = off(discs_[i]); here < least) {
-                least = here, last_ = i;
+                least = here;
+                last_ = i;
             }
         }
         return discs_[last_].z;

@@ -66,7 +66,9 @@ std::optional<Nearest> nearestRegion(const Fixtures& set, std::span<const Sphere
                 const Sphere sphere{regionCentre(set, i), double{set.spheres.radius[i]}};
                 for (const Sphere& s : group) {
                     if (const double gap = gapBetween(sphere, s); gap < least) {
-                        least = gap, region = i, leaf = &s;
+                        least = gap;
+                        region = i;
+                        leaf = &s;
                     }
                 }
             }

@@ -75,7 +75,9 @@ struct Side {
         if (p.y > q.y || (p.y == q.y && p.x > q.x)) {
             std::swap(p, q); // neighbours compute the same crossing
         }
-        top = p.y, bottom = q.y, x = p.x;
+        top = p.y;
+        bottom = q.y;
+        x = p.x;
         slope = q.y > p.y ? (q.x - p.x) / (q.y - p.y) : 0.0f;
     }
     bool crosses(float y) const { return top <= y && y < bottom; }
@@ -103,7 +105,10 @@ public:
                     item.a.uv.y == item.c.uv.y)
         , oneLine_(item.a.uv.y == item.b.uv.y && item.a.uv.y == item.c.uv.y) {
         const ImVec2 &p = item.a.pos, &q = item.b.pos, &r = item.c.pos;
-        bx_ = q.x - p.x, by_ = q.y - p.y, cx_ = r.x - p.x, cy_ = r.y - p.y;
+        bx_ = q.x - p.x;
+        by_ = q.y - p.y;
+        cx_ = r.x - p.x;
+        cy_ = r.y - p.y;
         const float area = bx_ * cy_ - by_ * cx_;
         inverse_ = area != 0.0f ? 1.0f / area : 0.0f;
         for (int k = oneColour_ ? 3 : 0; k < 4; ++k) {

@@ -108,7 +108,9 @@ std::span<const PixelBox> PanelRaster::draw(std::span<uint32_t> pixels, int widt
     if (width != width_ || height != height_) {
         forget();
     }
-    width_ = width, height_ = height, across_ = (width + kTile - 1) / kTile;
+    width_ = width;
+    height_ = height;
+    across_ = (width + kTile - 1) / kTile;
     const PixelBox window{0, 0, width, height};
     for (size_t i = 0; i < std::min(layers.size(), kMaxLayers); ++i) {
         versions_[i] += layers_[i].update(layers[i], window) ? 1 : 0;

@@ -86,7 +86,8 @@ void fillHatched(ImDrawList& list, const std::vector<ImVec2>& hull) {
     list.AddConvexPolyFilled(hull.data(), static_cast<int>(hull.size()), IM_COL32(237, 41, 36, 62));
     float low = 1e9f, high = -1e9f;
     for (const ImVec2& p : hull) {
-        low = std::min(low, p.x + p.y), high = std::max(high, p.x + p.y);
+        low = std::min(low, p.x + p.y);
+        high = std::max(high, p.x + p.y);
     }
     const float apart = std::max(kApart, (high - low) / kMaxLines);
     for (float c = std::ceil(low / apart) * apart; c < high; c += apart) {

@@ -40,12 +40,14 @@ SpaceBounds boundsOf(const Fixtures& set, std::span<const Sphere> arm) {
     }
     dvec3 low(1e300), high(-1e300);
     for (size_t i = 0; i < set.spheres.size(); ++i) {
-        low = glm::min(low, regionCentre(set, i)), high = glm::max(high, regionCentre(set, i));
+        low = glm::min(low, regionCentre(set, i));
+        high = glm::max(high, regionCentre(set, i));
     }
     const double radius = double{*std::max_element(set.spheres.radius.begin(), set.spheres.radius.end())};
     const double floor = high.y + radius + kBelow;
     for (const Sphere& s : arm) {
-        low = glm::min(low, s.centre), high = glm::max(high, s.centre);
+        low = glm::min(low, s.centre);
+        high = glm::max(high, s.centre);
     }
     return {0.5 * (low + high), floor};
 }

@@ -42,7 +42,9 @@ public:
             if (last >= first) {
                 draw(first, last, range.low, range.high);
             }
-            first = at, last = std::isnan(here.low) ? at - 1 : at, range = here;
+            first = at;
+            last = std::isnan(here.low) ? at - 1 : at;
+            range = here;
         }
         if (last >= first) {
             draw(first, last, range.low, range.high);

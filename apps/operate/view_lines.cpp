@@ -49,7 +49,8 @@ void fillUnion(ImDrawList& list, const std::vector<Circle>& circles, ImU32 colou
     constexpr float kRow = 2.0f; // [pixels]
     float top = 1e9f, bottom = -1e9f;
     for (const Circle& c : circles) {
-        top = std::min(top, c.y - c.r), bottom = std::max(bottom, c.y + c.r);
+        top = std::min(top, c.y - c.r);
+        bottom = std::max(bottom, c.y + c.r);
     }
     std::vector<std::pair<float, float>> runs;
     for (float y = std::floor(top); y < std::min(bottom, top + 2000.0f); y += kRow) {

@@ -61,11 +61,13 @@ Scale scaleOf(const std::vector<PlotCurve>& curves, bool ofX, double from, doubl
         }
     }
     if (!(lo <= hi)) {
-        lo = 0.0, hi = 1.0;
+        lo = 0.0;
+        hi = 1.0;
     }
     if (scale.log && hi - lo < 0.5) { // at least a decade, so that some tick has a label
         const double middle = 0.5 * (lo + hi);
-        lo = middle - 0.5, hi = middle + 0.5;
+        lo = middle - 0.5;
+        hi = middle + 0.5;
     }
     // Leave room above and below, avoid an empty range, and start a linear axis of amounts at 0.
     const double range = hi - lo > 1e-12 * std::abs(hi) ? hi - lo : std::max(std::abs(hi), 1e-9);
