@@ -13,7 +13,7 @@ using namespace fathom::testing;
 
 namespace {
 
-constexpr double kBall = 0.01, kRegion = 0.02; // [m] radii of leaves and spheres
+constexpr double kBallRadius = 0.01, kRegion = 0.02; // [m] radii of leaves and spheres
 
 // A tool of balls at `centres` and spheres, each at a gap [m] from the ball beside it along a direction.
 struct MovedLeaves {
@@ -29,7 +29,7 @@ struct MovedLeaves {
         , leaves(tool.leafCount()) {}
 
     void addSphere(const dvec3& ball, const dvec3& way, double gap) {
-        fixtures.spheres.add(ball + (kBall + kRegion + gap) * way, kRegion);
+        fixtures.spheres.add(ball + (kBallRadius + kRegion + gap) * way, kRegion);
     }
     void query() {
         CullCpu cull;
@@ -59,7 +59,7 @@ const dvec3 kRight(1, 0, 0), kUp(0, 1, 0);
 } // namespace
 
 TEST_CASE("A sphere beyond the first search is checked as soon as the leaf has moved near it") {
-    MovedLeaves ball({{dvec3(0.0), kBall}});
+    MovedLeaves ball({{dvec3(0.0), kBallRadius}});
     ball.addSphere(dvec3(0.0), kRight, 0.0041); // the search goes to 4 mm, the check to 2 mm
     ball.query();
     ball.gather(dvec3(0.0), true);
@@ -71,7 +71,7 @@ TEST_CASE("A sphere beyond the first search is checked as soon as the leaf has m
 }
 
 TEST_CASE("The check of a motion includes what the leaf has moved since its gaps were computed") {
-    MovedLeaves ball({{dvec3(0.0), kBall}});
+    MovedLeaves ball({{dvec3(0.0), kBallRadius}});
     ball.addSphere(dvec3(0.0), kUp, 0.0002);
     ball.addSphere(dvec3(0.0), kRight, 0.00102);
     ball.query();
@@ -84,7 +84,7 @@ TEST_CASE("The check of a motion includes what the leaf has moved since its gaps
 TEST_CASE("The smallest gap is that of the present positions, also of a sphere that was far at the query") {
     const dvec3 above(0, 0.1, 0);
     for (const dvec3& near : {dvec3(0.0), above}) {
-        MovedLeaves tool({{dvec3(0.0), kBall}, {above, kBall}});
+        MovedLeaves tool({{dvec3(0.0), kBallRadius}, {above, kBallRadius}});
         tool.addSphere(near - 0.005 * kRight, kUp, 0.0015);
         tool.addSphere(above - near, -kRight, 0.006);
         tool.query();
