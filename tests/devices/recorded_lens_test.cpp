@@ -52,6 +52,18 @@ TEST_CASE("Images without a lens file are refused with the option that names one
           std::vector<uint16_t>{500});
 }
 
+TEST_CASE("A range along a pixel's ray is played as the depth along the optical axis, which is smaller") {
+    const TemporaryFolder folder;
+    addPair(folder, "depth/0.png", "rgb/0.png", 2000);
+    std::string lens = kSmallIntrinsics;
+    folder.write("camera_intrinsic.json", lens.insert(lens.find('{') + 1, R"("depth_is": "range", )"));
+    RecordedCamera camera(folder.path());
+    const glm::dvec2 ray = camera.info().depth.ray(0, 0);
+    const double slant = std::sqrt(1.0 + glm::dot(ray, ray));
+    REQUIRE(slant > 1.01);
+    CHECK(camera.next().value()->depth[0] == std::lround(2000.0 / slant));
+}
+
 TEST_CASE("Images that are named as ranges, but played as z, have a warning that names depth_is") {
     const auto warned = [](const std::string& depth, const std::string& kind) {
         const TemporaryFolder folder;

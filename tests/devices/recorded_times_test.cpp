@@ -4,6 +4,7 @@
 #include "tests/devices/recorded_folder.h"
 #include "tests/realtime/listening.h"
 
+#include <array>
 #include <doctest/doctest.h>
 
 using namespace fathom;
@@ -37,6 +38,24 @@ TEST_CASE("A frame without a pose in poses.txt is skipped and named: before it, 
     }
     folder.write("poses.txt", "0 1e7 0 0 0 0 0 1\n");
     CHECK(recordingRefusal(folder.path()).find("within 1000 km") != std::string::npos);
+}
+
+TEST_CASE("A single frame whose stamp goes back is skipped and named") {
+    const TemporaryFolder folder;
+    writeSmallRecording(folder, 5);
+    std::string lines;
+    const std::array<const char*, 5> stamps{"0.0", "0.1", "0.05", "0.2", "0.3"};
+    for (size_t i = 0; i < stamps.size(); ++i) {
+        const std::string image = std::to_string(i) + ".png\n", stamp = stamps[i];
+        lines += stamp + " rgb/" + image.substr(0, image.size() - 1) + " " + stamp + " depth/" + image;
+    }
+    folder.write("associations.txt", lines);
+    CHECK(playedDepths(folder.path()) == std::vector<uint16_t>{1000, 1001, 1003, 1004});
+    RecordedCamera camera(folder.path());
+    while (camera.next()) {
+    }
+    REQUIRE(camera.warnings().size() == 1);
+    CHECK(camera.warnings()[0].find("frame 2 skipped: depth stamp 0.050000 goes back from 0.100000") == 0);
 }
 
 TEST_CASE("A pair whose colour is over 0.1 s from its depth is skipped and named") {
