@@ -205,3 +205,25 @@ TEST_CASE("A scene without forbidden points lets the tool go anywhere and uses n
     CHECK(set.frame == 0);
     CHECK(contact.statistics().queries == 0);
 }
+
+TEST_CASE("A query reaches as much farther as the tool's motion needs, and names the step that asked") {
+    const Tool tool = randomTool(4, 3);
+    Plan plan;
+    plan.query = Plan::Query::Cpu;
+    cloud::FixturePool pool(2, [] { return std::make_unique<cloud::FixtureSet>(); });
+    cloud::FixtureSet set;
+    set.host.spheres.add({0.0, 0.0, 0.3}, 0.02);
+    set.grid.build(set.host.spheres, nullptr);
+    ContactCycle contacts(tool, 0.01, nullptr);
+    contacts.use(nullptr, plan, PatchLayout(), pool);
+    ToolState place;
+    ContactSet answer;
+    for (const double more : {0.0, 0.005}) {
+        place.moreReach = more;
+        place.asked = 7.0 + more;
+        contacts.query(set, place, answer);
+        CHECK(answer.reach == doctest::Approx(0.01 + more));
+        CHECK(answer.asked == place.asked);
+    }
+    CHECK(answer.query == 2);
+}
