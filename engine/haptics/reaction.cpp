@@ -18,16 +18,6 @@ constexpr double kPushed = 0.012;       // [s] in which new data pushes a tool o
 constexpr double kLate = 1.25;          // of a frame, until which the next one is waited for
 constexpr double kMinMix = 0.3;         // directions that differ more than that are not mixed
 constexpr double kSameWay = 0.8;        // cosine between the reaction that returns and the former one
-constexpr double kOwedShare = 0.5;      // of the spring, so that force ends where contact ends
-// Of the tool's motion round a ball, over the hand's: most, margin over what was seen, kept from tick to tick.
-constexpr double kMaxGain = 8.0, kGainMargin = 1.2, kGainKept = 0.95;
-
-// A part of the owed wrench, one tick later: at most `band` [N], which falls with kSettle, a small part with kCalm.
-Wrench settled(const Wrench& owed, double band, double elapsed, double k) noexcept {
-    const double size = metricSize(owed, k), full = size < band ? size / band : 1.0;
-    const double share = std::exp(-elapsed * (full / Reaction::kSettle + (1.0 - full) / Reaction::kCalm));
-    return scaled(owed, size * share > band ? band / size : share);
-}
 
 } // namespace
 
@@ -37,11 +27,11 @@ void Reaction::shift(const dvec3& by, const dquat& turn) noexcept {
 
 void Reaction::keepTime(const ReactionInput& input) noexcept {
     elapsed_ = std::max(input.period, input.elapsed);
-    since_ += elapsed_;
+    sinceData_ += elapsed_;
     if (input.newData) {
-        interval_ = std::clamp(since_, input.period, kLongestFrame);
-        since_ = 0.0;
-        rate_ = kSlowest;
+        interval_ = std::clamp(sinceData_, input.period, kLongestFrame);
+        sinceData_ = 0.0;
+        riseRate_ = kSlowest;
     }
 }
 
@@ -58,59 +48,46 @@ Reaction::Travel Reaction::travelOf(const Pose& end) noexcept {
 
 // The newest data may still be moving the tool.
 bool Reaction::pushed() const noexcept {
-    return since_ < std::min(kPushed, 0.5 * interval_);
+    return sinceData_ < std::min(kPushed, 0.5 * interval_);
 }
 
 double Reaction::rate(double appeared) noexcept {
     if (pushed()) {
-        rate_ = std::clamp(appeared / (interval_ - since_), rate_, kAppear);
+        riseRate_ = std::clamp(appeared / (interval_ - sinceData_), riseRate_, kAppear);
     }
-    return since_ < kLate * interval_ ? rate_ : kAppear;
+    return sinceData_ < kLate * interval_ ? riseRate_ : kAppear;
 }
 
 void Reaction::beginFade(const Wrench& wanted, const ReactionInput& input) noexcept {
-    fade_.begin(sumOf(limitSize(last_, input.forceLimit, input.torqueLimit), wanted, -1.0),
+    fade_.begin(sumOf(limitSize(lastFelt_, input.forceLimit, input.torqueLimit), wanted, -1.0),
                 metricSize(wanted, k_), k_);
-    owed_ = {}; // what fades contains it
-    raw_ = wanted;
+    noise_.settleAt(wanted); // what fades contains what was owed
 }
 
 // Begins to fade when new data took the reaction of a tool that lags, and ends when the reaction is back.
 void Reaction::keepWhileLagging(const Wrench& wanted, double byHand, const ReactionInput& input) noexcept {
-    const double size = metricSize(wanted, k_), band = kBand * input.springs.stiffness;
+    const double size = metricSize(wanted, k_), band = SurfaceNoise::kBand * input.springs.stiffness;
     if (fade_.active()) {
-        if (size >= felt_ && metricProduct(wanted, fade_.lost(), k_) > kSameWay * size * fade_.size()) {
+        if (size >= lastFeltSize_ &&
+            metricProduct(wanted, fade_.lost(), k_) > kSameWay * size * fade_.size()) {
             fade_.end();
-            size_ = felt_;
-            owed_ = {};
-            raw_ = wanted;
+            size_ = lastFeltSize_;
+            noise_.settleAt(wanted);
         }
-    } else if (input.lags && pushed() && size < felt_ - byHand - band) {
+    } else if (input.lags && pushed() && size < lastFeltSize_ - byHand - band) {
         beginFade(wanted, input);
     }
 }
 
-// What new data changed in the spring, beyond what the hand's own motion can have changed, is owed to the
-// hand and paid slowly. Along the reaction this delays its size, across it its direction. Round a convex region
-// the tool moves farther than the hand: by how much is seen while the regions rest.
-Wrench Reaction::settling(const Wrench& raw, double byHand, const ReactionInput& input) noexcept {
-    const Wrench change = sumOf(raw, raw_, -1.0);
-    const double size = metricSize(change, k_);
-    if (!pushed()) {
-        const double seen = byHand > kRoundingForce ? kGainMargin * size / byHand : 1.0;
-        gain_ = std::clamp(std::max(seen, kGainKept * gain_), 1.0, kMaxGain);
-    } else if (size > gain_ * byHand) {
-        owed_ = sumOf(owed_, change, 1.0 - gain_ * byHand / size);
-    }
-    raw_ = raw;
-    const double now = metricSize(raw, k_), most = kOwedShare * now;
-    const double band = std::min(kBand * input.springs.stiffness, most);
-    const Wrench along = scaled(raw, now > 0.0 ? metricProduct(owed_, raw, k_) / (now * now) : 0.0);
-    const Wrench across = sumOf(owed_, along, -1.0);
-    owed_ = sumOf(settled(along, band, elapsed_, k_),
-                  settled(across, std::max(band, kTurnBand * now), elapsed_, k_));
-    owes_ = metricSize(owed_, k_) > kTurns;
-    return sumOf(raw, owed_, -1.0);
+Wrench Reaction::withoutNoise(const Wrench& spring, double byHand, const ReactionInput& input) noexcept {
+    SurfaceNoiseInput tick;
+    tick.spring = spring;
+    tick.byHand = byHand;
+    tick.stiffness = input.springs.stiffness;
+    tick.elapsed = elapsed_;
+    tick.radius = k_;
+    tick.dataPushes = pushed();
+    return noise_.step(tick);
 }
 
 Wrench Reaction::limitRise(const Wrench& wrench, const Travel& travel, const ReactionInput& input) noexcept {
@@ -136,29 +113,29 @@ void Reaction::beginTurn(const Wrench& wrench, const ReactionInput& input) noexc
         return;
     }
     const double size = metricSize(wrench, k_);
-    turn_ = 0.0;
-    if (fade_.active() || !(felt_ > kTurns) || !(size > kTurns)) {
+    turnLeft_ = 0.0;
+    if (fade_.active() || !(lastFeltSize_ > kTurns) || !(size > kTurns)) {
         return;
     }
-    if (metricProduct(last_, wrench, k_) < 0.0) {
+    if (metricProduct(lastFelt_, wrench, k_) < 0.0) {
         size_ = 0.0;
         return;
     }
-    turn_ = interval_;
-    turned_ = felt_;
-    from_ = sumOf(scaled(last_, 1.0 / felt_), scaled(wrench, 1.0 / size), -1.0);
+    turnLeft_ = interval_;
+    turnedForce_ = lastFeltSize_;
+    turnBack_ = sumOf(scaled(lastFelt_, 1.0 / lastFeltSize_), scaled(wrench, 1.0 / size), -1.0);
 }
 
 // The change of direction that new data made at its adoption is taken back by a share that falls to zero, for
 // as much of the reaction as there was before.
 // What the hand turns meanwhile is felt at once: a lag of it would feed energy into a light hand.
 Wrench Reaction::turning(const Wrench& wrench, const ReactionInput& input) noexcept {
-    turn_ = std::max(0.0, turn_ - (input.newData ? input.period : elapsed_));
-    const double share = turn_ / interval_;
+    turnLeft_ = std::max(0.0, turnLeft_ - (input.newData ? input.period : elapsed_));
+    const double share = turnLeft_ / interval_;
     if (!(share > 0.0) || !(size_ > kTurns)) {
         return wrench;
     }
-    const Wrench mix = sumOf(wrench, from_, share * std::min(size_, turned_));
+    const Wrench mix = sumOf(wrench, turnBack_, share * std::min(size_, turnedForce_));
     const double length = metricSize(mix, k_);
     return length > kMinMix * size_ ? scaled(mix, size_ / length) : wrench;
 }
@@ -174,7 +151,7 @@ Wrench Reaction::step(const ReactionInput& input) noexcept {
     } else {
         keepWhileLagging(wrench, byHand, input);
     }
-    wrench = settling(wrench, byHand, input);
+    wrench = withoutNoise(wrench, byHand, input);
     beginTurn(wrench, input);
     wrench = turning(limitRise(wrench, travel, input), input);
     if (fade_.active()) {
@@ -183,8 +160,8 @@ Wrench Reaction::step(const ReactionInput& input) noexcept {
         const double released = input.springs.stiffness * std::max(0.0, out) / std::max(kTurns, fade_.size());
         wrench = sumOf(wrench, fade_.step(wrench, released, k_, elapsed_));
     }
-    last_ = wrench;
-    felt_ = metricSize(wrench, k_);
+    lastFelt_ = wrench;
+    lastFeltSize_ = metricSize(wrench, k_);
     return wrench;
 }
 

@@ -5,6 +5,7 @@
 
 #include "engine/haptics/coupling.h"
 #include "engine/haptics/reaction_fade.h"
+#include "engine/haptics/surface_noise.h"
 
 namespace fathom {
 
@@ -29,10 +30,8 @@ struct ReactionInput {
 // Falls that the hand causes are immediate. After new data the direction, too, turns evenly over the time
 // between frames.
 //
-// New data also changes a surface at rest, by the sensor's noise. So a part of each change is felt slowly, while
-// the tool follows at once: the first kBand of a change in size, and the first kBand, or kTurnBand of the
-// reaction if that is more, of a change in direction. A full band is felt with the time constant kSettle, a
-// small part of it with kCalm. What the hand's own motion changes is felt in the same tick.
+// New data also changes a surface at rest, by the sensor's noise. So a part of each change is felt slowly
+// (SurfaceNoise), while the tool follows at once. What the hand's own motion changes is felt in the same tick.
 //
 // A tool that lags, such as an arm, follows a surface that new data moved only after some ticks, and has lost its
 // rows meanwhile. So a fall that new data causes while it lags fades out. If the reaction returns before, in
@@ -51,17 +50,13 @@ public:
     bool fades() const noexcept { return fade_.active(); }
     // In the last tick the reaction grew by more than the hand compressed, or new data still changes or turns
     // it: work that the hand did not do.
-    bool appears() const noexcept { return appears_ || turn_ > 0.0 || owes_; }
+    bool appears() const noexcept { return appears_ || turnLeft_ > 0.0 || noise_.owes(); }
     // [s] between the last two changes of the regions, at most kLongestFrame.
     double frameInterval() const noexcept { return interval_; }
 
     static constexpr double kAppear = 100.0;       // [N/s]
     static constexpr double kLeaves = 0.25;        // [m/s] a hand that leaves this fast needs no further rise
     static constexpr double kLongestFrame = 0.033; // [s]
-    static constexpr double kBand = 0.002;         // [m] of motion of the surface
-    static constexpr double kTurnBand = 0.2;       // share of the reaction: 11 degrees
-    static constexpr double kSettle = 0.3;         // [s] time constant
-    static constexpr double kCalm = 1.2;           // [s] time constant
 
 private:
     struct Travel { // of the hand's end of the spring in this tick, not by shift()
@@ -74,25 +69,25 @@ private:
     double rate(double appeared) noexcept;
     void beginFade(const Wrench& wanted, const ReactionInput& input) noexcept;
     void keepWhileLagging(const Wrench& wanted, double byHand, const ReactionInput& input) noexcept;
-    Wrench settling(const Wrench& raw, double byHand, const ReactionInput& input) noexcept;
+    Wrench withoutNoise(const Wrench& spring, double byHand, const ReactionInput& input) noexcept;
     Wrench limitRise(const Wrench& wrench, const Travel& travel, const ReactionInput& input) noexcept;
     void beginTurn(const Wrench& wrench, const ReactionInput& input) noexcept;
     Wrench turning(const Wrench& wrench, const ReactionInput& input) noexcept;
 
     double k_ = 1.0; // [m] metric radius of this tick
-    Pose end_;
-    Wrench raw_, owed_; // the spring of the last tick; the part of it that is not yet felt
-    double gain_ = 1.0; // change of the spring per compression by the hand, while the regions rest
-    Wrench last_;       // of the last tick
+    Pose end_;       // of the last tick
+    SurfaceNoise noise_;
     ReactionFade fade_;
-    Wrench from_;                      // per newton: change of direction that the newest data made
-    double turned_ = 0.0, turn_ = 0.0; // [N] that turned; [s] for which a share is still taken back
-    double size_ = 0.0;
-    double felt_ = 0.0;                                       // [N] size of last_
-    double elapsed_ = 0.001;                                  // [s] since the last tick
-    double since_ = kLongestFrame, interval_ = kLongestFrame; // [s] since the newest data; between data
-    double rate_ = kAppear;                                   // [N/s] until the next frame is due
-    bool started_ = false, appears_ = false, owes_ = false;
+    Wrench lastFelt_;           // of the last tick, what fades included
+    double lastFeltSize_ = 0.0; // [N]
+    double size_ = 0.0;         // [N] of the last tick, without what fades
+    Wrench turnBack_;           // per newton: from the newest direction to the one before the newest data
+    double turnedForce_ = 0.0;  // [N] that had the former direction
+    double turnLeft_ = 0.0;     // [s] for which a share of it is still taken back
+    double elapsed_ = 0.001;    // [s] since the last tick
+    double sinceData_ = kLongestFrame, interval_ = kLongestFrame; // [s] since the newest data; between data
+    double riseRate_ = kAppear;                                   // [N/s] until the next frame is due
+    bool started_ = false, appears_ = false;
 };
 
 } // namespace fathom
