@@ -10,6 +10,25 @@ namespace {
 constexpr double kPartGone = 0.005, kStillHeld = 0.0005;
 constexpr dquat kNoTurn{1.0, 0.0, 0.0, 0.0};
 
+// True if a spring that held `before` [m] now holds `held` although the hand moved by `byHand` [m] only: it lost its
+// length, and nothing else holds there.
+bool lostItsHold(const dvec3& before, const dvec3& held, double byHand) {
+    const dvec3 lost = before - held;
+    const bool fell = glm::length(held) < glm::length(before) - byHand - kPartGone;
+    return fell && glm::dot(held, lost) <= kStillHeld * glm::length(lost);
+}
+
+// Of the spring between the hand's end and a pose: its turn as a length, with the metric radius k [m].
+dvec3 turnOf(const Pose& allowed, const Pose& end, double k) {
+    return k * rotationLog(allowed.rotation * glm::conjugate(end.rotation));
+}
+
+// The regions that pressed by a torque are gone. The hand turns far less than kPartGone in a tick.
+bool turnVanished(const Pose& allowedBefore, const ProxyStep& moved, const Pose& end, double k) {
+    const dvec3 held = moved.active.empty() ? dvec3(0.0) : turnOf(moved.allowed, end, k);
+    return lostItsHold(turnOf(allowedBefore, end, k), held, 0.0);
+}
+
 } // namespace
 
 // A region stopped the tool, and the hand moved farther. The shift changes no force, because there is none.
@@ -21,8 +40,8 @@ void HapticCycle::recentre() noexcept {
 }
 
 // The direction along which regions that pressed are gone although the hand did not move out of them: their class
-// is no longer seen, or their shape was removed. Empty = none are. `before` and `endBefore` are where the tool and the
-// hand's end of the spring were when they pressed.
+// is no longer seen, or their shape was removed. Zero = those that are gone pressed by a torque alone; empty = none
+// are. `before` and `endBefore` are where the tool and the hand's end of the spring were when they pressed.
 std::optional<dvec3> HapticCycle::vanishedAlong(const ProxyStep& moved, const dvec3& before,
                                                 const dvec3& endBefore) const noexcept {
     const bool left = glm::dot(before - springEnd_.position, pressing_.out) < 0.0;
@@ -36,14 +55,13 @@ std::optional<dvec3> HapticCycle::vanishedAlong(const ProxyStep& moved, const dv
     if (!rows && !(moved.minGap <= reach)) { // NaN: no set
         return pressing_.out;
     }
-    // Other regions press or are near. Those that pressed are gone where the spring lost its length and nothing
-    // else holds.
+    // Other regions press or are near.
     const dvec3 held = rows ? moved.allowed.position - springEnd_.position : dvec3(0.0);
-    const dvec3 lost = pressing_.out - held;
-    const double byHand = glm::distance(springEnd_.position, endBefore);
-    const bool fell = glm::length(held) < glm::length(pressing_.out) - byHand - kPartGone;
-    const bool gone = !arm_ && fell && glm::dot(held, lost) <= kStillHeld * glm::length(lost);
-    return gone ? std::optional(lost) : std::nullopt;
+    if (!arm_ && lostItsHold(pressing_.out, held, glm::distance(springEnd_.position, endBefore))) {
+        return pressing_.out - held;
+    }
+    const bool turned = !arm_ && turnVanished(allowed_, moved, springEnd_, watch_.springs().metricRadius);
+    return turned ? std::optional(dvec3(0.0)) : std::nullopt;
 }
 
 // Moves the hand map by `by` [m], and with it the pose that the hand commands. `turn` turns that pose.
@@ -65,14 +83,23 @@ void HapticCycle::shiftHand(const dvec3& by, const dquat& turn) noexcept {
 // jump at the hand, through what can no longer be seen.
 void HapticCycle::keepHandAtTool(const Pose& before, const dvec3& along, ProxyStep& moved) noexcept {
     const bool all = moved.active.empty();
+    const bool turned =
+        all || (!arm_ && turnVanished(allowed_, moved, springEnd_, watch_.springs().metricRadius));
     if (proxy_ && !moved.escape) { // else it had to leave
         tool_ = moved.pose = before;
         proxy_->setPose(before);
     }
     const dvec3 apart = tool_.position - springEnd_.position;
-    const dvec3 by = all ? apart : along * (glm::dot(apart, along) / glm::dot(along, along));
-    shiftHand(by, all ? tool_.rotation * glm::conjugate(springEnd_.rotation) : kNoTurn);
-    moved.allowed = all ? springEnd_ : Pose{moved.allowed.position + by, moved.allowed.rotation};
+    const double square = glm::dot(along, along);
+    const dvec3 by = all ? apart : square > 0.0 ? along * (glm::dot(apart, along) / square) : dvec3(0.0);
+    shiftHand(by, turned ? tool_.rotation * glm::conjugate(springEnd_.rotation) : kNoTurn);
+    if (all) {
+        moved.allowed = springEnd_;
+    } else if (turned) { // the solver allowed a position for a tool that turns
+        moved.allowed = {(square > 0.0 ? moved.allowed : allowed_).position + by, tool_.rotation};
+    } else {
+        moved.allowed.position += by;
+    }
     moved.cut = !all;
     ++pressing_.vanished;
     pressing_.lagTime = 0.0;

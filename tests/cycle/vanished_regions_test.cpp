@@ -103,6 +103,34 @@ struct ArmAtBall {
     double time = 0.0;
 };
 
+// A rod with a ball at either end. One ball is above a region, the other one below another region: together they
+// hold the rod against a turn about y, by torque alone.
+struct HeldRod : HapticRig {
+    explicit HeldRod(bool pushed)
+        : HapticRig(handScene(), at(0, 0, 0), Tool(buildSphereTree(kBalls))) {
+        showRegions(true, 1);
+        ticks(250);
+        for (int i = 1; i <= 600; ++i) {
+            hand = {{0.0, pushed ? 0.00001 * i : 0.0, 0.0}, rotationExp({0.0, 0.001 * i, 0.0})};
+            step();
+        }
+        ticks(600);
+    }
+    void showRegions(bool held, uint64_t generation) {
+        Fixtures set = emptySet(generation);
+        for (const double side : {-1.0, 1.0}) {
+            set.spheres.add({side * 0.05, 0.0605, 0.0}, 0.05); // beside it
+            if (held) {
+                set.spheres.add({side * 0.05, 0.0, -side * 0.0605}, 0.05);
+            }
+        }
+        show(std::move(set));
+        age = false;
+    }
+    static constexpr std::array<Sphere, 2> kBalls{Sphere{{-0.05, 0.0, 0.0}, 0.01},
+                                                  Sphere{{0.05, 0.0, 0.0}, 0.01}};
+};
+
 } // namespace
 
 TEST_CASE(
@@ -198,6 +226,31 @@ TEST_CASE("A tool that a region turned does not swing round when the region vani
         before = tip(record.tool);
     }
     CHECK(glm::distance(before, tip(held.tool)) <= 0.001);
+}
+
+TEST_CASE("A torque without a force fades out when the regions that made it vanish, and does not step") {
+    for (const bool pushed : {false, true}) { // into the regions beside it, which stay
+        CAPTURE(pushed);
+        HeldRod rig(pushed);
+        const StepRecord held = rig.ticks(1);
+        const double torque = held.wrench.torque.y;
+        REQUIRE(std::abs(torque) > 0.1);
+        REQUIRE(forceOf(held) == doctest::Approx(pushed ? 5.5 : 0.0).epsilon(0.05));
+        rig.showRegions(false, 9);
+        double before = torque;
+        for (int i = 0; i < 199; ++i) {
+            const StepRecord record = rig.step();
+            const double now = record.wrench.torque.y;
+            CHECK(std::abs(before - now) < 0.012 * std::abs(torque));
+            CHECK(std::abs(now) <= std::abs(before) + 1e-4);
+            CHECK(rotationLog(record.tool.rotation * glm::conjugate(held.tool.rotation)).y < 0.01);
+            before = now;
+        }
+        const StepRecord after = rig.ticks(5);
+        CHECK(after.vanished == 1);
+        CHECK(std::abs(after.wrench.torque.y) < 0.01 * std::abs(torque));
+        CHECK(forceOf(after) == doctest::Approx(forceOf(held)).epsilon(0.05));
+    }
 }
 
 TEST_CASE("Late ticks do not delay the fade of regions that vanished") {
