@@ -3,7 +3,7 @@
 
 #include "devices/ros2/joint_readings.h"
 #include "devices/ros2/ros2_graph.h"
-#include "engine/types/steady_seconds.h"
+#include "engine/types/clock.h"
 
 #include <algorithm>
 #include <chrono>
@@ -74,7 +74,7 @@ void MeasuredDevice::step(double, const ArmCommand& command) noexcept {
     }
     model_.follow(q);
     std::copy_n(q.begin(), model_.count(), feedback_.position.begin());
-    feedback_.age = readings_.age(steadySeconds());
+    feedback_.age = readings_.age(monotonicSeconds());
     feedback_.stale = !(feedback_.age <= kOldPosture);
     feedback_.holding = command.hold;
     feedback_.damaged = readings_.skipped();

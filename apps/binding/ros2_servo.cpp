@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/binding/ros2_servo.h"
 
+#include "engine/types/clock.h"
 #include "engine/types/error.h"
-#include "engine/types/steady_seconds.h"
 
 #include <algorithm>
 #include <chrono>
@@ -116,7 +116,7 @@ std::string Ros2Servo::whyHeld(const Ros2Tick& tick) const {
     if (tick.record.armHold) {
         return "held: forces are off, the newest frame is too old, or the tool is trapped";
     }
-    if (measured_.age(steadySeconds()) > kOld) {
+    if (measured_.age(monotonicSeconds()) > kOld) {
         return "held: no measured joints";
     }
     for (size_t i = 0; i < own_.size(); ++i) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/binding/ros2_tick.h"
 
-#include "engine/types/steady_seconds.h"
+#include "engine/types/clock.h"
 
 #include <algorithm>
 #include <chrono>
@@ -19,7 +19,7 @@ bool MessagePace::due(double t) noexcept {
 }
 
 uint64_t TickStamps::at(double t) noexcept {
-    const double now = steadySeconds();
+    const double now = monotonicSeconds();
     const auto utc = std::chrono::system_clock::now().time_since_epoch();
     zero_ = any_ && t >= last_ ? std::min(zero_, now - t) : now - t;
     last_ = t;

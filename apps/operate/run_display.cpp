@@ -4,8 +4,8 @@
 #include "apps/operate/caption.h"
 #include "apps/operate/closing.h"
 #include "apps/operate/open_card.h"
+#include "engine/types/clock.h"
 #include "engine/types/error.h"
-#include "engine/types/steady_seconds.h"
 
 #include <algorithm>
 #include <chrono>
@@ -39,7 +39,7 @@ RunDisplay::RunDisplay(const OperateOptions& options, Window& window, Session& s
 }
 
 void RunDisplay::begin() {
-    started_ = lastFrame_ = steadySeconds();
+    started_ = lastFrame_ = monotonicSeconds();
     if (!options_.notice.empty()) {
         console.notify(options_.notice);
     }
@@ -48,9 +48,9 @@ void RunDisplay::begin() {
 double RunDisplay::beginFrame() {
     window_.setFullScreen(console.fullScreen);
     const double period = pace_.period();
-    window_.beginFrame(std::clamp(period - (steadySeconds() - lastFrame_), 0.0, period));
+    window_.beginFrame(std::clamp(period - (monotonicSeconds() - lastFrame_), 0.0, period));
     pace_.note(threadCpuTime());
-    const double now = steadySeconds(), dt = now - lastFrame_;
+    const double now = monotonicSeconds(), dt = now - lastFrame_;
     windowHz_ += 0.05 * (1.0 / std::max(1e-3, dt) - windowHz_);
     lastFrame_ = now;
     console.monitorScale = window_.monitorScale();
@@ -70,7 +70,7 @@ void RunDisplay::followClosing(FixtureEditor& editor, bool forcesGone) {
 }
 
 double RunDisplay::elapsed() const {
-    return steadySeconds() - started_;
+    return monotonicSeconds() - started_;
 }
 
 bool RunDisplay::wantsToEnd() const {

@@ -5,8 +5,8 @@
 #include "apps/operate/console_state.h"
 #include "apps/operate/why_panel.h"
 #include "engine/gpu/instance.h"
+#include "engine/types/clock.h"
 #include "engine/types/error.h"
-#include "engine/types/steady_seconds.h"
 
 #include <chrono>
 #include <cmath>
@@ -209,7 +209,7 @@ StateLog::StateLog(const std::filesystem::path& file)
 
 void StateLog::write(const ShownState& s, bool now) {
     constexpr double kPeriod = 1.0 / 30.0; // [s]
-    const double t = steadySeconds();
+    const double t = monotonicSeconds();
     if (!out_.is_open() || (!now && t < next_)) {
         return;
     }

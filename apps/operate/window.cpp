@@ -4,8 +4,8 @@
 
 #include "apps/operate/monitor_scale.h"
 #include "engine/gpu/result.h"
+#include "engine/types/clock.h"
 #include "engine/types/error.h"
-#include "engine/types/steady_seconds.h"
 
 #include <GLFW/glfw3.h>
 #include <algorithm>
@@ -63,7 +63,7 @@ Window::Window(const std::string& offscreen, const std::string& title) {
         ImGui_ImplGlfw_InitForVulkan(window_, true);
         glfwSetKeyCallback(window_, key); // replaces ImGui's callback: holdTaps() passes the keys
     }
-    before_ = steadySeconds();
+    before_ = monotonicSeconds();
 }
 
 // As large as its text needs, if the monitor has that room.
@@ -170,12 +170,12 @@ VkSurfaceKHR Window::makeSurface(const gpu::Instance& instance) const {
 void Window::beginFrame(double patience) {
     ImGuiIO& io = ImGui::GetIO();
     if (window_ != nullptr) {
-        const double until = steadySeconds() + patience;
+        const double until = monotonicSeconds() + patience;
         glfwPollEvents();
-        while (steadySeconds() < until) {   // handles events at once and keeps the frame rate
-            constexpr double kLook = 0.002; // [s] polls, because the swapchain uses the same X connection
+        while (monotonicSeconds() < until) { // handles events at once and keeps the frame rate
+            constexpr double kLook = 0.002;  // [s] polls, because the swapchain uses the same X connection
             std::this_thread::sleep_for(
-                std::chrono::duration<double>(std::min(kLook, until - steadySeconds())));
+                std::chrono::duration<double>(std::min(kLook, until - monotonicSeconds())));
             glfwPollEvents();
         }
         if (std::exchange(moved_, false)) {
@@ -186,9 +186,9 @@ void Window::beginFrame(double patience) {
     } else {
         std::this_thread::sleep_for(std::chrono::duration<double>(std::max(0.0, patience)));
         io.DisplaySize = {static_cast<float>(offscreen_.width), static_cast<float>(offscreen_.height)};
-        io.DeltaTime = static_cast<float>(std::max(1e-4, steadySeconds() - before_));
+        io.DeltaTime = static_cast<float>(std::max(1e-4, monotonicSeconds() - before_));
     }
-    before_ = steadySeconds();
+    before_ = monotonicSeconds();
     ImGui::NewFrame();
 }
 

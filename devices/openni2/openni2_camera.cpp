@@ -3,10 +3,10 @@
 
 #include "devices/openni2/open_openni2.h"
 #include "devices/recorded/recording_intrinsics.h"
+#include "engine/types/clock.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
 #include "engine/types/stand_in.h"
-#include "engine/types/steady_seconds.h"
 
 #include <chrono>
 #include <cmath>
@@ -264,7 +264,8 @@ Frame OpenNi2Camera::deliver() {
     Frame::Content content;
     content.index = index_++;
     content.sourceNumber = static_cast<uint64_t>(depth_.newest.getFrameIndex());
-    content.captureTime = file_ ? 1e-6 * static_cast<double>(depth_.newest.getTimestamp()) : steadySeconds();
+    content.captureTime =
+        file_ ? 1e-6 * static_cast<double>(depth_.newest.getTimestamp()) : monotonicSeconds();
     content.depth = slot->depth().first(info_.depth.pixels());
     if (hasColour_) {
         content.raw = {info_.colourFormat, width, info_.depth.height,

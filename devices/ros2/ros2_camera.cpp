@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/ros2/ros2_camera.h"
 
+#include "engine/types/clock.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
-#include "engine/types/steady_seconds.h"
 
 #include <algorithm>
 #include <chrono>
@@ -153,7 +153,7 @@ std::optional<MovingCamera::Posed> Ros2Camera::choose(double now) {
 }
 
 std::optional<Frame> Ros2Camera::deliver() {
-    const std::optional<MovingCamera::Posed> chosen = choose(steadySeconds());
+    const std::optional<MovingCamera::Posed> chosen = choose(monotonicSeconds());
     if (const size_t unpaired = pairs_->takeUnpaired()) {
         skip(choice_.depth.name + ": no colour image with a stamp that near",
              static_cast<uint32_t>(unpaired));
@@ -181,13 +181,13 @@ std::optional<Frame> Ros2Camera::deliver() {
 }
 
 std::optional<Frame> Ros2Camera::next() {
-    const double called = steadySeconds();
+    const double called = monotonicSeconds();
     for (;;) {
         receive();
         if (std::optional<Frame> frame = deliver()) {
             return frame;
         }
-        const double now = steadySeconds();
+        const double now = monotonicSeconds();
         if (now - std::max(lastDepth_, called - 0.5 * request_.silence) > request_.silence) {
             throw DeviceLost(description() + ": no depth image for " + std::to_string(now - lastDepth_) +
                              " s");

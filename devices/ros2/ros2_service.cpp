@@ -2,9 +2,9 @@
 #include "devices/ros2/ros2_service.h"
 
 #include "devices/bag/byte_writer.h"
+#include "engine/types/clock.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
-#include "engine/types/steady_seconds.h"
 
 #include <chrono>
 
@@ -33,7 +33,7 @@ void Ros2Service::answer(const RawMessage& request, const std::function<std::str
     reply.value(number);
     reply.value(uint8_t{1}); // success
     reply.text(obey(cursor));
-    waiting_.push_back({reply.bytes(), steadySeconds()});
+    waiting_.push_back({reply.bytes(), monotonicSeconds()});
 }
 
 void Ros2Service::serve(const std::function<std::string(MessageCursor& request)>& obey) {
@@ -54,8 +54,8 @@ void Ros2Service::serve(const std::function<std::string(MessageCursor& request)>
 
 void Ros2Service::sendReplies() {
     const bool all = replies_.subscribers() >= inbox_.publishers(requests_);
-    while (!waiting_.empty() &&
-           (all || waiting_.size() > kMaxWaiting || steadySeconds() - waiting_.front().asked > kDiscovery)) {
+    while (!waiting_.empty() && (all || waiting_.size() > kMaxWaiting ||
+                                 monotonicSeconds() - waiting_.front().asked > kDiscovery)) {
         replies_.write(waiting_.front().bytes);
         waiting_.pop_front();
     }

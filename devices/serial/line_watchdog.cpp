@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/serial/line_watchdog.h"
 
-#include "engine/types/steady_seconds.h"
+#include "engine/types/clock.h"
 
 #include <cerrno>
 #include <chrono>
@@ -34,7 +34,7 @@ void receive(int engine, LineWatchdog& watchdog) noexcept {
             return;
         }
         for (char byte : std::span(bytes, static_cast<size_t>(got))) {
-            byte == kWatchdogGoodbye ? watchdog.goodbye() : watchdog.alive(steadySeconds());
+            byte == kWatchdogGoodbye ? watchdog.goodbye() : watchdog.alive(monotonicSeconds());
         }
         ::send(engine, &kWatchdogReady, 1, MSG_NOSIGNAL | MSG_DONTWAIT);
     }
@@ -79,10 +79,10 @@ bool LineWatchdog::over(double now) const noexcept {
 int watchLine(int engine, int line, const StandStill& still) noexcept {
     LineWatchdog watchdog(still.period);
     ::send(engine, &kWatchdogReady, 1, MSG_NOSIGNAL);
-    for (double now = steadySeconds(); !watchdog.over(now); now = steadySeconds()) {
+    for (double now = monotonicSeconds(); !watchdog.over(now); now = monotonicSeconds()) {
         receive(engine, watchdog);
         const int before = watchdog.failures();
-        if (watchdog.stopDue(steadySeconds())) {
+        if (watchdog.stopDue(monotonicSeconds())) {
             if (watchdog.failures() > before) { // pending output would move the arm first
                 ::tcflush(line, TCOFLUSH);
             }

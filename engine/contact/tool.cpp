@@ -2,7 +2,6 @@
 #include "engine/contact/tool.h"
 
 #include "engine/types/error.h"
-#include "engine/types/leaf_limit.h"
 
 #include <algorithm>
 #include <cmath>
@@ -49,9 +48,9 @@ Tool::Tool(SphereTree tree)
         largestRadius = std::max(largestRadius, leaf.radius);
         boundingRadius_ = std::max(boundingRadius_, glm::length(leaf.centre) + leaf.radius);
     }
-    if (leaves_.empty() || leaves_.size() > kMaxToolLeaves) {
+    if (leaves_.empty() || leaves_.size() > kMaxLeaves) {
         throw Error(std::to_string(leaves_.size()) + " leaf spheres (allowed: 1 to " +
-                    std::to_string(kMaxToolLeaves) + ")");
+                    std::to_string(kMaxLeaves) + ")");
     }
     gyrationRadius_ = std::max(std::sqrt(sumOfSquares / static_cast<double>(leaves_.size())), largestRadius);
 }

@@ -2,7 +2,7 @@
 // Sections `tool` and `hand` of a scene file.
 #include "engine/scene/load.h"
 
-#include "engine/types/leaf_limit.h"
+#include "engine/types/sphere_tree.h"
 
 namespace fathom {
 
@@ -12,8 +12,8 @@ const Range kPlace{-kMaxToolReach, kMaxToolReach}, kRadius{kMinLeafRadius, kMaxL
 
 std::vector<std::array<double, 4>> loadSpheres(const YamlNode& node) {
     const std::vector<YamlNode> rows = node.list();
-    if (rows.empty() || rows.size() > kMaxToolLeaves) {
-        node.refuse(std::to_string(rows.size()) + " spheres", "1 to " + std::to_string(kMaxToolLeaves));
+    if (rows.empty() || rows.size() > kMaxLeaves) {
+        node.refuse(std::to_string(rows.size()) + " spheres", "1 to " + std::to_string(kMaxLeaves));
     }
     std::vector<std::array<double, 4>> spheres;
     for (const YamlNode& row : rows) {
