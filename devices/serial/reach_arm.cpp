@@ -10,9 +10,9 @@ namespace fathom {
 namespace {
 
 constexpr double kNever = -1e9;
-constexpr double kJawLead = 0.005;    // [m] of setpoints of the jaws before the measurement
+constexpr double kJawLead = 0.005;         // [m] of setpoints of the jaws before the measurement
 constexpr double kReachOverloadTime = 0.1; // [s]
-constexpr double kEchoTime = 0.05;    // [s] window in which a packet equal to a sent one is its echo
+constexpr double kEchoTime = 0.05;         // [s] window in which a packet equal to a sent one is its echo
 constexpr uint8_t kPosition = 0x03, kCurrent = 0x05, kRequest = 0x60;
 // Base, shoulder, elbow, wrist, jaws.
 constexpr std::array<uint8_t, 5> kAlpha{5, 4, 3, 2, 1};

@@ -178,7 +178,7 @@ void HapticCycle::makeWrench(const StepInput& input, const Situation& now, const
     tick.pull = guidancePull();
     tick.pushes =
         (moved.active.empty() && !moved.blocked ? 0 : cause::kRow) | (jointEnds_ == 0 ? 0 : cause::kJoint);
-    tick.mayRise = !moved.stale && !input.doubtful;
+    tick.mayRise = !moved.rowsExpired && !input.doubtful;
     tick.newData = newData;
     tick.lags = arm_ && out.lag > kLagLength; // a free tool follows within some ticks
     tick.escape = moved.escape;

@@ -46,7 +46,7 @@ void ArmKinematics::recordAllowed(const Answer& answer, bool blocked, const Leaf
     const Motion reaction = motionOf(visible);
     out.allowed = moved(target_, -1.0 * reaction);
     const double travel = glm::length(whole.a) + glm::length(whole.alpha) * metricRadius_;
-    out.stale = travel > contacts.tangentTravel(rows.active());
+    out.rowsExpired = travel > contacts.tangentTravel(rows.active());
 }
 
 } // namespace fathom

@@ -141,7 +141,7 @@ void ConstrainedProxy<Kinematics>::report(Step& out) noexcept {
 // One linearisation. True when another one may get nearer to the target.
 template <class Kinematics>
 bool ConstrainedProxy<Kinematics>::linearise(bool first, Step& out) noexcept {
-    out.cut = out.stale = false;
+    out.cut = out.rowsExpired = false;
     collectRows(first, out);
     if (!kinematics_.aim(contacts_.leaves, rows_, out)) {
         return false;

@@ -42,13 +42,12 @@ public:
     bool anyBehind() const noexcept;
     // The pair would hold a leaf behind its surface.
     bool holdsBehind(const ContactRow& row) const noexcept;
-    // Writes the rows that bring leaves back in front, with offset 0. Returns their number; `out` has room
-    // for one per leaf.
+    // The rows that bring leaves back in front, with offset 0. Valid until the next call.
     std::span<const ContactRow> behindRows(const dvec3& centre) noexcept;
     bool overlaps() const noexcept { return set_ != nullptr && narrow_.smallestGap() < -proxy::kNothing; }
 
-    // Exact check of every listed pair on the straight path to `next`. Returns the worst violation of each
-    // leaf; `total` also counts those that did not fit.
+    // Exact check of every listed pair on the straight path to `next`. Returns the number of leaves with a
+    // violation; violations() has at most as many as there is room for.
     size_t check() noexcept;
     std::span<const NarrowPhase::Violation> violations() const noexcept;
     bool insideTrustRegion() const noexcept;

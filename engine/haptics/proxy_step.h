@@ -52,9 +52,9 @@ struct ProxyStep {
     // cut it. Equal to `pose` when nothing was cut. The distance from here to the target is the reaction of
     // the regions; the distance from `pose` to here is lag, which has no force.
     Pose allowed;
-    bool cut = false;     // `allowed` was not reached
-    bool blocked = false; // only the exact check keeps the tool from the target: counts as a row
-    bool stale = false;   // `allowed` is farther away than the tangents of the active rows are accurate
+    bool cut = false;         // `allowed` was not reached
+    bool blocked = false;     // only the exact check keeps the tool from the target: counts as a row
+    bool rowsExpired = false; // `allowed` is farther away than the tangents of the active rows are accurate
     std::span<const ActiveContact> active; // valid until the next tick
     double minGap = 0.0;    // [m] smallest gap in the contact set, or its certified reach if none is smaller;
                             // NaN without a set

@@ -66,7 +66,7 @@ public:
     StepOutcome judge(const Answer& answer, double part, const LeafState& leaves, ProxyRows& rows,
                       ProxyStep& out) noexcept;
     void take() noexcept { pose_ = nextPose_; }
-    // Before take(): fills out.allowed, cut and stale. blocked: the exact check shortened the motion.
+    // Before take(): fills out.allowed, cut and rowsExpired. blocked: the exact check shortened the motion.
     void recordAllowed(const Answer& answer, bool blocked, const LeafContacts& contacts,
                        const ProxyRows& rows, ProxyStep& out) noexcept;
 
