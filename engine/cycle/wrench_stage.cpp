@@ -139,11 +139,13 @@ void WrenchStage::cut() noexcept {
     passivity_.reset();
 }
 
-// Largest change in a tick [N] or [N m]. However low the slew limit is, a fall takes no longer than a ramp.
-double WrenchStage::stepOf(const dvec3& wanted, const dvec3& before, double slew,
-                           double limit) const noexcept {
+// Largest change in a tick [N] or [N m]. However low the slew limit is, a fall takes no longer than a ramp, and late
+// ticks do not delay it.
+double WrenchStage::stepOf(const dvec3& wanted, const dvec3& before, double slew, double limit,
+                           double elapsed) const noexcept {
     const bool falls = glm::dot(wanted, wanted) < glm::dot(before, before);
-    return options_.period * (falls ? std::max(slew, limit / ForceRamps::kRampTime) : slew);
+    const double late = std::max(options_.period, elapsed);
+    return std::max(options_.period * slew, falls ? late * limit / ForceRamps::kRampTime : 0.0);
 }
 
 // The low-pass of the wanted wrench. A force that is no longer wanted ends within the time of a ramp, however
@@ -151,7 +153,7 @@ double WrenchStage::stepOf(const dvec3& wanted, const dvec3& before, double slew
 Wrench WrenchStage::smoothed(const WrenchInput& input, const Wrench& wanted) noexcept {
     const double share = std::max(options_.period, input.period) / ForceRamps::kRampTime;
     const auto most = [&](const dvec3& now, const dvec3& before, double limit) {
-        return std::max(glm::length(now), glm::length(before) - share * limit);
+        return std::max(glm::length(now), std::min(glm::length(before), limit) - share * limit);
     };
     const double force = most(wanted.force, smooth_.force, options_.forceLimit),
                  torque = most(wanted.torque, smooth_.torque, options_.torqueLimit);
@@ -167,15 +169,19 @@ WrenchStage::Output WrenchStage::step(const WrenchInput& input) noexcept {
     const Wrench reaction = springWrench(input);
     const Wrench contact = sumOf(reaction, damping(input, reaction));
     const Wrench wanted = sumOf(contact, input.pull);
-    const Wrench smooth = scaled(smoothed(input, wanted), ramps_.gain());
+    const Wrench smooth = smoothed(input, wanted);
+    // Limited first, so that a ramp is felt from its beginning where the spring is beyond the limits.
+    const Wrench limited =
+        scaled(limitSize(smooth, options_.forceLimit, options_.torqueLimit), ramps_.gain());
     const Wrench damper = passivityWrench(input, reaction);
-    const Wrench asked = sumOf(smooth, damper);
-    const Wrench sized =
-        limitSize(asked, ramps_.share() * options_.forceLimit, ramps_.share() * options_.torqueLimit);
+    const Wrench asked = sumOf(scaled(smooth, ramps_.gain()), damper);
+    const Wrench sized = limitSize(sumOf(limited, damper), ramps_.share() * options_.forceLimit,
+                                   ramps_.share() * options_.torqueLimit);
     Output out;
-    out.wrench = limitSlew(sized, previous_,
-                           stepOf(sized.force, previous_.force, options_.slewForce, options_.forceLimit),
-                           stepOf(sized.torque, previous_.torque, options_.slewTorque, options_.torqueLimit));
+    out.wrench = limitSlew(
+        sized, previous_,
+        stepOf(sized.force, previous_.force, options_.slewForce, options_.forceLimit, input.period),
+        stepOf(sized.torque, previous_.torque, options_.slewTorque, options_.torqueLimit, input.period));
     out.cause = causeOf(input, damper, sized, out.wrench);
     out.finite = input.sane && isFinite(out.wrench);
     notFinite_ += out.finite ? 0 : 1;

@@ -74,7 +74,8 @@ public:
 private:
     void stepRamps(const WrenchInput& input) noexcept;
     Wrench springWrench(const WrenchInput& input) noexcept;
-    double stepOf(const dvec3& wanted, const dvec3& before, double slew, double limit) const noexcept;
+    double stepOf(const dvec3& wanted, const dvec3& before, double slew, double limit,
+                  double elapsed) const noexcept;
     Wrench smoothed(const WrenchInput& input, const Wrench& wanted) noexcept;
     Wrench damping(const WrenchInput& input, const Wrench& reaction) noexcept;
     Wrench passivityWrench(const WrenchInput& input, const Wrench& reaction) noexcept;

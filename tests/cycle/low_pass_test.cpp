@@ -9,13 +9,13 @@ using namespace fathom::testing;
 
 namespace {
 
-// At rest 10 mm deep, after the filter has settled.
-HapticRig settledRig(double hz) {
+// At rest so deep [m], after the filter has settled.
+HapticRig settledRig(double hz, double depth) {
     Scene scene = handScene();
     scene.haptics.lowpassHz = hz;
     scene.haptics.stiffness = 1000.0;
     HapticRig rig = pressedRig(scene);
-    rig.hand = at(0, 0, 0.0);
+    rig.hand = at(0, 0, 0.01 - depth);
     rig.ticks(static_cast<int>(3000.0 / hz));
     return rig;
 }
@@ -23,9 +23,11 @@ HapticRig settledRig(double hz) {
 } // namespace
 
 TEST_CASE("A slow low-pass holds no force in free space for longer than a ramp, and the force has a cause") {
-    for (const double hz : {0.1, 1.0, 20.0}) {
-        CAPTURE(hz);
-        HapticRig rig = settledRig(hz);
+    for (const auto& [hz, depth] :
+         {std::pair(0.1, 0.01), std::pair(0.1, 0.1), std::pair(0.5, 0.1), std::pair(1.0, 0.01),
+          std::pair(1.0, 0.05), std::pair(20.0, 0.01), std::pair(20.0, 0.1)}) {
+        INFO(hz << " Hz, " << depth << " m");
+        HapticRig rig = settledRig(hz, depth);
         double before = forceOf(rig.step());
         CHECK(before > 8.0);
         rig.hand = at(0, 0, 0.03);
@@ -41,9 +43,11 @@ TEST_CASE("A slow low-pass holds no force in free space for longer than a ramp, 
 
 TEST_CASE(
     "With a slow low-pass an open dead-man switch ramps the force to zero, and none is left for later") {
-    for (const double hz : {0.1, 1.0, 20.0}) {
-        CAPTURE(hz);
-        HapticRig rig = settledRig(hz);
+    for (const auto& [hz, depth] :
+         {std::pair(0.1, 0.01), std::pair(0.1, 0.1), std::pair(0.5, 0.1), std::pair(1.0, 0.01),
+          std::pair(1.0, 0.05), std::pair(20.0, 0.01), std::pair(20.0, 0.1)}) {
+        INFO(hz << " Hz, " << depth << " m");
+        HapticRig rig = settledRig(hz, depth);
         const double pressed = forceOf(rig.step());
         rig.forcesOff = true;
         double before = pressed;
@@ -69,15 +73,24 @@ TEST_CASE("A low slew limit slows the rise of a force, and neither its fall nor 
     scene.haptics.slewForce = 20.0;
     scene.haptics.slewTorque = 0.2;
     scene.haptics.stiffness = 1000.0;
-    for (const bool leaves : {true, false}) {
-        HapticRig rig = pressedRig(scene);
-        CHECK(forceOf(rig.step()) < 2.5); // after 0.1 s
-        rig.hand = at(0, 0, -0.005);
-        rig.ticks(800);
-        CHECK(forceOf(rig.step()) > 14.0);
-        rig.hand.position.z += leaves ? 0.1 : 0.0;
-        rig.forcesOff = !leaves;
-        rig.ticks(201);
-        CHECK(forceOf(rig.step()) == 0.0);
+    for (const double period : {0.0, 0.004}) { // [s] measured; 0: nominal
+        for (const double depth : {0.015, 0.05}) {
+            for (const bool leaves : {true, false}) {
+                INFO(period << " s, " << depth << " m, " << leaves);
+                HapticRig rig = pressedRig(scene);
+                CHECK(forceOf(rig.step()) < 2.5); // after 0.1 s
+                rig.hand = at(0, 0, 0.01 - depth);
+                rig.ticks(1100);
+                CHECK(forceOf(rig.step()) > 14.0);
+                rig.measured = period;
+                rig.hand.position.z += leaves ? 0.15 : 0.0;
+                rig.forcesOff = !leaves;
+                for (int tick = 0; tick < 205; ++tick) {
+                    const StepRecord record = rig.step();
+                    CHECK((record.state != StepState::Off || forceOf(record) < 0.2));
+                }
+                CHECK(forceOf(rig.step()) == 0.0);
+            }
+        }
     }
 }
