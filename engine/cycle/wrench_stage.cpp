@@ -169,14 +169,12 @@ WrenchStage::Output WrenchStage::step(const WrenchInput& input) noexcept {
     const Wrench reaction = springWrench(input);
     const Wrench contact = sumOf(reaction, damping(input, reaction));
     const Wrench wanted = sumOf(contact, input.pull);
-    const Wrench smooth = smoothed(input, wanted);
-    // Limited first, so that a ramp is felt from its beginning where the spring is beyond the limits.
-    const Wrench limited =
-        scaled(limitSize(smooth, options_.forceLimit, options_.torqueLimit), ramps_.gain());
+    const Wrench smooth = scaled(smoothed(input, wanted), ramps_.gain());
     const Wrench damper = passivityWrench(input, reaction);
-    const Wrench asked = sumOf(scaled(smooth, ramps_.gain()), damper);
-    const Wrench sized = limitSize(sumOf(limited, damper), ramps_.share() * options_.forceLimit,
-                                   ramps_.share() * options_.torqueLimit);
+    const Wrench asked = sumOf(smooth, damper);
+    // A ramp is felt from its beginning, also where the spring is beyond the limits.
+    const double share = std::min(ramps_.share(), ramps_.gain());
+    const Wrench sized = limitSize(asked, share * options_.forceLimit, share * options_.torqueLimit);
     Output out;
     out.wrench = limitSlew(
         sized, previous_,
