@@ -4,6 +4,7 @@
 #include "engine/types/error.h"
 
 #include <algorithm>
+#include <optional>
 
 namespace fathom {
 
@@ -18,7 +19,10 @@ RepeatedCamera::RepeatedCamera(std::function<std::unique_ptr<Camera>()> open)
     , controls_(source_->controls()) {}
 
 std::optional<Frame> RepeatedCamera::next() {
-    const log::SayOnce once(said_);
+    std::optional<log::SayOnce> once;
+    if (!live()) { // a live source does not end, and its later events are others
+        once.emplace(said_);
+    }
     std::optional<Frame> frame = source_->next();
     if (!frame) {
         skipped_ += source_->skipped();

@@ -13,8 +13,8 @@
 
 namespace fathom {
 
-// Reopens the source when it has ended, without logging the same lines again. Frame index and source number keep counting. Any thread may call
-// info() and description().
+// Reopens the source when it has ended, without logging the same lines again. Frame index and source number
+// keep counting. Any thread may call info() and description().
 class RepeatedCamera final : public Camera {
 public:
     // Throws what open() throws.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/binding/open_source.h"
 #include "apps/session/repeating_camera.h"
+#include "engine/types/log.h"
 #include "tests/devices/recorded_folder.h"
 #include "tests/realtime/listening.h"
 
@@ -50,4 +51,27 @@ TEST_CASE("A recording that is opened twice says its warnings twice") {
     openSource(folder.path().string(), Images::Newest);
     openSource(folder.path().string(), Images::Newest);
     CHECK(log.count("groundtruth.txt") == 2);
+}
+
+TEST_CASE("A live camera says an event each time it happens") {
+    class StallingCamera final : public Camera {
+    public:
+        const CameraInfo& info() const override { return info_; }
+        std::optional<Frame> next() override {
+            log::warn("no depth frame for 3.0 s: restarted");
+            return Frame(Frame::Content{}, [] {});
+        }
+        uint32_t skipped() const override { return 0; }
+        bool live() const override { return true; }
+        std::string description() const override { return "stalling camera"; }
+
+    private:
+        CameraInfo info_;
+    };
+    const Listening log;
+    RepeatedCamera camera([] { return std::make_unique<StallingCamera>(); });
+    for (int frame = 0; frame < 3; ++frame) {
+        REQUIRE(camera.next());
+    }
+    CHECK(log.count("no depth frame") == 3);
 }
