@@ -29,7 +29,7 @@ class SurfaceNoise {
 public:
     static constexpr double kBand = 0.002;   // [m] of motion of the surface
     static constexpr double kTurnBand = 0.2; // share of the reaction: 11 degrees
-    static constexpr double kWatch = 0.55;   // [s] time constant
+    static constexpr double kWatch = 0.75;   // [s] time constant
     static constexpr double kSettle = 0.3;   // [s] time constant
     static constexpr double kCalmest = 4.0;  // [s] time constant
 
