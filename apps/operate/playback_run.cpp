@@ -258,10 +258,8 @@ void PlaybackRun::showMoment() {
             moments.begin());
     };
     const size_t end = after(t + kSame);
-    TickRow row;
     for (size_t i = after(t - RunView::kSpan); i < end; ++i) {
-        row.record = log_.recordAt(i);
-        display_.view.take(row);
+        display_.view.take(log_.rowAt(i, hand_ ? &*hand_ : nullptr));
     }
     const uint32_t buttons = buttonsAt(t);
     display_.console.forces = (buttons & kDeadManOpen) == 0;

@@ -263,4 +263,11 @@ StepRecord TickLog::recordAt(size_t i) const {
     return r;
 }
 
+TickRow TickLog::rowAt(size_t i, const HandPath* hand) const {
+    TickRow row;
+    row.record = recordAt(i);
+    row.hand.buttons = hand != nullptr ? hand->at(moments[i].t).buttons : 0;
+    return row;
+}
+
 } // namespace fathom::operate

@@ -3,6 +3,7 @@
 // contact that pushed in a tick. Written by the recorder, read by playback.
 #pragma once
 
+#include "devices/simulated/hand_path.h"
 #include "engine/run/channels.h"
 
 #include <filesystem>
@@ -37,6 +38,9 @@ struct TickLog {
 
     // The step record, as far as the files contain it.
     StepRecord recordAt(size_t i) const;
+    // As a tick of a run. hand: the recorded one, for its buttons; null = none are known. Whether the device
+    // was there, and which regions disappeared, is not recorded.
+    TickRow rowAt(size_t i, const HandPath* hand) const;
 };
 
 inline constexpr const char* kWrenchFile = "wrench.csv";

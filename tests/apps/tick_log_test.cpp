@@ -104,6 +104,18 @@ TEST_CASE("A folder without ticks is empty, and an old recording is read without
     CHECK(std::isnan(log.recordAt(0).residual.force.x));
 }
 
+TEST_CASE("A row of a recording has the hand's buttons of its own time, not of the shown moment") {
+    const ScratchFolder folder;
+    write(folder.path(), {0, 0, 0}); // 0, 0.1 and 0.2 s
+    const TickLog log = readTickLog(folder.path());
+    const HandPath hand({{0.0, {}, 0}, {0.1, {}, kDeadManOpen}, {0.2, {}, kGuidanceButton}});
+    CHECK(log.rowAt(0, &hand).hand.buttons == 0);
+    CHECK(log.rowAt(1, &hand).hand.buttons == kDeadManOpen);
+    CHECK(log.rowAt(2, &hand).hand.buttons == kGuidanceButton);
+    CHECK(log.rowAt(1, nullptr).hand.buttons == 0); // not known
+    CHECK(log.rowAt(1, &hand).record.t == log.moments[1].t);
+}
+
 TEST_CASE("A recording from before the columns of the residual is read without it") {
     const ScratchFolder folder;
     write(folder.path(), {1});
