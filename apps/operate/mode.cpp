@@ -30,7 +30,8 @@ Mode forcesFading(const char* meaning) {
     return {"FORCES FADING", "~", colour::kCaution, Edge::Dashed, meaning};
 }
 
-// Why the device gets no force, or a fading one, although forces are on and the scene is fresh.
+// Why the device gets no force, or a fading one, although forces are on and the scene is fresh. Without a
+// word, the cause is not known: nothing is blamed then.
 struct LossCause {
     const char* word;
     const char* meaning;
@@ -47,7 +48,10 @@ LossCause lossCause(const RunView& run) {
     if (tick.record.state == StepState::Fading && run.regionsVanished()) {
         return {"REGION GONE", "Forces fade: a region that pressed the hand disappeared"};
     }
-    return {"DEVICE LOST", "No force: the haptic device was lost, several times or a moment ago. Wait"};
+    if (run.deviceWasLost()) {
+        return {"DEVICE LOST", "No force: the haptic device was lost, several times or a moment ago. Wait"};
+    }
+    return {"", "No force, or a fading one, without a known cause. If it lasts: Space, then A"};
 }
 
 Mode staleMode(const ModeInput& input) {
@@ -61,9 +65,16 @@ Mode staleMode(const ModeInput& input) {
             : "The newest frame is too old: forces fade until the next one"};
 }
 
+// Of a real arm also when ramped out: an old frame stops the arm, and the arm then holds the forces off.
 bool isStale(const ModeInput& input) {
-    const StepRecord& record = input.run.step().record;
-    return record.state == StepState::Fading && isOld(record.sceneAge, input.haptics.staleAfter);
+    const TickRow& tick = input.run.step();
+    const bool fades = tick.record.state == StepState::Fading ||
+                       (tick.record.state == StepState::Off && tick.record.frame >= 0 && tick.driven);
+    return fades && isOld(tick.record.sceneAge, input.haptics.staleAfter);
+}
+
+bool armHeld(const RunView& run) {
+    return run.step().driven && run.step().armStatus.state != ArmState::Follows;
 }
 
 // While no fixture pushes.
@@ -78,13 +89,12 @@ const char* meaningOfArmed(uint32_t causes) {
 Mode armedMode(const ModeInput& input) {
     const StepRecord& record = input.run.step().record;
     const StepState state = record.state;
-    const bool armHeld = input.run.step().driven && input.run.step().armStatus.state != ArmState::Follows;
-    if (state == StepState::Trapped || armHeld) {
+    if (state == StepState::Trapped || armHeld(input.run)) {
         return {"HELD", "!", colour::kWarningWord, Edge::Double,
                 "The tool is trapped between regions, or a real arm stands still: forces fade. W says why"};
     }
     if (state == StepState::Off && record.frame >= 0) {
-        return forcesOff(lossCause(input.run).meaning);
+        return forcesOff(isStale(input) ? staleMode(input).meaning : lossCause(input.run).meaning);
     }
     if (state == StepState::Fading) {
         return isStale(input) ? staleMode(input) : forcesFading(lossCause(input.run).meaning);
@@ -180,6 +190,9 @@ Chip reasonChip(const ModeInput& input) {
         return cameraSilent(record, input.haptics) && record.sceneAge > 0.0
                    ? Chip{"NO CAMERA IMAGE", colour::kCaution, staleMode(input).meaning}
                    : Chip{};
+    }
+    if (armHeld(input.run)) {
+        return {}; // HELD says it
     }
     if (record.state == StepState::Off || record.state == StepState::Fading) {
         const LossCause cause = lossCause(input.run);

@@ -62,6 +62,7 @@ bool RunView::refresh() {
 
 void RunView::rewind() {
     tick_ = {};
+    vanishedAt_ = lostAt_ = kNever; // a new run has a new clock
     measured_.reset();
     ticks_ = late_ = 0;
     ++restarts_;
@@ -78,7 +79,10 @@ void RunView::rewind() {
 }
 
 void RunView::take(const TickRow& row) {
-    vanishedAt_ = row.record.vanished > tick_.record.vanished ? row.record.t : vanishedAt_;
+    if (ticks_ > 0 && row.record.vanished > tick_.record.vanished) { // the first row's count is of before
+        vanishedAt_ = row.record.t;
+    }
+    lostAt_ = row.hand.present ? lostAt_ : row.record.t;
     tick_ = row;
     ++ticks_;
     late_ += row.late ? 1 : 0;

@@ -100,6 +100,8 @@ public:
     bool anyTick() const { return ticks_ > 0; }
     // Whether regions disappeared while they pressed, so recently that their force may still fade.
     bool regionsVanished() const { return tick_.record.t - vanishedAt_ <= 5.0; }
+    // Whether the device was gone or silent so recently that it may still hold forces off.
+    bool deviceWasLost() const { return tick_.record.t - lostAt_ <= 2.0; }
     uint64_t ticks() const { return ticks_; }
     const std::deque<TraceSample>& trace() const { return trace_; }
     Peaks peaks() const { return {force_.value(), torque_.value()}; } // of the trace
@@ -121,10 +123,12 @@ private:
     void noteBlocks(const TickRow& row);
     Fade fadeOf(const TickRow& row) const;
 
+    static constexpr double kNever = -1e9; // [s]
+
     SnapshotSink& sink_;
     TickRow tick_;
     std::optional<Measured> measured_;
-    double vanishedAt_ = -1e9; // [s]
+    double vanishedAt_ = kNever, lostAt_ = kNever; // [s] of the newest ticks with it
     uint64_t ticks_ = 0, late_ = 0;
     uint64_t restarts_ = 0;
     std::deque<TraceSample> trace_;

@@ -101,7 +101,8 @@ TEST_CASE(
     ++run.row.record.vanished;
     says(StepState::Fading, "REGION GONE", "disappeared");
     run.row.record.t += 60.0;
-    says(StepState::Fading, "DEVICE LOST", "device was lost");
+    says(StepState::Fading, "", "without a known cause"); // no device was lost for long
+    says(StepState::Off, "", "without a known cause");
     run.row.record.sceneAge = 0.11;
     says(StepState::Fading, "", "newest frame is too old");
     run.row.record.sceneAge = 0.6;
@@ -112,7 +113,59 @@ TEST_CASE(
     says(StepState::Fading, "", "being switched off");
     using enum Fade;
     CHECK(fades == std::vector<Fade>{SwitchedOff, DeviceLost, Unknown, SwitchedOff, DeviceLost, Unknown,
-                                     RegionGone, Unknown, OldFrame, OldFrame, OldFrame, OldFrame});
+                                     RegionGone, Unknown, Unknown, OldFrame, OldFrame, OldFrame, OldFrame});
+}
+
+TEST_CASE("A new run does not inherit the reasons of the one before") {
+    ViewedRun run;
+    const ModeInput input{run.console, run.view, run.haptics};
+    run.console.forces = true;
+    run.row.record.frame = 3;
+    run.row.record.t = 100.0;
+    run.row.hand.present = false;
+    run.step(0.001);
+    run.row.hand.present = true;
+    run.row.record.vanished = 1;
+    run.step(0.001);
+    CHECK(run.view.regionsVanished());
+    CHECK(run.view.deviceWasLost());
+    run.row.record.state = StepState::Fading;
+    for (const double t : {0.0, 50.0, 100.1}) { // of a new clock
+        run.view.rewind();
+        CHECK_FALSE(run.view.regionsVanished());
+        CHECK_FALSE(run.view.deviceWasLost());
+        run.row.record.t = t;
+        run.step(0.001); // its count is of the time before
+        run.step(0.001);
+        CHECK(joined(chipsOf(input), &Chip::word).empty());
+        CHECK(run.view.trace().back().fade == Fade::Unknown);
+    }
+}
+
+TEST_CASE("While a real arm stands still, HELD has no chip that blames something else, except an old frame") {
+    ViewedRun run;
+    const ModeInput input{run.console, run.view, run.haptics};
+    run.console.forces = true;
+    run.row.record.frame = 3;
+    run.row.driven = true;
+    for (const StepState state : {StepState::Fading, StepState::Off}) {
+        run.row.record.state = state;
+        for (const ArmState arm : {ArmState::Held, ArmState::Silent, ArmState::Behind}) {
+            run.row.armStatus.state = arm;
+            run.row.hand.present = false; // lost just before
+            run.step(0.001);
+            run.row.hand.present = true;
+            for (const double age : {0.02, 0.2, 3.0}) {
+                run.row.record.sceneAge = age;
+                run.step(0.001);
+                CHECK(std::string(modeOf(input).word) == "HELD");
+                CHECK(joined(chipsOf(input), &Chip::word) == (age > 0.5 ? "NO CAMERA IMAGE" : ""));
+            }
+        }
+    }
+    run.row.armStatus.state = ArmState::Follows; // not yet seen by the run
+    run.step(0.001);
+    CHECK(std::string(modeOf(input).meaning).find("no camera image") != std::string::npos);
 }
 
 TEST_CASE("While guidance or a joint limit pushes the hand, ARMED does not say that nothing pushes") {
