@@ -25,8 +25,10 @@ bool resizedLens(const Intrinsics& a, const Intrinsics& b) {
            close(a.cy * y, b.cy, std::max(1.0, y));
 }
 
-constexpr int kOneLens = 4;          // rank of registered images
-constexpr double kSameCentre = 1e-5; // [m]
+constexpr int kOneLens = 4;                    // rank of registered images
+constexpr int kPosed = 2;                      // rank of images whose poses are known
+constexpr int kDepthName = 2, kColourName = 3; // fits of names that say what the images hold
+constexpr double kSameCentre = 1e-5;           // [m]
 
 // That of rectified images; in others, R may turn the camera.
 dvec3 shiftOf(const ImageStream& stream) {
@@ -176,8 +178,27 @@ const ImageStream* StreamChooser::bestDepth() const {
     return depth;
 }
 
-// Images of one frame and lens belong together, whatever their names say of other topics, unless the names say
-// that they are of another kind.
+// Whether images of one frame and lens are of one camera. A program's images have them too, of labels for
+// example: so names must agree, and an image without a name gives way to the camera's own.
+bool StreamChooser::belongTogether(const Candidate& depth, const Candidate& colour) {
+    const bool named = depth.fit == kDepthName && colour.fit == kColourName;
+    if (colour.fit <= 1 || !(named || namedOneCamera(depth.stream->name, colour.stream->name))) {
+        return false;
+    }
+    const auto own = [&](const ImageStream& d, const ImageStream& c) {
+        return namedOneCamera(d.name, c.name) && relate(d, c).rank >= kPosed;
+    };
+    const auto ownDepth = [&](const Candidate& other) {
+        return other.fit == kDepthName && own(*other.stream, *colour.stream);
+    };
+    const auto ownColour = [&](const Candidate& other) {
+        return other.fit == kColourName && own(*depth.stream, *other.stream);
+    };
+    return (depth.fit == kDepthName || std::ranges::none_of(depths(), ownDepth)) &&
+           (colour.fit == kColourName || std::ranges::none_of(colours(), ownColour));
+}
+
+// Images of one frame and lens come first, whatever names other topics have.
 StreamChooser::Pair StreamChooser::bestPair() {
     const std::vector<Candidate> ofDepth = depths(), ofColour = colours();
     if (ofColour.empty()) {
@@ -189,7 +210,7 @@ StreamChooser::Pair StreamChooser::bestPair() {
     for (const auto& [d, depthFit] : ofDepth) {
         for (const auto& [c, colourFit] : ofColour) {
             const Relation found = relate(*d, *c);
-            const bool together = found.rank == kOneLens && colourFit > 1;
+            const bool together = found.rank == kOneLens && belongTogether({d, depthFit}, {c, colourFit});
             const Score score{together,
                               depthFit,
                               colourFit,

@@ -53,6 +53,7 @@ private:
     };
     std::vector<Candidate> depths() const;
     std::vector<Candidate> colours() const;
+    bool belongTogether(const Candidate& depth, const Candidate& colour);
     bool sharesFrame(const ImageStream& depth, const ImageStream& colour) const;
     bool oneCamera(const ImageStream& depth, const ImageStream& colour);
     Relation relate(const ImageStream& depth, const ImageStream& colour);
