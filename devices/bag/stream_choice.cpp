@@ -63,11 +63,6 @@ std::vector<StreamChooser::Candidate> StreamChooser::depths() const {
             all.push_back({&stream, how});
         }
     }
-    // Simulators publish both kinds.
-    const auto range = [](const Candidate& one) { return namedRangeImage(one.stream->name); };
-    if (!std::all_of(all.begin(), all.end(), range)) {
-        std::erase_if(all, range);
-    }
     if (!all.empty()) {
         return all;
     }
@@ -165,11 +160,11 @@ StreamChooser::Relation StreamChooser::relate(const ImageStream& depth, const Im
 
 // Of a file without colour.
 const ImageStream* StreamChooser::bestDepth() const {
-    using Score = std::tuple<int, bool, bool>;
+    using Score = std::tuple<int, bool, bool, bool>;
     Score best;
     const ImageStream* depth = nullptr;
     for (const auto& [d, how] : depths()) {
-        const Score score{how, d->lens.has_value(), !d->compressed};
+        const Score score{how, d->lens.has_value(), !namedRangeImage(d->name), !d->compressed};
         if (depth == nullptr || score > best) {
             best = score;
             depth = d;
@@ -204,7 +199,7 @@ StreamChooser::Pair StreamChooser::bestPair() {
     if (ofColour.empty()) {
         return {bestDepth(), nullptr, {}};
     }
-    using Score = std::tuple<bool, int, int, int, size_t, size_t, bool, bool>;
+    using Score = std::tuple<bool, int, int, int, bool, size_t, size_t, bool, bool>;
     Score best;
     Pair pair;
     for (const auto& [d, depthFit] : ofDepth) {
@@ -215,6 +210,7 @@ StreamChooser::Pair StreamChooser::bestPair() {
                               depthFit,
                               colourFit,
                               found.rank,
+                              !namedRangeImage(d->name), // simulators publish both kinds
                               sharedParts(d->name, c->name),
                               sharedWords(d->name, c->name),
                               !d->compressed,

@@ -21,10 +21,20 @@ constexpr std::array<std::string_view, 32> kInfraredWords{
     "grey",   "mono",        "fisheye",      "phase"};
 // What depth cameras publish about their depth, maps of a height, and what programs draw or compute on images. No
 // part of a camera's name.
-constexpr std::array<std::string_view, 25> kBesideWords{
-    "error",   "err",       "std",       "stddev",     "sigma",   "snr",      "quality",  "cost",
-    "costmap", "elevation", "height",    "normal",     "normals", "surface",  "validity", "age",
-    "seg",     "instance",  "detection", "detections", "overlay", "panoptic", "classes",  "heatmap"};
+constexpr std::array<std::string_view, 27> kBesideWords{"error",         "err",
+                                                        "std",           "stddev",
+                                                        "sigma",         "snr",
+                                                        "quality",       "cost",
+                                                        "costmap",       "elevation",
+                                                        "height",        "normal",
+                                                        "normals",       "surface",
+                                                        "validity",      "age",
+                                                        "seg",           "instance",
+                                                        "detection",     "detections",
+                                                        "overlay",       "panoptic",
+                                                        "classes",       "heatmap",
+                                                        "depthvis",      "disparitynormalized",
+                                                        "surfacenormals"};
 constexpr std::array<std::string_view, 4> kPainted{"colored", "coloured", "colorized", "colourized"};
 
 template <size_t N>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bags with images that programs computed from the camera's: labels and overlays.
+// Bags with images that programs computed from the camera's: labels, overlays, inverse depth.
 #include "tests/devices/played_bag.h"
 
 using namespace fathom;
@@ -26,6 +26,15 @@ BagMaker besideCamera(const std::string& topic, bool likeDepth) {
     return maker;
 }
 
+std::string simulatorChoice(const TemporaryFolder& folder, const std::vector<std::string>& depths) {
+    BagMaker maker;
+    addStream(maker, "/drone/front/Scene", redImage());
+    for (const std::string& topic : depths) {
+        addStream(maker, topic, depthImage(700));
+    }
+    return playStreams(folder, maker).streamOptions();
+}
+
 } // namespace
 
 TEST_CASE("Labels and overlays with a camera's frame and lens are not played instead of its own images") {
@@ -40,5 +49,33 @@ TEST_CASE("Labels and overlays with a camera's frame and lens are not played ins
             CHECK(firstDepth(camera) == doctest::Approx(0.6));
             CHECK_FALSE(camera.info().registered);
         }
+    }
+}
+
+TEST_CASE("Inverse and scaled depth of a simulator is not played as depth") {
+    const TemporaryFolder folder;
+    const std::string range = "/drone/front/DepthPerspective";
+    for (const char* other : {"/drone/front/DepthVis", "/drone/front/DisparityNormalized"}) {
+        for (const auto& depths : {std::vector<std::string>{range, other}, {other, range}}) {
+            CHECK(simulatorChoice(folder, depths) == ",depth=" + range + ",colour=/drone/front/Scene");
+        }
+    }
+}
+
+TEST_CASE("Ranges are played where other images of floating point have no lens or are of another camera") {
+    const TemporaryFolder folder;
+    const std::string range = "/front/distance_to_camera";
+    for (const bool colour : {false, true}) {
+        BagMaker maker;
+        for (const double t : {1.0, 1.1, 1.2}) {
+            maker.add("/replay/image", "sensor_msgs/Image", t, imageMessage(t, depthImage(100, "replay")));
+        }
+        addStream(maker, range, depthImage(700));
+        if (colour) {
+            addStream(maker, "/front/rgb", redImage());
+            addStream(maker, "/back/image", depthImage(500, "back"), {.frame = "back", .k = kColourLens});
+        }
+        const std::string chosen = playStreams(folder, maker).streamOptions();
+        CHECK(chosen == ",depth=" + range + (colour ? ",colour=/front/rgb" : ",colour=none"));
     }
 }
