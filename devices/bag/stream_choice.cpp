@@ -116,7 +116,10 @@ bool StreamChooser::oneCamera(const ImageStream& depth, const ImageStream& colou
     }
     const auto apart = frames_.pose(depth.frame, colour.frame);
     const bool second = namedRight(colour.name) && !namedRight(depth.name); // of a stereo pair
-    return !apart || glm::length(apart->position) <= (second ? kSameCentre : kMostApart);
+    if (!apart) { // the second camera is of one pair with depth, but elsewhere: its P tells
+        return !second || glm::length(shiftOf(colour) - shiftOf(depth)) > kSameCentre;
+    }
+    return glm::length(apart->position) <= (second ? kSameCentre : kMostApart);
 }
 
 StreamChooser::Relation StreamChooser::relate(const ImageStream& depth, const ImageStream& colour) {
