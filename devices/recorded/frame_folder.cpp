@@ -91,15 +91,31 @@ private:
     std::map<std::string, std::string> values_;
 };
 
-// Nothing: no such file, or a file of other content. 12-Scenes has it beside the folder of images.
+// 12-Scenes has its calibration beside the folder of images, where other data sets have any text.
+bool isCalibration(const fs::path& file, bool beside) {
+    std::error_code failed;
+    if (beside ? !fs::is_regular_file(file, failed) : !fs::exists(file, failed)) {
+        return false;
+    }
+    try {
+        return SensorInfo(file).has("m_calibrationDepthIntrinsic");
+    } catch (const BadInput&) {
+        if (!beside) {
+            throw;
+        }
+        return false;
+    }
+}
+
+// Nothing: no such file, or files of other content.
 std::optional<fs::path> calibrationOf(const fs::path& folder) {
-    const fs::path above = fs::weakly_canonical(folder).parent_path();
-    for (const fs::path& file : {folder / "info.txt", folder / "_info.txt", above / "info.txt"}) {
-        if (fs::exists(file) && SensorInfo(file).has("m_calibrationDepthIntrinsic")) {
-            return file;
+    for (const char* name : {"info.txt", "_info.txt"}) {
+        if (isCalibration(folder / name, false)) {
+            return folder / name;
         }
     }
-    return std::nullopt;
+    const fs::path above = fs::weakly_canonical(folder).parent_path() / "info.txt";
+    return isCalibration(above, true) ? std::optional(above) : std::nullopt;
 }
 
 RecordingIntrinsics readInfo(const fs::path& file, bool depthOnly) {

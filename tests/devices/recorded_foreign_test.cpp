@@ -152,6 +152,25 @@ TEST_CASE("Images frame-N have the calibration beside their folder, as in 12-Sce
     std::filesystem::current_path(before);
 }
 
+TEST_CASE("Other content named info.txt beside a folder of images frame-N is no reason to refuse it") {
+    const auto addSequence = [](const TemporaryFolder& scene) {
+        std::filesystem::create_directories(scene.path() / "seq");
+        writeDepth(scene.path() / "seq/frame-000000.depth.png", 640, 480, 500);
+        scene.write("lens.json", R"({"width": 640, "height": 480, "fx": 9, "fy": 9, "cx": 3, "cy": 2})");
+        const SourceOptions lens{.colour = "none", .intrinsics = scene.path() / "lens.json"};
+        CHECK(RecordedCamera(scene.path() / "seq", {.colour = "none"}).info().depth.fx == 585.0);
+        CHECK(RecordedCamera(scene.path() / "seq", lens).info().depth.fx == 9.0);
+    };
+    for (const std::string& text : {std::string(2400, 'a'), std::string("a\0b", 3), std::string("= = =")}) {
+        const TemporaryFolder scene;
+        scene.write("info.txt", text);
+        addSequence(scene);
+    }
+    const TemporaryFolder scene;
+    std::filesystem::create_directories(scene.path() / "info.txt");
+    addSequence(scene);
+}
+
 TEST_CASE("A calibration of images frame-N that cannot be used is named by its key") {
     const TemporaryFolder folder;
     addFrames(folder, 0);
