@@ -81,11 +81,11 @@ void RecordedCamera::useOptions(const SourceOptions& options) {
         return;
     }
     const double first = index.front().depthStamp + options.start;
+    const bool start = first > index.back().depthStamp; // no duration would hold a frame
     std::erase_if(index, [&](const IndexLine& line) {
         return line.depthStamp < first || line.depthStamp >= first + options.duration;
     });
     if (index.empty()) {
-        const bool start = options.start != 0.0;
         throw BadInput(folder_.string(), start ? "start" : "duration",
                        std::to_string(start ? options.start : options.duration),
                        start ? "a time before the last frame" : "a time with at least one frame");

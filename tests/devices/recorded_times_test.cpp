@@ -92,6 +92,18 @@ TEST_CASE("A heading without #, and a pause, change neither start nor what colou
     }
 }
 
+TEST_CASE("A start behind the last frame and a duration without a frame are named apart") {
+    const TemporaryFolder folder;
+    writeSmallRecording(folder, 3); // stamps 0, 0.1, 0.2
+    const auto refused = [&](double start, double duration) {
+        return recordingRefusal(folder.path(), {.start = start, .duration = duration});
+    };
+    CHECK(refused(0.04, 0.001).find("duration: 0.001") != std::string::npos);
+    CHECK(refused(0.0, 0.0).find("duration: 0.0") != std::string::npos);
+    CHECK(refused(0.3, 0.001).find("start: 0.3") != std::string::npos);
+    CHECK(refused(0.3, 1.0).find("start: 0.3") != std::string::npos);
+}
+
 TEST_CASE("Stamps that are no seconds, and so pair nothing, are named with their distance") {
     const TemporaryFolder folder;
     writeSmallRecording(folder, 2);
