@@ -30,28 +30,49 @@ bool namedSun3d(const std::string& name) {
            name[7] == '-' && name.find_first_not_of("0123456789", 8) == 20;
 }
 
+// How the values of a few images look if their bits are taken as rotated to the left by three.
+struct RotationSigns {
+    static constexpr size_t kFewestValues = 32;
+    uint64_t measured = 0, beyond = 0, close = 0; // pixels; beyond 16 m, and closer than such cameras see
+    bool near = false, odd = false;               // some value within 8 m, some of odd millimetres
+    std::set<uint16_t> values;                    // kFewestValues at most
+
+    void add(uint16_t value) {
+        constexpr uint16_t kClosest = 250; // [mm]
+        ++measured;
+        beyond += (value & 7u) > 1u ? 1 : 0;
+        close += std::rotr(value, 3) < kClosest ? 1 : 0;
+        near = near || (value & 7u) == 0;
+        odd = odd || (value & 8u) != 0;
+        if (values.size() < kFewestValues) {
+            values.insert(value);
+        }
+    }
+    // As outliers may be.
+    bool few(uint64_t pixels) const { return pixels * 10 <= measured; }
+};
+
 // SUN3D and SUN RGB-D rotate the bits of millimetres by three, so that nearer than 8 m all values are multiples of
-// eight. So can be a few values of a plain image, but not the many of a scene.
+// eight. So can be a few values of a plain image, and those of one with coarse steps: of eight millimetres, which
+// would be too close, or of sixteen and more, without odd ones.
 bool looksRotated(const RecordingLayout& layout, PngSize size) {
-    constexpr size_t kFewestValues = 32;
     std::vector<uint16_t> image(size_t{size.width} * size.height);
-    std::set<uint16_t> values;
-    bool rotated = true;
+    RotationSigns signs;
     sampleImages(layout, [&](const std::filesystem::path& file) {
         uint64_t beyond = 0;
-        if (!rotated || !readDepthImage(file, size, {}, image, beyond).empty()) {
+        if (!signs.few(signs.beyond) || !readDepthImage(file, size, {}, image, beyond).empty()) {
             return;
         }
         for (const uint16_t value : image) {
-            rotated = rotated && (value & 7u) <= 1u; // one: farther than 8 m
-            if (value != 0 && values.size() < kFewestValues) {
-                values.insert(value);
+            if (value != 0 && value != layout.invalid && value != UINT16_MAX) { // no values
+                signs.add(value);
             }
         }
     });
     const bool sun3d = !layout.index.empty() && namedSun3d(layout.index.front().depth.filename().string());
-    const bool near = std::ranges::any_of(values, [](uint16_t value) { return (value & 7u) == 0; });
-    return rotated && near && (sun3d || values.size() >= kFewestValues);
+    const bool millimetres =
+        signs.odd && signs.few(signs.close) && signs.values.size() >= RotationSigns::kFewestValues;
+    return signs.near && signs.few(signs.beyond) && (sun3d || millimetres);
 }
 
 } // namespace
@@ -72,10 +93,10 @@ FolderDepth::FolderDepth(const std::filesystem::path& folder, const RecordingLay
         const bool millimetres = std::abs(metresPerUnit_ - 1e-3) < 1e-5;
         rotated_ = millimetres && !options.scale && looksRotated(layout, size_);
         if (rotated_) {
-            log::warn(
-                "{}: its depths are multiples of eight: read as millimetres rotated by three bits, as of "
-                "SUN3D and SUN RGB-D; scale=0.001 behind the folder's name reads them as they are",
-                folder_);
+            doubt_ =
+                "its depths are multiples of eight: read as millimetres rotated by three bits, as of SUN3D "
+                "and SUN RGB-D; scale=0.001 behind the folder's name reads them as they are";
+            log::warn("{}: {}", folder_, doubt_);
         }
     }
     toAxis_ = layout.intrinsics.rangeImages ? RangeToAxis(layout.intrinsics.camera.depth) : RangeToAxis();

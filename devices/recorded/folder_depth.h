@@ -19,7 +19,7 @@ public:
                 const SourceOptions& options);
 
     double metresPerUnit() const { return metresPerUnit_; }
-    const std::string& doubt() const { return doubt_; } // warning that values may be no metres; empty = none
+    const std::string& doubt() const { return doubt_; } // warning that values may be read wrong; empty = none
     // z in metresPerUnit(), 0 = no measurement. Returns the fault, or empty. Warns once of depth that is too
     // far for 16 bits.
     std::string read(const std::filesystem::path& file, std::span<uint16_t> depth);
