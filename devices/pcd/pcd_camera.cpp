@@ -197,6 +197,7 @@ PcdCamera::PcdCamera(const std::filesystem::path& file, const SourceOptions& opt
     }
     if (const std::string doubt = doubtLens(fit.lens); !doubt.empty()) {
         log::warn("{}: {}", file.string(), doubt);
+        doubts_.push_back(doubt);
     }
     scalePoints(fit, options);
     if (options.depthOnly()) {
@@ -218,13 +219,15 @@ void PcdCamera::scalePoints(const FittedLens& fit, const SourceOptions& options)
         p = fit.opticalTcloud * p * options.scale.value_or(1.0);
         seen.add(measured(p) ? p.z : 0.0);
     }
-    doubt_ = doubtMetres(file_.string(), seen.nearest);
+    if (const std::string doubt = doubtMetres(file_.string(), seen.nearest); !doubt.empty()) {
+        doubts_.push_back(doubt);
+    }
     info_.metresPerUnit = unitForMetres(seen, options.farthest, 1.0);
     farthest_ = options.farthest;
 }
 
 std::vector<std::string> PcdCamera::warnings() const {
-    return doubt_.empty() ? std::vector<std::string>() : std::vector<std::string>{doubt_};
+    return doubts_;
 }
 
 std::string PcdCamera::whyNoColour() const {

@@ -54,8 +54,8 @@ private:
     CameraInfo info_;
     std::optional<FrameSlots> slots_;
     PcdCloud cloud_;
-    std::string doubt_;     // of doubtMetres()
-    double farthest_ = 0.0; // [m] of interest
+    std::vector<std::string> doubts_; // of doubtLens() and doubtMetres()
+    double farthest_ = 0.0;           // [m] of interest
     bool done_ = false;
 };
 

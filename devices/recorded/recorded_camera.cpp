@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 namespace fathom {
 
@@ -73,8 +74,11 @@ void RecordedCamera::useOptions(const SourceOptions& options) {
         const double whole = index.back().depthStamp - index.front().depthStamp;
         const double period = whole / static_cast<double>(index.size() - 1);
         if (period > kSlowest) {
-            log::warn("{}: {:.6g} s between its frames: stamps are read as seconds", folder_.string(),
-                      period);
+            char doubt[80];
+            std::snprintf(doubt, sizeof doubt, "%.6g s between its frames: stamps are read as seconds",
+                          period);
+            log::warn("{}: {}", folder_.string(), doubt);
+            warnings_.emplace_back(doubt);
         }
     }
     if (options.start == 0.0 && std::isinf(options.duration)) {
