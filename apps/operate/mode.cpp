@@ -191,7 +191,7 @@ Chip reasonChip(const ModeInput& input) {
                    ? Chip{"NO CAMERA IMAGE", colour::kCaution, staleMode(input).meaning}
                    : Chip{};
     }
-    if (armHeld(input.run)) {
+    if (armHeld(input.run) && (input.run.step().hand.buttons & kDeadManOpen) == 0) {
         return {}; // HELD says it
     }
     if (record.state == StepState::Off || record.state == StepState::Fading) {

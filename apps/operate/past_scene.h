@@ -4,6 +4,7 @@
 
 #include "apps/operate/snapshots.h"
 #include "apps/session/session.h"
+#include "engine/types/frame.h"
 
 #include <utility>
 
@@ -15,7 +16,7 @@ public:
     // Throws BadInput when the source cannot seek.
     explicit PastScene(Session& session);
 
-    static constexpr double kPeriod = 1.0 / 30.0; // [s] between frames, as in `replay`
+    static constexpr double kPeriod = kLockstepFramePeriod; // [s] between frames, as in `replay`
 
     uint32_t images() const { return images_; }
     // Sends frame `index` (or the next good one) and its fixtures to `sink`. whole: includes points held from

@@ -2,6 +2,7 @@
 #include "apps/operate/recorder.h"
 
 #include "engine/types/error.h"
+#include "engine/types/frame.h"
 #include "engine/types/log.h"
 
 #include <fstream>
@@ -11,7 +12,6 @@ namespace fathom::operate {
 
 namespace {
 
-constexpr double kFramePeriod = 1.0 / 30.0; // [s] in a replay
 constexpr double kLongestGap = 10.0; // [s] without a frame, after which ticks are not recorded until the next
 
 } // namespace
@@ -113,16 +113,16 @@ void Recorder::frame(const PublishedFrame& frame, const Fixtures& set) {
 // Writes the ticks of the last frame, which no other follows.
 void Recorder::endTicks() {
     if (images_ > 0) {
-        ticks_.flush(lastCapture_, lastCapture_ + kFramePeriod,
-                     static_cast<double>(images_ - 1) * kFramePeriod, 1.0);
+        ticks_.flush(lastCapture_, lastCapture_ + kLockstepFramePeriod,
+                     static_cast<double>(images_ - 1) * kLockstepFramePeriod, 1.0);
     }
     ticks_.drop();
 }
 
 void Recorder::addImage(const PublishedFrame& frame, const Fixtures& set) {
     if (images_ > 0 && frame.t > lastCapture_) {
-        const double start = static_cast<double>(images_ - 1) * kFramePeriod;
-        ticks_.flush(lastCapture_, frame.t, start, kFramePeriod / (frame.t - lastCapture_));
+        const double start = static_cast<double>(images_ - 1) * kLockstepFramePeriod;
+        ticks_.flush(lastCapture_, frame.t, start, kLockstepFramePeriod / (frame.t - lastCapture_));
     } else {
         ticks_.drop();
     }
@@ -131,7 +131,8 @@ void Recorder::addImage(const PublishedFrame& frame, const Fixtures& set) {
     lastCapture_ = frame.t;
     ticks_.number(frame.report.index, images_);
     edits_.frame(frame, images_);
-    writer_->add({static_cast<double>(images_++) * kFramePeriod, set.depth, frame.colour, set.baseTcamera});
+    writer_->add(
+        {static_cast<double>(images_++) * kLockstepFramePeriod, set.depth, frame.colour, set.baseTcamera});
 }
 
 void Recorder::edit(uint64_t number, RecordedScene scene) {
