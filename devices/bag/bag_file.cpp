@@ -176,10 +176,10 @@ UnpackedChunk BagFile::unpack(uint64_t chunkAt) {
     return unpacked_.at(chunkAt, [&] {
         in_.clear();
         in_.seekg(static_cast<std::streamoff>(chunkAt));
-        const Record record = readRecord();
         if (chunkAt == begun_) {
             return begunChunk();
         }
+        const Record record = readRecord();
         const auto size = bag::number<uint32_t>(record.fields, "size");
         if (size > bag::kMostBytes) {
             throw Error("a chunk of " + std::to_string(size) + " bytes");

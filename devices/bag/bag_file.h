@@ -29,8 +29,8 @@ private:
     struct Head {
         Fields fields;
         uint8_t op = 0;
-        uint64_t end = 0; // of the record [bytes of the file]
-        bool empty = false;
+        uint64_t end = 0;                // of the record [bytes of the file]
+        bool empty = false, cut = false; // by the file's end
     };
 
     Record readRecord();
@@ -49,7 +49,7 @@ private:
 
     std::ifstream in_;
     uint64_t size_ = 0;
-    std::optional<uint64_t> begun_; // chunk whose size the recorder did not state yet
+    std::optional<uint64_t> begun_; // chunk whose size the recorder did not state yet, or that is cut
     UnpackedChunks unpacked_;
 };
 

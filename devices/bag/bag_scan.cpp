@@ -14,7 +14,8 @@ std::string countOf(uint64_t chunks, const char* what) {
 
 } // namespace
 
-// The record at this place of the file, without its data; nothing at the file's end and at bytes that are none.
+// The record at this place of the file, without its data; nothing at the file's end, at bytes that are none, and at
+// a record that the file's end cuts, unless it is a chunk.
 std::optional<BagFile::Head> BagFile::headAt(uint64_t at) {
     if (at >= size_) {
         return std::nullopt;
@@ -29,7 +30,8 @@ std::optional<BagFile::Head> BagFile::headAt(uint64_t at) {
         in_.read(reinterpret_cast<char*>(&size), sizeof size);
         head.end = static_cast<uint64_t>(in_.tellg()) + size;
         head.empty = size == 0;
-        return in_ && head.end <= size_ ? std::optional(head) : std::nullopt;
+        head.cut = head.end > size_;
+        return in_ && (!head.cut || head.op == bag::kChunk) ? std::optional(head) : std::nullopt;
     } catch (const Error&) {
         return std::nullopt;
     }
@@ -42,7 +44,8 @@ void BagFile::scan(uint64_t chunksAt, const std::string& lost) {
     uint64_t at = chunksAt;
     for (std::optional<Head> head = headAt(at); head && !begun_; head = headAt(at)) {
         if (head->op == bag::kChunk) {
-            if (head->empty) { // the recorder states the size of a chunk when it is complete
+            // The recorder states the size of a chunk when it is complete. An incomplete copy cuts it, too.
+            if (head->empty || (head->cut && bag::word(head->fields, "compression") == "none")) {
                 begun_ = at;
             }
             const uint64_t found = scanChunk(at, topicOf);
@@ -90,8 +93,10 @@ uint64_t BagFile::scanChunk(uint64_t chunkAt, std::map<uint32_t, size_t>& topicO
     return found;
 }
 
-// The chunk that the recorder had begun: the rest of the file, not compressed.
+// The chunk that the recorder had begun, or that the file's end cuts: the rest of the file, not compressed.
 std::vector<uint8_t> BagFile::begunChunk() {
+    readBlock(); // its head
+    in_.seekg(sizeof(uint32_t), std::ios::cur);
     const auto from = static_cast<uint64_t>(in_.tellg());
     if (size_ - from > bag::kMostBytes) {
         throw Error("a chunk of " + std::to_string(size_ - from) + " bytes");

@@ -43,7 +43,12 @@ TEST_CASE("A bag without an index is read chunk by chunk, with one note") {
         const std::string chunks = threeDepths(500, 1.0).chunks(compression),
                           more = threeDepths(700, 1.3).chunks(compression, false);
         CHECK(depthsOf(folder, chunks + more, "no index: 2 chunks") == both);
-        CHECK(depthsOf(folder, chunks + more.substr(0, more.size() - 5), "no index: 1 chunk") == first);
+        const std::vector<uint16_t> all{500, 500, 500, 700, 700};
+        const bool plain = std::string(compression) == "none"; // the others need all of their bytes
+        CHECK(depthsOf(folder, chunks + more.substr(0, more.size() - 5),
+                       plain ? "no index: 2 chunks are searched"
+                             : "no index: 1 chunk is searched for messages, 1 damaged chunk is skipped") ==
+              (plain ? all : first));
         CHECK(depthsOf(folder, threeDepths(500, 1.0).bag(compression, false), "no index: 1 chunk") == first);
     }
 }
