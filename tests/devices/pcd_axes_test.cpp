@@ -40,3 +40,14 @@ TEST_CASE("A cloud behind its camera, or upside down or mirrored in all axes, is
     CHECK(refusal(1.0, 1.0, 1.0).empty());
     CHECK(refusal(1.0, -1.0, -1.0).empty());
 }
+
+TEST_CASE("That no camera has the lens of a cloud is among its warnings") {
+    const TemporaryFolder folder;
+    const auto warnings = [&](double x) {
+        folder.write("a.pcd", turnedWall(x, 1.0, 1.0));
+        return PcdCamera(folder.path() / "a.pcd", {}).warnings();
+    };
+    CHECK(warnings(1.0).empty());
+    REQUIRE(warnings(2.0).size() == 1);
+    CHECK(warnings(2.0)[0].find("they may be in another frame than their camera's") != std::string::npos);
+}
