@@ -249,7 +249,8 @@ void ToolKinematics::recordAllowed(const Answer& answer, bool blocked, const Lea
     const Motion rest = answer.full - answer.escapeShare * answer.escape;
     cutTravel_ = cut ? (1.0 - answer.towards) * places_.travelBound(pose_, rest) : 0.0;
     out.cut = shortened && !blocked;
-    out.rowsExpired = shortened && places_.travelBound(pose_, answer.full) > contacts.tangentTravel(rows.active());
+    out.rowsExpired =
+        shortened && places_.travelBound(pose_, answer.full) > contacts.tangentTravel(rows.active());
     if (out.cut) {
         const bool target = answer.full.a == wanted_.a && answer.full.alpha == wanted_.alpha;
         out.allowed = target ? target_ : moved(pose_, answer.full);
