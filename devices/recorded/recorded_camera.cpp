@@ -58,6 +58,25 @@ RecordedCamera::RecordedCamera(const fs::path& folder, const SourceOptions& opti
     slots_.emplace(info().slotPixels(), info().hasColour, kFramesInFlight + 2);
 }
 
+// Warns of stamps that would be those of a camera in milliseconds, microseconds or nanoseconds.
+void RecordedCamera::doubtStamps() {
+    const std::vector<IndexLine>& index = layout_.index;
+    if (index.size() < 2) {
+        return;
+    }
+    const double whole = index.back().depthStamp - index.front().depthStamp;
+    const double period = whole / static_cast<double>(index.size() - 1);
+    for (const double unit : {1e3, 1e6, 1e9}) {
+        if (period > 0.005 * unit && period < 0.5 * unit) { // 2 to 200 frames a second
+            char doubt[80];
+            std::snprintf(doubt, sizeof doubt, "%.6g s between its frames: stamps are read as seconds",
+                          period);
+            log::warn("{}: {}", folder_.string(), doubt);
+            warnings_.emplace_back(doubt);
+        }
+    }
+}
+
 void RecordedCamera::useOptions(const SourceOptions& options) {
     CameraInfo& camera = layout_.intrinsics.camera;
     depth_.emplace(folder_, layout_, options);
@@ -68,19 +87,8 @@ void RecordedCamera::useOptions(const SourceOptions& options) {
         camera.registered = false;
         camera.colourTdepth = readExtrinsics(options.extrinsics);
     }
+    doubtStamps();
     std::vector<IndexLine>& index = layout_.index;
-    constexpr double kSlowest = 10.0; // [s] between frames
-    if (index.size() > 1) {
-        const double whole = index.back().depthStamp - index.front().depthStamp;
-        const double period = whole / static_cast<double>(index.size() - 1);
-        if (period > kSlowest) {
-            char doubt[80];
-            std::snprintf(doubt, sizeof doubt, "%.6g s between its frames: stamps are read as seconds",
-                          period);
-            log::warn("{}: {}", folder_.string(), doubt);
-            warnings_.emplace_back(doubt);
-        }
-    }
     if (options.start == 0.0 && std::isinf(options.duration)) {
         return;
     }

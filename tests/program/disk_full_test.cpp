@@ -71,7 +71,7 @@ TEST_CASE("A trace that may not be written in the end is reported in one line af
         CAPTURE(realtime);
         const Stage stage;
         setUpFullDisk(stage, 0.1, "");
-        const std::string image = "rec/depth/000001.png", before = stage.read(image); // read by the run
+        const std::string image = "rec/rgb/000001.png", before = stage.read(image); // read by the run
         std::vector<std::string> more{"--trace", (stage / image).string()};
         if (realtime) {
             more.insert(more.end(), {"--realtime", "--hand"});

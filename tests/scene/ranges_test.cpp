@@ -111,3 +111,24 @@ TEST_CASE("Texts with line breaks, control characters, reordering marks or bytes
     }
     CHECK(refusal(named("V\u00e4lve \u5f01 \u00b1 \u2264")) == "");
 }
+
+TEST_CASE(
+    "The number of frames of a simulated camera is `frames`, or its former name, and of no other source") {
+    const auto with = [](const std::string& source) {
+        return kMinimal + "camera: {source: {" + source + "}}\n";
+    };
+    for (const char* key : {"frames", "pictures"}) {
+        const SceneFile file(with("simulated: tank, " + std::string(key) + ": 7"));
+        CHECK(loadScene(file.path()).source.images == 7);
+    }
+    CHECK(refusal(with("simulated: tank, frames: 7, pictures: 7")).find("former name of frames") !=
+          std::string::npos);
+    CHECK(refusal(with("simulated: tank, frames: 0"))
+              .find("camera.source.frames: 0 (allowed: a whole number from 1 to 100000)") !=
+          std::string::npos);
+    CHECK(
+        refusal(with("recorded: dive.mcap, frames: 7"))
+            .find(
+                "camera.source.frames: 7 (allowed: none: only a simulated camera has a selectable number; of "
+                "a recording, ,start=S and ,duration=S behind PATH play a part)") != std::string::npos);
+}
