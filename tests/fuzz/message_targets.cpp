@@ -80,7 +80,8 @@ void readOf(uint8_t kind, const MessageCursor& message) {
         need(soundPose(ros::transform(message)));
         break;
     case 4:
-        need(soundPose(ros::extrinsics(message)));
+        need(soundPose(ros::extrinsics(message, ros::ExtrinsicsOf::RealSense)));
+        need(soundPose(ros::extrinsics(message, ros::ExtrinsicsOf::Orbbec)));
         break;
     case 5:
         for (const ros::FrameLink& link : ros::frameLinks(message)) {
