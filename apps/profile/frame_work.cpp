@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/profile/frame_work.h"
 
+#include "engine/cloud/frame_params.h"
 #include "engine/cycle/frame_cycle.h"
 
 #include "shaders/shared/frame_params.h"

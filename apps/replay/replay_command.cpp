@@ -2,6 +2,7 @@
 #include "apps/replay/replay_command.h"
 
 #include "apps/binding/arm_thread.h"
+#include "apps/binding/open_hand.h"
 #include "apps/binding/open_source.h"
 #include "apps/number_option.h"
 #include "apps/replay/lockstep_replay.h"

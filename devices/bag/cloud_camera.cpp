@@ -5,6 +5,7 @@
 #include "devices/images/metre_units.h"
 #include "devices/pcd/colour_fields.h"
 #include "engine/types/error.h"
+#include "engine/types/log.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,6 +2,7 @@
 // Compares the spheres that the host reads, packed or from radii, with the slots, one by one and in order.
 #include "tests/cloud/pack_check.h"
 
+#include <algorithm>
 #include <doctest/doctest.h>
 #include <map>
 #include <set>

@@ -5,6 +5,7 @@
 #include "tests/model/meshes.h"
 #include "tests/support/refusal.h"
 
+#include <algorithm>
 #include <doctest/doctest.h>
 #include <unistd.h>
 
