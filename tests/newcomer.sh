@@ -65,7 +65,7 @@ step() {
 make_packages() {
     local build="true"
     [ -e "$root/fathom/build/CMakeCache.txt" ] && [[ $wanted == *" test "* ]] ||
-        build="cmake -G Ninja -S . -B build -DCMAKE_BUILD_TYPE=Release -DFATHOM_BATCHES=ON -DBUILD_TESTING=OFF && cmake --build build"
+        build="cmake -G Ninja -S . -B build -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=OFF && cmake --build build"
     step "$root" "packages made" "apt-get update -qq &&
         apt-get install -y -qq --no-install-recommends dpkg-dev fakeroot file \$(sed 's/ *#.*//' third_party/packages.txt) && $build &&
         cd build && rm -f *.deb && cpack -G DEB && ls *.deb | tr '\n' ' '"
