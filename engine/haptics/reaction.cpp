@@ -61,7 +61,7 @@ double Reaction::rate(double appeared) noexcept {
 void Reaction::beginFade(const Wrench& wanted, const ReactionInput& input) noexcept {
     fade_.begin(sumOf(limitSize(lastFelt_, input.forceLimit, input.torqueLimit), wanted, -1.0),
                 metricSize(wanted, k_), k_);
-    noise_.settleAt(wanted); // what fades contains what was owed
+    noise_.settleAt(wanted); // what fades contains what was withheld
 }
 
 // Begins to fade when new data took the reaction of a tool that lags, and ends when the reaction is back.
@@ -106,8 +106,8 @@ Wrench Reaction::limitRise(const Wrench& wrench, const Travel& travel, const Rea
     return wanted > most ? scaled(wrench, most / wanted) : wrench;
 }
 
-// New data that turns the reaction by more than a right angle begins a new one, from zero: the former direction
-// would push the hand into what has appeared.
+// New data that turns the reaction by more than a right angle begins a new one, from zero: the former
+// direction would push the hand into what has appeared.
 void Reaction::beginTurn(const Wrench& wrench, const ReactionInput& input) noexcept {
     if (!input.newData) {
         return;

@@ -31,11 +31,12 @@ struct ReactionInput {
 // between frames.
 //
 // New data also changes a surface at rest, by the sensor's noise. So a part of each change is felt slowly
-// (SurfaceNoise), while the tool follows at once. What the hand's own motion changes is felt in the same tick.
+// (SurfaceNoise), while the tool follows at once. What the hand's own motion changes is felt in the same
+// tick.
 //
-// A tool that lags, such as an arm, follows a surface that new data moved only after some ticks, and has lost its
-// rows meanwhile. So a fall that new data causes while it lags fades out. If the reaction returns before, in
-// its former direction, it rises from the force on the wire.
+// A tool that lags, such as an arm, follows a surface that new data moved only after some ticks, and has lost
+// its rows meanwhile. So a fall that new data causes while it lags fades out. If the reaction returns before,
+// in its former direction, it rises from the force on the wire.
 //
 // Times are measured ones, so that late ticks delay nothing; a rise counts ticks.
 class Reaction {
@@ -50,7 +51,7 @@ public:
     bool fades() const noexcept { return fade_.active(); }
     // In the last tick the reaction grew by more than the hand compressed, or new data still changes or turns
     // it: work that the hand did not do.
-    bool appears() const noexcept { return appears_ || turnLeft_ > 0.0 || noise_.owes(); }
+    bool appears() const noexcept { return appears_ || turnLeft_ > 0.0 || noise_.withholds(); }
     // [s] between the last two changes of the regions, at most kLongestFrame.
     double frameInterval() const noexcept { return interval_; }
 
