@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Frames and driver of the ECA 5E Micro against a simulated arm on a pseudo-terminal.
 #include "devices/serial/eca_arm.h"
-#include "tests/devices/pty_line.h"
+#include "tests/devices/arm_rig.h"
 
 #include <cmath>
 #include <doctest/doctest.h>
@@ -11,33 +11,19 @@ using namespace fathom::testing;
 
 namespace {
 
-struct Rig {
-    EcaSimulator arm;
-    PtyLine line{arm};
-    SerialPort port{line.name(), 115200};
-    EcaArm driver{port, options()};
-    double now = 0.0;
-
+struct Rig : ArmRig<EcaSimulator, EcaArm> {
     static EcaOptions options() {
         EcaOptions o;
         o.stop = {-0.5, -0.4, -0.3, -0.6, -0.1};
         o.homingSpeed = 0.4;
         return o;
     }
-    Rig() {
+    Rig()
+        : ArmRig(0.025, {}, options()) {
         arm.lower = options().stop;
         arm.upper = {1.0, 1.0, 1.0, 1.0, 1.0};
         arm.angle = {0.0, 0.1, 0.05, -0.1, 0.02};
         arm.firstCount = {65000, 5, 32768, 0, 65535}; // they wrap on the way
-    }
-    void run(double seconds, const ArmCommand& command) {
-        constexpr double kStep = 0.025;
-        for (double end = now + seconds; now < end; now += kStep) {
-            driver.step(now, command);
-            line.exchange(now);
-            arm.step(kStep);
-        }
-        driver.step(now, command);
     }
     double error(const ArmCommand& command) const {
         double worst = 0.0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the driver of the ECA 5E Micro commands when something is wrong.
 #include "devices/serial/eca_arm.h"
-#include "tests/devices/pty_line.h"
+#include "tests/devices/arm_rig.h"
 
 #include <algorithm>
 #include <cmath>
@@ -35,13 +35,7 @@ struct ListeningArm : EcaSimulator {
     }
 };
 
-struct CommandRig {
-    ListeningArm arm;
-    PtyLine line{arm};
-    SerialPort port{line.name(), 115200};
-    EcaArm driver{port, options()};
-    double now = 0.0;
-
+struct CommandRig : ArmRig<ListeningArm, EcaArm> {
     static EcaOptions options() {
         EcaOptions o;
         o.stop = {-0.5, -0.4, -0.3, -0.6, -0.1};
@@ -49,17 +43,10 @@ struct CommandRig {
         o.currentLimit = 1234;
         return o;
     }
-    CommandRig() {
+    CommandRig()
+        : ArmRig(0.025, {}, options()) {
         arm.lower = options().stop;
         arm.upper.fill(1.0);
-    }
-    void run(double seconds, const ArmCommand& command) {
-        constexpr double kStep = 0.025;
-        for (double end = now + seconds; now < end; now += kStep) {
-            driver.step(now, command);
-            line.exchange(now);
-            arm.step(kStep);
-        }
     }
 };
 

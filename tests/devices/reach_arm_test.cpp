@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The driver of Reach arms against a simulated arm on a pseudo-terminal, on good lines and bad ones.
 #include "devices/serial/reach_arm.h"
-#include "tests/devices/pty_line.h"
+#include "tests/devices/arm_rig.h"
 #include "tests/support/refusal.h"
 
 #include <cmath>
@@ -12,29 +12,13 @@ using namespace fathom::testing;
 
 namespace {
 
-struct Rig {
-    ReachSimulator arm;
-    PtyLine line{arm};
-    SerialPort port{line.name(), 115200};
-    ReachArm driver;
-    double now = 0.0;
-
+struct Rig : ArmRig<ReachSimulator, ReachArm> {
     ReachKind kind;
 
     explicit Rig(const ReachOptions& options = {}, ReachKind is = ReachKind::Alpha5)
-        : arm(is)
-        , driver(port, options, is)
+        : ArmRig(0.01, ReachSimulator(is), options, is)
         , kind(is) {}
 
-    void run(double seconds, const ArmCommand& command) {
-        constexpr double kStep = 0.01;
-        for (double end = now + seconds; now < end; now += kStep) {
-            driver.step(now, command);
-            line.exchange(now);
-            arm.step(kStep);
-        }
-        driver.step(now, command);
-    }
     // Of what was commanded, in the line's units [rad], jaws [mm].
     double error(const ArmCommand& command) const {
         const size_t axes = kind == ReachKind::Alpha5 ? 5 : 7;

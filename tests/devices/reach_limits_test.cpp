@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The limits that a Reach arm's driver puts on what it sends.
 #include "devices/serial/reach_arm.h"
-#include "tests/devices/pty_line.h"
+#include "tests/devices/arm_rig.h"
 
 #include <cmath>
 #include <doctest/doctest.h>
@@ -11,21 +11,9 @@ using namespace fathom::testing;
 
 namespace {
 
-struct LimitRig {
-    ReachSimulator arm;
-    PtyLine line{arm};
-    SerialPort port{line.name(), 115200};
-    ReachArm driver{port, ReachOptions{}, ReachKind::Alpha5};
-    double now = 0.0;
-
-    void run(double seconds, const ArmCommand& command) {
-        constexpr double kStep = 0.01;
-        for (double end = now + seconds; now < end; now += kStep) {
-            driver.step(now, command);
-            line.exchange(now);
-            arm.step(kStep);
-        }
-    }
+struct LimitRig : ArmRig<ReachSimulator, ReachArm> {
+    LimitRig()
+        : ArmRig(0.01, ReachSimulator{}, ReachOptions{}, ReachKind::Alpha5) {}
 };
 
 } // namespace
