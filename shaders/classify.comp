@@ -29,8 +29,8 @@ layout(constant_id = kSpecFormat) const uint kFormat = 0;
 layout(std140, binding = 0) uniform Params { FrameParams params; };
 layout(binding = 1) uniform usamplerBuffer depths; // uint16 per pixel; kFour: four per texel
 layout(std430, binding = 2) readonly buffer Rays { vec2 rays[]; };
-// Four bytes per texel, or one word if the format is of single bytes; kFourDepthAndColour: words, of four pixels
-// if the format has words.
+// Four bytes per texel, or one word if the format is of single bytes; kFourDepthAndColour: words, of four
+// pixels if the format has words.
 layout(binding = 3) uniform usamplerBuffer colours;
 layout(std430, binding = 4) readonly buffer Cells { uint nearest[]; };
 layout(std430, binding = 5) writeonly buffer Masks { uint masks[]; };       // one byte per slot: class bits

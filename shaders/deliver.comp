@@ -35,7 +35,8 @@ void emptyNode(uint patchIndex) {
     nodeCounts[node] = 0u;
 }
 
-// True in the group that finishes last, which sees the nodes that all groups wrote. Called by the whole group.
+// True in the group that finishes last, which sees the nodes that all groups wrote. Called by the whole
+// group.
 bool finishesLast() {
     memoryBarrierBuffer();
     barrier();

@@ -1,7 +1,8 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
-// Averages the depth of each pixel over frames, so that a static surface gives the same points in each of them.
-// One group per listed patch; one invocation per row of a sub-patch. Avoids branches, as hold.glsl does.
+// Averages the depth of each pixel over frames, so that a static surface gives the same points in each of
+// them. One group per listed patch; one invocation per row of a sub-patch. Avoids branches, as hold.glsl
+// does.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "shaders/shared/constants.h"

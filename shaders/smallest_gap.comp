@@ -1,11 +1,12 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
 // Smallest gap between the tool and the region spheres, one group per pose.
-//   1. Seed: the sphere nearest to the tool's middle, in the block with the nearest bound, against all leaves.
+//   1. Seed: the sphere nearest to the tool's middle, in the block with the nearest bound, against all
+//      leaves.
 //   2. Tighten: each block whose bound is nearer than the smallest gap so far, its leaves likewise.
-//   3. List: every pair whose rounded gap exceeds the result of 2. by at most a margin. The pair with the smallest
-//      gap is one of them, whatever 2. missed or rounded, because the gap of 2. belongs to some pair. The host
-//      decides in float64 (docs/architecture/query.md).
+//   3. List: every pair whose rounded gap exceeds the result of 2. by at most a margin. The pair with the
+//      smallest gap is one of them, whatever 2. missed or rounded, because the gap of 2. belongs to some
+//      pair. The host decides in float64 (docs/architecture/query.md).
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/lib/near_test.glsl"
 #include "shaders/shared/constants.h"

@@ -130,8 +130,8 @@ void boundOfGroup(uint patchIndex, uint s) {
     }
 }
 
-// Mean of the patch's centres, and their number. A loop, because registers for 16 nodes would let fewer groups
-// run at a time.
+// Mean of the patch's centres, and their number. A loop, because registers for 16 nodes would let fewer
+// groups run at a time.
 vec4 centreOfSubs() {
     vec3 sum = vec3(0.0);
     uint count = 0;

@@ -82,9 +82,9 @@ vec3[9] aroundOf(ivec2 at, ivec2 patchOrigin) {
     return around;
 }
 
-// Depths of three neighbours on one side, in any unit. Returns -1 when all valid ones are nearer than z by more
-// than the edge threshold, +1 when all are farther, else 0. Numbers that are not negative compare as their bits, which
-// takes fewer instructions; none (0) less one is the largest.
+// Depths of three neighbours on one side, in any unit. Returns -1 when all valid ones are nearer than z by
+// more than the edge threshold, +1 when all are farther, else 0. Numbers that are not negative compare as
+// their bits, which takes fewer instructions; none (0) less one is the largest.
 float sideJump(vec3 side, float z) {
     uvec3 bits = floatBitsToUint(side);
     uint far = max(bits.x, max(bits.y, bits.z)), near = min(bits.x - 1u, min(bits.y - 1u, bits.z - 1u)) + 1u;
@@ -106,8 +106,8 @@ float isolationSquare(float z) {
     return limit * limit;
 }
 
-// Fewer than 2 of the 8 neighbours within the isolation distance, as for marine snow and noise. square: of their
-// distances; z: of the pixel.
+// Fewer than 2 of the 8 neighbours within the isolation distance, as for marine snow and noise. square: of
+// their distances; z: of the pixel.
 bool isIsolated(float square[9], float z) {
     uint near = 0;
     [[unroll]] for (int k = 0; k < 9; ++k) {

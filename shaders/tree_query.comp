@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
-// Contact query on devices with subgroup arithmetic. Results are compacted by subgroup: one place in the answer
-// per subgroup with a result.
+// Contact query on devices with subgroup arithmetic. Results are compacted by subgroup: one place in the
+// answer per subgroup with a result.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_arithmetic : require

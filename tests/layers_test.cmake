@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # The layers: a folder includes only lower ones (ARCHITECTURE.md). Checks every #include of engine/, devices/, apps/ and shaders/,
-# the link lines of the libraries, the length of every source file, and that only third_party/ looks for packages. A file is a case.
+# the link lines of the libraries, the length of every source file, the width of comments,
+# and that only third_party/ looks for packages. A file is a case.
 #   cmake -DSOURCE=repository root -P layers_test.cmake
 cmake_minimum_required(VERSION 3.25)
 
@@ -142,6 +143,10 @@ foreach(file ${files})
     list(LENGTH ends lines)
     if(lines GREATER most_lines)
         list(APPEND faults "has ${lines} lines, more than ${most_lines}")
+    endif()
+    file(STRINGS ${SOURCE}/${file} wide LENGTH_MINIMUM 111 REGEX "^ *//") # clang-format does not wrap comments
+    if(NOT "${wide}" STREQUAL "" AND NOT file MATCHES "[.]cmake$|CMakeLists")
+        list(APPEND faults "has a comment wider than 110 columns: ${wide}")
     endif()
     if(file MATCHES "^(engine|devices|apps|shaders)/.*[.](h|cpp|comp|vert|frag|glsl)$")
         folder_of(${file} from)

@@ -39,7 +39,8 @@ ArmAxes chainAxes(const ArmModel& model);
 // Name of a driver's axis, as scenes have it.
 const char* armAxisName(SceneArm::Driver::Protocol protocol, size_t axis) noexcept;
 
-// The scene's arm has a driver. Throws BadInput with the scene's field for unknown axes or joints and for joints without an axis.
+// The scene's arm has a driver. Throws BadInput with the scene's field for unknown axes or joints and for
+// joints without an axis.
 ArmAxes armAxes(const Scene& scene, const ArmRig& rig);
 
 } // namespace fathom

@@ -29,8 +29,8 @@ std::optional<CloseUp> closeUp(const Fixtures& set, const DepthCues& cues, Close
 void drawCloseUp(Console& console, const CloseUp& view, CloseUpSide side, const DepthCues& cues,
                  std::span<const Shape> shapes, ImFont* font);
 
-// Where both views are, left of the gap bar or above it: takes their squares from `gap`. Both are empty without
-// room.
+// Where both views are, left of the gap bar or above it: takes their squares from `gap`. Both are empty
+// without room.
 struct CloseUpRooms {
     PixelRect side, top;
 };

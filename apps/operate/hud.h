@@ -44,8 +44,8 @@ struct HudInput {
 void drawHeadLine(Console& console, const HudInput& input, ImVec2 at, ImVec2 size);
 // The pilot's row of bars: force and torque with their limits.
 void drawForceStrip(Console& console, const HudInput& input, const PixelRect& room);
-// "us per pass: classify 56, surface 12", of times in milliseconds, and "ms per pass" if one takes 1 ms or more;
-// "none yet" without times.
+// "us per pass: classify 56, surface 12", of times in milliseconds, and "ms per pass" if one takes 1 ms or
+// more; "none yet" without times.
 std::string passTimes(const std::vector<std::string>& names, const std::vector<double>& ms);
 void drawGauges(Console& console, const HudInput& input); // call inside the open ImGui window
 

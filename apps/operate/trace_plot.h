@@ -33,7 +33,8 @@ struct TraceSpan {
 };
 // Guidance first, then states, each in order of time.
 std::vector<TraceSpan> traceSpans(const std::deque<TraceSample>& trace);
-// What happened, below the curves: new fixture sets, late ticks, guidance and states as bars with their names.
+// What happened, below the curves: new fixture sets, late ticks, guidance and states as bars with their
+// names.
 void drawEvents(const TraceArea& lane, const std::deque<TraceSample>& trace);
 
 } // namespace fathom::operate

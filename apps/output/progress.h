@@ -20,8 +20,8 @@ struct ProgressCounts {
 // shown from the first second on, by the run's time, else by its frames.
 std::string progressText(const ProgressCounts& counts, double wallSeconds);
 
-// Writes only when `out` is a terminal that can erase a line, and at most ten times per second, so update() may be called every
-// tick and every frame. Never throws: a closed terminal must not fail a run.
+// Writes only when `out` is a terminal that can erase a line, and at most ten times per second, so update()
+// may be called every tick and every frame. Never throws: a closed terminal must not fail a run.
 class Progress {
 public:
     explicit Progress(std::FILE* out = stderr);

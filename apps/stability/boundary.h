@@ -25,8 +25,8 @@ struct SampledLoop {
 };
 double computedBoundary(const SampledLoop& loop, double guess);
 
-// Analytic boundary (b + B) / (T/2 + n T), exact for a heavy device. With B = 0 it is the passive bound. Units
-// of SampledLoop.
+// Analytic boundary (b + B) / (T/2 + n T), exact for a heavy device. With B = 0 it is the passive bound.
+// Units of SampledLoop.
 double lawOfBoundary(double damping, double virtualDamping, double period, uint32_t delay);
 
 } // namespace fathom::stability

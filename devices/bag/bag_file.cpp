@@ -89,8 +89,8 @@ BagFile::Record BagFile::readRecord() {
     return record;
 }
 
-// The next record of the index. Empty at the end of the file, and at bytes that are no record where the index is
-// complete: file systems and archives leave zeros there.
+// The next record of the index. Empty at the end of the file, and at bytes that are no record where the index
+// is complete: file systems and archives leave zeros there.
 std::optional<BagFile::Record> BagFile::nextOfIndex(bool complete) {
     if (static_cast<uint64_t>(in_.tellg()) >= size_) {
         return std::nullopt;

@@ -15,8 +15,8 @@ namespace fathom {
 class BagFile final : public MessageFile {
 public:
     // Without an index, as after a crash, or with a damaged one, all chunks are unpacked once to find the
-    // messages, and one line says so. Throws BadInput that names the file: not a bag of version 2.0, or without
-    // a whole message.
+    // messages, and one line says so. Throws BadInput that names the file: not a bag of version 2.0, or
+    // without a whole message.
     explicit BagFile(const std::filesystem::path& file);
     MessageBytes bytes(const MessageEntry& entry) override;
 

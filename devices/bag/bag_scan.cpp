@@ -14,8 +14,8 @@ std::string countOf(uint64_t chunks, const char* what) {
 
 } // namespace
 
-// The record at this place of the file, without its data; nothing at the file's end, at bytes that are none, and at
-// a record that the file's end cuts, unless it is a chunk.
+// The record at this place of the file, without its data; nothing at the file's end, at bytes that are none,
+// and at a record that the file's end cuts, unless it is a chunk.
 std::optional<BagFile::Head> BagFile::headAt(uint64_t at) {
     if (at >= size_) {
         return std::nullopt;

@@ -19,9 +19,9 @@ public:
     // to_T_from, through links that do not move; empty when there is no such path. The first call reads the
     // topics, at most 2000 messages of each. Damaged messages and invalid transforms are skipped and logged.
     std::optional<Pose> pose(const std::string& from, const std::string& to);
-    // Why images in these two frames, whose pose tf has, may have other axes than the optical ones (x right, y
-    // down, z forward): a turned child is called optical, or the frames are parallel and neither name says so.
-    // Empty = no doubt.
+    // Why images in these two frames, whose pose tf has, may have other axes than the optical ones (x right,
+    // y down, z forward): a turned child is called optical, or the frames are parallel and neither name says
+    // so. Empty = no doubt.
     std::string doubtAxes(const std::string& from, const std::string& to);
 
 private:

@@ -37,8 +37,8 @@ struct CameraInfo {
     std::string rawFault; // why K or D cannot be used, `raw` is empty then; empty = nothing
     Intrinsics rectified; // P, without distortion; K where P is empty
     bool turned = false;  // rectification turns the camera (R)
-    // [m] What is added to points of the header's frame to be seen from the camera's centre: Tx / fx and Ty / fy
-    // of P, which are not 0 for the second camera of a rectified stereo pair.
+    // [m] What is added to points of the header's frame to be seen from the camera's centre: Tx / fx and Ty /
+    // fy of P, which are not 0 for the second camera of a rectified stereo pair.
     dvec3 shift{0.0};
     // Of rectified images, or of others. Throws Error where that is not usable.
     const Intrinsics& lens(bool ofRectified) const {
@@ -56,8 +56,8 @@ void skipHeader(MessageCursor& cursor);
 Pose rigidPose(const std::array<double, 9>& rotation, const dvec3& translation);
 
 Pose transform(MessageCursor message); // geometry_msgs/Transform
-// The driver whose message it is. realsense2_camera_msgs/Extrinsics has its rotation column by column, those of
-// Orbbec row by row, and with millimetres in older versions.
+// The driver whose message it is. realsense2_camera_msgs/Extrinsics has its rotation column by column, those
+// of Orbbec row by row, and with millimetres in older versions.
 enum class ExtrinsicsOf { RealSense, Orbbec };
 Pose extrinsics(MessageCursor message, ExtrinsicsOf driver);
 float float32(MessageCursor message); // std_msgs/Float32

@@ -13,9 +13,9 @@ bool isRos2Recording(const std::filesystem::path& folder);
 class SplitRecording final : public MessageFile {
 public:
     // The files that metadata.yaml lists, in its order. A file that is missing or cannot be opened is logged
-    // and among warnings(), others in the folder are logged. Without a list, or if none of its files is there:
-    // all .mcap or all .db3 files that are not hidden, in order of the number that ends their name. Throws
-    // BadInput when there are none, and for files that are compressed as a whole.
+    // and among warnings(), others in the folder are logged. Without a list, or if none of its files is
+    // there: all .mcap or all .db3 files that are not hidden, in order of the number that ends their name.
+    // Throws BadInput when there are none, and for files that are compressed as a whole.
     explicit SplitRecording(const std::filesystem::path& folder);
     MessageBytes bytes(const MessageEntry& entry) override;
 

@@ -19,8 +19,8 @@ constexpr std::array<std::string_view, 32> kInfraredWords{
     "signal", "reflectance", "ambient",      "noise",      "uncertainty", "variance",  "temperature",
     "label",  "labels",      "segmentation", "semantic",   "mask",        "instances", "gray",
     "grey",   "mono",        "fisheye",      "phase"};
-// What depth cameras publish about their depth, maps of a height, and what programs draw or compute on images. No
-// part of a camera's name.
+// What depth cameras publish about their depth, maps of a height, and what programs draw or compute on
+// images. No part of a camera's name.
 constexpr std::array<std::string_view, 27> kBesideWords{"error",         "err",
                                                         "std",           "stddev",
                                                         "sigma",         "snr",

@@ -51,8 +51,8 @@ StreamChooser::Relation StreamChooser::relateByPose(const ImageStream& depth, co
                 topic + ", or extrinsics=FILE or colour=none behind the file's name)"};
 }
 
-// By the driver's topic or by tf, and why it may be wrong. Some versions of realsense-ros publish the inverse of
-// the topic; tf tells.
+// By the driver's topic or by tf, and why it may be wrong. Some versions of realsense-ros publish the inverse
+// of the topic; tf tells.
 std::pair<std::optional<Pose>, std::string> StreamChooser::driverPose(const ImageStream& depth,
                                                                       const ImageStream& colour) {
     const auto topic = topicPose(depth, colour);

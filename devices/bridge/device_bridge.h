@@ -10,7 +10,8 @@
 
 namespace fathom {
 
-// One thread. The constructor of a derived class opens the device and listens; its destructor closes the device.
+// One thread. The constructor of a derived class opens the device and listens; its destructor closes the
+// device.
 class DeviceBridge {
 public:
     virtual ~DeviceBridge() = default;

@@ -28,8 +28,8 @@ public:
     SocketServer& operator=(const SocketServer&) = delete;
     ~SocketServer();
 
-    // Reads all pending wrenches, then accepts one pending connection. Drops an engine that breaks the contract
-    // and rejects a second one. Never blocks; logs connects and disconnects.
+    // Reads all pending wrenches, then accepts one pending connection. Drops an engine that breaks the
+    // contract and rejects a second one. Never blocks; logs connects and disconnects.
     void poll();
 
     // Sends a sample to the engine, if there is one. status: FATHOM_DOOR_PRESENT, FATHOM_DOOR_HOMED.

@@ -15,7 +15,8 @@ struct ExrChannel {
     size_t bytes() const { return kind == 1 ? 2 : 4; } // per pixel
 };
 
-// Indices of depth, and of the G and B of its layer if it is an R: they are equal to it or 0, or show colours.
+// Indices of depth, and of the G and B of its layer if it is an R: they are equal to it or 0, or show
+// colours.
 struct ExrDepth {
     size_t depth = 0;
     std::vector<size_t> equal;

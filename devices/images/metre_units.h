@@ -18,16 +18,17 @@ struct ValueSpan {
     void add(double value);
     void add(const ValueSpan& other);
     ValueSpan scaled(double factor) const;
-    // The largest value up to `bound`, without those of its own power of two if one of them is beyond; 0 = none.
+    // The largest value up to `bound`, without those of its own power of two if one of them is beyond; 0 =
+    // none.
     double farthestWithin(double bound) const;
 };
 
 // The unit [m] for depth of up to `farthest` metres: 0.1 mm or the least multiple of it with which 16 bits
 // are enough, at most kCoarsestUnit.
 double unitForMetres(double farthest);
-// The unit [m] for frames, from the depths [m] in samples of them. It allows for depths larger by `spare`, but
-// for none beyond `ofInterest` [m], unless all samples are beyond it. If that is infinite, depths beyond 65 m
-// are the background that renderers write where nothing is, unless all samples are: they do not cost the
+// The unit [m] for frames, from the depths [m] in samples of them. It allows for depths larger by `spare`,
+// but for none beyond `ofInterest` [m], unless all samples are beyond it. If that is infinite, depths beyond
+// 65 m are the background that renderers write where nothing is, unless all samples are: they do not cost the
 // others their precision.
 double unitForMetres(const ValueSpan& seen, double ofInterest, double spare = 1.5);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Arrays of NumPy (.npy, versions 1 to 3): integers and floating point of 2, 4 or 8 bytes, either byte order, shape
-// (height, width) or (height, width, 1), in C order. Negative integers mean no measurement; those above 65535 are
-// a fault. Source: numpy.lib.format.
+// Arrays of NumPy (.npy, versions 1 to 3): integers and floating point of 2, 4 or 8 bytes, either byte order,
+// shape (height, width) or (height, width, 1), in C order. Negative integers mean no measurement; those above
+// 65535 are a fault. Source: numpy.lib.format.
 #pragma once
 
 #include "devices/images/depth_head.h"

@@ -19,14 +19,14 @@ struct PointRows {
     bool bigEndian = false;
 };
 
-// The fields `rgb` or `rgba` of four bytes (0xAARRGGBB) or of three values, or one field each of r, g, b or red,
-// green, blue. Refers to the fields that it is made from.
+// The fields `rgb` or `rgba` of four bytes (0xAARRGGBB) or of three values, or one field each of r, g, b or
+// red, green, blue. Refers to the fields that it is made from.
 class ColourFields {
 public:
     explicit ColourFields(std::span<const PcdField> fields);
     explicit operator bool() const { return packed_ != nullptr || levels_[2].field != nullptr; }
-    // 0xAABBGGRR of all points, which have all of the fields. largest: the largest level so far, by which separate
-    // levels are scaled (packColours()); grows. Empty for levels of an unknown full scale.
+    // 0xAABBGGRR of all points, which have all of the fields. largest: the largest level so far, by which
+    // separate levels are scaled (packColours()); grows. Empty for levels of an unknown full scale.
     std::vector<uint32_t> read(const PointRows& points, double& largest) const;
 
 private:
@@ -42,7 +42,8 @@ private:
     bool real_ = false;
 };
 
-// Why fields hold no colour that is read: "no colour is read from the fields x F4, y F4, z F4 (read are ...)".
+// Why fields hold no colour that is read: "no colour is read from the fields x F4, y F4, z F4 (read are
+// ...)".
 std::string whyUncoloured(std::span<const PcdField> fields);
 
 } // namespace fathom

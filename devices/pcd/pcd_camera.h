@@ -26,8 +26,8 @@ struct FittedLens {
 // takes the smallest least-squares residual over the points in front of the sensor. Throws Error when the
 // points are too few or all on one ray.
 FittedLens fitLens(const PcdCloud& cloud);
-// Warning that the points may not be in the frame of their camera: those of a plane fit some lens from everywhere.
-// Empty for a lens as cameras have it.
+// Warning that the points may not be in the frame of their camera: those of a plane fit some lens from
+// everywhere. Empty for a lens as cameras have it.
 std::string doubtLens(const Intrinsics& lens);
 
 // One frame. Depth is z in units of 0.1 mm, coarser when the farthest point within options.farthest needs it;

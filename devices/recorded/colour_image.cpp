@@ -15,7 +15,8 @@ namespace {
 
 constexpr size_t kMaxJpeg = 64u << 20; // [bytes]
 
-// Of a file that is no JPEG: why it is no image that is read; empty for a PNG and for one that cannot be opened.
+// Of a file that is no JPEG: why it is no image that is read; empty for a PNG and for one that cannot be
+// opened.
 std::string whyUnknown(const std::filesystem::path& file) {
     const auto text = readFileAtMost(file, kPngSignature.size() - 1);
     if (!text ||

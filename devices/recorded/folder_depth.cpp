@@ -52,9 +52,9 @@ struct RotationSigns {
     bool few(uint64_t pixels) const { return pixels * 10 <= measured; }
 };
 
-// SUN3D and SUN RGB-D rotate the bits of millimetres by three, so that nearer than 8 m all values are multiples of
-// eight. So can be a few values of a plain image, and those of one with coarse steps: of eight millimetres, which
-// would be too close, or of sixteen and more, without odd ones.
+// SUN3D and SUN RGB-D rotate the bits of millimetres by three, so that nearer than 8 m all values are
+// multiples of eight. So can be a few values of a plain image, and those of one with coarse steps: of eight
+// millimetres, which would be too close, or of sixteen and more, without odd ones.
 bool looksRotated(const RecordingLayout& layout, PngSize size) {
     std::vector<uint16_t> image(size_t{size.width} * size.height);
     RotationSigns signs;

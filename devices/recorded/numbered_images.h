@@ -8,8 +8,8 @@
 
 namespace fathom {
 
-// The files of a folder with one of these endings whose stem, in front of `before`, ends in a number; if there
-// are none, those with a number in it. A warning counts the others.
+// The files of a folder with one of these endings whose stem, in front of `before`, ends in a number; if
+// there are none, those with a number in it. A warning counts the others.
 struct NumberedImages {
     std::filesystem::path folder;
     std::span<const std::string_view> endings;

@@ -13,7 +13,8 @@ namespace fathom {
 
 // By the names that simulators give: "distance_to_camera" (Isaac Sim), "DepthPerspective" (AirSim).
 bool namedRangeImage(const std::string& name);
-// Warning for images with such a name that are played as depth along the axis. option: what takes them as ranges.
+// Warning for images with such a name that are played as depth along the axis. option: what takes them as
+// ranges.
 std::string doubtAxis(const std::string& name, const std::string& option);
 
 // Maps ranges to depth along the axis. One thread.

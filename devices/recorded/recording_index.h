@@ -22,12 +22,11 @@ struct IndexLine {
 // One entry per data line of associations.txt ("t_rgb rgb/x.png t_depth depth/x.png"). Without that file:
 // rgb.txt and depth.txt ("t path") joined to pairs, closest stamps first, each image once, at most 0.02 s
 // apart, in order of depth.txt (as the TUM tool associate.py does). Without those: the stamps of
-// intrinsics.json for the files of depth/ and rgb/ in order of their names (2.png before 10.png), joined alike
-// within pairWithin.
-// A recording without colour: one entry per line of depth.txt. depthOnly, for one whose colour is not wanted:
-// associations.txt, else depth.txt, else the stamps of depth. Throws BadInput when the index is missing or
-// empty, or when stamps and files differ in number. A path that leaves the folder makes its line faulty or
-// skips it with a warning. The reader of the images warns about links.
+// intrinsics.json for the files of depth/ and rgb/ in order of their names (2.png before 10.png), joined
+// alike within pairWithin. A recording without colour: one entry per line of depth.txt. depthOnly, for one
+// whose colour is not wanted: associations.txt, else depth.txt, else the stamps of depth. Throws BadInput
+// when the index is missing or empty, or when stamps and files differ in number. A path that leaves the
+// folder makes its line faulty or skips it with a warning. The reader of the images warns about links.
 std::vector<IndexLine> readIndex(const std::filesystem::path& folder, const RecordingIntrinsics& intrinsics,
                                  bool depthOnly = false);
 

@@ -6,8 +6,8 @@
 
 namespace fathom {
 
-// Throws BadInput for a folder without any mark of a recording: it names a file of messages in it, or a recording
-// one or two levels below, else what is read. isRecording: whether a folder has such a mark.
+// Throws BadInput for a folder without any mark of a recording: it names a file of messages in it, or a
+// recording one or two levels below, else what is read. isRecording: whether a folder has such a mark.
 [[noreturn]] void refuseUnknownFolder(const std::filesystem::path& folder,
                                       bool (*isRecording)(const std::filesystem::path&));
 

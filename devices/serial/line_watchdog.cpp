@@ -17,8 +17,8 @@ namespace {
 
 constexpr int kBeat = 10; // [ms] poll period
 
-// Reads everything pending, so that a backlog does not count as silence. Answers, so that the engine notices a
-// watchdog that hangs.
+// Reads everything pending, so that a backlog does not count as silence. Answers, so that the engine notices
+// a watchdog that hangs.
 void receive(int engine, LineWatchdog& watchdog) noexcept {
     char bytes[256];
     for (;;) {

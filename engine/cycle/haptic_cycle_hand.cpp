@@ -5,13 +5,13 @@
 namespace fathom {
 namespace {
 
-// [m] of the spring that one of several regions must have held to count as vanished, more than noise moves it,
-// and the most that may still hold there.
+// [m] of the spring that one of several regions must have held to count as vanished, more than noise moves
+// it, and the most that may still hold there.
 constexpr double kPartGone = 0.005, kStillHeld = 0.0005;
 constexpr dquat kNoTurn{1.0, 0.0, 0.0, 0.0};
 
-// True if a spring that held `before` [m] now holds `held` although the hand moved by `byHand` [m] only: it lost its
-// length, and nothing else holds there.
+// True if a spring that held `before` [m] now holds `held` although the hand moved by `byHand` [m] only: it
+// lost its length, and nothing else holds there.
 bool lostItsHold(const dvec3& before, const dvec3& held, double byHand) {
     const dvec3 lost = before - held;
     const bool fell = glm::length(held) < glm::length(before) - byHand - kPartGone;
@@ -39,9 +39,10 @@ void HapticCycle::recentre() noexcept {
     stage_.shift(by, kNoTurn);
 }
 
-// The direction along which regions that pressed are gone although the hand did not move out of them: their class
-// is no longer seen, or their shape was removed. Zero = those that are gone pressed by a torque alone; empty = none
-// are. `before` and `endBefore` are where the tool and the hand's end of the spring were when they pressed.
+// The direction along which regions that pressed are gone although the hand did not move out of them: their
+// class is no longer seen, or their shape was removed. Zero = those that are gone pressed by a torque alone;
+// empty = none are. `before` and `endBefore` are where the tool and the hand's end of the spring were when
+// they pressed.
 std::optional<dvec3> HapticCycle::vanishedAlong(const ProxyStep& moved, const dvec3& before,
                                                 const dvec3& endBefore) const noexcept {
     const bool left = glm::dot(before - springEnd_.position, pressing_.out) < 0.0;
@@ -79,8 +80,8 @@ void HapticCycle::shiftHand(const dvec3& by, const dquat& turn) noexcept {
     }
 }
 
-// Pressed regions vanished: the tool stays where it was before, and the hand with it. Otherwise the tool would
-// jump at the hand, through what can no longer be seen.
+// Pressed regions vanished: the tool stays where it was before, and the hand with it. Otherwise the tool
+// would jump at the hand, through what can no longer be seen.
 void HapticCycle::keepHandAtTool(const Pose& before, const dvec3& along, ProxyStep& moved) noexcept {
     const bool all = moved.active.empty();
     const bool turned =

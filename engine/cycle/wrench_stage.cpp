@@ -139,8 +139,8 @@ void WrenchStage::cut() noexcept {
     passivity_.reset();
 }
 
-// Largest change in a tick [N] or [N m]. However low the slew limit is, a fall takes no longer than a ramp, and late
-// ticks do not delay it.
+// Largest change in a tick [N] or [N m]. However low the slew limit is, a fall takes no longer than a ramp,
+// and late ticks do not delay it.
 double WrenchStage::stepOf(const dvec3& wanted, const dvec3& before, double slew, double limit,
                            double elapsed) const noexcept {
     const bool falls = glm::dot(wanted, wanted) < glm::dot(before, before);

@@ -91,8 +91,8 @@ public:
     StepOutcome judge(const Answer&, double part, const LeafState& leaves, ProxyRows&,
                       const ArmStep& out) noexcept;
     void take() noexcept { now_ = next_; }
-    // Before take(): fills out.allowed, cut and rowsExpired. An arm reports `allowed` in every tick, because it may
-    // not reach a target for reasons without a force: joint speeds, the workspace, a singular posture.
+    // Before take(): fills out.allowed, cut and rowsExpired. An arm reports `allowed` in every tick, because
+    // it may not reach a target for reasons without a force: joint speeds, the workspace, a singular posture.
     // blocked: the exact check shortened the motion.
     void recordAllowed(const Answer& answer, bool blocked, const LeafContacts& contacts, ProxyRows& rows,
                        ArmStep& out) const noexcept;

@@ -40,8 +40,8 @@ struct ProxyInput {
     // set only when covers() accepts it; otherwise the tool could pass spheres that neither set lists.
     const ContactSet* contacts = nullptr;
     Deadline deadline;
-    // The regions that press on a free tool were replaced: it may follow a surface that went back as far as the
-    // step caps allow.
+    // The regions that press on a free tool were replaced: it may follow a surface that went back as far as
+    // the step caps allow.
     bool surfaceMoved = false;
 };
 

@@ -17,8 +17,8 @@ public:
     void end() noexcept { left_ = 0.0; }
 
     // The rest in this tick. A reaction that grows beyond `kept` takes the place of as much of it for good,
-    // and the part that faces a reaction yields to it within some 20 ms. released [N]: by which a spring of this
-    // direction would have fallen, because the hand moved out. elapsed [s] since the tick before.
+    // and the part that faces a reaction yields to it within some 20 ms. released [N]: by which a spring of
+    // this direction would have fallen, because the hand moved out. elapsed [s] since the tick before.
     Wrench step(const Wrench& reaction, double released, double k, double elapsed) noexcept;
 
     bool active() const noexcept { return left_ > 0.0; }

@@ -120,15 +120,16 @@ private:
         }
     }
 
-    // Where fingers are open and closed in most descriptions, unless their shapes tell (finger_ends.h): they slide
-    // towards 0, or turn from lower to upper.
+    // Where fingers are open and closed in most descriptions, unless their shapes tell (finger_ends.h): they
+    // slide towards 0, or turn from lower to upper.
     static std::pair<double, double> usualEnds(const urdf::Joint& joint) {
         const double lower = joint.limits->lower, upper = joint.limits->upper;
         const bool down = joint.type == urdf::Joint::PRISMATIC && std::abs(upper) >= std::abs(lower);
         return down ? std::pair{upper, lower} : std::pair{lower, upper};
     }
 
-    // Of a finger with one given end: the limit farther from it, so that the finger moves. On a tie the usual one.
+    // Of a finger with one given end: the limit farther from it, so that the finger moves. On a tie the usual
+    // one.
     static double farther(const urdf::Joint& joint, double given, double usual) {
         const double lower = joint.limits->lower, upper = joint.limits->upper;
         const double down = given - lower, up = upper - given;

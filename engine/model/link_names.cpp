@@ -11,8 +11,8 @@ namespace fathom {
 
 namespace {
 
-// Usual names of tool frames, the best first: ROS-Industrial's tool0 and flange, sites of MuJoCo's models, then
-// frames of hands.
+// Usual names of tool frames, the best first: ROS-Industrial's tool0 and flange, sites of MuJoCo's models,
+// then frames of hands.
 constexpr std::array<std::string_view, 27> kToolNames{"tool0",
                                                       "tcp",
                                                       "tool_frame",

@@ -34,7 +34,8 @@ dquat ofEuler(const MjcfAngles& angles, const std::vector<double>& by) {
     return all;
 }
 
-// The form of the turn that applies: the element's own, of any form, replaces that of its class. Empty = none.
+// The form of the turn that applies: the element's own, of any form, replaces that of its class. Empty =
+// none.
 std::string turnForm(const MjcfClasses& classes, const tinyxml2::XMLElement& element,
                      const std::string& childClass) {
     std::string own, inherited;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds what urdfdom skips in a URDF without an error: elements and attributes that are misspelt, in the wrong
-// place or given twice.
+// Finds what urdfdom skips in a URDF without an error: elements and attributes that are misspelt, in the
+// wrong place or given twice.
 #pragma once
 
 #include <string>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random sets of constraint rows for the solver, in families: typical contacts of a sphere tool, and known hard cases.
+// Random sets of constraint rows for the solver, in families: typical contacts of a sphere tool, and known
+// hard cases.
 #pragma once
 
 #include "engine/reference/kkt.h"

@@ -54,8 +54,8 @@ struct ArmLink {
     TripleBuffer<ArmStatus> status;
     PostureTrack measured; // arm -> frame, for the self-filter
 
-    // Arm thread. An unknown grasp (NaN) is taken from the newest setpoint that was read: the self-filter must
-    // know where the fingers are, or they become a region.
+    // Arm thread. An unknown grasp (NaN) is taken from the newest setpoint that was read: the self-filter
+    // must know where the fingers are, or they become a region.
     void addMeasured(PostureTrack::Time at, ArmPosture posture) noexcept {
         const double grasp = std::isfinite(posture.grasp) ? posture.grasp : setpoint.front().posture.grasp;
         posture.grasp = std::clamp(grasp, 0.0, 1.0);

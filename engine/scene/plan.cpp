@@ -113,8 +113,8 @@ Plan decide(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, c
     return plan;
 }
 
-// Buffers of one value per slot bound the image. The largest ones: texels of `points` or `estimates`, bytes of
-// `points`, `estimates` or `packed`.
+// Buffers of one value per slot bound the image. The largest ones: texels of `points` or `estimates`, bytes
+// of `points`, `estimates` or `packed`.
 uint64_t mostSlots(const Plan& plan, const DeviceFacts& device) {
     const uint64_t texels = plan.estimates ? 2 : 1;
     const uint64_t bytes = std::max<uint64_t>(plan.estimates ? 32 : 16, plan.pack ? plan.packedBytes() : 0);

@@ -70,7 +70,8 @@ struct PlannedTuning {
 };
 
 // Fixture sets of a program: one that is written, the newest, and four that are leased: by the contact query,
-// by batches of poses, by the camera feed, and at the start of a run or of an observer (engine/types/lease_pool.h).
+// by batches of poses, by the camera feed, and at the start of a run or of an observer
+// (engine/types/lease_pool.h).
 inline constexpr uint32_t kFixtureSets = 6;
 
 struct PatchLayout;
@@ -131,8 +132,8 @@ inline uint32_t slotOfPixel(uint32_t u, uint32_t v, uint32_t patchesAcross) {
 }
 
 // toolLeaves chooses between CPU and GPU query for `auto`: the GPU from DeviceFacts::gpuQueryLeaves on,
-// unless the device is a CPU. Both answers are equal to the last bit. Throws BadInput for a camera out of range,
-// and for an image whose buffers exceed what the device can read.
+// unless the device is a CPU. Both answers are equal to the last bit. Throws BadInput for a camera out of
+// range, and for an image whose buffers exceed what the device can read.
 Plan makePlan(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, const DeviceFacts& device);
 
 } // namespace fathom

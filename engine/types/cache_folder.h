@@ -7,8 +7,8 @@
 
 namespace fathom {
 
-// $XDG_CACHE_HOME/fathom, else ~/.cache/fathom; empty without both. By the XDG Base Directory Specification an
-// empty or relative path counts as not set.
+// $XDG_CACHE_HOME/fathom, else ~/.cache/fathom; empty without both. By the XDG Base Directory Specification
+// an empty or relative path counts as not set.
 inline std::filesystem::path cacheFolder() {
     const char *cache = std::getenv("XDG_CACHE_HOME"), *home = std::getenv("HOME");
     const std::filesystem::path base(cache != nullptr ? cache : "");

@@ -20,8 +20,8 @@ private:
     std::set<std::string> lines_;
 };
 
-// While it lives, its thread logs no line that `said` holds, and `said` takes those that it logs. The innermost
-// one applies.
+// While it lives, its thread logs no line that `said` holds, and `said` takes those that it logs. The
+// innermost one applies.
 class SayOnce {
 public:
     explicit SayOnce(SaidLines& said) noexcept;

@@ -19,9 +19,10 @@ vec3 windowPointAt(ivec2 at, float z) {
     return vec3(z != 0.0 ? p.x : kNowhere, p.yz);
 }
 
-// Weight of paper eq. 2, exp(-t) with t = distance^2 / (2 sigma^2), for a squared distance of window points. The
-// quartic's error is at most 0.000002, the polynomial's 0.008; both equal exp(-t) at 0. Numbers that are not negative
-// compare as their bits; CPU devices take three instructions for the minimum of two reals, which may be NaN.
+// Weight of paper eq. 2, exp(-t) with t = distance^2 / (2 sigma^2), for a squared distance of window points.
+// The quartic's error is at most 0.000002, the polynomial's 0.008; both equal exp(-t) at 0. Numbers that are
+// not negative compare as their bits; CPU devices take three instructions for the minimum of two reals, which
+// may be NaN.
 float weightOf(float square) {
     if (kWeights == kWeightsExponential) {
         return exp(-square);
@@ -57,8 +58,8 @@ Mean weighed(Mean mean, vec3 q, vec3 p) {
     return added(mean, apart.z, weightOf(dot(apart, apart)));
 }
 
-// Depth z [m] of the window's point p moved to the mean, along its ray by at most params.noise.w: a region still contains
-// the point that was measured. weights >= 1, because the centre counts 1.
+// Depth z [m] of the window's point p moved to the mean, along its ray by at most params.noise.w: a region
+// still contains the point that was measured. weights >= 1, because the centre counts 1.
 float filteredDepth(Mean mean, vec3 p, float z) {
     float scale = windowScale(), most = params.noise.w * p.z * inversesqrt(dot(p, p));
     return z + clamp(mean.sum / mean.weights * (1.0 / scale), -most, most);

@@ -4,16 +4,17 @@
 //
 // An estimate is the mean over at most params.memory.z frames. It is trusted while the depth as measured is
 // within 3 sigma of it, and the recent mean of its differences from the filtered depth within a tighter gate.
-// The filter has averaged noise over its window, so this reveals slow motion. Otherwise the plain depth is used
-// at once and the mean starts anew. In each frame the mean is drawn within another gate of the filtered depth,
-// which limits its error while a motion is not yet noticed.
+// The filter has averaged noise over its window, so this reveals slow motion. Otherwise the plain depth is
+// used at once and the mean starts anew. In each frame the mean is drawn within another gate of the filtered
+// depth, which limits its error while a motion is not yet noticed.
 
 const float kDriftUnit = 1e-6; // [m]
 const uint kWellKnown = 8u, kSudden = 2u; // [frames]
 const float kFarther = 0.01; // [m]
 const float kDriftGain = 0.25; // the recent mean spans about 4 frames
 
-// Stored in four words: mean; shown; drift [um] (16 bits), class bits (8), weight (8); frame (24), missed (8).
+// Stored in four words: mean; shown; drift [um] (16 bits), class bits (8), weight (8); frame (24), missed
+// (8).
 struct Estimate {
     float mean;   // depth [m] averaged over `weight` frames
     float shown;  // depth [m] of the point; follows the mean when that leaves a dead band, so it rests mostly
@@ -94,8 +95,8 @@ Estimate updated(Estimate e, float z, float raw, uint classes) {
     return Estimate(mean, still ? e.shown : mean, same ? drift : 0.0, weight, classes, 0u);
 }
 
-// A pixel without a point, or whose surface is suddenly farther. One of a forbidden class keeps class and estimate for
-// params.memory.w frames, unless its depth differs.
+// A pixel without a point, or whose surface is suddenly farther. One of a forbidden class keeps class and
+// estimate for params.memory.w frames, unless its depth differs.
 Estimate outlasting(Estimate e, float raw) {
     bool agrees = any(bvec2(raw == 0.0, abs(raw - e.mean) <= params.noise.z * sigmaAt(e.mean)));
     uint classes = e.classes & params.depthBand.w;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether two spheres are near each other, without a root or a division, which devices may round as they like.
-// docs/architecture/query.md proves the margins that callers add to the limit.
+// Whether two spheres are near each other, without a root or a division, which devices may round as they
+// like. docs/architecture/query.md proves the margins that callers add to the limit.
 
 // The gap of two spheres is at most `limit` [m], up to rounding.
 bool nearerThan(float limit, vec4 a, vec4 b) {
@@ -13,8 +13,8 @@ bool nearerThan(float limit, vec4 a, vec4 b) {
     return far >= 0.0 && d2 <= far2;
 }
 
-// A point in the frame of the tool's leaves: q = rows * (s - t). rows: a row of the rotation and one component of
-// t [m] each.
+// A point in the frame of the tool's leaves: q = rows * (s - t). rows: a row of the rotation and one
+// component of t [m] each.
 vec3 inFrameOf(vec4 rows[3], vec3 s) {
     precise vec3 d = s - vec3(rows[0].w, rows[1].w, rows[2].w);
     precise vec3 q = vec3(rows[0].x * d.x + rows[0].y * d.y + rows[0].z * d.z,

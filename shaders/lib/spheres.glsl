@@ -119,8 +119,8 @@ void putBound(uint sub, vec4 bound, uint count, Notes notes) {
     }
 }
 
-// Float bits of the radius; 0 = no sphere, or one with a number that is not finite, which no query finds. Such bits
-// have the order of their radii.
+// Float bits of the radius; 0 = no sphere, or one with a number that is not finite, which no query finds.
+// Such bits have the order of their radii.
 uint radiusBits(vec4 sphere) {
     bool finite = all(notEqual(floatBitsToUint(sphere) & uvec4(0x7f800000u), uvec4(0x7f800000u)));
     return finite && sphere.w > 0.0 ? floatBitsToUint(sphere.w) : 0u;

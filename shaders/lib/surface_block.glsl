@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The surface at a 4x4 sub-patch, with windows in registers: loads of CPU devices are gathers, lane by lane, so pixels
-// share them. Makes the same decisions and sums in the same order as the form with one invocation per pixel. Needs
-// what surface.comp defines before it.
+// The surface at a 4x4 sub-patch, with windows in registers: loads of CPU devices are gathers, lane by lane,
+// so pixels share them. Makes the same decisions and sums in the same order as the form with one invocation
+// per pixel. Needs what surface.comp defines before it.
 
 // Size of the window with which pixels are rejected and filters of up to 5x5 are computed.
 const int kReach = 2, kWide = 4 + 2 * kReach;
@@ -86,8 +86,8 @@ void addRow(vec3 row[kRowWide], vec3 p[8], const int v, inout Mean mean[8]) {
     }
 }
 
-// Means of 4x2 pixels with the points p. Loads each row of points once for both rows of pixels. The loop has its condition
-// at the end, because llvmpipe runs a body once more after a condition at the start has failed.
+// Means of 4x2 pixels with the points p. Loads each row of points once for both rows of pixels. The loop has
+// its condition at the end, because llvmpipe runs a body once more after a condition at the start has failed.
 void meansFromRows(ivec2 at, vec3 p[8], out Mean mean[8]) {
     [[unroll]] for (int k = 0; k < 8; ++k) {
         mean[k] = Mean(0.0, 0.0);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Contact query (paper V.A): lists every pair of region sphere and tool leaf whose gap may be at most the
-// reach. Both trees are searched breadth first and in parallel. A group tests the bounds of its blocks against
-// the bound of the tool, and then, for each block in reach, its slice of leaves against the block's bound. The
-// leaves in reach go to shared memory, and one invocation per sphere tests them.
+// reach. Both trees are searched breadth first and in parallel. A group tests the bounds of its blocks
+// against the bound of the tool, and then, for each block in reach, its slice of leaves against the block's
+// bound. The leaves in reach go to shared memory, and one invocation per sphere tests them.
 //
-// The answer contains every pair within reach, and a few more: the host decides (engine/contact/near_pairs.h).
-// No test uses a root or a division, which devices may round as they like. docs/architecture/query.md proves
-// the margins. The including file defines placeOf().
+// The answer contains every pair within reach, and a few more: the host decides
+// (engine/contact/near_pairs.h). No test uses a root or a division, which devices may round as they like.
+// docs/architecture/query.md proves the margins. The including file defines placeOf().
 #include "shaders/lib/near_test.glsl"
 #include "shaders/shared/constants.h"
 #include "shaders/shared/query_params.h"

@@ -103,8 +103,8 @@ struct ArmAtBall {
     double time = 0.0;
 };
 
-// A rod with a ball at either end. One ball is above a region, the other one below another region: together they
-// hold the rod against a turn about y, by torque alone.
+// A rod with a ball at either end. One ball is above a region, the other one below another region: together
+// they hold the rod against a turn about y, by torque alone.
 struct HeldRod : HapticRig {
     explicit HeldRod(bool pushed)
         : HapticRig(handScene(), at(0, 0, 0), Tool(buildSphereTree(kBalls))) {

@@ -9,8 +9,8 @@ using namespace fathom::test;
 
 namespace {
 
-// Plays the tilted wall in ASCII with these words behind x, y and z of each point, and fields that state them.
-// Returns the colour of pixel 5, 0 without colour.
+// Plays the tilted wall in ASCII with these words behind x, y and z of each point, and fields that state
+// them. Returns the colour of pixel 5, 0 without colour.
 uint32_t colourOfFields(const std::string& fields, const std::string& sizes, const std::string& types,
                         const std::string& counts, const std::string& words) {
     const TemporaryFolder folder;
@@ -34,7 +34,8 @@ struct ExtraField {
     uint32_t count = 1;
 };
 
-// A bag with the tilted wall as clouds, one for each of the words: bytes behind x, y and z of each of its points.
+// A bag with the tilted wall as clouds, one for each of the words: bytes behind x, y and z of each of its
+// points.
 std::unique_ptr<Camera> cloudsWith(const TemporaryFolder& folder, const std::vector<ExtraField>& fields,
                                    const std::vector<std::string>& words) {
     BagMaker maker;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The leaves of a tool against the set that they obey: where it counts, and which leaves are behind a surface.
+// The leaves of a tool against the set that they obey: where it counts, and which leaves are behind a
+// surface.
 #include "engine/haptics/leaf_contacts.h"
 
 #include "engine/contact/cull_cpu.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Names one member of each struct of the public headers and leaves the others to their defaults, as the documents
-// do. The test compiles it with a client's warnings.
+// Names one member of each struct of the public headers and leaves the others to their defaults, as the
+// documents do. The test compiles it with a client's warnings.
 #include <fathom/fathom.h>
 
 int main() {

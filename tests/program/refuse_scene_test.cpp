@@ -43,7 +43,8 @@ Wrong haptics(const std::string& text, const std::vector<std::string>& parts) {
 
 } // namespace
 
-// tests/scene/refuse_test.cpp has all values; here is one of each section, and what the program itself checks.
+// tests/scene/refuse_test.cpp has all values; here is one of each section, and what the program itself
+// checks.
 TEST_CASE("A wrong value in any section ends the program with one line that names it and what is allowed") {
     checkScenes({
         {[](SceneText& s) { s.more = "camrea: {near: 1}\n"; }, {"camrea", "did you mean 'camera'"}},

@@ -9,8 +9,8 @@
 
 namespace fathom::testing {
 
-// The message of the `Thrown` that attempt() throws; empty when it throws nothing. Any other exception fails the
-// test.
+// The message of the `Thrown` that attempt() throws; empty when it throws nothing. Any other exception fails
+// the test.
 template <class Thrown = BadInput, class Attempt>
 std::string refusalOf(Attempt&& attempt) {
     try {

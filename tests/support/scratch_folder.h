@@ -20,8 +20,8 @@ inline void put(const std::filesystem::path& file, const std::string& text) {
     std::ofstream(file, std::ios::binary) << text;
 }
 
-// A new folder, removed at the end of the test. Its name is unique, because suites run in several processes at
-// the same time.
+// A new folder, removed at the end of the test. Its name is unique, because suites run in several processes
+// at the same time.
 class ScratchFolder {
 public:
     ScratchFolder() {

@@ -86,9 +86,9 @@ public:
 
     /// Lends the frame instead of copying it. Its memory must stay valid and unchanged until release() is
     /// called, exactly once per call of lend(), from this call, a later submit() or lend(), the frame thread
-    /// or the engine's destructor. It must not throw. The frame is copied, and release() is called at once, for
-    /// DepthFormat::Metres and for scenes with `camera.decimation` above 1 or a flat window (`camera.port`).
-    /// Takes the lock of submit(). @throws std::bad_alloc
+    /// or the engine's destructor. It must not throw. The frame is copied, and release() is called at once,
+    /// for DepthFormat::Metres and for scenes with `camera.decimation` above 1 or a flat window
+    /// (`camera.port`). Takes the lock of submit(). @throws std::bad_alloc
     [[nodiscard]] SubmitStatus lend(const Frame& frame, std::function<void()> release);
 
     /// The next stamp may be earlier than the last one, for example after your conversion to CLOCK_MONOTONIC

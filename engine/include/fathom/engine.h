@@ -67,7 +67,8 @@ public:
     /// Error if it is open already
     ArmPort openArm();
 
-    /// Opens the port of a display, once per engine. It starts with the regions of the newest frame. @throws Error if it is open already
+    /// Opens the port of a display, once per engine. It starts with the regions of the newest frame. @throws
+    /// Error if it is open already
     ObserverPort openObserver();
 
     /// The smallest gap of the scene's tool at each pose, to the regions of the newest frame. Placed shapes

@@ -27,8 +27,8 @@ public:
     Lockstep& operator=(const Lockstep&) = delete;
 
     /// Computes the fixture set of a frame and makes it the newest. The stamp is compared with `now` of
-    /// step() only: it may be 0, and unlike submit() the order is not checked. Returns how long it took. @throws ComputeDeviceLost, Error;
-    /// BadInput for a missing image or pose
+    /// step() only: it may be 0, and unlike submit() the order is not checked. Returns how long it took.
+    /// @throws ComputeDeviceLost, Error; BadInput for a missing image or pose
     FrameTimes process(const Frame& frame);
 
     /// Copies the regions of the newest frame into `out` and reuses its memory. False, and `out` unchanged,
