@@ -199,3 +199,26 @@ TEST_CASE("The haptic thread has a CPU that no other thread uses") {
     const CpuConfinement confined(placement.rest);
     CHECK(ThreadPlacement::ofThisProcess().all == placement.rest);
 }
+
+TEST_CASE("A single wrong sample of the hand does not move the tool of a run") {
+    FakeRun fake(2, pressingPath(1.0));
+    Channels channels(16);
+    RunClock clock;
+    FrameLoop frames(fake.feed, channels, clock, 1.0 / 30.0, nullptr);
+    REQUIRE(frames.first());
+    channels.scene.back() = frames.update();
+    channels.scene.publish();
+    HandSample sample = fake.path.at(0.0);
+    HapticCycle cycle(fake.tool, {}, fake.options, sample.deviceThandle);
+    HapticStepper stepper(cycle, channels, clock);
+    dvec3 before(0.0);
+    for (int i = 0; i < 50; ++i) {
+        REQUIRE(fake.answers.answer(cycle.place(), channels.contacts.back()));
+        channels.contacts.publish();
+        HandSample now = sample;
+        now.deviceThandle.position.x += i == 40 ? 0.2 : 0.0;
+        const dvec3 tool = stepper.step(now, 0.001 * i, 1e9).tool.position;
+        CHECK((i < 40 || glm::distance(tool, before) < 1e-9));
+        before = tool;
+    }
+}

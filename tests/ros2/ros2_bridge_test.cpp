@@ -45,6 +45,9 @@ TEST_CASE("The poses of a node of ROS 2 move the hand, and its topic gets the en
     Heard force("/haptic/wrench", "WrenchStamped");
     CHECK(loop.hand.preset() == "falcon");
     CHECK(loop.until(kRest, [](const HandSample& sample) { return near(sample, {0.1, 0.2, 0.3}); }));
+    CHECK(loop.until("0.1 0.2 0.3 0.5 -0.1 0.7 0.5", [](const HandSample& sample) { // x, y, z, w
+        return std::abs(dot(sample.deviceThandle.rotation, glm::dquat(0.5, 0.5, -0.1, 0.7))) > 1.0 - 1e-9;
+    }));
     std::thread moves([&] { loop.until(kRest, [&](const HandSample&) { return loop.stop.load(); }); });
     const bool felt =
         force.until([](const Line& line) { return line.words(1, 4) == "handle_base 0 0 2"; }).any();

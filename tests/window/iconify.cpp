@@ -3,11 +3,12 @@
 
 #include "tests/window/window_rig.h"
 
+#include <doctest/doctest.h> // before Xlib, whose macros it cannot bear
+#include <string>
+
 #include <X11/Xatom.h>
 #include <X11/Xlib.h>
 #include <X11/Xutil.h>
-#include <doctest/doctest.h>
-#include <string>
 
 namespace fathom::window {
 
