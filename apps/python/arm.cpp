@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <pybind11/stl.h>
 
 namespace py = pybind11;
 

@@ -2,8 +2,6 @@
 // Cameras: depth and colour images from NumPy arrays.
 #include "apps/python/bind.h"
 
-#include <pybind11/stl.h>
-
 namespace py = pybind11;
 
 namespace fathom::python {

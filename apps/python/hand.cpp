@@ -2,8 +2,6 @@
 // The haptic device's port and the result of a step.
 #include "apps/python/bind.h"
 
-#include <pybind11/stl.h>
-
 namespace py = pybind11;
 
 namespace fathom::python {

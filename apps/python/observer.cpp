@@ -3,8 +3,6 @@
 #include "apps/python/bind.h"
 #include "apps/python/unlocked.h"
 
-#include <pybind11/stl.h>
-
 namespace py = pybind11;
 
 namespace fathom::python {

@@ -3,7 +3,6 @@
 #include "apps/python/bind.h"
 
 #include <cmath>
-#include <pybind11/stl.h>
 #include <sstream>
 
 namespace py = pybind11;
