@@ -115,8 +115,6 @@ void ConstrainedProxy<Kinematics>::finish(const ProxyInput& input, Step& out) no
         return;
     }
     deadline_ = input.deadline;
-    const ContactSet* set = contacts_.set();
-    out.uncovered = set != nullptr && !TrustRegion::covers(*set, contacts_.leaves.now);
     for (uint32_t k = 0; k < options_.solves; ++k) {
         if (k > 0 && late()) {
             return;

@@ -62,7 +62,6 @@ struct ProxyStep {
     bool escape = false;    // new data overlaps a leaf (some listed pair or shape)
     bool trapped = false;   // no motion satisfies every row: held this tick, tried again at the next
     bool stalled = false;   // stopped by the trust region until the next contact set
-    bool uncovered = false; // the set does not cover the leaves (see ProxyInput::contacts)
     uint32_t solves = 0;    // linearisations
     uint32_t rounds = 0;    // solver calls with tightened rows
     uint32_t infeasible = 0; // solver calls that found no motion

@@ -151,7 +151,7 @@ Figures run(ProxyRig& rig, Hand& hand, int ticks, uint32_t slowest, double loss,
         f.stalled += tick.stalled ? 1 : 0;
         f.trapped += tick.trapped ? 1 : 0;
         f.escape += tick.escape ? 1 : 0;
-        f.uncovered += tick.uncovered ? 1 : 0;
+        f.uncovered += rig.proxy().covers(rig.inForce()) ? 0 : 1;
         f.solves += tick.solves;
         f.rounds += tick.rounds;
         f.bisected += tick.bisected;
