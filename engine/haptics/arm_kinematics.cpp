@@ -181,7 +181,6 @@ bool ArmKinematics::solve(Answer& answer, bool again, ProxyRows& rows, ArmStep& 
     answer.dq = dq;
     if (!again) {
         rows.recordActive();
-        out.contacts = static_cast<uint32_t>(rows.active().size());
         out.atLimits = rows.atLimits();
         out.atEnds = rows.atEnds();
     }

@@ -31,7 +31,6 @@ struct ArmStep : ProxyStep {
     double grasp = 0.0;        // after the tick
     double residual = 0.0;     // [m] distance to the target in the metric M
     double manipulability = 0; // [m/rad] smallest singular value of M^1/2 J at the start
-    uint32_t contacts = 0;     // leaf rows with a positive multiplier in the last solve
     uint32_t atLimits = 0;     // joint limit and speed rows with a positive multiplier in the last solve
     uint32_t atEnds = 0;       // the joint limits among them
     bool singular = false;     // manipulability below the threshold: damped

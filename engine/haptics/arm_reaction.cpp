@@ -31,10 +31,10 @@ void ArmKinematics::recordAllowed(const Answer& answer, bool blocked, const Leaf
                                   ProxyRows& rows, ArmStep& out) const noexcept {
     out.cut = true;
     out.allowed = target_;
-    if (out.contacts == 0 && out.atEnds == 0 && !blocked) {
+    if (rows.active().empty() && out.atEnds == 0 && !blocked) {
         return;
     }
-    out.blocked = blocked && out.contacts == 0;
+    out.blocked = blocked && rows.active().empty();
     Motion whole;
     if (!blocked) {
         whole = motionOf(uncutAnswer(answer, rows));

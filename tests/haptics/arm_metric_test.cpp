@@ -145,7 +145,7 @@ TEST_CASE(
         const Pose tip = proxy.tip();
         const Pose target{tip.position + shift, rotationExp(tick) * tip.rotation};
         const ArmStep out = proxy.step(target, k, &world.set);
-        REQUIRE(out.contacts == 1);
+        REQUIRE(out.active.size() == 1);
         CHECK_FALSE(out.singular);
         const auto truth = nearestIncrements(arm, frames, k, shift, tick, 3, glm::normalize(between), gap);
         double apart = 0.0;

@@ -72,7 +72,7 @@ TEST_CASE("No leaf of any link enters a forbidden shape or leaves a keep-in shap
         }
         const ArmStep tick = proxy.step(target, 0.05, nullptr);
         deepest = std::max(deepest, depthIn(shapes, arm, proxy.frames()));
-        touching += tick.contacts > 0 ? 1 : 0;
+        touching += tick.active.empty() ? 0 : 1;
         trapped += tick.trapped ? 1 : 0;
         for (const ActiveContact& active : tick.active) {
             CHECK(active.row.kind == ContactRow::Kind::Shape);
