@@ -163,7 +163,7 @@ void HapticCycle::report(const Situation& now, const ProxyStep& moved, bool hasS
 // excludes it.
 Wrench HapticCycle::guidancePull() const noexcept {
     return options_.paperGuidance ? guidance_.pull(device_, watch_.springs())
-                                  : couple(watch_.springs(), springEnd_, device_, dvec3(0.0), dvec3(0.0));
+                                  : couple(watch_.springs(), springEnd_, device_);
 }
 
 void HapticCycle::makeWrench(const StepInput& input, const Situation& now, const ProxyStep& moved,

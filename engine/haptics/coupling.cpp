@@ -91,11 +91,9 @@ StabilityMargins stabilityMargins(const DevicePreset& preset, const Springs& spr
     return {*preset.damping - (needed + std::abs(b)), *preset.damping + b - needed};
 }
 
-Wrench couple(const Springs& springs, const Pose& tool, const Pose& device, const dvec3& slip,
-              const dvec3& rotationalSlip) noexcept {
+Wrench couple(const Springs& springs, const Pose& tool, const Pose& device) noexcept {
     const dvec3 turn = rotationLog(tool.rotation * glm::conjugate(device.rotation));
-    return {springs.stiffness * (tool.position - device.position) + springs.damping * slip,
-            springs.rotationalStiffness * turn + springs.rotationalDamping * rotationalSlip};
+    return {springs.stiffness * (tool.position - device.position), springs.rotationalStiffness * turn};
 }
 
 } // namespace fathom

@@ -82,10 +82,8 @@ struct StabilityMargins {
 StabilityMargins stabilityMargins(const DevicePreset& preset, const Springs& springs,
                                   const CouplingOptions& options);
 
-// Wrench on the hand, base axes, torque about the proxy's centre:
-// f = K_t (p - p_dev) + B_t (v_tool - v_dev), tau = K_r log(q q_dev^-1) + B_r (w_tool - w_dev), along the
-// shortest arc. slip* = difference of the velocities [m/s], [rad/s].
-Wrench couple(const Springs& springs, const Pose& tool, const Pose& device, const dvec3& slip,
-              const dvec3& rotationalSlip) noexcept;
+// Wrench of the springs on the hand, base axes, torque about the proxy's centre: f = K_t (p - p_dev),
+// tau = K_r log(q q_dev^-1), along the shortest arc. The springs' damping acts elsewhere: WrenchStage.
+Wrench couple(const Springs& springs, const Pose& tool, const Pose& device) noexcept;
 
 } // namespace fathom

@@ -104,7 +104,7 @@ TEST_CASE("The wrench on the hand is R^T f and R^T tau / s, and a closed path of
         for (int i = 0; i < steps; ++i) {
             const double step = 2.0 * std::numbers::pi / steps, s = step * i;
             const Pose a = hand(s), b = hand(s + step), middle = hand(s + 0.5 * step);
-            const Wrench wrench = map.toDevice(couple(springs, proxy, map.map(middle, false), {}, {}));
+            const Wrench wrench = map.toDevice(couple(springs, proxy, map.map(middle, false)));
             const double part = glm::dot(wrench.force, b.position - a.position) +
                                 glm::dot(wrench.torque, rotationLog(b.rotation * glm::conjugate(a.rotation)));
             work += part;

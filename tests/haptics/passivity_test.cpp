@@ -39,7 +39,7 @@ struct Loop {
 
     Wrench spring() const {
         Springs s = springs();
-        return couple(s, tool, hand, dvec3(0.0), dvec3(0.0));
+        return couple(s, tool, hand);
     }
     Springs springs() const {
         Springs s;
