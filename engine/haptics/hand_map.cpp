@@ -31,13 +31,13 @@ Pose HandMap::map(const Pose& deviceThandle, bool clutch) noexcept {
     }
     started_ = true; // a clutch that is down from the start holds the first pose
     held_.position = offset_ + scale_ * (baseRdevice_ * deviceThandle.position);
-    held_.rotation = glm::normalize(baseRhandle(deviceThandle) * tick_);
+    held_.rotation = glm::normalize(baseRhandle(deviceThandle) * handleRtool_);
     return held_;
 }
 
 void HandMap::align(const Pose& deviceThandle, const Pose& pose) noexcept {
     offset_ = pose.position - scale_ * (baseRdevice_ * deviceThandle.position);
-    tick_ = glm::normalize(glm::conjugate(baseRhandle(deviceThandle)) * pose.rotation);
+    handleRtool_ = glm::normalize(glm::conjugate(baseRhandle(deviceThandle)) * pose.rotation);
     held_ = pose;
 }
 

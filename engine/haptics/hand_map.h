@@ -50,8 +50,8 @@ private:
     dquat baseRdevice_;
     double scale_;
     dvec3 offset_{0.0};
-    dquat tick_{1.0, 0.0, 0.0, 0.0}; // C
-    Pose held_;                      // last mapped pose
+    dquat handleRtool_{1.0, 0.0, 0.0, 0.0}; // C: q_tool = q_handle C
+    Pose held_;                             // last mapped pose
     bool clutched_ = false;
     bool started_ = false;
 };
