@@ -13,15 +13,15 @@ constexpr double kForgetAge = 1.0; // [s] time constant with which the effect of
 } // namespace
 
 void QueryAhead::moved(const ToolState& now) noexcept {
-    const double share = started_ ? std::min(1.0, period_ / kSmooth) : 0.0;
+    const double blend = started_ ? std::min(1.0, period_ / kSmooth) : 0.0;
     const dvec3 turned = rotationLog(now.pose.rotation * glm::conjugate(before_.pose.rotation));
     velocity_ = started_ ? velocity_ : dvec3(0.0);
     spin_ = started_ ? spin_ : dvec3(0.0);
-    velocity_ += share * ((now.pose.position - before_.pose.position) / period_ - velocity_);
-    spin_ += share * (turned / period_ - spin_);
+    velocity_ += blend * ((now.pose.position - before_.pose.position) / period_ - velocity_);
+    spin_ += blend * (turned / period_ - spin_);
     for (size_t k = 0; k < rates_.size(); ++k) {
         const double rate = started_ ? (now.arm.q[k] - before_.arm.q[k]) / period_ : 0.0;
-        rates_[k] = started_ ? rates_[k] + share * (rate - rates_[k]) : 0.0;
+        rates_[k] = started_ ? rates_[k] + blend * (rate - rates_[k]) : 0.0;
     }
     before_ = now;
     started_ = true;

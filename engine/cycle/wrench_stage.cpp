@@ -45,11 +45,11 @@ void WrenchStage::shift(const dvec3& by, const dquat& turn) noexcept {
 
 void WrenchStage::stepRamps(const WrenchInput& input) noexcept {
     arming_ = (arming_ || input.off) && (ramps_.active() || input.off);
-    const auto share = [](const dvec3& v, double limit) {
+    const auto fractionOf = [](const dvec3& v, double limit) {
         return limit > 0.0 ? glm::length(v) / limit : 0.0;
     };
-    const double rendered =
-        std::max(share(previous_.force, options_.forceLimit), share(previous_.torque, options_.torqueLimit));
+    const double rendered = std::max(fractionOf(previous_.force, options_.forceLimit),
+                                     fractionOf(previous_.torque, options_.torqueLimit));
     ramps_.step({input.power, !input.trapped, !input.stale}, options_.period, input.period, rendered,
                 arming_ ? options_.armTime : ForceRamps::kRampTime);
 }
@@ -81,8 +81,8 @@ Wrench WrenchStage::springWrench(const WrenchInput& input) noexcept {
     tick.newData = input.newData;
     tick.vanished = input.vanished;
     tick.lags = input.lags;
-    tick.forceLimit = ramps_.share() * options_.forceLimit;
-    tick.torqueLimit = ramps_.share() * options_.torqueLimit;
+    tick.forceLimit = ramps_.limitScale() * options_.forceLimit;
+    tick.torqueLimit = ramps_.limitScale() * options_.torqueLimit;
     return reaction_.step(tick);
 }
 
@@ -99,22 +99,22 @@ Wrench WrenchStage::passivityWrench(const WrenchInput& input, const Wrench& reac
     tick.end = input.end;
     tick.baseRhandle = input.baseRhandle;
     tick.contact = onActuatedAxes(input, reaction); // damping stores no energy
-    tick.share = ramps_.gain();
+    tick.fadeGain = ramps_.fadeGain();
     tick.springs = input.springs;
     tick.period = input.period;
     tick.rows = input.pushes != 0 || reaction_.fades();
     // Whatever a tick generates in which new data moves the tool comes from the new data.
     tick.appears = reaction_.appears() || input.newData || input.escape;
     tick.repay = reaction_.frameInterval();
-    tick.forceLimit = ramps_.share() * options_.forceLimit;
-    tick.torqueLimit = ramps_.share() * options_.torqueLimit;
+    tick.forceLimit = ramps_.limitScale() * options_.forceLimit;
+    tick.torqueLimit = ramps_.limitScale() * options_.torqueLimit;
     return passivity_.step(tick);
 }
 
 // Subtracts the guidance share of the delivered wrench, scaled as the size limit scaled it.
 void WrenchStage::reportToPassivity(const WrenchInput& input, const Wrench& damper, const Wrench& asked,
                                     const Wrench& sized, const Wrench& delivered) noexcept {
-    const double ramp = ramps_.gain();
+    const double ramp = ramps_.fadeGain();
     const Wrench& pull = input.pull;
     const double force = shareOf(sized.force, asked.force), torque = shareOf(sized.torque, asked.torque);
     const Wrench guided = onActuatedAxes(input, {ramp * force * pull.force, ramp * torque * pull.torque});
@@ -151,9 +151,9 @@ double WrenchStage::stepOf(const dvec3& wanted, const dvec3& before, double slew
 // The low-pass of the wanted wrench. A force that is no longer wanted ends within the time of a ramp, however
 // slow the filter is.
 Wrench WrenchStage::smoothed(const WrenchInput& input, const Wrench& wanted) noexcept {
-    const double share = std::max(options_.period, input.period) / ForceRamps::kRampTime;
+    const double rampStep = std::max(options_.period, input.period) / ForceRamps::kRampTime;
     const auto most = [&](const dvec3& now, const dvec3& before, double limit) {
-        return std::max(glm::length(now), std::min(glm::length(before), limit) - share * limit);
+        return std::max(glm::length(now), std::min(glm::length(before), limit) - rampStep * limit);
     };
     const double force = most(wanted.force, smooth_.force, options_.forceLimit),
                  torque = most(wanted.torque, smooth_.torque, options_.torqueLimit);
@@ -169,12 +169,13 @@ WrenchStage::Output WrenchStage::step(const WrenchInput& input) noexcept {
     const Wrench reaction = springWrench(input);
     const Wrench contact = sumOf(reaction, damping(input, reaction));
     const Wrench wanted = sumOf(contact, input.pull);
-    const Wrench smooth = scaled(smoothed(input, wanted), ramps_.gain());
+    const Wrench smooth = scaled(smoothed(input, wanted), ramps_.fadeGain());
     const Wrench damper = passivityWrench(input, reaction);
     const Wrench asked = sumOf(smooth, damper);
     // A ramp is felt from its beginning, also where the spring is beyond the limits.
-    const double share = std::min(ramps_.share(), ramps_.gain());
-    const Wrench sized = limitSize(asked, share * options_.forceLimit, share * options_.torqueLimit);
+    const double limitScale = std::min(ramps_.limitScale(), ramps_.fadeGain());
+    const Wrench sized =
+        limitSize(asked, limitScale * options_.forceLimit, limitScale * options_.torqueLimit);
     Output out;
     out.wrench = limitSlew(
         sized, previous_,

@@ -205,16 +205,16 @@ void ArmKinematics::tryPart(const Answer& answer, double part, LeafState& leaves
 
 // Cuts the solution to the step cap and tries it. The exact check enforces the trust region.
 bool ArmKinematics::fit(Answer& answer, LeafContacts& contacts, const ProxyRows&) noexcept {
-    answer.share = 1.0;
+    answer.capFraction = 1.0;
     for (int k = 0; k < kCapTries; ++k) {
-        tryPart(answer, answer.share, contacts.leaves);
+        tryPart(answer, answer.capFraction, contacts.leaves);
         const double travel = contacts.leaves.travel();
         if (travel <= options_.stepCap) {
             return false;
         }
-        answer.share *= 0.999 * options_.stepCap / travel;
+        answer.capFraction *= 0.999 * options_.stepCap / travel;
     }
-    answer.share = 0.0;
+    answer.capFraction = 0.0;
     tryPart(answer, 0.0, contacts.leaves);
     return false;
 }
@@ -239,7 +239,7 @@ StepOutcome ArmKinematics::judge(const Answer&, double part, const LeafState& le
 
 // Joint arcs move the tip off a line by more than its linear rows predict, so the rows request the opposite
 // error.
-bool ArmKinematics::tightenEqualities(std::span<const Shape> shapes, double share,
+bool ArmKinematics::tightenEqualities(std::span<const Shape> shapes, double tried,
                                       ProxyRows& rows) const noexcept {
     bool changed = false;
     for (size_t i = 0; i < rows.size(); ++i) {
@@ -255,9 +255,9 @@ bool ArmKinematics::tightenEqualities(std::span<const Shape> shapes, double shar
         }
         const double sign = (row.key & 1) == 0 ? 1.0 : -1.0;
         const double limit = std::clamp(-before[k].error, -escapeLeft_, escapeLeft_);
-        const double wrong = after[k].error - (before[k].error + share * limit);
+        const double wrong = after[k].error - (before[k].error + tried * limit);
         if (std::abs(wrong) > 1e-13) {
-            row.offset -= sign * wrong / std::max(share, 1e-6);
+            row.offset -= sign * wrong / std::max(tried, 1e-6);
             changed = true;
         }
     }

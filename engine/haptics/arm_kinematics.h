@@ -45,9 +45,9 @@ public:
     static constexpr bool kSolvesLastRound = true; // bisect the result of the last tightening
     // The motion that the solver found, and how much of it is taken.
     struct Answer {
-        JointVector dq{};     // of the free joints
-        double share = 1.0;   // of the solution, within the step cap
-        bool stalled = false; // cut by the trust region
+        JointVector dq{};         // of the free joints
+        double capFraction = 1.0; // of the solution, within the step cap
+        bool stalled = false;     // cut by the trust region
     };
 
     ArmKinematics(const ArmModel& arm, const Pose& baseTarm, const ArmProxyOptions& options);
@@ -85,7 +85,7 @@ public:
     bool aim(const LeafState&, ProxyRows& rows, ArmStep& out) noexcept;
     bool solve(Answer& answer, bool again, ProxyRows& rows, ArmStep& out) const noexcept;
     bool fit(Answer& answer, LeafContacts& contacts, const ProxyRows&) noexcept;
-    double wholePart(const Answer& answer) const noexcept { return answer.share; }
+    double wholePart(const Answer& answer) const noexcept { return answer.capFraction; }
     void tryPart(const Answer& answer, double part, LeafState& leaves) noexcept;
     StepOutcome judge(const Answer&, double part, const LeafState& leaves, ProxyRows&,
                       const ArmStep& out) noexcept;
@@ -96,16 +96,16 @@ public:
     void recordAllowed(const Answer& answer, bool blocked, const LeafContacts& contacts, ProxyRows& rows,
                        ArmStep& out) const noexcept;
 
-    // Tightening. share: the part of the solution that was tried.
-    double share(const Answer& answer) const noexcept { return answer.share; }
+    // Tightening. tried: the part of the solution that was tried.
+    double triedFraction(const Answer& answer) const noexcept { return answer.capFraction; }
     double shortfall(const NarrowPhase::Violation& violation, double, const LeafState&) const noexcept {
         return violation.depth;
     }
-    double raised(double offset, double amount, double share) const noexcept {
-        return offset + amount / std::max(share, 1e-6) + proxy::kSkin;
+    double raised(double offset, double amount, double tried) const noexcept {
+        return offset + amount / std::max(tried, 1e-6) + proxy::kSkin;
     }
     double arcOf(const Answer&, const ContactRow&, const LeafState&) const noexcept { return 0.0; }
-    bool tightenEqualities(std::span<const Shape> shapes, double share, ProxyRows& rows) const noexcept;
+    bool tightenEqualities(std::span<const Shape> shapes, double tried, ProxyRows& rows) const noexcept;
 
 private:
     struct State {

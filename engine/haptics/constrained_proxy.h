@@ -89,7 +89,7 @@ private:
     double offsetFor(double gap) const noexcept;
     bool fitsExactly(Answer& answer, Step& out) noexcept;
     bool tighten(const Answer& answer) noexcept;
-    bool tightenShapes(double share) noexcept;
+    bool tightenShapes(double tried) noexcept;
     bool addMissingShapeRow() noexcept;
     bool late() const noexcept { return deadline_.passed != nullptr && deadline_.passed(deadline_.context); }
     bool shapesAllow() const noexcept;

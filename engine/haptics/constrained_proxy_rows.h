@@ -149,7 +149,7 @@ void ConstrainedProxy<Kinematics>::addEqualityRows(const Shape& shape, uint32_t 
 // treated alike. False when no row could be tightened.
 template <class Kinematics>
 bool ConstrainedProxy<Kinematics>::tighten(const Answer& answer) noexcept {
-    const double share = kinematics_.share(answer);
+    const double tried = kinematics_.triedFraction(answer);
     bool changed = false;
     for (const NarrowPhase::Violation& violation : contacts_.violations()) {
         ContactRow row = violation.row;
@@ -158,19 +158,19 @@ bool ConstrainedProxy<Kinematics>::tighten(const Answer& answer) noexcept {
         const double needed = proxy::kSkin - std::max(0.0, row.gap);
         if (ContactRow* known = rows_.ofPair(row.pair)) {
             const double amount = kinematics_.shortfall(violation, needed, contacts_.leaves);
-            known->offset = kinematics_.raised(known->offset, amount, share);
+            known->offset = kinematics_.raised(known->offset, amount, tried);
             changed = true;
         } else {
             row.offset = needed + kinematics_.arcOf(answer, row, contacts_.leaves);
             changed = addRow(row) || changed;
         }
     }
-    const bool shapesChanged = tightenShapes(share);
-    return kinematics_.tightenEqualities(shapes(), share, rows_) || shapesChanged || changed;
+    const bool shapesChanged = tightenShapes(tried);
+    return kinematics_.tightenEqualities(shapes(), tried, rows_) || shapesChanged || changed;
 }
 
 template <class Kinematics>
-bool ConstrainedProxy<Kinematics>::tightenShapes(double share) noexcept {
+bool ConstrainedProxy<Kinematics>::tightenShapes(double tried) noexcept {
     bool changed = false;
     for (size_t i = 0; i < rows_.size(); ++i) {
         ContactRow& row = rows_[i];
@@ -185,7 +185,7 @@ bool ConstrainedProxy<Kinematics>::tightenShapes(double share) noexcept {
         }
         const double depth = std::min(0.0, row.gap) - sides[side].gap;
         if (depth > 0.0) {
-            row.offset = kinematics_.raised(row.offset, depth, share);
+            row.offset = kinematics_.raised(row.offset, depth, tried);
             changed = true;
         }
     }

@@ -15,22 +15,22 @@ void ForceRamps::step(const std::array<bool, kReasons>& on, double nominal, doub
             gain = std::max(0.0, gain - measured / time);
             all = false;
         } else if (gain < 1.0) { // forces return for this reason
-            rise_ = std::max(share_ < 1.0 ? rise_ : 0.0, reason == Power ? power : time);
-            share_ = std::min(share_, rendered);
+            rise_ = std::max(limitScale_ < 1.0 ? rise_ : 0.0, reason == Power ? power : time);
+            limitScale_ = std::min(limitScale_, rendered);
             gain = 1.0;
         }
     }
-    if (gain() == 0.0) {
-        share_ = 0.0;
+    if (fadeGain() == 0.0) {
+        limitScale_ = 0.0;
     }
     if (all) {
-        share_ = std::min(1.0, share_ + nominal / rise_);
+        limitScale_ = std::min(1.0, limitScale_ + nominal / rise_);
     }
 }
 
 void ForceRamps::cut() noexcept {
     gain_[Power] = 0.0;
-    share_ = 0.0;
+    limitScale_ = 0.0;
 }
 
 } // namespace fathom

@@ -23,17 +23,18 @@ public:
     // The device renders nothing: no force until step() lets it rise from zero.
     void cut() noexcept;
 
-    double gain() const noexcept { return gain_[Power] * gain_[Trapped] * gain_[Stale]; } // 0..1
-    double share() const noexcept { return share_; } // 0..1 of the limits of force and torque
+    double fadeGain() const noexcept { return gain_[Power] * gain_[Trapped] * gain_[Stale]; } // 0..1
+    // 0..1: factor of the force and torque limits while a force returns.
+    double limitScale() const noexcept { return limitScale_; }
     bool off() const noexcept { return gain_[Power] == 0.0; }
-    bool active() const noexcept { return gain() < 1.0 || share_ < 1.0; }
+    bool active() const noexcept { return fadeGain() < 1.0 || limitScale_ < 1.0; }
 
     static constexpr double kRampTime = 0.2; // [s] forces off, clutch, trapped, device lost
     static constexpr double kFadeTime = 0.5; // [s] old scene
 
 private:
     std::array<double, kReasons> gain_{0.0, 1.0, 1.0};
-    double share_ = 0.0;
+    double limitScale_ = 0.0;
     double rise_ = kRampTime; // [s] from zero to the limits
 };
 

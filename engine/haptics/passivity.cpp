@@ -15,14 +15,14 @@ double workOf(const Wrench& wrench, const dvec3& moved, const dvec3& turned) {
     return glm::dot(wrench.force, moved) + glm::dot(wrench.torque, turned);
 }
 
-// Energy [J] whose gradient is min(share x pull, limit): a spring up to the limit, a constant pull beyond it.
-double energyOf(double pull, double stiffness, double share, double limit) {
-    if (!(stiffness > 0.0) || !(share > 0.0)) {
+// Energy [J] whose gradient is min(gain x pull, limit): a spring up to the limit, a constant pull beyond it.
+double energyOf(double pull, double stiffness, double gain, double limit) {
+    if (!(stiffness > 0.0) || !(gain > 0.0)) {
         return 0.0;
     }
-    const double force = share * pull;
+    const double force = gain * pull;
     return force <= limit ? force * pull / (2.0 * stiffness)
-                          : limit * pull / stiffness - limit * limit / (2.0 * stiffness * share);
+                          : limit * pull / stiffness - limit * limit / (2.0 * stiffness * gain);
 }
 
 dvec3 turnBetween(const Pose& from, const Pose& to) {
@@ -58,8 +58,8 @@ void PassivityController::reset() noexcept {
 }
 
 double PassivityController::storedIn(const PassivityStep& tick) const noexcept {
-    return energyOf(glm::length(tick.contact.force), tick.springs.stiffness, tick.share, tick.forceLimit) +
-           energyOf(glm::length(tick.contact.torque), tick.springs.rotationalStiffness, tick.share,
+    return energyOf(glm::length(tick.contact.force), tick.springs.stiffness, tick.fadeGain, tick.forceLimit) +
+           energyOf(glm::length(tick.contact.torque), tick.springs.rotationalStiffness, tick.fadeGain,
                     tick.torqueLimit);
 }
 
@@ -144,7 +144,7 @@ Wrench PassivityController::control(const PassivityStep& tick) const noexcept {
                                  kMaxImpulse / (tick.period * (1.0 + 2.0 * options_.delayTicks)));
     const double slow = std::min(slow_, owed);
     const double power = (owed - slow) / tick.period + slow / std::max(tick.period, tick.repay);
-    double alpha = tick.share * std::max(std::min(power / speed, most), release(tick, v, w, owed) / speed);
+    double alpha = tick.fadeGain * std::max(std::min(power / speed, most), release(tick, v, w, owed) / speed);
     if (!tick.rows) {
         alpha = std::min(alpha, kFreeDamper / std::sqrt(speed));
     }
@@ -152,7 +152,7 @@ Wrench PassivityController::control(const PassivityStep& tick) const noexcept {
 }
 
 Wrench PassivityController::step(const PassivityStep& tick) noexcept {
-    if (!(tick.share > 0.0) || !(tick.period > 0.0) || !isFinite(tick.device) || !isFinite(tick.end)) {
+    if (!(tick.fadeGain > 0.0) || !(tick.period > 0.0) || !isFinite(tick.device) || !isFinite(tick.end)) {
         reset();
         return {};
     }

@@ -44,7 +44,7 @@ struct PassivityStep {
     bool appears = false;                  // the reaction grew without the hand: new data moved a surface
     double repay = 0.033; // [s] in which the energy of such growth is dissipated: the time between frames
     double forceLimit = 20.0, torqueLimit = 2.0; // [N], [N m] in force: a spring beyond them stores less
-    double share = 1.0;                          // of the wrench that the fades pass; 0 resets the observer
+    double fadeGain = 1.0;                       // 0..1, factor of all fades; 0 resets the observer
     Springs springs;                             // active
     double period = 0.001;                       // T [s] since the tick before
 };

@@ -58,8 +58,8 @@ Wrench SurfaceNoise::stillWithheld(const Part& part, double elapsed, double radi
     const double size = metricSize(part.withheld, radius);
     const double sameWay = metricSize(part.mean, radius) / std::max(part.meanSize, kLeastFelt);
     const double stays = std::clamp((sameWay - kNoise) / (1.0 - kNoise), 0.0, 1.0);
-    const double share = std::exp(-elapsed * (stays / kSettle + (1.0 - stays) / part.slowTime));
-    return scaled(part.withheld, size * share > part.most ? part.most / size : share);
+    const double decay = std::exp(-elapsed * (stays / kSettle + (1.0 - stays) / part.slowTime));
+    return scaled(part.withheld, size * decay > part.most ? part.most / size : decay);
 }
 
 Wrench SurfaceNoise::step(const SurfaceNoiseInput& input) noexcept {
@@ -69,15 +69,15 @@ Wrench SurfaceNoise::step(const SurfaceNoiseInput& input) noexcept {
     const auto alongSpring = [&](const Wrench& w) {
         return scaled(input.spring, now > 0.0 ? metricProduct(w, input.spring, k) / (now * now) : 0.0);
     };
-    const double share = 1.0 - std::exp(-input.elapsed / kWatch);
-    meanWithheld_ = sumOf(meanWithheld_, sumOf(withheld_, meanWithheld_, -1.0), share);
+    const double blend = 1.0 - std::exp(-input.elapsed / kWatch);
+    meanWithheld_ = sumOf(meanWithheld_, sumOf(withheld_, meanWithheld_, -1.0), blend);
     Part along, across;
     along.withheld = alongSpring(withheld_);
     along.mean = alongSpring(meanWithheld_);
     across.withheld = sumOf(withheld_, along.withheld, -1.0);
     across.mean = sumOf(meanWithheld_, along.mean, -1.0);
-    meanAlong_ += share * (metricSize(along.withheld, k) - meanAlong_);
-    meanAcross_ += share * (metricSize(across.withheld, k) - meanAcross_);
+    meanAlong_ += blend * (metricSize(along.withheld, k) - meanAlong_);
+    meanAcross_ += blend * (metricSize(across.withheld, k) - meanAcross_);
     along.meanSize = meanAlong_;
     across.meanSize = meanAcross_;
     along.most = std::min(kBand * input.stiffness, kWithheldShare * now);

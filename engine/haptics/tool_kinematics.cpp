@@ -113,14 +113,14 @@ void ToolKinematics::rub(Motion& full, const ProxyRows& rows) const noexcept {
     }
     const Motion sliding{dvec3(slide[0], slide[1], slide[2]), dvec3(slide[3], slide[4], slide[5])};
     const double held = friction_ * lengthOf(wanted_ - full, metricRadius_);
-    const double share = std::min(1.0, held / lengthOf(sliding, metricRadius_));
-    full = full - share * sliding;
+    const double shortening = std::min(1.0, held / lengthOf(sliding, metricRadius_));
+    full = full - shortening * sliding;
 }
 
-// Largest share of `rest` after `first` that moves no leaf beyond the cap. Uses exact travel; errs on the
+// Largest part of `rest` after `first` that moves no leaf beyond the cap. Uses exact travel; errs on the
 // small side.
-double ToolKinematics::shareToCap(const Motion& first, const Motion& rest, double firstBound, double cap,
-                                  LeafState& leaves) const noexcept {
+double ToolKinematics::fractionToCap(const Motion& first, const Motion& rest, double firstBound, double cap,
+                                     LeafState& leaves) const noexcept {
     const auto travel = [&](double s) {
         places_.place(moved(pose_, first + s * rest), leaves.origin, leaves.next);
         return leaves.travel();
@@ -147,18 +147,20 @@ double ToolKinematics::shareToCap(const Motion& first, const Motion& rest, doubl
 bool ToolKinematics::fit(Answer& answer, LeafContacts& contacts, const ProxyRows& rows) noexcept {
     LeafState& leaves = contacts.leaves;
     double escapeBound = 0.0;
-    answer.escapeShare = 0.0;
-    answer.share = 1.0;
+    answer.escapeFraction = 0.0;
+    answer.trustFraction = 1.0;
     if (rows.escaping()) {
         const double bound = places_.travelBound(pose_, answer.escape);
-        answer.escapeShare = bound > budget_.travel ? budget_.travel / bound : 1.0;
-        escapeBound = bound * answer.escapeShare;
+        answer.escapeFraction = bound > budget_.travel ? budget_.travel / bound : 1.0;
+        escapeBound = bound * answer.escapeFraction;
     }
-    const Motion first = answer.escapeShare * answer.escape;
+    const Motion first = answer.escapeFraction * answer.escape;
     // Along a region the tool may have to travel farther than the hand.
     const double follow = rows.active().empty() ? escapeBound + budget_.follow : stepCap_;
-    answer.towards = shareToCap(first, answer.full - first, escapeBound, std::min(stepCap_, follow), leaves);
-    answer.whole = answer.towards == 1.0 && answer.full.a == wanted_.a && answer.full.alpha == wanted_.alpha;
+    answer.targetFraction =
+        fractionToCap(first, answer.full - first, escapeBound, std::min(stepCap_, follow), leaves);
+    answer.whole =
+        answer.targetFraction == 1.0 && answer.full.a == wanted_.a && answer.full.alpha == wanted_.alpha;
     answer.stalled = false;
     tryPart(answer, 1.0, leaves);
     if (contacts.set() == nullptr ||
@@ -167,24 +169,24 @@ bool ToolKinematics::fit(Answer& answer, LeafContacts& contacts, const ProxyRows
         return true;
     }
     answer.whole = false;
-    answer.share = contacts.trust().share(*contacts.set(), leaves.now, leaves.next);
-    for (int k = 0; k < 24; ++k) { // leaves move on arcs, but the share is for straight paths
+    answer.trustFraction = contacts.trust().share(*contacts.set(), leaves.now, leaves.next);
+    for (int k = 0; k < 24; ++k) { // leaves move on arcs, but the fraction is for straight paths
         tryPart(answer, 1.0, leaves);
-        answer.stalled = answer.share < 1.0;
+        answer.stalled = answer.trustFraction < 1.0;
         if (contacts.insideTrustRegion()) {
             return true;
         }
-        answer.share *= k < 6 ? 0.98 : 0.5;
+        answer.trustFraction *= k < 6 ? 0.98 : 0.5;
     }
-    answer.share = 0.0;
+    answer.trustFraction = 0.0;
     answer.stalled = true;
     tryPart(answer, 1.0, leaves);
     return true;
 }
 
 Motion ToolKinematics::motionOf(const Answer& answer, double part) noexcept {
-    const Motion first = answer.escapeShare * answer.escape;
-    return (answer.share * part) * (first + answer.towards * (answer.full - first));
+    const Motion first = answer.escapeFraction * answer.escape;
+    return (answer.trustFraction * part) * (first + answer.targetFraction * (answer.full - first));
 }
 
 void ToolKinematics::tryPart(const Answer& answer, double part, LeafState& leaves) noexcept {
@@ -223,11 +225,11 @@ StepOutcome ToolKinematics::judge(const Answer& answer, double part, const LeafS
     if (part == 0.0 || (!newData_ && !comesNearer(taken))) {
         return StepOutcome::None;
     }
-    const double done = part * answer.share;
+    const double done = part * answer.trustFraction;
     budget_.depth = std::max(0.0, budget_.depth - done * answered(answer) * rows.largestEscape());
     double escaped = 0.0;
     if (rows.escaping()) {
-        escaped = done * answer.escapeShare * places_.travelBound(pose_, answer.escape);
+        escaped = done * answer.escapeFraction * places_.travelBound(pose_, answer.escape);
         budget_.travel -= escaped;
     }
     budget_.follow = std::max(0.0, budget_.follow - std::max(0.0, leaves.travel() - escaped));
@@ -243,11 +245,11 @@ void ToolKinematics::report(ProxyStep& out) const noexcept {
 
 void ToolKinematics::recordAllowed(const Answer& answer, bool blocked, const LeafContacts& contacts,
                                    const ProxyRows& rows, ProxyStep& out) noexcept {
-    const bool shortened = answer.towards < 1.0 || answer.share < 1.0;
+    const bool shortened = answer.targetFraction < 1.0 || answer.trustFraction < 1.0;
     // What only the step cap cut may be made up for in the next tick.
-    const bool cut = answer.share == 1.0 && answer.towards < 1.0;
-    const Motion rest = answer.full - answer.escapeShare * answer.escape;
-    cutTravel_ = cut ? (1.0 - answer.towards) * places_.travelBound(pose_, rest) : 0.0;
+    const bool cut = answer.trustFraction == 1.0 && answer.targetFraction < 1.0;
+    const Motion rest = answer.full - answer.escapeFraction * answer.escape;
+    cutTravel_ = cut ? (1.0 - answer.targetFraction) * places_.travelBound(pose_, rest) : 0.0;
     out.cut = shortened && !blocked;
     out.rowsExpired =
         shortened && places_.travelBound(pose_, answer.full) > contacts.tangentTravel(rows.active());
@@ -270,7 +272,7 @@ double ToolKinematics::arcOf(const Answer& answer, const ContactRow& row,
     const Motion tried = motionOf(answer, 1.0);
     const dvec3 displacement = leaves.next[row.leaf] - leaves.now[row.leaf];
     const double arc = glm::dot(row.normal, tried.a + glm::cross(tried.alpha, row.arm) - displacement);
-    return std::max(0.0, arc) * scaleOf(share(answer));
+    return std::max(0.0, arc) * scaleOf(triedFraction(answer));
 }
 
 } // namespace fathom

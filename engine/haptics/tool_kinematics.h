@@ -16,11 +16,11 @@ public:
     struct Answer {
         Motion escape; // smallest motion that satisfies every row (zero unless some row requests motion)
         Motion full;   // nearest to the target
-        double escapeShare = 0.0; // of `escape`, within the caps
-        double towards = 0.0;     // share from there to `full`
-        double share = 0.0;       // of the result, within the trust region
-        bool whole = false;       // the target itself, uncut
-        bool stalled = false;     // cut by the trust region
+        double escapeFraction = 0.0; // of `escape`, within the caps
+        double targetFraction = 0.0; // from there to `full`
+        double trustFraction = 0.0;  // of the result, within the trust region
+        bool whole = false;          // the target itself, uncut
+        bool stalled = false;        // cut by the trust region
     };
 
     ToolKinematics(const Tool& tool, const ProxyOptions& options, const Pose& start);
@@ -70,12 +70,14 @@ public:
     void recordAllowed(const Answer& answer, bool blocked, const LeafContacts& contacts,
                        const ProxyRows& rows, ProxyStep& out) noexcept;
 
-    // Tightening. share: the part of every row's offset that the tried motion surely reaches.
-    double share(const Answer& answer) const noexcept { return answer.share * answered(answer); }
+    // Tightening. tried: the part of every row's offset that the tried motion surely reaches.
+    double triedFraction(const Answer& answer) const noexcept {
+        return answer.trustFraction * answered(answer);
+    }
     double shortfall(const NarrowPhase::Violation& violation, double needed,
                      const LeafState& leaves) const noexcept;
-    double raised(double offset, double amount, double share) const noexcept {
-        return offset + (amount * scaleOf(share) + proxy::kSkin);
+    double raised(double offset, double amount, double tried) const noexcept {
+        return offset + (amount * scaleOf(tried) + proxy::kSkin);
     }
     double arcOf(const Answer& answer, const ContactRow& row, const LeafState& leaves) const noexcept;
     bool tightenEqualities(std::span<const Shape>, double, ProxyRows&) const noexcept { return false; }
@@ -86,17 +88,17 @@ private:
         double travel = 0.0; // [m] leaf travel allowed for it
         double follow = 0.0; // [m] leaf travel allowed towards the target
     };
-    // Rows describe the whole solution, but only `share` of it was tried.
-    static double scaleOf(double share) noexcept { return 1.0 / std::max(share, 1e-9); }
+    // Rows describe the whole solution, but only `tried` of it was tried.
+    static double scaleOf(double tried) noexcept { return 1.0 / std::max(tried, 1e-9); }
     static double answered(const Answer& answer) noexcept {
-        return answer.escapeShare * (1.0 - answer.towards) + answer.towards;
+        return answer.escapeFraction * (1.0 - answer.targetFraction) + answer.targetFraction;
     }
     static Motion motionOf(const Answer& answer, double part) noexcept;
     double depthLeft() const noexcept { return budget_.travel > proxy::kSkin ? budget_.depth : 0.0; }
     void setMetric(double radius, ProxyRows& rows) noexcept;
     bool solveFor(const Motion& wanted, Motion& motion, ProxyRows& rows, ProxyStep& out) const noexcept;
-    double shareToCap(const Motion& first, const Motion& rest, double firstBound, double cap,
-                      LeafState& leaves) const noexcept;
+    double fractionToCap(const Motion& first, const Motion& rest, double firstBound, double cap,
+                         LeafState& leaves) const noexcept;
     void rub(Motion& full, const ProxyRows& rows) const noexcept;
     bool comesNearer(const Motion& taken) const noexcept;
 

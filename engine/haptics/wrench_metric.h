@@ -19,9 +19,9 @@ inline double metricSize(const Wrench& wrench, double k) noexcept {
     return std::sqrt(metricProduct(wrench, wrench, k));
 }
 
-// a + share b
-inline Wrench sumOf(const Wrench& a, const Wrench& b, double share = 1.0) noexcept {
-    return {a.force + share * b.force, a.torque + share * b.torque};
+// a + factor b
+inline Wrench sumOf(const Wrench& a, const Wrench& b, double factor = 1.0) noexcept {
+    return {a.force + factor * b.force, a.torque + factor * b.torque};
 }
 
 } // namespace fathom

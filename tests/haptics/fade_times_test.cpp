@@ -25,21 +25,21 @@ TEST_CASE("An old scene fades forces in half a second, each other reason in 0.2 
         std::array<bool, ForceRamps::kReasons> on{true, true, true};
         on[reason] = false;
         ForceRamps ramps = risen();
-        REQUIRE(ramps.gain() == 1.0);
+        REQUIRE(ramps.fadeGain() == 1.0);
         for (int i = 0; i < 100; ++i) {
             ramps.step(on, kNominal, kNominal, 0.5, ForceRamps::kRampTime);
         }
-        CHECK(ramps.gain() == doctest::Approx(reason == ForceRamps::Stale ? 0.8 : 0.5));
+        CHECK(ramps.fadeGain() == doctest::Approx(reason == ForceRamps::Stale ? 0.8 : 0.5));
     }
 }
 
 TEST_CASE("A late tick fades forces by the time that it took, and lets them rise by one tick only") {
     ForceRamps ramps = risen();
     ramps.step({false, true, true}, kNominal, 0.05, 1.0, ForceRamps::kRampTime);
-    CHECK(ramps.gain() == doctest::Approx(0.75));
+    CHECK(ramps.fadeGain() == doctest::Approx(0.75));
     ramps.step({false, true, true}, kNominal, 1.0, 0.5, ForceRamps::kRampTime);
     CHECK(ramps.off());
-    CHECK(ramps.share() == 0.0);
+    CHECK(ramps.limitScale() == 0.0);
     ramps.step({true, true, true}, kNominal, 0.05, 0.0, ForceRamps::kRampTime);
-    CHECK(ramps.share() == doctest::Approx(kNominal / ForceRamps::kRampTime));
+    CHECK(ramps.limitScale() == doctest::Approx(kNominal / ForceRamps::kRampTime));
 }

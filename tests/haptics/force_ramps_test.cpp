@@ -16,17 +16,17 @@ TEST_CASE("Forces fade out by a factor and return by their limit, from what the 
         }
     };
     ticks(150, {true, true, true}, 0.0); // first time: 1.5 s
-    CHECK(ramps.share() == doctest::Approx(0.1));
-    CHECK(ramps.gain() == 1.0);
+    CHECK(ramps.limitScale() == doctest::Approx(0.1));
+    CHECK(ramps.fadeGain() == 1.0);
     ticks(1400, {true, true, true}, 0.5);
-    CHECK(ramps.share() == 1.0);
+    CHECK(ramps.limitScale() == 1.0);
     ticks(100, {true, false, true}, 0.5); // trapped: half of 0.2 s
-    CHECK(ramps.gain() == doctest::Approx(0.5));
+    CHECK(ramps.fadeGain() == doctest::Approx(0.5));
     ticks(1, {true, true, true}, 0.3); // the limit starts where the device is
-    CHECK(ramps.gain() == 1.0);
-    CHECK(ramps.share() == doctest::Approx(0.3 + 0.005));
+    CHECK(ramps.fadeGain() == 1.0);
+    CHECK(ramps.limitScale() == doctest::Approx(0.3 + 0.005));
     ramps.cut();
     CHECK(ramps.off());
     ticks(1, {true, true, true}, 0.0);
-    CHECK(ramps.share() == doctest::Approx(kTick / 1.5));
+    CHECK(ramps.limitScale() == doctest::Approx(kTick / 1.5));
 }

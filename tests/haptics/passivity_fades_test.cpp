@@ -15,11 +15,11 @@ struct Owing {
     PassivityController controller{{kDevice, kDevice * 4e-4, 0.02, 0}};
     PassivityStep tick;
 
-    explicit Owing(double share = 1.0) {
+    explicit Owing(double fadeGain = 1.0) {
         tick.springs.stiffness = 1000.0;
         tick.springs.rotationalStiffness = 0.4;
         tick.springs.metricRadius = 0.02;
-        tick.share = share;
+        tick.fadeGain = fadeGain;
         tick.contact.force = {0, 0, 3};
         step(dvec3(0.0));
         tick.contact.force = {0, 0, 8};
@@ -29,7 +29,8 @@ struct Owing {
         tick.device.position += moved;
         tick.end.position += moved;
         const Wrench damper = controller.step(tick);
-        controller.delivered({tick.share * tick.contact.force, tick.share * tick.contact.torque}, damper);
+        controller.delivered({tick.fadeGain * tick.contact.force, tick.fadeGain * tick.contact.torque},
+                             damper);
         return damper;
     }
     // The spring pushes the hand out, undamped, and the region is gone.

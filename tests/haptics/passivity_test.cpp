@@ -49,19 +49,19 @@ struct Loop {
         return s;
     }
     // One tick: observe, then deliver spring (up to the force limit) and damper.
-    Wrench step(double share = 1.0) {
+    Wrench step(double fadeGain = 1.0) {
         PassivityStep t;
         t.device = t.end = hand;
         t.contact = spring();
-        t.share = share;
+        t.fadeGain = fadeGain;
         t.springs = springs();
         t.period = kPeriod;
         t.forceLimit = forceLimit;
         const Wrench damper = controller.step(t);
         Wrench contact = t.contact;
-        const double length = share * glm::length(contact.force);
-        contact.force *= share * std::min(1.0, forceLimit / std::max(length, 1e-300));
-        contact.torque *= share;
+        const double length = fadeGain * glm::length(contact.force);
+        contact.force *= fadeGain * std::min(1.0, forceLimit / std::max(length, 1e-300));
+        contact.torque *= fadeGain;
         controller.delivered(contact, damper);
         return damper;
     }
