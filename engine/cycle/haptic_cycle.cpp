@@ -183,7 +183,7 @@ void HapticCycle::makeWrench(const StepInput& input, const Situation& now, const
     tick.lags = arm_ && out.lag > kLagLength; // a free tool follows within some ticks
     tick.escape = moved.escape;
     tick.vanished = vanished;
-    tick.power = now.running && !now.off && !now.clutch;
+    tick.forcesOn = now.running && !now.off && !now.clutch;
     tick.off = now.off;
     tick.trapped = moved.trapped;
     tick.stale = now.stale;

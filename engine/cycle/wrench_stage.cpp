@@ -50,7 +50,7 @@ void WrenchStage::stepRamps(const WrenchInput& input) noexcept {
     };
     const double rendered = std::max(fractionOf(previous_.force, options_.forceLimit),
                                      fractionOf(previous_.torque, options_.torqueLimit));
-    ramps_.step({input.power, !input.trapped, !input.stale}, options_.period, input.period, rendered,
+    ramps_.step({input.forcesOn, !input.trapped, !input.stale}, options_.period, input.period, rendered,
                 arming_ ? options_.armTime : ForceRamps::kRampTime);
 }
 

@@ -34,7 +34,7 @@ struct WrenchInput {
     bool lags = false;     // as ReactionInput
     bool escape = false;   // new data covers the tool, which is on its way out
     bool vanished = false; // as ReactionInput
-    bool power = false;    // forces are on, nothing holds them back
+    bool forcesOn = false; // running, not switched off, no clutch
     bool off = false;      // forces off or dead-man open: the next rise takes HapticOptions::armTime
     bool trapped = false;
     bool stale = false;

@@ -6,7 +6,7 @@
 namespace fathom {
 
 void ForceRamps::step(const std::array<bool, kReasons>& on, double nominal, double measured, double rendered,
-                      double power) noexcept {
+                      double riseTime) noexcept {
     bool all = true;
     for (size_t reason = 0; reason < kReasons; ++reason) {
         const double time = reason == Stale ? kFadeTime : kRampTime;
@@ -15,7 +15,7 @@ void ForceRamps::step(const std::array<bool, kReasons>& on, double nominal, doub
             gain = std::max(0.0, gain - measured / time);
             all = false;
         } else if (gain < 1.0) { // forces return for this reason
-            rise_ = std::max(limitScale_ < 1.0 ? rise_ : 0.0, reason == Power ? power : time);
+            rise_ = std::max(limitScale_ < 1.0 ? rise_ : 0.0, reason == SwitchedOff ? riseTime : time);
             limitScale_ = std::min(limitScale_, rendered);
             gain = 1.0;
         }
@@ -29,7 +29,7 @@ void ForceRamps::step(const std::array<bool, kReasons>& on, double nominal, doub
 }
 
 void ForceRamps::cut() noexcept {
-    gain_[Power] = 0.0;
+    gain_[SwitchedOff] = 0.0;
     limitScale_ = 0.0;
 }
 

@@ -12,21 +12,21 @@ namespace fathom {
 // One thread; noexcept, no allocation.
 class ForceRamps {
 public:
-    enum Reason : size_t { Power, Trapped, Stale };
+    enum Reason : size_t { SwitchedOff, Trapped, Stale };
     static constexpr size_t kReasons = Stale + 1;
 
     // One tick. on: per reason, whether forces are allowed. Falls take `measured` [s], so that late ticks
     // cannot delay them; rises take `nominal`. rendered: share of the limits that the device renders now.
-    // power [s]: time of a rise from zero to the limits after the reason Power.
+    // riseTime [s]: from zero to the limits after the reason SwitchedOff.
     void step(const std::array<bool, kReasons>& on, double nominal, double measured, double rendered,
-              double power) noexcept;
+              double riseTime) noexcept;
     // The device renders nothing: no force until step() lets it rise from zero.
     void cut() noexcept;
 
-    double fadeGain() const noexcept { return gain_[Power] * gain_[Trapped] * gain_[Stale]; } // 0..1
+    double fadeGain() const noexcept { return gain_[SwitchedOff] * gain_[Trapped] * gain_[Stale]; } // 0..1
     // 0..1: factor of the force and torque limits while a force returns.
     double limitScale() const noexcept { return limitScale_; }
-    bool off() const noexcept { return gain_[Power] == 0.0; }
+    bool off() const noexcept { return gain_[SwitchedOff] == 0.0; }
     bool active() const noexcept { return fadeGain() < 1.0 || limitScale_ < 1.0; }
 
     static constexpr double kRampTime = 0.2; // [s] forces off, clutch, trapped, device lost

@@ -20,7 +20,7 @@ struct Stage {
     void start() {
         stage.emplace(options);
         input.springs = options.springs;
-        input.power = true;
+        input.forcesOn = true;
         input.pushes = cause::kRow;
         for (int i = 0; i < 3000; ++i) {
             stage->step(input);

@@ -21,7 +21,7 @@ ForceRamps risen() {
 } // namespace
 
 TEST_CASE("An old scene fades forces in half a second, each other reason in 0.2 s") {
-    for (const size_t reason : {ForceRamps::Power, ForceRamps::Trapped, ForceRamps::Stale}) {
+    for (const size_t reason : {ForceRamps::SwitchedOff, ForceRamps::Trapped, ForceRamps::Stale}) {
         std::array<bool, ForceRamps::kReasons> on{true, true, true};
         on[reason] = false;
         ForceRamps ramps = risen();
