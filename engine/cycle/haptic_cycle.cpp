@@ -189,7 +189,7 @@ void HapticCycle::makeWrench(const StepInput& input, const Situation& now, const
     tick.stale = now.stale;
     tick.sane = now.sane;
     tick.rendered = input.present;
-    tick.period = input.measuredPeriod > 0.0 ? input.measuredPeriod : options_.period;
+    tick.elapsed = input.measuredPeriod > 0.0 ? input.measuredPeriod : options_.period;
     const WrenchStage::Output made = stage_.step(tick);
     out.wrench = made.wrench;
     out.deviceWrench = map_.toDevice(made.delivered);

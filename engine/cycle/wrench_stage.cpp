@@ -50,7 +50,7 @@ void WrenchStage::stepRamps(const WrenchInput& input) noexcept {
     };
     const double rendered = std::max(fractionOf(previous_.force, options_.forceLimit),
                                      fractionOf(previous_.torque, options_.torqueLimit));
-    ramps_.step({input.forcesOn, !input.trapped, !input.stale}, options_.period, input.period, rendered,
+    ramps_.step({input.forcesOn, !input.trapped, !input.stale}, options_.period, input.elapsed, rendered,
                 arming_ ? options_.armTime : ForceRamps::kRampTime);
 }
 
@@ -60,11 +60,11 @@ Wrench WrenchStage::damping(const WrenchInput& input, const Wrench& reaction) no
     const Springs& springs = input.springs;
     Wrench wrench;
     if (springs.damping != 0.0 || springs.rotationalDamping != 0.0) {
-        const double period = std::max(options_.period, input.period); // a late tick sees a longer way
+        const double elapsed = std::max(options_.period, input.elapsed); // a late tick sees a longer way
         const dvec3 moved = input.device.position - deviceBefore_.position;
         const dvec3 spun = rotationLog(input.device.rotation * glm::conjugate(deviceBefore_.rotation));
-        wrench.force = along(-moved, reaction.force) * (springs.damping / period);
-        wrench.torque = along(-spun, reaction.torque) * (springs.rotationalDamping / period);
+        wrench.force = along(-moved, reaction.force) * (springs.damping / elapsed);
+        wrench.torque = along(-spun, reaction.torque) * (springs.rotationalDamping / elapsed);
     }
     deviceBefore_ = input.device;
     return wrench;
@@ -76,7 +76,7 @@ Wrench WrenchStage::springWrench(const WrenchInput& input) noexcept {
     tick.end = input.end;
     tick.springs = input.springs;
     tick.period = options_.period;
-    tick.elapsed = input.period;
+    tick.elapsed = input.elapsed;
     tick.mayRise = input.mayRise && !input.trapped;
     tick.newData = input.newData;
     tick.vanished = input.vanished;
@@ -101,7 +101,7 @@ Wrench WrenchStage::passivityWrench(const WrenchInput& input, const Wrench& reac
     tick.contact = onActuatedAxes(input, reaction); // damping stores no energy
     tick.fadeGain = ramps_.fadeGain();
     tick.springs = input.springs;
-    tick.period = input.period;
+    tick.elapsed = input.elapsed;
     tick.rows = input.pushes != 0 || reaction_.fades();
     // Whatever a tick generates in which new data moves the tool comes from the new data.
     tick.appears = reaction_.appears() || input.newData || input.escape;
@@ -151,7 +151,7 @@ double WrenchStage::stepOf(const dvec3& wanted, const dvec3& before, double slew
 // The low-pass of the wanted wrench. A force that is no longer wanted ends within the time of a ramp, however
 // slow the filter is.
 Wrench WrenchStage::smoothed(const WrenchInput& input, const Wrench& wanted) noexcept {
-    const double rampStep = std::max(options_.period, input.period) / ForceRamps::kRampTime;
+    const double rampStep = std::max(options_.period, input.elapsed) / ForceRamps::kRampTime;
     const auto most = [&](const dvec3& now, const dvec3& before, double limit) {
         return std::max(glm::length(now), std::min(glm::length(before), limit) - rampStep * limit);
     };
@@ -179,8 +179,8 @@ WrenchStage::Output WrenchStage::step(const WrenchInput& input) noexcept {
     Output out;
     out.wrench = limitSlew(
         sized, previous_,
-        stepOf(sized.force, previous_.force, options_.slewForce, options_.forceLimit, input.period),
-        stepOf(sized.torque, previous_.torque, options_.slewTorque, options_.torqueLimit, input.period));
+        stepOf(sized.force, previous_.force, options_.slewForce, options_.forceLimit, input.elapsed),
+        stepOf(sized.torque, previous_.torque, options_.slewTorque, options_.torqueLimit, input.elapsed));
     out.cause = causeOf(input, damper, sized, out.wrench);
     out.finite = input.sane && isFinite(out.wrench);
     notFinite_ += out.finite ? 0 : 1;

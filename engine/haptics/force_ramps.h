@@ -15,10 +15,10 @@ public:
     enum Reason : size_t { SwitchedOff, Trapped, Stale };
     static constexpr size_t kReasons = Stale + 1;
 
-    // One tick. on: per reason, whether forces are allowed. Falls take `measured` [s], so that late ticks
-    // cannot delay them; rises take `nominal`. rendered: share of the limits that the device renders now.
+    // One tick. on: per reason, whether forces are allowed. Falls take `elapsed` [s], so that late ticks
+    // cannot delay them; rises take `period`. rendered: share of the limits that the device renders now.
     // riseTime [s]: from zero to the limits after the reason SwitchedOff.
-    void step(const std::array<bool, kReasons>& on, double nominal, double measured, double rendered,
+    void step(const std::array<bool, kReasons>& on, double period, double elapsed, double rendered,
               double riseTime) noexcept;
     // The device renders nothing: no force until step() lets it rise from zero.
     void cut() noexcept;

@@ -69,7 +69,7 @@ void PassivityController::shift(const dvec3& by, const dquat& turn) noexcept {
 }
 
 void PassivityController::giveUpWithoutRows(const PassivityStep& tick) noexcept {
-    free_ = tick.rows ? 0.0 : free_ + tick.period;
+    free_ = tick.rows ? 0.0 : free_ + tick.elapsed;
     if (free_ > kFreeTime && debt_ > 0.0) {
         debt_ = 0.0;
     }
@@ -93,7 +93,7 @@ void PassivityController::observe(const PassivityStep& tick) noexcept {
         actuated(tick, endMoved, endTurned); // a wrist without a motor dissipates nothing
     const double credit =
         (options_.damping * glm::dot(way, way) + options_.rotationalDamping * glm::dot(turn, turn)) /
-        tick.period;
+        tick.elapsed;
     const double spring = workOf(held.contact, endMoved, endTurned) + stored - stored_ - credit;
     generated_ += std::max(0.0, spring);
     taken_ += damped;
@@ -107,7 +107,7 @@ void PassivityController::observe(const PassivityStep& tick) noexcept {
         recent_ += c;
     }
     debt_ = std::max(debt_ + spring - damped, -recent_);
-    const double excess = std::max(0.0, debt_ - stored), kept = std::exp(-tick.period / kForget);
+    const double excess = std::max(0.0, debt_ - stored), kept = std::exp(-tick.elapsed / kForget);
     debt_ -= (1.0 - kept) * excess;
     slow_ = std::clamp((excess > 0.0 ? kept : 1.0) * (slow_ + (tick.appears ? std::max(0.0, spring) : 0.0)),
                        0.0, std::max(0.0, debt_));
@@ -122,7 +122,7 @@ double PassivityController::release(const PassivityStep& tick, const dvec3& v, c
     const double owes = owed / std::max(owed, stored_),
                  share = std::clamp(2.0 * (owes - kMinShare), 0.0, owes);
     const double kk = options_.metricRadius * options_.metricRadius;
-    const double most = kMaxRelease / (tick.period * (1.0 + 2.0 * options_.delayTicks)) *
+    const double most = kMaxRelease / (tick.elapsed * (1.0 + 2.0 * options_.delayTicks)) *
                         (glm::dot(v, v) + kk * glm::dot(w, w));
     return std::clamp(share * returned, 0.0, most);
 }
@@ -132,7 +132,7 @@ Wrench PassivityController::control(const PassivityStep& tick) const noexcept {
     if (!(owed > 0.0)) {
         return {};
     }
-    auto [v, w] = actuated(tick, moved_ / tick.period, turned_ / tick.period);
+    auto [v, w] = actuated(tick, moved_ / tick.elapsed, turned_ / tick.elapsed);
     v = glm::length(v) < kSlow ? dvec3(0.0) : v;
     w = glm::length(w) < kSlowTurn ? dvec3(0.0) : w;
     const double kk = options_.metricRadius * options_.metricRadius;
@@ -141,9 +141,9 @@ Wrench PassivityController::control(const PassivityStep& tick) const noexcept {
         return {};
     }
     const double most = std::min(kMaxDamping * std::min(options_.damping, options_.rotationalDamping / kk),
-                                 kMaxImpulse / (tick.period * (1.0 + 2.0 * options_.delayTicks)));
+                                 kMaxImpulse / (tick.elapsed * (1.0 + 2.0 * options_.delayTicks)));
     const double slow = std::min(slow_, owed);
-    const double power = (owed - slow) / tick.period + slow / std::max(tick.period, tick.repay);
+    const double power = (owed - slow) / tick.elapsed + slow / std::max(tick.elapsed, tick.repay);
     double alpha = tick.fadeGain * std::max(std::min(power / speed, most), release(tick, v, w, owed) / speed);
     if (!tick.rows) {
         alpha = std::min(alpha, kFreeDamper / std::sqrt(speed));
@@ -152,7 +152,7 @@ Wrench PassivityController::control(const PassivityStep& tick) const noexcept {
 }
 
 Wrench PassivityController::step(const PassivityStep& tick) noexcept {
-    if (!(tick.fadeGain > 0.0) || !(tick.period > 0.0) || !isFinite(tick.device) || !isFinite(tick.end)) {
+    if (!(tick.fadeGain > 0.0) || !(tick.elapsed > 0.0) || !isFinite(tick.device) || !isFinite(tick.end)) {
         reset();
         return {};
     }

@@ -46,7 +46,7 @@ struct PassivityStep {
     double forceLimit = 20.0, torqueLimit = 2.0; // [N], [N m] in force: a spring beyond them stores less
     double fadeGain = 1.0;                       // 0..1, factor of all fades; 0 resets the observer
     Springs springs;                             // active
-    double period = 0.001;                       // T [s] since the tick before
+    double elapsed = 0.001;                      // T [s] measured since the tick before; nominal in lockstep
 };
 
 // One thread; noexcept, no allocation. Translation and rotation are damped separately but share one energy

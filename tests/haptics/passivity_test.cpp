@@ -55,7 +55,7 @@ struct Loop {
         t.contact = spring();
         t.fadeGain = fadeGain;
         t.springs = springs();
-        t.period = kPeriod;
+        t.elapsed = kPeriod;
         t.forceLimit = forceLimit;
         const Wrench damper = controller.step(t);
         Wrench contact = t.contact;
