@@ -53,26 +53,26 @@ StepRecord HapticCycle::step(const StepInput& input) noexcept {
     StepRecord out;
     out.t = time_ = input.time;
     Situation now;
-    now.sane = isFinite(input.deviceThandle) && std::isfinite(input.time);
+    now.sampleFinite = isFinite(input.deviceThandle) && std::isfinite(input.time);
     now.off = lossesHoldForces(input) || input.forcesOff || (input.buttons & kDeadManOpen) != 0;
     const ContactSet* set = chooseSet(input, out);
-    now.running = set != nullptr || !options_.needsContacts;
-    out.frame = set != nullptr ? set->frame : now.running ? input.frame : -1;
+    now.setReady = set != nullptr || !options_.needsContacts;
+    out.frame = set != nullptr ? set->frame : now.setReady ? input.frame : -1;
     out.sceneAge = out.frame >= 0 ? sceneAge(input, set) : kNotKnown;
     now.stale = isOld(out.sceneAge, options_.staleAfter);
-    now.held =
-        armState_.connected && (!armState_.follows || !now.sane || now.off || !now.running || now.stale);
+    now.armStill = armState_.connected &&
+                   (!armState_.follows || !now.sampleFinite || now.off || !now.setReady || now.stale);
     const bool button = (input.buttons & options_.clutchBit) != 0;
-    now.clutch = button || now.held || !input.present;
-    now.recentre = button && !now.held && input.present && now.running && now.off && stage_.off();
+    now.clutch = button || now.armStill || !input.present;
+    now.recentre = button && !now.armStill && input.present && now.setReady && now.off && stage_.off();
     takeSample(input, now);
     guidance_.step(input.guidance, device_, (input.buttons & kGuidanceButton) != 0,
-                   now.off || !now.running || now.held, options_.period,
+                   now.off || !now.setReady || now.armStill, options_.period,
                    options_.paperGuidance ? guidance_.pullReach(watch_.springs())
                                           : guidance_.leadReach(watch_.springs()));
 
-    now.looks = now.running && now.sane && !now.held;
-    const bool newData = now.looks && regionsChanged(set);
+    now.movesTool = now.setReady && now.sampleFinite && !now.armStill;
+    const bool newData = now.movesTool && regionsChanged(set);
     const Pose before = tool_, endBefore = springEnd_;
     ProxyStep moved = stepTool(input, set, now, newData, out);
     const std::optional<dvec3> gone =
@@ -106,7 +106,7 @@ bool HapticCycle::lossesHoldForces(const StepInput& input) noexcept {
 }
 
 void HapticCycle::takeSample(const StepInput& input, const Situation& now) noexcept {
-    if (!now.sane || (input.doubtful && input.present)) {
+    if (!now.sampleFinite || (input.doubtful && input.present)) {
         return;
     }
     handle_ = {input.deviceThandle.position, glm::normalize(input.deviceThandle.rotation)};
@@ -126,12 +126,12 @@ ProxyStep HapticCycle::stepTool(const StepInput& input, const ContactSet* set, c
     springEnd_ = device_;
     jointEnds_ = 0;
     out.arm.posture = place().arm;
-    if (now.looks) {
+    if (now.movesTool) {
         moved = moveTool(input, set, newData, out);
     } else {
         moved.allowed = allowed_; // held: the last reaction fades out
     }
-    armState_.held = now.held;
+    armState_.held = now.armStill;
     freeDirection(moved);
     return moved;
 }
@@ -183,11 +183,11 @@ void HapticCycle::makeWrench(const StepInput& input, const Situation& now, const
     tick.lags = arm_ && out.lag > kLagLength; // a free tool follows within some ticks
     tick.escape = moved.escape;
     tick.vanished = vanished;
-    tick.forcesOn = now.running && !now.off && !now.clutch;
+    tick.forcesOn = now.setReady && !now.off && !now.clutch;
     tick.off = now.off;
     tick.trapped = moved.trapped;
     tick.stale = now.stale;
-    tick.sane = now.sane;
+    tick.sampleFinite = now.sampleFinite;
     tick.rendered = input.present;
     tick.elapsed = input.measuredPeriod > 0.0 ? input.measuredPeriod : options_.period;
     const WrenchStage::Output made = stage_.step(tick);
@@ -196,17 +196,17 @@ void HapticCycle::makeWrench(const StepInput& input, const Situation& now, const
     out.residual = made.residual;
     out.finite = made.finite;
     out.cause = made.cause;
-    if (now.sane) { // else nothing was seen to press
+    if (now.sampleFinite) { // else nothing was seen to press
         pressing_.rows = !moved.active.empty() && stage_.reaction() > kFelt;
         pressing_.out = moved.allowed.position - springEnd_.position;
     }
 }
 
 StepState HapticCycle::stateOf(const Situation& now, const ProxyStep& moved, bool lags) const noexcept {
-    if (!now.running) {
+    if (!now.setReady) {
         return StepState::Off;
     }
-    if (now.off || now.held) {
+    if (now.off || now.armStill) {
         return stage_.off() ? StepState::Off : StepState::Fading;
     }
     if (moved.trapped) {
@@ -232,7 +232,7 @@ StepState HapticCycle::stateOf(const Situation& now, const ProxyStep& moved, boo
 // When a real arm follows, the tool never left it.
 void HapticCycle::holdArm(const Situation& now, bool trapped, StepRecord& out) noexcept {
     const bool wrong =
-        !now.sane || !now.running || now.off || now.stale || trapped || !out.finite || now.held;
+        !now.sampleFinite || !now.setReady || now.off || now.stale || trapped || !out.finite || now.armStill;
     const bool met = now.clutch || armState_.connected ||
                      glm::distance(out.tool.position, out.device.position) <= kResumeWithin;
     armState_.hold = wrong || (armState_.hold && !met);

@@ -87,15 +87,15 @@ public:
     static constexpr double kResumeWithin = 0.005; // [m] tool to hand, before an arm moves again
 
 private:
-    struct Situation {    // what the rules depend on
-        bool sane = true; // the hand's sample is finite
-        bool off = false; // forces off, dead-man open or device lost
+    struct Situation {            // what the rules depend on
+        bool sampleFinite = true; // the hand's sample is finite
+        bool off = false;         // forces off, dead-man open or device lost
         bool clutch = false;
         bool recentre = false; // the clutch's button is down, and there is no force
-        bool running = false;  // there is a set, or none is needed
+        bool setReady = false; // there is a set, or none is needed
         bool stale = false;
-        bool held = false;  // a real arm stands still
-        bool looks = false; // the tool is moved in this step
+        bool armStill = false;  // a real arm stands still
+        bool movesTool = false; // the tool is moved in this step
     };
 
     const ContactSet* chooseSet(const StepInput& input, StepRecord& out) noexcept;
@@ -167,7 +167,7 @@ private:
         bool hold = true;
         bool connected = false; // a real arm is connected
         bool follows = false;   // and reports that it follows
-        bool held = true;       // Situation::held of the last step
+        bool held = true;       // Situation::armStill of the last step
         bool placed = false;    // the tool moved to where the active set may not cover it
     } armState_;
     uint32_t jointEnds_ = 0; // active joint limits of the last step

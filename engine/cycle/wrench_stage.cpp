@@ -182,7 +182,7 @@ WrenchStage::Output WrenchStage::step(const WrenchInput& input) noexcept {
         stepOf(sized.force, previous_.force, options_.slewForce, options_.forceLimit, input.elapsed),
         stepOf(sized.torque, previous_.torque, options_.slewTorque, options_.torqueLimit, input.elapsed));
     out.cause = causeOf(input, damper, sized, out.wrench);
-    out.finite = input.sane && isFinite(out.wrench);
+    out.finite = input.sampleFinite && isFinite(out.wrench);
     notFinite_ += out.finite ? 0 : 1;
     if (!out.finite || !input.rendered) {
         cut();

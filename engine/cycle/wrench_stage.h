@@ -38,9 +38,9 @@ struct WrenchInput {
     bool off = false;      // forces off or dead-man open: the next rise takes HapticOptions::armTime
     bool trapped = false;
     bool stale = false;
-    bool sane = true;       // false: the hand's sample is not finite, and there is no force in this tick
-    bool rendered = true;   // false: the device renders nothing in this tick, whatever is written
-    double elapsed = 0.001; // [s] measured since the tick before; nominal in lockstep
+    bool sampleFinite = true; // false: the hand's sample is not finite, and there is no force in this tick
+    bool rendered = true;     // false: the device renders nothing in this tick, whatever is written
+    double elapsed = 0.001;   // [s] measured since the tick before; nominal in lockstep
 };
 
 // One thread; noexcept, no allocation. Guarantees, whatever the input: force and torque stay within their
