@@ -60,8 +60,8 @@ StepRecord HapticCycle::step(const StepInput& input) noexcept {
     out.frame = set != nullptr ? set->frame : now.setReady ? input.frame : -1;
     out.sceneAge = out.frame >= 0 ? sceneAge(input, set) : kNotKnown;
     now.stale = isOld(out.sceneAge, options_.staleAfter);
-    now.armStill = armState_.connected &&
-                   (!armState_.follows || !now.sampleFinite || now.off || !now.setReady || now.stale);
+    now.armStill = realArm_.connected &&
+                   (!realArm_.follows || !now.sampleFinite || now.off || !now.setReady || now.stale);
     const bool button = (input.buttons & options_.clutchBit) != 0;
     now.clutch = button || now.armStill || !input.present;
     now.recentre = button && !now.armStill && input.present && now.setReady && now.off && stage_.off();
@@ -131,7 +131,7 @@ ProxyStep HapticCycle::stepTool(const StepInput& input, const ContactSet* set, c
     } else {
         moved.allowed = allowed_; // held: the last reaction fades out
     }
-    armState_.held = now.armStill;
+    realArm_.wasStill = now.armStill;
     freeDirection(moved);
     return moved;
 }
@@ -233,10 +233,10 @@ StepState HapticCycle::stateOf(const Situation& now, const ProxyStep& moved, boo
 void HapticCycle::holdArm(const Situation& now, bool trapped, StepRecord& out) noexcept {
     const bool wrong =
         !now.sampleFinite || !now.setReady || now.off || now.stale || trapped || !out.finite || now.armStill;
-    const bool met = now.clutch || armState_.connected ||
+    const bool met = now.clutch || realArm_.connected ||
                      glm::distance(out.tool.position, out.device.position) <= kResumeWithin;
-    armState_.hold = wrong || (armState_.hold && !met);
-    out.armHold = armState_.hold;
+    realArm_.commandsHold = wrong || (realArm_.commandsHold && !met);
+    out.armHold = realArm_.commandsHold;
 }
 
 void HapticCycle::fillMargins(const StepInput& input, StepRecord& out) const noexcept {

@@ -163,13 +163,13 @@ private:
         std::array<double, 3> at{-1e9, -1e9, -1e9}; // [s] the last three
         bool many = false;                          // until 1 s is clean
     } losses_;
-    struct Arm {
-        bool hold = true;
-        bool connected = false; // a real arm is connected
-        bool follows = false;   // and reports that it follows
-        bool held = true;       // Situation::armStill of the last step
-        bool placed = false;    // the tool moved to where the active set may not cover it
-    } armState_;
+    struct RealArm {
+        bool commandsHold = true; // StepRecord::armHold of the last step
+        bool connected = false;   // a real arm is connected
+        bool follows = false;     // and reports that it follows
+        bool wasStill = true;     // Situation::armStill of the last step
+        bool placed = false;      // the tool moved to where the active set may not cover it
+    } realArm_;
     uint32_t jointEnds_ = 0; // active joint limits of the last step
 };
 

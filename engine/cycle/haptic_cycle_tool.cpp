@@ -15,22 +15,22 @@ const ContactSet* HapticCycle::chooseSet(const StepInput& input, StepRecord& out
     const ContactSet* offered = input.offered;
     if (offered != nullptr && offered->frame >= 0 && covers(*offered)) {
         out.adopted = true;
-        armState_.placed = false;
+        realArm_.placed = false;
         ahead_.answered(offered->asked, input.time);
         return offered;
     }
     const bool usable = input.contacts != nullptr && input.contacts->frame >= 0;
-    return usable && (!armState_.placed || covers(*input.contacts)) ? input.contacts : nullptr;
+    return usable && (!realArm_.placed || covers(*input.contacts)) ? input.contacts : nullptr;
 }
 
 bool HapticCycle::follow(const ArmFollow& status) noexcept {
-    armState_.connected = arm_.has_value();
-    armState_.follows = status.follows;
-    if (!armState_.connected || !status.known || !armState_.held || !stage_.off()) {
+    realArm_.connected = arm_.has_value();
+    realArm_.follows = status.follows;
+    if (!realArm_.connected || !status.known || !realArm_.wasStill || !stage_.off()) {
         return false;
     }
     arm_->setPosture(status.posture);
-    armState_.placed = true;
+    realArm_.placed = true;
     tool_ = arm_->tip();
     map_.align(handle_, tool_);
     device_ = springEnd_ = allowed_ = tool_;
