@@ -34,7 +34,7 @@ void pressAndWatch(const LoopSpec& spec, double allowance, EnergyFigures& all) {
             all.who = nameOf(spec);
         }
     }
-    all.taken = std::max(all.taken, rig.cycle().passivity().taken());
+    all.taken = std::max(all.taken, rig.cycle().passivity().dissipated());
 }
 
 LoopGrid gridFor(RunLength runLength, size_t every) {

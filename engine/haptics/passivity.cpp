@@ -53,7 +53,7 @@ PassivityController::PassivityController(const PassivityOptions& options)
 void PassivityController::reset() noexcept {
     applied_.fill({});
     credit_.fill(0.0);
-    recent_ = stored_ = debt_ = slow_ = 0.0;
+    recent_ = stored_ = debt_ = dataDebt_ = 0.0;
     started_ = false;
 }
 
@@ -69,8 +69,8 @@ void PassivityController::shift(const dvec3& by, const dquat& turn) noexcept {
 }
 
 void PassivityController::giveUpWithoutRows(const PassivityStep& tick) noexcept {
-    free_ = tick.rows ? 0.0 : free_ + tick.elapsed;
-    if (free_ > kFreeTime && debt_ > 0.0) {
+    timeWithoutRows_ = tick.rows ? 0.0 : timeWithoutRows_ + tick.elapsed;
+    if (timeWithoutRows_ > kFreeTime && debt_ > 0.0) {
         debt_ = 0.0;
     }
 }
@@ -86,17 +86,17 @@ void PassivityController::observe(const PassivityStep& tick) noexcept {
     moved_ = tick.device.position - device_.position;
     turned_ = turnBetween(device_, tick.device);
     // The oldest entry of the ring: the wrench that acted on the hand in the interval that ends now.
-    const Applied& held = applied_[writes_ % (options_.delayTicks + 1)];
-    const double damped = -workOf(held.damper, moved_, turned_);
+    const Applied& acted = applied_[writes_ % (options_.delayTicks + 1)];
+    const double damped = -workOf(acted.damper, moved_, turned_);
     const double stored = storedIn(tick);
-    const auto [way, turn] =
+    const auto [actuatedMoved, actuatedTurned] =
         actuated(tick, endMoved, endTurned); // a wrist without a motor dissipates nothing
-    const double credit =
-        (options_.damping * glm::dot(way, way) + options_.rotationalDamping * glm::dot(turn, turn)) /
-        tick.elapsed;
-    const double spring = workOf(held.contact, endMoved, endTurned) + stored - stored_ - credit;
-    generated_ += std::max(0.0, spring);
-    taken_ += damped;
+    const double credit = (options_.damping * glm::dot(actuatedMoved, actuatedMoved) +
+                           options_.rotationalDamping * glm::dot(actuatedTurned, actuatedTurned)) /
+                          tick.elapsed;
+    const double generatedNow = workOf(acted.contact, endMoved, endTurned) + stored - stored_ - credit;
+    generated_ += std::max(0.0, generatedNow);
+    dissipated_ += damped;
     stored_ = stored;
 
     double& slot = credit_[ticks_++ % kWindow];
@@ -106,25 +106,26 @@ void PassivityController::observe(const PassivityStep& tick) noexcept {
          credit_) { // summed again: a running sum would accumulate the rounding of fast ticks
         recent_ += c;
     }
-    debt_ = std::max(debt_ + spring - damped, -recent_);
+    debt_ = std::max(debt_ + generatedNow - damped, -recent_);
     const double excess = std::max(0.0, debt_ - stored), kept = std::exp(-tick.elapsed / kForget);
     debt_ -= (1.0 - kept) * excess;
-    slow_ = std::clamp((excess > 0.0 ? kept : 1.0) * (slow_ + (tick.appears ? std::max(0.0, spring) : 0.0)),
-                       0.0, std::max(0.0, debt_));
+    dataDebt_ = std::clamp((excess > 0.0 ? kept : 1.0) *
+                               (dataDebt_ + (tick.appears ? std::max(0.0, generatedNow) : 0.0)),
+                           0.0, std::max(0.0, debt_));
 }
 
 // What a hand that moves out gets back from the springs is dissipated in proportion [W], so that the debt is
 // repaid when they are empty: the hand never leaves faster than it came.
 double PassivityController::release(const PassivityStep& tick, const dvec3& v, const dvec3& w,
                                     double owed) const noexcept {
-    const Wrench& held = applied_[(writes_ + options_.delayTicks) % (options_.delayTicks + 1)].contact;
-    const double returned = workOf(held, v, w);
+    const Wrench& acting = applied_[(writes_ + options_.delayTicks) % (options_.delayTicks + 1)].contact;
+    const double returned = workOf(acting, v, w);
     const double owes = owed / std::max(owed, stored_),
-                 share = std::clamp(2.0 * (owes - kMinShare), 0.0, owes);
+                 braked = std::clamp(2.0 * (owes - kMinDebtRatio), 0.0, owes);
     const double kk = options_.metricRadius * options_.metricRadius;
     const double most = kMaxRelease / (tick.elapsed * (1.0 + 2.0 * options_.delayTicks)) *
                         (glm::dot(v, v) + kk * glm::dot(w, w));
-    return std::clamp(share * returned, 0.0, most);
+    return std::clamp(braked * returned, 0.0, most);
 }
 
 Wrench PassivityController::control(const PassivityStep& tick) const noexcept {
@@ -133,8 +134,8 @@ Wrench PassivityController::control(const PassivityStep& tick) const noexcept {
         return {};
     }
     auto [v, w] = actuated(tick, moved_ / tick.elapsed, turned_ / tick.elapsed);
-    v = glm::length(v) < kSlow ? dvec3(0.0) : v;
-    w = glm::length(w) < kSlowTurn ? dvec3(0.0) : w;
+    v = glm::length(v) < kMinSpeed ? dvec3(0.0) : v;
+    w = glm::length(w) < kMinTurnSpeed ? dvec3(0.0) : w;
     const double kk = options_.metricRadius * options_.metricRadius;
     const double speed = glm::dot(v, v) + kk * glm::dot(w, w);
     if (!(speed > 0.0)) {
@@ -142,8 +143,8 @@ Wrench PassivityController::control(const PassivityStep& tick) const noexcept {
     }
     const double most = std::min(kMaxDamping * std::min(options_.damping, options_.rotationalDamping / kk),
                                  kMaxImpulse / (tick.elapsed * (1.0 + 2.0 * options_.delayTicks)));
-    const double slow = std::min(slow_, owed);
-    const double power = (owed - slow) / tick.elapsed + slow / std::max(tick.elapsed, tick.repay);
+    const double fromData = std::min(dataDebt_, owed);
+    const double power = (owed - fromData) / tick.elapsed + fromData / std::max(tick.elapsed, tick.repay);
     double alpha = tick.fadeGain * std::max(std::min(power / speed, most), release(tick, v, w, owed) / speed);
     if (!tick.rows) {
         alpha = std::min(alpha, kFreeDamper / std::sqrt(speed));

@@ -43,7 +43,7 @@ struct PassivityStep {
     bool rows = true;                      // some row is active, or the reaction still fades
     bool appears = false;                  // the reaction grew without the hand: new data moved a surface
     double repay = 0.033; // [s] in which the energy of such growth is dissipated: the time between frames
-    double forceLimit = 20.0, torqueLimit = 2.0; // [N], [N m] in force: a spring beyond them stores less
+    double forceLimit = 20.0, torqueLimit = 2.0; // [N], [N m] active: a spring beyond them stores less
     double fadeGain = 1.0;                       // 0..1, factor of all fades; 0 resets the observer
     Springs springs;                             // active
     double elapsed = 0.001;                      // T [s] measured since the tick before; nominal in lockstep
@@ -57,8 +57,8 @@ public:
 
     // Observes the interval that ends now and returns the damping wrench to add: -alpha v and -alpha k^2 w
     // with alpha = debt / (T (v.v + k^2 w.w)), where what appeared is divided by `repay` instead of T, capped
-    // (kMaxDamping, kMaxImpulse); more while the springs push the hand out (release()); zero below kSlow,
-    // kSlowTurn. Without an active row it is at most kFreeDamper and ends after kFreeTime; energy that
+    // (kMaxDamping, kMaxImpulse); more while the springs push the hand out (release()); zero below kMinSpeed,
+    // kMinTurnSpeed. Without an active row it is at most kFreeDamper and ends after kFreeTime; energy that
     // remains then is not removed.
     Wrench step(const PassivityStep& tick) noexcept;
     // The wrench sent to the device from now on: the springs' part and the part that step() added.
@@ -67,12 +67,12 @@ public:
     // The hand's end of the spring was moved by `by` [m] and turned by `turn`, not by the hand.
     void shift(const dvec3& by, const dquat& turn) noexcept;
 
-    double debt() const noexcept { return debt_; }           // [J] > 0 = generated and not yet dissipated
-    double generated() const noexcept { return generated_; } // [J] total energy generated
-    double taken() const noexcept { return taken_; }         // [J] total energy dissipated by the controller
+    double debt() const noexcept { return debt_; }             // [J] > 0 = generated and not yet dissipated
+    double generated() const noexcept { return generated_; }   // [J] total energy generated
+    double dissipated() const noexcept { return dissipated_; } // [J] total, by the controller
 
-    static constexpr double kSlow = 1e-4;     // [m/s] a slower hand is not damped
-    static constexpr double kSlowTurn = 1e-3; // [rad/s]
+    static constexpr double kMinSpeed = 1e-4;     // [m/s] a slower hand is not damped
+    static constexpr double kMinTurnSpeed = 1e-3; // [rad/s]
     // Limits of the damping: a multiple of b, and an impulse [N s^2/m] divided by T (1 + 2n) with n ticks of
     // delay: 20 N s/m at 1 kHz. A device of 50 g then loses at most 0.4 of its speed per tick; sampled
     // damping becomes unstable near 1.
@@ -80,7 +80,7 @@ public:
     static constexpr double kMaxImpulse = 0.02;
     // The same for a hand that moves out. It only weakens the springs' push, so it can be larger. Debts below
     // this share of the stored energy, as of noise from frame to frame, are left to `repay`.
-    static constexpr double kMaxRelease = 0.1, kMinShare = 0.25;
+    static constexpr double kMaxRelease = 0.1, kMinDebtRatio = 0.25;
     static constexpr double kFreeDamper = 0.99; // [N] largest damping force without an active row
     static constexpr double kFreeTime = 0.09;   // [s] longest time of it
     static constexpr double kTolerance = 1e-6;  // [J] smaller debts are rounding of the solver
@@ -109,9 +109,9 @@ private:
     bool started_ = false;
     Pose device_, end_;              // at the previous tick
     dvec3 moved_{0.0}, turned_{0.0}; // device motion since then
-    double stored_ = 0.0, debt_ = 0.0, generated_ = 0.0, taken_ = 0.0;
-    double slow_ = 0.0; // [J] part of debt_ that appeared with new data
-    double free_ = 0.0; // [s] since the last active row
+    double stored_ = 0.0, debt_ = 0.0, generated_ = 0.0, dissipated_ = 0.0;
+    double dataDebt_ = 0.0;        // [J] part of debt_ that new data caused
+    double timeWithoutRows_ = 0.0; // [s] since the last active row
 };
 
 } // namespace fathom

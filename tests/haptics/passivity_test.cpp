@@ -99,7 +99,7 @@ TEST_CASE("On a static wall the controller stays inactive for any hand motion, u
             REQUIRE(loop.controller.debt() <= 1e-12);
         }
         CHECK(loop.controller.generated() <= 1e-12);
-        CHECK(loop.controller.taken() == 0.0);
+        CHECK(loop.controller.dissipated() == 0.0);
     }
 }
 
@@ -163,7 +163,7 @@ TEST_CASE("The damper opposes the hand, is capped, and stops when the debt is di
     CHECK(stopped);
     CHECK(paid <= 0.008);
     CHECK(paid >= 0.004); // the device's own damping and the time constant took the rest
-    CHECK(loop.controller.taken() == doctest::Approx(paid).epsilon(1e-9));
+    CHECK(loop.controller.dissipated() == doctest::Approx(paid).epsilon(1e-9));
 }
 
 TEST_CASE(
