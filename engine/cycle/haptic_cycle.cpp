@@ -7,8 +7,8 @@
 namespace fathom {
 namespace {
 
-constexpr double kCleanTime = 1.0; // [s] without a loss of the device before forces return
-constexpr double kFelt = 0.5;      // [N] of a region that counts as pressed
+constexpr double kCleanTime = 1.0;    // [s] without a loss of the device before forces return
+constexpr double kPressedForce = 0.5; // [N] of a region that counts as pressed
 
 // The pose that the hand commands before the first step.
 Pose begin(HandMap& map, const Pose& start, const Pose* tool0, const ArmRig* arm) {
@@ -197,7 +197,7 @@ void HapticCycle::makeWrench(const StepInput& input, const Situation& now, const
     out.finite = made.finite;
     out.cause = made.cause;
     if (now.sampleFinite) { // else nothing was seen to press
-        pressing_.rows = !moved.active.empty() && stage_.reaction() > kFelt;
+        pressing_.rows = !moved.active.empty() && stage_.reaction() > kPressedForce;
         pressing_.out = moved.allowed.position - springEnd_.position;
     }
 }

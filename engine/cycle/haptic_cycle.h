@@ -81,9 +81,9 @@ public:
     static constexpr double kRampTime = ForceRamps::kRampTime;
     static constexpr double kLagLength = 1e-4; // [m] a smaller lag counts as none
     static constexpr double kLagTime = 0.05;   // [s] of lag before the hand map takes it up
-    static constexpr double kTakeUp = 0.2;     // [s] time constant of that
-    static constexpr double kGone =
-        0.002; // [m] all regions farther away than this: those that pressed vanished
+    static constexpr double kTakeUpTime = 0.2; // [s] time constant of that
+    // [m] If every region is farther away than this, those that pressed have vanished.
+    static constexpr double kVanishedGap = 0.002;
     static constexpr double kResumeWithin = 0.005; // [m] tool to hand, before an arm moves again
 
 private:

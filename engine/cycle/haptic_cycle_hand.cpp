@@ -52,7 +52,7 @@ std::optional<dvec3> HapticCycle::vanishedAlong(const ProxyStep& moved, const dv
     const bool rows = !moved.active.empty();
     // An arm may not yet have followed a surface that lies between it and the hand.
     const double reach =
-        kGone + (arm_ && moved.cut ? glm::distance(tool_.position, springEnd_.position) : 0.0);
+        kVanishedGap + (arm_ && moved.cut ? glm::distance(tool_.position, springEnd_.position) : 0.0);
     if (!rows && !(moved.minGap <= reach)) { // NaN: no set
         return pressing_.out;
     }
@@ -111,7 +111,7 @@ void HapticCycle::takeUpLag(ProxyStep& moved, StepRecord& out) noexcept {
     out.lag = glm::length(lag);
     pressing_.lagTime = out.lag > kLagLength ? pressing_.lagTime + options_.period : 0.0;
     if (pressing_.lagTime > kLagTime && !arm_) {
-        const dvec3 by = -(options_.period / kTakeUp) * lag;
+        const dvec3 by = -(options_.period / kTakeUpTime) * lag;
         shiftHand(by, kNoTurn);
         moved.allowed.position += by;
     }

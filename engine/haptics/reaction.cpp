@@ -11,13 +11,13 @@ namespace fathom {
 
 namespace {
 
-constexpr double kSlowest = 10.0;       // [N/s] of a rise after new data
-constexpr double kRoundingForce = 1e-6; // [N] rounding
-constexpr double kTurns = 1e-3;         // [N] a smaller reaction has no direction that is felt
-constexpr double kPushed = 0.012;       // [s] in which new data pushes a tool out, or half a frame
-constexpr double kLate = 1.25;          // of a frame, until which the next one is waited for
-constexpr double kMinMix = 0.3;         // directions that differ more than that are not mixed
-constexpr double kSameWay = 0.8;        // cosine between the reaction that returns and the former one
+constexpr double kMinRiseRate = 10.0;       // [N/s] after new data
+constexpr double kRoundingForce = 1e-6;     // [N] rounding
+constexpr double kMinDirectionForce = 1e-3; // [N] a smaller reaction has no direction that is felt
+constexpr double kPushTime = 0.012;         // [s] in which new data pushes a tool out, or half a frame
+constexpr double kFrameSlack = 1.25;        // of a frame, until which the next one is waited for
+constexpr double kMinMixLength = 0.3;       // directions that differ more than that are not mixed
+constexpr double kSameWay = 0.8;            // cosine between the reaction that returns and the former one
 
 } // namespace
 
@@ -31,7 +31,7 @@ void Reaction::keepTime(const ReactionInput& input) noexcept {
     if (input.newData) {
         interval_ = std::clamp(sinceData_, input.period, kLongestFrame);
         sinceData_ = 0.0;
-        riseRate_ = kSlowest;
+        riseRate_ = kMinRiseRate;
     }
 }
 
@@ -48,14 +48,14 @@ Reaction::Travel Reaction::travelOf(const Pose& end) noexcept {
 
 // The newest data may still be moving the tool.
 bool Reaction::pushed() const noexcept {
-    return sinceData_ < std::min(kPushed, 0.5 * interval_);
+    return sinceData_ < std::min(kPushTime, 0.5 * interval_);
 }
 
 double Reaction::rate(double appeared) noexcept {
     if (pushed()) {
         riseRate_ = std::clamp(appeared / (interval_ - sinceData_), riseRate_, kAppear);
     }
-    return sinceData_ < kLate * interval_ ? riseRate_ : kAppear;
+    return sinceData_ < kFrameSlack * interval_ ? riseRate_ : kAppear;
 }
 
 void Reaction::beginFade(const Wrench& wanted, const ReactionInput& input) noexcept {
@@ -114,7 +114,7 @@ void Reaction::beginTurn(const Wrench& wrench, const ReactionInput& input) noexc
     }
     const double size = metricSize(wrench, k_);
     turnLeft_ = 0.0;
-    if (fade_.active() || !(lastFeltSize_ > kTurns) || !(size > kTurns)) {
+    if (fade_.active() || !(lastFeltSize_ > kMinDirectionForce) || !(size > kMinDirectionForce)) {
         return;
     }
     if (metricProduct(lastFelt_, wrench, k_) < 0.0) {
@@ -132,12 +132,12 @@ void Reaction::beginTurn(const Wrench& wrench, const ReactionInput& input) noexc
 Wrench Reaction::turning(const Wrench& wrench, const ReactionInput& input) noexcept {
     turnLeft_ = std::max(0.0, turnLeft_ - (input.newData ? input.period : elapsed_));
     const double share = turnLeft_ / interval_;
-    if (!(share > 0.0) || !(size_ > kTurns)) {
+    if (!(share > 0.0) || !(size_ > kMinDirectionForce)) {
         return wrench;
     }
     const Wrench mix = sumOf(wrench, turnBack_, share * std::min(size_, turnedForce_));
     const double length = metricSize(mix, k_);
-    return length > kMinMix * size_ ? scaled(mix, size_ / length) : wrench;
+    return length > kMinMixLength * size_ ? scaled(mix, size_ / length) : wrench;
 }
 
 Wrench Reaction::step(const ReactionInput& input) noexcept {
@@ -157,7 +157,8 @@ Wrench Reaction::step(const ReactionInput& input) noexcept {
     if (fade_.active()) {
         const Wrench& lost = fade_.lost();
         const double out = glm::dot(travel.moved, lost.force) + glm::dot(travel.turned, lost.torque); // [N m]
-        const double released = input.springs.stiffness * std::max(0.0, out) / std::max(kTurns, fade_.size());
+        const double released =
+            input.springs.stiffness * std::max(0.0, out) / std::max(kMinDirectionForce, fade_.size());
         wrench = sumOf(wrench, fade_.step(wrench, released, k_, elapsed_));
     }
     lastFelt_ = wrench;

@@ -11,13 +11,13 @@ namespace fathom {
 
 namespace {
 
-constexpr double kRoundingForce = 1e-6;   // [N] rounding
-constexpr double kLeastFelt = 1e-3;       // [N] less is not felt
-constexpr double kWithheldShare = 0.5;    // of the spring
-constexpr double kNoise = 0.5;            // of the mean over the mean size: up to here it is noise
-constexpr double kForgets = 10.0;         // [s/s] without contact, of the time constant
-constexpr double kElsewhere = 0.01;       // [m] of travel, after which the surface is another one,
-constexpr double kSlowestElsewhere = 1.2; // [s] and the time constant at most there
+constexpr double kMinByHand = 1e-6;         // [N] less is rounding
+constexpr double kLeastFelt = 1e-3;         // [N] less is not felt
+constexpr double kWithheldShare = 0.5;      // of the spring
+constexpr double kNoiseRatio = 0.5;         // of the mean over the mean size: up to here it is noise
+constexpr double kSlowTimeDecay = 10.0;     // [s/s] without contact, of the time constant
+constexpr double kNewSurfaceTravel = 0.01;  // [m] of travel, after which the surface is another one,
+constexpr double kNewSurfaceSlowTime = 1.2; // [s] and the time constant at most there
 // Of the tool's motion round a ball, over the hand's: most, margin over what was seen, kept from tick to
 // tick.
 constexpr double kMaxGain = 8.0, kGainMargin = 1.2, kGainKept = 0.95;
@@ -34,7 +34,7 @@ void SurfaceNoise::withhold(const SurfaceNoiseInput& input) noexcept {
     const Wrench change = sumOf(input.spring, spring_, -1.0);
     const double size = metricSize(change, input.radius);
     if (!input.dataPushes) {
-        const double seen = input.byHand > kRoundingForce ? kGainMargin * size / input.byHand : 1.0;
+        const double seen = input.byHand > kMinByHand ? kGainMargin * size / input.byHand : 1.0;
         gain_ = std::clamp(std::max(seen, kGainKept * gain_), 1.0, kMaxGain);
     } else if (size > gain_ * input.byHand) {
         withheld_ = sumOf(withheld_, change, 1.0 - gain_ * input.byHand / size);
@@ -45,19 +45,20 @@ void SurfaceNoise::withhold(const SurfaceNoiseInput& input) noexcept {
 // The time constant grows while the hand rests, and shrinks while it moves on or has left.
 void SurfaceNoise::adaptSlowTime(const SurfaceNoiseInput& input, bool contact) noexcept {
     if (!contact) {
-        slowTime_ = std::max(kSettle, slowTime_ - kForgets * input.elapsed);
+        slowTime_ = std::max(kSettle, slowTime_ - kSlowTimeDecay * input.elapsed);
         return;
     }
-    slowTime_ = std::min(kSlowest, slowTime_ + input.elapsed);
+    slowTime_ = std::min(kMaxSlowTime, slowTime_ + input.elapsed);
     const double travel = input.stiffness > 0.0 ? input.byHand / input.stiffness : 0.0;
-    slowTime_ = std::max(std::min(slowTime_, kSlowestElsewhere), slowTime_ * (1.0 - travel / kElsewhere));
+    slowTime_ =
+        std::max(std::min(slowTime_, kNewSurfaceSlowTime), slowTime_ * (1.0 - travel / kNewSurfaceTravel));
 }
 
 // After this tick.
 Wrench SurfaceNoise::stillWithheld(const Part& part, double elapsed, double radius) noexcept {
     const double size = metricSize(part.withheld, radius);
     const double sameWay = metricSize(part.mean, radius) / std::max(part.meanSize, kLeastFelt);
-    const double stays = std::clamp((sameWay - kNoise) / (1.0 - kNoise), 0.0, 1.0);
+    const double stays = std::clamp((sameWay - kNoiseRatio) / (1.0 - kNoiseRatio), 0.0, 1.0);
     const double decay = std::exp(-elapsed * (stays / kSettle + (1.0 - stays) / part.slowTime));
     return scaled(part.withheld, size * decay > part.most ? part.most / size : decay);
 }

@@ -25,15 +25,15 @@ struct SurfaceNoiseInput {
 // How slowly depends on whether the change stays. The mean over kWatch of the withheld force is near zero
 // while noise makes it change its sign, and near its size when a surface has moved. What stays is released
 // with the time constant kSettle. The rest is released with a time constant that grows by a second per second
-// while the hand rests on the surface, up to kSlowest: so the felt surface is the mean of all surfaces since
-// the contact began.
+// while the hand rests on the surface, up to kMaxSlowTime: so the felt surface is the mean of all surfaces
+// since the contact began.
 class SurfaceNoise {
 public:
-    static constexpr double kBand = 0.002;   // [m] of motion of the surface
-    static constexpr double kTurnBand = 0.2; // share of the reaction: 11 degrees
-    static constexpr double kWatch = 0.75;   // [s] time constant
-    static constexpr double kSettle = 0.3;   // [s] time constant
-    static constexpr double kSlowest = 4.0;  // [s] time constant
+    static constexpr double kBand = 0.002;      // [m] of motion of the surface
+    static constexpr double kTurnBand = 0.2;    // share of the reaction: 11 degrees
+    static constexpr double kWatch = 0.75;      // [s] time constant
+    static constexpr double kSettle = 0.3;      // [s] time constant
+    static constexpr double kMaxSlowTime = 4.0; // [s] time constant
 
     // The part of the spring that is felt in this tick.
     Wrench step(const SurfaceNoiseInput& input) noexcept;
