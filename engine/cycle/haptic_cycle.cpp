@@ -124,7 +124,7 @@ ProxyStep HapticCycle::stepTool(const StepInput& input, const ContactSet* set, c
     ProxyStep moved;
     moved.minGap = kNotKnown;
     springEnd_ = device_;
-    jointEnds_ = 0;
+    jointLimits_ = 0;
     out.arm.posture = place().arm;
     if (now.movesTool) {
         moved = moveTool(input, set, newData, out);
@@ -177,7 +177,7 @@ void HapticCycle::makeWrench(const StepInput& input, const Situation& now, const
     tick.springs = watch_.springs();
     tick.pull = guidancePull();
     tick.pushes =
-        (moved.active.empty() && !moved.blocked ? 0 : cause::kRow) | (jointEnds_ == 0 ? 0 : cause::kJoint);
+        (moved.active.empty() && !moved.blocked ? 0 : cause::kRow) | (jointLimits_ == 0 ? 0 : cause::kJoint);
     tick.mayRise = !moved.rowsExpired && !input.doubtful;
     tick.newData = newData;
     tick.lags = arm_ && out.lag > kLagLength; // a free tool follows within some ticks
@@ -224,7 +224,7 @@ StepState HapticCycle::stateOf(const Situation& now, const ProxyStep& moved, boo
     if (stage_.fades() && !arm_) { // an arm's force also fades while it follows a surface
         return StepState::Fading;
     }
-    const bool jointPushes = jointEnds_ != 0 && stage_.reaction() > 0.0;
+    const bool jointPushes = jointLimits_ != 0 && stage_.reaction() > 0.0;
     return lags && !jointPushes ? StepState::Waiting : StepState::Free;
 }
 

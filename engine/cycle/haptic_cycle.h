@@ -170,7 +170,7 @@ private:
         bool wasStill = true;     // Situation::armStill of the last step
         bool placed = false;      // the tool moved to where the active set may not cover it
     } realArm_;
-    uint32_t jointEnds_ = 0; // active joint limits of the last step
+    uint32_t jointLimits_ = 0; // active position limits of joints in the last step
 };
 
 } // namespace fathom

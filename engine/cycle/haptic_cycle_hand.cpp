@@ -46,7 +46,7 @@ void HapticCycle::recentre() noexcept {
 std::optional<dvec3> HapticCycle::vanishedAlong(const ProxyStep& moved, const dvec3& before,
                                                 const dvec3& endBefore) const noexcept {
     const bool left = glm::dot(before - springEnd_.position, pressing_.out) < 0.0;
-    if (!pressing_.rows || left || jointEnds_ != 0 || moved.trapped) {
+    if (!pressing_.rows || left || jointLimits_ != 0 || moved.trapped) {
         return std::nullopt;
     }
     const bool rows = !moved.active.empty();

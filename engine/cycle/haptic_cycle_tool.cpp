@@ -90,7 +90,7 @@ ProxyStep HapticCycle::moveArm(const StepInput& input, const ProxyInput& wanted,
     request.metricRadius = rig_->freeDirection ? 0.0 : wanted.metricRadius;
     const ArmStep moved = arm_->step(request);
     tool_ = moved.pose;
-    jointEnds_ = moved.atEnds;
+    jointLimits_ = moved.atPositionLimits;
     out.arm = {{moved.q, moved.grasp}, moved.residual, moved.manipulability, moved.atLimits,
                moved.graspHeld,        moved.singular, moved.flipped};
     return moved;

@@ -182,7 +182,7 @@ bool ArmKinematics::solve(Answer& answer, bool again, ProxyRows& rows, ArmStep& 
     if (!again) {
         rows.recordActive();
         out.atLimits = rows.atLimits();
-        out.atEnds = rows.atEnds();
+        out.atPositionLimits = rows.atPositionLimits();
     }
     return true;
 }

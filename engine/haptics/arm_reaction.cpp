@@ -31,7 +31,7 @@ void ArmKinematics::recordAllowed(const Answer& answer, bool blocked, const Leaf
                                   ProxyRows& rows, ArmStep& out) const noexcept {
     out.cut = true;
     out.allowed = target_;
-    if (rows.active().empty() && out.atEnds == 0 && !blocked) {
+    if (rows.active().empty() && out.atPositionLimits == 0 && !blocked) {
         return;
     }
     out.blocked = blocked && rows.active().empty();

@@ -139,7 +139,7 @@ void ProxyRows::ignoreSpeeds() noexcept {
 }
 
 void ProxyRows::recordActive() noexcept {
-    activeCount_ = atLimits_ = atEnds_ = 0;
+    activeCount_ = atLimits_ = atPositionLimits_ = 0;
     const std::span<const double> multipliers = solver_.multipliers();
     for (size_t i = 0; i < multipliers.size() && activeCount_ < active_.size(); ++i) {
         const ContactRow& row = rows_[loaded_[i]].contact;
@@ -148,7 +148,7 @@ void ProxyRows::recordActive() noexcept {
         }
         if (row.kind == ContactRow::Kind::Joint) {
             ++atLimits_;
-            atEnds_ += row.offset <= row.gap ? 1 : 0; // not tightened by the joint's speed
+            atPositionLimits_ += row.offset <= row.gap ? 1 : 0; // not tightened by the joint's speed
         } else {
             active_[activeCount_++] = {row, multipliers[i]};
         }

@@ -92,7 +92,9 @@ public:
     void clearActive() noexcept { activeCount_ = 0; }
     std::span<const ActiveContact> active() const noexcept { return {active_.data(), activeCount_}; }
     uint32_t atLimits() const noexcept { return atLimits_; }
-    uint32_t atEnds() const noexcept { return atEnds_; } // the position limits among them
+    uint32_t atPositionLimits() const noexcept {
+        return atPositionLimits_;
+    } // atLimits() also counts speed limits
 
 private:
     struct Row {
@@ -121,7 +123,7 @@ private:
     size_t loadedCount_ = 0;
     std::array<ActiveContact, kMaxUnknowns> active_;
     size_t activeCount_ = 0;
-    uint32_t atLimits_ = 0, atEnds_ = 0;
+    uint32_t atLimits_ = 0, atPositionLimits_ = 0;
 };
 
 } // namespace fathom
