@@ -151,13 +151,15 @@ private:
         double age = 0.0;    // [s]
         bool hasAge = false;
     } scene_;
-    struct Pressing {         // of the last step
-        bool rows = false;    // with a force that can be felt
-        dvec3 out{0.0};       // [m] from the hand's end of the spring to where the rows held the tool
-        double lagTime = 0.0; // [s] the tool has been lagging
-        dvec3 shifted{0.0};   // [m] total shift of the hand map
-        uint32_t vanished = 0;
+    struct Pressing {      // of the last step
+        bool rows = false; // with a force that can be felt
+        dvec3 out{0.0};    // [m] from the hand's end of the spring to where the rows held the tool
     } pressing_;
+    struct HandShift {
+        double lagTime = 0.0;  // [s] for which the tool has been lagging
+        dvec3 total{0.0};      // [m] of the hand map, over the run
+        uint32_t vanished = 0; // times that pressed regions vanished, over the run
+    } handShift_;
     struct Losses {
         bool present = true;
         std::array<double, 3> at{-1e9, -1e9, -1e9}; // [s] the last three

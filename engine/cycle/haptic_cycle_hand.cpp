@@ -74,7 +74,7 @@ void HapticCycle::shiftHand(const dvec3& by, const dquat& turn) noexcept {
         map_.align(handle_, device_);
     }
     stage_.shift(by, turn);
-    pressing_.shifted += by;
+    handShift_.total += by;
     if (proxy_) {
         proxy_->setTarget(springEnd_);
     }
@@ -102,21 +102,21 @@ void HapticCycle::keepHandAtTool(const Pose& before, const dvec3& along, ProxySt
         moved.allowed.position += by;
     }
     moved.cut = !all;
-    ++pressing_.vanished;
-    pressing_.lagTime = 0.0;
+    ++handShift_.vanished;
+    handShift_.lagTime = 0.0;
 }
 
 void HapticCycle::takeUpLag(ProxyStep& moved, StepRecord& out) noexcept {
     const dvec3 lag = moved.cut ? moved.allowed.position - tool_.position : dvec3(0.0);
     out.lag = glm::length(lag);
-    pressing_.lagTime = out.lag > kLagLength ? pressing_.lagTime + options_.period : 0.0;
-    if (pressing_.lagTime > kLagTime && !arm_) {
+    handShift_.lagTime = out.lag > kLagLength ? handShift_.lagTime + options_.period : 0.0;
+    if (handShift_.lagTime > kLagTime && !arm_) {
         const dvec3 by = -(options_.period / kTakeUpTime) * lag;
         shiftHand(by, kNoTurn);
         moved.allowed.position += by;
     }
-    out.indexShift = pressing_.shifted;
-    out.vanished = pressing_.vanished;
+    out.indexShift = handShift_.total;
+    out.vanished = handShift_.vanished;
 }
 
 } // namespace fathom
