@@ -92,9 +92,8 @@ public:
     void clearActive() noexcept { activeCount_ = 0; }
     std::span<const ActiveContact> active() const noexcept { return {active_.data(), activeCount_}; }
     uint32_t atLimits() const noexcept { return atLimits_; }
-    uint32_t atPositionLimits() const noexcept {
-        return atPositionLimits_;
-    } // atLimits() also counts speed limits
+    // Active limits of joints: of position and of speed, and of position alone.
+    uint32_t atPositionLimits() const noexcept { return atPositionLimits_; }
 
 private:
     struct Row {
