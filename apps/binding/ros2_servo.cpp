@@ -101,7 +101,7 @@ void Ros2Servo::sendTwist(const Ros2Tick& tick) {
     if (time > 0.0 && time < kLongestGap && !now.armHold && !before_->record.armHold) {
         const Pose& from = before_->record.tool;
         linear = (now.tool.position - from.position) / time;
-        angular = rotationLog(now.tool.rotation * glm::conjugate(from.rotation)) / time;
+        angular = rotationBetween(from.rotation, now.tool.rotation) / time;
     }
     twist_->write(ros2::twist({tick.time, frame_}, linear, angular));
 }

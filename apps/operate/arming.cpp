@@ -37,8 +37,7 @@ std::string handIsOff(const ArmingInput& input) {
                       : " from the tool") +
                ": " + toTool(input);
     }
-    const double turn =
-        glm::length(rotationLog(record.device.rotation * glm::conjugate(record.tool.rotation)));
+    const double turn = glm::length(rotationBetween(record.tool.rotation, record.device.rotation));
     if (turn > kTwist && record.contacts > 0) {
         return std::string("hand is turned against the tool: ") +
                (input.haptics.clutchBit != 0 ? "hold C to re-centre" : "turn it back");

@@ -34,7 +34,7 @@ HandSample PilotHand::read(double t) noexcept {
     velocity_ += dt * (kPull * kPull * gap - 2.0 * kPull * velocity_);
     velocity_ = clampLength(velocity_, kSpeed);
     now_.position += dt * velocity_;
-    const dvec3 turn = rotationLog(setpoint.deviceThandle.rotation * glm::conjugate(now_.rotation));
+    const dvec3 turn = rotationBetween(now_.rotation, setpoint.deviceThandle.rotation);
     const dvec3 share = clampLength(turn * std::min(1.0, kPull * dt), kTurnSpeed * dt);
     now_.rotation = glm::normalize(rotationExp(share) * now_.rotation);
     return {now_, setpoint.buttons};

@@ -73,7 +73,7 @@ void LoopRig::show(Fixtures fixtures) {
 void LoopRig::account(const Wrench& felt, const Pose& before, double period) {
     const Pose& after = hand_.handle();
     const dvec3 moved = after.position - before.position;
-    const dvec3 turned = rotationLog(after.rotation * glm::conjugate(before.rotation));
+    const dvec3 turned = rotationBetween(before.rotation, after.rotation);
     const double kk = spec_.armLength * spec_.armLength;
     const double square = glm::dot(moved, moved) + kk * glm::dot(turned, turned);
     energyOut_ += glm::dot(felt.force, moved) + glm::dot(felt.torque, turned);

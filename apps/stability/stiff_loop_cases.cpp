@@ -68,7 +68,7 @@ private:
         time_ += options_.period;
         const Wrench now = cycle_.step(input).wrench;
         const dvec3 moved = device.position - was_.position;
-        const dvec3 turned = rotationLog(device.rotation * glm::conjugate(was_.rotation));
+        const dvec3 turned = rotationBetween(was_.rotation, device.rotation);
         const double work = 0.5 * (glm::dot(now.force + before_.force, moved) +
                                    glm::dot(now.torque + before_.torque, turned));
         stored_ = std::max(stored_,

@@ -90,7 +90,7 @@ void SimulatedHand::substep(const Wrench& wrench, double t, double h) noexcept {
     const double kk = options_.armLength * options_.armLength;
     const dquat half = rotationExp(0.5 * h * spin_);
     const dquat middle = half * handle_.rotation;
-    const dvec3 away = rotationLog(intended.rotation * glm::conjugate(middle));
+    const dvec3 away = rotationBetween(middle, intended.rotation);
     const dvec3 twist = loop.stiffness * kk * away + wrench.torque;
     spin_ = slowing * (slowing * spin_ + (h / (loop.mass * kk)) * twist);
     handle_.rotation = glm::normalize(rotationExp(0.5 * h * spin_) * middle);
@@ -101,7 +101,7 @@ double SimulatedHand::energy(double t) const noexcept {
     const Pose intended = path_.at(t).deviceThandle;
     const double kk = options_.armLength * options_.armLength;
     const dvec3 stretch = intended.position - handle_.position;
-    const dvec3 away = rotationLog(intended.rotation * glm::conjugate(handle_.rotation));
+    const dvec3 away = rotationBetween(handle_.rotation, intended.rotation);
     return 0.5 * loop.mass * (glm::dot(velocity_, velocity_) + kk * glm::dot(spin_, spin_)) +
            0.5 * loop.stiffness * (glm::dot(stretch, stretch) + kk * glm::dot(away, away));
 }

@@ -57,7 +57,7 @@ void GuidanceEstimates::Settled::turn(const GuidancePose& pose) {
     if (!same && others < kConvincing) {
         return;
     }
-    const dvec3 measured = rotationLog(pose.target.rotation * glm::conjugate(reference));
+    const dvec3 measured = rotationBetween(reference, pose.target.rotation);
     if (!same || glm::length(measured) > kLargestTurn) {
         planar = pose.planar;
         rollFree = pose.rollFree;

@@ -20,7 +20,7 @@ bool lostItsHold(const dvec3& before, const dvec3& held, double byHand) {
 
 // Of the spring between the hand's end and a pose: its turn as a length, with the metric radius k [m].
 dvec3 turnOf(const Pose& allowed, const Pose& end, double k) {
-    return k * rotationLog(allowed.rotation * glm::conjugate(end.rotation));
+    return k * rotationBetween(end.rotation, allowed.rotation);
 }
 
 // The regions that pressed by a torque are gone. The hand turns far less than kPartGone in a tick.

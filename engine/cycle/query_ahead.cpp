@@ -14,7 +14,7 @@ constexpr double kForgetAge = 1.0; // [s] time constant with which the effect of
 
 void QueryAhead::moved(const ToolState& now) noexcept {
     const double blend = started_ ? std::min(1.0, period_ / kSmooth) : 0.0;
-    const dvec3 turned = rotationLog(now.pose.rotation * glm::conjugate(before_.pose.rotation));
+    const dvec3 turned = rotationBetween(before_.pose.rotation, now.pose.rotation);
     velocity_ = started_ ? velocity_ : dvec3(0.0);
     spin_ = started_ ? spin_ : dvec3(0.0);
     velocity_ += blend * ((now.pose.position - before_.pose.position) / period_ - velocity_);

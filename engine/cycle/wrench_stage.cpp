@@ -62,7 +62,7 @@ Wrench WrenchStage::damping(const WrenchInput& input, const Wrench& reaction) no
     if (springs.damping != 0.0 || springs.rotationalDamping != 0.0) {
         const double elapsed = std::max(options_.period, input.elapsed); // a late tick sees a longer way
         const dvec3 moved = input.device.position - deviceBefore_.position;
-        const dvec3 spun = rotationLog(input.device.rotation * glm::conjugate(deviceBefore_.rotation));
+        const dvec3 spun = rotationBetween(deviceBefore_.rotation, input.device.rotation);
         wrench.force = along(-moved, reaction.force) * (springs.damping / elapsed);
         wrench.torque = along(-spun, reaction.torque) * (springs.rotationalDamping / elapsed);
     }

@@ -92,7 +92,7 @@ StabilityMargins stabilityMargins(const DevicePreset& preset, const Springs& spr
 }
 
 Wrench couple(const Springs& springs, const Pose& tool, const Pose& device) noexcept {
-    const dvec3 turn = rotationLog(tool.rotation * glm::conjugate(device.rotation));
+    const dvec3 turn = rotationBetween(device.rotation, tool.rotation);
     return {springs.stiffness * (tool.position - device.position), springs.rotationalStiffness * turn};
 }
 

@@ -82,7 +82,7 @@ void Guidance::follow(std::span<const GuidancePose> poses, double dt) noexcept {
         return;
     }
     target_.position += clampLength(wanted.position - target_.position, limits_.speed * dt);
-    const dvec3 turn = rotationLog(wanted.rotation * glm::conjugate(target_.rotation));
+    const dvec3 turn = rotationBetween(target_.rotation, wanted.rotation);
     target_.rotation =
         glm::normalize(rotationExp(clampLength(turn, limits_.turnSpeed * dt)) * target_.rotation);
 }
@@ -116,7 +116,7 @@ GuidanceReach Guidance::pullReach(const Springs& springs) const noexcept {
 
 dvec3 Guidance::turnFrom(const Pose& device) const noexcept {
     return rollFree_ ? axisTurn(device.rotation, target_.rotation)
-                     : rotationLog(target_.rotation * glm::conjugate(device.rotation));
+                     : rotationBetween(device.rotation, target_.rotation);
 }
 
 // The part of `way` to the target that is ahead of the hand. most: what the speed has allowed so far.

@@ -25,10 +25,6 @@ double energyOf(double pull, double stiffness, double gain, double limit) {
                           : limit * pull / stiffness - limit * limit / (2.0 * stiffness * gain);
 }
 
-dvec3 turnBetween(const Pose& from, const Pose& to) {
-    return rotationLog(to.rotation * glm::conjugate(from.rotation));
-}
-
 } // namespace
 
 PassivityOptions makePassivity(const DevicePreset& preset, const Springs& springs,
@@ -82,9 +78,10 @@ Wrench PassivityController::actuated(const PassivityStep& tick, const dvec3& mov
 }
 
 void PassivityController::observe(const PassivityStep& tick) noexcept {
-    const dvec3 endMoved = tick.end.position - end_.position, endTurned = turnBetween(end_, tick.end);
+    const dvec3 endMoved = tick.end.position - end_.position,
+                endTurned = rotationBetween(end_.rotation, tick.end.rotation);
     moved_ = tick.device.position - device_.position;
-    turned_ = turnBetween(device_, tick.device);
+    turned_ = rotationBetween(device_.rotation, tick.device.rotation);
     // The oldest entry of the ring: the wrench that acted on the hand in the interval that ends now.
     const Applied& acted = applied_[writes_ % (options_.delayTicks + 1)];
     const double damped = -workOf(acted.damper, moved_, turned_);

@@ -39,8 +39,7 @@ Reaction::Travel Reaction::travelOf(const Pose& end) noexcept {
     const Pose before = started_ ? end_ : end;
     end_ = end;
     started_ = true;
-    Travel travel{end.position - before.position, rotationLog(end.rotation * glm::conjugate(before.rotation)),
-                  0.0};
+    Travel travel{end.position - before.position, rotationBetween(before.rotation, end.rotation), 0.0};
     travel.length =
         std::sqrt(glm::dot(travel.moved, travel.moved) + glm::dot(k_ * travel.turned, k_ * travel.turned));
     return travel;

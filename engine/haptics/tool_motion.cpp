@@ -59,7 +59,7 @@ Motion remaining(const Pose& pose, const Pose& target) noexcept {
     if (target.rotation == pose.rotation) { // exactly there: rounding must not keep it rotating
         return {target.position - pose.position, dvec3(0.0)};
     }
-    return {target.position - pose.position, rotationLog(target.rotation * glm::conjugate(pose.rotation))};
+    return {target.position - pose.position, rotationBetween(pose.rotation, target.rotation)};
 }
 
 double lengthOf(const Motion& motion, double k) noexcept {

@@ -51,7 +51,7 @@ private:
 
     static bool reaches(const Pose& from, const Pose& to, double seconds) noexcept {
         const double time = seconds > kShortest ? seconds : kShortest;
-        const double turn = glm::length(rotationLog(to.rotation * glm::conjugate(from.rotation)));
+        const double turn = glm::length(rotationBetween(from.rotation, to.rotation));
         return glm::distance(from.position, to.position) <= kFastest * time && turn <= kFastestTurn * time;
     }
 

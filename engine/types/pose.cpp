@@ -16,6 +16,10 @@ dvec3 rotationLog(const dquat& q) noexcept {
     return v * (2.0 * std::atan2(s, w) / s);
 }
 
+dvec3 rotationBetween(const dquat& a, const dquat& b) noexcept {
+    return rotationLog(b * glm::conjugate(a));
+}
+
 dquat rotationExp(const dvec3& v) noexcept {
     const double angle = glm::length(v);
     // series of sin(a/2)/a near zero, where the quotient loses digits
@@ -24,7 +28,7 @@ dquat rotationExp(const dvec3& v) noexcept {
 }
 
 Pose interpolate(const Pose& a, const Pose& b, double s) noexcept {
-    const dvec3 arc = rotationLog(b.rotation * glm::conjugate(a.rotation));
+    const dvec3 arc = rotationBetween(a.rotation, b.rotation);
     return {a.position + s * (b.position - a.position), rotationExp(s * arc) * a.rotation};
 }
 

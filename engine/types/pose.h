@@ -31,6 +31,10 @@ inline Pose inverse(const Pose& aTb) {
 // Rotation vector [rad] of a unit quaternion by the shortest arc: |result| <= pi. Accurate for tiny angles.
 dvec3 rotationLog(const dquat& q) noexcept;
 
+// Rotation vector [rad] that turns a into b by the shortest arc, in the frame in which both are given. Unit
+// quaternions.
+dvec3 rotationBetween(const dquat& a, const dquat& b) noexcept;
+
 // Unit quaternion of a rotation vector [rad].
 dquat rotationExp(const dvec3& v) noexcept;
 

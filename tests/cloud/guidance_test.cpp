@@ -39,7 +39,7 @@ PoseError compare(const GuidancePose& here, const GuidancePose& there) {
     CHECK(here.rollFree == there.rollFree);
     return {glm::distance(here.position, there.position), glm::distance(here.normal, there.normal),
             glm::distance(here.target.position, there.target.position),
-            glm::length(rotationLog(here.target.rotation * glm::conjugate(there.target.rotation)))};
+            glm::length(rotationBetween(there.target.rotation, here.target.rotation))};
 }
 
 std::vector<dvec3> slab(std::mt19937_64& random, const dvec3& centre, const dquat& turn, const dvec3& sigma,

@@ -34,7 +34,7 @@ TEST_CASE(
     const ToolState asked = tool.ahead.ask(tool.now, 0.5, 3);
     const dvec3 way = asked.pose.position - tool.now.pose.position;
     CHECK(glm::distance(way, 0.03 * dvec3(0.1, 0, -0.2)) < 1e-6);
-    const dvec3 turn = rotationLog(asked.pose.rotation * glm::conjugate(tool.now.pose.rotation));
+    const dvec3 turn = rotationBetween(tool.now.pose.rotation, asked.pose.rotation);
     CHECK(glm::distance(turn, {0, 0, 0.06}) < 1e-6);
     CHECK(asked.arm.q[1] - tool.now.arm.q[1] == doctest::Approx(0.015));
     CHECK(asked.moreReach ==

@@ -192,7 +192,7 @@ TEST_CASE("The wrench is the negative gradient of the springs' energy over the d
     const Pose device{{0.11, 0.18, 0.33}, rotationExp({0.6, 0.1, -0.4})};
     const auto energy = [&](const Pose& at) {
         const dvec3 d = tool.position - at.position;
-        const dvec3 turn = rotationLog(tool.rotation * glm::conjugate(at.rotation));
+        const dvec3 turn = rotationBetween(at.rotation, tool.rotation);
         return 0.5 * springs.stiffness * glm::dot(d, d) +
                0.5 * springs.rotationalStiffness * glm::dot(turn, turn);
     };

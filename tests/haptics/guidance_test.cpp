@@ -137,8 +137,7 @@ TEST_CASE("A target that jumps is followed at 0.1 m/s and 0.5 rad/s and reached 
     for (int i = 0; i < 500; ++i) {
         guidance.step(poses, {}, true, false, kTick);
         CHECK(glm::distance(guidance.target().position, before.position) <= 1e-4 + 1e-12);
-        CHECK(glm::length(rotationLog(guidance.target().rotation * glm::conjugate(before.rotation))) <=
-              5e-4 + 1e-12);
+        CHECK(glm::length(rotationBetween(before.rotation, guidance.target().rotation)) <= 5e-4 + 1e-12);
         before = guidance.target();
         if (i == 249) {
             CHECK(before.position.x == doctest::Approx(0.015));

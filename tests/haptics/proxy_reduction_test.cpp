@@ -90,7 +90,7 @@ std::vector<Against> compare(const Walls& w, const std::vector<RowReduction>& re
             few.proxy().setPose(from);
             few.query();
             const ProxyStep b = few.turnOnly(hand);
-            const dvec3 turned = rotationLog(b.pose.rotation * glm::conjugate(a.pose.rotation));
+            const dvec3 turned = rotationBetween(a.pose.rotation, b.pose.rotation);
             const double apart =
                 std::hypot(glm::distance(a.pose.position, b.pose.position), 0.05 * glm::length(turned));
             const bool comparable = a.rounds == b.rounds && a.bisected == b.bisected;

@@ -63,3 +63,10 @@ TEST_CASE("The tree validator names a child that sticks out") {
     tree.nodes[1].radius = 5.0;
     CHECK(validate(tree) == "node 0 does not enclose its child 1");
 }
+
+TEST_CASE("The rotation between two orientations turns the first into the second, by the shorter arc") {
+    const dquat from = rotationExp({0.3, -0.2, 1.0});
+    const dquat to = rotationExp({0.1, 0.5, -0.4}) * from;
+    CHECK(glm::length(rotationBetween(from, to) - dvec3(0.1, 0.5, -0.4)) < 1e-14);
+    CHECK(glm::length(rotationBetween(from, -to) - dvec3(0.1, 0.5, -0.4)) < 1e-14);
+}
