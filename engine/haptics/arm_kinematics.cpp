@@ -98,9 +98,8 @@ JointVector ArmKinematics::normalOf(const ContactRow& row, const LeafState& leav
     JointVector normal{}; // constrains the tip
     const dvec3 tip = pose().position;
     for (size_t k = 0; k < arm_.count(); ++k) {
-        const dvec3 rotation = arm_.joints[k].slides ? dvec3(0.0) : arm_.axisOf(now_.frames, k);
         normal[column_[k]] += gain_[k] * (glm::dot(row.normal, arm_.motionOf(now_.frames, k, tip)) +
-                                          glm::dot(row.spin, rotation));
+                                          glm::dot(row.spin, arm_.rotationOf(now_.frames, k)));
     }
     return normal;
 }
@@ -143,9 +142,8 @@ bool ArmKinematics::aim(const LeafState&, ProxyRows& rows, ArmStep& out) noexcep
     left = std::min(1.0, kFarthestAim * options_.stepCap / lengthOf(left, metricRadius_)) * left;
     normal_ = ArmNormal(free_.size());
     for (size_t k = 0; k < arm_.count(); ++k) {
-        const dvec3 rotation = arm_.joints[k].slides ? dvec3(0.0) : arm_.axisOf(now_.frames, k);
         normal_.addColumn(column_[k], gain_[k] * arm_.motionOf(now_.frames, k, tip.position),
-                          gain_[k] * metricRadius_ * rotation);
+                          gain_[k] * metricRadius_ * arm_.rotationOf(now_.frames, k));
         if (!arm_.joints[k].mimic && arm_.joints[k].lower == arm_.joints[k].upper) {
             normal_.leaveOut(column_[k]);
         }

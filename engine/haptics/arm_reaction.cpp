@@ -10,7 +10,7 @@ Motion ArmKinematics::motionOf(const JointVector& dq) const noexcept {
     for (size_t k = 0; k < arm_.count(); ++k) {
         const double moved = gain_[k] * dq[column_[k]];
         motion.a += moved * arm_.motionOf(now_.frames, k, tip);
-        motion.alpha += moved * (arm_.joints[k].slides ? dvec3(0.0) : arm_.axisOf(now_.frames, k));
+        motion.alpha += moved * arm_.rotationOf(now_.frames, k);
     }
     return motion;
 }

@@ -107,6 +107,10 @@ public:
     dvec3 axisOf(const ArmFrames& frames, size_t k) const noexcept {
         return frames[k + 1].rotation * joints[k].axis;
     }
+    // Angular velocity of the tip per speed of joint `k`: the axis, or zero for a sliding joint.
+    dvec3 rotationOf(const ArmFrames& frames, size_t k) const noexcept {
+        return joints[k].slides ? dvec3(0.0) : axisOf(frames, k);
+    }
 };
 
 // Which part of the URDF is the arm, and what the scene overrides.

@@ -31,8 +31,8 @@ Columns tipColumns(const ArmModel& arm, const ArmFrames& frames, double k,
                    const std::vector<size_t>& joints) {
     Columns columns;
     for (const size_t j : joints) {
-        const dvec3 turning = arm.joints[j].slides ? dvec3(0.0) : arm.axisOf(frames, j);
-        columns.push_back(stacked(arm.motionOf(frames, j, arm.tip(frames).position), k * turning));
+        columns.push_back(
+            stacked(arm.motionOf(frames, j, arm.tip(frames).position), k * arm.rotationOf(frames, j)));
     }
     return columns;
 }
