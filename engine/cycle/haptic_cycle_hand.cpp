@@ -2,6 +2,8 @@
 // The part of a step that moves the hand map: pressed regions that vanish, a tool that lags, the clutch.
 #include "engine/cycle/haptic_cycle.h"
 
+#include "engine/haptics/limits.h"
+
 namespace fathom {
 namespace {
 
@@ -91,13 +93,13 @@ void HapticCycle::keepHandAtTool(const Pose& before, const dvec3& along, ProxySt
         proxy_->setPose(before);
     }
     const dvec3 apart = tool_.position - springEnd_.position;
-    const double square = glm::dot(along, along);
-    const dvec3 by = all ? apart : square > 0.0 ? along * (glm::dot(apart, along) / square) : dvec3(0.0);
+    const dvec3 by = all ? apart : projectedOn(apart, along);
     shiftHand(by, turned ? tool_.rotation * glm::conjugate(springEnd_.rotation) : kNoTurn);
     if (all) {
         moved.allowed = springEnd_;
     } else if (turned) { // the solver allowed a position for a tool that turns
-        moved.allowed = {(square > 0.0 ? moved.allowed : allowed_).position + by, tool_.rotation};
+        moved.allowed = {(glm::dot(along, along) > 0.0 ? moved.allowed : allowed_).position + by,
+                         tool_.rotation};
     } else {
         moved.allowed.position += by;
     }

@@ -25,12 +25,6 @@ bool isZero(const Wrench& wrench) {
     return wrench.force == dvec3(0.0) && wrench.torque == dvec3(0.0);
 }
 
-// `v` along `axis` only.
-dvec3 along(const dvec3& v, const dvec3& axis) {
-    const double square = glm::dot(axis, axis);
-    return square > 0.0 ? axis * (glm::dot(v, axis) / square) : dvec3(0.0);
-}
-
 } // namespace
 
 WrenchStage::WrenchStage(const HapticOptions& options)
@@ -63,8 +57,8 @@ Wrench WrenchStage::damping(const WrenchInput& input, const Wrench& reaction) no
         const double elapsed = std::max(options_.period, input.elapsed); // a late tick sees a longer way
         const dvec3 moved = input.device.position - deviceBefore_.position;
         const dvec3 spun = rotationBetween(deviceBefore_.rotation, input.device.rotation);
-        wrench.force = along(-moved, reaction.force) * (springs.damping / elapsed);
-        wrench.torque = along(-spun, reaction.torque) * (springs.rotationalDamping / elapsed);
+        wrench.force = projectedOn(-moved, reaction.force) * (springs.damping / elapsed);
+        wrench.torque = projectedOn(-spun, reaction.torque) * (springs.rotationalDamping / elapsed);
     }
     deviceBefore_ = input.device;
     return wrench;

@@ -20,6 +20,11 @@ dvec3 clampLength(const dvec3& v, double limit) noexcept {
     return length > limit ? v * (limit / length) : v;
 }
 
+dvec3 projectedOn(const dvec3& v, const dvec3& axis) noexcept {
+    const double square = glm::dot(axis, axis);
+    return square > 0.0 ? axis * (glm::dot(v, axis) / square) : dvec3(0.0);
+}
+
 Wrench limitSize(const Wrench& wrench, double force, double torque) noexcept {
     return {clampLength(wrench.force, force), clampLength(wrench.torque, torque)};
 }

@@ -17,6 +17,9 @@ Wrench scaled(const Wrench& wrench, double factor) noexcept;
 // v shortened to length `limit`, same direction. limit >= 0.
 dvec3 clampLength(const dvec3& v, double limit) noexcept;
 
+// v along `axis` (of any length) only; zero for a zero axis.
+dvec3 projectedOn(const dvec3& v, const dvec3& axis) noexcept;
+
 // Force and torque each shortened to their limit [N], [N m], same direction.
 Wrench limitSize(const Wrench& wrench, double force, double torque) noexcept;
 

@@ -31,6 +31,11 @@ TEST_CASE("Force and torque are shortened as whole vectors and keep their direct
     CHECK(glm::length(limitSize({dvec3(1, 2, 3), dvec3(1.0)}, 0.0, 0.0).force) == 0.0);
 }
 
+TEST_CASE("A projection keeps what lies along an axis of any length, and nothing of a zero axis") {
+    CHECK(projectedOn({3, 4, 5}, {0, -1e-3, 0}) == dvec3(0, 4, 0));
+    CHECK(projectedOn({3, 4, 5}, dvec3(0.0)) == dvec3(0.0));
+}
+
 TEST_CASE("A slewed wrench moves by at most a step, arrives exactly, and stays inside the size limits") {
     Rng random(2);
     Wrench now;
