@@ -134,7 +134,7 @@ bool ArmKinematics::addRow(ContactRow row, const LeafState& leaves, ProxyRows& r
     return rows.add(row, normal);
 }
 
-bool ArmKinematics::aim(const LeafState&, ProxyRows& rows, ArmStep& out) noexcept {
+bool ArmKinematics::beginLinearisation(const LeafState&, ProxyRows& rows, ArmStep& out) noexcept {
     const Pose tip = pose();
     // The path to a far target is curved: request only what one solve can reach, or a stretched arm
     // oscillates.
@@ -191,21 +191,21 @@ void ArmKinematics::tryPosture(const JointVector& q, double grasp, LeafState& le
     places_.place(next_.frames, leaves.origin, leaves.next);
 }
 
-void ArmKinematics::tryPart(const Answer& answer, double part, LeafState& leaves) noexcept {
+void ArmKinematics::tryFraction(const Answer& answer, double fraction, LeafState& leaves) noexcept {
     JointVector q{};
     for (size_t u = 0; u < free_.size(); ++u) {
         const Range range = rangeOf(u);
-        q[free_[u]] = std::clamp(now_.posture.q[free_[u]] + part * answer.dq[u], range.low, range.high);
+        q[free_[u]] = std::clamp(now_.posture.q[free_[u]] + fraction * answer.dq[u], range.low, range.high);
     }
     arm_.follow(q);
     tryPosture(q, now_.posture.grasp, leaves);
 }
 
 // Cuts the solution to the step cap and tries it. The exact check enforces the trust region.
-bool ArmKinematics::fit(Answer& answer, LeafContacts& contacts, const ProxyRows&) noexcept {
+bool ArmKinematics::cutAndTry(Answer& answer, LeafContacts& contacts, const ProxyRows&) noexcept {
     answer.capFraction = 1.0;
     for (int k = 0; k < kCapTries; ++k) {
-        tryPart(answer, answer.capFraction, contacts.leaves);
+        tryFraction(answer, answer.capFraction, contacts.leaves);
         const double travel = contacts.leaves.travel();
         if (travel <= options_.stepCap) {
             return false;
@@ -213,13 +213,13 @@ bool ArmKinematics::fit(Answer& answer, LeafContacts& contacts, const ProxyRows&
         answer.capFraction *= 0.999 * options_.stepCap / travel;
     }
     answer.capFraction = 0.0;
-    tryPart(answer, 0.0, contacts.leaves);
+    tryFraction(answer, 0.0, contacts.leaves);
     return false;
 }
 
-StepOutcome ArmKinematics::judge(const Answer&, double part, const LeafState& leaves, ProxyRows&,
-                                 const ArmStep& out) noexcept {
-    if (part == 0.0) {
+StepOutcome ArmKinematics::outcomeOf(const Answer&, double fraction, const LeafState& leaves, ProxyRows&,
+                                     const ArmStep& out) noexcept {
+    if (fraction == 0.0) {
         return StepOutcome::None;
     }
     // Arcs and raised offsets must not move the tip away from a hand at rest.
@@ -231,7 +231,7 @@ StepOutcome ArmKinematics::judge(const Answer&, double part, const LeafState& le
         }
         return StepOutcome::None;
     }
-    escapeLeft_ *= 1.0 - part;
+    escapeLeft_ *= 1.0 - fraction;
     return leaves.travel() > proxy::kNothing ? StepOutcome::More : StepOutcome::Last;
 }
 

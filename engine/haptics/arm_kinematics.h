@@ -82,15 +82,15 @@ public:
     dvec3 lever(size_t, const dvec3& centre) const noexcept { return centre - pose().position; }
 
     // One linearisation.
-    bool aim(const LeafState&, ProxyRows& rows, ArmStep& out) noexcept;
+    bool beginLinearisation(const LeafState&, ProxyRows& rows, ArmStep& out) noexcept;
     bool solve(Answer& answer, bool again, ProxyRows& rows, ArmStep& out) const noexcept;
-    bool fit(Answer& answer, LeafContacts& contacts, const ProxyRows&) noexcept;
-    double wholePart(const Answer& answer) const noexcept { return answer.capFraction; }
-    void tryPart(const Answer& answer, double part, LeafState& leaves) noexcept;
-    StepOutcome judge(const Answer&, double part, const LeafState& leaves, ProxyRows&,
-                      const ArmStep& out) noexcept;
-    void take() noexcept { now_ = next_; }
-    // Before take(): fills out.allowed, cut and rowsExpired. An arm reports `allowed` in every tick, because
+    bool cutAndTry(Answer& answer, LeafContacts& contacts, const ProxyRows&) noexcept;
+    double fullFraction(const Answer& answer) const noexcept { return answer.capFraction; }
+    void tryFraction(const Answer& answer, double fraction, LeafState& leaves) noexcept;
+    StepOutcome outcomeOf(const Answer&, double fraction, const LeafState& leaves, ProxyRows&,
+                          const ArmStep& out) noexcept;
+    void commit() noexcept { now_ = next_; }
+    // Before commit(): fills out.allowed, cut and rowsExpired. An arm reports `allowed` in every tick, because
     // it may not reach a target for reasons without a force: joint speeds, the workspace, a singular posture.
     // blocked: the exact check shortened the motion.
     void recordAllowed(const Answer& answer, bool blocked, const LeafContacts& contacts, ProxyRows& rows,

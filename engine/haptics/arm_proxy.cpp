@@ -61,7 +61,7 @@ void ArmProxy::moveGrasp(double grasp, ArmStep& out) noexcept {
         kinematics_.tryGrasp(now + change, contacts_.leaves);
         if (contacts_.leaves.travel() <= options_.stepCap && allowed(false)) {
             out.graspHeld = tries > 0;
-            kinematics_.take();
+            kinematics_.commit();
             contacts_.leaves.now.swap(contacts_.leaves.next);
             return;
         }

@@ -96,8 +96,8 @@ private:
     double bisect(const Answer& answer) noexcept;
 
     Deadline deadline_;
-    bool everyShapeRow_ = true; // each leaf near a shape has its rows
-    bool onlyLeft_ = false; // the last bisection found no violation, only parts outside of the trust region
+    bool everyShapeRow_ = true;          // each leaf near a shape has its rows
+    bool onlyTrustRegionFailed_ = false; // in the last bisection
 };
 
 template <class Kinematics>
@@ -141,7 +141,7 @@ template <class Kinematics>
 bool ConstrainedProxy<Kinematics>::linearise(bool first, Step& out) noexcept {
     out.cut = out.rowsExpired = false;
     collectRows(first, out);
-    if (!kinematics_.aim(contacts_.leaves, rows_, out)) {
+    if (!kinematics_.beginLinearisation(contacts_.leaves, rows_, out)) {
         return false;
     }
     ++out.solves;
@@ -155,12 +155,12 @@ bool ConstrainedProxy<Kinematics>::linearise(bool first, Step& out) noexcept {
     }
     const bool fits = fitsExactly(answer, out);
     out.bisected += fits ? 0 : 1;
-    const double part = fits ? kinematics_.wholePart(answer) : bisect(answer);
+    const double fraction = fits ? kinematics_.fullFraction(answer) : bisect(answer);
     out.stalled = out.stalled || answer.stalled;
-    kinematics_.recordAllowed(answer, !fits && !onlyLeft_, contacts_, rows_, out);
-    const StepOutcome outcome = kinematics_.judge(answer, part, contacts_.leaves, rows_, out);
+    kinematics_.recordAllowed(answer, !fits && !onlyTrustRegionFailed_, contacts_, rows_, out);
+    const StepOutcome outcome = kinematics_.outcomeOf(answer, fraction, contacts_.leaves, rows_, out);
     if (outcome != StepOutcome::None) {
-        kinematics_.take();
+        kinematics_.commit();
         contacts_.leaves.now.swap(contacts_.leaves.next);
     }
     return outcome == StepOutcome::More;
@@ -171,7 +171,7 @@ bool ConstrainedProxy<Kinematics>::linearise(bool first, Step& out) noexcept {
 template <class Kinematics>
 bool ConstrainedProxy<Kinematics>::fitsExactly(Answer& answer, Step& out) noexcept {
     for (int round = 0;; ++round) {
-        const bool inside = kinematics_.fit(answer, contacts_, rows_);
+        const bool inside = kinematics_.cutAndTry(answer, contacts_, rows_);
         if (allowed(inside)) {
             return true;
         }
@@ -224,16 +224,17 @@ bool ConstrainedProxy<Kinematics>::shapesAllow() const noexcept {
 // passes.
 template <class Kinematics>
 double ConstrainedProxy<Kinematics>::bisect(const Answer& answer) noexcept {
-    double good = 0.0, bad = kinematics_.wholePart(answer);
-    onlyLeft_ = true;
+    double good = 0.0, bad = kinematics_.fullFraction(answer);
+    onlyTrustRegionFailed_ = true;
     for (int k = 0; k < kBisections && (k == 0 || !late()); ++k) {
         const double middle = 0.5 * (good + bad);
-        kinematics_.tryPart(answer, middle, contacts_.leaves);
+        kinematics_.tryFraction(answer, middle, contacts_.leaves);
         const bool fits = allowed(false);
         (fits ? good : bad) = middle;
-        onlyLeft_ = onlyLeft_ && (fits || (contacts_.check() == 0 && shapesAllow()));
+        onlyTrustRegionFailed_ =
+            onlyTrustRegionFailed_ && (fits || (contacts_.check() == 0 && shapesAllow()));
     }
-    kinematics_.tryPart(answer, good, contacts_.leaves);
+    kinematics_.tryFraction(answer, good, contacts_.leaves);
     return good;
 }
 

@@ -69,7 +69,8 @@ bool ToolKinematics::addRow(const ContactRow& row, const LeafState&, ProxyRows& 
     return rows.add(row, unknownsOf({row.normal, glm::cross(row.arm, row.normal) + row.spin}));
 }
 
-bool ToolKinematics::aim(const LeafState&, const ProxyRows& rows, const ProxyStep& out) noexcept {
+bool ToolKinematics::beginLinearisation(const LeafState&, const ProxyRows& rows,
+                                        const ProxyStep& out) noexcept {
     newData_ = rows.escaping();
     wanted_ = remaining(pose_, target_);
     return out.solves == 0 || newData_ || !isNothing(wanted_);
@@ -96,7 +97,7 @@ bool ToolKinematics::solve(Answer& answer, bool, ProxyRows& rows, ProxyStep& out
         return false;
     }
     if (friction_ > 0.0 && !rows.escaping()) {
-        rub(found.full, rows);
+        applyFriction(found.full, rows);
     }
     answer = found;
     rows.recordActive();
@@ -106,7 +107,7 @@ bool ToolKinematics::solve(Answer& answer, bool, ProxyRows& rows, ProxyStep& out
 // Friction as a play: shortens the sliding part of the solution by mu times the distance that the rows take
 // from the target. At rest the spring then also pulls sideways, by at most mu times the reaction. The tool
 // still only moves nearer to the target, so friction stores no energy that the hand did not give.
-void ToolKinematics::rub(Motion& full, const ProxyRows& rows) const noexcept {
+void ToolKinematics::applyFriction(Motion& full, const ProxyRows& rows) const noexcept {
     std::array<double, 6> slide{};
     if (!rows.tangential(unknownsOf(full), slide)) {
         return;
@@ -144,7 +145,7 @@ double ToolKinematics::fractionToCap(const Motion& first, const Motion& rest, do
 }
 
 // Cuts the solution to the caps and the trust region and tries the rest.
-bool ToolKinematics::fit(Answer& answer, LeafContacts& contacts, const ProxyRows& rows) noexcept {
+bool ToolKinematics::cutAndTry(Answer& answer, LeafContacts& contacts, const ProxyRows& rows) noexcept {
     LeafState& leaves = contacts.leaves;
     double escapeBound = 0.0;
     answer.escapeFraction = 0.0;
@@ -162,7 +163,7 @@ bool ToolKinematics::fit(Answer& answer, LeafContacts& contacts, const ProxyRows
     answer.whole =
         answer.targetFraction == 1.0 && answer.full.a == wanted_.a && answer.full.alpha == wanted_.alpha;
     answer.stalled = false;
-    tryPart(answer, 1.0, leaves);
+    tryFraction(answer, 1.0, leaves);
     if (contacts.set() == nullptr ||
         contacts.trust().surelyContains(places_.crudeBound(motionOf(answer, 1.0))) ||
         contacts.insideTrustRegion()) {
@@ -171,7 +172,7 @@ bool ToolKinematics::fit(Answer& answer, LeafContacts& contacts, const ProxyRows
     answer.whole = false;
     answer.trustFraction = contacts.trust().share(*contacts.set(), leaves.now, leaves.next);
     for (int k = 0; k < 24; ++k) { // leaves move on arcs, but the fraction is for straight paths
-        tryPart(answer, 1.0, leaves);
+        tryFraction(answer, 1.0, leaves);
         answer.stalled = answer.trustFraction < 1.0;
         if (contacts.insideTrustRegion()) {
             return true;
@@ -180,20 +181,20 @@ bool ToolKinematics::fit(Answer& answer, LeafContacts& contacts, const ProxyRows
     }
     answer.trustFraction = 0.0;
     answer.stalled = true;
-    tryPart(answer, 1.0, leaves);
+    tryFraction(answer, 1.0, leaves);
     return true;
 }
 
-Motion ToolKinematics::motionOf(const Answer& answer, double part) noexcept {
+Motion ToolKinematics::motionOf(const Answer& answer, double fraction) noexcept {
     const Motion first = answer.escapeFraction * answer.escape;
-    return (answer.trustFraction * part) * (first + answer.targetFraction * (answer.full - first));
+    return (answer.trustFraction * fraction) * (first + answer.targetFraction * (answer.full - first));
 }
 
-void ToolKinematics::tryPart(const Answer& answer, double part, LeafState& leaves) noexcept {
-    if (answer.whole && part == 1.0) {
+void ToolKinematics::tryFraction(const Answer& answer, double fraction, LeafState& leaves) noexcept {
+    if (answer.whole && fraction == 1.0) {
         nextPose_ = {target_.position, glm::normalize(target_.rotation)};
     } else {
-        nextPose_ = moved(pose_, motionOf(answer, part));
+        nextPose_ = moved(pose_, motionOf(answer, fraction));
     }
     places_.place(nextPose_, leaves.origin, leaves.next);
 }
@@ -212,20 +213,20 @@ bool ToolKinematics::comesNearer(const Motion& taken) const noexcept {
     return glm::dot(next.a - wanted_.a, next.a + wanted_.a) + metricRadius_ * metricRadius_ * rotation < 0.0;
 }
 
-StepOutcome ToolKinematics::judge(const Answer& answer, double part, const LeafState& leaves, ProxyRows& rows,
-                                  ProxyStep& out) noexcept {
+StepOutcome ToolKinematics::outcomeOf(const Answer& answer, double fraction, const LeafState& leaves,
+                                      ProxyRows& rows, ProxyStep& out) noexcept {
     const Motion taken = remaining(pose_, nextPose_);
     if (isNothing(taken) && rows.escaping() &&
-        part < 1.0) { // only a far motion would satisfy the rows: no way out
+        fraction < 1.0) { // only a far motion would satisfy the rows: no way out
         out.trapped = out.solves == 1;
         if (out.trapped) {
             rows.clearActive();
         }
     }
-    if (part == 0.0 || (!newData_ && !comesNearer(taken))) {
+    if (fraction == 0.0 || (!newData_ && !comesNearer(taken))) {
         return StepOutcome::None;
     }
-    const double done = part * answer.trustFraction;
+    const double done = fraction * answer.trustFraction;
     budget_.depth = std::max(0.0, budget_.depth - done * answered(answer) * rows.largestEscape());
     double escaped = 0.0;
     if (rows.escaping()) {

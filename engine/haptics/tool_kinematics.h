@@ -58,15 +58,15 @@ public:
     dvec3 lever(size_t leaf, const dvec3&) const noexcept { return pose_.rotation * places_.centre(leaf); }
 
     // One linearisation.
-    bool aim(const LeafState&, const ProxyRows& rows, const ProxyStep& out) noexcept;
+    bool beginLinearisation(const LeafState&, const ProxyRows& rows, const ProxyStep& out) noexcept;
     bool solve(Answer& answer, bool again, ProxyRows& rows, ProxyStep& out) const noexcept;
-    bool fit(Answer& answer, LeafContacts& contacts, const ProxyRows& rows) noexcept;
-    double wholePart(const Answer&) const noexcept { return 1.0; }
-    void tryPart(const Answer& answer, double part, LeafState& leaves) noexcept;
-    StepOutcome judge(const Answer& answer, double part, const LeafState& leaves, ProxyRows& rows,
-                      ProxyStep& out) noexcept;
-    void take() noexcept { pose_ = nextPose_; }
-    // Before take(): fills out.allowed, cut and rowsExpired. blocked: the exact check shortened the motion.
+    bool cutAndTry(Answer& answer, LeafContacts& contacts, const ProxyRows& rows) noexcept;
+    double fullFraction(const Answer&) const noexcept { return 1.0; }
+    void tryFraction(const Answer& answer, double fraction, LeafState& leaves) noexcept;
+    StepOutcome outcomeOf(const Answer& answer, double fraction, const LeafState& leaves, ProxyRows& rows,
+                          ProxyStep& out) noexcept;
+    void commit() noexcept { pose_ = nextPose_; }
+    // Before commit(): fills out.allowed, cut and rowsExpired. blocked: the exact check shortened the motion.
     void recordAllowed(const Answer& answer, bool blocked, const LeafContacts& contacts,
                        const ProxyRows& rows, ProxyStep& out) noexcept;
 
@@ -93,13 +93,13 @@ private:
     static double answered(const Answer& answer) noexcept {
         return answer.escapeFraction * (1.0 - answer.targetFraction) + answer.targetFraction;
     }
-    static Motion motionOf(const Answer& answer, double part) noexcept;
+    static Motion motionOf(const Answer& answer, double fraction) noexcept;
     double depthLeft() const noexcept { return budget_.travel > proxy::kSkin ? budget_.depth : 0.0; }
     void setMetric(double radius, ProxyRows& rows) noexcept;
     bool solveFor(const Motion& wanted, Motion& motion, ProxyRows& rows, ProxyStep& out) const noexcept;
     double fractionToCap(const Motion& first, const Motion& rest, double firstBound, double cap,
                          LeafState& leaves) const noexcept;
-    void rub(Motion& full, const ProxyRows& rows) const noexcept;
+    void applyFriction(Motion& full, const ProxyRows& rows) const noexcept;
     bool comesNearer(const Motion& taken) const noexcept;
 
     LeafPlaces places_;
