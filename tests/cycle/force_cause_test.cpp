@@ -16,7 +16,7 @@ namespace {
 HapticRig slidingRig(size_t late) {
     HapticRig rig(handScene(), at(-0.12, 0.0, 0.006));
     rig.show(wallSet());
-    rig.age = false;
+    rig.sceneAges = false;
     rig.ticks(300);
     rig.late = late;
     return rig;
@@ -37,7 +37,7 @@ HapticRig barRig(const char* device) {
     HapticRig rig(handScene(device), {{0.0, 0.0, 0.012}, rotationExp({0.0, 0.5 * M_PI, 0.0})},
                   Tool(buildSphereTree(leaves)));
     rig.show(wallSet());
-    rig.age = false;
+    rig.sceneAges = false;
     rig.ticks(300);
     return rig;
 }
@@ -97,7 +97,7 @@ TEST_CASE("A hand that is thrown at regions never leaves faster than it came, ho
                 CAPTURE(speed);
                 HapticRig rig(handScene(), at(0, 0, 0.03));
                 rig.show(wallSet());
-                rig.age = false;
+                rig.sceneAges = false;
                 rig.ticks(250);
                 rig.late = late;
                 double v = -speed, fastest = 0.0;
@@ -145,7 +145,7 @@ TEST_CASE("Regions that disappear while they press leave the tool where it is, a
     const StepRecord held = rig.step();
     REQUIRE(forceOf(held) == doctest::Approx(5.0).epsilon(0.01));
     rig.show(emptySet(9));
-    rig.age = false;
+    rig.sceneAges = false;
     double before = forceOf(held) + 1e-9;
     StepRecord record;
     for (int i = 0; i < 199; ++i) {
@@ -158,7 +158,7 @@ TEST_CASE("Regions that disappear while they press leave the tool where it is, a
     CHECK(glm::distance(record.indexShift, held.tool.position - held.device.position) <= 0.0005);
     CHECK(forceOf(rig.ticks(5)) == 0.0);
     rig.show(wallSet(10)); // what comes back is felt again
-    rig.age = false;
+    rig.sceneAges = false;
     rig.hand.position.z -= 0.004;
     CHECK(forceOf(rig.ticks(100)) == doctest::Approx(4.0).epsilon(0.1));
     CHECK(rig.gap() >= 0.0);
@@ -171,7 +171,7 @@ TEST_CASE("A hand that leaves a region within one late tick, as new data arrives
         REQUIRE(forceOf(held) == doctest::Approx(5.0).epsilon(0.01));
         rig.hand.position.z += back;
         rig.show(wallSet(9));
-        rig.age = false;
+        rig.sceneAges = false;
         StepRecord record = rig.step();
         record = rig.ticks(1000);
         CHECK(record.vanished == 0);

@@ -75,7 +75,7 @@ TEST_CASE("Force and its change stay within their limits however the hand jumps,
           "region") {
     HapticRig rig(handScene(), at(0, 0, 0.02));
     rig.show(wallSet());
-    rig.age = false;
+    rig.sceneAges = false;
     dvec3 before(0.0);
     double largest = 0.0;
     for (int i = 0; i < 3000; ++i) {
@@ -161,7 +161,7 @@ TEST_CASE(
 TEST_CASE("A trapped tool is held without a new force, and follows slowly when a motion is found") {
     HapticRig rig(handScene(), at(0, 0, 0));
     rig.show(emptySet(1));
-    rig.age = false;
+    rig.sceneAges = false;
     rig.hand = at(0, 0, 0.003);
     rig.ticks(250);
     Fixtures shell = emptySet(2); // six spheres around the tool: any motion goes deeper into one
@@ -174,7 +174,7 @@ TEST_CASE("A trapped tool is held without a new force, and follows slowly when a
     }
     const Pose where = rig.cycle->pose();
     rig.show(shell);
-    rig.age = false;
+    rig.sceneAges = false;
     rig.hand = at(0, 0, 0.013);
     auto record = rig.step();
     CHECK(record.state == StepState::Trapped);
@@ -188,7 +188,7 @@ TEST_CASE("A trapped tool is held without a new force, and follows slowly when a
     record = rig.ticks(120);
     CHECK(record.state == StepState::Trapped);
     rig.show(emptySet(3));
-    rig.age = false;
+    rig.sceneAges = false;
     record = rig.step();
     CHECK(record.state == StepState::Waiting); // the tool follows at 0.2 m/s, without a force
     CHECK(forceOf(record) == 0.0);
@@ -201,7 +201,7 @@ TEST_CASE("A scene older than 100 ms fades the force over half a second, sets th
           "restores the force") {
     auto rig = pressedRig();
     const double full = forceOf(rig.step());
-    rig.age = true;
+    rig.sceneAges = true;
     rig.captured = rig.time;
     auto record = rig.ticks(100);
     CHECK(record.state == StepState::Contact);
@@ -217,14 +217,14 @@ TEST_CASE("A scene older than 100 ms fades the force over half a second, sets th
     rig.captured = rig.time; // the same frame again: only a new capture time
     record = rig.step();
     CHECK(record.state == StepState::Contact);
-    rig.age = false;
+    rig.sceneAges = false;
     record = rig.ticks(510);
     CHECK(forceOf(record) == doctest::Approx(full));
 }
 
 TEST_CASE("A source that has ended does not age in lockstep, and an older active set ages by its own stamp") {
     auto rig = pressedRig();
-    rig.age = true;
+    rig.sceneAges = true;
     rig.captured = rig.time;
     rig.ticks(31);
     rig.sourceEnded = true;

@@ -17,7 +17,7 @@ HapticRig restingRig(bool controller) {
     rig.options.passivityController = controller;
     rig.restart();
     rig.show(wallSet());
-    rig.age = false;
+    rig.sceneAges = false;
     rig.ticks(250);
     rig.hand = at(0, 0, 0.0072);
     rig.ticks(50);
@@ -39,7 +39,7 @@ TEST_CASE("On a static wall the wrench is the same with and without the passivit
     without.restart();
     for (HapticRig* rig : {&with, &without}) {
         rig->show(wallSet());
-        rig->age = false;
+        rig->sceneAges = false;
     }
     double largest = 0.0;
     for (int i = 0; i < 1500; ++i) {
@@ -63,7 +63,7 @@ TEST_CASE(
     rig.options.springs.damping = 0.4;
     rig.restart();
     rig.show(wallSet());
-    rig.age = false;
+    rig.sceneAges = false;
     rig.ticks(250);
     double pressed = 0.0;
     for (int i = 0; i < 200; ++i) {
@@ -83,7 +83,7 @@ TEST_CASE(
     off.step();
     for (HapticRig* r : {&rig, &off}) {
         r->show(raisedWall());
-        r->age = false;
+        r->sceneAges = false;
         r->ticks(40); // 1 mm per tick; the reaction rises within a frame
     }
     const double p = force / 1000.0;
@@ -111,7 +111,7 @@ TEST_CASE("A hand that pushes on after a small jump of the wall is not braked by
     auto rig = restingRig(true), off = restingRig(false);
     for (HapticRig* r : {&rig, &off}) {
         r->show(raisedWall(0.0001)); // a small part of the stored energy
-        r->age = false;
+        r->sceneAges = false;
         r->ticks(40);
     }
     CHECK(rig.cycle->passivity().debt() > 0.0);
@@ -127,7 +127,7 @@ TEST_CASE("A hand that pushes on after a small jump of the wall is not braked by
 TEST_CASE("With forces off the wrench stays zero, and an old energy debt is forgotten") {
     auto rig = restingRig(true);
     rig.show(raisedWall(0.008)); // more than is felt slowly, as noise is
-    rig.age = false;
+    rig.sceneAges = false;
     rig.ticks(40);
     REQUIRE(rig.cycle->passivity().debt() > 0.005);
     rig.forcesOff = true;
@@ -145,7 +145,7 @@ TEST_CASE("Guidance work on the hand does not count as generated energy") {
     scene.fixtures.back().role = Role::Guidance;
     HapticRig rig(scene, at(0, 0, 0.05));
     rig.show(wallSet());
-    rig.age = false;
+    rig.sceneAges = false;
     GuidancePose target;
     target.present = target.planar = true;
     target.target = at(0, 0, 0.12);
@@ -194,7 +194,7 @@ TEST_CASE(
     HapticRig unit(handScene("w5d"), at(0, 0, 0.02)), scaled(handScene("w5d"), at(0, 0, 0.02));
     for (HapticRig* rig : {&unit, &scaled}) {
         rig->show(wallSet());
-        rig->age = false;
+        rig->sceneAges = false;
     }
     for (int i = 0; i < 400; ++i) {
         unit.hand = {{0.0, 0.0, 0.02 - 4e-5 * i}, rotationExp({0.002 * i, 0.3, 0.004 * i})};

@@ -57,7 +57,7 @@ public:
         fixtures = std::move(set);
         grid.build(fixtures->spheres);
         captured = time;
-        age = true;
+        sceneAges = true;
     }
 
     StepRecord step() {
@@ -80,7 +80,7 @@ public:
         if (fixtures) {
             input.frame = fixtures->frame;
             input.generation = fixtures->generation;
-            if (!age) {
+            if (!sceneAges) {
                 captured = time;
             }
             input.captureTime = captured;
@@ -121,7 +121,7 @@ public:
     Pose hand;
     double time = 0.0, captured = 0.0;
     double measured = 0.0; // [s] measured tick period; 0 = the nominal period, as in lockstep
-    bool age = true;       // false: every tick has a new capture time
+    bool sceneAges = true; // false: every tick has a new capture time
     bool query = true;
     size_t late = 0;                                 // ticks until an answer is offered
     std::deque<std::unique_ptr<ContactSet>> waiting; // answers on their way
@@ -145,9 +145,8 @@ inline Scene handScene(const char* device = "ideal") {
 // Pressed 5 mm into the wall and at rest: 5 N at 1000 N/m.
 inline HapticRig pressedRig(const Scene& scene = handScene()) {
     HapticRig rig(scene, at(0, 0, 0.02));
-    rig.age = false;
     rig.show(wallSet());
-    rig.age = false;
+    rig.sceneAges = false;
     rig.ticks(250);
     rig.hand = at(0, 0, 0.005);
     rig.ticks(100);

@@ -38,7 +38,7 @@ Scene guidedScene(Scene::Haptics::GuidanceMode mode) {
 TEST_CASE("Guidance in mode target leads the hand by F_g / K_t, is felt as F_g, and never enters a region") {
     HapticRig rig(guidedScene(Scene::Haptics::GuidanceMode::Target), at(0, 0, 0.03));
     rig.show(wallSet());
-    rig.age = false;
+    rig.sceneAges = false;
     rig.guidance = {targetAt({{0, 0, -0.02}, rotationExp({0, 0, 1.0})})}; // inside the wall
     rig.ticks(250);
     rig.buttons = kGuidanceButton;
@@ -66,7 +66,7 @@ TEST_CASE("Guidance in mode paper adds a spring of its own, and both springs sta
     CHECK(rig.options.springs.stiffness == doctest::Approx(800.0));
     CHECK(rig.options.springs.guidanceStiffness == doctest::Approx(200.0));
     rig.show(wallSet());
-    rig.age = false;
+    rig.sceneAges = false;
     rig.guidance = {targetAt(at(0, 0, 0.033))};
     rig.buttons = kGuidanceButton;
     auto record = rig.ticks(700);
@@ -85,7 +85,7 @@ TEST_CASE("The wrench that the device cannot render becomes the residual in the 
     rig.hand.rotation = rotationExp({1.2, 0.3, 0.0});
     rig.restart();
     rig.show(wallSet());
-    rig.age = false;
+    rig.sceneAges = false;
     rig.guidance = {targetAt({{0.01, 0, 0.03}, rotationExp({0.2, 1.4, 2.0})})};
     rig.buttons = kGuidanceButton;
     const auto record = rig.ticks(2500);
@@ -108,7 +108,7 @@ TEST_CASE("A hand map of scale 2 moves the tool twice as far, and halves the sti
     CHECK(rig.cycle->pose().position.y == doctest::Approx(0.02));
     CHECK(rig.cycle->pose().position.z == doctest::Approx(0.03));
     rig.show(wallSet());
-    rig.age = false;
+    rig.sceneAges = false;
     rig.ticks(250);
     rig.hand = at(0.01, 0, 0.0025);
     const auto record = rig.ticks(200);
@@ -157,17 +157,17 @@ TEST_CASE("Late ticks do not delay fading out and do not hasten the return of a 
     scene.haptics.stiffness = 1000.0; // set explicitly, so late ticks do not lower it
     HapticRig rig(scene, at(0.0, 0.0, 0.03));
     rig.show(wallSet());
-    rig.age = false;
+    rig.sceneAges = false;
     rig.ticks(400);
     rig.hand = at(0.0, 0.0, 0.0);
     const double full = forceOf(rig.ticks(200));
     CHECK(full > 5.0);
     rig.measured = 0.005;
-    rig.age = true;
+    rig.sceneAges = true;
     rig.captured = rig.time - 0.1;
     CHECK(forceOf(rig.ticks(51)) == doctest::Approx(full / 2.0).epsilon(0.03));
     CHECK(forceOf(rig.ticks(52)) <= 1e-12); // 0.5 s
-    rig.age = false;
+    rig.sceneAges = false;
     CHECK(forceOf(rig.ticks(51)) == doctest::Approx(20.0 * 51.0 / 500.0)); // 20 N in 0.5 s of nominal ticks
     CHECK(forceOf(rig.ticks(251)) == doctest::Approx(full));
 }
@@ -193,7 +193,7 @@ TEST_CASE("The low-pass delay lowers the automatic stiffness, and limits of the 
     CHECK(n > 0.5);
     CHECK(rig.options.springs.stiffness == doctest::Approx(1000.0 / (1.0 + 2.0 * n)));
     rig.show(wallSet());
-    rig.age = false;
+    rig.sceneAges = false;
     rig.ticks(250);
     rig.hand = at(0, 0, -0.05);
     const auto record = rig.ticks(300);
@@ -216,7 +216,7 @@ TEST_CASE(
 TEST_CASE("A set that does not cover the tool is rejected and the active one is kept") {
     HapticRig rig(handScene(), at(0, 0, 0.05));
     rig.show(wallSet(1));
-    rig.age = false;
+    rig.sceneAges = false;
     REQUIRE(rig.step().adopted);
     ContactSet far;
     rig.cull.query(rig.tool, at(0.05, 0, 0.05), 0.01, wallSet(2), rig.grid, far);

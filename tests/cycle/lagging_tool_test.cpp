@@ -13,7 +13,7 @@ TEST_CASE("The hand map moves towards a tool that lags, until the hand and the t
     rig.options.proxy.solves = 1;
     rig.restart();
     rig.show(wallSet());
-    rig.age = false;
+    rig.sceneAges = false;
     rig.ticks(300);
     rig.hand.position.x = 0.05;
     double lag = rig.ticks(2).lag;

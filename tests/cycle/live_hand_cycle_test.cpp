@@ -31,7 +31,7 @@ TEST_CASE(
         std::make_unique<HapticCycle>(rig.tool, std::span<const Shape>{}, rig.options, rig.hand, &start);
     CHECK(rig.cycle->pose().position == start.position);
     rig.show(wallSet());
-    rig.age = false;
+    rig.sceneAges = false;
     StepRecord record = rig.ticks(50);
     CHECK(glm::distance(record.tool.position, start.position) < 1e-12);
     CHECK(glm::length(record.wrench.force) < 1e-9);
@@ -45,7 +45,7 @@ TEST_CASE(
     "A device that disappears and returns elsewhere, with dead-man and clutch, does not move the tool") {
     HapticRig rig(handScene("falcon"), at(0.0, 0.0, 0.05));
     rig.show(wallSet());
-    rig.age = false;
+    rig.sceneAges = false;
     rig.ticks(300);
     rig.hand = at(0.0, 0.0, 0.008);
     CHECK(rig.ticks(300).wrench.force.z > 1.0); // pressed
@@ -69,7 +69,7 @@ TEST_CASE(
         rig.cycle =
             std::make_unique<HapticCycle>(rig.tool, std::span<const Shape>{}, rig.options, rig.hand, &start);
         rig.show(wallSet()); // ends at x = 0.06, so only one end of the bar is above it
-        rig.age = false;
+        rig.sceneAges = false;
         rig.ticks(300);
         const dvec3 down = glm::conjugate(scene.hand.baseRdevice) * dvec3(0.0, 0.0, -0.043);
         StepRecord record;

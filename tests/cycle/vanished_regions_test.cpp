@@ -179,7 +179,7 @@ TEST_CASE("Another region beside the tool does not hide that the pressed one van
         rig.show(pressed ? wallSet(generation) : emptySet(generation));
         rig.fixtures->spheres.add({0.0, 0.06 + beside, 0.01}, 0.05);
         rig.grid.build(rig.fixtures->spheres);
-        rig.age = false;
+        rig.sceneAges = false;
     };
     show(true, 0.0015, 1);
     rig.ticks(250);
@@ -196,7 +196,7 @@ TEST_CASE("A broken sample in the tick of a new frame costs that tick's force an
     const Pose hand = rig.hand;
     rig.hand.position.x = std::nan("");
     rig.show(wallSet(9));
-    rig.age = false;
+    rig.sceneAges = false;
     CHECK(forceOf(rig.step()) == 0.0);
     rig.hand = hand;
     const StepRecord after = rig.ticks(500);
@@ -208,7 +208,7 @@ TEST_CASE("A tool that a region turned does not swing round when the region vani
     const std::array<Sphere, 2> balls{Sphere{{-0.05, 0.0, 0.0}, 0.01}, Sphere{{0.05, 0.0, 0.0}, 0.01}};
     HapticRig rig(handScene(), at(0, 0, 0.03), Tool(buildSphereTree(balls)));
     rig.show(wallSet());
-    rig.age = false;
+    rig.sceneAges = false;
     rig.ticks(250);
     for (int i = 1; i <= 500; ++i) {
         rig.hand = {{0.0, 0.0, 0.03 - 0.00003 * i}, rotationExp({0.0, 0.001 * i, 0.0})};
@@ -217,7 +217,7 @@ TEST_CASE("A tool that a region turned does not swing round when the region vani
     const StepRecord held = rig.ticks(300);
     REQUIRE(glm::length(held.wrench.torque) > 0.1);
     rig.show(emptySet(9));
-    rig.age = false;
+    rig.sceneAges = false;
     const auto tip = [](const Pose& tool) { return tool.position + tool.rotation * dvec3(0.05, 0.0, 0.0); };
     dvec3 before = tip(held.tool);
     for (int i = 0; i < 300; ++i) {
@@ -260,7 +260,7 @@ TEST_CASE("Late ticks do not delay the fade of regions that vanished") {
         rig.measured = period;
         rig.ticks(1000);
         rig.show(emptySet(9));
-        rig.age = false;
+        rig.sceneAges = false;
         const double begin = rig.time;
         rig.step();
         while (forceOf(rig.step()) > 0.0 && rig.time < begin + 1.0) {
