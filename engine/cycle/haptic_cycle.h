@@ -33,9 +33,9 @@ namespace fathom {
 //   (ForceRamps); rising counts ticks.
 // - Device gone or silent: nothing is rendered in that step, and recorded as such. The tool stays and the
 //   hand is re-indexed when it is back. Three losses within 1 s keep the forces off until 1 s is clean.
-// - A real arm follows the tool (follow()) and stands still, or must because forces are off, the frame is old
-//   or the sample is broken: the tool is held and the force ramps out over 0.2 s; then the tool moves to the
-//   measured arm and the hand is re-indexed to it, so that both resume from there.
+// - While a real arm follows (follow()): if it stands still, or must (forces off, old frame, broken sample),
+//   the tool is held and the force ramps out over 0.2 s. Then the tool moves to the measured arm and the hand
+//   is re-indexed to it.
 // - A number that is not finite: zero wrench in that step, which is counted; the force then returns from
 //   zero.
 class HapticCycle {

@@ -7,8 +7,8 @@
 namespace fathom {
 namespace {
 
-// [m] of the spring that one of several regions must have held to count as vanished, more than noise moves
-// it, and the most that may still hold there.
+// [m] A region counts as vanished if the spring loses more than kPartGone along it (more than noise causes)
+// and at most kStillHeld remains there.
 constexpr double kPartGone = 0.005, kStillHeld = 0.0005;
 constexpr dquat kNoTurn{1.0, 0.0, 0.0, 0.0};
 

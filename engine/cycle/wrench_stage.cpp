@@ -54,7 +54,7 @@ Wrench WrenchStage::damping(const WrenchInput& input, const Wrench& reaction) no
     const Springs& springs = input.springs;
     Wrench wrench;
     if (springs.damping != 0.0 || springs.rotationalDamping != 0.0) {
-        const double elapsed = std::max(options_.period, input.elapsed); // a late tick sees a longer way
+        const double elapsed = std::max(options_.period, input.elapsed); // a late tick covers a longer motion
         const dvec3 moved = input.device.position - deviceBefore_.position;
         const dvec3 spun = rotationBetween(deviceBefore_.rotation, input.device.rotation);
         wrench.force = projectedOn(-moved, reaction.force) * (springs.damping / elapsed);

@@ -78,9 +78,10 @@ public:
     // damping becomes unstable near 1.
     static constexpr double kMaxDamping = 40.0;
     static constexpr double kMaxImpulse = 0.02;
-    // The same for a hand that moves out. It only weakens the springs' push, so it can be larger. Debts below
-    // this share of the stored energy, as of noise from frame to frame, are left to `repay`.
-    static constexpr double kMaxRelease = 0.1, kMinDebtRatio = 0.25;
+    // The same for a hand that moves out. It only weakens the springs' push, so it can be larger.
+    static constexpr double kMaxRelease = 0.1;
+    // Smaller debts, relative to the stored energy, are sensor noise: `repay` removes them.
+    static constexpr double kMinDebtRatio = 0.25;
     static constexpr double kFreeDamper = 0.99; // [N] largest damping force without an active row
     static constexpr double kFreeTime = 0.09;   // [s] longest time of it
     static constexpr double kTolerance = 1e-6;  // [J] smaller debts are rounding of the solver

@@ -15,7 +15,7 @@ constexpr double kMinRiseRate = 10.0;       // [N/s] after new data
 constexpr double kRoundingForce = 1e-6;     // [N] rounding
 constexpr double kMinDirectionForce = 1e-3; // [N] a smaller reaction has no direction that is felt
 constexpr double kPushTime = 0.012;         // [s] in which new data pushes a tool out, or half a frame
-constexpr double kFrameSlack = 1.25;        // of a frame, until which the next one is waited for
+constexpr double kFrameSlack = 1.25;        // frame intervals to wait for the next frame
 constexpr double kMinMixLength = 0.3;       // directions that differ more than that are not mixed
 constexpr double kSameWay = 0.8;            // cosine between the reaction that returns and the former one
 
