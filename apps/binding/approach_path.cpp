@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/binding/approach_path.h"
 
-#include "engine/cycle/step_record.h"
+#include "engine/types/haptic_device.h"
 
 #include <algorithm>
 #include <cmath>

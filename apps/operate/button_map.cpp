@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/operate/button_map.h"
 
-#include "engine/cycle/step_record.h"
 #include "engine/types/error.h"
+#include "engine/types/haptic_device.h"
 
 #include <bit>
 #include <fstream>

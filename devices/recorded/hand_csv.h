@@ -10,9 +10,9 @@
 namespace fathom {
 
 // Header line t_s,x,y,z,qw,qx,qy,qz[,button], then one row per waypoint: t [s] strictly increasing, position
-// [m] and orientation in the device frame (quaternion not zero, normalised here), button a bit field by level
-// (1 guidance, 2 dead-man open, 4 clutch; 0 without that column). Blank lines and # comments are skipped. At
-// least one row, at most ten million. Throws BadInput with file, line and column.
+// [m] and orientation in the device frame (quaternion not zero, normalised here), button the bits of
+// haptic_device.h by level (0 without that column). Blank lines and # comments are skipped. At least one row,
+// at most ten million. Throws BadInput with file, line and column.
 std::vector<HandWaypoint> readHandCsv(const std::filesystem::path& file);
 
 } // namespace fathom

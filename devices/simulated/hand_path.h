@@ -14,7 +14,7 @@ namespace fathom {
 struct HandWaypoint {
     double t = 0.0;       // [s] since the run's start
     Pose deviceThandle;   // raw, device frame
-    uint32_t buttons = 0; // bit field by level: 1 guidance, 2 dead-man open, 4 clutch
+    uint32_t buttons = 0; // bits of haptic_device.h, by level
 };
 
 // Immutable after construction; any number of threads may sample it.

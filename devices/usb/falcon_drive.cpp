@@ -10,8 +10,7 @@ namespace fathom {
 
 namespace {
 
-constexpr uint8_t kForward = 2, kCentre = 4, kMinus = 8;               // of the device
-constexpr uint32_t kGuidance = 1, kDeadManOpen = 2, kEngineClutch = 4; // of HandSample
+constexpr uint8_t kForward = 2, kCentre = 4, kMinus = 8; // of the device
 
 } // namespace
 
@@ -23,9 +22,9 @@ bool FalconDrive::place(const FalconState& state, HandSample& out) noexcept {
     if (placed_) {
         out.deviceThandle = {knob_, dquat(1.0, 0.0, 0.0, 0.0)};
     }
-    out.buttons = ((state.buttons & kCentre) != 0 ? kGuidance : 0) |
+    out.buttons = ((state.buttons & kCentre) != 0 ? kGuidanceButton : 0) |
                   ((state.buttons & kMinus) != 0 ? kDeadManOpen : 0) |
-                  ((state.buttons & kForward) != 0 ? kEngineClutch : 0);
+                  ((state.buttons & kForward) != 0 ? kDefaultClutch : 0);
     return placed_;
 }
 

@@ -20,8 +20,7 @@ namespace {
 
 constexpr int kMaxReports = 64; // per tick
 constexpr auto kSeekPause = std::chrono::milliseconds(100);
-constexpr uint32_t kMouseGuides = 1, kMouseOpensDeadMan = 2; // of HandSample
-constexpr uint32_t kFirstButton = 1, kSecondButton = 2;      // of the device
+constexpr uint32_t kFirstButton = 1, kSecondButton = 2; // of the device
 
 DeviceFile choose(const std::filesystem::path& node) {
     for (const DeviceFile& file : findDeviceFiles()) {
@@ -149,11 +148,11 @@ HandSample SpaceMouseHand::read(double t) noexcept {
                                     pose_.rotation);
     HandSample sample{pose_, 0};
     if (descriptor_ < 0) {
-        sample.buttons = kMouseOpensDeadMan | options_.clutchBit;
+        sample.buttons = kDeadManOpen | options_.clutchBit;
         return sample;
     }
-    sample.buttons |= (state_.buttons & kFirstButton) != 0 ? kMouseGuides : 0;
-    sample.buttons |= (state_.buttons & kSecondButton) != 0 ? kMouseOpensDeadMan : 0;
+    sample.buttons |= (state_.buttons & kFirstButton) != 0 ? kGuidanceButton : 0;
+    sample.buttons |= (state_.buttons & kSecondButton) != 0 ? kDeadManOpen : 0;
     return sample;
 }
 

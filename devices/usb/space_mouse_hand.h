@@ -5,6 +5,7 @@
 
 #include "devices/live_hand.h"
 #include "devices/usb/space_mouse.h"
+#include "engine/types/haptic_device.h"
 
 #include <atomic>
 #include <filesystem>
@@ -15,9 +16,9 @@ namespace fathom {
 
 // Velocity of the hand at full deflection.
 struct SpaceMouseOptions {
-    double speed = 0.05;    // [m/s] at full deflection
-    double turnSpeed = 0.5; // [rad/s] at full deflection
-    uint32_t clutchBit = 4; // of hand.map; 0 = none
+    double speed = 0.05;                 // [m/s] at full deflection
+    double turnSpeed = 0.5;              // [rad/s] at full deflection
+    uint32_t clutchBit = kDefaultClutch; // of hand.map; 0 = none
 };
 
 // read() makes a few non-blocking system calls. The device reports every 8 to 16 ms while it is held and

@@ -7,6 +7,7 @@
 #include "engine/haptics/guidance.h"
 #include "engine/haptics/proxy.h"
 #include "engine/scene/scene.h"
+#include "engine/types/haptic_device.h"
 
 #include <string>
 #include <vector>
@@ -23,7 +24,7 @@ struct HapticOptions {
     bool paperGuidance = false; // mode `paper`, else `target`
     dquat baseRdevice{1.0, 0.0, 0.0, 0.0};
     double handScale = 1.0;                       // tool motion per hand motion
-    uint32_t clutchBit = 4;                       // mask of StepInput::buttons; 0 = none
+    uint32_t clutchBit = kDefaultClutch;          // in StepInput::buttons; 0 = none
     double forceLimit = 20.0, torqueLimit = 2.0;  // [N], [N m] at the tool; includes the hand's torque limit
     double slewForce = 2000.0, slewTorque = 50.0; // [N/s], [N m/s]
     double lowPassGain = 1.0;                     // limits.h; 1 = off

@@ -6,6 +6,7 @@
 #include "engine/contact/fixtures.h"
 #include "engine/haptics/proxy.h"
 #include "engine/model/arm_model.h"
+#include "engine/types/haptic_device.h"
 #include "engine/types/pose.h"
 #include "engine/types/wrench.h"
 
@@ -34,15 +35,11 @@ constexpr const char* stateName(StepState state) {
     return kNames[static_cast<size_t>(state)];
 }
 
-// Bits of a hand's buttons.
-inline constexpr uint32_t kGuidanceButton = 1;
-inline constexpr uint32_t kDeadManOpen = 2; // level-sensitive; the clutch's bit is an option
-
 // Input of a step.
 struct StepInput {
     double time = 0.0;    // [s] of this step, on the clock of capture times
     Pose deviceThandle;   // raw, as the device gives it
-    uint32_t buttons = 0; // level-sensitive bit field
+    uint32_t buttons = 0; // level-sensitive bits of haptic_device.h
     bool forcesOff = false;
     bool present = true;   // false: the device is gone or silent, and renders no wrench
     bool doubtful = false; // the pose is not believed yet: hand and tool stay, the force may only fall

@@ -27,7 +27,7 @@ void loadFeel(const YamlNode& node, Scene::Haptics& haptics);
 // {xyz, quat_xyzw}, each optional.
 Pose loadPose(const YamlNode& node);
 
-// 0 or one button bit that is not in use (1 guidance, 2 dead-man open).
+// 0 or one button bit that is not in use (haptic_device.h).
 uint32_t loadButtonBit(const YamlNode& node);
 
 // Absolute paths as given, others relative to the scene file's folder. A path that leaves that folder, by

@@ -2,6 +2,7 @@
 // Sections `tool` and `hand` of a scene file.
 #include "engine/scene/load.h"
 
+#include "engine/types/haptic_device.h"
 #include "engine/types/sphere_tree.h"
 
 namespace fathom {
@@ -44,8 +45,7 @@ void loadHandLoop(const YamlNode& node, HandLoop& loop) {
 
 uint32_t loadButtonBit(const YamlNode& node) {
     const uint32_t bit = node.integer(0, 1u << 31);
-    // 1 and 2 are in use: guidance and dead-man open.
-    if (bit == 1 || bit == 2 || (bit & (bit - 1)) != 0) {
+    if (bit == kGuidanceButton || bit == kDeadManOpen || (bit & (bit - 1)) != 0) {
         node.refuse("0 (none) or one bit of the buttons: 4, 8, 16, ...");
     }
     return bit;

@@ -2,6 +2,7 @@
 // The scene file as checked, plain values. loadScene() fills it; it is constant afterwards.
 #pragma once
 
+#include "engine/types/haptic_device.h"
 #include "engine/types/pose.h"
 
 #include <array>
@@ -181,7 +182,7 @@ struct Scene {
         bool builtIn = true;
         dquat baseRdevice{1.0, 0.0, 0.0, 0.0};
         double scale = 1.0;
-        uint32_t clutchBit = 4;
+        uint32_t clutchBit = kDefaultClutch;
         HandLoop loop;
         bool yields = false; // the path's hand yields to the force as `loop` says
     } hand;

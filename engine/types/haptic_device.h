@@ -9,10 +9,13 @@
 
 namespace fathom {
 
+// Bits of HandSample::buttons. The clutch's bit is an option of the scene.
+inline constexpr uint32_t kGuidanceButton = 1, kDeadManOpen = 2, kDefaultClutch = 4;
+
 // One sample of the hand.
 struct HandSample {
     Pose deviceThandle;   // raw, device frame: position [m], orientation
-    uint32_t buttons = 0; // level-sensitive bit field: 1 guidance, 2 dead-man open, 4 clutch
+    uint32_t buttons = 0; // level-sensitive bit field
     bool present = true;  // false: the device is gone or silent, and a wrench written now is not rendered
 };
 

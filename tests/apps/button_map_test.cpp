@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/operate/button_map.h"
 #include "apps/operate/pilot_hand.h"
-#include "engine/cycle/step_record.h"
+#include "engine/types/haptic_device.h"
 #include "tests/support/refusal.h"
 #include "tests/support/scratch_folder.h"
 
