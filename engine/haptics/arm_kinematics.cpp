@@ -134,7 +134,7 @@ bool ArmKinematics::addRow(ContactRow row, const LeafState& leaves, ProxyRows& r
     return rows.add(row, normal);
 }
 
-bool ArmKinematics::beginLinearisation(const LeafState&, ProxyRows& rows, ArmStep& out) noexcept {
+bool ArmKinematics::beginLinearisation(ProxyRows& rows, ArmStep& out) noexcept {
     const Pose tip = pose();
     // The path to a far target is curved: request only what one solve can reach, or a stretched arm
     // oscillates.

@@ -7,12 +7,16 @@
 
 #include "engine/haptics/arm_damping.h"
 #include "engine/haptics/arm_leaf_places.h"
-#include "engine/haptics/constrained_proxy.h"
+#include "engine/haptics/proxy_kinematics.h"
 #include "engine/haptics/singular_release.h"
 #include "engine/haptics/tool_motion.h"
 #include "engine/model/arm_model.h"
 
+#include <algorithm>
+#include <array>
 #include <limits>
+#include <span>
+#include <vector>
 
 namespace fathom {
 
@@ -38,7 +42,8 @@ struct ArmStep : ProxyStep {
     bool graspHeld = false;        // a finger would have entered a region, so the grasp did not change
 };
 
-// One thread. Allocates in the constructor only; everything else is noexcept. `arm` must outlive it.
+// proxy_kinematics.h documents most public functions. One thread. Allocates in the constructor only;
+// everything else is noexcept. `arm` must outlive it.
 class ArmKinematics {
 public:
     using Step = ArmStep;
@@ -54,7 +59,7 @@ public:
 
     size_t unknowns() const noexcept { return free_.size(); }
     Pose pose() const noexcept { return arm_.tip(now_.frames); }
-    const dvec3& origin() const noexcept { return now_.frames[0].position; } // used without an active set
+    const dvec3& origin() const noexcept { return now_.frames[0].position; }
     Pose nextPose() const noexcept { return arm_.tip(next_.frames); }
     const ArmPosture& posture() const noexcept { return now_.posture; }
     const ArmFrames& frames() const noexcept { return now_.frames; }
@@ -68,9 +73,7 @@ public:
     // Rows.
     void addLimits(ProxyRows& rows) const noexcept;
     bool addRow(ContactRow row, const LeafState& leaves, ProxyRows& rows) const noexcept;
-    double escapeOffset(double depth) const noexcept { // [m] with the skin
-        return std::min(depth, escapeLeft_) + proxy::kSkin;
-    }
+    double escapeOffset(double depth) const noexcept { return std::min(depth, escapeLeft_) + proxy::kSkin; }
     double equalityLimit(const Equality&) const noexcept { return escapeLeft_; }
     Sphere bound() const noexcept { return {pose().position, std::numeric_limits<double>::infinity()}; }
     dvec3 leafNow(size_t leaf, const LeafState& leaves) const noexcept {
@@ -82,7 +85,7 @@ public:
     dvec3 lever(size_t, const dvec3& centre) const noexcept { return centre - pose().position; }
 
     // One linearisation.
-    bool beginLinearisation(const LeafState&, ProxyRows& rows, ArmStep& out) noexcept;
+    bool beginLinearisation(ProxyRows& rows, ArmStep& out) noexcept;
     bool solve(Answer& answer, bool again, ProxyRows& rows, ArmStep& out) const noexcept;
     bool cutAndTry(Answer& answer, LeafContacts& contacts, const ProxyRows&) noexcept;
     double fullFraction(const Answer& answer) const noexcept { return answer.capFraction; }
@@ -90,13 +93,12 @@ public:
     StepOutcome outcomeOf(const Answer&, double fraction, const LeafState& leaves, ProxyRows&,
                           const ArmStep& out) noexcept;
     void commit() noexcept { now_ = next_; }
-    // Before commit(): fills out.allowed, cut and rowsExpired. An arm reports `allowed` in every tick, because
-    // it may not reach a target for reasons without a force: joint speeds, the workspace, a singular posture.
-    // blocked: the exact check shortened the motion.
+    // An arm reports `allowed` in every tick, because it may not reach a target for reasons without a force:
+    // joint speeds, the workspace, a singular posture.
     void recordAllowed(const Answer& answer, bool blocked, const LeafContacts& contacts, ProxyRows& rows,
                        ArmStep& out) const noexcept;
 
-    // Tightening. tried: the part of the solution that was tried.
+    // Tightening.
     double triedFraction(const Answer& answer) const noexcept { return answer.capFraction; }
     double shortfall(const NarrowPhase::Violation& violation, double, const LeafState&) const noexcept {
         return violation.depth;

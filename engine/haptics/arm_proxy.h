@@ -4,6 +4,7 @@
 #pragma once
 
 #include "engine/haptics/arm_kinematics.h"
+#include "engine/haptics/constrained_proxy.h"
 
 namespace fathom {
 

@@ -5,6 +5,7 @@
 
 #include "engine/haptics/leaf_contacts.h"
 #include "engine/haptics/near_shapes.h"
+#include "engine/haptics/proxy_kinematics.h"
 #include "engine/haptics/proxy_rows.h"
 #include "engine/haptics/proxy_step.h"
 
@@ -12,15 +13,9 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 
 namespace fathom {
-
-// How a linearisation ended.
-enum class StepOutcome {
-    None, // no step was taken
-    Last, // taken, but too short to be worth another solve
-    More, // taken; another solve may get nearer to the target
-};
 
 // One thread. Allocates in the constructor only; step() is noexcept, never locks, throws or waits. An exact
 // check of every listed pair before each move guarantees: no gap is below min(0, gap before) at the end of
@@ -28,10 +23,8 @@ enum class StepOutcome {
 // caused never grows. The same holds for shapes at the end of each move. Pairs that would hold a leaf behind
 // a surface are exempt (BehindTracker).
 //
-// The template parameter (ToolKinematics, ArmKinematics) defines how the leaves move: the solver's unknowns
-// and target, the rows in these unknowns, the tried pose and leaf centres of a solution, how much motion rows
-// may request, and when a step is worth taking. There are no virtual calls.
-template <class Kinematics>
+// The template parameter (ToolKinematics, ArmKinematics) defines how the leaves move.
+template <ProxyKinematics Kinematics>
 class ConstrainedProxy {
 public:
     // True when this set may become the active one for the present leaf positions.
@@ -100,7 +93,7 @@ private:
     bool onlyTrustRegionFailed_ = false; // in the last bisection
 };
 
-template <class Kinematics>
+template <ProxyKinematics Kinematics>
 bool ConstrainedProxy<Kinematics>::begin(const ProxyInput& input) noexcept {
     rows_.clearActive();
     kinematics_.begin(input, rows_);
@@ -109,7 +102,7 @@ bool ConstrainedProxy<Kinematics>::begin(const ProxyInput& input) noexcept {
     return usable;
 }
 
-template <class Kinematics>
+template <ProxyKinematics Kinematics>
 void ConstrainedProxy<Kinematics>::finish(const ProxyInput& input, Step& out) noexcept {
     if (!isFinite(input.target)) { // hold
         return;
@@ -125,7 +118,7 @@ void ConstrainedProxy<Kinematics>::finish(const ProxyInput& input, Step& out) no
     }
 }
 
-template <class Kinematics>
+template <ProxyKinematics Kinematics>
 void ConstrainedProxy<Kinematics>::report(Step& out) noexcept {
     out.pose = kinematics_.pose();
     if (!out.cut) {
@@ -137,11 +130,11 @@ void ConstrainedProxy<Kinematics>::report(Step& out) noexcept {
 }
 
 // One linearisation. True when another one may get nearer to the target.
-template <class Kinematics>
+template <ProxyKinematics Kinematics>
 bool ConstrainedProxy<Kinematics>::linearise(bool first, Step& out) noexcept {
     out.cut = out.rowsExpired = false;
     collectRows(first, out);
-    if (!kinematics_.beginLinearisation(contacts_.leaves, rows_, out)) {
+    if (!kinematics_.beginLinearisation(rows_, out)) {
         return false;
     }
     ++out.solves;
@@ -168,7 +161,7 @@ bool ConstrainedProxy<Kinematics>::linearise(bool first, Step& out) noexcept {
 
 // Cuts, checks, tightens and solves again until the exact check passes. On return `answer` holds the last
 // solution; true when all of it passed.
-template <class Kinematics>
+template <ProxyKinematics Kinematics>
 bool ConstrainedProxy<Kinematics>::fitsExactly(Answer& answer, Step& out) noexcept {
     for (int round = 0;; ++round) {
         const bool inside = kinematics_.cutAndTry(answer, contacts_, rows_);
@@ -193,12 +186,12 @@ bool ConstrainedProxy<Kinematics>::fitsExactly(Answer& answer, Step& out) noexce
     }
 }
 
-template <class Kinematics>
+template <ProxyKinematics Kinematics>
 bool ConstrainedProxy<Kinematics>::allowed(bool insideTrustRegion) noexcept {
     return contacts_.check() == 0 && (insideTrustRegion || contacts_.insideTrustRegion()) && shapesAllow();
 }
 
-template <class Kinematics>
+template <ProxyKinematics Kinematics>
 bool ConstrainedProxy<Kinematics>::shapesAllow() const noexcept {
     for (const Shape& shape : shapes()) {
         if (shape.isEquality() && !equalityAllows(shape, kinematics_.pose(), kinematics_.nextPose())) {
@@ -222,7 +215,7 @@ bool ConstrainedProxy<Kinematics>::shapesAllow() const noexcept {
 
 // Largest part of the step, to 1/2^14 of it, that passes the exact check and the trust region. 0 always
 // passes.
-template <class Kinematics>
+template <ProxyKinematics Kinematics>
 double ConstrainedProxy<Kinematics>::bisect(const Answer& answer) noexcept {
     double good = 0.0, bad = kinematics_.fullFraction(answer);
     onlyTrustRegionFailed_ = true;

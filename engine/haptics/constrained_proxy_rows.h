@@ -7,12 +7,12 @@
 namespace fathom {
 
 // Separated pairs: keep the leaf out, plus the skin. Overlapping pairs: move out as fast as the tick allows.
-template <class Kinematics>
+template <ProxyKinematics Kinematics>
 double ConstrainedProxy<Kinematics>::offsetFor(double gap) const noexcept {
     return gap >= 0.0 ? proxy::kSkin - gap : kinematics_.escapeOffset(-gap);
 }
 
-template <class Kinematics>
+template <ProxyKinematics Kinematics>
 void ConstrainedProxy<Kinematics>::collectRows(bool first, Step& out) noexcept {
     const dvec3 centre = kinematics_.pose().position;
     rows_.clear();
@@ -41,7 +41,7 @@ void ConstrainedProxy<Kinematics>::collectRows(bool first, Step& out) noexcept {
 }
 
 // A leaf inside of its plane, because that turned as the leaf slid, may stay: only spheres push a tool out.
-template <class Kinematics>
+template <ProxyKinematics Kinematics>
 void ConstrainedProxy<Kinematics>::addSmoothRows() noexcept {
     for (ContactRow row : contacts_.smoothRows()) {
         row.offset = std::min(0.0, -row.gap);
@@ -49,7 +49,7 @@ void ConstrainedProxy<Kinematics>::addSmoothRows() noexcept {
     }
 }
 
-template <class Kinematics>
+template <ProxyKinematics Kinematics>
 void ConstrainedProxy<Kinematics>::findNearShapes() noexcept {
     nearShapes_.clear();
     const double reach = 2.0 * options_.stepCap + proxy::kSkin;
@@ -71,7 +71,7 @@ void ConstrainedProxy<Kinematics>::findNearShapes() noexcept {
 
 // Where the solver has no room for all leaves near a shape, tightenShapes() adds rows for others that turn
 // out to be in the way.
-template <class Kinematics>
+template <ProxyKinematics Kinematics>
 void ConstrainedProxy<Kinematics>::addShapeRows(Step& out) noexcept {
     findNearShapes();
     const size_t taken = rows_.size() + proxy::kSpareRows;
@@ -91,7 +91,7 @@ void ConstrainedProxy<Kinematics>::addShapeRows(Step& out) noexcept {
 }
 
 // False when there is no room for all sides.
-template <class Kinematics>
+template <ProxyKinematics Kinematics>
 bool ConstrainedProxy<Kinematics>::addShapeRows(uint32_t shape, uint32_t leaf) noexcept {
     std::array<SideGap, kMaxSides> sides;
     const size_t count =
@@ -103,7 +103,7 @@ bool ConstrainedProxy<Kinematics>::addShapeRows(uint32_t shape, uint32_t leaf) n
     return room;
 }
 
-template <class Kinematics>
+template <ProxyKinematics Kinematics>
 ContactRow ConstrainedProxy<Kinematics>::shapeRow(uint32_t shape, uint32_t leaf, size_t side,
                                                   const SideGap& gap) const noexcept {
     ContactRow row;
@@ -120,7 +120,7 @@ ContactRow ConstrainedProxy<Kinematics>::shapeRow(uint32_t shape, uint32_t leaf,
 
 // Lines and axes constrain the tool or tip by two opposite rows per equation. They pull it back no faster
 // than new data would push it out.
-template <class Kinematics>
+template <ProxyKinematics Kinematics>
 void ConstrainedProxy<Kinematics>::addEqualityRows(const Shape& shape, uint32_t index) noexcept {
     std::array<Equality, kMaxEqualities> equalities;
     const size_t count = equalitiesOf(shape, kinematics_.pose(), equalities);
@@ -147,7 +147,7 @@ void ConstrainedProxy<Kinematics>::addEqualityRows(const Shape& shape, uint32_t 
 // arcs included) falls short of the pair's tangent plane. A path on the free side of that plane cannot enter
 // the sphere, so one round is enough for a pair unless others push it back. Sides of shapes and equations are
 // treated alike. False when no row could be tightened.
-template <class Kinematics>
+template <ProxyKinematics Kinematics>
 bool ConstrainedProxy<Kinematics>::tighten(const Answer& answer) noexcept {
     const double tried = kinematics_.triedFraction(answer);
     bool changed = false;
@@ -169,7 +169,7 @@ bool ConstrainedProxy<Kinematics>::tighten(const Answer& answer) noexcept {
     return kinematics_.tightenEqualities(shapes(), tried, rows_) || shapesChanged || changed;
 }
 
-template <class Kinematics>
+template <ProxyKinematics Kinematics>
 bool ConstrainedProxy<Kinematics>::tightenShapes(double tried) noexcept {
     bool changed = false;
     for (size_t i = 0; i < rows_.size(); ++i) {
@@ -193,7 +193,7 @@ bool ConstrainedProxy<Kinematics>::tightenShapes(double tried) noexcept {
 }
 
 // A row for the leaf that gets deepest into a shape without having one.
-template <class Kinematics>
+template <ProxyKinematics Kinematics>
 bool ConstrainedProxy<Kinematics>::addMissingShapeRow() noexcept {
     std::array<SideGap, kMaxSides> now, next;
     double deepest = 0.0;

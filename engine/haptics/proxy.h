@@ -2,6 +2,7 @@
 // The proxy (virtual tool): a pose that follows the hand and never enters a region. Paper V.B.
 #pragma once
 
+#include "engine/haptics/constrained_proxy.h"
 #include "engine/haptics/tool_kinematics.h"
 
 namespace fathom {

@@ -56,14 +56,14 @@ struct ProxyStep {
     bool blocked = false;     // only the exact check keeps the tool from the target: counts as a row
     bool rowsExpired = false; // `allowed` is farther away than the tangents of the active rows are accurate
     std::span<const ActiveContact> active; // valid until the next tick
-    double minGap = 0.0;    // [m] smallest gap in the contact set, or its certified reach if none is smaller;
-                            // NaN without a set
-    bool contact = false;   // some row of a region or shape pushes; limits of joints do not count
-    bool escape = false;    // new data overlaps a leaf (some listed pair or shape)
-    bool trapped = false;   // no motion satisfies every row: held this tick, tried again at the next
-    bool stalled = false;   // stopped by the trust region until the next contact set
-    uint32_t solves = 0;    // linearisations
-    uint32_t rounds = 0;    // solver calls with tightened rows
+    double minGap = 0.0;  // [m] smallest gap in the contact set, or its certified reach if none is smaller;
+                          // NaN without a set
+    bool contact = false; // some row of a region or shape pushes; limits of joints do not count
+    bool escape = false;  // new data overlaps a leaf (some listed pair or shape)
+    bool trapped = false; // no motion satisfies every row: held this tick, tried again at the next
+    bool stalled = false; // stopped by the trust region until the next contact set
+    uint32_t solves = 0;  // linearisations
+    uint32_t rounds = 0;  // solver calls with tightened rows
     uint32_t infeasible = 0; // solver calls that found no motion
     uint32_t bisected = 0;   // steps that the exact check shortened
 };

@@ -69,8 +69,7 @@ bool ToolKinematics::addRow(const ContactRow& row, const LeafState&, ProxyRows& 
     return rows.add(row, unknownsOf({row.normal, glm::cross(row.arm, row.normal) + row.spin}));
 }
 
-bool ToolKinematics::beginLinearisation(const LeafState&, const ProxyRows& rows,
-                                        const ProxyStep& out) noexcept {
+bool ToolKinematics::beginLinearisation(const ProxyRows& rows, const ProxyStep& out) noexcept {
     newData_ = rows.escaping();
     wanted_ = remaining(pose_, target_);
     return out.solves == 0 || newData_ || !isNothing(wanted_);

@@ -2,12 +2,16 @@
 // Kinematics of a free tool for ConstrainedProxy. Unknowns: translation and rotation about the tool's centre.
 #pragma once
 
-#include "engine/haptics/constrained_proxy.h"
+#include "engine/haptics/proxy_kinematics.h"
 #include "engine/haptics/tool_motion.h"
+
+#include <algorithm>
+#include <span>
 
 namespace fathom {
 
-// One thread. Allocates in the constructor only; everything else is noexcept.
+// proxy_kinematics.h documents the public functions. One thread. Allocates in the constructor only;
+// everything else is noexcept.
 class ToolKinematics {
 public:
     using Step = ProxyStep;
@@ -27,7 +31,7 @@ public:
 
     size_t unknowns() const noexcept { return 6; }
     const Pose& pose() const noexcept { return pose_; }
-    const dvec3& origin() const noexcept { return pose_.position; } // of the leaves without an active set
+    const dvec3& origin() const noexcept { return pose_.position; }
     const Pose& nextPose() const noexcept { return nextPose_; }
     void setPose(const Pose& pose) noexcept;
     void setTarget(const Pose& target) noexcept { target_ = target; }
@@ -39,16 +43,14 @@ public:
     // Rows.
     void addLimits(ProxyRows&) const noexcept {}
     bool addRow(const ContactRow& row, const LeafState& leaves, ProxyRows& rows) const noexcept;
-    // [m] motion requested by a row of this depth, with the skin.
     double escapeOffset(double depth) const noexcept {
         return std::max(proxy::kSkin, std::min(proxy::kSkin + depth, depthLeft()));
     }
-    // [m] or [rad] that an equation may correct in one solve: a rotation is limited by its arc at the tool's
-    // bounding radius.
+    // A rotation is limited by its arc at the tool's bounding radius.
     double equalityLimit(const Equality& e) const noexcept {
         return depthLeft() / (e.linear == dvec3(0.0) ? boundingRadius_ : 1.0);
     }
-    Sphere bound() const noexcept { return {pose_.position, boundingRadius_}; } // around all leaves, now
+    Sphere bound() const noexcept { return {pose_.position, boundingRadius_}; }
     dvec3 leafNow(size_t leaf, const LeafState&) const noexcept {
         return pose_.position + pose_.rotation * places_.centre(leaf);
     }
@@ -58,7 +60,7 @@ public:
     dvec3 lever(size_t leaf, const dvec3&) const noexcept { return pose_.rotation * places_.centre(leaf); }
 
     // One linearisation.
-    bool beginLinearisation(const LeafState&, const ProxyRows& rows, const ProxyStep& out) noexcept;
+    bool beginLinearisation(const ProxyRows& rows, const ProxyStep& out) noexcept;
     bool solve(Answer& answer, bool again, ProxyRows& rows, ProxyStep& out) const noexcept;
     bool cutAndTry(Answer& answer, LeafContacts& contacts, const ProxyRows& rows) noexcept;
     double fullFraction(const Answer&) const noexcept { return 1.0; }
@@ -66,11 +68,10 @@ public:
     StepOutcome outcomeOf(const Answer& answer, double fraction, const LeafState& leaves, ProxyRows& rows,
                           ProxyStep& out) noexcept;
     void commit() noexcept { pose_ = nextPose_; }
-    // Before commit(): fills out.allowed, cut and rowsExpired. blocked: the exact check shortened the motion.
     void recordAllowed(const Answer& answer, bool blocked, const LeafContacts& contacts,
                        const ProxyRows& rows, ProxyStep& out) noexcept;
 
-    // Tightening. tried: the part of every row's offset that the tried motion surely reaches.
+    // Tightening.
     double triedFraction(const Answer& answer) const noexcept {
         return answer.trustFraction * answered(answer);
     }
