@@ -26,7 +26,8 @@ public:
     virtual std::optional<Frame> next() = 0;
     // Number of unusable frames so far.
     virtual uint32_t skipped() const = 0;
-    // Frames skipped and files doubted so far: one sentence each, already logged, at most a few dozen.
+    // Warnings so far about skipped frames and suspicious files: one sentence each, already logged, at most a
+    // few dozen.
     virtual std::vector<std::string> warnings() const { return {}; }
     // True when frames arrive by themselves, stamped with CLOCK_MONOTONIC; false when they are read on
     // request.

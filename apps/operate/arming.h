@@ -20,8 +20,7 @@ struct ArmingInput {
 };
 
 // Why forces must stay off, and what mends it: "hand is 105 mm inside 'red valve': hold C to re-centre".
-// Empty: nothing speaks against them. Forces that came on with the hand deep in a region would push it at
-// once.
+// Empty: all checks passed. Forces that came on with the hand deep in a region would push it at once.
 std::string whyNotArmed(const ArmingInput& input);
 
 // The newest regions are so old, or so far from the future, that not even a slow camera explains it.

@@ -25,8 +25,8 @@ public:
                const RegionGrid& grid, ContactSet& out);
 
     // Only the first step of query(): the index of every sphere with d^2 <= (reach + r_t + R)^2 for some
-    // leaf, once, in grid order. float32, d^2 = dx dx + dy dy + dz dz left to right without contraction.
-    // leaves: poseLeaves() about the set's origin.
+    // leaf, once, in grid order. In float32 with the order of operations of exactGap(). leaves: poseLeaves()
+    // about the set's origin.
     void cull(const PosedLeaves& leaves, float reach, const RegionGrid& grid, std::vector<uint32_t>& found);
 
     const QueryStatistics& statistics() const { return loop_.statistics(); }

@@ -75,7 +75,7 @@ private:
         return std::max({0.0, below, above});
     }
     using Columns = std::array<std::span<const float>, 4>; // x, y, z, radius; all finite but in measure()
-    // The cells along x of a row between which it has spheres; first > last: none.
+    // First and last cell of a row that contains a sphere; first > last: none.
     struct UsedCells {
         int32_t first = std::numeric_limits<int32_t>::max(), last = -1;
     };

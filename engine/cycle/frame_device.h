@@ -33,7 +33,7 @@ public:
     void wait() const { timeline_.wait(ticket_); }
     // When the last submission's passes have completed.
     gpu::Device::At completed() const { return {timeline_.handle(), ticket_}; }
-    // Empties the memory of points and the counters, and waits.
+    // Clears held points, estimates and counters. Waits for the device.
     void clearMemory();
 
     const std::vector<std::string>& passNames() const { return passes_.names(); }
