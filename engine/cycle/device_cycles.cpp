@@ -38,15 +38,15 @@ std::unique_ptr<FrameCycle> DeviceCycles::openFrames() const {
 
 // Destroys users of the device before the device. The newest set is kept on the host.
 void DeviceCycles::close() {
-    const std::lock_guard noBatch(gapMutex_);
-    const std::lock_guard lock(mutex_);
+    const std::lock_guard noBatch(batchMutex_);
+    const std::lock_guard lock(answerMutex_);
     if (frames_) {
         if (const auto newest = frames_->sets().newest()) {
-            auto stale = std::make_shared<cloud::FixtureSet>();
-            stale->host = newest->host;
-            stale->largestRadius = newest->largestRadius;
-            stale->grid.build(stale->host.spheres, nullptr);
-            stale_ = std::move(stale);
+            auto last = std::make_shared<cloud::FixtureSet>();
+            last->host = newest->host;
+            last->largestRadius = newest->largestRadius;
+            last->grid.build(last->host.spheres, nullptr);
+            lastSet_ = std::move(last);
         }
         mark_ = frames_->mark();
     }
@@ -65,8 +65,8 @@ void DeviceCycles::renew() {
                              " would need a different plan");
         }
         auto frames = openFrames();
-        const std::lock_guard noBatch(gapMutex_);
-        const std::lock_guard lock(mutex_);
+        const std::lock_guard noBatch(batchMutex_);
+        const std::lock_guard lock(answerMutex_);
         frames_ = std::move(frames);
         useDevice();
         ++renewals_;
@@ -83,12 +83,12 @@ bool DeviceCycles::newestSet(Fixtures& set, RegionGrid& grid) {
         grid = newest->grid.get();
         return true;
     }
-    const std::lock_guard lock(mutex_); // waits for answer() to release it
-    if (stale_) {
-        set = stale_->host;
-        grid = stale_->grid.get();
+    const std::lock_guard lock(answerMutex_); // waits for answer() to release it
+    if (lastSet_) {
+        set = lastSet_->host;
+        grid = lastSet_->grid.get();
     }
-    return stale_ != nullptr;
+    return lastSet_ != nullptr;
 }
 
 // The set may not have its host copy yet.
@@ -109,24 +109,24 @@ bool DeviceCycles::answerOnDevice(const ToolState& place, ContactSet& out) {
 }
 
 bool DeviceCycles::answer(const ToolState& place, ContactSet& out) {
-    const std::lock_guard lock(mutex_);
-    if (stale_ && frames_ && frames_->sets().newest()) { // not earlier: the device may be lost again
-        stale_.reset();
+    const std::lock_guard lock(answerMutex_);
+    if (lastSet_ && frames_ && frames_->sets().newest()) { // not earlier: the device may be lost again
+        lastSet_.reset();
     }
     if (answerOnDevice(place, out)) {
         return true;
     }
     const auto newest = frames_ ? frames_->sets().newest() : cloud::FixturePool::Lease();
-    if (!newest && !stale_) {
+    if (!newest && !lastSet_) {
         return false;
     }
-    contact_.query(newest ? *newest : *stale_, place, out);
+    contact_.query(newest ? *newest : *lastSet_, place, out);
     return true;
 }
 
 DeviceCycles::SetInUse DeviceCycles::newestInUse() {
-    const std::lock_guard lock(mutex_);
-    return {frames_ ? frames_->sets().newest() : cloud::FixturePool::Lease(), stale_};
+    const std::lock_guard lock(answerMutex_);
+    return {frames_ ? frames_->sets().newest() : cloud::FixturePool::Lease(), lastSet_};
 }
 
 void DeviceCycles::findGaps(const cloud::FixtureSet& set, const Tool& tool, std::span<const Pose> baseTtool,
@@ -141,7 +141,7 @@ void DeviceCycles::findGaps(const cloud::FixtureSet& set, const Tool& tool, std:
 }
 
 void DeviceCycles::smallestGaps(std::span<const Pose> baseTtool, GapBatch& out) {
-    const std::lock_guard lock(gapMutex_);
+    const std::lock_guard lock(batchMutex_);
     const SetInUse set = newestInUse();
     out.frame = -1;
     out.gaps.clear();
@@ -154,7 +154,7 @@ void DeviceCycles::smallestGaps(std::span<const Pose> baseTtool, GapBatch& out) 
 }
 
 double DeviceCycles::clearance(const ToolState& place) {
-    const std::lock_guard lock(gapMutex_);
+    const std::lock_guard lock(batchMutex_);
     const SetInUse set = newestInUse();
     if (set.get() == nullptr) {
         return kNotKnown;

@@ -75,8 +75,8 @@ public:
     // moment only: it occupies one of the frame cycle's leases.
     struct SetInUse { // one of the two, or none
         cloud::FixturePool::Lease lease;
-        std::shared_ptr<const cloud::FixtureSet> stale;
-        const cloud::FixtureSet* get() const { return lease ? &*lease : stale.get(); }
+        std::shared_ptr<const cloud::FixtureSet> last; // host copy of the newest set of a lost device
+        const cloud::FixtureSet* get() const { return lease ? &*lease : last.get(); }
     };
     // Any thread, but not while renew() runs: it frees the sets.
     SetInUse newestInUse();
@@ -101,12 +101,13 @@ private:
     DeviceFacts facts_;
     Plan plan_;
     std::unique_ptr<FrameCycle> frames_; // null while there is no device
-    // Held for a batch, and for an answer; both while the device is replaced. The first one is taken first.
-    std::mutex gapMutex_, mutex_;
+    // batchMutex_: held during a batch of gaps. answerMutex_: held during a contact answer. renew() takes
+    // both, in this order.
+    std::mutex batchMutex_, answerMutex_;
     ContactCycle contact_;
     GapCycle gaps_;
-    FrameCycle::Mark mark_;                          // where a new frame cycle resumes
-    std::shared_ptr<const cloud::FixtureSet> stale_; // host copy of the newest set of a lost device
+    FrameCycle::Mark mark_;                            // where a new frame cycle resumes
+    std::shared_ptr<const cloud::FixtureSet> lastSet_; // host copy of the newest set of a lost device
     std::atomic<uint32_t> renewals_{0};
 };
 
