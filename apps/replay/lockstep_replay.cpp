@@ -62,7 +62,7 @@ void LockstepReplay::processNext() {
         session_.cycles.frames().setArm(session_.arm->inImage(now ? cycle_->place().arm : taken_));
     }
     if (session_.heldStill() && !kept_.empty()) {
-        ready_ = session_.cycles.frames().without((*next_)->index);
+        ready_ = session_.cycles.frames().unprocessedReport((*next_)->index);
     } else {
         ready_ = session_.cycles.frames().process(std::move(*next_));
     }

@@ -116,7 +116,7 @@ void SessionFeed::publishNew(PublishedFrame& out) {
         throw DeviceLost(session_.handover->why());
     }
     out.still = takeEdits(out.report.index);
-    out.report = out.still ? session_.cycles.frames().without(out.report.index) : process();
+    out.report = out.still ? session_.cycles.frames().unprocessedReport(out.report.index) : process();
     out.edit = applied_;
     out.changed = !out.report.unchanged;
     if (out.changed) {

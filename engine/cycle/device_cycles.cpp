@@ -32,7 +32,7 @@ std::unique_ptr<gpu::Device> DeviceCycles::openDevice() const {
 std::unique_ptr<FrameCycle> DeviceCycles::openFrames() const {
     auto frames =
         std::make_unique<FrameCycle>(device_.get(), parts_.scene, parts_.camera, plan_, kFixtureSets - 2);
-    frames->resumeFrom(mark_);
+    frames->resumeFrom(resumeState_);
     return frames;
 }
 
@@ -48,7 +48,7 @@ void DeviceCycles::close() {
             last->grid.build(last->host.spheres, nullptr);
             lastSet_ = std::move(last);
         }
-        mark_ = frames_->mark();
+        resumeState_ = frames_->resumeState();
     }
     contact_.dropDevice();
     gaps_.dropDevice();

@@ -82,8 +82,8 @@ public:
     SetInUse newestInUse();
 
     // Call after frames() threw DeviceFailed: closes the device and opens it again. Origin, generations and
-    // edited fixtures continue (FrameCycle::Mark); held points are dropped. Throws DeviceFailed while the
-    // device is missing: retry later.
+    // edited fixtures continue (FrameCycle::ResumeState); held points are dropped. Throws DeviceFailed while
+    // the device is missing: retry later.
     void renew();
     uint32_t renewals() const { return renewals_.load(); } // any thread
 
@@ -106,7 +106,7 @@ private:
     std::mutex batchMutex_, answerMutex_;
     ContactCycle contact_;
     GapCycle gaps_;
-    FrameCycle::Mark mark_;                            // where a new frame cycle resumes
+    FrameCycle::ResumeState resumeState_;              // where a new frame cycle resumes
     std::shared_ptr<const cloud::FixtureSet> lastSet_; // host copy of the newest set of a lost device
     std::atomic<uint32_t> renewals_{0};
 };

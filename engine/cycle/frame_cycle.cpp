@@ -52,14 +52,14 @@ const std::vector<std::string>& FrameCycle::passNames() const {
     return device_ ? device_->passNames() : kNone;
 }
 
-void FrameCycle::resumeFrom(const Mark& mark) {
-    generation_ = mark.generation;
-    frozen_ = mark.frozen;
-    if (mark.scene) {
-        setScene(*mark.scene);
+void FrameCycle::resumeFrom(const ResumeState& state) {
+    generation_ = state.generation;
+    frozen_ = state.frozen;
+    if (state.scene) {
+        setScene(*state.scene);
     }
-    if (mark.origin) {
-        placeOrigin(*mark.origin);
+    if (state.origin) {
+        placeOrigin(*state.origin);
     }
 }
 
@@ -198,7 +198,7 @@ void FrameCycle::describe(cloud::FixtureSet& set) const {
     }
 }
 
-FrameReport FrameCycle::without(uint32_t index) const {
+FrameReport FrameCycle::unprocessedReport(uint32_t index) const {
     FrameReport report;
     report.index = index;
     report.unchanged = true;

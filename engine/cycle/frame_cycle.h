@@ -55,20 +55,20 @@ public:
 
     // State with which a cycle on another device resumes: generations continue, positions keep their origin,
     // fixtures keep the last setScene(), and frozen classes keep their spheres.
-    struct Mark {
+    struct ResumeState {
         uint64_t generation = 0;
         std::optional<dvec3> origin; // [m] base frame; empty = not chosen yet
         std::optional<Scene> scene;  // empty = the scene of the constructor
         cloud::FrozenClasses frozen;
     };
-    Mark mark() const { return {generation_, origin_, scene_, frozen_}; }
-    void resumeFrom(const Mark& mark); // before the first frame
+    ResumeState resumeState() const { return {generation_, origin_, scene_, frozen_}; }
+    void resumeFrom(const ResumeState& state); // before the first frame
 
     // Processes one frame from upload to publish. A camera farther than kMaxAway from the origin makes its
     // own position the origin, and drops held points as forget() does.
     FrameReport process(Frame frame);
-    // Call instead of process() for a frame that gives no new set.
-    FrameReport without(uint32_t index) const;
+    // Report of a frame that is not processed, because all fixtures are frozen.
+    FrameReport unprocessedReport(uint32_t index) const;
     // Changes gates, radii, roles, boxes and frozen classes from the next frame on. Throws Error if the
     // number of point classes or the plan would change.
     void setScene(const Scene& scene);
