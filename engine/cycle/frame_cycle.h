@@ -37,11 +37,14 @@ struct FrameReport {
     double answerableMs = 0.0;  // [ms] from the start of the upload until contact queries can be answered
     std::vector<double> passMs; // [ms] in the order of FrameCycle::passNames(); device time, zeros without
                                 // Plan::passTimes
-    struct Times {              // on the host's monotonic clock
-        // completed: the device has finished; answerable: contact queries can be answered; collected: the
-        // host has the results; published: the host's copy is complete (where the CPU answers, with the grid)
-        std::chrono::steady_clock::time_point started, uploaded, submitted, completed, collected, published,
-            answerable;
+    struct Times {              // on the host's monotonic clock, in order
+        std::chrono::steady_clock::time_point started; // of the upload
+        std::chrono::steady_clock::time_point uploaded, submitted;
+        std::chrono::steady_clock::time_point completed; // the device has finished
+        std::chrono::steady_clock::time_point collected; // the host has the results
+        std::chrono::steady_clock::time_point published; // the host's copy is complete, and its grid if any
+        // Contact queries can be answered: after `completed` on a GPU, else with `published`.
+        std::chrono::steady_clock::time_point answerable;
     } times;
 };
 
