@@ -64,11 +64,11 @@ vec4 updateMemory(uint slot, vec3 point, uint now, float grown, bool holding, ou
     }
     vec4 hold = lastStays ? last : (oldStays ? old : vec4(0.0));
     seen[slot] = now == kNone ? vec4(0.0) : vec4(point, uintBitsToFloat(noteOf(now, grown)));
-    uint keptAt = lastStays ? params.time.z : when; // it was seen in the previous frame
+    uint seenTime = lastStays ? params.time.z : when; // [us] last seen: in the previous frame, or before
     // Skips the store for most slots, which hold nothing in either frame.
-    if (any(bvec2(keptAt != when, any(notEqual(floatBitsToUint(hold), floatBitsToUint(old)))))) {
+    if (any(bvec2(seenTime != when, any(notEqual(floatBitsToUint(hold), floatBitsToUint(old)))))) {
         kept[slot] = hold;
-        keptTime[slot] = keptAt;
+        keptTime[slot] = seenTime;
     }
     uint note = floatBitsToUint(hold.w), holdClass = classOfNote(note);
     remembered = (now != kNone ? 1u : 0u) | (holdClass != 0 ? 2u : 0u);
