@@ -38,7 +38,8 @@ layout(std430, binding = 6) buffer Listed { uint listed[]; };               // p
 // Patches in any order; frame_params.h describes its parts.
 layout(std430, binding = 7) writeonly buffer List { uint list[]; };
 layout(std430, binding = 8) buffer Counters { FrameCounters counters; };
-layout(std430, binding = 9) readonly buffer Live { uint live[]; };          // patch -> points in memory + 65536 x held points
+// Patch -> points in memory + 65536 x held points.
+layout(std430, binding = 9) readonly buffer Memory { uint memoryCounts[]; };
 // Spheres of the arm, relative to the origin [m]. arm[0].x = number of links (integer bits). Each link has
 // two entries: its bounding sphere, then begin and end of its spheres (integer bits).
 layout(std430, binding = 10) readonly buffer Arm { vec4 arm[]; };
@@ -224,7 +225,7 @@ void mark(uint patchIndex, uint bits) {
         uint place = atomicAdd(counters.patchGroups.x, 1u);
         list[place] = patchIndex;
         atomicMax(counters.subGroups.x, groupsUpTo(place, kGroupSubs));
-        if (kHold != 0 && live[patchIndex] >> 16 != 0) {
+        if (kHold != 0 && memoryCounts[patchIndex] >> 16 != 0) {
             atomicOr(listed[patchIndex], kPatchHolding);
         }
     }
@@ -241,7 +242,7 @@ void markPatch(Place place, uint some) {
     uint bits = some != 0 ? kPatchListed : 0u;
     bits |= kGuidance != 0 && guided != 0 ? kPatchGuided : 0u;
     if (kHold != 0 && kLists != 0 && place.inside == 0 && place.exists) {
-        bits |= live[place.patchIndex] != 0 ? kPatchListed : 0u;
+        bits |= memoryCounts[place.patchIndex] != 0 ? kPatchListed : 0u;
     }
     mark(place.patchIndex, bits);
 }

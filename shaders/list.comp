@@ -14,7 +14,8 @@ layout(constant_id = kSpecSubGroup) const uint kGroupSubs = 64;
 
 layout(std140, binding = 0) uniform Params { FrameParams params; };
 layout(std430, binding = 1) buffer Listed { uint listed[]; };               // patch -> kPatch bits
-layout(std430, binding = 2) readonly buffer Live { uint live[]; };          // patch -> points in memory + 65536 x held points
+// Patch -> points in memory + 65536 x held points.
+layout(std430, binding = 2) readonly buffer Memory { uint memoryCounts[]; };
 // Patches in any order; frame_params.h describes its parts.
 layout(std430, binding = 3) writeonly buffer List { uint list[]; };
 layout(std430, binding = 4) buffer Counters { FrameCounters counters; };
@@ -23,14 +24,14 @@ layout(std430, binding = 4) buffer Counters { FrameCounters counters; };
 
 // Patches without held points have a separate list, so that `spheres` need not read their memory.
 void putByMemory(uint patchIndex, uint patches) {
-    if (live[patchIndex] >> 16 != 0) {
-        uint place = atomicAdd(counters.holdingGroups.w, 1u);
+    if (memoryCounts[patchIndex] >> 16 != 0) {
+        uint place = atomicAdd(counters.withHeldGroups.w, 1u);
         list[3u * patches - 1u - place] = patchIndex;
-        atomicMax(counters.holdingGroups.x, groupsUpTo(place, kGroupSubs));
+        atomicMax(counters.withHeldGroups.x, groupsUpTo(place, kGroupSubs));
     } else {
-        uint place = atomicAdd(counters.quietGroups.w, 1u);
+        uint place = atomicAdd(counters.withoutHeldGroups.w, 1u);
         list[2u * patches + place] = patchIndex;
-        atomicMax(counters.quietGroups.x, groupsUpTo(place, kGroupSubs));
+        atomicMax(counters.withoutHeldGroups.x, groupsUpTo(place, kGroupSubs));
     }
 }
 
@@ -40,7 +41,7 @@ void main() {
         return;
     }
     uint bits = listed[patchIndex];
-    if (kHold != 0 && live[patchIndex] != 0) {
+    if (kHold != 0 && memoryCounts[patchIndex] != 0) {
         bits |= kPatchListed;
         listed[patchIndex] = bits;
     }

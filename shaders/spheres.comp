@@ -59,7 +59,7 @@ void wholeSub(uint sub) {
     uvec4 rows = rowsOfMasks(sub);
     [[unroll]] for (uint p = 0; p < 16u; ++p) {
         uint mask = maskInRow(rows[p >> 2], p & 3u) & params.depthBand.w;
-        PixelResult r = handlePixel(sub, p, corner, mask, around, kHold == kHoldHolding);
+        PixelResult r = handlePixel(sub, p, corner, mask, around, kHold == kHoldWithPoints);
         mine[p] = r.sphere;
         if (kHold != 0) {
             mine[16u * (kLayers - 1u) + p] = r.held;
@@ -95,18 +95,18 @@ void wholeSub(uint sub) {
         atomicAdd(counters.subs, 1u);
     }
     if (kHold != 0 && notes.remembered != 0) {
-        atomicAdd(live[sub >> 4], notes.remembered); // zeroed before this pass
+        atomicAdd(memoryCounts[sub >> 4], notes.remembered); // zeroed before this pass
     }
 }
 
 // Number of listed patches that this dispatch handles.
 uint patchesOfPart() {
-    return kHold == kHoldNone ? counters.patchGroups.x : (kHold == kHoldQuiet ? counters.quietGroups.w : counters.holdingGroups.w);
+    return kHold == kHoldNone ? counters.patchGroups.x : (kHold == kHoldWithoutPoints ? counters.withoutHeldGroups.w : counters.withHeldGroups.w);
 }
 
 uint patchOfPart(uint i) {
     uint patches = params.size.z * params.size.w;
-    return list[kHold == kHoldNone ? i : (kHold == kHoldQuiet ? 2u * patches + i : 3u * patches - 1u - i)];
+    return list[kHold == kHoldNone ? i : (kHold == kHoldWithoutPoints ? 2u * patches + i : 3u * patches - 1u - i)];
 }
 
 void main() {

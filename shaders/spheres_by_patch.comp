@@ -40,7 +40,7 @@ shared vec4 ofPatch[kThin != 0 && kHold == 0 ? 441u : 256u * kLayers];
 shared uint notesOfPatch[256];                     // PixelResult::note of each pixel
 const bool kByDepth = kPack != 0 && kBeam == 0;     // seen spheres are packed as depths
 shared float zOfPatch[kByDepth ? 256 : 1];
-shared uint rememberedOfPatch;                     // same encoding as `live`
+shared uint rememberedOfPatch;                     // same encoding as `memoryCounts`
 shared uint largestOfPatch[kTree != 0 ? kMaxClasses : 1u]; // as FrameCounters::largestRadius
 shared vec4 sumOfColumn[kTree != 0 ? 64 : 1]; // per column: sum of the centres, w = their number
 shared vec4 nodeOfSub[kTree != 0 ? 16 : 1];      // as Nodes
@@ -228,9 +228,9 @@ void wholePatch(uint patchIndex) {
     if (kPack != 0) {
         packPatch(patchIndex);
     }
-    // Unlisted patches have no memory before or after the frame, so every entry of `live` is valid.
+    // Unlisted patches have no memory before or after the frame, so every entry of `memoryCounts` is valid.
     if (kHold != 0 && gl_LocalInvocationID.x == 0) {
-        live[patchIndex] = rememberedOfPatch;
+        memoryCounts[patchIndex] = rememberedOfPatch;
     }
 }
 

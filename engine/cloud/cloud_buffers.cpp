@@ -52,7 +52,7 @@ WorkBuffers::WorkBuffers(const gpu::Device& device, const Plan& plan, const Patc
         seen = Buffer(device, slots * 16, MemoryKind::Device, "seen");
         kept = Buffer(device, slots * 16, slotMemory(plan), "kept");
         keptTime = Buffer(device, slots * 4, MemoryKind::Device, "keptTime");
-        live = Buffer(device, patches * 4, MemoryKind::Device, "live");
+        memoryCounts = Buffer(device, patches * 4, MemoryKind::Device, "memory counts");
     }
     if (plan.estimates) {
         estimates = Buffer(device, slots * 32, MemoryKind::Device, "estimates");

@@ -24,7 +24,7 @@ struct WorkBuffers {
     gpu::Buffer points;               // vec4 per slot
     gpu::Buffer growth;               // vec4 per sub-patch: thinning
     gpu::Buffer seen, kept, keptTime; // vec4, vec4, uint per slot: memory of points
-    gpu::Buffer live;                 // uint per patch: points in memory + 65536 x held points
+    gpu::Buffer memoryCounts;         // uint per patch: points in memory + 65536 x held points
     gpu::Buffer estimates;            // 2 x uvec4 per slot: depths averaged over frames (estimate.comp)
     gpu::Buffer nearest;              // uint per cell of the colour image: occlusion
     gpu::Buffer rays;                 // vec2 per pixel, row-major

@@ -36,7 +36,7 @@ void deliverByCopies(gpu::Commands& commands, const WorkBuffers& work, const Set
 void clearCounters(gpu::Commands& commands, const WorkBuffers& work) {
     FrameCounters zero{};
     zero.patchGroups = zero.subGroups = zero.guidedGroups = {0, 1, 1, 0};
-    zero.quietGroups = zero.holdingGroups = {0, 1, 1, 0};
+    zero.withoutHeldGroups = zero.withHeldGroups = {0, 1, 1, 0};
     commands.update(work.counters, 0, sizeof(zero), &zero);
     commands.fill(work.listed, 0);
 }

@@ -84,7 +84,7 @@ PassInfo classify(const CloudContext& c) {
              &Work::listed,
              &Work::list,
              &Work::counters,
-             &Work::live,
+             &Work::memoryCounts,
              &Up::arm,
              &Work::depth},
             {{kSpecGroupSize, group},
@@ -113,7 +113,7 @@ PassInfo classify(const CloudContext& c) {
 PassInfo list(const CloudContext& c) {
     return {"list",
             list_spv,
-            {&Up::params, &Work::listed, &Work::live, &Work::list, &Work::counters},
+            {&Up::params, &Work::listed, &Work::memoryCounts, &Work::list, &Work::counters},
             {{kSpecGroupSize, c.plan.subGroup},
              {kSpecHold, c.plan.hold},
              {kSpecGuidance, c.plan.moments},

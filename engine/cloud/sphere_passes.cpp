@@ -32,7 +32,7 @@ PassInfo spheresOf(const CloudContext& c, std::span<const uint32_t> spirv, size_
              &Work::seen,
              &Work::kept,
              &Work::keptTime,
-             &Work::live,
+             &Work::memoryCounts,
              &Set::spheres,
              &Set::held,
              &Work::classes,
@@ -85,9 +85,9 @@ std::vector<PassInfo> spherePasses(const CloudContext& c) {
     if (!c.plan.hold) {
         return {spheresBySub(c, kHoldNone, offsetof(FrameCounters, subGroups))};
     }
-    PassInfo quiet = spheresBySub(c, kHoldQuiet, offsetof(FrameCounters, quietGroups));
-    quiet.filled = &Work::live; // `classify` has read it; both dispatches count again
-    return {quiet, spheresBySub(c, kHoldHolding, offsetof(FrameCounters, holdingGroups))};
+    PassInfo withoutHeld = spheresBySub(c, kHoldWithoutPoints, offsetof(FrameCounters, withoutHeldGroups));
+    withoutHeld.filled = &Work::memoryCounts; // `classify` has read it; both dispatches count again
+    return {withoutHeld, spheresBySub(c, kHoldWithPoints, offsetof(FrameCounters, withHeldGroups))};
 }
 
 } // namespace fathom::cloud

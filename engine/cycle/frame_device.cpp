@@ -56,7 +56,7 @@ void FrameDevice::clearMemory() {
     commands.begin();
     cloud::clearCounters(commands, work_);
     for (const gpu::Buffer* buffer :
-         {&work_.seen, &work_.kept, &work_.keptTime, &work_.live, &work_.estimates}) {
+         {&work_.seen, &work_.kept, &work_.keptTime, &work_.memoryCounts, &work_.estimates}) {
         if (*buffer) {
             commands.fill(*buffer, 0);
         }

@@ -23,7 +23,8 @@ layout(std430, binding = 6) buffer Counters { FrameCounters counters; };
 layout(std430, binding = 7) buffer Seen { vec4 seen[]; };          // slot -> point of the previous frame, w = bits of class + 1
 layout(std430, binding = 8) buffer Kept { vec4 kept[]; };          // slot -> held point, w = bits of class + 1
 layout(std430, binding = 9) buffer KeptTime { uint keptTime[]; };  // slot -> time when it was last seen [us]
-layout(std430, binding = 10) buffer Live { uint live[]; };         // patch -> points in memory + 65536 x held points
+// Patch -> points in memory + 65536 x held points.
+layout(std430, binding = 10) buffer Memory { uint memoryCounts[]; };
 layout(std430, binding = 11) writeonly buffer Spheres { vec4 spheres[]; };     // slot -> centre, R; R < 0 = none
 layout(std430, binding = 12) writeonly buffer Held { vec4 held[]; };           // the same for held points
 // One byte per slot: class of the sphere | class of the held one << 4.
@@ -91,8 +92,9 @@ PixelResult handlePixel(uint sub, const uint p, uvec2 corner, uint mask, CellsAr
 
 // Combined results of the pixels of a sub-patch.
 struct Notes {
-    uint marks, remembered; // one bit per pixel of a forbidden class; remembered points, encoded as in `live`
-    uvec4 classes;          // one byte per pixel
+    uint marks;      // one bit per pixel of a forbidden class
+    uint remembered; // remembered points, encoded as in `memoryCounts`
+    uvec4 classes;   // one byte per pixel
 };
 
 Notes noted(Notes n, const uint p, uint note) {

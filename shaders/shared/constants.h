@@ -77,8 +77,8 @@ FATHOM_CONST kLensNone = 0,    // no distortion
 // Values of kSpecHold for `spheres`. On CPU devices, patches whose memory holds points have a dispatch of
 // their own.
 FATHOM_CONST kHoldNone = 0, // nothing is held
-    kHoldQuiet = 1,         // patches that hold no point
-    kHoldHolding = 2;       // patches that hold points
+    kHoldWithoutPoints = 1, // patches that hold no point
+    kHoldWithPoints = 2;    // patches that hold points
 
 FATHOM_SHARED_END
 #endif

@@ -37,11 +37,11 @@ struct FrameParams {
     vec4 cameraTbase[3];
     vec4 colourTdepth[3];
     ClassParams classes[kMaxClasses];
-    vec4 beam;           // sigma along a beam = x + y r [m], across it z r [m] (BeamSigma); -
+    vec4 beam;                // sigma along a beam = x + y r [m], across it z r [m] (BeamSigma); -
     vec4 ranges[kMaxClasses]; // per class: least and largest range [m]; 1 = has a range gate; -
-    vec4 water;          // attenuation of stored red, green, blue [1/m]; -
-    vec4 lensMore;       // depth k4, k5, k6; square of Intrinsics::reach()
-    vec4 colourLensMore; // the same of colour
+    vec4 water;               // attenuation of stored red, green, blue [1/m]; -
+    vec4 lensMore;            // depth k4, k5, k6; square of Intrinsics::reach()
+    vec4 colourLensMore;      // the same of colour
     vec4 steps;       // ray increments per pixel 1 / fx, 1 / fy; growth step of spheres [m]; its reciprocal
     uvec4 memory;     // number of this frame and of the frame that the estimates come from (0 = none); most
                       // frames that an estimate averages, and that it outlasts its pixel
@@ -77,15 +77,15 @@ FATHOM_CONST kPatchHolding =
 FATHOM_CONST kArgumentWords =
     20; // words at the start: for five indirect dispatches the groups x, y, z and a count
 struct FrameCounters {
-    uvec4 patchGroups;   // indirect arguments: one group per listed patch (x = listed patches, 1, 1)
-    uvec4 subGroups;     // indirect arguments: one invocation per sub-patch of a listed patch
-    uvec4 guidedGroups;  // as patchGroups where `classify` makes the lists, else as subGroups; w = guided
-                         // patches
-    uvec4 quietGroups;   // as subGroups, for listed patches without held points; w = their number
-    uvec4 holdingGroups; // the same for listed patches with held points
-    uint subs;           // 4x4 sub-patches with a sphere
-    uint packedWords;    // words in all runs (packing.glsl)
-    uint delivered;      // groups of `deliver` that are done; that pass alone uses it
+    uvec4 patchGroups;       // indirect arguments: one group per listed patch (x = listed patches, 1, 1)
+    uvec4 subGroups;         // indirect arguments: one invocation per sub-patch of a listed patch
+    uvec4 guidedGroups;      // as patchGroups where `classify` makes the lists, else as subGroups; w = guided
+                             // patches
+    uvec4 withoutHeldGroups; // as subGroups, for listed patches without held points; w = their number
+    uvec4 withHeldGroups;    // the same for listed patches with held points
+    uint subs;               // 4x4 sub-patches with a sphere
+    uint packedWords;        // words in all runs (packing.glsl)
+    uint delivered;          // groups of `deliver` that are done; that pass alone uses it
     uint pad;
     uint classPixels[kMaxClasses]; // marked pixels per class
     uint leakSpacing[kMaxClasses]; // per class: float bits of the largest spacing [m] between neighbours that

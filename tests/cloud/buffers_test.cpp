@@ -20,7 +20,7 @@ void checkBuffers(const Plan& plan, const cloud::WorkBuffers& w, const cloud::Se
     CHECK(built(w.growth) == plan.thin);
     CHECK(built(w.nearest) == plan.occlusion);
     CHECK(built(w.rays) == plan.rays);
-    for (const gpu::Buffer* b : {&w.seen, &w.kept, &w.keptTime, &w.live}) {
+    for (const gpu::Buffer* b : {&w.seen, &w.kept, &w.keptTime, &w.memoryCounts}) {
         CHECK(built(*b) == plan.hold);
     }
     CHECK(built(w.heldRadii) == (plan.hold && !plan.pack));

@@ -139,7 +139,7 @@ TEST_CASE("With hold 0 no points are held and no memory is allocated") {
     CHECK_FALSE(rig.plan().hold);
     for (const gpu::Buffer* buffer :
          {&rig.cycle().work().seen, &rig.cycle().work().kept, &rig.cycle().work().keptTime,
-          &rig.cycle().work().live, &rig.cycle().work().heldRadii}) {
+          &rig.cycle().work().memoryCounts, &rig.cycle().work().heldRadii}) {
         CHECK_FALSE(static_cast<bool>(*buffer));
     }
 }

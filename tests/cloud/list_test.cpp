@@ -15,10 +15,10 @@ using List = std::vector<uint32_t>;
 
 // The patches that must be on each list, in ascending order.
 struct Lists {
-    List listed, guided, quiet, holding;
+    List listed, guided, withoutHeld, withHeld;
 };
 
-Lists twin(const CloudRig& rig, const List& liveBefore) {
+Lists twin(const CloudRig& rig, const List& countsBefore) {
     const List masks = rig.masks();
     const auto classes = reference::pointClasses(rig.scene());
     uint32_t guides = 0;
@@ -32,10 +32,10 @@ Lists twin(const CloudRig& rig, const List& liveBefore) {
     }
     Lists lists;
     for (uint32_t patch = 0; patch < seen.size(); ++patch) {
-        const uint32_t live = liveBefore.empty() ? 0 : liveBefore[patch];
-        if (seen[patch] != 0 || live != 0) {
+        const uint32_t count = countsBefore.empty() ? 0 : countsBefore[patch];
+        if (seen[patch] != 0 || count != 0) {
             lists.listed.push_back(patch);
-            (live >> 16 != 0 ? lists.holding : lists.quiet).push_back(patch);
+            (count >> 16 != 0 ? lists.withHeld : lists.withoutHeld).push_back(patch);
         }
         if ((seen[patch] & guides) != 0) {
             lists.guided.push_back(patch);
@@ -65,10 +65,11 @@ void checkLists(const CloudRig& rig, const Lists& expected) {
         CHECK((n.guidedGroups.x == 0 && n.guidedGroups.w == 0));
     }
     if (rig.plan().hold && rig.plan().lists()) {
-        CHECK(sorted(list.begin() + 2 * patches, n.quietGroups.w) == expected.quiet);
-        CHECK(n.quietGroups.x == groups(n.quietGroups.w));
-        CHECK(sorted(list.begin() + 3 * patches - n.holdingGroups.w, n.holdingGroups.w) == expected.holding);
-        CHECK(n.holdingGroups.x == groups(n.holdingGroups.w));
+        CHECK(sorted(list.begin() + 2 * patches, n.withoutHeldGroups.w) == expected.withoutHeld);
+        CHECK(n.withoutHeldGroups.x == groups(n.withoutHeldGroups.w));
+        CHECK(sorted(list.begin() + 3 * patches - n.withHeldGroups.w, n.withHeldGroups.w) ==
+              expected.withHeld);
+        CHECK(n.withHeldGroups.x == groups(n.withHeldGroups.w));
     }
     const auto has = [](const List& among, uint32_t patch) {
         return std::ranges::binary_search(among, patch);
@@ -78,7 +79,7 @@ void checkLists(const CloudRig& rig, const Lists& expected) {
         wrong += ((bits[patch] & shared::kPatchListed) != 0) != has(expected.listed, patch);
         wrong += ((bits[patch] & shared::kPatchGuided) != 0) != has(expected.guided, patch);
         wrong += rig.plan().hold && !rig.plan().lists() &&
-                 ((bits[patch] & shared::kPatchHolding) != 0) != has(expected.holding, patch);
+                 ((bits[patch] & shared::kPatchHolding) != 0) != has(expected.withHeld, patch);
     }
     CHECK(wrong == 0);
 }
@@ -110,14 +111,16 @@ Scene bandScene(bool guidance, double hold) {
 // Rows without depth in one frame are held in the next.
 void runBands(const CloudRig::Change& change, const CameraInfo& camera, bool guidance, double hold) {
     CloudRig rig(bandScene(guidance, hold), camera, change);
-    List live;
+    List counts;
     size_t holding = 0;
     for (const double share : {0.5, 0.5, 0.1, 1.0, 0.0, 0.0}) {
-        rig.run(bands(camera, share, share == 0.5 && live.empty() ? 99 : 1));
-        const Lists expected = twin(rig, live);
+        rig.run(bands(camera, share, share == 0.5 && counts.empty() ? 99 : 1));
+        const Lists expected = twin(rig, counts);
         checkLists(rig, expected);
-        holding += expected.holding.size();
-        live = rig.plan().hold ? verify::readBack<uint32_t>(vulkan().device, rig.cycle().work().live) : live;
+        holding += expected.withHeld.size();
+        counts = rig.plan().hold
+                     ? verify::readBack<uint32_t>(vulkan().device, rig.cycle().work().memoryCounts)
+                     : counts;
     }
     CHECK((holding > 0) == (hold > 0.0));
 }
@@ -152,7 +155,7 @@ TEST_CASE("A patch's memory is read only while it holds points") {
         rig.run(bands(camera, 1.0, hidden));
         return byPixel ? static_cast<uint32_t>(std::ranges::count_if(
                              rig.listed(), [](uint32_t bits) { return (bits & shared::kPatchHolding) != 0; }))
-                       : rig.counters().holdingGroups.w;
+                       : rig.counters().withHeldGroups.w;
     };
     CHECK(holding(99) == 0);
     CHECK(holding(1) == 0); // rows 8 to 15 have no depth, so their points are held from now on
