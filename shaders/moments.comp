@@ -13,7 +13,8 @@ layout(constant_id = kSpecShared) const uint kShared = 0;
 
 layout(std140, binding = 0) uniform Params { FrameParams params; };
 layout(binding = 1) uniform usamplerBuffer masks; // one byte per slot: class bits
-layout(binding = 2) uniform samplerBuffer points; // per slot: point in base axes, relative to the origin [m]; w = 0: none
+// Slot -> point in base axes, relative to the origin [m]; w = 0: none.
+layout(binding = 2) uniform samplerBuffer points;
 layout(std430, binding = 3) readonly buffer List { uint list[]; }; // the part with guided patches
 // index: patch * kMaxClasses + number of the guidance class.
 layout(std430, binding = 4) writeonly buffer Moments { PatchMoments moments[]; };

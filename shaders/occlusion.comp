@@ -12,7 +12,8 @@ layout(constant_id = kSpecRays) const uint kRays = 0;
 layout(std140, binding = 0) uniform Params { FrameParams params; };
 layout(binding = 1) uniform usamplerBuffer depths; // uint16 per pixel
 layout(std430, binding = 2) readonly buffer Rays { vec2 rays[]; };
-layout(std430, binding = 3) buffer Cells { uint nearest[]; };             // bits of the smallest z, 0xffffffff = none
+// Bits of the smallest z; 0xffffffff = none.
+layout(std430, binding = 3) buffer Cells { uint nearest[]; };
 
 #include "shaders/lib/depth.glsl"
 #include "shaders/lib/lens.glsl"

@@ -10,12 +10,14 @@
 #include "shaders/shared/frame_params.h"
 
 layout(constant_id = kSpecHold) const uint kHold = 1;
-layout(constant_id = kSpecPack) const uint kPack = 0; // 1: the host reads packed runs; 0: it reads points and radii
+// 1: the host reads packed runs; 0: points and radii.
+layout(constant_id = kSpecPack) const uint kPack = 0;
 
 #include "shaders/lib/spheres.glsl"
 #include "shaders/lib/thin_point.glsl"
 
-layout(std430, binding = 19) writeonly buffer Packed { uint packedWords[]; }; // runs; packing.glsl has the format
+// Runs; packing.glsl has the format.
+layout(std430, binding = 19) writeonly buffer Packed { uint packedWords[]; };
 // 16 words per listed patch: bit (layer * 256 + slot in the patch) = packed.
 layout(std430, binding = 20) writeonly buffer Places { uint places[]; };
 // Listed patch -> x: first word of its run; y: number of spheres + 65536 x class bits, kRunGrown, kRunWide.
@@ -47,7 +49,8 @@ shared vec4 nodeOfSub[kTree != 0 ? 16 : 1];      // as Nodes
 shared vec4 centreOfPatch;                       // w = number of spheres (integer bits)
 shared uint reachOfPatch;                        // float bits
 shared uint countOfSub[kTree != 0 ? 16 : 1];     // as NodeCounts
-shared float reachOfColumn[kTree != 0 ? 64 : 1]; // largest distance of a sphere's far side from the mean; < 0 = no sphere
+// Largest distance from the mean to a sphere's far side; < 0 = no sphere.
+shared float reachOfColumn[kTree != 0 ? 64 : 1];
 #include "shaders/lib/thin_patch.glsl"
 #include "shaders/lib/packing.glsl"
 
@@ -122,7 +125,8 @@ void boundOfGroup(uint patchIndex, uint s) {
         nodeOfSub[s] = bound;
         countOfSub[s] = uint(centre.w);
     }
-    if (kPack == 0 || (kClasses > 1 && bitCount(classesOfPatch & 0xffu) > 1)) { // with one class, the run itself names it
+    // With one class, the run itself names it.
+    if (kPack == 0 || (kClasses > 1 && bitCount(classesOfPatch & 0xffu) > 1)) {
         classes[patchIndex * 16u + s] = notes.classes;
     }
     if (kHold != 0 && notes.remembered != 0) {

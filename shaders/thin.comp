@@ -12,7 +12,8 @@ layout(constant_id = kSpecClasses) const uint kClasses = 1;
 
 layout(std140, binding = 0) uniform Params { FrameParams params; };
 layout(binding = 1) uniform usamplerBuffer masks; // one byte per slot: class bits
-layout(binding = 2) uniform samplerBuffer points; // per slot: point in base axes, relative to the origin [m]; w = 0: none
+// Slot -> point in base axes, relative to the origin [m]; w = 0: none.
+layout(binding = 2) uniform samplerBuffer points;
 layout(std430, binding = 3) readonly buffer Listed { uint listed[]; };
 layout(std430, binding = 4) readonly buffer List { uint list[]; };
 layout(std430, binding = 5) readonly buffer Counters { FrameCounters counters; };

@@ -32,7 +32,8 @@ float weightOf(float square) {
         w = intBitsToFloat(max(floatBitsToInt(1.0 - square), 0));
     } else {
         float x = intBitsToFloat(min(floatBitsToInt(square), floatBitsToInt(1.6)));
-        w = 1.0 - x * (0.99999185 - x * (0.49992039 - x * (0.16689947 - x * 0.04115473))); // least error, found by search
+        // Coefficients of least error, found by search.
+        w = 1.0 - x * (0.99999185 - x * (0.49992039 - x * (0.16689947 - x * 0.04115473)));
         least = 6.244682e-10; // at 1.6
     }
     w *= w;

@@ -54,7 +54,8 @@ Estimate carried(uvec2 at, float z) {
     vec2 pixel = projectPoint(q, params.lens, params.distortion, params.more.x, params.lensMore);
     ivec2 from = ivec2(floor(pixel));
     vec2 f = pixel - vec2(from);
-    before = all(bvec2(before, all(lessThan(uvec2(from), params.size.xy - 1u)))); // a negative number converts to a large one
+    // A negative number converts to a large one.
+    before = all(bvec2(before, all(lessThan(uvec2(from), params.size.xy - 1u))));
     bool inside = before;
     vec4 share = vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
     Estimate sum = Estimate(0.0, 0.0, 0.0, 0u, 255u, 0u);

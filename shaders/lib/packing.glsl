@@ -21,7 +21,8 @@ shared uint present[16];    // one bit per slot: seen spheres, then held ones
 shared uint packedFrom, packedSeen, packedBase;
 shared uint classesOfPatch; // one bit per class that occurs; kGrownHere
 shared uint wideOfPatch;    // kWideHere, or 0
-shared uint ofRank[kByDepth ? 256 : 1];                    // seen spheres in packed order: float bits of the depth
+// Seen spheres in packed order: float bits of the depth.
+shared uint ofRank[kByDepth ? 256 : 1];
 shared uint stepsOfRank[kByDepth && kThin != 0 ? 260 : 1]; // and growth in steps
 
 void markPresent(uint place, float radius) {

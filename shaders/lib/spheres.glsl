@@ -20,21 +20,26 @@ layout(binding = 3) uniform samplerBuffer points;
 layout(std430, binding = 4) readonly buffer Listed { uint listed[]; }; // patch -> kPatch bits
 layout(std430, binding = 5) readonly buffer List { uint list[]; };     // frame_params.h describes its parts
 layout(std430, binding = 6) buffer Counters { FrameCounters counters; };
-layout(std430, binding = 7) buffer Seen { vec4 seen[]; };          // slot -> point of the previous frame, w = bits of class + 1
-layout(std430, binding = 8) buffer Kept { vec4 kept[]; };          // slot -> held point, w = bits of class + 1
-layout(std430, binding = 9) buffer KeptTime { uint keptTime[]; };  // slot -> time when it was last seen [us]
+// Slot -> point of the previous frame; w = its note (hold.glsl).
+layout(std430, binding = 7) buffer Seen { vec4 seen[]; };
+// Slot -> held point; w = its note.
+layout(std430, binding = 8) buffer Kept { vec4 kept[]; };
+layout(std430, binding = 9) buffer KeptTime { uint keptTime[]; }; // slot -> time when it was last seen [us]
 // Patch -> points in memory + 65536 x held points.
 layout(std430, binding = 10) buffer Memory { uint memoryCounts[]; };
-layout(std430, binding = 11) writeonly buffer Spheres { vec4 spheres[]; };     // slot -> centre, R; R < 0 = none
-layout(std430, binding = 12) writeonly buffer Held { vec4 held[]; };           // the same for held points
+// Slot -> centre, R; R < 0 = none.
+layout(std430, binding = 11) writeonly buffer Spheres { vec4 spheres[]; };
+layout(std430, binding = 12) writeonly buffer Held { vec4 held[]; }; // the same for held points
 // One byte per slot: class of the sphere | class of the held one << 4.
 layout(std430, binding = 13) writeonly buffer Classes { uvec4 classes[]; };
-layout(std430, binding = 14) writeonly buffer Bits { uint bits[]; };           // sub-patch -> 16 pixels, 1 = forbidden class
+// Sub-patch -> 16 pixels; 1 = forbidden class.
+layout(std430, binding = 14) writeonly buffer Bits { uint bits[]; };
 layout(std430, binding = 15) writeonly buffer Nodes { vec4 nodes[]; };
 layout(std430, binding = 16) writeonly buffer NodeCounts { uint nodeCounts[]; };
 // Per row of a sub-patch: R of its four points; < 0 = none.
 layout(std430, binding = 17) writeonly buffer Radii { vec4 radii[]; };
-layout(std430, binding = 18) writeonly buffer HeldRadii { vec4 heldRadii[]; }; // the same for the held points in `kept`
+// The same for the held points in kept.
+layout(std430, binding = 18) writeonly buffer HeldRadii { vec4 heldRadii[]; };
 
 // As Classes, in the fixture set.
 layout(std430, binding = 23) writeonly buffer SetClasses { uvec4 setClasses[]; };

@@ -4,7 +4,8 @@
 // masks.glsl, forbidden.glsl, slots.glsl, thin_point.glsl, thinning.glsl, kThin, and `ofPatch`, which
 // contains the points until the cells are decided.
 
-const uint kSide = 21u; // points per row: the patch's 4x4 cells, the cells left and above, and the corners of the next cells
+// Points per row: the patch's 4x4 cells, the cells left and above, and the corners of the next cells.
+const uint kSide = 21u;
 const uint kCells = 25u, kQuarters = 4u * kCells;
 // R'^2 - R^2 per cell, from each of the four invocations that test it; then the growth per quarter; -1 = not
 // thinned.
