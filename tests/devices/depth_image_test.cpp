@@ -71,7 +71,7 @@ TEST_CASE("Depth of 16 bits is read from PGM, TIFF and NPY as other programs wri
     CHECK(depthOf("pgm_9999", false)[0] == 153); // netpbm scaled it to its maximum: as stored
 }
 
-TEST_CASE("Depth of floating point is read from TIFF, NPY and EXR, and what is no number is no depth") {
+TEST_CASE("Float depth is read from TIFF, NPY and EXR; NaN and infinity mean no depth") {
     for (const char* name : {"npy_f4", "npy_f4_big", "npy_f8", "npy_f8_big", "npy_version3", "tiff_f4",
                              "tiff_f4_deflate", "tiff_f8"}) {
         CAPTURE(name);

@@ -55,7 +55,7 @@ const ArmCommand kStay{{}, true};
 
 } // namespace
 
-TEST_CASE("An ECA arm that does not answer is told to stand still, also while it is homed") {
+TEST_CASE("An ECA arm that does not answer is commanded to stand still, also while it is homed") {
     for (const double before : {0.5, 12.0}) {
         CommandRig rig;
         rig.run(before, kThere);

@@ -66,7 +66,7 @@ TEST_CASE("Comments and blank lines of the index are skipped, and the depth stam
     CHECK((*frame)->colour[34] == 0xff1e1401); // R 1, G 20, B 30
 }
 
-TEST_CASE("A byte order mark in front of index or poses loses no frame, and is no reason to reject") {
+TEST_CASE("A byte order mark in front of index or poses is skipped") {
     const TemporaryFolder folder;
     writeSmallRecording(folder, 2);
     const std::string mark = "\xEF\xBB\xBF";

@@ -18,7 +18,8 @@ std::string lensRefusal(const std::string& lens) {
 
 } // namespace
 
-TEST_CASE("A lens file in YAML is refused as not JSON, with its first line and where the fields are told") {
+TEST_CASE(
+    "A lens file in YAML is refused as not JSON, with its first line and where the fields are documented") {
     lineSays(lensRefusal("\nimage_width: 640\nimage_height: 480\n"),
              "lens.yaml: syntax: not JSON, begins with image_width: 640 (allowed: JSON with the fields of "
              "docs/guide/recordings.md; YAML calibrations are not read)");

@@ -48,8 +48,7 @@ TEST_CASE("Names that are stamps in seconds or nanoseconds play in order of time
     }
 }
 
-TEST_CASE("Names of a stamp or a size and a counter pair by the counter, and of a counter and a stamp by the "
-          "stamp") {
+TEST_CASE("File names pair by their counter; if a stamp follows the counter, by the stamp") {
     using Names = std::vector<std::string>;
     for (const auto& [depth, colour] :
          {std::pair(

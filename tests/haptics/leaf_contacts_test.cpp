@@ -59,7 +59,7 @@ TEST_CASE("A leaf behind a surface is exempt until it has come out by what was l
     CHECK(ball.contacts.behindRows({0, 0, 0.0031}).empty());
 }
 
-TEST_CASE("A row counts for a way on which a leaf leaves its tangent plane by half a millimetre") {
+TEST_CASE("A row is valid up to the travel at which its tangent plane is wrong by 0.5 mm") {
     const auto wayOf = [](const LeafContacts& contacts, ContactRow::Kind kind) {
         ActiveContact active;
         active.row.kind = kind;

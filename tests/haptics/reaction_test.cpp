@@ -120,8 +120,7 @@ TEST_CASE("What vanished under the hand fades out within 0.2 s and falls in ever
     CHECK_FALSE(reaction.fades());
 }
 
-TEST_CASE(
-    "A small reaction takes only its own size from what fades, and what fades does not come back after it") {
+TEST_CASE("A small new reaction replaces only its own size of the fading force, and for good") {
     Reaction reaction = pressed(0.005);
     double force = 5.0;
     const auto follow = [&](double allowed, int ticks) { // 5 N fall by 25 mN in each tick

@@ -145,7 +145,7 @@ TEST_CASE("An unstated unit is rejected by the size and set by --scale; --up rot
     CHECK(refusalOfMesh("tests/model/meshes.h").find("mesh: ") != std::string::npos);
 }
 
-TEST_CASE("A mesh that is too small is not advised to shrink, and a folder or pipe is no missing file") {
+TEST_CASE("The hint for a tiny mesh is to enlarge it, and for one without triangles not to simplify it") {
     const ObjFile tiny(boxMesh(dvec3(0.0), dvec3(1e-4)));
     CHECK(refusalOfMesh(tiny.path()).find("(allowed: 0.001 to 10 m; --scale enlarges it)") !=
           std::string::npos);
@@ -153,10 +153,13 @@ TEST_CASE("A mesh that is too small is not advised to shrink, and a folder or pi
     urdf.ofUrdf = true;
     CHECK(refusalOfMesh(tiny.path(), urdf).find("0.001 to 10 m; <mesh scale> enlarges it)") !=
           std::string::npos);
-    CHECK(refusalOfMesh("tests/model").find("mesh: a folder") != std::string::npos);
-    CHECK(refusalOfMesh("/dev/null").find("mesh: a pipe or a device") != std::string::npos);
     const ObjFile none(TriangleMesh{{dvec3(0.0), dvec3(0.1)}, {}});
     CHECK(refusalOfMesh(none.path()).find("simplify") == std::string::npos);
+}
+
+TEST_CASE("A folder or a pipe is rejected as such, and not as a missing file") {
+    CHECK(refusalOfMesh("tests/model").find("mesh: a folder") != std::string::npos);
+    CHECK(refusalOfMesh("/dev/null").find("mesh: a pipe or a device") != std::string::npos);
 }
 
 TEST_CASE("Each axis of a mesh is stretched by its own factor, and a mirrored mesh keeps outward normals") {

@@ -52,7 +52,7 @@ struct ArmLoop {
 
 } // namespace
 
-TEST_CASE("At the end of a run the arm is told to hold and to clear its faults") {
+TEST_CASE("At the end of a run the arm is commanded to hold and to clear its faults") {
     ArmLoop arm(0.03);
     arm.run();
     REQUIRE(arm.link.setpoint.refresh());
@@ -61,7 +61,7 @@ TEST_CASE("At the end of a run the arm is told to hold and to clear its faults")
     CHECK(arm.fake.hand.last.force == dvec3(0.0));
 }
 
-TEST_CASE("The arm is told in each tick whether the dead-man switch is open") {
+TEST_CASE("Each setpoint of the arm states whether the dead-man switch is open") {
     ArmLoop arm(1.0);
     for (const bool open : {true, false, true}) {
         arm.fake.hand.spoil = [open](double, HandSample& sample) {

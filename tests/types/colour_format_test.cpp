@@ -202,8 +202,7 @@ TEST_CASE(
     CHECK(out.empty());
 }
 
-TEST_CASE(
-    "An image is dark in every format when all but one pixel in a hundred are, and never without pixels") {
+TEST_CASE("An image is dark if 99 % of its pixels are, in every format; an empty image is not") {
     constexpr uint32_t kWidth = 64, kHeight = 48;
     const auto dark = [](ColourFormat format, uint32_t black, uint32_t bright, size_t spots) {
         std::vector<uint32_t> rgba(kWidth * kHeight, black);
