@@ -19,7 +19,7 @@ struct OperateOptions : SessionOptions {
     bool path = false;            // the scene's hand path drives instead of mouse and keyboard
     std::string offscreen;        // WxH: draws without a surface; empty = a window
     double seconds = 0.0;         // ends after this time; 0 = when the window is closed
-    double ticks = 0.0;           // [s] ends after this much run time in ticks; 0 = never
+    double runTime = 0.0;         // [s] ends when the clock of the run reaches this; 0 = never
     double textScale = 0.0;       // 0.75 to 2.5; 0 = the scene's
     std::string state;            // file of JSON lines with the state of the window, for other programs
     std::vector<std::string> job; // lines under exported images

@@ -74,8 +74,8 @@ void OperatorRun::keepScene(uint64_t number) {
 }
 
 bool OperatorRun::wantsToEnd() const {
-    const bool ticked = options_.ticks > 0.0 && display_.view.step().record.t >= options_.ticks;
-    return ticked || display_.wantsToEnd() || live_.ended() || signals_.asked().load();
+    const bool reached = options_.runTime > 0.0 && display_.view.step().record.t >= options_.runTime;
+    return reached || display_.wantsToEnd() || live_.ended() || signals_.asked().load();
 }
 
 std::string OperatorRun::next() const {

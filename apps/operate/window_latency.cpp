@@ -12,7 +12,7 @@ LatencyPart measureWindow(const LatencyOptions& options, const GlobalOptions& gl
     o.scene = options.scene;
     o.source = options.source;
     o.path = true;
-    o.ticks = options.seconds; // in ticks, because the window may wait long for its first frame
+    o.runTime = options.seconds; // not wall time: the window may wait long for its first frame
     o.armed = true;            // as in the other loads
     o.offscreen = std::getenv("DISPLAY") == nullptr ? "1280x720" : "";
     OperatorRun run(o, global);
