@@ -45,7 +45,7 @@ Diagnosis forcesOf(const StepRecord& r) {
 }
 
 Diagnosis cameraOf(const StepRecord& r, double setRate) {
-    const bool known = std::isfinite(r.sceneAge), old = isOld(r.sceneAge, Ros2Diagnosis::kOld);
+    const bool known = std::isfinite(r.sceneAge), old = isOld(r.sceneAge);
     return {!known ? Level::Stale : (old ? Level::Warning : Level::Ok),
             "fathom: camera",
             !known ? "no set of regions yet"

@@ -13,8 +13,6 @@ public:
     // Of the newest step. Rates are since the previous call.
     std::vector<ros2::Diagnosis> of(const Ros2Tick& tick, uint64_t unsent);
 
-    static constexpr double kOld = 0.1; // [s] a warning from this scene age on
-
 private:
     RunTotals before_;
     uint64_t time_ = 0; // [ns] of the previous call; 0 = none

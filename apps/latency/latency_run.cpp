@@ -134,7 +134,6 @@ LatencyPart LatencyRun::run(const std::string& load, bool moving) {
     RealtimeOptions o;
     o.placement = placement_;
     o.hapticPeriod = haptics_.period;
-    o.staleAfter = haptics_.staleAfter;
     RealtimeRun run(feed, session_.contacts(), o);
     session_.requireFrame(run.firstFrame());
     const HandPath path = session_.path();

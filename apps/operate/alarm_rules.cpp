@@ -34,19 +34,19 @@ bool endsAtBox(const Fixtures& set, uint8_t row, const Box& box) {
 } // namespace
 
 // Names the cause when frames stop: the GPU until it has processed a frame again, otherwise the camera.
-void Alarms::stepScene(const StepRecord& tick, const HapticOptions& haptics, bool deviceGone, bool forces) {
-    const bool stale = isOld(tick.sceneAge, haptics.staleAfter);
+void Alarms::stepScene(const StepRecord& tick, bool deviceGone, bool forces) {
+    const bool stale = isOld(tick.sceneAge);
     lostFrame_ = deviceGone ? tick.frame : lostFrame_;
     waits_ = deviceGone || (waits_ && stale && tick.frame == lostFrame_);
     set(waits_, Level::Warning, "gpu", {"GPU lost, forces fade", "wait, it is opened again"}, tick.t);
-    set(!waits_ && tick.sceneAge > 5.0 * haptics.staleAfter, Level::Warning, "camera",
+    set(!waits_ && tick.sceneAge > 5.0 * kStaleAfter, Level::Warning, "camera",
         {printed("No camera image for %.1f s, forces fade", tick.sceneAge),
          "check the camera's cable and power"},
         tick.t);
     const bool ahead = tick.sceneAge < 0.0;
     set(stale && forces, Level::Caution, "stale",
         {ahead ? printed("Newest frame is %.1f s ahead of the clock, forces fade", -tick.sceneAge)
-               : printed("Newest frame is older than %.0f ms, forces fade", haptics.staleAfter * 1e3),
+               : printed("Newest frame is older than %.0f ms, forces fade", kStaleAfter * 1e3),
          ahead ? "check which clock the camera stamps with" : "wait; if it stays, close other programs"},
         tick.t, {0.25, 1.0});
 }
@@ -123,7 +123,7 @@ void Alarms::step(Console& console, const RunView& run, const HapticOptions& hap
         const StepRecord& r = run.step().record;
         set(!r.finite, Level::Warning, "finite",
             {"A force was not a number and was left out", "Space, then restart"}, r.t);
-        stepScene(r, haptics, health.gpuGone, console.forces);
+        stepScene(r, health.gpuGone, console.forces);
         stepProtection(run, scene, r, console.forces);
         stepForces(run, haptics, console.forces);
         const ArmState arm = run.step().driven ? run.step().armStatus.state : ArmState::Follows;

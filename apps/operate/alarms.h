@@ -81,7 +81,7 @@ private:
     void update(Alarm& alarm, bool on, const Text& text, double t, Filter filter);
     bool lasts(bool on, const std::string& key, double t, double after);
     void stepProtection(const RunView& run, const Scene& scene, const StepRecord& tick, bool forces);
-    void stepScene(const StepRecord& tick, const HapticOptions& haptics, bool deviceGone, bool forces);
+    void stepScene(const StepRecord& tick, bool deviceGone, bool forces);
     void stepForces(const RunView& run, const HapticOptions& haptics, bool forces);
     void stepTargets(const RunView& run, const Scene& scene, double t);
 

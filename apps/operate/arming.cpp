@@ -53,8 +53,8 @@ double softStart(double forceLimit) {
     return std::max(kLeast, forceLimit / kSteepest);
 }
 
-bool cameraSilent(const StepRecord& record, const HapticOptions& haptics) {
-    return isOld(record.sceneAge, kSilent * haptics.staleAfter);
+bool cameraSilent(const StepRecord& record) {
+    return std::abs(record.sceneAge) > kSilent * kStaleAfter;
 }
 
 std::string whyNotArmed(const ArmingInput& input) {
@@ -68,7 +68,7 @@ std::string whyNotArmed(const ArmingInput& input) {
     if (!input.run.anyTick() || record.frame < 0) {
         return "no camera frame has become a set of regions yet: wait for one";
     }
-    if (cameraSilent(record, input.haptics)) {
+    if (cameraSilent(record)) {
         const bool ahead = record.sceneAge < 0.0;
         return "the newest regions are " + thousandths(std::abs(record.sceneAge)) +
                (ahead ? " ms ahead of the clock: check which clock the camera stamps with"

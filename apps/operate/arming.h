@@ -24,7 +24,7 @@ struct ArmingInput {
 std::string whyNotArmed(const ArmingInput& input);
 
 // The newest regions are so old, or so far from the future, that not even a slow camera explains it.
-bool cameraSilent(const StepRecord& record, const HapticOptions& haptics);
+bool cameraSilent(const StepRecord& record);
 
 // [s] in which forces that come on rise from zero to the limit [N]: at least 1.5 s, and at most 20 N/s.
 double softStart(double forceLimit);

@@ -135,7 +135,7 @@ void drawHeadLine(Console& console, const HudInput& input, ImVec2 at, ImVec2 siz
     ImGui::Dummy({0.0f, 0.0f});
     const StepRecord& record = input.run.step().record;
     someFigures(console, input);
-    const bool stale = isOld(record.sceneAge, input.haptics.staleAfter);
+    const bool stale = isOld(record.sceneAge);
     figure(console, input.letters,
            {std::isfinite(record.sceneAge) ? printed("%.0f ms", record.sceneAge * 1e3) : "none", "scene age",
             "Time since the camera took the image whose regions act now; while it is red, forces fade",

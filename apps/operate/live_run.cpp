@@ -109,7 +109,7 @@ void LiveRun::makeEngine(const std::vector<Shape>& shapes, const Pose& start, co
     RealtimeOptions o;
     o.placement = placement_;
     o.hapticPeriod = haptics_.period;
-    o.staleAfter = std::numeric_limits<double>::infinity(); // the window reports it
+    o.warnWhenStale = false; // the window reports it
     if (session_.realArm) {
         if (engine_ == nullptr) {
             session_.awaitArm(signals_.asked());

@@ -60,9 +60,8 @@ Mode staleMode(const ModeInput& input) {
         "STALE", "~", colour::kCaution, Edge::Dashed,
         record.sceneAge < 0.0
             ? "The newest frame is ahead of the clock: forces fade. Check which clock the camera stamps with"
-        : cameraSilent(record, input.haptics)
-            ? "There is no camera image: forces fade until one comes. Check the camera"
-            : "The newest frame is too old: forces fade until the next one"};
+        : cameraSilent(record) ? "There is no camera image: forces fade until one comes. Check the camera"
+                               : "The newest frame is too old: forces fade until the next one"};
 }
 
 // Of a real arm also when ramped out: an old frame stops the arm, and the arm then holds the forces off.
@@ -70,7 +69,7 @@ bool isStale(const ModeInput& input) {
     const TickRow& tick = input.run.step();
     const bool fades = tick.record.state == StepState::Fading ||
                        (tick.record.state == StepState::Off && tick.record.frame >= 0 && tick.driven);
-    return fades && isOld(tick.record.sceneAge, input.haptics.staleAfter);
+    return fades && isOld(tick.record.sceneAge);
 }
 
 bool armHeld(const RunView& run) {
@@ -187,7 +186,7 @@ Chip reasonChip(const ModeInput& input) {
         return {"ESCAPING", colour::kCaution, "A region now covers the tool, which moves out"};
     }
     if (isStale(input)) {
-        return cameraSilent(record, input.haptics) && record.sceneAge > 0.0
+        return cameraSilent(record) && record.sceneAge > 0.0
                    ? Chip{"NO CAMERA IMAGE", colour::kCaution, staleMode(input).meaning}
                    : Chip{};
     }

@@ -223,7 +223,7 @@ void OperatorRun::arm() {
 void OperatorRun::followPilot() {
     Console& console = display_.console;
     const std::string name = std::exchange(console.pilotWanted, "");
-    if (!name.empty() && cameraSilent(display_.view.step().record, live_.haptics())) {
+    if (!name.empty() && cameraSilent(display_.view.step().record)) {
         return console.notify("no camera frames: choose the pilot when they are back");
     }
     if (name.empty() || !session_.scene.choosePilot(name)) {

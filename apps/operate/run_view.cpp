@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/operate/run_view.h"
 
-#include "engine/cycle/haptic_options.h"
+#include "engine/cycle/step_record.h"
 
 #include <algorithm>
 #include <cmath>
@@ -116,7 +116,7 @@ Fade RunView::fadeOf(const TickRow& row) const {
     if (!row.hand.present) {
         return Fade::DeviceLost;
     }
-    if (isOld(row.record.sceneAge, HapticOptions().staleAfter)) {
+    if (isOld(row.record.sceneAge)) {
         return Fade::OldFrame;
     }
     return regionsVanished() ? Fade::RegionGone : Fade::Unknown;

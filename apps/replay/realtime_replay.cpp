@@ -56,7 +56,6 @@ RealtimeOptions RealtimeReplay::runOptions(CadenceTrace* trace) {
     o.placement = placement_;
     o.hapticPeriod = haptics_.period;
     o.framePeriod = options_.frameRate > 0.0 ? 1.0 / options_.frameRate : kLockstepFramePeriod;
-    o.staleAfter = haptics_.staleAfter;
     o.trace = trace;
     o.arm = session_.realArm ? &session_.realArm->link() : nullptr;
     o.progress = [this](double t, uint64_t frames) { progress_.update({frames, 0, t}); };

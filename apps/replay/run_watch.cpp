@@ -3,7 +3,7 @@
 
 #include "apps/binding/scene_edits.h"
 #include "engine/cloud/frame_params.h"
-#include "engine/cycle/haptic_options.h"
+#include "engine/cycle/step_record.h"
 #include "engine/scene/dead_gates.h"
 
 #include <algorithm>
@@ -205,12 +205,12 @@ void RunWatch::warnVanished(double t) {
 
 // Below 10 frames per second forces fade between two frames.
 void RunWatch::watchRate(double t) {
-    const double fades = HapticOptions().staleAfter, interval = t - std::exchange(rate_.frameAt, t);
+    const double interval = t - std::exchange(rate_.frameAt, t);
     rate_.intervals += rate_.framed ? 1 : 0;
-    rate_.longIntervals += rate_.framed && interval > fades ? 1 : 0;
+    rate_.longIntervals += rate_.framed && interval > kStaleAfter ? 1 : 0;
     if (rate_.intervals >= kIntervals && rate_.longIntervals == rate_.intervals) {
-        warnings_.add("frame rate",
-                      print("frames come %.3g s apart: forces fade %.3g s after each", interval, fades));
+        warnings_.add("frame rate", print("frames come %.3g s apart: forces fade %.3g s after each", interval,
+                                          kStaleAfter));
     }
 }
 

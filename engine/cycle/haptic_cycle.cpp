@@ -59,7 +59,7 @@ StepRecord HapticCycle::step(const StepInput& input) noexcept {
     now.setReady = set != nullptr || !options_.needsContacts;
     out.frame = set != nullptr ? set->frame : now.setReady ? input.frame : -1;
     out.sceneAge = out.frame >= 0 ? sceneAge(input, set) : kNotKnown;
-    now.stale = isOld(out.sceneAge, options_.staleAfter);
+    now.stale = isOld(out.sceneAge);
     now.armStill = realArm_.connected &&
                    (!realArm_.follows || !now.sampleFinite || now.off || !now.setReady || now.stale);
     const bool button = (input.buttons & options_.clutchBit) != 0;

@@ -27,7 +27,7 @@ namespace fathom {
 //   0.2 s while the tool follows the hand and still obeys the regions.
 // - Trapped: the tool is held and the force ramps out over 0.2 s. The clutch ramps the same way.
 // - The clutch while forces are off and ramped out moves the hand map, so that the hand is at the tool again.
-// - Scene older than staleAfter: the force fades out over 0.5 s. Fading out uses measured time, so late ticks
+// - Scene older than kStaleAfter: the force fades out in 0.5 s. Fading out uses measured time, so late ticks
 //   cannot delay it.
 // - A force that returns is bounded by a share of the limits that rises from what the device renders
 //   (ForceRamps); rising counts ticks.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/cycle/haptic_options.h"
 
+#include "engine/cycle/step_record.h"
 #include "engine/haptics/limits.h"
 #include "engine/types/error.h"
 #include "engine/types/number_text.h"
@@ -47,10 +48,10 @@ void noteSlew(std::vector<std::string>& notes, double slew) {
 }
 
 void noteDelay(std::vector<std::string>& notes, double delay) {
-    const double fades = HapticOptions().staleAfter;
-    if (delay >= fades) {
+    if (delay >= kStaleAfter) {
         notes.push_back("contact.delay: contact answers are " + significant(delay, 4) +
-                        " s late; forces fade when they are older than " + significant(fades, 4) + " s");
+                        " s late; forces fade when they are older than " + significant(kStaleAfter, 4) +
+                        " s");
     }
 }
 

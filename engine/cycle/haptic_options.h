@@ -30,7 +30,6 @@ struct HapticOptions {
     double lowPassGain = 1.0;                     // limits.h; 1 = off
     bool needsContacts = true; // the scene has regions of points: hold the tool until the first contact set
     double armTime = 0.2;      // [s] time for forces to return after forces off or an open dead-man
-    double staleAfter = 0.1;   // [s] scene age from which forces fade
     // Damps the energy that moving fixtures feed into the hand (engine/haptics/passivity.h); changes no force
     // when there is none.
     bool passivityController = true;

@@ -106,10 +106,12 @@ struct ArmRecord {
     bool flipped = false;        // left a singularity to another side than it came from
 };
 
+inline constexpr double kStaleAfter = 0.1; // [s] scene age from which forces fade
+
 // Whether forces fade for the age of the scene. A negative age beyond the limit comes from stamps of another
 // clock and says nothing about the scene.
-inline bool isOld(double sceneAge, double staleAfter) noexcept {
-    return std::abs(sceneAge) > staleAfter;
+inline bool isOld(double sceneAge) noexcept {
+    return std::abs(sceneAge) > kStaleAfter;
 }
 
 // One row of haptics.csv, and further values for the window.

@@ -31,7 +31,7 @@ Step HandPort::Impl::step(const Hand& hand, Nanoseconds now) noexcept {
     sample.buttons |= ended ? kDeadManOpen : 0; // placed shapes do not age
     constexpr double kShare = 0.8; // the caller ticks at any phase of the clock, and needs some of the period
     const StepRecord& record = stepper.step(sample, t, t + kShare * stepper.period());
-    Step step = front::external(record, shared->haptic.options.staleAfter);
+    Step step = front::external(record);
     // Contacts of the first set may come before what the frame thread says about it.
     const bool none = shared->haptic.scene.hasPoints() && stepper.scene().frame < 0 && record.frame < 0;
     const bool armStill = stepper.row().driven && isFault(stepper.row().armStatus.state);

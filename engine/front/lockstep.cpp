@@ -109,7 +109,7 @@ Step Lockstep::step(const Hand& hand, Nanoseconds now) noexcept {
     const StepInput input = stepInput(impl_->update, front::internal(hand), seconds(now));
     StepRecord record = impl_->contacts.step(*impl_->cycle, input);
     record.clearance = impl_->clearance.gap();
-    Step step = front::external(record, impl_->haptic.options.staleAfter);
+    Step step = front::external(record);
     const bool none = impl_->haptic.scene.hasPoints() && impl_->update.frame < 0;
     step.warnings = step.warnings | front::when(none, StepWarning::NoScene);
     return step;

@@ -80,7 +80,7 @@ Intrinsics internal(const v0::Intrinsics& lens, const char* field) {
 
 } // namespace
 
-v0::Step external(const StepRecord& record, double staleAfter) noexcept {
+v0::Step external(const StepRecord& record) noexcept {
     v0::Step step;
     step.wrench = {external(record.deviceWrench.force), external(record.deviceWrench.torque)};
     step.residual = {external(record.residual.force), external(record.residual.torque)};
@@ -93,7 +93,7 @@ v0::Step external(const StepRecord& record, double staleAfter) noexcept {
     step.clearance = record.clearance;
     step.guidance = record.guidance;
     step.frame = record.frame;
-    step.warnings = when(isOld(record.sceneAge, staleAfter), v0::StepWarning::OldScene) |
+    step.warnings = when(isOld(record.sceneAge), v0::StepWarning::OldScene) |
                     when(!record.finite, v0::StepWarning::NotFinite) |
                     when(record.stalled, v0::StepWarning::Stalled);
     for (uint32_t i = 0; i < std::min<size_t>(record.touchCount, step.contacts.size()); ++i) {

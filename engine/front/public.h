@@ -47,8 +47,7 @@ inline v0::Nanoseconds stampOf(std::chrono::steady_clock::time_point time) noexc
 inline constexpr v0::Nanoseconds kMaxAhead = 5'000'000;  // [ns] by which a stamp may be ahead of now
 inline constexpr v0::Nanoseconds kMaxLate = 100'000'000; // [ns] by which the time of a step may be behind it
 
-// staleAfter [s]: scene age from which forces fade.
-v0::Step external(const StepRecord& record, double staleAfter) noexcept;
+v0::Step external(const StepRecord& record) noexcept;
 
 // origin: of the set [m], base frame.
 v0::Clearance external(const SmallestGap& gap, const Tool& tool, const dvec3& origin);

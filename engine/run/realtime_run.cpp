@@ -43,13 +43,13 @@ private:
 // Warns once about a scene that is too old. Short spells on a slow machine are only counted.
 class AgeAlarm {
 public:
-    explicit AgeAlarm(double staleAfter)
-        : staleAfter_(staleAfter) {}
+    explicit AgeAlarm(bool warns)
+        : warns_(warns) {}
 
     void see(const StepRecord& record) {
-        const bool stale = isOld(record.sceneAge, staleAfter_);
+        const bool stale = isOld(record.sceneAge);
         staleTicks_ += stale ? 1 : 0;
-        if (stale && !stale_ && record.t >= quietUntil_) {
+        if (warns_ && stale && !stale_ && record.t >= quietUntil_) {
             const bool ahead = record.sceneAge < 0.0;
             log::warn("at {:.2f} s the newest frame is {:.0f} ms {}: forces fade", record.t,
                       std::abs(record.sceneAge) * 1e3,
@@ -65,7 +65,7 @@ public:
     uint64_t staleTicks() const { return staleTicks_; }
 
 private:
-    double staleAfter_;
+    bool warns_;
     double quietUntil_ = 0.0;
     bool stale_ = false, warned_ = false;
     uint64_t staleTicks_ = 0;
@@ -93,9 +93,9 @@ private:
 // Puts the alarms between the drain and the sink.
 class WatchedSink final : public RunSink {
 public:
-    WatchedSink(RunSink& sink, double staleAfter)
+    WatchedSink(RunSink& sink, bool warnWhenStale)
         : sink_(sink)
-        , alarm_(staleAfter) {}
+        , alarm_(warnWhenStale) {}
     void frame(const PublishedFrame& frame, const Fixtures& set) override { sink_.frame(frame, set); }
     void query(const QueryNote& note) override { sink_.query(note); }
     void step(const TickRow& row, const PublishedFrame* obeyed, bool known,
@@ -149,7 +149,7 @@ void RealtimeRun::guarded(const std::function<void()>& body) noexcept {
 void RealtimeRun::run(HapticCycle& cycle, HapticDevice& hand, double pathDuration, RunSink& sink,
                       const std::atomic<bool>& stop) {
     HapticLoop haptic(cycle, hand, channels_, clock_, {pathDuration, options_.framePeriod}, options_.trace);
-    WatchedSink watched(sink, options_.staleAfter);
+    WatchedSink watched(sink, options_.warnWhenStale);
     RecordDrain drain(channels_, watched);
     channels_.proxy.back() = cycle.place();
     channels_.proxy.publish();

@@ -23,7 +23,7 @@ struct RealtimeOptions {
     ThreadPlacement placement;
     double hapticPeriod = 0.001;               // [s]
     double framePeriod = kLockstepFramePeriod; // [s]
-    double staleAfter = 0.1;                   // [s] scene age above which the run logs a warning
+    bool warnWhenStale = true; // logs when forces begin and end to fade because the scene is old
     CadenceTrace* trace = nullptr;
     ArmLink* arm = nullptr; // a real arm that follows; must outlive the run
     std::function<void(double t, uint64_t frames)>
@@ -50,7 +50,7 @@ public:
 
     uint64_t framesLost() const { return frames_.lost(); }
     uint64_t periodsMissed() const { return missed_; }
-    uint64_t staleTicks() const { return staleTicks_; } // steps with a scene older than staleAfter
+    uint64_t staleTicks() const { return staleTicks_; } // steps with a scene older than kStaleAfter
     uint64_t recordsLost() const { return channels_.ticks.dropped() + channels_.queries.dropped(); }
     const PublishedFrame* lastFrame() const { return last_; } // lives as long as this
     // The exception of a thread; null if none failed.

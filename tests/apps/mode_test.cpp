@@ -262,7 +262,7 @@ TEST_CASE("Forces come on only with the hand on the tool, a fresh scene and the 
     CHECK(why().empty());
     run.row.record.sceneAge = 0.6;
     CHECK(why() == "the newest regions are 600 ms old: check the camera");
-    CHECK(cameraSilent(run.row.record, run.haptics));
+    CHECK(cameraSilent(run.row.record));
     run.row.record.sceneAge = -0.6;
     CHECK(why() ==
           "the newest regions are 600 ms ahead of the clock: check which clock the camera stamps with");

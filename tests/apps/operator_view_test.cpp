@@ -143,13 +143,13 @@ TEST_CASE("A scene from the future raises an alarm that names the clock") {
 TEST_CASE("The alarm names the cause of an old scene: the camera or a lost GPU") {
     ViewedRun run;
     run.console.forces = true;
-    run.row.record.sceneAge = 2.0 * run.haptics.staleAfter;
+    run.row.record.sceneAge = 2.0 * kStaleAfter;
     CHECK(run.step().empty());
     for (int i = 0; i < 300; ++i) {
         run.step();
     }
     CHECK(run.step() == Words{"CAUTION active stale"});
-    run.row.record.sceneAge = 6.0 * run.haptics.staleAfter;
+    run.row.record.sceneAge = 6.0 * kStaleAfter;
     CHECK(run.step() == Words{"WARNING active camera", "CAUTION active stale"});
     CHECK(run.step({.gpuGone = true}) ==
           Words{"WARNING active gpu", "WARNING latched camera", "CAUTION active stale"});
@@ -172,7 +172,7 @@ TEST_CASE("A cause that comes and goes is one alarm, and one that lasts a moment
         }
     };
     for (int i = 0; i < 50; ++i) { // 100 ms old for 20 ms, then fresh
-        run.row.record.sceneAge = i % 2 == 0 ? 2.0 * run.haptics.staleAfter : 0.0;
+        run.row.record.sceneAge = i % 2 == 0 ? 2.0 * kStaleAfter : 0.0;
         forTicks(20);
     }
     CHECK(run.alarms.inWords().empty());
@@ -208,7 +208,7 @@ TEST_CASE("An alarm that is over and not acknowledged says first that it ended, 
 TEST_CASE("Forces that are off raise no alarm about what only forces can do, but lost devices do") {
     ViewedRun run;
     run.row.record.state = StepState::Trapped;
-    run.row.record.sceneAge = 2.0 * run.haptics.staleAfter;
+    run.row.record.sceneAge = 2.0 * kStaleAfter;
     run.row.record.wrench.force = {run.haptics.forceLimit, 0.0, 0.0};
     run.row.record.marginPassive = -1.0;
     run.row.record.device.position = {0.0, 0.0, 0.3};
@@ -216,7 +216,7 @@ TEST_CASE("Forces that are off raise no alarm about what only forces can do, but
     run.step(0.5);
     CHECK(run.step().empty());
     CHECK(run.step({.handGone = true}) == Words{"WARNING active hand"});
-    run.row.record.sceneAge = 6.0 * run.haptics.staleAfter;
+    run.row.record.sceneAge = 6.0 * kStaleAfter;
     CHECK(run.step({.gpuGone = true})[0] == "WARNING active gpu");
 }
 
@@ -225,7 +225,7 @@ TEST_CASE("An alarm says what happens and then what to do") {
     run.console.forces = run.console.frozen = true;
     run.row.record.state = StepState::Trapped;
     run.row.record.wrench.force = {run.haptics.forceLimit, 0.0, 0.0};
-    run.row.record.sceneAge = 6.0 * run.haptics.staleAfter;
+    run.row.record.sceneAge = 6.0 * kStaleAfter;
     run.row.record.device.position = {0.0, 0.0, 0.3};
     run.row.record.finite = false;
     run.step();

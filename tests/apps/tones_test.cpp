@@ -37,7 +37,7 @@ TEST_CASE("Tones are heard at a first contact, at a limit, for an old image and 
     CHECK(heard() == "limit"); // and a contact
     CHECK(heard() == "");
     run.row.record.wrench.force = {};
-    run.row.record.sceneAge = 2.0 * run.haptics.staleAfter;
+    run.row.record.sceneAge = 2.0 * kStaleAfter;
     std::string all;
     for (int i = 0; i < 400; ++i) {
         all += heard();

@@ -56,8 +56,7 @@ Fade stallCamera(double stall, bool comesBack) {
         }
         const StepRecord record = rig.step();
         const double force = forceOf(record);
-        fade.told =
-            fade.told && (record.state == StepState::Fading) == (record.sceneAge > rig.options.staleAfter);
+        fade.told = fade.told && (record.state == StepState::Fading) == (record.sceneAge > kStaleAfter);
         fade.deepest = std::max(fade.deepest, -rig.gap());
         return force;
     };
@@ -127,7 +126,7 @@ TEST_CASE("Drill: a camera that stalls for 1 s under threads logs when forces fa
         fake.go();
         size_t fading = 0, other = 0;
         for (const TickRow& row : fake.sink.rows) {
-            const bool stale = row.record.sceneAge > fake.options.staleAfter;
+            const bool stale = row.record.sceneAge > kStaleAfter;
             fading += stale && row.record.state == StepState::Fading ? 1 : 0;
             other += stale && row.record.state != StepState::Fading ? 1 : 0;
         }
