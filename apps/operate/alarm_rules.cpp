@@ -4,6 +4,7 @@
 #include "apps/operate/alarms.h"
 #include "apps/operate/hud.h"
 #include "apps/operate/printed.h"
+#include "apps/operate/wrench_figures.h"
 #include "apps/output/silhouette.h"
 
 #include <algorithm>
@@ -88,9 +89,9 @@ void Alarms::stepForces(const RunView& run, const HapticOptions& haptics, bool f
     const double late = run.rates().worstPeriodMs, apart = glm::distance(r.tool.position, r.device.position);
     on(r.state == StepState::Trapped, Level::Warning, "trapped",
        {"Tool trapped between regions, force fades", "pull the hand back"}, {});
-    on(glm::length(r.wrench.force) > 0.98 * haptics.forceLimit, Level::Caution, "force",
+    on(atForceLimit(r, haptics), Level::Caution, "force",
        {printed("Force at its limit of %.3g N", haptics.forceLimit), "ease off"}, {0.0, 1.0});
-    on(glm::length(r.wrench.torque) > 0.98 * haptics.torqueLimit, Level::Caution, "torque",
+    on(atTorqueLimit(r, haptics), Level::Caution, "torque",
        {printed("Torque at its limit of %.3g N m", haptics.torqueLimit), "turn the hand back"}, {0.0, 1.0});
     on(late > 1e4 * haptics.period, Level::Caution, "overrun",
        {printed("Forces came %.0f ms late", late), "close other programs"}, {0.0, 1.0});

@@ -3,6 +3,7 @@
 
 #include "apps/operate/arming.h"
 #include "apps/operate/theme.h"
+#include "apps/operate/wrench_figures.h"
 #include "engine/cycle/wrench_stage.h"
 
 #include <algorithm>
@@ -13,14 +14,8 @@ namespace fathom::operate {
 
 namespace {
 
-constexpr double kFull = 0.98; // share of a limit that counts as reached
 constexpr const char* kDot = "\xe2\x97\x8f";
 constexpr const char* kSquare = "\xe2\x96\xa0";
-
-bool atLimit(const StepRecord& record, const HapticOptions& haptics) {
-    return glm::length(record.wrench.force) > kFull * haptics.forceLimit ||
-           glm::length(record.wrench.torque) > kFull * haptics.torqueLimit;
-}
 
 Mode forcesOff(const char* meaning) {
     return {"FORCES OFF", kSquare, IM_COL32(255, 255, 255, 255), Edge::Double, meaning};
@@ -98,7 +93,7 @@ Mode armedMode(const ModeInput& input) {
     if (state == StepState::Fading) {
         return isStale(input) ? staleMode(input) : forcesFading(lossCause(input.run).meaning);
     }
-    if (atLimit(record, input.haptics)) {
+    if (atForceLimit(record, input.haptics) || atTorqueLimit(record, input.haptics)) {
         return {"AT LIMIT", "!", colour::kWarningWord, Edge::Hatched,
                 "Force or torque is at its limit: the hand can press through. Ease off"};
     }

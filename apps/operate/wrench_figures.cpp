@@ -5,6 +5,14 @@
 
 namespace fathom::operate {
 
+bool atForceLimit(const StepRecord& record, const HapticOptions& limits) {
+    return glm::length(record.wrench.force) > kAtLimit * limits.forceLimit;
+}
+
+bool atTorqueLimit(const StepRecord& record, const HapticOptions& limits) {
+    return glm::length(record.wrench.torque) > kAtLimit * limits.torqueLimit;
+}
+
 std::array<WrenchFigures, 2> figuresOf(const std::deque<TraceSample>& trace, const Peaks& peaks,
                                        const FrameRipple& ripple, const HapticOptions& limits) {
     std::array<WrenchFigures, 2> all;

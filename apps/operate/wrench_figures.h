@@ -5,6 +5,7 @@
 #include "apps/operate/run_view.h"
 #include "apps/operate/theme.h"
 #include "engine/cycle/haptic_options.h"
+#include "engine/cycle/step_record.h"
 
 #include <array>
 
@@ -12,6 +13,12 @@ namespace fathom::operate {
 
 // Share of a bar or of half a plot at which the limit is; what is beyond it stays visible.
 inline constexpr float kLimitShare = 0.9f;
+
+inline constexpr double kAtLimit = 0.98; // of a limit, from which it counts as reached
+
+// Whether the force, or the torque, of a tick has reached its limit; with what the device cannot render.
+bool atForceLimit(const StepRecord& record, const HapticOptions& limits);
+bool atTorqueLimit(const StepRecord& record, const HapticOptions& limits);
 
 // Tooltips of bars and traces.
 inline constexpr const char* kForceTip =
@@ -33,8 +40,7 @@ struct WrenchFigures {
     double peak = 0.0;     // largest delivered one of the trace
     double ripple = 0.0;   // frame_ripple.h; NaN: unknown
 
-    // 0.98 of the limit counts as reached.
-    bool saturated() const { return whole > 0.98 * limit; }
+    bool saturated() const { return whole > kAtLimit * limit; }
     bool renderedInPart() const { return residual > 0.005 * limit; }
 };
 
