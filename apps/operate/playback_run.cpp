@@ -19,8 +19,6 @@ namespace fathom::operate {
 
 namespace {
 
-constexpr double kFirstRetry = 0.1, kLongestRetry = 2.0; // [s]
-
 std::optional<HandPath> handOf(const std::filesystem::path& folder) {
     const auto file = folder / "hand.csv";
     return std::filesystem::exists(file) ? std::optional(HandPath(readHandCsv(file))) : std::nullopt;
@@ -140,8 +138,8 @@ void PlaybackRun::loseDevice(const std::string& why) {
     log::warn("GPU is gone ({}): retrying", why);
     ImGui::EndFrame(); // does nothing when the frame has already ended
     display_.canvas.drop();
-    retry_ = kFirstRetry;
-    retryAt_ = display_.elapsed() + retry_;
+    retry_.reset();
+    retryAt_ = display_.elapsed() + retry_.next();
 }
 
 void PlaybackRun::lookForDevice() {
@@ -153,8 +151,7 @@ void PlaybackRun::lookForDevice() {
         display_.canvas.open(session_.cycles.device());
     } catch (const Error& e) { // a driver that restarts may report any error
         log::debug("GPU: {}", e.what());
-        retry_ = std::min(2.0 * retry_, kLongestRetry);
-        retryAt_ = display_.elapsed() + retry_;
+        retryAt_ = display_.elapsed() + retry_.next();
         return;
     }
     log::warn("GPU is back");

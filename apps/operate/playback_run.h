@@ -10,6 +10,7 @@
 #include "apps/operate/run_display.h"
 #include "apps/operate/steering.h"
 #include "apps/operate/time_line_panel.h"
+#include "engine/types/retry_pause.h"
 
 namespace fathom::operate {
 
@@ -54,8 +55,9 @@ private:
     Steering steering_;
     TimeLinePanel panel_;
     PictureExport export_;
-    double retryAt_ = 0.0, retry_ = 0.0; // [s] time of the next attempt to open a device; pause after it
-    double shown_ = -1.0;                // [s] shown moment of the recording
+    double retryAt_ = 0.0; // [s] time of the next attempt to open a device
+    RetryPause retry_;
+    double shown_ = -1.0; // [s] shown moment of the recording
 };
 
 } // namespace fathom::operate

@@ -11,20 +11,13 @@
 
 namespace fathom {
 
-namespace {
-
-constexpr double kFirstRetry = 0.1, kLongestRetry = 2.0; // [s]
-
-} // namespace
-
 FrameLoop::FrameLoop(FrameFeed& feed, Channels& channels, const RunClock& clock, double period,
                      CadenceTrace* trace)
     : feed_(feed)
     , channels_(channels)
     , clock_(clock)
     , period_(period)
-    , trace_(trace)
-    , retry_(kFirstRetry) {}
+    , trace_(trace) {}
 
 bool FrameLoop::first() {
     const std::optional<uint32_t> index = feed_.fetch();
@@ -39,8 +32,8 @@ bool FrameLoop::first() {
 
 // Retries a lost camera with growing pauses, while the last set ages and the forces fade.
 std::optional<uint32_t> FrameLoop::fetch(const std::atomic<bool>& stop) {
-    for (double pause = kFirstRetry; !stop.load(std::memory_order_relaxed);
-         pause = std::min(2.0 * pause, kLongestRetry)) {
+    RetryPause pause;
+    while (!stop.load(std::memory_order_relaxed)) {
         try {
             const std::optional<uint32_t> index = feed_.fetch();
             if (std::exchange(cameraGone_, false)) {
@@ -58,7 +51,7 @@ std::optional<uint32_t> FrameLoop::fetch(const std::atomic<bool>& stop) {
                 log::warn("GPU is gone, too: reopening it");
                 renew(stop);
             }
-            clock_.sleepUntil(clock_.now() + pause, stop);
+            clock_.sleepUntil(clock_.now() + pause.next(), stop);
         }
     }
     return std::nullopt;
@@ -97,7 +90,7 @@ void FrameLoop::countLost(double due) {
 void FrameLoop::publishOrRenew(double t, const std::atomic<bool>& stop) {
     try {
         publish(t, stop);
-        retry_ = kFirstRetry;
+        retry_.reset();
         return;
     } catch (const DeviceFailed& e) {
         if (!feed_.renewable()) {
@@ -113,8 +106,7 @@ void FrameLoop::renew(const std::atomic<bool>& stop) {
     deviceGone_ = true;
     publishUpdate();
     while (!stop.load(std::memory_order_relaxed)) {
-        clock_.sleepUntil(clock_.now() + retry_, stop);
-        retry_ = std::min(2.0 * retry_, kLongestRetry);
+        clock_.sleepUntil(clock_.now() + retry_.next(), stop);
         try {
             feed_.renew(stop);
             log::warn("GPU is back");

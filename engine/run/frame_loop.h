@@ -6,6 +6,7 @@
 #include "engine/cycle/cadence_trace.h"
 #include "engine/run/channels.h"
 #include "engine/run/run_clock.h"
+#include "engine/types/retry_pause.h"
 
 #include <deque>
 #include <memory>
@@ -72,7 +73,7 @@ private:
     CadenceTrace* trace_;
     std::deque<std::unique_ptr<PublishedFrame>> owned_; // all frames, wherever they are in use
     PublishedFrame* spare_ = nullptr;                   // unused because its frame failed
-    double retry_; // [s] pause before the next attempt to open a lost device
+    RetryPause retry_;                                  // of a lost device
     SceneUpdate update_;
     bool cameraGone_ = false, deviceGone_ = false;
     uint32_t firstIndex_ = 0;
