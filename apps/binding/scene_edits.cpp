@@ -5,6 +5,7 @@
 #include "devices/recorded/text_file.h"
 #include "engine/cloud/frame_params.h"
 #include "engine/types/error.h"
+#include "engine/types/split_words.h"
 
 #include <algorithm>
 

@@ -3,6 +3,7 @@
 
 #include "devices/recorded/text_file.h"
 #include "engine/types/output_file.h"
+#include "engine/types/split_words.h"
 
 namespace fathom {
 

@@ -2,6 +2,7 @@
 #include "apps/register/point_pairs.h"
 
 #include "engine/types/error.h"
+#include "engine/types/split_words.h"
 
 #include <algorithm>
 #include <cctype>

@@ -7,6 +7,7 @@
 #include "devices/recorded/numbered_images.h"
 #include "devices/recorded/text_file.h"
 #include "engine/types/error.h"
+#include "engine/types/split_words.h"
 
 #include <algorithm>
 #include <cmath>

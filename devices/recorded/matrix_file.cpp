@@ -3,6 +3,7 @@
 
 #include "devices/recorded/text_file.h"
 #include "engine/types/error.h"
+#include "engine/types/split_words.h"
 
 #include <cmath>
 #include <glm/mat3x3.hpp>

@@ -4,6 +4,7 @@
 #include "devices/recorded/text_file.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
+#include "engine/types/split_words.h"
 
 #include <algorithm>
 #include <array>

@@ -8,6 +8,7 @@
 #include "engine/types/inside.h"
 #include "engine/types/log.h"
 #include "engine/types/read_file.h"
+#include "engine/types/split_words.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,6 @@
 #include "engine/types/read_file.h"
 #include "engine/types/stand_in.h"
 
-#include <algorithm>
 #include <charconv>
 
 namespace fathom {
@@ -84,16 +83,6 @@ std::vector<TextLine> readDataLines(const std::filesystem::path& file) {
         }
     }
     return lines;
-}
-
-std::vector<std::string_view> splitWords(std::string_view line) {
-    std::vector<std::string_view> words;
-    for (size_t begin = line.find_first_not_of(kSpace); begin != std::string_view::npos;) {
-        const size_t end = std::min(line.find_first_of(kSpace, begin), line.size());
-        words.push_back(line.substr(begin, end - begin));
-        begin = line.find_first_not_of(kSpace, end);
-    }
-    return words;
 }
 
 std::vector<std::string_view> splitFields(std::string_view line, char between) {

@@ -42,7 +42,6 @@ std::vector<TextLine> readDataLines(const std::filesystem::path& file);
 // Whole file. Throws BadInput when it cannot be read or is longer than 16 MiB.
 std::string readTextFile(const std::filesystem::path& file);
 
-std::vector<std::string_view> splitWords(std::string_view line);                // at spaces and tabs
 std::vector<std::string_view> splitFields(std::string_view line, char between); // trimmed, empty ones kept
 
 // Parses the whole word as a number, independent of the locale. False when it is not one; inf and nan count

@@ -5,6 +5,7 @@
 #include "engine/types/input_files.h"
 #include "engine/types/output_file.h"
 #include "engine/types/read_file.h"
+#include "engine/types/split_words.h"
 
 #include <algorithm>
 #include <charconv>
@@ -21,17 +22,6 @@ constexpr size_t kShownCharacters = 60;
 constexpr uint64_t kMaxBytes = 256u << 20;
 constexpr uint64_t kShortestLine = 8; // "0 0 0 0" and its end: bounds the number of nodes in a file
 constexpr size_t kLongestLine = 4096; // free text may be longer, a node line never is
-
-std::vector<std::string_view> splitWords(std::string_view line) {
-    constexpr std::string_view kSpace = " \t\r";
-    std::vector<std::string_view> words;
-    for (size_t begin = line.find_first_not_of(kSpace); begin != std::string_view::npos;) {
-        const size_t end = std::min(line.find_first_of(kSpace, begin), line.size());
-        words.push_back(line.substr(begin, end - begin));
-        begin = line.find_first_not_of(kSpace, end);
-    }
-    return words;
-}
 
 template <class T>
 bool parse(std::string_view word, T& value) {
