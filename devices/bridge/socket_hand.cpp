@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstring>
 
@@ -19,12 +18,17 @@ namespace fathom {
 namespace {
 
 constexpr int kMaxPackets = 64; // per tick
-constexpr auto kSeekPause = std::chrono::milliseconds(100);
 constexpr uint32_t kReady = FATHOM_DOOR_PRESENT | FATHOM_DOOR_HOMED;
 
 template <size_t N>
 std::string textOf(const char (&from)[N]) {
     return {from, ::strnlen(from, N)};
+}
+
+// -1 = no bridge listens.
+int reopenSocket(const std::filesystem::path& path) noexcept {
+    DeviceSocket next;
+    return DeviceSocket::tryConnect(path, next) == 0 ? next.release() : -1;
 }
 
 } // namespace
@@ -42,22 +46,17 @@ bool soundPose(const fathom_door_hand& packet, Pose& out) noexcept {
 SocketHand::SocketHand(std::filesystem::path path, uint32_t clutchBit, double patience)
     : path_(std::move(path))
     , away_(FATHOM_DOOR_DEAD_MAN_OPEN | clutchBit)
-    , bridge_(DeviceSocket::connect(path_)) {
+    , bridge_(DeviceSocket::connect(path_))
+    , reconnector_([path = path_] { return reopenSocket(path); }, [this] { reportChange(); }) {
     last_.buttons = away_;
     awaitFirst(patience);
-    seeker_ = std::thread([this] { seek(); });
 }
 
 SocketHand::~SocketHand() {
-    stop_.store(true);
-    seeker_.join();
     fathom_door_wrench packet{};
     packet.header = socketHeader(FATHOM_DOOR_WRENCH, sizeof packet, ++sent_);
     packet.flags = FATHOM_DOOR_LAST;
     bridge_.send(packet);
-    for (std::atomic<int>* descriptor : {&gone_, &found_}) {
-        DeviceSocket(descriptor->exchange(-1)).close();
-    }
 }
 
 void SocketHand::awaitFirst(double patience) {
@@ -128,13 +127,12 @@ void SocketHand::drain() noexcept {
 
 void SocketHand::lose() noexcept {
     status_ = 0;
-    gone_.store(bridge_.release()); // the thread closes it and has already taken the previous one
-    seeking_.store(true);
+    reconnector_.lose(bridge_.release());
 }
 
 HandSample SocketHand::read(double) noexcept {
     if (!bridge_.open()) {
-        bridge_ = DeviceSocket(found_.exchange(-1));
+        bridge_ = DeviceSocket(reconnector_.take());
     }
     if (bridge_.open()) {
         drain();
@@ -173,21 +171,7 @@ void SocketHand::write(const Wrench& wrench, double) noexcept {
     }
 }
 
-void SocketHand::seek() noexcept {
-    while (!stop_.load()) {
-        std::this_thread::sleep_for(kSeekPause);
-        const bool wanted = seeking_.load(); // first: what lose() stored before it is closed below
-        DeviceSocket(gone_.exchange(-1)).close();
-        reportChange();
-        DeviceSocket next;
-        if (wanted && DeviceSocket::tryConnect(path_, next) == 0) {
-            seeking_.store(false);
-            found_.store(next.release());
-        }
-    }
-}
-
-void SocketHand::reportChange() {
+void SocketHand::reportChange() noexcept {
     if (!reported_ && changed_.load(std::memory_order_acquire)) {
         reported_ = true;
         log::warn("{}: the device is now a {}, not a {}: no force until a restart", path_.string(),

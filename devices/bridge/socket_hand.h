@@ -4,10 +4,11 @@
 
 #include "devices/bridge/device_socket.h"
 #include "devices/live_hand.h"
+#include "devices/reconnector.h"
 
 #include <atomic>
 #include <filesystem>
-#include <thread>
+#include <string>
 
 namespace fathom {
 
@@ -15,7 +16,7 @@ namespace fathom {
 bool soundPose(const fathom_door_hand& packet, Pose& out) noexcept;
 
 // read() and write() belong to the haptic thread: a few system calls each, no wait, no lock, no allocation. A
-// separate thread reconnects to a lost bridge, ten attempts per second.
+// Reconnector returns to a lost bridge, ten attempts per second.
 class SocketHand final : public LiveHand {
 public:
     // Connects and waits at most `patience` seconds for a first valid packet. clutchBit: of hand.map; 0 =
@@ -36,8 +37,7 @@ private:
     void take(const fathom_door_hand& packet) noexcept;
     void drain() noexcept;
     void lose() noexcept;
-    void seek() noexcept; // body of the thread
-    void reportChange();  // on that thread
+    void reportChange() noexcept; // on the thread of reconnector_
 
     std::filesystem::path path_;
     uint32_t away_; // buttons while the device is absent
@@ -50,13 +50,10 @@ private:
     bool alive_ = false;
     LiveHandFigures figures_;
 
-    // To the thread and back: descriptors, -1 = none.
-    std::atomic<int> gone_{-1}, found_{-1};
-    std::atomic<bool> seeking_{false}, stop_{false};
     char otherPreset_[sizeof fathom_door_hand::preset]{}; // of a bridge for another device, once `changed_`
     std::atomic<bool> changed_{false};
-    bool reported_ = false; // of the thread
-    std::thread seeker_;
+    bool reported_ = false;   // of the thread of reconnector_
+    Reconnector reconnector_; // last: its thread reads the members above
 };
 
 } // namespace fathom

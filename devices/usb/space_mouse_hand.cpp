@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <chrono>
 #include <cstring>
 #include <utility>
 
@@ -18,8 +17,7 @@ namespace fathom {
 
 namespace {
 
-constexpr int kMaxReports = 64; // per tick
-constexpr auto kSeekPause = std::chrono::milliseconds(100);
+constexpr int kMaxReports = 64;                         // per tick
 constexpr uint32_t kFirstButton = 1, kSecondButton = 2; // of the device
 
 DeviceFile choose(const std::filesystem::path& node) {
@@ -54,64 +52,32 @@ int openAgain(uint16_t vendor, uint16_t product) {
     return -1;
 }
 
-void closeIt(int descriptor) noexcept {
-    if (descriptor >= 0) {
-        ::close(descriptor);
-    }
-}
-
 } // namespace
 
 SpaceMouseHand::SpaceMouseHand(const std::filesystem::path& node, const SpaceMouseOptions& options)
-    : descriptor_(-1)
-    , options_(options) {
-    const DeviceFile file = choose(node);
-    descriptor_ = openNode(file);
-    name_ = file.name + " at " + file.node.string();
-    reopen_ = [vendor = file.vendor, product = file.product] { return openAgain(vendor, product); };
-    seeker_ = std::thread([this] { seek(); });
-}
+    : SpaceMouseHand(choose(node), options) {}
+
+SpaceMouseHand::SpaceMouseHand(const DeviceFile& file, const SpaceMouseOptions& options)
+    : SpaceMouseHand(openNode(file), file.name + " at " + file.node.string(), options,
+                     [vendor = file.vendor, product = file.product] { return openAgain(vendor, product); }) {}
 
 SpaceMouseHand::SpaceMouseHand(int descriptor, std::string name, const SpaceMouseOptions& options,
                                std::function<int()> reopen)
     : descriptor_(descriptor)
     , name_(std::move(name))
     , options_(options)
-    , reopen_(std::move(reopen)) {
-    if (reopen_) {
-        seeker_ = std::thread([this] { seek(); });
-    }
-}
+    , reconnector_(std::move(reopen)) {}
 
 SpaceMouseHand::~SpaceMouseHand() {
-    stop_.store(true);
-    if (seeker_.joinable()) {
-        seeker_.join();
+    if (descriptor_ >= 0) {
+        ::close(descriptor_);
     }
-    closeIt(descriptor_);
-    closeIt(gone_.exchange(-1));
-    closeIt(found_.exchange(-1));
 }
 
-// close() may block in the kernel, so the haptic thread must not call it.
 void SpaceMouseHand::lose() noexcept {
-    gone_.store(std::exchange(descriptor_, -1)); // the thread has already taken the previous one
+    reconnector_.lose(std::exchange(descriptor_, -1));
     state_ = {};
     ++figures_.losses;
-    seeking_.store(true);
-}
-
-void SpaceMouseHand::seek() noexcept {
-    while (!stop_.load()) {
-        std::this_thread::sleep_for(kSeekPause);
-        const bool wanted = seeking_.load(); // first: what lose() stored before it is closed below
-        closeIt(gone_.exchange(-1));
-        const int next = wanted ? reopen_() : -1;
-        if (next >= 0) {
-            seeking_.store(false);
-            found_.store(next);
-        }
-    }
 }
 
 void SpaceMouseHand::takeReports(double t) noexcept {
@@ -133,7 +99,7 @@ void SpaceMouseHand::takeReports(double t) noexcept {
 
 HandSample SpaceMouseHand::read(double t) noexcept {
     if (descriptor_ < 0) {
-        descriptor_ = found_.exchange(-1);
+        descriptor_ = reconnector_.take();
     }
     heard_ = std::min(heard_, t); // another run begins at 0
     takeReports(t);

@@ -4,15 +4,17 @@
 #pragma once
 
 #include "devices/live_hand.h"
+#include "devices/reconnector.h"
 #include "devices/usb/space_mouse.h"
 #include "engine/types/haptic_device.h"
 
-#include <atomic>
 #include <filesystem>
 #include <functional>
-#include <thread>
+#include <string>
 
 namespace fathom {
+
+struct DeviceFile;
 
 // Velocity of the hand at full deflection.
 struct SpaceMouseOptions {
@@ -24,7 +26,7 @@ struct SpaceMouseOptions {
 // read() makes a few non-blocking system calls. The device reports every 8 to 16 ms while it is held and
 // stops reporting after a report of zeros; one that is silent while deflected (out of radio range) counts as
 // released after kSilence. Its first button is guidance, its second opens the dead-man switch while it is
-// down. After unplugging, a separate thread searches it ten times per second by vendor and product; it
+// down. After unplugging, a Reconnector searches it ten times per second by vendor and product; it
 // resumes from its last pose, at any node.
 class SpaceMouseHand final : public LiveHand {
 public:
@@ -51,9 +53,9 @@ public:
     static constexpr double kMaxStep = 0.05; // [s] integrated per tick at most
 
 private:
+    SpaceMouseHand(const DeviceFile& file, const SpaceMouseOptions& options);
     void takeReports(double t) noexcept;
     void lose() noexcept;
-    void seek() noexcept; // body of the thread
 
     int descriptor_;
     std::string name_;
@@ -63,12 +65,7 @@ private:
     double before_ = 0.0, heard_ = 0.0; // [s] last tick, last report
     bool started_ = false;
     LiveHandFigures figures_;
-
-    // To the thread and back: descriptors, -1 = none.
-    std::function<int()> reopen_;
-    std::atomic<int> gone_{-1}, found_{-1};
-    std::atomic<bool> seeking_{false}, stop_{false};
-    std::thread seeker_;
+    Reconnector reconnector_;
 };
 
 } // namespace fathom
