@@ -44,8 +44,8 @@ size_t axisNamed(const Scene& scene, size_t row, const Driver& driver) {
     return static_cast<size_t>(found - names.begin());
 }
 
-size_t jointNamed(const Scene& scene, size_t row, const Driver& driver, const ArmRig& rig) {
-    const std::vector<ArmJoint>& joints = rig.model.joints;
+size_t jointNamed(const Scene& scene, size_t row, const Driver& driver, const ArmSetup& setup) {
+    const std::vector<ArmJoint>& joints = setup.model.joints;
     const std::string& name = driver.axes[row].joint;
     const auto found =
         std::find_if(joints.begin(), joints.end(), [&](const ArmJoint& j) { return j.name == name; });
@@ -101,19 +101,19 @@ ArmAxes chainAxes(const ArmModel& model) {
     return axes;
 }
 
-ArmAxes armAxes(const Scene& scene, const ArmRig& rig) {
+ArmAxes armAxes(const Scene& scene, const ArmSetup& setup) {
     const Driver& driver = *scene.arm->driver;
-    ArmAxes axes = chainAxes(rig.model);
-    std::vector<bool> found(rig.model.count(), false);
+    ArmAxes axes = chainAxes(setup.model);
+    std::vector<bool> found(setup.model.count(), false);
     for (size_t row = 0; row < driver.axes.size(); ++row) {
-        const size_t axis = axisNamed(scene, row, driver), k = jointNamed(scene, row, driver, rig);
+        const size_t axis = axisNamed(scene, row, driver), k = jointNamed(scene, row, driver, setup);
         axes.joints[k] = {axis, driver.axes[row].sign, driver.axes[row].zero, axes.joints[k].mostLag};
         found[k] = true;
     }
     for (size_t k = 0; k < found.size(); ++k) {
         if (!found[k]) {
             throw BadInput(scene.file.string(), "arm.driver.axes",
-                           "joint '" + rig.model.joints[k].name + "' has none", "one axis per joint");
+                           "joint '" + setup.model.joints[k].name + "' has none", "one axis per joint");
         }
     }
     if (driver.jaws) {

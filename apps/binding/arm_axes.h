@@ -3,7 +3,7 @@
 #pragma once
 
 #include "devices/arm.h"
-#include "engine/cycle/arm_rig.h"
+#include "engine/cycle/arm_setup.h"
 #include "engine/scene/scene.h"
 
 #include <optional>
@@ -41,6 +41,6 @@ const char* armAxisName(SceneArm::Driver::Protocol protocol, size_t axis) noexce
 
 // The scene's arm has a driver. Throws BadInput with the scene's field for unknown axes or joints and for
 // joints without an axis.
-ArmAxes armAxes(const Scene& scene, const ArmRig& rig);
+ArmAxes armAxes(const Scene& scene, const ArmSetup& setup);
 
 } // namespace fathom

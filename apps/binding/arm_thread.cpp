@@ -33,21 +33,21 @@ void checkRealArm(const Scene& scene, const std::string& port) {
     }
 }
 
-std::unique_ptr<ArmThread> openRealArm(const Scene& scene, const ArmRig& rig, const std::string& port) {
+std::unique_ptr<ArmThread> openRealArm(const Scene& scene, const ArmSetup& setup, const std::string& port) {
     if (isRos2Arm(port)) {
         const Ros2ArmRequest request = parseRos2ArmRequest(port);
-        const ArmModel& model = rig.model;
+        const ArmModel& model = setup.model;
         return std::make_unique<ArmThread>(
             ArmThread::Target{port, "ROS 2 " + request.joints,
                               [request, model] { return openRos2Arm(request, model); }},
             model.joints, chainAxes(model));
     }
-    const ArmAxes axes = armAxes(scene, rig);
+    const ArmAxes axes = armAxes(scene, setup);
     const SceneArm::Driver driver = *scene.arm->driver;
     return std::make_unique<ArmThread>(
         ArmThread::Target{port, SerialArm::description(driver, port),
                           [driver, port] { return std::make_unique<SerialArm>(driver, port); }},
-        rig.model.joints, axes);
+        setup.model.joints, axes);
 }
 
 ArmThread::ArmThread(Target target, std::vector<ArmJoint> joints, ArmAxes axes)

@@ -23,8 +23,8 @@ class ArmThread;
 // arm, or no driver for a serial port.
 void checkRealArm(const Scene& scene, const std::string& port);
 
-// rig: the arm of the scene, which passed checkRealArm(). Throws BadInput and whatever ArmThread throws.
-std::unique_ptr<ArmThread> openRealArm(const Scene& scene, const ArmRig& rig, const std::string& port);
+// setup: the arm of the scene, which passed checkRealArm(). Throws BadInput and whatever ArmThread throws.
+std::unique_ptr<ArmThread> openRealArm(const Scene& scene, const ArmSetup& setup, const std::string& port);
 
 // One thread constructs, homes and starts it; afterwards the haptic thread uses only link().
 class ArmThread {

@@ -11,7 +11,7 @@ namespace fathom {
 
 namespace {
 
-std::vector<Ros2Joint> jointsOf(const ArmRig* arm) {
+std::vector<Ros2Joint> jointsOf(const ArmSetup* arm) {
     std::vector<Ros2Joint> joints;
     if (arm != nullptr) {
         std::transform(arm->model.joints.begin(), arm->model.joints.end(), std::back_inserter(joints),
@@ -24,7 +24,7 @@ std::vector<Ros2Joint> jointsOf(const ArmRig* arm) {
 
 } // namespace
 
-RunObservers::RunObservers(const ObserverOptions& options, const ArmRig* arm) {
+RunObservers::RunObservers(const ObserverOptions& options, const ArmSetup* arm) {
     if (!options.viewEndpoint.empty()) {
         all_.push_back(std::make_unique<ViewPublisher>(options.viewEndpoint));
     }

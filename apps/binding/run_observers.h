@@ -3,7 +3,7 @@
 #pragma once
 
 #include "apps/binding/run_observer.h"
-#include "engine/cycle/arm_rig.h"
+#include "engine/cycle/arm_setup.h"
 #include "engine/run/record_drain.h"
 
 #include <memory>
@@ -28,7 +28,7 @@ struct ObserverOptions {
 class RunObservers final : public RunObserver {
 public:
     // arm: null = the tool moves freely. Throws BadInput.
-    RunObservers(const ObserverOptions& options, const ArmRig* arm);
+    RunObservers(const ObserverOptions& options, const ArmSetup* arm);
 
     void step(const TickRow& row) override;
     void frame(const Fixtures& set) override;

@@ -8,7 +8,7 @@
 
 namespace fathom::operate {
 
-MeasuredArm measuredArm(const ArmRig* arm, const RunView& run, std::span<const Sphere> wanted) {
+MeasuredArm measuredArm(const ArmSetup* arm, const RunView& run, std::span<const Sphere> wanted) {
     MeasuredArm measured;
     const TickRow& row = run.step();
     if (arm == nullptr || !row.driven) {
@@ -42,7 +42,7 @@ MeasuredArm measuredArm(const ArmRig* arm, const RunView& run, std::span<const S
     return measured;
 }
 
-std::vector<std::string> armHolds(const ArmRig* arm, const StepRecord& tick) {
+std::vector<std::string> armHolds(const ArmSetup* arm, const StepRecord& tick) {
     constexpr double kAt = 1e-4; // [rad], [m]
     std::vector<std::string> holds;
     if (arm == nullptr) {

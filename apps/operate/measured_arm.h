@@ -3,7 +3,7 @@
 #pragma once
 
 #include "apps/operate/run_view.h"
-#include "engine/cycle/arm_rig.h"
+#include "engine/cycle/arm_setup.h"
 
 #include <string>
 #include <vector>
@@ -29,10 +29,10 @@ struct MeasuredArm {
 };
 
 // arm: null = no arm in the scene. wanted: the arm's spheres at the setpoint.
-MeasuredArm measuredArm(const ArmRig* arm, const RunView& run, std::span<const Sphere> wanted);
+MeasuredArm measuredArm(const ArmSetup* arm, const RunView& run, std::span<const Sphere> wanted);
 
 // Reasons why the arm itself stops the tool in this tick, one phrase each: joints at their limits or at full
 // speed, a singular posture, jaws that would enter a region. Empty without an arm.
-std::vector<std::string> armHolds(const ArmRig* arm, const StepRecord& tick);
+std::vector<std::string> armHolds(const ArmSetup* arm, const StepRecord& tick);
 
 } // namespace fathom::operate

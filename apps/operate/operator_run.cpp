@@ -29,7 +29,7 @@ std::string title(const OperateOptions& options) {
 
 } // namespace
 
-LiveSinks::LiveSinks(const OperateOptions& options, double period, const ArmRig* arm)
+LiveSinks::LiveSinks(const OperateOptions& options, double period, const ArmSetup* arm)
     : observers(options.observers, arm)
     , last(recorder, options.offscreen.empty() ? LastSeconds::usualMemory() : 0) // no key can store it there
     , published(last, observers)

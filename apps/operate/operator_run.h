@@ -16,7 +16,7 @@ namespace fathom::operate {
 // Receivers of a live run's records, from the first (`snapshots`) to the last (`recorder`).
 struct LiveSinks {
     // arm: null = the tool moves freely.
-    LiveSinks(const OperateOptions& options, double period, const ArmRig* arm);
+    LiveSinks(const OperateOptions& options, double period, const ArmSetup* arm);
 
     RunObservers observers;
     Recorder recorder;

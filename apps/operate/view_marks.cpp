@@ -188,7 +188,7 @@ void drawArrow(ImDrawList& list, ImVec2 a, ImVec2 b, ImU32 colour, float width) 
     }
 }
 
-std::vector<Sphere> armSpheres(const ArmRig* arm, const ArmPosture& posture) {
+std::vector<Sphere> armSpheres(const ArmSetup* arm, const ArmPosture& posture) {
     std::vector<Sphere> spheres;
     if (arm != nullptr) {
         const ArmFrames frames = arm->framesAt(posture);

@@ -9,7 +9,7 @@
 #include "apps/operate/view_port.h"
 #include "engine/contact/shapes.h"
 #include "engine/contact/tool.h"
-#include "engine/cycle/arm_rig.h"
+#include "engine/cycle/arm_setup.h"
 
 #include <span>
 #include <string>
@@ -32,7 +32,7 @@ struct MarksInput {
 };
 
 // The spheres of every link in the base frame; empty without an arm.
-std::vector<Sphere> armSpheres(const ArmRig* arm, const ArmPosture& posture);
+std::vector<Sphere> armSpheres(const ArmSetup* arm, const ArmPosture& posture);
 
 void drawRegionOutlines(ImDrawList& list, const ViewPort& port, const CameraGround& ground);
 void drawBounds(ImDrawList& list, const ViewPort& port, std::span<const Sphere> bounds);

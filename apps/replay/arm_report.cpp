@@ -27,11 +27,11 @@ std::string column(std::string name) {
 
 } // namespace
 
-ArmReport::ArmReport(const std::filesystem::path& file, const ArmRig& rig, const std::string& realArm)
-    : rig_(rig)
+ArmReport::ArmReport(const std::filesystem::path& file, const ArmSetup& setup, const std::string& realArm)
+    : armSetup_(setup)
     , file_(file) {
     std::string header = "t_s";
-    for (const ArmJoint& joint : rig.model.joints) {
+    for (const ArmJoint& joint : setup.model.joints) {
         header += ',';
         header += column(joint.name);
         sums_.joints.push_back({joint.name, joint.lower, joint.upper, joint.speed, HUGE_VAL, -HUGE_VAL, 0.0});
@@ -41,35 +41,35 @@ ArmReport::ArmReport(const std::filesystem::path& file, const ArmRig& rig, const
         sums_.driven = ReplaySummary::Arm::Driven{};
         sums_.driven->description = realArm;
         header += ",real_arm";
-        for (const ArmJoint& joint : rig.model.joints) {
+        for (const ArmJoint& joint : setup.model.joints) {
             header += ",measured_" + column(joint.name);
         }
     }
     file_.write(header + ",flipped\n");
-    for (const std::string& link : rig.model.links) {
+    for (const std::string& link : setup.model.links) {
         sums_.links.push_back({link, 0, std::nullopt});
     }
-    for (const ArmLeaf& leaf : rig.model.leaves) {
+    for (const ArmLeaf& leaf : setup.model.leaves) {
         ++sums_.links[leaf.link].leaves;
     }
-    sums_.leaves = rig.model.leaves.size();
-    sums_.description = describeArm(rig);
+    sums_.leaves = setup.model.leaves.size();
+    sums_.description = describeArm(setup);
 }
 
 double ArmReport::violation(const TickRow& row) const {
     const ArmPosture& arm = row.record.arm.posture;
     double worst = 0.0;
-    for (size_t k = 0; k < rig_.model.count(); ++k) {
-        const ArmJoint& joint = rig_.model.joints[k];
+    for (size_t k = 0; k < armSetup_.model.count(); ++k) {
+        const ArmJoint& joint = armSetup_.model.joints[k];
         const double q = arm.q[k], way = std::abs(q - row.startArm.q[k]);
-        const double fast = way - joint.speed * rig_.proxy.period - kRounding;
+        const double fast = way - joint.speed * armSetup_.proxy.period - kRounding;
         if (joint.mimic) { // narrows the joint that it follows
             worst = std::max(worst, apart(*joint.mimic, q, arm.q));
             continue;
         }
         worst = std::max({worst, joint.lower - q, q - joint.upper, fast});
     }
-    for (const ArmFinger& finger : rig_.model.fingers) {
+    for (const ArmFinger& finger : armSetup_.model.fingers) {
         if (finger.mimic) {
             continue;
         }
@@ -84,12 +84,12 @@ void ArmReport::add(const TickRow& row) {
     const bool moved = row.record.state != StepState::Off; // held before the first set
     const double wrong = violation(row);
     row_.add(row.record.t);
-    for (size_t k = 0; k < rig_.model.count(); ++k) {
+    for (size_t k = 0; k < armSetup_.model.count(); ++k) {
         const double q = arm.posture.q[k];
         ReplaySummary::Arm::Joint& sum = sums_.joints[k];
         sum.least = std::min(sum.least, q);
         sum.most = std::max(sum.most, q);
-        sum.fastest = std::max(sum.fastest, std::abs(q - row.startArm.q[k]) / rig_.proxy.period);
+        sum.fastest = std::max(sum.fastest, std::abs(q - row.startArm.q[k]) / armSetup_.proxy.period);
         row_.add(q);
     }
     row_.add(arm.posture.grasp);
@@ -118,7 +118,7 @@ void ArmReport::addDriven(const TickRow& row) {
     const ArmStatus& status = row.armStatus;
     ReplaySummary::Arm::Driven& driven = *sums_.driven;
     row_.add(std::string(armStateName(status.state)));
-    for (size_t k = 0; k < rig_.model.count(); ++k) {
+    for (size_t k = 0; k < armSetup_.model.count(); ++k) {
         row_.add(status.known ? status.posture.q[k] : kNotKnown);
     }
     ++ticks_[static_cast<size_t>(status.state)];
@@ -129,7 +129,7 @@ void ArmReport::addDriven(const TickRow& row) {
         driven.oldest = std::max(driven.oldest, status.age);
     }
     if (status.state == ArmState::Follows) {
-        const double lag = glm::distance(rig_.tipAt(status.posture).position, row.record.tool.position);
+        const double lag = glm::distance(armSetup_.tipAt(status.posture).position, row.record.tool.position);
         tipLags_.push_back(static_cast<float>(lag));
     }
 }

@@ -4,7 +4,7 @@
 
 #include "apps/output/csv.h"
 #include "apps/replay/summary.h"
-#include "engine/cycle/arm_rig.h"
+#include "engine/cycle/arm_setup.h"
 #include "engine/run/channels.h"
 #include "engine/types/output_file.h"
 
@@ -19,7 +19,7 @@ namespace fathom {
 class ArmReport {
 public:
     // realArm: description of the real arm that follows; empty = none.
-    ArmReport(const std::filesystem::path& file, const ArmRig& rig, const std::string& realArm = "");
+    ArmReport(const std::filesystem::path& file, const ArmSetup& setup, const std::string& realArm = "");
 
     void add(const TickRow& row);
     void commit() { file_.commit(); }
@@ -32,7 +32,7 @@ private:
     double violation(const TickRow& row) const;
     void addDriven(const TickRow& row);
 
-    const ArmRig& rig_;
+    const ArmSetup& armSetup_;
     OutputFile file_;
     CsvRow row_;
     ReplaySummary::Arm sums_;

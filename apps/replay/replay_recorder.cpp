@@ -58,7 +58,7 @@ ReplayRecorder::Ending::Ending(const Session& session, const HapticCycle& cycle)
     , warnings(session.camera->warnings()) {}
 
 ReplayRecorder::ReplayRecorder(std::filesystem::path out, const Scene& scene, const RunSource& source,
-                               const std::vector<std::string>& passes, bool saveFixtures, const ArmRig* arm,
+                               const std::vector<std::string>& passes, bool saveFixtures, const ArmSetup* arm,
                                const std::string& realArm, const SceneEdits* edits)
     : out_(std::move(out))
     , lock_(prepareOutputFolder(out_, saveFixtures))

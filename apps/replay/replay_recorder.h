@@ -31,7 +31,7 @@ public:
     // follows; empty = none. edits: of the recording that is replayed; outlive this; null = none. Throws
     // Error that names the file or folder that cannot be written.
     ReplayRecorder(std::filesystem::path out, const Scene& scene, const RunSource& source,
-                   const std::vector<std::string>& passes, bool saveFixtures, const ArmRig* arm = nullptr,
+                   const std::vector<std::string>& passes, bool saveFixtures, const ArmSetup* arm = nullptr,
                    const std::string& realArm = "", const SceneEdits* edits = nullptr);
 
     // A processed frame at t [s] of the run with its set; also when the set is unchanged.
@@ -90,7 +90,7 @@ private:
     bool saveFixtures_;
     HapticsCsv haptics_;
     FramesCsv frames_;
-    const ArmRig* arm_;
+    const ArmSetup* arm_;
     std::unique_ptr<ArmReport> armReport_; // null without an arm
     RunWatch watch_;
     TickTotals totals_;

@@ -5,7 +5,7 @@
 
 namespace fathom {
 
-ToolAudit::ToolAudit(const Tool& tool, const ArmRig* arm)
+ToolAudit::ToolAudit(const Tool& tool, const ArmSetup* arm)
     : arm_(arm)
     , audit_(arm != nullptr ? arm->toolAt({arm->start, 0.0}) : tool) {}
 

@@ -2,7 +2,7 @@
 // Audits the penetration of a run's tool: a free tool from its poses, an arm from the leaves of all links.
 #pragma once
 
-#include "engine/cycle/arm_rig.h"
+#include "engine/cycle/arm_setup.h"
 #include "engine/cycle/step_record.h"
 #include "engine/reference/penetration_audit.h"
 
@@ -14,7 +14,7 @@ namespace fathom {
 class ToolAudit {
 public:
     // arm: null = the tool moves freely. Both must outlive this.
-    ToolAudit(const Tool& tool, const ArmRig* arm);
+    ToolAudit(const Tool& tool, const ArmSetup* arm);
 
     // Like PenetrationAudit::tick().
     void tick(const Fixtures& set, const RegionGrid& grid, const ToolState& start, const ToolState& end,
@@ -29,7 +29,7 @@ public:
 private:
     void place(const ArmPosture& posture, std::vector<dvec3>& centres) const;
 
-    const ArmRig* arm_;
+    const ArmSetup* arm_;
     PenetrationAudit audit_;
     std::vector<dvec3> start_, end_; // [m] base frame: the leaves before and after a step
 };

@@ -61,7 +61,7 @@ struct Session {
     std::unique_ptr<ClockKeeper> clock; // created after the device
     std::unique_ptr<LiveHand> liveHand; // null = no live hand
     std::unique_ptr<Camera> camera;
-    std::unique_ptr<ArmRig> arm;             // null = the tool moves freely
+    std::unique_ptr<ArmSetup> arm;           // null = the tool moves freely
     std::unique_ptr<ArmThread> realArm;      // null = no real arm
     Tool tool;                               // with an arm: the tool at its tip
     std::unique_ptr<gpu::Instance> instance; // null: neither passes nor a window

@@ -54,11 +54,11 @@ std::string fingerText(const ArmModel& model, const ArmFinger& finger) {
 
 } // namespace
 
-std::vector<std::string> describeArm(const ArmRig& rig) {
-    const ArmModel& model = rig.model;
+std::vector<std::string> describeArm(const ArmSetup& setup) {
+    const ArmModel& model = setup.model;
     std::vector<std::string> lines{"base " + model.baseText, "tip " + model.tipText};
     for (size_t k = 0; k < model.count(); ++k) {
-        lines.push_back(jointText(model, model.joints[k], rig.start[k]));
+        lines.push_back(jointText(model, model.joints[k], setup.start[k]));
     }
     for (const ArmFinger& finger : model.fingers) {
         lines.push_back(fingerText(model, finger));

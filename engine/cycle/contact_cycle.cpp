@@ -13,13 +13,13 @@ constexpr double kNothingToTouch = 1000.0; // [m] certified reach without region
 
 } // namespace
 
-ContactCycle::ContactCycle(const Tool& tool, double reach, const ArmRig* arm)
+ContactCycle::ContactCycle(const Tool& tool, double reach, const ArmSetup* arm)
     : tool_(tool)
     , arm_(arm)
     , reach_(reach) {}
 
 ContactCycle::ContactCycle(gpu::Device& device, const Plan& plan, const PatchLayout& layout,
-                           cloud::FixturePool& pool, const Tool& tool, double reach, const ArmRig* arm,
+                           cloud::FixturePool& pool, const Tool& tool, double reach, const ArmSetup* arm,
                            const QueryCapacity& capacity)
     : ContactCycle(tool, reach, arm) {
     cpu_ = CullCpu(capacity);

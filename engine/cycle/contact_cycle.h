@@ -6,7 +6,7 @@
 #include "engine/cloud/tree_query.h"
 #include "engine/contact/behind.h"
 #include "engine/contact/cull_cpu.h"
-#include "engine/cycle/arm_rig.h"
+#include "engine/cycle/arm_setup.h"
 #include "engine/cycle/step_record.h"
 
 #include <optional>
@@ -18,10 +18,10 @@ class ContactCycle {
 public:
     // arm: null = the tool moves freely; else queries cover the whole arm at its posture. Without a device
     // the CPU answers.
-    ContactCycle(const Tool& tool, double reach, const ArmRig* arm);
+    ContactCycle(const Tool& tool, double reach, const ArmSetup* arm);
     // The same, then use(). capacity: of the first contact sets.
     ContactCycle(gpu::Device& device, const Plan& plan, const PatchLayout& layout, cloud::FixturePool& pool,
-                 const Tool& tool, double reach, const ArmRig* arm = nullptr,
+                 const Tool& tool, double reach, const ArmSetup* arm = nullptr,
                  const QueryCapacity& capacity = {});
 
     // From the next query on: use() works on the device as the plan requires, dropDevice() on the CPU. A
@@ -46,7 +46,7 @@ private:
              ContactSet& out);
 
     const Tool& tool_;
-    const ArmRig* arm_;
+    const ArmSetup* arm_;
     double reach_;
     Plan::Query where_ = Plan::Query::Cpu;
     PatchLayout layout_;

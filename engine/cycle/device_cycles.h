@@ -29,7 +29,7 @@ public:
         const Scene& scene;
         CameraInfo camera;
         const Tool& tool;
-        const ArmRig* arm = nullptr;
+        const ArmSetup* arm = nullptr;
         gpu::Drawing drawing = gpu::Drawing::None;
     };
     using MakePlan = std::function<Plan(const DeviceFacts&)>;

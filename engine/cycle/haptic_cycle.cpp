@@ -11,7 +11,7 @@ constexpr double kCleanTime = 1.0;    // [s] without a loss of the device before
 constexpr double kPressedForce = 0.5; // [N] of a region that counts as pressed
 
 // The pose that the hand commands before the first step.
-Pose begin(HandMap& map, const Pose& start, const Pose* tool0, const ArmRig* arm) {
+Pose begin(HandMap& map, const Pose& start, const Pose* tool0, const ArmSetup* arm) {
     if (tool0 == nullptr) {
         return map.map(start, false);
     }
@@ -23,11 +23,11 @@ Pose begin(HandMap& map, const Pose& start, const Pose* tool0, const ArmRig* arm
 } // namespace
 
 HapticCycle::HapticCycle(const Tool& tool, std::span<const Shape> shapes, const HapticOptions& options,
-                         const Pose& start, const Pose* tool0, const ArmRig* arm)
+                         const Pose& start, const Pose* tool0, const ArmSetup* arm)
     : options_(options)
     , map_(options.baseRdevice, options.handScale)
     , guidance_(options.guidance)
-    , rig_(arm)
+    , armSetup_(arm)
     , watch_(options.device, options.coupling, options.springs)
     , stage_(options_)
     , ahead_(options.period)

@@ -2,7 +2,7 @@
 // One step of the haptic cadence: from the hand's pose to the wrench, in the same tick.
 #pragma once
 
-#include "engine/cycle/arm_rig.h"
+#include "engine/cycle/arm_setup.h"
 #include "engine/cycle/haptic_options.h"
 #include "engine/cycle/query_ahead.h"
 #include "engine/cycle/step_record.h"
@@ -43,9 +43,9 @@ public:
     // start: raw pose of the hand before the first step. The tool starts where the hand commands it or, if
     // given, at base_T_tool `tool0`, with the hand map aligned as after a clutch. arm: null = the tool moves
     // freely. Otherwise it must outlive this, the tool is its tip and starts there (tool0, if given, only
-    // requests the alignment), and contact sets refer to ArmRig::toolAt().
+    // requests the alignment), and contact sets refer to ArmSetup::toolAt().
     HapticCycle(const Tool& tool, std::span<const Shape> shapes, const HapticOptions& options,
-                const Pose& start, const Pose* tool0 = nullptr, const ArmRig* arm = nullptr);
+                const Pose& start, const Pose* tool0 = nullptr, const ArmSetup* arm = nullptr);
 
     HapticCycle(const HapticCycle&) = delete;
     HapticCycle& operator=(const HapticCycle&) = delete;
@@ -68,7 +68,7 @@ public:
     ToolState place() const { return {tool_, arm_ ? arm_->posture() : ArmPosture{}}; }
     // Of the next contact query: ahead of place() when answers are late.
     ToolState queryPlace() const noexcept {
-        return ahead_.ask(place(), time_, arm_ ? rig_->model.count() : 0);
+        return ahead_.ask(place(), time_, arm_ ? armSetup_->model.count() : 0);
     }
     bool onArm() const { return arm_.has_value(); }
     const Springs& springs() const {
@@ -131,7 +131,7 @@ private:
     HapticOptions options_;
     HandMap map_;
     Guidance guidance_;
-    const ArmRig* rig_;
+    const ArmSetup* armSetup_;
     std::optional<ArmProxy> arm_; // exactly one of these two exists
     std::optional<Proxy> proxy_;
     StiffnessWatch watch_;

@@ -78,16 +78,16 @@ ProxyStep HapticCycle::moveTool(const StepInput& input, const ContactSet* set, b
 // When the arm leaves the tool's direction free, the hand's rotation has no meaning. It is set to the tip's,
 // so no spring turns the hand, even while the arm is held.
 void HapticCycle::freeDirection(ProxyStep& moved) noexcept {
-    if (rig_ != nullptr && rig_->freeDirection) {
+    if (armSetup_ != nullptr && armSetup_->freeDirection) {
         device_.rotation = springEnd_.rotation = moved.allowed.rotation = tool_.rotation;
     }
 }
 
 // Moves the arm's tip instead of a free tool.
 ProxyStep HapticCycle::moveArm(const StepInput& input, const ProxyInput& wanted, StepRecord& out) noexcept {
-    const bool button = (input.buttons & rig_->graspButton) != 0;
+    const bool button = (input.buttons & armSetup_->graspButton) != 0;
     ArmInput request{wanted, button ? 1.0 : 0.0};
-    request.metricRadius = rig_->freeDirection ? 0.0 : wanted.metricRadius;
+    request.metricRadius = armSetup_->freeDirection ? 0.0 : wanted.metricRadius;
     const ArmStep moved = arm_->step(request);
     tool_ = moved.pose;
     jointLimits_ = moved.atPositionLimits;

@@ -38,8 +38,8 @@ struct HapticSide {
     HapticSide(const fathom::Scene& from, const CameraInfo& camera, const v0::EngineOptions& given);
     std::unique_ptr<HapticCycle> cycle(const v0::HandStart& start) const;
 
-    fathom::Scene scene;         // its uncertainty includes the camera's
-    std::unique_ptr<ArmRig> arm; // null without one
+    fathom::Scene scene;           // its uncertainty includes the camera's
+    std::unique_ptr<ArmSetup> arm; // null without one
     Tool tool;
     std::vector<Shape> shapes;
     HapticOptions options;

@@ -98,7 +98,7 @@ Tool writtenTool(const Scene& scene, const ReaderOptions& reader) {
 }
 
 // [m] from its base at the start.
-double reachOf(const ArmRig& arm) {
+double reachOf(const ArmSetup& arm) {
     const ArmFrames frames = arm.framesAt(arm.startPosture());
     double reach = 0.0;
     for (size_t i = 0; i < arm.model.leaves.size(); ++i) {
@@ -110,10 +110,10 @@ double reachOf(const ArmRig& arm) {
 
 } // namespace
 
-std::unique_ptr<ArmRig> openArm(const Scene& scene, const ReaderOptions& reader) {
+std::unique_ptr<ArmSetup> openArm(const Scene& scene, const ReaderOptions& reader) {
     const bool tool = scene.arm && scene.tool.given();
     auto arm =
-        makeArmRig(scene, tool ? writtenTool(scene, reader).leaves() : std::span<const Sphere>(), reader);
+        makeArmSetup(scene, tool ? writtenTool(scene, reader).leaves() : std::span<const Sphere>(), reader);
     if (arm) {
         doubtLength(scene.arm->urdf.string() + ": the arm reaches", reachOf(*arm), kUsualDistance);
     }
@@ -130,7 +130,7 @@ std::unique_ptr<ArmRig> openArm(const Scene& scene, const ReaderOptions& reader)
     return arm;
 }
 
-Tool openTool(const Scene& scene, const ArmRig* arm, const ReaderOptions& reader) {
+Tool openTool(const Scene& scene, const ArmSetup* arm, const ReaderOptions& reader) {
     return arm != nullptr ? arm->heldTool() : writtenTool(scene, reader);
 }
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/contact/tool.h"
-#include "engine/cycle/arm_rig.h"
+#include "engine/cycle/arm_setup.h"
 #include "engine/scene/scene.h"
 
 #include <filesystem>
@@ -20,10 +20,10 @@ Scene openSceneText(const std::string& text);
 void doubtLength(const std::string& what, double length, double most);
 
 // The scene's arm, or null without one; logs a warning for each note of its model. Throws BadInput.
-std::unique_ptr<ArmRig> openArm(const Scene& scene, const ReaderOptions& reader = {});
+std::unique_ptr<ArmSetup> openArm(const Scene& scene, const ReaderOptions& reader = {});
 
 // The scene's tool: listed spheres or a sphere file; with an arm, what its tip carries, the scene's tool
 // included. Throws BadInput.
-Tool openTool(const Scene& scene, const ArmRig* arm = nullptr, const ReaderOptions& reader = {});
+Tool openTool(const Scene& scene, const ArmSetup* arm = nullptr, const ReaderOptions& reader = {});
 
 } // namespace fathom

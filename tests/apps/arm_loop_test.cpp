@@ -4,7 +4,7 @@
 // -> spheres of every link.
 #include "devices/serial/reach_arm.h"
 #include "tests/devices/pty_line.h"
-#include "tests/haptics/arm_rig.h"
+#include "tests/haptics/arm_proxy_world.h"
 
 #include <doctest/doctest.h>
 

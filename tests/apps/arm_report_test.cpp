@@ -12,24 +12,24 @@ using namespace fathom::testing;
 namespace {
 
 // One joint from -1 to 1 rad, and one finger that is open at 0.5, its upper limit.
-ArmRig smallRig() {
-    ArmRig rig;
-    rig.model.joints.push_back({"turn", false, {}, {0.0, 0.0, 1.0}, -1.0, 1.0, 1.0});
+ArmSetup smallSetup() {
+    ArmSetup setup;
+    setup.model.joints.push_back({"turn", false, {}, {0.0, 0.0, 1.0}, -1.0, 1.0, 1.0});
     ArmFinger finger;
     finger.name = "jaw";
     finger.joint = 1;
     finger.open = finger.upper = 0.5;
     finger.lower = 0.0;
-    rig.model.fingers.push_back(finger);
-    rig.model.leaves.push_back({{dvec3(0.0), 0.1}, 1, 0});
-    rig.model.links.push_back("link");
-    rig.proxy.period = 0.001;
-    return rig;
+    setup.model.fingers.push_back(finger);
+    setup.model.leaves.push_back({{dvec3(0.0), 0.1}, 1, 0});
+    setup.model.links.push_back("link");
+    setup.proxy.period = 0.001;
+    return setup;
 }
 
-double violation(const ArmRig& rig, double before, double q, double grasp) {
+double violation(const ArmSetup& setup, double before, double q, double grasp) {
     const ScratchFolder folder;
-    ArmReport report(folder.path() / "arm.csv", rig);
+    ArmReport report(folder.path() / "arm.csv", setup);
     TickRow row;
     row.startArm.q[0] = before;
     row.record.arm.posture = {{q}, grasp};
@@ -40,15 +40,15 @@ double violation(const ArmRig& rig, double before, double q, double grasp) {
 } // namespace
 
 TEST_CASE("A report of an arm finds joints and fingers beyond their limits, and joints that are too fast") {
-    ArmRig rig = smallRig();
-    CHECK(violation(rig, 1.0, 1.0, 0.0) == 0.0);
-    CHECK(violation(rig, 0.0, 0.001, 1.0) == 0.0);
-    CHECK(violation(rig, 1.1, 1.1, 0.0) == doctest::Approx(0.1));
-    CHECK(violation(rig, -1.25, -1.25, 0.0) == doctest::Approx(0.25));
-    CHECK(violation(rig, 0.0, 0.003, 0.0) == doctest::Approx(0.002));
-    rig.model.fingers[0].open = 0.7;
-    CHECK(violation(rig, 0.0, 0.0, 0.0) == doctest::Approx(0.2));
-    CHECK(violation(rig, 0.0, 0.0, 1.0) == 0.0);
-    rig.model.fingers[0].closed = -0.1;
-    CHECK(violation(rig, 0.0, 0.0, 1.0) == doctest::Approx(0.1));
+    ArmSetup setup = smallSetup();
+    CHECK(violation(setup, 1.0, 1.0, 0.0) == 0.0);
+    CHECK(violation(setup, 0.0, 0.001, 1.0) == 0.0);
+    CHECK(violation(setup, 1.1, 1.1, 0.0) == doctest::Approx(0.1));
+    CHECK(violation(setup, -1.25, -1.25, 0.0) == doctest::Approx(0.25));
+    CHECK(violation(setup, 0.0, 0.003, 0.0) == doctest::Approx(0.002));
+    setup.model.fingers[0].open = 0.7;
+    CHECK(violation(setup, 0.0, 0.0, 0.0) == doctest::Approx(0.2));
+    CHECK(violation(setup, 0.0, 0.0, 1.0) == 0.0);
+    setup.model.fingers[0].closed = -0.1;
+    CHECK(violation(setup, 0.0, 0.0, 1.0) == doctest::Approx(0.1));
 }

@@ -2,7 +2,7 @@
 // The self-filter, which removes the arm: classify.comp against its float64 twin.
 #include "engine/reference/self_filter.h"
 
-#include "engine/cycle/arm_rig.h"
+#include "engine/cycle/arm_setup.h"
 #include "engine/types/error.h"
 #include "tests/support/cloud_rig.h"
 #include "tests/support/scratch_folder.h"
@@ -98,7 +98,7 @@ TEST_CASE("An arm is removed from a frame whose camera is off by three sigma of 
         scene.arm->urdf = urdf.path();
         scene.arm->selfFilter = 0.002;
         scene.arm->baseTarm.position = middle;
-        const auto arm = makeArmRig(scene, {});
+        const auto arm = makeArmSetup(scene, {});
         rig.cycle().setArm(arm->inImage(arm->startPosture()));
         const std::vector<Sphere> seen{{middle + off, 0.05}};
         rig.run(wallAndBalls(rig.camera(), seen));

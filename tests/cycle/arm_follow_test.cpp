@@ -3,7 +3,7 @@
 #include "engine/cycle/haptic_cycle.h"
 
 #include "tests/cycle/haptic_rig.h"
-#include "tests/haptics/arm_rig.h"
+#include "tests/haptics/arm_proxy_world.h"
 
 #include <doctest/doctest.h>
 
@@ -55,7 +55,7 @@ struct FollowRig {
     }
     double depth() const { return world.depth(rig.model, rig.framesAt(cycle->place().arm)); }
 
-    ArmRig rig;
+    ArmSetup rig;
     World world;
     HapticOptions options = makeHapticOptions(springsAlone(handScene()), ballTool());
     Pose hand = at(0, 0, 0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Joint limits and speeds that a scene sets instead of the URDF's.
-#include "engine/cycle/arm_rig.h"
+#include "engine/cycle/arm_setup.h"
 
 #include "tests/model/urdf_text.h"
 
@@ -12,13 +12,13 @@ using namespace fathom::testing;
 namespace {
 
 // The rig of the scene's arm, which has one joint of the type, with limits -2 to 2.
-std::unique_ptr<ArmRig> rigOf(Scene& scene, const std::string& type) {
+std::unique_ptr<ArmSetup> rigOf(Scene& scene, const std::string& type) {
     const auto urdf =
         std::filesystem::temp_directory_path() / ("fathom_joints_" + std::to_string(::getpid()) + ".urdf");
     std::ofstream(urdf) << "<robot name='r'>" + ballLink("a") + ballLink("b") +
                                jointText("j", type, "a", "b", "0 0 0.3", "0 1 0") + "</robot>";
     scene.arm->urdf = urdf;
-    std::unique_ptr<ArmRig> rig = makeArmRig(scene, {});
+    std::unique_ptr<ArmSetup> rig = makeArmSetup(scene, {});
     std::filesystem::remove(urdf);
     return rig;
 }

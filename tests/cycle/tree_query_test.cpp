@@ -2,11 +2,11 @@
 // The GPU's contact query against the CPU's on images of any size, on what the passes leave of them, on
 // frozen classes and for arms.
 #include "engine/cloud/query_answer.h"
-#include "engine/cycle/arm_rig.h"
+#include "engine/cycle/arm_setup.h"
 #include "engine/cycle/contact_cycle.h"
 #include "tests/cycle/red_and_blue.h"
 #include "tests/cycle/same_contacts.h"
-#include "tests/haptics/arm_rig.h"
+#include "tests/haptics/arm_proxy_world.h"
 
 #include <doctest/doctest.h>
 
@@ -19,10 +19,10 @@ namespace {
 struct Both {
     const CloudRig& rig;
     const Tool& tool;
-    const ArmRig* arm = nullptr;
+    const ArmSetup* arm = nullptr;
     std::optional<ContactCycle> cpu, gpu;
 
-    Both(const CloudRig& cloud, const Tool& asked, double reach, const ArmRig* onArm = nullptr)
+    Both(const CloudRig& cloud, const Tool& asked, double reach, const ArmSetup* onArm = nullptr)
         : rig(cloud)
         , tool(asked)
         , arm(onArm) {
@@ -145,7 +145,7 @@ TEST_CASE("Both queries agree for all links of an arm at several postures") {
     scene.baseTcamera.position = {0.5, 0.0, -1.03}; // looks along z at a plane next to the arm
     CloudRig rig(scene, camera, queriedByGpu(true));
     rig.run(drawnImage(camera, [](int, int) { return 1.0; }));
-    ArmRig arm;
+    ArmSetup arm;
     arm.model = testing::makeArm(4, 8);
     const Tool tool = arm.toolAt(arm.startPosture());
     Both both(rig, tool, 0.01, &arm);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pressed regions that vanish: tool and hand stay, and the force fades out, whatever else is there.
 #include "tests/cycle/haptic_rig.h"
-#include "tests/haptics/arm_rig.h"
+#include "tests/haptics/arm_proxy_world.h"
 
 #include <doctest/doctest.h>
 
@@ -93,7 +93,7 @@ struct ArmAtBall {
         return contacts.step(*cycle, input);
     }
 
-    ArmRig rig;
+    ArmSetup rig;
     World world;
     HapticOptions options = makeHapticOptions(springsAlone(handScene()), ballTool());
     Pose hand = at(0, 0, 0);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Frames and driver of the ECA 5E Micro against a simulated arm on a pseudo-terminal.
 #include "devices/serial/eca_arm.h"
-#include "tests/devices/arm_rig.h"
+#include "tests/devices/driver_rig.h"
 
 #include <cmath>
 #include <doctest/doctest.h>
@@ -11,7 +11,7 @@ using namespace fathom::testing;
 
 namespace {
 
-struct Rig : ArmRig<EcaSimulator, EcaArm> {
+struct Rig : DriverRig<EcaSimulator, EcaArm> {
     static EcaOptions options() {
         EcaOptions o;
         o.stop = {-0.5, -0.4, -0.3, -0.6, -0.1};
@@ -19,7 +19,7 @@ struct Rig : ArmRig<EcaSimulator, EcaArm> {
         return o;
     }
     Rig()
-        : ArmRig(0.025, {}, options()) {
+        : DriverRig(0.025, {}, options()) {
         arm.lower = options().stop;
         arm.upper = {1.0, 1.0, 1.0, 1.0, 1.0};
         arm.angle = {0.0, 0.1, 0.05, -0.1, 0.02};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the driver of the ECA 5E Micro commands when something is wrong.
 #include "devices/serial/eca_arm.h"
-#include "tests/devices/arm_rig.h"
+#include "tests/devices/driver_rig.h"
 
 #include <algorithm>
 #include <cmath>
@@ -35,7 +35,7 @@ struct ListeningArm : EcaSimulator {
     }
 };
 
-struct CommandRig : ArmRig<ListeningArm, EcaArm> {
+struct CommandRig : DriverRig<ListeningArm, EcaArm> {
     static EcaOptions options() {
         EcaOptions o;
         o.stop = {-0.5, -0.4, -0.3, -0.6, -0.1};
@@ -44,7 +44,7 @@ struct CommandRig : ArmRig<ListeningArm, EcaArm> {
         return o;
     }
     CommandRig()
-        : ArmRig(0.025, {}, options()) {
+        : DriverRig(0.025, {}, options()) {
         arm.lower = options().stop;
         arm.upper.fill(1.0);
     }

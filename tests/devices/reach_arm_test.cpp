@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The driver of Reach arms against a simulated arm on a pseudo-terminal, on good lines and bad ones.
 #include "devices/serial/reach_arm.h"
-#include "tests/devices/arm_rig.h"
+#include "tests/devices/driver_rig.h"
 #include "tests/support/refusal.h"
 
 #include <cmath>
@@ -12,11 +12,11 @@ using namespace fathom::testing;
 
 namespace {
 
-struct Rig : ArmRig<ReachSimulator, ReachArm> {
+struct Rig : DriverRig<ReachSimulator, ReachArm> {
     ReachKind kind;
 
     explicit Rig(const ReachOptions& options = {}, ReachKind is = ReachKind::Alpha5)
-        : ArmRig(0.01, ReachSimulator(is), options, is)
+        : DriverRig(0.01, ReachSimulator(is), options, is)
         , kind(is) {}
 
     // Of what was commanded, in the line's units [rad], jaws [mm].

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The limits that a Reach arm's driver puts on what it sends.
 #include "devices/serial/reach_arm.h"
-#include "tests/devices/arm_rig.h"
+#include "tests/devices/driver_rig.h"
 
 #include <cmath>
 #include <doctest/doctest.h>
@@ -11,9 +11,9 @@ using namespace fathom::testing;
 
 namespace {
 
-struct LimitRig : ArmRig<ReachSimulator, ReachArm> {
+struct LimitRig : DriverRig<ReachSimulator, ReachArm> {
     LimitRig()
-        : ArmRig(0.01, ReachSimulator{}, ReachOptions{}, ReachKind::Alpha5) {}
+        : DriverRig(0.01, ReachSimulator{}, ReachOptions{}, ReachKind::Alpha5) {}
 };
 
 } // namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/haptics/arm_leaf_places.h"
 
-#include "tests/haptics/arm_rig.h"
+#include "tests/haptics/arm_proxy_world.h"
 
 #include <doctest/doctest.h>
 

@@ -2,7 +2,7 @@
 // Compares an arm's step with the formulas: what it minimises, its largest travel, and which joints count.
 #include "engine/haptics/arm_proxy.h"
 #include "engine/reference/nearest_point.h"
-#include "tests/haptics/arm_rig.h"
+#include "tests/haptics/arm_proxy_world.h"
 
 #include <algorithm>
 #include <array>

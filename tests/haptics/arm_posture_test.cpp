@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Postures that an arm takes over.
-#include "tests/haptics/arm_rig.h"
+#include "tests/haptics/arm_proxy_world.h"
 
 #include <doctest/doctest.h>
 

@@ -3,7 +3,7 @@
 
 #include "engine/haptics/arm_damping.h"
 #include "tests/haptics/allocation_count.h"
-#include "tests/haptics/arm_rig.h"
+#include "tests/haptics/arm_proxy_world.h"
 #include "tests/support/sanitized.h"
 
 #include <doctest/doctest.h>

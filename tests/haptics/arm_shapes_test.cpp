@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Constraints of an arm besides region spheres, for every link: placed shapes, lines, leaves behind a
 // surface. Also its grasp.
-#include "tests/haptics/arm_rig.h"
+#include "tests/haptics/arm_proxy_world.h"
 
 #include <doctest/doctest.h>
 #include <limits>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Arms in singular postures whose hand pulls in a direction in which no joint moves the tip.
-#include "tests/haptics/arm_rig.h"
+#include "tests/haptics/arm_proxy_world.h"
 
 #include <doctest/doctest.h>
 

@@ -7,7 +7,7 @@
 #include <doctest/doctest.h>
 #include <thread>
 
-#include "tests/haptics/arm_rig.h"
+#include "tests/haptics/arm_proxy_world.h"
 #include "tests/realtime/fake_scene.h"
 
 using namespace fathom;
@@ -142,13 +142,13 @@ TEST_CASE("An arm that stays far behind is held until the tool is where it is") 
 TEST_CASE("The haptic tick sends its posture as the setpoint of a real arm, and holds when the arm's thread "
           "stops") {
     FakeRun fake(2, pressingPath(1.0));
-    ArmRig rig;
-    rig.model = makeArm(4, 4);
-    rig.freeDirection = true;
+    ArmSetup setup;
+    setup.model = makeArm(4, 4);
+    setup.freeDirection = true;
     HapticOptions options = fake.options;
     options.needsContacts = false;
     const Pose start = at(0, 0, 0);
-    HapticCycle cycle(fake.tool, {}, options, start, &start, &rig);
+    HapticCycle cycle(fake.tool, {}, options, start, &start, &setup);
     Channels channels(4096);
     ArmLink link;
     channels.arm = &link;

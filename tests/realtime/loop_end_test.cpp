@@ -5,7 +5,7 @@
 #include <doctest/doctest.h>
 #include <thread>
 
-#include "tests/haptics/arm_rig.h"
+#include "tests/haptics/arm_proxy_world.h"
 #include "tests/realtime/fake_scene.h"
 
 using namespace fathom;
@@ -16,7 +16,7 @@ namespace {
 // A loop with an arm of four joints, without regions.
 struct ArmLoop {
     FakeRun fake{2, pressingPath(1.0)};
-    ArmRig rig;
+    ArmSetup setup;
     Pose start = at(0, 0, 0);
     HapticCycle cycle;
     Channels channels{4096};
@@ -25,18 +25,18 @@ struct ArmLoop {
     HapticLoop loop;
 
     explicit ArmLoop(double seconds)
-        : rig(madeRig())
-        , cycle(fake.tool, {}, options(), start, &start, &rig)
+        : setup(madeSetup())
+        , cycle(fake.tool, {}, options(), start, &start, &setup)
         , loop(cycle, fake.hand, channels, clock, {seconds, 0.0}, nullptr) {
         channels.arm = &link;
         channels.scene.back().live = true; // no end of the frames to wait for
         channels.scene.publish();
     }
-    static ArmRig madeRig() {
-        ArmRig rig;
-        rig.model = makeArm(4, 4);
-        rig.freeDirection = true;
-        return rig;
+    static ArmSetup madeSetup() {
+        ArmSetup setup;
+        setup.model = makeArm(4, 4);
+        setup.freeDirection = true;
+        return setup;
     }
     HapticOptions options() const {
         HapticOptions options = fake.options;

@@ -3,7 +3,7 @@
 #include "apps/binding/arm_thread.h"
 #include "apps/binding/ros2_arm.h"
 #include "engine/types/error.h"
-#include "tests/haptics/arm_rig.h"
+#include "tests/haptics/arm_proxy_world.h"
 #include "tests/ros2/robot.h"
 #include "tests/support/refusal.h"
 

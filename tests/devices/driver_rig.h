@@ -12,7 +12,7 @@ namespace fathom::testing {
 
 // Arm: an ArmSimulator. Driver: has the constructor (SerialPort&, options...).
 template <class Arm, class Driver>
-struct ArmRig {
+struct DriverRig {
     Arm arm;
     PtyLine line{arm};
     SerialPort port{line.name(), 115200};
@@ -21,7 +21,7 @@ struct ArmRig {
     double now = 0.0;
 
     template <class... Options>
-    ArmRig(double cycleSeconds, Arm simulated, const Options&... options)
+    DriverRig(double cycleSeconds, Arm simulated, const Options&... options)
         : arm(std::move(simulated))
         , driver(port, options...)
         , cycle(cycleSeconds) {}

@@ -13,8 +13,8 @@
 
 namespace fathom {
 
-// Immutable after makeArmRig(); any thread reads it.
-struct ArmRig {
+// Immutable after makeArmSetup(); any thread reads it.
+struct ArmSetup {
     ArmModel model; // the scene's tool is its last link, "tool", fixed to the tip
     Pose baseTarm;
     JointVector start{};   // [rad], [m] within the limits
@@ -41,7 +41,7 @@ struct ArmRig {
 // Null without `arm:`. toolLeaves: leaves of the scene's tool in the tip's frame; may be empty. Throws
 // BadInput that names the scene's field for joints and links that the URDF lacks, a tip that no joint
 // moves, a start outside the limits, or more than 4096 leaves.
-std::unique_ptr<ArmRig> makeArmRig(const Scene& scene, std::span<const Sphere> toolLeaves,
-                                   const ReaderOptions& reader = {});
+std::unique_ptr<ArmSetup> makeArmSetup(const Scene& scene, std::span<const Sphere> toolLeaves,
+                                       const ReaderOptions& reader = {});
 
 } // namespace fathom

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/cycle/arm_rig.h"
+#include "engine/cycle/arm_setup.h"
 
 #include "engine/model/arm_doubts.h"
 #include "engine/model/arm_mimic.h"
@@ -19,29 +19,29 @@ public:
         : scene_(scene)
         , arm_(arm)
         , reader_(reader)
-        , rig_(std::make_unique<ArmRig>()) {}
+        , armSetup_(std::make_unique<ArmSetup>()) {}
 
-    std::unique_ptr<ArmRig> make(std::span<const Sphere> toolLeaves) {
-        rig_->model = loadArm(arm_.urdf, modelOptions());
+    std::unique_ptr<ArmSetup> make(std::span<const Sphere> toolLeaves) {
+        armSetup_->model = loadArm(arm_.urdf, modelOptions());
         checkMotion();
         addTool(toolLeaves);
-        if (rig_->model.leaves.size() > kMaxLeaves) {
-            refuse("leaves", std::to_string(rig_->model.leaves.size()) + " of all links",
+        if (armSetup_->model.leaves.size() > kMaxLeaves) {
+            refuse("leaves", std::to_string(armSetup_->model.leaves.size()) + " of all links",
                    "at most " + std::to_string(kMaxLeaves));
         }
-        rig_->baseTarm = arm_.baseTarm;
-        rig_->freeDirection = arm_.freeDirection;
-        rig_->graspButton = arm_.grasp.fingers.empty() ? 0 : arm_.grasp.button;
+        armSetup_->baseTarm = arm_.baseTarm;
+        armSetup_->freeDirection = arm_.freeDirection;
+        armSetup_->graspButton = arm_.grasp.fingers.empty() ? 0 : arm_.grasp.button;
         // Includes 3 sigma like regions, because the registration error also displaces the image of the arm.
-        rig_->padding = arm_.selfFilter ? *arm_.selfFilter + 3.0 * scene_.registrationSigma : 0.0;
-        rig_->proxy.stepCap = scene_.haptics.stepCap;
-        rig_->proxy.solves = scene_.haptics.solves;
-        rig_->proxy.period = 1.0 / scene_.haptics.rateHz;
-        rig_->proxy.graspPerTick = rig_->proxy.period / arm_.grasp.seconds;
+        armSetup_->padding = arm_.selfFilter ? *arm_.selfFilter + 3.0 * scene_.registrationSigma : 0.0;
+        armSetup_->proxy.stepCap = scene_.haptics.stepCap;
+        armSetup_->proxy.solves = scene_.haptics.solves;
+        armSetup_->proxy.period = 1.0 / scene_.haptics.rateHz;
+        armSetup_->proxy.graspPerTick = armSetup_->proxy.period / arm_.grasp.seconds;
         applyJoints();
         checkFingers();
         checkReach();
-        return std::move(rig_);
+        return std::move(armSetup_);
     }
 
 private:
@@ -66,16 +66,16 @@ private:
     }
 
     void checkMotion() const {
-        const auto& joints = rig_->model.joints;
+        const auto& joints = armSetup_->model.joints;
         if (std::all_of(joints.begin(), joints.end(),
                         [](const ArmJoint& joint) { return bool(joint.mimic); })) {
-            refuse("tip", rig_->model.tipText,
-                   "a link with a moving joint between it and arm.base, here " + rig_->model.baseText);
+            refuse("tip", armSetup_->model.tipText,
+                   "a link with a moving joint between it and arm.base, here " + armSetup_->model.baseText);
         }
     }
 
     void addTool(std::span<const Sphere> toolLeaves) {
-        ArmModel& model = rig_->model;
+        ArmModel& model = armSetup_->model;
         for (const Sphere& s : toolLeaves) {
             model.leaves.push_back({{model.lastTtip.apply(s.centre), s.radius},
                                     static_cast<uint32_t>(model.count()),
@@ -87,7 +87,7 @@ private:
     }
 
     size_t indexOf(const std::string& field, const std::string& name) const {
-        const std::vector<ArmJoint>& joints = rig_->model.joints;
+        const std::vector<ArmJoint>& joints = armSetup_->model.joints;
         const auto found =
             std::find_if(joints.begin(), joints.end(), [&](const ArmJoint& j) { return j.name == name; });
         if (found == joints.end()) {
@@ -103,14 +103,15 @@ private:
     }
 
     void applyJoints() {
-        for (size_t k = 0; k < rig_->model.count(); ++k) {
-            rig_->start[k] = std::clamp(0.0, rig_->model.joints[k].lower, rig_->model.joints[k].upper);
+        for (size_t k = 0; k < armSetup_->model.count(); ++k) {
+            armSetup_->start[k] =
+                std::clamp(0.0, armSetup_->model.joints[k].lower, armSetup_->model.joints[k].upper);
         }
         for (size_t i = 0; i < arm_.joints.size(); ++i) {
             const SceneArm::Joint& wanted = arm_.joints[i];
             const std::string field = "joints[" + std::to_string(i) + "]";
             const size_t k = indexOf(field, wanted.name);
-            ArmJoint& joint = rig_->model.joints[k];
+            ArmJoint& joint = armSetup_->model.joints[k];
             const ArmJoint urdf = joint;
             override(wanted, joint);
             doubt(wanted, urdf, joint);
@@ -121,13 +122,14 @@ private:
             }
             if (joint.mimic && wanted.start) {
                 refuse(field + ".start", text(*wanted.start),
-                       "no start, because the joint follows " + rig_->model.joints[joint.mimic->joint].name);
+                       "no start, because the joint follows " +
+                           armSetup_->model.joints[joint.mimic->joint].name);
             }
             const double start = wanted.start.value_or(std::clamp(0.0, joint.lower, joint.upper));
             if (start < joint.lower || start > joint.upper) {
                 refuse(field + ".start", text(start), text(joint.lower) + " to " + text(joint.upper));
             }
-            rig_->start[k] = start;
+            armSetup_->start[k] = start;
         }
         narrow();
         noteSpeeds();
@@ -146,7 +148,7 @@ private:
     }
 
     void note(const std::string& line) {
-        std::vector<std::string>& notes = rig_->model.notes;
+        std::vector<std::string>& notes = armSetup_->model.notes;
         if (!line.empty() && std::find(notes.begin(), notes.end(), line) == notes.end()) {
             notes.push_back(line);
         }
@@ -167,27 +169,28 @@ private:
 
     // The scene's limits of mimic joints bind the joints that they follow.
     void narrow() {
-        ArmModel& model = rig_->model;
+        ArmModel& model = armSetup_->model;
         for (const std::string& line : narrowByMimics(model)) {
             note(line);
         }
         for (size_t k = 0; k < model.count(); ++k) {
-            rig_->start[k] = std::clamp(rig_->start[k], model.joints[k].lower, model.joints[k].upper);
+            armSetup_->start[k] =
+                std::clamp(armSetup_->start[k], model.joints[k].lower, model.joints[k].upper);
         }
-        model.follow(rig_->start);
+        model.follow(armSetup_->start);
     }
 
     void noteSpeeds() {
         std::string names;
-        for (const ArmJoint& joint : rig_->model.joints) {
+        for (const ArmJoint& joint : armSetup_->model.joints) {
             if (joint.speedFrom == kNoSpeed && !joint.mimic) {
                 names += (names.empty() ? "" : ", ") + joint.name;
             }
         }
         if (!names.empty()) {
-            rig_->model.notes.push_back("no speed in the file for " + names + ": " + text(kUnknownTurn) +
-                                        " rad/s or " + text(kUnknownSlide) +
-                                        " m/s is used; arm.joints sets another");
+            armSetup_->model.notes.push_back("no speed in the file for " + names + ": " + text(kUnknownTurn) +
+                                             " rad/s or " + text(kUnknownSlide) +
+                                             " m/s is used; arm.joints sets another");
         }
     }
 
@@ -195,7 +198,7 @@ private:
         for (size_t i = 0; i < arm_.grasp.fingers.size(); ++i) {
             const auto& wanted = arm_.grasp.fingers[i];
             const auto same = [&](const ArmFinger& finger) { return finger.name == wanted.joint; };
-            const auto& fingers = rig_->model.fingers;
+            const auto& fingers = armSetup_->model.fingers;
             const ArmFinger& finger = *std::find_if(fingers.begin(), fingers.end(), same);
             for (const auto& [name, at] : {std::pair{"open", finger.open}, {"closed", finger.closed}}) {
                 if (at < finger.lower || at > finger.upper) {
@@ -208,8 +211,8 @@ private:
 
     // As Tool does for contact queries, which would name neither file nor link.
     void checkReach() const {
-        const ArmModel& model = rig_->model;
-        const ArmFrames frames = rig_->framesAt(rig_->startPosture());
+        const ArmModel& model = armSetup_->model;
+        const ArmFrames frames = armSetup_->framesAt(armSetup_->startPosture());
         for (size_t i = 0; i < model.leaves.size(); ++i) {
             const dvec3 c = model.centre(frames, i), far = glm::abs(c);
             const double radius = model.leaves[i].sphere.radius;
@@ -227,18 +230,18 @@ private:
     const Scene& scene_;
     const SceneArm& arm_;
     const ReaderOptions& reader_;
-    std::unique_ptr<ArmRig> rig_;
+    std::unique_ptr<ArmSetup> armSetup_;
 };
 
 } // namespace
 
-ArmFrames ArmRig::framesAt(const ArmPosture& posture) const noexcept {
+ArmFrames ArmSetup::framesAt(const ArmPosture& posture) const noexcept {
     ArmFrames frames;
     model.place(posture.q, baseTarm, frames, posture.grasp);
     return frames;
 }
 
-std::vector<Sphere> ArmRig::aboutTip(const ArmPosture& posture) const {
+std::vector<Sphere> ArmSetup::aboutTip(const ArmPosture& posture) const {
     const ArmFrames frames = framesAt(posture);
     const Pose tipTbase = inverse(model.tip(frames));
     std::vector<Sphere> spheres;
@@ -248,7 +251,7 @@ std::vector<Sphere> ArmRig::aboutTip(const ArmPosture& posture) const {
     return spheres;
 }
 
-cloud::LinkSpheres ArmRig::inImage(const ArmPosture& posture) const {
+cloud::LinkSpheres ArmSetup::inImage(const ArmPosture& posture) const {
     const ArmFrames frames = framesAt(posture);
     cloud::LinkSpheres arm;
     for (size_t i = 0; i < model.leaves.size(); ++i) {
@@ -261,7 +264,7 @@ cloud::LinkSpheres ArmRig::inImage(const ArmPosture& posture) const {
     return arm;
 }
 
-Tool ArmRig::heldTool() const {
+Tool ArmSetup::heldTool() const {
     const std::vector<Sphere> all = aboutTip({start, 0.0});
     std::vector<Sphere> held;
     for (size_t i = 0; i < all.size(); ++i) {
@@ -272,8 +275,8 @@ Tool ArmRig::heldTool() const {
     return Tool(buildSphereTree(held.empty() ? all : held));
 }
 
-std::unique_ptr<ArmRig> makeArmRig(const Scene& scene, std::span<const Sphere> toolLeaves,
-                                   const ReaderOptions& reader) {
+std::unique_ptr<ArmSetup> makeArmSetup(const Scene& scene, std::span<const Sphere> toolLeaves,
+                                       const ReaderOptions& reader) {
     return scene.arm ? RigMaker(scene, *scene.arm, reader).make(toolLeaves) : nullptr;
 }
 
