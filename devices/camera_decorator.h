@@ -34,6 +34,12 @@ public:
     bool stampsExposure() const override { return source_->stampsExposure(); }
     std::string description() const override { return source_->description(); }
 
+protected:
+    // The next calls go to `next`. Returns the source that was there.
+    std::unique_ptr<Camera> replaceSource(std::unique_ptr<Camera> next) {
+        return std::exchange(source_, std::move(next));
+    }
+
 private:
     std::unique_ptr<Camera> source_;
 };

@@ -6,7 +6,8 @@
 #include "apps/binding/open_source.h"
 #include "apps/binding/raw_path.h"
 #include "apps/output/progress.h"
-#include "apps/session/repeating_camera.h"
+#include "apps/session/repeated_camera.h"
+#include "apps/session/shuttle_camera.h"
 #include "engine/types/error.h"
 #include "shaders/shared/frame_params.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/binding/open_source.h"
-#include "apps/session/repeating_camera.h"
+#include "apps/session/repeated_camera.h"
 #include "engine/types/log.h"
 #include "tests/devices/recorded_folder.h"
 #include "tests/realtime/listening.h"

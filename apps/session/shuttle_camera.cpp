@@ -1,51 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/session/repeating_camera.h"
+#include "apps/session/shuttle_camera.h"
 
 #include "engine/types/error.h"
 
 #include <algorithm>
-#include <optional>
+#include <span>
 
 namespace fathom {
-
-RepeatedCamera::RepeatedCamera(std::function<std::unique_ptr<Camera>()> open)
-    : open_(std::move(open))
-    , source_([this] {
-        const log::SayOnce once(said_);
-        return open_();
-    }())
-    , info_(source_->info())
-    , description_(source_->description())
-    , controls_(source_->controls()) {}
-
-std::optional<Frame> RepeatedCamera::next() {
-    std::optional<log::SayOnce> once;
-    if (!live()) { // a live source does not end, and its later events are others
-        once.emplace(said_);
-    }
-    std::optional<Frame> frame = source_->next();
-    if (!frame) {
-        skipped_ += source_->skipped();
-        if (ended_.size() > 1) {
-            ended_.erase(ended_.begin()); // its leases ended one round earlier
-        }
-        ended_.push_back(std::move(source_));
-        source_ = open_();
-        offset_ = next_;
-        frame = source_->next();
-    }
-    if (!frame) {
-        return frame;
-    }
-    stampsExposure_.store(source_->stampsExposure());
-    Frame::Content content = **frame;
-    content.index += offset_;
-    content.sourceNumber += offset_;
-    next_ = content.index + 1;
-    // The new frame owns the lease until it ends.
-    auto* lease = new Frame(std::move(*frame));
-    return Frame(content, [lease] { delete lease; });
-}
 
 ShuttleCamera::ShuttleCamera(std::unique_ptr<Camera> source, size_t count, const std::atomic<bool>& stop,
                              const std::function<void(size_t)>& progress)
