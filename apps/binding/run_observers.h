@@ -41,25 +41,23 @@ private:
 };
 
 // Forwards everything to one sink, and to the observers.
-class PublishedSink final : public RunSink {
+class PublishedSink final : public ForwardingSink {
 public:
     // Both outlive this.
     PublishedSink(RunSink& next, RunObserver& observers)
-        : next_(next)
+        : ForwardingSink(next)
         , observers_(observers) {}
     void frame(const PublishedFrame& frame, const Fixtures& set) override {
-        next_.frame(frame, set);
+        ForwardingSink::frame(frame, set);
         observers_.frame(set);
     }
-    void query(const QueryNote& note) override { next_.query(note); }
     void step(const TickRow& row, const PublishedFrame* obeyed, bool known,
               std::span<const uint32_t> behind) override {
-        next_.step(row, obeyed, known, behind);
+        ForwardingSink::step(row, obeyed, known, behind);
         observers_.step(row);
     }
 
 private:
-    RunSink& next_;
     RunObserver& observers_;
 };
 

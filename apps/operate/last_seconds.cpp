@@ -84,7 +84,7 @@ void LastSeconds::frame(const PublishedFrame& frame, const Fixtures& set) {
         open_ = std::move(kept);
         forgetOld();
     }
-    also_.frame(frame, set);
+    ForwardingSink::frame(frame, set);
 }
 
 void LastSeconds::step(const TickRow& row, const PublishedFrame* obeyed, bool known,
@@ -102,7 +102,7 @@ void LastSeconds::step(const TickRow& row, const PublishedFrame* obeyed, bool kn
             forgetOld();
         }
     }
-    also_.step(row, obeyed, known, behind);
+    ForwardingSink::step(row, obeyed, known, behind);
 }
 
 void feed(Recorder& recorder, const KeptPast& past) {

@@ -39,16 +39,16 @@ struct KeptPast {
     double seconds() const;       // [s] from the first to the last frame
 };
 
-class LastSeconds final : public RunSink {
+class LastSeconds final : public ForwardingSink {
 public:
     static constexpr double kSpan = 30.0; // [s]
     // 1 GiB, or an eighth of the machine's memory if that is less [bytes].
     static size_t usualMemory();
 
-    // also: the next sink; outlives this. most: memory of frames and ticks [bytes]; the oldest ones go first.
+    // `next` outlives this. most: memory of frames and ticks [bytes]; the oldest ones go first.
     // 0 keeps nothing. While no frame comes, the ticks after kSpan are not kept.
-    LastSeconds(RunSink& also, size_t most)
-        : also_(also)
+    LastSeconds(RunSink& next, size_t most)
+        : ForwardingSink(next)
         , most_(most) {}
 
     // Window thread.
@@ -61,7 +61,6 @@ public:
 
     // Writer thread of the run.
     void frame(const PublishedFrame& frame, const Fixtures& set) override;
-    void query(const QueryNote& note) override { also_.query(note); }
     void step(const TickRow& row, const PublishedFrame* obeyed, bool known,
               std::span<const uint32_t> behind) override;
 
@@ -69,7 +68,6 @@ private:
     size_t all() const { return bytes_ + (open_ ? open_->bytes() : 0); } // [bytes]
     void forgetOld();
 
-    RunSink& also_;
     const size_t most_;
     std::atomic<bool> marked_{false};
     mutable std::mutex mutex_; // guards all members below; window and writer thread

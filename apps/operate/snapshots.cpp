@@ -12,13 +12,13 @@ void SnapshotSink::frame(const PublishedFrame& frame, const Fixtures& set) {
     out.colour = frame.colour;
     out.number = ++images_;
     scene_.publish();
-    also_.frame(frame, set);
+    ForwardingSink::frame(frame, set);
 }
 
 void SnapshotSink::step(const TickRow& row, const PublishedFrame* obeyed, bool known,
                         std::span<const uint32_t> behind) {
     ticks_.push(row);
-    also_.step(row, obeyed, known, behind);
+    ForwardingSink::step(row, obeyed, known, behind);
 }
 
 } // namespace fathom::operate

@@ -22,15 +22,14 @@ struct SceneSnapshot {
 
 // Called on the writer thread. A slow window gets the newest frame only; ticks that do not fit are counted in
 // ticks().dropped().
-class SnapshotSink final : public RunSink {
+class SnapshotSink final : public ForwardingSink {
 public:
-    // also: the next sink in the chain; outlives this.
-    explicit SnapshotSink(RunSink& also)
-        : also_(also)
+    // `next` outlives this.
+    explicit SnapshotSink(RunSink& next)
+        : ForwardingSink(next)
         , ticks_(8192) {}
 
     void frame(const PublishedFrame& frame, const Fixtures& set) override;
-    void query(const QueryNote&) override {}
     void step(const TickRow& row, const PublishedFrame* obeyed, bool known,
               std::span<const uint32_t> behind) override;
 
@@ -38,7 +37,6 @@ public:
     SpscQueue<TickRow>& ticks() { return ticks_; }
 
 private:
-    RunSink& also_;
     TripleBuffer<SceneSnapshot> scene_;
     SpscQueue<TickRow> ticks_;
     uint64_t images_ = 0;

@@ -22,8 +22,8 @@ size_t ticksOf(double seconds, double period) {
 } // namespace
 
 FaultTrace::FaultTrace(std::filesystem::path folder, double period, RunSink& next)
-    : folder_(std::move(folder))
-    , next_(next)
+    : ForwardingSink(next)
+    , folder_(std::move(folder))
     , ring_(ticksOf(kSeconds, period)) {}
 
 void FaultTrace::step(const TickRow& row, const PublishedFrame* obeyed, bool known,
@@ -33,7 +33,7 @@ void FaultTrace::step(const TickRow& row, const PublishedFrame* obeyed, bool kno
         quietUntil_ = row.record.t + kQuiet;
         write(row.record.t);
     }
-    next_.step(row, obeyed, known, behind);
+    ForwardingSink::step(row, obeyed, known, behind);
 }
 
 void FaultTrace::keep(const TickRow& row) {

@@ -13,13 +13,11 @@ namespace fathom {
 // Forwards everything to one sink on the writer thread. Allocates in the constructor only. At a non-finite
 // tick, at most once per minute, writes fault-T.csv with the columns of haptics.csv, where T is the tick's
 // run time [s]. If the file cannot be written, logs a warning and the run continues.
-class FaultTrace final : public RunSink {
+class FaultTrace final : public ForwardingSink {
 public:
     // period: tick period [s]. `next` must outlive this.
     FaultTrace(std::filesystem::path folder, double period, RunSink& next);
 
-    void frame(const PublishedFrame& frame, const Fixtures& set) override { next_.frame(frame, set); }
-    void query(const QueryNote& note) override { next_.query(note); }
     void step(const TickRow& row, const PublishedFrame* obeyed, bool known,
               std::span<const uint32_t> behind) override;
 
@@ -31,7 +29,6 @@ private:
     void write(double t) const;
 
     std::filesystem::path folder_;
-    RunSink& next_;
     std::vector<StepRecord> ring_;
     uint64_t seen_ = 0; // ticks so far; the newest is at (seen_ - 1) % size
     double newest_ = 0.0, quietUntil_ = 0.0;

@@ -91,23 +91,20 @@ private:
 };
 
 // Puts the alarms between the drain and the sink.
-class WatchedSink final : public RunSink {
+class WatchedSink final : public ForwardingSink {
 public:
     WatchedSink(RunSink& sink, bool warnWhenStale)
-        : sink_(sink)
+        : ForwardingSink(sink)
         , alarm_(warnWhenStale) {}
-    void frame(const PublishedFrame& frame, const Fixtures& set) override { sink_.frame(frame, set); }
-    void query(const QueryNote& note) override { sink_.query(note); }
     void step(const TickRow& row, const PublishedFrame* obeyed, bool known,
               std::span<const uint32_t> behind) override {
         alarm_.see(row.record);
         numbers_.see(row);
-        sink_.step(row, obeyed, known, behind);
+        ForwardingSink::step(row, obeyed, known, behind);
     }
     uint64_t staleTicks() const { return alarm_.staleTicks(); }
 
 private:
-    RunSink& sink_;
     AgeAlarm alarm_;
     NumberAlarm numbers_;
 };

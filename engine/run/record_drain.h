@@ -24,6 +24,23 @@ public:
                       std::span<const uint32_t> behind) = 0;
 };
 
+// A sink of a chain. Passes everything on; derived classes override what they watch.
+class ForwardingSink : public RunSink {
+public:
+    // `next` outlives this.
+    explicit ForwardingSink(RunSink& next)
+        : next_(next) {}
+    void frame(const PublishedFrame& frame, const Fixtures& set) override { next_.frame(frame, set); }
+    void query(const QueryNote& note) override { next_.query(note); }
+    void step(const TickRow& row, const PublishedFrame* obeyed, bool obeyedKnown,
+              std::span<const uint32_t> behind) override {
+        next_.step(row, obeyed, obeyedKnown, behind);
+    }
+
+private:
+    RunSink& next_;
+};
+
 // Writer thread only. Keeps host copies of published sets while a step may obey them.
 class RecordDrain {
 public:
