@@ -66,7 +66,7 @@ public:
     FrameSlot& acquireFor(const std::string& camera);
 
     size_t size() const { return slots_.size(); }
-    size_t inFlight() const noexcept; // slots taken now
+    size_t inFlight() const noexcept; // slots taken now; for tests
 
 private:
     std::vector<std::unique_ptr<FrameSlot>> slots_;

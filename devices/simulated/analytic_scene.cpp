@@ -146,17 +146,6 @@ double signedDistance(const AnalyticScene& scene, const dvec3& scenePoint) noexc
     return nearest;
 }
 
-RayHit firstHit(const AnalyticScene& scene, const Ray& ray) noexcept {
-    RayHit hit{HUGE_VAL, -1};
-    for (size_t i = 0; i < scene.solids.size(); ++i) {
-        const std::optional<double> t = enter(scene.solids[i], ray);
-        if (t && *t < hit.distance) {
-            hit = {*t, static_cast<int32_t>(i)};
-        }
-    }
-    return hit;
-}
-
 glm::vec3 linearColour(int red, int green, int blue) {
     const auto linear = [](int channel) {
         const double s = channel / 255.0;

@@ -33,12 +33,11 @@ std::optional<AnalyticScene> analyticScene(std::string_view name);
 // Distance to the nearest surface of the scene [m], negative inside a solid.
 double signedDistance(const AnalyticScene& scene, const dvec3& scenePoint) noexcept;
 
-// Index of the solid that the ray enters first and the distance along it [m]; solid -1 = none.
+// The solid that a ray enters first: its index, and the distance along the ray [m]; solid -1 = none.
 struct RayHit {
     double distance = 0.0;
     int32_t solid = -1;
 };
-RayHit firstHit(const AnalyticScene& scene, const Ray& ray) noexcept;
 
 // Linear-light colour of an sRGB one, channels 0..255.
 glm::vec3 linearColour(int red, int green, int blue);

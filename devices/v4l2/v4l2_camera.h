@@ -43,14 +43,16 @@ public:
     // Gaps in the driver's depth counter plus frames superseded before they were read. A missing colour frame
     // loses no pair while a neighbour is close enough.
     uint64_t lost() const override;
-    uint64_t lostColour() const; // gaps in the driver's counter of colour
     std::optional<double> framePeriod() const override { return depthPeriod_; }
     std::shared_ptr<CameraControls> controls() const override { return controls_; }
     std::vector<CameraStream> delivered() const override;
     bool stampsExposure() const override { return exposuresTold_.load() > 0; }
 
-    uint64_t copied() const { return copied_; }     // frames whose depth was not leased in place
     uint64_t restarts() const { return restarts_; } // restarts of silent streams
+
+    // For tests.
+    uint64_t lostColour() const;                // gaps in the driver's counter of colour
+    uint64_t copied() const { return copied_; } // frames whose depth was not leased in place
     // Frames whose capture time is the start of exposure from the camera's metadata.
     uint64_t exposuresTold() const { return exposuresTold_; }
 

@@ -88,7 +88,7 @@ struct Plan : PlannedPasses, PlannedLayout, PlannedTuning {
     };
     std::vector<Item> items;
 
-    bool has(const std::string& name) const;
+    bool has(const std::string& name) const; // whether it includes the item; for tests
     // CPU devices list patches in a separate pass, because divergent lanes of classify would all pay for it.
     bool lists() const { return cloud && !byPixel; }
     // Thinning is a separate pass, unless the group that computes a patch's spheres does it.

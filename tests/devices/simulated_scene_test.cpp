@@ -6,6 +6,7 @@
 #include <cmath>
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
+#include <optional>
 
 using namespace fathom;
 
@@ -33,6 +34,18 @@ Hsl hslOf(uint32_t packed) {
 bool inBand(const Hsl& c, double lo, double hi) {
     const bool hue = lo <= hi ? c.hue >= lo && c.hue <= hi : c.hue >= lo || (c.hue >= 0.0 && c.hue <= hi);
     return hue && c.saturation >= 0.4 && c.saturation <= 1.0 && c.lightness >= 0.08 && c.lightness <= 0.9;
+}
+
+// The twin of the ray caster: tests every solid.
+RayHit firstHit(const AnalyticScene& scene, const Ray& ray) {
+    RayHit hit{HUGE_VAL, -1};
+    for (size_t i = 0; i < scene.solids.size(); ++i) {
+        const std::optional<double> t = enter(scene.solids[i], ray);
+        if (t && *t < hit.distance) {
+            hit = {*t, static_cast<int32_t>(i)};
+        }
+    }
+    return hit;
 }
 
 } // namespace
