@@ -86,13 +86,13 @@ TEST_CASE("The rate of a stream is that of its intervals, and a gap is an interv
 }
 
 TEST_CASE("Streams of a bag are listed with type, count, encoding, size, frame and lens, also unread ones") {
-    test::BagMaker maker;
-    test::ImageMessage depth;
+    testing::BagMaker maker;
+    testing::ImageMessage depth;
     depth.pixels.assign(8 * 6 * 2, '\1');
     for (int i = 0; i < 3; ++i) {
         maker.add("/camera/depth/image_raw", "sensor_msgs/Image", 1.0 + 0.5 * i,
-                  test::imageMessage(1.0 + 0.5 * i, depth));
-        maker.add("/odd", "std_msgs/String", 1.0, test::Out().text("x").bytes);
+                  testing::imageMessage(1.0 + 0.5 * i, depth));
+        maker.add("/odd", "std_msgs/String", 1.0, testing::Out().text("x").bytes);
     }
     const testing::ScratchFolder folder;
     std::ofstream(folder.path() / "a.bag", std::ios::binary) << maker.bag();

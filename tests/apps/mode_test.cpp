@@ -188,8 +188,8 @@ TEST_CASE("Words of states, chips and alarms have a contrast of 7 to 1 over a wh
     const ModeInput input{run.console, run.view, run.haptics};
     const auto check = [](ImU32 ink) {
         for (const double grey : {0.0, 1.0}) {
-            const double plate = test::luminance(test::blended(colour::kPlate, {grey, grey, grey}));
-            CHECK(test::contrast(test::luminance(test::rgbOf(ink)), plate) >= 7.0);
+            const double plate = testing::luminance(testing::blended(colour::kPlate, {grey, grey, grey}));
+            CHECK(testing::contrast(testing::luminance(testing::rgbOf(ink)), plate) >= 7.0);
         }
     };
     run.console.guidance = run.console.clutch = run.console.frozen = run.console.recording = true;

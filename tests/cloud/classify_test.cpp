@@ -8,7 +8,7 @@
 #include <doctest/doctest.h>
 
 using namespace fathom;
-using namespace fathom::test;
+using namespace fathom::testing;
 
 namespace {
 

@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-namespace fathom::test {
+namespace fathom::testing {
 
 // A wavy wall that moves along the optical axis, in units of 0.1 mm.
 struct NoisyWorld {
@@ -89,4 +89,4 @@ inline Errors errorsAt(CloudRig& rig, CloudRig& plain, double range, double shar
     return e;
 }
 
-} // namespace fathom::test
+} // namespace fathom::testing

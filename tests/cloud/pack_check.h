@@ -6,7 +6,7 @@
 
 #include <doctest/doctest.h>
 
-namespace fathom::test {
+namespace fathom::testing {
 
 struct Expected {
     std::vector<reference::RegionSphere> spheres;
@@ -61,4 +61,4 @@ inline void checkPacked(const CloudRig& rig) {
     CHECK(wrong == 0);
 }
 
-} // namespace fathom::test
+} // namespace fathom::testing

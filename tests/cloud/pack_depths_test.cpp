@@ -5,7 +5,7 @@
 #include <algorithm>
 
 using namespace fathom;
-using namespace fathom::test;
+using namespace fathom::testing;
 
 TEST_CASE("From depths and growth steps the host computes exactly the device's spheres for lenses, fans, "
           "poses, classes, thinned and held points") {

@@ -8,7 +8,7 @@
 #include <set>
 
 using namespace fathom;
-using namespace fathom::test;
+using namespace fathom::testing;
 
 TEST_CASE(
     "The host reads every sphere of every slot once and in order, also at sizes that are not whole patches") {

@@ -6,7 +6,7 @@
 #include <doctest/doctest.h>
 
 using namespace fathom;
-using namespace fathom::test;
+using namespace fathom::testing;
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace fathom::test {
+namespace fathom::testing {
 
 struct SurfaceAgreement {
     uint32_t points = 0, rejected = 0, unsure = 0,
@@ -46,4 +46,4 @@ inline bool onCpu() {
     return vulkan().device.facts().kind == DeviceKind::Cpu;
 }
 
-} // namespace fathom::test
+} // namespace fathom::testing

@@ -5,7 +5,7 @@
 #include <doctest/doctest.h>
 
 using namespace fathom;
-using namespace fathom::test;
+using namespace fathom::testing;
 
 TEST_CASE("Two pixels per invocation give the points of one, also in patches with one pixel of a pair") {
     for (const double edge : {0.0, 0.03}) {

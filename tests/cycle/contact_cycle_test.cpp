@@ -12,8 +12,8 @@
 #include <random>
 
 using namespace fathom;
-using fathom::test::checkSameContacts;
-using fathom::test::vulkan;
+using fathom::testing::checkSameContacts;
+using fathom::testing::vulkan;
 
 namespace {
 

@@ -14,7 +14,7 @@
 #include <fstream>
 
 using namespace fathom;
-using fathom::test::vulkan;
+using fathom::testing::vulkan;
 
 namespace {
 
@@ -169,7 +169,7 @@ struct LosingRig {
     const testing::ScratchFolder folder;
     const std::string trigger = folder / "trigger";
     const Losing losing;
-    const gpu::Instance instance{fathom::test::Vulkan::validation()};
+    const gpu::Instance instance{fathom::testing::Vulkan::validation()};
     TwinRig twin{Scene::Contact::Where::Gpu, instance};
 
     explicit LosingRig(const std::string& by = "lost")

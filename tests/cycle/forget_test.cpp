@@ -5,7 +5,7 @@
 #include <doctest/doctest.h>
 
 using namespace fathom;
-using namespace fathom::test;
+using namespace fathom::testing;
 
 TEST_CASE("After forget() a used cycle gives the sets of a fresh one, held points included, also at an "
           "earlier time") {

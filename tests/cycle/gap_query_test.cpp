@@ -10,7 +10,7 @@
 #include <random>
 
 using namespace fathom;
-using namespace fathom::test;
+using namespace fathom::testing;
 
 namespace {
 

@@ -5,7 +5,7 @@
 
 #include "tests/support/cloud_rig.h"
 
-namespace fathom::test {
+namespace fathom::testing {
 
 inline Scene redAndBlueScene() {
     Scene scene = plainScene();
@@ -27,4 +27,4 @@ inline Image redAndBlueImage(const CameraInfo& camera, double red, double blue) 
     return image;
 }
 
-} // namespace fathom::test
+} // namespace fathom::testing

@@ -5,7 +5,7 @@
 
 #include <doctest/doctest.h>
 
-namespace fathom::test {
+namespace fathom::testing {
 
 // Two answers to one question are equal to the last bit: every field except `query` and `asked`, which
 // identify the question.
@@ -40,4 +40,4 @@ inline void checkSameContacts(const ContactSet& a, const ContactSet& b) {
     }
 }
 
-} // namespace fathom::test
+} // namespace fathom::testing

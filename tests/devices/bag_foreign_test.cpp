@@ -3,7 +3,7 @@
 #include "tests/devices/played_bag.h"
 
 using namespace fathom;
-using namespace fathom::test;
+using namespace fathom::testing;
 
 TEST_CASE(
     "A lens without width and height counts for the size of its images if it looks through their middle") {

@@ -14,7 +14,7 @@
 #include <map>
 
 using namespace fathom;
-using namespace fathom::test;
+using namespace fathom::testing;
 
 namespace {
 

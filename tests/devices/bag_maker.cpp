@@ -4,7 +4,7 @@
 #include <bzlib.h>
 #include <lz4frame.h>
 
-namespace fathom::test {
+namespace fathom::testing {
 
 namespace {
 
@@ -168,4 +168,4 @@ void addStream(BagMaker& maker, const std::string& topic, const ImageMessage& im
     }
 }
 
-} // namespace fathom::test
+} // namespace fathom::testing

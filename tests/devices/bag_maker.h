@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace fathom::test {
+namespace fathom::testing {
 
 // Bytes as ROS 1 serialises them.
 struct Out {
@@ -92,4 +92,4 @@ std::string filledColour(uint8_t r, uint8_t g, uint8_t b, uint32_t count = 48);
 void addStream(BagMaker& maker, const std::string& topic, const ImageMessage& image,
                const InfoMessage& info = {}, const std::vector<double>& times = {1.0, 1.1, 1.2});
 
-} // namespace fathom::test
+} // namespace fathom::testing

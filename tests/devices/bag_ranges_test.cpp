@@ -5,7 +5,7 @@
 #include <algorithm>
 
 using namespace fathom;
-using namespace fathom::test;
+using namespace fathom::testing;
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <limits>
 
 using namespace fathom;
-using namespace fathom::test;
+using namespace fathom::testing;
 
 TEST_CASE("The depth unit of a RealSense SDK bag is found under every name that the SDK has written") {
     const TemporaryFolder folder;

@@ -4,7 +4,7 @@
 #include "tests/realtime/listening.h"
 
 using namespace fathom;
-using namespace fathom::test;
+using namespace fathom::testing;
 using testing::Listening;
 
 namespace {

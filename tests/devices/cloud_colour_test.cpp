@@ -5,7 +5,7 @@
 #include "tests/devices/played_bag.h"
 
 using namespace fathom;
-using namespace fathom::test;
+using namespace fathom::testing;
 
 namespace {
 

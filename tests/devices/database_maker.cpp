@@ -8,7 +8,7 @@
 #include <sqlite3.h>
 #include <zstd.h>
 
-namespace fathom::test {
+namespace fathom::testing {
 
 namespace {
 
@@ -97,4 +97,4 @@ std::string imageCdr(int64_t time, const CdrImage& image) {
     return out.put(image.step).text(image.pixels).bytes;
 }
 
-} // namespace fathom::test
+} // namespace fathom::testing

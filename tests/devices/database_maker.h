@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace fathom::test {
+namespace fathom::testing {
 
 // One row of the table of messages.
 struct DatabaseMessage {
@@ -29,4 +29,4 @@ struct CdrImage {
 };
 std::string imageCdr(int64_t time, const CdrImage& image); // sensor_msgs/msg/Image
 
-} // namespace fathom::test
+} // namespace fathom::testing

@@ -3,7 +3,7 @@
 
 #include "tests/devices/bag_maker.h"
 
-namespace fathom::test {
+namespace fathom::testing {
 
 namespace {
 
@@ -92,4 +92,4 @@ std::string kinectCalibration(const KinectLenses& lenses) {
            "]}}";
 }
 
-} // namespace fathom::test
+} // namespace fathom::testing

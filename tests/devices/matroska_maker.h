@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace fathom::test {
+namespace fathom::testing {
 
 // An element. The size takes 8 bytes; without a size the element is endless.
 std::string ebml(uint32_t id, const std::string& data, bool sized = true);
@@ -47,4 +47,4 @@ struct KinectLenses {
 };
 std::string kinectCalibration(const KinectLenses& lenses = {});
 
-} // namespace fathom::test
+} // namespace fathom::testing

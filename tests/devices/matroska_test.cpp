@@ -9,7 +9,7 @@
 #include <spdlog/spdlog.h>
 
 using namespace fathom;
-using namespace fathom::test;
+using namespace fathom::testing;
 
 namespace {
 

@@ -9,7 +9,7 @@
 
 #include <doctest/doctest.h>
 
-namespace fathom::test {
+namespace fathom::testing {
 
 inline ImageMessage depthImage(uint16_t value, const std::string& frame = "camera",
                                const std::string& encoding = "16UC1") {
@@ -47,4 +47,4 @@ inline double firstDepth(BagCamera& camera) {
     return (*frame)->depth[0] * camera.info().metresPerUnit;
 }
 
-} // namespace fathom::test
+} // namespace fathom::testing

@@ -5,7 +5,7 @@
 #include "tests/realtime/listening.h"
 
 using namespace fathom;
-using namespace fathom::test;
+using namespace fathom::testing;
 
 namespace {
 

@@ -4,7 +4,7 @@
 #include "tests/devices/played_bag.h"
 
 using namespace fathom;
-using namespace fathom::test;
+using namespace fathom::testing;
 
 TEST_CASE("Errors, qualities and heights are not depth by the names of their topics") {
     for (const char* topic : {"/cam/depth_error/image", "/cam/depth/error", "/snr/image", "/elevation_map",

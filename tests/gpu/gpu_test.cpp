@@ -16,7 +16,7 @@
 #include <vector>
 
 using namespace fathom;
-using fathom::test::vulkan;
+using fathom::testing::vulkan;
 
 TEST_CASE("A device reports its facts and is in the list") {
     const DeviceFacts& facts = vulkan().device.facts();

@@ -19,8 +19,8 @@
 #include <sys/stat.h>
 
 using namespace fathom;
-using fathom::test::Vulkan;
-using fathom::test::vulkan;
+using fathom::testing::Vulkan;
+using fathom::testing::vulkan;
 
 namespace {
 

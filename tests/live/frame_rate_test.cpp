@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Frame rates above and below 30 per second.
-#include "tests/rig/refusal.h"
+#include "tests/rig/program_refusal.h"
 
 #include <doctest/doctest.h>
 

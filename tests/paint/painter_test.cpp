@@ -55,8 +55,8 @@ Difference differenceOf(const std::vector<uint32_t>& a, const std::vector<uint32
 } // namespace
 
 TEST_CASE("Device and CPU draw the same window") {
-    gpu::Instance instance(test::Vulkan::validation());
-    gpu::Device device(instance, test::Vulkan::selector(), gpu::Drawing::Offscreen);
+    gpu::Instance instance(testing::Vulkan::validation());
+    gpu::Device device(instance, testing::Vulkan::selector(), gpu::Drawing::Offscreen);
     testing::LaidScreen laid;
     laid.run.console.forces = true;
     laid.run.console.tab = Tab::Help;

@@ -16,7 +16,7 @@ constexpr Repeats kFew{2, 2, 0.0};
 } // namespace
 
 TEST_CASE("Every memory kind is read completely, and the best method is reported with its size") {
-    const gpu::Instance instance{test::Vulkan::validation()};
+    const gpu::Instance instance{testing::Vulkan::validation()};
     gpu::Device device{instance, "llvmpipe"};
     TimedSubmissions submissions(device);
     REQUIRE(device.facts().hostPointerAlignment != 0);
@@ -32,7 +32,7 @@ TEST_CASE("Every memory kind is read completely, and the best method is reported
 }
 
 TEST_CASE("A stream without enough memory uses half of it, and unavailable memory gives a rate of 0") {
-    const gpu::Instance instance{test::Vulkan::validation()};
+    const gpu::Instance instance{testing::Vulkan::validation()};
     gpu::Device device{instance, "llvmpipe"};
     TimedSubmissions submissions(device);
     const uint64_t most = device.facts().maxStorageBufferBytes;
@@ -45,7 +45,7 @@ TEST_CASE("A stream without enough memory uses half of it, and unavailable memor
 }
 
 TEST_CASE("Ceilings cover device memory, both kinds of host memory, arithmetic and host copies") {
-    const gpu::Instance instance{test::Vulkan::validation()};
+    const gpu::Instance instance{testing::Vulkan::validation()};
     gpu::Device device{instance, "llvmpipe"};
     const Ceilings c = measureCeilings(device, 2, kFew);
     for (const double value : {c.deviceBytes, c.uploadBytes, c.importBytes, c.deviceFlops, c.hostBytes,

@@ -12,7 +12,7 @@ using namespace fathom::profile;
 namespace {
 
 struct Rig {
-    gpu::Instance instance{test::Vulkan::validation()};
+    gpu::Instance instance{testing::Vulkan::validation()};
     gpu::Device device{instance, "llvmpipe"};
     FrameSequence source = wallFrame(203, 117, 1.0);
     FrameBench bench{device, studyScene({}), source.camera};
@@ -63,7 +63,7 @@ TEST_CASE("Every region sphere of a frame is at its own forbidden point, and a m
 }
 
 TEST_CASE("Colour of a second camera is looked up through occlusion cells, and both match their twins") {
-    const gpu::Instance instance{test::Vulkan::validation()};
+    const gpu::Instance instance{testing::Vulkan::validation()};
     gpu::Device device{instance, "llvmpipe"};
     const FrameSequence source = twoCameraFrames("tank", 160, 120, 1);
     const SampleFrame& image = source.frames.front();
@@ -81,7 +81,7 @@ TEST_CASE("Colour of a second camera is looked up through occlusion cells, and b
 
 TEST_CASE(
     "The second camera, 25 mm from the first, sees the same surfaces except those that are hidden from it") {
-    const gpu::Instance instance{test::Vulkan::validation()};
+    const gpu::Instance instance{testing::Vulkan::validation()};
     gpu::Device device{instance, "llvmpipe"};
     const FrameSequence one = analyticFrames("tank", 320, 240, 1), two = twoCameraFrames("tank", 320, 240, 1);
     CHECK(glm::length(two.camera.colourTdepth.position) > 0.020);
@@ -109,7 +109,7 @@ TEST_CASE(
 }
 
 TEST_CASE("A bench with a self-filter removes the arm's points, and guidance matches its points") {
-    const gpu::Instance instance{test::Vulkan::validation()};
+    const gpu::Instance instance{testing::Vulkan::validation()};
     gpu::Device device{instance, "llvmpipe"};
     const FrameSequence source = wallFrame(160, 120, 0.5);
     Scene scene = studyScene({});
@@ -131,7 +131,7 @@ TEST_CASE("A bench with a self-filter removes the arm's points, and guidance mat
 }
 
 TEST_CASE("An unchanged frame takes no device time and publishes nothing") {
-    const gpu::Instance instance{test::Vulkan::validation()};
+    const gpu::Instance instance{testing::Vulkan::validation()};
     gpu::Device device{instance, "llvmpipe"};
     const FrameSequence source = wallFrame(160, 120, 0.5);
     FrameBench bench(device, studyScene({}), source.camera);
@@ -169,7 +169,7 @@ TEST_CASE("The wall's noise has the simulated camera's sigma at 0.8 m, and every
 
 TEST_CASE("Thinning keeps three quarters of a noisy wall's points at 640x480 and less than a third of a "
           "smooth one's") {
-    const gpu::Instance instance{test::Vulkan::validation()};
+    const gpu::Instance instance{testing::Vulkan::validation()};
     gpu::Device device{instance, "llvmpipe"};
     const auto left = [&](WallNoise noise) {
         const FrameSequence source = wallFrame(640, 480, 1.0, noise);

@@ -110,7 +110,7 @@ TEST_CASE(
 
 TEST_CASE(
     "The spheres and the query of a budget belong to the first frame, regardless of the last measured one") {
-    const gpu::Instance instance{test::Vulkan::validation()};
+    const gpu::Instance instance{testing::Vulkan::validation()};
     gpu::Device device(instance, "llvmpipe");
     profile::Settings settings;
     settings.quick = true;

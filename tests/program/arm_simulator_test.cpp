@@ -2,7 +2,7 @@
 // `fathom arm-simulator`, driven by the drivers of both arms through the pseudo-terminal that it opens.
 #include "devices/serial/eca_arm.h"
 #include "devices/serial/reach_arm.h"
-#include "tests/rig/refusal.h"
+#include "tests/rig/program_refusal.h"
 #include "tests/support/eventually.h"
 
 #include <chrono>

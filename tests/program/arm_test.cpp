@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs the shipped scenes with an arm in full: the tasks of section VII of the paper in order, with the arm
 // in the loop. Also what the section `arm:` rejects.
-#include "tests/rig/refusal.h"
+#include "tests/rig/program_refusal.h"
 #include "tests/rig/stage.h"
 #include "tests/support/sanitized.h"
 

@@ -3,7 +3,7 @@
 #include "devices/bag/bag_camera.h"
 #include "devices/recorded/recorded_camera.h"
 #include "engine/types/colour_copy.h"
-#include "tests/rig/refusal.h"
+#include "tests/rig/program_refusal.h"
 
 #include <doctest/doctest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // `fathom inspect` on folders, and on what cannot be read.
-#include "tests/rig/refusal.h"
+#include "tests/rig/program_refusal.h"
 
 #include <doctest/doctest.h>
 #include <fstream>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lengths that are likely millimetres: tool, hand path and arm.
 #include "tests/rig/arm_stage.h"
-#include "tests/rig/refusal.h"
+#include "tests/rig/program_refusal.h"
 
 #include <doctest/doctest.h>
 

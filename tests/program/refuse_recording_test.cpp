@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rejected: unusable recordings, invalid hand paths and command lines, and output that cannot be written.
-#include "tests/rig/refusal.h"
+#include "tests/rig/program_refusal.h"
 
 #include <doctest/doctest.h>
 

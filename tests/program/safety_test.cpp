@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Inputs that must not be taken silently: absurd numbers, outputs over inputs, runs without protection,
 // registrations that cannot be right.
-#include "tests/rig/refusal.h"
+#include "tests/rig/program_refusal.h"
 
 #include <doctest/doctest.h>
 #include <fcntl.h>

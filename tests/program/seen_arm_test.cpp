@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A simulated camera renders the moving arm. Without the self-filter regions grow on the arm; with it none
 // do.
-#include "tests/rig/refusal.h"
+#include "tests/rig/program_refusal.h"
 #include "tests/rig/stage.h"
 #include "tests/support/sanitized.h"
 

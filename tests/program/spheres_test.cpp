@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // `fathom spheres` as a program.
 #include "tests/model/meshes.h"
-#include "tests/rig/refusal.h"
+#include "tests/rig/program_refusal.h"
 #include "tests/rig/run_fathom.h"
 #include "tests/support/scratch_folder.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // `fathom tune` on a small recording: its files, the scene that replay loads, and what it rejects.
-#include "tests/rig/refusal.h"
+#include "tests/rig/program_refusal.h"
 
 #include <doctest/doctest.h>
 

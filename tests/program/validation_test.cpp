@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // `--validate`, which this suite uses for every run: messages of the Vulkan validation layers are printed and
 // fail the run.
-#include "tests/rig/refusal.h"
+#include "tests/rig/program_refusal.h"
 #include "tests/support/validation_wanted.h"
 
 #include <algorithm>
@@ -36,7 +36,7 @@ void prepare(const Stage& stage) {
 } // namespace
 
 TEST_CASE("A message of the Vulkan layers is printed and fails a run that is otherwise complete") {
-    if (!test::validationWanted()) {
+    if (!testing::validationWanted()) {
         return;
     }
     const Stage stage;
@@ -57,7 +57,7 @@ TEST_CASE("A message of the Vulkan layers is printed and fails a run that is oth
 }
 
 TEST_CASE("Missing validation layers are reported and never skipped") {
-    if (!test::validationWanted()) {
+    if (!testing::validationWanted()) {
         return;
     }
     const Stage stage;

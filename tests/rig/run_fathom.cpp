@@ -67,7 +67,7 @@ class Command {
 public:
     explicit Command(const std::vector<std::string>& arguments)
         : words_{FATHOM_PROGRAM} {
-        if (test::validationWanted()) {
+        if (testing::validationWanted()) {
             words_.push_back("--validate");
         }
         words_.insert(words_.end(), arguments.begin(), arguments.end());

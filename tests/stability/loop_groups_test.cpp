@@ -25,7 +25,8 @@ TEST_CASE(
 }
 
 TEST_CASE("Every case of group precision holds: float32 shaders against their float64 twins") {
-    checkGroup(precisionCases([]() -> gpu::Device& { return test::vulkan().device; }), Group::Precision, 3);
+    checkGroup(precisionCases([]() -> gpu::Device& { return testing::vulkan().device; }), Group::Precision,
+               3);
 }
 
 // Skipped under a sanitizer, because it keeps freed memory, which counts as growth.

@@ -10,7 +10,7 @@
 #include <doctest/doctest.h>
 #include <random>
 
-namespace fathom::test {
+namespace fathom::testing {
 
 namespace {
 
@@ -244,4 +244,4 @@ RecordedShots recordedShots(const std::string& name, std::vector<uint32_t> frame
     return out;
 }
 
-} // namespace fathom::test
+} // namespace fathom::testing

@@ -10,7 +10,7 @@
 #include <functional>
 #include <string>
 
-namespace fathom::test {
+namespace fathom::testing {
 
 using verify::Image;
 
@@ -71,4 +71,4 @@ struct RecordedShots {
 };
 RecordedShots recordedShots(const std::string& name, std::vector<uint32_t> frames);
 
-} // namespace fathom::test
+} // namespace fathom::testing

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace fathom::test {
+namespace fathom::testing {
 
 // sRGB channels from 0 to 1.
 using Rgb = std::array<double, 3>;
@@ -43,4 +43,4 @@ inline double contrast(double a, double b) {
     return (std::max(a, b) + 0.05) / (std::min(a, b) + 0.05);
 }
 
-} // namespace fathom::test
+} // namespace fathom::testing

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <string>
 
-namespace fathom::test {
+namespace fathom::testing {
 
 // FATHOM_TEST_VALIDATION: 0 = without layers, as in sanitized builds; gpu = also GPU-assisted checks in
 // shaders.
@@ -19,4 +19,4 @@ inline bool validationWanted() {
     return validationSetting() != "0";
 }
 
-} // namespace fathom::test
+} // namespace fathom::testing

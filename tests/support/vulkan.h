@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <vector>
 
-namespace fathom::test {
+namespace fathom::testing {
 
 struct Vulkan {
     gpu::Instance instance;
@@ -29,4 +29,4 @@ struct Vulkan {
 // The device shared by the tests of one program; destroyed when the program ends.
 Vulkan& vulkan();
 
-} // namespace fathom::test
+} // namespace fathom::testing

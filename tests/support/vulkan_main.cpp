@@ -9,10 +9,10 @@
 #include <memory>
 
 namespace {
-std::unique_ptr<fathom::test::Vulkan> shared;
+std::unique_ptr<fathom::testing::Vulkan> shared;
 }
 
-fathom::test::Vulkan& fathom::test::vulkan() {
+fathom::testing::Vulkan& fathom::testing::vulkan() {
     if (!shared) {
         shared = std::make_unique<Vulkan>();
     }

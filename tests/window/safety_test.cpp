@@ -84,13 +84,13 @@ TEST_CASE("On screen the state word has a contrast of 7 to 1 while forces are of
         std::vector<double> light;
         for (auto v = static_cast<uint32_t>(at[1] + 1); v < at[1] + at[3] - 1; ++v) {
             for (auto u = static_cast<uint32_t>(at[0] + 6); u < at[0] + at[2] - 6; ++u) {
-                light.push_back(test::luminance(test::rgbOf(shot.pixels[v * shot.width + u])));
+                light.push_back(testing::luminance(testing::rgbOf(shot.pixels[v * shot.width + u])));
             }
         }
         REQUIRE(light.size() > 500);
         std::sort(light.begin(), light.end());
         const double plate = light[light.size() / 4], ink = light[light.size() - light.size() / 40];
-        CHECK(test::contrast(ink, plate) >= 7.0);
+        CHECK(testing::contrast(ink, plate) >= 7.0);
     };
     check("off");
     rig.key("a");

@@ -120,7 +120,7 @@ void WindowRig::startProgram(const std::filesystem::path& scene, const std::vect
                                    (folder_.path() / "state.jsonl").string(),
                                    "--folder",
                                    folder_.path().string()};
-    if (test::validationWanted()) {
+    if (testing::validationWanted()) {
         words.push_back("--validate");
     }
     words.insert(words.end(), extra.begin(), extra.end());
