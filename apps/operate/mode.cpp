@@ -25,46 +25,40 @@ Mode forcesFading(const char* meaning) {
     return {"FORCES FADING", "~", colour::kCaution, Edge::Dashed, meaning};
 }
 
-// Why the device gets no force, or a fading one, although forces are on and the scene is fresh. Without a
-// word, the cause is not known: nothing is blamed then.
+// A chip's word and a meaning. Without a word, nothing is blamed.
 struct LossCause {
     const char* word;
     const char* meaning;
 };
 
+const char* oldFrameMeaning(const StepRecord& record) {
+    return record.sceneAge < 0.0  ? "The newest frame is ahead of the clock: forces fade. Check which clock "
+                                    "the camera stamps with"
+           : cameraSilent(record) ? "There is no camera image: forces fade until one comes. Check the camera"
+                                  : "The newest frame is too old: forces fade until the next one";
+}
+
+// Why the device gets no force, or a fading one, although forces are on.
 LossCause lossCause(const RunView& run) {
-    const TickRow& tick = run.step();
-    if ((tick.hand.buttons & kDeadManOpen) != 0) {
+    const StepRecord& record = run.step().record;
+    switch (run.fadeReason()) {
+    case FadeReason::OldFrame: // the mode says it
+        return {cameraSilent(record) && record.sceneAge > 0.0 ? "NO CAMERA IMAGE" : "",
+                oldFrameMeaning(record)};
+    case FadeReason::SwitchedOff:
         return {"DEAD-MAN OPEN", "No force: the device's dead-man switch is open. Close it"};
-    }
-    if (!tick.hand.present) {
+    case FadeReason::ArmStill: // the mode says it
+        return {"", ""};
+    case FadeReason::DeviceLost:
         return {"DEVICE LOST", "No force: the haptic device is lost or silent. Check its cable"};
-    }
-    if (tick.record.state == StepState::Fading && run.regionsVanished()) {
+    case FadeReason::RegionGone:
         return {"REGION GONE", "Forces fade: a region that pressed the hand disappeared"};
-    }
-    if (run.deviceWasLost()) {
+    case FadeReason::DeviceWasLost:
         return {"DEVICE LOST", "No force: the haptic device was lost, several times or a moment ago. Wait"};
+    case FadeReason::Unknown:
+        break;
     }
     return {"", "No force, or a fading one, without a known cause. If it lasts: Space, then A"};
-}
-
-Mode staleMode(const ModeInput& input) {
-    const StepRecord& record = input.run.step().record;
-    return {
-        "STALE", "~", colour::kCaution, Edge::Dashed,
-        record.sceneAge < 0.0
-            ? "The newest frame is ahead of the clock: forces fade. Check which clock the camera stamps with"
-        : cameraSilent(record) ? "There is no camera image: forces fade until one comes. Check the camera"
-                               : "The newest frame is too old: forces fade until the next one"};
-}
-
-// Of a real arm also when ramped out: an old frame stops the arm, and the arm then holds the forces off.
-bool isStale(const ModeInput& input) {
-    const TickRow& tick = input.run.step();
-    const bool fades = tick.record.state == StepState::Fading ||
-                       (tick.record.state == StepState::Off && tick.record.frame >= 0 && tick.driven);
-    return fades && isOld(tick.record.sceneAge);
 }
 
 bool armHeld(const RunView& run) {
@@ -88,10 +82,13 @@ Mode armedMode(const ModeInput& input) {
                 "The tool is trapped between regions, or a real arm stands still: forces fade. W says why"};
     }
     if (state == StepState::Off && record.frame >= 0) {
-        return forcesOff(isStale(input) ? staleMode(input).meaning : lossCause(input.run).meaning);
+        return forcesOff(lossCause(input.run).meaning);
     }
     if (state == StepState::Fading) {
-        return isStale(input) ? staleMode(input) : forcesFading(lossCause(input.run).meaning);
+        const char* meaning = lossCause(input.run).meaning;
+        return input.run.fadeReason() == FadeReason::OldFrame
+                   ? Mode{"STALE", "~", colour::kCaution, Edge::Dashed, meaning}
+                   : forcesFading(meaning);
     }
     if (atForceLimit(record, input.haptics) || atTorqueLimit(record, input.haptics)) {
         return {"AT LIMIT", "!", colour::kWarningWord, Edge::Hatched,
@@ -179,14 +176,6 @@ Chip reasonChip(const ModeInput& input) {
     }
     if (record.state == StepState::Escape) {
         return {"ESCAPING", colour::kCaution, "A region now covers the tool, which moves out"};
-    }
-    if (isStale(input)) {
-        return cameraSilent(record) && record.sceneAge > 0.0
-                   ? Chip{"NO CAMERA IMAGE", colour::kCaution, staleMode(input).meaning}
-                   : Chip{};
-    }
-    if (armHeld(input.run) && (input.run.step().hand.buttons & kDeadManOpen) == 0) {
-        return {}; // HELD says it
     }
     if (record.state == StepState::Off || record.state == StepState::Fading) {
         const LossCause cause = lossCause(input.run);

@@ -97,7 +97,7 @@ void RunView::take(const TickRow& row) {
         measured_ = Measured{r.t - row.armStatus.age, row.armStatus.posture};
     }
     trace_.push_back(sampleOf(row));
-    trace_.back().fade = fadeOf(row);
+    trace_.back().fade = fadeReason();
     const TraceWrench felt = trace_.back().delivered();
     ripple_.add(r.t, r.frame, {dvec3(felt.force), dvec3(felt.torque)});
     force_.add(r.t, glm::length(felt.force), kSpan);
@@ -109,17 +109,26 @@ void RunView::take(const TickRow& row) {
     noteBlocks(row);
 }
 
-Fade RunView::fadeOf(const TickRow& row) const {
-    if ((row.hand.buttons & kDeadManOpen) != 0) { // also by the window's switch
-        return Fade::SwitchedOff;
+FadeReason RunView::fadeReason() const {
+    const StepRecord& record = tick_.record;
+    const bool fading = record.state == StepState::Fading;
+    // An old frame stops a real arm, which then holds the forces off also when they have ramped out.
+    if (isOld(record.sceneAge) && (fading || (tick_.driven && record.frame >= 0))) {
+        return FadeReason::OldFrame;
     }
-    if (!row.hand.present) {
-        return Fade::DeviceLost;
+    if ((tick_.hand.buttons & kDeadManOpen) != 0) {
+        return FadeReason::SwitchedOff;
     }
-    if (isOld(row.record.sceneAge)) {
-        return Fade::OldFrame;
+    if (tick_.driven && tick_.armStatus.state != ArmState::Follows) {
+        return FadeReason::ArmStill;
     }
-    return regionsVanished() ? Fade::RegionGone : Fade::Unknown;
+    if (!tick_.hand.present) {
+        return FadeReason::DeviceLost;
+    }
+    if (fading && regionsVanished()) {
+        return FadeReason::RegionGone;
+    }
+    return deviceWasLost() ? FadeReason::DeviceWasLost : FadeReason::Unknown;
 }
 
 void RunView::noteDelay(const StepRecord& r) {

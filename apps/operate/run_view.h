@@ -19,8 +19,16 @@ struct TraceWrench {
     glm::vec3 torque{0.0f}; // [N m]
 };
 
-// Why the state of a tick is fading, as far as the tick shows it.
-enum class Fade : uint8_t { Unknown, SwitchedOff, DeviceLost, RegionGone, OldFrame };
+// Why a tick's force fades, or has faded out while forces are on: the first that applies.
+enum class FadeReason : uint8_t {
+    Unknown,
+    OldFrame,      // isOld()
+    SwitchedOff,   // the dead-man switch is open, which the window's switch also sets
+    ArmStill,      // a real arm does not follow
+    DeviceLost,    // the device is gone or silent
+    RegionGone,    // regions that pressed disappeared
+    DeviceWasLost, // several times, or a moment ago: forces wait
+};
 
 // One tick in the traces.
 struct TraceSample {
@@ -30,7 +38,7 @@ struct TraceSample {
     int64_t frame = -1;   // frame whose set was used
     StepState state = StepState::Off;
     bool guided = false, late = false;
-    Fade fade = Fade::Unknown; // of the state Fading
+    FadeReason fade = FadeReason::Unknown; // of the state Fading
     // What the hand gets; without a known residual, all of it.
     TraceWrench delivered() const;
 };
@@ -102,6 +110,8 @@ public:
     bool regionsVanished() const { return tick_.record.t - vanishedAt_ <= 5.0; }
     // Whether the device was gone or silent so recently that it may still hold forces off.
     bool deviceWasLost() const { return tick_.record.t - lostAt_ <= 2.0; }
+    // Of the newest tick, whose state is Fading or Off.
+    FadeReason fadeReason() const;
     uint64_t ticks() const { return ticks_; }
     const std::deque<TraceSample>& trace() const { return trace_; }
     Peaks peaks() const { return {force_.value(), torque_.value()}; } // of the trace
@@ -121,7 +131,6 @@ public:
 private:
     void noteDelay(const StepRecord& record);
     void noteBlocks(const TickRow& row);
-    Fade fadeOf(const TickRow& row) const;
 
     static constexpr double kNever = -1e9; // [s]
 

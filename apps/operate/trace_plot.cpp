@@ -98,9 +98,10 @@ void drawPeak(const WrenchFigures& plot, const TraceArea& area, float y) {
                                                   plot.colour);
 }
 
-const char* fadeWord(Fade fade) {
-    constexpr const char* kWords[]{"fading", "off", "device lost", "region gone", "old frame"};
-    return kWords[static_cast<size_t>(fade)];
+const char* fadeWord(FadeReason reason) {
+    constexpr const char* kWords[]{"fading",      "old frame",   "off",        "fading",
+                                   "device lost", "region gone", "device lost"};
+    return kWords[static_cast<size_t>(reason)];
 }
 
 const char* eventWord(const TraceSample& sample) {

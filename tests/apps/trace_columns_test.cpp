@@ -88,7 +88,7 @@ TEST_CASE("A state that lasts is one bar from its begin to its end, however ofte
         sample.t = 0.01 * i;
         const bool fades = (i >= 20 && i < 50) || i >= 60;
         sample.state = fades ? StepState::Fading : StepState::Contact;
-        sample.fade = i < 80 ? Fade::OldFrame : Fade::RegionGone;
+        sample.fade = i < 80 ? FadeReason::OldFrame : FadeReason::RegionGone;
         sample.guided = i >= 10 && i < 30;
         trace.push_back(sample);
     }
