@@ -38,9 +38,9 @@ public:
     virtual void showArm(std::span<const Sphere>) {}
     // Recordings: number of frames, invalid ones included; 0 when the source cannot seek. seek() makes next()
     // continue at `index`; false when that is impossible.
-    virtual uint32_t images() const { return 0; }
+    virtual uint32_t frameCount() const { return 0; }
     // Recordings that are played from a later time on: index of the frame that begins there.
-    virtual uint32_t firstImage() const { return 0; }
+    virtual uint32_t firstFrame() const { return 0; }
     virtual bool seek(uint32_t) { return false; }
     // [s] frame period, when the source knows it.
     virtual std::optional<double> framePeriod() const { return std::nullopt; }

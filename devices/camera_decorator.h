@@ -22,8 +22,8 @@ public:
     bool live() const override { return source_->live(); }
     uint64_t lost() const override { return source_->lost(); }
     void showArm(std::span<const Sphere> spheres) override { source_->showArm(spheres); }
-    uint32_t images() const override { return source_->images(); }
-    uint32_t firstImage() const override { return source_->firstImage(); }
+    uint32_t frameCount() const override { return source_->frameCount(); }
+    uint32_t firstFrame() const override { return source_->firstFrame(); }
     bool seek(uint32_t index) override { return source_->seek(index); }
     std::optional<double> framePeriod() const override { return source_->framePeriod(); }
     std::string streams() const override { return source_->streams(); }

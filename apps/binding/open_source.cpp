@@ -49,8 +49,8 @@ std::unique_ptr<Camera> openSimulated(const Scene& scene) {
     return std::make_unique<SimulatedCamera>(*solids, options);
 }
 
-std::unique_ptr<Camera> openLive(CameraRequest request, Images images) {
-    request.everyFrame = images == Images::Every;
+std::unique_ptr<Camera> openLive(CameraRequest request, Delivery delivery) {
+    request.everyFrame = delivery == Delivery::Every;
     return std::make_unique<V4l2Camera>(request);
 }
 
@@ -65,9 +65,9 @@ std::string nameOf(const std::string& source) {
 }
 
 // Reports once which streams a recording is played from.
-std::unique_ptr<Camera> openAndReport(const std::string& source, Images images, double farthest) {
+std::unique_ptr<Camera> openAndReport(const std::string& source, Delivery delivery, double farthest) {
     static std::set<std::string> reported; // one thread opens cameras
-    std::unique_ptr<Camera> camera = openSource(source, images, farthest);
+    std::unique_ptr<Camera> camera = openSource(source, delivery, farthest);
     if (const std::string streams = camera->streams(); !streams.empty() && reported.insert(source).second) {
         std::fprintf(stderr, "fathom: %s: %s\n", nameOf(source).c_str(), streams.c_str());
     }
@@ -75,17 +75,17 @@ std::unique_ptr<Camera> openAndReport(const std::string& source, Images images, 
 }
 
 std::unique_ptr<Camera> openDry(const Scene& scene, const std::optional<std::filesystem::path>& source,
-                                Images images) {
+                                Delivery delivery) {
     if (source) {
-        return openAndReport(source->string(), images, scene.farZ);
+        return openAndReport(source->string(), delivery, scene.farZ);
     }
     switch (scene.source.kind) {
     case CameraSource::Kind::Simulated:
         return openSimulated(scene);
     case CameraSource::Kind::Recorded:
-        return openAndReport(scene.source.value, images, scene.farZ);
+        return openAndReport(scene.source.value, delivery, scene.farZ);
     case CameraSource::Kind::Ros2:
-        return openAndReport(withRos2(scene.source.value), images, scene.farZ);
+        return openAndReport(withRos2(scene.source.value), delivery, scene.farZ);
     case CameraSource::Kind::V4l2:
         break;
     }
@@ -97,20 +97,20 @@ std::unique_ptr<Camera> openDry(const Scene& scene, const std::optional<std::fil
         }
         request.intrinsics = file;
     }
-    return openLive(request, images);
+    return openLive(request, delivery);
 }
 
 } // namespace
 
-std::unique_ptr<Camera> openSource(const std::string& source, Images images, double farthest) {
+std::unique_ptr<Camera> openSource(const std::string& source, Delivery delivery, double farthest) {
     if (isCameraRequest(source)) {
-        return openLive(parseCameraRequest(source), images);
+        return openLive(parseCameraRequest(source), delivery);
     }
     if (isOpenNi2Request(source)) {
         return openOpenNi2(source);
     }
     if (isRos2Request(source)) {
-        return openRos2(source, images == Images::Every, farthest);
+        return openRos2(source, delivery == Delivery::Every, farthest);
     }
     SourceRequest request = parseSource(source);
     request.options.farthest = farthest;
@@ -118,8 +118,8 @@ std::unique_ptr<Camera> openSource(const std::string& source, Images images, dou
 }
 
 std::unique_ptr<Camera> openCamera(const Scene& scene, const std::optional<std::filesystem::path>& source,
-                                   Images images) {
-    std::unique_ptr<Camera> camera = openDry(scene, source, images);
+                                   Delivery delivery) {
+    std::unique_ptr<Camera> camera = openDry(scene, source, delivery);
     checkCamera(camera->info(), camera->description());
     if (source || scene.source.kind != CameraSource::Kind::Simulated) {
         camera = std::make_unique<SourceCheck>(std::move(camera), scene);
@@ -129,10 +129,10 @@ std::unique_ptr<Camera> openCamera(const Scene& scene, const std::optional<std::
         camera = std::make_unique<BeamCamera>(std::move(camera), beam);
     }
     // A recording contains all pixels, uncorrected, unless the window recorded what it used.
-    if (scene.decimation > 1 && images != Images::Every && camera->info().decimation == 1) {
+    if (scene.decimation > 1 && delivery != Delivery::Every && camera->info().decimation == 1) {
         camera = std::make_unique<DecimatedCamera>(std::move(camera), scene.decimation);
     }
-    if (!scene.port || images == Images::Every || camera->info().inWater) {
+    if (!scene.port || delivery == Delivery::Every || camera->info().inWater) {
         return camera;
     }
     const FlatPort port{scene.port->distance, scene.port->index};

@@ -18,16 +18,16 @@ inline constexpr const char* kSourceHelp = "instead of the scene's camera: a rec
                                            "man fathom, SOURCES";
 
 // For a live camera: the newest frame at each call, or every frame in order (for recordings).
-enum class Images { Newest, Every };
+enum class Delivery { Newest, Every };
 
 // A recording or a live camera ("v4l2:..."), as --source names it. farthest [m]: beyond, readings do not
 // matter. Throws BadInput.
-std::unique_ptr<Camera> openSource(const std::string& source, Images images,
+std::unique_ptr<Camera> openSource(const std::string& source, Delivery delivery,
                                    double farthest = std::numeric_limits<double>::infinity());
 
 // The scene's camera, or `source` when given: a recording, or a live camera ("v4l2:..."). Throws BadInput.
 std::unique_ptr<Camera> openCamera(const Scene& scene, const std::optional<std::filesystem::path>& source,
-                                   Images images = Images::Newest);
+                                   Delivery delivery = Delivery::Newest);
 
 // Adds the uncertainty of the camera's own corrections (flat port) to the scene's registration sigma, which
 // grows the regions. Call once per scene and camera.

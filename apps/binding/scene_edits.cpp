@@ -48,7 +48,7 @@ SceneEdit readEdit(const std::filesystem::path& file, const TextLine& line) {
         refuse(file, line, "row", line.text, SceneEdits::kHead);
     }
     SceneEdit edit;
-    if (!parseNumber(fields[0], edit.image)) {
+    if (!parseNumber(fields[0], edit.firstFrame)) {
         refuse(file, line, "picture", fields[0], "a whole number from 0");
     }
     edit.scene = sceneNamed(file, line, fields[1]);
@@ -87,8 +87,8 @@ SceneEdits::SceneEdits(const std::filesystem::path& folder) {
     }
     for (size_t i = 1; i < lines.size(); ++i) {
         SceneEdit edit = readEdit(file, lines[i]);
-        if (i == 1 ? edit.image != 0 : edit.image < edits_.back().image) {
-            refuse(file, lines[i], "picture", std::to_string(edit.image),
+        if (i == 1 ? edit.firstFrame != 0 : edit.firstFrame < edits_.back().firstFrame) {
+            refuse(file, lines[i], "picture", std::to_string(edit.firstFrame),
                    i == 1 ? "0: the scene at the start" : "no earlier than the previous row");
         }
         if (i > 1 && cloud::classRows(edit.scene) != cloud::classRows(edits_.front().scene)) {
@@ -101,7 +101,7 @@ SceneEdits::SceneEdits(const std::filesystem::path& folder) {
 
 const SceneEdit& SceneEdits::at(uint32_t image) const {
     const auto after = std::upper_bound(edits_.begin(), edits_.end(), image,
-                                        [](uint32_t p, const SceneEdit& e) { return p < e.image; });
+                                        [](uint32_t p, const SceneEdit& e) { return p < e.firstFrame; });
     return *(after == edits_.begin() ? after : after - 1);
 }
 

@@ -21,9 +21,9 @@ std::string spareName(size_t row); // its name in a scene file
 
 // One change, passed by the window to its recording.
 struct SceneEdit {
-    uint32_t image = 0; // first frame of the recording that uses it
-    Scene scene;        // with spare classes; FixtureClass::frozen unchanged
-    bool still = false; // all fixtures are held: frames make no new set
+    uint32_t firstFrame = 0; // the first frame of the recording that uses it
+    Scene scene;             // with spare classes; FixtureClass::frozen unchanged
+    bool still = false;      // all fixtures are held: frames make no new set
 };
 
 // edits.csv of a recording, `picture,scene,held,still`: scene is a file in the same folder, held lists the

@@ -42,7 +42,7 @@ void check(const ConvertOptions& options) {
 
 void convert(const ConvertOptions& options) {
     check(options);
-    const auto camera = openSource(options.source, Images::Every);
+    const auto camera = openSource(options.source, Delivery::Every);
     if (camera->live()) {
         throw BadInput("convert", "SOURCE", options.source,
                        "a recording; 'record' makes one of a live camera");
@@ -51,7 +51,7 @@ void convert(const ConvertOptions& options) {
     const OutputLock lock(options.out);
     const std::unique_ptr<FrameSink> sink = openSink(options, camera->info());
     uint64_t frames = 0;
-    const uint64_t first = camera->firstImage(), end = camera->images();
+    const uint64_t first = camera->firstFrame(), end = camera->frameCount();
     Progress progress;
     for (auto frame = camera->next(); frame; frame = camera->next()) {
         sink->add(*frame);

@@ -75,20 +75,20 @@ void McapRecording::addDepth(const Frame& frame, uint64_t time) {
     const Intrinsics& lens = camera_.depth;
     const ros2::Header header{time, depthFrame(camera_)};
     const std::span<const uint16_t> raw = frame->depth.first(lens.pixels());
-    ros2::Picture picture{lens.width,
-                          lens.height,
-                          2,
-                          "16UC1",
-                          {reinterpret_cast<const uint8_t*>(raw.data()), raw.size_bytes()}};
+    ros2::ImageData data{lens.width,
+                         lens.height,
+                         2,
+                         "16UC1",
+                         {reinterpret_cast<const uint8_t*>(raw.data()), raw.size_bytes()}};
     if (!inMillimetres(camera_)) {
         bytes_.resize(size_t{4} * raw.size());
         for (size_t i = 0; i < raw.size(); ++i) {
             const float metres = raw[i] == 0 ? NAN : static_cast<float>(raw[i] * camera_.metresPerUnit);
             std::memcpy(bytes_.data() + 4 * i, &metres, sizeof metres);
         }
-        picture = {lens.width, lens.height, 4, "32FC1", bytes_};
+        data = {lens.width, lens.height, 4, "32FC1", bytes_};
     }
-    writer_.add(depth_, time, ros2::image(header, picture));
+    writer_.add(depth_, time, ros2::image(header, data));
     writer_.add(depthInfo_, time, ros2::cameraInfo(header, lens));
 }
 

@@ -70,7 +70,7 @@ void saveColour(const Frame& frame, const CameraInfo& info, const std::filesyste
 
 FrameStudy::FrameStudy(Camera& camera, const std::optional<std::filesystem::path>& out)
     : info_(camera.info())
-    , images_(camera.images())
+    , frameCount_(camera.frameCount())
     , live_(camera.live())
     , noColour_(camera.whyNoColour()) {
     while (auto frame = camera.next()) {
@@ -111,8 +111,8 @@ void FrameStudy::add(const Frame& frame) {
 
 void FrameStudy::writeTimes(std::ostream& out) const {
     out << "frames    " << stamps_.size() << " read" << (more_ ? ", the first ones" : "")
-        << (images_ > 0 ? " of " + std::to_string(images_) : "") << "; " << skipped_ << " skipped; " << posed_
-        << " with the camera's pose\n";
+        << (frameCount_ > 0 ? " of " + std::to_string(frameCount_) : "") << "; " << skipped_ << " skipped; "
+        << posed_ << " with the camera's pose\n";
     if (stamps_.size() < 2) {
         return;
     }

@@ -37,7 +37,7 @@ private:
     uint64_t grey_ = 0, coloured_ = 0; // pixels whose saturation is at most, or over, a tenth
     uint64_t measured_ = 0;            // pixels
     HueStudy hues_;
-    uint32_t posed_ = 0, images_ = 0, skipped_ = 0;
+    uint32_t posed_ = 0, frameCount_ = 0, skipped_ = 0;
     bool more_ = false, live_ = false;
     std::string noColour_;
 };

@@ -47,7 +47,7 @@ void inspect(const std::string& source, const std::optional<std::filesystem::pat
         writeStreams(*file, parseSource(source).options.info, std::cout);
         std::cout << std::flush;
     }
-    const std::unique_ptr<Camera> camera = openSource(source, Images::Newest);
+    const std::unique_ptr<Camera> camera = openSource(source, Delivery::Newest);
     checkCamera(camera->info(), camera->description());
     std::cout << "source    " << source << "\n";
     std::cout << "taken     " << (camera->streams().empty() ? camera->description() : camera->streams())

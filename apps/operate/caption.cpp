@@ -31,7 +31,7 @@ std::vector<std::string> captionOf(const CaptionInput& input) {
     const TimeLine& line = input.mode.console.timeLine;
     const StepRecord& record = input.mode.run.step().record;
     std::string when = line.on
-                           ? printed("recording, %.3f s, frame %u of %u", line.t, line.image + 1, line.images)
+                           ? printed("recording, %.3f s, frame %u of %u", line.t, line.frame + 1, line.frames)
                            : clockNow();
     if (!input.pilot.empty()) {
         when += "   pilot " + input.pilot;

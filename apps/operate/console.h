@@ -46,8 +46,8 @@ struct TimeLine {
     double t = 0.0;               // [s] position
     double duration = 0.0;        // [s]
     double speed = 1.0;           // playback speed
-    uint32_t image = 0;           // current frame, from 0
-    uint32_t images = 0;          // number of frames
+    uint32_t frame = 0;           // current frame, from 0
+    uint32_t frames = 0;          // number of frames
     std::vector<EventMark> marks; // of the recording
     bool wholeMemory = true;      // points held from earlier frames are included
 };
@@ -98,12 +98,12 @@ struct Console {
     CloseAnswer closeAnswer = CloseAnswer::None; // button pressed in the question
     bool remake = false;                         // recreate the swapchain
     bool undo = false, redo = false, save = false, addPicked = false;
-    bool exportPictures = false, stopExport = false; // of a recording (picture_export.h)
-    std::vector<std::string> caption;                // lines under exported images (caption.h)
-    uint32_t shots = 0;                              // screenshots written
-    int treeLevel = -1;                              // tree level shown in the 3D view; -1 = none
-    double textScale = 1.0;                          // as the pilot wants it
-    double monitorScale = 1.0;                       // of the monitor (monitor_scale.h)
+    bool exportImages = false, stopExport = false; // of a recording (image_export.h)
+    std::vector<std::string> caption;              // lines under exported images (caption.h)
+    uint32_t shots = 0;                            // screenshots written
+    int treeLevel = -1;                            // tree level shown in the 3D view; -1 = none
+    double textScale = 1.0;                        // as the pilot wants it
+    double monitorScale = 1.0;                     // of the monitor (monitor_scale.h)
     double drawnScale = 1.0; // the product, or less where the window has no room (layout.h)
     float scale() const { return static_cast<float>(drawnScale); }
     bool fullScreen = false;  // F11

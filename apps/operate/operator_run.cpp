@@ -154,7 +154,7 @@ void OperatorRun::listen() {
 
 void OperatorRun::mark() {
     Console& console = display_.console;
-    if (std::exchange(console.exportPictures, false)) {
+    if (std::exchange(console.exportImages, false)) {
         console.notify("only a recording is exported: open one");
     }
     if (std::exchange(console.addMark, false)) {

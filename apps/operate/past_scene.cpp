@@ -17,9 +17,9 @@ constexpr double kMaxLead = 90.0; // [frames] processed before the shown one, ho
 
 PastScene::PastScene(Session& session)
     : session_(session)
-    , images_(session.camera->images())
+    , frameCount_(session.camera->frameCount())
     , lead_(static_cast<uint32_t>(std::min(kMaxLead, std::ceil(session.scene.holdSeconds / kPeriod) + 1.0))) {
-    if (images_ == 0) {
+    if (frameCount_ == 0) {
         throw BadInput(session.camera->description(), "recording", "it has no random access to frames",
                        "a recording folder (TUM RGB-D)");
     }
@@ -49,7 +49,7 @@ bool PastScene::process(uint32_t index, PublishedFrame& out) {
 }
 
 void PastScene::show(uint32_t index, bool whole, SnapshotSink& sink) {
-    index = std::min(index, images_ - 1);
+    index = std::min(index, frameCount_ - 1);
     if (any_ && index == asked_ && (whole_ || !whole)) {
         return;
     }
@@ -61,20 +61,20 @@ void PastScene::show(uint32_t index, bool whole, SnapshotSink& sink) {
         session_.cycles.frames().forget();
         first = whole ? index - std::min(index, lead_) : index;
     }
-    PublishedFrame image;
+    PublishedFrame frame;
     bool good = false;
     for (uint32_t i = first; i <= index; ++i) {
-        const bool more = process(i, image);
+        const bool more = process(i, frame);
         good = good || more;
-        i = more ? std::max(i, image.report.index) : index; // skips a bad frame
+        i = more ? std::max(i, frame.report.index) : index; // skips a bad frame
     }
     asked_ = index;
     any_ = true;
     whole_ = whole || follows || first == 0;
     if (good) {
-        shown_ = image.report.index;
+        shown_ = frame.report.index;
         const auto set = session_.cycles.frames().sets().newest();
-        sink.frame(image, set->host);
+        sink.frame(frame, set->host);
     }
 }
 

@@ -18,7 +18,7 @@ public:
 
     static constexpr double kPeriod = kLockstepFramePeriod; // [s] between frames, as in `replay`
 
-    uint32_t images() const { return images_; }
+    uint32_t frames() const { return frameCount_; }
     // Sends frame `index` (or the next good one) and its fixtures to `sink`. whole: includes points held from
     // earlier frames, which are processed first; otherwise this frame alone. Does nothing when it is shown
     // already.
@@ -37,7 +37,7 @@ private:
     void takeEdit(uint32_t index);
 
     Session& session_;
-    uint32_t images_, lead_;
+    uint32_t frameCount_, lead_;
     uint32_t asked_ = 0, shown_ = 0;
     bool any_ = false, whole_ = false;
     const SceneEdit* edit_ = nullptr; // the active edit

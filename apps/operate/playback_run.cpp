@@ -66,8 +66,8 @@ TickLog ticksOf(const std::filesystem::path& folder, const std::optional<HandPat
 }
 
 double durationOf(const PastScene& past, const TickLog& log) {
-    const double images = past.images() * PastScene::kPeriod;
-    return log.moments.empty() ? images : std::max(images, log.moments.back().t);
+    const double framesEnd = past.frames() * PastScene::kPeriod;
+    return log.moments.empty() ? framesEnd : std::max(framesEnd, log.moments.back().t);
 }
 
 } // namespace
@@ -94,7 +94,7 @@ PlaybackRun::PlaybackRun(const OperateOptions& options, const GlobalOptions& glo
     , export_(options.shots) {
     TimeLine& line = display_.console.timeLine;
     line.on = true;
-    line.images = past_.images();
+    line.frames = past_.frames();
     line.duration = durationOf(past_, log_);
     line.marks = readMarks(options.recording);
     if (log_.moments.empty()) {
@@ -178,16 +178,16 @@ void PlaybackRun::draw(double dt) {
     listen();
     display_.canvas.finishFrame(display_.console, display_.screen.layers(), [] { return false; });
     if (export_.running() && !window_.minimised()) { // a minimised window draws nothing
-        exportPicture();
+        exportImage();
     }
 }
 
-void PlaybackRun::exportPicture() {
-    const std::unique_ptr<Image> picture = display_.canvas.picture(display_.console);
-    export_.add(display_.console, picture.get());
-    window_.setTitle(printed("Fathom, exports image %u of %u, Esc stops", display_.console.timeLine.image + 1,
-                             display_.console.timeLine.images));
-    if (!export_.running() || display_.console.timeLine.image + 1 >= display_.console.timeLine.images) {
+void PlaybackRun::exportImage() {
+    const std::unique_ptr<Image> image = display_.canvas.picture(display_.console);
+    export_.add(display_.console, image.get());
+    window_.setTitle(printed("Fathom, exports image %u of %u, Esc stops", display_.console.timeLine.frame + 1,
+                             display_.console.timeLine.frames));
+    if (!export_.running() || display_.console.timeLine.frame + 1 >= display_.console.timeLine.frames) {
         window_.setTitle("Fathom, recording " + options_.recording);
     }
 }
@@ -230,7 +230,7 @@ void PlaybackRun::followTime(double dt) {
     if (const Scene* scene = past_.newScene()) {
         editor_.showFixtures(*scene);
     }
-    line.image = past_.shown();
+    line.frame = past_.shown();
     line.wholeMemory = past_.whole();
     if (line.t != shown_) {
         shown_ = line.t;

@@ -3,9 +3,9 @@
 #pragma once
 
 #include "apps/binding/stop_signals.h"
+#include "apps/operate/image_export.h"
 #include "apps/operate/operate_command.h"
 #include "apps/operate/past_scene.h"
-#include "apps/operate/picture_export.h"
 #include "apps/operate/recorder.h"
 #include "apps/operate/run_display.h"
 #include "apps/operate/steering.h"
@@ -36,7 +36,7 @@ private:
     void listen();
     void mark(); // the shown moment, if the pilot asks for it
     void followTime(double dt);
-    void exportPicture(); // of the drawn frame
+    void exportImage(); // of the drawn frame
     void showMoment();
     uint32_t buttonsAt(double t) const;
 
@@ -54,7 +54,7 @@ private:
     FixtureEditor editor_;
     Steering steering_;
     TimeLinePanel panel_;
-    PictureExport export_;
+    ImageExport export_;
     double retryAt_ = 0.0; // [s] time of the next attempt to open a device
     RetryPause retry_;
     double shown_ = -1.0; // [s] shown moment of the recording

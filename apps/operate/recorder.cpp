@@ -37,7 +37,7 @@ void Recorder::start(const std::filesystem::path& folder, const std::string& sce
     failure_.clear();
     edits_.begin(folder, edited);
     lastCapture_ = -1.0;
-    lost_ = images_ = 0;
+    lost_ = frames_ = 0;
     seconds_ = 0.0;
     marked_ = false;
     writer_ = std::make_unique<RecordingWriter>(folder, camera, 1);
@@ -112,27 +112,27 @@ void Recorder::frame(const PublishedFrame& frame, const Fixtures& set) {
 
 // Writes the ticks of the last frame, which no other follows.
 void Recorder::endTicks() {
-    if (images_ > 0) {
+    if (frames_ > 0) {
         ticks_.flush(lastCapture_, lastCapture_ + kLockstepFramePeriod,
-                     static_cast<double>(images_ - 1) * kLockstepFramePeriod, 1.0);
+                     static_cast<double>(frames_ - 1) * kLockstepFramePeriod, 1.0);
     }
     ticks_.drop();
 }
 
 void Recorder::addImage(const PublishedFrame& frame, const Fixtures& set) {
-    if (images_ > 0 && frame.t > lastCapture_) {
-        const double start = static_cast<double>(images_ - 1) * kLockstepFramePeriod;
+    if (frames_ > 0 && frame.t > lastCapture_) {
+        const double start = static_cast<double>(frames_ - 1) * kLockstepFramePeriod;
         ticks_.flush(lastCapture_, frame.t, start, kLockstepFramePeriod / (frame.t - lastCapture_));
     } else {
         ticks_.drop();
     }
-    firstCapture_ = images_ == 0 ? frame.t : firstCapture_;
+    firstCapture_ = frames_ == 0 ? frame.t : firstCapture_;
     seconds_ = frame.t - firstCapture_;
     lastCapture_ = frame.t;
-    ticks_.number(frame.report.index, images_);
-    edits_.frame(frame, images_);
+    ticks_.number(frame.report.index, frames_);
+    edits_.frame(frame, frames_);
     writer_->add(
-        {static_cast<double>(images_++) * kLockstepFramePeriod, set.depth, frame.colour, set.baseTcamera});
+        {static_cast<double>(frames_++) * kLockstepFramePeriod, set.depth, frame.colour, set.baseTcamera});
 }
 
 void Recorder::edit(uint64_t number, RecordedScene scene) {
@@ -149,7 +149,7 @@ void Recorder::step(const TickRow& row, const PublishedFrame*, bool, std::span<c
     const std::lock_guard lock(mutex_);
     const bool marked = marked_.exchange(false);
     const double age = row.record.t - lastCapture_;
-    if (images_ == 0 || age < 0.0) {
+    if (frames_ == 0 || age < 0.0) {
         return; // belongs to no frame of the recording
     }
     if (age <= kLongestGap) {

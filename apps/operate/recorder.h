@@ -45,7 +45,7 @@ public:
     // Why the last recording failed; empty = it did not.
     std::string failure() const;
     uint64_t lost() const { return lost_.load(); }
-    uint64_t images() const { return images_.load(); }
+    uint64_t frames() const { return frames_.load(); }
     double seconds() const { return seconds_.load(); } // [s] from the first to the last frame
     uint64_t bytes() const;                            // on disk
 
@@ -61,7 +61,7 @@ private:
     void addImage(const PublishedFrame& frame, const Fixtures& set);
 
     std::atomic<bool> recording_{false};
-    std::atomic<uint64_t> lost_{0}, images_{0};
+    std::atomic<uint64_t> lost_{0}, frames_{0};
     std::atomic<double> seconds_{0.0};
     std::atomic<bool> marked_{false}; // the next tick
     mutable std::mutex mutex_;        // guards all members below; window and writer thread

@@ -47,7 +47,7 @@ namespace {
 std::string savedText(const Recorder& recorder, const std::string& folder) {
     const std::string failure = recorder.failure();
     const uint64_t lost = recorder.lost();
-    return "saved: " + std::to_string(recorder.images()) + " frames recorded in " + folder + ", " +
+    return "saved: " + std::to_string(recorder.frames()) + " frames recorded in " + folder + ", " +
            clockText(recorder.seconds()) + ", " + byteText(recorder.bytes()) +
            (lost > 0 ? ", " + std::to_string(lost) + " skipped: the disk was too slow" : "") +
            (failure.empty() ? "" : ", then: " + failure);

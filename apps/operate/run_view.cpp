@@ -49,9 +49,9 @@ bool RunView::refresh() {
     }
     const bool fresh = sink_.scene().refresh();
     if (fresh) {
-        images_.push_back(scene().t);
-        while (scene().t - images_.front() > 1.0) {
-            images_.pop_front();
+        captures_.push_back(scene().t);
+        while (scene().t - captures_.front() > 1.0) {
+            captures_.pop_front();
         }
         if (!scene().report.unchanged) {
             passMs_ = scene().report.passMs;
@@ -70,7 +70,7 @@ void RunView::rewind() {
     force_.clear();
     torque_.clear();
     ripple_.clear();
-    images_.clear();
+    captures_.clear();
     delays_.clear();
     usedFrame_ = -1;
     blocks_.clear();
@@ -192,8 +192,8 @@ Rates RunView::rates() const {
     }
     rates.hapticHz = now > later ? static_cast<double>(count - 1) / (now - later) : 0.0;
     rates.worstPeriodMs = worst * 1e3;
-    if (images_.size() > 1 && images_.back() > images_.front()) {
-        rates.cameraHz = static_cast<double>(images_.size() - 1) / (images_.back() - images_.front());
+    if (captures_.size() > 1 && captures_.back() > captures_.front()) {
+        rates.cameraHz = static_cast<double>(captures_.size() - 1) / (captures_.back() - captures_.front());
     }
     return rates;
 }

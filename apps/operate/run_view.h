@@ -143,7 +143,7 @@ private:
     std::deque<TraceSample> trace_;
     PeakHold force_, torque_;
     FrameRipple ripple_;
-    std::deque<double> images_;                    // [s] capture times of the last second
+    std::deque<double> captures_;                  // [s] capture times of the last second
     std::deque<std::pair<double, double>> delays_; // time of the tick and age of its new frame [s]
     int64_t usedFrame_ = -1;                       // of the newest tick
     std::deque<Block> blocks_;

@@ -10,7 +10,7 @@ void SnapshotSink::frame(const PublishedFrame& frame, const Fixtures& set) {
     out.t = frame.t;
     out.set = set;
     out.colour = frame.colour;
-    out.number = ++images_;
+    out.number = ++frames_;
     scene_.publish();
     ForwardingSink::frame(frame, set);
 }

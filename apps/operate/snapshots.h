@@ -39,7 +39,7 @@ public:
 private:
     TripleBuffer<SceneSnapshot> scene_;
     SpscQueue<TickRow> ticks_;
-    uint64_t images_ = 0;
+    uint64_t frames_ = 0;
 };
 
 } // namespace fathom::operate

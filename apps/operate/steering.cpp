@@ -100,7 +100,7 @@ void Steering::keys(Console& console) {
     console.paused = console.paused != pressed(GLFW_KEY_P);
     console.frozen = console.frozen != pressed(GLFW_KEY_F);
     console.recording = console.recording != pressed(GLFW_KEY_R);
-    console.exportPictures = console.exportPictures || pressed(GLFW_KEY_X);
+    console.exportImages = console.exportImages || pressed(GLFW_KEY_X);
     console.openCard.asked = console.openCard.asked || pressed(GLFW_KEY_O);
     console.addMark = console.addMark || pressed(GLFW_KEY_N);
     console.storeLast = console.storeLast || pressed(GLFW_KEY_L);

@@ -163,7 +163,7 @@ void TimeLinePanel::drawButtons(Console& console) const {
     }
     char text[160];
     std::snprintf(text, sizeof text, "%.3f of %.3f s   frame %u of %u   speed %.3g   peak %.2f N%s", line.t,
-                  line.duration, line.image + 1, line.images, line.speed, double{most_},
+                  line.duration, line.frame + 1, line.frames, line.speed, double{most_},
                   line.wholeMemory ? "" : "   this frame only");
     ImGui::TextDisabled("  %s", text);
 }
@@ -198,8 +198,8 @@ void TimeLinePanel::drawStrip(Console& console) const {
                                column.guided ? colour::kGuidance : IM_COL32(52, 66, 88, 255));
         }
     }
-    const float apart = room.x / static_cast<float>(std::max(1u, line.images));
-    for (uint32_t i = 0; apart > 4.0f && i < line.images; ++i) {
+    const float apart = room.x / static_cast<float>(std::max(1u, line.frames));
+    for (uint32_t i = 0; apart > 4.0f && i < line.frames; ++i) {
         const float x = at.x + apart * static_cast<float>(i);
         list.AddLine({x, at.y}, {x, at.y + 4.0f}, IM_COL32(120, 134, 156, 160));
     }

@@ -65,7 +65,7 @@ int runRecord(const RecordOptions& options) {
     const Scene scene = openScene(options.scene);
     const auto camera = openCamera(
         scene, options.source.empty() ? std::nullopt : std::optional<std::filesystem::path>(options.source),
-        Images::Every);
+        Delivery::Every);
     const StopSignals signals;
     const OutputLock lock(options.out);
     RecordingWriter writer(options.out, camera->info(), 2);

@@ -33,7 +33,7 @@ void LockstepReplay::fetch() {
     }
     next_ = session_.camera->next();
     if (next_) {
-        nextTime_ = ((*next_)->index - session_.camera->firstImage()) * kLockstepFramePeriod;
+        nextTime_ = ((*next_)->index - session_.camera->firstFrame()) * kLockstepFramePeriod;
         next_->retime(nextTime_);
     } else {
         scene_.sourceEnded = true;
@@ -175,7 +175,7 @@ void LockstepReplay::tick(double t) {
 ReplayRecorder::Ending LockstepReplay::run() {
     fetch();
     session_.requireFrame(next_.has_value());
-    const uint64_t images = session_.camera->images(), first = session_.camera->firstImage();
+    const uint64_t images = session_.camera->frameCount(), first = session_.camera->firstFrame();
     const uint64_t frames = images > first ? images - first : 0;
     // The built-in path starts when the first set is ready; the times of a CSV path count from the start of
     // the run.

@@ -24,8 +24,8 @@ public:
     const CameraInfo& info() const override { return info_; }
     std::optional<Frame> next() override;
     uint32_t skipped() const override { return skipped_ + CameraDecorator::skipped(); }
-    uint32_t images() const override { return 0; }
-    uint32_t firstImage() const override { return 0; }
+    uint32_t frameCount() const override { return 0; }
+    uint32_t firstFrame() const override { return 0; }
     bool seek(uint32_t) override { return false; }
     std::shared_ptr<CameraControls> controls() const override { return controls_; }
     bool stampsExposure() const override { return stampsExposure_.load(); }

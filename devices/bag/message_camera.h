@@ -22,8 +22,8 @@ class MessageCamera : public Camera {
 public:
     std::optional<Frame> next() override;
     uint32_t skipped() const override { return skipped_; }
-    uint32_t images() const override { return end_; }
-    uint32_t firstImage() const override { return first_; }
+    uint32_t frameCount() const override { return end_; }
+    uint32_t firstFrame() const override { return first_; }
     bool seek(uint32_t index) override;
     std::vector<std::string> warnings() const override { return warnings_; }
 

@@ -86,14 +86,14 @@ void put(CdrWriter& out, const Header& header, const Marker& marker) {
 
 } // namespace
 
-Message image(const Header& header, const Picture& picture) {
+Message image(const Header& header, const ImageData& data) {
     CdrWriter out = begun(header);
-    out.value(picture.height);
-    out.value(picture.width);
-    out.text(picture.encoding);
+    out.value(data.height);
+    out.value(data.width);
+    out.text(data.encoding);
     out.value(uint8_t{0}); // little-endian
-    out.value(picture.width * picture.bytesPerPixel);
-    out.block(picture.bytes);
+    out.value(data.width * data.bytesPerPixel);
+    out.block(data.bytes);
     return out.bytes();
 }
 

@@ -20,12 +20,12 @@ struct Header {
 using Message = std::vector<uint8_t>;
 
 // Rows without gaps, little-endian.
-struct Picture {
+struct ImageData {
     uint32_t width = 0, height = 0, bytesPerPixel = 0;
     std::string encoding;
     std::span<const uint8_t> bytes;
 };
-Message image(const Header& header, const Picture& picture);         // sensor_msgs/msg/Image
+Message image(const Header& header, const ImageData& data);          // sensor_msgs/msg/Image
 Message cameraInfo(const Header& header, const Intrinsics& lens);    // sensor_msgs/msg/CameraInfo
 Message transform(const Header& header, const ros::FrameLink& link); // tf2_msgs/msg/TFMessage
 Message transform(const Pose& pose);                                 // geometry_msgs/msg/Transform

@@ -34,7 +34,7 @@ public:
     std::optional<Frame> next() override;
     uint32_t skipped() const override { return skipped_; }
     std::vector<std::string> warnings() const override;
-    uint32_t images() const override { return static_cast<uint32_t>(layout_.index.size()); }
+    uint32_t frameCount() const override { return static_cast<uint32_t>(layout_.index.size()); }
     bool seek(uint32_t index) override;
     std::string description() const override { return "recorded " + folder_.string(); }
 

@@ -27,8 +27,8 @@ TEST_CASE("A caption has time and pilot, then state, force and gap, then the lin
     CHECK(live[3] == "Valve 7");
     run.console.timeLine.on = true;
     run.console.timeLine.t = 1.5;
-    run.console.timeLine.image = 45;
-    run.console.timeLine.images = 90;
+    run.console.timeLine.frame = 45;
+    run.console.timeLine.frames = 90;
     CHECK(lines("Ann")[0] == "recording, 1.500 s, frame 46 of 90   pilot Ann");
     CHECK(lines("")[1].find("LOOK-BACK  ") == 0);
 }

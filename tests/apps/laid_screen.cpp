@@ -93,7 +93,7 @@ const std::vector<LaidCase>& laidCases() {
         {"paused traces", [](Console& c) { c.paused = true; }},
         {"look-back",
          [](Console& c) {
-             c.timeLine.on = true, c.timeLine.images = 300, c.timeLine.duration = 10.0;
+             c.timeLine.on = true, c.timeLine.frames = 300, c.timeLine.duration = 10.0;
              c.timeLine.marks = {{2.0, "mark 1"}, {2.1, "mark 2"}, {9.95, "mark 3"}};
          }},
         {"closing", [](Console& c) { c.closing = Closing::Asks; }},

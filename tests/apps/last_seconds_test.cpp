@@ -171,7 +171,7 @@ TEST_CASE("Storing the last seconds gives the files that a recorder would have w
     later.stop();
     later.finish();
     CHECK(later.failure().empty());
-    CHECK(later.images() == 20);
+    CHECK(later.frames() == 20);
     for (const char* file :
          {"associations.txt", "hand.csv", "wrench.csv", "touches.csv", "marks.csv", "scene.yaml", "edits.csv",
           "scene-0.yaml", "scene-1.yaml", "rgb/000013.png", "depth/000013.png"}) {

@@ -41,13 +41,13 @@ TEST_CASE("A recording of raw frames is corrected for the port, a recording of p
     port.distance = 0.03, port.index = 1.34;
     scene.port = port;
     record(folder.path() / "raw", plainCamera());
-    const auto corrected = openCamera(scene, folder.path() / "raw", Images::Newest);
+    const auto corrected = openCamera(scene, folder.path() / "raw", Delivery::Newest);
     const CameraInfo used = corrected->info();
     CHECK(used.inWater);
     CHECK(used.sigma > 0.0);
     CHECK(used.depth.fx > 1.2 * 60.0);
     record(folder.path() / "used", used);
-    const auto again = openCamera(scene, folder.path() / "used", Images::Newest);
+    const auto again = openCamera(scene, folder.path() / "used", Delivery::Newest);
     CHECK(again->info().inWater);
     CHECK(again->info().sigma == doctest::Approx(used.sigma).epsilon(1e-9));
     CHECK(again->info().depth.fx == doctest::Approx(used.depth.fx).epsilon(1e-9));
@@ -72,7 +72,7 @@ TEST_CASE("A recording is decimated as its scene says, unless it was recorded so
     const auto again = openCamera(scene, folder.path() / "used");
     CHECK(again->info().decimation == 2);
     CHECK(again->info().depth.width == 32);
-    CHECK(openCamera(scene, folder.path() / "raw", Images::Every)->info().depth.width == 64);
+    CHECK(openCamera(scene, folder.path() / "raw", Delivery::Every)->info().depth.width == 64);
 }
 
 TEST_CASE(
@@ -86,9 +86,9 @@ TEST_CASE(
     scene.fixtures = {valve};
     const std::string words = "fixture 'valve' will have no point: it asks for colour";
     const Listening log;
-    openCamera(scene, folder.path() / "grey", Images::Newest);
+    openCamera(scene, folder.path() / "grey", Delivery::Newest);
     CHECK(log.count(words) == 1);
     scene.fixtures[0].name = ""; // spare
-    openCamera(scene, folder.path() / "grey", Images::Newest);
+    openCamera(scene, folder.path() / "grey", Delivery::Newest);
     CHECK(log.count("will have no point") == 1);
 }

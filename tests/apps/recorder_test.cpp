@@ -105,7 +105,7 @@ TEST_CASE("A stopped recording is complete: every frame, and every tick until th
     recorder.finish();
     CHECK_FALSE(recorder.writing());
     CHECK(recorder.failure() == "");
-    CHECK(recorder.images() == 10);
+    CHECK(recorder.frames() == 10);
     CHECK(recorder.seconds() == doctest::Approx(9.0 / 30.0));
     CHECK(recorder.bytes() > 10 * 6000); // of noise
     CHECK(imagesIn(folder) == 10);

@@ -48,8 +48,8 @@ TEST_CASE("A recording that is opened twice says its warnings twice") {
     const TemporaryFolder folder;
     writeDoubtful(folder);
     const Listening log;
-    openSource(folder.path().string(), Images::Newest);
-    openSource(folder.path().string(), Images::Newest);
+    openSource(folder.path().string(), Delivery::Newest);
+    openSource(folder.path().string(), Delivery::Newest);
     CHECK(log.count("groundtruth.txt") == 2);
 }
 

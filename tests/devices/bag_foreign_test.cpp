@@ -61,7 +61,7 @@ TEST_CASE("Bytes behind the last record of a closed bag are no part of it") {
         folder.write("a.bag", bag + rest);
         BagCamera camera(folder.path() / "a.bag");
         CHECK(firstDepth(camera) == 0.5);
-        CHECK(camera.images() == 3);
+        CHECK(camera.frameCount() == 3);
     }
 }
 

@@ -269,7 +269,7 @@ TEST_CASE("A recording can seek to any frame, and an invalid frame is counted on
     writeSmallRecording(folder, 5);
     std::filesystem::remove(folder.path() / "depth/1.png");
     RecordedCamera camera(folder.path());
-    CHECK(camera.images() == 5);
+    CHECK(camera.frameCount() == 5);
     const auto next = [&] {
         const std::optional<Frame> frame = camera.next();
         return frame ? static_cast<int>((*frame)->depth[0]) : 0;

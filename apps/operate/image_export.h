@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Exports a recording as the window shows it, picture by picture: a video, or PNG files without an encoder.
+// Exports a recording as the window shows it, image by image: a video, or PNG files without an encoder.
 #pragma once
 
 #include "apps/operate/console.h"
@@ -11,17 +11,17 @@ namespace fathom::operate {
 
 // Window thread. While it runs, the window shows one frame of the recording after the other, and each is
 // written once it is drawn.
-class PictureExport {
+class ImageExport {
 public:
     // in: folder for the results.
-    explicit PictureExport(std::filesystem::path in)
+    explicit ImageExport(std::filesystem::path in)
         : in_(std::move(in)) {}
 
     bool running() const { return running_; }
     // Before a frame is drawn: starts and ends as the console requests, and sets the shown moment.
     void step(Console& console, double period);
-    // After it was drawn. picture: null = none was drawn.
-    void add(Console& console, const Image* picture);
+    // After it was drawn. image: null = none was drawn.
+    void add(Console& console, const Image* image);
 
 private:
     void start(Console& console);

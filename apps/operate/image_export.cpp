@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/operate/picture_export.h"
+#include "apps/operate/image_export.h"
 
 #include "apps/operate/printed.h"
 #include "apps/operate/unused_name.h"
@@ -11,7 +11,7 @@ namespace fathom::operate {
 
 namespace fs = std::filesystem;
 
-void PictureExport::start(Console& console) {
+void ImageExport::start(Console& console) {
     encoder_ = findEncoder();
     target_ = unusedName(in_, "export", {"", ".mp4"});
     target_ += encoder_ ? ".mp4" : "";
@@ -28,7 +28,7 @@ void PictureExport::start(Console& console) {
     console.noticeUntil = 0.0; // it would be in the images
 }
 
-void PictureExport::end(Console& console, const std::string& why) {
+void ImageExport::end(Console& console, const std::string& why) {
     running_ = false;
     std::string problem = why;
     try {
@@ -44,14 +44,14 @@ void PictureExport::end(Console& console, const std::string& why) {
                    (problem.empty() ? "" : ", then: " + problem));
 }
 
-void PictureExport::step(Console& console, double period) {
+void ImageExport::step(Console& console, double period) {
     TimeLine& line = console.timeLine;
-    const bool asked = std::exchange(console.exportPictures, false);
+    const bool asked = std::exchange(console.exportImages, false);
     if (!running_ && asked) {
         start(console);
     } else if (running_ && (asked || std::exchange(console.stopExport, false))) {
         end(console, "stopped");
-    } else if (running_ && next_ >= line.images) {
+    } else if (running_ && next_ >= line.frames) {
         end(console, "");
     }
     console.stopExport = false;
@@ -61,18 +61,18 @@ void PictureExport::step(Console& console, double period) {
     }
 }
 
-void PictureExport::add(Console& console, const Image* picture) {
-    if (picture == nullptr) {
+void ImageExport::add(Console& console, const Image* image) {
+    if (image == nullptr) {
         return; // the same frame again
     }
     try {
         if (!encoder_) {
-            picture->writePng(target_ / printed("%06u.png", next_));
+            image->writePng(target_ / printed("%06u.png", next_));
         } else {
             if (!video_) {
-                video_ = std::make_unique<VideoFile>(*encoder_, target_, picture->width(), picture->height());
+                video_ = std::make_unique<VideoFile>(*encoder_, target_, image->width(), image->height());
             }
-            video_->add(*picture);
+            video_->add(*image);
         }
         ++next_;
     } catch (const Error& e) {
