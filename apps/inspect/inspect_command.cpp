@@ -6,7 +6,7 @@
 #include "apps/inspect/frame_study.h"
 #include "apps/inspect/stream_report.h"
 #include "engine/scene/camera_limits.h"
-#include "engine/types/said_once.h"
+#include "engine/types/log_once.h"
 
 #include <CLI/CLI.hpp>
 #include <iostream>
@@ -41,8 +41,8 @@ std::string withStreams(const std::string& source, const Camera& camera) {
 }
 
 void inspect(const std::string& source, const std::optional<std::filesystem::path>& folder) {
-    log::SaidLines said;
-    const log::SayOnce once(said);                // the source is opened twice
+    log::LoggedLines logged;
+    const log::LogOnce once(logged);              // the source is opened twice
     if (const auto file = openMessages(source)) { // shown although the source may be rejected
         writeStreams(*file, parseSource(source).options.info, std::cout);
         std::cout << std::flush;

@@ -7,29 +7,30 @@ namespace fathom {
 
 namespace {
 
-std::unique_ptr<Camera> openOnce(const std::function<std::unique_ptr<Camera>()>& open, log::SaidLines& said) {
-    const log::SayOnce once(said);
+std::unique_ptr<Camera> openOnce(const std::function<std::unique_ptr<Camera>()>& open,
+                                 log::LoggedLines& logged) {
+    const log::LogOnce once(logged);
     return open();
 }
 
 } // namespace
 
 RepeatedCamera::RepeatedCamera(std::function<std::unique_ptr<Camera>()> open)
-    : RepeatedCamera(std::move(open), std::make_unique<log::SaidLines>()) {}
+    : RepeatedCamera(std::move(open), std::make_unique<log::LoggedLines>()) {}
 
 RepeatedCamera::RepeatedCamera(std::function<std::unique_ptr<Camera>()> open,
-                               std::unique_ptr<log::SaidLines> said)
-    : CameraDecorator(openOnce(open, *said))
-    , said_(std::move(said))
+                               std::unique_ptr<log::LoggedLines> logged)
+    : CameraDecorator(openOnce(open, *logged))
+    , logged_(std::move(logged))
     , open_(std::move(open))
     , info_(CameraDecorator::info())
     , description_(CameraDecorator::description())
     , controls_(CameraDecorator::controls()) {}
 
 std::optional<Frame> RepeatedCamera::next() {
-    std::optional<log::SayOnce> once;
+    std::optional<log::LogOnce> once;
     if (!live()) { // a live source does not end, and its later events are others
-        once.emplace(*said_);
+        once.emplace(*logged_);
     }
     std::optional<Frame> frame = CameraDecorator::next();
     if (!frame) {

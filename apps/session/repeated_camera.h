@@ -3,7 +3,7 @@
 #pragma once
 
 #include "devices/camera_decorator.h"
-#include "engine/types/said_once.h"
+#include "engine/types/log_once.h"
 
 #include <atomic>
 #include <functional>
@@ -32,9 +32,9 @@ public:
     std::string description() const override { return description_; }
 
 private:
-    RepeatedCamera(std::function<std::unique_ptr<Camera>()> open, std::unique_ptr<log::SaidLines> said);
+    RepeatedCamera(std::function<std::unique_ptr<Camera>()> open, std::unique_ptr<log::LoggedLines> logged);
 
-    std::unique_ptr<log::SaidLines> said_; // of the first source: its opening is before the members
+    std::unique_ptr<log::LoggedLines> logged_; // of the first source: its opening is before the members
     std::function<std::unique_ptr<Camera>()> open_;
     CameraInfo info_; // of the first source; constant, because other threads read it
     std::string description_;

@@ -42,7 +42,7 @@ BagCamera::BagCamera(std::unique_ptr<MessageFile> file, SourceOptions options)
 void BagCamera::tellDoubts() {
     for (const std::string& doubt : choice_.doubts) {
         log::warn("{}: {}", file_->file().string(), doubt);
-        say(doubt);
+        addWarning(doubt);
     }
 }
 
@@ -127,7 +127,7 @@ double BagCamera::sensorUnit() {
                                         ": depth is read as millimetres";
             log::warn("{}: {}; scale=M behind the file's name gives another unit{}", file_->file().string(),
                       missing, orbbec ? "" : " (D405: 0.0001, L515: 0.00025)");
-            say(missing);
+            addWarning(missing);
         }
         return kMillimetre;
     }
@@ -217,7 +217,7 @@ void BagCamera::chooseUnit() {
     const double metresPerValue = options_.scale.value_or(1.0);
     options_.checkMetres(file_->file().string());
     const ValueSpan seen = sampledMetres().scaled(metresPerValue);
-    say(doubtMetres(file_->file().string(), seen.nearest));
+    addWarning(doubtMetres(file_->file().string(), seen.nearest));
     camera.metresPerUnit = unitForMetres(seen, options_.farthest);
     valuesPerUnit_ = camera.metresPerUnit / metresPerValue;
 }
@@ -245,7 +245,7 @@ std::string BagCamera::read(size_t index, FrameSlot& slot, double stamp, Frame::
     if (!fault.empty()) {
         return fault;
     }
-    tellBeyond(index, beyond);
+    warnBeyond(index, beyond);
     toAxis_.convert(slot.depth());
     return colour_ ? readColour(index, stamp, slot, content.raw) : "";
 }

@@ -24,7 +24,7 @@ public:
 
     const CameraInfo& info() const override { return choice_.camera; }
     std::string description() const override { return "bag " + file_->file().string(); }
-    std::string streams() const override { return choice_.said; }
+    std::string streams() const override { return choice_.summary; }
     std::string streamOptions() const override;
     std::string whyNoColour() const override;
 

@@ -59,7 +59,7 @@ void BagFile::scan(uint64_t chunksAt, const std::string& lost) {
                        lost + ": the bag was not closed, and no whole chunk holds a message",
                        "an indexed bag (rosbag reindex)");
     }
-    tell(lost + ": " + countOf(whole, "") + "searched for messages" +
+    warn(lost + ": " + countOf(whole, "") + "searched for messages" +
          (damaged > 0 ? ", " + countOf(damaged, " damaged") + "skipped" : "") +
          "; rosbag reindex makes an index");
     sortByTime();

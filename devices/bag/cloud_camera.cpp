@@ -160,10 +160,10 @@ void CloudCamera::learnLens() {
                "clouds in the frame of their camera: x right and y down, y up and z backward, or x forward "
                "and z up");
     }
-    say(doubtMetres(file_->file().string(), seen.nearest));
+    addWarning(doubtMetres(file_->file().string(), seen.nearest));
     if (const std::string doubt = doubtLens(fit_.lens); !doubt.empty()) {
         log::warn("{}: {}: {}", file_->file().string(), topic().name, doubt);
-        say(doubt);
+        addWarning(doubt);
     }
     info_.depth = info_.colour = fit_.lens;
     info_.poseless = true;
@@ -195,7 +195,7 @@ std::string CloudCamera::read(size_t index, FrameSlot& slot, double, Frame::Cont
         const dvec3 p = fit_.opticalTcloud * cloud.points[i];
         slot.depth()[i] = hasPoint(p) ? unitsOf(p.z, valuesPerUnit, beyond) : uint16_t{0};
     }
-    tellBeyond(index, beyond);
+    warnBeyond(index, beyond);
     if (info_.hasColour) {
         std::copy(cloud.colour.begin(), cloud.colour.end(), slot.colour().begin());
     }

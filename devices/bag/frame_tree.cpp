@@ -67,8 +67,8 @@ void FrameTree::add(const MessageTopic& topic, const ros::FrameLink& link) {
 }
 
 void FrameTree::tellSkipped(const MessageTopic& topic, const std::string& what) {
-    constexpr size_t kMaxTold = 32;
-    if (told_.size() < kMaxTold && told_.insert(topic.name + what).second) {
+    constexpr size_t kMaxWarned = 32;
+    if (warned_.size() < kMaxWarned && warned_.insert(topic.name + what).second) {
         log::warn("{}: {}: {} (logged once)", file_.file().string(), topic.name, what);
     }
 }

@@ -40,7 +40,7 @@ private:
     MessageFile& file_;
     bool read_ = false;
     std::map<std::string, Link> links_; // by child
-    std::set<std::string> told_;
+    std::set<std::string> warned_;
 };
 
 } // namespace fathom

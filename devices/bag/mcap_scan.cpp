@@ -80,7 +80,7 @@ void McapFile::scan() {
         messages_ -= std::erase_if(
             entries, [&](const MessageEntry& e) { return !chunks_.empty() && e.chunk == chunks_.back().at; });
     }
-    tell("ends early: it was not finished; " + std::to_string(chunks_.size()) + " whole chunks are used");
+    warn("ends early: it was not finished; " + std::to_string(chunks_.size()) + " whole chunks are used");
 }
 
 bool McapFile::record(uint8_t kind, uint64_t at, uint64_t size) {

@@ -54,16 +54,16 @@ bool MessageCamera::stampsRise() {
     return 2 * still < std::max(3u, last - cursor_);
 }
 
-void MessageCamera::say(const std::string& warning) {
+void MessageCamera::addWarning(const std::string& warning) {
     if (!warning.empty()) {
         warnings_.push_back(warning);
     }
 }
 
-void MessageCamera::tellBeyond(size_t index, uint64_t beyond) {
+void MessageCamera::warnBeyond(size_t index, uint64_t beyond) {
     const double limit = 65535.0 * info().metresPerUnit;
-    if (beyond > 0 && !toldBeyond_ && limit < options_.farthest) {
-        toldBeyond_ = true;
+    if (beyond > 0 && !warnedBeyond_ && limit < options_.farthest) {
+        warnedBeyond_ = true;
         log::warn("{}: frame {}: {} pixels are farther than {} m and count as not measured",
                   file_->file().string(), index, beyond, limit);
     }
@@ -87,10 +87,10 @@ void MessageCamera::followClock(uint32_t index, double stamp) {
     }
     if (index >= setBack_) { // not named before a seek()
         setBack_ = index + 1;
-        const std::string told = "the clock of depth goes back by " + std::to_string(*lastStamp_ - stamp) +
-                                 " s at frame " + std::to_string(index) + ": times continue from there";
-        log::warn("{}: {}", file_->file().string(), told);
-        say(told);
+        const std::string warning = "the clock of depth goes back by " + std::to_string(*lastStamp_ - stamp) +
+                                    " s at frame " + std::to_string(index) + ": times continue from there";
+        log::warn("{}: {}", file_->file().string(), warning);
+        addWarning(warning);
     }
     shift_ += *lastStamp_ - stamp + depth_->medianPeriod();
     lastStamp_.reset();

@@ -37,7 +37,7 @@ protected:
     void useSpan(const MessageTopic& topic);
     void useClock(const MessageTopic& topic);
     // A warning that is logged already; empty = none.
-    void say(const std::string& warning);
+    void addWarning(const std::string& warning);
     // Calls use(i) for up to `samples` messages over the whole span.
     template <class Use>
     void sample(size_t samples, Use&& use) const {
@@ -47,7 +47,7 @@ protected:
         }
     }
     // Warns once of points that the unit of depth cannot hold, unless the scene's far excludes them.
-    void tellBeyond(size_t index, uint64_t beyond);
+    void warnBeyond(size_t index, uint64_t beyond);
     // Fills the slot from message `index`, and content.raw if the colour is not R8 G8 B8 A8. Returns the
     // fault, empty when it is filled. May throw Error.
     virtual std::string read(size_t index, FrameSlot& slot, double stamp, Frame::Content& content) = 0;
@@ -64,7 +64,7 @@ private:
     std::string faultOf(size_t index, FrameSlot& slot, double stamp, Frame::Content& content);
 
     uint32_t skipped_ = 0, first_ = 0;
-    bool delivered_ = false, toldBeyond_ = false;
+    bool delivered_ = false, warnedBeyond_ = false;
     std::optional<double> lastStamp_; // [s] of the last delivered frame, in its header
     double shift_ = 0.0;              // [s] from headers to capture times
     uint32_t setBack_ = 0;            // messages before this one are already named

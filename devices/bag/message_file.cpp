@@ -48,7 +48,7 @@ void MessageFile::sortByTime() {
     }
 }
 
-void MessageFile::tell(const std::string& warning) {
+void MessageFile::warn(const std::string& warning) {
     log::warn("{}: {}", file_.string(), warning);
     warnings_.push_back(warning);
 }

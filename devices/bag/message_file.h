@@ -50,7 +50,7 @@ protected:
     // The topic's place in topics_; appended when new. "package/msg/Name" becomes "package/Name".
     size_t topicAt(const std::string& name, std::string type, bool cdr);
     void sortByTime();
-    void tell(const std::string& warning); // logs a fault of the file, and adds it to warnings()
+    void warn(const std::string& warning); // logs a fault of the file, and adds it to warnings()
 
     std::vector<MessageTopic> topics_;
     std::map<std::string, std::string> faults_; // by topic

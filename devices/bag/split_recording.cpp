@@ -140,7 +140,7 @@ SplitRecording::SplitRecording(const fs::path& folder)
             add(openMessageFile(file));
         } catch (const BadInput& e) { // a part that is damaged does not lose the others
             first = first.empty() ? e.what() : first;
-            tell(std::string("a part is not played: ") + e.what());
+            warn(std::string("a part is not played: ") + e.what());
         }
     }
     if (files_.empty()) {
@@ -157,7 +157,7 @@ std::vector<fs::path> SplitRecording::chooseFiles() {
         if (const auto present = presentFile(part)) {
             chosen.push_back(*present);
         } else {
-            tell("metadata.yaml lists " + part.filename().string() + ", which is missing");
+            warn("metadata.yaml lists " + part.filename().string() + ", which is missing");
         }
     }
     if (chosen.empty()) {

@@ -262,7 +262,7 @@ StreamChoice StreamChooser::choose() {
     }
     camera.colourFormat = colour != nullptr ? colour->format : ColourFormat::Rgba;
     choice.unread = unreadStreams();
-    choice.said = describe(choice);
+    choice.summary = describe(choice);
     return choice;
 }
 

@@ -16,7 +16,7 @@ struct StreamChoice {
     ImageStream depth;
     std::optional<ImageStream> colour;
     CameraInfo camera;               // lenses, registration, extrinsics; not the depth unit
-    std::string said;                // what was chosen, and what else there is, in one line
+    std::string summary;             // what was chosen, and what else there is, in one line
     bool rangeImages = false;        // depth holds ranges along the rays
     std::vector<std::string> doubts; // why colour or depth may be wrong
     std::string unread;              // image topics that may be colour but whose encoding is not read

@@ -8,14 +8,14 @@ namespace fathom {
 
 std::string StreamChooser::describe(const StreamChoice& choice) const {
     const auto named = [](const ImageStream& stream) { return stream.name + " (" + stream.encoding + ")"; };
-    std::string said = "depth " + named(choice.depth);
-    said += choice.colour ? ", colour " + named(*choice.colour) : ", no colour";
-    said += !choice.colour ? "" : (choice.camera.registered ? ", registered" : ", by extrinsics");
+    std::string words = "depth " + named(choice.depth);
+    words += choice.colour ? ", colour " + named(*choice.colour) : ", no colour";
+    words += !choice.colour ? "" : (choice.camera.registered ? ", registered" : ", by extrinsics");
     for (const ImageStream* stream : {&choice.depth, choice.colour ? &*choice.colour : nullptr}) {
         if (stream != nullptr && stream->unsized && options_.intrinsics.empty()) {
-            said += ", " + file_.topics()[*stream->info].name +
-                    " without width and height (taken: " + std::to_string(stream->width) + "x" +
-                    std::to_string(stream->height) + ")";
+            words += ", " + file_.topics()[*stream->info].name +
+                     " without width and height (taken: " + std::to_string(stream->width) + "x" +
+                     std::to_string(stream->height) + ")";
         }
     }
     std::string rest;
@@ -24,7 +24,7 @@ std::string StreamChooser::describe(const StreamChoice& choice) const {
             rest += (rest.empty() ? "; not used: " : ", ") + named(stream);
         }
     }
-    return said + rest;
+    return words + rest;
 }
 
 // Streams that may show colour and are not read, or not taken for it.

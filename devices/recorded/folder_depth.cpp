@@ -130,8 +130,8 @@ std::string FolderDepth::read(const std::filesystem::path& file, std::span<uint1
         return fault;
     }
     const double limit = 65535.0 * metresPerUnit_;
-    if (beyond > 0 && !toldBeyond_ && limit < farthest_) {
-        toldBeyond_ = true;
+    if (beyond > 0 && !warnedBeyond_ && limit < farthest_) {
+        warnedBeyond_ = true;
         log::warn("{}: {} pixels are farther than {:.4g} m and count as not measured", file.string(), beyond,
                   limit);
     }

@@ -34,7 +34,7 @@ private:
     double metresPerUnit_ = 0.0, farthest_ = 0.0; // [m]
     uint16_t invalid_ = 0;
     bool rotated_ = false; // the bits of each value are rotated to the left by three
-    bool toldBeyond_ = false;
+    bool warnedBeyond_ = false;
     RangeToAxis toAxis_;
 };
 

@@ -226,11 +226,11 @@ bool RecordedCamera::seek(uint32_t index) {
 
 // Paths that leave the folder are a fault (readIndex). Links are followed with a warning: the user may have
 // made them, but they may also have come with the recording.
-void RecordedCamera::tellOfLinks(const IndexLine& line) {
+void RecordedCamera::warnAboutLinks(const IndexLine& line) {
     for (const fs::path& image : {line.depth, line.colour}) {
-        if (!toldOfLinks_ && !image.empty() && leadsOut(image)) {
+        if (!warnedAboutLinks_ && !image.empty() && leadsOut(image)) {
             log::warn("{}: a link points outside the recording's folder", image.string());
-            toldOfLinks_ = true;
+            warnedAboutLinks_ = true;
         }
     }
 }
@@ -252,7 +252,7 @@ std::optional<Frame> RecordedCamera::next() {
     FrameSlot* slot = &slots_->acquireFor(description());
     while (cursor_ < layout_.index.size()) {
         const uint32_t index = cursor_++;
-        tellOfLinks(layout_.index[index]);
+        warnAboutLinks(layout_.index[index]);
         RawColour raw;
         const std::string fault = read(layout_.index[index], *slot, raw);
         if (fault.empty()) {

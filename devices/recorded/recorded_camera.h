@@ -45,7 +45,7 @@ private:
     // Returns the fault; empty = read.
     std::string read(const IndexLine& line, FrameSlot& slot, RawColour& raw);
     Frame lease(uint32_t index, FrameSlot& slot, const RawColour& raw) const;
-    void tellOfLinks(const IndexLine& line);
+    void warnAboutLinks(const IndexLine& line);
     bool leadsOut(const std::filesystem::path& image);
     void skip(uint32_t index, const std::string& fault);
     void nameSkipped();
@@ -59,7 +59,7 @@ private:
     uint32_t skipped_ = 0;
     uint32_t named_ = 0;                     // lines before this one are already counted
     bool any_ = false;                       // a valid frame was seen
-    bool toldOfLinks_ = false;               // warn about links out of the folder once
+    bool warnedAboutLinks_ = false;          // warn about links out of the folder once
     std::unordered_set<std::string> judged_; // image folders
     std::optional<double> lastStamp_;        // [s] of the last delivered frame; empty after seek()
     std::string firstFault_;

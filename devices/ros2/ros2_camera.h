@@ -42,7 +42,7 @@ public:
     std::vector<std::string> warnings() const override { return skipped_.causes(); }
     bool live() const override { return true; }
     uint64_t lost() const override { return overtaken_ + inbox_.lost(depth_.place); }
-    std::string streams() const override { return choice_.said; }
+    std::string streams() const override { return choice_.summary; }
     std::string description() const override { return "ros2 " + request_.options.depth; }
 
     uint64_t foreign() const { // messages of second publishers

@@ -56,7 +56,7 @@ void LineWatchdog::close() noexcept {
 
 bool LineWatchdog::stopDue(double now) noexcept {
     const bool silent = heardAt_ >= 0.0 && (closed_ || now - heardAt_ > kSilence);
-    if (saidGoodbye_ || !silent) {
+    if (ended_ || !silent) {
         return false;
     }
     if (stoppingSince_ < 0.0) {
@@ -73,7 +73,7 @@ bool LineWatchdog::stopDue(double now) noexcept {
 
 bool LineWatchdog::over(double now) const noexcept {
     const bool stopped = stoppingSince_ >= 0.0 && now - stoppingSince_ > kStopDuration;
-    return saidGoodbye_ || (closed_ && (heardAt_ < 0.0 || stopped));
+    return ended_ || (closed_ && (heardAt_ < 0.0 || stopped));
 }
 
 int watchLine(int engine, int line, const StandStill& still) noexcept {

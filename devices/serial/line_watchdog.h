@@ -19,7 +19,7 @@ public:
         : period_(period) {}
 
     void alive(double now) noexcept; // the arm may move after the first call
-    void goodbye() noexcept { saidGoodbye_ = true; }
+    void goodbye() noexcept { ended_ = true; }
     void close() noexcept; // the engine's end is closed
 
     // True when a stop telegram is due: after a silence until the engine is back, and for kStopDuration after
@@ -35,7 +35,7 @@ public:
 private:
     double period_;
     double heardAt_ = -1.0, stoppingSince_ = -1.0, next_ = 0.0; // [s]; negative = never
-    bool saidGoodbye_ = false, closed_ = false;
+    bool ended_ = false, closed_ = false;
     int failures_ = 0;
 };
 

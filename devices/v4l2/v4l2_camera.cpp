@@ -109,7 +109,7 @@ uint64_t V4l2Camera::lost() const {
 }
 
 std::string V4l2Camera::description() const {
-    return description_ + (exposuresTold_ > 0 ? ", which reports the start of exposure" : "");
+    return description_ + (exposureStamps_ > 0 ? ", which reports the start of exposure" : "");
 }
 
 uint64_t V4l2Camera::lostColour() const {
@@ -262,7 +262,7 @@ std::optional<Frame> V4l2Camera::lease(const FramePairing::Pair& pair) {
     lastStamp_ = pair.depth.stamp; // colour stamps of the same driver are compared with it
     lastCapture_ = std::max(lastCapture_, pair.depth.exposure.value_or(pair.depth.stamp));
     content.captureTime = lastCapture_;
-    exposuresTold_ += pair.depth.exposure ? 1 : 0;
+    exposureStamps_ += pair.depth.exposure ? 1 : 0;
     if (!inPlace) {
         ++copied_;
         return slot->lend(content);

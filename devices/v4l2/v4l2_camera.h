@@ -46,7 +46,7 @@ public:
     std::optional<double> framePeriod() const override { return depthPeriod_; }
     std::shared_ptr<CameraControls> controls() const override { return controls_; }
     std::vector<CameraStream> delivered() const override;
-    bool stampsExposure() const override { return exposuresTold_.load() > 0; }
+    bool stampsExposure() const override { return exposureStamps_.load() > 0; }
 
     uint64_t restarts() const { return restarts_; } // restarts of silent streams
 
@@ -54,7 +54,7 @@ public:
     uint64_t lostColour() const;                // gaps in the driver's counter of colour
     uint64_t copied() const { return copied_; } // frames whose depth was not leased in place
     // Frames whose capture time is the start of exposure from the camera's metadata.
-    uint64_t exposuresTold() const { return exposuresTold_; }
+    uint64_t exposureStamps() const { return exposureStamps_; }
 
 private:
     struct Streams;
@@ -99,7 +99,7 @@ private:
     uint32_t delivered_ = 0;
     SkippedFrames skipped_;
     uint64_t overtaken_ = 0, copied_ = 0, restarts_ = 0, missingBefore_ = 0, missingColourBefore_ = 0;
-    std::atomic<uint64_t> exposuresTold_{0};
+    std::atomic<uint64_t> exposureStamps_{0};
     std::shared_ptr<V4l2Controls> controls_;
 };
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/types/log.h"
 
+#include "engine/types/log_once.h"
 #include "engine/types/printable.h"
-#include "engine/types/said_once.h"
 
 #include <spdlog/spdlog.h>
 #include <utility>
@@ -11,15 +11,15 @@ namespace fathom::log {
 
 namespace {
 
-thread_local SaidLines* saidLines = nullptr;
+thread_local LoggedLines* loggedLines = nullptr;
 
 } // namespace
 
-SayOnce::SayOnce(SaidLines& said) noexcept
-    : before_(std::exchange(saidLines, &said)) {}
+LogOnce::LogOnce(LoggedLines& logged) noexcept
+    : before_(std::exchange(loggedLines, &logged)) {}
 
-SayOnce::~SayOnce() {
-    saidLines = before_;
+LogOnce::~LogOnce() {
+    loggedLines = before_;
 }
 
 void write(Level level, fmt::string_view format, fmt::format_args values) {
@@ -29,7 +29,7 @@ void write(Level level, fmt::string_view format, fmt::format_args values) {
     const auto wanted = kLevels[static_cast<int>(level)];
     if (logger != nullptr && logger->should_log(wanted)) { // none at the end of the program
         const std::string line = printable(fmt::vformat(format, values));
-        if (saidLines == nullptr || saidLines->isNew(line)) {
+        if (loggedLines == nullptr || loggedLines->isNew(line)) {
             logger->log(wanted, line);
         }
     }

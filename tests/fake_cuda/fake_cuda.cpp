@@ -13,7 +13,7 @@ const char* setting(const char* name) {
     return value != nullptr ? value : "";
 }
 
-void tell(const char* what) {
+void print(const char* what) {
     if (std::FILE* const file = std::fopen(setting("FAKE_CUDA_LOG"), "a")) {
         std::fprintf(file, "%s\n", what);
         std::fclose(file);
@@ -53,8 +53,8 @@ int cuDevicePrimaryCtxRetain(void** context, int device) {
     *context = &made;
     const int fault = std::atoi(setting("FAKE_CUDA_FAULT"));
     if (fault == 0) {
-        tell(device == 1 ? "made" : "made on another device");
-        std::atexit([] { tell("ended"); });
+        print(device == 1 ? "made" : "made on another device");
+        std::atexit([] { print("ended"); });
     }
     return fault;
 }

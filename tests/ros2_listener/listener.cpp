@@ -34,20 +34,20 @@ void pose(Said& said, const geometry_msgs_msg_dds__Pose_& pose) {
     said.number(pose.orientation.w);
 }
 
-void tell(const geometry_msgs_msg_dds__PoseStamped_& m) {
+void print(const geometry_msgs_msg_dds__PoseStamped_& m) {
     Said line = said(m.header);
     pose(line, m.pose);
     line.print();
 }
 
-void tell(const geometry_msgs_msg_dds__WrenchStamped_& m) {
+void print(const geometry_msgs_msg_dds__WrenchStamped_& m) {
     Said line = said(m.header);
     vector(line, m.wrench.force);
     vector(line, m.wrench.torque);
     line.print();
 }
 
-void tell(const geometry_msgs_msg_dds__TwistStamped_& m) {
+void print(const geometry_msgs_msg_dds__TwistStamped_& m) {
     Said line = said(m.header);
     vector(line, m.twist.linear);
     vector(line, m.twist.angular);
@@ -55,7 +55,7 @@ void tell(const geometry_msgs_msg_dds__TwistStamped_& m) {
 }
 
 // Fields, count of points, and the first point.
-void tell(const sensor_msgs_msg_dds__PointCloud2_& m) {
+void print(const sensor_msgs_msg_dds__PointCloud2_& m) {
     Said line = said(m.header);
     std::string fields;
     for (uint32_t i = 0; i < m.fields._length; ++i) {
@@ -70,7 +70,7 @@ void tell(const sensor_msgs_msg_dds__PointCloud2_& m) {
     line.print();
 }
 
-void tell(const visualization_msgs_msg_dds__MarkerArray_& m) {
+void print(const visualization_msgs_msg_dds__MarkerArray_& m) {
     for (uint32_t i = 0; i < m.markers._length; ++i) {
         const visualization_msgs_msg_dds__Marker_& marker = m.markers._buffer[i];
         Said line = said(marker.header);
@@ -82,7 +82,7 @@ void tell(const visualization_msgs_msg_dds__MarkerArray_& m) {
     }
 }
 
-void tell(const diagnostic_msgs_msg_dds__DiagnosticArray_& m) {
+void print(const diagnostic_msgs_msg_dds__DiagnosticArray_& m) {
     for (uint32_t i = 0; i < m.status._length; ++i) {
         const diagnostic_msgs_msg_dds__DiagnosticStatus_& part = m.status._buffer[i];
         Said line = said(m.header);
@@ -94,7 +94,7 @@ void tell(const diagnostic_msgs_msg_dds__DiagnosticArray_& m) {
     }
 }
 
-void tell(const sensor_msgs_msg_dds__JointState_& m) {
+void print(const sensor_msgs_msg_dds__JointState_& m) {
     Said line = said(m.header);
     for (uint32_t i = 0; i < m.name._length && i < m.position._length; ++i) {
         line.word(m.name._buffer[i]).number(m.position._buffer[i]);
@@ -102,7 +102,7 @@ void tell(const sensor_msgs_msg_dds__JointState_& m) {
     line.print();
 }
 
-void tell(const trajectory_msgs_msg_dds__JointTrajectory_& m) {
+void print(const trajectory_msgs_msg_dds__JointTrajectory_& m) {
     Said line = said(m.header);
     for (uint32_t i = 0; i < m.points._length; ++i) {
         const trajectory_msgs_msg_dds__JointTrajectoryPoint_& point = m.points._buffer[i];
@@ -114,7 +114,7 @@ void tell(const trajectory_msgs_msg_dds__JointTrajectory_& m) {
     line.print();
 }
 
-void tell(const tf2_msgs_msg_dds__TFMessage_& m) {
+void print(const tf2_msgs_msg_dds__TFMessage_& m) {
     for (uint32_t i = 0; i < m.transforms._length; ++i) {
         const geometry_msgs_msg_dds__TransformStamped_& link = m.transforms._buffer[i];
         Said line = said(link.header);
@@ -132,7 +132,7 @@ struct Type {
 
 template <class M>
 Type typeOf(const dds_topic_descriptor_t& descriptor) {
-    return {&descriptor, [](const void* message) { tell(*static_cast<const M*>(message)); }};
+    return {&descriptor, [](const void* message) { print(*static_cast<const M*>(message)); }};
 }
 
 const std::map<std::string, Type> kTypes{

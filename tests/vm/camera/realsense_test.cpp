@@ -63,7 +63,7 @@ TEST_CASE("A RealSense that reports the age of a frame has its capture time at t
             CHECK(came >= drawn[(*frame)->depth[0] % drawn.size()].load() - 1e-4);
             CHECK(came <= now());
         }
-        CHECK(camera->exposuresTold() == (latency > 0 ? 10 : 0));
+        CHECK(camera->exposureStamps() == (latency > 0 ? 10 : 0));
         CHECK((camera->description().find("which reports the start of exposure") != std::string::npos) ==
               (latency > 0));
     }

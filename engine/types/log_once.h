@@ -8,7 +8,7 @@
 namespace fathom::log {
 
 // Lines that were logged; at most kMost, later ones repeat. One thread at a time.
-class SaidLines {
+class LoggedLines {
 public:
     // False where the line is known. Adds it.
     bool isNew(const std::string& line) {
@@ -20,17 +20,17 @@ private:
     std::set<std::string> lines_;
 };
 
-// While it lives, its thread logs no line that `said` holds, and `said` takes those that it logs. The
+// While it lives, its thread logs no line that `logged` holds, and `logged` takes those that it logs. The
 // innermost one applies.
-class SayOnce {
+class LogOnce {
 public:
-    explicit SayOnce(SaidLines& said) noexcept;
-    SayOnce(const SayOnce&) = delete;
-    SayOnce& operator=(const SayOnce&) = delete;
-    ~SayOnce();
+    explicit LogOnce(LoggedLines& logged) noexcept;
+    LogOnce(const LogOnce&) = delete;
+    LogOnce& operator=(const LogOnce&) = delete;
+    ~LogOnce();
 
 private:
-    SaidLines* before_;
+    LoggedLines* before_;
 };
 
 } // namespace fathom::log
