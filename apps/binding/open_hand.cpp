@@ -103,7 +103,7 @@ HandPath openHandPath(const std::filesystem::path& file, double scale) {
         high = glm::max(high, waypoint.deviceThandle.position);
     }
     const dvec3 size = scale * (high - low);
-    doubtLength(file.string() + ": the hand moves", std::max({size.x, size.y, size.z}), kUsualPath);
+    warnIfLong(file.string() + ": the hand moves", std::max({size.x, size.y, size.z}), kUsualPath);
     return path;
 }
 

@@ -194,8 +194,8 @@ void runSpheres(SpheresOptions options) {
     options.file.up = options.up.empty() ? '\0' : options.up[0];
     const LoadedMesh loaded = loadMesh(options.mesh, options.file);
     printMesh(std::cout, loaded);
-    if (!loaded.doubt.empty()) {
-        log::warn("{}: {}; set the unit with --scale", options.mesh.string(), loaded.doubt);
+    if (!loaded.warning.empty()) {
+        log::warn("{}: {}; set the unit with --scale", options.mesh.string(), loaded.warning);
     }
     CoverMaker maker(loaded);
     const Cover cover = coverOf(maker, options);

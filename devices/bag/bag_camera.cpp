@@ -25,7 +25,7 @@ BagCamera::BagCamera(std::unique_ptr<MessageFile> file, SourceOptions options)
     : MessageCamera(std::move(file), std::move(options)) {
     try {
         choice_ = StreamChooser(*file_, options_).choose();
-        tellDoubts();
+        logWarnings();
         useSpan(topicOf(choice_.depth));
         chooseUnit();
         useClocks();
@@ -39,10 +39,10 @@ BagCamera::BagCamera(std::unique_ptr<MessageFile> file, SourceOptions options)
     slots_.emplace(info().slotPixels(), info().hasColour, kFramesInFlight + 1);
 }
 
-void BagCamera::tellDoubts() {
-    for (const std::string& doubt : choice_.doubts) {
-        log::warn("{}: {}", file_->file().string(), doubt);
-        addWarning(doubt);
+void BagCamera::logWarnings() {
+    for (const std::string& warning : choice_.warnings) {
+        log::warn("{}: {}", file_->file().string(), warning);
+        addWarning(warning);
     }
 }
 
@@ -217,7 +217,7 @@ void BagCamera::chooseUnit() {
     const double metresPerValue = options_.scale.value_or(1.0);
     options_.checkMetres(file_->file().string());
     const ValueSpan seen = sampledMetres().scaled(metresPerValue);
-    addWarning(doubtMetres(file_->file().string(), seen.nearest));
+    addWarning(metresWarning(file_->file().string(), seen.nearest));
     camera.metresPerUnit = unitForMetres(seen, options_.farthest);
     valuesPerUnit_ = camera.metresPerUnit / metresPerValue;
 }

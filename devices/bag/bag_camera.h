@@ -30,7 +30,7 @@ public:
 
 private:
     using Image = ros::Image;
-    void tellDoubts();
+    void logWarnings();
     void useClocks();
     bool pairsByStamp();
     void chooseUnit();

@@ -160,10 +160,10 @@ void CloudCamera::learnLens() {
                "clouds in the frame of their camera: x right and y down, y up and z backward, or x forward "
                "and z up");
     }
-    addWarning(doubtMetres(file_->file().string(), seen.nearest));
-    if (const std::string doubt = doubtLens(fit_.lens); !doubt.empty()) {
-        log::warn("{}: {}: {}", file_->file().string(), topic().name, doubt);
-        addWarning(doubt);
+    addWarning(metresWarning(file_->file().string(), seen.nearest));
+    if (const std::string warning = lensWarning(fit_.lens); !warning.empty()) {
+        log::warn("{}: {}: {}", file_->file().string(), topic().name, warning);
+        addWarning(warning);
     }
     info_.depth = info_.colour = fit_.lens;
     info_.poseless = true;

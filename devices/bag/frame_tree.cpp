@@ -104,7 +104,7 @@ bool FrameTree::hasOpticalChild(const std::string& frame) const {
     });
 }
 
-std::string FrameTree::doubtAxes(const std::string& from, const std::string& to) {
+std::string FrameTree::axesWarning(const std::string& from, const std::string& to) {
     const std::optional<Pose> between = pose(from, to);
     if (!between || namedOptical(from) || namedOptical(to) || glm::length(between->position) < 1e-3) {
         return "";

@@ -22,7 +22,7 @@ public:
     // Why images in these two frames, whose pose tf has, may have other axes than the optical ones (x right,
     // y down, z forward): a turned child is called optical, or the frames are parallel and neither name says
     // so. Empty = no doubt.
-    std::string doubtAxes(const std::string& from, const std::string& to);
+    std::string axesWarning(const std::string& from, const std::string& to);
 
 private:
     struct Link {

@@ -250,15 +250,15 @@ StreamChoice StreamChooser::choose() {
         camera.registered = relation.registered;
         camera.colour = relation.registered || !colour->lens ? camera.depth : *colour->lens;
         camera.colourTdepth = relation.colourTdepth;
-        if (keepsRelation() && !relation.doubt.empty()) {
-            choice.doubts.push_back(relation.doubt);
+        if (keepsRelation() && !relation.warning.empty()) {
+            choice.warnings.push_back(relation.warning);
         }
     }
     if (!options_.intrinsics.empty()) {
         replaceLenses(choice);
     }
     if (namedRangeImage(depth->name) && !choice.rangeImages) {
-        choice.doubts.push_back(doubtAxis(depth->name, "a file of the lens (intrinsics=FILE)"));
+        choice.warnings.push_back(axisWarning(depth->name, "a file of the lens (intrinsics=FILE)"));
     }
     camera.colourFormat = colour != nullptr ? colour->format : ColourFormat::Rgba;
     choice.unread = unreadStreams();

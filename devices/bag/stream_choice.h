@@ -15,11 +15,11 @@ namespace fathom {
 struct StreamChoice {
     ImageStream depth;
     std::optional<ImageStream> colour;
-    CameraInfo camera;               // lenses, registration, extrinsics; not the depth unit
-    std::string summary;             // what was chosen, and what else there is, in one line
-    bool rangeImages = false;        // depth holds ranges along the rays
-    std::vector<std::string> doubts; // why colour or depth may be wrong
-    std::string unread;              // image topics that may be colour but whose encoding is not read
+    CameraInfo camera;                 // lenses, registration, extrinsics; not the depth unit
+    std::string summary;               // what was chosen, and what else there is, in one line
+    bool rangeImages = false;          // depth holds ranges along the rays
+    std::vector<std::string> warnings; // why colour or depth may be wrong
+    std::string unread;                // image topics that may be colour but whose encoding is not read
 };
 
 // Chooses the streams of a bag. One thread.
@@ -38,7 +38,7 @@ private:
         bool registered = false;
         Pose colourTdepth;
         std::string fault;
-        std::string doubt = {}; // of a pose that is used
+        std::string warning = {}; // of a pose that is used
     };
     struct Pair {
         const ImageStream *depth = nullptr, *colour = nullptr; // colour: null = none

@@ -31,15 +31,15 @@ bool nearlySame(const Pose& a, const Pose& b) {
 
 StreamChooser::Relation StreamChooser::relateByPose(const ImageStream& depth, const ImageStream& colour) {
     std::optional<Pose> pose = sdkPose(depth, colour);
-    std::string doubt;
+    std::string warning;
     // The Orbbec SDK records the pose to its colour camera, not to the cameras of a stereo pair.
     const std::string sensor = orbbecSensor(colour.name);
     if (!pose && !isRealSenseTopic(depth.name) && (sensor.empty() || sensor == "2")) {
-        std::tie(pose, doubt) = driverPose(depth, colour);
+        std::tie(pose, warning) = driverPose(depth, colour);
     }
     if (pose) {
         const bool registered = isIdentity(*pose) && sameLens(*depth.lens, *colour.lens);
-        return {2, registered, registered ? Pose{} : *pose, "", doubt};
+        return {2, registered, registered ? Pose{} : *pose, "", warning};
     }
     const std::string topic = isRealSenseTopic(depth.name)
                                   ? parentTopic(baseTopic(colour.name), 2) + "/tf/0"
@@ -57,7 +57,7 @@ std::pair<std::optional<Pose>, std::string> StreamChooser::driverPose(const Imag
                                                                       const ImageStream& colour) {
     const auto topic = topicPose(depth, colour);
     const auto frames = depth.frame != colour.frame ? frames_.pose(depth.frame, colour.frame) : std::nullopt;
-    const std::string axes = frames ? frames_.doubtAxes(depth.frame, colour.frame) : "";
+    const std::string axes = frames ? frames_.axesWarning(depth.frame, colour.frame) : "";
     if (!topic || !frames) {
         return {topic ? topic : frames, topic ? "" : axes};
     }

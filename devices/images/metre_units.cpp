@@ -74,9 +74,9 @@ double unitForMetres(const ValueSpan& seen, double ofInterest, double spare) {
     return unitForMetres(std::min(spare * (within > 0.0 ? within : seen.farthest), bound));
 }
 
-std::string doubtMetres(const std::string& file, double nearest) {
-    constexpr double kDoubtful = 50.0; // [m]
-    if (!(nearest >= kDoubtful && std::isfinite(nearest))) {
+std::string metresWarning(const std::string& file, double nearest) {
+    constexpr double kUnlikelyDistance = 50.0; // [m]
+    if (!(nearest >= kUnlikelyDistance && std::isfinite(nearest))) {
         return "";
     }
     std::string text = fmt::format("{}: the nearest point is at {:.4g} m", file, nearest);

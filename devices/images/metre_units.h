@@ -35,7 +35,7 @@ double unitForMetres(const ValueSpan& seen, double ofInterest, double spare = 1.
 // Warns when the nearest point of a recording is farther than any camera sees: its values are no metres, but
 // likely of the unit that it names.
 // Returns the warning; empty when there is none.
-std::string doubtMetres(const std::string& file, double nearest);
+std::string metresWarning(const std::string& file, double nearest);
 
 // `value` in units, rounded; 0 for what is no positive finite number. What is
 // too far for 16 bits becomes 0 and is counted in `beyond`.

@@ -161,7 +161,7 @@ FittedLens fitLens(const PcdCloud& cloud) {
     return *best;
 }
 
-std::string doubtLens(const Intrinsics& lens) {
+std::string lensWarning(const Intrinsics& lens) {
     constexpr double kMostRatio = 1.25; // of the focal lengths
     const bool inside = lens.cx > 0.0 && lens.cx < lens.width && lens.cy > 0.0 && lens.cy < lens.height;
     const double ratio = std::max(lens.fx, lens.fy) / std::min(lens.fx, lens.fy);
@@ -195,9 +195,9 @@ PcdCamera::PcdCamera(const std::filesystem::path& file, const SourceOptions& opt
             "a cloud from a depth camera or a scan with equal angles: x right and y down, y up "
             "and z backward, or x forward and z up");
     }
-    if (const std::string doubt = doubtLens(fit.lens); !doubt.empty()) {
-        log::warn("{}: {}", file.string(), doubt);
-        doubts_.push_back(doubt);
+    if (const std::string warning = lensWarning(fit.lens); !warning.empty()) {
+        log::warn("{}: {}", file.string(), warning);
+        warnings_.push_back(warning);
     }
     scalePoints(fit, options);
     if (options.depthOnly()) {
@@ -219,15 +219,15 @@ void PcdCamera::scalePoints(const FittedLens& fit, const SourceOptions& options)
         p = fit.opticalTcloud * p * options.scale.value_or(1.0);
         seen.add(measured(p) ? p.z : 0.0);
     }
-    if (const std::string doubt = doubtMetres(file_.string(), seen.nearest); !doubt.empty()) {
-        doubts_.push_back(doubt);
+    if (const std::string warning = metresWarning(file_.string(), seen.nearest); !warning.empty()) {
+        warnings_.push_back(warning);
     }
     info_.metresPerUnit = unitForMetres(seen, options.farthest, 1.0);
     farthest_ = options.farthest;
 }
 
 std::vector<std::string> PcdCamera::warnings() const {
-    return doubts_;
+    return warnings_;
 }
 
 std::string PcdCamera::whyNoColour() const {

@@ -28,7 +28,7 @@ struct FittedLens {
 FittedLens fitLens(const PcdCloud& cloud);
 // Warning that the points may not be in the frame of their camera: those of a plane fit some lens from
 // everywhere. Empty for a lens as cameras have it.
-std::string doubtLens(const Intrinsics& lens);
+std::string lensWarning(const Intrinsics& lens);
 
 // One frame. Depth is z in units of 0.1 mm, coarser when the farthest point within options.farthest needs it;
 // points that do not fit then are not measured. The camera frame is the
@@ -54,8 +54,8 @@ private:
     CameraInfo info_;
     std::optional<FrameSlots> slots_;
     PcdCloud cloud_;
-    std::vector<std::string> doubts_; // of doubtLens() and doubtMetres()
-    double farthest_ = 0.0;           // [m] of interest
+    std::vector<std::string> warnings_; // of lensWarning() and metresWarning()
+    double farthest_ = 0.0;             // [m] of interest
     bool done_ = false;
 };
 

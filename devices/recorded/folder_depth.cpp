@@ -93,10 +93,10 @@ FolderDepth::FolderDepth(const std::filesystem::path& folder, const RecordingLay
         const bool millimetres = std::abs(metresPerUnit_ - 1e-3) < 1e-5;
         rotated_ = millimetres && !options.scale && looksRotated(layout, size_);
         if (rotated_) {
-            doubt_ =
+            warning_ =
                 "its depths are multiples of eight: read as millimetres rotated by three bits, as of SUN3D "
                 "and SUN RGB-D; scale=0.001 behind the folder's name reads them as they are";
-            log::warn("{}: {}", folder_, doubt_);
+            log::warn("{}: {}", folder_, warning_);
         }
     }
     toAxis_ = layout.intrinsics.rangeImages ? RangeToAxis(layout.intrinsics.camera.depth) : RangeToAxis();
@@ -112,7 +112,7 @@ void FolderDepth::chooseUnit(const RecordingLayout& layout, const SourceOptions&
     sampleImages(layout, [&](const std::filesystem::path& file) { seen.add(valueSpan(file, size_)); });
     const double metresPerValue = options.scale.value_or(1.0);
     seen = seen.scaled(metresPerValue);
-    doubt_ = doubtMetres(folder_, seen.nearest);
+    warning_ = metresWarning(folder_, seen.nearest);
     metresPerUnit_ = unitForMetres(seen, options.farthest);
     units_.valuesPerUnit = metresPerUnit_ / metresPerValue;
 }

@@ -19,7 +19,8 @@ public:
                 const SourceOptions& options);
 
     double metresPerUnit() const { return metresPerUnit_; }
-    const std::string& doubt() const { return doubt_; } // warning that values may be read wrong; empty = none
+    // That values may be read wrong; empty = none.
+    const std::string& warning() const { return warning_; }
     // z in metresPerUnit(), 0 = no measurement. Returns the fault, or empty. Warns once of depth that is too
     // far for 16 bits.
     std::string read(const std::filesystem::path& file, std::span<uint16_t> depth);
@@ -28,7 +29,7 @@ private:
     void chooseUnit(const RecordingLayout& layout, const SourceOptions& options);
     void dropInvalid(std::span<uint16_t> depth) const;
 
-    std::string folder_, doubt_;
+    std::string folder_, warning_;
     PngSize size_;
     DepthUnits units_;
     double metresPerUnit_ = 0.0, farthest_ = 0.0; // [m]

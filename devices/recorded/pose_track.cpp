@@ -50,14 +50,14 @@ PoseTrack::PoseTrack(const std::filesystem::path& file) {
         constexpr double kUnit = 4.0 * std::numeric_limits<double>::epsilon();
         poses_.push_back({v[0], {{v[1], v[2], v[3]}, std::abs(length - 1.0) <= kUnit ? q : q / length}});
     }
-    doubtSpeed(file);
+    warnIfFast(file);
     if (poses_.empty()) {
         throw BadInput(file.string(), "poses", "none", "at least one line t tx ty tz qx qy qz qw");
     }
 }
 
 // Warns once about a camera that is faster than any is moved.
-void PoseTrack::doubtSpeed(const std::filesystem::path& file) const {
+void PoseTrack::warnIfFast(const std::filesystem::path& file) const {
     constexpr double kFar = 0.1, kFast = 10.0; // [m], [m/s]
     for (size_t i = 1; i < poses_.size(); ++i) {
         const double way = glm::distance(poses_[i].baseTcamera.position, poses_[i - 1].baseTcamera.position);

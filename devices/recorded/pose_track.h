@@ -31,7 +31,7 @@ private:
         double t;
         Pose baseTcamera;
     };
-    void doubtSpeed(const std::filesystem::path& file) const;
+    void warnIfFast(const std::filesystem::path& file) const;
     // The first pose later than t; the end when there is none.
     std::vector<Stamped>::const_iterator after(double t) const noexcept;
     std::vector<Stamped> poses_;

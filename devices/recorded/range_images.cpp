@@ -19,7 +19,7 @@ bool namedRangeImage(const std::string& name) {
                                [&](std::string_view word) { return lower.find(word) != std::string::npos; });
 }
 
-std::string doubtAxis(const std::string& name, const std::string& option) {
+std::string axisWarning(const std::string& name, const std::string& option) {
     return name +
            ": named as ranges along the rays, played as depth along the axis: \"depth_is\": \"range\" in " +
            option + " takes them as ranges";

@@ -15,7 +15,7 @@ namespace fathom {
 bool namedRangeImage(const std::string& name);
 // Warning for images with such a name that are played as depth along the axis. option: what takes them as
 // ranges.
-std::string doubtAxis(const std::string& name, const std::string& option);
+std::string axisWarning(const std::string& name, const std::string& option);
 
 // Maps ranges to depth along the axis. One thread.
 class RangeToAxis {

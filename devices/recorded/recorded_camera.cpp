@@ -59,7 +59,7 @@ RecordedCamera::RecordedCamera(const fs::path& folder, const SourceOptions& opti
 }
 
 // Warns of stamps that would be those of a camera in milliseconds, microseconds or nanoseconds.
-void RecordedCamera::doubtStamps() {
+void RecordedCamera::warnAboutStamps() {
     const std::vector<IndexLine>& index = layout_.index;
     if (index.size() < 2) {
         return;
@@ -68,11 +68,11 @@ void RecordedCamera::doubtStamps() {
     const double period = whole / static_cast<double>(index.size() - 1);
     for (const double unit : {1e3, 1e6, 1e9}) {
         if (period > 0.005 * unit && period < 0.5 * unit) { // 2 to 200 frames a second
-            char doubt[80];
-            std::snprintf(doubt, sizeof doubt, "%.6g s between its frames: stamps are read as seconds",
+            char warning[80];
+            std::snprintf(warning, sizeof warning, "%.6g s between its frames: stamps are read as seconds",
                           period);
-            log::warn("{}: {}", folder_.string(), doubt);
-            warnings_.emplace_back(doubt);
+            log::warn("{}: {}", folder_.string(), warning);
+            warnings_.emplace_back(warning);
         }
     }
 }
@@ -87,7 +87,7 @@ void RecordedCamera::useOptions(const SourceOptions& options) {
         camera.registered = false;
         camera.colourTdepth = readExtrinsics(options.extrinsics);
     }
-    doubtStamps();
+    warnAboutStamps();
     std::vector<IndexLine>& index = layout_.index;
     if (options.start == 0.0 && std::isinf(options.duration)) {
         return;
@@ -209,8 +209,8 @@ std::vector<std::string> RecordedCamera::warnings() const {
     if (skipped_ > all.size()) {
         all.push_back(std::to_string(skipped_ - all.size()) + " more frames skipped");
     }
-    if (!depth_->doubt().empty()) {
-        all.push_back(depth_->doubt());
+    if (!depth_->warning().empty()) {
+        all.push_back(depth_->warning());
     }
     return all;
 }

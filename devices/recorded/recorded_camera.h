@@ -40,7 +40,7 @@ public:
 
 private:
     void takeColourFormat();
-    void doubtStamps();
+    void warnAboutStamps();
     void useOptions(const SourceOptions& options);
     // Returns the fault; empty = read.
     std::string read(const IndexLine& line, FrameSlot& slot, RawColour& raw);

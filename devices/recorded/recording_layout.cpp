@@ -171,13 +171,13 @@ RecordingLayout readFolder(const fs::path& folder, const SourceOptions& options)
 }
 
 // Simulators write both kinds of depth, under names that tell them apart.
-void doubtAxisOf(const RecordingLayout& layout, const fs::path& folder) {
+void warnAboutAxis(const RecordingLayout& layout, const fs::path& folder) {
     if (layout.index.empty() || layout.intrinsics.rangeImages) {
         return;
     }
     const fs::path& first = layout.index.front().depth;
     if (namedRangeImage(first.lexically_relative(folder).string())) {
-        log::warn("{}", doubtAxis(first.string(), "the file of the lens"));
+        log::warn("{}", axisWarning(first.string(), "the file of the lens"));
     }
 }
 
@@ -210,7 +210,7 @@ RecordingLayout readLayout(const fs::path& folder, const SourceOptions& options)
     RecordingLayout layout = readFolder(folder, options);
     layout.metres = holdsMetres(layout);
     layout.statedUnit = layout.intrinsics.scale;
-    doubtAxisOf(layout, folder);
+    warnAboutAxis(layout, folder);
     for (IndexLine& line : layout.index) {
         if (layout.posePerImage && !line.baseTcamera && line.fault.empty()) {
             line.fault = "it has no pose, but other images have";

@@ -58,7 +58,7 @@ private:
     Topic subscribeImages(const std::string& topic);
     void subscribeOthers();
     void awaitStreams();
-    void tellDoubts() const;
+    void logWarnings() const;
     bool gather();
     void chooseUnit();
     void receive();

@@ -100,9 +100,9 @@ bool Ros2Camera::gather() {
     return any;
 }
 
-void Ros2Camera::tellDoubts() const {
-    for (const std::string& doubt : choice_.doubts) {
-        log::warn("{}: {}", request_.text, doubt);
+void Ros2Camera::logWarnings() const {
+    for (const std::string& warning : choice_.warnings) {
+        log::warn("{}: {}", request_.text, warning);
     }
 }
 
@@ -118,7 +118,7 @@ void Ros2Camera::awaitStreams() {
                 choice_.camera.poseless = !moving_;
                 why = moving_ ? moving_->follow(choice_.depth.frame) : "";
                 if (why.empty()) {
-                    tellDoubts();
+                    logWarnings();
                     toAxis_ = choice_.rangeImages ? RangeToAxis(info().depth) : RangeToAxis();
                     return;
                 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/cycle/arm_setup.h"
 
-#include "engine/model/arm_doubts.h"
 #include "engine/model/arm_mimic.h"
+#include "engine/model/arm_warnings.h"
 #include "engine/types/error.h"
 #include "engine/types/joined.h"
 
@@ -114,7 +114,7 @@ private:
             ArmJoint& joint = armSetup_->model.joints[k];
             const ArmJoint urdf = joint;
             override(wanted, joint);
-            doubt(wanted, urdf, joint);
+            noteUnlikely(wanted, urdf, joint);
             const std::string range =
                 "lower <= upper, here " + text(joint.lower) + " to " + text(joint.upper);
             if (joint.lower > joint.upper) {
@@ -155,16 +155,16 @@ private:
     }
 
     // Asks whether the scene's numbers are in other units. urdf: the joint before they replaced its own.
-    void doubt(const SceneArm::Joint& wanted, const ArmJoint& urdf, const ArmJoint& joint) {
+    void noteUnlikely(const SceneArm::Joint& wanted, const ArmJoint& urdf, const ArmJoint& joint) {
         if (wanted.lower || wanted.upper) {
-            note(doubtLimits(joint.name, joint.slides, joint.lower, joint.upper, kLongSlide));
+            note(limitWarning(joint.name, joint.slides, joint.lower, joint.upper, kLongSlide));
             if (joint.lower < urdf.lower || joint.upper > urdf.upper) {
                 note("joint " + joint.name + ": the scene's limits " + text(joint.lower) + " to " +
                      text(joint.upper) + " are wider than the file's, " + text(urdf.lower) + " to " +
                      text(urdf.upper));
             }
         }
-        note(wanted.speed ? doubtSpeed(joint.name, joint.slides, *wanted.speed) : "");
+        note(wanted.speed ? speedWarning(joint.name, joint.slides, *wanted.speed) : "");
     }
 
     // The scene's limits of mimic joints bind the joints that they follow.

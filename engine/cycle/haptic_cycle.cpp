@@ -106,7 +106,7 @@ bool HapticCycle::lossesHoldForces(const StepInput& input) noexcept {
 }
 
 void HapticCycle::takeSample(const StepInput& input, const Situation& now) noexcept {
-    if (!now.sampleFinite || (input.doubtful && input.present)) {
+    if (!now.sampleFinite || (input.unconfirmed && input.present)) {
         return;
     }
     handle_ = {input.deviceThandle.position, glm::normalize(input.deviceThandle.rotation)};
@@ -178,7 +178,7 @@ void HapticCycle::makeWrench(const StepInput& input, const Situation& now, const
     tick.pull = guidancePull();
     tick.pushes =
         (moved.active.empty() && !moved.blocked ? 0 : cause::kRow) | (jointLimits_ == 0 ? 0 : cause::kJoint);
-    tick.mayRise = !moved.rowsExpired && !input.doubtful;
+    tick.mayRise = !moved.rowsExpired && !input.unconfirmed;
     tick.newData = newData;
     tick.lags = arm_ && out.lag > kLagLength; // a free tool follows within some ticks
     tick.escape = moved.escape;

@@ -41,10 +41,11 @@ struct StepInput {
     Pose deviceThandle;   // raw, as the device gives it
     uint32_t buttons = 0; // level-sensitive bits of haptic_device.h
     bool forcesOff = false;
-    bool present = true;   // false: the device is gone or silent, and renders no wrench
-    bool doubtful = false; // the pose is not believed yet: hand and tool stay, the force may only fall
-    bool reindex =
-        false; // the pose is believed from now on, wherever it is: the tool stays, as after a clutch
+    bool present = true; // false: the device is gone or silent, and renders no wrench
+    // The pose is an outlier until later samples agree: hand and tool stay, the force may only fall.
+    bool unconfirmed = false;
+    // The pose is accepted from now on, wherever it is: the tool stays, as after a clutch.
+    bool reindex = false;
 
     // The active set (that the previous step obeyed; null = none), and a newer one on offer. Both must
     // outlive the step. When StepRecord::adopted is true, the newer one is active from now on. A set that

@@ -85,8 +85,8 @@ public:
         }
         noteOthers(ends, *best, any);
         if (best->rank == kNoTool && best->moving > 2 && !turnsHand(*best->last)) {
-            if (const std::string doubt = jawDoubt(*best->last); !doubt.empty()) {
-                ends.notes.push_back(doubt);
+            if (const std::string warning = jawWarning(*best->last); !warning.empty()) {
+                ends.notes.push_back(warning);
             }
         }
         ends.tip = best->rank < kNoTool ? best->link : bareEnd(bodyAt(best->link), ends);

@@ -107,12 +107,12 @@ private:
         const std::filesystem::path file = folder / wanted;
         std::string place = file.lexically_normal().string();
         if (std::filesystem::exists(file, ignored)) {
-            const std::string doubt = whole || others_.empty() ? "" : doubtOf(folder);
-            if (doubt.empty() || doubt == kUnnamed) {
+            const std::string warning = whole || others_.empty() ? "" : warningOf(folder);
+            if (warning.empty() || warning == kUnnamed) {
                 return {file,
-                        doubt.empty() ? "" : place + " is taken for '" + excerpt(name_) + "'; " + doubt};
+                        warning.empty() ? "" : place + " is taken for '" + excerpt(name_) + "'; " + warning};
             }
-            place += " (" + doubt + ")";
+            place += " (" + warning + ")";
         }
         if (seen_.insert(place).second) {
             looked_ += (looked_.empty() ? "" : ", ") + place;
@@ -123,7 +123,7 @@ private:
     static constexpr const char* kUnnamed = "its folder has not the package's name";
 
     // Why a file below a folder may not be of the mesh's package.
-    std::string doubtOf(const std::filesystem::path& folder) const {
+    std::string warningOf(const std::filesystem::path& folder) const {
         const auto names = packageNames(folder);
         if (names.count(parts_.package) > 0) {
             return "";

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/model/finger_ends.h"
 
-#include "engine/model/arm_doubts.h"
+#include "engine/model/arm_warnings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -104,7 +104,7 @@ std::vector<std::string> chooseFingerEnds(ArmModel& model, const ArmOptions& opt
             continue;
         }
         if (wanted.open || wanted.closed) {
-            notes.push_back(doubtOneEnd(wanted.joint, wanted.open.has_value(), named->open, named->closed));
+            notes.push_back(oneEndWarning(wanted.joint, wanted.open.has_value(), named->open, named->closed));
             continue;
         }
         const std::string& root = ties.at(wanted.joint).root;
@@ -112,7 +112,7 @@ std::vector<std::string> chooseFingerEnds(ArmModel& model, const ArmOptions& opt
         for (const uint32_t f : closing < -kTells ? groups[root] : std::vector<uint32_t>()) {
             std::swap(model.fingers[f].open, model.fingers[f].closed);
         }
-        notes.push_back(doubtEnds(wanted.joint, named->open, named->closed, std::abs(closing) > kTells));
+        notes.push_back(endsWarning(wanted.joint, named->open, named->closed, std::abs(closing) > kTells));
     }
     return notes;
 }

@@ -50,7 +50,7 @@ bool slidesLikeJaw(const urdf::ModelInterface& model, const urdf::Joint& joint, 
            (glm::length(way) < kSameSpot || std::abs(glm::dot(slide, way)) <= kAcross * glm::length(way));
 }
 
-std::string jawDoubt(const urdf::Joint& joint) {
+std::string jawWarning(const urdf::Joint& joint) {
     const bool slide = joint.type == urdf::Joint::PRISMATIC;
     if (!(slide || joint.type == urdf::Joint::REVOLUTE) ||
         !movesToOneSide(joint, slide ? kJawTravel : kJawTurn)) {

@@ -13,6 +13,6 @@ namespace fathom {
 bool slidesLikeJaw(const urdf::ModelInterface& model, const urdf::Joint& joint, const urdf::Joint* last);
 
 // A note that the joint may close a gripper, if it moves only a little and to one side of 0; else empty.
-std::string jawDoubt(const urdf::Joint& joint);
+std::string jawWarning(const urdf::Joint& joint);
 
 } // namespace fathom

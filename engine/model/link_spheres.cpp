@@ -56,8 +56,8 @@ LoadedMesh readMesh(const urdf::Mesh& mesh, const ShapeSource& source, ShapeSphe
         made.notes.push_back(file.string() + ": stray geometry is dropped: " + strayText(loaded.facts) +
                              "; arm.keep_stray keeps it");
     }
-    if (!loaded.doubt.empty()) {
-        made.notes.push_back(file.string() + ": " + loaded.doubt);
+    if (!loaded.warning.empty()) {
+        made.notes.push_back(file.string() + ": " + loaded.warning);
     }
     return loaded;
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // URDF to ArmModel.
-#include "engine/model/arm_doubts.h"
 #include "engine/model/arm_ends.h"
 #include "engine/model/arm_mimic.h"
 #include "engine/model/arm_model.h"
 #include "engine/model/arm_shapes.h"
+#include "engine/model/arm_warnings.h"
 #include "engine/model/finger_ends.h"
 #include "engine/model/joint_drives.h"
 #include "engine/model/urdf_file.h"
@@ -104,9 +104,9 @@ private:
         line << joint.name << " stays at " << drive.value << " (" << drive.why << ")";
         if (std::find(model_.held.begin(), model_.held.end(), line.str()) == model_.held.end()) {
             model_.held.push_back(line.str());
-            note(doubtHeld(joint.name, joint.type == urdf::Joint::PRISMATIC, drive.value));
+            note(heldWarning(joint.name, joint.type == urdf::Joint::PRISMATIC, drive.value));
             if (joint.limits && joint.type != urdf::Joint::CONTINUOUS && hasAxis(joint)) {
-                note(doubtBeyond(joint.name, drive.value, joint.limits->lower, joint.limits->upper));
+                note(beyondWarning(joint.name, drive.value, joint.limits->lower, joint.limits->upper));
             }
         }
         return drive.value == 0.0 || !hasAxis(joint) ? Pose{} : motionOf(joint, drive.value);
@@ -147,16 +147,16 @@ private:
         if (drive.kind == Kind::Follows) {
             out.mimic = drive.mimic;
         } else {
-            note(doubtLimits(out.name, slides, out.lower, out.upper, kLongSlide));
+            note(limitWarning(out.name, slides, out.lower, out.upper, kLongSlide));
         }
-        note(doubtSpeed(out.name, slides, joint.limits ? joint.limits->velocity : 0.0));
+        note(speedWarning(out.name, slides, joint.limits ? joint.limits->velocity : 0.0));
         model_.joints.push_back(out);
         moving_.push_back(joint.name);
     }
 
-    void note(const std::string& doubt) {
-        if (!doubt.empty()) {
-            model_.notes.push_back(doubt);
+    void note(const std::string& warning) {
+        if (!warning.empty()) {
+            model_.notes.push_back(warning);
         }
     }
 
@@ -232,8 +232,8 @@ private:
             finger.upper = std::max({finger.upper, drive.open, drive.closed});
         }
         if (drive.kind != Kind::Follows && drive.open != drive.closed) {
-            note(doubtLimits(finger.name, finger.slides, std::min(drive.open, drive.closed),
-                             std::max(drive.open, drive.closed), kLongFinger));
+            note(limitWarning(finger.name, finger.slides, std::min(drive.open, drive.closed),
+                              std::max(drive.open, drive.closed), kLongFinger));
         }
         model_.fingers.push_back(finger);
     }

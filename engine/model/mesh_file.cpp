@@ -16,7 +16,7 @@ namespace fathom {
 namespace {
 
 constexpr double kMinExtent = 1e-3, kMaxExtent = 10.0; // [m]
-constexpr double kDoubtfulExtent = 2.0; // [m] for tools and links: 80 mm stored in inches would read as 3.1
+constexpr double kUnlikelyExtent = 2.0; // [m] for tools and links: 80 mm stored in inches would read as 3.1
 constexpr uintmax_t kLargestMesh = 512u << 20;
 constexpr size_t kMaxTriangles = 2'000'000;
 
@@ -87,8 +87,8 @@ double checkExtent(const std::string& file, const TriangleMesh& mesh, bool ofUrd
 }
 
 // A .dae states its unit; STL and OBJ do not.
-std::string doubtOf(const std::filesystem::path& file, const MeshOptions& options, double extent) {
-    if (options.scale || options.stretch != dvec3(1.0) || extent <= kDoubtfulExtent ||
+std::string unitWarning(const std::filesystem::path& file, const MeshOptions& options, double extent) {
+    if (options.scale || options.stretch != dvec3(1.0) || extent <= kUnlikelyExtent ||
         endingOf(file) == ".dae") {
         return "";
     }
@@ -118,7 +118,7 @@ LoadedMesh loadMesh(const std::filesystem::path& file, const MeshOptions& option
         throw BadInput(file.string(), "stray geometry", strayText(facts),
                        "one group of pieces; --drop-stray leaves them out");
     }
-    loaded.doubt = doubtOf(file, options, checkExtent(file.string(), mesh, options.ofUrdf));
+    loaded.warning = unitWarning(file, options, checkExtent(file.string(), mesh, options.ofUrdf));
     return loaded;
 }
 

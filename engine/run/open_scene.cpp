@@ -19,29 +19,29 @@ constexpr double kUsualRadius = 0.5;                      // [m] most
 constexpr double kUsualTool = 2.0, kUsualDistance = 20.0; // [m] most
 
 // Far from its origin a base frame is that of a map, not one in millimetres.
-void doubtPlace(const std::string& what, const dvec3& place) {
+void warnIfFar(const std::string& what, const dvec3& place) {
     const double distance = glm::length(place);
-    doubtLength(what + ": reaches", distance < 1e3 * kUsualDistance ? distance : 0.0, kUsualDistance);
+    warnIfLong(what + ": reaches", distance < 1e3 * kUsualDistance ? distance : 0.0, kUsualDistance);
 }
 
 // Lengths that are as good as any by the rules of the scene file, but rare in metres.
-void doubtLengths(const Scene& scene) {
+void warnAboutLengths(const Scene& scene) {
     const std::string file = scene.file.string() + ": ";
-    doubtPlace(file + "camera.base_T_camera", scene.baseTcamera.position);
+    warnIfFar(file + "camera.base_T_camera", scene.baseTcamera.position);
     for (const FixtureClass& f : scene.fixtures) {
         const std::string name = file + "fixtures: " + f.name + ": ";
         if (f.isPoints()) {
-            doubtLength(name + "radius: reaches", f.radius, kUsualRadius);
+            warnIfLong(name + "radius: reaches", f.radius, kUsualRadius);
             continue;
         }
-        doubtPlace(name + "base_T_shape", f.baseTshape.position);
-        doubtLength(name + "size: reaches", std::max({f.size.x, f.size.y, f.size.z}), kUsualDistance);
+        warnIfFar(name + "base_T_shape", f.baseTshape.position);
+        warnIfLong(name + "size: reaches", std::max({f.size.x, f.size.y, f.size.z}), kUsualDistance);
     }
 }
 
 Scene checked(Scene scene) {
     const std::filesystem::path& file = scene.file;
-    doubtLengths(scene);
+    warnAboutLengths(scene);
     for (const std::string& path : scene.outside) {
         log::warn("{}: '{}' is outside the scene file's folder", file.string(), path);
     }
@@ -61,7 +61,7 @@ Scene openSceneText(const std::string& text) {
     return checked(loadSceneText(text, "scene text"));
 }
 
-void doubtLength(const std::string& what, double length, double most) {
+void warnIfLong(const std::string& what, double length, double most) {
     if (length > most) {
         log::warn("{} {:.4g} m if its unit is the metre (millimetres?)", what, length);
     }
@@ -93,7 +93,7 @@ Tool builtTool(const Scene& scene, const ReaderOptions& reader) {
 Tool writtenTool(const Scene& scene, const ReaderOptions& reader) {
     Tool tool = builtTool(scene, reader);
     const std::filesystem::path& file = scene.tool.file.empty() ? scene.file : scene.tool.file;
-    doubtLength(file.string() + ": tool: reaches", tool.boundingRadius(), kUsualTool);
+    warnIfLong(file.string() + ": tool: reaches", tool.boundingRadius(), kUsualTool);
     return tool;
 }
 
@@ -115,7 +115,7 @@ std::unique_ptr<ArmSetup> openArm(const Scene& scene, const ReaderOptions& reade
     auto arm =
         makeArmSetup(scene, tool ? writtenTool(scene, reader).leaves() : std::span<const Sphere>(), reader);
     if (arm) {
-        doubtLength(scene.arm->urdf.string() + ": the arm reaches", reachOf(*arm), kUsualDistance);
+        warnIfLong(scene.arm->urdf.string() + ": the arm reaches", reachOf(*arm), kUsualDistance);
     }
     for (const std::string& line : arm ? describeArm(*arm) : std::vector<std::string>{}) {
         log::info("arm: {}", line);

@@ -17,7 +17,7 @@ Scene openScene(const std::filesystem::path& file);
 Scene openSceneText(const std::string& text);
 
 // Logs a warning when a length [m] is over the usual `most`. what: "FILE: subject and verb".
-void doubtLength(const std::string& what, double length, double most);
+void warnIfLong(const std::string& what, double length, double most);
 
 // The scene's arm, or null without one; logs a warning for each note of its model. Throws BadInput.
 std::unique_ptr<ArmSetup> openArm(const Scene& scene, const ReaderOptions& reader = {});

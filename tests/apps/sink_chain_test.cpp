@@ -26,7 +26,7 @@ TEST_CASE("The chain of sinks of a window passes on frames, queries and steps") 
     PublishedSink published(last, observers);
     FaultTrace faults("", 0.001, published);
     operate::SnapshotSink first(faults);
-    const Fixtures set;
+    const Fixtures set{};
     first.frame(PublishedFrame(), set);
     first.query(QueryNote());
     first.step(TickRow(), nullptr, false, {});

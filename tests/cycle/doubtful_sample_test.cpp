@@ -13,7 +13,7 @@ StepRecord stepOf(HapticRig& rig, bool doubtful, bool reindex) {
     StepInput input;
     input.time = input.captureTime = rig.time;
     input.deviceThandle = rig.hand;
-    input.doubtful = doubtful;
+    input.unconfirmed = doubtful;
     input.reindex = reindex;
     input.frame = rig.fixtures->frame;
     input.generation = rig.fixtures->generation;

@@ -188,13 +188,13 @@ TEST_CASE("LZF unpacks literals and short, long and overlapping matches, and rej
 
 TEST_CASE(
     "Values that are too large for metres are taken for the unit that places them in front of a camera") {
-    CHECK(doubtMetres("a.pcd", 49.0).empty());
+    CHECK(metresWarning("a.pcd", 49.0).empty());
     for (const auto& [nearest, unit] : {std::pair{50.0, "centimetres, put ,scale=0.01 "},
                                         {500.0, "millimetres, put ,scale=0.001 "},
                                         {5e5, "micrometres, put ,scale=0.000001 "}}) {
-        CHECK(doubtMetres("a.pcd", nearest).find(unit) != std::string::npos);
+        CHECK(metresWarning("a.pcd", nearest).find(unit) != std::string::npos);
     }
-    CHECK(doubtMetres("a.pcd", 1e9) == "a.pcd: the nearest point is at 1e+09 m");
+    CHECK(metresWarning("a.pcd", 1e9) == "a.pcd: the nearest point is at 1e+09 m");
 }
 
 TEST_CASE("Fields of sizes that no number has are not read beyond their bytes") {
@@ -288,11 +288,11 @@ TEST_CASE("A cloud of unknown axes is rejected, although a part of its points fi
 
 TEST_CASE("A lens that no camera has says that the points may be in another frame") {
     const Intrinsics usual{.width = 80, .height = 60, .fx = 70.0, .fy = 71.0, .cx = 38.0, .cy = 31.0};
-    CHECK(doubtLens(usual).empty());
+    CHECK(lensWarning(usual).empty());
     Intrinsics outside = usual, stretched = usual;
     outside.cy = 98.9;
     stretched.fx = 95.0;
-    CHECK(doubtLens(outside).find("principal point (38.0, 98.9): they may be in another frame") !=
+    CHECK(lensWarning(outside).find("principal point (38.0, 98.9): they may be in another frame") !=
           std::string::npos);
-    CHECK(doubtLens(stretched).find("fx 95.0, fy 71.0") != std::string::npos);
+    CHECK(lensWarning(stretched).find("fx 95.0, fy 71.0") != std::string::npos);
 }

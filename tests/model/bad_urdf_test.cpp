@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is wrong with a robot is said in one line that names the file.
-#include "engine/model/arm_doubts.h"
+#include "engine/model/arm_warnings.h"
 #include "tests/model/urdf_text.h"
 
 #include <doctest/doctest.h>
@@ -116,12 +116,12 @@ TEST_CASE("Speeds, fingers and held joints that look like degrees or millimetres
     CHECK(arm("revolute", "lower='-2' upper='2' velocity='12'").notes.empty());
     CHECK(arm("prismatic", "lower='0' upper='0.5' velocity='250'").notes ==
           std::vector<std::string>{"joint j: speed 250 m/s; in millimetres per second?"});
-    CHECK(doubtLimits("f", true, 0.0, 0.04, kLongFinger) == "");
-    CHECK(doubtLimits("f", true, 0.0, 40.0, kLongFinger) ==
+    CHECK(limitWarning("f", true, 0.0, 0.04, kLongFinger) == "");
+    CHECK(limitWarning("f", true, 0.0, 40.0, kLongFinger) ==
           "joint f: limits 0 to 40 m span more than 0.5 m; in millimetres, or without limits?");
-    CHECK(doubtHeld("f", true, 10.0) == "joint f: stays at 10 m; in millimetres?");
-    CHECK(doubtHeld("f", true, -0.3) == "");
-    CHECK(doubtHeld("f", false, 90.0) == "joint f: stays at 90 rad; in degrees?");
+    CHECK(heldWarning("f", true, 10.0) == "joint f: stays at 10 m; in millimetres?");
+    CHECK(heldWarning("f", true, -0.3) == "");
+    CHECK(heldWarning("f", false, 90.0) == "joint f: stays at 90 rad; in degrees?");
 }
 
 TEST_CASE("A file of MoveIt or SDF in place of a URDF is named as such, with what to give instead") {

@@ -175,14 +175,14 @@ TEST_CASE("Each axis of a mesh is stretched by its own factor, and a mirrored me
 
 TEST_CASE("A mesh of over two metres without a unit gives a warning, unless --scale is given") {
     const ObjFile large(boxMesh(dvec3(0.0), {3.2, 1.0, 1.0})), small(boxMesh(dvec3(0.0), dvec3(1.9)));
-    CHECK(loadMesh(large.path()).doubt.find("3.2 m large") == 0);
-    CHECK(loadMesh(small.path()).doubt == "");
+    CHECK(loadMesh(large.path()).warning.find("3.2 m large") == 0);
+    CHECK(loadMesh(small.path()).warning == "");
     MeshOptions metres;
     metres.scale = 1.0;
-    CHECK(loadMesh(large.path(), metres).doubt == "");
+    CHECK(loadMesh(large.path(), metres).warning == "");
     metres = {};
     metres.stretch = dvec3(0.9);
-    CHECK(loadMesh(large.path(), metres).doubt == "");
+    CHECK(loadMesh(large.path(), metres).warning == "");
 }
 
 TEST_CASE("Unsupported kinds of file are rejected, whatever they contain") {

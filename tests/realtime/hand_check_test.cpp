@@ -31,7 +31,7 @@ TEST_CASE("A hand of up to 5 m/s and 50 rad/s is believed in every sample") {
     for (int i = 0; i < 200; ++i) {
         const StepInput input =
             samples.next({{0.0049 * i, 0.0, 0.0}, rotationExp(dvec3(0.0, 0.0, 0.049 * i))});
-        CHECK_FALSE(input.doubtful);
+        CHECK_FALSE(input.unconfirmed);
         CHECK_FALSE(input.reindex);
     }
 }
@@ -42,9 +42,9 @@ TEST_CASE("One wrong sample is doubted, and the next good one is believed at onc
         for (int i = 0; i < 10; ++i) {
             samples.next(0.001 * i);
         }
-        CHECK(samples.next(wrong).doubtful);
+        CHECK(samples.next(wrong).unconfirmed);
         const StepInput back = samples.next(0.011);
-        CHECK_FALSE(back.doubtful);
+        CHECK_FALSE(back.unconfirmed);
         CHECK_FALSE(back.reindex);
     }
 }
@@ -56,17 +56,17 @@ TEST_CASE(
     samples.next(0.0);
     int doubted = 0;
     StepInput input = samples.next(1.0);
-    while (input.doubtful && doubted < 100) {
+    while (input.unconfirmed && doubted < 100) {
         ++doubted;
         input = samples.next(1.0);
     }
     CHECK(doubted == 4);
     CHECK(input.reindex);
     input = samples.next(1.001);
-    CHECK_FALSE(input.doubtful);
+    CHECK_FALSE(input.unconfirmed);
     CHECK_FALSE(input.reindex);
     for (int i = 0; i < 50; ++i) {
-        CHECK(samples.next(i % 2 == 0 ? 30.0 : -30.0).doubtful);
+        CHECK(samples.next(i % 2 == 0 ? 30.0 : -30.0).unconfirmed);
     }
 }
 
@@ -75,7 +75,7 @@ TEST_CASE("A device that was away is believed where it comes back") {
     samples.next(0.0);
     samples.next({{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}}, false);
     const StepInput input = samples.next(0.3);
-    CHECK_FALSE(input.doubtful);
+    CHECK_FALSE(input.unconfirmed);
     CHECK_FALSE(input.reindex);
 }
 
@@ -86,12 +86,12 @@ TEST_CASE("A device that stays beyond belief counts as gone after 5 ms, and is n
         samples.next(0.0);
         for (int i = 0; i < 50; ++i) {
             const StepInput input = samples.next(far);
-            CHECK(input.doubtful);
+            CHECK(input.unconfirmed);
             CHECK_FALSE(input.reindex);
             CHECK(input.present == (i <= 4));
         }
         const StepInput back = samples.next(0.0);
         CHECK(back.present);
-        CHECK_FALSE(back.doubtful);
+        CHECK_FALSE(back.unconfirmed);
     }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "engine/model/arm_doubts.h"
+#include "engine/model/arm_warnings.h"
 
 #include <cmath>
 #include <numbers>
@@ -7,7 +7,8 @@
 
 namespace fathom {
 
-std::string doubtLimits(const std::string& joint, bool slides, double lower, double upper, double longSlide) {
+std::string limitWarning(const std::string& joint, bool slides, double lower, double upper,
+                         double longSlide) {
     constexpr double kFourTurns = 8.0 * std::numbers::pi;
     const double span = std::isfinite(upper - lower) ? upper - lower : 0.0;
     std::ostringstream line;
@@ -25,7 +26,7 @@ std::string doubtLimits(const std::string& joint, bool slides, double lower, dou
     return line.str();
 }
 
-std::string doubtSpeed(const std::string& joint, bool slides, double stated) {
+std::string speedWarning(const std::string& joint, bool slides, double stated) {
     constexpr double kFastTurn = 4.0 * std::numbers::pi, kFastSlide = 5.0;
     std::ostringstream line;
     line << "joint " << joint << ": speed " << stated
@@ -33,21 +34,21 @@ std::string doubtSpeed(const std::string& joint, bool slides, double stated) {
     return stated > (slides ? kFastSlide : kFastTurn) ? line.str() : "";
 }
 
-std::string doubtHeld(const std::string& joint, bool slides, double value) {
+std::string heldWarning(const std::string& joint, bool slides, double value) {
     std::ostringstream line;
     line << "joint " << joint << ": stays at " << value
          << (slides ? " m; in millimetres?" : " rad; in degrees?");
     return std::abs(value) > (slides ? kLongSlide : 4.0 * std::numbers::pi) ? line.str() : "";
 }
 
-std::string doubtBeyond(const std::string& joint, double value, double lower, double upper) {
+std::string beyondWarning(const std::string& joint, double value, double lower, double upper) {
     constexpr double kRounding = 1e-6; // [rad], [m]
     std::ostringstream line;
     line << "joint " << joint << ": stays at " << value << ", beyond its limits " << lower << " to " << upper;
     return value < lower - kRounding || value > upper + kRounding ? line.str() : "";
 }
 
-std::string doubtEnds(const std::string& finger, double open, double closed, bool seen) {
+std::string endsWarning(const std::string& finger, double open, double closed, bool seen) {
     std::ostringstream line;
     line << "finger " << finger << ": open at " << open << " and closed at " << closed
          << (seen ? ", as the shapes of the fingers show"
@@ -56,7 +57,7 @@ std::string doubtEnds(const std::string& finger, double open, double closed, boo
     return line.str();
 }
 
-std::string doubtOneEnd(const std::string& finger, bool openGiven, double open, double closed) {
+std::string oneEndWarning(const std::string& finger, bool openGiven, double open, double closed) {
     std::ostringstream line;
     line << "finger " << finger << ": " << (openGiven ? "closed at " : "open at ")
          << (openGiven ? closed : open) << " is assumed, the limit farther from "

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// Warnings about values of a robot description that are valid but unlikely: other units, no limits.
+#pragma once
+
+#include <string>
+
+namespace fathom {
+
+inline constexpr double kLongSlide = 5.0, kLongFinger = 0.5; // [m] travel of a joint and of a finger
+
+// Each returns one line for ArmModel::notes, or an empty text. [rad], or [m] if the joint slides.
+std::string limitWarning(const std::string& joint, bool slides, double lower, double upper, double longSlide);
+std::string speedWarning(const std::string& joint, bool slides, double stated); // [rad/s], [m/s]
+std::string heldWarning(const std::string& joint, bool slides, double value);
+// On a joint that stays outside its limits.
+std::string beyondWarning(const std::string& joint, double value, double lower, double upper);
+// On a finger whose open or closed position the program chose. seen: by the shapes of the fingers.
+std::string endsWarning(const std::string& finger, double open, double closed, bool seen);
+// On a finger of which the scene gives one end: openGiven, or else the closed one.
+std::string oneEndWarning(const std::string& finger, bool openGiven, double open, double closed);
+
+} // namespace fathom
