@@ -125,7 +125,7 @@ struct HeldRod : HapticRig {
             }
         }
         show(std::move(set));
-        age = false;
+        sceneAges = false;
     }
     static constexpr std::array<Sphere, 2> kBalls{Sphere{{-0.05, 0.0, 0.0}, 0.01},
                                                   Sphere{{0.05, 0.0, 0.0}, 0.01}};

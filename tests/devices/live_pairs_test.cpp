@@ -8,7 +8,7 @@ using namespace fathom;
 
 namespace {
 
-constexpr double kPeriod = 0.1; // [s]
+constexpr double kFramePeriod = 0.1; // [s]
 
 LiveImage imageAt(double stamp) {
     auto message = std::make_shared<RawMessage>();
@@ -22,7 +22,7 @@ struct Streams {
     double now = 1.0;
 
     Streams() {
-        for (int i = 0; i < 10; ++i, now += kPeriod) {
+        for (int i = 0; i < 10; ++i, now += kFramePeriod) {
             pairs.colour(imageAt(now));
             pairs.depth(imageAt(now));
             CHECK(pairs.next(now));
@@ -42,8 +42,8 @@ TEST_CASE("A depth image gets a colour image up to half a period away, and none 
         CAPTURE(far);
         Streams streams;
         streams.pairs.depth(imageAt(streams.now));
-        streams.pairs.colour(imageAt(streams.now + (far ? 0.55 : 0.45) * kPeriod));
-        CHECK(streams.colourStamp(LivePairs::kPatience) == doctest::Approx(far ? 0.0 : 0.45 * kPeriod));
+        streams.pairs.colour(imageAt(streams.now + (far ? 0.55 : 0.45) * kFramePeriod));
+        CHECK(streams.colourStamp(LivePairs::kPatience) == doctest::Approx(far ? 0.0 : 0.45 * kFramePeriod));
         CHECK(streams.pairs.takeUnpaired() == (far ? 1u : 0u));
     }
 }
@@ -52,28 +52,28 @@ TEST_CASE("A depth image waits for a colour image that may be nearer, and not fo
     for (const bool comes : {true, false}) {
         CAPTURE(comes);
         Streams streams;
-        streams.pairs.colour(imageAt(streams.now - 0.4 * kPeriod));
+        streams.pairs.colour(imageAt(streams.now - 0.4 * kFramePeriod));
         streams.pairs.depth(imageAt(streams.now));
         CHECK(streams.colourStamp(0.0) == 0.0);
         CHECK(streams.pairs.patience(streams.now, 1.0) == doctest::Approx(LivePairs::kPatience));
         if (comes) {
-            streams.pairs.colour(imageAt(streams.now + 0.1 * kPeriod));
+            streams.pairs.colour(imageAt(streams.now + 0.1 * kFramePeriod));
         } else {
             CHECK(streams.colourStamp(LivePairs::kPatience - 1e-3) == 0.0);
         }
         CHECK(streams.colourStamp(comes ? 0.0 : LivePairs::kPatience + 1e-3) ==
-              doctest::Approx((comes ? 0.1 : -0.4) * kPeriod));
+              doctest::Approx((comes ? 0.1 : -0.4) * kFramePeriod));
     }
 }
 
 TEST_CASE("Depth images without a topic of colour are ready at once, and of too many the oldest go") {
     LivePairs pairs(false);
     for (int i = 0; i < 20; ++i) {
-        pairs.depth(imageAt(1.0 + i * kPeriod));
+        pairs.depth(imageAt(1.0 + i * kFramePeriod));
     }
     CHECK(pairs.takeUnpaired() == 4);
     const auto first = pairs.next(1.0);
     REQUIRE(first);
-    CHECK(first->depth.stamp == doctest::Approx(1.0 + 4 * kPeriod));
+    CHECK(first->depth.stamp == doctest::Approx(1.0 + 4 * kFramePeriod));
     CHECK_FALSE(first->colour);
 }

@@ -151,18 +151,18 @@ TEST_CASE(
         CAPTURE(leap);
         HapticRig rig(handScene(), at(0.0, 0.0, 0.03));
         rig.show(wallSet(1));
-        rig.age = false; // the camera continues
+        rig.sceneAges = false; // the camera continues
         rig.ticks(10);
         rig.hand = at(0.0, 0.0, 0.0);
         double before = forceOf(rig.ticks(200));
         const double full = before;
         CHECK(full > 5.0);
-        rig.age = true; // the active set was captured before the jump
+        rig.sceneAges = true; // the active set was captured before the jump
         rig.time += leap;
         double largestStep = 0.0;
         for (int i = 0; i < 700; ++i) {
             if (i == 50) {
-                rig.age = false;
+                rig.sceneAges = false;
             }
             const StepRecord record = rig.step();
             CHECK(record.finite);
