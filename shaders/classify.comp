@@ -45,6 +45,7 @@ layout(std430, binding = 9) readonly buffer Memory { uint memoryCounts[]; };
 layout(std430, binding = 10) readonly buffer Arm { vec4 arm[]; };
 layout(std430, binding = 11) writeonly buffer Depth { uvec2 keptDepth[]; }; // uint16 per pixel, as uploaded
 
+#include "shaders/lib/params.glsl"
 #include "shaders/lib/colour.glsl"
 #include "shaders/lib/depth.glsl"
 #include "shaders/lib/lens.glsl"
@@ -61,12 +62,12 @@ bool colourOf(vec3 p, out vec3 rgb) {
     if (q.z <= 0.0) {
         return false;
     }
-    ivec2 at = ivec2(round(projectPoint(q, params.colourLens, params.colourDistortion, params.more.y, params.colourLensMore)));
-    if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, ivec2(params.colourSize.xy)))) {
+    ivec2 at = ivec2(round(projectPoint(q, params.colourLens, params.colourDistortion, colourK3(), params.colourLensMore)));
+    if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, ivec2(colourSize())))) {
         return false;
     }
-    uvec2 cell = uvec2(at) / params.colourSize.w;
-    float front = uintBitsToFloat(nearest[cell.y * params.colourSize.z + cell.x]);
+    uvec2 cell = uvec2(at) / cellEdge();
+    float front = uintBitsToFloat(nearest[cell.y * cellsAcross() + cell.x]);
     if (q.z > front * 1.02 + 0.005) {
         return false; // a nearer surface hides it from the colour camera
     }
@@ -76,7 +77,7 @@ bool colourOf(vec3 p, out vec3 rgb) {
 
 // Corrects a colour for attenuation in water (Beer-Lambert). Returns whole bytes, as the gates expect.
 vec3 withoutWater(vec3 rgb, vec3 p) {
-    return kWater != 0 ? floor(min(rgb * exp(params.water.xyz * length(p)), vec3(255.0)) + 0.5) : rgb;
+    return kWater != 0 ? floor(min(rgb * exp(attenuation() * length(p)), vec3(255.0)) + 0.5) : rgb;
 }
 
 // Avoids && and ||, which branch.
@@ -138,12 +139,12 @@ uint classBits(uvec2 at, float z, vec3 rgb) {
 // Depths [m] of four adjacent pixels in a row; 0 outside the image and where there is no measurement.
 vec4 depthsAt(uvec2 at) {
     vec4 z = vec4(0.0);
-    if (at.y >= params.size.y) {
+    if (at.y >= depthSize().y) {
         return z;
     }
-    uint pixel = at.y * params.size.x + at.x;
+    uint pixel = at.y * depthWidth() + at.x;
     if (kFour != 0) {
-        bool inside = at.x < params.size.x;
+        bool inside = at.x < depthWidth();
         uvec4 raw = inside ? texelFetch(depths, int(pixel >> 2)) : uvec4(0);
         if (kKeep != 0 && inside) {
             keptDepth[pixel >> 2] = uvec2(raw.x | raw.y << 16, raw.z | raw.w << 16);
@@ -151,7 +152,7 @@ vec4 depthsAt(uvec2 at) {
         return vec4(metresOf(raw.x), metresOf(raw.y), metresOf(raw.z), metresOf(raw.w));
     }
     [[unroll]] for (uint k = 0; k < 4u; ++k) {
-        z[k] = at.x + k < params.size.x ? depthAt(pixel + k) : 0.0;
+        z[k] = at.x + k < depthWidth() ? depthAt(pixel + k) : 0.0;
     }
     return z;
 }
@@ -159,12 +160,12 @@ vec4 depthsAt(uvec2 at) {
 // Registered colours of four adjacent pixels in a row; undefined outside the image.
 vec3[4] coloursAt(uvec2 at) {
     vec3 rgb[4] = vec3[4](vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
-    uvec2 from = all(lessThan(at, params.size.xy)) ? at : uvec2(0);
+    uvec2 from = all(lessThan(at, depthSize())) ? at : uvec2(0);
     if (kColour == kColourRegistered && kFour == kFourDepthAndColour) {
         rgb = fourColoursAt(from);
     } else if (kColour == kColourRegistered) {
         [[unroll]] for (uint k = 0; k < 4u; ++k) {
-            rgb[k] = colourAt(from.x + k < params.size.x ? from + uvec2(k, 0) : uvec2(0));
+            rgb[k] = colourAt(from.x + k < depthWidth() ? from + uvec2(k, 0) : uvec2(0));
         }
     }
     return rgb;
@@ -207,12 +208,12 @@ Place placeOf() {
     if (kWide != 0) {
         uvec2 at = uvec2(gl_WorkGroupID.x * 64u + (i & 15u) * 4u, gl_WorkGroupID.y * 16u + (i >> 4));
         uint patchX = at.x >> 4;
-        bool exists = patchX < params.size.z;
+        bool exists = patchX < patchesAcross();
         uint inside = (at.y >> 2 & 3u) * 64u + (at.x >> 2 & 3u) * 16u + (at.y & 3u) * 4u;
-        return Place(exists ? gl_WorkGroupID.y * params.size.z + patchX : 0u, inside, at, exists);
+        return Place(exists ? gl_WorkGroupID.y * patchesAcross() + patchX : 0u, inside, at, exists);
     }
     uint inside = i * 4u * kRows;
-    return Place(gl_WorkGroupID.y * params.size.z + gl_WorkGroupID.x, inside, gl_WorkGroupID.xy * 16u + pixelInPatch(inside), true);
+    return Place(gl_WorkGroupID.y * patchesAcross() + gl_WorkGroupID.x, inside, gl_WorkGroupID.xy * 16u + pixelInPatch(inside), true);
 }
 
 // Adds newly marked patches to the lists.
@@ -231,14 +232,14 @@ void mark(uint patchIndex, uint bits) {
     }
     if (kLists != 0 && (fresh & kPatchGuided) != 0) {
         uint place = atomicAdd(counters.guidedGroups.w, 1u);
-        list[params.size.z * params.size.w + place] = patchIndex;
+        list[patchCount() + place] = patchIndex;
         atomicMax(counters.guidedGroups.x, place + 1u);
     }
 }
 
 // some: the class bits of all pixels of the invocation, combined by OR in any byte.
 void markPatch(Place place, uint some) {
-    uint guided = some & ~(params.depthBand.w * 0x01010101u);
+    uint guided = some & ~(forbiddenMask() * 0x01010101u);
     uint bits = some != 0 ? kPatchListed : 0u;
     bits |= kGuidance != 0 && guided != 0 ? kPatchGuided : 0u;
     if (kHold != 0 && kLists != 0 && place.inside == 0 && place.exists) {

@@ -23,6 +23,7 @@ layout(std430, binding = 5) buffer Points { vec4 points[]; }; // as `surface` wr
 layout(binding = 6) uniform usamplerBuffer estimatesBefore;
 layout(std430, binding = 7) writeonly buffer Estimates { uvec4 estimates[]; };
 
+#include "shaders/lib/params.glsl"
 #include "shaders/lib/depth.glsl"
 #include "shaders/lib/lens.glsl"
 #include "shaders/lib/transform.glsl"
@@ -32,28 +33,28 @@ layout(std430, binding = 7) writeonly buffer Estimates { uvec4 estimates[]; };
 
 // Depths [m] of four adjacent pixels in a row; 0 outside the image.
 vec4 fourDepths(uvec2 at) {
-    bool beyond = any(greaterThanEqual(at, params.size.xy));
-    uint pixel = beyond ? 0u : at.y * params.size.x + at.x;
+    bool beyond = any(greaterThanEqual(at, depthSize()));
+    uint pixel = beyond ? 0u : at.y * depthWidth() + at.x;
     vec4 z;
     if (kFour != 0) {
         uvec4 raw = texelFetch(depths, int(pixel >> 2));
         z = vec4(metresOf(raw.x), metresOf(raw.y), metresOf(raw.z), metresOf(raw.w));
     } else {
         [[unroll]] for (uint k = 0; k < 4u; ++k) {
-            z[k] = at.x + k < params.size.x ? depthAt(pixel + k) : 0.0;
+            z[k] = at.x + k < depthWidth() ? depthAt(pixel + k) : 0.0;
         }
     }
     return beyond ? vec4(0.0) : z;
 }
 
 void estimateRow(uint slot) {
-    uvec2 at = pixelOfSlot(slot, params.size.z);
+    uvec2 at = pixelOfSlot(slot);
     vec4 raw = fourDepths(at);
     uint word = masks[slot >> 2], kept = 0u;
     vec4 z = vec4(points[slot].w, points[slot + 1u].w, points[slot + 2u].w, points[slot + 3u].w);
     Estimate before[4] = Estimate[4](estimateAt(slot), estimateAt(slot + 1u), estimateAt(slot + 2u), estimateAt(slot + 3u));
     // A loop of 0 or 1 rounds: CPU devices skip it, but would run both sides of a branch.
-    for (uint moved = 0; moved < (kMoves != 0 ? uint(params.memoryMore.w) : 0u); ++moved) {
+    for (uint moved = 0; moved < (kMoves != 0 ? cameraMoved() : 0u); ++moved) {
         [[unroll]] for (uint k = 0; k < 4u; ++k) {
             before[k] = carried(at + uvec2(k, 0), z[k] != 0.0 ? z[k] : raw[k]);
         }

@@ -20,6 +20,7 @@ layout(std430, binding = 2) readonly buffer Memory { uint memoryCounts[]; };
 layout(std430, binding = 3) writeonly buffer List { uint list[]; };
 layout(std430, binding = 4) buffer Counters { FrameCounters counters; };
 
+#include "shaders/lib/params.glsl"
 #include "shaders/lib/lists.glsl"
 
 // Patches without held points have a separate list, so that `spheres` need not read their memory.
@@ -36,7 +37,7 @@ void putByMemory(uint patchIndex, uint patches) {
 }
 
 void main() {
-    uint patches = params.size.z * params.size.w, patchIndex = gl_GlobalInvocationID.x;
+    uint patches = patchCount(), patchIndex = gl_GlobalInvocationID.x;
     if (patchIndex >= patches) {
         return;
     }

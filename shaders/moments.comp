@@ -20,6 +20,7 @@ layout(std430, binding = 3) readonly buffer List { uint list[]; }; // the part w
 layout(std430, binding = 4) writeonly buffer Moments { PatchMoments moments[]; };
 layout(std430, binding = 5) readonly buffer Counters { FrameCounters counters; };
 
+#include "shaders/lib/params.glsl"
 #include "shaders/lib/masks.glsl"
 
 shared PatchMoments part[kShared != 0 ? 16 : 1];
@@ -87,8 +88,8 @@ void main() {
     if (index >= counters.guidedGroups.w) {
         return;
     }
-    uint patchIndex = list[params.size.z * params.size.w + index], k = 0;
-    for (uint c = 0; c < params.depthBand.z; ++c) {
+    uint patchIndex = list[patchCount() + index], k = 0;
+    for (uint c = 0; c < classCount(); ++c) {
         if (params.classes[c].role.z == 0.0) {
             continue;
         }

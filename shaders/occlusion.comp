@@ -15,27 +15,28 @@ layout(std430, binding = 2) readonly buffer Rays { vec2 rays[]; };
 // Bits of the smallest z; 0xffffffff = none.
 layout(std430, binding = 3) buffer Cells { uint nearest[]; };
 
+#include "shaders/lib/params.glsl"
 #include "shaders/lib/depth.glsl"
 #include "shaders/lib/lens.glsl"
 #include "shaders/lib/transform.glsl"
 
 void main() {
     uint pixel = gl_GlobalInvocationID.x;
-    if (pixel >= params.size.x * params.size.y) {
+    if (pixel >= depthWidth() * depthSize().y) {
         return;
     }
     float z = depthAt(pixel);
     if (z == 0.0) {
         return;
     }
-    vec3 p = transformPoint(params.colourTdepth, vec3(rayOf(uvec2(pixel % params.size.x, pixel / params.size.x)) * z, z));
+    vec3 p = transformPoint(params.colourTdepth, vec3(rayOf(uvec2(pixel % depthWidth(), pixel / depthWidth())) * z, z));
     if (p.z <= 0.0) {
         return;
     }
-    ivec2 at = ivec2(round(projectPoint(p, params.colourLens, params.colourDistortion, params.more.y, params.colourLensMore)));
-    if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, ivec2(params.colourSize.xy)))) {
+    ivec2 at = ivec2(round(projectPoint(p, params.colourLens, params.colourDistortion, colourK3(), params.colourLensMore)));
+    if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, ivec2(colourSize())))) {
         return;
     }
-    uvec2 cell = uvec2(at) / params.colourSize.w;
-    atomicMin(nearest[cell.y * params.colourSize.z + cell.x], floatBitsToUint(p.z));
+    uvec2 cell = uvec2(at) / cellEdge();
+    atomicMin(nearest[cell.y * cellsAcross() + cell.x], floatBitsToUint(p.z));
 }

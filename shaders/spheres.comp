@@ -35,9 +35,9 @@ uint keptTimeAt(uint slot) {
 
 // Decision for the 4x4 cell at a pixel; all zero outside the image and in unlisted patches.
 vec4 cellAt(ivec2 at) {
-    bool inside = all(lessThan(uvec2(at), params.size.xy)); // a negative number converts to a large one
+    bool inside = all(lessThan(uvec2(at), depthSize())); // a negative number converts to a large one
     uvec2 p = inside ? uvec2(at) : uvec2(0);
-    uint patchIndex = (p.y >> 4) * params.size.z + (p.x >> 4);
+    uint patchIndex = (p.y >> 4) * patchesAcross() + (p.x >> 4);
     uint used = listed[patchIndex];
     vec4 cell = texelFetch(growth, int(patchIndex * 16u + ((p.y >> 2) & 3u) * 4u + ((p.x >> 2) & 3u)));
     return all(bvec2(inside, used != 0u)) ? cell : vec4(0.0);
@@ -49,7 +49,7 @@ CellsAround cellsOfSub(ivec2 at) {
 
 void wholeSub(uint sub) {
     vec4 mine[16u * kLayers];
-    uvec2 corner = pixelOfSlot(sub * 16u, params.size.z);
+    uvec2 corner = pixelOfSlot(sub * 16u);
     CellsAround around = CellsAround(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
     if (kThin != 0) {
         around = cellsOfSub(ivec2(corner));
@@ -58,7 +58,7 @@ void wholeSub(uint sub) {
     uint count = 0;
     uvec4 rows = rowsOfMasks(sub);
     [[unroll]] for (uint p = 0; p < 16u; ++p) {
-        uint mask = maskInRow(rows[p >> 2], p & 3u) & params.depthBand.w;
+        uint mask = maskInRow(rows[p >> 2], p & 3u) & forbiddenMask();
         PixelResult r = handlePixel(sub, p, corner, mask, around, kHold == kHoldWithPoints);
         mine[p] = r.sphere;
         if (kHold != 0) {
@@ -105,7 +105,7 @@ uint patchesOfPart() {
 }
 
 uint patchOfPart(uint i) {
-    uint patches = params.size.z * params.size.w;
+    uint patches = patchCount();
     return list[kHold == kHoldNone ? i : (kHold == kHoldWithoutPoints ? 2u * patches + i : 3u * patches - 1u - i)];
 }
 

@@ -159,7 +159,7 @@ void boundOfPatch(uint patchIndex) {
     }
     barrier();
     if (gl_LocalInvocationID.x == 0) {
-        uint node = params.size.z * params.size.w * 16u + patchIndex, count = floatBitsToUint(centreOfPatch.w);
+        uint node = patchCount() * 16u + patchIndex, count = floatBitsToUint(centreOfPatch.w);
         nodes[node] = outward(centreOfPatch.xyz, count != 0 ? uintBitsToFloat(reachOfPatch) : -1.0);
         nodeCounts[node] = count;
     }
@@ -186,7 +186,7 @@ void prepareGroup(uint patchIndex, ivec2 patchAt) {
 }
 
 void wholePatch(uint patchIndex) {
-    uvec2 patchAt = uvec2(patchIndex % params.size.z, patchIndex / params.size.z) * 16u;
+    uvec2 patchAt = uvec2(patchIndex % patchesAcross(), patchIndex / patchesAcross()) * 16u;
     bool holding = (listed[patchIndex] & kPatchHolding) != 0;
     prepareGroup(patchIndex, ivec2(patchAt));
     for (uint i = gl_LocalInvocationID.x; i < 256u; i += gl_WorkGroupSize.x) {
@@ -195,7 +195,7 @@ void wholePatch(uint patchIndex) {
             around = cellsOfGroup(i >> 4);
         }
         uint sub = patchIndex * 16u + (i >> 4);
-        PixelResult r = handlePixel(sub, i & 15u, patchAt + pixelInPatch(i & 240u), maskAt(sub * 16u + (i & 15u)) & params.depthBand.w, around, holding);
+        PixelResult r = handlePixel(sub, i & 15u, patchAt + pixelInPatch(i & 240u), maskAt(sub * 16u + (i & 15u)) & forbiddenMask(), around, holding);
         ofPatch[i] = r.sphere;
         if (kByDepth) {
             zOfPatch[i] = r.z;

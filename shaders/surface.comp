@@ -29,6 +29,7 @@ layout(std430, binding = 4) readonly buffer List { uint list[]; };
 // Slot -> point in base axes, relative to the origin [m]; w = camera z [m], 0 = none.
 layout(std430, binding = 5) writeonly buffer Points { vec4 points[]; };
 
+#include "shaders/lib/params.glsl"
 #include "shaders/lib/depth.glsl"
 #include "shaders/lib/masks.glsl"
 #include "shaders/lib/transform.glsl"
@@ -43,12 +44,12 @@ const uint kTileEdge = kTiled != 0 ? 16u + 2u * kHalo : 1u;
 shared float tileX[kTileEdge * kTileEdge], tileY[kTileEdge * kTileEdge], tileZ[kTileEdge * kTileEdge];
 
 bool outside(ivec2 at) { // avoids && and ||, which branch
-    return any(greaterThanEqual(uvec2(at), params.size.xy)); // a negative number converts to a large one
+    return any(greaterThanEqual(uvec2(at), depthSize())); // a negative number converts to a large one
 }
 
 float depthOfPixel(ivec2 at) {
     bool beyond = outside(at);
-    float z = depthAt(beyond ? 0u : uint(at.y) * params.size.x + uint(at.x));
+    float z = depthAt(beyond ? 0u : uint(at.y) * depthWidth() + uint(at.x));
     return beyond ? 0.0 : z;
 }
 
@@ -88,7 +89,7 @@ vec3[9] aroundOf(ivec2 at, ivec2 patchOrigin) {
 float sideJump(vec3 side, float z) {
     uvec3 bits = floatBitsToUint(side);
     uint far = max(bits.x, max(bits.y, bits.z)), near = min(bits.x - 1u, min(bits.y - 1u, bits.z - 1u)) + 1u;
-    float jump = uintBitsToFloat(far) < z * (1.0 - params.more.w) ? -1.0 : (uintBitsToFloat(near) > z * (1.0 + params.more.w) ? 1.0 : 0.0);
+    float jump = uintBitsToFloat(far) < z * (1.0 - edgeJump()) ? -1.0 : (uintBitsToFloat(near) > z * (1.0 + edgeJump()) ? 1.0 : 0.0);
     return far == 0u ? 0.0 : jump;
 }
 
@@ -102,7 +103,7 @@ bool isFlying(float n[9]) {
 
 // Square of the isolation distance at depth z, both in units of the window.
 float isolationSquare(float z) {
-    float limit = max(params.filterParams.z * windowScale(), params.filterParams.w * z);
+    float limit = max(isolationDistance() * windowScale(), isolationSlope() * z);
     return limit * limit;
 }
 
@@ -145,7 +146,7 @@ bool isRejected(vec3 around[9]) {
 void filterPixel(uint slot, ivec2 patchOrigin) {
     vec4 result = vec4(0.0);
     if (maskAt(slot) != 0) {
-        ivec2 at = ivec2(pixelOfSlot(slot, params.size.z));
+        ivec2 at = ivec2(pixelOfSlot(slot));
         vec3 around[9] = aroundOf(at, patchOrigin);
         if (!isRejected(around)) {
             result = basePoint(at, kRadius != 0 ? filtered(at, around[4], patchOrigin) : depthOfPixel(at));
@@ -163,7 +164,7 @@ void filterPair(uint slot, ivec2 patchOrigin) {
         points[slot + 1u] = vec4(0.0);
         return;
     }
-    ivec2 at = ivec2(pixelOfSlot(slot, params.size.z));
+    ivec2 at = ivec2(pixelOfSlot(slot));
     vec3 p[2] = vec3[2](windowPoint(at, patchOrigin), windowPoint(at + ivec2(1, 0), patchOrigin));
     Mean mean[2] = Mean[2](Mean(0.0, 0.0), Mean(0.0, 0.0));
     [[unroll]] for (int dy = -2; dy <= 2; ++dy) {
@@ -195,7 +196,7 @@ void main() {
         }
         return;
     }
-    ivec2 patchOrigin = ivec2(patchIndex % params.size.z, patchIndex / params.size.z) * 16;
+    ivec2 patchOrigin = ivec2(patchIndex % patchesAcross(), patchIndex / patchesAcross()) * 16;
     if (kTiled != 0) {
         fillTile(patchOrigin);
     }

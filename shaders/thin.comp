@@ -21,6 +21,7 @@ layout(std430, binding = 5) readonly buffer Counters { FrameCounters counters; }
 // not thinned.
 layout(std430, binding = 6) writeonly buffer Cells { vec4 growth[]; };
 
+#include "shaders/lib/params.glsl"
 #include "shaders/lib/masks.glsl"
 #include "shaders/lib/forbidden.glsl"
 #include "shaders/lib/slots.glsl"
@@ -38,10 +39,10 @@ struct Quarter {
 };
 
 Quarter quarterAt(uvec2 at) {
-    bool inside = all(lessThan(at, params.size.xy));
-    uint slot = slotOfPixel(inside ? at : uvec2(0), params.size.z);
+    bool inside = all(lessThan(at, depthSize()));
+    uint slot = slotOfPixel(inside ? at : uvec2(0));
     uint used = listed[slot >> 8];
-    uvec4 rows = rowsOfMasks(slot >> 4) & params.depthBand.w * 0x01010101u;
+    uvec4 rows = rowsOfMasks(slot >> 4) & forbiddenMask() * 0x01010101u;
     return Quarter(slot, all(bvec2(inside, used != 0)) ? rows : uvec4(0));
 }
 
@@ -93,5 +94,5 @@ void main() {
         return;
     }
     uint sub = list[index >> 4] * 16u + (index & 15u);
-    growth[sub] = decidedCell(pixelOfSlot(sub * 16u, params.size.z));
+    growth[sub] = decidedCell(pixelOfSlot(sub * 16u));
 }

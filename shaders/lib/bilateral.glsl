@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The filter of paper eq. 1-2 in parts. Needs params, kRadius, kWeights, pixel_point.glsl.
+// The filter of paper eq. 1-2 in parts. Needs params.glsl, kRadius, kWeights, pixel_point.glsl.
 //
 // Windows hold points in units of sigma, so that a squared distance needs no factor to become a weight.
 
@@ -9,7 +9,7 @@ const float kNowhere = 1e6;
 // Units of a window in one metre; without a filter, metres.
 float windowScale() {
     const float share = kWeights == kWeightsPolynomial ? 1.0 / 16.68 : kWeights == kWeightsQuartic ? 1.0 / 16.0 : 1.0;
-    return kRadius != 0u ? sqrt(params.filterParams.x * share) : 1.0;
+    return kRadius != 0u ? sqrt(filterSharpness() * share) : 1.0;
 }
 
 // Camera-frame point of a window at depth z [m].
@@ -59,9 +59,9 @@ Mean weighed(Mean mean, vec3 q, vec3 p) {
     return added(mean, apart.z, weightOf(dot(apart, apart)));
 }
 
-// Depth z [m] of the window's point p moved to the mean, along its ray by at most params.noise.w: a region
+// Depth z [m] of the window's point p moved to the mean, along its ray by at most filterLimit(): a region
 // still contains the point that was measured. weights >= 1, because the centre counts 1.
 float filteredDepth(Mean mean, vec3 p, float z) {
-    float scale = windowScale(), most = params.noise.w * p.z * inversesqrt(dot(p, p));
+    float scale = windowScale(), most = filterLimit() * p.z * inversesqrt(dot(p, p));
     return z + clamp(mean.sum / mean.weights * (1.0 / scale), -most, most);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Depth words to metres and pixels to rays. Needs params, depths, rays and kRays.
+// Depth words to metres and pixels to rays. Needs params.glsl, depths, rays and kRays.
 
 uint rawDepth(uint pixel) {
     return texelFetch(depths, int(pixel)).x;
@@ -7,7 +7,7 @@ uint rawDepth(uint pixel) {
 
 // Depth along the optical axis [m]; 0 without a measurement in near..far.
 float metresOf(uint raw) {
-    return all(bvec2(raw >= params.depthBand.x, raw <= params.depthBand.y)) ? float(raw) * params.more.z : 0.0;
+    return all(bvec2(raw >= smallestRaw(), raw <= largestRaw())) ? float(raw) * metresPerUnit() : 0.0;
 }
 
 float depthAt(uint pixel) {
@@ -18,8 +18,8 @@ float depthAt(uint pixel) {
 // computes the same points (engine/cloud/seen_points.h), and devices may round divisions differently.
 vec2 rayOf(uvec2 pixel) {
     if (kRays != 0) {
-        return rays[min(pixel.y * params.size.x + pixel.x, params.size.x * params.size.y - 1u)];
+        return rays[min(pixel.y * depthWidth() + pixel.x, depthWidth() * depthSize().y - 1u)];
     }
-    precise vec2 ray = (vec2(pixel) - params.lens.zw) * params.steps.xy;
+    precise vec2 ray = (vec2(pixel) - opticalCentre()) * rayStep();
     return ray;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Memory of points that new frames do not contradict. Each slot stores two points: the one seen in the
-// previous frame and the held one. Needs params, forbidden.glsl, depth.glsl, lens.glsl, transform.glsl,
+// previous frame and the held one. Needs params.glsl, forbidden.glsl, depth.glsl, lens.glsl, transform.glsl,
 // beam.glsl, seen, kept, keptTime, kHold, kFan, kBeam.
 
 // The memory after the previous frame. The including shader defines how to read it.
@@ -34,18 +34,18 @@ bool uncontradicted(vec3 p) {
     vec3 q = transformPoint(params.cameraTbase, p);
     bool before = q.z > 0.0;
     q.z = before ? q.z : 1.0;
-    vec2 pixel = kFan != 0 ? projectFan(q, params.lens) : projectPoint(q, params.lens, params.distortion, params.more.x, params.lensMore);
+    vec2 pixel = kFan != 0 ? projectFan(q, params.lens) : projectPoint(q, params.lens, params.distortion, depthK3(), params.lensMore);
     ivec2 at = ivec2(round(pixel));
-    bool inside = all(lessThan(uvec2(at), params.size.xy)); // a negative number converts to a large one
-    float z = depthAt(inside ? uint(at.y) * params.size.x + uint(at.x) : 0u);
-    float sigma = kBeam != 0 ? beamSigma(length(q)) : params.noise.x + params.noise.y * q.z * q.z;
-    float margin = params.noise.z * sigma;
+    bool inside = all(lessThan(uvec2(at), depthSize())); // a negative number converts to a large one
+    float z = depthAt(inside ? uint(at.y) * depthWidth() + uint(at.x) : 0u);
+    float sigma = kBeam != 0 ? beamSigma(length(q)) : depthSigma(q.z);
+    float margin = sigmasOfDifference() * sigma;
     return any(bvec4(!before, !inside, z == 0.0, z < q.z - margin));
 }
 
 // True for a class that tests colour while the colour image is dark: then no pixel contradicts its points.
 bool isUnseen(uint note) {
-    return (params.chroma.w << 1 >> classOfNote(note) & 1u) != 0u;
+    return (darkMask() << 1 >> classOfNote(note) & 1u) != 0u;
 }
 
 // Updates the memory of a slot with the new frame's `point` of class `now` (kNone: no point), whose sphere
@@ -54,17 +54,17 @@ bool isUnseen(uint note) {
 vec4 updateMemory(uint slot, vec3 point, uint now, float grown, bool holding, out uint heldClass, out uint remembered) {
     vec4 last = seenAt(slot), old = vec4(0.0);
     uint lastNote = floatBitsToUint(last.w), when = 0;
-    bool lastStays = all(bvec3(lastNote != 0u, params.time.x - params.time.z <= params.time.y, any(bvec2(uncontradicted(last.xyz), isUnseen(lastNote)))));
+    bool lastStays = all(bvec3(lastNote != 0u, captureTime() - previousTime() <= holdTime(), any(bvec2(uncontradicted(last.xyz), isUnseen(lastNote)))));
     bool oldStays = false;
     if (holding) { // uniform within a patch
         old = keptAt(slot);
         when = keptTimeAt(slot);
-        oldStays = all(bvec3(floatBitsToUint(old.w) != 0u, params.time.x - when <= params.time.y,
+        oldStays = all(bvec3(floatBitsToUint(old.w) != 0u, captureTime() - when <= holdTime(),
                              any(bvec2(uncontradicted(old.xyz), isUnseen(floatBitsToUint(old.w))))));
     }
     vec4 hold = lastStays ? last : (oldStays ? old : vec4(0.0));
     seen[slot] = now == kNone ? vec4(0.0) : vec4(point, uintBitsToFloat(noteOf(now, grown)));
-    uint seenTime = lastStays ? params.time.z : when; // [us] last seen: in the previous frame, or before
+    uint seenTime = lastStays ? previousTime() : when; // [us] last seen: in the previous frame, or before
     // Skips the store for most slots, which hold nothing in either frame.
     if (any(bvec2(seenTime != when, any(notEqual(floatBitsToUint(hold), floatBitsToUint(old)))))) {
         kept[slot] = hold;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Red, green and blue of pixels, from the bytes that the camera sends: the same whole bytes as
-// engine/types/colour_format.cpp, since every step is exact in float32. Needs `colours`, `params`, kFormat.
+// engine/types/colour_format.cpp, since every step is exact in float32. Needs `colours`, params.glsl and
+// kFormat.
 
 // BT.601, limited range.
 vec3 rgbOfYuv(uint luma, uint blueDifference, uint redDifference) {
@@ -37,14 +38,14 @@ uint byteAt(uint byte) {
 
 // Places of the first samples of U and V of a pixel [bytes].
 uvec2 chromaAt(uvec2 at) {
-    uint place = (at.y >> params.chroma.y) * params.planes.w + (at.x >> params.chroma.x << params.chroma.z);
-    return params.planes.yz + place;
+    uint place = (at.y >> chromaShare().y) * chromaStep() + (at.x >> chromaShare().x << chromaSpacing());
+    return chromaPlanes() + place;
 }
 
 vec3 colourAt(uvec2 at) {
-    uint pixel = at.y * params.colourSize.x + at.x;
+    uint pixel = at.y * colourSize().x + at.x;
     if (kPairs) {
-        uvec4 pair = texelFetch(colours, int(at.y * ((params.colourSize.x + 1u) >> 1) + (at.x >> 1)));
+        uvec4 pair = texelFetch(colours, int(at.y * ((colourSize().x + 1u) >> 1) + (at.x >> 1)));
         pair = kFormat == kFormatUyvy ? pair.yxwz : pair;
         return rgbOfYuv((at.x & 1u) == 0 ? pair.x : pair.z, pair.y, pair.w);
     }
@@ -54,7 +55,7 @@ vec3 colourAt(uvec2 at) {
     }
     if (kFormat == kFormatPlanes || kFormat == kFormatJpegPlanes) {
         uvec2 chroma = chromaAt(at);
-        return rgbOfPlanes(byteAt(at.y * params.planes.x + at.x), byteAt(chroma.x), byteAt(chroma.y));
+        return rgbOfPlanes(byteAt(at.y * lumaStep() + at.x), byteAt(chroma.x), byteAt(chroma.y));
     }
     return vec3(texelFetch(colours, int(pixel)).xyz);
 }
@@ -88,11 +89,11 @@ vec3[4] fourOfBytes(uint pixel) {
 // One word per plane has the samples of all four pixels (ColourPlanes).
 vec3[4] fourOfPlanes(uvec2 at) {
     uvec2 chroma = chromaAt(at);
-    uint luma = wordAt(at.y * params.planes.x + at.x);
+    uint luma = wordAt(at.y * lumaStep() + at.x);
     uint blue = wordAt(chroma.x) >> (8u * (chroma.x & 3u)), red = wordAt(chroma.y) >> (8u * (chroma.y & 3u));
     vec3 rgb[4];
     [[unroll]] for (uint k = 0; k < 4u; ++k) {
-        uint bits = 8u * (k >> params.chroma.x << params.chroma.z);
+        uint bits = 8u * (k >> chromaShare().x << chromaSpacing());
         rgb[k] = rgbOfPlanes(luma >> (8u * k) & 255u, blue >> bits & 255u, red >> bits & 255u);
     }
     return rgb;
@@ -100,7 +101,7 @@ vec3[4] fourOfPlanes(uvec2 at) {
 
 // Four adjacent pixels of a row, from a multiple of four on, if rows have a multiple of four pixels.
 vec3[4] fourColoursAt(uvec2 at) {
-    uint pixel = at.y * params.colourSize.x + at.x;
+    uint pixel = at.y * colourSize().x + at.x;
     if (kPairs) {
         return fourOfPairs(pixel);
     }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The region sphere of a seen point. Needs params, kBeam, kThin, beam.glsl, forbidden.glsl.
+// The region sphere of a seen point. Needs params.glsl, kBeam, kThin, beam.glsl, forbidden.glsl.
 
 // Three standard deviations of a beam sensor's point [m], from its range.
 float grownBySigma(vec3 point) {
-    vec3 camera = vec3(params.baseTcamera[0].w, params.baseTcamera[1].w, params.baseTcamera[2].w);
+    vec3 camera = cameraCentre();
     return kBeam != 0 ? 3.0 * beamSigma(distance(point, camera)) : 0.0;
 }
 
@@ -16,5 +16,5 @@ vec4 seenSphere(vec4 point, uint c, float grown, float more) {
 
 // A growth from thinning in whole steps; 0 without thinning.
 uint stepsOf(float grown) {
-    return kThin != 0 ? uint(max(grown, 0.0) * params.steps.w + 0.5) : 0u;
+    return kThin != 0 ? uint(max(grown, 0.0) * growthStepsPerMetre() + 0.5) : 0u;
 }

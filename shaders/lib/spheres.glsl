@@ -46,6 +46,7 @@ layout(std430, binding = 23) writeonly buffer SetClasses { uvec4 setClasses[]; }
 
 const uint kRays = 0; // this pass needs no rays
 const vec2 rays[1] = vec2[1](vec2(0.0));
+#include "shaders/lib/params.glsl"
 #include "shaders/lib/beam.glsl"
 #include "shaders/lib/depth.glsl"
 #include "shaders/lib/masks.glsl"

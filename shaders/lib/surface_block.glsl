@@ -14,7 +14,7 @@ vec4 fourDepths(ivec2 q) {
         return vec4(depthOfPixel(q), depthOfPixel(q + ivec2(1, 0)), depthOfPixel(q + ivec2(2, 0)), depthOfPixel(q + ivec2(3, 0)));
     }
     bool beyond = outside(q); // then all four pixels are
-    uvec4 raw = texelFetch(depths, beyond ? 0 : int((uint(q.y) * params.size.x + uint(q.x)) >> 2));
+    uvec4 raw = texelFetch(depths, beyond ? 0 : int((uint(q.y) * depthWidth() + uint(q.x)) >> 2));
     vec4 z = vec4(metresOf(raw.x), metresOf(raw.y), metresOf(raw.z), metresOf(raw.w));
     return beyond ? vec4(0.0) : z;
 }
@@ -107,7 +107,7 @@ void meansFromRows(ivec2 at, vec3 p[8], out Mean mean[8]) {
 
 // Points as measured, of all 16 pixels.
 void plainBlock(uint sub) {
-    ivec2 at = ivec2(pixelOfSlot(sub * 16u, params.size.z));
+    ivec2 at = ivec2(pixelOfSlot(sub * 16u));
     uvec4 rows = rowsOfMasks(sub);
     [[unroll]] for (int y = 0; y < 4; ++y) {
         vec4 z = fourDepths(at + ivec2(0, y));
@@ -120,7 +120,7 @@ void plainBlock(uint sub) {
 
 // Windows of up to 5x5: all 16 pixels.
 void filterBlock(uint sub) {
-    ivec2 at = ivec2(pixelOfSlot(sub * 16u, params.size.z));
+    ivec2 at = ivec2(pixelOfSlot(sub * 16u));
     uvec4 rows = rowsOfMasks(sub);
     vec3 window[kWide * kWide];
     vec4 depth[kWide];
@@ -137,7 +137,7 @@ void filterBlock(uint sub) {
 
 // Larger windows: two rows of a sub-patch, from slot on.
 void filterTwoRows(uint slot) {
-    ivec2 at = ivec2(pixelOfSlot(slot, params.size.z));
+    ivec2 at = ivec2(pixelOfSlot(slot));
     uvec4 rows = rowsOfMasks(slot >> 4);
     uvec2 masks = (slot & 8u) != 0u ? rows.zw : rows.xy;
     vec3 window[kWide * kWide], p[8];

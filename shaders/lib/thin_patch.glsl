@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Decides which points of a patch the error budget lets it remove, by one group. Per 4x4 cell, four
-// invocations test the quarters and four others the whole cell. Needs params, masks, points, listed, decided,
-// masks.glsl, forbidden.glsl, slots.glsl, thin_point.glsl, thinning.glsl, kThin, and `ofPatch`, which
-// contains the points until the cells are decided.
+// invocations test the quarters and four others the whole cell. Needs masks, points, listed, decided,
+// params.glsl, masks.glsl, forbidden.glsl, slots.glsl, thin_point.glsl, thinning.glsl, kThin, and `ofPatch`,
+// which contains the points until the cells are decided.
 
 // Points per row: the patch's 4x4 cells, the cells left and above, and the corners of the next cells.
 const uint kSide = 21u;
@@ -17,10 +17,10 @@ shared vec4 cells[kThin != 0 ? kCells : 1u];          // decisions, encoded as `
 void readAround(ivec2 from) {
     for (uint i = gl_LocalInvocationID.x; i < kSide * kSide; i += gl_WorkGroupSize.x) {
         ivec2 at = from + ivec2(i % kSide, i / kSide);
-        bool inside = all(lessThan(uvec2(at), params.size.xy)); // a negative number converts to a large one
-        uint slot = slotOfPixel(inside ? uvec2(at) : uvec2(0), params.size.z);
+        bool inside = all(lessThan(uvec2(at), depthSize())); // a negative number converts to a large one
+        uint slot = slotOfPixel(inside ? uvec2(at) : uvec2(0));
         vec4 point = texelFetch(points, int(slot));
-        uint mask = maskAt(slot) & params.depthBand.w, used = listed[slot >> 8];
+        uint mask = maskAt(slot) & forbiddenMask(), used = listed[slot >> 8];
         uint kind = forbiddenClass(all(bvec3(inside, used != 0, point.w != 0.0)) ? mask : 0u);
         ofPatch[i] = vec4(point.xyz, float(kind));
     }

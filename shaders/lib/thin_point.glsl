@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The growth that dropping a point requires of the remaining spheres. Needs params.
+// The growth that dropping a point requires of the remaining spheres. Needs params.glsl.
 //
 // Let q be a dropped point, p_i the four corner points of its cell, q' = sum l_i p_i their bilinear mean at
 // q's place, V = sum l_i |p_i - q'|^2 and e = |q - q'|. Corner spheres of radius R' = sqrt((R + e)^2 + V)
@@ -33,6 +33,6 @@ float askedBy(vec3 q, Corners c, float tx, float ty, float radius) {
 // 1e-4 exceeds the rounding error of the steps.
 float growthOf(float most, float radius) {
     float growth = most / (sqrt(radius * radius + most) + radius) * 1.0001 + 1e-8;
-    precise float stepped = min(ceil(growth * params.steps.w), float(kGrowthSteps)) * params.steps.z;
-    return growth <= params.filterParams.y ? stepped : -1.0;
+    precise float stepped = min(ceil(growth * growthStepsPerMetre()), float(kGrowthSteps)) * growthStep();
+    return growth <= errorBudget() ? stepped : -1.0;
 }
