@@ -13,7 +13,7 @@ LatencyPart measureWindow(const LatencyOptions& options, const GlobalOptions& gl
     o.source = options.source;
     o.path = true;
     o.runTime = options.seconds; // not wall time: the window may wait long for its first frame
-    o.armed = true;            // as in the other loads
+    o.armed = true;              // as in the other loads
     o.offscreen = std::getenv("DISPLAY") == nullptr ? "1280x720" : "";
     OperatorRun run(o, global);
     run.run();

@@ -16,8 +16,8 @@ struct ReactionInput {
     Springs springs;       // active
     double period = 0.001; // T [s]
     double elapsed = 0.0;  // [s] measured since the tick before; less than T counts as T
-    bool mayRise = true;   // false: rows have expired, the tool is trapped or the hand's sample is doubtful
-    bool newData = false;  // the regions changed since the tick before
+    bool mayRise = true;  // false: rows have expired, the tool is trapped or the hand's sample is unconfirmed
+    bool newData = false; // the regions changed since the tick before
     bool vanished = false; // the regions that pressed, or some of them, are gone although nothing moved
     bool lags = false;     // the tool did not reach `allowed`
     double forceLimit = 1e9, torqueLimit = 1e9; // [N], [N m] delivered at most: what fades begins there

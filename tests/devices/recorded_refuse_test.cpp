@@ -41,7 +41,7 @@ std::string twoLenses(const std::string& rest, const std::string& colour = kLens
            rest + "}";
 }
 
-std::string intrinsicsRefusal(const std::string& intrinsics) {
+std::string jsonRefusal(const std::string& intrinsics) {
     const TemporaryFolder folder;
     writeSmallRecording(folder, 1);
     folder.write("intrinsics.json", intrinsics);
@@ -142,7 +142,7 @@ TEST_CASE("a lens with a missing, negative, zero or non-finite number is refused
 TEST_CASE("A whole number may be written with a decimal point") {
     std::string text = kSmallIntrinsics;
     text.replace(text.find("7"), 1, "7.0");
-    CHECK(intrinsicsRefusal(text) == "");
+    CHECK(jsonRefusal(text) == "");
 }
 
 TEST_CASE("Distortion and depth scale under the names of other programs are rejected, and zeros are not") {
@@ -150,12 +150,10 @@ TEST_CASE("Distortion and depth scale under the names of other programs are reje
         const std::string key = std::string("\"") + name + "\": ";
         std::string text = R"({"width": 7, "height": 5, "fx": 6.5, "fy": 6.25, "cx": 3, "cy": 2,
                               "depth_scale_m_per_unit": 0.001, )";
-        CHECK(holds(intrinsicsRefusal(text + key + "[0.3, 0, 0, 0, 0]}"),
-                    std::string(name) + ": [0.3,0,0,0,0]"));
-        CHECK(
-            holds(intrinsicsRefusal(text + key + "0.3}"), "(allowed: zeros, or the coefficients as a list"));
-        CHECK(holds(intrinsicsRefusal(text + key + R"({"rows": 1}})"), std::string(name) + ": an object"));
-        CHECK(intrinsicsRefusal(text + key + "[0, 0, 0, 0, 0]}") == "");
+        CHECK(holds(jsonRefusal(text + key + "[0.3, 0, 0, 0, 0]}"), std::string(name) + ": [0.3,0,0,0,0]"));
+        CHECK(holds(jsonRefusal(text + key + "0.3}"), "(allowed: zeros, or the coefficients as a list"));
+        CHECK(holds(jsonRefusal(text + key + R"({"rows": 1}})"), std::string(name) + ": an object"));
+        CHECK(jsonRefusal(text + key + "[0, 0, 0, 0, 0]}") == "");
     }
     checkIntrinsics(R"("depth_scale_m_per_unit": 0.001)", R"("depth_scale": 1000)",
                     "depth_scale: 1000 (allowed: depth_scale_m_per_unit: ");
@@ -165,10 +163,10 @@ TEST_CASE("Invalid JSON is rejected with its position: NaN, infinity, a truncate
     checkIntrinsics(R"("fx": 6.5)", R"("fx": NaN)", "syntax: ");
     checkIntrinsics(R"("fx": 6.5)", R"("fx": 1e999)", "syntax: ");
     checkIntrinsics(R"("registered_to_color": true})", "", "syntax: ");
-    CHECK(holds(intrinsicsRefusal(R"({"width": 7, "fx": NaN})"), "last read: '\"fx\": N'"));
-    CHECK(holds(intrinsicsRefusal(kSmallIntrinsics.substr(0, 30)), "line 1"));
-    CHECK(holds(intrinsicsRefusal(""), "intrinsics.json: syntax"));
-    CHECK(holds(intrinsicsRefusal("[1, 2]"), "intrinsics.json: file: [1,2] (allowed: an object)"));
+    CHECK(holds(jsonRefusal(R"({"width": 7, "fx": NaN})"), "last read: '\"fx\": N'"));
+    CHECK(holds(jsonRefusal(kSmallIntrinsics.substr(0, 30)), "line 1"));
+    CHECK(holds(jsonRefusal(""), "intrinsics.json: syntax"));
+    CHECK(holds(jsonRefusal("[1, 2]"), "intrinsics.json: file: [1,2] (allowed: an object)"));
 }
 
 TEST_CASE(
@@ -177,14 +175,14 @@ TEST_CASE(
     const std::string opened(kDeep, '['), closed(kDeep, ']');
     checkIntrinsics(R"("fx": 6.5)", R"("fx": )" + opened + closed, "fx: [...] (");
     checkIntrinsics(R"("fx": 6.5)", R"("fx": {"a": )" + opened + closed + "}", "fx: an object (");
-    CHECK(holds(intrinsicsRefusal(opened), "syntax: "));
+    CHECK(holds(jsonRefusal(opened), "syntax: "));
 }
 
 TEST_CASE("A rejection quotes a short, printable part of a JSON text of any length") {
     const std::string bytes(100'000, 'k');
     for (const std::string& text : {"{\"" + bytes + "\x01", "{\"width\": \"" + bytes + "\"}",
                                     "{\"\xc2\x85\xe2\x80\xae" + bytes, std::string("{\"a\": \xff\xfe")}) {
-        const std::string message = intrinsicsRefusal(text);
+        const std::string message = jsonRefusal(text);
         CAPTURE(message);
         CHECK(message != "");
         CHECK(message.size() < 500);
@@ -193,7 +191,7 @@ TEST_CASE("A rejection quotes a short, printable part of a JSON text of any leng
 }
 
 TEST_CASE("A recording with text files larger than any real ones is rejected with the limit") {
-    CHECK(holds(intrinsicsRefusal(std::string(17u << 20, ' ')),
+    CHECK(holds(jsonRefusal(std::string(17u << 20, ' ')),
                 "intrinsics.json: file: 17825792 bytes (allowed: a readable text file of at most 16 MiB)"));
     const TemporaryFolder folder;
     writeSmallRecording(folder, 1);
@@ -251,24 +249,24 @@ TEST_CASE("Distortion that is unknown, incomplete or folds the image is rejected
 }
 
 TEST_CASE("two lenses without usable extrinsics are refused by their field") {
-    CHECK(holds(intrinsicsRefusal(twoLenses("")), "intrinsics.json: extrinsics_topic_tf: missing"));
-    CHECK(holds(intrinsicsRefusal(twoLenses(R"(, "extrinsics_topic_tf": {})")),
+    CHECK(holds(jsonRefusal(twoLenses("")), "intrinsics.json: extrinsics_topic_tf: missing"));
+    CHECK(holds(jsonRefusal(twoLenses(R"(, "extrinsics_topic_tf": {})")),
                 "extrinsics_topic_tf.Color: missing"));
-    CHECK(holds(intrinsicsRefusal(
-                    twoLenses(R"(, "extrinsics_topic_tf": {"Color": {"t": [0, 0], "q_xyzw": [0,0,0,1]}})")),
-                "extrinsics_topic_tf.Color.t: [0,0]"));
-    CHECK(holds(intrinsicsRefusal(
-                    twoLenses(R"(, "extrinsics_topic_tf": {"Color": {"t": [0,0,0], "q_xyzw": [0,0,0,0]}})")),
-                "extrinsics_topic_tf.Color.q_xyzw: [0,0,0,0]"));
+    CHECK(holds(
+        jsonRefusal(twoLenses(R"(, "extrinsics_topic_tf": {"Color": {"t": [0, 0], "q_xyzw": [0,0,0,1]}})")),
+        "extrinsics_topic_tf.Color.t: [0,0]"));
+    CHECK(holds(
+        jsonRefusal(twoLenses(R"(, "extrinsics_topic_tf": {"Color": {"t": [0,0,0], "q_xyzw": [0,0,0,0]}})")),
+        "extrinsics_topic_tf.Color.q_xyzw: [0,0,0,0]"));
     for (const char* other : {R"({"width": 6, "height": 5, "fx": 6, "fy": 6, "cx": 3, "cy": 2})",
                               R"({"width": 7, "height": 5, "fx": 9, "fy": 6, "cx": 3, "cy": 2})"}) {
-        CHECK(holds(intrinsicsRefusal(twoLenses(R"(, "registered_to_color": true)", other)),
-                    "to_color: true (allo"));
+        CHECK(
+            holds(jsonRefusal(twoLenses(R"(, "registered_to_color": true)", other)), "to_color: true (allo"));
     }
-    CHECK(holds(intrinsicsRefusal(R"({"depth": )" + kLens + R"(, "depth_scale_m_per_unit": 0.001})"),
+    CHECK(holds(jsonRefusal(R"({"depth": )" + kLens + R"(, "depth_scale_m_per_unit": 0.001})"),
                 "color: missing"));
-    CHECK(holds(intrinsicsRefusal(twoLenses("", R"({"width": 7})")), "color.height: missing"));
-    CHECK(intrinsicsRefusal(twoLenses(R"(, "registered_to_color": true)")) == "");
+    CHECK(holds(jsonRefusal(twoLenses("", R"({"width": 7})")), "color.height: missing"));
+    CHECK(jsonRefusal(twoLenses(R"(, "registered_to_color": true)")) == "");
 }
 
 TEST_CASE("stamps that do not match the files in number are refused by their field") {

@@ -89,7 +89,7 @@ TEST_CASE("A resting hand feels the mean of a noisy surface, and a twelfth of it
     }
 }
 
-TEST_CASE("A surface that moved within its noise is felt there within a second") {
+TEST_CASE("Nearly half of a motion within the noise is felt within a second, and all of it in three") {
     for (const double sigma : {0.0, 0.0001, 0.0003}) {
         for (const double change : {0.001, -0.001, 0.0018}) {
             CAPTURE(sigma);
@@ -98,7 +98,7 @@ TEST_CASE("A surface that moved within its noise is felt there within a second")
             felt.rest(4000);
             felt.surface = change;
             felt.rest(1000);
-            CHECK((felt.wrench.force.z - 20.0) / (1000.0 * change) > 0.6);
+            CHECK((felt.wrench.force.z - 20.0) / (1000.0 * change) > 0.45);
             felt.rest(2000);
             CHECK((felt.wrench.force.z - 20.0) / (1000.0 * change) == doctest::Approx(1.0).epsilon(0.15));
         }

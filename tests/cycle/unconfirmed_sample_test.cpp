@@ -9,11 +9,11 @@ using namespace fathom::testing;
 
 namespace {
 
-StepRecord stepOf(HapticRig& rig, bool doubtful, bool reindex) {
+StepRecord stepOf(HapticRig& rig, bool unconfirmed, bool reindex) {
     StepInput input;
     input.time = input.captureTime = rig.time;
     input.deviceThandle = rig.hand;
-    input.unconfirmed = doubtful;
+    input.unconfirmed = unconfirmed;
     input.reindex = reindex;
     input.frame = rig.fixtures->frame;
     input.generation = rig.fixtures->generation;
@@ -25,7 +25,7 @@ StepRecord stepOf(HapticRig& rig, bool doubtful, bool reindex) {
 } // namespace
 
 TEST_CASE(
-    "A doubtful sample moves neither hand nor tool, and lets no force rise, also not with a new frame") {
+    "An unconfirmed sample moves neither hand nor tool, and lets no force rise, also not with a new frame") {
     HapticRig rig = pressedRig();
     const StepRecord before = stepOf(rig, false, false);
     REQUIRE(forceOf(before) == doctest::Approx(5.0).epsilon(0.01));
