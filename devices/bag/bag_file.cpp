@@ -45,7 +45,7 @@ BagFile::BagFile(const std::filesystem::path& file)
         throw BadInput(file.string(), "format", in_.is_open() ? "no bag" : whyUnreadable(file),
                        "a ROS 1 bag of version 2.0");
     }
-    uint64_t chunksAt = 0;
+    uint64_t chunksAt = 0, indexAt = 0;
     std::string lost = "no index";
     try {
         const Record header = readRecord();
@@ -53,7 +53,7 @@ BagFile::BagFile(const std::filesystem::path& file)
             throw Error("no bag header");
         }
         chunksAt = static_cast<uint64_t>(in_.tellg());
-        const auto indexAt = bag::number<uint64_t>(header.fields, "index_pos");
+        indexAt = bag::number<uint64_t>(header.fields, "index_pos");
         const auto count = [&](const char* name) { // unknown: the index is complete at the end of the file
             return header.fields.contains(name) ? bag::number<uint32_t>(header.fields, name) : UINT64_MAX;
         };
@@ -64,7 +64,7 @@ BagFile::BagFile(const std::filesystem::path& file)
         throw BadInput(file.string(), "content", e.what(), "a ROS 1 bag of version 2.0");
     }
     if (!lost.empty()) {
-        scan(chunksAt, lost);
+        scan(chunksAt, indexAt < size_ ? indexAt : 0, lost);
     }
 }
 

@@ -15,8 +15,8 @@ namespace fathom {
 class BagFile final : public MessageFile {
 public:
     // Without an index, as after a crash, or with a damaged one, all chunks are unpacked once to find the
-    // messages, and one line says so. Throws BadInput that names the file: not a bag of version 2.0, or
-    // without a whole message.
+    // messages, also those behind damaged places, and one line says so. Throws BadInput that names the file:
+    // not a bag of version 2.0, or without a whole message.
     explicit BagFile(const std::filesystem::path& file);
     MessageBytes bytes(const MessageEntry& entry) override;
 
@@ -40,9 +40,11 @@ private:
     std::string readIndex(uint64_t indexAt, uint64_t connections, uint64_t chunkInfos);
     void useIndex(uint64_t indexAt, uint64_t connections, uint64_t chunkInfos);
     void readChunkIndex(uint64_t chunkAt, std::map<uint32_t, size_t>& topicOf);
-    // lost: why there is no index.
-    void scan(uint64_t chunksAt, const std::string& lost);
+    // lost: why there is no index. indexAt: 0 = none.
+    void scan(uint64_t chunksAt, uint64_t indexAt, const std::string& lost);
+    std::map<uint32_t, size_t> connectionsAt(uint64_t indexAt);
     std::optional<Head> headAt(uint64_t at);
+    std::optional<uint64_t> nextChunk(uint64_t from);
     uint64_t scanChunk(uint64_t chunkAt, std::map<uint32_t, size_t>& topicOf);
     std::vector<uint8_t> begunChunk();
     UnpackedChunk unpack(uint64_t chunkAt);

@@ -4,12 +4,24 @@
 #include "devices/bag/bag_records.h"
 #include "devices/bag/byte_cursor.h"
 
+#include <algorithm>
+#include <cstring>
+#include <string_view>
+
 namespace fathom {
 
 namespace {
 
 std::string countOf(uint64_t chunks, const char* what) {
     return std::to_string(chunks) + what + (chunks == 1 ? " chunk is " : " chunks are ");
+}
+
+std::string placesText(uint64_t places, uint64_t first) {
+    return places == 0
+               ? ""
+               : (places == 1 ? ", a damaged place is skipped"
+                              : ", " + std::to_string(places) + " damaged places are skipped") +
+                     (places == 1 ? ", at byte " : ", the first one at byte ") + std::to_string(first);
 }
 
 } // namespace
@@ -37,22 +49,76 @@ std::optional<BagFile::Head> BagFile::headAt(uint64_t at) {
     }
 }
 
-void BagFile::scan(uint64_t chunksAt, const std::string& lost) {
+// The next chunk from this place on, found by its head; empty = none. For files that are damaged between
+// chunks.
+std::optional<uint64_t> BagFile::nextChunk(uint64_t from) {
+    constexpr std::string_view kMark("\x04\0\0\0op=\x05", 8); // a field of the head, at any place in it
+    constexpr uint64_t kBlock = 1u << 20, kMostHead = 128;    // [bytes]
+    std::string bytes;
+    for (uint64_t at = from; at < size_; at += kBlock) {
+        bytes.resize(std::min(kBlock + 2 * kMostHead, size_ - at));
+        in_.clear();
+        in_.seekg(static_cast<std::streamoff>(at));
+        in_.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+        bytes.resize(static_cast<size_t>(in_.gcount()));
+        for (size_t mark = bytes.find(kMark); mark != std::string::npos; mark = bytes.find(kMark, mark + 1)) {
+            for (size_t head = mark - std::min<size_t>(mark, kMostHead); head + 4 <= mark; ++head) {
+                uint32_t length = 0;
+                std::memcpy(&length, bytes.data() + head, sizeof length);
+                const std::optional<Head> found =
+                    length <= kMostHead && head + 4 + length > mark ? headAt(at + head) : std::nullopt;
+                if (found && found->op == bag::kChunk && found->fields.contains("compression")) {
+                    return at + head;
+                }
+            }
+        }
+    }
+    return std::nullopt;
+}
+
+// Of a closed bag, whose index names them all, so that a damaged chunk does not lose the ones it describes.
+std::map<uint32_t, size_t> BagFile::connectionsAt(uint64_t indexAt) {
+    std::map<uint32_t, size_t> topicOf;
+    in_.clear();
+    in_.seekg(static_cast<std::streamoff>(indexAt));
+    try {
+        while (const auto record = indexAt == 0 ? std::nullopt : nextOfIndex(true)) {
+            if (bag::number<uint8_t>(record->fields, "op") == bag::kConnection) {
+                const bag::Fields fields = bag::parseFields(record->data);
+                topicOf[bag::number<uint32_t>(record->fields, "conn")] =
+                    topicAt(bag::word(record->fields, "topic"), bag::word(fields, "type"), false);
+            }
+        }
+    } catch (const Error&) { // the chunks name them, too
+    }
+    return topicOf;
+}
+
+void BagFile::scan(uint64_t chunksAt, uint64_t indexAt, const std::string& lost) {
     topics_.clear();
-    std::map<uint32_t, size_t> topicOf; // of a connection
-    uint64_t whole = 0, damaged = 0, messages = 0;
-    uint64_t at = chunksAt;
-    for (std::optional<Head> head = headAt(at); head && !begun_; head = headAt(at)) {
-        if (head->op == bag::kChunk) {
+    std::map<uint32_t, size_t> topicOf = connectionsAt(indexAt); // of a connection
+    uint64_t whole = 0, damaged = 0, messages = 0, gaps = 0, firstGap = 0, unread = 0;
+    for (uint64_t at = chunksAt; at < size_ && !begun_;) {
+        const std::optional<Head> head = headAt(at);
+        const bool leads = head && !head->cut && (head->end == size_ || headAt(head->end));
+        const std::optional<uint64_t> next = leads ? head->end : nextChunk(at + 1);
+        uint64_t found = 0;
+        if (head && head->op == bag::kChunk) {
             // The recorder states the size of a chunk when it is complete. An incomplete copy cuts it, too.
-            if (head->empty || (head->cut && bag::word(head->fields, "compression") == "none")) {
+            const bool plain = bag::word(head->fields, "compression") == "none";
+            if ((head->empty || (head->cut && plain)) && (leads || !next)) {
                 begun_ = at;
             }
-            const uint64_t found = scanChunk(at, topicOf);
+            found = scanChunk(at, topicOf);
             (found > 0 ? whole : damaged) += 1;
             messages += found;
         }
-        at = head->end;
+        const uint64_t read = found > 0 ? head->end : at;
+        if (!leads && next && (found > 0 || !head || head->op != bag::kChunk)) {
+            firstGap = gaps++ == 0 ? read : firstGap;
+        }
+        unread = !next && !head ? size_ - at : 0;
+        at = next.value_or(head && !head->cut ? head->end : size_);
     }
     if (messages == 0) {
         throw BadInput(file().string(), "index",
@@ -60,7 +126,8 @@ void BagFile::scan(uint64_t chunksAt, const std::string& lost) {
                        "an indexed bag (rosbag reindex)");
     }
     warn(lost + ": " + countOf(whole, "") + "searched for messages" +
-         (damaged > 0 ? ", " + countOf(damaged, " damaged") + "skipped" : "") +
+         (damaged > 0 ? ", " + countOf(damaged, " damaged") + "skipped" : "") + placesText(gaps, firstGap) +
+         (unread > 0 ? ", the last " + std::to_string(unread) + " bytes are not read" : "") +
          "; rosbag reindex makes an index");
     sortByTime();
 }

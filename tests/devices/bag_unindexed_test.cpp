@@ -73,6 +73,37 @@ TEST_CASE("A bag with a damaged index is read chunk by chunk, and each chunk onc
     CHECK(depthsOf(folder, whole + whole.substr(last), "names a chunk twice").size() == 3);
 }
 
+TEST_CASE("Chunks behind a damaged place of a bag without a good index are found and played") {
+    const TemporaryFolder folder;
+    const std::vector<uint16_t> both{500, 500, 500, 700, 700, 700};
+    for (const char* compression : {"none", "bz2", "lz4"}) {
+        CAPTURE(compression);
+        const std::string first = threeDepths(500, 1.0).chunks(compression),
+                          second = threeDepths(700, 1.3).chunks(compression, false);
+        const std::string place =
+            "a damaged place is skipped, at byte " + std::to_string(first.size()) + "; rosbag";
+        for (const std::string& hole : {std::string(700, '\0'), std::string("\x9f\x12\xfe\x31garbage")}) {
+            CHECK(depthsOf(folder, first + hole + second, place) == both);
+        }
+        std::string lost = first; // the size that the first chunk states
+        const size_t stated = 4 + 8 + 16 + std::string(compression).size() + 13;
+        lost.replace(threeDepths(500, 1.0).headSize() + stated, 4, raw(0x3ffffffu));
+        const std::vector<uint16_t> only(3, 700);
+        CHECK(depthsOf(folder, lost + second, "1 chunk is searched") == only);
+        CHECK(depthsOf(folder, first + std::string(50, '\0'), "the last 50 bytes are not read").size() == 3);
+    }
+}
+
+TEST_CASE("A bag with a damaged index and chunk keeps the topics that only its index names") {
+    const TemporaryFolder folder;
+    std::string bag = threeDepths(500, 1.0).bag();
+    for (int topic = 0; topic < 2; ++topic) {
+        bag[bag.find("op=\x07") + 3] = '\x09';
+    }
+    bag.replace(bag.find("conn=", bag.find("op=\x04")), 1, "x");
+    CHECK(depthsOf(folder, bag, "damaged index (a header without 'conn'): 1 chunk is searched").size() == 3);
+}
+
 TEST_CASE("A bag without an index and without a message is rejected with the fault of its index") {
     const TemporaryFolder folder;
     folder.write("a.bag", BagMaker().chunks("none"));
