@@ -14,18 +14,29 @@ namespace fathom {
 namespace {
 
 constexpr const char* kImageType = "sensor_msgs/Image";
+constexpr const char* kInfoType = "sensor_msgs/CameraInfo";
 constexpr const char* kCompressedType = "sensor_msgs/CompressedImage";
 
 std::string streamSize(uint32_t width, uint32_t height) {
     return std::to_string(width) + "x" + std::to_string(height);
 }
 
-// The camera_info of the camera, or the one that is asked for; null = none, for the reason in stream.noLens.
+// The camera_info of the camera, or the one that is asked for: that is depth's, and of others only without
+// one of their own. Null = none, for the reason in stream.noLens.
 const MessageTopic* infoOf(const MessageFile& file, const std::string& asked, ImageStream& stream) {
-    const auto names = asked.empty() ? lensTopics(stream.name) : std::vector<std::string>{asked};
+    auto names = lensTopics(stream.name);
+    if (!asked.empty()) {
+        names.resize(stream.content == ros::Content::Depth ? 0 : names.size());
+        names.push_back(asked);
+    }
     std::string why = names.front() + ": missing";
     for (const std::string& name : names) {
         if (const MessageTopic* topic = file.find(name); topic != nullptr && !topic->messages.empty()) {
+            if (name == asked && topic->type != kInfoType) {
+                stream.noLens =
+                    "info: " + asked + " is " + topic->type + " (allowed: a topic of " + kInfoType + ")";
+                return nullptr;
+            }
             return topic;
         }
         const std::string fault = file.faultOf(name);

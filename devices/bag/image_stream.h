@@ -40,8 +40,8 @@ bool mayBeDepth(const ImageStream& stream);
 std::string otherFrame(const std::string& first, const std::string& now);
 
 // Every topic of sensor_msgs/Image or CompressedImage that has messages, by the first of five messages that
-// can be read and has a lens. The lens comes likewise from the topic `info`; if that is empty, from the
-// camera_info next to the images.
+// can be read and has a lens. The lens comes likewise from the camera_info next to the images, or
+// from the topic `info` if it is not empty: of depth, and of others without such a camera_info.
 std::vector<ImageStream> imageStreams(MessageFile& file, const std::string& info);
 
 } // namespace fathom

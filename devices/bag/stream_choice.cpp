@@ -105,7 +105,9 @@ std::vector<StreamChooser::Candidate> StreamChooser::colours() const {
 
 // Headers without a name of the frame say nothing, unless the topics are of one camera.
 bool StreamChooser::sharesFrame(const ImageStream& depth, const ImageStream& colour) const {
-    return depth.frame == colour.frame && (!depth.frame.empty() || namedOneCamera(depth.name, colour.name));
+    const bool sdk = isSdkTopic(depth.name) || isSdkTopic(colour.name); // its frames are all "0"
+    return !sdk && depth.frame == colour.frame &&
+           (!depth.frame.empty() || namedOneCamera(depth.name, colour.name));
 }
 
 // By the topics' names; tf may contradict. The depth and colour lenses of a camera are centimetres apart.
@@ -123,17 +125,17 @@ bool StreamChooser::oneCamera(const ImageStream& depth, const ImageStream& colou
 }
 
 StreamChooser::Relation StreamChooser::relate(const ImageStream& depth, const ImageStream& colour) {
-    const bool sdk = isSdkTopic(depth.name) || isSdkTopic(colour.name); // its frames are all "0"
-    const bool sameFrame = !sdk && sharesFrame(depth, colour);
+    const bool sdk = isSdkTopic(depth.name) || isSdkTopic(colour.name);
+    const bool sameFrame = sharesFrame(depth, colour);
     const bool alike = !colour.lens && depth.width == colour.width && depth.height == colour.height;
     if (!options_.intrinsics.empty() && !depth.lens) {
-        return {1, true, {}, ""}; // the file says the rest
+        return relateGiven(depth, colour);
     }
     if (!depth.lens || (!colour.lens && !(alike && sameFrame && namedRegistered(depth.name)))) {
         return {0, false, {}, depth.lens ? colour.noLens : depth.noLens};
     }
     if (!options_.extrinsics.empty()) {
-        return {3, false, readExtrinsics(options_.extrinsics), ""};
+        return {3, false, givenExtrinsics(), ""};
     }
     const dvec3 apart = shiftOf(colour) - shiftOf(depth);
     if (sameFrame && colour.lens && !namedRegistered(depth.name) && glm::length(apart) > kSameCentre) {

@@ -58,6 +58,8 @@ private:
     bool oneCamera(const ImageStream& depth, const ImageStream& colour);
     Relation relate(const ImageStream& depth, const ImageStream& colour);
     Relation relateByPose(const ImageStream& depth, const ImageStream& colour);
+    Relation relateGiven(const ImageStream& depth, const ImageStream& colour);
+    Pose givenExtrinsics() const;
     std::pair<std::optional<Pose>, std::string> driverPose(const ImageStream& depth,
                                                            const ImageStream& colour);
     std::optional<Pose> sdkPose(const ImageStream& depth, const ImageStream& colour);

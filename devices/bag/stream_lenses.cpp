@@ -5,6 +5,10 @@
 #include "devices/recorded/json_field.h"
 #include "devices/recorded/recording_intrinsics.h"
 #include "engine/types/error.h"
+#include "engine/types/number_text.h"
+
+#include <algorithm>
+#include <cmath>
 
 namespace fathom {
 
@@ -24,6 +28,44 @@ bool StreamChooser::keepsRelation() const {
     const nlohmann::json document = parseJsonFile(options_.intrinsics);
     const JsonField root(document, options_.intrinsics.string(), "");
     return !root.find("depth") && !root.find("registered_to_color");
+}
+
+// Of depth without a recorded lens, whose lens a file gives.
+StreamChooser::Relation StreamChooser::relateGiven(const ImageStream& depth, const ImageStream& colour) {
+    const Relation registered{1, true, {}, ""};
+    if (!keepsRelation()) {
+        return registered; // the file says the rest
+    }
+    const bool sameFrame = sharesFrame(depth, colour);
+    if (!colour.lens) {
+        const bool unnamed = depth.frame.empty() || colour.frame.empty();
+        return sameFrame || unnamed || !options_.extrinsics.empty() ? registered : Relation{};
+    }
+    ImageStream given = depth;
+    given.lens = readIntrinsics(options_.intrinsics, ScaleRule::Optional).camera.depth;
+    given.raw = *given.lens;
+    // A calibration of one camera differs little from the lens that the recording states.
+    constexpr double kMostOther = 0.1;
+    const double x = given.lens->fx / colour.lens->fx, y = given.lens->fy / colour.lens->fy;
+    const bool alike = depth.width == colour.width && depth.height == colour.height &&
+                       std::max(std::abs(x - 1.0), std::abs(y - 1.0)) <= kMostOther;
+    if (alike && (sameFrame || namedRegistered(depth.name))) {
+        given.lens = colour.lens;
+        given.raw = colour.raw;
+        given.rectified = colour.rectified;
+    }
+    return relate(given, colour);
+}
+
+// Lenses of one rig are not metres apart; values of millimetres are.
+Pose StreamChooser::givenExtrinsics() const {
+    constexpr double kMostApart = 1.0; // [m]
+    const Pose pose = readExtrinsics(options_.extrinsics);
+    if (const double apart = glm::length(pose.position); !(apart <= kMostApart)) {
+        throw BadInput(options_.extrinsics.string(), "t", significant(apart, 4) + " m between the lenses",
+                       "at most 1 m; metres, not millimetres");
+    }
+    return pose;
 }
 
 void StreamChooser::replaceLenses(StreamChoice& choice) const {
@@ -50,7 +92,7 @@ void StreamChooser::replaceLenses(StreamChoice& choice) const {
     }
     if (!options_.extrinsics.empty()) {
         choice.camera.registered = false;
-        choice.camera.colourTdepth = readExtrinsics(options_.extrinsics);
+        choice.camera.colourTdepth = givenExtrinsics();
     }
 }
 
