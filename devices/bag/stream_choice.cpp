@@ -138,7 +138,10 @@ StreamChooser::Relation StreamChooser::relate(const ImageStream& depth, const Im
         return {3, false, givenExtrinsics(), ""};
     }
     const dvec3 apart = shiftOf(colour) - shiftOf(depth);
-    if (sameFrame && colour.lens && !namedRegistered(depth.name) && glm::length(apart) > kSameCentre) {
+    // Drivers write another P for depth that they align, but not for the second camera of a stereo pair.
+    const bool second = namedRight(colour.name) && !namedRight(depth.name);
+    if (sameFrame && colour.lens && (second || !namedRegistered(depth.name)) &&
+        glm::length(apart) > kSameCentre) {
         return {3, false, {apart}, ""}; // a stereo pair in the frame of its first camera
     }
     const bool same = !colour.lens || sameLens(*depth.lens, *colour.lens);
