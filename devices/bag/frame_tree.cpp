@@ -7,15 +7,24 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstdio>
 #include <glm/geometric.hpp>
 
 namespace fathom {
 
 namespace {
 
-bool samePose(const Pose& a, const Pose& b) {
-    return glm::length(a.position - b.position) < 1e-6 &&
-           std::abs(glm::dot(a.rotation, b.rotation)) > 1.0 - 1e-9;
+// Within this distance [m] and turn [rad].
+bool samePose(const Pose& a, const Pose& b, double apart, double turned) {
+    const double cosine = std::min(1.0, std::abs(glm::dot(a.rotation, b.rotation)));
+    return glm::distance(a.position, b.position) <= apart && 2.0 * std::acos(cosine) <= turned;
+}
+
+std::string millimetres(const dvec3& position) {
+    char text[100];
+    std::snprintf(text, sizeof text, "(%.1f, %.1f, %.1f) mm", 1e3 * position.x, 1e3 * position.y,
+                  1e3 * position.z);
+    return text;
 }
 
 bool unturned(const dquat& rotation) {
@@ -61,9 +70,20 @@ void FrameTree::add(const MessageTopic& topic, const ros::FrameLink& link) {
                                "' is skipped (allowed: finite numbers, a quaternion that is not 0)");
         return;
     }
-    Link& before = links_.try_emplace(link.child, Link{link.parent, link.parentTchild}).first->second;
+    // A drawing of a camera and its calibration differ more than a link of /tf jitters that does not move.
+    const bool isStatic = topic.name.ends_with("static");
+    const double apart = isStatic ? 0.005 : 0.001, turned = isStatic ? 0.01 : 0.002; // [m], [rad]
+    const auto [place, isNew] = links_.try_emplace(link.child, Link{link.parent, link.parentTchild});
+    Link& before = place->second;
+    if (isNew || before.moves ||
+        (before.parent == link.parent && samePose(before.parentTchild, link.parentTchild, 1e-6, 9e-5))) {
+        return;
+    }
     before.moves =
-        before.moves || before.parent != link.parent || !samePose(before.parentTchild, link.parentTchild);
+        before.parent != link.parent || !samePose(before.parentTchild, link.parentTchild, apart, turned);
+    before.isTwice = before.isTwice || isStatic;
+    before.otherParent = link.parent;
+    before.otherTchild = link.parentTchild;
 }
 
 void FrameTree::tellSkipped(const MessageTopic& topic, const std::string& what) {
@@ -95,6 +115,62 @@ std::optional<Pose> FrameTree::pose(const std::string& from, const std::string& 
         }
     }
     return std::nullopt;
+}
+
+std::vector<std::string> FrameTree::frameAndAncestors(const std::string& frame) const {
+    std::vector<std::string> frames{frame};
+    for (auto link = links_.find(frame);
+         link != links_.end() && std::ranges::find(frames, link->second.parent) == frames.end();
+         link = links_.find(link->second.parent)) {
+        frames.push_back(link->second.parent);
+    }
+    return frames;
+}
+
+// Children of the links, whether these move or not; empty where nothing connects the frames.
+std::vector<std::string> FrameTree::linksBetween(const std::string& from, const std::string& to) {
+    readOnce();
+    std::vector<std::string> ofFrom = frameAndAncestors(from), ofTo = frameAndAncestors(to);
+    const auto common = std::ranges::find_first_of(ofFrom, ofTo);
+    if (common == ofFrom.end()) {
+        return {};
+    }
+    ofTo.erase(std::ranges::find(ofTo, *common), ofTo.end());
+    ofFrom.erase(common, ofFrom.end());
+    ofFrom.insert(ofFrom.end(), ofTo.begin(), ofTo.end());
+    return ofFrom;
+}
+
+std::string FrameTree::whyMoving(const std::string& from, const std::string& to) {
+    for (const std::string& child : linksBetween(from, to)) {
+        const Link& link = links_.at(child);
+        if (!link.moves) {
+            continue;
+        }
+        const std::string first = "tf has '" + child + "' in '" + link.parent + "'";
+        if (link.otherParent != link.parent) {
+            return first + " and in '" + link.otherParent + "'";
+        }
+        const bool moved = glm::distance(link.parentTchild.position, link.otherTchild.position) >= 1e-4;
+        return first + (moved ? " at " + millimetres(link.parentTchild.position) + " and at " +
+                                    millimetres(link.otherTchild.position)
+                              : " in two directions");
+    }
+    return "";
+}
+
+std::string FrameTree::twicePublished(const std::string& from, const std::string& to) {
+    for (const std::string& child : linksBetween(from, to)) {
+        const Link& link = links_.at(child);
+        if (link.isTwice && !link.moves) {
+            char apart[40];
+            std::snprintf(apart, sizeof apart, "%.1f mm",
+                          1e3 * glm::distance(link.parentTchild.position, link.otherTchild.position));
+            return "two transforms of '" + child + "' in tf_static differ by " + apart +
+                   ": the first one is used";
+        }
+    }
+    return "";
 }
 
 bool FrameTree::hasOpticalChild(const std::string& frame) const {

@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace fathom {
 
@@ -23,12 +24,19 @@ public:
     // y down, z forward): a turned child is called optical, or the frames are parallel and neither name says
     // so. Empty = no doubt.
     std::string axesWarning(const std::string& from, const std::string& to);
+    // Which link of tf has several poses, so that there is no pose between these frames; empty = none has.
+    std::string whyMoving(const std::string& from, const std::string& to);
+    // Which link between these frames was published with two poses that nearly agree; empty = none.
+    std::string twicePublished(const std::string& from, const std::string& to);
 
 private:
     struct Link {
         std::string parent;
         Pose parentTchild;
-        bool moves = false;
+        std::string otherParent = {}; // of another transform of the same child
+        Pose otherTchild = {};        // the last one that differs
+        bool moves = false;           // the two do not nearly agree
+        bool isTwice = false;         // they do, but not to the last digits
     };
     void readOnce();
     void read();
@@ -36,6 +44,8 @@ private:
     void add(const MessageTopic& topic, const ros::FrameLink& link);
     void tellSkipped(const MessageTopic& topic, const std::string& what);
     std::map<std::string, Pose> ancestors(const std::string& frame) const; // ancestor_T_frame
+    std::vector<std::string> frameAndAncestors(const std::string& frame) const;
+    std::vector<std::string> linksBetween(const std::string& from, const std::string& to);
 
     MessageFile& file_;
     bool read_ = false;

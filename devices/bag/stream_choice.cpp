@@ -35,6 +35,20 @@ dvec3 shiftOf(const ImageStream& stream) {
     return stream.rectified || !stream.turned ? stream.shift : dvec3(0.0);
 }
 
+// Whether images of one frame are of one camera though their lenses differ: rectified, resized, cropped,
+// registered, or calibrated anew.
+bool oneCentre(const ImageStream& depth, const ImageStream& colour) {
+    const bool turned = depth.rectified != colour.rectified && (depth.turned || colour.turned);
+    if (depth.rectified != colour.rectified && sameLens(depth.raw, colour.raw) && !turned) {
+        return true;
+    }
+    const Intrinsics &a = *depth.lens, &b = *colour.lens;
+    const bool second = namedRight(colour.name) && !namedRight(depth.name); // of a stereo pair
+    const bool focal = std::abs(a.fx - b.fx) <= 1e-3 * b.fx && std::abs(a.fy - b.fy) <= 1e-3 * b.fy;
+    return !depth.frame.empty() &&
+           (resizedLens(a, b) || (!turned && !second && (focal || namedRegistered(depth.name))));
+}
+
 // How well a name fits a use: 2 names it, 1 says nothing, 0 names another.
 int fits(NamedRole role, NamedRole use) {
     return role == use ? 2 : (role == NamedRole::None ? 1 : 0);
@@ -155,12 +169,7 @@ StreamChooser::Relation StreamChooser::relate(const ImageStream& depth, const Im
         const bool otherFrame = !depth.frame.empty() && !colour.frame.empty();
         return {sharedParts(depth.name, colour.name) > 0 && !otherFrame ? kOneLens : 3, true, {}, ""};
     }
-    // The same camera, one of the two images rectified.
-    if (sameFrame && depth.rectified != colour.rectified && sameLens(depth.raw, colour.raw) &&
-        !depth.turned && !colour.turned) {
-        return {3, false, {}, ""};
-    }
-    if (sameFrame && !depth.frame.empty() && resizedLens(*depth.lens, *colour.lens)) {
+    if (sameFrame && oneCentre(depth, colour)) {
         return {3, false, {}, ""};
     }
     return relateByPose(depth, colour);

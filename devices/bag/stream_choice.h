@@ -60,10 +60,15 @@ private:
     Relation relateByPose(const ImageStream& depth, const ImageStream& colour);
     Relation relateGiven(const ImageStream& depth, const ImageStream& colour);
     Pose givenExtrinsics() const;
-    std::pair<std::optional<Pose>, std::string> driverPose(const ImageStream& depth,
-                                                           const ImageStream& colour);
+    // A pose, why there is none, or why it may be wrong.
+    struct FoundPose {
+        std::optional<Pose> pose;
+        std::string warning;
+    };
+    FoundPose driverPose(const ImageStream& depth, const ImageStream& colour);
     std::optional<Pose> sdkPose(const ImageStream& depth, const ImageStream& colour);
-    std::optional<Pose> topicPose(const ImageStream& depth, const ImageStream& colour);
+    const MessageTopic* poseTopic(const ImageStream& depth, const ImageStream& colour) const;
+    std::optional<Pose> topicPose(const MessageTopic* topic, std::string& fault);
     bool keepsRelation() const;
     void replaceLenses(StreamChoice& choice) const;
     std::string unreadStreams() const;

@@ -3,11 +3,11 @@
 #include "devices/bag/stream_choice.h"
 
 #include "devices/recorded/lens_model.h"
+#include "engine/types/error.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <tuple>
 
 namespace fathom {
 
@@ -30,16 +30,15 @@ bool nearlySame(const Pose& a, const Pose& b) {
 } // namespace
 
 StreamChooser::Relation StreamChooser::relateByPose(const ImageStream& depth, const ImageStream& colour) {
-    std::optional<Pose> pose = sdkPose(depth, colour);
-    std::string warning;
+    FoundPose found{sdkPose(depth, colour), ""};
     // The Orbbec SDK records the pose to its colour camera, not to the cameras of a stereo pair.
     const std::string sensor = orbbecSensor(colour.name);
-    if (!pose && !isRealSenseTopic(depth.name) && (sensor.empty() || sensor == "2")) {
-        std::tie(pose, warning) = driverPose(depth, colour);
+    if (!found.pose && !isRealSenseTopic(depth.name) && (sensor.empty() || sensor == "2")) {
+        found = driverPose(depth, colour);
     }
-    if (pose) {
-        const bool registered = isIdentity(*pose) && sameLens(*depth.lens, *colour.lens);
-        return {2, registered, registered ? Pose{} : *pose, "", warning};
+    if (found.pose) {
+        const bool registered = isIdentity(*found.pose) && sameLens(*depth.lens, *colour.lens);
+        return {2, registered, registered ? Pose{} : *found.pose, "", found.warning};
     }
     const std::string topic = isRealSenseTopic(depth.name)
                                   ? parentTopic(baseTopic(colour.name), 2) + "/tf/0"
@@ -47,19 +46,35 @@ StreamChooser::Relation StreamChooser::relateByPose(const ImageStream& depth, co
     return {0,
             false,
             {},
-            "extrinsics: missing (allowed: depth registered to colour (same frame and lens), or the topic " +
-                topic + ", or extrinsics=FILE or colour=none behind the file's name)"};
+            "extrinsics: " + (found.warning.empty() ? "missing" : found.warning) +
+                " (allowed: depth registered to colour (same frame and lens), or the topic " + topic +
+                ", or extrinsics=FILE or colour=none behind the file's name)"};
 }
 
 // By the driver's topic or by tf, and why it may be wrong. Some versions of realsense-ros publish the inverse
 // of the topic; tf tells.
-std::pair<std::optional<Pose>, std::string> StreamChooser::driverPose(const ImageStream& depth,
-                                                                      const ImageStream& colour) {
-    const auto topic = topicPose(depth, colour);
+StreamChooser::FoundPose StreamChooser::driverPose(const ImageStream& depth, const ImageStream& colour) {
+    const MessageTopic* source = poseTopic(depth, colour);
+    if (sharesFrame(depth, colour) && !depth.frame.empty()) { // the topic is that of depth in its own frame
+        return source == nullptr ? FoundPose{}
+                                 : FoundPose{Pose{}, "depth and colour are both in frame '" + depth.frame +
+                                                         "': " + source->name + " is not used"};
+    }
+    std::string fault;
+    const auto topic = topicPose(source, fault);
     const auto frames = depth.frame != colour.frame ? frames_.pose(depth.frame, colour.frame) : std::nullopt;
     const std::string axes = frames ? frames_.axesWarning(depth.frame, colour.frame) : "";
-    if (!topic || !frames) {
-        return {topic ? topic : frames, topic ? "" : axes};
+    if (!frames) {
+        const std::string moving = topic ? "" : frames_.whyMoving(depth.frame, colour.frame);
+        return {topic, topic ? "" : !fault.empty() || moving.empty() ? fault : "missing; " + moving};
+    }
+    if (!topic) {
+        std::string all;
+        for (const std::string& one : {fault.empty() ? "" : fault + ": tf is used", axes,
+                                       frames_.twicePublished(depth.frame, colour.frame)}) {
+            all += (all.empty() || one.empty() ? "" : "; ") + one;
+        }
+        return {frames, all};
     }
     if (nearlySame(*topic, *frames) || !axes.empty()) {
         return {topic, ""};
@@ -96,8 +111,9 @@ std::optional<Pose> StreamChooser::sdkPose(const ImageStream& depth, const Image
     return std::nullopt;
 }
 
-// The topic .../extrinsics/depth_to_color of the drivers of RealSense and Orbbec, of the camera of both.
-std::optional<Pose> StreamChooser::topicPose(const ImageStream& depth, const ImageStream& colour) {
+// The topic .../extrinsics/depth_to_color of the drivers of RealSense and Orbbec, of the camera of both; null:
+// there is none.
+const MessageTopic* StreamChooser::poseTopic(const ImageStream& depth, const ImageStream& colour) const {
     const MessageTopic* best = nullptr;
     for (const MessageTopic& topic : file_.topics()) {
         if (topic.type.ends_with("/Extrinsics") && namedExtrinsicsOf(topic.name, depth.name, colour.name) &&
@@ -105,12 +121,21 @@ std::optional<Pose> StreamChooser::topicPose(const ImageStream& depth, const Ima
             best = &topic;
         }
     }
-    if (best == nullptr) {
+    return best;
+}
+
+std::optional<Pose> StreamChooser::topicPose(const MessageTopic* topic, std::string& fault) {
+    if (topic == nullptr) {
         return std::nullopt;
     }
-    const bool orbbec = best->type.starts_with("orbbec") || best->type.starts_with("astra");
+    const bool orbbec = topic->type.starts_with("orbbec") || topic->type.starts_with("astra");
     const auto driver = orbbec ? ros::ExtrinsicsOf::Orbbec : ros::ExtrinsicsOf::RealSense;
-    return ros::extrinsics(file_.read(*best, 0), driver);
+    try {
+        return ros::extrinsics(file_.read(*topic, 0), driver);
+    } catch (const Error& e) {
+        fault = topic->name + ": " + e.what();
+        return std::nullopt;
+    }
 }
 
 } // namespace fathom

@@ -2,8 +2,87 @@
 // How depth and colour of a bag are related where frames, topics and tf say different things.
 #include "tests/devices/played_bag.h"
 
+#include <algorithm>
+
 using namespace fathom;
 using namespace fathom::testing;
+
+namespace {
+
+const std::string kPoseTopic = "/camera/depth_to_color";
+
+// Shifted by 50 mm along x; without rotation, or with a matrix of zeros, which is none.
+void addDriverPose(BagMaker& maker, bool valid = true) {
+    Out message{stampedHeader(1.0, "")};
+    for (int i = 0; i < 9; ++i) {
+        message.put(valid && i % 4 == 0 ? 1.0 : 0.0);
+    }
+    message.put(valid ? 0.05 : 0.0).put(0.0).put(0.0);
+    maker.add(kPoseTopic, "realsense2_camera/Extrinsics", 1.0, message.bytes);
+}
+
+void addTf(BagMaker& maker, const std::string& topic, double t, double x) {
+    Out link{Out().put(uint32_t{1}).bytes + stampedHeader(t, "depth_optical")};
+    link.text("color_optical").bytes += transformMessage(x, 0.0, 0.0);
+    maker.add(topic, "tf2_msgs/TFMessage", t, link.bytes);
+}
+
+// Depth of its own camera, and colour of another frame and lens.
+BagMaker twoFrames() {
+    BagMaker maker;
+    addStream(maker, "/camera/depth/image_raw", depthImage(500, "depth_optical"), {.frame = "depth_optical"});
+    addStream(maker, "/camera/color/image_raw", redImage("color_optical"),
+              {.frame = "color_optical", .k = {6.0, 6.0, 3.5, 2.5}});
+    return maker;
+}
+
+bool warns(const BagCamera& camera, const std::string& part) {
+    const auto all = camera.warnings();
+    return std::ranges::any_of(all,
+                               [&](const std::string& line) { return line.find(part) != std::string::npos; });
+}
+
+} // namespace
+
+TEST_CASE("The driver's extrinsics topic moves nothing between depth and colour of one frame") {
+    const TemporaryFolder folder;
+    const InfoMessage bent{.distortion = {0.05, -0.1, 0.0, 0.0, 0.01}},
+        anew{.distortion = {0.05, -0.1, 0.0, 0.0, 0.01}, .k = {6.8, 6.8, 3.6, 2.4}},
+        cropped{.roi = {2, 1, 4, 6}};
+    for (const InfoMessage& lens : {bent, anew, cropped}) {
+        for (const bool topic : {false, true}) {
+            const bool crop = lens.roi[2] > 0;
+            BagMaker maker;
+            addStream(maker, "/camera/aligned_depth_to_color/image_raw", depthImage(500));
+            ImageMessage image = redImage();
+            if (crop) {
+                image.width = 6;
+                image.height = 4;
+                image.pixels = filledColour(200, 10, 10, 24);
+            }
+            addStream(maker, "/camera/color/image_raw", image, lens);
+            if (topic) {
+                addDriverPose(maker);
+            }
+            const CameraInfo info = playStreams(folder, maker).info();
+            CHECK_FALSE(info.registered);
+            CHECK(glm::length(info.colourTdepth.position) == 0.0);
+            CHECK(info.colour.width == (crop ? 6 : 8));
+        }
+    }
+}
+
+TEST_CASE("Depth and colour of one frame and other focal lengths do not take the topic, with a warning") {
+    const TemporaryFolder folder;
+    BagMaker maker;
+    addStream(maker, "/camera/depth/image_raw", depthImage(500));
+    addStream(maker, "/camera/color/image_raw", redImage(), {.k = {6.0, 6.0, 3.5, 2.5}});
+    lineSays(streamRefusal(folder, maker), "extrinsics: missing");
+    addDriverPose(maker);
+    const BagCamera camera = playStreams(folder, maker);
+    CHECK(glm::length(camera.info().colourTdepth.position) == 0.0);
+    CHECK(warns(camera, "depth and colour are both in frame 'camera': " + kPoseTopic + " is not used"));
+}
 
 TEST_CASE("Colour of a right camera is the baseline apart in the frame of depth named registered") {
     const TemporaryFolder folder;
@@ -20,4 +99,38 @@ TEST_CASE("Colour of a right camera is the baseline apart in the frame of depth 
     addStream(aligned, "/camera/aligned_depth_to_color/image_raw", depthImage(500), {.p = lens, .tx = -0.84});
     addStream(aligned, "/camera/color/image_raw", redImage(), {.p = lens});
     CHECK(playStreams(folder, aligned).info().registered);
+}
+
+TEST_CASE("An extrinsics topic that is no pose gives way to tf, and is named") {
+    const TemporaryFolder folder;
+    BagMaker maker = twoFrames();
+    addDriverPose(maker, false);
+    const std::string refused = streamRefusal(folder, maker);
+    lineSays(refused, "extrinsics: " + kPoseTopic + ": an invalid transform (allowed: ");
+    addTf(maker, "/tf_static", 1.0, -0.015);
+    const BagCamera camera = playStreams(folder, maker);
+    CHECK(camera.info().colourTdepth.position.x == doctest::Approx(0.015));
+    CHECK(warns(camera, kPoseTopic + ": an invalid transform: tf is used"));
+}
+
+TEST_CASE("Two transforms of one link of tf that nearly agree are one, and others are named") {
+    const TemporaryFolder folder;
+    BagMaker two = twoFrames(), jitter = twoFrames(), apart = twoFrames(), moving = twoFrames();
+    addTf(two, "/tf_static", 1.0, -0.015);
+    addTf(two, "/tf_static", 1.0, -0.0153);
+    const BagCamera camera = playStreams(folder, two);
+    CHECK(camera.info().colourTdepth.position.x == doctest::Approx(0.015));
+    CHECK(warns(camera, "differ by 0.3 mm"));
+    for (int i = 0; i < 20; ++i) {
+        addTf(jitter, "/tf", 1.0 + 0.01 * i, -0.015 - 1e-5 * (i % 2));
+        addTf(moving, "/tf", 1.0 + 0.01 * i, -0.015 - 2e-4 * i);
+    }
+    CHECK(playStreams(folder, jitter).info().colourTdepth.position.x == doctest::Approx(0.015));
+    addTf(apart, "/tf_static", 1.0, -0.015);
+    addTf(apart, "/tf_static", 1.0, -0.06);
+    lineSays(streamRefusal(folder, apart),
+             "extrinsics: missing; tf has 'color_optical' in 'depth_optical' at "
+             "(-15.0, 0.0, 0.0) mm and at (-60.0, 0.0, 0.0) mm (allowed: ");
+    lineSays(streamRefusal(folder, moving),
+             "extrinsics: missing; tf has 'color_optical' in 'depth_optical' at ");
 }
