@@ -216,7 +216,7 @@ StreamChooser::Pair StreamChooser::bestPair() {
     if (ofColour.empty()) {
         return {bestDepth(), nullptr, {}};
     }
-    using Score = std::tuple<bool, int, int, int, bool, size_t, size_t, bool, bool>;
+    using Score = std::tuple<bool, int, int, int, bool, size_t, size_t, double, bool, bool>;
     Score best;
     Pair pair;
     for (const auto& [d, depthFit] : ofDepth) {
@@ -230,6 +230,7 @@ StreamChooser::Pair StreamChooser::bestPair() {
                               !namedRangeImage(d->name), // simulators publish both kinds
                               sharedParts(d->name, c->name),
                               sharedWords(d->name, c->name),
+                              -glm::length(found.colourTdepth.position), // else the nearer camera
                               !d->compressed,
                               !c->compressed};
             if (pair.depth == nullptr || score > best) {

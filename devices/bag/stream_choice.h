@@ -26,7 +26,7 @@ struct StreamChoice {
 class StreamChooser {
 public:
     StreamChooser(MessageFile& file, const SourceOptions& options);
-    // Depth and colour of one camera: of one frame and lens, then names, extrinsics, shared path,
+    // Depth and colour of one camera: of one frame and lens, then names, extrinsics, shared path, the nearer,
     // uncompressed, order. Infrared and the like are never depth, and colour only as grey where nothing else
     // is. Throws BadInput that names file and topic.
     StreamChoice choose();

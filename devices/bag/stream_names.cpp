@@ -42,14 +42,32 @@ bool among(const std::array<std::string_view, N>& words, const std::string& word
     return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-// Lower-case words.
-std::vector<std::string> wholeWordsOf(const std::string& topic) {
+// Lower-case words; humps: "frontDepth" is two.
+std::vector<std::string> wholeWordsOf(const std::string& topic, bool humps = false) {
     std::vector<std::string> words(1);
+    bool small = false; // the last character
     for (const char c : topic) {
-        if (std::isalnum(static_cast<unsigned char>(c)) != 0) {
-            words.back() += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-        } else if (!words.back().empty()) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (!words.back().empty() &&
+            (std::isalnum(byte) == 0 || (humps && small && std::isupper(byte) != 0))) {
             words.emplace_back();
+        }
+        if (std::isalnum(byte) != 0) {
+            words.back() += static_cast<char>(std::tolower(byte));
+        }
+        small = std::islower(byte) != 0 || std::isdigit(byte) != 0;
+    }
+    return words;
+}
+
+// Words that may name a camera: "front", "2" of "/frontDepth2".
+std::vector<std::string> cameraWordsOf(const std::string& topic) {
+    std::vector<std::string> words = wholeWordsOf(topic, true);
+    for (std::string& word : words) {
+        const size_t name = word.find_last_not_of("0123456789") + 1;
+        const std::string use = word.substr(0, name);
+        if (name < word.size() && (among(kDepthWords, use) || among(kColourWords, use))) {
+            word.erase(0, name);
         }
     }
     return words;
@@ -184,7 +202,7 @@ size_t sharedParts(const std::string& a, const std::string& b) {
 }
 
 size_t sharedWords(const std::string& a, const std::string& b) {
-    const std::vector<std::string> ofA = wholeWordsOf(a), ofB = wholeWordsOf(b);
+    const std::vector<std::string> ofA = cameraWordsOf(a), ofB = cameraWordsOf(b);
     return static_cast<size_t>(std::count_if(ofA.begin(), ofA.end(), [&](const std::string& word) {
         return !word.empty() && std::find(ofB.begin(), ofB.end(), word) != ofB.end();
     }));

@@ -36,7 +36,8 @@ bool namedDepthUnits(const std::string& topic);
 std::vector<std::string> lensTopics(const std::string& topic);
 // Number of path parts that both topics begin with.
 size_t sharedParts(const std::string& a, const std::string& b);
-// Number of words that both topics have, whatever their order: 1 of "/depth_left" and "/rgb_left".
+// Number of words that both topics have, whatever their order: 1 of "/depth_left" and "/rgb_left", of
+// "/depth2" and "/rgb2", and of "/frontDepth" and "/frontColor".
 size_t sharedWords(const std::string& a, const std::string& b);
 // Whether the parts before the first one that names depth, colour or infrared are those of one camera:
 // "/a/depth/image" and "/a/rgb/image" or "/a/left/image_color", but not "/b/rgb/image".

@@ -31,3 +31,34 @@ TEST_CASE("The error of depth is not played instead of depth, in whatever order 
         CHECK(firstDepth(camera) == doctest::Approx(0.5));
     }
 }
+
+TEST_CASE("Colour of the camera whose name is that of depth is played, also in digits and humps of words") {
+    CHECK(sharedWords("/depth1", "/color1") == 1);
+    CHECK(sharedWords("/depth1", "/color2") == 0);
+    CHECK(sharedWords("/frontDepth", "/frontColor") == 1);
+    CHECK(sharedWords("/cam2Depth", "/cam2RGB") == 1);
+    const TemporaryFolder folder;
+    for (const auto& [depth, own, other] :
+         {std::array<std::string, 3>{"/depth1/image_raw", "/color1/image_raw", "/color2/image_raw"},
+          {"/frontDepth/image", "/frontColor/image", "/rearColor/image"}}) {
+        BagMaker maker;
+        addStream(maker, other, redImage());
+        addStream(maker, depth, depthImage(500));
+        addStream(maker, own, redImage());
+        CHECK(playStreams(folder, maker).streamOptions() == ",depth=" + depth + ",colour=" + own);
+    }
+}
+
+TEST_CASE("Of two colour cameras whose names say nothing, the one that is nearer to depth is played") {
+    const TemporaryFolder folder;
+    BagMaker maker;
+    addStream(maker, "/a/image", redImage("a"), {.frame = "a", .k = {6.0, 6.0, 3.5, 2.5}});
+    addStream(maker, "/b/depth", depthImage(500, "b"), {.frame = "b"});
+    addStream(maker, "/c/image", redImage("c"), {.frame = "c", .k = {6.0, 6.0, 3.5, 2.5}});
+    for (const auto& [frame, x] : {std::pair("a", 1.0), {"b", 0.0}, {"c", 0.03}}) {
+        Out link{Out().put(uint32_t{1}).bytes + stampedHeader(1.0, "base")};
+        link.text(frame).bytes += transformMessage(x, 0.0, 0.0);
+        maker.add("/tf_static", "tf2_msgs/TFMessage", 1.0, link.bytes);
+    }
+    CHECK(playStreams(folder, maker).streamOptions() == ",depth=/b/depth,colour=/c/image");
+}
