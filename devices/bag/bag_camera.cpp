@@ -63,43 +63,64 @@ std::string BagCamera::whyNoColour() const {
 }
 
 void BagCamera::useClocks() {
-    const std::string file = file_->file().string();
     useClock(topicOf(choice_.depth));
     if (!choice_.colour) {
         return;
     }
     colour_.emplace(*file_, topicOf(*choice_.colour));
-    const double slower = std::max(depth_->medianPeriod(), colour_->medianPeriod());
-    tolerance_ = slower > 0.0 ? 0.5 * slower : 0.05;
-    if (!depth_->stamped()) { // said already
-        colour_->useRecordingTime();
+    const auto setTolerance = [this] {
+        const double slower = std::max(depth_->period(), colour_->period());
+        tolerance_ = slower > 0.0 ? 0.5 * slower : 0.05;
+    };
+    setTolerance();
+    if (depth_->stamped() && colour_->stamped() && pairsByStamp()) {
         return;
     }
-    if (colour_->stamped() && pairsByStamp()) {
-        return;
+    if (depth_->stamped()) { // else said already
+        log::warn(
+            "{}: no stamps of {} and {} are within {:.3f} s (the first ones differ by {:.3f} s): images are "
+            "paired by the time of recording",
+            file_->file().string(), choice_.depth.name, choice_.colour->name, tolerance_,
+            colour_->stampOf(0) - depth_->stampOf(0));
     }
-    log::warn(
-        "{}: no stamps of {} and {} are within {:.3f} s (the first ones differ by {:.3f} s): images are "
-        "paired by the time of recording",
-        file, choice_.depth.name, choice_.colour->name, tolerance_, colour_->stampOf(0) - depth_->stampOf(0));
     depth_->useRecordingTime();
     colour_->useRecordingTime();
+    setTolerance();
 }
 
-// Whether any of some images, at the start and over the whole recording, has a partner by the headers'
-// stamps.
+// Whether images have partners by the headers' stamps. Far from each other in the file, only where it was
+// written later, or where no images were recorded at one time: two clocks may differ by any time.
 bool BagCamera::pairsByStamp() {
     const std::vector<MessageEntry>& all = topicOf(choice_.depth).messages;
-    const auto pairs = [&](size_t i) {
+    const auto byStamp = [&](size_t i) {
         return colour_->nearest(depth_->stampOf(i), all[i].time, tolerance_).has_value();
     };
+    if (!depth_->recordedInTime() || !colour_->recordedInTime()) {
+        colour_->searchAll();
+    } else if (anyOfSome(byStamp)) {
+        return true;
+    } else {
+        size_t recorded = 0; // one alone may end one topic and begin the next
+        if (anyOfSome([&](size_t i) {
+                recorded += colour_->hasRecorded(all[i].time, tolerance_) ? 1 : 0;
+                return recorded > 1;
+            })) {
+            return false;
+        }
+    }
+    colour_->searchAll();
+    return anyOfSome(byStamp);
+}
+
+// Some images: at the start, and over the whole recording.
+bool BagCamera::anyOfSome(const std::function<bool(size_t)>& holds) const {
     for (size_t i = cursor_; i < std::min<size_t>(end_, cursor_ + kUnitSamples); ++i) {
-        if (pairs(i)) {
+        if (holds(i)) {
             return true;
         }
     }
     bool any = false;
-    sample(kUnitSamples, [&](size_t i) { any = any || pairs(i); });
+    sample(kUnitSamples, [&](size_t i) { any = any || holds(i); });
     return any;
 }
 

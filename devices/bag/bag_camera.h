@@ -8,6 +8,7 @@
 #include "devices/bag/stream_choice.h"
 #include "devices/recorded/range_images.h"
 
+#include <functional>
 #include <optional>
 
 namespace fathom {
@@ -33,6 +34,7 @@ private:
     void logWarnings();
     void useClocks();
     bool pairsByStamp();
+    bool anyOfSome(const std::function<bool(size_t)>& holds) const;
     void chooseUnit();
     const MessageTopic* unitTopic() const;
     double sensorUnit();

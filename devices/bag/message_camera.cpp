@@ -11,24 +11,22 @@
 namespace fathom {
 
 void MessageCamera::useSpan(const MessageTopic& topic) {
-    const std::vector<MessageEntry>& all = topic.messages;
+    depth_.emplace(*file_, topic);
     const auto place = [&](double after) {
-        const auto at = std::find_if(all.begin(), all.end(), [&](const MessageEntry& entry) {
-            return 1e-9 * static_cast<double>(entry.time - all.front().time) >= after;
-        });
-        return static_cast<uint32_t>(at - all.begin());
+        return static_cast<uint32_t>(after > 0.0 ? depth_->firstAfter(after) : 0);
     };
+    const auto all = static_cast<uint32_t>(topic.messages.size());
     cursor_ = first_ = place(options_.start);
-    end_ = std::isfinite(options_.duration) ? place(options_.start + options_.duration)
-                                            : static_cast<uint32_t>(all.size());
+    end_ = std::isfinite(options_.duration) ? place(options_.start + options_.duration) : all;
     if (cursor_ >= end_) {
-        throw BadInput(file_->file().string(), "start", std::to_string(options_.start),
-                       "a time before the last depth image");
+        const bool start = cursor_ >= all; // no duration would hold a frame
+        throw BadInput(file_->file().string(), start ? "start" : "duration",
+                       std::to_string(start ? options_.start : options_.duration),
+                       start ? "a time before the last depth image" : "a time with at least one depth image");
     }
 }
 
 void MessageCamera::useClock(const MessageTopic& topic) {
-    depth_.emplace(*file_, topic);
     if (!depth_->stamped()) {
         log::warn("{}: {}: headers have no stamps: the time of recording is used", file_->file().string(),
                   topic.name);
@@ -92,7 +90,7 @@ void MessageCamera::followClock(uint32_t index, double stamp) {
         log::warn("{}: {}", file_->file().string(), warning);
         addWarning(warning);
     }
-    shift_ += *lastStamp_ - stamp + depth_->medianPeriod();
+    shift_ += *lastStamp_ - stamp + depth_->period();
     lastStamp_.reset();
 }
 

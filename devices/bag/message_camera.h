@@ -33,9 +33,10 @@ protected:
         , file_(std::move(file))
         , warnings_(file_->warnings()) {}
 
-    // Start and duration of the options count from the topic's first message, by the time of recording.
+    // Opens depth_. Start and duration of the options count from the topic's first message, by the time of
+    // recording; by the stamps where messages were not recorded when they were sent.
     void useSpan(const MessageTopic& topic);
-    void useClock(const MessageTopic& topic);
+    void useClock(const MessageTopic& topic); // after useSpan()
     // A warning that is logged already; empty = none.
     void addWarning(const std::string& warning);
     // Calls use(i) for up to `samples` messages over the whole span.

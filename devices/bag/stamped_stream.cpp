@@ -12,9 +12,16 @@ namespace {
 
 constexpr uint64_t kMaxDelay = 1'000'000'000; // [ns] between the recording of two images of one instant
 constexpr size_t kMaxTried = 100;             // messages on either side
+constexpr size_t kBeside = 8;                 // likewise, of a place found by stamps
 
 double secondsOf(uint64_t nanoseconds) {
     return 1e-9 * static_cast<double>(nanoseconds);
+}
+
+double medianOf(std::vector<double>& values) {
+    const auto middle = values.begin() + static_cast<long>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
 }
 
 } // namespace
@@ -23,7 +30,11 @@ StampedStream::StampedStream(MessageFile& file, const MessageTopic& topic)
     : file_(file)
     , topic_(topic)
     , stamps_(topic.messages.size(), NAN) {
-    stamped_ = stampOf(0) != 0.0;
+    constexpr size_t kTried = 3; // a simulator's clock begins at 0
+    stamped_ = false;
+    for (size_t i = 0; i < std::min(kTried, stamps_.size()) && !stamped_; ++i) {
+        stamped_ = stampOf(i) != 0.0;
+    }
     if (!stamped_) {
         useRecordingTime();
     }
@@ -64,6 +75,15 @@ std::optional<size_t> StampedStream::nearest(double stamp, uint64_t recordedAt, 
             best = index;
         }
     };
+    if (searchesAll_) {
+        const size_t found = firstFrom(stamp);
+        for (size_t i = found - std::min(found, kBeside); i < std::min(all.size(), found + kBeside); ++i) {
+            consider(i);
+        }
+        if (best) {
+            return best;
+        }
+    }
     for (size_t i = from; i-- > from - std::min(from, kMaxTried) && apart(all[i].time) <= kMaxDelay;) {
         consider(i);
     }
@@ -74,16 +94,108 @@ std::optional<size_t> StampedStream::nearest(double stamp, uint64_t recordedAt, 
     return best;
 }
 
-double StampedStream::medianPeriod() const {
-    std::vector<uint64_t> steps;
+// The first message of a stamp from this one on, where stamps rise.
+size_t StampedStream::firstFrom(double stamp) {
+    size_t low = 0, high = stamps_.size();
+    while (low < high) {
+        const size_t middle = low + (high - low) / 2;
+        size_t probe = middle;
+        while (probe < high && !std::isfinite(stampOf(probe))) {
+            ++probe; // damaged
+        }
+        if (probe < high && stampOf(probe) < stamp) {
+            low = probe + 1;
+        } else {
+            high = middle;
+        }
+    }
+    return low;
+}
+
+double StampedStream::recordedPeriod() const {
+    std::vector<double> steps;
     for (size_t i = 1; i < topic_.messages.size(); ++i) {
-        steps.push_back(topic_.messages[i].time - topic_.messages[i - 1].time);
+        steps.push_back(secondsOf(topic_.messages[i].time - topic_.messages[i - 1].time));
     }
-    if (steps.empty()) {
-        return 0.0;
+    return steps.empty() ? 0.0 : medianOf(steps);
+}
+
+// By a few places of a long file.
+const StampedStream::Rise& StampedStream::rise() {
+    constexpr size_t kPlaces = 4, kSteps = 8, kFewest = 3;
+    if (rise_) {
+        return *rise_;
     }
-    std::nth_element(steps.begin(), steps.begin() + static_cast<long>(steps.size() / 2), steps.end());
-    return secondsOf(steps[steps.size() / 2]);
+    rise_ = Rise{0.0, 0.0};
+    const size_t last = stamps_.size() - 1;
+    const bool isLong = last > kPlaces * kSteps;
+    std::vector<double> steps, seen;
+    size_t still = 0;
+    for (size_t place = 0; place < (isLong ? kPlaces : 1); ++place) {
+        const size_t from = isLong ? place * (last - kSteps) / (kPlaces - 1) : 0;
+        double before = NAN;
+        for (size_t i = from; i <= (isLong ? from + kSteps : last); ++i) {
+            const double stamp = stampOf(i);
+            if (!std::isfinite(stamp)) {
+                continue;
+            }
+            seen.push_back(stamp);
+            if (stamp > before) {
+                steps.push_back(stamp - before);
+            } else {
+                still += std::isnan(before) ? 0 : 1;
+            }
+            before = stamp;
+        }
+    }
+    if (stamped_ && steps.size() >= kFewest && still < steps.size()) {
+        rise_ = Rise{medianOf(steps), seen.back() - seen.front()};
+    }
+    return *rise_;
+}
+
+double StampedStream::period() {
+    constexpr double kAlike = 1.25;
+    const double recorded = recordedPeriod(), stamped = stamped_ ? rise().period : 0.0;
+    const bool alike = recorded <= kAlike * stamped && stamped <= kAlike * recorded;
+    return stamped > 0.0 && !alike ? stamped : recorded;
+}
+
+bool StampedStream::recordedInTime() {
+    constexpr double kLeastApart = 1.0, kMostApart = 0.05; // [s], of the span
+    constexpr double kShortest = 1e-4, kLongest = 10.0;    // [s] periods of a camera
+    constexpr double kAlike = 1.1;
+    if (!stamped_ || rise().span <= 0.0 || rise().period < kShortest || rise().period > kLongest) {
+        return true;
+    }
+    const auto [period, span] = rise();
+    const double recorded = secondsOf(topic_.messages.back().time - topic_.messages.front().time);
+    if (std::abs(recorded - span) <= std::max(kLeastApart, kMostApart * span)) {
+        return true;
+    }
+    const double step = recordedPeriod(); // alike: the clock of the stamps was set forward
+    return span > recorded && step <= kAlike * period && period <= kAlike * step;
+}
+
+size_t StampedStream::firstAfter(double seconds) {
+    const std::vector<MessageEntry>& all = topic_.messages;
+    if (!recordedInTime()) {
+        const auto first =
+            std::find_if(stamps_.begin(), stamps_.end(), [](double stamp) { return std::isfinite(stamp); });
+        return firstFrom(*first + seconds);
+    }
+    const auto at = std::find_if(all.begin(), all.end(), [&](const MessageEntry& entry) {
+        return secondsOf(entry.time - all.front().time) >= seconds;
+    });
+    return static_cast<size_t>(at - all.begin());
+}
+
+bool StampedStream::hasRecorded(uint64_t time, double within) const {
+    const std::vector<MessageEntry>& all = topic_.messages;
+    const auto next = std::lower_bound(all.begin(), all.end(), time,
+                                       [](const MessageEntry& e, uint64_t t) { return e.time < t; });
+    return (next != all.end() && secondsOf(next->time - time) <= within) ||
+           (next != all.begin() && secondsOf(time - (next - 1)->time) <= within);
 }
 
 } // namespace fathom

@@ -9,7 +9,8 @@
 
 namespace fathom {
 
-// Reads headers near the time of recording only, each once, so that a long file is not read in advance.
+// Reads headers near the time of recording or of a binary search only, each once, so that a long file is not
+// read in advance.
 class StampedStream {
 public:
     StampedStream(MessageFile& file, const MessageTopic& topic);
@@ -22,13 +23,31 @@ public:
     double stampOf(size_t index);
     bool stamped() const { return stamped_; }
     void useRecordingTime();
-    double medianPeriod() const; // [s] of the recording; 0 = unknown
+    // Lets nearest() search the stamps of all messages, which rise, and not only those near recordedAt.
+    void searchAll() { searchesAll_ = true; }
+    // [s] Between two messages: of the stamps where these rise, else of the recording; 0 = unknown.
+    double period();
+    // Whether messages were recorded when they were sent, as far as the stamps tell; not so where a program
+    // wrote the file later. True where the stamps say nothing.
+    bool recordedInTime();
+    // The first message so many seconds after the first one, by the stamps where it was not recordedInTime().
+    size_t firstAfter(double seconds);
+    // Whether a message was recorded at most `within` [s] from a time [ns].
+    bool hasRecorded(uint64_t time, double within) const;
 
 private:
+    struct Rise {
+        double period, span; // [s]; period 0: the stamps do not rise
+    };
+    const Rise& rise();
+    double recordedPeriod() const; // [s] median; 0 = unknown
+    size_t firstFrom(double stamp);
+
     MessageFile& file_;
     const MessageTopic& topic_;
     std::vector<double> stamps_; // NaN: not read yet
-    bool stamped_ = true;
+    bool stamped_ = true, searchesAll_ = false;
+    std::optional<Rise> rise_;
 };
 
 } // namespace fathom
