@@ -114,26 +114,38 @@ void McapFile::add(uint16_t channel, const MessageEntry& entry) {
     found_[channel].push_back(entry);
 }
 
-// Chunks without an index, and the first chunk of each channel that no record outside of chunks describes.
+// Chunks without an index, and for each channel that no record outside of chunks describes the first whole
+// chunk with its messages.
 void McapFile::readUnindexed() {
+    std::set<uint64_t> damaged;
+    const auto tryChunk = [&](const Chunk& chunk, bool messages) {
+        try {
+            scanChunk(chunk, messages);
+        } catch (const Error& e) {
+            damaged.insert(chunk.at);
+            log::warn("{}: a chunk at byte {} is skipped: {}", file().string(), chunk.at, e.what());
+        }
+    };
+    std::map<uint64_t, Chunk> indexed; // by place
     for (const Chunk& chunk : chunks_) {
-        if (!chunk.indexed) {
-            try {
-                scanChunk(chunk, true);
-            } catch (const Error& e) {
-                log::warn("{}: a chunk at byte {} is skipped: {}", file().string(), chunk.at, e.what());
-            }
+        if (chunk.indexed) {
+            indexed.emplace(chunk.at, chunk);
+        } else {
+            tryChunk(chunk, true);
         }
     }
-    std::set<uint64_t> wanted;
     for (const auto& [channel, entries] : found_) {
-        if (!channels_.contains(channel) && !entries.empty() && entries.front().chunk != 0) {
-            wanted.insert(entries.front().chunk);
-        }
-    }
-    for (const Chunk& chunk : chunks_) {
-        if (wanted.contains(chunk.at)) {
-            scanChunk(chunk, false);
+        uint64_t tried = 0;
+        for (auto entry = entries.begin(); entry != entries.end() && !channels_.contains(channel); ++entry) {
+            const auto chunk = indexed.find(entry->chunk);
+            if (entry->chunk == tried || chunk == indexed.end() || damaged.contains(entry->chunk)) {
+                continue;
+            }
+            tried = entry->chunk;
+            tryChunk(chunk->second, false);
+            if (!damaged.contains(tried)) {
+                break;
+            }
         }
     }
 }

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // How much of a long MCAP file is read to open it and to play a part.
 #include "devices/bag/mcap_file.h"
+#include "devices/bag/mcap_records.h"
 #include "devices/bag/mcap_writer.h"
+#include "engine/types/error.h"
+#include "tests/devices/bag_maker.h"
 #include "tests/devices/recorded_folder.h"
 
 #include <doctest/doctest.h>
@@ -45,7 +48,47 @@ void checkLate(McapFile& file, double mostOfFile, uint64_t size) {
     CHECK(file.bytesRead() - opened < 7 * 22'000);
 }
 
+std::string mcapRecord(uint8_t kind, const std::string& content) {
+    return testing::Out().put(kind).put(uint64_t{content.size()}).bytes + content;
+}
+
+// A chunk that describes its channel and holds one message, with its index. sum: 0 = not checked.
+std::string describedChunk(uint64_t time, uint32_t sum) {
+    using testing::Out;
+    const std::string inside =
+        mcapRecord(mcap::kSchema,
+                   Out().put(uint16_t{1}).text("sensor_msgs/msg/Image").text("").text("").bytes) +
+        mcapRecord(mcap::kChannel,
+                   Out().put(uint16_t{5}).put(uint16_t{1}).text("/depth").text("cdr").text("").bytes);
+    const Out message = Out().put(uint16_t{5}).put(uint32_t{0}).put(time).put(time).put(uint64_t{77});
+    const std::string records = inside + mcapRecord(mcap::kMessage, message.bytes);
+    const Out chunk = Out()
+                          .put(time)
+                          .put(time)
+                          .put(uint64_t{records.size()})
+                          .put(sum)
+                          .text("")
+                          .put(uint64_t{records.size()});
+    const Out index = Out().put(uint16_t{5}).put(uint32_t{16}).put(time).put(uint64_t{inside.size()});
+    return mcapRecord(mcap::kChunk, chunk.bytes + records) + mcapRecord(mcap::kMessageIndex, index.bytes);
+}
+
 } // namespace
+
+TEST_CASE("A damaged first chunk of an MCAP file without a summary does not lose the others") {
+    const TemporaryFolder folder;
+    const std::string magic(mcap::kMagic.begin(), mcap::kMagic.end());
+    const std::string end = mcapRecord(mcap::kFooter, std::string(20, '\0')) + magic; // no summary
+    folder.write("x.mcap",
+                 magic + describedChunk(10, 1) + describedChunk(20, 0) + describedChunk(30, 0) + end);
+    McapFile file(folder.path() / "x.mcap");
+    REQUIRE(file.topics().size() == 1);
+    const MessageTopic& topic = file.topics()[0];
+    CHECK(topic.type == "sensor_msgs/Image");
+    REQUIRE(topic.messages.size() == 3);
+    CHECK(file.bytes(topic.messages[1]).view.size() == 8);
+    CHECK_THROWS_WITH_AS(file.bytes(topic.messages[0]), "a chunk whose checksum is wrong", Error);
+}
 
 TEST_CASE("A long MCAP file is opened from its summary, and only the chunks that are played are read") {
     const TemporaryFolder folder;
