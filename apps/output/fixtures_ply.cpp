@@ -34,11 +34,9 @@ std::filesystem::path fixturesFileName(int64_t frame) {
 void writeFixturesPly(const std::filesystem::path& file, const Fixtures& set) {
     const RegionSpheres& spheres = set.spheres;
     OutputFile out(file);
-    out.write(
-        "ply\nformat binary_little_endian 1.0\ncomment region spheres, base frame, metres\nelement vertex " +
-        std::to_string(spheres.size()) +
-        "\nproperty double x\nproperty double y\nproperty double z\nproperty double radius\n"
-        "property int class\nproperty int held\nend_header\n");
+    out.write(std::string(kFixturesPlyStart) + "element vertex " + std::to_string(spheres.size()) +
+              "\nproperty double x\nproperty double y\nproperty double z\nproperty double radius\n"
+              "property int class\nproperty int held\nend_header\n");
     const uint32_t pixels = set.camera.depth.pixels();
     for (size_t i = 0; i < spheres.size(); ++i) {
         char vertex[kVertexBytes];

@@ -5,8 +5,13 @@
 #include "engine/contact/fixtures.h"
 
 #include <filesystem>
+#include <string_view>
 
 namespace fathom {
+
+// First bytes of every such file.
+inline constexpr std::string_view kFixturesPlyStart =
+    "ply\nformat binary_little_endian 1.0\ncomment region spheres, base frame, metres\n";
 
 // File name relative to --out: fixtures/NNNNNN.ply, the frame index with at least six digits.
 std::filesystem::path fixturesFileName(int64_t frame);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/output/output_folder.h"
 
+#include "apps/output/fixtures_ply.h"
 #include "engine/types/error.h"
 
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
+#include <fstream>
 #include <string>
 #include <string_view>
 #include <sys/file.h>
@@ -19,6 +21,9 @@
 namespace fathom {
 
 namespace {
+
+// Of every version's fault files: columns are added behind these.
+constexpr std::string_view kFaultsStart = "t_s,dev_x,dev_y,dev_z,";
 
 // The process that holds the lock, as it wrote it itself.
 std::string holderOf(int descriptor) {
@@ -36,10 +41,19 @@ bool isNamed(int descriptor, const std::filesystem::path& file) {
            open.st_dev == named.st_dev && open.st_ino == named.st_ino;
 }
 
+// A file of this name may also be the user's own.
+bool beginsWith(const std::filesystem::path& file, std::string_view text) {
+    std::string start(text.size(), '\0');
+    std::ifstream in(file, std::ios::binary);
+    in.read(start.data(), static_cast<std::streamsize>(start.size()));
+    return in && start == text;
+}
+
 bool isFixtureFile(const std::filesystem::path& file) {
     const std::string stem = file.stem().string();
     return file.extension() == ".ply" && stem.size() >= 6 &&
-           std::all_of(stem.begin(), stem.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
+           std::all_of(stem.begin(), stem.end(), [](unsigned char c) { return std::isdigit(c) != 0; }) &&
+           beginsWith(file, kFixturesPlyStart);
 }
 
 // Left by FaultTrace in an earlier run.
@@ -48,13 +62,14 @@ bool isFaultFile(const std::filesystem::path& file) {
     const std::string stem = file.stem().string();
     return file.extension() == ".csv" && stem.size() > kStart.size() &&
            stem.compare(0, kStart.size(), kStart) == 0 &&
-           stem.find_first_not_of("0123456789.", kStart.size()) == std::string::npos;
+           stem.find_first_not_of("0123456789.", kStart.size()) == std::string::npos &&
+           beginsWith(file, kFaultsStart);
 }
 
 void removeAll(const std::filesystem::path& folder, bool (*wanted)(const std::filesystem::path&)) {
     std::vector<std::filesystem::path> old;
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-        if (wanted(entry.path())) {
+        if (entry.is_regular_file() && wanted(entry.path())) {
             old.push_back(entry.path());
         }
     }
@@ -125,7 +140,7 @@ OutputLock::~OutputLock() {
     }
 }
 
-OutputLock prepareOutputFolder(const std::filesystem::path& folder, bool withFixtures) {
+OutputLock prepareReplayFolder(const std::filesystem::path& folder, bool withFixtures) {
     const std::filesystem::path fixtures = folder / "fixtures";
     try {
         OutputLock lock(folder);

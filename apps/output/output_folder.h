@@ -26,7 +26,8 @@ private:
 };
 
 // Creates `folder` (and fixtures/ in it if requested), locks it and deletes the frame and fault files of an
-// earlier run, so that sets of two runs never mix. Throws Error that names the folder.
-OutputLock prepareOutputFolder(const std::filesystem::path& folder, bool withFixtures);
+// earlier replay, so that sets of two runs never mix. Only for a replay, which writes such files. Throws
+// Error that names the folder.
+OutputLock prepareReplayFolder(const std::filesystem::path& folder, bool withFixtures);
 
 } // namespace fathom

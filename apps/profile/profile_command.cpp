@@ -86,7 +86,7 @@ void writeStudy(const Study& study, const Facts& facts, const std::filesystem::p
 
 void runProfile(const Settings& settings, const GlobalOptions& global) {
     checkNames(settings);
-    const OutputLock lock = prepareOutputFolder(settings.out, false);
+    const OutputLock lock(settings.out);
     const gpu::Instance instance(global.validation());
     gpu::Device device(instance, global.device);
     ClockKeeper clock(global, device.facts());

@@ -61,7 +61,7 @@ ReplayRecorder::ReplayRecorder(std::filesystem::path out, const Scene& scene, co
                                const std::vector<std::string>& passes, bool saveFixtures, const ArmSetup* arm,
                                const std::string& realArm, const SceneEdits* edits)
     : out_(std::move(out))
-    , lock_(prepareOutputFolder(out_, saveFixtures))
+    , lock_(prepareReplayFolder(out_, saveFixtures))
     , scene_(scene)
     , saveFixtures_(saveFixtures)
     , haptics_(out_ / "haptics.csv")

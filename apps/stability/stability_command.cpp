@@ -56,7 +56,7 @@ int runStability(const StabilityOptions& options, const GlobalOptions& global) {
     if (options.out.empty()) {
         throw CLI::RequiredError("--out");
     }
-    const OutputLock lock = prepareOutputFolder(options.out, false);
+    const OutputLock lock(options.out);
     std::vector<stability::CaseResult> results;
     double seconds = 0.0;
     for (const stability::Case& one : cases) {

@@ -90,7 +90,7 @@ public:
         , tool_(toolOf(scene_)) {}
 
     int run() {
-        const OutputLock lock = prepareOutputFolder(settings_.out, false);
+        const OutputLock lock(settings_.out);
         fs::remove(old_); // an older result must not outlive a run that finds none
         say();
         Tuner tuner(device_, source_, tool_, options());
@@ -155,7 +155,7 @@ private:
         const Plan plan = makePlan(sceneWith(scene_, chosen.setting), source_.frames.camera,
                                    static_cast<uint32_t>(tool_.leafCount()), device_.facts());
         std::string head =
-            "written by 'fathom tune' " + std::string(version()) + " for " + settings_.request.text() +
+            std::string(kWrittenBy) + " " + std::string(version()) + " for " + settings_.request.text() +
             " on " + device_.facts().name + "\nmeasured: " + valuesOf(chosen.score) +
             " from camera to force; as written before: " + valuesOf(result.points.front().score) +
             "\ncamera: " + source_.camera + "; judged by " + source_.judgedBy +

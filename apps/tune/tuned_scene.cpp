@@ -78,6 +78,15 @@ bool sameFolder(const fs::path& a, const fs::path& b) {
     return fs::equivalent(a, b, none);
 }
 
+// Whether an earlier run wrote this scene, beside its points. A recording of a tuned scene has a copy of it,
+// without points.
+bool isResult(const fs::path& scene) {
+    std::ifstream in(scene, std::ios::binary);
+    std::string line;
+    return std::getline(in, line) && line.starts_with(std::string(kMark) + " " + kWrittenBy) &&
+           fs::exists(scene.parent_path() / "points.csv");
+}
+
 } // namespace
 
 std::vector<SceneValue> chosenValues(const TuneResult& result, const TunePoint& chosen) {
@@ -124,6 +133,10 @@ fs::path tunedSceneFile(const Scene& scene, const fs::path& folder) {
     if (sameFolder(file, scene.file)) {
         throw BadInput("tune", "--out", folder.string(),
                        "a folder without the scene itself, which is not replaced");
+    }
+    if (fs::exists(fs::symlink_status(file)) && !isResult(file)) {
+        throw BadInput("tune", "--out", folder.string() + ", whose scene.yaml is not a result of tune",
+                       "a folder of its own, or that of an earlier tune");
     }
     return file;
 }

@@ -20,14 +20,18 @@ std::vector<SceneValue> chosenValues(const TuneResult& result, const TunePoint& 
 std::vector<SceneValue> movedPaths(const std::string& text, const std::filesystem::path& home,
                                    const std::filesystem::path& folder);
 
-// Writes `folder`/scene.yaml: the text of the scene with these values, and `head` as comment at the top.
-// Copies the files in its folder that it names. Replaces an older file only when the new one loads
+// Start of the head of a scene.
+inline constexpr const char* kWrittenBy = "written by 'fathom tune'";
+
+// Writes `folder`/scene.yaml: the text of the scene with these values, and `head`, which begins with
+// kWrittenBy, as comment at the top. Copies the files in its folder that it names. Replaces an older file only when the new one loads
 // with the chosen setting. Throws BadInput or Error.
 std::filesystem::path writeTunedScene(const Scene& scene, const Setting& chosen,
                                       const std::vector<SceneValue>& values, const std::string& head,
                                       const std::filesystem::path& folder);
 
-// Name of the file. Throws BadInput when `folder` has a file of this name that is the scene itself.
+// Name of the file. Throws BadInput when `folder` has a file of this name that is the scene itself, or that
+// no earlier run wrote.
 std::filesystem::path tunedSceneFile(const Scene& scene, const std::filesystem::path& folder);
 
 } // namespace fathom::tune

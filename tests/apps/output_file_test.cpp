@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/types/output_file.h"
 
+#include "apps/output/fixtures_ply.h"
+#include "apps/output/haptics_csv.h"
 #include "apps/output/output_folder.h"
 #include "engine/types/error.h"
 #include "engine/types/read_file.h"
@@ -115,9 +117,9 @@ TEST_CASE("A file that was read is not replaced, under its own name or by a link
 TEST_CASE("An output folder is locked by one process; the lock of a dead one and a file left behind do not "
           "count") {
     const ScratchFolder folder;
-    const auto refused = [&] { return refusalOf([&] { prepareOutputFolder(folder.path(), false); }); };
+    const auto refused = [&] { return refusalOf([&] { prepareReplayFolder(folder.path(), false); }); };
     {
-        const OutputLock lock = prepareOutputFolder(folder.path(), false);
+        const OutputLock lock = prepareReplayFolder(folder.path(), false);
         CHECK(refused().find("in use by process " + std::to_string(::getpid())) != std::string::npos);
     }
     CHECK(folder.files() == 0); // the lock file is gone
@@ -125,7 +127,7 @@ TEST_CASE("An output folder is locked by one process; the lock of a dead one and
     CHECK(refused().empty());
     const pid_t child = ::fork();
     if (child == 0) {
-        const OutputLock lock = prepareOutputFolder(folder.path(), false);
+        const OutputLock lock = prepareReplayFolder(folder.path(), false);
         ::_exit(0); // without a destructor, as if killed
     }
     ::waitpid(child, nullptr, 0);
@@ -133,7 +135,7 @@ TEST_CASE("An output folder is locked by one process; the lock of a dead one and
     CHECK(refused().empty());
     put(folder.path() / "victim", "mine");
     std::filesystem::create_symlink(folder.path() / "victim", folder.path() / ".fathom.lock");
-    CHECK_THROWS_AS(prepareOutputFolder(folder.path(), false), Error);
+    CHECK_THROWS_AS(prepareReplayFolder(folder.path(), false), Error);
     CHECK(textOf(folder.path() / "victim") == "mine");
 }
 
@@ -141,8 +143,8 @@ TEST_CASE("Fixture files of an earlier run are not deleted through a link") {
     const ScratchFolder folder, other;
     put(other.path() / "000001.ply", "mine");
     std::filesystem::create_directory_symlink(other.path(), folder.path() / "fixtures");
-    CHECK_THROWS_AS(prepareOutputFolder(folder.path(), true), Error);
-    CHECK_THROWS_AS(prepareOutputFolder(folder.path(), false), Error);
+    CHECK_THROWS_AS(prepareReplayFolder(folder.path(), true), Error);
+    CHECK_THROWS_AS(prepareReplayFolder(folder.path(), false), Error);
     CHECK(textOf(other.path() / "000001.ply") == "mine");
 }
 
@@ -150,22 +152,39 @@ TEST_CASE("An output folder is made with its parents and loses the frame and fau
           "nothing else") {
     const ScratchFolder folder;
     const auto out = folder.path() / "x" / "y";
-    prepareOutputFolder(out, true);
-    put(out / "fixtures" / "000007.ply", "old");
-    put(out / "fixtures" / "1234567.ply", "old");
+    prepareReplayFolder(out, true);
+    const std::string faults = std::string(HapticsCsv::kHeader) + "\n";
+    writeFixturesPly(out / "fixtures" / "000007.ply", {});
+    writeFixturesPly(out / "fixtures" / "1234567.ply", {});
+    writeFixturesPly(out / "fixtures" / "mine.ply", {});
     put(out / "fixtures" / "notes.txt", "mine");
-    put(out / "fault-12.345.csv", "old");
-    put(out / "fault-notes.csv", "mine");
-    put(out / "fault-.csv", "mine");
+    put(out / "fault-12.345.csv", faults);
+    put(out / "fault-notes.csv", faults);
+    put(out / "fault-.csv", faults);
     put(out / "summary.json", "old");
-    prepareOutputFolder(out, false);
+    prepareReplayFolder(out, false);
     CHECK(!std::filesystem::exists(out / "fixtures" / "000007.ply"));
     CHECK(!std::filesystem::exists(out / "fixtures" / "1234567.ply"));
+    CHECK(std::filesystem::exists(out / "fixtures" / "mine.ply"));
     CHECK(textOf(out / "fixtures" / "notes.txt") == "mine");
     CHECK(!std::filesystem::exists(out / "fault-12.345.csv"));
-    CHECK(textOf(out / "fault-notes.csv") == "mine");
-    CHECK(textOf(out / "fault-.csv") == "mine");
+    CHECK(textOf(out / "fault-notes.csv") == faults);
+    CHECK(textOf(out / "fault-.csv") == faults);
     CHECK(textOf(out / "summary.json") == "old");
     put(folder.path() / "file", "");
-    CHECK_THROWS_AS(prepareOutputFolder(folder.path() / "file", false), Error);
+    CHECK_THROWS_AS(prepareReplayFolder(folder.path() / "file", false), Error);
+}
+
+TEST_CASE("Files of other programs in an output folder are kept, also under names that a replay gives") {
+    const ScratchFolder out;
+    const std::string ply = "ply\nformat ascii 1.0\nelement vertex 0\nend_header\n";
+    out.write("fixtures/000000.ply", ply);
+    out.write("fixtures/000001.ply", "");
+    out.write("fault-1.csv", "fault,date\n");
+    std::filesystem::create_directory(out / "fault-2.csv");
+    prepareReplayFolder(out.path(), true);
+    CHECK(out.read("fixtures/000000.ply") == ply);
+    CHECK(std::filesystem::exists(out / "fixtures/000001.ply"));
+    CHECK(out.read("fault-1.csv") == "fault,date\n");
+    CHECK(std::filesystem::is_directory(out / "fault-2.csv"));
 }

@@ -168,7 +168,7 @@ TEST_CASE("A second run into the same folder replaces the files of the first, in
     CHECK(second.frames.size() == 2);
     CHECK(std::filesystem::exists(second.ply(1)));
     CHECK(!std::filesystem::exists(second.ply(3)));
-    CHECK(stage.read("out/notes.txt") == "mine"); // prepareOutputFolder deletes only files of fathom
+    CHECK(stage.read("out/notes.txt") == "mine"); // prepareReplayFolder deletes only files of fathom
 }
 
 TEST_CASE("Relative paths in a scene start from the scene file, those on the command line from the working "

@@ -79,14 +79,21 @@ TEST_CASE(
     const Stage stage;
     stillRecording(stage, 10);
     scene(stage);
-    std::filesystem::create_directory(stage / "tuned");
-    stage.write("tuned/scene.yaml", "old");
+    stage.write("tuned/scene.yaml", "# tune: written by 'fathom tune' 1.0\nold");
+    stage.write("tuned/points.csv", "old");
+    stage.write("tuned/fixtures/000000.ply", "mine");
     const ProgramRun run = runFathom(command(stage, {"--time", "0.0001", "--frames", "8", "--limit", "1"}));
     CHECK(run.exitCode == 1);
     REQUIRE(run.errorLines().size() == 1);
     CHECK(has(run.err, "no point meets the request (time at most 0.0001 ms); nearest: error "));
     CHECK(has(stage.read("tuned/points.csv"), "as written"));
     CHECK(!std::filesystem::exists(stage / "tuned/scene.yaml"));
+    CHECK(stage.read("tuned/fixtures/000000.ply") == "mine");
+    stage.write("proj/scene.yaml", "mine");
+    checkRefusal(
+        {"tune", (stage / "scene.yaml").string(), "--error", "1", "--out", (stage / "proj").string()},
+        {"--out", "not a result of tune"});
+    CHECK(stage.read("proj/scene.yaml") == "mine");
 }
 
 TEST_CASE("tune measures on an analytic twin when a recording shows no still scene, and says so") {

@@ -2,6 +2,7 @@
 // Words and files of a tuned scene, from made-up points.
 #include "apps/tune/tune_words.h"
 #include "apps/tune/tuned_scene.h"
+#include "engine/types/error.h"
 #include "tests/support/scratch_folder.h"
 
 #include <doctest/doctest.h>
@@ -11,6 +12,9 @@ using namespace fathom::testing;
 using namespace fathom::tune;
 
 namespace {
+
+const std::string kLeast = "fixtures: [{name: a, role: forbidden}]\ntool: {spheres: [[0, 0, 0, 0.01]]}\n";
+const std::string kHead = std::string(kWrittenBy) + " 1.0";
 
 // Two points that differ in memory; the second one is chosen.
 TuneResult madeUp() {
@@ -86,8 +90,9 @@ TEST_CASE("A tuned scene has the chosen values, copies of its files, and paths t
     const TuneResult result = madeUp();
     const TunePoint& chosen = result.points[1];
     const Scene scene = loadScene(home / "mine.yaml");
+    put(out / "points.csv", "");
     for (int run = 0; run < 2; ++run) { // the second one replaces the first
-        CHECK(writeTunedScene(scene, chosen.setting, chosenValues(result, chosen), "head", out) ==
+        CHECK(writeTunedScene(scene, chosen.setting, chosenValues(result, chosen), kHead, out) ==
               out / "scene.yaml");
     }
     const Scene tuned = loadScene(out / "scene.yaml");
@@ -99,7 +104,7 @@ TEST_CASE("A tuned scene has the chosen values, copies of its files, and paths t
     CHECK(tuned.hand.path == (out / "path.csv").string());
     CHECK(textOf(out / "path.csv") == textOf(home / "path.csv"));
     const std::string text = textOf(out / "scene.yaml");
-    CHECK(text.find("# tune: head\n# mine\n") == 0);
+    CHECK(text.find("# tune: " + kHead + "\n# mine\n") == 0);
     CHECK(text.find("# my hand") != std::string::npos);
     CHECK(text.find("# tune: memory 30 frames") != std::string::npos);
     Scene own = loadScene(out / "scene.yaml");
@@ -107,7 +112,26 @@ TEST_CASE("A tuned scene has the chosen values, copies of its files, and paths t
     CHECK_NOTHROW(tunedSceneFile(scene, home));
     Setting wrong = chosen.setting;
     wrong.memory = 8; // differs from what the values say
-    CHECK_THROWS(writeTunedScene(scene, wrong, chosenValues(result, chosen), "head", out));
+    CHECK_THROWS(writeTunedScene(scene, wrong, chosenValues(result, chosen), kHead, out));
     CHECK(textOf(out / "scene.yaml") == text);
     CHECK(!std::filesystem::exists(out / "scene.new.yaml"));
+}
+
+TEST_CASE("A scene that no earlier run wrote is not replaced, nor a recording's copy of a tuned one") {
+    const ScratchFolder home, out;
+    home.write("mine.yaml", kLeast);
+    const Scene scene = loadScene(home / "mine.yaml");
+    const std::string tuned = commentLines(kHead) + "camera: {}\n";
+    CHECK_NOTHROW(tunedSceneFile(scene, out.path()));
+    for (const std::string& text : {std::string(), std::string("camera: {}\n"), "\n" + tuned, tuned}) {
+        CAPTURE(text);
+        out.write("scene.yaml", text);
+        CHECK_THROWS_WITH_AS(tunedSceneFile(scene, out.path()),
+                             doctest::Contains("whose scene.yaml is not a result of tune"), BadInput);
+    }
+    out.write("points.csv", "");
+    CHECK_NOTHROW(tunedSceneFile(scene, out.path()));
+    std::filesystem::remove(out / "scene.yaml");
+    std::filesystem::create_symlink("nowhere", out / "scene.yaml");
+    CHECK_THROWS_AS(tunedSceneFile(scene, out.path()), BadInput);
 }
