@@ -2,6 +2,7 @@
 #include "apps/tune/tuned_scene.h"
 
 #include "apps/binding/scene_files.h"
+#include "apps/tune/camera_files.h"
 #include "apps/tune/tune_words.h"
 #include "engine/types/error.h"
 #include "engine/types/inside.h"
@@ -18,6 +19,8 @@ namespace fathom::tune {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* kSourceKinds[] = {"recorded", "v4l2", "ros2"}; // that may name files
 
 // The shortest text that gives the same double again.
 std::string exactly(double value) {
@@ -78,6 +81,29 @@ bool sameFolder(const fs::path& a, const fs::path& b) {
     return fs::equivalent(a, b, none);
 }
 
+// The value of nested keys; empty = missing, or not a scalar.
+std::string scalarAt(const YAML::Node& root, const std::vector<std::string>& key) {
+    YAML::Node node = YAML::Clone(root);
+    for (const std::string& part : key) {
+        const YAML::Node next = node.IsMap() ? YAML::Node(node[part]) : YAML::Node();
+        node.reset(next);
+    }
+    return node.IsScalar() ? node.Scalar() : "";
+}
+
+// Copies what copySceneFiles() does not: files of the camera's options in the folder of the scene.
+void copyCameraFiles(const std::string& text, const fs::path& home, const fs::path& folder) {
+    const YAML::Node root = YAML::Load(text);
+    for (const char* kind : kSourceKinds) {
+        for (const fs::path& file : filesBesideScene(scalarAt(root, {"camera", "source", kind}))) {
+            if (fs::is_regular_file(home / file)) { // a missing one only matters where the camera is opened
+                fs::create_directories((folder / file).parent_path());
+                fs::copy(home / file, folder / file, fs::copy_options::overwrite_existing);
+            }
+        }
+    }
+}
+
 // Whether an earlier run wrote this scene, beside its points. A recording of a tuned scene has a copy of it,
 // without points.
 bool isResult(const fs::path& scene) {
@@ -101,28 +127,21 @@ std::vector<SceneValue> chosenValues(const TuneResult& result, const TunePoint& 
 }
 
 std::vector<SceneValue> movedPaths(const std::string& text, const fs::path& home, const fs::path& folder) {
-    const std::vector<std::vector<std::string>> keys{{"tool", "file"},
-                                                     {"arm", "urdf"},
-                                                     {"arm", "meshes"},
-                                                     {"hand", "path"},
-                                                     {"camera", "source", "recorded"}};
+    const std::vector<std::vector<std::string>> keys{
+        {"tool", "file"}, {"arm", "urdf"}, {"arm", "meshes"}, {"hand", "path"}};
     const YAML::Node root = YAML::Load(text);
     std::vector<SceneValue> values;
     for (const std::vector<std::string>& key : keys) {
-        YAML::Node node = YAML::Clone(root);
-        for (const std::string& part : key) {
-            const YAML::Node next = node.IsMap() ? YAML::Node(node[part]) : YAML::Node();
-            node.reset(next);
+        const std::string path = scalarAt(root, key);
+        if (!path.empty() && !staysInside(path) && !fs::path(path).is_absolute()) {
+            values.push_back({key, doubleQuoted(movedPath(path, home, folder))});
         }
-        if (!node.IsScalar() || (key.front() == "hand" && node.Scalar() == "approach")) {
-            continue;
-        }
-        const fs::path path(node.Scalar());
-        const bool copied = key.back() != "recorded" && staysInside(path);
-        if (!path.is_absolute() && !copied) {
-            const fs::path file = (fs::weakly_canonical(home) / path).lexically_normal();
-            values.push_back(
-                {key, doubleQuoted(file.lexically_proximate(fs::weakly_canonical(folder)).string())});
+    }
+    for (const char* kind : kSourceKinds) {
+        const std::vector<std::string> key{"camera", "source", kind};
+        const std::string source = scalarAt(root, key), moved = movedSource(kind, source, home, folder);
+        if (!source.empty() && moved != source) {
+            values.push_back({key, doubleQuoted(moved)});
         }
     }
     return values;
@@ -149,6 +168,7 @@ fs::path writeTunedScene(const Scene& scene, const Setting& chosen, const std::v
     std::vector<SceneValue> all = values;
     if (!sameFolder(home, folder)) {
         copySceneFiles(scene, folder);
+        copyCameraFiles(text, home, folder);
         const std::vector<SceneValue> moved = movedPaths(text, home, folder);
         all.insert(all.end(), moved.begin(), moved.end());
     }

@@ -15,7 +15,7 @@ namespace fathom::tune {
 // written, too, so that a later default does not change it.
 std::vector<SceneValue> chosenValues(const TuneResult& result, const TunePoint& chosen);
 
-// Files that the scene names, as seen from another folder: those that copySceneFiles() does not copy there,
+// Files that the scene names, as seen from another folder: those that writeTunedScene() does not copy there,
 // and the recording of the camera.
 std::vector<SceneValue> movedPaths(const std::string& text, const std::filesystem::path& home,
                                    const std::filesystem::path& folder);
@@ -24,8 +24,8 @@ std::vector<SceneValue> movedPaths(const std::string& text, const std::filesyste
 inline constexpr const char* kWrittenBy = "written by 'fathom tune'";
 
 // Writes `folder`/scene.yaml: the text of the scene with these values, and `head`, which begins with
-// kWrittenBy, as comment at the top. Copies the files in its folder that it names. Replaces an older file only when the new one loads
-// with the chosen setting. Throws BadInput or Error.
+// kWrittenBy, as comment at the top. Copies the files in its folder that it names. Replaces an older file
+// only when the new one loads with the chosen setting. Throws BadInput or Error.
 std::filesystem::path writeTunedScene(const Scene& scene, const Setting& chosen,
                                       const std::vector<SceneValue>& values, const std::string& head,
                                       const std::filesystem::path& folder);

@@ -6,6 +6,7 @@
 #include "tests/support/scratch_folder.h"
 
 #include <doctest/doctest.h>
+#include <yaml-cpp/yaml.h>
 
 using namespace fathom;
 using namespace fathom::testing;
@@ -134,4 +135,36 @@ TEST_CASE("A scene that no earlier run wrote is not replaced, nor a recording's 
     std::filesystem::remove(out / "scene.yaml");
     std::filesystem::create_symlink("nowhere", out / "scene.yaml");
     CHECK_THROWS_AS(tunedSceneFile(scene, out.path()), BadInput);
+}
+
+TEST_CASE("Files behind the commas of a camera's source are copied or named as seen from the tuned scene") {
+    const ScratchFolder scratch;
+    scratch.write("lens.json", "lens");
+    scratch.write("home/sub/own.json", "own");
+    const std::filesystem::path home = scratch / "home", out = scratch / "results/tuned";
+    std::filesystem::create_directories(out);
+    const auto moved = [&](const std::string& source) {
+        scratch.write("home/mine.yaml", kLeast + "camera: {source: {" + source + "}}\n");
+        std::filesystem::remove(out / "scene.yaml");
+        std::filesystem::remove_all(out / "sub");
+        const TuneResult result = madeUp();
+        writeTunedScene(loadScene(home / "mine.yaml"), result.points[1].setting,
+                        chosenValues(result, result.points[1]), kHead, out);
+        const YAML::Node node = YAML::LoadFile((out / "scene.yaml").string());
+        return node["camera"]["source"].begin()->second.as<std::string>();
+    };
+    CHECK(moved("recorded: 'a, rec,intrinsics=../lens.json,start=1'") ==
+          "../../home/a, rec,intrinsics=../../lens.json,start=1");
+    CHECK(!std::filesystem::exists(out / "sub"));
+    CHECK(moved("recorded: 'rec,extrinsics=../lens.json,intrinsics=sub/own.json'") ==
+          "../../home/rec,extrinsics=../../lens.json,intrinsics=sub/own.json");
+    CHECK(textOf(out / "sub/own.json") == "own");
+    CHECK(moved("v4l2: 'auto,intrinsics=sub/own.json'") == "auto,intrinsics=sub/own.json");
+    CHECK(textOf(out / "sub/own.json") == "own");
+    CHECK(moved("v4l2: 'auto,intrinsics=../lens.json,size=640x480'") ==
+          "auto,intrinsics=../../lens.json,size=640x480");
+    CHECK(moved("ros2: 'depth=/d,intrinsics=../lens.json,extrinsics=sub/own.json'") ==
+          "depth=/d,intrinsics=../../lens.json,extrinsics=sub/own.json");
+    CHECK(textOf(out / "sub/own.json") == "own");
+    CHECK(moved("recorded: '/abs/rec,intrinsics=/abs/lens.json'") == "/abs/rec,intrinsics=/abs/lens.json");
 }
