@@ -4,6 +4,7 @@
 #include "engine/types/error.h"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -57,6 +58,16 @@ Pose poseOf(const Moments& m) {
     return pose;
 }
 
+// Information about the rotation, about the axis that the pairs fix least [m^2]: of the moments between both
+// frames, because noise of one frame alone makes a line look like a surface.
+double leastInformation(const Moments& m, const dquat& q) {
+    const Eigen::Matrix3d turned =
+        m.cross.transpose() * Eigen::Quaterniond(q.w, q.x, q.y, q.z).toRotationMatrix().transpose();
+    const Eigen::Matrix3d even = 0.5 * (turned + turned.transpose());
+    const Eigen::Matrix3d information = even.trace() * Eigen::Matrix3d::Identity() - even;
+    return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(information).eigenvalues()(0);
+}
+
 // A pair that is listed twice tells nothing new.
 size_t differentPoints(std::span<const PointPair> pairs) {
     std::vector<std::array<double, 3>> points;
@@ -98,6 +109,8 @@ RigidFit fitRigid(std::span<const PointPair> pairs, const std::string& source) {
     }
     // The pose uses six of the 3n degrees of freedom.
     fit.sigma = std::sqrt(squares / (count - 2.0));
+    const double information = leastInformation(moments, fit.baseTcamera.rotation);
+    fit.turn = information > 0.0 ? fit.sigma / std::sqrt(3.0 * information) : HUGE_VAL; // sigma is of 3 axes
     return fit;
 }
 

@@ -17,6 +17,7 @@ struct PointPair {
 struct RigidFit {
     Pose baseTcamera;
     double sigma = 0.0; // [m] standard deviation of the pairs, by the remaining degrees of freedom
+    double turn = 0.0;  // [rad] standard deviation of the rotation, about the axis that the pairs fix least
     double worst = 0.0; // [m] largest distance
     std::string worstName;
 };

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 #include <random>
 
 namespace fathom {
@@ -19,6 +20,7 @@ constexpr int kTriples = 1500;         // tried of more pairs
 constexpr double kMinTolerance = 5e-3; // [m] a hand-held probe is no better
 constexpr double kMaxScale = 0.03;     // relative difference of distances
 constexpr size_t kWorst = 3;           // pairs named
+constexpr double kMaxTurn = 0.05; // [rad] of the rotation's uncertainty; points on a line give 0.1 or more
 
 double distanceOf(const Pose& pose, const PointPair& pair) {
     return glm::distance(pose.apply(pair.camera), pair.base);
@@ -185,6 +187,12 @@ std::string doubtOf(Pairs pairs, const FitLimits& limits, const Consensus& found
         limits.outlierShare * static_cast<double>(pairs.size())) {
         return std::to_string(robust.outliers.size()) + " of " + std::to_string(pairs.size()) +
                " pairs do not fit the others" + named(robust.outliers);
+    }
+    if (!(robust.fit.turn <= kMaxTurn)) {
+        return "the points lie too near to one line, or to each other, for their scatter: the rotation is "
+               "uncertain by " +
+               print("%.2g degrees, over %.2g degrees", glm::degrees(std::min(robust.fit.turn, 1.0)),
+                     glm::degrees(kMaxTurn));
     }
     return "";
 }

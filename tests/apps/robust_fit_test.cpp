@@ -6,6 +6,10 @@
 #include <cmath>
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
 
 using namespace fathom;
 using namespace fathom::testing;
@@ -16,6 +20,26 @@ const FitLimits kByHand{};
 
 double offBy(const RobustFit& robust) {
     return glm::distance(robust.fit.baseTcamera.apply({0, 0, 1}), kBaseTcamera.apply({0, 0, 1}));
+}
+
+// Random points within `extent` on either side of (0, 0, 1), along a tilted direction for a line.
+std::vector<PointPair> scattered(size_t count, const dvec3& extent, double cameraNoise, double baseNoise) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> place(-1.0, 1.0);
+    std::normal_distribution<double> error(0.0, 1.0);
+    const auto noise = [&](double sigma) {
+        const double x = error(random), y = error(random), z = error(random);
+        return sigma * dvec3(x, y, z);
+    };
+    const dquat tilt = glm::normalize(dquat(1.0, 0.3, -0.2, 0.1));
+    std::vector<PointPair> pairs;
+    for (size_t i = 0; i < count; ++i) {
+        const double x = place(random), y = place(random), z = place(random);
+        const dvec3 p = tilt * (extent * dvec3(x, y, z)) + dvec3(0.0, 0.0, 1.0);
+        const dvec3 seen = p + noise(cameraNoise);
+        pairs.push_back({seen, kBaseTcamera.apply(p) + noise(baseNoise), "line " + std::to_string(i + 2)});
+    }
+    return pairs;
 }
 
 bool mentions(const std::string& text, const std::string& part) {
@@ -115,4 +139,30 @@ TEST_CASE(
     FitLimits wide;
     wide.residual = 0.3;
     CHECK(fitRobust(pairs, wide, "test").doubt == "");
+}
+
+TEST_CASE("Points on one line are doubted whatever their scatter, and points too near to each other for it") {
+    const dvec3 line(0.25, 0.0, 0.0);
+    for (const size_t count : {4, 8, 30, 300}) {
+        for (const auto& [cameraNoise, baseNoise] :
+             {std::pair(0.0, 0.002), std::pair(0.001, 0.002), std::pair(0.003, 0.003)}) {
+            CAPTURE(count);
+            CAPTURE(cameraNoise);
+            CAPTURE(baseNoise);
+            const RobustFit robust =
+                fitRobust(scattered(count, line, cameraNoise, baseNoise), kByHand, "test");
+            CHECK(robust.doubt != ""); // large scatter also looks like other units
+            CHECK(robust.fit.turn > 0.1);
+        }
+    }
+    mentions(fitRobust(scattered(30, line, 0.001, 0.002), kByHand, "test").doubt,
+             "too near to one line, or to each other, for their scatter: the rotation is uncertain by ");
+    const RobustFit near = fitRobust(scattered(8, {0.006, 0.006, 0.006}, 0.0, 0.002), kByHand, "test");
+    CHECK(near.doubt != "");
+    CHECK(near.fit.turn > 0.05);
+    for (const dvec3& extent : {dvec3(0.25, 0.1, 0.0), dvec3(0.1, 0.1, 0.1), dvec3(0.25, 0.05, 0.05)}) {
+        const RobustFit robust = fitRobust(scattered(8, extent, 0.0, 0.002), kByHand, "test");
+        CHECK(robust.doubt == "");
+        CHECK(offBy(robust) < 0.03);
+    }
 }
