@@ -9,6 +9,7 @@
 #include "apps/register/tag_finder.h"
 #include "engine/types/error.h"
 #include "engine/types/input_files.h"
+#include "engine/types/log.h"
 #include "engine/types/output_file.h"
 
 #include <CLI/CLI.hpp>
@@ -119,6 +120,12 @@ void runRegister(const RegisterOptions& options) {
     }
     if (!robust.doubt.empty()) {
         throw Error(*from + ": doubtful: " + robust.doubt);
+    }
+    if (fromPoints && robust.flat) {
+        log::warn(
+            "{}: all points lie in one plane, within their scatter: a negated axis would not be noticed; "
+            "touch a point off the plane",
+            *from);
     }
     std::cout << "# for the camera section of the scene; every region grows by 3 registration_sigma\n"
               << yaml;

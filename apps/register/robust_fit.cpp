@@ -143,6 +143,16 @@ std::vector<RobustFit::Outlier> farthest(Pairs pairs, const Pose& pose, double b
     return all;
 }
 
+std::vector<PointPair> believed(Pairs pairs, const Pose& pose, double tolerance) {
+    std::vector<PointPair> inliers;
+    for (const PointPair& pair : pairs) {
+        if (distanceOf(pose, pair) <= tolerance) {
+            inliers.push_back(pair);
+        }
+    }
+    return inliers;
+}
+
 std::string named(const std::vector<RobustFit::Outlier>& worst) {
     std::string text = "; worst";
     for (size_t i = 0; i < std::min(worst.size(), kWorst); ++i) {
@@ -160,6 +170,22 @@ bool isMirrored(Pairs pairs, const Consensus& found) {
     return (plain > kMinTolerance &&
             rankedDistance(poseOf(image), image, image.size() - 1) < kBetter * plain) ||
            (found.distance > kMinTolerance && Search(image).run().distance < kBetter * found.distance);
+}
+
+double rootMeanSquare(const Pose& pose, Pairs pairs) {
+    double squares = 0.0;
+    for (const PointPair& pair : pairs) {
+        const double distance = distanceOf(pose, pair);
+        squares += distance * distance;
+    }
+    return std::sqrt(squares / static_cast<double>(pairs.size()));
+}
+
+// Whether the mirror image fits about as well, as that of points in one plane does.
+bool isFlat(Pairs pairs) {
+    constexpr double kAlike = 2.0, kRounding = 1e-6; // [m]
+    const std::vector<PointPair> image = mirrored(pairs);
+    return rootMeanSquare(poseOf(image), image) <= kAlike * rootMeanSquare(poseOf(pairs), pairs) + kRounding;
 }
 
 std::string doubtOf(Pairs pairs, const FitLimits& limits, const Consensus& found, const RobustFit& robust) {
@@ -200,19 +226,15 @@ std::string doubtOf(Pairs pairs, const FitLimits& limits, const Consensus& found
 } // namespace
 
 RobustFit fitRobust(std::span<const PointPair> pairs, const FitLimits& limits, const std::string& source) {
-    RobustFit robust{fitRigid(pairs, source), {}, {}};
+    RobustFit robust;
+    robust.fit = fitRigid(pairs, source);
     const Consensus found = Search(pairs).run();
     // Few pairs fit themselves closely, so their scatter is estimated too low (Rousseeuw and Leroy 1987).
     const double spread = 3.0 * (1.0 + 5.0 / (static_cast<double>(pairs.size()) - 2.0)) * found.distance;
     const double tolerance = std::clamp(spread, kMinTolerance, std::max(kMinTolerance, limits.residual));
     Pose pose = found.distance < HUGE_VAL ? found.pose : robust.fit.baseTcamera;
     for (int round = 0; round < 10; ++round) {
-        std::vector<PointPair> inliers;
-        for (const PointPair& pair : pairs) {
-            if (distanceOf(pose, pair) <= tolerance) {
-                inliers.push_back(pair);
-            }
-        }
+        const std::vector<PointPair> inliers = believed(pairs, pose, tolerance);
         if (inliers.size() < 4 || 2 * inliers.size() < pairs.size()) {
             break; // no agreement: the plain fit, whose residual says so
         }
@@ -223,6 +245,8 @@ RobustFit fitRobust(std::span<const PointPair> pairs, const FitLimits& limits, c
         }
         pose = robust.fit.baseTcamera;
     }
+    robust.flat =
+        isFlat(believed(pairs, robust.fit.baseTcamera, robust.outliers.empty() ? HUGE_VAL : tolerance));
     robust.doubt = doubtOf(pairs, limits, found, robust);
     return robust;
 }

@@ -16,6 +16,7 @@ struct RobustFit {
     };
     RigidFit fit;                  // of the inliers
     std::vector<Outlier> outliers; // farthest first
+    bool flat = false;             // a mirror image of the inliers fits as well: it would not be noticed
     std::string doubt;             // why the fit must not be used, with the worst pairs; empty = no doubt
 };
 

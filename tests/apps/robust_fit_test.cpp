@@ -166,3 +166,27 @@ TEST_CASE("Points on one line are doubted whatever their scatter, and points too
         CHECK(offBy(robust) < 0.03);
     }
 }
+
+TEST_CASE("Points in one plane are called flat, because a mirror image fits them, and others are not") {
+    for (const double noise : {0.0, 0.003}) {
+        for (const double sign : {1.0, -1.0}) {
+            CAPTURE(noise);
+            CAPTURE(sign);
+            auto flat = scattered(8, {0.3, 0.3, 0.0}, 0.0, noise),
+                 deep = scattered(8, {0.3, 0.3, 0.1}, 0.0, noise);
+            for (auto* pairs : {&flat, &deep}) {
+                for (PointPair& pair : *pairs) {
+                    pair.camera.y *= sign;
+                }
+            }
+            const RobustFit robust = fitRobust(flat, kByHand, "test");
+            CHECK(robust.flat);
+            CHECK(robust.doubt == "");
+            if (sign > 0.0) {
+                CHECK_FALSE(fitRobust(deep, kByHand, "test").flat);
+            } else {
+                mentions(fitRobust(deep, kByHand, "test").doubt, "mirror image");
+            }
+        }
+    }
+}

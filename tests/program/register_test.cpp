@@ -81,6 +81,22 @@ TEST_CASE("register prints the camera's pose and sigma and writes the same lines
     CHECK(wide < 1e-5);
 }
 
+TEST_CASE("register warns when all points lie in one plane, and still gives the pose") {
+    const Stage stage;
+    stage.recording({bumpImage()});
+    stage.scene({});
+    const auto registered = [&](const std::string& last) {
+        stage.write("points.csv", "0,0,1,0,0,1\n0.5,0,1,0.5,0,1\n0,0.5,1,0,0.5,1\n" + last);
+        const ProgramRun run = runFathom(
+            {"register", (stage / "scene.yaml").string(), "--points", (stage / "points.csv").string()});
+        CHECK(run.exitCode == 0);
+        CHECK(lineWith(run.out, "base_T_camera:") != "");
+        return run.err;
+    };
+    CHECK(registered("0.5,0.5,1,0.5,0.5,1\n").find("all points lie in one plane") != std::string::npos);
+    CHECK(registered("0.5,0.5,1.2,0.5,0.5,1.2\n") == "");
+}
+
 TEST_CASE("register requires exactly one of points, tags and a board, and a writable file") {
     const Stage stage;
     stage.recording({bumpImage()});
