@@ -140,7 +140,8 @@ void addRegisterCommand(CLI::App& app, const GlobalOptions&) {
     command->add_option("SCENE", options->scene, "scene file (YAML)")->required();
     command->add_option("--source", options->source, kSourceHelp);
     command->add_option("--tags", options->tags,
-                        "AprilTags 36h11 in the base frame: CSV id,size_m,x,y,z,qx,qy,qz,qw");
+                        "AprilTags 36h11 in the base frame: CSV id,size_m,x,y,z,qx,qy,qz,qw; the pose of the "
+                        "middle: x right, y down, z into the print");
     command->add_option(
         "--board", options->board,
         "a chessboard in the base frame: CSV columns,rows,square_m,x,y,z,qx,qy,qz,qw; counts inner corners");
