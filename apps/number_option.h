@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,6 +25,19 @@ inline CLI::Validator numberIn(const Range& range) {
         const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), x);
         const bool good = error == std::errc{} && end == digits.data() + digits.size() && range.contains(x);
         return good ? "" : text + " (allowed: " + range.words() + ")";
+    };
+    return CLI::Validator(check, "");
+}
+
+// Accepts a whole number in the range, for an option that is an integer.
+inline CLI::Validator wholeNumberIn(uint32_t least, uint32_t most) {
+    const auto check = [least, most](const std::string& text) -> std::string {
+        uint32_t n = 0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), n);
+        const bool good = error == std::errc{} && end == text.data() + text.size() && n >= least && n <= most;
+        return good ? ""
+                    : text + " (allowed: a whole number from " + std::to_string(least) + " to " +
+                          std::to_string(most) + ")";
     };
     return CLI::Validator(check, "");
 }

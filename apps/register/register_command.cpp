@@ -17,17 +17,19 @@
 #include <cstdio>
 #include <iostream>
 #include <memory>
+#include <optional>
 
 namespace fathom {
 
 namespace {
 
+constexpr uint32_t kFrames = 30;
 constexpr size_t kMaxListed = 20;   // outliers
 constexpr double kBadCorners = 0.1; // share of corners that a finder may mistake
 
 struct RegisterOptions {
     std::string scene, source, points, tags, board, out;
-    uint32_t frames = 30;
+    std::optional<uint32_t> frames;      // kFrames if not given
     double bound = FitLimits{}.residual; // [m]
 };
 
@@ -36,7 +38,7 @@ std::vector<PointPair> seenBy(Finder& finder, Camera& camera, const RegisterOpti
                               const std::string& what) {
     std::vector<PointPair> pairs;
     uint32_t frames = 0, with = 0;
-    for (; frames < options.frames; ++frames) {
+    for (; frames < options.frames.value_or(kFrames); ++frames) {
         const std::optional<Frame> frame = camera.next();
         if (!frame) {
             break;
@@ -61,8 +63,11 @@ std::vector<PointPair> seenTargets(const RegisterOptions& options) {
         throw BadInput(camera->description(), "colour", "none", "a camera with colour, or --points");
     }
     if (!options.board.empty()) {
-        BoardFinder finder(camera->info(), readBoardPlace(options.board));
-        return seenBy(finder, *camera, options, "the board of " + options.board);
+        const BoardPlace place = readBoardPlace(options.board);
+        BoardFinder finder(camera->info(), place);
+        return seenBy(finder, *camera, options,
+                      "the board of " + options.board + " (" + std::to_string(place.columns) + " x " +
+                          std::to_string(place.rows) + " inner corners)");
     }
     TagFinder finder(camera->info(), readTagPlaces(options.tags));
     return seenBy(finder, *camera, options, "a tag of " + options.tags);
@@ -79,20 +84,20 @@ std::string asYaml(const RigidFit& fit) {
     return text;
 }
 
-void writeOut(const RegisterOptions& options, const std::string& yaml) {
-    if (options.out.empty()) {
-        return;
-    }
+// Null without --out.
+std::unique_ptr<OutputFile> openOut(const RegisterOptions& options) {
     try {
-        OutputFile file(options.out);
-        file.write(yaml);
-        file.commit();
+        return options.out.empty() ? nullptr : std::make_unique<OutputFile>(options.out);
+    } catch (const BadInput&) {
+        throw;
     } catch (const Error& e) {
         throw BadInput("register", "--out", e.what(), "a writable file");
     }
 }
 
-void runRegister(const RegisterOptions& options) {
+// The file of points, tags or a board. Throws BadInput for none, for several, and for options that points
+// have no use for.
+const std::string& inputOf(const RegisterOptions& options) {
     const std::string* from = nullptr;
     int given = 0;
     for (const std::string* file : {&options.points, &options.tags, &options.board}) {
@@ -103,12 +108,21 @@ void runRegister(const RegisterOptions& options) {
         throw BadInput("register", "--points, --tags, --board", given == 0 ? "none" : "several",
                        "one of them");
     }
+    if (from == &options.points && (!options.source.empty() || options.frames)) {
+        throw BadInput("register", options.frames ? "--frames" : "--source", "given with --points",
+                       "only with --tags or --board: points need no camera");
+    }
+    return *from;
+}
+
+void runRegister(const RegisterOptions& options) {
+    const std::string& from = inputOf(options);
     noteInput(options.scene); // points need no scene, but the lines are often meant for it
-    noteInput(*from);
-    refuseInput(options.out); // now, before the work
-    const bool fromPoints = from == &options.points;
+    noteInput(from);
+    openOut(options); // now, before the work, and closed again: an interrupted run leaves nothing behind
+    const bool fromPoints = &from == &options.points;
     const std::vector<PointPair> pairs = fromPoints ? readPointPairs(options.points) : seenTargets(options);
-    const RobustFit robust = fitRobust(pairs, {options.bound, fromPoints ? 0.0 : kBadCorners}, *from);
+    const RobustFit robust = fitRobust(pairs, {options.bound, fromPoints ? 0.0 : kBadCorners}, from);
     const RigidFit& fit = robust.fit;
     const std::string yaml = asYaml(fit);
     std::cout << "# used " << pairs.size() - robust.outliers.size() << " of " << pairs.size()
@@ -119,17 +133,20 @@ void runRegister(const RegisterOptions& options) {
         std::cout << "# left out: " << outlier.name << ", " << 1e3 * outlier.distance << " mm away\n";
     }
     if (!robust.doubt.empty()) {
-        throw Error(*from + ": doubtful: " + robust.doubt);
+        throw Error(from + ": doubtful: " + robust.doubt);
     }
     if (fromPoints && robust.flat) {
         log::warn(
             "{}: all points lie in one plane, within their scatter: a negated axis would not be noticed; "
             "touch a point off the plane",
-            *from);
+            from);
     }
     std::cout << "# for the camera section of the scene; every region grows by 3 registration_sigma\n"
               << yaml;
-    writeOut(options, yaml);
+    if (const std::unique_ptr<OutputFile> out = openOut(options)) {
+        out->write(yaml);
+        out->commit();
+    }
 }
 
 } // namespace
@@ -149,7 +166,7 @@ void addRegisterCommand(CLI::App& app, const GlobalOptions&) {
         "--points", options->points,
         "the same points in both frames: CSV camera_x,camera_y,camera_z,base_x,base_y,base_z [m]");
     command->add_option("--frames", options->frames, "number of frames to use (30)")
-        ->check(CLI::Range(1, 10000));
+        ->check(wholeNumberIn(1, 10000));
     command
         ->add_option("--bound", options->bound,
                      "[m] largest standard deviation of the pairs (0.02); beyond it, the exit code is 1")

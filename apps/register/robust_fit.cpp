@@ -153,10 +153,15 @@ std::vector<PointPair> believed(Pairs pairs, const Pose& pose, double tolerance)
     return inliers;
 }
 
+// Each of them once: pairs of several frames have the same name.
 std::string named(const std::vector<RobustFit::Outlier>& worst) {
+    std::vector<std::string> names;
     std::string text = "; worst";
-    for (size_t i = 0; i < std::min(worst.size(), kWorst); ++i) {
-        text += (i == 0 ? " " : ", ") + worst[i].name + print(" %.3g mm", 1e3 * worst[i].distance);
+    for (size_t i = 0; i < worst.size() && names.size() < kWorst; ++i) {
+        if (std::ranges::find(names, worst[i].name) == names.end()) {
+            text += (names.empty() ? " " : ", ") + worst[i].name + print(" %.3g mm", 1e3 * worst[i].distance);
+            names.push_back(worst[i].name);
+        }
     }
     return worst.empty() ? "" : text;
 }

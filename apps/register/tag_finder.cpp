@@ -13,6 +13,12 @@
 
 namespace fathom {
 
+namespace {
+
+constexpr int kLastTag = 586; // of the family 36h11
+
+}
+
 struct TagFinder::Detector {
     apriltag_family_t* family = tag36h11_create();
     apriltag_detector_t* detector = apriltag_detector_create();
@@ -41,10 +47,11 @@ std::map<int, TagPlace> readTagPlaces(const std::filesystem::path& file) {
         std::string more;
         const bool read =
             static_cast<bool>(words >> id >> place.size >> t.x >> t.y >> t.z >> q.x >> q.y >> q.z >> q.w);
-        if (!read || words >> more || id < 0 || !isNear(place.baseTtag, place.size) ||
+        if (!read || words >> more || id < 0 || id > kLastTag || !isNear(place.baseTtag, place.size) ||
             places.count(id) != 0) {
             throw BadInput(file.string(), "line " + std::to_string(line.number), line.text.substr(0, 160),
-                           "id,size_m,x,y,z,qx,qy,qz,qw: unique ids, size of 0.001 to 10 m, position within "
+                           "id,size_m,x,y,z,qx,qy,qz,qw: unique ids from 0 to 586, size of 0.001 to 10 m, "
+                           "position within "
                            "1e6 m, valid quaternion");
         }
         q = glm::normalize(q);

@@ -134,6 +134,9 @@ TEST_CASE("Lists of tags and points are read, and an invalid line is rejected wi
     CHECK(places.at(3).baseTtag.rotation.w == 1.0);
     CHECK_THROWS_WITH_AS(readTagPlaces(write("3,0.1,1,2,3,0,0,0\n")), doctest::Contains("line 1"), BadInput);
     CHECK_THROWS_AS(readTagPlaces(write("3,0,1,2,3,0,0,0,1\n")), BadInput);
+    CHECK(readTagPlaces(write("586,0.1,1,2,3,0,0,0,1\n")).size() == 1);
+    CHECK_THROWS_WITH_AS(readTagPlaces(write("587,0.1,1,2,3,0,0,0,1\n")),
+                         doctest::Contains("ids from 0 to 586"), BadInput);
     CHECK_THROWS_AS(readTagPlaces(write("3,1,1,2,3,0,0,0,1\n3,1,1,2,3,0,0,0,1\n")), BadInput);
     CHECK_THROWS_AS(readTagPlaces(write("")), BadInput);
     const std::string header = "camera_x, camera_y,camera_z base_x,base_y,base_z\n";

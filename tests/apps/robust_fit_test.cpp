@@ -190,3 +190,16 @@ TEST_CASE("Points in one plane are called flat, because a mirror image fits them
         }
     }
 }
+
+TEST_CASE("A corner that is far off in several frames is named once among the worst") {
+    auto pairs = pairsOf(20, 0.03);
+    for (size_t i = 0; i < 5; ++i) {
+        pairs.push_back(pairs[i]);
+        pairs.push_back(pairs[i]);
+    }
+    for (const PointPair& pair : pairs) {
+        const std::string doubt = fitRobust(pairs, kByHand, "test").doubt;
+        const size_t first = doubt.find(pair.name + " ");
+        CHECK((first == std::string::npos || doubt.find(pair.name + " ", first + 1) == std::string::npos));
+    }
+}

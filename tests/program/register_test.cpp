@@ -114,6 +114,16 @@ TEST_CASE("register requires exactly one of points, tags and a board, and a writ
     refused({"--points", points, "--tags", points}, "--points, --tags, --board: several");
     refused({"--tags", points, "--board", points}, "--points, --tags, --board: several");
     refused({"--points", points, "--out", (stage / "no/folder.yaml").string()}, "--out: ");
+    refused({"--points", points, "--source", (stage / "nowhere").string()},
+            "--source: given with --points (allowed: only with --tags or --board");
+    refused({"--points", points, "--frames", "30"}, "--frames: given with --points");
+    stage.write("board.csv", "8,5,0.04,0,0,1,0,0,0,1\n");
+    const std::string board = (stage / "board.csv").string(), rec = (stage / "rec").string();
+    refused({"--board", board, "--source", rec}, "(8 x 5 inner corners) in colour and depth");
+    // Before any frame is taken: a missing file is named, not the missing source.
+    refused({"--board", board, "--source", "nowhere", "--out", (stage / "no/folder.yaml").string()},
+            "--out: ");
+    refused({"--board", board, "--frames", "2.5"}, "2.5 (allowed: a whole number from 1 to 10000)");
     stage.write("tags.csv", "7,0.2,0,0,1,0,0,0,1\n");
     refused({"--tags", (stage / "tags.csv").string(), "--source", (stage / "rec").string()}, "none seen");
 }
