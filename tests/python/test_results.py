@@ -10,6 +10,7 @@ import tempfile
 import textwrap
 import time
 import unittest
+import unittest.mock
 
 import fathom
 import numpy
@@ -54,6 +55,22 @@ class Results(unittest.TestCase):
     def test_a_failing_run_raises_with_the_program_s_line(self):
         with self.assertRaisesRegex(fathom.ProgramFailed, "none.yaml.*exit code"):
             fathom.replay("none.yaml")
+
+    def test_only_files_that_the_run_wrote_are_read_from_its_folder(self):
+        with tempfile.TemporaryDirectory() as folder:
+            out, program = pathlib.Path(folder) / "out", pathlib.Path(folder) / "fathom"
+            out.mkdir()
+            for name, text in (("solver.csv", "a\n1\n"), ("empty.csv", ""), ("tool.csv", "a\n1\n"),
+                               ("old.json", '{"old": 1}'), ("list.json", "[1]")):
+                (out / name).write_text(text)
+            program.write_text(f"#!/bin/sh\ncd '{out}'\nprintf 'a\\n2\\n' >new && mv new tool.csv\n"
+                               "printf '{\"new\": 2}' >profile.json\n")
+            program.chmod(0o755)
+            with unittest.mock.patch.dict("os.environ", FATHOM_PROGRAM=str(program)):
+                run = fathom.profile("tool", out=out)
+        self.assertEqual(list(run.tables), ["tool"])
+        self.assertEqual(list(run["tool"]["a"]), [2.0])
+        self.assertEqual(run.summary, {"new": 2})
 
     def test_stability_cases_come_with_figure_and_limit(self):
         (case,) = fathom.stability("geometry-gap-of-zero", short=True).summary["cases"]

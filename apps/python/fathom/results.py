@@ -47,7 +47,7 @@ def replay(scene, *, source=None, out=None, device=None, options=()) -> Run:
     """Runs a scene file headless, in lockstep: the same input gives the same result to the last bit.
 
     source: a recording instead of the scene's camera (`fathom inspect` says what it holds).
-    out: folder that keeps the files; None = read and removed.
+    out: folder that keeps the files; None = read and removed. Files that lie there from before are not read.
     device: part of a Vulkan device's name, or its index.
     options: further options of `fathom replay`, for example ("--query", "gpu").
 
@@ -94,12 +94,22 @@ def _call(arguments, device=None):
 def _run(command, arguments, out, device):
     with tempfile.TemporaryDirectory(prefix="fathom-") as folder:
         where = pathlib.Path(out) if out is not None else pathlib.Path(folder) / "out"
+        before = _files(where)
         run = Run(log=_call([command] + arguments + ["--out", str(where)], device))
-        for path in sorted(where.glob("*.csv")):
-            run.tables[path.stem] = _table(path)
-        for path in sorted(where.glob("*.json")):
-            run.summary.update(json.loads(path.read_text()))
+        # Others are of an earlier run, or not of this program.
+        written = [path for path, state in sorted(_files(where).items()) if before.get(path) != state]
+        for path in written:
+            if path.suffix == ".csv":
+                run.tables[path.stem] = _table(path)
+            elif path.suffix == ".json":
+                run.summary.update(json.loads(path.read_text()))
         return run
+
+
+def _files(folder):
+    """Files in a folder, each with what changes when it is written again: the program renames a new file."""
+    found = {path: path.stat() for path in folder.glob("*") if path.is_file()}
+    return {path: (s.st_ino, s.st_size, s.st_mtime_ns, s.st_ctime_ns) for path, s in found.items()}
 
 
 def _table(path):
