@@ -35,6 +35,10 @@ void setLog(const py::object& receiver) {
         fathom::setLogCallback({});
         return;
     }
+    if (PyCallable_Check(receiver.ptr()) == 0) {
+        throw py::type_error("receiver: " + std::string(py::str(py::type::of(receiver).attr("__name__"))) +
+                             " (allowed: a function of level and line, or None)");
+    }
     // Never destroyed without the interpreter's lock: a replaced receiver is kept.
     const auto* log = new PythonLog(receiver.cast<py::function>());
     const fathom::python::Unlocked others;

@@ -2,6 +2,7 @@
 // Poses from and to NumPy.
 #include "apps/python/bind.h"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -11,7 +12,7 @@ namespace fathom::python {
 
 namespace {
 
-constexpr double kOrthonormal = 1e-6; // largest error of a rotation matrix
+constexpr double kOrthonormal = 1e-4; // largest error of a rotation matrix; files have six digits or fewer
 
 std::string shapeOf(const py::array& array) {
     std::ostringstream text;
@@ -43,17 +44,30 @@ void checkRotation(const double (&r)[3][3]) {
     const double det = r[0][0] * (r[1][1] * r[2][2] - r[1][2] * r[2][1]) -
                        r[0][1] * (r[1][0] * r[2][2] - r[1][2] * r[2][0]) +
                        r[0][2] * (r[1][0] * r[2][1] - r[1][1] * r[2][0]);
-    bool good = std::abs(det - 1.0) < 3.0 * kOrthonormal;
+    double most = 0.0;
     for (int i = 0; i < 3; ++i) {
         for (int j = 0; j < 3; ++j) {
             const double dot = r[i][0] * r[j][0] + r[i][1] * r[j][1] + r[i][2] * r[j][2];
-            good = good && std::abs(dot - (i == j ? 1.0 : 0.0)) < kOrthonormal;
+            most = std::max(most, std::abs(dot - (i == j ? 1.0 : 0.0)));
         }
     }
-    if (!good) {
-        throw py::value_error("pose: the upper left 3 x 3 part has determinant " + std::to_string(det) +
-                              " (allowed: a rotation matrix)");
+    std::ostringstream text;
+    text << "pose: the upper left 3 x 3 part ";
+    if (!(most <= kOrthonormal)) {
+        text << "times its transpose differs from the identity by " << most
+             << " (allowed: a rotation matrix, within " << kOrthonormal << ")";
+        throw py::value_error(text.str());
     }
+    if (det < 0.0) {
+        text << "has the determinant -1, a mirror image (allowed: a rotation matrix)";
+        throw py::value_error(text.str());
+    }
+}
+
+// Of a matrix that is not quite a rotation.
+Quaternion unit(const Quaternion& q) {
+    const double norm = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
+    return {q.w / norm, q.x / norm, q.y / norm, q.z / norm};
 }
 
 Pose poseOf(const py::array_t<double, py::array::c_style | py::array::forcecast>& matrix) {
@@ -76,7 +90,28 @@ Pose poseOf(const py::array_t<double, py::array::c_style | py::array::forcecast>
         }
     }
     checkRotation(r);
-    return {{m(0, 3), m(1, 3), m(2, 3)}, quaternionOf(r)};
+    return {{m(0, 3), m(1, 3), m(2, 3)}, unit(quaternionOf(r))};
+}
+
+// Complex numbers would lose a part with no more than a warning.
+Pose poseOfArray(const py::array& matrix) {
+    if (matrix.dtype().kind() == 'c') {
+        throw py::value_error("pose: complex numbers (allowed: real ones)");
+    }
+    return poseOf(matrix);
+}
+
+// An array where a pose is wanted. py::implicitly_convertible() would say "incompatible arguments" for a
+// matrix that is not a pose, and lose the reason.
+PyObject* poseFromArgument(PyObject* argument, PyTypeObject* pose) {
+    if (!py::isinstance<py::array>(argument)) {
+        return nullptr;
+    }
+    PyObject* made = PyObject_CallFunctionObjArgs(reinterpret_cast<PyObject*>(pose), argument, nullptr);
+    if (made == nullptr) {
+        throw py::error_already_set();
+    }
+    return made;
 }
 
 Pose poseFrom(const Vec3& position, const std::array<double, 4>& rotation) {
@@ -134,6 +169,7 @@ void bindTypes(py::module_& module) {
                      "matrix as well.")
         .def(py::init(&poseFrom), py::arg("position") = Vec3{},
              py::arg("rotation") = std::array<double, 4>{1, 0, 0, 0})
+        .def(py::init(&poseOfArray), py::arg("matrix"))
         .def(py::init(&poseOf), py::arg("matrix"))
         .def_property_readonly(
             "position", [](const Pose& p) { return array(p.position); }, "[m], 3 values")
@@ -151,7 +187,7 @@ void bindTypes(py::module_& module) {
                  << p.rotation.z << "))";
             return text.str();
         });
-    py::implicitly_convertible<py::array, Pose>();
+    py::detail::get_type_info(typeid(Pose))->implicit_conversions.push_back(&poseFromArgument);
     module.def("now", &now, "The current time [ns] of CLOCK_MONOTONIC (time.monotonic_ns()).");
     module.attr("__version__") = version();
 }

@@ -64,6 +64,33 @@ class BadInput(unittest.TestCase):
             with self.refused("pose: the upper left", "a rotation matrix"):
                 fathom.Pose(matrix)
 
+    def test_a_matrix_given_where_a_pose_is_wanted_is_refused_with_its_reason(self):
+        run = wall.lockstep()
+        slanted = numpy.eye(4)
+        slanted[0, 1] = 0.01
+        for matrix, reason in ((numpy.full((4, 4), math.nan), "pose: nan"),
+                               (slanted, "pose: the upper left 3 x 3 part times its transpose differs .* by 0.01"),
+                               (numpy.eye(4)[:3], "pose: array of shape \\(3, 4\\)"),
+                               (numpy.eye(4, dtype=complex), "pose: complex numbers")):
+            with self.refused(reason):
+                run.step(matrix, now=20)
+            with self.refused(reason):
+                run.process(wall.depth(), stamp=1, base_T_camera=matrix)
+        with self.assertRaises(TypeError):
+            run.step("here", now=20)
+
+    def test_a_rotation_with_six_digits_is_a_pose_of_unit_length(self):
+        c, s = numpy.cos(0.3), numpy.sin(0.3)
+        matrix = numpy.array([[c, -s, 0, 0], [s, c, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]) @ fathom.Pose((0, 0, 0), (0.3, 0.4, -0.5, 0.7)).matrix()
+        for digits in (5, 6, 12):
+            pose = fathom.Pose(numpy.round(matrix, digits))
+            self.assertAlmostEqual(numpy.linalg.norm(pose.rotation), 1.0, places=12)
+            self.assertLess(abs(pose.matrix() - matrix).max(), 2 * 10.0**-digits)
+
+    def test_a_receiver_of_the_log_that_is_no_function_is_refused_by_name(self):
+        with self.assertRaisesRegex(TypeError, "receiver: int \\(allowed: a function of level and line, or None\\)"):
+            fathom.set_log(3)
+
     def test_a_scene_with_a_wrong_key_is_refused_in_one_line(self):
         with self.assertRaises(fathom.BadInput) as raised:
             fathom.Scene.from_text("fixturs: []")

@@ -112,6 +112,8 @@ class Documentation(unittest.TestCase):
             if isinstance(thing, type) and not issubclass(thing, (BaseException, enum.Enum)):
                 has = {n for n in vars(thing) if not n.startswith("_")} - {"name", "value"} | {"name"} & set(inner)
                 self.assertEqual(set(inner), has, name)
+            elif isinstance(thing, type) and issubclass(thing, enum.Enum):
+                self.assertEqual(set(inner), {member.name for member in thing}, name)
 
     def test_the_tutorial_in_the_package_s_help_runs(self):
         text = fathom.__doc__

@@ -2,7 +2,7 @@
 # Types of the extension module; texts: help(fathom).
 import enum
 import os
-from typing import Any, Callable, Optional, Sequence, Union
+from typing import Any, Callable, Optional, Sequence, Union, overload
 
 import numpy
 from numpy.typing import NDArray
@@ -18,7 +18,10 @@ def now() -> int: ...
 def set_log(receiver: Optional[Callable[[str, str], Any]]) -> None: ...
 
 class Pose:
+    @overload
     def __init__(self, position: Sequence[float] = ..., rotation: Sequence[float] = ...) -> None: ...
+    @overload
+    def __init__(self, matrix: NDArray[Any]) -> None: ...
     position: _Floats
     rotation: tuple[float, float, float, float]
     def matrix(self) -> _Floats: ...
@@ -88,6 +91,7 @@ class StepWarning(enum.IntFlag):
     STALLED = 32
     ENGINE_FAILED = 64
     ARM_STILL = 128
+    OTHER_CLOCK = 256
 
 class State:
     OFF: State
