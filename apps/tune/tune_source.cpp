@@ -14,6 +14,7 @@ namespace {
 
 constexpr size_t kMaxRead = 120;              // [frames] of a recording or a live camera
 constexpr size_t kMaxBytes = size_t{1} << 29; // of all of them
+constexpr size_t kOwnFrames = 8;              // of a recording, kept beside its twin
 constexpr const char* kTwinScene = "torus";
 constexpr double kTwinRange = 0.7;   // [m] to the twin's object
 constexpr double kTwinUnit = 0.0001; // [m] of the twin's depth before rounding
@@ -115,6 +116,16 @@ Scene twinScene(Scene scene) {
     return scene;
 }
 
+OwnFrames ownFrames(const Scene& scene, const FrameSequence& read) {
+    OwnFrames own{scene, {read.name, read.camera, {}}};
+    const size_t count = std::min(kOwnFrames, read.frames.size());
+    for (size_t i = 0; i < count; ++i) {
+        own.frames.frames.push_back(
+            read.frames[i * (read.frames.size() - 1) / std::max<size_t>(1, count - 1)]);
+    }
+    return own;
+}
+
 TuneSource twinSource(const Scene& scene, const FrameSequence& read, size_t still, size_t most) {
     const CameraInfo& camera = read.camera;
     const DepthNoise noise = noiseOverTime(read);
@@ -141,6 +152,7 @@ TuneSource twinSource(const Scene& scene, const FrameSequence& read, size_t stil
     result.truth = truth.frames.front();
     result.scene = twinScene(scene);
     result.twin = true;
+    result.own = ownFrames(scene, read);
     result.camera = read.name;
     result.judgedBy = "an analytic twin, because camera and scene stand still in no more than " +
                       std::to_string(still) + " frames in a row (" + std::to_string(kMinStill) +

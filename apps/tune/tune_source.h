@@ -11,6 +11,13 @@
 
 namespace fathom::tune {
 
+// Frames of the recording or camera that a twin stands for, spread over what was read, with the scene's own
+// classes.
+struct OwnFrames {
+    Scene scene;
+    FrameSequence frames;
+};
+
 // Equal settings see equal frames.
 struct TuneSource {
     FrameSequence frames;  // shown in turn
@@ -18,6 +25,7 @@ struct TuneSource {
     SampleFrame truth;     // the image of the true surface
     Scene scene;           // classes for these frames: the scene's, or red and yellow ones for the twin
     bool twin = false;     // an analytic scene instead of the user's
+    OwnFrames own;         // of a twin only
     std::string camera;    // what delivered the frames
     std::string judgedBy;  // what the truth is, and what it does not show, in a sentence
 };

@@ -27,13 +27,28 @@ Scene measuredScene(Scene scene) {
     return scene;
 }
 
-Fixtures trueRegions(gpu::Device& device, const TuneSource& source) {
-    Scene scene = measuredScene(source.scene);
+Scene withoutMemory(const Scene& written) {
+    Scene scene = measuredScene(written);
     scene.filter.memory = 0;
-    Fixtures truth = profile::regionsOf(device, scene, source.trueCamera, source.truth);
-    if (truth.spheres.size() == 0) {
+    return scene;
+}
+
+Fixtures trueRegions(gpu::Device& device, const TuneSource& source) {
+    const auto refuse = [](const Scene& scene) {
         throw BadInput(scene.file.string(), "fixtures", "no forbidden class has points in these frames",
                        "a forbidden class that does; 'fathom replay' shows what each class selects");
+    };
+    // Classes of a twin always have points: whether the scene's own have is seen in the recording.
+    const auto selects = [&](const SampleFrame& image) {
+        return profile::regionsOf(device, withoutMemory(source.own.scene), source.own.frames.camera, image)
+                   .spheres.size() > 0;
+    };
+    if (source.twin && std::ranges::none_of(source.own.frames.frames, selects)) {
+        refuse(source.own.scene);
+    }
+    Fixtures truth = profile::regionsOf(device, withoutMemory(source.scene), source.trueCamera, source.truth);
+    if (truth.spheres.size() == 0) {
+        refuse(source.scene);
     }
     return truth;
 }

@@ -108,6 +108,22 @@ TEST_CASE("tune measures on an analytic twin when a recording shows no still sce
     CHECK(has(stage.read("tuned/scene.yaml"), "the time limit of 1 s was reached"));
 }
 
+TEST_CASE("tune rejects classes that select nothing in a recording, also where it would measure on a twin") {
+    const Stage stage;
+    for (const uint16_t steps : {0, 20}) {
+        CAPTURE(steps);
+        stillRecording(stage, 10, steps);
+        SceneText text;
+        text.camera = "source: {recorded: rec}, near: 2.9, far: 3.0"; // beyond everything
+        stage.scene(text);
+        const ProgramRun run = runFathom(command(stage, {"--error", "50", "--frames", "8", "--limit", "1"}));
+        CHECK(run.exitCode == 2);
+        CHECK_MESSAGE(has(run.err, "fixtures: no forbidden class has points in these frames"), run.err);
+        CHECK(!std::filesystem::exists(stage / "tuned/scene.yaml"));
+        std::filesystem::remove_all(stage / "rec");
+    }
+}
+
 TEST_CASE("tune rejects requests and scenes that it cannot serve, each in one line") {
     const Stage stage;
     stillRecording(stage, 1);
