@@ -3,6 +3,7 @@
 
 #include "apps/binding/open_source.h"
 #include "apps/number_option.h"
+#include "apps/output/try_output.h"
 #include "apps/register/board_finder.h"
 #include "apps/register/point_pairs.h"
 #include "apps/register/robust_fit.h"
@@ -84,17 +85,6 @@ std::string asYaml(const RigidFit& fit) {
     return text;
 }
 
-// Null without --out.
-std::unique_ptr<OutputFile> openOut(const RegisterOptions& options) {
-    try {
-        return options.out.empty() ? nullptr : std::make_unique<OutputFile>(options.out);
-    } catch (const BadInput&) {
-        throw;
-    } catch (const Error& e) {
-        throw BadInput("register", "--out", e.what(), "a writable file");
-    }
-}
-
 // The file of points, tags or a board. Throws BadInput for none, for several, and for options that points
 // have no use for.
 const std::string& inputOf(const RegisterOptions& options) {
@@ -119,7 +109,7 @@ void runRegister(const RegisterOptions& options) {
     const std::string& from = inputOf(options);
     noteInput(options.scene); // points need no scene, but the lines are often meant for it
     noteInput(from);
-    openOut(options); // now, before the work, and closed again: an interrupted run leaves nothing behind
+    tryOutput("register", "--out", options.out);
     const bool fromPoints = &from == &options.points;
     const std::vector<PointPair> pairs = fromPoints ? readPointPairs(options.points) : seenTargets(options);
     const RobustFit robust = fitRobust(pairs, {options.bound, fromPoints ? 0.0 : kBadCorners}, from);
@@ -143,9 +133,10 @@ void runRegister(const RegisterOptions& options) {
     }
     std::cout << "# for the camera section of the scene; every region grows by 3 registration_sigma\n"
               << yaml;
-    if (const std::unique_ptr<OutputFile> out = openOut(options)) {
-        out->write(yaml);
-        out->commit();
+    if (!options.out.empty()) {
+        OutputFile file(options.out);
+        file.write(yaml);
+        file.commit();
     }
 }
 

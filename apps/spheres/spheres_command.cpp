@@ -2,6 +2,7 @@
 #include "apps/spheres/spheres_command.h"
 
 #include "apps/number_option.h"
+#include "apps/output/try_output.h"
 #include "apps/spheres/cover_maker.h"
 #include "apps/spheres/spheres_report.h"
 #include "engine/model/cover_urdf.h"
@@ -39,11 +40,8 @@ struct SpheresOptions {
 const std::vector<std::string> kOfMeshes{"--leaves",  "--protrusion", "--up",  "--drop-stray",
                                          "--compare", "--plot",       "--json"};
 
-void check(const SpheresOptions& options) {
-    if (options.cover.leaves < 1 || options.cover.leaves > kMaxLeaves) {
-        throw BadInput("spheres", "--leaves", std::to_string(options.cover.leaves),
-                       "1 to " + std::to_string(kMaxLeaves));
-    }
+// Before the work.
+void checkOutputs(const SpheresOptions& options) {
     std::set<std::filesystem::path> files; // each output needs its own
     std::error_code unknown;
     for (const auto& [name, file] :
@@ -53,6 +51,14 @@ void check(const SpheresOptions& options) {
             throw BadInput("spheres", name, file.string(), "a file that no other option writes");
         }
     }
+    refuseInput(options.out);
+    if (!isSphereFile(options.out)) {
+        throw BadInput("spheres", "--out", options.out.string(),
+                       "a name that ends in .sph, .urdf, .yaml, .yml, .xrdf or .json");
+    }
+    tryOutput("spheres", "--out", options.out);
+    tryOutput("spheres", "--json", options.json);
+    tryOutput("spheres", "--plot", options.plot);
 }
 
 void drawErrors(const SpheresOptions& options, CoverMaker& maker, size_t leaves) {
@@ -67,7 +73,7 @@ void drawErrors(const SpheresOptions& options, CoverMaker& maker, size_t leaves)
                    maker.rows());
 }
 
-// Sets of several links; every other ending is a .sph.
+// Sets of several links.
 bool holdsLinks(const std::filesystem::path& file) {
     return isSphereFile(file) && endingOf(file) != ".sph";
 }
@@ -180,9 +186,8 @@ void writeCover(const SpheresOptions& options, const Cover& cover) {
 }
 
 void runSpheres(SpheresOptions options) {
-    check(options);
     noteInput(options.mesh);
-    refuseInput(options.out); // now, before the work
+    checkOutputs(options);
     if (isSphereFile(options.mesh)) {
         convert(options);
         return;
@@ -235,7 +240,8 @@ void addSpheresCommand(CLI::App& app) {
             "--out", options->out,
             "sphere tree (.sph), in the mesh's frame [m]; or spheres of links: .urdf, .yaml, .xrdf, .json")
         ->required();
-    command->add_option("--leaves", options->cover.leaves, "largest number of leaf spheres (128)");
+    command->add_option("--leaves", options->cover.leaves, "largest number of leaf spheres (128)")
+        ->check(wholeNumberIn(1, kMaxLeaves));
     command
         ->add_option("--protrusion", options->cover.protrusion,
                      "use as few leaves as possible that protrude at most this far [m]")

@@ -37,8 +37,7 @@ void addTuneCommand(CLI::App& app, const GlobalOptions& global, int& result) {
                      "longest time from camera to force [ms], p50; the most accurate settings within it are "
                      "chosen; one of --error and --time is required")
         ->check(numberIn(Range::between(1e-4, 1e5)));
-    command->add_option("--frames", settings->frames, "frames per point (24)")
-        ->check(numberIn(Range::between(8, 240)));
+    command->add_option("--frames", settings->frames, "frames per point (24)")->check(wholeNumberIn(8, 240));
     command->add_option("--limit", settings->limit, "measure for about this long at most [s] (120)")
         ->check(numberIn(Range::between(1.0, 1e5)));
     command->add_option("--out", settings->out, "output folder; its files are replaced")->required();

@@ -50,6 +50,9 @@ TEST_CASE("Numeric options reject NaN, infinity and numbers out of range in one 
         refused({"register", scene, "--points", scene}, "--bound");
         refused({"spheres", "a.obj", "--out", "a.sph"}, "--scale");
         refused({"spheres", "a.obj", "--out", "a.sph"}, "--protrusion");
+        refused({"spheres", "a.obj", "--out", "a.sph"}, "--leaves");
+        refused({"register", scene, "--tags", scene}, "--frames");
+        refused({"tune", scene, "--error", "1", "--out", out}, "--frames");
     }
 }
 

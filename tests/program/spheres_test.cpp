@@ -38,9 +38,9 @@ TEST_CASE("spheres writes a tree and a report of its checks, and compares it wit
 TEST_CASE("spheres writes no two of its outputs to one file") {
     const ScratchFolder folder;
     const ObjFile mesh(boxMesh(dvec3(0.0), {0.1, 0.04, 0.03}));
-    const std::string out = (folder / "o").string();
+    const std::string out = (folder / "o.sph").string();
     for (const auto& [name, file] : {std::pair("--json", out), std::pair("--plot", out),
-                                     std::pair("--json", folder.path().string() + "/./o")}) {
+                                     std::pair("--json", folder.path().string() + "/./o.sph")}) {
         checkRefusal({"spheres", mesh.path().string(), "--out", out, name, file},
                      {std::string("spheres: ") + name + ": " + file, "a file that no other option writes"});
     }
@@ -114,10 +114,30 @@ TEST_CASE("spheres rejects unusable input in one line and with exit code 2") {
           {"spheres", set, "--out", out, "--up", "x"},
           {"spheres", set, "--out", out, "--leaves", "4"},
           {"spheres", set, "--out", out, "--scale", "0"},
+          {"spheres", good.path().string(), "--out", (folder / "tool.stl").string()},
+          {"spheres", good.path().string(), "--out", (folder / "tool").string()},
           {"spheres", good.path().string()}}) {
         const ProgramRun run = runFathom(arguments);
         CHECK(run.exitCode == 2);
         CHECK(run.errorLines().size() == 1);
         CHECK_FALSE(std::filesystem::exists(out));
     }
+}
+
+TEST_CASE("spheres names what is allowed for its files and numbers, before the work and with no file left") {
+    const ScratchFolder folder;
+    const ObjFile mesh(boxMesh(dvec3(0.0), dvec3(0.1)));
+    const std::string out = (folder / "tool.sph").string(), nowhere = (folder / "no/file").string();
+    const auto refused = [&](const std::vector<std::string>& more, const std::vector<std::string>& parts) {
+        std::vector<std::string> arguments{"spheres", mesh.path().string()};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        checkRefusal(arguments, parts);
+    };
+    refused({"--out", (folder / "a.stl").string()}, {"--out: ", "a.stl", ".xrdf or .json"});
+    refused({"--out", nowhere + ".sph"}, {"spheres: --out: ", "no/file.sph"});
+    refused({"--out", out, "--json", nowhere}, {"spheres: --json: ", "no/file"});
+    refused({"--out", out, "--plot", nowhere}, {"spheres: --plot: ", "no/file"});
+    refused({"--out", out, "--leaves", "-1"}, {"--leaves", "-1", "a whole number from 1 to "});
+    refused({"--out", out, "--leaves", "2.5"}, {"--leaves", "2.5", "a whole number from 1 to "});
+    CHECK(folder.files() == 0);
 }

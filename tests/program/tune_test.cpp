@@ -134,6 +134,7 @@ TEST_CASE("tune rejects requests and scenes that it cannot serve, each in one li
     checkRefusal(command(stage, {"--error", "0"}), {"--error", "0.0001"});
     checkRefusal(command(stage, {"--time", "nan"}), {"--time", "nan"});
     checkRefusal(command(stage, {"--error", "1", "--frames", "3"}), {"--frames", "8"});
+    checkRefusal(command(stage, {"--error", "1", "--frames", "8.5"}), {"--frames", "whole number from 8"});
     checkRefusal({"tune", (stage / "none.yaml").string(), "--error", "1", "--out", (stage / "o").string()},
                  {"none.yaml"});
     checkRefusal({"tune", (stage / "scene.yaml").string(), "--error", "1", "--out", stage.path().string()},
