@@ -5,6 +5,8 @@
 #include "apps/latency/latency_report.h"
 #include "apps/latency/latency_run.h"
 #include "apps/number_option.h"
+#include "apps/output/try_output.h"
+#include "engine/types/error.h"
 
 #include <CLI/CLI.hpp>
 #include <iostream>
@@ -17,10 +19,21 @@ struct Request {
     LatencyOptions run;
     std::vector<std::string> loads;
     double soakMinutes = 0.0;
+    bool secondsGiven = false;
     std::string out;
 };
 
+// Before the parts, which may take hours.
+void check(const Request& request) {
+    if (request.soakMinutes > 0.0 && (!request.loads.empty() || request.secondsGiven)) {
+        throw BadInput("latency", request.secondsGiven ? "--seconds" : "--load", "given with --soak",
+                       "none: a soak is one part with frames, of its own length");
+    }
+    tryOutput("latency", "--out", request.out);
+}
+
 int measure(const Request& request, const GlobalOptions& global, const WindowLoad& windowLoad) {
+    check(request);
     const StopSignals signals;
     LatencyOptions options = request.run;
     std::vector<std::string> loads = request.loads;
@@ -71,7 +84,8 @@ void addLatencyCommand(CLI::App& app, const GlobalOptions& global, WindowLoad wi
                      "one run of this many minutes with frames; fails if a frame is lost or memory grows")
         ->check(numberIn(Range::between(0.01, 1440.0)));
     command->add_option("--out", request->out, "write the report as JSON, with all non-empty histogram bins");
-    command->callback([request, &global, &result, windowLoad = std::move(windowLoad)] {
+    command->callback([request, command, &global, &result, windowLoad = std::move(windowLoad)] {
+        request->secondsGiven = command->count("--seconds") > 0;
         result = measure(*request, global, windowLoad);
     });
 }

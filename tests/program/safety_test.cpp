@@ -56,6 +56,15 @@ TEST_CASE("Numeric options reject NaN, infinity and numbers out of range in one 
     }
 }
 
+TEST_CASE("latency rejects options that a soak has no use for, and tries its report before the work") {
+    const SimpleStage stage;
+    const std::string scene = (stage / "scene.yaml").string();
+    checkRefusal({"latency", scene, "--soak", "0.02", "--load", "window"}, {"--load: given with --soak"});
+    checkRefusal({"latency", scene, "--soak", "0.02", "--seconds", "3"}, {"--seconds: given with --soak"});
+    checkRefusal({"latency", scene, "--out", (stage / "no/l.json").string()},
+                 {"latency: --out: ", "no/l.json"});
+}
+
 TEST_CASE("A hand path in seconds since 1970 or with huge positions is rejected with line and column") {
     const SimpleStage stage;
     stage.hand({{1700000000.0, {0.0, 0.0, 0.4}}, {1700000001.0, {0.0, 0.0, 0.4}}});
