@@ -40,6 +40,15 @@ std::string withStreams(const std::string& source, const Camera& camera) {
            more(",colour=", given.colour, chosen.colour);
 }
 
+// One word of a shell.
+std::string inShellQuotes(const std::string& text) {
+    std::string quoted = "'";
+    for (const char c : text) {
+        quoted += c == '\'' ? "'\\''" : std::string(1, c);
+    }
+    return quoted + "'";
+}
+
 void inspect(const std::string& source, const std::optional<std::filesystem::path>& folder) {
     log::LoggedLines logged;
     const log::LogOnce once(logged);              // the source is opened twice
@@ -57,7 +66,7 @@ void inspect(const std::string& source, const std::optional<std::filesystem::pat
     for (const std::string& warning : camera->warnings()) {
         std::cout << "warning   " << warning << "\n";
     }
-    std::cout << "use       --source '" << withStreams(source, *camera) << "'\n";
+    std::cout << "use       --source " << inShellQuotes(withStreams(source, *camera)) << "\n";
     if (folder) {
         std::cout << "written   " << folder->string() << "\n";
     }

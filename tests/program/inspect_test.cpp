@@ -25,6 +25,15 @@ TEST_CASE("inspect says what a recording folder holds and how to name it, and sa
     CHECK(run.out.find("of the 0.0 % of the pixels") != std::string::npos); // the wall is grey
 }
 
+TEST_CASE("inspect's line can be pasted into a shell also for a name with an apostrophe") {
+    const Stage stage;
+    stage.recording({Image(kWidth, kHeight, 600)});
+    std::filesystem::rename(stage / "rec", stage / "it's");
+    const ProgramRun run = runFathom({"inspect", (stage / "it's").string()});
+    CHECK(run.exitCode == 0);
+    CHECK(run.out.find("--source '" + stage.path().string() + "/it'\\''s'\n") != std::string::npos);
+}
+
 TEST_CASE("inspect shows the hues of clear colours with their saturation and lightness") {
     const Stage stage;
     Image image(kWidth, kHeight, 600);
