@@ -27,7 +27,8 @@ struct FitLimits {
 };
 
 // Least median of squares over triples of pairs (P. J. Rousseeuw, 1984), then least squares of the inliers.
-// Doubts scale, a mirrored axis, outliers, the residual and the rotation. Deterministic. Throws like fitRigid().
+// Doubts scale, a mirrored axis, outliers, the residual and the rotation. Deterministic. Throws like
+// fitRigid().
 RobustFit fitRobust(std::span<const PointPair> pairs, const FitLimits& limits, const std::string& source);
 
 } // namespace fathom

@@ -21,7 +21,7 @@ inline constexpr uint8_t kChunkInfo = 6;
 inline constexpr uint8_t kConnection = 7;
 inline constexpr uint32_t kMostBytes = 1u << 30; // of one record or chunk
 
-using Fields = std::map<std::string, std::string>;
+using Fields = std::map<std::string, std::string>; // of a record's header, by name
 
 // Throws Error for bytes that are no fields.
 Fields parseFields(std::span<const uint8_t> bytes);

@@ -48,6 +48,7 @@ struct CameraInfo {
         return ofRectified ? rectified : raw;
     }
 };
+// sensor_msgs/CameraInfo. Throws Error for bytes that are none.
 CameraInfo cameraInfo(MessageCursor message);
 
 // Reads over a std_msgs/Header.

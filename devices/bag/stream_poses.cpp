@@ -111,8 +111,8 @@ std::optional<Pose> StreamChooser::sdkPose(const ImageStream& depth, const Image
     return std::nullopt;
 }
 
-// The topic .../extrinsics/depth_to_color of the drivers of RealSense and Orbbec, of the camera of both; null:
-// there is none.
+// The topic .../extrinsics/depth_to_color of the drivers of RealSense and Orbbec, of the camera of both;
+// null: there is none.
 const MessageTopic* StreamChooser::poseTopic(const ImageStream& depth, const ImageStream& colour) const {
     const MessageTopic* best = nullptr;
     for (const MessageTopic& topic : file_.topics()) {

@@ -8,6 +8,7 @@
 
 namespace fathom {
 
+// 4 x 4, row by row.
 inline constexpr std::array<double, 16> kIdentityMatrix{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
 
 // 4 x 4 numbers, or 3 x 3 if orThree, as 4 x 4, row by row. Throws BadInput.

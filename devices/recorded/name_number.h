@@ -9,7 +9,7 @@
 
 namespace fathom {
 
-inline constexpr std::string_view kDigits = "0123456789";
+inline constexpr std::string_view kDigits = "0123456789"; // of numbers in names
 
 // Of any length, which no integer type holds: stamps in nanoseconds have 19 digits.
 struct NameNumber {

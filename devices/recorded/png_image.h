@@ -30,6 +30,7 @@ std::string readDepthPng(std::span<const uint8_t> bytes, PngSize size, std::span
 std::string readColourPng(const std::filesystem::path& file, PngSize size, std::span<uint32_t> target);
 std::string readColourPng(std::span<const uint8_t> bytes, PngSize size, std::span<uint32_t> target);
 
+// The first bytes of every PNG.
 inline constexpr std::array<uint8_t, 8> kPngSignature{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
 
 // What the first bytes of a PNG state; empty when they are not those of a PNG.

@@ -11,7 +11,7 @@ namespace fathom {
 // One thread. Allocates in the constructor only.
 class NearShapes {
 public:
-    struct Pair {
+    struct Pair { // of a shape and a leaf
         uint16_t shape;
         bool row; // has its rows in the solver
         uint32_t leaf;

@@ -6,7 +6,8 @@
 
 namespace fathom {
 
-inline constexpr double kLongSlide = 5.0, kLongFinger = 0.5; // [m] travel of a joint and of a finger
+inline constexpr double kLongSlide = 5.0;  // [m] travel of a joint
+inline constexpr double kLongFinger = 0.5; // [m] travel of a finger
 
 // Each returns one line for ArmModel::notes, or an empty text. [rad], or [m] if the joint slides.
 std::string limitWarning(const std::string& joint, bool slides, double lower, double upper, double longSlide);

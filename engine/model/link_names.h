@@ -8,7 +8,7 @@
 
 namespace fathom {
 
-inline constexpr size_t kNoTool = std::numeric_limits<size_t>::max();
+inline constexpr size_t kNoTool = std::numeric_limits<size_t>::max(); // rank of other names
 
 // Ends the name of the fixed joint that carries the site of an MJCF file.
 inline constexpr const char* kSiteEnding = "__site";

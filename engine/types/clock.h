@@ -6,7 +6,7 @@
 
 namespace fathom {
 
-using Clock = std::chrono::steady_clock;
+using Clock = std::chrono::steady_clock; // of all times that are measured
 
 // [s] since the machine started, the same for all of its processes.
 inline double secondsOf(Clock::time_point time) noexcept {
@@ -16,13 +16,16 @@ inline double monotonicSeconds() noexcept {
     return secondsOf(Clock::now());
 }
 
-inline double secondsSince(Clock::time_point begin) noexcept { // [s]
+// [s]
+inline double secondsSince(Clock::time_point begin) noexcept {
     return std::chrono::duration<double>(Clock::now() - begin).count();
 }
-inline double millis(Clock::time_point begin, Clock::time_point end) noexcept { // [ms]
+// [ms]
+inline double millis(Clock::time_point begin, Clock::time_point end) noexcept {
     return std::chrono::duration<double, std::milli>(end - begin).count();
 }
-inline double micros(Clock::time_point begin, Clock::time_point end) noexcept { // [us]
+// [us]
+inline double micros(Clock::time_point begin, Clock::time_point end) noexcept {
     return std::chrono::duration<double, std::micro>(end - begin).count();
 }
 

@@ -9,8 +9,10 @@
 
 namespace fathom {
 
-// Bits of HandSample::buttons. The clutch's bit is an option of the scene.
-inline constexpr uint32_t kGuidanceButton = 1, kDeadManOpen = 2, kDefaultClutch = 4;
+// Bits of HandSample::buttons.
+inline constexpr uint32_t kGuidanceButton = 1; // switches guidance on
+inline constexpr uint32_t kDeadManOpen = 2;    // switches forces off
+inline constexpr uint32_t kDefaultClutch = 4;  // the scene may choose another bit
 
 // One sample of the hand.
 struct HandSample {
