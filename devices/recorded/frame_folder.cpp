@@ -164,6 +164,9 @@ RecordingLayout readFrameFolder(const LayoutRequest& request) {
     RecordingLayout layout;
     if (request.lens) {
         layout.intrinsics = *request.lens;
+        if (info && !request.depthOnly) {
+            keepRecordedColour(layout.intrinsics, [&] { return readInfo(*info, false).camera; });
+        }
     } else {
         layout.intrinsics = info ? readInfo(*info, request.depthOnly) : sevenScenesLens();
     }

@@ -5,6 +5,7 @@
 #include "devices/recorded/lens_model.h"
 #include "devices/recorded/source_options.h"
 #include "engine/types/decimation.h"
+#include "engine/types/error.h"
 
 #include <algorithm>
 #include <array>
@@ -239,6 +240,27 @@ Pose readExtrinsics(const std::filesystem::path& file) {
     return root.find("extrinsics_topic_tf") ? readColourTdepth(root) : readPose(root);
 }
 
+void keepRecordedColour(RecordingIntrinsics& given, const std::function<CameraInfo()>& recorded) {
+    CameraInfo& camera = given.camera;
+    if (given.relatesColour || !camera.hasColour) {
+        return;
+    }
+    CameraInfo own;
+    try {
+        own = recorded();
+    } catch (const BadInput& e) {
+        throw BadInput(given.file, "registered_to_color", "missing",
+                       std::string("true, or blocks depth and color, as the recording does not tell how "
+                                   "colour relates to depth: ") +
+                           e.what());
+    }
+    if (own.hasColour && !own.registered) {
+        camera.registered = false;
+        camera.colour = own.colour;
+        camera.colourTdepth = own.colourTdepth;
+    }
+}
+
 RecordingIntrinsics readIntrinsics(const std::filesystem::path& file, ScaleRule rule) {
     const nlohmann::json document = parseJsonFile(file);
     const JsonField root(document, file.string(), "");
@@ -246,7 +268,9 @@ RecordingIntrinsics readIntrinsics(const std::filesystem::path& file, ScaleRule 
     intrinsics.file = file.filename().string();
     CameraInfo& camera = intrinsics.camera;
     const auto colour = findColour(root, "color", "colour");
-    if (colour || root.find("depth")) {
+    const bool two = colour || root.find("depth");
+    intrinsics.relatesColour = two || findColour(root, "registered_to_color", "registered_to_colour");
+    if (two) {
         readTwoLenses(root, colour ? *colour : root.at("color"), camera);
     } else {
         readOneLens(root, camera);

@@ -5,6 +5,7 @@
 #include "engine/types/camera_info.h"
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,7 +26,8 @@ struct RecordingIntrinsics {
     // Only when the file lists them: capture times [s] of the files in depth/ and rgb/ in order of their
     // names.
     std::vector<double> depthStamps, colourStamps;
-    bool rangeImages = false; // depth/ holds ranges along the rays, not z
+    bool relatesColour = false; // two lenses, or registered_to_color: colour is as this file says
+    bool rangeImages = false;   // depth/ holds ranges along the rays, not z
     double pairWithin =
         0.02; // [s] largest distance of a depth stamp from its colour stamp: half a frame at nominal_fps
 };
@@ -41,6 +43,11 @@ struct RecordingIntrinsics {
 // well (intrinsic_matrix, column by column; depth_scale in units per metre, else millimetres). Distortion
 // under a name of other programs (D, distortion_coefficients, ...) is rejected unless it is zero.
 RecordingIntrinsics readIntrinsics(const std::filesystem::path& file, ScaleRule rule = ScaleRule::Needed);
+
+// For a file that replaces the lenses of a recording: colour keeps its recorded lens and pose, if these are
+// its own and the file does not relate it to depth. recorded: reads the recording's lenses. Throws BadInput
+// that names the file where recorded throws.
+void keepRecordedColour(RecordingIntrinsics& given, const std::function<CameraInfo()>& recorded);
 
 // colourTdepth of a JSON file with t [m] and q_xyzw, or with extrinsics_topic_tf. Throws as above.
 Pose readExtrinsics(const std::filesystem::path& file);

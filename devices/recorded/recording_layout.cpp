@@ -34,6 +34,15 @@ std::optional<fs::path> colourFolder(const fs::path& folder) {
     return std::nullopt;
 }
 
+// The registered lens of other programs where the file has none that is read.
+CameraInfo open3dCamera(const fs::path& mark) {
+    try {
+        return fs::is_regular_file(mark) ? readIntrinsics(mark, ScaleRule::Optional).camera : CameraInfo{};
+    } catch (const BadInput&) {
+        return {};
+    }
+}
+
 RecordingLayout readOpen3d(const LayoutRequest& request) {
     const auto colour = colourFolder(request.folder);
     if (!colour && !request.depthOnly) {
@@ -42,6 +51,9 @@ RecordingLayout readOpen3d(const LayoutRequest& request) {
     }
     RecordingLayout layout;
     layout.intrinsics = request.lens ? *request.lens : readIntrinsics(request.mark, ScaleRule::Optional);
+    if (request.lens && !request.depthOnly) {
+        keepRecordedColour(layout.intrinsics, [&] { return open3dCamera(request.mark); });
+    }
     layout.index = pairByNumber({request.folder / "depth", kDepthEndings},
                                 {colour.value_or(request.folder / kColourFolders[0]), kColourEndings},
                                 request.depthOnly);
@@ -92,10 +104,16 @@ RecordingLayout readScanNet(const LayoutRequest& request) {
     RecordingLayout layout;
     layout.index = pairByNumber({folder / "depth", kDepthEndings}, {folder / "color", kColourEndings},
                                 request.depthOnly);
-    if (request.lens) {
-        layout.intrinsics = *request.lens;
+    const auto recorded = [&] {
+        return scanNetCamera(folder / "intrinsic", layout.index, request.depthOnly);
+    };
+    if (!request.lens) {
+        layout.intrinsics.camera = recorded();
     } else {
-        layout.intrinsics.camera = scanNetCamera(folder / "intrinsic", layout.index, request.depthOnly);
+        layout.intrinsics = *request.lens;
+        if (!request.depthOnly) {
+            keepRecordedColour(layout.intrinsics, recorded);
+        }
     }
     for (IndexLine& line : layout.index) {
         layout.posePerImage |= usePose(line, folder / "pose" / (line.depth.stem().string() + ".txt"));
@@ -115,6 +133,11 @@ RecordingLayout readTum(const fs::path& folder, const fs::path& intrinsics, bool
     layout.index = readIndex(folder, layout.intrinsics, depthOnly);
     if (!holdsMetres(layout)) {
         layout.intrinsics = readIntrinsics(intrinsics);
+    }
+    const fs::path own = folder / "intrinsics.json";
+    if (own != intrinsics && fs::exists(own) && !depthOnly) {
+        keepRecordedColour(layout.intrinsics,
+                           [&] { return readIntrinsics(own, ScaleRule::Unchecked).camera; });
     }
     if (fs::exists(folder / "poses.txt")) {
         layout.poses.emplace(folder / "poses.txt");

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+// How colour relates to depth in a folder whose lens is replaced by a file.
+#include "devices/recorded/recorded_camera.h"
+#include "tests/devices/played_bag.h"
+
+using namespace fathom;
+using namespace fathom::testing;
+
+namespace {
+
+const std::string kLensAlone = R"({"width": 7, "height": 5, "fx": 9, "fy": 9, "cx": 3, "cy": 2,
+                                 "depth_scale_m_per_unit": 0.001)";
+const std::string kOwnLenses =
+    R"({"depth": {"width": 7, "height": 5, "fx": 6, "fy": 6, "cx": 3, "cy": 2},
+        "color": {"width": 7, "height": 5, "fx": 5, "fy": 5, "cx": 3, "cy": 2}, "depth_scale_m_per_unit": 0.001,
+        "extrinsics_topic_tf": {"Color": {"t": [0.015, 0, 0], "q_xyzw": [0, 0, 0, 1]}}})";
+const std::string kRestOfRows = " 0 3 0 0 6 2 0 0 0 1 0 0 0 0 1\n";
+const std::string kTwoInfos = "m_colorWidth = 7\nm_colorHeight = 5\nm_depthWidth = 7\nm_depthHeight = 5\n"
+                              "m_depthShift = 1000\nm_calibrationColorIntrinsic = 5" +
+                              kRestOfRows + "m_calibrationDepthIntrinsic = 6" + kRestOfRows;
+
+CameraInfo playedInfo(const TemporaryFolder& folder, const std::string& lens, SourceOptions options = {}) {
+    folder.write("lens.json", lens);
+    options.intrinsics = folder.path() / "lens.json";
+    RecordedCamera camera(folder.path(), options);
+    CHECK(camera.next());
+    return camera.info();
+}
+
+// The recorded pose of colour is its own, x to the right [m].
+void checkKept(const TemporaryFolder& folder, double x) {
+    const CameraInfo kept = playedInfo(folder, kLensAlone + "}");
+    CHECK(kept.depth.fx == 9.0);
+    CHECK(kept.colour.fx == 5.0);
+    CHECK_FALSE(kept.registered);
+    CHECK(kept.colourTdepth.position.x == x);
+    const CameraInfo told = playedInfo(folder, kLensAlone + R"(, "registered_to_color": true})");
+    CHECK(told.colour.fx == 9.0);
+    CHECK(told.registered);
+    CHECK_FALSE(playedInfo(folder, kLensAlone + "}", {.colour = "none"}).hasColour);
+}
+
+} // namespace
+
+TEST_CASE("A file of one lens replaces depth only in a folder of two lenses, whose relation stays") {
+    const TemporaryFolder folder;
+    writeSmallRecording(folder, 1);
+    folder.write("intrinsics.json", kOwnLenses);
+    checkKept(folder, 0.015);
+}
+
+TEST_CASE("A file of one lens replaces depth only in a folder of images frame-N with two lenses") {
+    const TemporaryFolder folder;
+    addPair(folder, "frame-000000.depth.png", "frame-000000.color.png", 500);
+    folder.write("info.txt", kTwoInfos);
+    checkKept(folder, 0.0);
+}
+
+TEST_CASE(
+    "A file of one lens replaces depth only in a folder of ScanNet and in one of Open3D with two lenses") {
+    const TemporaryFolder scanNet, open3d;
+    addPair(scanNet, "depth/0.png", "color/0.png", 500);
+    std::filesystem::create_directories(scanNet.path() / "intrinsic");
+    scanNet.write("intrinsic/intrinsic_depth.txt", "6 0 3\n0 6 2\n0 0 1\n");
+    scanNet.write("intrinsic/intrinsic_color.txt", "5 0 3\n0 5 2\n0 0 1\n");
+    checkKept(scanNet, 0.0);
+    addPair(open3d, "depth/0.png", "color/0.png", 500);
+    open3d.write("camera_intrinsic.json", kOwnLenses);
+    checkKept(open3d, 0.015);
+}
+
+TEST_CASE(
+    "A file of one lens is the lens of colour, too, where the folder's depth is registered or has no lens") {
+    const TemporaryFolder registered, bare;
+    writeSmallRecording(registered, 1);
+    writeSmallRecording(bare, 1);
+    std::filesystem::remove(bare.path() / "intrinsics.json");
+    for (const TemporaryFolder* folder : {&registered, &bare}) {
+        CHECK(playedInfo(*folder, kLensAlone + "}").registered);
+        CHECK(playedInfo(*folder, kLensAlone + "}").colour.fx == 9.0);
+    }
+}
+
+TEST_CASE("A file of one lens is refused where the folder's relation of depth and colour cannot be read") {
+    const TemporaryFolder folder;
+    addPair(folder, "frame-000000.depth.png", "frame-000000.color.png", 500);
+    folder.write("info.txt", kTwoInfos + "m_calibrationColorExtrinsic = 0.9 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1\n");
+    folder.write("lens.json", kLensAlone + "}");
+    const std::string refused = recordingRefusal(folder.path(), {.intrinsics = folder.path() / "lens.json"});
+    lineSays(refused, "lens.json: registered_to_color: missing (allowed: true, or blocks depth and color");
+    lineSays(refused, "m_calibrationColorExtrinsic: 0.9");
+    CHECK(playedInfo(folder, kLensAlone + R"(, "registered_to_color": true})").registered);
+    CHECK_FALSE(playedInfo(folder, kLensAlone + "}", {.colour = "none"}).hasColour);
+}
