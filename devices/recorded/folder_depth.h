@@ -14,7 +14,8 @@ class FolderDepth {
 public:
     // Images of floating point are metres, or options.scale metres per value; their unit is chosen from a few
     // images of the index: the finest that holds one and a half times the farthest depth, or
-    // options.farthest. Throws BadInput for an absurd scale.
+    // options.farthest. Throws BadInput for an absurd scale, and for 16 bits that hold millimetres either
+    // as they are or as eighths.
     FolderDepth(const std::filesystem::path& folder, const RecordingLayout& layout,
                 const SourceOptions& options);
 
@@ -26,6 +27,7 @@ public:
     std::string read(const std::filesystem::path& file, std::span<uint16_t> depth);
 
 private:
+    void judgeBits(const RecordingLayout& layout);
     void chooseUnit(const RecordingLayout& layout, const SourceOptions& options);
     void dropInvalid(std::span<uint16_t> depth) const;
 

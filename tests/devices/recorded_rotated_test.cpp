@@ -69,3 +69,58 @@ TEST_CASE("That values are read as rotated is among the recording's warnings") {
     CHECK(said[0].find("rotated by three bits") != std::string::npos);
     CHECK(RecordedCamera(folder.path(), {.colour = "none", .scale = 0.001}).warnings().empty());
 }
+
+TEST_CASE(
+    "Depth in any coarse step of millimetres is not taken for rotated values, whatever a few pixels hold") {
+    for (const uint16_t step : Values{24, 40, 104, 1000}) {
+        CAPTURE(step);
+        const TemporaryFolder folder;
+        Values values = rising(static_cast<uint16_t>(2000 - 2000 % step), step, 40, 0);
+        writeValues(folder, values);
+        CHECK(playedDepths(folder.path(), kDepthOnly) == Values{values[0]});
+        CHECK(RecordedCamera(folder.path(), kDepthOnly).warnings().empty());
+        values.resize(size_t{kSide} * kSide, values.back());
+        values[200] = 8 * 307; // an outlier
+        writeValues(folder, values);
+        CHECK(playedDepths(folder.path(), kDepthOnly) == Values{values[0]});
+    }
+}
+
+TEST_CASE("Multiples of eight within 8 m, which may be either, are refused with both ways to read them") {
+    const TemporaryFolder folder;
+    writeValues(folder, rising(2400, 8, 400, 0)); // or 300 to 699 mm, rotated
+    const std::string refused = recordingRefusal(folder.path(), kDepthOnly);
+    for (const char* part : {"multiples of eight", "scale=0.001 ", "scale=0.000125 "}) {
+        CAPTURE(part);
+        CHECK(refused.find(part) != std::string::npos);
+    }
+    CHECK(playedDepths(folder.path(), {.colour = "none", .scale = 0.001}) == Values{2400});
+    RecordedCamera eighths(folder.path(), {.colour = "none", .scale = 0.000125});
+    CHECK(eighths.next().value()->depth[0] * eighths.info().metresPerUnit == doctest::Approx(0.3));
+}
+
+TEST_CASE("Depth of the Kinect SDK with the numbers of players has a warning with the scale that reads it") {
+    for (const uint16_t player : Values{1, 2, 6}) {
+        CAPTURE(player);
+        Values values = rising(800, 7, kSide * kSide, 3);
+        for (size_t i = 0; i < values.size(); i += 4) {
+            values[i] |= player;
+        }
+        const TemporaryFolder folder;
+        writeValues(folder, values);
+        RecordedCamera camera(folder.path(), kDepthOnly);
+        CHECK(camera.next().value()->depth[1] == 8 * 807); // as stored
+        REQUIRE(camera.warnings().size() == 1);
+        CHECK(camera.warnings()[0].find("Kinect SDK") != std::string::npos);
+        CHECK(camera.warnings()[0].find("scale=0.000125") != std::string::npos);
+    }
+}
+
+TEST_CASE("Depth in plain millimetres has no warning about rotated bits or players") {
+    const TemporaryFolder folder;
+    for (const uint16_t step : Values{1, 2, 3, 4, 5, 12}) {
+        CAPTURE(step);
+        writeValues(folder, rising(800, step, 400, 0));
+        CHECK(RecordedCamera(folder.path(), kDepthOnly).warnings().empty());
+    }
+}

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// How the bits of 16-bit depth images hold millimetres, judged by their values.
+#pragma once
+
+#include "devices/recorded/recording_layout.h"
+
+#include <filesystem>
+#include <vector>
+
+namespace fathom {
+
+enum class DepthBits {
+    Plain,
+    Rotated, // to the left by three, as SUN3D and SUN RGB-D store them
+    Either,  // one of these two
+    Players  // as the Kinect SDK 1.x stores them: shifted by three, the number of a player in the low bits
+};
+
+// A few images over the whole index.
+std::vector<std::filesystem::path> sampledImages(const RecordingLayout& layout);
+
+// Of a few images in units of 1 mm. Names as of SUN3D need fewer signs. Images that cannot be read count
+// nothing.
+DepthBits depthBits(const RecordingLayout& layout, PngSize size);
+
+} // namespace fathom
