@@ -10,6 +10,7 @@
 #include "engine/types/split_words.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -92,31 +93,55 @@ private:
     std::map<std::string, std::string> values_;
 };
 
-// 12-Scenes has its calibration beside the folder of images, where other data sets have any text.
-bool isCalibration(const fs::path& file, bool beside) {
+constexpr const char* kDepthLens = "m_calibrationDepthIntrinsic";
+
+struct Calibration {
+    std::optional<fs::path> file;
+    std::string unusable; // why a file of the name of one is none; empty = there is none
+};
+
+// beside: 12-Scenes has its calibration beside the folder of images, where other data sets have any text.
+bool takeCalibration(Calibration& found, const fs::path& file, bool beside) {
     std::error_code failed;
     if (beside ? !fs::is_regular_file(file, failed) : !fs::exists(file, failed)) {
         return false;
     }
+    std::string why = file.string() + " has no " + kDepthLens;
     try {
-        return SensorInfo(file).has("m_calibrationDepthIntrinsic");
-    } catch (const BadInput&) {
+        if (SensorInfo(file).has(kDepthLens)) {
+            found.file = file;
+            return true;
+        }
+    } catch (const BadInput& e) {
         if (!beside) {
             throw;
         }
-        return false;
+        why = e.what();
     }
+    found.unusable = found.unusable.empty() ? why : found.unusable;
+    return false;
 }
 
-// Nothing: no such file, or files of other content.
-std::optional<fs::path> calibrationOf(const fs::path& folder) {
+// The folder in which this one is named, and that in which it lies, if it is a link.
+std::array<fs::path, 2> foldersAbove(const fs::path& folder) {
+    fs::path named = fs::absolute(folder).lexically_normal();
+    named = named.has_filename() ? named : named.parent_path();
+    return {named.parent_path(), fs::weakly_canonical(folder).parent_path()};
+}
+
+Calibration calibrationOf(const fs::path& folder) {
+    Calibration found;
     for (const char* name : {"info.txt", "_info.txt"}) {
-        if (isCalibration(folder / name, false)) {
-            return folder / name;
+        if (takeCalibration(found, folder / name, false)) {
+            return found;
         }
     }
-    const fs::path above = fs::weakly_canonical(folder).parent_path() / "info.txt";
-    return isCalibration(above, true) ? std::optional(above) : std::nullopt;
+    for (const fs::path& above : foldersAbove(folder)) {
+        if (takeCalibration(found, above / "info.txt", true)) {
+            return found;
+        }
+    }
+    return found;
 }
 
 RecordingIntrinsics readInfo(const fs::path& file, bool depthOnly) {
@@ -133,6 +158,12 @@ RecordingIntrinsics readInfo(const fs::path& file, bool depthOnly) {
     }
     intrinsics.scale = camera.metresPerUnit = info.metresPerUnit();
     return intrinsics;
+}
+
+std::string nominalWarning(const Calibration& none) {
+    return "the nominal lens of 7-Scenes is used (fx and fy 585, principal point (320, 240)); another one is "
+           "read from info.txt or intrinsics=FILE behind the folder's name" +
+           (none.unusable.empty() ? "" : ". " + none.unusable);
 }
 
 // The data set's own calibration.
@@ -160,15 +191,19 @@ bool hasFrameImages(const fs::path& folder) {
 
 RecordingLayout readFrameFolder(const LayoutRequest& request) {
     const fs::path& folder = request.folder;
-    const auto info = calibrationOf(folder);
+    const Calibration calibration = calibrationOf(folder);
+    const std::optional<fs::path>& info = calibration.file;
     RecordingLayout layout;
     if (request.lens) {
         layout.intrinsics = *request.lens;
         if (info && !request.depthOnly) {
             keepRecordedColour(layout.intrinsics, [&] { return readInfo(*info, false).camera; });
         }
+    } else if (info) {
+        layout.intrinsics = readInfo(*info, request.depthOnly);
     } else {
-        layout.intrinsics = info ? readInfo(*info, request.depthOnly) : sevenScenesLens();
+        layout.intrinsics = sevenScenesLens();
+        layout.warnings.push_back(nominalWarning(calibration));
     }
     if (info && !layout.intrinsics.scale) { // a file of a lens alone
         const double unit = SensorInfo(*info).metresPerUnit();

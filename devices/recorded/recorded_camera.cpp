@@ -47,6 +47,7 @@ RecordedCamera::RecordedCamera(const fs::path& folder, const SourceOptions& opti
     , layout_(readLayout(folder, options)) {
     options.checkNoTopics(folder_.string());
     warnings_ = settleTimes(layout_, folder_);
+    std::ranges::for_each(layout_.warnings, [this](const std::string& warning) { warn(warning); });
     mostApart_ = std::max(kMaxApart, 0.5 * medianPeriod(layout_.index));
     useOptions(options);
     if (const std::string poses = info().poseless ? unreadPoses(folder_) : ""; !poses.empty()) {
@@ -75,6 +76,11 @@ void RecordedCamera::warnAboutStamps() {
             warnings_.emplace_back(warning);
         }
     }
+}
+
+void RecordedCamera::warn(const std::string& warning) {
+    log::warn("{}: {}", folder_.string(), warning);
+    warnings_.push_back(warning);
 }
 
 void RecordedCamera::useOptions(const SourceOptions& options) {

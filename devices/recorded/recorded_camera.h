@@ -41,6 +41,7 @@ public:
 private:
     void takeColourFormat();
     void warnAboutStamps();
+    void warn(const std::string& warning);
     void useOptions(const SourceOptions& options);
     // Returns the fault; empty = read.
     std::string read(const IndexLine& line, FrameSlot& slot, RawColour& raw);
@@ -63,7 +64,7 @@ private:
     std::unordered_set<std::string> judged_; // image folders
     std::optional<double> lastStamp_;        // [s] of the last delivered frame; empty after seek()
     std::string firstFault_;
-    std::vector<std::string> warnings_; // the first skipped frames
+    std::vector<std::string> warnings_; // of the recording, then the first skipped frames
     std::vector<std::string> unnamed_;  // skipped frames that are not logged yet
 };
 

@@ -17,6 +17,7 @@ struct RecordingLayout {
     uint16_t invalid = 0;             // a raw depth that means no measurement besides 0
     bool metres = false;              // depth images hold floating point, in metres
     std::optional<double> statedUnit; // [m] by the layout's files; nothing where none is stated
+    std::vector<std::string> warnings = {};
 };
 
 // Head of the first depth image that can be read; of the very first one, with its fault, where none can.

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// Images frame-N: which calibration they have, and which poses.
+#include "devices/recorded/recorded_camera.h"
+#include "tests/devices/played_bag.h"
+
+using namespace fathom;
+using namespace fathom::testing;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kRestOfMatrix = " 0 320 0 0 572 240 0 0 0 1 0 0 0 0 1\n";
+const std::string kFrameInfo = "m_depthWidth = 640\nm_depthHeight = 480\nm_depthShift = 1000\n"
+                               "m_calibrationDepthIntrinsic = 572" +
+                               std::string(kRestOfMatrix);
+const SourceOptions kFramesOnly{.colour = "none"};
+
+void addFrame(const fs::path& folder, const std::string& kind = "depth") {
+    fs::create_directories(folder);
+    writeDepth(folder / ("frame-000000." + kind + ".png"), 640, 480, 500);
+}
+
+// Each character as two bytes, as some editors of Windows save text.
+std::string asUtf16(const std::string& text) {
+    std::string wide = "\xff\xfe";
+    for (const char c : text) {
+        wide += c;
+        wide += '\0';
+    }
+    return wide;
+}
+
+// The line of its warnings that names the lens of 7-Scenes; empty = none.
+std::string nominalWarning(const fs::path& folder) {
+    for (const std::string& warning : RecordedCamera(folder, kFramesOnly).warnings()) {
+        if (warning.find("nominal lens of 7-Scenes") != std::string::npos) {
+            return warning;
+        }
+    }
+    return "";
+}
+
+} // namespace
+
+TEST_CASE("Images frame-N behind a link have the calibration beside the link, else that beside its target") {
+    const TemporaryFolder disk, scene;
+    addFrame(disk.path() / "images");
+    scene.write("info.txt", kFrameInfo);
+    fs::create_directory_symlink(disk.path() / "images", scene.path() / "data");
+    for (const char* name : {"data", "data/"}) {
+        CHECK(RecordedCamera(scene.path() / name, kFramesOnly).info().depth.fx == 572.0);
+    }
+    fs::rename(scene.path() / "info.txt", disk.path() / "info.txt");
+    CHECK(RecordedCamera(scene.path() / "data", kFramesOnly).info().depth.fx == 572.0);
+}
+
+TEST_CASE(
+    "Images frame-N without a calibration have a warning that the lens is the nominal one of 7-Scenes") {
+    const TemporaryFolder scene;
+    addFrame(scene.path() / "data");
+    lineSays(nominalWarning(scene.path() / "data"), "info.txt or intrinsics=FILE");
+    scene.write("data/info.txt", kFrameInfo);
+    CHECK(nominalWarning(scene.path() / "data") == "");
+    std::string other = kFrameInfo;
+    scene.write("data/info.txt", other.insert(other.find("Intrinsic") + 9, "s"));
+    lineSays(nominalWarning(scene.path() / "data"), "info.txt has no m_calibrationDepthIntrinsic");
+}
+
+TEST_CASE(
+    "A calibration of images frame-N in UTF-16 is refused as such, and beside their folder in the warning") {
+    const TemporaryFolder scene;
+    addFrame(scene.path() / "data");
+    scene.write("data/info.txt", asUtf16(kFrameInfo));
+    lineSays(recordingRefusal(scene.path() / "data", kFramesOnly), "info.txt: content: UTF-16 text");
+    fs::rename(scene.path() / "data/info.txt", scene.path() / "info.txt");
+    lineSays(nominalWarning(scene.path() / "data"), "info.txt: content: UTF-16 text");
+}
