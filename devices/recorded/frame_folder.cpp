@@ -177,6 +177,14 @@ RecordingIntrinsics sevenScenesLens() {
 
 constexpr std::string_view kFrameName = "frame-", kDepthName = ".depth";
 
+// Poses have no word of their own where depth has one: frame-000000.rendered.depth.png.
+fs::path poseFile(const fs::path& folder, const std::string& stem) {
+    constexpr const char* kEnd = ".pose.txt";
+    std::error_code failed;
+    const fs::path own = folder / (stem + kEnd);
+    return fs::exists(own, failed) ? own : folder / (stem.substr(0, stem.find('.')) + kEnd);
+}
+
 } // namespace
 
 bool hasFrameImages(const fs::path& folder) {
@@ -215,7 +223,7 @@ RecordingLayout readFrameFolder(const LayoutRequest& request) {
     for (IndexLine& line : layout.index) {
         std::string stem = line.depth.stem().string();
         stem.resize(stem.size() - kDepthName.size());
-        layout.posePerImage |= usePose(line, folder / (stem + ".pose.txt"));
+        layout.posePerImage |= usePose(line, poseFile(folder, stem));
     }
     return layout;
 }

@@ -76,3 +76,21 @@ TEST_CASE(
     fs::rename(scene.path() / "data/info.txt", scene.path() / "info.txt");
     lineSays(nominalWarning(scene.path() / "data"), "info.txt: content: UTF-16 text");
 }
+
+TEST_CASE("Poses of images frame-N belong to their number, whatever word their depth has") {
+    for (const char* kind : {"depth", "rendered.depth"}) {
+        CAPTURE(kind);
+        const TemporaryFolder folder;
+        addFrame(folder.path(), kind);
+        folder.write("frame-000000.pose.txt", "1 0 0 0.5\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
+        RecordedCamera camera(folder.path(), kFramesOnly);
+        CHECK_FALSE(camera.info().poseless);
+        const auto frame = camera.next();
+        REQUIRE(frame);
+        REQUIRE((*frame)->baseTcamera);
+        CHECK((*frame)->baseTcamera->position.x == 0.5);
+        folder.write("frame-000000.rendered.pose.txt", "1 0 0 0.25\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
+        const double own = std::string(kind) == "depth" ? 0.5 : 0.25;
+        CHECK(RecordedCamera(folder.path(), kFramesOnly).next().value()->baseTcamera->position.x == own);
+    }
+}
