@@ -184,7 +184,8 @@ RecordingLayout readFolder(const fs::path& folder, const SourceOptions& options)
     if (known.read != nullptr) {
         return known.read(request);
     }
-    if (given && request.lens->depthStamps.empty() && fs::exists(folder / "depth") && colourFolder(folder)) {
+    if (given && request.lens->depthStamps.empty() && fs::exists(folder / "depth") &&
+        (request.depthOnly || colourFolder(folder))) {
         return readOpen3d(request); // images that pair by number
     }
     if (given) { // its stamps may be the index

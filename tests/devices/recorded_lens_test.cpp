@@ -80,3 +80,17 @@ TEST_CASE("Images that are named as ranges, but played as z, have a warning that
     CHECK(warned("distance_to_camera_0", R"("depth_is": "range", )") == 0);
     CHECK(warned("distance_to_image_plane_0", "") == 0);
 }
+
+TEST_CASE("Depth images with numbers play with a lens alone where there is no folder of colour") {
+    const TemporaryFolder folder;
+    writeDepth(folder.path() / "depth/000000.png", kSmallWidth, kSmallHeight, 500);
+    folder.write("rgb.mp4", "x");
+    folder.write("lens.json", kSmallIntrinsics);
+    const std::filesystem::path lens = folder.path() / "lens.json";
+    CHECK(playedDepths(folder.path(), {.colour = "none", .intrinsics = lens}) == std::vector<uint16_t>{500});
+    lineSays(recordingRefusal(folder.path(), {.intrinsics = lens}),
+             "or colour=none behind the folder's name");
+    std::string depthOnly = kSmallIntrinsics;
+    folder.write("lens.json", depthOnly.insert(depthOnly.find('{') + 1, R"("has_color": false, )"));
+    CHECK(playedDepths(folder.path(), {.intrinsics = lens}) == std::vector<uint16_t>{500});
+}
