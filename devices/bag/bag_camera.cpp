@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace fathom {
 
@@ -40,6 +41,7 @@ BagCamera::BagCamera(std::unique_ptr<MessageFile> file, SourceOptions options)
 }
 
 void BagCamera::logWarnings() {
+    std::ranges::copy(lensWarnings(choice_.camera), std::back_inserter(choice_.warnings));
     for (const std::string& warning : choice_.warnings) {
         log::warn("{}: {}", file_->file().string(), warning);
         addWarning(warning);

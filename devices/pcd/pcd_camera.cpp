@@ -3,6 +3,7 @@
 
 #include "devices/images/metre_units.h"
 #include "devices/pcd/ply_file.h"
+#include "devices/recorded/lens_model.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
 #include "engine/types/read_file.h"
@@ -162,10 +163,7 @@ FittedLens fitLens(const PcdCloud& cloud) {
 }
 
 std::string lensWarning(const Intrinsics& lens) {
-    constexpr double kMostRatio = 1.25; // of the focal lengths
-    const bool inside = lens.cx > 0.0 && lens.cx < lens.width && lens.cy > 0.0 && lens.cy < lens.height;
-    const double ratio = std::max(lens.fx, lens.fy) / std::min(lens.fx, lens.fy);
-    if (lens.fan || (inside && ratio <= kMostRatio)) {
+    if (!isUnusualLens(lens)) {
         return "";
     }
     char text[200];

@@ -5,6 +5,7 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <cstdio>
 #include <string_view>
 
 namespace fathom {
@@ -92,6 +93,33 @@ std::vector<double> distortionCoefficients(const Intrinsics& lens) {
         all.insert(all.end(), lens.divisor.begin(), lens.divisor.end());
     }
     return all;
+}
+
+bool isUnusualLens(const Intrinsics& lens) {
+    constexpr double kMostRatio = 1.25; // of the focal lengths
+    const bool inside = lens.cx > 0.0 && lens.cx < lens.width && lens.cy > 0.0 && lens.cy < lens.height;
+    const double ratio = std::max(lens.fx, lens.fy) / std::min(lens.fx, lens.fy);
+    return !lens.fan && !(inside && ratio <= kMostRatio);
+}
+
+std::vector<std::string> lensWarnings(const CameraInfo& camera) {
+    std::vector<std::string> warnings;
+    const auto add = [&](const Intrinsics& lens, const char* stream) {
+        if (isUnusualLens(lens)) {
+            char text[200];
+            std::snprintf(
+                text, sizeof text,
+                "the lens of %s has fx %.1f, fy %.1f and the principal point (%.1f, %.1f) in images "
+                "of %ux%u: it may be that of another image size",
+                stream, lens.fx, lens.fy, lens.cx, lens.cy, lens.width, lens.height);
+            warnings.emplace_back(text);
+        }
+    };
+    add(camera.depth, "depth");
+    if (camera.hasColour && !camera.registered) {
+        add(camera.colour, "colour");
+    }
+    return warnings;
 }
 
 bool sameLens(const Intrinsics& a, const Intrinsics& b) {

@@ -21,6 +21,13 @@ std::string setDistortion(Intrinsics& lens, const std::string& model, std::span<
 std::string distortionModel(const Intrinsics& lens);
 std::vector<double> distortionCoefficients(const Intrinsics& lens);
 
+// Whether the principal point of a pinhole is outside of the image, or its focal lengths differ by over a
+// quarter, as those of hardly any camera.
+bool isUnusualLens(const Intrinsics& lens);
+// Warnings of a camera whose lens is unusual, for depth and for colour with a lens of its own: it may be that
+// of another image size.
+std::vector<std::string> lensWarnings(const CameraInfo& camera);
+
 // Within 1e-6 pixels.
 bool sameLens(const Intrinsics& a, const Intrinsics& b);
 

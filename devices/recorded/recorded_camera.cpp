@@ -3,6 +3,7 @@
 
 #include "devices/recorded/colour_image.h"
 #include "devices/recorded/index_times.h"
+#include "devices/recorded/lens_model.h"
 #include "devices/recorded/unread_poses.h"
 #include "engine/types/error.h"
 #include "engine/types/inside.h"
@@ -50,6 +51,7 @@ RecordedCamera::RecordedCamera(const fs::path& folder, const SourceOptions& opti
     std::ranges::for_each(layout_.warnings, [this](const std::string& warning) { warn(warning); });
     mostApart_ = std::max(kMaxApart, 0.5 * medianPeriod(layout_.index));
     useOptions(options);
+    std::ranges::for_each(lensWarnings(info()), [this](const std::string& warning) { warn(warning); });
     if (const std::string poses = info().poseless ? unreadPoses(folder_) : ""; !poses.empty()) {
         log::warn("{}: {}", folder_.string(), poses);
     }

@@ -94,3 +94,34 @@ TEST_CASE("Depth images with numbers play with a lens alone where there is no fo
     folder.write("lens.json", depthOnly.insert(depthOnly.find('{') + 1, R"("has_color": false, )"));
     CHECK(playedDepths(folder.path(), {.intrinsics = lens}) == std::vector<uint16_t>{500});
 }
+
+TEST_CASE("A lens of another size of image has a warning in the recording of a folder") {
+    const auto warned = [](const std::string& part, const std::string& with) {
+        const TemporaryFolder folder;
+        writeSmallRecording(folder, 1);
+        std::string lens = kSmallIntrinsics;
+        folder.write("intrinsics.json", lens.replace(lens.find(part), part.size(), with));
+        const auto warnings = RecordedCamera(folder.path()).warnings();
+        return warnings.empty() ? "" : warnings[0];
+    };
+    CHECK(warned("7", "7") == "");
+    lineSays(warned("\"cx\": 3", "\"cx\": 319.5"),
+             "the lens of depth has fx 6.5, fy 6.2 and the principal point (319.5, 2.0) in images of 7x5: it "
+             "may be that of another image size");
+    lineSays(warned("\"cy\": 2", "\"cy\": -2"), "(3.0, -2.0)");
+    lineSays(warned("\"fx\": 6.5", "\"fx\": 65"), "fx 65.0");
+    CHECK(warned("\"width\": 7", R"("projection": "equal_angles", "width": 7)") == "");
+}
+
+TEST_CASE("A lens of another size of image has a warning in a bag") {
+    const auto warned = [](const std::array<double, 4>& k) {
+        const TemporaryFolder folder;
+        BagMaker maker;
+        addStream(maker, "/camera/depth/image_raw", depthImage(500), {.k = k});
+        return playStreams(folder, maker).warnings();
+    };
+    CHECK(warned({7.0, 7.0, 3.5, 2.5}).empty());
+    const auto warnings = warned({52.5, 52.5, 31.9, 23.9});
+    REQUIRE(warnings.size() == 1);
+    lineSays(warnings[0], "the lens of depth has fx 52.5, fy 52.5 and the principal point (31.9, 23.9)");
+}
