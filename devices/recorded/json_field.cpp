@@ -3,6 +3,7 @@
 
 #include "devices/recorded/text_file.h"
 #include "engine/types/error.h"
+#include "engine/types/stand_in.h"
 
 #include <algorithm>
 #include <cmath>
@@ -132,6 +133,7 @@ void JsonField::refuse(const std::string& allowed) const {
 
 nlohmann::json parseJsonFile(const std::filesystem::path& file) {
     const std::string text = readTextFile(file);
+    refuseUtf16(file, text, "a readable text file");
     try {
         return nlohmann::json::parse(text);
     } catch (const nlohmann::json::exception& e) { // its message has line, column and the last token

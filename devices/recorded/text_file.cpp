@@ -60,6 +60,9 @@ bool DataLines::next(TextLine& line) {
         }
         const auto taken = static_cast<size_t>(in_.gcount()); // including the line end, if any
         std::string_view text = {buffer_.data(), taken - (in_.eof() ? 0 : 1)};
+        if (number_ == 1) {
+            refuseUtf16(name_, text, "a readable text file");
+        }
         text.remove_prefix(number_ == 1 && text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0);
         text = trim(text);
         if (!text.empty() && text[0] != '#') {

@@ -73,4 +73,10 @@ void refuseStandIn(const std::filesystem::path& file, const std::string& kind) {
     }
 }
 
+void refuseUtf16(const std::filesystem::path& file, std::string_view begin, const std::string& kind) {
+    if (begin.starts_with("\xff\xfe") || begin.starts_with("\xfe\xff")) {
+        throw BadInput(file.string(), "content", "UTF-16 text: save it as UTF-8", kind);
+    }
+}
+
 } // namespace fathom

@@ -16,5 +16,8 @@ std::string standIn(std::string_view begin);
 std::string standInOf(const std::filesystem::path& file);
 // Throws BadInput for such a file. kind: the allowed kind of file, "a ROS bag".
 void refuseStandIn(const std::filesystem::path& file, const std::string& kind);
+// Throws BadInput for text that begins with a byte order mark of UTF-16, for readers of UTF-8 alone. begin:
+// the file's first bytes.
+void refuseUtf16(const std::filesystem::path& file, std::string_view begin, const std::string& kind);
 
 } // namespace fathom
