@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/recorded/pose_track.h"
 
+#include "devices/recorded/small_units.h"
 #include "devices/recorded/text_file.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
@@ -95,6 +96,23 @@ std::optional<Pose> PoseTrack::at(double t) const noexcept {
     return since <= until ? (next - 1)->baseTcamera : next->baseTcamera;
 }
 
+// Which of two clocks may be in a unit below seconds, " (poses in nanoseconds?)"; empty = none. Only for long
+// times, as those since 1970: short ones may be anything.
+std::string PoseTrack::unitHint(double t) const {
+    constexpr double kShort = 1e3, kApart = 60.0; // [s]
+    const double first = poses_.front().t, last = poses_.back().t;
+    for (const SmallUnit& unit : kSmallUnits) {
+        const double asSeconds = t / unit.perSecond;
+        if (first > kShort && asSeconds > first - kApart && asSeconds < last + kApart) {
+            return std::string(" (stamps of images in ") + unit.name + "?)";
+        }
+        if (t > kShort && t > first / unit.perSecond - kApart && t < last / unit.perSecond + kApart) {
+            return std::string(" (stamps of poses.txt in ") + unit.name + "?)";
+        }
+    }
+    return "";
+}
+
 std::string PoseTrack::whyNone(double t) const {
     const auto next = after(t);
     char text[160];
@@ -108,7 +126,7 @@ std::string PoseTrack::whyNone(double t) const {
         std::snprintf(text, sizeof text, "its stamp %.3f s is in a gap of %.3f s of poses.txt", t,
                       next->t - (next - 1)->t);
     }
-    return text;
+    return std::string(text) + unitHint(t);
 }
 
 } // namespace fathom

@@ -32,6 +32,7 @@ private:
         Pose baseTcamera;
     };
     void warnIfFast(const std::filesystem::path& file) const;
+    std::string unitHint(double t) const;
     // The first pose later than t; the end when there is none.
     std::vector<Stamped>::const_iterator after(double t) const noexcept;
     std::vector<Stamped> poses_;

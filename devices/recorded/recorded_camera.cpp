@@ -4,14 +4,15 @@
 #include "devices/recorded/colour_image.h"
 #include "devices/recorded/index_times.h"
 #include "devices/recorded/lens_model.h"
+#include "devices/recorded/small_units.h"
 #include "devices/recorded/unread_poses.h"
 #include "engine/types/error.h"
 #include "engine/types/inside.h"
 #include "engine/types/log.h"
+#include "engine/types/number_text.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace fathom {
 
@@ -69,13 +70,10 @@ void RecordedCamera::warnAboutStamps() {
     }
     const double whole = index.back().depthStamp - index.front().depthStamp;
     const double period = whole / static_cast<double>(index.size() - 1);
-    for (const double unit : {1e3, 1e6, 1e9}) {
-        if (period > 0.005 * unit && period < 0.5 * unit) { // 2 to 200 frames a second
-            char warning[80];
-            std::snprintf(warning, sizeof warning, "%.6g s between its frames: stamps are read as seconds",
-                          period);
-            log::warn("{}: {}", folder_.string(), warning);
-            warnings_.emplace_back(warning);
+    for (const SmallUnit& unit : kSmallUnits) {
+        if (period > 0.005 * unit.perSecond && period < 0.5 * unit.perSecond) { // 2 to 200 frames a second
+            warn(significant(period, 6) +
+                 " s between its frames: stamps are read as seconds, but look like " + unit.name);
         }
     }
 }

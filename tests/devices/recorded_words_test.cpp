@@ -24,6 +24,28 @@ void writeStamps(const TemporaryFolder& folder, long perSecond) {
 
 } // namespace
 
+TEST_CASE("Stamps that look like milli, micro or nanoseconds are named by that unit") {
+    for (const auto& [perSecond, unit] :
+         {std::pair(1000L, "milliseconds"), {1000000L, "microseconds"}, {1000000000L, "nanoseconds"}}) {
+        const TemporaryFolder folder;
+        writeStamps(folder, perSecond);
+        const auto warnings = RecordedCamera(folder.path()).warnings();
+        REQUIRE(warnings.size() == 1);
+        lineSays(warnings[0], std::string("stamps are read as seconds, but look like ") + unit);
+        folder.write("poses.txt", "1700000000.0 0 0 0 0 0 0 1\n1700000000.1 0.01 0 0 0 0 0 1\n");
+        lineSays(recordingRefusal(folder.path()), std::string("(stamps of images in ") + unit + "?)");
+    }
+}
+
+TEST_CASE("Poses whose stamps look like nanoseconds of those of the images are named by that unit") {
+    const TemporaryFolder folder;
+    writeStamps(folder, 1);
+    folder.write("poses.txt", "1700000000000000000 0 0 0 0 0 0 1\n1700000000100000000 0.01 0 0 0 0 0 1\n");
+    lineSays(recordingRefusal(folder.path()), "(stamps of poses.txt in nanoseconds?)");
+    folder.write("poses.txt", "1600000000 0 0 0 0 0 0 1\n1600000000.1 0.01 0 0 0 0 0 1\n");
+    CHECK(recordingRefusal(folder.path()).find("seconds?") == std::string::npos);
+}
+
 TEST_CASE("Text files of a folder in UTF-16 are refused as such") {
     for (const char* name : {"intrinsics.json", "associations.txt", "poses.txt"}) {
         const TemporaryFolder folder;

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// Units of time in which stamps may be stored where seconds are read.
+#pragma once
+
+#include <array>
+
+namespace fathom {
+
+struct SmallUnit {
+    double perSecond;
+    const char* name;
+};
+
+inline constexpr std::array kSmallUnits{SmallUnit{1e3, "milliseconds"}, SmallUnit{1e6, "microseconds"},
+                                        SmallUnit{1e9, "nanoseconds"}};
+
+} // namespace fathom
