@@ -34,7 +34,7 @@ PoseTrack::PoseTrack(const std::filesystem::path& file) {
             good = parseNumber(words[i], v[i]) && std::isfinite(v[i]);
         }
         if (!good) {
-            refuse("eight finite numbers t tx ty tz qx qy qz qw");
+            refuse("eight finite numbers t tx ty tz qx qy qz qw, with decimal points and between spaces");
         }
         const dquat q(v[7], v[4], v[5], v[6]);
         const double length = glm::length(q);

@@ -155,7 +155,9 @@ std::string RecordedCamera::read(const IndexLine& line, FrameSlot& slot, RawColo
     const CameraInfo& camera = info();
     std::string fault = depth_->read(line.depth, slot.depth().first(camera.depth.pixels()));
     if (!fault.empty()) {
-        return line.depth.string() + ": " + fault;
+        return line.depth.string() + ": " + fault +
+               (line.orderGuessed ? " (colour comes first in associations.txt where no path names depth)"
+                                  : "");
     }
     if (!camera.hasColour) {
         return "";

@@ -32,9 +32,17 @@ bool parseStamp(std::string_view word, double& stamp) {
     return parseNumber(word, stamp) && std::isfinite(stamp);
 }
 
-// Some tools write depth first: 't_depth depth/x.png t_rgb rgb/x.png'.
-bool namesDepth(std::string_view path) {
-    return path.find("depth") != std::string_view::npos;
+// Decimal commas are a common cause.
+std::string stampFault(std::string_view word) {
+    return word.find(',') == std::string_view::npos ? "has a stamp that is not a finite number"
+                                                    : "has a stamp with a comma; numbers have decimal points";
+}
+
+// Whether a path has the word depth behind the folders that it has in common with the other one.
+bool namesDepth(std::string_view path, std::string_view other) {
+    const auto differ = std::ranges::mismatch(path, other).in1;
+    const std::string_view common(path.begin(), differ);
+    return path.find("depth", common.rfind('/') + 1) != std::string_view::npos; // npos + 1 = 0: no folder
 }
 
 // Faulty lines get the stamp of a neighbour, so that no time is measured from zero.
@@ -56,14 +64,17 @@ std::vector<IndexLine> readAssociations(const fs::path& folder) {
     for (const TextLine& line : readDataLines(file)) {
         std::vector<std::string_view> words = splitWords(line.text);
         IndexLine entry;
-        if (words.size() == 4 && namesDepth(words[1]) && !namesDepth(words[3])) {
-            std::rotate(words.begin(), words.begin() + 2, words.end());
+        if (words.size() == 4) { // some tools write depth first: 't_depth depth/x.png t_rgb rgb/x.png'
+            const bool first = namesDepth(words[1], words[3]), second = namesDepth(words[3], words[1]);
+            entry.orderGuessed = first == second;
+            std::rotate(words.begin(), words.begin() + (first && !second ? 2 : 0), words.end());
         }
         if (words.size() != 4) {
             entry.fault =
                 "line " + std::to_string(line.number) + " is not 't_rgb rgb/x.png t_depth depth/x.png'";
         } else if (!parseStamp(words[0], entry.colourStamp) || !parseStamp(words[2], entry.depthStamp)) {
-            entry.fault = "line " + std::to_string(line.number) + " has a stamp that is not a finite number";
+            const bool colour = parseStamp(words[0], entry.colourStamp);
+            entry.fault = "line " + std::to_string(line.number) + " " + stampFault(words[colour ? 2 : 0]);
         } else if (!staysInside(words[1]) || !staysInside(words[3])) {
             entry.fault = "line " + std::to_string(line.number) + " points outside the recording's folder";
         } else {
@@ -82,7 +93,9 @@ std::vector<StampedFile> readStampedFiles(const fs::path& folder, const char* na
         const std::vector<std::string_view> words = splitWords(line.text);
         StampedFile entry;
         if (words.size() != 2 || !parseStamp(words[0], entry.stamp)) {
-            log::warn("{}: line {} is not 't path': skipped", (folder / name).string(), line.number);
+            const bool comma = words.size() == 2 && words[0].find(',') != std::string_view::npos;
+            log::warn("{}: line {} {}: skipped", (folder / name).string(), line.number,
+                      comma ? stampFault(words[0]) : "is not 't path'");
             continue;
         }
         if (!staysInside(words[1])) {

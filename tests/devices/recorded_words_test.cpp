@@ -46,6 +46,47 @@ TEST_CASE("Poses whose stamps look like nanoseconds of those of the images are n
     CHECK(recordingRefusal(folder.path()).find("seconds?") == std::string::npos);
 }
 
+TEST_CASE("Decimal commas in an index and in poses are named as such") {
+    const TemporaryFolder folder;
+    writeSmallRecording(folder, 1);
+    folder.write("associations.txt", "0,0 rgb/0.png 0,0 depth/0.png\n");
+    lineSays(recordingRefusal(folder.path()), "line 1 has a stamp with a comma; numbers have decimal points");
+    std::filesystem::remove(folder.path() / "associations.txt");
+    folder.write("depth.txt", "0,0 depth/0.png\n");
+    folder.write("rgb.txt", "0,0 rgb/0.png\n");
+    const testing::Listening log;
+    recordingRefusal(folder.path());
+    CHECK(log.count("depth.txt: line 1 has a stamp with a comma; numbers have decimal points: skipped") == 1);
+    folder.write("associations.txt", "0.0 rgb/0.png 0.0 depth/0.png\n");
+    folder.write("poses.txt", "0,0 0 0 0 0 0 0 1\n");
+    lineSays(recordingRefusal(folder.path()),
+             "(allowed: eight finite numbers t tx ty tz qx qy qz qw, with decimal points and between spaces");
+}
+
+TEST_CASE("Depth that is first in associations.txt is found by the part of the paths that differs") {
+    const TemporaryFolder folder;
+    folder.write("intrinsics.json", kSmallIntrinsics);
+    addPair(folder, "depth_cam/depth/0.png", "depth_cam/rgb/0.png", 500);
+    folder.write("associations.txt", "0.0 depth_cam/depth/0.png 0.0 depth_cam/rgb/0.png\n");
+    CHECK(playedDepths(folder.path()) == std::vector<uint16_t>{500});
+    folder.write("associations.txt", "0.0 depth_cam/rgb/0.png 0.0 depth_cam/depth/0.png\n");
+    CHECK(playedDepths(folder.path()) == std::vector<uint16_t>{500});
+    addPair(folder, "frames/0_depth.png", "frames/0_rgb.png", 501);
+    folder.write("associations.txt", "0.0 frames/0_depth.png 0.0 frames/0_rgb.png\n");
+    CHECK(playedDepths(folder.path()) == std::vector<uint16_t>{501});
+}
+
+TEST_CASE("Images of associations.txt whose names do not tell depth are refused with the order that counts") {
+    const TemporaryFolder folder;
+    folder.write("intrinsics.json", kSmallIntrinsics);
+    addPair(folder, "disp/0.png", "left/0.png", 500);
+    folder.write("associations.txt", "0.0 disp/0.png 0.0 left/0.png\n");
+    lineSays(recordingRefusal(folder.path()),
+             "(colour comes first in associations.txt where no path names depth)");
+    folder.write("associations.txt", "0.0 left/0.png 0.0 disp/0.png\n");
+    CHECK(playedDepths(folder.path()) == std::vector<uint16_t>{500});
+}
+
 TEST_CASE("Text files of a folder in UTF-16 are refused as such") {
     for (const char* name : {"intrinsics.json", "associations.txt", "poses.txt"}) {
         const TemporaryFolder folder;
