@@ -7,6 +7,7 @@
 #include <array>
 #include <cctype>
 #include <string_view>
+#include <tuple>
 
 namespace fathom {
 
@@ -14,7 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kTumPoses = "groundtruth.txt"; // in the format of poses.txt
+constexpr const char *kOwnPoses = "poses.txt",
+                     *kTumPoses = "groundtruth.txt"; // in the same format
 
 // Files of one pose per object or per joint have other names.
 bool namesPoses(const fs::path& file) {
@@ -40,8 +42,10 @@ std::string unreadPoses(const fs::path& folder) {
     std::error_code failed;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, failed)) {
         const std::string name = entry.path().filename().string();
-        if (namesPoses(entry.path()) &&
-            (found.empty() || name == kTumPoses || (found != kTumPoses && name < found))) {
+        const auto order = [](const std::string& one) {
+            return std::tuple(one != kOwnPoses, one != kTumPoses, one);
+        };
+        if (namesPoses(entry.path()) && (found.empty() || order(name) < order(found))) {
             found = name;
         }
     }
@@ -49,7 +53,10 @@ std::string unreadPoses(const fs::path& folder) {
         return "";
     }
     return "the camera counts as fixed: " + found + " is not read (" +
-           (found == kTumPoses
+           (found == kOwnPoses
+                ? "it is read by the stamps of an index: intrinsics.json and associations.txt, or depth.txt "
+                  "and rgb.txt"
+            : found == kTumPoses
                 ? "copy it to poses.txt for a moving camera"
                 : "a moving camera needs poses.txt beside intrinsics.json: t x y z qx qy qz qw") +
            ")";

@@ -63,6 +63,15 @@ TEST_CASE("Decimal commas in an index and in poses are named as such") {
              "(allowed: eight finite numbers t tx ty tz qx qy qz qw, with decimal points and between spaces");
 }
 
+TEST_CASE("Poses in Fathom's format beside images that have no stamps are named with what they need") {
+    const TemporaryFolder folder;
+    folder.write("poses.txt", "0 0 0 0 0 0 0 1\n");
+    folder.write("odometry.txt", "");
+    lineSays(unreadPoses(folder.path()),
+             "poses.txt is not read (it is read by the stamps of an index: intrinsics.json and "
+             "associations.txt, or depth.txt and rgb.txt)");
+}
+
 TEST_CASE("Depth that is first in associations.txt is found by the part of the paths that differs") {
     const TemporaryFolder folder;
     folder.write("intrinsics.json", kSmallIntrinsics);
