@@ -17,10 +17,11 @@ namespace fs = std::filesystem;
 
 constexpr size_t kMostBelow = 200; // folders that are looked at on each level
 constexpr std::array<std::string_view, 4> kMessageFiles{".mcap", ".db3", ".bag", ".mkv"};
+constexpr std::array<std::string_view, 2> kClouds{".pcd", ".ply"};
 
 struct Entries {
     std::vector<fs::path> folders;
-    fs::path file; // the first one of messages, in order of names; empty = none
+    fs::path file, cloud; // the first one of messages, and of a cloud, in order of names; empty = none
 };
 
 Entries entriesOf(const fs::path& folder) {
@@ -34,6 +35,8 @@ Entries entriesOf(const fs::path& folder) {
             }
         } else if (endsAs(path, kMessageFiles) && (entries.file.empty() || path < entries.file)) {
             entries.file = path;
+        } else if (endsAs(path, kClouds) && (entries.cloud.empty() || path < entries.cloud)) {
+            entries.cloud = path;
         }
     }
     std::ranges::sort(entries.folders);
@@ -73,6 +76,10 @@ void refuseUnknownFolder(const fs::path& folder, bool (*isRecording)(const fs::p
     if (const fs::path below = recordingBelow(folder, isRecording); !below.empty()) {
         throw BadInput(folder.string(), "folder", "no recording itself",
                        "the one inside of it: " + below.string());
+    }
+    if (const fs::path cloud = entriesOf(folder).cloud; !cloud.empty()) {
+        throw BadInput(folder.string(), "folder", "a folder of point clouds",
+                       "one cloud, " + cloud.string() + "; or clouds in a bag");
     }
     throw BadInput(
         (folder / "intrinsics.json").string(), "file", "missing",

@@ -96,6 +96,17 @@ TEST_CASE("Images of associations.txt whose names do not tell depth are refused 
     CHECK(playedDepths(folder.path()) == std::vector<uint16_t>{500});
 }
 
+TEST_CASE("A folder of point clouds is refused with the name of one, as clouds play one by one") {
+    for (const char* name : {"b.pcd", "b.PLY"}) {
+        const TemporaryFolder folder;
+        folder.write(name, "x");
+        folder.write("readme.txt", "x");
+        lineSays(recordingRefusal(folder.path()), "a folder of point clouds (allowed: one cloud, " +
+                                                      (folder.path() / name).string() +
+                                                      "; or clouds in a bag)");
+    }
+}
+
 TEST_CASE("Text files of a folder in UTF-16 are refused as such") {
     for (const char* name : {"intrinsics.json", "associations.txt", "poses.txt"}) {
         const TemporaryFolder folder;
