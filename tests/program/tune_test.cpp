@@ -110,7 +110,7 @@ TEST_CASE("tune measures on an analytic twin when a recording shows no still sce
 
 TEST_CASE("tune rejects classes that select nothing in a recording, also where it would measure on a twin") {
     const Stage stage;
-    for (const uint16_t steps : {0, 20}) {
+    for (const uint16_t steps : {uint16_t{0}, uint16_t{20}}) {
         CAPTURE(steps);
         stillRecording(stage, 10, steps);
         SceneText text;
