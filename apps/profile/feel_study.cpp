@@ -90,8 +90,10 @@ StudyRow feltRow(const StudyContext& context, const FrameSequence& source, const
 void addFeltSource(const StudyContext& context, Study& study, const FrameSequence& source,
                    const FrameSequence& exact) {
     const Tool tool(buildSphereTree(gripperLeaves()));
-    const FeltPlaces places(
-        tool, regionsOf(context.device, studyScene(context.settings), exact.camera, exact.frames.front()));
+    const Fixtures truth =
+        regionsOf(context.device, studyScene(context.settings), exact.camera, exact.frames.front());
+    refuseEmpty(context.settings, exact, truth.spheres);
+    const FeltPlaces places(tool, truth);
     std::vector<std::unique_ptr<FrameBench>> benches;
     std::vector<StudyRow> rows;
     std::vector<double> rates;

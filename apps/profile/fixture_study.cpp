@@ -74,6 +74,7 @@ void addRadius(const StudyContext& context, Study& study, const FrameSequence& s
         const RegionSpheres& spheres = benches.back()->set().host.spheres;
         if (budget == 0.0) {
             all = spheres;
+            refuseEmpty(context.settings, source, all);
         }
         StudyRow& row = rows.emplace_back();
         row.source = source.name + " R " + digits(radius * 1e3) + " mm";

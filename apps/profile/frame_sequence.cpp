@@ -193,6 +193,14 @@ Scene studyScene(const Settings& settings) {
     return scene;
 }
 
+void refuseEmpty(const Settings& settings, const FrameSequence& source, const RegionSpheres& spheres) {
+    if (spheres.size() == 0) {
+        throw BadInput(settings.scene.empty() ? source.name : settings.scene.string(), "fixtures",
+                       "no forbidden class has points in the frames of " + source.name,
+                       "a forbidden class that does; 'fathom replay' shows what each class selects");
+    }
+}
+
 std::vector<FixtureClass> redAndYellow() {
     return {coloured("red", Role::Forbidden, {345.0, 20.0}),
             coloured("yellow", Role::Guidance, {40.0, 70.0})};

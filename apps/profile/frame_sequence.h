@@ -65,6 +65,10 @@ std::vector<FrameSequence> studySources(const Settings& settings, const std::vec
 // every point of a recording) and one guidance class (yellow).
 Scene studyScene(const Settings& settings);
 
+// Throws BadInput, that names the scene or else the source, when the regions have no sphere: then there is
+// nothing to measure.
+void refuseEmpty(const Settings& settings, const FrameSequence& source, const RegionSpheres& spheres);
+
 // The classes of the analytic scenes: one forbidden, what is red, and one guidance class, what is yellow.
 std::vector<FixtureClass> redAndYellow();
 

@@ -44,6 +44,20 @@ void checkNames(const Settings& settings) {
     }
 }
 
+// Before folder and device are opened.
+void checkSource(const std::filesystem::path& source) {
+    if (source.empty() || std::filesystem::is_directory(source)) {
+        return;
+    }
+    const std::string text = source.string();
+    const bool options = std::filesystem::exists(text.substr(0, text.find(',')));
+    throw BadInput(text, "--source",
+                   std::filesystem::exists(source) ? "a file"
+                   : options                       ? "options behind a comma"
+                                                   : "missing",
+                   "a recording folder (TUM RGB-D) alone; 'fathom convert' makes one of other recordings");
+}
+
 bool wanted(const Settings& settings, const std::string& name) {
     return settings.studies.empty() ||
            std::find(settings.studies.begin(), settings.studies.end(), name) != settings.studies.end();
@@ -86,6 +100,7 @@ void writeStudy(const Study& study, const Facts& facts, const std::filesystem::p
 
 void runProfile(const Settings& settings, const GlobalOptions& global) {
     checkNames(settings);
+    checkSource(settings.source);
     const OutputLock lock(settings.out);
     const gpu::Instance instance(global.validation());
     gpu::Device device(instance, global.device);

@@ -196,3 +196,35 @@ TEST_CASE("A recording gives the scatter between its frames") {
         CHECK(row["error"].get<double>() < 20.0);
     }
 }
+
+TEST_CASE("A source that is no folder is rejected before the work, with what it is") {
+    const ScratchFolder folder;
+    folder.write("rec.bag", "");
+    std::filesystem::create_directory(folder / "rec");
+    for (const auto& [source, what] :
+         {std::pair("rec.bag", "rec.bag: --source: a file (allowed: a recording folder"),
+          std::pair("rec,colour=none", "--source: options behind a comma"),
+          std::pair("none", "none: --source: missing")}) {
+        const ProgramRun run = runFathom({"profile", "filter", "--quick", "--source",
+                                          (folder / source).string(), "--out", (folder / "out").string()});
+        CHECK(run.exitCode == 2);
+        REQUIRE(run.errorLines().size() == 1);
+        CHECK_MESSAGE(run.err.find(what) != std::string::npos, run.err);
+        CHECK_FALSE(std::filesystem::exists(folder / "out"));
+    }
+}
+
+TEST_CASE("Studies of regions reject a scene whose classes select nothing, and name it") {
+    const ScratchFolder folder;
+    const std::string scene = (folder / "nothing.yaml").string();
+    folder.write("nothing.yaml",
+                 "fixtures: [{name: a, role: forbidden, hue: [180, 181], saturation: [0.99, 1]}]\n"
+                 "tool: {spheres: [[0, 0, 0, 0.01]]}\n");
+    for (const char* study : {"fixture", "feel"}) {
+        const ProgramRun run = runFathom({"--device", "llvmpipe", "profile", study, "--quick", "--scene",
+                                          scene, "--out", (folder / "out").string()});
+        CHECK(run.exitCode == 2);
+        CHECK_MESSAGE(run.err.find(scene + ": fixtures: no forbidden class has points") != std::string::npos,
+                      run.err);
+    }
+}
