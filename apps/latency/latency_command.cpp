@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/latency/latency_command.h"
 
+#include "apps/binding/open_source.h"
 #include "apps/binding/stop_signals.h"
 #include "apps/latency/latency_report.h"
 #include "apps/latency/latency_run.h"
@@ -74,7 +75,7 @@ void addLatencyCommand(CLI::App& app, const GlobalOptions& global, WindowLoad wi
     CLI::App* command =
         app.add_subcommand("latency", "measure how late the haptic thread wakes, and how long a step takes");
     command->add_option("SCENE", request->run.scene, "scene file (YAML)")->required();
-    command->add_option("--source", request->run.source, "recording folder instead of the scene's camera");
+    command->add_option("--source", request->run.source, kSourceHelp);
     command->add_option("--seconds", request->run.seconds, "length of each part [s] (10)")
         ->check(numberIn(Range::between(0.5, 86400.0)));
     command->add_option("--load", request->loads, "idle, frames or window; may be repeated (default: all)")
