@@ -87,6 +87,14 @@ class Results(unittest.TestCase):
         distance = numpy.linalg.norm(corners[:, None] - spheres[None, :, :3], axis=2) - spheres[None, :, 3]
         self.assertTrue((distance.min(axis=1) <= 1e-9).all())
 
+    def test_a_set_of_spheres_is_read_as_it_is(self):
+        with tempfile.TemporaryDirectory() as folder:
+            tool = pathlib.Path(folder) / "tool.sph"
+            tool.write_text("1 1\n0 0 0 0.01\n")
+            self.assertEqual(fathom.sphere_cover(tool).tolist(), [[0.0, 0.0, 0.0, 0.01]])
+            with self.assertRaisesRegex(fathom.ProgramFailed, "--leaves: given with spheres"):
+                fathom.sphere_cover(tool, leaves=4)
+
 
 def names_of(body):
     """Public names that statements define, with those of classes inside."""

@@ -70,14 +70,16 @@ def profile(*studies, quick=False, source=None, out=None, device=None) -> Run:
     return _run("profile", arguments, out, device)
 
 
-def sphere_cover(mesh, leaves=128, *, scale=1.0) -> numpy.ndarray:
+def sphere_cover(mesh, leaves=None, *, scale=None) -> numpy.ndarray:
     """Spheres that contain a mesh: array of shape (n, 4), x y z radius [m] in the mesh's frame.
 
-    mesh: STL, OBJ or COLLADA file. leaves: largest number of spheres. scale: metres per unit of the file.
+    mesh: STL, OBJ or COLLADA file. leaves: largest number of spheres (128). scale: metres per unit of the file (1).
     """
     with tempfile.TemporaryDirectory(prefix="fathom-") as folder:
         path = pathlib.Path(folder) / "tool.json"
-        _call(["spheres", str(mesh), "--leaves", str(leaves), "--scale", repr(float(scale)), "--out", str(path)])
+        options = (["--leaves", str(leaves)] if leaves is not None else []) + (
+            ["--scale", repr(float(scale))] if scale is not None else [])
+        _call(["spheres", str(mesh), *options, "--out", str(path)])
         (link,) = json.loads(path.read_text()).values()
     return numpy.array([[*sphere["origin"], sphere["radius"]] for sphere in link["spheres"]], dtype=float)
 
