@@ -105,8 +105,8 @@ void writeSets(const SpheresOptions& options, const std::vector<LinkSpheres>& se
     for (const LinkSpheres& set : sets) {
         count += set.spheres.size();
     }
-    std::cout << count << " spheres of " << sets.size() << " links written to " << options.out.string()
-              << std::endl;
+    std::cout << count << " spheres of " << sets.size() << (sets.size() == 1 ? " link" : " links")
+              << " written to " << options.out.string() << std::endl;
 }
 
 double scaleOf(const SpheresOptions& options) {

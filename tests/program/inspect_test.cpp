@@ -25,6 +25,10 @@ TEST_CASE("inspect says what a recording folder holds and how to name it, and sa
     CHECK(run.out.find("of the 0.0 % of the pixels") != std::string::npos); // the wall is grey
 }
 
+TEST_CASE("inspect says that its source is empty") {
+    checkRefusal({"inspect", ""}, {"inspect: SOURCE: empty (allowed: a recording or a camera)"});
+}
+
 TEST_CASE("inspect's line can be pasted into a shell also for a name with an apostrophe") {
     const Stage stage;
     stage.recording({Image(kWidth, kHeight, 600)});
