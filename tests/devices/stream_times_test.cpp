@@ -111,6 +111,21 @@ TEST_CASE("Period, start and duration of a bag that was written faster or slower
     }
 }
 
+TEST_CASE("Two clocks that differ by seconds are not taken for a file that was written later") {
+    const TemporaryFolder folder;
+    const Written written{.depthAt = [](int i) { return 1000.0 + kFrameStep * i; },
+                          .colourAt = [](int i) { return 1000.005 + kFrameStep * i; },
+                          .colourLater = 60 * kFrameStep};
+    const Listening log;
+    BagCamera camera = playStreams(folder, writtenLater(written));
+    CHECK(log.count("paired by the time of recording") == 1);
+    for (uint32_t i = 0; i < 120; ++i) {
+        const auto frame = camera.next();
+        REQUIRE(frame);
+        CHECK((coloursOf(**frame)[0] & 0xff) == i + 1);
+    }
+}
+
 TEST_CASE("A duration without a depth image is named as such, not the start") {
     const TemporaryFolder folder;
     BagMaker maker;
