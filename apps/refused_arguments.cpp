@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <vector>
 
@@ -17,7 +18,9 @@ using Names = std::vector<std::string>;
 constexpr const char* kSeeHelp = "; see fathom --help";
 
 std::string unknown(const std::string& word, const Names& names) {
-    return "'" + word + "'" + suggestion(word, std::vector<std::string_view>(names.begin(), names.end())) +
+    std::string small = word; // as all names are
+    std::ranges::transform(small, small.begin(), [](unsigned char c) { return std::tolower(c); });
+    return "'" + word + "'" + suggestion(small, std::vector<std::string_view>(names.begin(), names.end())) +
            " (allowed: " + joined(names) + ")";
 }
 

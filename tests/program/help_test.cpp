@@ -35,6 +35,9 @@ TEST_CASE("A wrong command line is rejected in one line that says what is wrong 
     checkRefusedArguments({"a.yaml"},
                           "fathom: subcommand: missing before 'a.yaml' (for example: fathom replay");
     checkRefusedArguments({"replya"}, "fathom: subcommand: 'replya', did you mean 'replay'? (allowed: ");
+    checkRefusedArguments({"TUNE"}, "fathom: subcommand: 'TUNE', did you mean 'tune'? (allowed: ");
+    checkRefusedArguments({"plan", "a.yaml", "--Source", "x"},
+                          "fathom: plan: '--Source', did you mean '--source'? (allowed: ");
     checkRefusedArguments({"replay", "a.yaml", "b.yaml"}, "fathom: replay: 'b.yaml': one SCENE only");
     checkRefusedArguments({"replay", "--scene", "a.yaml"}, "fathom: replay: --scene: SCENE is given without");
     CHECK(runFathom({}).err.find("; see fathom --help\n") != std::string::npos);
