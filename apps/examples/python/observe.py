@@ -13,8 +13,13 @@ STATE = struct.Struct("=24dqQII")  # see fathom_door_state in <fathom/device_soc
 MAGIC, VERSION, KIND = 0x524F4F44, 1, 3
 STATES = ("off", "free", "contact", "escape", "trapped", "fading", "waiting")
 
+if len(sys.argv) != 2:
+    sys.exit("usage: observe.py SOCKET")
 with socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET) as view:
-    view.connect(sys.argv[1])
+    try:
+        view.connect(sys.argv[1])
+    except OSError as error:
+        sys.exit(f"observe.py: {sys.argv[1]}: {error.strerror}")
     while packet := view.recv(65536):
         magic, version, kind, size, _, sequence, _ = HEADER.unpack_from(packet)
         if (magic, version, size) != (MAGIC, VERSION, len(packet)):
