@@ -62,7 +62,7 @@ std::vector<std::string> wholeWordsOf(const std::string& topic, bool humps = fal
 
 // Words that may name a camera: "front", "2" of "/frontDepth2".
 std::vector<std::string> cameraWordsOf(const std::string& topic) {
-    std::vector<std::string> words = wholeWordsOf(topic, true);
+    std::vector<std::string> words = wholeWordsOf(baseTopic(topic), true);
     for (std::string& word : words) {
         const size_t name = word.find_last_not_of("0123456789") + 1;
         const std::string use = word.substr(0, name);

@@ -37,6 +37,8 @@ TEST_CASE("Colour of the camera whose name is that of depth is played, also in d
     CHECK(sharedWords("/depth1", "/color2") == 0);
     CHECK(sharedWords("/frontDepth", "/frontColor") == 1);
     CHECK(sharedWords("/cam2Depth", "/cam2RGB") == 1);
+    CHECK(sharedWords("/c/depth/image_raw/compressedDepth", "/c/color/image_raw/compressed") ==
+          sharedWords("/c/depth/image_raw", "/c/color/image_raw"));
     const TemporaryFolder folder;
     for (const auto& [depth, own, other] :
          {std::array<std::string, 3>{"/depth1/image_raw", "/color1/image_raw", "/color2/image_raw"},
