@@ -173,8 +173,8 @@ bool StampedStream::recordedInTime() {
     if (std::abs(recorded - span) <= std::max(kLeastApart, kMostApart * span)) {
         return true;
     }
-    const double step = recordedPeriod(); // alike: the clock of the stamps was set forward
-    return span > recorded && step <= kAlike * period && period <= kAlike * step;
+    const double step = recordedPeriod(); // alike: the clock of the stamps was set forward or back
+    return step <= kAlike * period && period <= kAlike * step;
 }
 
 size_t StampedStream::firstAfter(double seconds) {

@@ -20,6 +20,7 @@ struct Written {
     std::function<double(int)> depthAt, colourAt; // [s] of recording
     double colourLater = 0.0;                     // [s] in stamps
     int lostFrom = 0, lostTo = 0;                 // colour frames
+    double setBack = 0.0;                         // [s] the clock of the stamps, in the middle
 };
 
 // Frame i has depth 500 + i and red 1 + i.
@@ -29,7 +30,7 @@ BagMaker writtenLater(const Written& written) {
         maker.add(topic, "sensor_msgs/CameraInfo", 1.0, infoMessage({}));
     }
     for (int i = 0; i < written.frames; ++i) {
-        const double t = 100.0 + kFrameStep * i;
+        const double t = 100.0 + kFrameStep * i - (2 * i < written.frames ? 0.0 : written.setBack);
         maker.add("/c/depth/image", "sensor_msgs/Image", written.depthAt(i),
                   imageMessage(t, depthImage(static_cast<uint16_t>(500 + i))));
         if (i < written.lostFrom || i >= written.lostTo) {
@@ -168,4 +169,18 @@ TEST_CASE("Few headers of a long file are read to find its period and a message,
         CHECK(stream.nearest(100.0 + kFrameStep * 40'000, topic.messages[40'000].time, 0.01) == 40'000);
         CHECK(file.read - before < 80);
     }
+}
+
+TEST_CASE("A bag whose clock was set back while it was recorded pairs and starts by the time of recording") {
+    const TemporaryFolder folder;
+    const auto inTime = [](int i) { return 1000.0 + kFrameStep * i; };
+    const Written written{.depthAt = inTime, .colourAt = inTime, .setBack = 1.5};
+    BagCamera camera = playStreams(folder, writtenLater(written));
+    uint32_t played = 0;
+    while (const auto frame = camera.next()) {
+        CHECK((coloursOf(**frame)[0] & 0xff) == (*frame)->index + 1);
+        ++played;
+    }
+    CHECK(played == 120);
+    CHECK(playStreams(folder, writtenLater(written), {.start = 1.0}).firstFrame() == 31);
 }
