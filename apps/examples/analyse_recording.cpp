@@ -2,13 +2,11 @@
 // Analyses a recording without a clock: how near may a tool come along the optical axis, frame by frame?
 // FOLDER has 16-bit PNG files of depth, by default of 0.001 m per unit; TUM RGB-D recordings have 0.0002.
 #include <cstdio>
-#include <cstdlib>
 #include <fathom/fathom.h>
 #include <filesystem>
 #include <memory>
 #include <png.h>
 #include <set>
-#include <string>
 #include <vector>
 
 static std::vector<std::uint16_t> readDepth(const std::string& file, const fathom::Intrinsics& lens) {
@@ -39,14 +37,7 @@ int main(int count, char** argument) try {
     if (count != 9 && count != 10) {
         throw fathom::Error("usage: analyse_recording FOLDER SCENE WIDTH HEIGHT FX FY CX CY [M_PER_UNIT]");
     }
-    const auto number = [&](int i) {
-        char* end = nullptr;
-        const double value = std::strtod(argument[i], &end);
-        if (end == argument[i] || *end != '\0') {
-            throw fathom::Error(std::string(argument[i]) + " is not a number");
-        }
-        return value;
-    };
+    const auto number = [&](int i) { return std::stod(argument[i]); };
     fathom::CameraModel camera;
     camera.depth = {
         std::uint32_t(number(3)), std::uint32_t(number(4)), number(5), number(6), number(7), number(8), {}};
