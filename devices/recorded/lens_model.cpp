@@ -96,8 +96,12 @@ std::vector<double> distortionCoefficients(const Intrinsics& lens) {
 }
 
 bool isUnusualLens(const Intrinsics& lens) {
-    constexpr double kMostRatio = 1.25; // of the focal lengths
-    const bool inside = lens.cx > 0.0 && lens.cx < lens.width && lens.cy > 0.0 && lens.cy < lens.height;
+    constexpr double kMostRatio = 1.25;                   // of the focal lengths
+    const auto between = [](double at, uint32_t pixels) { // the outermost pixels
+        const double middle = 0.5 * (pixels - 1.0);
+        return std::abs(at - middle) < std::max(0.5, middle);
+    };
+    const bool inside = between(lens.cx, lens.width) && between(lens.cy, lens.height);
     const double ratio = std::max(lens.fx, lens.fy) / std::min(lens.fx, lens.fy);
     return !lens.fan && !(inside && ratio <= kMostRatio);
 }
