@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/recorded/lens_model.h"
 
+#include "engine/scene/camera_limits.h"
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -103,7 +105,7 @@ bool isUnusualLens(const Intrinsics& lens) {
     };
     const bool inside = between(lens.cx, lens.width) && between(lens.cy, lens.height);
     const double ratio = std::max(lens.fx, lens.fy) / std::min(lens.fx, lens.fy);
-    return !lens.fan && !(inside && ratio <= kMostRatio);
+    return !lens.fan && isUsableLens(lens) && !(inside && ratio <= kMostRatio);
 }
 
 std::vector<std::string> lensWarnings(const CameraInfo& camera) {

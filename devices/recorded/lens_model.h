@@ -22,7 +22,7 @@ std::string distortionModel(const Intrinsics& lens);
 std::vector<double> distortionCoefficients(const Intrinsics& lens);
 
 // Whether the principal point of a pinhole is outside of the image, or its focal lengths differ by over a
-// quarter, as those of hardly any camera.
+// quarter, as those of hardly any camera. False for a lens that is rejected anyway (camera_limits.h).
 bool isUnusualLens(const Intrinsics& lens);
 // Warnings of a camera whose lens is unusual, for depth and for colour with a lens of its own: it may be that
 // of another image size.

@@ -78,4 +78,14 @@ void checkCamera(const CameraInfo& camera, const std::string& source) {
     }
 }
 
+bool isUsableLens(const Intrinsics& lens) {
+    const std::string source;
+    try {
+        Check(source).lens("", lens);
+    } catch (const BadInput&) {
+        return false;
+    }
+    return true;
+}
+
 } // namespace fathom

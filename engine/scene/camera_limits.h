@@ -12,4 +12,7 @@ namespace fathom {
 // spacing are absurd, distances that float32 cannot hold, NaN.
 void checkCamera(const CameraInfo& camera, const std::string& source);
 
+// Whether checkCamera() accepts this lens.
+bool isUsableLens(const Intrinsics& lens);
+
 } // namespace fathom
