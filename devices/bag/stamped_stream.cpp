@@ -12,7 +12,7 @@ namespace {
 
 constexpr uint64_t kMaxDelay = 1'000'000'000; // [ns] between the recording of two images of one instant
 constexpr size_t kMaxTried = 100;             // messages on either side
-constexpr size_t kBeside = 8;                 // likewise, of a place found by stamps
+constexpr size_t kTriedByStamp = 8;           // likewise, around a place found by stamps
 
 double secondsOf(uint64_t nanoseconds) {
     return 1e-9 * static_cast<double>(nanoseconds);
@@ -77,7 +77,8 @@ std::optional<size_t> StampedStream::nearest(double stamp, uint64_t recordedAt, 
     };
     if (searchesAll_) {
         const size_t found = firstFrom(stamp);
-        for (size_t i = found - std::min(found, kBeside); i < std::min(all.size(), found + kBeside); ++i) {
+        for (size_t i = found - std::min(found, kTriedByStamp);
+             i < std::min(all.size(), found + kTriedByStamp); ++i) {
             consider(i);
         }
         if (best) {
