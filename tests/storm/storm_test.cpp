@@ -3,6 +3,7 @@
 // What reached the device is checked against the invariants of the forces and against the record.
 #include "tests/rig/cause_check.h"
 #include "tests/rig/stage.h"
+#include "tests/support/eventually.h"
 #include "tests/support/sanitized.h"
 
 #include <atomic>
@@ -61,6 +62,7 @@ pid_t startBridge(const std::filesystem::path& socket, unsigned seed, const std:
     char* argv[] = {words[0].data(), words[1].data(), words[2].data(), words[3].data(), nullptr};
     pid_t bridge = -1;
     REQUIRE(::posix_spawn(&bridge, STORM_BRIDGE, nullptr, nullptr, argv, environ) == 0);
+    REQUIRE(eventually([&socket] { return std::filesystem::exists(socket); }));
     return bridge;
 }
 
@@ -170,7 +172,9 @@ TEST_CASE("Under a storm of faults every wrench on the wire has a cause, a limit
         stage / "said");
     waitMillis(3000);
     storm(engine, bridge, 60.0, 31);
-    CHECK(exitCodeOf(engine, SIGINT) == 0);
+    const int ended = exitCodeOf(engine, SIGINT);
+    INFO(readWhole(stage / "said"));
+    REQUIRE(ended == 0);
     waitMillis(100);
     REQUIRE(exitCodeOf(bridge, SIGTERM) == 0);
 

@@ -14,6 +14,7 @@
 #include <cstring>
 #include <limits>
 #include <random>
+#include <string>
 #include <sys/socket.h>
 #include <sys/un.h>
 #include <time.h>
@@ -98,10 +99,11 @@ public:
         , listener_(::socket(AF_UNIX, SOCK_SEQPACKET, 0)) {
         sockaddr_un address{};
         address.sun_family = AF_UNIX;
-        std::strncpy(address.sun_path, path, sizeof address.sun_path - 1);
-        ::unlink(path);
+        const std::string unready = std::string(path) + ".new"; // the path exists once a client can connect
+        std::strncpy(address.sun_path, unready.c_str(), sizeof address.sun_path - 1);
+        ::unlink(unready.c_str());
         if (::bind(listener_, reinterpret_cast<sockaddr*>(&address), sizeof address) != 0 ||
-            ::listen(listener_, 4) != 0) {
+            ::listen(listener_, 4) != 0 || std::rename(unready.c_str(), path) != 0) {
             std::perror(path);
             std::exit(1);
         }
