@@ -51,7 +51,7 @@ std::string inShellQuotes(const std::string& text) {
 
 void inspect(const std::string& source, const std::optional<std::filesystem::path>& folder) {
     if (source.empty()) {
-        throw BadInput("inspect", "SOURCE", "empty", "a recording or a camera");
+        throw BadInput("inspect", "SOURCE", "empty", "a recording or camera");
     }
     log::LoggedLines logged;
     const log::LogOnce once(logged);              // the source is opened twice

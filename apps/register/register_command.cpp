@@ -126,10 +126,9 @@ void runRegister(const RegisterOptions& options) {
         throw Error(from + ": doubtful: " + robust.doubt);
     }
     if (fromPoints && robust.flat) {
-        log::warn(
-            "{}: all points lie in one plane, within their scatter: a negated axis would not be noticed; "
-            "touch a point off the plane",
-            from);
+        log::warn("{}: all points are coplanar, within their scatter: a negated axis would not be noticed; "
+                  "touch a point off the plane",
+                  from);
     }
     std::cout << "# for the camera section of the scene; every region grows by 3 registration_sigma\n"
               << yaml;

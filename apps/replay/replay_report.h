@@ -15,7 +15,7 @@ std::string decimal(double x);
 
 // out: the folder of the results.
 void printSummary(const ReplaySummary& s, const std::filesystem::path& out);
-// Measured figures beside the budgets of the camera's resolution.
+// Measured figures next to the budgets of the camera's resolution.
 void printBudgets(const ReplaySummary& summary, const Session& session);
 void printRealtime(const RealtimeFigures& f, const ThreadPlacement& placement, const ReplaySummary& s);
 void printDrivenArm(const ReplaySummary::Arm::Driven& driven);

@@ -11,7 +11,7 @@
 
 namespace fathom::tune {
 
-// Frames of the recording or camera that a twin stands for, spread over what was read, with the scene's own
+// Frames of the recording or camera that a twin represents, spread over what was read, with the scene's own
 // classes.
 struct OwnFrames {
     Scene scene;

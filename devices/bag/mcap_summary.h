@@ -8,9 +8,9 @@
 
 namespace fathom {
 
-// What a summary says about a file whose messages all lie in chunks.
+// What a summary says about a file whose messages are all in chunks.
 struct McapSummary {
-    struct Chunk {                               // where it lies in the file
+    struct Chunk {                               // its place in the file
         uint64_t at = 0, size = 0;               // of the chunk's content [bytes]
         uint64_t indexesAt = 0, indexesSize = 0; // of the message indexes behind it
     };

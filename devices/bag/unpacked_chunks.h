@@ -9,7 +9,7 @@
 
 namespace fathom {
 
-// Shared with the messages that lie in it.
+// Shared with its messages.
 using UnpackedChunk = std::shared_ptr<const std::vector<uint8_t>>;
 
 class UnpackedChunks {

@@ -17,7 +17,7 @@ inline constexpr std::array<std::string_view, 6> kDepthEndings{".png",  ".pgm", 
                                                                ".tiff", ".npy", ".exr"};
 inline constexpr std::array<std::string_view, 3> kColourEndings{".png", ".jpg", ".jpeg"};
 // Whether the name ends in one of them, in upper or lower case. Not of hidden files: archives of macOS hold a
-// "._0.png" beside each "0.png".
+// "._0.png" next to each "0.png".
 bool endsAs(const std::filesystem::path& file, std::span<const std::string_view> endings);
 
 // How values become those of a frame.

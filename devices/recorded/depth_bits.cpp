@@ -51,7 +51,7 @@ public:
         if (!few(close_) || isCoarse()) {
             return DepthBits::Plain;
         }
-        if (!few(ones_) && justBeyond_ * 10 < ones_) { // a room goes on beyond 8.192 m
+        if (!few(ones_) && justBeyond_ * 10 < ones_) { // a room extends beyond 8.192 m
             return DepthBits::Players;
         }
         return few(far_) ? DepthBits::Either : DepthBits::Rotated;

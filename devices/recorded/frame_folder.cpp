@@ -100,7 +100,7 @@ struct Calibration {
     std::string unusable; // why a file of the name of one is none; empty = there is none
 };
 
-// beside: 12-Scenes has its calibration beside the folder of images, where other data sets have any text.
+// beside: 12-Scenes has its calibration next to the folder of images, where other data sets have any text.
 bool takeCalibration(Calibration& found, const fs::path& file, bool beside) {
     std::error_code failed;
     if (beside ? !fs::is_regular_file(file, failed) : !fs::exists(file, failed)) {

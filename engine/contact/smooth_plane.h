@@ -13,7 +13,7 @@ struct SmoothPlane {
     double gap = 0.0;  // [m] from the leaf; at most the nearest pair's gap
 };
 
-// Half width L of the patch of surface that one plane stands for, in units of R + r: 10 degrees of the
+// Half width L of the patch of surface that one plane represents, in units of R + r: 10 degrees of the
 // sphere.
 inline constexpr double kPatch = 0.18;
 // The plane curves like a sphere of radius (R + r) / kBend, so that the patch's border is never felt.

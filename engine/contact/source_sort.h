@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A stable radix sort of indices by the source of what they index.
+// A stable radix sort of indices by source: of the spheres that they index.
 #pragma once
 
 #include <cstdint>

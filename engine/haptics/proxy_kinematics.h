@@ -96,7 +96,7 @@ concept KinematicsTightening = requires(const K& k, const typename K::Answer& an
     { k.triedFraction(answer) } -> std::same_as<double>;
     // [m] by which the tried motion falls short of a violated pair's row, which needs `amount`.
     { k.shortfall(violation, amount, leaves) } -> std::same_as<double>;
-    // The offset, raised by an amount of which only the tried fraction is reached.
+    // The offset, raised by an amount. Only the tried fraction of it is reached.
     { k.raised(offset, amount, tried) } -> std::same_as<double>;
     // [m] by which the arc of the tried motion falls short of its linearisation along a row.
     { k.arcOf(answer, row, leaves) } -> std::same_as<double>;

@@ -45,7 +45,7 @@ void ArmShapes::cover(const std::filesystem::path& urdf, const ArmOptions& optio
         }
     }
     if (!open.empty()) {
-        model.notes.push_back("meshes that are not closed, of which only the surface is covered: " +
+        model.notes.push_back("meshes that are not closed and are covered at their surface only: " +
                               std::to_string(open.size()) + ", the first on link " + open[0]);
     }
     if (!outside.empty()) {

@@ -17,7 +17,7 @@ std::string heldWarning(const std::string& joint, bool slides, double value);
 std::string beyondWarning(const std::string& joint, double value, double lower, double upper);
 // On a finger whose open or closed position the program chose. seen: by the shapes of the fingers.
 std::string endsWarning(const std::string& finger, double open, double closed, bool seen);
-// On a finger of which the scene gives one end: openGiven, or else the closed one.
+// On a finger with only one end in the scene: openGiven, or else the closed one.
 std::string oneEndWarning(const std::string& finger, bool openGiven, double open, double closed);
 
 } // namespace fathom

@@ -28,7 +28,7 @@ std::vector<LinkSpheres> readSpherizedUrdf(const std::filesystem::path& file, co
 
 // `collision_spheres: {LINK: [{center: [x, y, z], radius: r}]}`, at the top or under robot_cfg / kinematics,
 // or a list of such tables as in Lula's files; links in the file's order. Entries with radius <= 0 are
-// skipped: cuRobo disables spheres that way. `collision_sphere_buffer` beside it, one distance or {LINK: d},
+// skipped: cuRobo disables spheres that way. `collision_sphere_buffer` next to it, one distance or {LINK: d},
 // is added to the radii. Throws BadInput with the line.
 std::vector<LinkSpheres> readCuroboYaml(const std::filesystem::path& file);
 

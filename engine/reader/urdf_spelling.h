@@ -10,7 +10,7 @@ namespace fathom {
 
 // Throws BadInput that names the joint or link, the element and what is read instead. Extensions of other
 // programs, which resemble nothing that is read, are allowed. file: for messages. notes: gets a line for each
-// turn that may be in degrees, and for each limit that is missing beside the other one.
+// turn that may be in degrees, and for each limit that is missing while the other one is there.
 void checkSpelling(const std::string& text, const std::string& file, std::vector<std::string>& notes);
 
 } // namespace fathom

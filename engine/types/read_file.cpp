@@ -36,7 +36,7 @@ std::string whyUnreadable(const std::filesystem::path& file) {
     case std::filesystem::file_type::none:
         return failed == std::errc::permission_denied ? "permission denied" : "cannot be read";
     default:
-        return "a pipe or a device";
+        return "a pipe or device";
     }
 }
 

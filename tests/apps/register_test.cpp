@@ -192,7 +192,7 @@ TEST_CASE("An endless line in a list of points, tags or a board is rejected befo
     std::ofstream(hole).close();
     std::filesystem::resize_file(hole, uint64_t{64} << 30); // a sparse file, which needs no disk space
     for (const auto& [file, why] :
-         {std::pair(hole, "line 1"), {std::filesystem::path("/dev/zero"), "a pipe or a device"}}) {
+         {std::pair(hole, "line 1"), {std::filesystem::path("/dev/zero"), "a pipe or device"}}) {
         CHECK_THROWS_WITH_AS(readPointPairs(file), doctest::Contains(why), BadInput);
         CHECK_THROWS_WITH_AS(readTagPlaces(file), doctest::Contains(why), BadInput);
         CHECK_THROWS_WITH_AS(readBoardPlace(file), doctest::Contains(why), BadInput);

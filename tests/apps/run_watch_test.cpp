@@ -225,7 +225,7 @@ TEST_CASE("A force limit of 0 is named before the first tick") {
     CHECK(watch.warnings().list() == std::vector<std::string>{kNoForce});
 }
 
-TEST_CASE("After an edit a class is judged by its new name and role, and a class that was removed is not") {
+TEST_CASE("An edited class is judged by its new name and role, and a class that was removed is not") {
     Scene edited = sceneOf(Role::Guidance);
     edited.fixtures[0].name = "handle";
     WatchedRun run;

@@ -92,7 +92,7 @@ TEST_CASE("Saving on a full disk leaves the scene as it was and says why; saving
     CHECK(editor.save() == "0 fixtures saved to " + file.string());
 }
 
-TEST_CASE("A scene that is a link stays one, and files beside it are left alone") {
+TEST_CASE("A scene that is a link stays one, and files next to it are left alone") {
     const ScratchFolder folder;
     const auto real = folder.path() / "real.yaml", link = folder.path() / "link.yaml";
     put(real, std::string("fixtures: []\n") + kRest);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kBallRadius = 0.01, kRegion = 0.02; // [m] radii of leaves and spheres
 
-// A tool of balls at `centres` and spheres, each at a gap [m] from the ball beside it along a direction.
+// A tool of balls at `centres` and spheres, each at a gap [m] from the nearest ball along a direction.
 struct MovedLeaves {
     Tool tool;
     Fixtures fixtures = emptySet();

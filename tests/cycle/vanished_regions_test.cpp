@@ -55,7 +55,7 @@ double travelOf(HapticRig& rig, int count, double force) {
     return most;
 }
 
-// A tip of 1.2 m and a ball beside it, which the arm's last leaf touches.
+// A tip of 1.2 m and a ball next to it, which the arm's last leaf touches.
 struct ArmAtBall {
     explicit ArmAtBall(double speed) {
         rig.model = makeArm(4, 8, 1.2);
@@ -119,7 +119,7 @@ struct HeldRod : HapticRig {
     void showRegions(bool held, uint64_t generation) {
         Fixtures set = emptySet(generation);
         for (const double side : {-1.0, 1.0}) {
-            set.spheres.add({side * 0.05, 0.0605, 0.0}, 0.05); // beside it
+            set.spheres.add({side * 0.05, 0.0605, 0.0}, 0.05); // next to it
             if (held) {
                 set.spheres.add({side * 0.05, 0.0, -side * 0.0605}, 0.05);
             }
@@ -173,7 +173,7 @@ TEST_CASE("A wall that goes back under a hand is followed, not lost, also with a
     CHECK(after.tool.position.x == doctest::Approx(0.028).epsilon(0.001));
 }
 
-TEST_CASE("Another region beside the tool does not hide that the pressed one vanished") {
+TEST_CASE("Another region next to the tool does not hide that the pressed one vanished") {
     HapticRig rig(handScene(), at(0, 0, 0.02));
     const auto show = [&](bool pressed, double beside, uint64_t generation) {
         rig.show(pressed ? wallSet(generation) : emptySet(generation));
@@ -229,7 +229,7 @@ TEST_CASE("A tool that a region turned does not swing round when the region vani
 }
 
 TEST_CASE("A torque without a force fades out when the regions that made it vanish, and does not step") {
-    for (const bool pushed : {false, true}) { // into the regions beside it, which stay
+    for (const bool pushed : {false, true}) { // into the regions next to it, which stay
         CAPTURE(pushed);
         HeldRod rig(pushed);
         const StepRecord held = rig.ticks(1);

@@ -95,7 +95,7 @@ TEST_CASE("A bag that is truncated in its first chunk, of another version or wit
         const size_t chunkEnd = smallBag().chunks(compression).size();
         for (size_t keep = 0; keep < chunkEnd; keep += 97) { // never a crash, never a frame from nowhere
             const bool rejected = !refused(whole.substr(0, keep)).empty();
-            CHECK((rejected || std::string(compression) == "none")); // of which whole messages are read
+            CHECK((rejected || std::string(compression) == "none")); // whose whole messages are read
         }
     }
 }

@@ -44,7 +44,7 @@ void checkLate(McapFile& file, double mostOfFile, uint64_t size) {
         std::memcpy(&number, file.bytes(topic->messages[i]).view.data(), sizeof number);
         CHECK(number == i);
     }
-    // Twenty messages lie in at most seven chunks, each read once.
+    // Twenty messages are in at most seven chunks, each read once.
     CHECK(file.bytesRead() - opened < 7 * 22'000);
 }
 

@@ -39,7 +39,7 @@ TEST_CASE("A lost descriptor is closed on another thread, and the device is trie
     ::close(found);
 }
 
-TEST_CASE("At its end a reconnector closes the device that nobody took, and the lost one without a reopen") {
+TEST_CASE("At its end a reconnector closes the device not taken, and the lost one without a reopen") {
     std::atomic<int> given{-1};
     const int lost = openNothing();
     {

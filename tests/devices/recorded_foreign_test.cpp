@@ -152,7 +152,7 @@ TEST_CASE("Images frame-N have the calibration beside their folder, as in 12-Sce
     std::filesystem::current_path(before);
 }
 
-TEST_CASE("Other content named info.txt beside a folder of images frame-N is no reason to refuse it") {
+TEST_CASE("Other content named info.txt next to a folder of images frame-N is no reason to refuse it") {
     const auto addSequence = [](const TemporaryFolder& scene) {
         std::filesystem::create_directories(scene.path() / "seq");
         writeDepth(scene.path() / "seq/frame-000000.depth.png", 640, 480, 500);

@@ -43,7 +43,7 @@ std::string nominalWarning(const fs::path& folder) {
 
 } // namespace
 
-TEST_CASE("Images frame-N behind a link have the calibration beside the link, else that beside its target") {
+TEST_CASE("Images frame-N behind a link have the calibration next to the link or its target") {
     const TemporaryFolder disk, scene;
     addFrame(disk.path() / "images");
     scene.write("info.txt", kFrameInfo);

@@ -217,16 +217,14 @@ TEST_CASE("A pipe in place of a file never blocks; in place of an image it skips
     CHECK(camera.next().value()->index == 2);
     CHECK(camera.skipped() == 2);
     toPipe("rgb/2.png");
-    CHECK(holds(recordingRefusal(folder.path()), "rgb/0.png: a pipe or a device"));
+    CHECK(holds(recordingRefusal(folder.path()), "rgb/0.png: a pipe or device"));
     toPipe("associations.txt");
-    CHECK(holds(recordingRefusal(folder.path()), "associations.txt: file: a pipe or a device (allowed: "));
+    CHECK(holds(recordingRefusal(folder.path()), "associations.txt: file: a pipe or device (allowed: "));
     toPipe("intrinsics.json");
-    CHECK(holds(recordingRefusal(folder.path()), "intrinsics.json: file: a pipe or a device (allowed: "));
+    CHECK(holds(recordingRefusal(folder.path()), "intrinsics.json: file: a pipe or device (allowed: "));
     toPipe("x.bag");
-    CHECK_THROWS_WITH_AS(BagCamera(folder.path() / "x.bag"), doctest::Contains("a pipe or a device"),
-                         BadInput);
-    CHECK_THROWS_WITH_AS(PcdCamera(folder.path() / "x.bag"), doctest::Contains("a pipe or a device"),
-                         BadInput);
+    CHECK_THROWS_WITH_AS(BagCamera(folder.path() / "x.bag"), doctest::Contains("a pipe or device"), BadInput);
+    CHECK_THROWS_WITH_AS(PcdCamera(folder.path() / "x.bag"), doctest::Contains("a pipe or device"), BadInput);
 }
 
 TEST_CASE("Distortion that is unknown, incomplete or folds the image is rejected") {

@@ -10,7 +10,7 @@ using namespace fathom::testing;
 
 namespace {
 
-// Stamps in units of which a second has so many.
+// Stamps, in this many units per second.
 void writeStamps(const TemporaryFolder& folder, long perSecond) {
     writeSmallRecording(folder, 3);
     std::string index;

@@ -9,7 +9,7 @@ namespace {
 
 const InfoMessage kOtherLens{.frame = "color", .k = {5.0, 5.0, 3.5, 2.5}};
 
-// Depth without a lens beside it, and colour with its own one.
+// Depth without a lens of its own, and colour with its own one.
 BagMaker lenslessDepth(const std::string& depthFrame, const InfoMessage& colour, bool tf) {
     BagMaker maker;
     maker.add("/calib/depth_info", "sensor_msgs/CameraInfo", 1.0, infoMessage({.frame = depthFrame}));
@@ -79,7 +79,7 @@ TEST_CASE("The topic of info=TOPIC is the lens of depth, and of colour only with
     checkApart(playStreams(folder, lenslessDepth("depth", kOtherLens, true), asked).info());
     lineSays(streamRefusal(folder, lenslessDepth("color", kOtherLens, false), asked), "extrinsics: missing");
     BagMaker bare = lenslessDepth("color", kOtherLens, false);
-    for (const double t : {1.0, 1.1, 1.2}) { // colour without a lens beside it
+    for (const double t : {1.0, 1.1, 1.2}) { // colour without a lens of its own
         bare.add("/left/rgb/image_raw", "sensor_msgs/Image", t, imageMessage(t, redImage("color")));
     }
     const CameraInfo info =

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The wall of wall_world.h and an arm before it: one joint slides along z and carries a ball of 10 mm radius,
-// which is at z = q + 0.3 m. The scene `fingerScene` adds one finger at the tip, 20 mm beside the ball.
+// which is at z = q + 0.3 m. The scene `fingerScene` adds one finger at the tip, 20 mm from the ball.
 #pragma once
 
 #include "tests/engine/wall_world.h"

@@ -106,7 +106,7 @@ TEST_CASE("A region that appears on the other side pushes away from itself from 
     }
 }
 
-TEST_CASE("A small force that was there before does not turn a large one that appears beside it") {
+TEST_CASE("A small force that was there before does not turn a large one that appears as well") {
     Reaction reaction = pressedUp(0.01);
     ReactionInput tick = springAt(0.0, -0.00001);
     tick.end.position.x = -0.02; // to the side: 20 N

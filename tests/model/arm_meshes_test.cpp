@@ -93,7 +93,7 @@ TEST_CASE("An arm's meshes that are not closed are reported once") {
     for (int start = 0; start < 2; ++start) { // the second from the cache
         const auto notes = loadArm(folder / "r.urdf").notes;
         const std::string told =
-            "meshes that are not closed, of which only the surface is covered: 2, the first on link a";
+            "meshes that are not closed and are covered at their surface only: 2, the first on link a";
         CHECK(std::any_of(notes.begin(), notes.end(), [&](const std::string& note) { return note == told; }));
     }
 }

@@ -159,7 +159,7 @@ TEST_CASE("The hint for a tiny mesh is to enlarge it, and for one without triang
 
 TEST_CASE("A folder or a pipe is rejected as such, and not as a missing file") {
     CHECK(refusalOfMesh("tests/model").find("mesh: a folder") != std::string::npos);
-    CHECK(refusalOfMesh("/dev/null").find("mesh: a pipe or a device") != std::string::npos);
+    CHECK(refusalOfMesh("/dev/null").find("mesh: a pipe or device") != std::string::npos);
 }
 
 TEST_CASE("Each axis of a mesh is stretched by its own factor, and a mirrored mesh keeps outward normals") {

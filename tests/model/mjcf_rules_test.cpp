@@ -95,7 +95,7 @@ TEST_CASE("A fault in an included file is reported with that file and its line")
     CHECK(line.find("arm.xml") == std::string::npos);
 }
 
-TEST_CASE("The tip of an MJCF is a body, also where its joint has an anchor beside the body's origin") {
+TEST_CASE("The tip of an MJCF is a body, also where its joint has an anchor off the body's origin") {
     const ArmModel arm = loadMjcf("<worldbody><body name='a'>" + mjcfBall() +
                                   "<body name='b'><joint name='j' pos='0.1 0 0' range='-90 90'/>" +
                                   mjcfBall() + "</body></body></worldbody>");
@@ -135,7 +135,7 @@ TEST_CASE("A site with fromto lies between its ends, and its z axis leads from t
                         options)
             .lastTtip;
     };
-    // MuJoCo 3.2, mjCSite::Compile: pos = (from + to) / 2, z along from - to, also of what a class states.
+    // MuJoCo 3.2, mjCSite::Compile: pos = (from + to) / 2, z along from - to, also for attributes of a class.
     const Pose along = with("<site name='s' type='box' size='0.01' fromto='0.1 0 0 0.3 0 0'/>");
     CHECK(glm::distance(along.position, dvec3(0.2, 0.0, 0.0)) < 1e-12);
     CHECK(glm::distance(along.rotation * dvec3(0.0, 0.0, 1.0), dvec3(-1.0, 0.0, 0.0)) < 1e-12);

@@ -230,7 +230,7 @@ TEST_CASE("A pipe instead of spheres or an arm is rejected without waiting") {
         const testing::ScratchFile file(std::string("set") + kind);
         std::filesystem::remove(file.path());
         REQUIRE(::mkfifo(file.path().c_str(), 0600) == 0);
-        CHECK_THROWS_WITH_AS(readSphereTree(file.path()), doctest::Contains("file: a pipe or a device"),
+        CHECK_THROWS_WITH_AS(readSphereTree(file.path()), doctest::Contains("file: a pipe or device"),
                              BadInput);
     }
 }

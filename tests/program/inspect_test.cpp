@@ -26,7 +26,7 @@ TEST_CASE("inspect says what a recording folder holds and how to name it, and sa
 }
 
 TEST_CASE("inspect says that its source is empty") {
-    checkRefusal({"inspect", ""}, {"inspect: SOURCE: empty (allowed: a recording or a camera)"});
+    checkRefusal({"inspect", ""}, {"inspect: SOURCE: empty (allowed: a recording or camera)"});
 }
 
 TEST_CASE("inspect's line can be pasted into a shell also for a name with an apostrophe") {

@@ -81,7 +81,7 @@ TEST_CASE("register prints the camera's pose and sigma and writes the same lines
     CHECK(wide < 1e-5);
 }
 
-TEST_CASE("register warns when all points lie in one plane, and still gives the pose") {
+TEST_CASE("register warns when all points are coplanar, and still gives the pose") {
     const Stage stage;
     stage.recording({bumpImage()});
     stage.scene({});
@@ -93,7 +93,7 @@ TEST_CASE("register warns when all points lie in one plane, and still gives the 
         CHECK(lineWith(run.out, "base_T_camera:") != "");
         return run.err;
     };
-    CHECK(registered("0.5,0.5,1,0.5,0.5,1\n").find("all points lie in one plane") != std::string::npos);
+    CHECK(registered("0.5,0.5,1,0.5,0.5,1\n").find("all points are coplanar") != std::string::npos);
     CHECK(registered("0.5,0.5,1.2,0.5,0.5,1.2\n") == "");
 }
 

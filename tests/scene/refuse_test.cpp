@@ -277,7 +277,7 @@ TEST_CASE("A missing file, one that is not YAML and one nested too deep are reje
     });
     for (const auto& [path, why] : {std::pair("no/such/scene.yaml", "no such file"),
                                     {"tests", "a folder"},
-                                    {"/dev/zero", "a pipe or a device"}}) {
+                                    {"/dev/zero", "a pipe or device"}}) {
         CHECK(testing::refusalOf([&, path = path] {
                   loadScene(path);
               }).find(std::string(path) + ": file: " + why) == 0);

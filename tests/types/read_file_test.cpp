@@ -44,7 +44,7 @@ TEST_CASE("A file larger than its reader's limit is rejected with both sizes") {
           file.string() + ": file: 2097153 bytes (allowed: a readable text of at most 2 MiB)");
     std::filesystem::remove(file);
     CHECK(refusal(file) == file.string() + ": file: no such file (allowed: a readable text)");
-    CHECK(refusal("/dev/zero") == "/dev/zero: file: a pipe or a device (allowed: a readable text)");
+    CHECK(refusal("/dev/zero") == "/dev/zero: file: a pipe or device (allowed: a readable text)");
 }
 
 TEST_CASE("A pipe, a device or a folder is not readable as a file, and a link counts as its target") {
@@ -60,7 +60,7 @@ TEST_CASE("A pipe, a device or a folder is not readable as a file, and a link co
         CAPTURE(path);
         CHECK_FALSE(isRegularFile(path));
         CHECK_FALSE(readFileAtMost(path, 10)); // does not wait for a writer
-        CHECK(whyUnreadable(path) == "a pipe or a device");
+        CHECK(whyUnreadable(path) == "a pipe or device");
     }
     CHECK_FALSE(isRegularFile(folder));
     CHECK(whyUnreadable(folder) == "a folder");
