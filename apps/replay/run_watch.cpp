@@ -98,6 +98,9 @@ RunWatch::RunWatch(const Scene& scene, const RunSource& source)
     if (scene.haptics.forceLimit == 0.0) {
         warnings_.add("force limit", kNoForce);
     }
+    if (const std::string doubt = stiffnessDoubt(scene, kUnstableTimes); !doubt.empty()) {
+        warnings_.add("stiffness", doubt);
+    }
 }
 
 void RunWatch::setFixtures(const std::vector<FixtureClass>& fixtures) {

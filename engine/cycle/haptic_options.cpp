@@ -174,6 +174,20 @@ HapticOptions makeHapticOptions(const Scene& scene, const Tool& tool) {
     return options;
 }
 
+std::string stiffnessDoubt(const Scene& scene, double times) {
+    const HapticOptions options = handOptions(scene);
+    const CouplingOptions& coupling = options.coupling;
+    const std::optional<double> bound = passiveLimit(options.device.stiffness, options.device.damping,
+                                                     coupling.damping * scene.hand.scale, coupling);
+    const double atHand = coupling.stiffness.value_or(0.0) * scene.hand.scale;
+    if (!bound || atHand <= times * std::max(0.0, *bound)) {
+        return "";
+    }
+    return "haptics.stiffness: " + significant(atHand, 4) + " N/m at the hand, over the passive bound of " +
+           significant(std::max(0.0, *bound), 4) + " N/m with this device, rate_hz, damping and delay: a " +
+           "light hand can bounce off a wall faster than it came (allowed: auto, or a value below the bound)";
+}
+
 std::vector<std::string> hapticNotes(const Scene& scene) {
     checkDamping(scene);
     const Scene::Haptics& haptics = scene.haptics;
@@ -188,6 +202,9 @@ std::vector<std::string> hapticNotes(const Scene& scene) {
     noteLimit(notes, "rotational_stiffness", haptics.rotationalStiffness,
               device.rotationalStiffness.value_or(kNoLimit) * scene.hand.scale, "N m/rad", device.name);
     noteTurn(notes, scene);
+    if (const std::string doubt = stiffnessDoubt(scene); !doubt.empty()) {
+        notes.push_back(doubt);
+    }
     noteSlew(notes, haptics.slewForce);
     const double scale = scene.hand.scale;
     const std::string byScale = scale > 1.0 ? " / hand.map.scale" : "";

@@ -70,6 +70,9 @@ ComputeSide::ComputeSide(const HapticSide& side, const CameraInfo& camera, const
     for (const std::string& dead : deadGates(haptic.scene, camera)) {
         log::warn("{}", dead);
     }
+    if (const std::string doubt = stiffnessDoubt(haptic.scene, kUnstableTimes); !doubt.empty()) {
+        log::warn("{}", doubt);
+    }
     if (haptic.arm) {
         setArm(haptic.arm->startPosture());
     }

@@ -21,13 +21,11 @@ void demandPositive(double value, const char* name) {
 // known.
 std::optional<double> handLimit(std::optional<double> figure, std::optional<double> deviceDamping,
                                 double damping, const CouplingOptions& options) {
-    std::optional<double> limit = figure;
-    if (deviceDamping) {
-        const double bound =
-            options.margin * passiveStiffness(*deviceDamping, damping, options.period, options.delayTicks);
-        limit = std::min(limit.value_or(bound), bound);
+    std::optional<double> limit = passiveLimit(figure, deviceDamping, damping, options);
+    if (limit && deviceDamping) {
+        *limit *= options.margin;
     }
-    return limit;
+    return limit && figure ? std::min(*limit, *figure) : limit;
 }
 
 } // namespace
@@ -40,6 +38,16 @@ void Springs::setRotational(double wanted) noexcept {
 
 double passiveStiffness(double deviceDamping, double damping, double period, double delayTicks) noexcept {
     return 2.0 * (deviceDamping - std::abs(damping)) / (period * (1.0 + 2.0 * delayTicks));
+}
+
+std::optional<double> passiveLimit(std::optional<double> figure, std::optional<double> deviceDamping,
+                                   double damping, const CouplingOptions& options) noexcept {
+    if (deviceDamping) {
+        return passiveStiffness(*deviceDamping, damping, options.period, options.delayTicks);
+    }
+    return figure
+               ? std::optional(*figure * kPresetPeriod / (options.period * (1.0 + 2.0 * options.delayTicks)))
+               : std::nullopt;
 }
 
 Springs makeSprings(const DevicePreset& preset, const CouplingOptions& options) {

@@ -13,6 +13,8 @@ namespace fathom {
 // (roll).
 using AxisMask = std::array<bool, 6>;
 
+inline constexpr double kPresetPeriod = 0.001; // [s] of the ticks at which the presets' stiffness is rendered
+
 // All values at the hand, without the hand map's scale. Empty means unknown, not zero.
 struct DevicePreset {
     std::string name;

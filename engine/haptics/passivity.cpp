@@ -9,8 +9,6 @@
 namespace fathom {
 namespace {
 
-constexpr double kPresetPeriod = 0.001; // [s] the presets' stiffness is rendered at 1 kHz
-
 double workOf(const Wrench& wrench, const dvec3& moved, const dvec3& turned) {
     return glm::dot(wrench.force, moved) + glm::dot(wrench.torque, turned);
 }

@@ -218,6 +218,19 @@ TEST_CASE("Warnings are kept once per key, in order, on one line, and their numb
     CHECK(warnings.list().size() == RunWarnings::kMost);
 }
 
+TEST_CASE("A stiffness of more than twice the passive bound is named before the first tick") {
+    Scene scene = sceneOf(Role::Forbidden);
+    scene.haptics.stiffness = 1000.0; // bound of `ideal` with its automatic damping: 800 N/m
+    CHECK(RunWatch(scene, {camera(), ""}).warnings().list().empty());
+    scene.haptics.delay = 10;
+    const std::vector<std::string> list = RunWatch(scene, {camera(), ""}).warnings().list();
+    REQUIRE(list.size() == 1);
+    CHECK(list.front().find("haptics.stiffness: 1000 N/m at the hand, over the passive bound of 38.1 N/m") ==
+          0);
+    scene.haptics.stiffness.reset(); // auto stays below it
+    CHECK(RunWatch(scene, {camera(), ""}).warnings().list().empty());
+}
+
 TEST_CASE("A force limit of 0 is named before the first tick") {
     Scene scene = sceneOf(Role::Forbidden);
     scene.haptics.forceLimit = 0.0;

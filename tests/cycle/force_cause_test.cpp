@@ -232,6 +232,11 @@ TEST_CASE("A scene lowers the limits and the stiffness of its device, and never 
     const HapticOptions low = makeHapticOptions(scene, ballTool());
     CHECK(low.forceLimit == 1.0);
     CHECK(low.springs.stiffness == 100.0);
+    scene = handScene();
+    scene.haptics.stiffness = 900.0;
+    const auto notes = hapticNotes(scene);
+    REQUIRE(notes.size() == 1);
+    CHECK(notes[0].find("900 N/m at the hand, over the passive bound of 800 N/m") != std::string::npos);
 }
 
 TEST_CASE("Settings that cannot follow a hand are named with the speed that they reach") {

@@ -108,10 +108,14 @@ TEST_CASE(
     springs = makeSprings(devicePreset("ideal"), options);
     CHECK(springs.stiffness == doctest::Approx(500.0));
     CHECK(*stabilityMargins(devicePreset("ideal"), springs, options).passive == doctest::Approx(0.0));
-    // b unknown: the preset's stiffness alone.
+    // b unknown: the preset's stiffness, rendered at 1 kHz without delay, stands for it.
     options = {};
-    options.delayTicks = 3.0;
     CHECK(makeSprings(devicePreset("touch"), options).stiffness == 400.0);
+    options.period = 0.00025;
+    CHECK(makeSprings(devicePreset("touch"), options).stiffness == 400.0);
+    options.period = 0.002;
+    options.delayTicks = 3.0;
+    CHECK(makeSprings(devicePreset("touch"), options).stiffness == doctest::Approx(400.0 / 14.0));
     CHECK_FALSE(stabilityMargins(devicePreset("touch"), makeSprings(devicePreset("touch"), options), options)
                     .passive);
 }
