@@ -61,7 +61,7 @@ double ArmReport::violation(const TickRow& row) const {
     double worst = 0.0;
     for (size_t k = 0; k < armSetup_.model.count(); ++k) {
         const ArmJoint& joint = armSetup_.model.joints[k];
-        const double q = arm.q[k], way = std::abs(q - row.startArm.q[k]);
+        const double q = arm.q[k], way = std::abs(q - row.start.arm.q[k]);
         const double fast = way - joint.speed * armSetup_.proxy.period - kRounding;
         if (joint.mimic) { // narrows the joint that it follows
             worst = std::max(worst, apart(*joint.mimic, q, arm.q));
@@ -89,7 +89,7 @@ void ArmReport::add(const TickRow& row) {
         ReplaySummary::Arm::Joint& sum = sums_.joints[k];
         sum.least = std::min(sum.least, q);
         sum.most = std::max(sum.most, q);
-        sum.fastest = std::max(sum.fastest, std::abs(q - row.startArm.q[k]) / armSetup_.proxy.period);
+        sum.fastest = std::max(sum.fastest, std::abs(q - row.start.arm.q[k]) / armSetup_.proxy.period);
         row_.add(q);
     }
     row_.add(arm.posture.grasp);

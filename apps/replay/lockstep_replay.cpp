@@ -131,7 +131,7 @@ void LockstepReplay::dropOldSets() {
     }
 }
 
-void LockstepReplay::audit(const StepRecord& record, const ToolState& start) {
+void LockstepReplay::audit(const TickRow& row) {
     const ContactSet* active = contacts_.active();
     const Kept* obeyed = active != nullptr ? keptSet(active->generation) : nullptr;
     if (obeyed == nullptr || !session_.cycles.plan().spheres) {
@@ -141,17 +141,16 @@ void LockstepReplay::audit(const StepRecord& record, const ToolState& start) {
     for (const ContactSet::Behind& b : active->behind) {
         behind.push_back(b.leaf);
     }
-    audit_.tick(obeyed->fixtures, obeyed->grid, start, {record.tool, record.arm.posture}, behind);
+    audit_.tick(obeyed->fixtures, obeyed->grid, row.start, {row.record.tool, row.record.arm.posture}, behind);
 }
 
 void LockstepReplay::tick(double t) {
     const StepInput input = stepInput(scene_, hand_->read(std::max(0.0, t - pathStart_)), t);
-    const ToolState start = cycle_->place();
-    const auto began = Clock::now();
     TickRow row;
+    row.start = cycle_->place();
+    const auto began = Clock::now();
     row.record = contacts_.step(*cycle_, input);
     row.record.clearance = clearance_.gap();
-    row.startArm = start.arm;
     row.micros = micros(began, Clock::now());
     row.late = row.micros > haptics_.period * 1e6;
     if (trace_ != nullptr) {
@@ -162,7 +161,7 @@ void LockstepReplay::tick(double t) {
         dropOldSets();
     }
     hand_->write(row.record.deviceWrench, haptics_.period);
-    audit(row.record, start);
+    audit(row);
     recorder_.tick(row);
     if (contacts_.active() != nullptr && recorder_.wantsMoment()) {
         if (const Kept* obeyed = keptSet(contacts_.active()->generation)) {

@@ -43,7 +43,7 @@ private:
     double expectedEnd(uint64_t frames) const;
     void query();
     void tick(double t);
-    void audit(const StepRecord& record, const ToolState& start);
+    void audit(const TickRow& row);
     const Kept* keptSet(uint64_t generation) const;
     void dropOldSets();
 

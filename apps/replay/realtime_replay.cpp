@@ -75,7 +75,7 @@ void RealtimeReplay::spool() {
 
 ReplayRecorder::Ending RealtimeReplay::run() {
     if (session_.realArm) {
-        feed_->armAtCapture({Pose{}, session_.awaitArm(signals_.asked())});
+        feed_->armAtCapture(session_.awaitArm(signals_.asked()));
     }
     session_.requireFrame(run_->firstFrame());
     const HandPath path = session_.path();
@@ -168,8 +168,8 @@ void RealtimeReplay::audit(const TickRow& row, const PublishedFrame* obeyed, boo
         audit_.retake();
     }
     if (obeyed != nullptr && audited_) {
-        audit_.tick(obeyed->fixtures, obeyed->grid, {row.start, row.startArm},
-                    {row.record.tool, row.record.arm.posture}, behind);
+        audit_.tick(obeyed->fixtures, obeyed->grid, row.start, {row.record.tool, row.record.arm.posture},
+                    behind);
     }
 }
 

@@ -17,8 +17,8 @@ void ToolAudit::place(const ArmPosture& posture, std::vector<dvec3>& centres) co
     }
 }
 
-void ToolAudit::tick(const Fixtures& set, const RegionGrid& grid, const ToolState& start,
-                     const ToolState& end, std::span<const uint32_t> behind) {
+void ToolAudit::tick(const Fixtures& set, const RegionGrid& grid, const ToolPlace& start,
+                     const ToolPlace& end, std::span<const uint32_t> behind) {
     if (arm_ == nullptr) {
         audit_.tick(set, grid, start.pose, end.pose, behind);
         return;

@@ -11,13 +11,13 @@ SessionFeed::SessionFeed(Session& session, std::function<void(const std::vector<
     : session_(session)
     , onShapes_(std::move(onShapes)) {
     if (session_.arm) {
-        SessionFeed::armAtCapture({Pose{}, session_.arm->startPosture()});
+        SessionFeed::armAtCapture(session_.arm->startPosture());
     }
 }
 
-void SessionFeed::armAtCapture(const ToolState& place) {
+void SessionFeed::armAtCapture(const ArmPosture& posture) {
     if (session_.cycles.plan().selfFilter && !lost()) {
-        session_.cycles.frames().setArm(session_.arm->inImage(place.arm));
+        session_.cycles.frames().setArm(session_.arm->inImage(posture));
     }
 }
 

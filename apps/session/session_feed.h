@@ -20,7 +20,7 @@ public:
 
     std::optional<uint32_t> fetch() override;
     std::optional<RunClock::Time> captured() const override;
-    void armAtCapture(const ToolState& place) override;
+    void armAtCapture(const ArmPosture& posture) override;
     void publish(double t, PublishedFrame& out) override;
     bool renewable() const override { return true; }
     bool lost() const override { return session_.handover && session_.handover->lost(); }

@@ -23,13 +23,13 @@ struct ContactSet {
     // band per further 16th. Near the query pose the haptic step thus reads only the pairs that matter.
     static constexpr uint32_t kGapBands = 16;
 
-    int64_t frame = -1;                                      // its fixture set; -1 = none yet
-    uint64_t generation = 0;                                 // of that fixture set
-    double captureTime = 0.0;                                // [s] of that fixture set
-    uint64_t query = 0;                                      // counts answered queries
-    double asked = std::numeric_limits<double>::quiet_NaN(); // [s] of the haptic step that asked (ToolState)
-    double reach = 0.0;                                      // [m] certified
-    dvec3 origin{0.0};                                       // [m] base frame: origin of all positions here
+    int64_t frame = -1;                                        // its fixture set; -1 = none yet
+    uint64_t generation = 0;                                   // of that fixture set
+    double captureTime = 0.0;                                  // [s] of that fixture set
+    uint64_t query = 0;                                        // counts answered queries
+    double askedAt = std::numeric_limits<double>::quiet_NaN(); // [s] of the step that asked; NaN: none
+    double reach = 0.0;                                        // [m] certified
+    dvec3 origin{0.0};                                         // [m] base frame: origin of all positions here
     dvec3 camera{0.0}; // [m] camera centre of that fixture set, about the origin
 
     std::vector<double> x, y, z, radius; // spheres, about the origin [m]

@@ -44,13 +44,13 @@ void ContactCycle::use(gpu::Device* device, const Plan& plan, const PatchLayout&
     }
 }
 
-void ContactCycle::query(const cloud::FixtureSet& set, const ToolState& place, ContactSet& out) {
+void ContactCycle::query(const cloud::FixtureSet& set, const QueryPlace& at, ContactSet& out) {
     if (arm_ != nullptr) { // the arm's leaves are already in the base frame
-        ask(arm_->toolAt(place.arm), set, Pose{}, reach_ + place.moreReach, out);
+        ask(arm_->toolAt(at.place.arm), set, Pose{}, reach_ + at.extraReach, out);
     } else {
-        ask(tool_, set, place.pose, reach_ + place.moreReach, out);
+        ask(tool_, set, at.place.pose, reach_ + at.extraReach, out);
     }
-    out.asked = place.asked;
+    out.askedAt = at.askedAt;
     out.query = ++queries_; // one numbering for CPU and GPU answers
 }
 

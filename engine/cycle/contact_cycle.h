@@ -33,9 +33,9 @@ public:
 
     // Without forbidden points the contact set is empty and its reach is unlimited.
     void query(const cloud::FixtureSet& set, const Pose& baseTtool, ContactSet& out) {
-        query(set, ToolState{baseTtool, {}}, out);
+        query(set, QueryPlace{{baseTtool, {}}}, out);
     }
-    void query(const cloud::FixtureSet& set, const ToolState& place, ContactSet& out);
+    void query(const cloud::FixtureSet& set, const QueryPlace& at, ContactSet& out);
 
     QueryStatistics statistics() const;
 

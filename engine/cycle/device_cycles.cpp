@@ -92,14 +92,14 @@ bool DeviceCycles::newestSet(Fixtures& set, RegionGrid& grid) {
 }
 
 // The set may not have its host copy yet.
-bool DeviceCycles::answerOnDevice(const ToolState& place, ContactSet& out) {
+bool DeviceCycles::answerOnDevice(const QueryPlace& at, ContactSet& out) {
     const auto completed =
         frames_ && contact_.onDevice() ? frames_->sets().newestEarly() : cloud::FixturePool::Lease();
     if (!completed) {
         return false;
     }
     try {
-        contact_.query(*completed, place, out);
+        contact_.query(*completed, at, out);
         return true;
     } catch (const DeviceFailed& e) {
         log::warn("contact query: {}: the CPU answers", e.what());
@@ -108,19 +108,19 @@ bool DeviceCycles::answerOnDevice(const ToolState& place, ContactSet& out) {
     }
 }
 
-bool DeviceCycles::answer(const ToolState& place, ContactSet& out) {
+bool DeviceCycles::answer(const QueryPlace& at, ContactSet& out) {
     const std::lock_guard lock(answerMutex_);
     if (lastSet_ && frames_ && frames_->sets().newest()) { // not earlier: the device may be lost again
         lastSet_.reset();
     }
-    if (answerOnDevice(place, out)) {
+    if (answerOnDevice(at, out)) {
         return true;
     }
     const auto newest = frames_ ? frames_->sets().newest() : cloud::FixturePool::Lease();
     if (!newest && !lastSet_) {
         return false;
     }
-    contact_.query(newest ? *newest : *lastSet_, place, out);
+    contact_.query(newest ? *newest : *lastSet_, at, out);
     return true;
 }
 
@@ -153,7 +153,7 @@ void DeviceCycles::smallestGaps(std::span<const Pose> baseTtool, GapBatch& out) 
     }
 }
 
-double DeviceCycles::clearance(const ToolState& place) {
+double DeviceCycles::clearance(const ToolPlace& place) {
     const std::lock_guard lock(batchMutex_);
     const SetInUse set = newestInUse();
     if (set.get() == nullptr) {

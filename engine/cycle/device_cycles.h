@@ -50,7 +50,7 @@ public:
     // Fills `out` for the newest fixture set, which may lack its host copy where the device answers; false
     // when there is none yet. If the device is lost or out of memory, the CPU answers from then on until
     // renew().
-    bool answer(const ToolState& place, ContactSet& out);
+    bool answer(const QueryPlace& at, ContactSet& out);
 
     // Answers of a batch, and the set that they are about.
     struct GapBatch {
@@ -65,7 +65,7 @@ public:
     // its queue. If the device fails, the CPU answers until renew().
     void smallestGaps(std::span<const Pose> baseTtool, GapBatch& out);
     // The smallest gap [m] of the tool, or of all links of the arm, where it is; NaN while there is no set.
-    double clearance(const ToolState& place);
+    double clearance(const ToolPlace& place);
 
     // Copies the newest fixture set with a host copy, also after the device is lost; false when there is none
     // yet.
@@ -92,7 +92,7 @@ private:
     std::unique_ptr<FrameCycle> openFrames() const;
     void useDevice();
     void close();
-    bool answerOnDevice(const ToolState& place, ContactSet& out);
+    bool answerOnDevice(const QueryPlace& at, ContactSet& out);
     void findGaps(const cloud::FixtureSet& set, const Tool& tool, std::span<const Pose> baseTtool,
                   std::vector<SmallestGap>& out);
 

@@ -65,9 +65,9 @@ public:
 
     const Pose& pose() const { return tool_; } // base_T_tool
     // Pose and, on an arm, posture.
-    ToolState place() const { return {tool_, arm_ ? arm_->posture() : ArmPosture{}}; }
+    ToolPlace place() const { return {tool_, arm_ ? arm_->posture() : ArmPosture{}}; }
     // Of the next contact query: ahead of place() when answers are late.
-    ToolState queryPlace() const noexcept {
+    QueryPlace queryPlace() const noexcept {
         return ahead_.ask(place(), time_, arm_ ? armSetup_->model.count() : 0);
     }
     bool onArm() const { return arm_.has_value(); }

@@ -16,7 +16,7 @@ const ContactSet* HapticCycle::chooseSet(const StepInput& input, StepRecord& out
     if (offered != nullptr && offered->frame >= 0 && covers(*offered)) {
         out.adopted = true;
         realArm_.placed = false;
-        ahead_.answered(offered->asked, input.time);
+        ahead_.answered(offered->askedAt, input.time);
         return offered;
     }
     const bool usable = input.contacts != nullptr && input.contacts->frame >= 0;

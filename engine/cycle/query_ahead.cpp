@@ -12,7 +12,7 @@ constexpr double kForgetAge = 1.0; // [s] time constant with which the effect of
 
 } // namespace
 
-void QueryAhead::moved(const ToolState& now) noexcept {
+void QueryAhead::moved(const ToolPlace& now) noexcept {
     const double blend = started_ ? std::min(1.0, period_ / kSmooth) : 0.0;
     const dvec3 turned = rotationBetween(before_.pose.rotation, now.pose.rotation);
     velocity_ = started_ ? velocity_ : dvec3(0.0);
@@ -27,12 +27,12 @@ void QueryAhead::moved(const ToolState& now) noexcept {
     started_ = true;
 }
 
-void QueryAhead::answered(double asked, double now) noexcept {
-    if (!std::isfinite(now - asked)) { // asked before the first step
+void QueryAhead::answered(double askedAt, double now) noexcept {
+    if (!std::isfinite(now - askedAt)) { // asked before the first step
         return;
     }
     // In whole ticks, so that the rounding of a clock changes nothing.
-    const double age = period_ * std::round(std::clamp(now - asked, 0.0, kMaxLead) / period_);
+    const double age = period_ * std::round(std::clamp(now - askedAt, 0.0, kMaxLead) / period_);
     age_ = std::max(age, age_ - period_ * std::min(1.0, age_ / kForgetAge));
 }
 
@@ -40,20 +40,19 @@ double QueryAhead::lead() const noexcept {
     return age_ > kInTime * period_ ? age_ : 0.0;
 }
 
-ToolState QueryAhead::ask(const ToolState& now, double time, size_t joints) const noexcept {
-    ToolState ahead = now;
-    ahead.asked = time;
+QueryPlace QueryAhead::ask(const ToolPlace& now, double time, size_t joints) const noexcept {
+    QueryPlace ahead{now, time};
     const double lead = this->lead();
     if (lead == 0.0) {
         return ahead;
     }
-    ahead.pose.position += lead * velocity_;
-    ahead.pose.rotation = glm::normalize(rotationExp(lead * spin_) * now.pose.rotation);
+    ahead.place.pose.position += lead * velocity_;
+    ahead.place.pose.rotation = glm::normalize(rotationExp(lead * spin_) * now.pose.rotation);
     for (size_t k = 0; k < joints; ++k) {
-        ahead.arm.q[k] += lead * rates_[k];
+        ahead.place.arm.q[k] += lead * rates_[k];
     }
     const double unsure = 0.25 * glm::length(velocity_) * lead + 0.5 * kHandAccel * lead * lead;
-    ahead.moreReach = std::min(kMaxReach, unsure);
+    ahead.extraReach = std::min(kMaxReach, unsure);
     return ahead;
 }
 

@@ -17,14 +17,14 @@ public:
         : period_(period) {}
 
     // One tick: where the tool is now.
-    void moved(const ToolState& now) noexcept;
-    // An answer to a query at `asked` [s] became active at `now` [s].
-    void answered(double asked, double now) noexcept;
+    void moved(const ToolPlace& now) noexcept;
+    // An answer to a query at `askedAt` [s] became active at `now` [s].
+    void answered(double askedAt, double now) noexcept;
     // The tool was placed elsewhere: no velocity.
     void restart() noexcept { started_ = false; }
 
     // Place and reach of the next query. joints: number of joints of the arm, 0 = free tool.
-    ToolState ask(const ToolState& now, double time, size_t joints) const noexcept;
+    QueryPlace ask(const ToolPlace& now, double time, size_t joints) const noexcept;
 
     double lead() const noexcept; // [s] by which queries look ahead
 
@@ -37,7 +37,7 @@ public:
 private:
     double period_;
     double age_ = 0.0; // [s] of recent answers: rises at once, falls slowly
-    ToolState before_;
+    ToolPlace before_;
     dvec3 velocity_{0.0}, spin_{0.0}; // [m/s], [rad/s]
     JointVector rates_{};             // [rad/s], [m/s]
     bool started_ = false;

@@ -81,12 +81,17 @@ struct Touch {
 };
 inline constexpr size_t kMaxTouches = 8;
 
-// Pose of the tool, and posture of its arm if it has one: the input of a contact query.
-struct ToolState {
+// Pose of the tool, and posture of its arm if it has one.
+struct ToolPlace {
     Pose pose; // base_T_tool
     ArmPosture arm;
-    double asked = std::numeric_limits<double>::quiet_NaN(); // [s] of the step that asks; NaN: before any
-    double moreReach = 0.0;                                  // [m] beyond the scene's reach, for late answers
+};
+
+// What a contact query is asked for.
+struct QueryPlace {
+    ToolPlace place;            // where the tool is, or will be when the answer is used
+    double askedAt = kNotKnown; // [s] of the step that asks; NaN: before any
+    double extraReach = 0.0;    // [m] beyond the scene's reach, for late answers
 };
 
 // Status of the real arm that follows the tool's arm, before a step.

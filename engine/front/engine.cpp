@@ -37,7 +37,7 @@ public:
     std::optional<RunClock::Time> captured() const override {
         return next_ ? std::optional(RunClock::sinceBoot((*next_)->captureTime)) : std::nullopt;
     }
-    void armAtCapture(const ToolState& place) override { compute_.setArm(place.arm); }
+    void armAtCapture(const ArmPosture& arm) override { compute_.setArm(arm); }
     void publish(double t, PublishedFrame& out) override {
         const double captured = (*next_)->captureTime;
         next_->retime(t);

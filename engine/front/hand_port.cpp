@@ -11,8 +11,8 @@ HandPort::Impl::Impl(std::shared_ptr<front::Shared> from, const HandStart& start
     : shared(std::move(from))
     , cycle(shared->haptic.cycle(start))
     , stepper(*cycle, shared->channels, shared->clock) {
-    shared->channels.proxy.back() = cycle->place();
-    shared->channels.proxy.publish(); // the contact thread begins
+    shared->channels.queryAt.back() = {cycle->place()};
+    shared->channels.queryAt.publish(); // the contact thread begins
 }
 
 HandPort::Impl::~Impl() {

@@ -28,8 +28,7 @@ struct ShapeList {
 struct TickRow {
     StepRecord record;
     HandSample hand;         // raw, from the device
-    Pose start;              // base_T_tool before the step
-    ArmPosture startArm;     // and the arm's posture, if there is an arm
+    ToolPlace start;         // before the step
     uint64_t generation = 0; // of the fixture set behind the active contacts; 0 = none
     uint64_t query = 0;      // number of the query behind the active contact set; 0 = none
     double wokenLate = 0.0;  // [s] from the due time to the start of the step
@@ -72,8 +71,8 @@ struct Channels {
         , emptied(2 * kFramesInFlight) {}
 
     TripleBuffer<SceneUpdate> scene;           // frame -> haptic
-    TripleBuffer<ToolState> proxy;             // haptic -> contact
-    TripleBuffer<ToolState> clearanceAt;       // haptic -> clearance: where the tool is
+    TripleBuffer<QueryPlace> queryAt;          // haptic -> contact
+    TripleBuffer<ToolPlace> clearanceAt;       // haptic -> clearance: where the tool is
     TripleBuffer<double> clearance{kNotKnown}; // clearance -> haptic [m]
     PostureTrack postures;               // haptic -> frame: recent postures of the arm, for the self-filter
     TripleBuffer<ShapeList> shapes;      // window -> haptic

@@ -7,18 +7,18 @@ namespace fathom {
 
 void ContactLoop::run(const std::atomic<bool>& stop) {
     while (!stop.load(std::memory_order_relaxed)) {
-        if (channels_.proxy.refresh()) {
-            answerOne(channels_.proxy.front());
+        if (channels_.queryAt.refresh()) {
+            answerOne(channels_.queryAt.front());
         } else {
             clock_.sleepUntil(clock_.now() + pause_);
         }
     }
 }
 
-void ContactLoop::answerOne(const ToolState& place) {
+void ContactLoop::answerOne(const QueryPlace& at) {
     ContactSet& set = channels_.contacts.back();
     const auto begin = Clock::now();
-    if (!answers_.answer(place, set)) {
+    if (!answers_.answer(at, set)) {
         return;
     }
     const auto end = Clock::now();

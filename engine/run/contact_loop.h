@@ -14,9 +14,9 @@ class ContactAnswers {
 public:
     virtual ~ContactAnswers() = default;
     // Contact thread. Fills `out` for the newest fixture set; false when there is none yet.
-    virtual bool answer(const ToolState& place, ContactSet& out) = 0;
+    virtual bool answer(const QueryPlace& at, ContactSet& out) = 0;
     // Clearance thread. StepRecord::clearance of the tool there; NaN = not known.
-    virtual double clearance(const ToolState& /*place*/) { return kNotKnown; }
+    virtual double clearance(const ToolPlace& /*place*/) { return kNotKnown; }
 };
 
 class ContactLoop {
@@ -34,7 +34,7 @@ public:
     void run(const std::atomic<bool>& stop);
 
 private:
-    void answerOne(const ToolState& place);
+    void answerOne(const QueryPlace& at);
 
     ContactAnswers& answers_;
     Channels& channels_;

@@ -11,8 +11,8 @@ class CycleAnswers final : public ContactAnswers {
 public:
     explicit CycleAnswers(DeviceCycles& cycles)
         : cycles_(cycles) {}
-    bool answer(const ToolState& place, ContactSet& out) override { return cycles_.answer(place, out); }
-    double clearance(const ToolState& place) override { return cycles_.clearance(place); }
+    bool answer(const QueryPlace& at, ContactSet& out) override { return cycles_.answer(at, out); }
+    double clearance(const ToolPlace& place) override { return cycles_.clearance(place); }
 
 private:
     DeviceCycles& cycles_;

@@ -144,7 +144,7 @@ void FrameLoop::publish(double t, const std::atomic<bool>& stop) {
     }
     const PostureTrack& track = channels_.arm != nullptr ? channels_.arm->measured : channels_.postures;
     if (const auto posture = track.nearest(clock_.timeAt(t))) {
-        feed_.armAtCapture({Pose{}, *posture});
+        feed_.armAtCapture(*posture);
     }
     spare_ = frame; // if publish() throws
     feed_.publish(t, *frame);

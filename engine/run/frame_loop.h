@@ -24,9 +24,9 @@ public:
     // Capture time of that frame if the source is live: then fetch() waited for it. Nothing: the loop paces
     // the source.
     virtual std::optional<RunClock::Time> captured() const { return std::nullopt; }
-    // Sets the arm's posture nearest to the capture time, before publish(); the pose is unset. Not called
-    // without an arm or before the first step.
-    virtual void armAtCapture(const ToolState&) {}
+    // Sets the arm's posture nearest to the capture time, before publish(). Not called without an arm or
+    // before the first step.
+    virtual void armAtCapture(const ArmPosture&) {}
     // Makes the newest fixture set from that frame, captured at t [s]. Fills all of `out` except t. A
     // repeated frame makes no set: `changed` is false, and set and colour in `out` are unchanged.
     virtual void publish(double t, PublishedFrame& out) = 0;

@@ -55,9 +55,7 @@ const StepRecord& HapticStepper::step(const HandSample& hand, double now, double
     const Until until{&clock_, end};
     input.deadline = {&Until::passed, &until};
     followArm(now);
-    const ToolState start = cycle_.place();
-    row_.start = start.pose;
-    row_.startArm = start.arm;
+    row_.start = cycle_.place();
     began_ = std::chrono::steady_clock::now();
     row_.record = contacts_.step(cycle_, input);
     channels_.clearance.refresh();
@@ -76,8 +74,8 @@ void HapticStepper::publish(const HandSample& hand, double now) noexcept {
     row_.query = active != nullptr ? active->query : 0;
     row_.micros = std::chrono::duration<double, std::micro>(ended_ - began_).count();
     sendSetpoint(row_.record, (hand.buttons & kDeadManOpen) != 0, now);
-    channels_.proxy.back() = cycle_.queryPlace();
-    channels_.proxy.publish();
+    channels_.queryAt.back() = cycle_.queryPlace();
+    channels_.queryAt.publish();
     channels_.clearanceAt.back() = cycle_.place();
     channels_.clearanceAt.publish();
     if (cycle_.onArm()) {

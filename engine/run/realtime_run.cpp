@@ -148,8 +148,8 @@ void RealtimeRun::run(HapticCycle& cycle, HapticDevice& hand, double pathDuratio
     HapticLoop haptic(cycle, hand, channels_, clock_, {pathDuration, options_.framePeriod}, options_.trace);
     WatchedSink watched(sink, options_.warnWhenStale);
     RecordDrain drain(channels_, watched);
-    channels_.proxy.back() = cycle.place();
-    channels_.proxy.publish();
+    channels_.queryAt.back() = {cycle.place()};
+    channels_.queryAt.publish();
     clock_.start(kHeadStart);
     {
         StoppedThread camera(ending_, [this] {

@@ -31,7 +31,7 @@ double violation(const ArmSetup& setup, double before, double q, double grasp) {
     const ScratchFolder folder;
     ArmReport report(folder.path() / "arm.csv", setup);
     TickRow row;
-    row.startArm.q[0] = before;
+    row.start.arm.q[0] = before;
     row.record.arm.posture = {{q}, grasp};
     report.add(row);
     return report.summary({}).limitViolation;

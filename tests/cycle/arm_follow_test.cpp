@@ -60,7 +60,7 @@ struct FollowRig {
     HapticOptions options = makeHapticOptions(springsAlone(handScene()), ballTool());
     Pose hand = at(0, 0, 0);
     ArmFollow status{true, true, {}};
-    ToolState asked, start;
+    ToolPlace asked, start;
     std::unique_ptr<HapticCycle> cycle;
     ActiveContacts<std::unique_ptr<ContactSet>> contacts;
     uint64_t queries = 0;

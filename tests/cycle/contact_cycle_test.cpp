@@ -216,14 +216,14 @@ TEST_CASE("A query reaches as much farther as the tool's motion needs, and names
     set.grid.build(set.host.spheres, nullptr);
     ContactCycle contacts(tool, 0.01, nullptr);
     contacts.use(nullptr, plan, PatchLayout(), pool);
-    ToolState place;
+    QueryPlace at;
     ContactSet answer;
     for (const double more : {0.0, 0.005}) {
-        place.moreReach = more;
-        place.asked = 7.0 + more;
-        contacts.query(set, place, answer);
+        at.extraReach = more;
+        at.askedAt = 7.0 + more;
+        contacts.query(set, at, answer);
         CHECK(answer.reach == doctest::Approx(0.01 + more));
-        CHECK(answer.asked == place.asked);
+        CHECK(answer.askedAt == at.askedAt);
     }
     CHECK(answer.query == 2);
 }

@@ -52,11 +52,11 @@ struct TwinRig {
 
     FrameReport next() { return cycles.frames().process(std::move(*camera.next())); }
     // A tool at the first sphere of the newest set.
-    ToolState place() {
+    QueryPlace place() {
         const auto set = cycles.frames().sets().newest();
         const RegionSpheres& s = set->host.spheres;
         REQUIRE(s.size() > 0);
-        return {Pose{set->host.origin + dvec3(s.x[0], s.y[0], s.z[0]), dquat(1.0, 0.0, 0.0, 0.0)}, {}};
+        return {{Pose{set->host.origin + dvec3(s.x[0], s.y[0], s.z[0]), dquat(1.0, 0.0, 0.0, 0.0)}, {}}};
     }
 };
 
@@ -92,7 +92,7 @@ TEST_CASE("Until the first frame on the new device the CPU answers from the last
         ContactSet before, between, after;
         CHECK_FALSE(rig.cycles.answer({}, before)); // no frame yet
         rig.next();
-        const ToolState place = rig.place();
+        const QueryPlace place = rig.place();
         REQUIRE(rig.cycles.answer(place, before));
         REQUIRE(before.size() > 0);
         rig.cycles.renew();
@@ -194,7 +194,7 @@ TEST_CASE(
         LosingRig rig;
         DeviceCycles& cycles = rig.twin.cycles;
         rig.twin.next();
-        const ToolState place = rig.twin.place();
+        const QueryPlace place = rig.twin.place();
         ContactSet first, given, late, after;
         REQUIRE(cycles.answer(place, first));
         REQUIRE(first.size() > 0);
@@ -234,7 +234,7 @@ TEST_CASE("A device that is lost again before its first host copy leaves the CPU
     LosingRig rig;
     DeviceCycles& cycles = rig.twin.cycles;
     rig.twin.next();
-    const ToolState place = rig.twin.place();
+    const QueryPlace place = rig.twin.place();
     ContactSet first, set;
     REQUIRE(cycles.answer(place, first));
     cycles.renew();
@@ -266,7 +266,7 @@ TEST_CASE("The device is waited for although memory is short, because it still u
     LosingRig rig;
     DeviceCycles& cycles = rig.twin.cycles;
     rig.twin.next();
-    const ToolState place = rig.twin.place();
+    const QueryPlace place = rig.twin.place();
     ContactSet set;
     rig.failNextWait();
     REQUIRE(cycles.answer(place, set));

@@ -101,9 +101,9 @@ public:
     }
     std::unique_ptr<ContactSet> answer() {
         auto set = std::make_unique<ContactSet>();
-        const ToolState place = cycle->queryPlace();
-        cull.query(tool, place.pose, 0.01 + place.moreReach, *fixtures, grid, *set);
-        set->asked = place.asked;
+        const QueryPlace at = cycle->queryPlace();
+        cull.query(tool, at.place.pose, 0.01 + at.extraReach, *fixtures, grid, *set);
+        set->askedAt = at.askedAt;
         set->query = ++queries;
         return set;
     }

@@ -13,7 +13,7 @@ constexpr double kTick = 0.001;
 // A tool that moved at `speed` [m/s] and `spin` [rad/s] until now.
 struct Steady {
     QueryAhead ahead{kTick};
-    ToolState now;
+    ToolPlace now;
 
     Steady(const dvec3& speed, const dvec3& spin, double jointRate = 0.0) {
         for (int i = 0; i < 500; ++i) {
@@ -29,25 +29,25 @@ struct Steady {
 TEST_CASE(
     "After late answers queries look ahead along the tool's motion, its rotation and the arm's joints") {
     Steady tool({0.1, 0, -0.2}, {0, 0, 2.0}, 0.5);
-    CHECK(tool.ahead.ask(tool.now, 0.5, 3).pose.position == tool.now.pose.position); // none was late
+    CHECK(tool.ahead.ask(tool.now, 0.5, 3).place.pose.position == tool.now.pose.position); // none was late
     tool.ahead.answered(0.47, 0.5);
-    const ToolState asked = tool.ahead.ask(tool.now, 0.5, 3);
-    const dvec3 way = asked.pose.position - tool.now.pose.position;
+    const QueryPlace asked = tool.ahead.ask(tool.now, 0.5, 3);
+    const dvec3 way = asked.place.pose.position - tool.now.pose.position;
     CHECK(glm::distance(way, 0.03 * dvec3(0.1, 0, -0.2)) < 1e-6);
-    const dvec3 turn = rotationBetween(tool.now.pose.rotation, asked.pose.rotation);
+    const dvec3 turn = rotationBetween(tool.now.pose.rotation, asked.place.pose.rotation);
     CHECK(glm::distance(turn, {0, 0, 0.06}) < 1e-6);
-    CHECK(asked.arm.q[1] - tool.now.arm.q[1] == doctest::Approx(0.015));
-    CHECK(asked.moreReach ==
+    CHECK(asked.place.arm.q[1] - tool.now.arm.q[1] == doctest::Approx(0.015));
+    CHECK(asked.extraReach ==
           doctest::Approx(0.25 * 0.03 * std::sqrt(0.05) + 0.5 * QueryAhead::kHandAccel * 0.03 * 0.03));
 }
 
 TEST_CASE("The reach of a query grows by at most 20 mm, and a tool that was placed elsewhere has no speed") {
     Steady fast({5.0, 0, 0}, dvec3(0.0));
     fast.ahead.answered(0.0, 0.5);
-    CHECK(fast.ahead.ask(fast.now, 0.5, 0).moreReach == QueryAhead::kMaxReach);
+    CHECK(fast.ahead.ask(fast.now, 0.5, 0).extraReach == QueryAhead::kMaxReach);
     fast.ahead.restart();
-    ToolState elsewhere;
+    ToolPlace elsewhere;
     elsewhere.pose.position = {7, 7, 7};
     fast.ahead.moved(elsewhere);
-    CHECK(fast.ahead.ask(elsewhere, 0.5, 0).pose.position == elsewhere.pose.position);
+    CHECK(fast.ahead.ask(elsewhere, 0.5, 0).place.pose.position == elsewhere.pose.position);
 }

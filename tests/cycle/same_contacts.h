@@ -7,7 +7,7 @@
 
 namespace fathom::testing {
 
-// Two answers to one question are equal to the last bit: every field except `query` and `asked`, which
+// Two answers to one question are equal to the last bit: every field except `query` and `askedAt`, which
 // identify the question.
 inline void checkSameContacts(const ContactSet& a, const ContactSet& b) {
     CHECK(a.frame == b.frame);

@@ -33,10 +33,10 @@ struct Both {
         CHECK(gpu->onDevice());
         CHECK_FALSE(cpu->onDevice());
     }
-    size_t check(const ToolState& place) {
+    size_t check(const ToolPlace& place) {
         ContactSet a, b;
-        cpu->query(rig.set(), place, a);
-        gpu->query(rig.set(), place, b);
+        cpu->query(rig.set(), QueryPlace{place}, a);
+        gpu->query(rig.set(), QueryPlace{place}, b);
         checkSameContacts(a, b);
         CHECK(rig.set().largestRadius == rig.set().grid.get().maxRadius());
         return b.size();
@@ -151,7 +151,7 @@ TEST_CASE("Both queries agree for all links of an arm at several postures") {
     Both both(rig, tool, 0.01, &arm);
     size_t found = 0;
     for (const double bend : {0.0, 0.3, -0.5, 1.0}) {
-        ToolState place;
+        ToolPlace place;
         place.arm = arm.startPosture();
         place.arm.q[0] = bend;
         place.arm.q[1] = -0.5 * bend;

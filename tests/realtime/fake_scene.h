@@ -84,19 +84,19 @@ public:
 
     std::function<void()> before = [] {}, beforeClearance = [] {};
 
-    double clearance(const ToolState&) override {
+    double clearance(const ToolPlace&) override {
         beforeClearance();
         return kSomeClearance;
     }
     static constexpr double kSomeClearance = 0.125; // [m]
 
-    bool answer(const ToolState& place, ContactSet& out) override {
+    bool answer(const QueryPlace& at, ContactSet& out) override {
         before();
         const auto set = pool_.newest();
         if (!set) {
             return false;
         }
-        cull_.query(tool_, place.pose, 0.01, set->host, set->grid, out);
+        cull_.query(tool_, at.place.pose, 0.01, set->host, set->grid, out);
         return true;
     }
 
@@ -149,7 +149,7 @@ struct AuditingSink final : RunSink {
               std::span<const uint32_t> behind) override {
         unknown += known ? 0 : 1;
         if (obeyed != nullptr) {
-            audit.tick(obeyed->fixtures, obeyed->grid, row.start, row.record.tool, behind);
+            audit.tick(obeyed->fixtures, obeyed->grid, row.start.pose, row.record.tool, behind);
         }
         rows.push_back(row);
         onTurn(row);

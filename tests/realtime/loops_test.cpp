@@ -43,7 +43,7 @@ TEST_CASE("A haptic tick allocates nothing, with contact sets, guidance and a tr
     const uint64_t beforeAny = allocationCount();
     for (int i = 0; i < 1000; ++i) {
         ContactSet& set = channels.contacts.back();
-        REQUIRE(fake.answers.answer(cycle.place(), set));
+        REQUIRE(fake.answers.answer({cycle.place()}, set));
         query = set.query;
         channels.contacts.publish();
         news.captureTime = clock.now();
@@ -213,7 +213,7 @@ TEST_CASE("A single wrong sample of the hand does not move the tool of a run") {
     HapticStepper stepper(cycle, channels, clock);
     dvec3 before(0.0);
     for (int i = 0; i < 50; ++i) {
-        REQUIRE(fake.answers.answer(cycle.place(), channels.contacts.back()));
+        REQUIRE(fake.answers.answer({cycle.place()}, channels.contacts.back()));
         channels.contacts.publish();
         HandSample now = sample;
         now.deviceThandle.position.x += i == 40 ? 0.2 : 0.0;

@@ -34,7 +34,7 @@ struct LateFeed final : FrameFeed {
         return index <= 5 ? std::optional(index) : std::nullopt;
     }
     std::optional<RunClock::Time> captured() const override { return clock.timeAt(0.02 * index); }
-    void armAtCapture(const ToolState& place) override { shownAt.push_back(place.arm.grasp); }
+    void armAtCapture(const ArmPosture& arm) override { shownAt.push_back(arm.grasp); }
     void publish(double, PublishedFrame& out) override { out.changed = false; }
 };
 

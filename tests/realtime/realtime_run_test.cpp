@@ -56,7 +56,7 @@ TEST_CASE(
         CHECK(row.record.t > before.record.t);
         CHECK(row.generation >= before.generation);
         CHECK(row.query >= before.query);
-        CHECK(row.start.position == before.record.tool.position);
+        CHECK(row.start.pose.position == before.record.tool.position);
         touched = touched || (row.record.state == StepState::Contact && forceOf(row.record) > 1.0);
     }
     CHECK(touched);
