@@ -51,9 +51,8 @@ public:
         ForwardingSink::frame(frame, set);
         observers_.frame(set);
     }
-    void step(const TickRow& row, const PublishedFrame* obeyed, bool known,
-              std::span<const uint32_t> behind) override {
-        ForwardingSink::step(row, obeyed, known, behind);
+    void step(const TickRow& row, const ObeyedSet& obeyed) override {
+        ForwardingSink::step(row, obeyed);
         observers_.step(row);
     }
 

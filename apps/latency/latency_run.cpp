@@ -43,7 +43,7 @@ public:
 
     void frame(const PublishedFrame&, const Fixtures&) override { ++part_.frames; }
     void query(const QueryNote&) override {}
-    void step(const TickRow& row, const PublishedFrame*, bool, std::span<const uint32_t>) override {
+    void step(const TickRow& row, const ObeyedSet&) override {
         part_.late.add(row.wokenLate * 1e6);
         part_.tick.add(row.micros);
         part_.armTravel += first_ ? 0.0 : travel(row.record.arm.posture.q, before_);

@@ -87,8 +87,7 @@ void LastSeconds::frame(const PublishedFrame& frame, const Fixtures& set) {
     ForwardingSink::frame(frame, set);
 }
 
-void LastSeconds::step(const TickRow& row, const PublishedFrame* obeyed, bool known,
-                       std::span<const uint32_t> behind) {
+void LastSeconds::step(const TickRow& row, const ObeyedSet& obeyed) {
     if (open_) { // changed by this thread only
         const std::lock_guard lock(mutex_);
         const bool marked = marked_.exchange(false);
@@ -102,7 +101,7 @@ void LastSeconds::step(const TickRow& row, const PublishedFrame* obeyed, bool kn
             forgetOld();
         }
     }
-    ForwardingSink::step(row, obeyed, known, behind);
+    ForwardingSink::step(row, obeyed);
 }
 
 void feed(Recorder& recorder, const KeptPast& past) {
@@ -123,7 +122,7 @@ void feed(Recorder& recorder, const KeptPast& past) {
             if (std::find(kept->marks.begin(), kept->marks.end(), i) != kept->marks.end()) {
                 recorder.mark();
             }
-            recorder.step(kept->ticks[i], nullptr, false, {});
+            recorder.step(kept->ticks[i], {});
         }
     }
 }

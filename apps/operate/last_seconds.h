@@ -61,8 +61,7 @@ public:
 
     // Writer thread of the run.
     void frame(const PublishedFrame& frame, const Fixtures& set) override;
-    void step(const TickRow& row, const PublishedFrame* obeyed, bool known,
-              std::span<const uint32_t> behind) override;
+    void step(const TickRow& row, const ObeyedSet& obeyed) override;
 
 private:
     size_t all() const { return bytes_ + (open_ ? open_->bytes() : 0); } // [bytes]

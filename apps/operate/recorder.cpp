@@ -142,7 +142,7 @@ void Recorder::edit(uint64_t number, RecordedScene scene) {
     }
 }
 
-void Recorder::step(const TickRow& row, const PublishedFrame*, bool, std::span<const uint32_t>) {
+void Recorder::step(const TickRow& row, const ObeyedSet&) {
     if (!recording()) {
         return;
     }

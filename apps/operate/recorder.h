@@ -52,7 +52,7 @@ public:
     // Writer thread of the run.
     void frame(const PublishedFrame& frame, const Fixtures& set) override;
     void query(const QueryNote&) override {}
-    void step(const TickRow& row, const PublishedFrame*, bool, std::span<const uint32_t>) override;
+    void step(const TickRow& row, const ObeyedSet&) override;
 
 private:
     template <class Job>

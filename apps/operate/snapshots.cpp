@@ -15,10 +15,9 @@ void SnapshotSink::frame(const PublishedFrame& frame, const Fixtures& set) {
     ForwardingSink::frame(frame, set);
 }
 
-void SnapshotSink::step(const TickRow& row, const PublishedFrame* obeyed, bool known,
-                        std::span<const uint32_t> behind) {
+void SnapshotSink::step(const TickRow& row, const ObeyedSet& obeyed) {
     ticks_.push(row);
-    ForwardingSink::step(row, obeyed, known, behind);
+    ForwardingSink::step(row, obeyed);
 }
 
 } // namespace fathom::operate

@@ -30,8 +30,7 @@ public:
         , ticks_(8192) {}
 
     void frame(const PublishedFrame& frame, const Fixtures& set) override;
-    void step(const TickRow& row, const PublishedFrame* obeyed, bool known,
-              std::span<const uint32_t> behind) override;
+    void step(const TickRow& row, const ObeyedSet& obeyed) override;
 
     TripleBuffer<SceneSnapshot>& scene() { return scene_; } // read by the window
     SpscQueue<TickRow>& ticks() { return ticks_; }

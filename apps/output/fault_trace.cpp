@@ -26,14 +26,13 @@ FaultTrace::FaultTrace(std::filesystem::path folder, double period, RunSink& nex
     , folder_(std::move(folder))
     , ring_(ticksOf(kSeconds, period)) {}
 
-void FaultTrace::step(const TickRow& row, const PublishedFrame* obeyed, bool known,
-                      std::span<const uint32_t> behind) {
+void FaultTrace::step(const TickRow& row, const ObeyedSet& obeyed) {
     keep(row);
     if (!row.record.finite && row.record.t >= quietUntil_) {
         quietUntil_ = row.record.t + kQuiet;
         write(row.record.t);
     }
-    ForwardingSink::step(row, obeyed, known, behind);
+    ForwardingSink::step(row, obeyed);
 }
 
 void FaultTrace::keep(const TickRow& row) {

@@ -18,8 +18,7 @@ public:
     // period: tick period [s]. `next` must outlive this.
     FaultTrace(std::filesystem::path folder, double period, RunSink& next);
 
-    void step(const TickRow& row, const PublishedFrame* obeyed, bool known,
-              std::span<const uint32_t> behind) override;
+    void step(const TickRow& row, const ObeyedSet& obeyed) override;
 
     static constexpr double kSeconds = 2.0; // [s] of ticks in a file
     static constexpr double kQuiet = 60.0;  // [s] minimum time between files

@@ -144,32 +144,30 @@ void RealtimeReplay::query(const QueryNote& note) {
     recorder_.query(note.micros);
 }
 
-void RealtimeReplay::step(const TickRow& row, const PublishedFrame* obeyed, bool obeyedKnown,
-                          std::span<const uint32_t> behind) {
+void RealtimeReplay::step(const TickRow& row, const ObeyedSet& obeyed) {
     wokenLateMicros_.push_back(static_cast<float>(row.wokenLate * 1e6));
     recorder_.tick(row);
     observers_.step(row);
     if (const std::string change = watched_ ? watched_->change() : ""; !change.empty()) {
         log::warn("{}", change);
     }
-    audit(row, obeyed, obeyedKnown, behind);
-    if (obeyed != nullptr && recorder_.wantsMoment()) {
-        recorder_.moment(obeyed->fixtures, obeyed->colour);
+    audit(row, obeyed);
+    if (obeyed.frame != nullptr && recorder_.wantsMoment()) {
+        recorder_.moment(obeyed.frame->fixtures, obeyed.frame->colour);
     }
 }
 
-void RealtimeReplay::audit(const TickRow& row, const PublishedFrame* obeyed, bool obeyedKnown,
-                           std::span<const uint32_t> behind) {
+void RealtimeReplay::audit(const TickRow& row, const ObeyedSet& obeyed) {
     if (!session_.cycles.plan().spheres) {
         return;
     }
-    audited_ = audited_ && obeyedKnown;
+    audited_ = audited_ && obeyed.known;
     if (row.placed) {
         audit_.retake();
     }
-    if (obeyed != nullptr && audited_) {
-        audit_.tick(obeyed->fixtures, obeyed->grid, row.start, {row.record.tool, row.record.arm.posture},
-                    behind);
+    if (obeyed.frame != nullptr && audited_) {
+        audit_.tick(obeyed.frame->fixtures, obeyed.frame->grid, row.start,
+                    {row.record.tool, row.record.arm.posture}, obeyed.behind);
     }
 }
 

@@ -56,10 +56,8 @@ private:
 
     void frame(const PublishedFrame& frame, const Fixtures& set) override;
     void query(const QueryNote& note) override;
-    void step(const TickRow& row, const PublishedFrame* obeyed, bool obeyedKnown,
-              std::span<const uint32_t> behind) override;
-    void audit(const TickRow& row, const PublishedFrame* obeyed, bool obeyedKnown,
-               std::span<const uint32_t> behind);
+    void step(const TickRow& row, const ObeyedSet& obeyed) override;
+    void audit(const TickRow& row, const ObeyedSet& obeyed);
     void takeShapes(const std::vector<Shape>& shapes);
     RealtimeOptions runOptions(CadenceTrace* trace);
     void spool();

@@ -96,11 +96,10 @@ public:
     WatchedSink(RunSink& sink, bool warnWhenStale)
         : ForwardingSink(sink)
         , alarm_(warnWhenStale) {}
-    void step(const TickRow& row, const PublishedFrame* obeyed, bool known,
-              std::span<const uint32_t> behind) override {
+    void step(const TickRow& row, const ObeyedSet& obeyed) override {
         alarm_.see(row.record);
         numbers_.see(row);
-        ForwardingSink::step(row, obeyed, known, behind);
+        ForwardingSink::step(row, obeyed);
     }
     uint64_t staleTicks() const { return alarm_.staleTicks(); }
 

@@ -66,18 +66,24 @@ void RecordDrain::pass(const TickRow& row) {
     while (!notes_.empty() && notes_.front().query < row.query) {
         notes_.pop_front();
     }
-    const PublishedFrame* obeyed = nullptr;
-    bool known = row.generation == 0;
-    std::span<const uint32_t> behind;
+    sink_.step(row, obeyedBy(row));
+}
+
+ObeyedSet RecordDrain::obeyedBy(const TickRow& row) const {
+    if (row.generation == 0) { // it obeyed no set
+        return {nullptr, true, {}};
+    }
     const auto found = std::find_if(kept_.begin(), kept_.end(), [&](const PublishedFrame* frame) {
         return frame->fixtures.generation == row.generation;
     });
-    if (row.generation != 0 && found != kept_.end()) {
-        obeyed = *found;
-        known = !notes_.empty() && notes_.front().query == row.query;
-        behind = known ? std::span<const uint32_t>(notes_.front().behind) : behind;
+    if (found == kept_.end()) {
+        return {};
     }
-    sink_.step(row, obeyed, known, behind);
+    ObeyedSet obeyed{*found, !notes_.empty() && notes_.front().query == row.query, {}};
+    if (obeyed.known) {
+        obeyed.behind = notes_.front().behind;
+    }
+    return obeyed;
 }
 
 } // namespace fathom

@@ -10,6 +10,13 @@
 
 namespace fathom {
 
+// What a step obeyed. Valid during the call that passes it on.
+struct ObeyedSet {
+    const PublishedFrame* frame = nullptr; // whose set it was; null = none, or it is no longer kept
+    bool known = false;                    // false: the set or the query's answer is no longer kept
+    std::span<const uint32_t> behind;      // leaves behind a surface in that answer
+};
+
 // Receives the records of a run. Called on the writer thread; may allocate, block and throw.
 class RunSink {
 public:
@@ -18,10 +25,7 @@ public:
     // repeated frame.
     virtual void frame(const PublishedFrame& frame, const Fixtures& set) = 0;
     virtual void query(const QueryNote& note) = 0;
-    // `obeyed`: the frame whose set the step obeyed; null if there was none or it is no longer kept
-    // (obeyedKnown false). `behind`: leaves behind a surface in the query answer that the step obeyed.
-    virtual void step(const TickRow& row, const PublishedFrame* obeyed, bool obeyedKnown,
-                      std::span<const uint32_t> behind) = 0;
+    virtual void step(const TickRow& row, const ObeyedSet& obeyed) = 0;
 };
 
 // A sink of a chain. Passes everything on; derived classes override what they watch.
@@ -32,10 +36,7 @@ public:
         : next_(next) {}
     void frame(const PublishedFrame& frame, const Fixtures& set) override { next_.frame(frame, set); }
     void query(const QueryNote& note) override { next_.query(note); }
-    void step(const TickRow& row, const PublishedFrame* obeyed, bool obeyedKnown,
-              std::span<const uint32_t> behind) override {
-        next_.step(row, obeyed, obeyedKnown, behind);
-    }
+    void step(const TickRow& row, const ObeyedSet& obeyed) override { next_.step(row, obeyed); }
 
 private:
     RunSink& next_;
@@ -58,6 +59,7 @@ private:
     void takeFrames();
     void takeQueries();
     void pass(const TickRow& row);
+    ObeyedSet obeyedBy(const TickRow& row) const;
     void giveBack(size_t i);
 
     static constexpr size_t kKept =

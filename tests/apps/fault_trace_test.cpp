@@ -17,7 +17,7 @@ struct Nothing final : RunSink {
     uint64_t ticks = 0;
     void frame(const PublishedFrame&, const Fixtures&) override {}
     void query(const QueryNote&) override {}
-    void step(const TickRow&, const PublishedFrame*, bool, std::span<const uint32_t>) override { ++ticks; }
+    void step(const TickRow&, const ObeyedSet&) override { ++ticks; }
 };
 
 TickRow tickAt(double t, bool finite = true) {
@@ -35,7 +35,7 @@ struct Traced {
     void ticks(double from, double to, double broken = -1.0) {
         for (auto i = static_cast<int>(std::lround(from * 1000.0)); i < std::lround(to * 1000.0); ++i) {
             const double t = 0.001 * i;
-            trace.step(tickAt(t, std::abs(t - broken) > 1e-6), nullptr, false, {});
+            trace.step(tickAt(t, std::abs(t - broken) > 1e-6), {});
         }
     }
     Nothing next;

@@ -52,7 +52,7 @@ public:
             TickRow row;
             row.record.t = frame.t + 0.006 * k;
             row.record.wrench.force = {0.1 * k, 0.0, frame.t};
-            sink_.step(row, nullptr, false, {});
+            sink_.step(row, {});
         }
     }
 
@@ -121,7 +121,7 @@ TEST_CASE(
         for (TickRow row; row.record.t < to - from; row.record.t += 0.01) {
             TickRow now = row;
             now.record.t += from;
-            sink.step(now, nullptr, false, {});
+            sink.step(now, {});
         }
     };
     LastSeconds last(nothing, size_t{1} << 30);

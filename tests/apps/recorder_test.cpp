@@ -54,7 +54,7 @@ public:
             row.record.t = frame.t + 0.001 * k;
             row.record.touchCount = 1;
             row.record.touches[0].multiplier = 1.0 / 3.0;
-            recorder_.step(row, nullptr, false, {});
+            recorder_.step(row, {});
         }
     }
 
@@ -126,7 +126,7 @@ TEST_CASE(
     session.image();
     TickRow row;
     for (row.record.t = 0.1; row.record.t < 12.0; row.record.t += 0.01) {
-        recorder.step(row, nullptr, false, {});
+        recorder.step(row, {});
     }
     CHECK(readTickLog(folder).moments.size() == 2 * 33);
     session.image();

@@ -14,7 +14,7 @@ struct CountingSink final : RunSink {
     int frames = 0, queries = 0, steps = 0;
     void frame(const PublishedFrame&, const Fixtures&) override { ++frames; }
     void query(const QueryNote&) override { ++queries; }
-    void step(const TickRow&, const PublishedFrame*, bool, std::span<const uint32_t>) override { ++steps; }
+    void step(const TickRow&, const ObeyedSet&) override { ++steps; }
 };
 
 } // namespace
@@ -29,7 +29,7 @@ TEST_CASE("The chain of sinks of a window passes on frames, queries and steps") 
     const Fixtures set{};
     first.frame(PublishedFrame(), set);
     first.query(QueryNote());
-    first.step(TickRow(), nullptr, false, {});
+    first.step(TickRow(), {});
     CHECK(end.frames == 1);
     CHECK(end.queries == 1);
     CHECK(end.steps == 1);

@@ -12,7 +12,7 @@ namespace fathom::operate {
 struct NoSink final : RunSink {
     void frame(const PublishedFrame&, const Fixtures&) override {}
     void query(const QueryNote&) override {}
-    void step(const TickRow&, const PublishedFrame*, bool, std::span<const uint32_t>) override {}
+    void step(const TickRow&, const ObeyedSet&) override {}
 };
 
 // A run with ticks made by the test.

@@ -145,11 +145,11 @@ struct AuditingSink final : RunSink {
         ++frames;
     }
     void query(const QueryNote&) override { ++queries; }
-    void step(const TickRow& row, const PublishedFrame* obeyed, bool known,
-              std::span<const uint32_t> behind) override {
-        unknown += known ? 0 : 1;
-        if (obeyed != nullptr) {
-            audit.tick(obeyed->fixtures, obeyed->grid, row.start.pose, row.record.tool, behind);
+    void step(const TickRow& row, const ObeyedSet& obeyed) override {
+        unknown += obeyed.known ? 0 : 1;
+        if (obeyed.frame != nullptr) {
+            audit.tick(obeyed.frame->fixtures, obeyed.frame->grid, row.start.pose, row.record.tool,
+                       obeyed.behind);
         }
         rows.push_back(row);
         onTurn(row);
