@@ -44,7 +44,7 @@ TEST_CASE("In free space the tool equals the hand to the last bit and there is n
     for (int i = 0; i < 200; ++i) {
         rig.hand = {{0.02 * std::sin(0.03 * i), 0.01 * std::cos(0.05 * i), 0.05},
                     rotationExp({0.0, 0.01 * i, 0.1})};
-        rig.captured = rig.time;
+        rig.scene.captureTime = rig.time;
         const auto record = rig.step();
         CHECK(record.state == StepState::Free);
         CHECK(record.tool.position == record.device.position);
@@ -202,7 +202,7 @@ TEST_CASE("A scene older than 100 ms fades the force over half a second, sets th
     auto rig = pressedRig();
     const double full = forceOf(rig.step());
     rig.sceneAges = true;
-    rig.captured = rig.time;
+    rig.scene.captureTime = rig.time;
     auto record = rig.ticks(100);
     CHECK(record.state == StepState::Contact);
     CHECK(forceOf(record) == doctest::Approx(full));
@@ -214,7 +214,7 @@ TEST_CASE("A scene older than 100 ms fades the force over half a second, sets th
     record = rig.ticks(260);
     CHECK(forceOf(record) <= 1e-12);
     CHECK(record.state == StepState::Fading);
-    rig.captured = rig.time; // the same frame again: only a new capture time
+    rig.scene.captureTime = rig.time; // the same frame again: only a new capture time
     record = rig.step();
     CHECK(record.state == StepState::Contact);
     rig.sceneAges = false;
@@ -225,14 +225,14 @@ TEST_CASE("A scene older than 100 ms fades the force over half a second, sets th
 TEST_CASE("A source that has ended does not age in lockstep, and an older active set ages by its own stamp") {
     auto rig = pressedRig();
     rig.sceneAges = true;
-    rig.captured = rig.time;
+    rig.scene.captureTime = rig.time;
     rig.ticks(31);
-    rig.sourceEnded = true;
+    rig.scene.sourceEnded = true;
     auto record = rig.ticks(3000);
     CHECK(record.state == StepState::Contact);
     CHECK(record.sceneAge == doctest::Approx(0.030));
     // The active set stays at frame 1 although frame 2 is available, captured later.
-    rig.sourceEnded = false;
+    rig.scene.sourceEnded = false;
     rig.query = false;
     Fixtures next = wallSet(2);
     next.captureTime = rig.time;

@@ -6,12 +6,16 @@
 #include "engine/contact/cull_cpu.h"
 #include "engine/cycle/haptic_cycle.h"
 #include "engine/reference/contact_oracle.h"
-#include "engine/run/active_contacts.h"
+#include "engine/run/delayed_contacts.h"
+#include "engine/run/scene_update.h"
 #include "tests/contact/clouds.h"
 
-#include <deque>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <span>
+#include <utility>
+#include <vector>
 
 namespace fathom::testing {
 
@@ -44,9 +48,9 @@ inline Scene springsAlone(Scene scene) {
 
 class HapticRig {
 public:
-    explicit HapticRig(const Scene& scene, const Pose& start, Tool made = ballTool())
+    explicit HapticRig(const Scene& wanted, const Pose& start, Tool made = ballTool())
         : tool(std::move(made))
-        , options(makeHapticOptions(springsAlone(scene), tool))
+        , options(makeHapticOptions(springsAlone(wanted), tool))
         , hand(start) {
         restart();
     }
@@ -56,38 +60,24 @@ public:
     void show(Fixtures set) {
         fixtures = std::move(set);
         grid.build(fixtures->spheres);
-        captured = time;
+        scene.show(*fixtures);
+        scene.captureTime = time;
         sceneAges = true;
     }
 
     StepRecord step() {
-        StepInput input;
-        input.time = time;
-        input.deviceThandle = hand;
-        input.buttons = buttons;
-        input.forcesOff = forcesOff;
-        input.present = present;
         if (fixtures && query) {
-            waiting.push_back(answer());
+            contacts.push(answer());
         }
-        if (waiting.size() > late) {
-            contacts.offer([this] {
-                auto due = std::move(waiting.front());
-                waiting.pop_front();
-                return due;
-            });
+        contacts.offerDue(late);
+        if (!sceneAges) {
+            scene.captureTime = time;
         }
-        if (fixtures) {
-            input.frame = fixtures->frame;
-            input.generation = fixtures->generation;
-            if (!sceneAges) {
-                captured = time;
-            }
-            input.captureTime = captured;
-        }
+        StepInput input = stepInput(scene, {hand, buttons, present}, time);
         input.guidance = guidance;
-        input.sourceEnded = sourceEnded;
+        input.forcesOff = forcesOff;
         input.measuredPeriod = measured;
+        change(input);
         const StepRecord record = contacts.step(*cycle, input);
         time += measured > 0.0 ? measured : options.period;
         return record;
@@ -115,19 +105,20 @@ public:
     CullCpu cull;
     RegionGrid grid;
     std::optional<Fixtures> fixtures;
-    ActiveContacts<std::unique_ptr<ContactSet>> contacts;
+    DelayedContacts contacts;
     uint64_t queries = 0;
-    std::vector<GuidancePose> guidance;
+    SceneUpdate scene;                  // of `fixtures`
+    std::vector<GuidancePose> guidance; // instead of that of `fixtures`
     Pose hand;
-    double time = 0.0, captured = 0.0;
+    double time = 0.0;
     double measured = 0.0; // [s] measured tick period; 0 = the nominal period, as in lockstep
     bool sceneAges = true; // false: every tick has a new capture time
     bool query = true;
-    size_t late = 0;                                 // ticks until an answer is offered
-    std::deque<std::unique_ptr<ContactSet>> waiting; // answers on their way
-    bool present = true;                             // the device renders and is heard
+    size_t late = 0;     // ticks until an answer is offered
+    bool present = true; // the device renders and is heard
     uint32_t buttons = 0;
-    bool forcesOff = false, sourceEnded = false;
+    bool forcesOff = false;
+    std::function<void(StepInput&)> change = [](StepInput&) {}; // of each input, before the step
 };
 
 inline double forceOf(const StepRecord& record) {

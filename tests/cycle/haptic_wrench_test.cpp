@@ -164,7 +164,7 @@ TEST_CASE("Late ticks do not delay fading out and do not hasten the return of a 
     CHECK(full > 5.0);
     rig.measured = 0.005;
     rig.sceneAges = true;
-    rig.captured = rig.time - 0.1;
+    rig.scene.captureTime = rig.time - 0.1;
     CHECK(forceOf(rig.ticks(51)) == doctest::Approx(full / 2.0).epsilon(0.03));
     CHECK(forceOf(rig.ticks(52)) <= 1e-12); // 0.5 s
     rig.sceneAges = false;

@@ -10,16 +10,11 @@ using namespace fathom::testing;
 namespace {
 
 StepRecord stepOf(HapticRig& rig, bool unconfirmed, bool reindex) {
-    StepInput input;
-    input.time = input.captureTime = rig.time;
-    input.deviceThandle = rig.hand;
-    input.unconfirmed = unconfirmed;
-    input.reindex = reindex;
-    input.frame = rig.fixtures->frame;
-    input.generation = rig.fixtures->generation;
-    rig.contacts.offer([&] { return rig.answer(); });
-    rig.time += rig.options.period;
-    return rig.contacts.step(*rig.cycle, input);
+    rig.change = [=](StepInput& input) {
+        input.unconfirmed = unconfirmed;
+        input.reindex = reindex;
+    };
+    return rig.step();
 }
 
 } // namespace
