@@ -2,76 +2,27 @@
 // The haptic cycle with a real arm: the pilot's tool when that arm stands still.
 #include "engine/cycle/haptic_cycle.h"
 
-#include "tests/cycle/haptic_rig.h"
-#include "tests/haptics/arm_proxy_world.h"
+#include "tests/cycle/arm_cycle_rig.h"
 
 #include <doctest/doctest.h>
+
+#include <algorithm>
 
 using namespace fathom;
 using namespace fathom::testing;
 
 namespace {
 
-// The tip of a stretched arm is at x = 1 m; a ball blocks its path along y.
-struct FollowRig {
-    explicit FollowRig(double limit = 1.2) { // [rad] of each joint
-        rig.model = makeArm(4, 8, limit);
-        rig.freeDirection = true;
-        rig.proxy.stepCap = 0.002;
-        world.fixtures.spheres.add({0.95, 0.16, 0.0}, 0.05);
-        world.grid.build(world.fixtures.spheres);
-        cycle =
-            std::make_unique<HapticCycle>(ballTool(), std::span<const Shape>{}, options, hand, &hand, &rig);
-    }
-
-    StepRecord step() {
-        placed = cycle->follow(status);
-        start = cycle->place();
-        contacts.offer([this] {
-            auto set = std::make_unique<ContactSet>();
-            world.cull.query(rig.toolAt(asked.arm), Pose{}, 0.01, world.fixtures, world.grid, *set);
-            set->frame = 0;
-            set->query = ++queries;
-            return set;
-        });
-        StepInput input;
-        input.time = input.captureTime = time;
-        input.deviceThandle = hand;
-        input.buttons = buttons;
-        input.frame = 0;
-        input.generation = contacts.offered()->generation;
-        input.sourceEnded = true;
-        const StepRecord record = contacts.step(*cycle, input);
-        asked = cycle->place(); // the answer comes one tick late
-        time += options.period;
-        return record;
-    }
-    StepRecord ticks(int count) {
-        StepRecord record;
-        for (int i = 0; i < count; ++i) {
-            record = step();
-        }
-        return record;
-    }
-    double depth() const { return world.depth(rig.model, rig.framesAt(cycle->place().arm)); }
-
-    ArmSetup rig;
-    World world;
-    HapticOptions options = makeHapticOptions(springsAlone(handScene()), ballTool());
-    Pose hand = at(0, 0, 0);
-    ArmFollow status{true, true, {}};
-    ToolPlace asked, start;
-    std::unique_ptr<HapticCycle> cycle;
-    ActiveContacts<std::unique_ptr<ContactSet>> contacts;
-    uint64_t queries = 0;
-    double time = 0.0;
-    uint32_t buttons = 0;
-    bool placed = false;
-};
+// An arm that a real one follows.
+ArmCycleRig followedArm(const StretchedArm& wanted = {}) {
+    ArmCycleRig follow(wanted);
+    follow.realArm = ArmFollow{true, true, {}};
+    return follow;
+}
 
 // Moves until the ball stops the tool and the hand is 5 mm farther.
-FollowRig pressed() {
-    FollowRig follow;
+ArmCycleRig pressed() {
+    ArmCycleRig follow = followedArm();
     follow.ticks(5);
     for (int i = 0; i < 400; ++i) {
         follow.hand.position.y += 0.0002;
@@ -83,17 +34,17 @@ FollowRig pressed() {
 } // namespace
 
 TEST_CASE("An arm that follows moves like the tool, and the pilot feels obstacles") {
-    FollowRig follow = pressed();
+    ArmCycleRig follow = pressed();
     const StepRecord record = follow.ticks(50);
     CHECK(record.state == StepState::Contact);
     CHECK(forceOf(record) > 2.0);
     CHECK_FALSE(record.armHold);
     CHECK_FALSE(follow.placed);
-    CHECK(follow.depth() <= 1e-9);
+    CHECK(follow.gap() >= -1e-9);
 }
 
 TEST_CASE("Without contact an arm at the limits of its joints is free, and one that is too slow waits") {
-    FollowRig follow(0.1); // the tip reaches 0.15 m to the side
+    ArmCycleRig follow = followedArm({.limit = 0.1}); // the tip reaches 0.15 m to the side
     follow.ticks(5);
     uint32_t pushed = 0, waits = 0;
     for (int i = 0; i < 1500; ++i) {
@@ -113,11 +64,11 @@ TEST_CASE("Without contact an arm at the limits of its joints is free, and one t
 
 TEST_CASE("An arm that stands still holds the tool at once, and the force is gone after 0.2 s") {
     for (const int why : {0, 1}) {
-        FollowRig follow = pressed();
+        ArmCycleRig follow = pressed();
         const double full = forceOf(follow.ticks(50));
         const ArmPosture before = follow.cycle->place().arm;
-        (why == 0 ? follow.status.follows = false : (follow.buttons = kDeadManOpen) != 0);
-        follow.status.known = false; // also without feedback
+        (why == 0 ? follow.realArm->follows = false : (follow.buttons = kDeadManOpen) != 0);
+        follow.realArm->known = false; // also without feedback
         double last = full;
         for (int i = 0; i < 400; ++i) {
             follow.hand.position += dvec3(0.0005, 0.0005, 0.0);
@@ -135,9 +86,9 @@ TEST_CASE("An arm that stands still holds the tool at once, and the force is gon
 }
 
 TEST_CASE("Forces off hold an arm that follows, and it does not jump to a hand that moved elsewhere") {
-    FollowRig follow = pressed();
+    ArmCycleRig follow = pressed();
     follow.ticks(50);
-    follow.status.posture = follow.cycle->place().arm;
+    follow.realArm->posture = follow.cycle->place().arm;
     follow.buttons = kDeadManOpen;
     follow.ticks(300);
     follow.hand.position += dvec3(-0.2, -0.3, 0.1);
@@ -155,46 +106,46 @@ TEST_CASE("Forces off hold an arm that follows, and it does not jump to a hand t
 
 TEST_CASE(
     "The tool resumes from the arm's measured posture, also inside a region, and only moves out of it") {
-    FollowRig follow = pressed();
-    follow.status.posture = follow.cycle->place().arm;
-    follow.status.posture.q[0] += 0.01; // the arm's own lag carried its links 5 to 10 mm into the ball
-    follow.status.follows = false;
+    ArmCycleRig follow = pressed();
+    follow.realArm->posture = follow.cycle->place().arm;
+    follow.realArm->posture.q[0] += 0.01; // the arm's own lag carried its links 5 to 10 mm into the ball
+    follow.realArm->follows = false;
     follow.ticks(300);
     CHECK(follow.placed);
-    CHECK(follow.cycle->place().arm.q == follow.status.posture.q);
-    double deepest = follow.depth();
+    CHECK(follow.cycle->place().arm.q == follow.realArm->posture.q);
+    double deepest = -follow.gap();
     CHECK(deepest > 0.004);
-    follow.status.follows = true;
+    follow.realArm->follows = true;
     for (int i = 0; i < 500; ++i) {
         const StepRecord record = follow.step();
-        CHECK(follow.depth() <= deepest + 1e-9);
+        CHECK(-follow.gap() <= deepest + 1e-9);
         CHECK(forceOf(record) < 20.0);
-        deepest = std::max(0.0, follow.depth());
+        deepest = std::max(0.0, -follow.gap());
     }
     CHECK(deepest < 1e-6);
 }
 
 TEST_CASE("A tool placed far from known contacts waits until contacts are known there") {
-    FollowRig follow = pressed();
-    follow.status = {false, true, follow.cycle->place().arm};
+    ArmCycleRig follow = pressed();
+    follow.realArm = ArmFollow{false, true, follow.cycle->place().arm};
     follow.ticks(300);
     CHECK(follow.placed);
-    follow.status.posture.q = {-0.6, 0.3, 0.2, -0.1}; // contacts are known only near the old place
-    follow.status.follows = true;
+    follow.realArm->posture.q = {-0.6, 0.3, 0.2, -0.1}; // contacts are known only near the old place
+    follow.realArm->follows = true;
     const StepRecord first = follow.step();
     CHECK_FALSE(first.adopted);
     CHECK(first.armHold);
-    CHECK(first.arm.posture.q == follow.status.posture.q);
+    CHECK(first.arm.posture.q == follow.realArm->posture.q);
     const StepRecord then = follow.ticks(3);
     CHECK(follow.contacts.active() != nullptr);
     CHECK_FALSE(then.armHold);
 }
 
 TEST_CASE("A measured posture that is not finite or beyond the limits leaves the tool inside them") {
-    FollowRig follow = pressed();
+    ArmCycleRig follow = pressed();
     const ArmPosture before = follow.cycle->place().arm;
-    follow.status = {false, true, {}};
-    follow.status.posture.q = {kNotKnown, 9.0, -9.0, 0.1};
+    follow.realArm = ArmFollow{false, true, {}};
+    follow.realArm->posture.q = {kNotKnown, 9.0, -9.0, 0.1};
     follow.ticks(300);
     const ArmPosture now = follow.cycle->place().arm;
     CHECK(now.q == JointVector{before.q[0], 1.2, -1.2, 0.1});

@@ -48,14 +48,20 @@ inline Scene springsAlone(Scene scene) {
 
 class HapticRig {
 public:
-    explicit HapticRig(const Scene& wanted, const Pose& start, Tool made = ballTool())
+    // setup: null = the tool moves freely; else it is the tip of this arm.
+    explicit HapticRig(const Scene& wanted, const Pose& start, Tool made = ballTool(),
+                       std::unique_ptr<ArmSetup> setup = nullptr)
         : tool(std::move(made))
+        , arm(std::move(setup))
         , options(makeHapticOptions(springsAlone(wanted), tool))
         , hand(start) {
         restart();
     }
 
-    void restart() { cycle = std::make_unique<HapticCycle>(tool, std::span<const Shape>{}, options, hand); }
+    void restart() {
+        cycle = std::make_unique<HapticCycle>(tool, std::span<const Shape>{}, options, hand,
+                                              arm ? &hand : nullptr, arm.get());
+    }
 
     void show(Fixtures set) {
         fixtures = std::move(set);
@@ -70,6 +76,7 @@ public:
             contacts.push(answer());
         }
         contacts.offerDue(late);
+        placed = realArm && cycle->follow(*realArm);
         if (!sceneAges) {
             scene.captureTime = time;
         }
@@ -92,14 +99,23 @@ public:
     std::unique_ptr<ContactSet> answer() {
         auto set = std::make_unique<ContactSet>();
         const QueryPlace at = cycle->queryPlace();
-        cull.query(tool, at.place.pose, 0.01 + at.extraReach, *fixtures, grid, *set);
+        const double reach = 0.01 + at.extraReach;
+        if (arm) { // its leaves are already in the base frame
+            cull.query(arm->toolAt(at.place.arm), Pose{}, reach, *fixtures, grid, *set);
+        } else {
+            cull.query(tool, at.place.pose, reach, *fixtures, grid, *set);
+        }
         set->askedAt = at.askedAt;
         set->query = ++queries;
         return set;
     }
-    double gap() const { return oracleSmallestGap(tool, cycle->pose(), *fixtures); }
+    double gap() const { // [m] smallest, by brute force
+        return arm ? oracleSmallestGap(arm->toolAt(cycle->place().arm), Pose{}, *fixtures)
+                   : oracleSmallestGap(tool, cycle->pose(), *fixtures);
+    }
 
     Tool tool;
+    std::unique_ptr<ArmSetup> arm;
     HapticOptions options;
     std::unique_ptr<HapticCycle> cycle;
     CullCpu cull;
@@ -118,6 +134,8 @@ public:
     bool present = true; // the device renders and is heard
     uint32_t buttons = 0;
     bool forcesOff = false;
+    std::optional<ArmFollow> realArm; // status of a real arm that follows; none: there is none
+    bool placed = false;              // the last step started from where that arm was measured
     std::function<void(StepInput&)> change = [](StepInput&) {}; // of each input, before the step
 };
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pressed regions that vanish: tool and hand stay, and the force fades out, whatever else is there.
-#include "tests/cycle/haptic_rig.h"
-#include "tests/haptics/arm_proxy_world.h"
+#include "tests/cycle/arm_cycle_rig.h"
 
 #include <doctest/doctest.h>
 
@@ -54,54 +53,6 @@ double travelOf(HapticRig& rig, int count, double force) {
     }
     return most;
 }
-
-// A tip of 1.2 m and a ball next to it, which the arm's last leaf touches.
-struct ArmAtBall {
-    explicit ArmAtBall(double speed) {
-        rig.model = makeArm(4, 8, 1.2);
-        for (auto& joint : rig.model.joints) {
-            joint.speed = speed;
-        }
-        rig.freeDirection = true;
-        rig.proxy.stepCap = 0.002;
-        show(0.16);
-        cycle =
-            std::make_unique<HapticCycle>(ballTool(), std::span<const Shape>{}, options, hand, &hand, &rig);
-    }
-    void show(double y) {
-        world.fixtures.spheres = RegionSpheres{};
-        world.fixtures.spheres.add({0.95, y, 0.0}, 0.05);
-        world.grid.build(world.fixtures.spheres);
-        ++generation;
-    }
-    StepRecord step() {
-        contacts.offer([this] {
-            auto set = std::make_unique<ContactSet>();
-            world.cull.query(rig.toolAt(cycle->place().arm), Pose{}, 0.03, world.fixtures, world.grid, *set);
-            set->frame = 0;
-            set->generation = generation;
-            set->query = ++queries;
-            return set;
-        });
-        StepInput input;
-        input.time = input.captureTime = time;
-        input.deviceThandle = hand;
-        input.frame = 0;
-        input.generation = generation;
-        input.sourceEnded = true;
-        time += options.period;
-        return contacts.step(*cycle, input);
-    }
-
-    ArmSetup rig;
-    World world;
-    HapticOptions options = makeHapticOptions(springsAlone(handScene()), ballTool());
-    Pose hand = at(0, 0, 0);
-    std::unique_ptr<HapticCycle> cycle;
-    ActiveContacts<std::unique_ptr<ContactSet>> contacts;
-    uint64_t queries = 0, generation = 1;
-    double time = 0.0;
-};
 
 // A rod with a ball at either end. One ball is above a region, the other one below another region: together
 // they hold the rod against a turn about y, by torque alone.
@@ -274,7 +225,7 @@ TEST_CASE("A slow arm keeps its force while it follows a surface that goes back 
         for (const double back : {0.1, 0.3}) {
             CAPTURE(speed);
             CAPTURE(back);
-            ArmAtBall arm(speed);
+            ArmCycleRig arm({.speed = speed});
             for (int i = 0; i < 4000; ++i) {
                 arm.hand = at(0.0, 0.12 * std::min(1.0, i / 2000.0), 0.0);
                 arm.step();
@@ -285,7 +236,7 @@ TEST_CASE("A slow arm keeps its force while it follows a surface that goes back 
             REQUIRE(force > 15.0);
             for (int i = 0; i < 198; ++i) {
                 if (i % 33 == 0) {
-                    arm.show(0.16 + back * (0.033 + 0.001 * i));
+                    arm.showBall(0.16 + back * (0.033 + 0.001 * i));
                 }
                 arm.hand.position.y += back * 0.001;
                 record = arm.step();
