@@ -49,14 +49,14 @@ OperatorRun::OperatorRun(const OperateOptions& options, const GlobalOptions& glo
     , editor_(session_.scene,
               [this](const Scene& scene, const std::vector<Shape>& shapes) { changeScene(scene, shapes); })
     , recording_(options.shots, sinks_.recorder, sinks_.last, session_)
-    , speaker_(window_.offscreen() ? nullptr : std::make_unique<Speaker>())
+    , tones_(window_.offscreen())
     , live_(options_, session_, signals_, placement_, sinks_.snapshots, sinks_.observers) {
     keepScene(0);
     live_.start(editor_.shapes());
-    display_.console.forces = armed_ = options_.armed;
+    display_.console.forces = forces_.wereOn = options_.armed;
     window_.onForcesOff = [this] {
         live_.forcesOff(); // at once, before the rest of this frame
-        forcesOff_ = true;
+        forces_.offRequested = true;
     };
 }
 
@@ -124,7 +124,7 @@ void OperatorRun::frame() {
     listen();
     display_.alarms.step(display_.console, display_.view, live_.haptics(), editor_.scene(),
                          {session_.handover->gone(), !live_.handThere(), sinks_.recorder.failure()});
-    sound();
+    tones_.step(display_.console, display_.view, display_.alarms);
     show();
     writeState(false);
 }
@@ -136,7 +136,7 @@ void OperatorRun::listen() {
     if (const auto at = live_.steer(console, large, depth)) {
         clickInView(console, editor_, display_.screen, display_.view.scene(), *at);
     }
-    if (std::exchange(forcesOff_, false)) { // overrides all other keys of this frame
+    if (std::exchange(forces_.offRequested, false)) { // overrides all other keys of this frame
         console.forces = console.guidance = false;
     }
     display_.followClosing(editor_, forcesGone());
@@ -149,7 +149,7 @@ void OperatorRun::listen() {
     recording_.follow(console, editor_);
     followPilot();
     display_.exportTraces();
-    armed_ = console.forces; // after everything that may switch them off
+    forces_.wereOn = console.forces; // after everything that may switch them off
 }
 
 void OperatorRun::mark() {
@@ -163,19 +163,6 @@ void OperatorRun::mark() {
         console.notify(
             "mark " + std::to_string(++console.marks) +
             (console.recording ? " is in the recording" : " is kept with the last seconds: L stores them"));
-    }
-}
-
-void OperatorRun::sound() {
-    Console& console = display_.console;
-    const std::optional<Tone> tone = toneRules_.step(console, display_.view, display_.alarms);
-    if (!tone) {
-        return;
-    }
-    console.lastTone = toneName(*tone);
-    ++console.toneCount;
-    if (console.tones && speaker_) {
-        speaker_->play(*tone);
     }
 }
 
@@ -211,7 +198,7 @@ void OperatorRun::obeyRequests() {
 // Forces come on only if nothing speaks against them.
 void OperatorRun::arm() {
     Console& console = display_.console;
-    if (console.forces && !armed_) {
+    if (console.forces && !forces_.wereOn) {
         console.refusal = whyNotArmed(
             {display_.view, editor_.scene(), live_.haptics(), session_.handover->gone(), !live_.handThere()});
         console.forces = console.refusal.empty();

@@ -6,10 +6,12 @@
 #include "apps/operate/live_run.h"
 #include "apps/operate/recorder_control.h"
 #include "apps/operate/run_display.h"
-#include "apps/operate/speaker.h"
+#include "apps/operate/tone_player.h"
 #include "apps/output/fault_trace.h"
 
-#include <memory>
+#include <cstdint>
+#include <string>
+#include <vector>
 
 namespace fathom::operate {
 
@@ -51,7 +53,6 @@ private:
     bool forcesGone() const;
     void offWhenMinimised();
     void followPilot();
-    void sound();
     void mark(); // this moment, if the pilot asks for it
     void frame();
     void show();   // shows the drawn frame if there is a device
@@ -72,12 +73,13 @@ private:
     FixtureEditor editor_;
     RecorderControl recording_;
     MeasuredArm measured_;
-    ToneRules toneRules_;
-    std::unique_ptr<Speaker> speaker_; // null: offscreen
-    bool showsGone_ = false;           // the window's title says that the GPU is gone
-    bool armed_ = false;               // forces were on after the last listen()
-    bool forcesOff_ = false;           // requested since the last listen()
-    LiveRun live_;                     // last, so that its threads end before what they use
+    TonePlayer tones_;
+    bool showsGone_ = false; // the window's title says that the GPU is gone
+    struct {
+        bool wereOn = false;       // after the last listen()
+        bool offRequested = false; // since the last listen()
+    } forces_;
+    LiveRun live_; // last, so that its threads end before what they use
 };
 
 } // namespace fathom::operate
