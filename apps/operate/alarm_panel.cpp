@@ -75,7 +75,7 @@ void drawAlarmLines(Console& console, const Alarms& alarms, ImVec2 at, ImVec2 ro
 
 void drawAlarms(Console& console, const Alarms& alarms) {
     if (ImGui::Button("Acknowledge all  (Q)")) {
-        console.acknowledge = true;
+        console.requests.acknowledge = true;
     }
     markPlace(console, "acknowledge");
     explain(console, "Q: dim the alarms that you have seen. Ended ones go to the history");

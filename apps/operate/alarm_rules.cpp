@@ -124,22 +124,22 @@ void Alarms::step(Console& console, const RunView& run, const HapticOptions& hap
         const StepRecord& r = run.step().record;
         set(!r.finite, Level::Warning, "finite",
             {"A force was not a number and was left out", "Space, then restart"}, r.t);
-        stepScene(r, health.gpuGone, console.forces);
-        stepProtection(run, scene, r, console.forces);
-        stepForces(run, haptics, console.forces);
+        stepScene(r, health.gpuGone, console.switches.forces);
+        stepProtection(run, scene, r, console.switches.forces);
+        stepForces(run, haptics, console.switches.forces);
         const ArmState arm = run.step().driven ? run.step().armStatus.state : ArmState::Follows;
         set(isFault(arm), Level::Warning, "arm",
             {printed("Arm %s, arm and tool stand still", armStateName(arm)), "check the arm, then press A"},
             r.t);
-        set(console.frozen, Level::Advisory, "frozen",
+        set(console.switches.frozen, Level::Advisory, "frozen",
             {"Fixtures frozen, new images do not change them", "F to release"}, r.t);
         stepTargets(run, scene, r.t);
     }
-    if (console.acknowledge) {
+    if (console.requests.acknowledge) {
         for (Alarm& alarm : alarms_) {
             alarm.acknowledged = true;
         }
-        console.acknowledge = false;
+        console.requests.acknowledge = false;
     }
     std::erase_if(alarms_, [](const Alarm& a) { return !a.active && a.acknowledged; });
 }

@@ -40,6 +40,7 @@ void delayRow(Console& console, const CameraFacts& camera, const RunView& run, c
 
 // The control as it is drawn; the value that the pilot has chosen, if any.
 bool controlWidget(Console& console, const CameraControl& control, int64_t& value) {
+    Console::Editing& editing = console.editing;
     if (control.isSwitch) {
         bool on = value != 0;
         const bool changed = ImGui::Checkbox(control.name.c_str(), &on);
@@ -47,13 +48,13 @@ bool controlWidget(Console& console, const CameraControl& control, int64_t& valu
         return changed;
     }
     const std::string key = control.stream + " " + control.name;
-    const bool dragged = console.editedControl == key;
-    int shown = static_cast<int>(dragged ? console.editedValue : value);
+    const bool dragged = editing.control == key;
+    int shown = static_cast<int>(dragged ? editing.controlValue : value);
     ImGui::SetNextItemWidth(-1.0f);
     if (ImGui::SliderInt("##value", &shown, static_cast<int>(control.least), static_cast<int>(control.most),
                          (control.name + " %d " + control.unit).c_str())) {
-        console.editedControl = key;
-        console.editedValue = shown;
+        editing.control = key;
+        editing.controlValue = shown;
     }
     const bool done = ImGui::IsItemDeactivatedAfterEdit();
     if (done) {
@@ -62,7 +63,7 @@ bool controlWidget(Console& console, const CameraControl& control, int64_t& valu
         value = std::clamp(control.least + steps * control.step, control.least, control.most);
     }
     if (dragged && !ImGui::IsItemActive()) {
-        console.editedControl.clear();
+        editing.control.clear();
     }
     return done;
 }

@@ -85,7 +85,7 @@ Canvas::Counts Canvas::counts() const {
 
 void Canvas::finishFrame(Console& console, std::span<const Layer> layers, const std::function<bool()>& busy) {
     ImGui::Render();
-    if (std::exchange(console.remake, false) && onDevice_ && onDevice_->swapchain) {
+    if (std::exchange(console.requests.newSwapchain, false) && onDevice_ && onDevice_->swapchain) {
         onDevice_->swapchain->lose();
     }
     if (onDevice_ && onDevice_->swapchain && onDevice_->swapchain->surfaceLost()) {
@@ -99,13 +99,13 @@ void Canvas::finishFrame(Console& console, std::span<const Layer> layers, const 
             return false;
         }; // a screenshot shows this frame, whatever else the device has to do
         onDevice_->painter->draw(window_.size(), layers, ImGui::GetDrawData(),
-                                 console.screenshot ? never : busy);
+                                 console.requests.screenshot ? never : busy);
     }
-    if (std::exchange(console.screenshot, false)) {
+    if (std::exchange(console.requests.screenshot, false)) {
         shoot(console);
     }
-    if (scale_ != console.drawnScale) {
-        scale_ = console.drawnScale;
+    if (scale_ != console.status.drawnScale) {
+        scale_ = console.status.drawnScale;
         letters_ = loadLetters(scale_);
         applyTheme(scale_);
         if (onDevice_) {
@@ -117,10 +117,10 @@ void Canvas::finishFrame(Console& console, std::span<const Layer> layers, const 
 }
 
 std::unique_ptr<Image> Canvas::picture(const Console& console) {
-    const int below = captionHeight(static_cast<int>(window_.size().width), console.caption.size());
+    const int below = captionHeight(static_cast<int>(window_.size().width), console.status.caption.size());
     std::unique_ptr<Image> image = onDevice_ ? onDevice_->painter->picture(below) : nullptr;
     if (image) {
-        drawCaption(*image, image->height() - below, console.caption);
+        drawCaption(*image, image->height() - below, console.status.caption);
     }
     return image;
 }
@@ -143,7 +143,7 @@ void Canvas::shoot(Console& console) {
             return;
         }
         image->writePng(file);
-        ++console.shots;
+        ++console.status.shots;
         console.notify("screenshot " + file.string());
     } catch (const DeviceFailed&) {
         throw;

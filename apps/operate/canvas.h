@@ -29,8 +29,8 @@ public:
     // Without a device the frame is discarded. Throws DeviceFailed: call drop().
     void finishFrame(Console& console, std::span<const Layer> layers, const std::function<bool()>& busy);
 
-    // The last drawn frame with the lines of console.caption under it. Null: nothing was drawn, or there is
-    // no device. Throws DeviceFailed: call drop().
+    // The last drawn frame, with the lines of console.status.caption under it. Null: nothing was drawn, or
+    // there is no device. Throws DeviceFailed: call drop().
     std::unique_ptr<Image> picture(const Console& console);
 
     const Letters& letters() const { return letters_; }

@@ -13,7 +13,7 @@ namespace fathom::operate {
 namespace {
 
 CloseAnswer answerOf(Console& console) {
-    const CloseAnswer clicked = std::exchange(console.closeAnswer, CloseAnswer::None);
+    const CloseAnswer clicked = std::exchange(console.closing.answer, CloseAnswer::None);
     return clicked != CloseAnswer::None        ? clicked
            : keyPressed(GLFW_KEY_ENTER, false) ? CloseAnswer::Save
            : keyPressed(GLFW_KEY_D, false)     ? CloseAnswer::Discard
@@ -22,44 +22,45 @@ CloseAnswer answerOf(Console& console) {
 }
 
 void answer(Console& console, FixtureEditor& editor, CloseAnswer given) {
+    Closing& closing = console.closing;
     if (given == CloseAnswer::Save) {
-        editor.keep(console.settings(), editor.scene().pilot);
+        editor.keep(console.settings.saved(), editor.scene().pilot);
         console.notify(editor.save());
     }
-    console.quit = given == CloseAnswer::Discard || (given == CloseAnswer::Save && !editor.unsaved());
-    console.openCard.next = console.quit ? console.openCard.next : "";
-    console.closing = Closing::No; // a file that cannot be written keeps the window open, with a notice
+    closing.quit = given == CloseAnswer::Discard || (given == CloseAnswer::Save && !editor.unsaved());
+    console.openCard.next = closing.quit ? console.openCard.next : "";
+    closing.stage = ClosingStage::No; // a file that cannot be written keeps the window open, with a notice
 }
 
 } // namespace
 
 void stepClosing(Console& console, FixtureEditor& editor, const CloseInput& input) {
-    if (console.closing == Closing::Asks) {
-        console.forcesLast = console.forcesLast && !input.forcesGone;
+    Closing& closing = console.closing;
+    if (closing.stage == ClosingStage::Asks) {
+        closing.forcesRemain = closing.forcesRemain && !input.forcesGone;
         const CloseAnswer given = input.requested ? CloseAnswer::None : answerOf(console);
         if (given != CloseAnswer::None) {
             answer(console, editor, given);
         }
-    } else if (input.requested && console.closing == Closing::No) {
-        console.closing = Closing::Fades;
-        console.closeBy = input.now + kLongestFade;
-        console.closeAnswer = CloseAnswer::None;
+    } else if (input.requested && closing.stage == ClosingStage::No) {
+        closing.stage = ClosingStage::Fades;
+        closing.deadline = input.now + kLongestFade;
+        closing.answer = CloseAnswer::None;
     }
-    if (console.closing == Closing::No) {
+    if (closing.stage == ClosingStage::No) {
         return;
     }
-    console.forces = console.guidance = false;
-    const bool late = !input.forcesGone && input.now > console.closeBy;
-    if (console.closing == Closing::Fades && (input.forcesGone || late)) {
+    console.switches.forcesOff();
+    const bool late = !input.forcesGone && input.now > closing.deadline;
+    if (closing.stage == ClosingStage::Fades && (input.forcesGone || late)) {
         if (late) {
             log::warn("closing: no tick without force in {} s; the end of the run switches forces off",
                       kLongestFade);
         }
-        console.forcesLast = late;
-        console.quit = !editor.unsaved();
-        console.closing = Closing::Asks;
-        console.pick = Pick{}; // Enter answers the question
-        console.placing = ShapeKind::None;
+        closing.forcesRemain = late;
+        closing.quit = !editor.unsaved();
+        closing.stage = ClosingStage::Asks;
+        console.stopAiming(); // Enter answers the question
     }
 }
 
@@ -67,7 +68,7 @@ void drawClosing(Console& console, ImVec2 corner, ImVec2 size) {
     for (const char* place : {"closing", "close save", "close discard", "close stay"}) {
         console.places.erase(place);
     }
-    if (console.closing != Closing::Asks || console.quit) {
+    if (console.closing.stage != ClosingStage::Asks || console.closing.quit) {
         return;
     }
     ImGui::SetNextWindowPos({corner.x + 0.5f * size.x, corner.y + 0.5f * size.y}, ImGuiCond_Always,
@@ -78,14 +79,14 @@ void drawClosing(Console& console, ImVec2 corner, ImVec2 size) {
                      ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                          ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize)) {
         ImGui::PushTextWrapPos(0.9f * size.x);
-        ImGui::TextUnformatted(console.forcesLast ? "Forces are not off yet: closing ends them."
-                                                  : "Forces are off.");
+        ImGui::TextUnformatted(console.closing.forcesRemain ? "Forces are not off yet: closing ends them."
+                                                            : "Forces are off.");
         ImGui::TextUnformatted("The fixtures have changes that are not saved.");
         ImGui::PopTextWrapPos();
         ImGui::Dummy({0.0f, 0.3f * ImGui::GetTextLineHeight()});
         const bool narrow = size.x < 36.0f * ImGui::GetTextLineHeight(); // one below the other
         const auto button = [&](const char* label, const char* place, CloseAnswer meaning) {
-            console.closeAnswer = ImGui::Button(label) ? meaning : console.closeAnswer;
+            console.closing.answer = ImGui::Button(label) ? meaning : console.closing.answer;
             if (!ImGui::IsWindowAppearing()) { // its size is not known in its first frame
                 markPlace(console, place);
             }

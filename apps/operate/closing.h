@@ -16,7 +16,7 @@ struct CloseInput {
 // The longest time that closing waits for the forces to go [s].
 constexpr double kLongestFade = 5.0;
 
-// Once per window frame. Sets Console::quit when the window may end. Forces that are still there after
+// Once per window frame. Sets Closing::quit when the window may end. Forces that are still there after
 // kLongestFade, for example because no tick comes any more, are named in a line; the end of the run switches
 // them off.
 void stepClosing(Console& console, FixtureEditor& editor, const CloseInput& input);

@@ -16,13 +16,18 @@ std::string Recorded::text() const {
     return clockText(seconds) + ", " + byteText(bytes) + (left ? ", " + byteText(*left) + " left" : "");
 }
 
-void Console::notify(std::string text) {
-    constexpr double kShown = 5.0; // [s]
-    notice = std::move(text);
-    noticeUntil = ImGui::GetTime() + kShown;
+void Console::stopAiming() {
+    pick = Pick{};
+    placing = {};
 }
 
-void Console::takeSettings(const Scene& scene, double chosenTextScale) {
+void Console::notify(std::string text) {
+    constexpr double kShown = 5.0; // [s]
+    messages.notice = std::move(text);
+    messages.noticeUntil = ImGui::GetTime() + kShown;
+}
+
+void Console::Settings::take(const Scene& scene, double chosenTextScale) {
     const Scene::Window kept = scene.window.value_or(Scene::Window{});
     textScale = chosenTextScale > 0.0 ? chosenTextScale : kept.textScale;
     spaceIsLarge = kept.spaceIsLarge;
@@ -33,7 +38,7 @@ void Console::takeSettings(const Scene& scene, double chosenTextScale) {
     orbit.distance = kept.distance;
 }
 
-Scene::Window Console::settings() const {
+Scene::Window Console::Settings::saved() const {
     return {textScale, spaceIsLarge, orbit.yaw, orbit.pitch, orbit.distance, pilotLayout, tones};
 }
 
@@ -56,7 +61,7 @@ namespace {
 
 void showTip(Console& console, const char* tip) {
     constexpr double kAfter = 0.4; // [s]
-    auto& pointed = console.pointed;
+    auto& pointed = console.messages.pointed;
     if (pointed.tip != tip || ImGui::GetFrameCount() > pointed.frame + 1) {
         pointed.tip = tip;
         pointed.since = ImGui::GetTime();
@@ -65,7 +70,7 @@ void showTip(Console& console, const char* tip) {
     if (ImGui::GetTime() - pointed.since < kAfter) {
         return;
     }
-    console.tooltip = tip;
+    console.messages.tooltip = tip;
     const float pad = 8.0f * console.scale();
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {pad, pad}); // the stop plate has none
     ImGui::BeginTooltip();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The state of the window: settings and requests of the pilot. Window thread only.
+// The state that keys, panels and the run share. Window thread only.
 #pragma once
 
 #include "apps/operate/button_map.h"
@@ -52,20 +52,29 @@ struct TimeLine {
     bool wholeMemory = true;      // points held from earlier frames are included
 };
 
-// The way to the end: the forces fade, then a question is shown when fixtures are not saved.
-enum class Closing { No, Fades, Asks };
+enum class ClosingStage { No, Fades, Asks };
 enum class CloseAnswer { None, Save, Discard, Stay };
+
+// The way to the end: the forces fade, then a question is shown when fixtures are not saved. Only
+// stepClosing() writes it, except `answer`, and `quit` of a playback without a device.
+struct Closing {
+    ClosingStage stage = ClosingStage::No;
+    double deadline = 0.0;                  // [s] of the session: then it waits no longer for forces to go
+    bool forcesRemain = false;              // they had not gone by then
+    CloseAnswer answer = CloseAnswer::None; // the button pressed in the question; stepClosing() clears it
+    bool quit = false;                      // the window may end
+};
 
 inline constexpr const char* kLiveRun = "back to the live run"; // one of OpenCard::choices
 
 // What to show next in place of this run (open_card.h).
 struct OpenCard {
-    bool asked = false; // the key O, in this frame
-    bool on = false, clicked = false;
+    bool on = false;
     std::vector<std::string> choices; // folders of recordings, or kLiveRun
     size_t chosen = 0;
-    std::string next;    // choice that opens when this window has ended; empty = none
-    bool leaves = false; // requests that end, like the window's close button
+    bool clicked = false; // on a choice; stepOpenCard() clears it
+    std::string next;     // choice that opens when this window has ended; empty = none
+    bool leaves = false;  // requests that end, like the window's close button; RunDisplay clears it
 };
 
 // The running recording.
@@ -76,80 +85,114 @@ struct Recorded {
     std::string text() const;     // "0:12, 34 MB, 2.1 GB left"
 };
 
+// What the next click on the cloud places.
+struct Placing {
+    ShapeKind shape = ShapeKind::None;
+    std::optional<dvec3> from; // start of a line or an axis [m, base]; the next click is its end
+};
+
+// In groups by who writes and who clears.
 struct Console {
-    bool forces = false, guidance = false, clutch = false, frozen = false;
-    bool grasp = false;        // the jaws of an arm close
-    bool spaceIsLarge = false; // the 3D view is the large one
-    bool paused = false;       // the traces
-    bool recording = false;
-    Recorded recorded;
-    bool addMark = false;     // at this moment
-    uint32_t marks = 0;       // so far in this run
-    bool storeLast = false;   // the last seconds (last_seconds.h)
-    double keptSeconds = 0.0; // as many could be stored now
-    bool tones = true;        // contact, limit, stale and lost are heard
-    std::string lastTone;     // tones.h: name of the last one
-    uint32_t toneCount = 0;   // tones so far, heard or not
-    bool quit = false, screenshot = false, exportCsv = false, acknowledge = false;
-    OpenCard openCard;
-    Closing closing = Closing::No;
-    double closeBy = 0.0;                        // [s] of the session: it waits no longer for forces to go
-    bool forcesLast = false;                     // they had not gone by then
-    CloseAnswer closeAnswer = CloseAnswer::None; // button pressed in the question
-    bool remake = false;                         // recreate the swapchain
-    bool undo = false, redo = false, save = false, addPicked = false;
-    bool exportImages = false, stopExport = false; // of a recording (image_export.h)
-    std::vector<std::string> caption;              // lines under exported images (caption.h)
-    uint32_t shots = 0;                            // screenshots written
-    int treeLevel = -1;                            // tree level shown in the 3D view; -1 = none
-    double textScale = 1.0;                        // as the pilot wants it
-    double monitorScale = 1.0;                     // of the monitor (monitor_scale.h)
-    double drawnScale = 1.0; // the product, or less where the window has no room (layout.h)
-    float scale() const { return static_cast<float>(drawnScale); }
-    bool fullScreen = false;  // F11
-    bool pilotLayout = false; // the pilot's layout (F2), otherwise the engineer's
-    bool panelOpen = false;   // in the pilot's layout: the tabs are over the right column
-    Tab tab = Tab::Fixtures, shownTab = Tab::Help;
-    Orbit orbit;
-    TimeLine timeLine;
+    // Keys and panels change them, the run obeys in every frame. The run switches them off when it must, and
+    // observers may request changes.
+    struct Switches {
+        bool forces = false, guidance = false, clutch = false, frozen = false;
+        bool grasp = false; // the jaws of an arm close
+        bool recording = false;
+        void forcesOff() { forces = guidance = false; }
+    };
+    // Keys and panels set them; whoever obeys clears them, so that each acts once.
+    struct Requests {
+        bool screenshot = false, newSwapchain = false;                            // Canvas
+        bool exportTraces = false;                                                // RunDisplay
+        bool acknowledge = false;                                                 // Alarms
+        bool openCard = false;                                                    // stepOpenCard()
+        bool undo = false, redo = false, saveFixtures = false, addPicked = false; // handleFixtureKeys()
+        bool exportImages = false, stopExport = false; // ImageExport; OperatorRun, which refuses
+        bool mark = false;                             // this moment: OperatorRun, PlaybackRun
+        bool storeLast = false;                        // the last seconds (last_seconds.h): RecorderControl
+        std::string pilot; // name of a pilot to switch to; empty = no request: OperatorRun
+    };
+    // Keys change them; nothing resets them.
+    struct Settings {
+        // Saved in the scene file:
+        double textScale = 1.0;    // as the pilot wants it
+        bool spaceIsLarge = false; // the 3D view is the large one
+        bool pilotLayout = false;  // the pilot's layout (F2), otherwise the engineer's
+        bool tones = true;         // contact, limit, stale and lost are heard
+        Orbit orbit;
+        // Until the window ends:
+        bool fullScreen = false; // F11
+        int treeLevel = -1;      // level of the region tree shown in the 3D view; -1 = none
+
+        // Takes over what a scene file stores. chosenTextScale: 0 = as in the file.
+        void take(const Scene& scene, double chosenTextScale);
+        Scene::Window saved() const;
+    };
+    // Keys, tabs and traces change them.
+    struct Panels {
+        bool open = false;     // in the pilot's layout: the tabs are over the right column
+        bool haveKeys = false; // arrows and Enter go to the panels, not to the tool
+        Tab tab = Tab::Fixtures, shownTab = Tab::Help; // wanted, and drawn in the last frame
+        bool tracesPaused = false;
+    };
+    // What a panel has begun. The panel writes and ends it, except `mapping`.
+    struct Editing {
+        std::string renamed;            // name of the fixture whose name is edited; empty = none
+        std::array<char, 64> newName{}; // as typed
+        int boxRow = -1;                // row of the fixture whose box is dragged; -1 = none
+        Box box;
+        int slider = -1; // id of the size slider that is dragged; the fixture changes on release
+        float millimetres = 0.0f;
+        std::string control; // of the camera, while its slider is dragged; empty = none
+        int controlValue = 0;
+        std::optional<ButtonUse> mapping; // waits for a button of the device: until LiveRun has it, or Esc
+    };
+    // The run and the canvas write it; panels, captions and the state file read it.
+    struct Status {
+        Recorded recorded;
+        double keptSeconds = 0.0;         // as many could be stored now
+        uint32_t marks = 0;               // so far in this run
+        std::string lastTone;             // tones.h: name of the last one
+        uint32_t toneCount = 0;           // tones so far, heard or not
+        uint32_t shots = 0;               // screenshots written
+        std::vector<std::string> caption; // lines under screenshots and exported images (caption.h)
+        double monitorScale = 1.0;        // of the monitor (monitor_scale.h)
+        double drawnScale = 1.0; // textScale x monitorScale, or less where there is no room (layout.h)
+    };
+    // Text over the views.
+    struct Messages {
+        std::string notice;       // one line about the last action
+        double noticeUntil = 0.0; // [s] of ImGui's clock
+        std::string refusal;      // why forces did not come on (arming.h); until they do, or Esc
+        std::string contact;      // explanation of the contact under the mouse; found anew in each frame
+        std::string tooltip;      // of the item under the mouse; found anew in each frame
+        // Tooltips are shown after a moment, so that a mouse on its way does not show all of them.
+        struct {
+            const char* tip = nullptr; // under the mouse
+            double since = 0.0;        // [s] of ImGui's clock
+            int frame = 0;             // of ImGui, when it was there last
+        } pointed;
+    };
+
+    float scale() const { return static_cast<float>(status.drawnScale); }
+    bool aims() const { return (pick.active && !pick.taken) || placing.shape != ShapeKind::None; }
+    void stopAiming();
+    void notify(std::string text); // shows it for some seconds
+
+    Switches switches;
+    Requests requests;
+    Settings settings;
+    Panels panels;
     Pick pick;
-    ShapeKind placing = ShapeKind::None; // shape that the next click on the cloud places
-    std::optional<dvec3> placedFrom;     // start of a line or an axis [m, base]; the next click is its end
-    bool panels = false;                 // arrows and Enter go to the panels, not to the tool
-    std::optional<ImVec2> cursor;        // keyboard cursor [pixels], while it is in use
-    bool aims() const { return (pick.active && !pick.taken) || placing != ShapeKind::None; }
-
-    std::string pilotWanted; // name of a pilot to switch to; empty = no request
-
-    std::string renamed;            // name of the fixture whose name is being edited; empty = none
-    std::array<char, 64> newName{}; // as typed
-
-    int editedBoxRow = -1; // fixture whose box is being dragged
-    Box editedBox;
-    int editedRow = -1; // slider being dragged; the fixture changes when it is released
-    float editedMillimetres = 0.0f;
-
-    std::optional<ButtonUse> mapping; // waits for a button of the device to be pressed
-
-    std::string editedControl; // of the camera, while its slider is dragged; empty = none
-    int editedValue = 0;
-
-    std::string refusal; // why forces did not come on (arming.h); shown until they do, or Esc
-    std::string hovered; // explanation of the block under the mouse
-    std::string tooltip; // of the item under the mouse, while it is shown
-    // Tooltips are shown after a moment, so that a mouse on its way does not show all of them.
-    struct {
-        const char* tip = nullptr; // under the mouse
-        double since = 0.0;        // [s] of ImGui's clock
-        int frame = 0;             // of ImGui, when it was there last
-    } pointed;
-    std::string notice;       // one line about the last action
-    double noticeUntil = 0.0; // [s] of ImGui's clock
-    void notify(std::string text);
-    // Takes over the settings that a scene file stores. chosenTextScale: 0 = as in the file.
-    void takeSettings(const Scene& scene, double chosenTextScale);
-    Scene::Window settings() const;
-
+    Placing placing;
+    std::optional<ImVec2> cursor; // keyboard cursor [pixels], while it is in use; Steering writes it
+    Editing editing;
+    OpenCard openCard;
+    Closing closing;
+    TimeLine timeLine;
+    Status status;
+    Messages messages;
     // Where items were drawn last, by name; written to --state for programs that drive the window.
     std::map<std::string, std::array<float, 4>> places; // x, y, width, height
 };

@@ -65,7 +65,7 @@ void drawRegion(ImDrawList& list, const MarksInput& input, const Touch& touch) {
 } // namespace
 
 void drawContactTooltip(Console& console, ImDrawList& list, const MarksInput& input) {
-    console.hovered.clear();
+    console.messages.contact.clear();
     console.places.erase("contact");
     if (!input.run.blocks().empty()) {
         const auto at = input.port.of(input.run.blocks().front().touch.point);
@@ -80,12 +80,12 @@ void drawContactTooltip(Console& console, ImDrawList& list, const MarksInput& in
     if (block == nullptr) {
         return;
     }
-    console.hovered = whyBlocked(*block, input.scene, input.run.scene().set);
+    console.messages.contact = whyBlocked(*block, input.scene, input.run.scene().set);
     drawRegion(list, input, block->touch);
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(340.0f * console.scale());
     ImGui::TextColored(ImColor(colour::kTouch), "Stops the tool");
-    ImGui::TextUnformatted(console.hovered.c_str());
+    ImGui::TextUnformatted(console.messages.contact.c_str());
     ImGui::PopTextWrapPos();
     ImGui::EndTooltip();
 }

@@ -8,7 +8,7 @@
 namespace fathom::operate {
 
 // Call inside an ImGui frame. Records the newest block as the place "contact" and puts the text into
-// console.hovered, which is empty when no current block is under the mouse.
+// console.messages.contact, which is empty when no current block is under the mouse.
 void drawContactTooltip(Console& console, ImDrawList& list, const MarksInput& input);
 
 } // namespace fathom::operate

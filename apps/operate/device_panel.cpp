@@ -23,14 +23,14 @@ void useRow(Console& console, const ButtonMap& buttons, ButtonUse use) {
         ImGui::TextDisabled("%s: this scene has none", name.c_str());
         return;
     }
-    const bool waits = console.mapping == use;
+    const bool waits = console.editing.mapping == use;
     ImGui::TextUnformatted(
         (name + ": button " + std::to_string(buttonNumber(buttons.chosen()[static_cast<size_t>(use)])))
             .c_str());
     ImGui::SameLine(14.0f * ImGui::GetFontSize());
     if (markedButton(console, waits ? ("Cancel##" + name).c_str() : ("Change##" + name).c_str(),
                      "map " + name, "Then press the button of the device that shall do this. Esc cancels")) {
-        console.mapping = waits ? std::nullopt : std::optional(use);
+        console.editing.mapping = waits ? std::nullopt : std::optional(use);
     }
 }
 
@@ -61,9 +61,9 @@ void drawDevice(Console& console, const DeviceFacts& device, const Letters& lett
         useRow(console, *device.buttons, static_cast<ButtonUse>(i));
     }
     ImGui::Unindent(inside);
-    if (console.mapping) {
+    if (console.editing.mapping) {
         colouredText(colour::kPicked, printed("Press the button for %s now. Esc: keep the old one",
-                                              buttonUseName(*console.mapping))
+                                              buttonUseName(*console.editing.mapping))
                                           .c_str());
     }
 }

@@ -18,7 +18,7 @@ struct DeviceFacts {
     const ButtonMap* buttons = nullptr;
 };
 
-// Starts a mapping (Console::mapping) by a button of the panel.
+// Starts a mapping (Console::Editing::mapping) by a button of the panel.
 void drawDevice(Console& console, const DeviceFacts& device, const Letters& letters);
 
 } // namespace fathom::operate

@@ -18,16 +18,17 @@ namespace {
 // Slider for a radius or size [m]; true when it is released at a new value. Also a typed value stays within
 // its range, which includes what the scene file has. id: unique among all sliders.
 bool sizeSlider(Console& console, double& size, const char* word, const std::string& place, int id) {
+    Console::Editing& editing = console.editing;
     float millimetres = static_cast<float>(1e3 * size);
     const float least = std::min(2.0f, millimetres), most = std::max(150.0f, millimetres);
-    const bool dragged = console.editedRow == id;
-    millimetres = dragged ? console.editedMillimetres : millimetres;
+    const bool dragged = editing.slider == id;
+    millimetres = dragged ? editing.millimetres : millimetres;
     ImGui::SetNextItemWidth(-1.0f);
     ImGui::PushID(id);
     if (ImGui::SliderFloat("##size", &millimetres, least, most, (std::string(word) + " %.0f mm").c_str(),
                            ImGuiSliderFlags_AlwaysClamp)) {
-        console.editedRow = id;
-        console.editedMillimetres = millimetres;
+        editing.slider = id;
+        editing.millimetres = millimetres;
     }
     ImGui::PopID();
     markPlace(console, place);
@@ -38,7 +39,7 @@ bool sizeSlider(Console& console, double& size, const char* word, const std::str
         size = 1e-3 * static_cast<double>(millimetres);
     }
     if (!ImGui::IsItemActive() && dragged) {
-        console.editedRow = -1;
+        editing.slider = -1;
     }
     return done;
 }
@@ -66,8 +67,9 @@ bool sizes(Console& console, FixtureClass& now, int row) {
 
 // The name, or a field for a new one: Enter takes it, Esc keeps the old one.
 void nameOf(Console& console, FixtureEditor& editor, size_t i) {
+    Console::Editing& editing = console.editing;
     const std::string name = editor.scene().fixtures[i].name;
-    if (console.renamed != name) {
+    if (editing.renamed != name) {
         ImGui::TextUnformatted(name.c_str());
         return;
     }
@@ -76,27 +78,28 @@ void nameOf(Console& console, FixtureEditor& editor, size_t i) {
         ImGui::SetKeyboardFocusHere();
     }
     const bool done =
-        ImGui::InputText("##name", console.newName.data(), console.newName.size(),
+        ImGui::InputText("##name", editing.newName.data(), editing.newName.size(),
                          ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
     if (ImGui::IsItemActive()) { // one frame later it takes letters
         markPlace(console, "new name");
     }
     explain(console, "Enter: take this name. Esc: keep the old one");
     if (done) {
-        const std::string wanted(console.newName.data());
+        const std::string wanted(editing.newName.data());
         const std::string problem = editor.rename(i, wanted);
         console.notify(problem.empty() ? "renamed to " + wanted : problem);
     }
     if (done || ImGui::IsItemDeactivated()) {
-        console.renamed.clear();
+        editing.renamed.clear();
     }
 }
 
 void renameButton(Console& console, const std::string& name) {
+    Console::Editing& editing = console.editing;
     if (markedButton(console, "Rename", "rename " + name, "Give this fixture another name")) {
-        console.renamed = name;
-        console.newName.fill(0);
-        name.copy(console.newName.data(), console.newName.size() - 1);
+        editing.renamed = name;
+        editing.newName.fill(0);
+        name.copy(editing.newName.data(), editing.newName.size() - 1);
     }
 }
 
@@ -168,11 +171,11 @@ void placeButtons(Console& console) {
     for (const auto& [name, kind, tip] : kKinds) {
         ImGui::SameLine(0.0f, 5.0f);
         if (markedButton(console, name, std::string("place ") + name, tip)) {
-            console.placing = console.placing == kind ? ShapeKind::None : kind;
-            console.placedFrom.reset();
+            console.placing.shape = console.placing.shape == kind ? ShapeKind::None : kind;
+            console.placing.from.reset();
         }
     }
-    if (console.placing != ShapeKind::None) {
+    if (console.placing.shape != ShapeKind::None) {
         ImGui::TextColored(ImColor(colour::kPicked),
                            "Click on a surface in the camera view, or use arrows and Enter.  Esc: cancel");
         drawPickWarnings(console);
@@ -182,34 +185,35 @@ void placeButtons(Console& console) {
 } // namespace
 
 void handleFixtureKeys(Console& console, FixtureEditor& editor, const SceneSnapshot& snapshot) {
+    Console::Requests& requests = console.requests;
     const ImGuiIO& io = ImGui::GetIO();
     const auto control = [&](int key) { return io.KeyCtrl && keyPressed(key); };
     if (keyPressed(GLFW_KEY_ESCAPE)) {
-        console.pick = Pick{};
-        console.placing = ShapeKind::None;
-        console.placedFrom.reset();
+        console.stopAiming();
         editor.preview(console, snapshot);
     }
     const bool adds =
-        console.pick.taken && !console.panels && !io.WantTextInput && keyPressed(GLFW_KEY_ENTER);
-    if (adds || console.addPicked) {
+        console.pick.taken && !console.panels.haveKeys && !io.WantTextInput && keyPressed(GLFW_KEY_ENTER);
+    if (adds || requests.addPicked) {
         const std::string problem = editor.takePicked(console);
         console.notify(problem.empty() ? "'" + editor.lastTaken() + "' is active" : problem);
     }
-    if ((control(GLFW_KEY_Z) || console.undo) && editor.undo()) {
+    if ((control(GLFW_KEY_Z) || requests.undo) && editor.undo()) {
         console.notify("undone");
     }
-    if ((control(GLFW_KEY_Y) || console.redo) && editor.redo()) {
+    if ((control(GLFW_KEY_Y) || requests.redo) && editor.redo()) {
         console.notify("redone");
     }
-    if (control(GLFW_KEY_S) || console.save) {
-        editor.keep(console.settings(), editor.scene().pilot);
+    if (control(GLFW_KEY_S) || requests.saveFixtures) {
+        editor.keep(console.settings.saved(), editor.scene().pilot);
         console.notify(editor.save());
     }
-    console.undo = console.redo = console.save = console.addPicked = false;
+    requests.undo = requests.redo = requests.saveFixtures = requests.addPicked = false;
 }
 
 void drawFixtures(Console& console, FixtureEditor& editor, const SceneSnapshot& snapshot) {
+    Console::Requests& requests = console.requests;
+    bool& frozen = console.switches.frozen;
     const auto button = [&](const char* name, const char* tip) {
         const bool hit = markedButton(console, name, name, tip);
         ImGui::SameLine();
@@ -219,12 +223,12 @@ void drawFixtures(Console& console, FixtureEditor& editor, const SceneSnapshot& 
         console.pick = Pick{};
         console.pick.active = true;
     }
-    console.undo = button("Undo", "Ctrl Z: take back the last change of a fixture");
-    console.redo = button("Redo", "Ctrl Y: make it again");
-    console.save = button("Save", "Ctrl S: write fixtures, pilot and window settings to the scene file");
-    console.frozen =
-        console.frozen != button(console.frozen ? "Unfreeze" : "Freeze",
-                                 "F: hold all fixtures as they are; new images do not change them");
+    requests.undo = button("Undo", "Ctrl Z: take back the last change of a fixture");
+    requests.redo = button("Redo", "Ctrl Y: make it again");
+    requests.saveFixtures =
+        button("Save", "Ctrl S: write fixtures, pilot and window settings to the scene file");
+    frozen = frozen != button(frozen ? "Unfreeze" : "Freeze",
+                              "F: hold all fixtures as they are; new images do not change them");
     ImGui::NewLine();
     if (console.pick.active) {
         drawPick(console, editor, snapshot);

@@ -76,9 +76,10 @@ Figure recorderFigure(const Console& console) {
                     printed("%.2f s", console.timeLine.t),
                 "recording", "The moment of the recording that is shown", colour::kPicked};
     }
-    return {console.recording ? "\xe2\x97\x8f " + clockText(console.recorded.seconds) : "\xe2\x96\xa0 idle",
+    return {console.switches.recording ? "\xe2\x97\x8f " + clockText(console.status.recorded.seconds)
+                                       : "\xe2\x96\xa0 idle",
             "recorder", "R: start or stop a recording of images, hand, forces and edits",
-            console.recording ? colour::kWarning : colour::kQuiet};
+            console.switches.recording ? colour::kWarning : colour::kQuiet};
 }
 
 // Figures that only some runs have.
@@ -148,7 +149,7 @@ void drawHeadLine(Console& console, const HudInput& input, ImVec2 at, ImVec2 siz
             "Distance from the tool to the nearest region of points"});
     figure(console, input.letters, recorderFigure(console));
     rateFigures(console, input);
-    if (console.frozen) {
+    if (console.switches.frozen) {
         figure(console, input.letters,
                {"FROZEN", "fixtures", "F: release. New images do not change the fixtures", colour::kCaution});
     }

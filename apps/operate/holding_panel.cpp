@@ -44,17 +44,18 @@ bool corner(Console& console, const char* name, const std::string& place, dvec3&
 }
 
 bool boxCorners(Console& console, FixtureClass& now, int row) {
-    Box box = console.editedBoxRow == row ? console.editedBox : *now.box;
+    Console::Editing& editing = console.editing;
+    Box box = editing.boxRow == row ? editing.box : *now.box;
     bool dragged = false;
     bool done = corner(console, "min", "box min " + now.name, box.min, dragged);
     done = corner(console, "max", "box max " + now.name, box.max, dragged) || done;
     if (dragged) {
-        console.editedBoxRow = row;
-        console.editedBox = box;
+        editing.boxRow = row;
+        editing.box = box;
     }
     if (done) {
         now.box = Box{glm::min(box.min, box.max), glm::max(box.min, box.max)};
-        console.editedBoxRow = -1;
+        editing.boxRow = -1;
     }
     return done;
 }
@@ -72,7 +73,7 @@ bool drawHolding(Console& console, FixtureClass& now, int row, const SceneSnapsh
     if (markedButton(console, now.box ? "No box" : "Box", "box " + now.name,
                      "Only points inside a box belong to this fixture")) {
         now.box = now.box ? std::nullopt : std::optional(boxAbout(snapshot.set, row));
-        console.editedBoxRow = -1;
+        console.editing.boxRow = -1;
         done = true;
     }
     ImGui::SameLine();
@@ -109,7 +110,7 @@ void drawPilots(Console& console, const Scene& scene) {
         if (markedButton(console, pilot.name.c_str(), "pilot " + pilot.name,
                          "Stiffness, limits and scale of this pilot. Forces go off first") &&
             !chosen) {
-            console.pilotWanted = pilot.name;
+            console.requests.pilot = pilot.name;
         }
         if (chosen) {
             ImGui::PopStyleColor();

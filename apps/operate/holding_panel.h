@@ -10,7 +10,7 @@ namespace fathom::operate {
 // Draws inside the row of the fixture. True when `now` has changed: one undo step.
 bool drawHolding(Console& console, FixtureClass& now, int row, const SceneSnapshot& snapshot);
 
-// One button per pilot of the scene; sets console.pilotWanted.
+// One button per pilot of the scene; sets console.requests.pilot.
 void drawPilots(Console& console, const Scene& scene);
 
 } // namespace fathom::operate

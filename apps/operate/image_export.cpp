@@ -25,7 +25,7 @@ void ImageExport::start(Console& console) {
     next_ = 0;
     before_ = console.timeLine.t;
     console.timeLine.playing = false;
-    console.noticeUntil = 0.0; // it would be in the images
+    console.messages.noticeUntil = 0.0; // it would be in the images
 }
 
 void ImageExport::end(Console& console, const std::string& why) {
@@ -46,15 +46,15 @@ void ImageExport::end(Console& console, const std::string& why) {
 
 void ImageExport::step(Console& console, double period) {
     TimeLine& line = console.timeLine;
-    const bool asked = std::exchange(console.exportImages, false);
+    const bool asked = std::exchange(console.requests.exportImages, false);
     if (!running_ && asked) {
         start(console);
-    } else if (running_ && (asked || std::exchange(console.stopExport, false))) {
+    } else if (running_ && (asked || std::exchange(console.requests.stopExport, false))) {
         end(console, "stopped");
     } else if (running_ && next_ >= line.frames) {
         end(console, "");
     }
-    console.stopExport = false;
+    console.requests.stopExport = false;
     if (running_) {
         line.playing = false;
         line.t = std::min(line.duration, next_ * period);

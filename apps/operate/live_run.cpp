@@ -53,14 +53,15 @@ DeviceFacts LiveRun::device() const {
 }
 
 void LiveRun::mapButtons(Console& console) {
+    std::optional<ButtonUse>& mapping = console.editing.mapping;
     const uint32_t pressed = hand_->takePressed() & ~kDeadManOpen;
     releases_ = releases_ && (hand_->held() & ~kDeadManOpen) != 0;
-    hand_->capture(console.mapping || releases_);
-    if (!console.mapping || pressed == 0) {
+    hand_->capture(mapping || releases_);
+    if (!mapping || pressed == 0) {
         return;
     }
-    const ButtonUse use = *console.mapping;
-    console.mapping.reset();
+    const ButtonUse use = *mapping;
+    mapping.reset();
     releases_ = true;
     const std::string fault = buttons_.choose(use, pressed);
     if (!fault.empty()) {
@@ -190,21 +191,22 @@ std::optional<ImVec2> LiveRun::steer(Console& console, const ViewPort& large, do
 
 void LiveRun::apply(Console& console) {
     if (hand_->takeSilence()) {
-        console.forces = console.guidance = false;
+        console.switches.forcesOff();
         console.notify("the window stood still for over 2 s: forces are off");
     }
-    hand_->setForces(console.forces);
-    feed_.freeze(console.frozen);
+    hand_->setForces(console.switches.forces);
+    feed_.freeze(console.switches.frozen);
     pilot_->ask({steering_->pose(), 0});
     hand_->press(buttonsOf(console));
 }
 
 // Buttons that keys hold down, added to the device's own.
 uint32_t LiveRun::buttonsOf(const Console& console) const {
+    const Console::Switches& switches = console.switches;
     const auto& arm = session_.scene.arm;
     const uint32_t grasp = arm ? arm->grasp.button : 0;
-    return (console.guidance ? kGuidanceButton : 0) | (console.clutch ? session_.scene.hand.clutchBit : 0) |
-           (console.grasp ? grasp : 0);
+    return (switches.guidance ? kGuidanceButton : 0) | (switches.clutch ? session_.scene.hand.clutchBit : 0) |
+           (switches.grasp ? grasp : 0);
 }
 
 void LiveRun::setShapes(const std::vector<Shape>& shapes) {

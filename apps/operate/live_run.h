@@ -37,7 +37,7 @@ public:
     std::optional<ImVec2> steer(Console& console, const ViewPort& large, double toolDepth);
     // Forces, frozen fixtures, buttons. Forces stay off after a pause in which nothing could switch them off.
     void apply(Console& console);
-    // Takes the device's button that is pressed for Console::mapping, and saves the mapping.
+    // Takes the device's button that is pressed for Console::Editing::mapping, and saves the mapping.
     void mapButtons(Console& console);
     DeviceFacts device() const;
     void forcesOff() { hand_->setForces(false); }

@@ -154,7 +154,7 @@ Mode modeOf(const ModeInput& input) {
         return {"LOOK-BACK", "\xc2\xab", colour::kPicked, Edge::Dashed,
                 "A recording is shown; nothing is live"};
     }
-    if (!input.console.forces) {
+    if (!input.console.switches.forces) {
         return input.run.step().record.state == StepState::Fading
                    ? forcesFading("Forces are being switched off")
                    : forcesOff("The device gets no force. A: arm");
@@ -188,31 +188,32 @@ Chip reasonChip(const ModeInput& input) {
 
 std::vector<Chip> chipsOf(const ModeInput& input) {
     const Console& console = input.console;
+    const Console::Switches& switches = console.switches;
     const StepRecord& record = input.run.step().record;
     std::vector<Chip> chips;
     if (console.timeLine.on) {
         chips.push_back({recordedWord(record.state), colour::kText, "State at this moment of the recording"});
     }
-    if (record.guidance > 0.0 || console.guidance) {
+    if (record.guidance > 0.0 || switches.guidance) {
         const std::vector<GuidancePose>& targets = input.run.scene().set.guidance;
         const bool any =
             std::any_of(targets.begin(), targets.end(), [](const GuidancePose& g) { return g.present; });
         chips.push_back({any || record.guidance > 0.0 ? "GUIDE" : "GUIDE: no target", colour::kGuidanceWord,
                          "Guidance is on: the tool is pulled to the nearest target. G: off"});
     }
-    if (console.forces && !console.timeLine.on) {
+    if (switches.forces && !console.timeLine.on) {
         if (Chip reason = reasonChip(input); !reason.word.empty()) {
             chips.push_back(std::move(reason));
         }
     }
-    if (console.clutch) {
+    if (switches.clutch) {
         chips.push_back({"CLUTCH", colour::kText, "The hand moves, the tool stays"});
     }
-    if (console.frozen) {
+    if (switches.frozen) {
         chips.push_back({"FROZEN", colour::kCaution, "New images do not change the fixtures. F: release"});
     }
-    if (console.recording) {
-        chips.push_back({"REC " + console.recorded.text(), colour::kWarningWord,
+    if (switches.recording) {
+        chips.push_back({"REC " + console.status.recorded.text(), colour::kWarningWord,
                          "A recording runs: its time, its size, what is left on the disk. R: stop"});
     }
     return chips;
@@ -261,10 +262,10 @@ void drawMode(Console& console, const ModeInput& input, ImFont* font, ImVec2 cor
 
 void drawRefusal(Console& console, ImFont* font, ImVec2 corner, ImVec2 size) {
     console.places.erase("refusal");
-    if (console.refusal.empty()) {
+    if (console.messages.refusal.empty()) {
         return;
     }
-    const std::string words = "Forces stay off: " + console.refusal;
+    const std::string words = "Forces stay off: " + console.messages.refusal;
     const float letter = font->FontSize, wrap = std::min(0.8f * size.x, 34.0f * letter);
     const ImVec2 text = font->CalcTextSizeA(letter, wrap, wrap, words.c_str());
     const ImVec2 a{corner.x + 0.5f * (size.x - text.x) - letter,

@@ -45,7 +45,7 @@ std::vector<Chip> chipsOf(const ModeInput& input);
 
 // The frame inside of a rectangle of the window, and the word with its chips at the middle of its upper edge.
 void drawMode(Console& console, const ModeInput& input, ImFont* font, ImVec2 corner, ImVec2 size);
-// Why forces did not come on (Console::refusal), in the middle of the rectangle.
+// Why forces did not come on (Console::Messages::refusal), in the middle of the rectangle.
 void drawRefusal(Console& console, ImFont* font, ImVec2 corner, ImVec2 size);
 
 } // namespace fathom::operate

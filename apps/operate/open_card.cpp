@@ -43,8 +43,7 @@ void ask(Console& console, const fs::path& in, bool mayGoLive) {
     }
     card.chosen = 0;
     card.on = true;
-    console.pick = Pick{}; // Enter opens
-    console.placing = ShapeKind::None;
+    console.stopAiming(); // Enter opens
 }
 
 void open(Console& console) {
@@ -82,15 +81,15 @@ std::vector<std::string> recordingsIn(const fs::path& in) {
 
 void stepOpenCard(Console& console, const fs::path& in, bool mayGoLive) {
     OpenCard& card = console.openCard;
-    const bool asked = std::exchange(card.asked, false);
+    const bool asked = std::exchange(console.requests.openCard, false);
     if (!card.on) {
-        if (asked && console.closing == Closing::No) {
+        if (asked && console.closing.stage == ClosingStage::No) {
             ask(console, in, mayGoLive);
         }
         return;
     }
     card.chosen = asked ? (card.chosen + 1) % card.choices.size() : card.chosen;
-    if (keyPressed(GLFW_KEY_ESCAPE) || console.closing != Closing::No) {
+    if (keyPressed(GLFW_KEY_ESCAPE) || console.closing.stage != ClosingStage::No) {
         card.on = false;
     } else if (keyPressed(GLFW_KEY_ENTER) || std::exchange(card.clicked, false)) {
         open(console);
@@ -98,7 +97,7 @@ void stepOpenCard(Console& console, const fs::path& in, bool mayGoLive) {
 }
 
 std::string opensNext(const Console& console, bool stopped) {
-    return console.quit && !stopped ? console.openCard.next : "";
+    return console.closing.quit && !stopped ? console.openCard.next : "";
 }
 
 void drawOpenCard(Console& console, ImVec2 corner, ImVec2 size) {

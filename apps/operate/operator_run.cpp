@@ -53,7 +53,7 @@ OperatorRun::OperatorRun(const OperateOptions& options, const GlobalOptions& glo
     , live_(options_, session_, signals_, placement_, sinks_.snapshots, sinks_.observers) {
     keepScene(0);
     live_.start(editor_.shapes());
-    display_.console.forces = forces_.wereOn = options_.armed;
+    display_.console.switches.forces = forces_.wereOn = options_.armed;
     window_.onForcesOff = [this] {
         live_.forcesOff(); // at once, before the rest of this frame
         forces_.offRequested = true;
@@ -89,7 +89,7 @@ void OperatorRun::run() {
         frame();
     }
     if (window_.offscreen() && !options_.shots.empty()) { // no key can request one offscreen
-        display_.console.screenshot = true;
+        display_.console.requests.screenshot = true;
         window_.beginFrame(0.0);
         frame();
     }
@@ -137,7 +137,7 @@ void OperatorRun::listen() {
         clickInView(console, editor_, display_.screen, display_.view.scene(), *at);
     }
     if (std::exchange(forces_.offRequested, false)) { // overrides all other keys of this frame
-        console.forces = console.guidance = false;
+        console.switches.forcesOff();
     }
     display_.followClosing(editor_, forcesGone());
     offWhenMinimised();
@@ -149,26 +149,26 @@ void OperatorRun::listen() {
     recording_.follow(console, editor_);
     followPilot();
     display_.exportTraces();
-    forces_.wereOn = console.forces; // after everything that may switch them off
+    forces_.wereOn = console.switches.forces; // after everything that may switch them off
 }
 
 void OperatorRun::mark() {
     Console& console = display_.console;
-    if (std::exchange(console.exportImages, false)) {
+    if (std::exchange(console.requests.exportImages, false)) {
         console.notify("only a recording is exported: open one");
     }
-    if (std::exchange(console.addMark, false)) {
+    if (std::exchange(console.requests.mark, false)) {
         sinks_.recorder.mark();
         sinks_.last.mark();
-        console.notify(
-            "mark " + std::to_string(++console.marks) +
-            (console.recording ? " is in the recording" : " is kept with the last seconds: L stores them"));
+        console.notify("mark " + std::to_string(++console.status.marks) +
+                       (console.switches.recording ? " is in the recording"
+                                                   : " is kept with the last seconds: L stores them"));
     }
 }
 
 bool OperatorRun::forcesGone() const {
     const StepRecord& record = display_.view.step().record;
-    return !display_.console.forces &&
+    return !display_.console.switches.forces &&
            (!display_.view.anyTick() || record.state == StepState::Off ||
             (record.wrench.force == dvec3(0.0) && record.wrench.torque == dvec3(0.0)));
 }
@@ -176,19 +176,20 @@ bool OperatorRun::forcesGone() const {
 // Forces without a view of the scene would surprise the pilot.
 void OperatorRun::offWhenMinimised() {
     Console& console = display_.console;
-    if (console.forces && window_.minimised()) {
-        console.forces = console.guidance = false;
+    if (console.switches.forces && window_.minimised()) {
+        console.switches.forcesOff();
         console.notify("minimised: forces are off");
     }
 }
 
 void OperatorRun::obeyRequests() {
     Console& console = display_.console;
+    Console::Switches& switches = console.switches;
     const RemoteRequests asked = sinks_.observers.takeRequests();
-    console.guidance = asked.guidance.value_or(console.guidance);
-    console.frozen = asked.frozen.value_or(console.frozen);
+    switches.guidance = asked.guidance.value_or(switches.guidance);
+    switches.frozen = asked.frozen.value_or(switches.frozen);
     if (asked.forcesOff) {
-        console.forces = console.guidance = false;
+        switches.forcesOff();
         console.notify("forces off: another program asked for it");
     } else if (asked.guidance || asked.frozen) {
         console.notify("another program switched guidance or freezing");
@@ -198,10 +199,11 @@ void OperatorRun::obeyRequests() {
 // Forces come on only if nothing speaks against them.
 void OperatorRun::arm() {
     Console& console = display_.console;
-    if (console.forces && !forces_.wereOn) {
-        console.refusal = whyNotArmed(
+    Console::Switches& switches = console.switches;
+    if (switches.forces && !forces_.wereOn) {
+        console.messages.refusal = whyNotArmed(
             {display_.view, editor_.scene(), live_.haptics(), session_.handover->gone(), !live_.handThere()});
-        console.forces = console.refusal.empty();
+        switches.forces = console.messages.refusal.empty();
     }
 }
 
@@ -209,14 +211,15 @@ void OperatorRun::arm() {
 // and starts a new run there.
 void OperatorRun::followPilot() {
     Console& console = display_.console;
-    const std::string name = std::exchange(console.pilotWanted, "");
+    const std::string name = std::exchange(console.requests.pilot, "");
     if (!name.empty() && cameraSilent(display_.view.step().record)) {
         return console.notify("no camera frames: choose the pilot when they are back");
     }
     if (name.empty() || !session_.scene.choosePilot(name)) {
         return;
     }
-    console.forces = console.guidance = console.recording = console.frozen = false;
+    console.switches.forcesOff();
+    console.switches.recording = console.switches.frozen = false;
     live_.feed().freeze(false);
     recording_.follow(console, editor_);
     if (!live_.pause()) {
@@ -226,7 +229,7 @@ void OperatorRun::followPilot() {
     const StepRecord last = display_.view.step().record;
     const bool stays = display_.view.anyTick() && !options_.path && isFinite(last.tool);
     display_.view.rewind();
-    editor_.keep(console.settings(), name);
+    editor_.keep(console.settings.saved(), name);
     live_.restart(editor_.shapes(), stays ? &last : nullptr);
     console.notify(name + " is the pilot now: switch forces on");
 }

@@ -100,7 +100,7 @@ void card(Console& console, FixtureClass& gates, bool anew) {
     if (gates.role == Role::Forbidden) {
         pickedRadius(console, gates);
     }
-    console.addPicked = ImGui::Button(anew ? "Add  (Enter)" : "Change  (Enter)");
+    console.requests.addPicked = ImGui::Button(anew ? "Add  (Enter)" : "Change  (Enter)");
     markPlace(console, "add");
     explain(console, "Enter: make it active. Esc: drop it");
 }

@@ -126,7 +126,7 @@ void PlaybackRun::frame(double dt) {
             loseDevice(e.what());
         }
     } else {
-        display_.console.quit = window_.takeClose(); // without a device there is no question
+        display_.console.closing.quit = window_.takeClose(); // without a device there is no question
         display_.console.openCard.next.clear();
         ImGui::EndFrame();
         lookForDevice();
@@ -194,20 +194,20 @@ void PlaybackRun::exportImage() {
 
 void PlaybackRun::listen() {
     Console& console = display_.console;
-    console.stopExport = keyPressed(GLFW_KEY_ESCAPE);
+    console.requests.stopExport = keyPressed(GLFW_KEY_ESCAPE);
     if (const auto at = steering_.step(console, display_.screen.large(), 0.0)) {
         clickInView(console, editor_, display_.screen, display_.view.scene(), *at);
     }
     panel_.listen(console);
     mark();
     display_.followClosing(editor_, true);
-    console.recording = console.frozen = false; // not available in playback
+    console.switches.recording = console.switches.frozen = false; // not available in playback
     display_.exportTraces();
 }
 
 void PlaybackRun::mark() {
     Console& console = display_.console;
-    if (!std::exchange(console.addMark, false)) {
+    if (!std::exchange(console.requests.mark, false)) {
         return;
     }
     try {
@@ -259,8 +259,8 @@ void PlaybackRun::showMoment() {
         display_.view.take(log_.rowAt(i, hand_ ? &*hand_ : nullptr));
     }
     const uint32_t buttons = buttonsAt(t);
-    display_.console.forces = (buttons & kDeadManOpen) == 0;
-    display_.console.guidance = (buttons & kGuidanceButton) != 0;
+    display_.console.switches.forces = (buttons & kDeadManOpen) == 0;
+    display_.console.switches.guidance = (buttons & kGuidanceButton) != 0;
 }
 
 } // namespace fathom::operate

@@ -30,13 +30,13 @@ void RecorderControl::start(Console& console, FixtureEditor& editor) {
         if (const std::string problem = disk_.problem(); !problem.empty()) {
             throw Error("not recording: " + problem);
         }
-        editor.keep(console.settings(), session_.scene.pilot);
+        editor.keep(console.settings.saved(), session_.scene.pilot);
         const std::string left = copySceneFiles(session_.scene, folder); // before the recorder's own
         recorder_.start(folder, editor.text(), session_.camera->info(), recordedScene(editor));
         folder_ = folder.string();
         console.notify("recording to " + folder_ + without(left));
     } catch (const std::exception& e) {
-        console.recording = false;
+        console.switches.recording = false;
         console.notify(e.what());
     }
 }
@@ -98,7 +98,7 @@ void RecorderControl::followStore(Console& console) {
             past_.stop(problem);
         }
     }
-    if (std::exchange(console.storeLast, false)) {
+    if (std::exchange(console.requests.storeLast, false)) {
         if (pastFolder_.empty()) {
             store(console);
         } else {
@@ -108,24 +108,24 @@ void RecorderControl::followStore(Console& console) {
 }
 
 void RecorderControl::follow(Console& console, FixtureEditor& editor) {
-    if (console.recording && folder_.empty() && !recorder_.writing()) {
+    if (console.switches.recording && folder_.empty() && !recorder_.writing()) {
         start(console, editor);
     } else if (!folder_.empty()) {
         disk_.look(folder_, ImGui::GetTime());
         if (const std::string problem = disk_.problem(); !problem.empty()) {
             recorder_.stop(problem);
         }
-        if (!console.recording || !recorder_.recording()) {
+        if (!console.switches.recording || !recorder_.recording()) {
             recorder_.stop();
-            console.recording = false;
+            console.switches.recording = false;
             if (!recorder_.writing()) {
                 saved(console);
             }
         }
     }
     followStore(console);
-    console.keptSeconds = last_.seconds();
-    console.recorded = {recorder_.seconds(), recorder_.bytes(), disk_.left()};
+    console.status.keptSeconds = last_.seconds();
+    console.status.recorded = {recorder_.seconds(), recorder_.bytes(), disk_.left()};
 }
 
 } // namespace fathom::operate

@@ -17,7 +17,7 @@ namespace {
 
 Console consoleFor(const Scene& scene, double textScale) {
     Console console;
-    console.takeSettings(scene, textScale);
+    console.settings.take(scene, textScale);
     return console;
 }
 
@@ -25,7 +25,7 @@ Console consoleFor(const Scene& scene, double textScale) {
 
 RunDisplay::RunDisplay(const OperateOptions& options, Window& window, Session& session, SnapshotSink& sink)
     : console(consoleFor(session.scene, options.textScale))
-    , canvas(window, *session.instance, console.textScale, options.shots)
+    , canvas(window, *session.instance, console.settings.textScale, options.shots)
     , view(sink)
     , options_(options)
     , window_(window)
@@ -46,16 +46,17 @@ void RunDisplay::begin() {
 }
 
 double RunDisplay::beginFrame() {
-    window_.setFullScreen(console.fullScreen);
+    window_.setFullScreen(console.settings.fullScreen);
     const double period = pace_.period();
     window_.beginFrame(std::clamp(period - (monotonicSeconds() - lastFrame_), 0.0, period));
     pace_.note(threadCpuTime());
     const double now = monotonicSeconds(), dt = now - lastFrame_;
     windowHz_ += 0.05 * (1.0 / std::max(1e-3, dt) - windowHz_);
     lastFrame_ = now;
-    console.monitorScale = window_.monitorScale();
-    console.drawnScale = scaleThatFits(ImGui::GetIO().DisplaySize, console.textScale * console.monitorScale,
-                                       console.pilotLayout);
+    console.status.monitorScale = window_.monitorScale();
+    console.status.drawnScale =
+        scaleThatFits(ImGui::GetIO().DisplaySize, console.settings.textScale * console.status.monitorScale,
+                      console.settings.pilotLayout);
     return dt;
 }
 
@@ -74,7 +75,7 @@ double RunDisplay::elapsed() const {
 }
 
 bool RunDisplay::wantsToEnd() const {
-    return console.quit || (options_.seconds > 0.0 && elapsed() >= options_.seconds);
+    return console.closing.quit || (options_.seconds > 0.0 && elapsed() >= options_.seconds);
 }
 
 HudInput RunDisplay::hud(const HapticOptions& haptics) {
@@ -95,12 +96,13 @@ void RunDisplay::draw(FixtureEditor& editor, const ScreenInput& input) {
     screen.noteDrawn(canvas.counts().drawn);
     screen.draw(console, editor, alarms, input);
     const bool captioned = !window_.offscreen() || !options_.job.empty();
-    console.caption =
+    console.status.caption =
         captioned
             ? captionOf(
                   {{console, view, input.hud.haptics}, screen.cues(), editor.scene().pilot, options_.job})
             : std::vector<std::string>();
-    desk_.show(console.shownTab == Tab::Camera && (!console.pilotLayout || console.panelOpen));
+    desk_.show(console.panels.shownTab == Tab::Camera &&
+               (!console.settings.pilotLayout || console.panels.open));
     const auto& room = console.places["traces room"];
     if (room[3] <= 0.0f) {
         return; // not in the pilot's layout
@@ -109,7 +111,7 @@ void RunDisplay::draw(FixtureEditor& editor, const ScreenInput& input) {
 }
 
 void RunDisplay::exportTraces() {
-    if (!std::exchange(console.exportCsv, false)) {
+    if (!std::exchange(console.requests.exportTraces, false)) {
         return;
     }
     const auto file = std::filesystem::path(options_.shots) / "traces.csv";

@@ -28,7 +28,8 @@ void Screen::makeImages(const Console& console, const FixtureEditor& editor, con
                         const Rooms& rooms) {
     const SceneSnapshot& scene = input.run.scene();
     const bool newSelection = selectionDrawn_ != editor.selectionNumber();
-    const bool first = !cameraPort_ || std::exchange(redraw_, false) || drawnLarge_ != console.spaceIsLarge;
+    const bool first =
+        !cameraPort_ || std::exchange(redraw_, false) || drawnLarge_ != console.settings.spaceIsLarge;
     if (!centred_ && scene.any) {
         const SpaceBounds bounds = boundsOf(scene.set, input.arm);
         drawnOrbit_.centre = bounds.middle;
@@ -40,35 +41,35 @@ void Screen::makeImages(const Console& console, const FixtureEditor& editor, con
         camera_.compose(scene, editor.selection());
         selectionDrawn_ = editor.selectionNumber();
     }
-    const PixelRect& spaceRoom = console.spaceIsLarge ? rooms.large : rooms.inset;
-    Orbit orbit = console.orbit;
+    const PixelRect& spaceRoom = console.settings.spaceIsLarge ? rooms.large : rooms.inset;
+    Orbit orbit = console.settings.orbit;
     orbit.centre = drawnOrbit_.centre;
-    const bool moved = !sameOrbit(orbit, drawnOrbit_) || drawnLevel_ != console.treeLevel ||
-                       drawnLarge_ != console.spaceIsLarge;
+    const bool moved = !sameOrbit(orbit, drawnOrbit_) || drawnLevel_ != console.settings.treeLevel ||
+                       drawnLarge_ != console.settings.spaceIsLarge;
     // Two thirds of the resolution are enough for a cloud.
     const int parts = coarse_ ? 4 : 3;
     const auto width = static_cast<uint32_t>(std::clamp(spaceRoom.width * 2 / parts, 64, 1200));
     const auto height = static_cast<uint32_t>(std::clamp(spaceRoom.height * 2 / parts, 48, 900));
     const uint64_t rest = coarse_ ? 5 : 3; // frames per image of a small 3D view
-    const bool space = first || moved || width != space_.view().lens.width ||
-                       height != space_.view().lens.height ||
-                       (input.freshImage && (console.spaceIsLarge || scene.number >= spaceNumber_ + rest));
+    const bool space =
+        first || moved || width != space_.view().lens.width || height != space_.view().lens.height ||
+        (input.freshImage && (console.settings.spaceIsLarge || scene.number >= spaceNumber_ + rest));
     if (space) {
-        space_.compose(scene, {orbit, floor_, width, height, console.treeLevel}, input.arm);
+        space_.compose(scene, {orbit, floor_, width, height, console.settings.treeLevel}, input.arm);
         drawnOrbit_ = orbit;
         spaceNumber_ = scene.number;
-        drawnLevel_ = console.treeLevel;
-        drawnLarge_ = console.spaceIsLarge;
+        drawnLevel_ = console.settings.treeLevel;
+        drawnLarge_ = console.settings.spaceIsLarge;
     }
-    const PixelRect& cameraRoom = console.spaceIsLarge ? rooms.inset : rooms.large;
+    const PixelRect& cameraRoom = console.settings.spaceIsLarge ? rooms.inset : rooms.large;
     cameraPort_ =
         ViewPort{camera_.view(), fitted(cameraRoom, camera_.view().width(), camera_.view().height())};
     spacePort_ = ViewPort{space_.view(), fitted(spaceRoom, width, height)};
-    ViewPort& large = console.spaceIsLarge ? *spacePort_ : *cameraPort_;
+    ViewPort& large = console.settings.spaceIsLarge ? *spacePort_ : *cameraPort_;
     large.where.x = rooms.large.x; // what its shape leaves free is at the right
     large_ = &large;
     const auto none = std::span<const uint32_t>();
-    const size_t under = console.spaceIsLarge ? 1 : 0; // the inset is drawn over the large view
+    const size_t under = console.settings.spaceIsLarge ? 1 : 0; // the inset is drawn over the large view
     waiting_ = {waiting_[0] || fresh, waiting_[1] || space};
     layers_[under] = {waiting_[0] ? std::span<const uint32_t>(camera_.pixels()) : none,
                       static_cast<uint32_t>(camera_.view().width()),
@@ -137,7 +138,7 @@ void Screen::drawViews(Console& console, const FixtureEditor& editor, const Scre
             drawCameraFrustum(list, *port, input.run.scene().set);
             drawBounds(list, *port, space_.bounds());
             drawAxes(list, *port, large);
-            drawScaleBar(list, *port, console.orbit.distance);
+            drawScaleBar(list, *port, console.settings.orbit.distance);
         }
         const MarksInput marks{*port,     input.run,      input.tool, editor.scene(), editor.shapes(),
                                input.arm, input.measured, cues_,      surface,        large};
@@ -150,9 +151,9 @@ void Screen::drawViews(Console& console, const FixtureEditor& editor, const Scre
             cues_.hidden = hidden;
             drawContactTooltip(console, list, marks);
         }
-        const char* name = port == &*cameraPort_    ? "camera"
-                           : console.treeLevel >= 0 ? "3D, tree bounds"
-                                                    : "3D";
+        const char* name = port == &*cameraPort_             ? "camera"
+                           : console.settings.treeLevel >= 0 ? "3D, tree bounds"
+                                                             : "3D";
         const float inside = large ? 18.0f * console.scale() : 8.0f; // of the frame
         drawWords(list, {corner.x + inside, corner.y + inside},
                   large ? name : std::string(name) + "   Tab: swap", colour::kQuiet);
@@ -204,33 +205,33 @@ void Screen::drawFigures(Console& console, const ScreenInput& input, const Rooms
 }
 
 void Screen::draw(Console& console, FixtureEditor& editor, Alarms& alarms, const ScreenInput& input) {
-    console.tooltip.clear();
-    Rooms rooms =
-        arrange({ImGui::GetIO().DisplaySize, console.drawnScale, console.pilotLayout, console.timeLine.on});
+    console.messages.tooltip.clear();
+    Rooms rooms = arrange({ImGui::GetIO().DisplaySize, console.status.drawnScale,
+                           console.settings.pilotLayout, console.timeLine.on});
     makeImages(console, editor, input, rooms);
-    if (!console.pilotLayout) {
+    if (!console.settings.pilotLayout) {
         besideView(rooms, large_->where, console.scale());
     }
     findCues(input);
     findGhost(console, editor, input.run.scene());
     drawViews(console, editor, input);
-    if (console.pilotLayout) {
+    if (console.settings.pilotLayout) {
         drawForceStrip(console, input.hud, rooms.strip);
     } else {
         drawFigures(console, input, rooms);
     }
-    if (console.pick.active && console.shownTab != Tab::Fixtures) {
-        console.tab = Tab::Fixtures;
+    if (console.pick.active && console.panels.shownTab != Tab::Fixtures) {
+        console.panels.tab = Tab::Fixtures;
     }
-    const bool tabs =
-        !console.pilotLayout || console.panelOpen || console.aims() || console.pick.active || console.panels;
+    const bool tabs = !console.settings.pilotLayout || console.panels.open || console.aims() ||
+                      console.pick.active || console.panels.haveKeys;
     if (tabs) {
         drawTabs(console, editor, alarms, {input.run, input.hud}, rooms.tabs);
     }
-    if (console.closing == Closing::No) {
+    if (console.closing.stage == ClosingStage::No) {
         handleFixtureKeys(console, editor, input.run.scene());
     }
-    rooms.gap = tabs && console.pilotLayout ? PixelRect() : rooms.gap; // the tabs are over it
+    rooms.gap = tabs && console.settings.pilotLayout ? PixelRect() : rooms.gap; // the tabs are over it
     drawCloseUps(console, editor, input, closeUpRooms(rooms.gap, console.scale()));
     drawOver(console, alarms, input, rooms);
     markPlace(console, "traces room", cornerOf(rooms.traces), sizeOf(rooms.traces));

@@ -105,13 +105,14 @@ json buttonsOf(const ButtonMap& map) {
 }
 
 json handOf(const ShownState& s) {
-    return s.session.liveHand ? json{{"name", s.session.liveHand->description()},
-                                     {"there", s.device.there},
-                                     {"held", s.device.held},
-                                     {"buttons", buttonsOf(*s.device.buttons)},
-                                     {"mapping", s.console.mapping ? json(buttonUseName(*s.console.mapping))
-                                                                   : json(nullptr)}}
-                              : json(nullptr);
+    return s.session.liveHand
+               ? json{{"name", s.session.liveHand->description()},
+                      {"there", s.device.there},
+                      {"held", s.device.held},
+                      {"buttons", buttonsOf(*s.device.buttons)},
+                      {"mapping", s.console.editing.mapping ? json(buttonUseName(*s.console.editing.mapping))
+                                                            : json(nullptr)}}
+               : json(nullptr);
 }
 
 json chipsOf(const ShownState& s) {
@@ -219,7 +220,7 @@ void StateLog::write(const ShownState& s, bool now) {
                        {"run", runOf(s)},
                        {"mode", modeOf({s.console, s.view, s.haptics}).word},
                        {"chips", chipsOf(s)},
-                       {"refusal", s.console.refusal},
+                       {"refusal", s.console.messages.refusal},
                        {"window", windowOf(s)},
                        {"hand", handOf(s)},
                        {"gpu",
@@ -238,7 +239,7 @@ void StateLog::write(const ShownState& s, bool now) {
                         {{"name", scene.pilot},
                          {"stiffness", s.haptics.springs.stiffness},
                          {"force_limit", s.haptics.forceLimit}}},
-                       {"hovered", s.console.hovered},
+                       {"hovered", s.console.messages.contact},
                        {"figures", figuresOf(s)},
                        {"camera", cameraOf(s)}};
     out_ << line.dump(-1, ' ', false, json::error_handler_t::replace) << "\n" << std::flush;

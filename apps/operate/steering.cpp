@@ -24,11 +24,12 @@ bool pressed(int key) {
 
 // Function keys that open a tab, and close it in the pilot's layout.
 void openTabs(Console& console) {
+    Console::Panels& panels = console.panels;
     for (const auto& [key, tab] : {std::pair(GLFW_KEY_F1, Tab::Help), std::pair(GLFW_KEY_F3, Tab::Camera),
                                    std::pair(GLFW_KEY_F4, Tab::Device)}) {
         if (pressed(key)) {
-            console.panelOpen = !console.panelOpen || console.shownTab != tab;
-            console.tab = tab;
+            panels.open = !panels.open || panels.shownTab != tab;
+            panels.tab = tab;
         }
     }
 }
@@ -92,31 +93,34 @@ void Steering::rotate(const dvec3& base) {
 }
 
 void Steering::keys(Console& console) {
-    console.forces = console.forces || pressed(GLFW_KEY_A);
-    console.guidance = console.guidance != pressed(GLFW_KEY_G);
-    console.grasp = console.grasp != pressed(GLFW_KEY_J);
-    console.clutch = keyDown(GLFW_KEY_C);
-    console.spaceIsLarge = console.spaceIsLarge != pressed(GLFW_KEY_TAB);
-    console.paused = console.paused != pressed(GLFW_KEY_P);
-    console.frozen = console.frozen != pressed(GLFW_KEY_F);
-    console.recording = console.recording != pressed(GLFW_KEY_R);
-    console.exportImages = console.exportImages || pressed(GLFW_KEY_X);
-    console.openCard.asked = console.openCard.asked || pressed(GLFW_KEY_O);
-    console.addMark = console.addMark || pressed(GLFW_KEY_N);
-    console.storeLast = console.storeLast || pressed(GLFW_KEY_L);
-    console.exportCsv = console.exportCsv || pressed(GLFW_KEY_E);
-    console.acknowledge = console.acknowledge || pressed(GLFW_KEY_Q);
+    Console::Switches& switches = console.switches;
+    Console::Requests& requests = console.requests;
+    Console::Settings& settings = console.settings;
+    switches.forces = switches.forces || pressed(GLFW_KEY_A);
+    switches.guidance = switches.guidance != pressed(GLFW_KEY_G);
+    switches.grasp = switches.grasp != pressed(GLFW_KEY_J);
+    switches.clutch = keyDown(GLFW_KEY_C);
+    settings.spaceIsLarge = settings.spaceIsLarge != pressed(GLFW_KEY_TAB);
+    console.panels.tracesPaused = console.panels.tracesPaused != pressed(GLFW_KEY_P);
+    switches.frozen = switches.frozen != pressed(GLFW_KEY_F);
+    switches.recording = switches.recording != pressed(GLFW_KEY_R);
+    requests.exportImages = requests.exportImages || pressed(GLFW_KEY_X);
+    requests.openCard = requests.openCard || pressed(GLFW_KEY_O);
+    requests.mark = requests.mark || pressed(GLFW_KEY_N);
+    requests.storeLast = requests.storeLast || pressed(GLFW_KEY_L);
+    requests.exportTraces = requests.exportTraces || pressed(GLFW_KEY_E);
+    requests.acknowledge = requests.acknowledge || pressed(GLFW_KEY_Q);
     if (pressed(GLFW_KEY_M)) {
-        console.tones = !console.tones;
-        console.notify(console.tones ? "tones are on" : "tones are off");
+        settings.tones = !settings.tones;
+        console.notify(settings.tones ? "tones are on" : "tones are off");
     }
     if (pressed(GLFW_KEY_ESCAPE)) {
-        console.refusal.clear();
-        console.mapping.reset();
-        console.panelOpen = false;
+        console.messages.refusal.clear();
+        console.editing.mapping.reset();
+        console.panels.open = false;
     }
     if (pressed(GLFW_KEY_T)) {
-        console.treeLevel = console.treeLevel >= 3 ? -1 : console.treeLevel + 1;
+        settings.treeLevel = settings.treeLevel >= 3 ? -1 : settings.treeLevel + 1;
     }
     lookByKeys(console);
     if (pressed(GLFW_KEY_K)) {
@@ -124,8 +128,8 @@ void Steering::keys(Console& console) {
         console.pick.active = true;
     }
     if (pressed(GLFW_KEY_W)) {
-        console.panelOpen = !console.panelOpen || console.shownTab != Tab::Why;
-        console.tab = Tab::Why;
+        console.panels.open = !console.panels.open || console.panels.shownTab != Tab::Why;
+        console.panels.tab = Tab::Why;
     }
 }
 
@@ -135,7 +139,7 @@ void Steering::lookByKeys(Console& console) {
                                     std::pair(GLFW_KEY_3, Side::Top), std::pair(GLFW_KEY_0, Side::Reset),
                                     std::pair(GLFW_KEY_Z, Side::Reset)}) {
         if (pressed(key)) {
-            lookFrom(console.orbit, side);
+            lookFrom(console.settings.orbit, side);
         }
     }
 }
@@ -157,7 +161,7 @@ void Steering::moveCursor(Console& console, const ViewPort& large, const dvec3& 
 
 void Steering::moveByKeys(Console& console, const ViewPort& large) {
     const ImGuiIO& io = ImGui::GetIO();
-    if (io.WantTextInput || console.panels) {
+    if (io.WantTextInput || console.panels.haveKeys) {
         return;
     }
     const auto axis = [](int plus, int minus) {
@@ -182,22 +186,22 @@ void Steering::moveByKeys(Console& console, const ViewPort& large) {
 }
 
 void Steering::moveByMouse(Console& console, const ViewPort& large, double toolDepth) {
+    Orbit& orbit = console.settings.orbit;
     const ImGuiIO& io = ImGui::GetIO();
     const dquat baseReye = glm::conjugate(large.view.cameraTbase.rotation);
-    if (dragging_ && !console.pick.active && console.placing == ShapeKind::None && toolDepth > 0.0) {
+    if (dragging_ && !console.pick.active && console.placing.shape == ShapeKind::None && toolDepth > 0.0) {
         const double metres = large.metresPerPixel(toolDepth);
         shift(baseReye * dvec3(metres * io.MouseDelta.x, metres * io.MouseDelta.y, 0.0));
     }
-    if (orbiting_ && console.spaceIsLarge) {
-        console.orbit.yaw += 0.006 * io.MouseDelta.x;
-        console.orbit.pitch = std::clamp(console.orbit.pitch + 0.006 * io.MouseDelta.y, -1.5, 1.5);
+    if (orbiting_ && console.settings.spaceIsLarge) {
+        orbit.yaw += 0.006 * io.MouseDelta.x;
+        orbit.pitch = std::clamp(orbit.pitch + 0.006 * io.MouseDelta.y, -1.5, 1.5);
     } else if (orbiting_) {
         rotate(baseReye * (0.006 * dvec3(-io.MouseDelta.y, io.MouseDelta.x, 0.0)));
     }
     if (io.MouseWheel != 0.0f && large.holds(io.MousePos) && !io.WantCaptureMouse) {
-        if (io.KeyCtrl && console.spaceIsLarge) {
-            console.orbit.distance =
-                std::clamp(console.orbit.distance * std::pow(0.9, double{io.MouseWheel}), 0.15, 8.0);
+        if (io.KeyCtrl && console.settings.spaceIsLarge) {
+            orbit.distance = std::clamp(orbit.distance * std::pow(0.9, double{io.MouseWheel}), 0.15, 8.0);
         } else {
             shift(baseReye * dvec3(0.0, 0.0, kWheel * io.MouseWheel));
         }
@@ -206,41 +210,45 @@ void Steering::moveByMouse(Console& console, const ViewPort& large, double toolD
 
 // The arrow keys move the tool or the cursor unless F6 gives them to the panels.
 void Steering::switchFocus(Console& console) {
+    bool& haveKeys = console.panels.haveKeys;
     ImGuiIO& io = ImGui::GetIO();
     if (pressed(GLFW_KEY_F6)) {
-        console.panels = !console.panels;
-        if (console.panels) {
+        haveKeys = !haveKeys;
+        if (haveKeys) {
             ImGui::SetWindowFocus("panels");
         }
     }
-    console.panels = console.panels && !(pressed(GLFW_KEY_ESCAPE) && !ImGui::IsAnyItemActive());
-    io.ConfigFlags = console.panels ? io.ConfigFlags | ImGuiConfigFlags_NavEnableKeyboard
-                                    : io.ConfigFlags & ~ImGuiConfigFlags_NavEnableKeyboard;
+    haveKeys = haveKeys && !(pressed(GLFW_KEY_ESCAPE) && !ImGui::IsAnyItemActive());
+    io.ConfigFlags = haveKeys ? io.ConfigFlags | ImGuiConfigFlags_NavEnableKeyboard
+                              : io.ConfigFlags & ~ImGuiConfigFlags_NavEnableKeyboard;
 }
 
 std::optional<ImVec2> Steering::step(Console& console, const ViewPort& large, double toolDepth) {
     ImGuiIO& io = ImGui::GetIO();
+    Console::Settings& settings = console.settings;
+    Console::Requests& requests = console.requests;
     if (!io.WantTextInput && !io.KeyCtrl) {
         keys(console);
     }
     openTabs(console);
     if (pressed(GLFW_KEY_F2)) {
-        console.pilotLayout = !console.pilotLayout;
-        console.panelOpen = false;
+        settings.pilotLayout = !settings.pilotLayout;
+        console.panels.open = false;
     }
     switchFocus(console);
     if (pressed(GLFW_KEY_F11)) {
-        console.remake = console.remake || io.KeyCtrl;
-        console.fullScreen = console.fullScreen != !io.KeyCtrl;
+        requests.newSwapchain = requests.newSwapchain || io.KeyCtrl;
+        settings.fullScreen = settings.fullScreen != !io.KeyCtrl;
     }
-    console.screenshot = console.screenshot || pressed(GLFW_KEY_F12);
+    requests.screenshot = requests.screenshot || pressed(GLFW_KEY_F12);
     if (io.KeyCtrl && (pressed(GLFW_KEY_EQUAL) || pressed(GLFW_KEY_KP_ADD))) {
-        console.textScale = std::min(2.5, console.textScale + 0.125);
+        settings.textScale = std::min(2.5, settings.textScale + 0.125);
     }
     if (io.KeyCtrl && (pressed(GLFW_KEY_MINUS) || pressed(GLFW_KEY_KP_SUBTRACT))) {
-        console.textScale = std::max(0.75, console.textScale - 0.125);
+        settings.textScale = std::max(0.75, settings.textScale - 0.125);
     }
-    const bool enters = console.aims() && console.cursor && !console.panels && pressed(GLFW_KEY_ENTER);
+    const bool enters =
+        console.aims() && console.cursor && !console.panels.haveKeys && pressed(GLFW_KEY_ENTER);
     moveByKeys(console, large);
     const std::optional<ImVec2> clicked = clickByMouse(large);
     moveByMouse(console, large, toolDepth);

@@ -18,16 +18,17 @@ std::string hintOf(const Console& console, bool driven) {
     if (console.aims()) {
         return "Click, or use arrows (Shift: slowly) and Enter   Esc: cancel";
     }
-    if (console.panels) {
+    if (console.panels.haveKeys) {
         return "Keyboard in the panels: arrows choose, Enter presses   Space: forces off   F6, Esc: back";
     }
     const std::string moves = driven ? "" : "drag, wheel, arrows: tool   ";
-    if (console.spaceIsLarge) {
+    if (console.settings.spaceIsLarge) {
         return "Right drag: turn the view   1 2 3: front, side, top   0: reset   "
                "Ctrl+wheel: distance   Tab: camera   F1: all keys";
     }
-    const std::string hint = console.forces ? "Space: forces off   G: guidance   " + moves + "F1: all keys"
-                                            : "A: arm the forces   " + moves + "Tab: 3D   F1: all keys";
+    const std::string hint = console.switches.forces
+                                 ? "Space: forces off   G: guidance   " + moves + "F1: all keys"
+                                 : "A: arm the forces   " + moves + "Tab: 3D   F1: all keys";
     return driven ? hint : "No haptic device: mouse and keyboard move the tool.   " + hint;
 }
 
@@ -82,12 +83,12 @@ void drawStop(Console& console, const Letters& letters, const PixelRect& room) {
     ImGui::SetNextWindowSize(sizeOf(room));
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.0f, 0.0f});
     ImGui::PushStyleColor(ImGuiCol_WindowBg,
-                          console.forces ? IM_COL32(150, 22, 16, 255) : IM_COL32(44, 16, 18, 255));
+                          console.switches.forces ? IM_COL32(150, 22, 16, 255) : IM_COL32(44, 16, 18, 255));
     ImGui::Begin("stop", nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                      ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoFocusOnAppearing);
     if (ImGui::InvisibleButton("forces off", sizeOf(room))) {
-        console.forces = console.guidance = false;
+        console.switches.forcesOff();
     }
     explain(console, "Space, or a click: forces off, whatever has the focus");
     markPlace(console, "stop");
@@ -104,7 +105,7 @@ void drawStop(Console& console, const Letters& letters, const PixelRect& room) {
     const float lines = letters.bold->FontSize + letters.small->FontSize + 2.0f;
     const float top = a.y + 0.5f * (size.y - lines);
     const float next = middle(letters.bold, top, "\xe2\x96\xa0 SPACE");
-    middle(letters.small, top + next + 2.0f, console.forces ? "forces off" : "forces are off");
+    middle(letters.small, top + next + 2.0f, console.switches.forces ? "forces off" : "forces are off");
     ImGui::End();
     ImGui::PopStyleColor();
     ImGui::PopStyleVar();
@@ -125,8 +126,8 @@ void drawHint(Console& console, bool driven, const PixelRect& view, const PixelR
     const float width = std::max(80.0f, end - x - inside);
     float bottom = static_cast<float>(view.y + view.height) - 0.6f * inside;
     bottom -= drawWordsAbove(x, bottom, width, piecesThatFit(hintOf(console, driven), width), colour::kText);
-    if (ImGui::GetTime() < console.noticeUntil) {
-        drawWordsAbove(x, bottom, width, console.notice, colour::kPicked);
+    if (ImGui::GetTime() < console.messages.noticeUntil) {
+        drawWordsAbove(x, bottom, width, console.messages.notice, colour::kPicked);
     }
 }
 

@@ -80,10 +80,11 @@ void drawTabs(Console& console, FixtureEditor& editor, Alarms& alarms, const Tab
     ImGui::Begin("panels", nullptr, kPanel);
     if (ImGui::BeginTabBar("tabs")) {
         for (Tab tab : {Tab::Fixtures, Tab::Why, Tab::Alarms, Tab::Camera, Tab::Device, Tab::Help}) {
-            const bool wanted = console.tab == tab && console.shownTab != tab;
+            const bool wanted = console.panels.tab == tab && console.panels.shownTab != tab;
             if (beginTab(console, alarms, input.hud, tab, wanted)) {
-                console.tab = wanted || console.tab == console.shownTab ? tab : console.tab;
-                console.shownTab = tab;
+                console.panels.tab =
+                    wanted || console.panels.tab == console.panels.shownTab ? tab : console.panels.tab;
+                console.panels.shownTab = tab;
                 drawContent(console, editor, alarms, input, tab);
                 ImGui::EndTabItem();
             }

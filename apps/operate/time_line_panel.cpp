@@ -95,7 +95,7 @@ void TimeLinePanel::listen(Console& console) const {
     TimeLine& line = console.timeLine;
     const ImGuiIO& io = ImGui::GetIO();
     const auto pressed = [](int key) { return keyPressed(key, true); };
-    if (!io.WantTextInput && !io.KeyCtrl && !console.panels) {
+    if (!io.WantTextInput && !io.KeyCtrl && !console.panels.haveKeys) {
         if (keyPressed(GLFW_KEY_SPACE)) {
             togglePlay(line);
         }

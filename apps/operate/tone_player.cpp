@@ -10,9 +10,9 @@ void TonePlayer::step(Console& console, const RunView& run, const Alarms& alarms
     if (!tone) {
         return;
     }
-    console.lastTone = toneName(*tone);
-    ++console.toneCount;
-    if (console.tones && speaker_) {
+    console.status.lastTone = toneName(*tone);
+    ++console.status.toneCount;
+    if (console.settings.tones && speaker_) {
         speaker_->play(*tone);
     }
 }

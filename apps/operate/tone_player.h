@@ -16,7 +16,7 @@ public:
     explicit TonePlayer(bool silent)
         : speaker_(silent ? nullptr : std::make_unique<Speaker>()) {}
 
-    // Once per window frame: notes the tone that is due in the console, and plays it if tones are on.
+    // Once per window frame: notes the tone that is due in console.status, and plays it if tones are on.
     void step(Console& console, const RunView& run, const Alarms& alarms);
 
 private:

@@ -12,11 +12,11 @@
 namespace fathom::operate {
 
 void TracesPanel::draw(Console& console, const HudInput& input, ImVec2 at, ImVec2 size) {
-    if (console.paused && held_.empty()) {
+    if (console.panels.tracesPaused && held_.empty()) {
         held_ = input.run.trace();
         heldPeaks_ = input.run.peaks();
         heldRipple_ = input.run.ripple();
-    } else if (!console.paused) {
+    } else if (!console.panels.tracesPaused) {
         held_.clear();
     }
     ImGui::SetNextWindowPos(at);
@@ -32,20 +32,20 @@ void TracesPanel::draw(Console& console, const HudInput& input, ImVec2 at, ImVec
 }
 
 void TracesPanel::drawControls(Console& console) {
-    if (markedButton(console, console.paused ? "Resume (P)" : "Pause (P)", "pause",
+    if (markedButton(console, console.panels.tracesPaused ? "Resume (P)" : "Pause (P)", "pause",
                      "P: hold the traces; forces continue")) {
-        console.paused = !console.paused;
+        console.panels.tracesPaused = !console.panels.tracesPaused;
     }
     ImGui::SameLine();
-    console.exportCsv =
+    console.requests.exportTraces =
         markedButton(console, "CSV (E)", "csv", "E: write the shown ten seconds to traces.csv") ||
-        console.exportCsv;
+        console.requests.exportTraces;
     for (int axis = 0; axis < 3; ++axis) {
         ImGui::SameLine();
         ImGui::TextColored(ImColor(kAxisColours[axis]), "%c", "xyz"[axis]);
     }
     ImGui::SameLine();
-    const std::string span = console.paused ? "10 s, PAUSED" : "10 s";
+    const std::string span = console.panels.tracesPaused ? "10 s, PAUSED" : "10 s";
     const std::string full = "delivered, base axes; bold: size; dashed: residual, not rendered; " + span;
     const bool fits = ImGui::CalcTextSize(full.c_str()).x < ImGui::GetContentRegionAvail().x;
     ImGui::TextDisabled("%s", (fits ? full : span).c_str());

@@ -72,26 +72,25 @@ std::optional<SurfacePoint> surfaceUnder(const Screen& screen, const Fixtures& s
 std::optional<FixtureClass> shapeFrom(const Console& console, const FixtureEditor& editor,
                                       const SurfacePoint& at) {
     constexpr double kShortest = 0.002; // [m]
-    if (console.placing != ShapeKind::Line && console.placing != ShapeKind::Axis) {
-        return editor.shapeAt(console.placing, at.base, at.normal);
+    if (console.placing.shape != ShapeKind::Line && console.placing.shape != ShapeKind::Axis) {
+        return editor.shapeAt(console.placing.shape, at.base, at.normal);
     }
-    if (!console.placedFrom || glm::distance(at.base, *console.placedFrom) < kShortest) {
+    if (!console.placing.from || glm::distance(at.base, *console.placing.from) < kShortest) {
         return std::nullopt;
     }
-    return editor.shapeAt(console.placing, *console.placedFrom, at.base - *console.placedFrom);
+    return editor.shapeAt(console.placing.shape, *console.placing.from, at.base - *console.placing.from);
 }
 
 void placeAt(Console& console, FixtureEditor& editor, const SurfacePoint& at) {
     const std::optional<FixtureClass> shape = shapeFrom(console, editor, at);
     if (!shape) {
-        console.notify(console.placedFrom ? "too short: click farther away" : "now click on its end");
-        console.placedFrom = console.placedFrom.value_or(at.base);
+        console.notify(console.placing.from ? "too short: click farther away" : "now click on its end");
+        console.placing.from = console.placing.from.value_or(at.base);
         return;
     }
     const std::string problem = editor.place(*shape);
     console.notify(problem.empty() ? "placed" : problem);
-    console.placing = ShapeKind::None;
-    console.placedFrom.reset();
+    console.placing = {};
 }
 
 } // namespace
@@ -99,7 +98,7 @@ void placeAt(Console& console, FixtureEditor& editor, const SurfacePoint& at) {
 void clickInView(Console& console, FixtureEditor& editor, const Screen& screen, const SceneSnapshot& scene,
                  ImVec2 at) {
     const auto pixel = screen.colourPixelAt(at);
-    if (!pixel || console.spaceIsLarge) {
+    if (!pixel || console.settings.spaceIsLarge) {
         if (console.aims()) {
             console.notify("click in the camera view: Tab swaps the views");
         }
@@ -109,7 +108,7 @@ void clickInView(Console& console, FixtureEditor& editor, const Screen& screen, 
         editor.pickAt(console, scene, *pixel);
         return;
     }
-    if (console.placing == ShapeKind::None || scene.set.depth.empty()) {
+    if (console.placing.shape == ShapeKind::None || scene.set.depth.empty()) {
         return;
     }
     const auto surface = surfaceUnder(screen, scene.set, at);
@@ -123,7 +122,7 @@ void clickInView(Console& console, FixtureEditor& editor, const Screen& screen, 
 std::optional<Shape> shapeToPlace(const Console& console, const FixtureEditor& editor, const Screen& screen,
                                   const Fixtures& set) {
     const ImGuiIO& io = ImGui::GetIO();
-    if (console.placing == ShapeKind::None || console.spaceIsLarge ||
+    if (console.placing.shape == ShapeKind::None || console.settings.spaceIsLarge ||
         (!console.cursor && io.WantCaptureMouse)) {
         return std::nullopt;
     }

@@ -51,7 +51,7 @@ struct CameraRig {
     CameraRig() {
         laid.camera = &camera;
         laid.desk = &desk;
-        laid.run.console.tab = Tab::Camera;
+        laid.run.console.panels.tab = Tab::Camera;
         laid.fonts({1280, 720}, 1.0);
         laid.draw();
         desk.show(true);

@@ -11,23 +11,23 @@ using namespace fathom::operate;
 TEST_CASE("Closing waits five seconds for forces that last, however often it is asked for") {
     testing::LaidScreen laid;
     Console& console = laid.run.console;
-    console.forces = true;
+    console.switches.forces = true;
     stepClosing(console, laid.editor, {true, false, 10.0});
-    CHECK_FALSE(console.forces);
+    CHECK_FALSE(console.switches.forces);
     stepClosing(console, laid.editor, {true, false, 14.9});
-    CHECK_FALSE(console.quit);
+    CHECK_FALSE(console.closing.quit);
     stepClosing(console, laid.editor, {false, false, 15.1});
-    CHECK(console.quit);
-    CHECK(console.forcesLast);
+    CHECK(console.closing.quit);
+    CHECK(console.closing.forcesRemain);
 }
 
 TEST_CASE("Closing without edits ends as soon as forces have gone") {
     testing::LaidScreen laid;
     stepClosing(laid.run.console, laid.editor, {true, false, 10.0});
-    CHECK_FALSE(laid.run.console.quit);
+    CHECK_FALSE(laid.run.console.closing.quit);
     stepClosing(laid.run.console, laid.editor, {false, true, 10.1});
-    CHECK(laid.run.console.quit);
-    CHECK_FALSE(laid.run.console.forcesLast);
+    CHECK(laid.run.console.closing.quit);
+    CHECK_FALSE(laid.run.console.closing.forcesRemain);
 }
 
 TEST_CASE("A window whose forces last asks about unsaved fixtures, and notes when forces have gone") {
@@ -36,12 +36,12 @@ TEST_CASE("A window whose forces last asks about unsaved fixtures, and notes whe
     laid.editor.remove(0);
     stepClosing(console, laid.editor, {true, false, 1.0});
     stepClosing(console, laid.editor, {false, false, 7.0});
-    CHECK_FALSE(console.quit);
-    CHECK(console.closing == Closing::Asks);
-    CHECK(console.forcesLast);
+    CHECK_FALSE(console.closing.quit);
+    CHECK(console.closing.stage == ClosingStage::Asks);
+    CHECK(console.closing.forcesRemain);
     laid.fonts({1280.0f, 720.0f}, 1.0);
     laid.draw();
     stepClosing(console, laid.editor, {false, true, 7.1});
-    CHECK(console.closing == Closing::Asks);
-    CHECK_FALSE(console.forcesLast);
+    CHECK(console.closing.stage == ClosingStage::Asks);
+    CHECK_FALSE(console.closing.forcesRemain);
 }

@@ -15,7 +15,7 @@ TEST_CASE(
     "Forces that fade or are off name one cause: the dead-man switch, the device, regions or the camera") {
     ViewedRun run;
     const ModeInput input{run.console, run.view, run.haptics};
-    run.console.forces = true;
+    run.console.switches.forces = true;
     run.row.record.frame = 3;
     std::vector<FadeReason> fades;
     const auto says = [&](StepState state, const std::string& chip, const std::string& meaning) {
@@ -47,7 +47,7 @@ TEST_CASE(
     says(StepState::Fading, "NO CAMERA IMAGE", "no camera image");
     run.row.record.sceneAge = -0.2;
     says(StepState::Fading, "", "ahead of the clock");
-    run.console.forces = false;
+    run.console.switches.forces = false;
     says(StepState::Fading, "", "being switched off");
     using enum FadeReason;
     CHECK(fades == std::vector<FadeReason>{SwitchedOff, DeviceLost, DeviceWasLost, SwitchedOff, DeviceLost,
@@ -58,7 +58,7 @@ TEST_CASE(
 TEST_CASE("If several reasons let forces fade, the trace names the one that mode and chips show") {
     ViewedRun run;
     const ModeInput input{run.console, run.view, run.haptics};
-    run.console.forces = true;
+    run.console.switches.forces = true;
     run.row.record.frame = 3;
     run.row.record.state = StepState::Fading;
     run.row.record.sceneAge = 0.6;
@@ -84,7 +84,7 @@ TEST_CASE("If several reasons let forces fade, the trace names the one that mode
 TEST_CASE("A new run does not inherit the reasons of the one before") {
     ViewedRun run;
     const ModeInput input{run.console, run.view, run.haptics};
-    run.console.forces = true;
+    run.console.switches.forces = true;
     run.row.record.frame = 3;
     run.row.record.t = 100.0;
     run.row.hand.present = false;
@@ -110,7 +110,7 @@ TEST_CASE("A new run does not inherit the reasons of the one before") {
 TEST_CASE("While a real arm stands still, HELD has no chip that blames something else, except an old frame") {
     ViewedRun run;
     const ModeInput input{run.console, run.view, run.haptics};
-    run.console.forces = true;
+    run.console.switches.forces = true;
     run.row.record.frame = 3;
     run.row.driven = true;
     for (const StepState state : {StepState::Fading, StepState::Off}) {

@@ -24,7 +24,7 @@ struct FixturesTab {
     testing::LaidScreen laid;
 
     FixturesTab() {
-        laid.run.console.tab = Tab::Fixtures;
+        laid.run.console.panels.tab = Tab::Fixtures;
         laid.fonts({1600, 1000}, 1.0);
         laid.draw();
     }

@@ -29,10 +29,10 @@ LaidScreen::LaidScreen() {
 
 void LaidScreen::fonts(ImVec2 size, double scale) {
     ImGui::GetIO().DisplaySize = size;
-    run.console.textScale = scale;
-    const double fits = scaleThatFits(size, scale, run.console.pilotLayout);
-    if (fits != run.console.drawnScale || letters.body == nullptr) {
-        run.console.drawnScale = fits;
+    run.console.settings.textScale = scale;
+    const double fits = scaleThatFits(size, scale, run.console.settings.pilotLayout);
+    if (fits != run.console.status.drawnScale || letters.body == nullptr) {
+        run.console.status.drawnScale = fits;
         letters = loadLetters(fits);
         applyTheme(fits);
         unsigned char* pixels = nullptr;
@@ -68,41 +68,41 @@ void LaidScreen::draw(int frames) {
 
 const std::vector<LaidCase>& laidCases() {
     static const std::vector<LaidCase> kCases{
-        {"fixtures", [](Console& c) { c.tab = Tab::Fixtures; }},
-        {"why", [](Console& c) { c.tab = Tab::Why; }},
-        {"alarms", [](Console& c) { c.tab = Tab::Alarms; }},
-        {"keys", [](Console& c) { c.tab = Tab::Help; }},
-        {"camera", [](Console& c) { c.tab = Tab::Camera; }},
-        {"device", [](Console& c) { c.tab = Tab::Device; }},
+        {"fixtures", [](Console& c) { c.panels.tab = Tab::Fixtures; }},
+        {"why", [](Console& c) { c.panels.tab = Tab::Why; }},
+        {"alarms", [](Console& c) { c.panels.tab = Tab::Alarms; }},
+        {"keys", [](Console& c) { c.panels.tab = Tab::Help; }},
+        {"camera", [](Console& c) { c.panels.tab = Tab::Camera; }},
+        {"device", [](Console& c) { c.panels.tab = Tab::Device; }},
         {"mapping",
          [](Console& c) {
-             c.tab = Tab::Device;
-             c.mapping = ButtonUse::Clutch;
+             c.panels.tab = Tab::Device;
+             c.editing.mapping = ButtonUse::Clutch;
          }},
-        {"3D", [](Console& c) { c.spaceIsLarge = true; }},
+        {"3D", [](Console& c) { c.settings.spaceIsLarge = true; }},
         {"armed, recording, guidance",
          [](Console& c) {
-             c.forces = c.recording = c.guidance = c.frozen = true;
-             c.recorded = {7323.0, 345'000'000'000, 998'000'000'000};
+             c.switches.forces = c.switches.recording = c.switches.guidance = c.switches.frozen = true;
+             c.status.recorded = {7323.0, 345'000'000'000, 998'000'000'000};
          }},
         {"refusal",
          [](Console& c) {
-             c.refusal = "hand is 105 mm inside 'red valve': hold C to re-centre";
+             c.messages.refusal = "hand is 105 mm inside 'red valve': hold C to re-centre";
              c.notify("recording to /home/pilot/recordings/2026-11-27/some-long-folder/recording-12");
          }},
-        {"paused traces", [](Console& c) { c.paused = true; }},
+        {"paused traces", [](Console& c) { c.panels.tracesPaused = true; }},
         {"look-back",
          [](Console& c) {
              c.timeLine.on = true, c.timeLine.frames = 300, c.timeLine.duration = 10.0;
              c.timeLine.marks = {{2.0, "mark 1"}, {2.1, "mark 2"}, {9.95, "mark 3"}};
          }},
-        {"closing", [](Console& c) { c.closing = Closing::Asks; }},
+        {"closing", [](Console& c) { c.closing.stage = ClosingStage::Asks; }},
         {"open",
          [](Console& c) {
              c.openCard.on = true;
              c.openCard.choices = {kLiveRun, "/home/pilot/recording-12", "/data/" + std::string(80, 'x')};
          }},
-        {"panel open", [](Console& c) { c.panelOpen = true; }},
+        {"panel open", [](Console& c) { c.panels.open = true; }},
         {"pick", [](Console& c) { c.pick.active = true; }},
         {"picked",
          [](Console& c) {

@@ -32,7 +32,7 @@ TEST_CASE(
     "Every screen from 800x480 to 3840x2160 with text from 1x to 2.5x has no text that is cut or overlaps, "
     "and the stop key") {
     LaidScreen laid;
-    laid.run.console.forces = laid.run.console.frozen = true; // alarms
+    laid.run.console.switches.forces = laid.run.console.switches.frozen = true; // alarms
     laid.run.row.record.wrench.force = {20.0, 0.0, 0.0};
     laid.run.step({.handGone = true, .recorderFailed = "the disk is full"});
     const Console fresh;
@@ -42,8 +42,8 @@ TEST_CASE(
                 for (const LaidCase& screen : laidCases()) {
                     Console& console = laid.run.console;
                     console = fresh;
-                    console.drawnScale = 0.0;
-                    console.pilotLayout = pilot;
+                    console.status.drawnScale = 0.0;
+                    console.settings.pilotLayout = pilot;
                     laid.fonts(size, scale);
                     screen.set(console);
                     laid.draw();
@@ -71,7 +71,7 @@ TEST_CASE(
 
 TEST_CASE("With alarms, every tab is as wide as its name") {
     LaidScreen laid;
-    laid.run.console.forces = laid.run.console.frozen = true;
+    laid.run.console.switches.forces = laid.run.console.switches.frozen = true;
     laid.run.step({.handGone = true, .recorderFailed = "the disk is full"});
     for (const ImVec2 size : {ImVec2(1280, 720), ImVec2(1600, 1000)}) {
         laid.fonts(size, 1.0);
@@ -93,7 +93,7 @@ TEST_CASE("The tooltip of the stop plate has room round its text") {
     ImGui::GetIO().MousePos = {stop[0] + 0.5f * stop[2], stop[1] + 0.5f * stop[3]};
     ImGui::GetIO().DeltaTime = 0.25f;
     laid.draw(5);
-    REQUIRE(laid.run.console.tooltip.find("Space, or a click") == 0);
+    REQUIRE(laid.run.console.messages.tooltip.find("Space, or a click") == 0);
     size_t seen = 0;
     for (const DrawnLetter& l : drawnLetters()) {
         if (l.list.find("Tooltip") != std::string::npos) {

@@ -28,7 +28,7 @@ TEST_CASE(
     CHECK(mode(StepState::Free) == "FORCES OFF");
     CHECK(mode(StepState::Contact) == "FORCES OFF");
     CHECK(mode(StepState::Fading) == "FORCES FADING"); // they fade over some time
-    run.console.forces = true;
+    run.console.switches.forces = true;
     CHECK(mode(StepState::Off) == "ARMED"); // no frame yet
     CHECK(chips() == "NO REGIONS YET");
     CHECK(mode(StepState::Free) == "ARMED");
@@ -44,8 +44,8 @@ TEST_CASE(
     run.row.record.sceneAge = 0.11;
     CHECK(mode(StepState::Fading, 0.5) == "STALE");
     CHECK(mode(StepState::Trapped, 0.5) == "HELD");
-    run.console.recorded = {62.0, 34'000'000, 2'100'000'000};
-    run.console.frozen = run.console.recording = run.console.guidance = true;
+    run.console.status.recorded = {62.0, 34'000'000, 2'100'000'000};
+    run.console.switches.frozen = run.console.switches.recording = run.console.switches.guidance = true;
     CHECK(mode(StepState::Free) == "AT LIMIT");
     CHECK(chips() == "GUIDE: no target, FROZEN, REC 1:02, 34 MB, 2.1 GB left");
     run.row.record.wrench = {};
@@ -58,7 +58,7 @@ TEST_CASE(
     "While forces are armed but the dead-man switch is open or the device is lost, the mode is FORCES OFF") {
     ViewedRun run;
     const ModeInput input{run.console, run.view, run.haptics};
-    run.console.forces = true;
+    run.console.switches.forces = true;
     run.row.record.frame = 3; // regions are known, and fresh
     run.row.record.sceneAge = 0.02;
     run.row.record.state = StepState::Fading;
@@ -76,7 +76,7 @@ TEST_CASE(
 TEST_CASE("While guidance or a joint limit pushes the hand, ARMED does not say that nothing pushes") {
     ViewedRun run;
     const ModeInput input{run.console, run.view, run.haptics};
-    run.console.forces = true;
+    run.console.switches.forces = true;
     const auto meaning = [&](uint32_t causes) {
         run.row.record.cause = causes;
         run.step(0.001);
@@ -97,12 +97,13 @@ TEST_CASE("Words of states, chips and alarms have a contrast of 7 to 1 over a wh
             CHECK(testing::contrast(testing::luminance(testing::rgbOf(ink)), plate) >= 7.0);
         }
     };
-    run.console.guidance = run.console.clutch = run.console.frozen = run.console.recording = true;
+    run.console.switches.guidance = run.console.switches.clutch = run.console.switches.frozen =
+        run.console.switches.recording = true;
     for (const bool past : {false, true}) {
         for (const bool forces : {false, true}) {
             for (int state = 0; state <= static_cast<int>(StepState::Waiting); ++state) {
                 for (const double force : {0.0, run.haptics.forceLimit}) {
-                    run.console.timeLine.on = past, run.console.forces = forces;
+                    run.console.timeLine.on = past, run.console.switches.forces = forces;
                     run.row.record.state = static_cast<StepState>(state);
                     run.row.record.wrench.force.x = force;
                     run.step(0.001);
@@ -126,7 +127,7 @@ TEST_CASE("Words of states, chips and alarms have a contrast of 7 to 1 over a wh
 TEST_CASE("Each mode has its own sign, colour or frame, and none of two looks the same without colour") {
     ViewedRun run;
     const ModeInput input{run.console, run.view, run.haptics};
-    run.console.forces = true;
+    run.console.switches.forces = true;
     std::set<std::pair<std::string, Edge>> looks;
     run.row.record.sceneAge = 0.11; // a state of fading is stale
     const auto look = [&](StepState state) {
@@ -141,7 +142,7 @@ TEST_CASE("Each mode has its own sign, colour or frame, and none of two looks th
     }
     run.row.record.wrench.force = dvec3(run.haptics.forceLimit, 0.0, 0.0);
     look(StepState::Contact);
-    run.console.forces = false;
+    run.console.switches.forces = false;
     look(StepState::Free);
     run.console.timeLine.on = true;
     look(StepState::Free);

@@ -17,10 +17,10 @@ TEST_CASE("A recording that was chosen opens when the pilot has closed the windo
           "time") {
     Console console;
     console.openCard.next = "recording-1";
-    console.closing = Closing::Asks;
+    console.closing.stage = ClosingStage::Asks;
     CHECK(opensNext(console, false) == ""); // ended by --seconds while the question is shown
     CHECK(opensNext(console, true) == "");
-    console.quit = true;
+    console.closing.quit = true;
     CHECK(opensNext(console, false) == "recording-1");
     CHECK(opensNext(console, true) == "");
 }

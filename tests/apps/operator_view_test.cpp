@@ -64,20 +64,20 @@ TEST_CASE(
 
 TEST_CASE("An alarm stays until it is over and acknowledged, and is latched again when it returns") {
     ViewedRun run;
-    run.console.forces = true;
+    run.console.switches.forces = true;
     CHECK(run.step().empty());
     run.row.record.state = StepState::Trapped;
     CHECK(run.step() == Words{"WARNING active trapped"});
     run.row.record.state = StepState::Free;
     CHECK(run.step() == Words{"WARNING latched trapped"});
     CHECK(run.step() == Words{"WARNING latched trapped"});
-    run.console.acknowledge = true;
+    run.console.requests.acknowledge = true;
     CHECK(run.step().empty());
-    CHECK_FALSE(run.console.acknowledge);
+    CHECK_FALSE(run.console.requests.acknowledge);
 
     run.row.record.state = StepState::Trapped;
     run.step();
-    run.console.acknowledge = true;
+    run.console.requests.acknowledge = true;
     CHECK(run.step() == Words{"WARNING active acknowledged trapped"}); // the cause remains
     CHECK(run.alarms.worst() == nullptr);
     run.row.record.state = StepState::Free;
@@ -88,13 +88,13 @@ TEST_CASE("An alarm stays until it is over and acknowledged, and is latched agai
 
 TEST_CASE("Alarms are sorted by level, highest first, and an acknowledged one is not the worst") {
     ViewedRun run;
-    run.console.forces = true;
-    run.console.frozen = true;
+    run.console.switches.forces = true;
+    run.console.switches.frozen = true;
     run.row.record.wrench.force = {run.haptics.forceLimit, 0.0, 0.0};
     CHECK(run.step({.handGone = true}) ==
           Words{"WARNING active hand", "CAUTION active force", "ADVISORY active frozen"});
     CHECK(run.alarms.worst()->key == "hand");
-    run.console.acknowledge = true;
+    run.console.requests.acknowledge = true;
     run.step({.handGone = true});
     run.row.record.finite = false;
     CHECK(run.step({.handGone = true})[0] == "WARNING active finite");
@@ -105,7 +105,7 @@ TEST_CASE("Alarms are sorted by level, highest first, and an acknowledged one is
 
 TEST_CASE("A class without a region, or a run without an active set, raises an alarm after 1 s") {
     ViewedRun run;
-    run.console.forces = true;
+    run.console.switches.forces = true;
     FixtureClass valve;
     valve.name = "valve";
     run.scene.fixtures = {valve};
@@ -131,7 +131,7 @@ TEST_CASE("A class without a region, or a run without an active set, raises an a
 
 TEST_CASE("A scene from the future raises an alarm that names the clock") {
     ViewedRun run;
-    run.console.forces = true;
+    run.console.switches.forces = true;
     run.row.record.sceneAge = -5.0;
     for (int i = 0; i < 300; ++i) {
         run.step();
@@ -142,7 +142,7 @@ TEST_CASE("A scene from the future raises an alarm that names the clock") {
 
 TEST_CASE("The alarm names the cause of an old scene: the camera or a lost GPU") {
     ViewedRun run;
-    run.console.forces = true;
+    run.console.switches.forces = true;
     run.row.record.sceneAge = 2.0 * kStaleAfter;
     CHECK(run.step().empty());
     for (int i = 0; i < 300; ++i) {
@@ -153,7 +153,7 @@ TEST_CASE("The alarm names the cause of an old scene: the camera or a lost GPU")
     CHECK(run.step() == Words{"WARNING active camera", "CAUTION active stale"});
     CHECK(run.step({.gpuGone = true}) ==
           Words{"WARNING active gpu", "WARNING latched camera", "CAUTION active stale"});
-    run.console.acknowledge = true;
+    run.console.requests.acknowledge = true;
     CHECK(run.step()[0] == "WARNING active acknowledged gpu"); // before its first frame
     run.row.record.sceneAge = 0.0;
     CHECK(run.step() == Words{"CAUTION active acknowledged stale"}); // it may come and go
@@ -165,7 +165,7 @@ TEST_CASE("The alarm names the cause of an old scene: the camera or a lost GPU")
 
 TEST_CASE("A cause that comes and goes is one alarm, and one that lasts a moment is none") {
     ViewedRun run;
-    run.console.forces = true;
+    run.console.switches.forces = true;
     const auto forTicks = [&](int ticks) {
         for (int i = 0; i < ticks; ++i) {
             run.step();
@@ -181,7 +181,7 @@ TEST_CASE("A cause that comes and goes is one alarm, and one that lasts a moment
     run.row.record.wrench.force = limit;
     CHECK(run.step() == Words{"CAUTION active force"});
     CHECK(run.alarms.shown()[0]->words().find("Force at its limit of 20 N: ") == 0);
-    run.console.acknowledge = true;
+    run.console.requests.acknowledge = true;
     for (int i = 0; i < 10; ++i) { // the hand trembles at the limit
         run.row.record.wrench.force = i % 2 == 0 ? limit : 0.9 * limit;
         forTicks(100);
@@ -198,9 +198,9 @@ TEST_CASE("A cause that comes and goes is one alarm, and one that lasts a moment
 
 TEST_CASE("An alarm that is over and not acknowledged says first that it ended, and nothing to do") {
     ViewedRun run;
-    run.console.forces = run.console.frozen = true;
+    run.console.switches.forces = run.console.switches.frozen = true;
     run.step();
-    run.console.frozen = false;
+    run.console.switches.frozen = false;
     CHECK(run.step() == Words{"ADVISORY latched frozen"});
     CHECK(run.alarms.shown()[0]->words() == "ended: Fixtures frozen, new images do not change them");
 }
@@ -222,7 +222,7 @@ TEST_CASE("Forces that are off raise no alarm about what only forces can do, but
 
 TEST_CASE("An alarm says what happens and then what to do") {
     ViewedRun run;
-    run.console.forces = run.console.frozen = true;
+    run.console.switches.forces = run.console.switches.frozen = true;
     run.row.record.state = StepState::Trapped;
     run.row.record.wrench.force = {run.haptics.forceLimit, 0.0, 0.0};
     run.row.record.sceneAge = 6.0 * kStaleAfter;

@@ -149,7 +149,7 @@ TEST_CASE("A window whose run stands still is laid out again, but not drawn agai
     laid.draw();
     CHECK(drawn(true) == 16 * 10);
     CHECK(drawn(false) == 0);
-    laid.run.console.paused = true; // changes a button
+    laid.run.console.panels.tracesPaused = true; // changes a button
     const uint64_t button = drawn(false);
     CHECK(button > 0);
     CHECK(button < 16);

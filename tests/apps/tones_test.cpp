@@ -21,7 +21,7 @@ TEST_CASE("Tones are heard at a first contact, at a limit, for an old image and 
     };
     run.row.record.contacts = 1;
     CHECK(heard() == ""); // forces are off
-    run.console.forces = true;
+    run.console.switches.forces = true;
     CHECK(heard() == "contact");
     CHECK(heard() == "");
     run.row.record.contacts = 0;
@@ -52,14 +52,14 @@ TEST_CASE("Tones are heard at a first contact, at a limit, for an old image and 
 TEST_CASE("In a new run, whose time begins at 0, old alarms end and a first contact is heard") {
     ViewedRun run;
     ToneRules rules;
-    run.console.forces = run.console.frozen = true;
+    run.console.switches.forces = run.console.switches.frozen = true;
     run.row.record.contacts = 1;
     run.row.record.t = 100.0;
     run.row.record.wrench.force = {run.haptics.forceLimit, 0.0, 0.0};
     run.step();
     CHECK(run.step() == std::vector<std::string>{"CAUTION active force", "ADVISORY active frozen"});
     CHECK(rules.step(run.console, run.view, run.alarms) == Tone::Limit); // and a contact
-    run.console.frozen = false;
+    run.console.switches.frozen = false;
     run.row.record.wrench.force = {};
     run.row.record.t = 0.0;
     run.view.rewind();
@@ -67,7 +67,7 @@ TEST_CASE("In a new run, whose time begins at 0, old alarms end and a first cont
     CHECK(rules.step(run.console, run.view, run.alarms) == Tone::Contact);
     run.row.record.t = 2.0;
     CHECK(run.step() == std::vector<std::string>{"CAUTION latched force", "ADVISORY latched frozen"});
-    run.console.acknowledge = true;
+    run.console.requests.acknowledge = true;
     run.step();
     REQUIRE(run.alarms.history().size() == 2);
     CHECK(run.alarms.history()[0].since <= run.alarms.history()[0].end);

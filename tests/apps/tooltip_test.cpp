@@ -39,8 +39,8 @@ TEST_CASE("Every button, slider, tab, bar and figure has a tooltip") {
         for (const LaidCase& now : laidCases()) {
             Console& console = laid.run.console;
             console = fresh;
-            console.drawnScale = 0.0;
-            console.pilotLayout = pilot;
+            console.status.drawnScale = 0.0;
+            console.settings.pilotLayout = pilot;
             laid.fonts({1920, 1080}, 1.0);
             now.set(console);
             ImGui::GetIO().MousePos = {-1.0f, -1.0f};
@@ -56,7 +56,7 @@ TEST_CASE("Every button, slider, tab, bar and figure has a tooltip") {
                 CAPTURE(std::string(now.name));
                 const std::string shown = name;
                 CAPTURE(shown);
-                CHECK(console.tooltip.size() > 8);
+                CHECK(console.messages.tooltip.size() > 8);
             }
         }
     }
@@ -65,16 +65,16 @@ TEST_CASE("Every button, slider, tab, bar and figure has a tooltip") {
 TEST_CASE("A mouse on its way shows no tooltip, and a button that is held down none over a view") {
     LaidScreen laid;
     Console& console = laid.run.console;
-    console.drawnScale = 0.0;
+    console.status.drawnScale = 0.0;
     laid.fonts({1280, 720}, 1.0);
     laid.draw();
     ImGui::GetIO().DeltaTime = 0.1f;
     pointAt(console.places.at("gap bar"));
     laid.draw(2);
-    CHECK(console.tooltip.empty());
+    CHECK(console.messages.tooltip.empty());
     laid.draw(5);
-    CHECK(console.tooltip.find("Distance from the tool") == 0);
+    CHECK(console.messages.tooltip.find("Distance from the tool") == 0);
     ImGui::GetIO().MouseDown[0] = true;
     laid.draw(1);
-    CHECK(console.tooltip.empty());
+    CHECK(console.messages.tooltip.empty());
 }

@@ -58,8 +58,8 @@ TEST_CASE("Device and CPU draw the same window") {
     gpu::Instance instance(testing::Vulkan::validation());
     gpu::Device device(instance, testing::Vulkan::selector(), gpu::Drawing::Offscreen);
     testing::LaidScreen laid;
-    laid.run.console.forces = true;
-    laid.run.console.tab = Tab::Help;
+    laid.run.console.switches.forces = true;
+    laid.run.console.panels.tab = Tab::Help;
     laid.fonts({kSize.width, kSize.height}, 1.0);
     laid.draw();
     std::mt19937 noise(7); // an image of large squares: resampling shows at their borders only
