@@ -31,10 +31,6 @@ void FrameRipple::add(double t, int64_t frame, const Wrench& delivered) {
     }
 }
 
-void FrameRipple::clear() {
-    *this = {};
-}
-
 template <class Part>
 double FrameRipple::rms(Part&& part) const {
     if (means_.size() < 3) {

@@ -16,7 +16,6 @@ class FrameRipple {
 public:
     // t [s] ascending; frame: whose set the tick uses, below 0 = none.
     void add(double t, int64_t frame, const Wrench& delivered);
-    void clear();
 
     double force() const;  // [N]; NaN before the third frame
     double torque() const; // [N m], same

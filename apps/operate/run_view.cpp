@@ -49,9 +49,9 @@ bool RunView::refresh() {
     }
     const bool fresh = sink_.scene().refresh();
     if (fresh) {
-        captures_.push_back(scene().t);
-        while (scene().t - captures_.front() > 1.0) {
-            captures_.pop_front();
+        seen_.captures.push_back(scene().t);
+        while (scene().t - seen_.captures.front() > 1.0) {
+            seen_.captures.pop_front();
         }
         if (!scene().report.unchanged) {
             passMs_ = scene().report.passMs;
@@ -61,68 +61,56 @@ bool RunView::refresh() {
 }
 
 void RunView::rewind() {
-    tick_ = {};
-    vanishedAt_ = lostAt_ = kNever; // a new run has a new clock
-    measured_.reset();
-    ticks_ = late_ = 0;
+    seen_ = {}; // a new run has a new clock
     ++restarts_;
-    trace_.clear();
-    force_.clear();
-    torque_.clear();
-    ripple_.clear();
-    captures_.clear();
-    delays_.clear();
-    usedFrame_ = -1;
-    blocks_.clear();
-    micros_.clear();
-    wokenLate_.clear();
 }
 
 void RunView::take(const TickRow& row) {
-    if (ticks_ > 0 && row.record.vanished > tick_.record.vanished) { // the first row's count is of before
-        vanishedAt_ = row.record.t;
+    if (seen_.ticks > 0 &&
+        row.record.vanished > seen_.tick.record.vanished) { // the first row's count is of before
+        seen_.vanishedAt = row.record.t;
     }
-    lostAt_ = row.hand.present ? lostAt_ : row.record.t;
-    tick_ = row;
-    ++ticks_;
-    late_ += row.late ? 1 : 0;
-    if (micros_.size() < kMaxTimedTicks) {
-        micros_.resize(micros_.size() + 1);
-        wokenLate_.resize(micros_.size());
+    seen_.lostAt = row.hand.present ? seen_.lostAt : row.record.t;
+    seen_.tick = row;
+    ++seen_.ticks;
+    seen_.late += row.late ? 1 : 0;
+    if (seen_.micros.size() < kMaxTimedTicks) {
+        seen_.micros.resize(seen_.micros.size() + 1);
+        seen_.wokenLate.resize(seen_.micros.size());
     }
-    micros_[(ticks_ - 1) % kMaxTimedTicks] = static_cast<float>(row.micros);
-    wokenLate_[(ticks_ - 1) % kMaxTimedTicks] = static_cast<float>(row.wokenLate * 1e6);
+    seen_.micros[(seen_.ticks - 1) % kMaxTimedTicks] = static_cast<float>(row.micros);
+    seen_.wokenLate[(seen_.ticks - 1) % kMaxTimedTicks] = static_cast<float>(row.wokenLate * 1e6);
     const StepRecord& r = row.record;
     if (row.driven && row.armStatus.known) {
-        measured_ = Measured{r.t - row.armStatus.age, row.armStatus.posture};
+        seen_.measured = Measured{r.t - row.armStatus.age, row.armStatus.posture};
     }
-    trace_.push_back(sampleOf(row));
-    trace_.back().fade = fadeReason();
-    const TraceWrench felt = trace_.back().delivered();
-    ripple_.add(r.t, r.frame, {dvec3(felt.force), dvec3(felt.torque)});
-    force_.add(r.t, glm::length(felt.force), kSpan);
-    torque_.add(r.t, glm::length(felt.torque), kSpan);
-    while (r.t - trace_.front().t > kSpan) {
-        trace_.pop_front();
+    seen_.trace.push_back(sampleOf(row));
+    seen_.trace.back().fade = fadeReason();
+    const TraceWrench felt = seen_.trace.back().delivered();
+    seen_.ripple.add(r.t, r.frame, {dvec3(felt.force), dvec3(felt.torque)});
+    seen_.force.add(r.t, glm::length(felt.force), kSpan);
+    seen_.torque.add(r.t, glm::length(felt.torque), kSpan);
+    while (r.t - seen_.trace.front().t > kSpan) {
+        seen_.trace.pop_front();
     }
     noteDelay(r);
     noteBlocks(row);
 }
 
 FadeReason RunView::fadeReason() const {
-    const StepRecord& record = tick_.record;
+    const StepRecord& record = seen_.tick.record;
     const bool fading = record.state == StepState::Fading;
     // An old frame stops a real arm, which then holds the forces off also when they have ramped out.
-    if (isOld(record.sceneAge) && (fading || (tick_.driven && record.frame >= 0))) {
+    if (isOld(record.sceneAge) && (fading || (seen_.tick.driven && record.frame >= 0))) {
         return FadeReason::OldFrame;
     }
-    if ((tick_.hand.buttons & kDeadManOpen) != 0) {
+    if ((seen_.tick.hand.buttons & kDeadManOpen) != 0) {
         return FadeReason::SwitchedOff;
     }
-    if (tick_.driven && tick_.armStatus.state != ArmState::Follows) {
+    if (seen_.tick.driven && seen_.tick.armStatus.state != ArmState::Follows) {
         return FadeReason::ArmStill;
     }
-    if (!tick_.hand.present) {
+    if (!seen_.tick.hand.present) {
         return FadeReason::DeviceLost;
     }
     if (fading && regionsVanished()) {
@@ -133,21 +121,21 @@ FadeReason RunView::fadeReason() const {
 
 void RunView::noteDelay(const StepRecord& r) {
     constexpr double kSpanOfDelays = 1.0; // [s]
-    if (r.frame > usedFrame_ && std::isfinite(r.sceneAge)) {
-        delays_.emplace_back(r.t, r.sceneAge);
+    if (r.frame > seen_.usedFrame && std::isfinite(r.sceneAge)) {
+        seen_.delays.emplace_back(r.t, r.sceneAge);
     }
-    usedFrame_ = r.frame;
-    while (!delays_.empty() && r.t - delays_.front().first > kSpanOfDelays) {
-        delays_.pop_front();
+    seen_.usedFrame = r.frame;
+    while (!seen_.delays.empty() && r.t - seen_.delays.front().first > kSpanOfDelays) {
+        seen_.delays.pop_front();
     }
 }
 
 FrameDelay RunView::delay() const {
-    if (delays_.empty()) {
+    if (seen_.delays.empty()) {
         return {};
     }
     std::vector<double> ages;
-    for (const auto& [t, age] : delays_) {
+    for (const auto& [t, age] : seen_.delays) {
         ages.push_back(age);
     }
     std::sort(ages.begin(), ages.end());
@@ -158,13 +146,13 @@ void RunView::noteBlocks(const TickRow& row) {
     const StepRecord& r = row.record;
     for (uint32_t i = 0; i < r.touchCount; ++i) {
         const Touch& touch = r.touches[i];
-        auto same = std::find_if(blocks_.begin(), blocks_.end(), [&](const Block& b) {
+        auto same = std::find_if(seen_.blocks.begin(), seen_.blocks.end(), [&](const Block& b) {
             return b.touch.kind == touch.kind && b.touch.fixture == touch.fixture &&
                    b.touch.leaf == touch.leaf && r.t - b.last < kSameBlock;
         });
-        if (same == blocks_.end()) {
-            blocks_.push_front({touch, r.frame, r.t, r.t});
-            same = blocks_.begin();
+        if (same == seen_.blocks.end()) {
+            seen_.blocks.push_front({touch, r.frame, r.t, r.t});
+            same = seen_.blocks.begin();
         }
         same->touch = touch;
         same->last = r.t;
@@ -172,28 +160,29 @@ void RunView::noteBlocks(const TickRow& row) {
         same->deepest = std::max(same->deepest, same->beyond);
         same->force = glm::length(r.wrench.force);
     }
-    while (blocks_.size() > kMaxBlocks) {
-        blocks_.pop_back();
+    while (seen_.blocks.size() > kMaxBlocks) {
+        seen_.blocks.pop_back();
     }
 }
 
 Rates RunView::rates() const {
     Rates rates;
-    if (trace_.size() < 2) {
+    if (seen_.trace.size() < 2) {
         return rates;
     }
-    const double now = trace_.back().t;
+    const double now = seen_.trace.back().t;
     size_t count = 0;
     double worst = 0.0, later = now;
-    for (auto it = trace_.rbegin(); it != trace_.rend() && now - it->t <= 1.0; ++it) {
+    for (auto it = seen_.trace.rbegin(); it != seen_.trace.rend() && now - it->t <= 1.0; ++it) {
         worst = std::max(worst, later - it->t);
         later = it->t;
         ++count;
     }
     rates.hapticHz = now > later ? static_cast<double>(count - 1) / (now - later) : 0.0;
     rates.worstPeriodMs = worst * 1e3;
-    if (captures_.size() > 1 && captures_.back() > captures_.front()) {
-        rates.cameraHz = static_cast<double>(captures_.size() - 1) / (captures_.back() - captures_.front());
+    if (seen_.captures.size() > 1 && seen_.captures.back() > seen_.captures.front()) {
+        rates.cameraHz =
+            static_cast<double>(seen_.captures.size() - 1) / (seen_.captures.back() - seen_.captures.front());
     }
     return rates;
 }

@@ -54,7 +54,6 @@ class PeakHold {
 public:
     void add(double t, float value, double span); // [s]
     double value() const { return falling_.empty() ? 0.0 : double{falling_.front().second}; }
-    void clear() { falling_.clear(); }
 
 private:
     std::deque<std::pair<double, float>> falling_; // values that no later one exceeds, with their times
@@ -101,31 +100,33 @@ public:
     bool refresh();
 
     const SceneSnapshot& scene() const { return sink_.scene().front(); }
-    const TickRow& step() const { return tick_; }
+    const TickRow& step() const { return seen_.tick; }
     const std::optional<Measured>& measured() const {
-        return measured_;
+        return seen_.measured;
     } // last measurement; empty = never measured
-    bool anyTick() const { return ticks_ > 0; }
+    bool anyTick() const { return seen_.ticks > 0; }
     // Whether regions disappeared while they pressed, so recently that their force may still fade.
-    bool regionsVanished() const { return tick_.record.t - vanishedAt_ <= 5.0; }
+    bool regionsVanished() const { return seen_.tick.record.t - seen_.vanishedAt <= 5.0; }
     // Whether the device was gone or silent so recently that it may still hold forces off.
-    bool deviceWasLost() const { return tick_.record.t - lostAt_ <= 2.0; }
+    bool deviceWasLost() const { return seen_.tick.record.t - seen_.lostAt <= 2.0; }
     // Of the newest tick, whose state is Fading or Off.
     FadeReason fadeReason() const;
-    uint64_t ticks() const { return ticks_; }
-    const std::deque<TraceSample>& trace() const { return trace_; }
-    Peaks peaks() const { return {force_.value(), torque_.value()}; } // of the trace
-    uint64_t restarts() const { return restarts_; }                   // calls of rewind()
-    const FrameRipple& ripple() const { return ripple_; }
+    uint64_t ticks() const { return seen_.ticks; }
+    const std::deque<TraceSample>& trace() const { return seen_.trace; }
+    Peaks peaks() const { return {seen_.force.value(), seen_.torque.value()}; } // of the trace
+    uint64_t restarts() const { return restarts_; }                             // calls of rewind()
+    const FrameRipple& ripple() const { return seen_.ripple; }
     const std::deque<Block>& blocks() const {
-        return blocks_;
+        return seen_.blocks;
     } // newest first; one per kind, fixture and leaf
     Rates rates() const;
     FrameDelay delay() const;
     // Of the last million ticks, unordered.
-    const std::vector<float>& stepMicros() const { return micros_; }
-    const std::vector<float>& wokenLateMicros() const { return wokenLate_; } // also of the last million ticks
-    uint64_t lateTicks() const { return late_; }
+    const std::vector<float>& stepMicros() const { return seen_.micros; }
+    const std::vector<float>& wokenLateMicros() const {
+        return seen_.wokenLate;
+    } // also of the last million ticks
+    uint64_t lateTicks() const { return seen_.late; }
     const std::vector<double>& passMs() const { return passMs_; } // of the last frame that was processed
 
 private:
@@ -134,20 +135,25 @@ private:
 
     static constexpr double kNever = -1e9; // [s]
 
+    // What rewind() discards.
+    struct Seen {
+        TickRow tick; // the newest one
+        std::optional<Measured> measured;
+        double vanishedAt = kNever, lostAt = kNever; // [s] of the newest ticks with it
+        uint64_t ticks = 0, late = 0;
+        std::deque<TraceSample> trace;
+        PeakHold force, torque;
+        FrameRipple ripple;
+        std::deque<double> captures;                  // [s] capture times of the last second
+        std::deque<std::pair<double, double>> delays; // time of the tick and age of its new frame [s]
+        int64_t usedFrame = -1;                       // of the newest tick
+        std::deque<Block> blocks;
+        std::vector<float> micros, wokenLate;
+    };
+
     SnapshotSink& sink_;
-    TickRow tick_;
-    std::optional<Measured> measured_;
-    double vanishedAt_ = kNever, lostAt_ = kNever; // [s] of the newest ticks with it
-    uint64_t ticks_ = 0, late_ = 0;
+    Seen seen_;
     uint64_t restarts_ = 0;
-    std::deque<TraceSample> trace_;
-    PeakHold force_, torque_;
-    FrameRipple ripple_;
-    std::deque<double> captures_;                  // [s] capture times of the last second
-    std::deque<std::pair<double, double>> delays_; // time of the tick and age of its new frame [s]
-    int64_t usedFrame_ = -1;                       // of the newest tick
-    std::deque<Block> blocks_;
-    std::vector<float> micros_, wokenLate_;
     std::vector<double> passMs_;
 };
 

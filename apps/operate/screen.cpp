@@ -27,25 +27,26 @@ bool sameOrbit(const Orbit& a, const Orbit& b) {
 void Screen::makeImages(const Console& console, const FixtureEditor& editor, const ScreenInput& input,
                         const Rooms& rooms) {
     const SceneSnapshot& scene = input.run.scene();
-    const bool newSelection = selectionDrawn_ != editor.selectionNumber();
-    const bool first =
-        !cameraPort_ || std::exchange(redraw_, false) || drawnLarge_ != console.settings.spaceIsLarge;
+    const bool newSelection = composed_.selection != editor.selectionNumber();
+    const bool first = !cameraPort_ || std::exchange(redraw_, false) ||
+                       composed_.spaceIsLarge != console.settings.spaceIsLarge;
     if (!centred_ && scene.any) {
         const SpaceBounds bounds = boundsOf(scene.set, input.arm);
-        drawnOrbit_.centre = bounds.middle;
+        composed_.orbit.centre = bounds.middle;
         floor_ = bounds.floor;
         centred_ = true;
     }
     const bool fresh = input.freshImage || newSelection || first;
     if (fresh) {
         camera_.compose(scene, editor.selection());
-        selectionDrawn_ = editor.selectionNumber();
+        composed_.selection = editor.selectionNumber();
     }
     const PixelRect& spaceRoom = console.settings.spaceIsLarge ? rooms.large : rooms.inset;
     Orbit orbit = console.settings.orbit;
-    orbit.centre = drawnOrbit_.centre;
-    const bool moved = !sameOrbit(orbit, drawnOrbit_) || drawnLevel_ != console.settings.treeLevel ||
-                       drawnLarge_ != console.settings.spaceIsLarge;
+    orbit.centre = composed_.orbit.centre;
+    const bool moved = !sameOrbit(orbit, composed_.orbit) ||
+                       composed_.treeLevel != console.settings.treeLevel ||
+                       composed_.spaceIsLarge != console.settings.spaceIsLarge;
     // Two thirds of the resolution are enough for a cloud.
     const int parts = coarse_ ? 4 : 3;
     const auto width = static_cast<uint32_t>(std::clamp(spaceRoom.width * 2 / parts, 64, 1200));
@@ -53,13 +54,13 @@ void Screen::makeImages(const Console& console, const FixtureEditor& editor, con
     const uint64_t rest = coarse_ ? 5 : 3; // frames per image of a small 3D view
     const bool space =
         first || moved || width != space_.view().lens.width || height != space_.view().lens.height ||
-        (input.freshImage && (console.settings.spaceIsLarge || scene.number >= spaceNumber_ + rest));
+        (input.freshImage && (console.settings.spaceIsLarge || scene.number >= composed_.spaceScene + rest));
     if (space) {
         space_.compose(scene, {orbit, floor_, width, height, console.settings.treeLevel}, input.arm);
-        drawnOrbit_ = orbit;
-        spaceNumber_ = scene.number;
-        drawnLevel_ = console.settings.treeLevel;
-        drawnLarge_ = console.settings.spaceIsLarge;
+        composed_.orbit = orbit;
+        composed_.spaceScene = scene.number;
+        composed_.treeLevel = console.settings.treeLevel;
+        composed_.spaceIsLarge = console.settings.spaceIsLarge;
     }
     const PixelRect& cameraRoom = console.settings.spaceIsLarge ? rooms.inset : rooms.large;
     cameraPort_ =
@@ -106,18 +107,19 @@ void Screen::findGhost(Console& console, const FixtureEditor& editor, const Scen
     const FixtureClass& gates = console.pick.gates;
     const double radius = gates.radius + 3.0 * editor.scene().registrationSigma; // as of the final regions
     const bool shown = console.pick.taken && gates.role == Role::Forbidden;
-    if (shown && (ghostNumber_ != editor.selectionNumber() || ghostRadius_ != radius)) {
-        ghost_ = ghostOf(scene.set, editor.selection(), radius);
-        ghostNumber_ = editor.selectionNumber();
-        ghostRadius_ = radius;
+    if (shown && (ghost_.selection != editor.selectionNumber() || ghost_.radius != radius)) {
+        ghost_.spheres = ghostOf(scene.set, editor.selection(), radius);
+        ghost_.selection = editor.selectionNumber();
+        ghost_.radius = radius;
     }
     if (!shown) {
-        ghost_.clear();
-        ghostNumber_ = 0;
+        ghost_.spheres.clear();
+        ghost_.selection = 0;
     }
     placed_ = shapeToPlace(console, editor, *this, scene.set);
-    console.pick.warnings = placed_ ? coverWarnings(*placed_, cues_.tool, scene.set.guidance, editor.scene())
-                                    : coverWarnings(ghost_, cues_.tool, scene.set.guidance, editor.scene());
+    console.pick.warnings =
+        placed_ ? coverWarnings(*placed_, cues_.tool, scene.set.guidance, editor.scene())
+                : coverWarnings(ghost_.spheres, cues_.tool, scene.set.guidance, editor.scene());
     if (console.pick.taken && console.pick.found.others > 0) {
         console.pick.warnings.push_back("The fixture's box also contains " +
                                         std::to_string(console.pick.found.others) + " points of other parts");
@@ -142,7 +144,7 @@ void Screen::drawViews(Console& console, const FixtureEditor& editor, const Scre
         }
         const MarksInput marks{*port,     input.run,      input.tool, editor.scene(), editor.shapes(),
                                input.arm, input.measured, cues_,      surface,        large};
-        drawGhost(list, *port, ghost_);
+        drawGhost(list, *port, ghost_.spheres);
         if (placed_) {
             drawShape(list, *port, *placed_, ShapeLook::Ghost);
         }

@@ -66,17 +66,24 @@ private:
     std::optional<ViewPort> cameraPort_, spacePort_;
     const ViewPort* large_ = nullptr;
     std::array<Layer, 2> layers_;
-    Orbit drawnOrbit_;
+    struct { // what the composed images show
+        Orbit orbit;
+        int treeLevel = -1;
+        bool spaceIsLarge = false;
+        uint64_t selection = 0;  // FixtureEditor::selectionNumber()
+        uint64_t spaceScene = 0; // SceneSnapshot::number of the 3D view
+    } composed_;
     double floor_ = 0.0; // [m] of the grid, base y
     DepthCues cues_;
     std::array<std::optional<CloseUp>, 2> closeUps_; // from the side and from above
-    std::vector<Sphere> ghost_;                      // of the picked colour
-    double ghostRadius_ = 0.0;                       // [m]
-    uint64_t ghostNumber_ = 0;                       // selection that it shows
-    std::optional<Shape> placed_;                    // what a click would place
-    int drawnLevel_ = -1;
-    bool centred_ = false, drawnLarge_ = false, redraw_ = false, coarse_ = false;
-    uint64_t selectionDrawn_ = 0, drawn_ = 0, spaceNumber_ = 0;
+    struct { // of the picked colour
+        std::vector<Sphere> spheres;
+        double radius = 0.0;    // [m]
+        uint64_t selection = 0; // FixtureEditor::selectionNumber(); 0 = none
+    } ghost_;
+    std::optional<Shape> placed_; // what a click would place
+    bool centred_ = false, redraw_ = false, coarse_ = false;
+    uint64_t drawn_ = 0;            // frames drawn so far
     std::array<bool, 2> waiting_{}; // images of camera and 3D view that no drawn frame has shown
 };
 
