@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// When there is an alarm, and what a pilot reads. A state that cannot push because forces are off has none.
+// The rules of the alarms and their texts. While forces are off, states that concern only forces raise none.
 #include "apps/binding/scene_edits.h"
 #include "apps/operate/alarms.h"
 #include "apps/operate/hud.h"
@@ -14,7 +14,7 @@ namespace fathom::operate {
 
 namespace {
 
-constexpr double kPatience = 1.0;   // [s]
+constexpr double kShortLoss = 1.0;  // [s] without regions or forces that raises no alarm yet
 constexpr double kHandApart = 0.10; // [m] from hand to tool
 
 // Whether the points of a class end where its box does: more than a tenth of them are at one of its sides.
@@ -38,9 +38,9 @@ bool endsAtBox(const Fixtures& set, uint8_t row, const Box& box) {
 void Alarms::stepScene(const StepRecord& tick, bool deviceGone, bool forces) {
     const bool stale = isOld(tick.sceneAge);
     lostFrame_ = deviceGone ? tick.frame : lostFrame_;
-    waits_ = deviceGone || (waits_ && stale && tick.frame == lostFrame_);
-    set(waits_, Level::Warning, "gpu", {"GPU lost, forces fade", "wait, it is opened again"}, tick.t);
-    set(!waits_ && tick.sceneAge > 5.0 * kStaleAfter, Level::Warning, "camera",
+    awaitsGpu_ = deviceGone || (awaitsGpu_ && stale && tick.frame == lostFrame_);
+    set(awaitsGpu_, Level::Warning, "gpu", {"GPU lost, forces fade", "wait, it is opened again"}, tick.t);
+    set(!awaitsGpu_ && tick.sceneAge > 5.0 * kStaleAfter, Level::Warning, "camera",
         {printed("No camera image for %.1f s, forces fade", tick.sceneAge),
          "check the camera's cable and power"},
         tick.t);
@@ -52,7 +52,7 @@ void Alarms::stepScene(const StepRecord& tick, bool deviceGone, bool forces) {
         tick.t, {0.25, 1.0});
 }
 
-// What replay lists as warnings (apps/replay/run_watch.h), from what the window holds of the run.
+// The conditions that replay reports as warnings (apps/replay/run_watch.h), from the data of the window.
 void Alarms::stepProtection(const RunView& run, const Scene& scene, const StepRecord& tick, bool forces) {
     const Fixtures& shown = run.scene().set;
     regionSeen_.resize(scene.fixtures.size(), tick.t);
@@ -63,7 +63,7 @@ void Alarms::stepProtection(const RunView& run, const Scene& scene, const StepRe
         const std::vector<uint8_t>& of = shown.spheres.fixture;
         const bool some = !counts || std::find(of.begin(), of.end(), static_cast<uint8_t>(row)) != of.end();
         regionSeen_[row] = some ? tick.t : std::min(regionSeen_[row], tick.t); // time goes back in playback
-        set(tick.t - regionSeen_[row] > kPatience, Level::Caution, "region " + f.name,
+        set(tick.t - regionSeen_[row] > kShortLoss, Level::Caution, "region " + f.name,
             {"'" + f.name + "' is not seen and not protected",
              "point the camera at it, or pick its colour (K)"},
             tick.t);
@@ -71,10 +71,11 @@ void Alarms::stepProtection(const RunView& run, const Scene& scene, const StepRe
             "box " + f.name,
             {"'" + f.name + "' reaches the side of its box, nothing is protected beyond",
              "enlarge the box or remove it"},
-            tick.t, {kPatience, kPatience});
+            tick.t, {kShortLoss, kShortLoss});
     }
-    forcesSeen_ = tick.state != StepState::Off || tick.frame >= 0 ? tick.t : std::min(forcesSeen_, tick.t);
-    set(forces && tick.t - forcesSeen_ > kPatience, Level::Caution, "off",
+    forcePossible_ =
+        tick.state != StepState::Off || tick.frame >= 0 ? tick.t : std::min(forcePossible_, tick.t);
+    set(forces && tick.t - forcePossible_ > kShortLoss, Level::Caution, "off",
         shown.frame < 0 ? Text{"No force, no camera image yet", "wait, or check the camera"}
                         : Text{"No force, the regions here are not known yet", "move the hand slowly"},
         tick.t);

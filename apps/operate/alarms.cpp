@@ -32,10 +32,10 @@ ImU32 levelColour(Level level) {
 // True when a cause has lasted long enough to be an alarm.
 bool Alarms::lasts(bool on, const std::string& key, double t, double after) {
     if (!on) {
-        causes_.erase(key);
+        pendingSince_.erase(key);
         return false;
     }
-    double& since = causes_.try_emplace(key, t).first->second;
+    double& since = pendingSince_.try_emplace(key, t).first->second;
     since = std::min(since, t); // time goes back in playback
     return t - since >= settle_ * after;
 }

@@ -48,14 +48,14 @@ struct Health {
 
 class Alarms {
 public:
-    // settle: share of the times that filter causes which come and go; 0 = all alarms at once.
+    // settle: factor on the times that filter brief causes; 0 = every cause is an alarm at once.
     explicit Alarms(double settle = 1.0)
         : settle_(settle) {}
 
     // Evaluates all rules; called once per window frame.
     void step(Console& console, const RunView& run, const HapticOptions& haptics, const Scene& scene,
               const Health& health = {});
-    // Raises an alarm outside the rules.
+    // Raises an alarm outside the rules; it is latched at once.
     void raise(Level level, const std::string& key, const std::string& what, double t);
 
     // Active alarms and latched ones that are not acknowledged. Sorted by level; within a level,
@@ -88,11 +88,12 @@ private:
     double settle_;
     std::vector<Alarm> alarms_;
     std::deque<EndedAlarm> history_;
-    std::map<std::string, double> causes_; // [s] since when a cause that is not an alarm yet lasts
-    bool waits_ = false;                   // true until the first frame after the GPU was lost
-    std::vector<double> regionSeen_;       // [s] per fixture row: when it last had a region
-    double forcesSeen_ = 0.0;              // [s] when a set was last obeyed
-    int64_t lostFrame_ = -1;               // newest frame at that time
+    std::map<std::string, double>
+        pendingSince_;               // [s] start of each cause that has not lasted long enough for an alarm
+    bool awaitsGpu_ = false;         // from the loss of the GPU until its next frame
+    std::vector<double> regionSeen_; // [s] per fixture row: when it last had a region
+    double forcePossible_ = 0.0;     // [s] when a tick last had regions, so that a force was possible
+    int64_t lostFrame_ = -1;         // newest frame at that time
 };
 
 // Panel: present alarms, then the history.

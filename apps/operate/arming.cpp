@@ -9,9 +9,9 @@ namespace fathom::operate {
 
 namespace {
 
-constexpr double kSilent = 5.0; // times the age at which forces fade; a slow camera is no reason
+constexpr double kSilent = 5.0; // multiples of kStaleAfter: older than from any slow camera
 constexpr double kApart = 0.01; // [m] most between hand and tool
-constexpr double kRecent = 0.5; // [s] age of a contact that explains it
+constexpr double kRecent = 0.5; // [s] age of a contact that explains the distance
 constexpr double kTwist = 0.35; // [rad] most turn between them, where the device renders torque
 
 std::string thousandths(double value) {

@@ -19,7 +19,7 @@ struct ArmingInput {
     bool handGone = false; // the haptic device is disconnected or silent
 };
 
-// Why forces must stay off, and what mends it: "hand is 105 mm inside 'red valve': hold C to re-centre".
+// Why forces must stay off, and what to do: "hand is 105 mm inside 'red valve': hold C to re-centre".
 // Empty: all checks passed. Forces that came on with the hand deep in a region would push it at once.
 std::string whyNotArmed(const ArmingInput& input);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which button of a haptic device does what, as the pilot has chosen by pressing it.
+// Maps the buttons of a haptic device to uses. The pilot assigns a button by pressing it.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ int buttonNumber(uint32_t bit); // 1 for the lowest bit; 0 = none
 
 class ButtonMap {
 public:
-    // native: what the engine takes for each use; 0 = the scene has none.
+    // native: the button that the engine expects for each use; 0 = the scene has none.
     explicit ButtonMap(const ButtonBits& native)
         : native_(native)
         , chosen_(native) {}

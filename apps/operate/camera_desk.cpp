@@ -35,10 +35,10 @@ void CameraDesk::show(bool shown) {
     changed_.notify_one();
 }
 
-void CameraDesk::ask(const CameraControl& control, int64_t value) {
+void CameraDesk::request(const CameraControl& control, int64_t value) {
     {
         const std::lock_guard lock(mutex_);
-        wanted_.emplace(control, value);
+        requested_.emplace(control, value);
     }
     changed_.notify_one();
 }
@@ -52,7 +52,7 @@ void CameraDesk::serve() {
     constexpr auto kPeriod = std::chrono::seconds(1);
     std::unique_lock lock(mutex_);
     while (!ends_) {
-        const auto wanted = std::exchange(wanted_, std::nullopt);
+        const auto wanted = std::exchange(requested_, std::nullopt);
         const bool reads = shown_ || wanted;
         lock.unlock();
         const std::string fault = wanted ? controls_->set(wanted->first, wanted->second) : "";
@@ -65,7 +65,7 @@ void CameraDesk::serve() {
             answer_.controls = std::move(controls);
             answer_.known = shown_;
         }
-        const auto called = [&] { return ends_ || wanted_ || (shown_ && !answer_.known); };
+        const auto called = [&] { return ends_ || requested_ || (shown_ && !answer_.known); };
         if (shown_) {
             changed_.wait_for(lock, kPeriod, called);
         } else {

@@ -26,11 +26,11 @@ public:
     CameraDesk& operator=(const CameraDesk&) = delete;
 
     bool any() const { return controls_ != nullptr; }
-    void show(bool shown);                                 // reads the controls once per second while shown
-    void ask(const CameraControl& control, int64_t value); // the newest request counts
+    void show(bool shown); // reads the controls once per second while shown
+    void request(const CameraControl& control, int64_t value); // the newest request counts
 
     struct Answer {
-        bool known = false;                  // it was read since it is shown
+        bool known = false;                  // the controls were read since the tab is shown
         std::vector<CameraControl> controls; // empty: the camera is disconnected
         std::string fault;                   // of the last request; empty = none
     };
@@ -43,7 +43,7 @@ private:
     mutable std::mutex mutex_;
     std::condition_variable changed_;
     bool shown_ = false, ends_ = false;
-    std::optional<std::pair<CameraControl, int64_t>> wanted_;
+    std::optional<std::pair<CameraControl, int64_t>> requested_;
     Answer answer_;
     std::thread thread_;
 };

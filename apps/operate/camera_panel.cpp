@@ -20,25 +20,25 @@ void streamRows(const CameraFacts& camera) {
     }
 }
 
-void delayRow(Console& console, const CameraFacts& camera, const RunView& run, const Letters& letters) {
+void delayRow(Console& console, const CameraFacts& camera, const RunView& run, const Fonts& fonts) {
     const FrameDelay delay = run.delay();
     const std::string text =
         std::isfinite(delay.median)
             ? printed("Exposure to force %.0f ms, at most %.0f ms", 1e3 * delay.median, 1e3 * delay.worst)
             : std::string("Exposure to force: no frame in the last second");
-    fontText(letters.bold, colour::kText, text);
+    fontText(fonts.bold, colour::kText, text);
     markPlace(console, "exposure to force");
     explain(console, "From the capture time of a frame to the first tick whose force uses it: median and "
                      "largest of the last second");
     ImGui::PushTextWrapPos(0.0f);
-    fontText(letters.small, colour::kQuiet,
+    fontText(fonts.small, colour::kQuiet,
              camera.stampsExposure ? "counted from the start of exposure, which the camera reports"
              : camera.live ? "counted from the arrival of the image: exposure and transfer come on top"
                            : "counted from the time of the frame in the recording or simulation");
     ImGui::PopTextWrapPos();
 }
 
-// The control as it is drawn; the value that the pilot has chosen, if any.
+// Draws the control. True when the pilot has chosen a new value.
 bool controlWidget(Console& console, const CameraControl& control, int64_t& value) {
     Console::Editing& editing = console.editing;
     if (control.isSwitch) {
@@ -81,7 +81,7 @@ void controlRow(Console& console, const CameraControl& control, CameraDesk& desk
                       .c_str());
         ImGui::PopTextWrapPos();
     } else if (int64_t value = control.value; controlWidget(console, control, value)) {
-        desk.ask(control, value);
+        desk.request(control, value);
         console.notify(control.stream + " " + control.name + ": " + std::to_string(value));
     }
     markPlace(console, control.stream + " " + control.name);
@@ -99,12 +99,12 @@ std::string whyNoControls(const CameraFacts& camera, const CameraDesk& desk) {
 }
 
 void drawCamera(Console& console, const CameraFacts& camera, const RunView& run, CameraDesk& desk,
-                const Letters& letters) {
+                const Fonts& fonts) {
     ImGui::PushTextWrapPos(0.0f);
-    fontText(letters.small, colour::kQuiet, camera.description);
+    fontText(fonts.small, colour::kQuiet, camera.description);
     ImGui::PopTextWrapPos();
     streamRows(camera);
-    delayRow(console, camera, run, letters);
+    delayRow(console, camera, run, fonts);
     ImGui::Separator();
     if (const std::string why = whyNoControls(camera, desk); !why.empty()) {
         ImGui::PushTextWrapPos(0.0f);
@@ -127,7 +127,7 @@ void drawCamera(Console& console, const CameraFacts& camera, const RunView& run,
     for (const CameraControl& control : answer.controls) {
         if (control.stream != stream) {
             stream = control.stream;
-            fontText(letters.bold, colour::kText, stream == "depth" ? "Depth" : "Colour");
+            fontText(fonts.bold, colour::kText, stream == "depth" ? "Depth" : "Colour");
         }
         controlRow(console, control, desk);
     }

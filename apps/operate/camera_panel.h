@@ -22,7 +22,7 @@ struct CameraFacts {
 
 // Sets controls through the desk.
 void drawCamera(Console& console, const CameraFacts& camera, const RunView& run, CameraDesk& desk,
-                const Letters& letters);
+                const Fonts& fonts);
 
 // Why there is nothing to set; empty = there is.
 std::string whyNoControls(const CameraFacts& camera, const CameraDesk& desk);

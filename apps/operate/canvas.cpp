@@ -56,7 +56,7 @@ Canvas::Canvas(Window& window, const gpu::Instance& instance, double textScale, 
     , instance_(instance)
     , shots_(std::move(shots))
     , scale_(textScale)
-    , letters_(loadLetters(textScale)) {
+    , fonts_(loadFonts(textScale)) {
     applyTheme(scale_);
 }
 
@@ -106,7 +106,7 @@ void Canvas::finishFrame(Console& console, std::span<const Layer> layers, const 
     }
     if (scale_ != console.status.drawnScale) {
         scale_ = console.status.drawnScale;
-        letters_ = loadLetters(scale_);
+        fonts_ = loadFonts(scale_);
         applyTheme(scale_);
         if (onDevice_) {
             onDevice_->painter->uploadFonts();
@@ -116,9 +116,9 @@ void Canvas::finishFrame(Console& console, std::span<const Layer> layers, const 
     }
 }
 
-std::unique_ptr<Image> Canvas::picture(const Console& console) {
+std::unique_ptr<Image> Canvas::frameImage(const Console& console) {
     const int below = captionHeight(static_cast<int>(window_.size().width), console.status.caption.size());
-    std::unique_ptr<Image> image = onDevice_ ? onDevice_->painter->picture(below) : nullptr;
+    std::unique_ptr<Image> image = onDevice_ ? onDevice_->painter->frameImage(below) : nullptr;
     if (image) {
         drawCaption(*image, image->height() - below, console.status.caption);
     }
@@ -137,7 +137,7 @@ void Canvas::shoot(Console& console) {
     try {
         std::error_code ignored; // writing says why a file cannot be made
         std::filesystem::create_directories(shots_, ignored);
-        const std::unique_ptr<Image> image = picture(console);
+        const std::unique_ptr<Image> image = frameImage(console);
         if (!image) {
             console.notify("no screenshot: nothing is drawn yet");
             return;

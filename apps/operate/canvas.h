@@ -31,9 +31,9 @@ public:
 
     // The last drawn frame, with the lines of console.status.caption under it. Null: nothing was drawn, or
     // there is no device. Throws DeviceFailed: call drop().
-    std::unique_ptr<Image> picture(const Console& console);
+    std::unique_ptr<Image> frameImage(const Console& console);
 
-    const Letters& letters() const { return letters_; }
+    const Fonts& fonts() const { return fonts_; }
     struct Counts {                      // Totals over all devices.
         uint64_t drawn = 0, yielded = 0; // window frames drawn, and skipped for passes
         uint32_t swapchains = 0;
@@ -51,7 +51,7 @@ private:
     double scale_;
     std::unique_ptr<OnDevice> onDevice_; // null: no device
     Counts before_;                      // counts from devices that were dropped
-    Letters letters_;
+    Fonts fonts_;
 };
 
 } // namespace fathom::operate

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lines under an exported picture: time, pilot, state, force, gap and the job.
+// The lines under an exported image: time, pilot, state, force, gap and the job.
 #pragma once
 
 #include "apps/operate/depth_cues.h"
@@ -22,7 +22,7 @@ struct CaptionInput {
 // with state, force and gap, then the job.
 std::vector<std::string> captionOf(const CaptionInput& input);
 
-// Height [pixels] of these lines under a picture of this width.
+// Height [pixels] of these lines under an image of this width.
 int captionHeight(int width, size_t lines);
 // Draws them from the row `top` on, shortened where they are too long.
 void drawCaption(const Image& image, int top, const std::vector<std::string>& lines);

@@ -72,7 +72,7 @@ std::vector<Sphere> sectionOf(const Fixtures& set, const Pose& eyeTbase, double 
         const double r = double{s.radius[i]};
         const double off =
             along.x * double{s.x[i]} + along.y * double{s.y[i]} + along.z * double{s.z[i]} + origin;
-        if (std::abs(off) >= r) { // most
+        if (std::abs(off) >= r) { // true for most spheres
             continue;
         }
         dvec3 c = eyeTbase.apply(regionCentre(set, i));
@@ -80,7 +80,7 @@ std::vector<Sphere> sectionOf(const Fixtures& set, const Pose& eyeTbase, double 
         if (std::abs(c.x) >= edge || std::abs(c.y) >= edge) {
             continue;
         }
-        const auto cell = [&](double v) { // those beyond the edge go to the cells there
+        const auto cell = [&](double v) { // spheres beyond the edge count for the cell at the edge
             const double at = (std::clamp(v, -reach, reach) + reach) / cellEdge;
             return std::min(kCells - 1, static_cast<size_t>(at));
         };
@@ -122,7 +122,7 @@ std::vector<dvec3> surfaceNear(const Fixtures& set, const Pose& eyeTbase, double
                 straight ? glm::dvec2((u - lens.cx) * perU, (v - lens.cy) * perV) : lens.ray(u, v);
             const double off =
                 z * (along.x * ray.x + along.y * ray.y + along.z) + eyeTcamera.position.z - depth;
-            if (std::abs(off) >= kSlab) { // most
+            if (std::abs(off) >= kSlab) { // true for most points
                 continue;
             }
             const dvec3 camera = z * dvec3(ray, 1.0), eye = eyeTcamera.apply(camera);

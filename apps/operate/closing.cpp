@@ -24,7 +24,7 @@ CloseAnswer answerOf(Console& console) {
 void answer(Console& console, FixtureEditor& editor, CloseAnswer given) {
     Closing& closing = console.closing;
     if (given == CloseAnswer::Save) {
-        editor.keep(console.settings.saved(), editor.scene().pilot);
+        editor.keepSettings(console.settings.saved(), editor.scene().pilot);
         console.notify(editor.save());
     }
     closing.quit = given == CloseAnswer::Discard || (given == CloseAnswer::Save && !editor.unsaved());

@@ -45,6 +45,6 @@ double drawBody(ImDrawList& list, const ViewPort& port, std::span<const Sphere> 
 // where there are none.
 ImVec4 drawTether(ImDrawList& list, const ViewPort& port, const DepthCues& cues, bool label);
 // From 0 to 200 mm, in the middle of a rectangle of the window.
-void drawGapBar(Console& console, const DepthCues& cues, const Letters& letters, const PixelRect& place);
+void drawGapBar(Console& console, const DepthCues& cues, const Fonts& fonts, const PixelRect& place);
 
 } // namespace fathom::operate

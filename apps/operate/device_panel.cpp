@@ -36,7 +36,7 @@ void useRow(Console& console, const ButtonMap& buttons, ButtonUse use) {
 
 } // namespace
 
-void drawDevice(Console& console, const DeviceFacts& device, const Letters& letters) {
+void drawDevice(Console& console, const DeviceFacts& device, const Fonts& fonts) {
     ImGui::PushTextWrapPos(0.0f);
     if (device.description.empty() || device.buttons == nullptr) {
         ImGui::TextDisabled("No haptic device: there are no buttons to map.");
@@ -45,8 +45,8 @@ void drawDevice(Console& console, const DeviceFacts& device, const Letters& lett
         ImGui::PopTextWrapPos();
         return;
     }
-    fontText(letters.bold, colour::kText, device.description);
-    if (!device.there) {
+    fontText(fonts.bold, colour::kText, device.description);
+    if (!device.present) {
         colouredText(colour::kWarning, "disconnected");
     }
     ImGui::TextUnformatted(("Pressed: " + heldButtons(device.held)).c_str());

@@ -13,12 +13,12 @@ namespace fathom::operate {
 // The device of a run.
 struct DeviceFacts {
     std::string description; // empty: mouse and keyboard, or a recording
-    bool there = true;
+    bool present = true;
     uint32_t held = 0; // buttons down at the last tick, as the device reports them
     const ButtonMap* buttons = nullptr;
 };
 
 // Starts a mapping (Console::Editing::mapping) by a button of the panel.
-void drawDevice(Console& console, const DeviceFacts& device, const Letters& letters);
+void drawDevice(Console& console, const DeviceFacts& device, const Fonts& fonts);
 
 } // namespace fathom::operate

@@ -158,16 +158,16 @@ std::string FixtureEditor::apply(Scene next) {
         std::swap(scene_, next);
         return e.what();
     }
-    past_.push_back(std::move(next.fixtures));
-    if (past_.size() > kMaxHistory) {
-        past_.erase(past_.begin());
+    undo_.push_back(std::move(next.fixtures));
+    if (undo_.size() > kMaxHistory) {
+        undo_.erase(undo_.begin());
     }
-    future_.clear();
+    redo_.clear();
     notifyChange();
     return "";
 }
 
-void FixtureEditor::keep(const Scene::Window& window, const std::string& pilot) {
+void FixtureEditor::keepSettings(const Scene::Window& window, const std::string& pilot) {
     scene_.window = window;
     scene_.choosePilot(pilot);
 }
@@ -184,18 +184,18 @@ bool FixtureEditor::restore(std::vector<std::vector<FixtureClass>>& from,
 }
 
 bool FixtureEditor::undo() {
-    return restore(past_, future_);
+    return restore(undo_, redo_);
 }
 
 bool FixtureEditor::redo() {
-    return restore(future_, past_);
+    return restore(redo_, undo_);
 }
 
 void FixtureEditor::showFixtures(const Scene& scene) {
     scene_.fixtures = scene.fixtures;
     shapes_ = shapesOf(scene_);
-    past_.clear();
-    future_.clear();
+    undo_.clear();
+    redo_.clear();
     saved_ = rows();
 }
 

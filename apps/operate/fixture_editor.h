@@ -26,11 +26,11 @@ public:
     void pickAt(Console& console, const SceneSnapshot& snapshot, glm::uvec2 pixel);
     // Computes selection and hue histogram for the current gates.
     void preview(Console& console, const SceneSnapshot& snapshot);
-    // Each edit that a caller may get wrong returns why nothing has changed, or nothing. No edit makes a
-    // fixture that a scene file could not contain.
+    // Edits that can fail return why nothing has changed; empty = done. No edit makes a fixture that a scene
+    // file could not contain.
     // Puts the picked class into a spare row, or the edited gates into their row.
     std::string takePicked(Console& console);
-    const std::string& lastTaken() const { return lastTaken_; } // name of the class that it made active
+    const std::string& lastTaken() const { return lastTaken_; } // name of the class that it activated
     // A new placed shape at a point of the base frame with the normal of the surface.
     FixtureClass shapeAt(ShapeKind kind, const dvec3& base, const dvec3& normal) const;
     std::string place(const FixtureClass& shape);           // adds it, unless there are too many
@@ -41,7 +41,7 @@ public:
     bool undo();
     bool redo();
     // Settings of window and pilot: saved in the file, not part of the undo history.
-    void keep(const Scene::Window& window, const std::string& pilot);
+    void keepSettings(const Scene::Window& window, const std::string& pilot);
     // Replaces `fixtures:`, `pilot:` and `window:` in the scene file, keeps the rest, and returns a message.
     // A failure leaves the old file unchanged. A link stays a link to the file.
     std::string save();
@@ -64,14 +64,14 @@ private:
     std::string freeName(const std::string& stem) const;
     std::string rows() const; // as in the scene file
     std::string textFrom(const std::string& old, bool spares) const;
-    std::string apply(Scene next); // returns why a scene file cannot contain its fixtures, or nothing
+    std::string apply(Scene next); // returns why a scene file cannot contain its fixtures; empty = done
     void notifyChange();
     bool restore(std::vector<std::vector<FixtureClass>>& from, std::vector<std::vector<FixtureClass>>& to);
 
     Scene scene_;
     std::vector<Shape> shapes_;
     std::function<void(const Scene&, const std::vector<Shape>&)> onChange_;
-    std::vector<std::vector<FixtureClass>> past_, future_;
+    std::vector<std::vector<FixtureClass>> undo_, redo_;
     std::vector<uint8_t> selection_;
     uint64_t selectionNumber_ = 0;
     size_t selected_ = 0;

@@ -205,7 +205,7 @@ void handleFixtureKeys(Console& console, FixtureEditor& editor, const SceneSnaps
         console.notify("redone");
     }
     if (control(GLFW_KEY_S) || requests.saveFixtures) {
-        editor.keep(console.settings.saved(), editor.scene().pilot);
+        editor.keepSettings(console.settings.saved(), editor.scene().pilot);
         console.notify(editor.save());
     }
     requests.undo = requests.redo = requests.saveFixtures = requests.addPicked = false;

@@ -12,7 +12,7 @@ namespace {
 // Name, bar and value in one row.
 void stripBar(const HudInput& input, ImVec2 at, ImVec2 size, const WrenchFigures& f) {
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
-    ImFont* const font = input.letters.bold;
+    ImFont* const font = input.fonts.bold;
     const bool torque = f.part == &TraceWrench::torque;
     char text[32];
     std::snprintf(text, sizeof text, torque ? "%.2f %s" : "%.1f %s", f.delivered, f.unit);
@@ -46,7 +46,7 @@ void drawForceStrip(Console& console, const HudInput& input, const PixelRect& ro
     const auto x = static_cast<float>(room.x), y = static_cast<float>(room.y);
     const auto width = static_cast<float>(room.width), height = static_cast<float>(room.height);
     list.AddRectFilled({x, y}, {x + width, y + height}, IM_COL32(17, 22, 30, 255));
-    const float edge = input.letters.body->FontSize;
+    const float edge = input.fonts.body->FontSize;
     const float force = 0.58f * (width - 3.0f * edge), torque = 0.42f * (width - 3.0f * edge);
     const auto [first, second] = figuresOf(input.run, input.haptics);
     stripBar(input, {x + edge, y}, {force, height}, first);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How often the window draws: 60 times per second, or less where its frames take more than their share of a
-// core from a device that is the CPU itself.
+// How often the window draws: 60 times per second. On a device that is the CPU itself less often, if frames
+// would take more than kShare of a core.
 #pragma once
 
 namespace fathom::operate {
@@ -9,8 +9,8 @@ namespace fathom::operate {
 class FramePace {
 public:
     static constexpr double kFastest = 1.0 / 60.0, kSlowest = 1.0 / 10.0; // [s] periods
-    static constexpr double kShare =
-        0.22; // of a core, for the window's thread; showing takes the rest of 25 %
+    // Of a core, for the thread of the window. Presenting takes another 3 %.
+    static constexpr double kShare = 0.22;
 
     explicit FramePace(bool limited)
         : limited_(limited) {}

@@ -22,15 +22,15 @@ void hatchUnknown(ImDrawList& list, ImVec2 a, ImVec2 b) {
     list.PopClipRect();
 }
 
-void barTicks(ImDrawList& list, const Letters& letters, ImVec2 a, ImVec2 b) {
-    const bool dense = b.y - a.y < 6.0f * letters.small->FontSize;
+void barTicks(ImDrawList& list, const Fonts& fonts, ImVec2 a, ImVec2 b) {
+    const bool dense = b.y - a.y < 6.0f * fonts.small->FontSize;
     for (int mm = 0; mm <= 200; mm += dense ? 100 : 50) {
         const float y = b.y - (b.y - a.y) * static_cast<float>(mm) / 200.0f;
         char text[12];
         std::snprintf(text, sizeof text, "%d", mm);
-        const ImVec2 size = letters.small->CalcTextSizeA(letters.small->FontSize, 1e9f, 0.0f, text);
+        const ImVec2 size = fonts.small->CalcTextSizeA(fonts.small->FontSize, 1e9f, 0.0f, text);
         list.AddLine({a.x - 4.0f, y}, {a.x, y}, colour::kQuiet, 1.2f);
-        list.AddText(letters.small, letters.small->FontSize, {a.x - 7.0f - size.x, y - 0.5f * size.y},
+        list.AddText(fonts.small, fonts.small->FontSize, {a.x - 7.0f - size.x, y - 0.5f * size.y},
                      colour::kQuiet, text);
     }
 }
@@ -45,10 +45,10 @@ void barZones(ImDrawList& list, ImVec2 a, ImVec2 b, float width) {
 
 } // namespace
 
-void drawGapBar(Console& console, const DepthCues& cues, const Letters& letters, const PixelRect& place) {
+void drawGapBar(Console& console, const DepthCues& cues, const Fonts& fonts, const PixelRect& place) {
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     console.places.erase("gap bar");
-    const float line = letters.body->FontSize, width = 1.1f * line;
+    const float line = fonts.body->FontSize, width = 1.1f * line;
     const float room = 5.6f * line; // for the widest value
     const float height = std::min(static_cast<float>(place.height) - 2.2f * line, 18.0f * line);
     if (height < 5.0f * line) {
@@ -61,7 +61,7 @@ void drawGapBar(Console& console, const DepthCues& cues, const Letters& letters,
     const ImVec2 a{plate.x + 0.5f * (room - width) + 0.4f * line, plate.y + 0.9f * line};
     const ImVec2 b{a.x + width, a.y + height - 1.0f * line};
     list.AddRectFilled(a, b, kTrack, 3.0f);
-    barTicks(list, letters, a, b);
+    barTicks(list, fonts, a, b);
     barZones(list, a, b, 0.3f * line);
     const bool finite = std::isfinite(cues.gap);
     const ImU32 colour = finite ? gapColour(lookOf(cues.gap)) : colour::kQuiet;
@@ -74,7 +74,7 @@ void drawGapBar(Console& console, const DepthCues& cues, const Letters& letters,
         hatchUnknown(list, a, b);
     }
     const std::string text = gapText(cues.gap);
-    ImFont* const font = letters.bold;
+    ImFont* const font = fonts.bold;
     const ImVec2 words = font->CalcTextSizeA(font->FontSize, 1e9f, 0.0f, text.c_str());
     list.AddText(font, font->FontSize, {plate.x + 0.5f * (room - words.x), b.y + 0.55f * line}, colour,
                  text.c_str());

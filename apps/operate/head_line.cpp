@@ -22,20 +22,20 @@ struct Figure {
 };
 
 // A value with its name below; nothing where the row has no room for it.
-void figure(Console& console, const Letters& letters, const Figure& f) {
+void figure(Console& console, const Fonts& fonts, const Figure& f) {
     const auto width = [](ImFont* font, const std::string& text) {
         return font->CalcTextSizeA(font->FontSize, 1e9f, 0.0f, text.c_str()).x;
     };
     const float end = ImGui::GetItemRectMax().x - ImGui::GetWindowPos().x + kBetweenFigures +
-                      std::max(width(letters.bold, f.value), width(letters.small, f.name));
+                      std::max(width(fonts.bold, f.value), width(fonts.small, f.name));
     console.places.erase(f.place);
     if (end > ImGui::GetWindowContentRegionMax().x) {
         return;
     }
     ImGui::SameLine(0.0f, kBetweenFigures);
     ImGui::BeginGroup();
-    fontText(letters.bold, f.colour, f.value);
-    fontText(letters.small, colour::kQuiet, f.name);
+    fontText(fonts.bold, f.colour, f.value);
+    fontText(fonts.small, colour::kQuiet, f.name);
     ImGui::EndGroup();
     markPlace(console, f.place);
     explain(console, f.tip);
@@ -65,8 +65,8 @@ std::string clearanceText(double clearance) {
 
 // Keeps the end of a long name, which distinguishes it.
 std::string shortened(const std::string& text) {
-    constexpr size_t kMaxLetters = 38;
-    return text.size() <= kMaxLetters ? text : "..." + text.substr(text.size() - kMaxLetters);
+    constexpr size_t kMaxCharacters = 38;
+    return text.size() <= kMaxCharacters ? text : "..." + text.substr(text.size() - kMaxCharacters);
 }
 
 // The state of the recorder, or the position in a recording.
@@ -85,14 +85,14 @@ Figure recorderFigure(const Console& console) {
 // Figures that only some runs have.
 void someFigures(Console& console, const HudInput& input) {
     if (input.handGone) {
-        figure(console, input.letters,
+        figure(console, input.fonts,
                {"LOST", "haptic device", "No force until it is back; check its cable", colour::kWarning});
     }
     if (input.arm != nullptr && input.arm->real) {
-        figure(console, input.letters, armFigure(*input.arm));
+        figure(console, input.fonts, armFigure(*input.arm));
     }
     if (!input.armHolds.empty()) {
-        figure(console, input.letters,
+        figure(console, input.fonts,
                {"LIMITED", "by the arm (W: why)", "The arm keeps the tool from following the hand",
                 colour::kCaution, "head arm held"});
     }
@@ -101,20 +101,20 @@ void someFigures(Console& console, const HudInput& input) {
 void rateFigures(Console& console, const HudInput& input) {
     const Rates rates = input.run.rates();
     const bool slow = rates.worstPeriodMs > 2.5e3 * input.haptics.period;
-    figure(console, input.letters,
+    figure(console, input.fonts,
            {printed("%.0f Hz", rates.hapticHz), "haptic rate", "Ticks per second that made a force"});
     if (!console.timeLine.on) { // playback has no camera rate
-        figure(console, input.letters,
+        figure(console, input.fonts,
                {printed("%.1f Hz", rates.cameraHz), "camera rate", "Images per second that became regions"});
     }
-    figure(console, input.letters,
+    figure(console, input.fonts,
            {printed("%.2f ms", rates.worstPeriodMs), "worst period, 1 s",
             "Longest time between two ticks in the last second; amber above 2.5 periods",
             slow ? colour::kCaution : colour::kText});
-    figure(console, input.letters,
+    figure(console, input.fonts,
            {printed("%.0f %%", 100.0 * input.unknownShare), "unobserved",
             "Share of the image without depth. Nothing is protected there; it is hatched"});
-    figure(console, input.letters,
+    figure(console, input.fonts,
            {printed("%.0f Hz", input.windowHz), "window", "Frames of this window per second"});
 }
 
@@ -127,8 +127,8 @@ void drawHeadLine(Console& console, const HudInput& input, ImVec2 at, ImVec2 siz
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
     const Mode mode = modeOf({console, input.run, input.haptics});
     ImGui::BeginGroup();
-    fontText(input.letters.large, mode.colour, std::string(mode.sign) + " " + mode.word);
-    fontText(input.letters.small, colour::kQuiet, shortened(input.title));
+    fontText(input.fonts.large, mode.colour, std::string(mode.sign) + " " + mode.word);
+    fontText(input.fonts.small, colour::kQuiet, shortened(input.title));
     ImGui::EndGroup();
     markPlace(console, "head mode");
     explain(console, mode.meaning);
@@ -137,20 +137,20 @@ void drawHeadLine(Console& console, const HudInput& input, ImVec2 at, ImVec2 siz
     const StepRecord& record = input.run.step().record;
     someFigures(console, input);
     const bool stale = isOld(record.sceneAge);
-    figure(console, input.letters,
+    figure(console, input.fonts,
            {std::isfinite(record.sceneAge) ? printed("%.0f ms", record.sceneAge * 1e3) : "none", "scene age",
             "Time since the camera took the image whose regions act now; while it is red, forces fade",
             stale ? colour::kWarning : colour::kText});
-    figure(console, input.letters,
+    figure(console, input.fonts,
            {printed("%u", record.contacts), "contacts", "Regions that push the tool now",
             record.contacts > 0 ? colour::kTouch : colour::kText});
-    figure(console, input.letters,
+    figure(console, input.fonts,
            {clearanceText(record.clearance), "clearance",
             "Distance from the tool to the nearest region of points"});
-    figure(console, input.letters, recorderFigure(console));
+    figure(console, input.fonts, recorderFigure(console));
     rateFigures(console, input);
     if (console.switches.frozen) {
-        figure(console, input.letters,
+        figure(console, input.fonts,
                {"FROZEN", "fixtures", "F: release. New images do not change the fixtures", colour::kCaution});
     }
     ImGui::End();

@@ -23,10 +23,10 @@ void bar(Console& console, const HudInput& input, const WrenchFigures& f) {
         const double share = f.limit > 0.0 ? value / f.limit : 0.0;
         return width * kLimitShare * static_cast<float>(std::clamp(share, 0.0, 1.1));
     };
-    fontText(input.letters.body, colour::kText, valueText(f));
+    fontText(input.fonts.body, colour::kText, valueText(f));
     const std::string right = f.saturated() ? "SATURATED" : printed("limit %.3g %s", f.limit, f.unit);
     ImGui::SameLine(std::max(0.0f, width - ImGui::CalcTextSize(right.c_str()).x));
-    fontText(input.letters.small, f.saturated() ? colour::kWarning : colour::kQuiet, right);
+    fontText(input.fonts.small, f.saturated() ? colour::kWarning : colour::kQuiet, right);
     const ImVec2 at = ImGui::GetCursorScreenPos();
     ImDrawList& list = *ImGui::GetWindowDrawList();
     list.AddRectFilled(at, {at.x + width, at.y + height}, IM_COL32(34, 43, 57, 255), 3.0f);
@@ -50,10 +50,10 @@ std::string marginText(double margin) {
 
 void passes(Console& console, const HudInput& input) {
     const std::vector<double>& ms = input.run.passMs();
-    fontText(input.letters.body, colour::kText,
+    fontText(input.fonts.body, colour::kText,
              printed("Passes %.2f ms", std::accumulate(ms.begin(), ms.end(), 0.0)));
     ImGui::PushTextWrapPos(0.0f);
-    fontText(input.letters.small, colour::kQuiet, passTimes(input.passNames, ms));
+    fontText(input.fonts.small, colour::kQuiet, passTimes(input.passNames, ms));
     ImGui::PopTextWrapPos();
     markPlace(console, "passes");
     explain(console, "Time of the passes for the newest frame, from image to regions, and of each pass");
@@ -79,10 +79,10 @@ void drawGauges(Console& console, const HudInput& input) {
         bar(console, input, f);
     }
     const bool passive = !(record.marginPassive < kMarginNoise);
-    fontText(input.letters.body, passive ? colour::kText : colour::kWarning,
+    fontText(input.fonts.body, passive ? colour::kText : colour::kWarning,
              "Stability margin, passive " + marginText(record.marginPassive) +
                  (passive ? "" : "  NOT PASSIVE"));
-    fontText(input.letters.small, colour::kQuiet,
+    fontText(input.fonts.small, colour::kQuiet,
              "uncoupled " + marginText(record.marginUncoupled) + ", device preset " +
                  input.scene.haptics.device +
                  (input.scene.pilot.empty() ? "" : ", pilot " + input.scene.pilot));

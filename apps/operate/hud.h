@@ -28,7 +28,7 @@ struct HudInput {
     const Scene& scene;
     const HapticOptions& haptics;
     const std::vector<std::string>& passNames;
-    const Letters& letters;
+    const Fonts& fonts;
     std::string title;
     double unknownShare = 0.0; // share of the image without depth
     double windowHz = 0.0;

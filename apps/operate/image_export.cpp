@@ -63,7 +63,7 @@ void ImageExport::step(Console& console, double period) {
 
 void ImageExport::add(Console& console, const Image* image) {
     if (image == nullptr) {
-        return; // the same frame again
+        return; // not drawn: the next step() shows the same frame again
     }
     try {
         if (!encoder_) {

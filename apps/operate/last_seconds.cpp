@@ -12,7 +12,7 @@
 
 namespace fathom::operate {
 
-size_t LastSeconds::usualMemory() {
+size_t LastSeconds::defaultMemory() {
     constexpr size_t kMost = size_t{1} << 30;
     const long pages = ::sysconf(_SC_PHYS_PAGES), size = ::sysconf(_SC_PAGESIZE);
     return pages > 0 && size > 0 ? std::min(kMost, static_cast<size_t>(pages) * static_cast<size_t>(size) / 8)
@@ -46,14 +46,14 @@ double LastSeconds::seconds() const {
 
 size_t LastSeconds::bytes() const {
     const std::lock_guard lock(mutex_);
-    return all();
+    return totalBytes();
 }
 
 // A run whose time begins again has no past.
 void LastSeconds::forgetOld() {
     const auto outOfSpan = [&] {
         const double age = frames_.back()->frame.t - frames_.front()->frame.t;
-        return age > kSpan || age < 0.0 || all() > most_;
+        return age > kSpan || age < 0.0 || totalBytes() > most_;
     };
     while (!frames_.empty() && outOfSpan()) {
         bytes_ -= frames_.front()->bytes();

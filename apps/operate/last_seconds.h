@@ -43,9 +43,9 @@ class LastSeconds final : public ForwardingSink {
 public:
     static constexpr double kSpan = 30.0; // [s]
     // 1 GiB, or an eighth of the machine's memory if that is less [bytes].
-    static size_t usualMemory();
+    static size_t defaultMemory();
 
-    // `next` outlives this. most: memory of frames and ticks [bytes]; the oldest ones go first.
+    // `next` outlives this. most: memory for frames and ticks [bytes]; the oldest are dropped first.
     // 0 keeps nothing. While no frame comes, the ticks after kSpan are not kept.
     LastSeconds(RunSink& next, size_t most)
         : ForwardingSink(next)
@@ -64,14 +64,14 @@ public:
     void step(const TickRow& row, const ObeyedSet& obeyed) override;
 
 private:
-    size_t all() const { return bytes_ + (open_ ? open_->bytes() : 0); } // [bytes]
+    size_t totalBytes() const { return bytes_ + (open_ ? open_->bytes() : 0); } // [bytes]
     void forgetOld();
 
     const size_t most_;
     std::atomic<bool> marked_{false};
     mutable std::mutex mutex_; // guards all members below; window and writer thread
     std::deque<std::shared_ptr<const KeptFrame>> frames_;
-    std::shared_ptr<KeptFrame> open_; // its ticks still come
+    std::shared_ptr<KeptFrame> open_; // the newest frame, whose ticks still arrive
     std::deque<KeptScene> scenes_;    // the first is that of the first frame
     size_t bytes_ = 0;                // of frames_
 };

@@ -22,6 +22,6 @@ struct Layer {
 constexpr size_t kMaxLayers = 2;
 
 // Below everything, 0xAARRGGBB.
-constexpr uint32_t kGroundInk = 0xff090c10u;
+constexpr uint32_t kBackground = 0xff090c10u;
 
 } // namespace fathom::operate

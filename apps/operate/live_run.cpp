@@ -23,7 +23,8 @@ ButtonBits nativeButtons(const Scene& scene) {
     return {kGuidanceButton, scene.hand.clutchBit, scene.arm ? scene.arm->grasp.button : 0};
 }
 
-HapticOptions softly(const Session& session) {
+// With the slow rise of forces of a pilot's run.
+HapticOptions softStartOptions(const Session& session) {
     HapticOptions options = makeHapticOptions(session.scene, session.tool);
     options.armTime = softStart(options.forceLimit);
     return options;
@@ -39,7 +40,7 @@ LiveRun::LiveRun(const OperateOptions& options, Session& session, const StopSign
     , placement_(placement)
     , sink_(sink)
     , observers_(observers)
-    , haptics_(softly(session))
+    , haptics_(softStartOptions(session))
     , buttons_(nativeButtons(session.scene))
     , feed_(session) {
     if (session.liveHand) {
@@ -55,14 +56,14 @@ DeviceFacts LiveRun::device() const {
 void LiveRun::mapButtons(Console& console) {
     std::optional<ButtonUse>& mapping = console.editing.mapping;
     const uint32_t pressed = hand_->takePressed() & ~kDeadManOpen;
-    releases_ = releases_ && (hand_->held() & ~kDeadManOpen) != 0;
-    hand_->capture(mapping || releases_);
+    mappedStillDown_ = mappedStillDown_ && (hand_->held() & ~kDeadManOpen) != 0;
+    hand_->capture(mapping || mappedStillDown_);
     if (!mapping || pressed == 0) {
         return;
     }
     const ButtonUse use = *mapping;
     mapping.reset();
-    releases_ = true;
+    mappedStillDown_ = true;
     const std::string fault = buttons_.choose(use, pressed);
     if (!fault.empty()) {
         console.notify(fault);
@@ -179,7 +180,7 @@ void LiveRun::restart(const std::vector<Shape>& shapes, const StepRecord* tool) 
     if (session_.arm && tool != nullptr) {
         session_.arm->start = tool->arm.posture.q;
     }
-    haptics_ = softly(session_);
+    haptics_ = softStartOptions(session_);
     const Pose raw = steering_->pose(); // a copy, because makeEngine() replaces the steering
     makeEngine(shapes, raw, tool != nullptr ? &tool->tool : nullptr);
     thread_->resume();

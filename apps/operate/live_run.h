@@ -35,7 +35,8 @@ public:
 
     // Moves the hand by this frame's keys and mouse; returns where the large view was clicked.
     std::optional<ImVec2> steer(Console& console, const ViewPort& large, double toolDepth);
-    // Forces, frozen fixtures, buttons. Forces stay off after a pause in which nothing could switch them off.
+    // Passes on forces, frozen fixtures and buttons. Turns forces off if the window stood still for so long
+    // that nobody could have done it (GatedHand::kSilence).
     void apply(Console& console);
     // Takes the device's button that is pressed for Console::Editing::mapping, and saves the mapping.
     void mapButtons(Console& console);
@@ -47,7 +48,7 @@ public:
     std::exception_ptr failure() const { return thread_->failure(); }
     const HapticOptions& haptics() const { return haptics_; }
     SessionFeed& feed() { return feed_; }
-    bool handThere() const { return hand_->present(); }
+    bool handPresent() const { return hand_->present(); }
     const RealtimeRun& engine() const { return *engine_; }
 
 private:
@@ -66,7 +67,7 @@ private:
     RunObserver& observers_;
     HapticOptions haptics_;
     ButtonMap buttons_;
-    bool releases_ = false; // a button that was mapped is still down
+    bool mappedStillDown_ = false; // a button that was mapped is still down
     SessionFeed feed_;
     std::unique_ptr<RealtimeRun> engine_;
     std::unique_ptr<HapticCycle> cycle_;

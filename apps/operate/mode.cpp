@@ -25,7 +25,7 @@ Mode forcesFading(const char* meaning) {
     return {"FORCES FADING", "~", colour::kCaution, Edge::Dashed, meaning};
 }
 
-// A chip's word and a meaning. Without a word, nothing is blamed.
+// A chip's word and its meaning. Without a word there is no chip.
 struct LossCause {
     const char* word;
     const char* meaning;
@@ -164,7 +164,7 @@ Mode modeOf(const ModeInput& input) {
 
 namespace {
 
-// Why forces that are on do not come, or come late. Empty = nothing to say.
+// Why forces that are on are missing or delayed. Without a word there is no reason.
 Chip reasonChip(const ModeInput& input) {
     const StepRecord& record = input.run.step().record;
     if (record.state == StepState::Off && record.frame < 0) {

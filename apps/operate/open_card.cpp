@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr size_t kMaxShown = 200, kMaxEntries = 100'000, kMaxCardLetters = 36;
+constexpr size_t kMaxShown = 200, kMaxEntries = 100'000, kMaxCardCharacters = 36;
 
 bool isRecording(const fs::path& folder) {
     std::error_code no;
@@ -123,7 +123,7 @@ void drawOpenCard(Console& console, ImVec2 corner, ImVec2 size) {
             const fs::path path(card.choices[i]);
             const std::string name = (path.has_filename() ? path.filename() : path).string();
             const std::string shown =
-                name.size() <= kMaxCardLetters ? name : name.substr(0, kMaxCardLetters) + "...";
+                name.size() <= kMaxCardCharacters ? name : name.substr(0, kMaxCardCharacters) + "...";
             if (ImGui::Selectable((shown + "##" + std::to_string(i)).c_str(), card.chosen == i)) {
                 card.chosen = i;
                 card.clicked = true;

@@ -16,8 +16,8 @@ std::vector<std::string> recordingsIn(const std::filesystem::path& in);
 // OpenCard::next names what to open and OpenCard::leaves requests the end of this window. mayGoLive: the live
 // run is one of the choices.
 void stepOpenCard(Console& console, const std::filesystem::path& in, bool mayGoLive);
-// After the last frame: what opens next, or nothing. Only a window that its pilot has closed leads to another
-// one, not one that the time or a signal (stopped) ended before.
+// After the last frame: what opens next; empty = nothing. Nothing opens when the time or a signal (stopped)
+// has ended the window before the pilot closed it.
 std::string opensNext(const Console& console, bool stopped);
 // In the middle of a rectangle of the window.
 void drawOpenCard(Console& console, ImVec2 corner, ImVec2 size);

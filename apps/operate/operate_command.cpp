@@ -52,7 +52,7 @@ OperateOptions optionsFor(const OperateOptions& first, const std::string& record
     next.source.clear(), next.handDevice.clear(), next.arm.clear(), next.pilot.clear();
     next.observers = {};
     next.armed = next.path = false;
-    next.returns = first.recording.empty();
+    next.fromLiveRun = first.recording.empty();
     return next;
 }
 
@@ -64,7 +64,7 @@ void runWindows(const OperateOptions& first, const GlobalOptions& global) {
         try {
             next = runWindow(now, global);
         } catch (const BadInput& e) {
-            if (!now.returns) {
+            if (!now.fromLiveRun) {
                 throw;
             }
             now = first;

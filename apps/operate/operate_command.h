@@ -23,7 +23,7 @@ struct OperateOptions : SessionOptions {
     double textScale = 0.0;       // 0.75 to 2.5; 0 = the scene's
     std::string state;            // file of JSON lines with the state of the window, for other programs
     std::vector<std::string> job; // lines under exported images
-    bool returns = false;         // a recording that was opened from a live run: its window may return to it
+    bool fromLiveRun = false;     // opened from a live run, to which its window may return
     std::string notice;           // shown at the start
     std::string shots; // folder for screenshots (F12), recordings and exports; empty = the working directory
 };

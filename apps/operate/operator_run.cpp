@@ -31,7 +31,8 @@ std::string title(const OperateOptions& options) {
 
 LiveSinks::LiveSinks(const OperateOptions& options, double period, const ArmSetup* arm)
     : observers(options.observers, arm)
-    , last(recorder, options.offscreen.empty() ? LastSeconds::usualMemory() : 0) // no key can store it there
+    , last(recorder,
+           options.offscreen.empty() ? LastSeconds::defaultMemory() : 0) // no key can store it there
     , published(last, observers)
     , faults(options.shots, period, published)
     , snapshots(faults) {}
@@ -115,21 +116,21 @@ void OperatorRun::frame() {
     HudInput hud = display_.hud(live_.haptics());
     hud.driven = options_.path || session_.liveHand != nullptr;
     hud.arm = &measured_;
-    hud.handGone = !live_.handThere();
+    hud.handGone = !live_.handPresent();
     hud.device = live_.device();
     hud.armHolds = armHolds(session_.arm.get(), record);
     const auto arm = armSpheres(session_.arm.get(), record.arm.posture);
     measured_ = measuredArm(session_.arm.get(), display_.view, arm);
     display_.draw(editor_, {display_.view, session_.tool, hud, fresh, arm, measured_});
-    listen();
+    handleInput();
     display_.alarms.step(display_.console, display_.view, live_.haptics(), editor_.scene(),
-                         {session_.handover->gone(), !live_.handThere(), sinks_.recorder.failure()});
+                         {session_.handover->gone(), !live_.handPresent(), sinks_.recorder.failure()});
     tones_.step(display_.console, display_.view, display_.alarms);
     show();
     writeState(false);
 }
 
-void OperatorRun::listen() {
+void OperatorRun::handleInput() {
     Console& console = display_.console;
     const ViewPort& large = display_.screen.large();
     const double depth = large.view.cameraTbase.apply(display_.view.step().record.device.position).z;
@@ -141,13 +142,13 @@ void OperatorRun::listen() {
     }
     display_.followClosing(editor_, forcesGone());
     offWhenMinimised();
-    obeyRequests();
-    arm();
+    obeyObservers();
+    checkArming();
     live_.mapButtons(console);
     live_.apply(console);
     mark();
     recording_.follow(console, editor_);
-    followPilot();
+    switchPilot();
     display_.exportTraces();
     forces_.wereOn = console.switches.forces; // after everything that may switch them off
 }
@@ -182,7 +183,7 @@ void OperatorRun::offWhenMinimised() {
     }
 }
 
-void OperatorRun::obeyRequests() {
+void OperatorRun::obeyObservers() {
     Console& console = display_.console;
     Console::Switches& switches = console.switches;
     const RemoteRequests asked = sinks_.observers.takeRequests();
@@ -196,20 +197,20 @@ void OperatorRun::obeyRequests() {
     }
 }
 
-// Forces come on only if nothing speaks against them.
-void OperatorRun::arm() {
+// Forces come on only if no check fails.
+void OperatorRun::checkArming() {
     Console& console = display_.console;
     Console::Switches& switches = console.switches;
     if (switches.forces && !forces_.wereOn) {
-        console.messages.refusal = whyNotArmed(
-            {display_.view, editor_.scene(), live_.haptics(), session_.handover->gone(), !live_.handThere()});
+        console.messages.refusal = whyNotArmed({display_.view, editor_.scene(), live_.haptics(),
+                                                session_.handover->gone(), !live_.handPresent()});
         switches.forces = console.messages.refusal.empty();
     }
 }
 
 // Springs, limits and scale are constant during a run. So this turns forces off, keeps the tool where it is,
 // and starts a new run there.
-void OperatorRun::followPilot() {
+void OperatorRun::switchPilot() {
     Console& console = display_.console;
     const std::string name = std::exchange(console.requests.pilot, "");
     if (!name.empty() && cameraSilent(display_.view.step().record)) {
@@ -229,7 +230,7 @@ void OperatorRun::followPilot() {
     const StepRecord last = display_.view.step().record;
     const bool stays = display_.view.anyTick() && !options_.path && isFinite(last.tool);
     display_.view.rewind();
-    editor_.keep(console.settings.saved(), name);
+    editor_.keepSettings(console.settings.saved(), name);
     live_.restart(editor_.shapes(), stays ? &last : nullptr);
     console.notify(name + " is the pilot now: switch forces on");
 }

@@ -48,16 +48,16 @@ public:
 private:
     void changeScene(const Scene& scene, const std::vector<Shape>& shapes);
     void keepScene(uint64_t number); // the fixtures from this change on, for the last seconds
-    void arm();
-    void obeyRequests(); // of observers
+    void checkArming();              // switches forces off again if a check fails
+    void obeyObservers();            // their requests
     bool forcesGone() const;
     void offWhenMinimised();
-    void followPilot();
-    void mark(); // this moment, if the pilot asks for it
+    void switchPilot();
+    void mark(); // marks this moment if requested
     void frame();
-    void show();   // shows the drawn frame if there is a device
-    void reopen(); // opens the canvas on another device
-    void listen(); // applies the keys and clicks of this frame
+    void show();        // shows the drawn frame if there is a device
+    void reopen();      // opens the canvas on another device
+    void handleInput(); // applies the keys and clicks of this frame
     void writeState(bool now);
     bool wantsToEnd() const;
     void report() const;
@@ -76,8 +76,8 @@ private:
     TonePlayer tones_;
     bool showsGone_ = false; // the window's title says that the GPU is gone
     struct {
-        bool wereOn = false;       // after the last listen()
-        bool offRequested = false; // since the last listen()
+        bool wereOn = false;       // after the last handleInput()
+        bool offRequested = false; // since the last handleInput()
     } forces_;
     LiveRun live_; // last, so that its threads end before what they use
 };

@@ -46,7 +46,7 @@ Painter::Painter(const gpu::Instance& instance, gpu::Device& device, Swapchain* 
 }
 
 Painter::~Painter() {
-    if (flying_) { // returns at once on a lost device
+    if (inFlight_) { // returns at once on a lost device
         vkWaitForFences(device_.handle(), 1, &done_, VK_TRUE, kLongWait);
     }
     vkDestroyFramebuffer(device_.handle(), framebuffer_, nullptr);
@@ -56,13 +56,13 @@ Painter::~Painter() {
 }
 
 bool Painter::finished(uint64_t patience) {
-    if (flying_) {
+    if (inFlight_) {
         const VkResult result = vkWaitForFences(device_.handle(), 1, &done_, VK_TRUE, patience);
         if (result == VK_TIMEOUT) {
             return false;
         }
         check(result, "vkWaitForFences");
-        flying_ = false;
+        inFlight_ = false;
     }
     return true;
 }
@@ -114,7 +114,7 @@ bool Painter::yields(const std::function<bool()>& busy) {
     if (!device_.sharesQueue()) {
         return false;
     }
-    const auto until = std::chrono::steady_clock::now() + std::chrono::duration<double>(kCourtesy);
+    const auto until = std::chrono::steady_clock::now() + std::chrono::duration<double>(kMaxYield);
     while (busy()) {
         if (std::chrono::steady_clock::now() >= until) {
             ++counts_.yielded;
@@ -196,7 +196,7 @@ void Painter::submit(bool onSurface) {
     info.commandBufferCount = 1;
     info.pCommandBuffers = &commands_;
     device_.submitDrawing(info, done_);
-    flying_ = true;
+    inFlight_ = true;
 }
 
 } // namespace fathom::operate

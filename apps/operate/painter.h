@@ -38,21 +38,21 @@ public:
 
     // Draws a frame of this size; later layers are on top. Returns false when the frame is skipped because
     // the previous one is not done or the surface has no image yet. `busy` returns whether compute passes run
-    // on a shared queue: the device's drawing waits up to kCourtesy for them and is skipped if they still
+    // on a shared queue: the device's drawing waits up to kMaxYield for them and is skipped if they still
     // run. What the CPU draws needs only a copy and never waits; a frame without changes is not drawn or
     // shown again, but counts as drawn.
     bool draw(VkExtent2D size, std::span<const Layer> layers, ImDrawData* data,
               const std::function<bool()>& busy);
     // Waits for the last frame and copies it. below: rows of pixels to add under it. Null: nothing was drawn
     // yet.
-    std::unique_ptr<Image> picture(int below);
+    std::unique_ptr<Image> frameImage(int below);
 
     void redraw() { latest_.shown = false; } // the surface has lost its content
 
     uint64_t drawn() const { return counts_.drawn; }
     uint64_t tiles() const { return host_ ? host_->tiles() : 0; } // drawn by the CPU so far (PanelRaster)
     uint64_t yielded() const { return counts_.yielded; }          // frames skipped for compute passes
-    static constexpr double kCourtesy = 0.012;                    // [s]
+    static constexpr double kMaxYield = 0.012;                    // [s] wait for compute passes
 
 private:
     struct Staged {
@@ -85,7 +85,7 @@ private:
     VkFramebuffer framebuffer_ = VK_NULL_HANDLE;
     FrameTexture target_;
     std::array<Staged, kMaxLayers> staged_;
-    bool flying_ = false; // a submission may still be running
+    bool inFlight_ = false; // a submission may still be running
     struct {
         bool filled = false; // target_ has a frame of the CPU
         bool shown = false;  // the surface shows target_

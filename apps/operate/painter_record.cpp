@@ -12,7 +12,7 @@ using gpu::check;
 
 namespace {
 
-constexpr VkClearColorValue kGround{{0.035f, 0.047f, 0.063f, 1.0f}};
+constexpr VkClearColorValue kBackgroundColour{{0.035f, 0.047f, 0.063f, 1.0f}};
 constexpr auto kSource = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
 constexpr auto kDestination = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
 constexpr VkImageSubresourceLayers kWhole{VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
@@ -61,7 +61,7 @@ void Painter::recordLayer(size_t i, const Layer& layer) {
 void Painter::recordOnDevice(std::span<const Layer> layers, ImDrawData* data) {
     changeLayout(commands_, target_.handle(), VK_IMAGE_LAYOUT_UNDEFINED, kDestination);
     const VkImageSubresourceRange range{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-    vkCmdClearColorImage(commands_, target_.handle(), kDestination, &kGround, 1, &range);
+    vkCmdClearColorImage(commands_, target_.handle(), kDestination, &kBackgroundColour, 1, &range);
     changeLayout(commands_, target_.handle(), kDestination, kDestination);
     for (size_t i = 0; i < std::min(layers.size(), kMaxLayers); ++i) {
         recordLayer(i, layers[i]);
@@ -113,7 +113,7 @@ void Painter::recordToSurface(VkImage shown) {
     changeLayout(commands_, shown, kDestination, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
 }
 
-std::unique_ptr<Image> Painter::picture(int below) {
+std::unique_ptr<Image> Painter::frameImage(int below) {
     if (!target_) {
         return nullptr;
     }

@@ -88,7 +88,7 @@ bool PanelRaster::drawTile(std::span<uint32_t> pixels, size_t tile) {
     const RasterImage image{pixels.data(), width_};
     for (int y = box.y0; y < box.y1; ++y) {
         uint32_t* row = image.row(y);
-        std::fill(row + box.x0, row + box.x1, kGroundInk);
+        std::fill(row + box.x0, row + box.x1, kBackground);
         for (const PlacedLayer& layer : layers_) {
             const PixelBox part = overlap(layer.box(), {box.x0, y, box.x1, y + 1});
             if (!part.empty()) {

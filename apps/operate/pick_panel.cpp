@@ -120,7 +120,7 @@ bool partRules(Console& console, const SceneSnapshot& snapshot) {
     return changed;
 }
 
-// How much of it, and what else.
+// How many points are selected, in how many parts.
 void foundParts(const Console& console, const FixtureEditor& editor) {
     const PickedParts& found = console.pick.found;
     char text[96];

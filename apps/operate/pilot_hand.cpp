@@ -65,7 +65,7 @@ uint32_t GatedHand::buttonsOf(uint32_t raw) noexcept {
     return captures_.load(std::memory_order_relaxed) ? raw & kDeadManOpen : translated(raw, native_, chosen);
 }
 
-// The buttons of a hand that is gone are not the device's: they hold the clutch, whatever was chosen.
+// The buttons of a hand that is gone do not come from the device: they hold the clutch, whatever the mapping.
 HandSample GatedHand::read(double t) noexcept {
     HandSample sample = hand_.read(t);
     const bool there = live_ == nullptr || live_->alive();

@@ -32,9 +32,10 @@ private:
     double before_ = 0.0;
 };
 
-// Opens the dead-man of any device while forces are off, translates the device's buttons, and adds buttons to
-// them. Forces are off at first, after a signal, and when the window's thread has not called setForces() for
-// kSilence: then nothing else could switch them off. read() and write(): haptic thread; the rest: any thread.
+// A gate in front of any device: reports its dead-man switch as open while forces are off, and translates and
+// adds buttons. Forces are off at first, after a signal, and when the window's thread has not called
+// setForces() for kSilence, because then the pilot cannot switch them off. read() and write(): haptic thread;
+// the rest: any thread.
 class GatedHand final : public HapticDevice {
 public:
     // live: the same hand when it may disconnect; null = it is always connected.
@@ -46,11 +47,11 @@ public:
         off_.store(!on, std::memory_order_release);
         calls_.fetch_add(1, std::memory_order_release);
     }
-    // Whether forces went off for want of a call, since the last question.
+    // Whether forces went off for lack of calls since the last takeSilence().
     bool takeSilence() noexcept { return silent_.exchange(false, std::memory_order_relaxed); }
     void press(uint32_t buttons) noexcept { extra_.store(buttons, std::memory_order_relaxed); }
     void choose(const ButtonBits& buttons) noexcept;
-    // While on, buttons have no effect, so that one can be pressed to map it.
+    // While on, buttons have no effect, so that one can be pressed for a mapping.
     void capture(bool on) noexcept { captures_.store(on, std::memory_order_relaxed); }
     uint32_t held() const noexcept { return held_.load(std::memory_order_relaxed); } // as the device has them
     uint32_t takePressed() noexcept { return pressed_.exchange(0, std::memory_order_relaxed); }

@@ -82,7 +82,7 @@ PlaybackRun::PlaybackRun(const OperateOptions& options, const GlobalOptions& glo
     , hand_(handOf(options.recording))
     , log_(ticksOf(options.recording, hand_, session_.scene))
     , past_(session_)
-    , sink_(nothing_)
+    , sink_(unusedRecorder_)
     , display_(options_, window_, session_, sink_)
     , editor_(session_.scene,
               [this](const Scene& scene, const std::vector<Shape>&) {
@@ -174,8 +174,8 @@ void PlaybackRun::draw(double dt) {
         armSpheres(known ? session_.arm.get() : nullptr, display_.view.step().record.arm.posture);
     display_.draw(editor_, {display_.view, session_.tool, hud, fresh, arm, MeasuredArm()});
     const auto& strip = display_.console.places["time line room"];
-    panel_.draw(display_.console, display_.canvas.letters(), {strip[0], strip[1]}, {strip[2], strip[3]});
-    listen();
+    panel_.draw(display_.console, display_.canvas.fonts(), {strip[0], strip[1]}, {strip[2], strip[3]});
+    handleInput();
     display_.canvas.finishFrame(display_.console, display_.screen.layers(), [] { return false; });
     if (export_.running() && !window_.minimised()) { // a minimised window draws nothing
         exportImage();
@@ -183,7 +183,7 @@ void PlaybackRun::draw(double dt) {
 }
 
 void PlaybackRun::exportImage() {
-    const std::unique_ptr<Image> image = display_.canvas.picture(display_.console);
+    const std::unique_ptr<Image> image = display_.canvas.frameImage(display_.console);
     export_.add(display_.console, image.get());
     window_.setTitle(printed("Fathom, exports image %u of %u, Esc stops", display_.console.timeLine.frame + 1,
                              display_.console.timeLine.frames));
@@ -192,13 +192,13 @@ void PlaybackRun::exportImage() {
     }
 }
 
-void PlaybackRun::listen() {
+void PlaybackRun::handleInput() {
     Console& console = display_.console;
     console.requests.stopExport = keyPressed(GLFW_KEY_ESCAPE);
     if (const auto at = steering_.step(console, display_.screen.large(), 0.0)) {
         clickInView(console, editor_, display_.screen, display_.view.scene(), *at);
     }
-    panel_.listen(console);
+    panel_.handleKeys(console);
     mark();
     display_.followClosing(editor_, true);
     console.switches.recording = console.switches.frozen = false; // not available in playback

@@ -33,8 +33,8 @@ private:
     void draw(double dt);
     void loseDevice(const std::string& why);
     void lookForDevice(); // retries from time to time while there is no device
-    void listen();
-    void mark(); // the shown moment, if the pilot asks for it
+    void handleInput();
+    void mark(); // marks the shown moment if requested
     void followTime(double dt);
     void exportImage(); // of the drawn frame
     void showMoment();
@@ -48,7 +48,7 @@ private:
     std::optional<HandPath> hand_;
     TickLog log_;
     PastScene past_;
-    Recorder nothing_; // never started: the next sink of sink_
+    Recorder unusedRecorder_; // never started: ends the chain of sinks
     SnapshotSink sink_;
     RunDisplay display_;
     FixtureEditor editor_;

@@ -11,7 +11,7 @@ namespace fathom::operate {
 void RecordedEdits::begin(const std::filesystem::path& folder, const RecordedScene& scene) {
     file_.close();
     folder_ = folder;
-    now_ = scene;
+    active_ = scene;
     upcoming_.clear();
     scenes_ = 0;
     still_ = false;
@@ -30,7 +30,7 @@ void RecordedEdits::frame(const PublishedFrame& frame, uint64_t image) {
         }
     }
     for (; takesEffect(); upcoming_.pop_front()) {
-        now_ = std::move(upcoming_.front().second);
+        active_ = std::move(upcoming_.front().second);
     }
     still_ = frame.still;
     put(image);
@@ -39,14 +39,14 @@ void RecordedEdits::frame(const PublishedFrame& frame, uint64_t image) {
 void RecordedEdits::put(uint64_t image) {
     const std::string name = "scene-" + std::to_string(scenes_++) + ".yaml";
     std::ofstream text(folder_ / name);
-    text << now_.text << std::flush;
+    text << active_.text << std::flush;
     if (!text) {
         throw Error((folder_ / name).string() + ": cannot be written");
     }
     std::ostream& out = file_.lines();
     out << image << "," << name << ",";
-    for (size_t i = 0; i < now_.held.size(); ++i) {
-        out << (i == 0 ? "" : " ") << now_.held[i];
+    for (size_t i = 0; i < active_.held.size(); ++i) {
+        out << (i == 0 ? "" : " ") << active_.held[i];
     }
     out << "," << (still_ ? 1 : 0) << "\n";
     file_.flush();

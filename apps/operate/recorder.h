@@ -35,7 +35,7 @@ public:
     // Window thread: marks the next tick (event_marks.h). Ignored when not recording.
     void mark() { marked_.store(true); }
     // Ends the recording and returns while queued frames are still written. Ignored when not recording. why:
-    // as failure(); empty = as the pilot wished.
+    // as failure(); empty = the pilot stopped it.
     void stop(const std::string& why = "");
     bool recording() const { return recording_.load(); }
     bool writing() const; // queued frames after stop()

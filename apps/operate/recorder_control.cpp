@@ -17,8 +17,8 @@ std::filesystem::path RecorderControl::freshFolder() const {
 
 namespace {
 
-std::string without(const std::string& left) {
-    return left.empty() ? "" : ", without " + left + ": outside the scene file's folder";
+std::string missingText(const std::string& skipped) {
+    return skipped.empty() ? "" : ", without " + skipped + ": outside the scene file's folder";
 }
 
 } // namespace
@@ -30,11 +30,11 @@ void RecorderControl::start(Console& console, FixtureEditor& editor) {
         if (const std::string problem = disk_.problem(); !problem.empty()) {
             throw Error("not recording: " + problem);
         }
-        editor.keep(console.settings.saved(), session_.scene.pilot);
-        const std::string left = copySceneFiles(session_.scene, folder); // before the recorder's own
+        editor.keepSettings(console.settings.saved(), session_.scene.pilot);
+        const std::string skipped = copySceneFiles(session_.scene, folder); // before the recorder's own
         recorder_.start(folder, editor.text(), session_.camera->info(), recordedScene(editor));
         folder_ = folder.string();
-        console.notify("recording to " + folder_ + without(left));
+        console.notify("recording to " + folder_ + missingText(skipped));
     } catch (const std::exception& e) {
         console.switches.recording = false;
         console.notify(e.what());
@@ -43,7 +43,7 @@ void RecorderControl::start(Console& console, FixtureEditor& editor) {
 
 namespace {
 
-// What is on disk.
+// A message about the recording on disk.
 std::string savedText(const Recorder& recorder, const std::string& folder) {
     const std::string failure = recorder.failure();
     const uint64_t lost = recorder.lost();
@@ -55,7 +55,7 @@ std::string savedText(const Recorder& recorder, const std::string& folder) {
 
 } // namespace
 
-void RecorderControl::saved(Console& console) {
+void RecorderControl::reportSaved(Console& console) {
     recorder_.finish();
     console.notify(savedText(recorder_, folder_));
     folder_.clear();
@@ -72,16 +72,17 @@ void RecorderControl::store(Console& console) {
         if (const std::string problem = disk_.problem(); !problem.empty()) {
             throw Error("not stored: " + problem);
         }
-        const std::string left = copySceneFiles(session_.scene, folder);
+        const std::string skipped = copySceneFiles(session_.scene, folder);
         past_.start(folder, past.first.text, session_.camera->info(), past.first.recorded);
         pastFolder_ = folder.string();
-        fed_ = false;
-        console.notify(printed("storing the last %.0f s to ", past.seconds()) + pastFolder_ + without(left));
+        pastFed_ = false;
+        console.notify(printed("storing the last %.0f s to ", past.seconds()) + pastFolder_ +
+                       missingText(skipped));
         storing_ = std::jthread([this, past = std::move(past)] {
             feed(past_, past);
             past_.stop();
             past_.finish();
-            fed_ = true;
+            pastFed_ = true;
         });
     } catch (const std::exception& e) {
         console.notify(e.what());
@@ -89,7 +90,7 @@ void RecorderControl::store(Console& console) {
 }
 
 void RecorderControl::followStore(Console& console) {
-    if (!pastFolder_.empty() && fed_) {
+    if (!pastFolder_.empty() && pastFed_) {
         console.notify(savedText(past_, pastFolder_));
         pastFolder_.clear();
     } else if (!pastFolder_.empty()) {
@@ -119,7 +120,7 @@ void RecorderControl::follow(Console& console, FixtureEditor& editor) {
             recorder_.stop();
             console.switches.recording = false;
             if (!recorder_.writing()) {
-                saved(console);
+                reportSaved(console);
             }
         }
     }

@@ -34,7 +34,7 @@ public:
 private:
     std::filesystem::path freshFolder() const;
     void start(Console& console, FixtureEditor& editor);
-    void saved(Console& console);
+    void reportSaved(Console& console);
     void store(Console& console);
     void followStore(Console& console);
 
@@ -45,10 +45,10 @@ private:
     std::string folder_; // until all is on disk; empty = none
     DiskSpace disk_;
 
-    Recorder past_;               // records the last seconds
-    std::string pastFolder_;      // until they are on disk; empty = none
-    std::atomic<bool> fed_{true}; // past_ has got all of them
-    std::jthread storing_;        // last, so that it ends before what it uses
+    Recorder past_;                   // records the last seconds
+    std::string pastFolder_;          // until they are on disk; empty = none
+    std::atomic<bool> pastFed_{true}; // past_ has received all of them
+    std::jthread storing_;            // last, so that it ends before what it uses
 };
 
 } // namespace fathom::operate

@@ -61,7 +61,7 @@ double RunDisplay::beginFrame() {
 }
 
 void RunDisplay::followClosing(FixtureEditor& editor, bool forcesGone) {
-    stepOpenCard(console, options_.shots, options_.returns);
+    stepOpenCard(console, options_.shots, options_.fromLiveRun);
     const bool closed = window_.takeClose();
     if (closed) {
         console.openCard.next.clear(); // the end, whatever was chosen
@@ -84,7 +84,7 @@ HudInput RunDisplay::hud(const HapticOptions& haptics) {
             .scene = session_.scene,
             .haptics = haptics,
             .passNames = session_.passNames,
-            .letters = canvas.letters(),
+            .fonts = canvas.fonts(),
             .title = session_.title(),
             .unknownShare = screen.unknownShare(),
             .windowHz = windowHz_,

@@ -67,7 +67,7 @@ void RunView::rewind() {
 
 void RunView::take(const TickRow& row) {
     if (seen_.ticks > 0 &&
-        row.record.vanished > seen_.tick.record.vanished) { // the first row's count is of before
+        row.record.vanished > seen_.tick.record.vanished) { // the first row also counts earlier ones
         seen_.vanishedAt = row.record.t;
     }
     seen_.lostAt = row.hand.present ? seen_.lostAt : row.record.t;

@@ -67,7 +67,7 @@ void Screen::makeImages(const Console& console, const FixtureEditor& editor, con
         ViewPort{camera_.view(), fitted(cameraRoom, camera_.view().width(), camera_.view().height())};
     spacePort_ = ViewPort{space_.view(), fitted(spaceRoom, width, height)};
     ViewPort& large = console.settings.spaceIsLarge ? *spacePort_ : *cameraPort_;
-    large.where.x = rooms.large.x; // what its shape leaves free is at the right
+    large.where.x = rooms.large.x; // free room, from another aspect ratio, is at the right
     large_ = &large;
     const auto none = std::span<const uint32_t>();
     const size_t under = console.settings.spaceIsLarge ? 1 : 0; // the inset is drawn over the large view
@@ -166,12 +166,12 @@ void Screen::drawViews(Console& console, const FixtureEditor& editor, const Scre
 
 void Screen::drawOver(Console& console, const Alarms& alarms, const ScreenInput& input, const Rooms& rooms) {
     const ImVec2 corner = cornerOf(large_->where), size = sizeOf(large_->where);
-    drawMode(console, {console, input.run, input.hud.haptics}, input.hud.letters.large, corner, size);
-    drawGapBar(console, cues_, input.hud.letters, rooms.gap);
+    drawMode(console, {console, input.run, input.hud.haptics}, input.hud.fonts.large, corner, size);
+    drawGapBar(console, cues_, input.hud.fonts, rooms.gap);
     if (!console.timeLine.on) { // nothing is live
-        drawStop(console, input.hud.letters, rooms.stop);
+        drawStop(console, input.hud.fonts, rooms.stop);
     }
-    drawRefusal(console, input.hud.letters.bold, corner, size);
+    drawRefusal(console, input.hud.fonts.bold, corner, size);
     drawClosing(console, corner, size);
     drawOpenCard(console, corner, size);
     const float inside = 18.0f * console.scale(); // of the frame
@@ -191,7 +191,7 @@ void Screen::drawCloseUps(Console& console, const FixtureEditor& editor, const S
         view = closeUp(input.run.scene().set, cues_, side, room);
         console.places.erase(side == CloseUpSide::Right ? "close-up side" : "close-up top");
         if (view) {
-            drawCloseUp(console, *view, side, cues_, editor.shapes(), input.hud.letters.small);
+            drawCloseUp(console, *view, side, cues_, editor.shapes(), input.hud.fonts.small);
         }
     }
 }

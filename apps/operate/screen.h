@@ -3,13 +3,13 @@
 #pragma once
 
 #include "apps/operate/alarms.h"
-#include "apps/operate/camera_ground.h"
+#include "apps/operate/camera_view_image.h"
 #include "apps/operate/close_up.h"
 #include "apps/operate/fixture_editor.h"
 #include "apps/operate/hud.h"
 #include "apps/operate/layout.h"
 #include "apps/operate/pick_ghost.h"
-#include "apps/operate/space_ground.h"
+#include "apps/operate/space_view_image.h"
 #include "apps/operate/view_marks.h"
 
 namespace fathom::operate {
@@ -61,12 +61,13 @@ private:
                       const CloseUpRooms& rooms);
     void drawFigures(Console& console, const ScreenInput& input, const Rooms& rooms);
 
-    CameraGround camera_;
-    SpaceGround space_;
+    CameraViewImage camera_;
+    SpaceViewImage space_;
     std::optional<ViewPort> cameraPort_, spacePort_;
     const ViewPort* large_ = nullptr;
     std::array<Layer, 2> layers_;
-    struct { // what the composed images show
+    // What the composed images show.
+    struct {
         Orbit orbit;
         int treeLevel = -1;
         bool spaceIsLarge = false;
@@ -76,7 +77,8 @@ private:
     double floor_ = 0.0; // [m] of the grid, base y
     DepthCues cues_;
     std::array<std::optional<CloseUp>, 2> closeUps_; // from the side and from above
-    struct { // of the picked colour
+    // Of the picked colour.
+    struct {
         std::vector<Sphere> spheres;
         double radius = 0.0;    // [m]
         uint64_t selection = 0; // FixtureEditor::selectionNumber(); 0 = none

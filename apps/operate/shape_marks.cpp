@@ -80,7 +80,7 @@ std::vector<ImVec2> crossings(const std::vector<ImVec2>& hull, float c) {
     return found;
 }
 
-// Like the regions of points in the camera's image (camera_ground.cpp).
+// Like the regions of points in the camera's image (camera_view_image.cpp).
 void fillHatched(ImDrawList& list, const std::vector<ImVec2>& hull) {
     constexpr float kApart = 12.0f, kMaxLines = 400.0f; // [pixels]
     list.AddConvexPolyFilled(hull.data(), static_cast<int>(hull.size()), IM_COL32(237, 41, 36, 62));

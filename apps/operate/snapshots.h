@@ -12,7 +12,7 @@ namespace fathom::operate {
 
 // One frame and its fixture set.
 struct SceneSnapshot {
-    bool any = false;
+    bool any = false;   // false before the first frame
     FrameReport report; // passMs is empty for a repeated frame and while frozen
     double t = 0.0;     // [s] capture time in the run
     Fixtures set;

@@ -107,7 +107,7 @@ json buttonsOf(const ButtonMap& map) {
 json handOf(const ShownState& s) {
     return s.session.liveHand
                ? json{{"name", s.session.liveHand->description()},
-                      {"there", s.device.there},
+                      {"there", s.device.present},
                       {"held", s.device.held},
                       {"buttons", buttonsOf(*s.device.buttons)},
                       {"mapping", s.console.editing.mapping ? json(buttonUseName(*s.console.editing.mapping))

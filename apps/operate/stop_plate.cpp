@@ -78,7 +78,7 @@ void besideView(Rooms& rooms, const PixelRect& view, float scale) {
     rooms.gap = {right - bar - inside, view.y + top, bar, view.height - top - high - inside - pixels(8.0f)};
 }
 
-void drawStop(Console& console, const Letters& letters, const PixelRect& room) {
+void drawStop(Console& console, const Fonts& fonts, const PixelRect& room) {
     ImGui::SetNextWindowPos(cornerOf(room));
     ImGui::SetNextWindowSize(sizeOf(room));
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.0f, 0.0f});
@@ -102,10 +102,10 @@ void drawStop(Console& console, const Letters& letters, const PixelRect& room) {
                      words);
         return text.y;
     };
-    const float lines = letters.bold->FontSize + letters.small->FontSize + 2.0f;
+    const float lines = fonts.bold->FontSize + fonts.small->FontSize + 2.0f;
     const float top = a.y + 0.5f * (size.y - lines);
-    const float next = middle(letters.bold, top, "\xe2\x96\xa0 SPACE");
-    middle(letters.small, top + next + 2.0f, console.switches.forces ? "forces off" : "forces are off");
+    const float next = middle(fonts.bold, top, "\xe2\x96\xa0 SPACE");
+    middle(fonts.small, top + next + 2.0f, console.switches.forces ? "forces off" : "forces are off");
     ImGui::End();
     ImGui::PopStyleColor();
     ImGui::PopStyleVar();

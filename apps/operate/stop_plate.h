@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is always on screen: the key that turns forces off, and the keys that are useful now.
+// Always on screen: the key that turns forces off, and the keys that are useful now.
 #pragma once
 
 #include "apps/operate/console.h"
@@ -11,7 +11,7 @@ namespace fathom::operate {
 // The places of gap bar and stop plate: right of the view where its room is wide enough, otherwise inside.
 void besideView(Rooms& rooms, const PixelRect& view, float scale);
 // The plate; a click on it turns forces off, too.
-void drawStop(Console& console, const Letters& letters, const PixelRect& room);
+void drawStop(Console& console, const Fonts& fonts, const PixelRect& room);
 // The keyboard's cursor, and the useful keys and the newest notice at the lower edge of a view, left of the
 // stop plate. driven: a device or path moves the hand.
 void drawHint(Console& console, bool driven, const PixelRect& view, const PixelRect& stop);

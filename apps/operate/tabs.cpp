@@ -34,16 +34,16 @@ void drawContent(Console& console, FixtureEditor& editor, Alarms& alarms, const 
     } else if (tab == Tab::Alarms) {
         drawAlarms(console, alarms);
     } else if (tab == Tab::Camera && input.hud.camera != nullptr) {
-        drawCamera(console, *input.hud.camera, input.run, *input.hud.desk, input.hud.letters);
+        drawCamera(console, *input.hud.camera, input.run, *input.hud.desk, input.hud.fonts);
     } else if (tab == Tab::Device) {
-        drawDevice(console, input.hud.device, input.hud.letters);
+        drawDevice(console, input.hud.device, input.hud.fonts);
     } else if (tab == Tab::Help) {
         drawKeys(console);
     }
     ImGui::EndChild();
 }
 
-// The tab itself; true when it is open.
+// Draws the tab of a panel; true when it is open.
 bool beginTab(Console& console, const Alarms& alarms, const HudInput& hud, Tab tab, bool wanted) {
     constexpr const char* kNames[] = {"Fixtures", "Why?", "Alarms", "Keys", "Camera", "Device"};
     constexpr const char* kTips[] = {
@@ -51,18 +51,18 @@ bool beginTab(Console& console, const Alarms& alarms, const HudInput& hud, Tab t
         "What is wrong, what to do, and what ended",     "F1: all keys",
         "F3: streams, delay, exposure, gain, laser",     "F4: what the buttons of the haptic device do"};
     const Alarm* worst = alarms.worst();
-    const bool grey = isGrey(tab, hud), calls = tab == Tab::Alarms && worst != nullptr;
+    const bool grey = isGrey(tab, hud), hasAlarm = tab == Tab::Alarms && worst != nullptr;
     const char* const name = kNames[static_cast<int>(tab)];
-    if (calls || grey) {
+    if (hasAlarm || grey) {
         ImGui::PushStyleColor(ImGuiCol_Text, grey ? colour::kQuiet : levelColour(worst->level));
     }
     const bool open = ImGui::BeginTabItem(name, nullptr, wanted ? ImGuiTabItemFlags_SetSelected : 0);
     markPlace(console, std::string("tab ") + name);
-    if (calls || grey) {
+    if (hasAlarm || grey) {
         ImGui::PopStyleColor();
     }
     explain(console, kTips[static_cast<int>(tab)]);
-    if (calls) { // in the corner: a sign in the name would cut the names of other tabs
+    if (hasAlarm) { // in the corner: a sign in the name would cut the names of other tabs
         const float r = 3.0f * console.scale();
         const ImVec2 corner{ImGui::GetItemRectMax().x, ImGui::GetItemRectMin().y};
         ImGui::GetWindowDrawList()->AddCircleFilled({corner.x - 1.6f * r, corner.y + 1.6f * r}, r,

@@ -23,14 +23,14 @@ ImFont* load(const char* name, double size) {
 
 } // namespace
 
-Letters loadLetters(double scale) {
+Fonts loadFonts(double scale) {
     ImGui::GetIO().Fonts->Clear();
-    Letters letters;
-    letters.body = load("DejaVuSans.ttf", 14.0 * scale);
-    letters.small = load("DejaVuSans.ttf", 11.5 * scale);
-    letters.bold = load("DejaVuSans-Bold.ttf", 14.0 * scale);
-    letters.large = load("DejaVuSans-Bold.ttf", 21.0 * scale);
-    return letters;
+    Fonts fonts;
+    fonts.body = load("DejaVuSans.ttf", 14.0 * scale);
+    fonts.small = load("DejaVuSans.ttf", 11.5 * scale);
+    fonts.bold = load("DejaVuSans-Bold.ttf", 14.0 * scale);
+    fonts.large = load("DejaVuSans-Bold.ttf", 21.0 * scale);
+    return fonts;
 }
 
 void applyTheme(double scale) {

@@ -34,7 +34,7 @@ constexpr ImGuiWindowFlags kPanel = ImGuiWindowFlags_NoDecoration | ImGuiWindowF
                                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus;
 
 // The fonts of the window, owned by ImGui's atlas.
-struct Letters {
+struct Fonts {
     ImFont* body = nullptr;
     ImFont* small = nullptr;
     ImFont* bold = nullptr;
@@ -42,7 +42,7 @@ struct Letters {
 };
 
 // Fills the font atlas of the current context; uses ImGui's own font where DejaVu is not installed.
-Letters loadLetters(double scale);
+Fonts loadFonts(double scale);
 void applyTheme(double scale);
 
 } // namespace fathom::operate

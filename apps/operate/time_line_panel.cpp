@@ -87,11 +87,11 @@ TimeLinePanel::TimeLinePanel(const TickLog& log, double duration)
         column.force = std::max(column.force, std::isfinite(force) ? force : 0.0f);
         column.contact = column.contact || moment.contacts > 0;
         column.guided = column.guided || moment.guidance > 0.0;
-        most_ = std::max(most_, column.force);
+        peak_ = std::max(peak_, column.force);
     }
 }
 
-void TimeLinePanel::listen(Console& console) const {
+void TimeLinePanel::handleKeys(Console& console) const {
     TimeLine& line = console.timeLine;
     const ImGuiIO& io = ImGui::GetIO();
     const auto pressed = [](int key) { return keyPressed(key, true); };
@@ -125,13 +125,13 @@ void TimeLinePanel::listen(Console& console) const {
     line.t = std::clamp(line.t, 0.0, line.duration);
 }
 
-void TimeLinePanel::draw(Console& console, const Letters& letters, ImVec2 at, ImVec2 size) const {
+void TimeLinePanel::draw(Console& console, const Fonts& fonts, ImVec2 at, ImVec2 size) const {
     ImGui::SetNextWindowPos(at);
     ImGui::SetNextWindowSize(size);
     ImGui::Begin("time line", nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                      ImGuiWindowFlags_NoNavInputs);
-    ImGui::PushFont(letters.small);
+    ImGui::PushFont(fonts.small);
     drawButtons(console);
     drawStrip(console);
     ImGui::PopFont();
@@ -163,7 +163,7 @@ void TimeLinePanel::drawButtons(Console& console) const {
     }
     char text[160];
     std::snprintf(text, sizeof text, "%.3f of %.3f s   frame %u of %u   speed %.3g   peak %.2f N%s", line.t,
-                  line.duration, line.frame + 1, line.frames, line.speed, double{most_},
+                  line.duration, line.frame + 1, line.frames, line.speed, double{peak_},
                   line.wholeMemory ? "" : "   this frame only");
     ImGui::TextDisabled("  %s", text);
 }
@@ -190,7 +190,7 @@ void TimeLinePanel::drawStrip(Console& console) const {
     for (size_t i = 0; i < kColumns; ++i) {
         const Column& column = columns_[i];
         const float x = at.x + step * static_cast<float>(i);
-        const float tall = most_ > 0.0f ? (room.y - 8.0f) * column.force / most_ : 0.0f;
+        const float tall = peak_ > 0.0f ? (room.y - 8.0f) * column.force / peak_ : 0.0f;
         list.AddRectFilled({x, low - 4.0f - tall}, {x + step + 0.5f, low - 4.0f},
                            column.contact ? colour::kTouch : colour::kForce);
         if (column.any) {

@@ -16,8 +16,8 @@ public:
     TimeLinePanel(const TickLog& log, double duration);
 
     // Window thread, inside an ImGui frame. Changes console.timeLine only.
-    void listen(Console& console) const; // handles keys
-    void draw(Console& console, const Letters& letters, ImVec2 at, ImVec2 size) const;
+    void handleKeys(Console& console) const;
+    void draw(Console& console, const Fonts& fonts, ImVec2 at, ImVec2 size) const;
 
 private:
     void drawButtons(Console& console) const;
@@ -30,7 +30,7 @@ private:
     };
     std::vector<Column> columns_;
     std::vector<double> times_; // [s] times of the ticks
-    float most_ = 0.0f;         // [N]
+    float peak_ = 0.0f;         // [N] largest force of all columns
 };
 
 } // namespace fathom::operate

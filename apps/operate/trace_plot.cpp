@@ -11,7 +11,7 @@ namespace fathom::operate {
 
 namespace {
 
-constexpr ImU32 kPlotGround = IM_COL32(12, 16, 23, 255), kResidualInk = IM_COL32(200, 206, 216, 220);
+constexpr ImU32 kPlotBackground = IM_COL32(12, 16, 23, 255), kResidualInk = IM_COL32(200, 206, 216, 220);
 constexpr ImU32 kZeroLine = IM_COL32(70, 84, 106, 255), kLimitLine = IM_COL32(255, 92, 84, 150);
 
 // Curves of one plot.
@@ -56,7 +56,7 @@ private:
 void drawScale(const WrenchFigures& plot, const TraceArea& area, const Curves& curves) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const float right = area.at.x + area.size.x, bottom = area.at.y + area.size.y;
-    list.AddRectFilled(area.at, {right, bottom}, kPlotGround, 4.0f);
+    list.AddRectFilled(area.at, {right, bottom}, kPlotBackground, 4.0f);
     for (double s = std::ceil(area.from); s <= area.to; s += 1.0) {
         list.AddLine({area.x(s), area.at.y}, {area.x(s), bottom}, IM_COL32(40, 50, 66, 255));
     }
@@ -194,7 +194,7 @@ std::vector<TraceSpan> traceSpans(const std::deque<TraceSample>& trace) {
 void drawEvents(const TraceArea& lane, const std::deque<TraceSample>& trace) {
     ImDrawList& list = *ImGui::GetWindowDrawList();
     const float top = lane.at.y, bottom = lane.at.y + lane.size.y, right = lane.at.x + lane.size.x;
-    list.AddRectFilled(lane.at, {right, bottom}, kPlotGround, 3.0f);
+    list.AddRectFilled(lane.at, {right, bottom}, kPlotBackground, 3.0f);
     const auto column = [&](float x, float from, ImU32 colour) { // of whole pixels: hundreds are cheap
         list.AddRectFilled({std::floor(x), from}, {std::floor(x) + 1.0f, bottom}, colour);
     };

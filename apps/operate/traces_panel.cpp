@@ -24,7 +24,7 @@ void TracesPanel::draw(Console& console, const HudInput& input, ImVec2 at, ImVec
     ImGui::Begin("traces", nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                      ImGuiWindowFlags_NoNavInputs);
-    ImGui::PushFont(input.letters.small);
+    ImGui::PushFont(input.fonts.small);
     drawControls(console);
     drawCurves(console, input);
     ImGui::PopFont();

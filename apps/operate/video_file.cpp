@@ -98,15 +98,15 @@ VideoFile::~VideoFile() {
     }
 }
 
-void VideoFile::add(const Image& picture) {
-    if (picture.width() != width_ || picture.height() != height_) {
+void VideoFile::add(const Image& image) {
+    if (image.width() != width_ || image.height() != height_) {
         throw Error("the images' size changed from " + sizeText(width_, height_) + " to " +
-                    sizeText(picture.width(), picture.height()) + ", which a video cannot");
+                    sizeText(image.width(), image.height()) + ", which a video cannot");
     }
-    picture.beginPixels();
-    for (int v = 0; v < picture.height(); ++v) {
+    image.beginPixels();
+    for (int v = 0; v < image.height(); ++v) {
         std::span<const std::byte> rest =
-            std::as_bytes(std::span(picture.row(v), static_cast<size_t>(picture.width())));
+            std::as_bytes(std::span(image.row(v), static_cast<size_t>(image.width())));
         while (!rest.empty()) {
             const ssize_t sent = ::send(socket_, rest.data(), rest.size(), MSG_NOSIGNAL);
             if (sent < 0 && errno != EINTR) {
@@ -115,7 +115,7 @@ void VideoFile::add(const Image& picture) {
             rest = rest.subspan(sent < 0 ? 0 : static_cast<size_t>(sent));
         }
     }
-    picture.endPixels();
+    image.endPixels();
 }
 
 void VideoFile::finish() {

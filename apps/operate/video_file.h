@@ -13,7 +13,7 @@ namespace fathom::operate {
 // Path of the program in PATH; empty when it is not installed.
 std::optional<std::filesystem::path> findEncoder();
 
-// One thread. Pictures of one size, at 30 per second.
+// One thread. Images of one size, at 30 per second.
 class VideoFile {
 public:
     // Starts the encoder. Throws Error when that fails.
@@ -22,8 +22,8 @@ public:
     VideoFile(const VideoFile&) = delete;
     VideoFile& operator=(const VideoFile&) = delete;
 
-    // Waits while the encoder is busy. Throws Error when it has ended, or for a picture of another size.
-    void add(const Image& picture);
+    // Waits while the encoder is busy. Throws Error when it has ended, or for an image of another size.
+    void add(const Image& image);
     // Waits for the encoder. Throws Error when it has failed.
     void finish();
 

@@ -199,9 +199,9 @@ std::vector<Sphere> armSpheres(const ArmSetup* arm, const ArmPosture& posture) {
     return spheres;
 }
 
-void drawRegionOutlines(ImDrawList& list, const ViewPort& port, const CameraGround& ground) {
-    outline(list, port, ground.heldOutline(), colour::kRegionSoft, 2.0f, true);
-    outline(list, port, ground.seenOutline(), colour::kRegion, 3.0f, false);
+void drawRegionOutlines(ImDrawList& list, const ViewPort& port, const CameraViewImage& image) {
+    outline(list, port, image.heldOutline(), colour::kRegionSoft, 2.0f, true);
+    outline(list, port, image.seenOutline(), colour::kRegion, 3.0f, false);
 }
 
 void drawBounds(ImDrawList& list, const ViewPort& port, std::span<const Sphere> bounds) {

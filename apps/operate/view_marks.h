@@ -2,7 +2,7 @@
 // Marks over a view: outlines of regions, guidance, tool and device ghost, contacts, force.
 #pragma once
 
-#include "apps/operate/camera_ground.h"
+#include "apps/operate/camera_view_image.h"
 #include "apps/operate/depth_cues.h"
 #include "apps/operate/measured_arm.h"
 #include "apps/operate/run_view.h"
@@ -34,7 +34,7 @@ struct MarksInput {
 // The spheres of every link in the base frame; empty without an arm.
 std::vector<Sphere> armSpheres(const ArmSetup* arm, const ArmPosture& posture);
 
-void drawRegionOutlines(ImDrawList& list, const ViewPort& port, const CameraGround& ground);
+void drawRegionOutlines(ImDrawList& list, const ViewPort& port, const CameraViewImage& image);
 void drawBounds(ImDrawList& list, const ViewPort& port, std::span<const Sphere> bounds);
 void drawCameraFrustum(ImDrawList& list, const ViewPort& port, const Fixtures& set);
 // Draws shapes, guidance, shadow, device ghost, tool, tether, contacts and force, in this order. Returns the

@@ -55,7 +55,7 @@ private:
         int key = 0, mods = 0;
     };
     std::vector<Tap> taps_; // key presses since the last frame
-    KeysDown live_{};       // as GLFW reports them
+    KeysDown live_{};       // down now, as GLFW reports them
     KeysDown shown_{};      // down in the last frame
     double before_ = 0.0;
     double monitorScale_ = 1.0;

@@ -52,7 +52,7 @@ struct CameraRig {
         laid.camera = &camera;
         laid.desk = &desk;
         laid.run.console.panels.tab = Tab::Camera;
-        laid.fonts({1280, 720}, 1.0);
+        laid.loadFontsFor({1280, 720}, 1.0);
         laid.draw();
         desk.show(true);
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lines under an exported picture.
+// The lines under an exported image.
 #include "apps/operate/caption.h"
 #include "tests/apps/viewed_run.h"
 
@@ -48,7 +48,7 @@ TEST_CASE("A caption fits its room: one row per line, and a long line is shorten
                 right = on ? std::max(right, u) : right;
             }
         }
-        CHECK((image.row(top - 1)[5] & 0xffu) == 128); // the picture above stays
+        CHECK((image.row(top - 1)[5] & 0xffu) == 128); // the image above stays
         image.endPixels();
         CHECK(light.front() == 0);
         CHECK(light.back() == 0);

@@ -39,7 +39,7 @@ TEST_CASE("A window whose forces last asks about unsaved fixtures, and notes whe
     CHECK_FALSE(console.closing.quit);
     CHECK(console.closing.stage == ClosingStage::Asks);
     CHECK(console.closing.forcesRemain);
-    laid.fonts({1280.0f, 720.0f}, 1.0);
+    laid.loadFontsFor({1280.0f, 720.0f}, 1.0);
     laid.draw();
     stepClosing(console, laid.editor, {false, true, 7.1});
     CHECK(console.closing.stage == ClosingStage::Asks);

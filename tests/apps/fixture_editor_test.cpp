@@ -25,7 +25,7 @@ struct FixturesTab {
 
     FixturesTab() {
         laid.run.console.panels.tab = Tab::Fixtures;
-        laid.fonts({1600, 1000}, 1.0);
+        laid.loadFontsFor({1600, 1000}, 1.0);
         laid.draw();
     }
     void press(ImVec2 at) {

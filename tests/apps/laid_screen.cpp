@@ -27,13 +27,13 @@ LaidScreen::LaidScreen() {
     run.step(0.001);
 }
 
-void LaidScreen::fonts(ImVec2 size, double scale) {
+void LaidScreen::loadFontsFor(ImVec2 size, double scale) {
     ImGui::GetIO().DisplaySize = size;
     run.console.settings.textScale = scale;
     const double fits = scaleThatFits(size, scale, run.console.settings.pilotLayout);
-    if (fits != run.console.status.drawnScale || letters.body == nullptr) {
+    if (fits != run.console.status.drawnScale || fonts.body == nullptr) {
         run.console.status.drawnScale = fits;
-        letters = loadLetters(fits);
+        fonts = loadFonts(fits);
         applyTheme(fits);
         unsigned char* pixels = nullptr;
         int width = 0, height = 0;
@@ -47,7 +47,7 @@ void LaidScreen::draw(int frames) {
                  .scene = scene,
                  .haptics = run.haptics,
                  .passNames = passes,
-                 .letters = letters,
+                 .fonts = fonts,
                  .title = "a recording with a rather long name, somewhere on this disk",
                  .camera = camera,
                  .desk = desk,
@@ -60,7 +60,7 @@ void LaidScreen::draw(int frames) {
             traces.draw(run.console, hud, {room[0], room[1]}, {room[2], room[3]});
         }
         if (const auto room = at("time line room"); room[3] > 0.0f) {
-            timeLine.draw(run.console, letters, {room[0], room[1]}, {room[2], room[3]});
+            timeLine.draw(run.console, fonts, {room[0], room[1]}, {room[2], room[3]});
         }
         ImGui::Render();
     }

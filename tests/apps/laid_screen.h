@@ -23,14 +23,14 @@ public:
     LaidScreen& operator=(const LaidScreen&) = delete;
 
     // The window's size [pixels] and the text that fits; call it again after changing the layout.
-    void fonts(ImVec2 size, double scale);
+    void loadFontsFor(ImVec2 size, double scale);
     // Windows know their sizes and tabs are open after two frames.
     void draw(int frames = 3);
 
     ViewedRun run;
     Scene scene;
     Screen screen;
-    Letters letters;
+    Fonts fonts;
     MeasuredArm measured;
     CameraFacts recorded{"a recording with a rather long name, somewhere on this disk",
                          {{"depth", 640, 480, 30.0, "16 bit"}, {"colour", 1280, 720, 0.0, "RGB"}}};

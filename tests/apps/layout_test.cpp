@@ -44,7 +44,7 @@ TEST_CASE(
                     console = fresh;
                     console.status.drawnScale = 0.0;
                     console.settings.pilotLayout = pilot;
-                    laid.fonts(size, scale);
+                    laid.loadFontsFor(size, scale);
                     screen.set(console);
                     laid.draw();
                     CAPTURE(size.x);
@@ -74,7 +74,7 @@ TEST_CASE("With alarms, every tab is as wide as its name") {
     laid.run.console.switches.forces = laid.run.console.switches.frozen = true;
     laid.run.step({.handGone = true, .recorderFailed = "the disk is full"});
     for (const ImVec2 size : {ImVec2(1280, 720), ImVec2(1600, 1000)}) {
-        laid.fonts(size, 1.0);
+        laid.loadFontsFor(size, 1.0);
         laid.draw();
         for (const char* name : {"Fixtures", "Why?", "Alarms", "Keys", "Camera", "Device"}) {
             CAPTURE(std::string(name));
@@ -87,7 +87,7 @@ TEST_CASE("With alarms, every tab is as wide as its name") {
 
 TEST_CASE("The tooltip of the stop plate has room round its text") {
     LaidScreen laid;
-    laid.fonts({1280, 720}, 1.0);
+    laid.loadFontsFor({1280, 720}, 1.0);
     laid.draw();
     const auto stop = laid.run.console.places.at("stop");
     ImGui::GetIO().MousePos = {stop[0] + 0.5f * stop[2], stop[1] + 0.5f * stop[3]};
@@ -110,7 +110,7 @@ TEST_CASE("The values of distance and force do not cover each other") {
     addRegion(set, {0.05, 0.0, 0.7}, 0.02, 0);
     laid.run.sink.frame({}, set);
     laid.run.view.refresh();
-    laid.fonts({1280, 720}, 1.0);
+    laid.loadFontsFor({1280, 720}, 1.0);
     for (const double up : {0.0, 1.0, 2.0, 3.0}) {
         CAPTURE(up);
         laid.run.row.record.wrench.force = {3.3, -up, 0.0};

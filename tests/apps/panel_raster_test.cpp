@@ -60,7 +60,7 @@ TEST_CASE("A frame without changes draws nothing again, and a change draws only 
     REQUIRE(changed.size() == 1);
     CHECK(changed[0] == PixelBox{64, 0, 128, 64});
     CHECK(rig.raster.tiles() == 4 * 3 + 1);
-    CHECK(rig.at(71, 12) == kGroundInk);
+    CHECK(rig.at(71, 12) == kBackground);
     CHECK(rig.at(81, 12) == 0xffff0000u);
     const auto wider = rig.draw([](ImDrawList& list) { square(list, 120.0f, 60.0f); });
     CHECK(rig.raster.tiles() == 4 * 3 + 1 + 4);
@@ -118,7 +118,7 @@ TEST_CASE("An image is drawn below the panels, kept while it is the same, and dr
     rig.draw(panel, {&first, 1});
     CHECK(rig.at(11, 6) == 0xff0000ffu);
     CHECK(rig.at(109, 64) == 0xff0000ffu);
-    CHECK(rig.at(110, 64) == kGroundInk);
+    CHECK(rig.at(110, 64) == kBackground);
     CHECK(rig.at(65, 15) == 0xffff0000u);
     CHECK(rig.draw(panel, {&same, 1}).empty());
     CHECK(rig.draw(panel, {&next, 1}).size() == 2); // rows of tiles
@@ -126,13 +126,13 @@ TEST_CASE("An image is drawn below the panels, kept while it is the same, and dr
     Layer outside = same;
     outside.where.x = 150; // a window that has just shrunk
     rig.draw(panel, {&outside, 1});
-    CHECK(rig.at(11, 6) == kGroundInk);
+    CHECK(rig.at(11, 6) == kBackground);
 }
 
 TEST_CASE("A window whose run stands still is laid out again, but not drawn again") {
     testing::LaidScreen laid;
     constexpr int kWidth = 1000, kHeight = 620;
-    laid.fonts({kWidth, kHeight}, 1.0);
+    laid.loadFontsFor({kWidth, kHeight}, 1.0);
     PanelRaster raster;
     raster.takeFonts();
     std::vector<uint32_t> pixels(size_t{kWidth} * kHeight);

@@ -35,7 +35,7 @@ TEST_CASE("Names with quotes and backslashes are saved so that they are read bac
     Scene scene = loadScene(file);
     scene.fixtures[0].name = "say \"hi\" \\ there and here";
     FixtureEditor editor(scene, [](const Scene&, const std::vector<Shape>&) {});
-    editor.keep({}, "Ann \\ \"B\"");
+    editor.keepSettings({}, "Ann \\ \"B\"");
     put(file, editor.text());
     const Scene again = loadScene(file);
     CHECK(again.fixtures[0].name == scene.fixtures[0].name);
@@ -99,7 +99,7 @@ TEST_CASE("A scene that is a link stays one, and files next to it are left alone
     put(link.string() + ".new", "mine");
     std::filesystem::create_symlink("real.yaml", link);
     FixtureEditor editor = editorOf(link);
-    editor.keep({}, "");
+    editor.keepSettings({}, "");
     CHECK(editor.save() == "0 fixtures saved to " + link.string());
     CHECK(std::filesystem::is_symlink(link));
     CHECK(textOf(real).find("window: {") != std::string::npos);

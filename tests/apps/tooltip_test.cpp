@@ -41,7 +41,7 @@ TEST_CASE("Every button, slider, tab, bar and figure has a tooltip") {
             console = fresh;
             console.status.drawnScale = 0.0;
             console.settings.pilotLayout = pilot;
-            laid.fonts({1920, 1080}, 1.0);
+            laid.loadFontsFor({1920, 1080}, 1.0);
             now.set(console);
             ImGui::GetIO().MousePos = {-1.0f, -1.0f};
             laid.draw();
@@ -66,7 +66,7 @@ TEST_CASE("A mouse on its way shows no tooltip, and a button that is held down n
     LaidScreen laid;
     Console& console = laid.run.console;
     console.status.drawnScale = 0.0;
-    laid.fonts({1280, 720}, 1.0);
+    laid.loadFontsFor({1280, 720}, 1.0);
     laid.draw();
     ImGui::GetIO().DeltaTime = 0.1f;
     pointAt(console.places.at("gap bar"));

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "engine/contact/cull_cpu.h"
+#include "engine/cycle/arm_setup.h"
 #include "engine/cycle/haptic_cycle.h"
 #include "engine/reference/contact_oracle.h"
 #include "engine/run/delayed_contacts.h"

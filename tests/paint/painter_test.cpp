@@ -22,9 +22,9 @@ std::vector<uint32_t> drawnBy(Painter::By drawer, gpu::Instance& instance, gpu::
     const testing::ScratchFolder folder;
     Painter painter(instance, device, nullptr, drawer);
     REQUIRE(painter.draw(kSize, layers, ImGui::GetDrawData(), [] { return false; }));
-    const std::unique_ptr<Image> picture = painter.picture(0);
-    REQUIRE(picture);
-    picture->writePng(folder.path() / "window.png");
+    const std::unique_ptr<Image> image = painter.frameImage(0);
+    REQUIRE(image);
+    image->writePng(folder.path() / "window.png");
     std::vector<uint32_t> pixels(size_t{kSize.width} * kSize.height);
     REQUIRE(readColourPng(folder.path() / "window.png", {kSize.width, kSize.height}, pixels).empty());
     return pixels;
@@ -60,7 +60,7 @@ TEST_CASE("Device and CPU draw the same window") {
     testing::LaidScreen laid;
     laid.run.console.switches.forces = true;
     laid.run.console.panels.tab = Tab::Help;
-    laid.fonts({kSize.width, kSize.height}, 1.0);
+    laid.loadFontsFor({kSize.width, kSize.height}, 1.0);
     laid.draw();
     std::mt19937 noise(7); // an image of large squares: resampling shows at their borders only
     std::vector<uint32_t> image(320 * 240);

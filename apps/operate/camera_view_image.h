@@ -14,7 +14,7 @@ namespace fathom::operate {
 using Selection = std::vector<uint8_t>;
 
 // Composed per frame. Colours have the meaning they have in overlay.png.
-class CameraGround {
+class CameraViewImage {
 public:
     // Regions with half of the resolution, which takes a third of the time.
     void setCoarse(bool coarse) { coarse_ = coarse; }

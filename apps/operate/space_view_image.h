@@ -21,7 +21,7 @@ struct SpaceView {
 
 // Rendered on the CPU: points with a depth test; regions as the front of their spheres, blended where they
 // are in front of the points. With very many spheres every n-th is drawn, which bounds the time per frame.
-class SpaceGround {
+class SpaceViewImage {
 public:
     void compose(const SceneSnapshot& scene, const SpaceView& view, std::span<const Sphere> arm);
 

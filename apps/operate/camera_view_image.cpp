@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/operate/camera_ground.h"
+#include "apps/operate/camera_view_image.h"
 
 #include <algorithm>
 #include <cmath>
@@ -103,7 +103,7 @@ std::vector<OutlineLine> outlineIn(const std::vector<uint8_t>& mask, const Image
 
 } // namespace
 
-void CameraGround::compose(const SceneSnapshot& scene, const Selection& selection) {
+void CameraViewImage::compose(const SceneSnapshot& scene, const Selection& selection) {
     const CameraInfo& camera = scene.set.camera;
     const bool coloured = camera.hasColour && scene.colour.size() == camera.colour.pixels();
     view_ = imageView(camera, scene.set.baseTcamera, !coloured, kMinWidth);
@@ -112,7 +112,7 @@ void CameraGround::compose(const SceneSnapshot& scene, const Selection& selectio
     paintRegions(scene.set);
 }
 
-void CameraGround::paintImage(const SceneSnapshot& scene, const Selection& selection) {
+void CameraViewImage::paintImage(const SceneSnapshot& scene, const Selection& selection) {
     const CameraInfo& camera = scene.set.camera;
     const Intrinsics& lens = view_.lens;
     const bool coloured = scene.colour.size() == lens.pixels();
@@ -143,7 +143,7 @@ void CameraGround::paintImage(const SceneSnapshot& scene, const Selection& selec
     unknown_ = static_cast<double>(unknown) / static_cast<double>(std::max<size_t>(1, pixels_.size()));
 }
 
-void CameraGround::paintRegions(const Fixtures& set) {
+void CameraViewImage::paintRegions(const Fixtures& set) {
     seen_.clear();
     held_.clear();
     if (set.frame < 0 || set.spheres.size() == 0) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/operate/space_ground.h"
+#include "apps/operate/space_view_image.h"
 
 #include "apps/output/silhouette.h"
 
@@ -12,10 +12,10 @@ namespace fathom::operate {
 
 namespace {
 
-constexpr double kMaxPixels = 2.5e6;      // limit for all spheres of an image together
-constexpr double kMaxGroundLayers = 12.0; // spheres over each other, on average
-constexpr double kNearest = 0.02;         // [m]
-constexpr float kNothing = 1e9f;          // [m] depth of a pixel without a point
+constexpr double kMaxPixels = 2.5e6; // limit for all spheres of an image together
+constexpr double kMaxOverlap = 12.0; // spheres over each other, on average
+constexpr double kNearest = 0.02;    // [m]
+constexpr float kNothing = 1e9f;     // [m] depth of a pixel without a point
 
 uint32_t dimmed(uint32_t colour) {
     const auto channel = [&](uint32_t shift) {
@@ -26,7 +26,7 @@ uint32_t dimmed(uint32_t colour) {
 
 } // namespace
 
-void SpaceGround::compose(const SceneSnapshot& scene, const SpaceView& view, std::span<const Sphere> arm) {
+void SpaceViewImage::compose(const SceneSnapshot& scene, const SpaceView& view, std::span<const Sphere> arm) {
     view_.lens = {};
     view_.lens.width = view.width;
     view_.lens.height = view.height;
@@ -47,7 +47,7 @@ void SpaceGround::compose(const SceneSnapshot& scene, const SpaceView& view, std
 }
 
 // The background is a vertical gradient.
-void SpaceGround::clear() {
+void SpaceViewImage::clear() {
     const uint32_t width = view_.lens.width, height = view_.lens.height;
     const size_t count = static_cast<size_t>(width) * height;
     pixels_.resize(count);
@@ -63,7 +63,7 @@ void SpaceGround::clear() {
 }
 
 // Squares of 100 mm below the scene. It has no depth: everything is drawn over it.
-void SpaceGround::drawGrid(const SpaceView& view) {
+void SpaceViewImage::drawGrid(const SpaceView& view) {
     constexpr double kSquare = 0.1; // [m]
     constexpr int kReach = 7;       // squares on each side
     const double end = kReach * kSquare;
@@ -78,7 +78,7 @@ void SpaceGround::drawGrid(const SpaceView& view) {
 }
 
 // Between two points of the base frame, the part in front of the eye and inside the image.
-void SpaceGround::drawLine(const dvec3& from, const dvec3& to, uint32_t colour) {
+void SpaceViewImage::drawLine(const dvec3& from, const dvec3& to, uint32_t colour) {
     dvec3 a = view_.cameraTbase.apply(from), b = view_.cameraTbase.apply(to);
     if (a.z > b.z) {
         std::swap(a, b);
@@ -108,7 +108,7 @@ void SpaceGround::drawLine(const dvec3& from, const dvec3& to, uint32_t colour) 
     }
 }
 
-double SpaceGround::depthAt(glm::dvec2 p) const {
+double SpaceViewImage::depthAt(glm::dvec2 p) const {
     if (!(p.x >= 0.0) || !(p.y >= 0.0) || p.x >= view_.width() || p.y >= view_.height()) {
         return 0.0;
     }
@@ -116,7 +116,7 @@ double SpaceGround::depthAt(glm::dvec2 p) const {
     return z < kNothing ? double{z} : 0.0;
 }
 
-void SpaceGround::splatPoints(const SceneSnapshot& scene) {
+void SpaceViewImage::splatPoints(const SceneSnapshot& scene) {
     const Fixtures& set = scene.set;
     const Intrinsics& lens = set.camera.depth;
     if (set.depth.size() != lens.pixels()) {
@@ -157,7 +157,7 @@ void SpaceGround::splatPoints(const SceneSnapshot& scene) {
 }
 
 // 2x2 pixels, so that near surfaces have no holes.
-void SpaceGround::putPoint(size_t first, float z, uint32_t colour) {
+void SpaceViewImage::putPoint(size_t first, float z, uint32_t colour) {
     for (const size_t at : {first, first + 1, first + view_.lens.width, first + view_.lens.width + 1}) {
         const bool nearer = z < depth_[at];
         depth_[at] = nearer ? z : depth_[at];
@@ -195,7 +195,7 @@ void splat(const Intrinsics& lens, const dvec3& c, double radius, Put&& put) {
 } // namespace
 
 // Opaque and in one colour, to differ from regions and points.
-void SpaceGround::splatArm(std::span<const Sphere> arm) {
+void SpaceViewImage::splatArm(std::span<const Sphere> arm) {
     float* const depth = depth_.data();
     uint32_t* const pixels = pixels_.data();
     for (const Sphere& sphere : arm) {
@@ -213,7 +213,7 @@ void SpaceGround::splatArm(std::span<const Sphere> arm) {
     }
 }
 
-void SpaceGround::splatRegions(const Fixtures& set) {
+void SpaceViewImage::splatRegions(const Fixtures& set) {
     float *const front = front_.data(), *const facing = facing_.data();
     double cost = 0.0;
     for (size_t i = 0; i < set.spheres.size(); i += 8) {
@@ -221,7 +221,7 @@ void SpaceGround::splatRegions(const Fixtures& set) {
         const double r = view_.lens.fx * double{set.spheres.radius[i]} / z;
         cost += 8.0 * 3.14 * r * r;
     }
-    const double most = std::min(kMaxPixels, kMaxGroundLayers * static_cast<double>(pixels_.size()));
+    const double most = std::min(kMaxPixels, kMaxOverlap * static_cast<double>(pixels_.size()));
     const size_t step = std::max<size_t>(1, static_cast<size_t>(std::ceil(cost / most)));
     for (size_t i = 0; i < set.spheres.size(); i += step) {
         const dvec3 c = view_.cameraTbase.apply(regionCentre(set, i));
@@ -237,7 +237,7 @@ void SpaceGround::splatRegions(const Fixtures& set) {
     }
 }
 
-void SpaceGround::shadeRegions() {
+void SpaceViewImage::shadeRegions() {
     const size_t width = view_.lens.width;
     for (size_t i = 0; i < pixels_.size(); ++i) {
         if (front_[i] >= depth_[i]) {
@@ -257,7 +257,7 @@ void SpaceGround::shadeRegions() {
 
 // The engine's tree exists on the device only. These are the same blocks of pixels, bounded around their
 // centroid.
-void SpaceGround::boundBlocks(const Fixtures& set, int level) {
+void SpaceViewImage::boundBlocks(const Fixtures& set, int level) {
     const uint32_t edge = 4u << (2 * level);
     const uint32_t width = set.camera.depth.width, pixels = set.camera.depth.pixels();
     std::map<uint32_t, std::vector<size_t>> blocks;
