@@ -10,6 +10,7 @@
 #include "engine/haptics/hand_map.h"
 #include "engine/haptics/stiffness_watch.h"
 
+#include <limits>
 #include <optional>
 
 namespace fathom {
@@ -148,8 +149,7 @@ private:
     struct Scene { // what the active regions are
         uint64_t generation = 0;
         bool edited = false; // shapes were replaced
-        double age = 0.0;    // [s]
-        bool hasAge = false;
+        double age = std::numeric_limits<double>::infinity(); // [s]
     } scene_;
     struct Pressing {      // of the last step
         bool rows = false; // with a force that can be felt

@@ -44,8 +44,10 @@ double HapticCycle::sceneAge(const StepInput& input, const ContactSet* set) noex
     // confirms it may be newer.
     const bool newest = set == nullptr || set->generation == input.generation;
     const double age = input.time - (newest ? input.captureTime : set->captureTime);
-    scene_.age = input.sourceEnded && scene_.hasAge ? std::min(age, scene_.age) : age;
-    scene_.hasAge = true;
+    scene_.age = input.sourceEnded ? std::min(age, scene_.age) : age;
+    if (input.sourceEnded && newest && scene_.age > kStaleAfter) {
+        scene_.age = 0.0; // the last frame does not age, however late its regions became active
+    }
     return scene_.age;
 }
 

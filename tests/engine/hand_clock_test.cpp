@@ -61,3 +61,21 @@ TEST_CASE("In lockstep a frame of the future gives no force until its time has c
     CHECK(early == 0.0);
     CHECK(late > 5.0);
 }
+
+TEST_CASE("The last frame of a source that ended protects, however late the first step sees it") {
+    for (const int firstMs : {20, 90, 200, 5000}) {
+        CAPTURE(firstMs);
+        Lockstep lockstep(wallScene(), smallCamera(), startAt(0.54));
+        lockstep.process(Wall().at(0));
+        lockstep.endFrames();
+        Step step;
+        for (int ms = firstMs; ms < firstMs + 1000; ++ms) {
+            lockstep.queryContacts();
+            const double z = std::min(0.56, 0.54 + 0.0001 * (ms - firstMs));
+            step = lockstep.step(handAt(z), Nanoseconds{ms} * 1'000'000);
+        }
+        CHECK(step.state == State::Contact);
+        CHECK(step.wrench.force[2] == doctest::Approx(-10.0).epsilon(1e-3));
+        CHECK_FALSE(warns(step, StepWarning::OldScene));
+    }
+}
