@@ -9,6 +9,8 @@
 namespace fathom {
 namespace {
 
+constexpr double kCalmTurn = 0.2; // share of the wanted wrench: 11 degrees
+
 PassivityOptions passivityOf(const HapticOptions& options) {
     PassivityOptions passivity = makePassivity(options.device, options.springs, options.coupling);
     passivity.delayTicks = options.deviceDelayTicks;
@@ -19,6 +21,17 @@ PassivityOptions passivityOf(const HapticOptions& options) {
 double shareOf(const dvec3& part, const dvec3& whole) {
     const double length = glm::length(whole);
     return length > 0.0 ? glm::length(part) / length : 1.0;
+}
+
+// Of a low-pass: `filtered`, in which what is not `wanted` is shorter by `step` than it was `before`.
+// Directions that change little are left to the filter.
+dvec3 withEndingTail(const dvec3& wanted, const dvec3& before, const dvec3& filtered, double step) {
+    const double size = glm::length(wanted);
+    const dvec3 sized = clampLength(filtered, std::max(size, glm::length(before) - step));
+    const dvec3 kept = wantedPart(sized, wanted);
+    const double calm = glm::dot(sized, wanted) < 0.0 ? 0.0 : kCalmTurn * size;
+    const double tail = glm::length(before - wantedPart(before, wanted)) - step;
+    return kept + clampLength(sized - kept, std::max(calm, tail));
 }
 
 bool isZero(const Wrench& wrench) {
@@ -133,29 +146,28 @@ void WrenchStage::cut() noexcept {
     passivity_.reset();
 }
 
-// Largest change in a tick [N] or [N m]. However low the slew limit is, a fall takes no longer than a ramp,
-// and late ticks do not delay it.
-double WrenchStage::stepOf(const dvec3& wanted, const dvec3& before, double slew, double limit,
-                           double elapsed) const noexcept {
-    const bool falls = glm::dot(wanted, wanted) < glm::dot(before, before);
-    const double late = std::max(options_.period, elapsed);
-    return std::max(options_.period * slew, falls ? late * limit / ForceRamps::kRampTime : 0.0);
+// After one tick. However low the slew limit is, what is no longer wanted ends within a ramp, and late ticks
+// do not delay it.
+dvec3 WrenchStage::slewed(const dvec3& wanted, const dvec3& before, double slew, double limit,
+                          double elapsed) const noexcept {
+    const double fall = std::max(options_.period, elapsed) * limit / ForceRamps::kRampTime;
+    return limitSlew(wanted, before, options_.period * slew, fall);
 }
 
-// The low-pass of the wanted wrench. A force that is no longer wanted ends within the time of a ramp, however
-// slow the filter is.
+// The low-pass of the wanted wrench. However slow the filter is, what is no longer wanted ends within a ramp.
 Wrench WrenchStage::smoothed(const WrenchInput& input, const Wrench& wanted) noexcept {
-    const double rampStep = std::max(options_.period, input.elapsed) / ForceRamps::kRampTime;
-    const auto most = [&](const dvec3& now, const dvec3& before, double limit) {
-        return std::max(glm::length(now), std::min(glm::length(before), limit) - rampStep * limit);
-    };
-    const double force = most(wanted.force, smooth_.force, options_.forceLimit),
-                 torque = most(wanted.torque, smooth_.torque, options_.torqueLimit);
-    smooth_ = lowPass(wanted, smooth_, options_.lowPassGain);
-    if (options_.lowPassGain < 1.0) {
-        smooth_ = ramps_.off() ? Wrench{} : limitSize(smooth_, force, torque);
+    if (options_.lowPassGain >= 1.0) {
+        return smooth_ = wanted;
     }
-    return smooth_;
+    const double rampStep = std::max(options_.period, input.elapsed) / ForceRamps::kRampTime;
+    const Wrench filtered = lowPass(wanted, smooth_, options_.lowPassGain);
+    const auto ending = [&](const dvec3& now, const dvec3& before, const dvec3& after, double limit) {
+        return withEndingTail(now, clampLength(before, std::max(glm::length(now), limit)), after,
+                              rampStep * limit);
+    };
+    smooth_ = {ending(wanted.force, smooth_.force, filtered.force, options_.forceLimit),
+               ending(wanted.torque, smooth_.torque, filtered.torque, options_.torqueLimit)};
+    return smooth_ = ramps_.off() ? Wrench{} : smooth_;
 }
 
 WrenchStage::Output WrenchStage::step(const WrenchInput& input) noexcept {
@@ -171,10 +183,10 @@ WrenchStage::Output WrenchStage::step(const WrenchInput& input) noexcept {
     const Wrench sized =
         limitSize(asked, limitScale * options_.forceLimit, limitScale * options_.torqueLimit);
     Output out;
-    out.wrench = limitSlew(
-        sized, previous_,
-        stepOf(sized.force, previous_.force, options_.slewForce, options_.forceLimit, input.elapsed),
-        stepOf(sized.torque, previous_.torque, options_.slewTorque, options_.torqueLimit, input.elapsed));
+    out.wrench.force =
+        slewed(sized.force, previous_.force, options_.slewForce, options_.forceLimit, input.elapsed);
+    out.wrench.torque =
+        slewed(sized.torque, previous_.torque, options_.slewTorque, options_.torqueLimit, input.elapsed);
     out.cause = causeOf(input, damper, sized, out.wrench);
     out.finite = input.sampleFinite && isFinite(out.wrench);
     notFinite_ += out.finite ? 0 : 1;

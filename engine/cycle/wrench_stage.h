@@ -44,8 +44,9 @@ struct WrenchInput {
 };
 
 // One thread; noexcept, no allocation. Guarantees, whatever the input: force and torque stay within their
-// limits and slew limits, but a fall to zero takes at most ForceRamps::kRampTime; after a tick in which the
-// device rendered nothing, and after every fade, the force rises from there within the ramp.
+// limits, and what is wanted rises by the slew limits; what is no longer wanted, such as a force that must
+// turn round, ends within ForceRamps::kRampTime; after a tick in which the device rendered nothing, and after
+// every fade, the force rises from there within the ramp.
 class WrenchStage {
 public:
     explicit WrenchStage(const HapticOptions& options);
@@ -74,8 +75,8 @@ public:
 private:
     void stepRamps(const WrenchInput& input) noexcept;
     Wrench springWrench(const WrenchInput& input) noexcept;
-    double stepOf(const dvec3& wanted, const dvec3& before, double slew, double limit,
-                  double elapsed) const noexcept;
+    dvec3 slewed(const dvec3& wanted, const dvec3& before, double slew, double limit,
+                 double elapsed) const noexcept;
     Wrench smoothed(const WrenchInput& input, const Wrench& wanted) noexcept;
     Wrench damping(const WrenchInput& input, const Wrench& reaction) noexcept;
     Wrench passivityWrench(const WrenchInput& input, const Wrench& reaction) noexcept;

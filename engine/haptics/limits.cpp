@@ -3,6 +3,7 @@
 
 #include "engine/types/angle.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace fathom {
@@ -25,13 +26,26 @@ dvec3 projectedOn(const dvec3& v, const dvec3& axis) noexcept {
     return square > 0.0 ? axis * (glm::dot(v, axis) / square) : dvec3(0.0);
 }
 
+dvec3 wantedPart(const dvec3& v, const dvec3& wanted) noexcept {
+    const double square = glm::dot(wanted, wanted);
+    return square > 0.0 ? wanted * glm::clamp(glm::dot(v, wanted) / square, 0.0, 1.0) : dvec3(0.0);
+}
+
 Wrench limitSize(const Wrench& wrench, double force, double torque) noexcept {
     return {clampLength(wrench.force, force), clampLength(wrench.torque, torque)};
 }
 
-Wrench limitSlew(const Wrench& wanted, const Wrench& previous, double forceStep, double torqueStep) noexcept {
-    return {previous.force + clampLength(wanted.force - previous.force, forceStep),
-            previous.torque + clampLength(wanted.torque - previous.torque, torqueStep)};
+dvec3 shortened(const dvec3& v, double by) noexcept {
+    return clampLength(v, std::max(0.0, glm::length(v) - by));
+}
+
+dvec3 limitSlew(const dvec3& wanted, const dvec3& previous, double rise, double fall) noexcept {
+    if (fall <= rise) {
+        return previous + clampLength(wanted - previous, rise);
+    }
+    const dvec3 kept = wantedPart(previous, wanted);
+    const dvec3 next = kept + clampLength(wanted - kept, rise) + shortened(previous - kept, fall);
+    return clampLength(next, std::max(glm::length(wanted), glm::length(previous)));
 }
 
 double lowPassGain(double hz, double period) noexcept {

@@ -20,12 +20,19 @@ dvec3 clampLength(const dvec3& v, double limit) noexcept;
 // v along `axis` (of any length) only; zero for a zero axis.
 dvec3 projectedOn(const dvec3& v, const dvec3& axis) noexcept;
 
+// The part of v that lies along `wanted` and is at most as long: between zero and `wanted`.
+dvec3 wantedPart(const dvec3& v, const dvec3& wanted) noexcept;
+
 // Force and torque each shortened to their limit [N], [N m], same direction.
 Wrench limitSize(const Wrench& wrench, double force, double torque) noexcept;
 
-// The wrench nearest to `wanted` on the straight line from `previous`, at most one step [N], [N m] per tick
-// away. It stays within the size limits, because it lies between two wrenches that do.
-Wrench limitSlew(const Wrench& wanted, const Wrench& previous, double forceStep, double torqueStep) noexcept;
+// v shorter by `by`, same direction; zero if it was not longer.
+dvec3 shortened(const dvec3& v, double by) noexcept;
+
+// The force or torque after one tick. What of `previous` is not wanted becomes shorter by `fall`, also where
+// it points the wrong way or lies across; what is wanted rises by `rise`. With a fall that is no larger it is
+// one step of `rise` on the straight line. Never longer than the longer of both, so within the size limits.
+dvec3 limitSlew(const dvec3& wanted, const dvec3& previous, double rise, double fall) noexcept;
 
 // One-pole low-pass y += a (x - y), a = 1 - exp(-2 pi f T). Its delay in ticks is n = (1 - a)/a: with H =
 // a/(1 - r z^-1), r = 1 - a, Re{(1 - e^-jw) H}/(1 - cos w) = a (1 + r)/|1 - r e^-jw|^2, whose supremum at w =

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Scenes whose filter (haptics.limits.lowpass_hz) or slew limit is far slower than the hand and the ramps.
+#include "engine/types/angle.h"
 #include "tests/cycle/haptic_rig.h"
 
 #include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
 
 using namespace fathom;
 using namespace fathom::testing;
@@ -92,5 +96,35 @@ TEST_CASE("A low slew limit slows the rise of a force, and neither its fall nor 
                 CHECK(forceOf(rig.step()) == 0.0);
             }
         }
+    }
+}
+
+TEST_CASE("The force of a wall that the hand left for another one ends within a ramp") {
+    for (const auto& [slew, hz] : {std::pair(20.0, 0.0), std::pair(5.0, 0.0), std::pair(2000.0, 0.1)}) {
+        INFO(slew << " N/s, " << hz << " Hz");
+        Scene scene; // of shapes alone: walls at x = -25 and 25 mm
+        scene.haptics.device = "ideal";
+        scene.haptics.stiffness = 500.0;
+        scene.haptics.slewForce = slew;
+        scene.haptics.lowpassHz = hz;
+        std::array<Shape, 2> walls;
+        for (Shape& wall : walls) {
+            const double side = &wall == walls.data() ? -1.0 : 1.0;
+            wall.kind = ShapeKind::Plane;
+            wall.baseTshape = {{side * 0.025, 0, 0}, rotationExp({0, -side * kTurn / 4.0, 0})};
+        }
+        const Tool tool = ballTool();
+        HapticCycle cycle(tool, walls, makeHapticOptions(springsAlone(scene), tool), at(0, 0, 0));
+        StepInput input;
+        double wrongWay = 0.0; // [N] 0.2 s after the hand left the first wall
+        for (int tick = 0; tick < 4500; ++tick) {
+            const double to = tick < 2500 ? std::max(-0.045, -0.00015 * tick)
+                                          : std::min(0.045, -0.045 + 0.0009 * (tick - 2500));
+            input.deviceThandle.position.x = to;
+            const StepRecord record = cycle.step(input);
+            wrongWay = std::max(wrongWay, tick > 2740 ? record.wrench.force.x : 0.0);
+            input.time += 0.001;
+        }
+        CHECK(wrongWay <= 0.0);
     }
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The last part of a step by itself: shifts of the hand map, and the cause of a torque.
+// The last part of a step by itself: shifts of the hand map, causes, and a wrench that turns round.
 #include "engine/cycle/wrench_stage.h"
 
+#include "engine/haptics/limits.h"
 #include "tests/cycle/haptic_rig.h"
 
 #include <doctest/doctest.h>
@@ -26,9 +27,74 @@ struct Stage {
             stage->step(input);
         }
     }
+    // The hand presses by `length` [m] along `axis`, or turns by 0.1 rad per 10 mm.
+    void press(const dvec3& axis, double length, bool turn) {
+        input.end = input.device = {turn ? dvec3(0.0) : -length * axis,
+                                    turn ? rotationExp(-10.0 * length * axis) : dquat(1, 0, 0, 0)};
+    }
+    // Along `axis`, as a share of the limit.
+    double share(const dvec3& axis, bool turn) {
+        const Wrench wrench = stage->step(input).wrench;
+        return turn ? glm::dot(wrench.torque, axis) / options.torqueLimit
+                    : glm::dot(wrench.force, axis) / options.forceLimit;
+    }
 };
 
+// From a settled wrench along +x to one that the regions ask for along `axis`.
+Stage turnedStage(bool turn, bool filter, const dvec3& axis) {
+    Stage hand;
+    hand.options.passivityController = false;
+    hand.options.springs.rotationalStiffness = 10.0; // [N m/rad]
+    hand.options.springs.metricRadius = 0.1;         // [m]
+    hand.options.slewForce = filter ? 2000.0 : 5.0; // [N/s]
+    hand.options.slewTorque = filter ? 50.0 : 0.5;  // [N m/s]
+    hand.options.lowPassGain = filter ? lowPassGain(0.1, hand.options.period) : 1.0;
+    hand.start();
+    hand.press({1, 0, 0}, 0.01, turn);
+    for (int i = 0; i < 20000; ++i) {
+        hand.stage->step(hand.input);
+    }
+    hand.press(axis, 0.01, turn);
+    return hand;
+}
+
 } // namespace
+
+TEST_CASE("What points against the wanted wrench ends within a ramp") {
+    for (const bool turn : {false, true}) {
+        for (const bool filter : {false, true}) {
+            INFO((turn ? "torque, " : "force, ") << (filter ? "low-pass" : "slew limit"));
+            Stage hand = turnedStage(turn, filter, {-1, 0, 0});
+            double before = hand.share({1, 0, 0}, turn);
+            CHECK(before > 0.4);
+            for (int tick = 0; tick < 200; ++tick) {
+                const double now = hand.share({1, 0, 0}, turn);
+                CHECK(now <= before);
+                before = now;
+            }
+            CHECK(before <= 0.0);
+            CHECK(before > -0.1); // it rises as slowly as ever
+        }
+    }
+}
+
+TEST_CASE("What lies across the wanted wrench ends within a ramp") {
+    for (const bool turn : {false, true}) {
+        for (const bool filter : {false, true}) {
+            INFO((turn ? "torque, " : "force, ") << (filter ? "low-pass" : "slew limit"));
+            Stage hand = turnedStage(turn, filter, {0, 1, 0});
+            double most = 0.0;
+            for (int tick = 0; tick < 200; ++tick) {
+                most = std::max(most, hand.share({1, 0, 0}, turn));
+            }
+            CHECK(most > 0.4);
+            // A low-pass keeps directions calm: 0.2 of the wanted wrench, which is half of the limit.
+            CHECK(hand.share({1, 0, 0}, turn) <= (filter ? 0.1 + 1e-3 : 1e-9));
+            CHECK(hand.share({0, 1, 0}, turn) > 0.04);
+            CHECK(hand.share({0, 1, 0}, turn) < 0.12);
+        }
+    }
+}
 
 TEST_CASE("A torque that its slew limit holds back has that cause, also without a force") {
     Stage hand;

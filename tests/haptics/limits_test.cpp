@@ -36,19 +36,36 @@ TEST_CASE("A projection keeps what lies along an axis of any length, and nothing
     CHECK(projectedOn({3, 4, 5}, dvec3(0.0)) == dvec3(0.0));
 }
 
-TEST_CASE("A slewed wrench moves by at most a step, arrives exactly, and stays inside the size limits") {
+TEST_CASE("A slewed force moves by at most a step, arrives exactly, and stays inside the size limit") {
     Rng random(2);
-    Wrench now;
+    dvec3 now(0.0);
     for (int i = 0; i < 5000; ++i) {
-        const Wrench wanted = limitSize({40.0 * random.direction(), 4.0 * random.direction()}, 20.0, 2.0);
+        const dvec3 wanted = clampLength(40.0 * random.direction(), 20.0);
         for (int tick = 0; tick < 25; ++tick) {
-            const Wrench next = limitSlew(wanted, now, 2.0, 0.05);
-            CHECK(glm::distance(next.force, now.force) <= 2.0 * (1.0 + 1e-12));
-            CHECK(glm::distance(next.torque, now.torque) <= 0.05 * (1.0 + 1e-12));
-            CHECK(glm::length(next.force) <= 20.0 * (1.0 + 1e-12));
+            const dvec3 next = limitSlew(wanted, now, 2.0, 1.0);
+            CHECK(glm::distance(next, now) <= 2.0 * (1.0 + 1e-12));
+            CHECK(glm::length(next) <= 20.0 * (1.0 + 1e-12));
             now = next;
         }
-        CHECK(glm::distance(now.force, wanted.force) <= 1e-12); // 40 N at most, 2 N per tick, 25 ticks
+        CHECK(glm::distance(now, wanted) <= 1e-12); // 40 N at most, 2 N per tick, 25 ticks
+    }
+}
+
+TEST_CASE("With a low slew limit what is not wanted of a force falls by the fall, and the rest rises by the "
+          "rise") {
+    Rng random(3);
+    for (int i = 0; i < 2000; ++i) {
+        const dvec3 wanted = clampLength(40.0 * random.uniform(0.0, 1.0) * random.direction(), 20.0);
+        dvec3 now = 20.0 * random.direction();
+        for (int tick = 0; tick < 200; ++tick) {
+            const dvec3 next = limitSlew(wanted, now, 0.02, 0.1);
+            const dvec3 rest = now - wantedPart(now, wanted), left = next - wantedPart(next, wanted);
+            CHECK(glm::length(left) <= std::max(0.0, glm::length(rest) - 0.1) + 1e-12);
+            CHECK(glm::length(next) <= std::max(glm::length(now), glm::length(wanted)) * (1.0 + 1e-12));
+            CHECK(glm::length(next) <= glm::length(now) + 0.02 * (1.0 + 1e-9));
+            now = next;
+        }
+        CHECK(glm::distance(now, wantedPart(now, wanted)) <= 1e-12);
     }
 }
 
