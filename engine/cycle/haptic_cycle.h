@@ -64,7 +64,8 @@ public:
         arm_ ? arm_->setShapes(shapes) : proxy_->setShapes(shapes);
     }
 
-    const Pose& pose() const { return tool_; } // base_T_tool
+    const Pose& pose() const { return tool_; }     // base_T_tool
+    const Pose& handle() const { return handle_; } // raw pose of the hand, last good sample
     // Pose and, on an arm, posture.
     ToolPlace place() const { return {tool_, arm_ ? arm_->posture() : ArmPosture{}}; }
     // Of the next contact query: ahead of place() when answers are late.

@@ -11,6 +11,7 @@ HandPort::Impl::Impl(std::shared_ptr<front::Shared> from, const HandStart& start
     : shared(std::move(from))
     , cycle(shared->haptic.cycle(start))
     , stepper(*cycle, shared->channels, shared->clock) {
+    stepper.begin();
     shared->channels.queryAt.back() = {cycle->place()};
     shared->channels.queryAt.publish(); // the contact thread begins
 }

@@ -27,9 +27,9 @@ Pose HandMap::map(const Pose& deviceThandle, bool clutch) noexcept {
     }
     if (clutched_) {
         align(deviceThandle, held_);
-        clutched_ = false;
     }
-    started_ = true; // a clutch that is down from the start holds the first pose
+    clutched_ = clutch; // one that is down from the start holds the first pose
+    started_ = true;
     held_.position = offset_ + scale_ * (baseRdevice_ * deviceThandle.position);
     held_.rotation = glm::normalize(baseRhandle(deviceThandle) * handleRtool_);
     return held_;

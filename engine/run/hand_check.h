@@ -10,14 +10,22 @@ namespace fathom {
 // is unconfirmed for at most kConfirmTime: hand and tool stay, and the force may only fall. If the samples
 // agree with each other for that time, they are accepted and the hand is re-indexed there. So a single wrong
 // sample moves nothing, and a lasting offset is accepted. If samples contradict each other for longer, or are
-// beyond kFarthest, the device counts as gone. Haptic thread; noexcept.
+// beyond kFarthest, the device counts as gone. A sample that is not finite says nothing about where the hand
+// goes on: what follows is compared with the last accepted one. Haptic thread; noexcept.
 class HandCheck {
 public:
-    // Sets StepInput::unconfirmed and reindex for the pose in `input`. A device that is away, or a pose that
-    // is not finite, is no sample.
+    // The hand was at `start` at `time` [s]: the first sample is compared with it.
+    void begin(const Pose& start, double time) noexcept { accept(start, time); }
+
+    // Sets StepInput::unconfirmed and reindex for the pose in `input`. A device that is away is no sample.
     void judge(StepInput& input) noexcept {
-        if (!input.present || !isFinite(input.deviceThandle)) {
+        if (!input.present) {
             started_ = unconfirmed_ = false; // what comes back is re-indexed by the cycle
+            return;
+        }
+        if (!isFinite(input.deviceThandle)) {
+            blind_ = true;
+            doubt(input, unconfirmed_);
             return;
         }
         const Pose& pose = input.deviceThandle;
@@ -26,17 +34,12 @@ public:
         last_ = pose;
         lastAt_ = input.time;
         const bool near = glm::length(pose.position) <= kFarthest; // false for what overflows
-        const bool plausible = near && (!started_ || reaches(accepted_, pose, input.time - acceptedAt_));
+        const bool plausible = near && (!started_ || reaches(accepted_, pose, sinceAccepted(input.time)));
         input.reindex = !plausible && near && agrees && input.time - since_ >= kConfirmTime - kSlack;
-        input.unconfirmed = !plausible && !input.reindex;
         unconfirmedSince_ = unconfirmed_ ? unconfirmedSince_ : input.time;
-        unconfirmed_ = input.unconfirmed;
-        if (unconfirmed_) {
-            input.present = input.time - unconfirmedSince_ < kConfirmTime + kSlack;
-        } else {
-            accepted_ = pose;
-            acceptedAt_ = input.time;
-            started_ = true;
+        doubt(input, !plausible && !input.reindex);
+        if (!unconfirmed_) {
+            accept(pose, input.time);
         }
     }
 
@@ -46,6 +49,23 @@ public:
     static constexpr double kFarthest = 1000.0;   // [m] from the device's origin; re-indexing keeps 1e-13 m
 
 private:
+    void doubt(StepInput& input, bool unconfirmed) noexcept {
+        input.unconfirmed = unconfirmed_ = unconfirmed;
+        input.present = !unconfirmed || input.time - unconfirmedSince_ < kConfirmTime + kSlack;
+    }
+    void accept(const Pose& pose, double time) noexcept {
+        accepted_ = pose;
+        acceptedAt_ = time;
+        started_ = true;
+        blind_ = false;
+    }
+    // [s] in which the hand may have moved from where it was accepted. Without sight of it no more than a
+    // jump would take to be confirmed.
+    double sinceAccepted(double time) const noexcept {
+        const double since = time - acceptedAt_;
+        return blind_ && since > kConfirmTime ? kConfirmTime : since;
+    }
+
     static constexpr double kSlack = 1e-4;     // [s] of timing
     static constexpr double kShortest = 0.001; // [s] a shorter interval counts as this
 
@@ -58,6 +78,7 @@ private:
     Pose accepted_, last_;
     double acceptedAt_ = 0.0, lastAt_ = 0.0, since_ = 0.0, unconfirmedSince_ = 0.0; // [s]
     bool started_ = false, unconfirmed_ = false;
+    bool blind_ = false; // a sample since the accepted one was not finite
 };
 
 } // namespace fathom

@@ -25,6 +25,7 @@ bool HapticLoop::ended(double t) const noexcept {
 
 void HapticLoop::run(const std::atomic<bool>& ending, const std::atomic<bool>& userStop) noexcept {
     uint64_t slot = 0;
+    stepper_.begin();
     while (!ending.load(std::memory_order_relaxed) && !userStop.load(std::memory_order_relaxed)) {
         const double due = static_cast<double>(slot) * period_;
         clock_.sleepUntil(due);

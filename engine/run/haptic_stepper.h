@@ -20,6 +20,9 @@ public:
         , clock_(clock)
         , period_(cycle.options().period) {}
 
+    // Before the first step, on the run's clock: the hand is where the cycle starts.
+    void begin() noexcept { check_.begin(cycle_.handle(), clock_.now()); }
+
     // Steps the cycle at `now` [s] on the run's clock and publishes the tool state, the arm setpoint and the
     // posture. The record stays valid until the next step. The step stops refining at `end` [s].
     const StepRecord& step(const HandSample& hand, double now, double end) noexcept;

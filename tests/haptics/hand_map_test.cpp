@@ -76,6 +76,14 @@ TEST_CASE("The clutch holds the device pose and releases it without a jump") {
     }
 }
 
+TEST_CASE("A clutch that is down in the first tick only holds the first pose, too") {
+    HandMap map({1.0, 0.0, 0.0, 0.0}, 1.0);
+    const Pose first = map.map({{0.1, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}}, true);
+    const Pose next = map.map({{0.5, 0.2, 0.0}, rotationExp({0.0, 0.3, 0.0})}, false);
+    CHECK(glm::distance(first.position, next.position) < 1e-12);
+    CHECK(glm::length(rotationBetween(first.rotation, next.rotation)) < 1e-12);
+}
+
 TEST_CASE("A clutch that is down from the start holds the first pose") {
     HandMap map({1, 0, 0, 0}, 1.0);
     const Pose first{{0.1, 0.2, 0.3}, {1, 0, 0, 0}};

@@ -4,6 +4,8 @@
 
 #include <doctest/doctest.h>
 
+#include <limits>
+
 using namespace fathom;
 
 namespace {
@@ -94,4 +96,51 @@ TEST_CASE("A device that stays beyond belief counts as gone after 5 ms, and is n
         CHECK(back.present);
         CHECK_FALSE(back.unconfirmed);
     }
+}
+
+TEST_CASE("Samples that are not finite let no jump pass, however many they are") {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const Pose noPlace{{nan, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}}, noTurn{dvec3(0.0), {0.0, 0.0, 0.0, 0.0}};
+    for (const Pose& broken : {noPlace, noTurn}) {
+        for (const int count : {1, 5, 1000}) {
+            CAPTURE(count);
+            Samples samples;
+            samples.next(0.0);
+            for (int i = 0; i < count; ++i) {
+                samples.next(broken);
+            }
+            StepInput input = samples.next(0.3);
+            CHECK(input.unconfirmed);
+            samples.next(broken); // nor does one in between
+            for (int i = 0; i < 3; ++i) {
+                CHECK(input.unconfirmed);
+                input = samples.next(0.3);
+            }
+            CHECK(input.reindex);
+            CHECK_FALSE(samples.next(0.301).unconfirmed);
+        }
+    }
+}
+
+TEST_CASE("A hand that is where it was before samples that are not finite is believed at once") {
+    Samples samples;
+    samples.next(0.0);
+    samples.next({dvec3(0.0), {0.0, 0.0, 0.0, 0.0}});
+    const StepInput input = samples.next(0.004);
+    CHECK_FALSE(input.unconfirmed);
+    CHECK_FALSE(input.reindex);
+}
+
+TEST_CASE("A first sample far from where the hand started is doubted, and then re-indexed") {
+    Samples samples;
+    samples.check.begin({}, 0.0);
+    StepInput input = samples.next(0.3);
+    for (int i = 0; i < 4; ++i) {
+        CHECK(input.unconfirmed);
+        input = samples.next(0.3);
+    }
+    CHECK(input.reindex);
+    Samples same;
+    same.check.begin({}, 0.0);
+    CHECK_FALSE(same.next(0.001).unconfirmed);
 }
