@@ -15,12 +15,6 @@
 
 namespace fathom {
 
-namespace {
-
-constexpr double kFarthestPose = 1e6; // [m]
-
-} // namespace
-
 PoseTrack::PoseTrack(const std::filesystem::path& file) {
     for (const TextLine& line : readDataLines(file)) {
         const auto refuse = [&](const std::string& allowed) {

@@ -53,7 +53,8 @@ StepRecord HapticCycle::step(const StepInput& input) noexcept {
     StepRecord out;
     out.t = time_ = input.time;
     Situation now;
-    now.sampleFinite = isFinite(input.deviceThandle) && std::isfinite(input.time);
+    const Pose& hand = input.deviceThandle;
+    now.sampleFinite = (input.unconfirmed ? isFinite(hand) : isUsable(hand)) && std::isfinite(input.time);
     now.off = lossesHoldForces(input) || input.forcesOff || (input.buttons & kDeadManOpen) != 0;
     const ContactSet* set = chooseSet(input, out);
     now.setReady = set != nullptr || !options_.needsContacts;

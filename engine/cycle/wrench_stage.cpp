@@ -190,6 +190,9 @@ WrenchStage::Output WrenchStage::step(const WrenchInput& input) noexcept {
     out.cause = causeOf(input, damper, sized, out.wrench);
     out.finite = input.sampleFinite && isFinite(out.wrench);
     notFinite_ += out.finite ? 0 : 1;
+    if (!isFinite(out.wrench)) {
+        reaction_ = {}; // what it remembers is not finite, either
+    }
     if (!out.finite || !input.rendered) {
         cut();
         out.wrench = {};

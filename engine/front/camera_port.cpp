@@ -12,15 +12,8 @@ namespace fathom::v0 {
 
 namespace {
 
-constexpr double kMaxPosition = 1e6; // [m] from the base frame's origin
-
 bool aligned(const void* data, size_t to) {
     return data != nullptr && reinterpret_cast<uintptr_t>(data) % to == 0;
-}
-
-bool usable(const Pose& baseTcamera) {
-    return isFinite(front::internal(baseTcamera)) &&
-           glm::length(front::internal(baseTcamera).position) <= kMaxPosition;
 }
 
 } // namespace
@@ -41,7 +34,7 @@ SubmitStatus CameraPort::Impl::checkImages(const Frame& frame) const noexcept {
     if (!aligned(frame.depth, depthSize) || (info.hasColour && !aligned(frame.colour, colourSize))) {
         return SubmitStatus::MissingImage;
     }
-    return usable(frame.baseTcamera) ? SubmitStatus::Accepted : SubmitStatus::BadPose;
+    return isUsable(front::internal(frame.baseTcamera)) ? SubmitStatus::Accepted : SubmitStatus::BadPose;
 }
 
 // At least one is free: the others are at most waiting, taken and being processed. Borrowed frames

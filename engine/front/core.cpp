@@ -50,9 +50,9 @@ HapticSide::HapticSide(const fathom::Scene& from, const CameraInfo& camera, cons
 std::unique_ptr<HapticCycle> HapticSide::cycle(const v0::HandStart& start) const {
     const Pose hand = internal(start.deviceThandle);
     const Pose begin = start.baseTtool ? internal(*start.baseTtool) : Pose{};
-    if (!isFinite(hand) || !isFinite(begin)) {
-        throw v0::BadInput(
-            "hand: start: a pose that is not finite (allowed: finite numbers, a unit quaternion)");
+    if (!isUsable(hand) || !isUsable(begin)) {
+        throw v0::BadInput("hand: start: a pose that is not finite or too far away (allowed: a unit "
+                           "quaternion, a place within 1000 km)");
     }
     return std::make_unique<HapticCycle>(tool, shapes, options, hand, start.baseTtool ? &begin : nullptr,
                                          arm.get());

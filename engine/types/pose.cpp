@@ -42,4 +42,8 @@ bool isFinite(const Pose& pose) noexcept {
     return isFinite(pose.position) && std::isfinite(norm) && norm > 0.0;
 }
 
+bool isUsable(const Pose& pose) noexcept {
+    return isFinite(pose) && glm::length(pose.position) <= kFarthestPose;
+}
+
 } // namespace fathom

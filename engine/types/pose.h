@@ -45,4 +45,8 @@ Pose interpolate(const Pose& a, const Pose& b, double s) noexcept;
 bool isFinite(const Pose& pose) noexcept;
 bool isFinite(const dvec3& v) noexcept;
 
+// Finite and at most kFarthestPose from the origin of its frame: farther away, differences could overflow.
+bool isUsable(const Pose& pose) noexcept;
+inline constexpr double kFarthestPose = 1e6; // [m]
+
 } // namespace fathom

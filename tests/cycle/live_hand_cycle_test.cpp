@@ -85,3 +85,21 @@ TEST_CASE(
         CHECK(glm::distance(scene.hand.baseRdevice * record.deviceWrench.force, record.wrench.force) < 1e-9);
     }
 }
+
+TEST_CASE("A sample more than 1000 km away counts as not finite, and does no lasting harm") {
+    for (const double far : {1.1e6, 1e150, 1e300, 1e308}) {
+        CAPTURE(far);
+        auto rig = pressedRig();
+        const double full = forceOf(rig.step());
+        const Pose good = rig.hand;
+        rig.hand = at(far, far, far);
+        StepRecord record = rig.step();
+        CHECK_FALSE(record.finite);
+        CHECK(forceOf(record) == 0.0);
+        rig.hand = good;
+        record = rig.step();
+        CHECK(record.finite);
+        CHECK(forceOf(record) == doctest::Approx(0.1)); // the limit of 20 N rises from zero in 0.2 s
+        CHECK(forceOf(rig.ticks(60)) == doctest::Approx(full));
+    }
+}

@@ -46,8 +46,8 @@ Stage turnedStage(bool turn, bool filter, const dvec3& axis) {
     hand.options.passivityController = false;
     hand.options.springs.rotationalStiffness = 10.0; // [N m/rad]
     hand.options.springs.metricRadius = 0.1;         // [m]
-    hand.options.slewForce = filter ? 2000.0 : 5.0; // [N/s]
-    hand.options.slewTorque = filter ? 50.0 : 0.5;  // [N m/s]
+    hand.options.slewForce = filter ? 2000.0 : 5.0;  // [N/s]
+    hand.options.slewTorque = filter ? 50.0 : 0.5;   // [N m/s]
     hand.options.lowPassGain = filter ? lowPassGain(0.1, hand.options.period) : 1.0;
     hand.start();
     hand.press({1, 0, 0}, 0.01, turn);
@@ -125,4 +125,22 @@ TEST_CASE("The springs' damping does not brake a shift of the hand map") {
         pose->position += by;
     }
     CHECK(glm::distance(hand.stage->step(hand.input).wrench.force, before.force) < 1e-9);
+}
+
+TEST_CASE("A spring that overflows takes the force away in that tick only") {
+    Stage hand;
+    hand.start();
+    hand.press({1, 0, 0}, 0.01, false);
+    for (int i = 0; i < 1000; ++i) {
+        hand.stage->step(hand.input);
+    }
+    const double full = hand.share({1, 0, 0}, false);
+    REQUIRE(full > 0.4);
+    hand.press({1, 1, 1}, 1e308, false);
+    CHECK_FALSE(hand.stage->step(hand.input).finite);
+    hand.press({1, 0, 0}, 0.01, false);
+    for (int i = 0; i < 1000; ++i) {
+        hand.stage->step(hand.input);
+    }
+    CHECK(hand.share({1, 0, 0}, false) == doctest::Approx(full));
 }

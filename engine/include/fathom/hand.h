@@ -57,7 +57,7 @@ enum class StepWarning : std::uint32_t {
     OldScene = 2,          ///< the newest frame is too old, or as far in the future: forces fade, also those
                            ///< of placed shapes. Before the first frame nothing is old.
     ComputeDeviceLost = 4, ///< the engine opens the compute device again
-    NotFinite = 8,         ///< the hand sample or a result is not finite: the wrench is zero
+    NotFinite = 8,         ///< the hand sample or a result is not finite, or over 1000 km away: no wrench
     TimeBack = 16,         ///< `now` is before the last step; the last time was used
     Stalled = 32,          ///< contact answers are late: the tool moved less than the hand
     EngineFailed = 64,     ///< a thread of the engine failed, Engine::failure() says why, or it is destroyed
