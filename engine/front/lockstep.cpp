@@ -7,6 +7,9 @@
 #include "engine/run/delayed_contacts.h"
 #include "engine/run/scene_update.h"
 
+#include <algorithm>
+#include <limits>
+
 namespace fathom::v0 {
 
 struct Lockstep::Impl {
@@ -30,7 +33,8 @@ struct Lockstep::Impl {
     std::unique_ptr<HapticCycle> cycle;
     DelayedContacts contacts;
     SceneUpdate update;
-    Nanoseconds stamp = 0; // of the newest frame
+    Nanoseconds stamp = 0;                                      // of the newest frame
+    Nanoseconds last = std::numeric_limits<Nanoseconds>::min(); // step
     SteppedClearance clearance;
 };
 
@@ -106,12 +110,15 @@ bool Lockstep::queryContacts() {
 
 Step Lockstep::step(const Hand& hand, Nanoseconds now) noexcept {
     const front::FloatMode mode;
-    const StepInput input = stepInput(impl_->update, front::internal(hand), seconds(now));
+    const bool back = now < impl_->last;
+    impl_->last = std::max(now, impl_->last);
+    const StepInput input = stepInput(impl_->update, front::internal(hand), seconds(impl_->last));
     StepRecord record = impl_->contacts.step(*impl_->cycle, input);
     record.clearance = impl_->clearance.gap();
     Step step = front::external(record);
     const bool none = impl_->haptic.scene.hasPoints() && impl_->update.frame < 0;
-    step.warnings = step.warnings | front::when(none, StepWarning::NoScene);
+    step.warnings =
+        step.warnings | front::when(none, StepWarning::NoScene) | front::when(back, StepWarning::TimeBack);
     return step;
 }
 

@@ -79,3 +79,22 @@ TEST_CASE("The last frame of a source that ended protects, however late the firs
         CHECK_FALSE(warns(step, StepWarning::OldScene));
     }
 }
+
+TEST_CASE("In lockstep a time that goes back is replaced by the last one, with a warning") {
+    Lockstep lockstep(wallScene(), smallCamera(), startAt(0.5));
+    lockstep.process(Wall().at(1'000'000'000));
+    lockstep.queryContacts();
+    Step step = lockstep.step(handAt(0.5), 1'100'000'000);
+    CHECK_FALSE(warns(step, StepWarning::TimeBack));
+    const double age = step.sceneAge;
+    CHECK(age == doctest::Approx(0.1));
+    for (const Nanoseconds back : {Nanoseconds{1'099'999'999}, Nanoseconds{0}, Nanoseconds{-1000},
+                                   std::numeric_limits<Nanoseconds>::min()}) {
+        step = lockstep.step(handAt(0.5), back);
+        CHECK(warns(step, StepWarning::TimeBack));
+        CHECK(step.sceneAge == age);
+    }
+    step = lockstep.step(handAt(0.5), 1'101'000'000);
+    CHECK_FALSE(warns(step, StepWarning::TimeBack));
+    CHECK(step.sceneAge == doctest::Approx(0.101));
+}
