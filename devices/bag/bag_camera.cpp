@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/bag/bag_camera.h"
 
-#include "devices/images/metre_units.h"
 #include "devices/recorded/lens_model.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
@@ -14,8 +13,7 @@ namespace fathom {
 
 namespace {
 
-constexpr double kMillimetre = 0.001; // REP 118: 16-bit depth
-constexpr size_t kUnitSamples = 9;
+constexpr size_t kPairSamples = 9;
 
 } // namespace
 
@@ -116,51 +114,14 @@ bool BagCamera::pairsByStamp() {
 
 // Some images: at the start, and over the whole recording.
 bool BagCamera::anyOfSome(const std::function<bool(size_t)>& holds) const {
-    for (size_t i = cursor_; i < std::min<size_t>(end_, cursor_ + kUnitSamples); ++i) {
+    for (size_t i = cursor_; i < std::min<size_t>(end_, cursor_ + kPairSamples); ++i) {
         if (holds(i)) {
             return true;
         }
     }
     bool any = false;
-    sample(kUnitSamples, [&](size_t i) { any = any || holds(i); });
+    sample(kPairSamples, [&](size_t i) { any = any || holds(i); });
     return any;
-}
-
-// An SDK's option of the depth stream; null = none.
-const MessageTopic* BagCamera::unitTopic() const {
-    const std::string options = optionsPrefix(choice_.depth.name);
-    for (const MessageTopic& topic : file_->topics()) {
-        if (!options.empty() && topic.name.starts_with(options) && namedDepthUnits(topic.name) &&
-            !topic.messages.empty()) {
-            return &topic;
-        }
-    }
-    return nullptr;
-}
-
-// By the option, else millimetres.
-double BagCamera::sensorUnit() {
-    const MessageTopic* topic = unitTopic();
-    if (topic == nullptr) {
-        if (isSdkTopic(choice_.depth.name)) {
-            const bool orbbec = !orbbecSensor(choice_.depth.name).empty();
-            const std::string missing = std::string("no ") +
-                                        (orbbec ? "depth unit in /cam/property (75 or 176)"
-                                                : "option Depth_Units beside " + choice_.depth.name) +
-                                        ": depth is read as millimetres";
-            log::warn("{}: {}; scale=M behind the file's name gives another unit{}", file_->file().string(),
-                      missing, orbbec ? "" : " (D405: 0.0001, L515: 0.00025)");
-            addWarning(missing);
-        }
-        return kMillimetre;
-    }
-    // Stored as float: use 0.001, not 0.0010000000474974513.
-    const double unit = std::round(1e9 * static_cast<double>(ros::float32(file_->read(*topic, 0)))) * 1e-9;
-    if (!(unit >= kFinestUnit && unit <= kCoarsestUnit)) {
-        throw BadInput(file_->file().string(), topic->name, std::to_string(unit),
-                       "0.000001 to 0.1 metres per unit, or scale=M behind the file's name");
-    }
-    return unit;
 }
 
 // Options and lenses that have several messages may change.
@@ -216,33 +177,6 @@ std::string BagCamera::changed(uint64_t time) {
         fault = colourLenses_->at(time, lensFault(*choice_.colour));
     }
     return fault;
-}
-
-ValueSpan BagCamera::sampledMetres() {
-    ValueSpan seen;
-    sample(kUnitSamples, [&](size_t i) {
-        try {
-            seen.add(ros::valueSpan(imageOf(choice_.depth, i)));
-        } catch (const Error&) { // named when it is played
-        }
-    });
-    return seen;
-}
-
-// Metres get the finest unit that holds one and a half times the farthest depth seen, or the scene's far.
-void BagCamera::chooseUnit() {
-    CameraInfo& camera = choice_.camera;
-    if (!choice_.depth.metres) {
-        options_.checkUnit(file_->file().string());
-        camera.metresPerUnit = options_.scale ? *options_.scale : sensorUnit();
-        return;
-    }
-    const double metresPerValue = options_.scale.value_or(1.0);
-    options_.checkMetres(file_->file().string());
-    const ValueSpan seen = sampledMetres().scaled(metresPerValue);
-    addWarning(metresWarning(file_->file().string(), seen.nearest));
-    camera.metresPerUnit = unitForMetres(seen, options_.farthest);
-    valuesPerUnit_ = camera.metresPerUnit / metresPerValue;
 }
 
 ros::Image BagCamera::imageOf(const ImageStream& stream, size_t index) {

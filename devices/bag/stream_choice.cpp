@@ -149,7 +149,7 @@ StreamChooser::Relation StreamChooser::relate(const ImageStream& depth, const Im
         return {0, false, {}, depth.lens ? colour.noLens : depth.noLens};
     }
     if (!options_.extrinsics.empty()) {
-        return {3, false, givenExtrinsics(), ""};
+        return {3, false, readExtrinsics(options_.extrinsics), ""};
     }
     const dvec3 apart = shiftOf(colour) - shiftOf(depth);
     // Drivers write another P for depth that they align, but not for the second camera of a stereo pair.

@@ -20,6 +20,8 @@ struct StreamChoice {
     bool rangeImages = false;          // depth holds ranges along the rays
     std::vector<std::string> warnings; // why colour or depth may be wrong
     std::string unread;                // image topics that may be colour but whose encoding is not read
+    std::optional<double> statedUnit;  // [m] by the file of the lens
+    std::string unreadScale;           // RecordingIntrinsics::unreadScale
 };
 
 // Chooses the streams of a bag. One thread.
@@ -59,7 +61,6 @@ private:
     Relation relate(const ImageStream& depth, const ImageStream& colour);
     Relation relateByPose(const ImageStream& depth, const ImageStream& colour);
     Relation relateGiven(const ImageStream& depth, const ImageStream& colour);
-    Pose givenExtrinsics() const;
     // A pose, why there is none, or why it may be wrong.
     struct FoundPose {
         std::optional<Pose> pose;

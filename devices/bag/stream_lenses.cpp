@@ -5,7 +5,6 @@
 #include "devices/recorded/json_field.h"
 #include "devices/recorded/recording_intrinsics.h"
 #include "engine/types/error.h"
-#include "engine/types/number_text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -42,7 +41,7 @@ StreamChooser::Relation StreamChooser::relateGiven(const ImageStream& depth, con
         return sameFrame || unnamed || !options_.extrinsics.empty() ? registered : Relation{};
     }
     ImageStream given = depth;
-    given.lens = readIntrinsics(options_.intrinsics, ScaleRule::Optional).camera.depth;
+    given.lens = readIntrinsics(options_.intrinsics, ScaleRule::Unchecked).camera.depth;
     given.raw = *given.lens;
     // A calibration of one camera differs little from the lens that the recording states.
     constexpr double kMostOther = 0.1;
@@ -57,19 +56,9 @@ StreamChooser::Relation StreamChooser::relateGiven(const ImageStream& depth, con
     return relate(given, colour);
 }
 
-// Lenses of one rig are not metres apart; values of millimetres are.
-Pose StreamChooser::givenExtrinsics() const {
-    constexpr double kMostApart = 1.0; // [m]
-    const Pose pose = readExtrinsics(options_.extrinsics);
-    if (const double apart = glm::length(pose.position); !(apart <= kMostApart)) {
-        throw BadInput(options_.extrinsics.string(), "t", significant(apart, 4) + " m between the lenses",
-                       "at most 1 m; metres, not millimetres");
-    }
-    return pose;
-}
-
 void StreamChooser::replaceLenses(StreamChoice& choice) const {
-    const RecordingIntrinsics given = readIntrinsics(options_.intrinsics, ScaleRule::Optional);
+    const auto rule = choice.depth.metres || options_.scale ? ScaleRule::Unchecked : ScaleRule::Optional;
+    const RecordingIntrinsics given = readIntrinsics(options_.intrinsics, rule);
     const auto fits = [&](const ImageStream& stream, const Intrinsics& lens) {
         if (stream.width != lens.width || stream.height != lens.height) {
             throw BadInput(options_.intrinsics.string(), "width, height", sizeText(lens.width, lens.height),
@@ -79,6 +68,8 @@ void StreamChooser::replaceLenses(StreamChoice& choice) const {
     fits(choice.depth, given.camera.depth);
     const CameraInfo recorded = choice.camera;
     choice.camera = given.camera;
+    choice.statedUnit = given.scale;
+    choice.unreadScale = given.unreadScale;
     choice.rangeImages = given.rangeImages;
     choice.camera.poseless = true;
     choice.camera.hasColour = recorded.hasColour;
@@ -92,7 +83,7 @@ void StreamChooser::replaceLenses(StreamChoice& choice) const {
     }
     if (!options_.extrinsics.empty()) {
         choice.camera.registered = false;
-        choice.camera.colourTdepth = givenExtrinsics();
+        choice.camera.colourTdepth = readExtrinsics(options_.extrinsics);
     }
 }
 

@@ -43,6 +43,23 @@ std::string reasonOf(const nlohmann::json::exception& e) {
     return excerpt(std::move(reason), kReasonCharacters);
 }
 
+// To a few levels: deeply nested files could overflow the stack.
+bool saysNothing(const nlohmann::json& value, int level) {
+    constexpr int kDeepest = 4;
+    if (value.is_structured()) {
+        return std::all_of(value.begin(), value.end(), [level](const nlohmann::json& one) {
+            return level < kDeepest && saysNothing(one, level + 1);
+        });
+    }
+    if (value.is_string()) {
+        const auto text = value.get<std::string>();
+        const size_t first = text.find_first_not_of(" [(");
+        return first == std::string::npos ||
+               std::string_view("+-.0123456789").find(text[first]) == std::string_view::npos;
+    }
+    return !value.is_number() || value.get<double>() == 0.0;
+}
+
 } // namespace
 
 std::optional<JsonField> JsonField::find(std::string_view key) const {
@@ -96,9 +113,22 @@ bool JsonField::boolean() const {
     return value_->get<bool>();
 }
 
-bool JsonField::allZero() const {
-    const auto zero = [](const nlohmann::json& one) { return one.is_number() && one.get<double>() == 0.0; };
-    return value_->is_array() ? std::all_of(value_->begin(), value_->end(), zero) : zero(*value_);
+std::vector<std::string> JsonField::keys() const {
+    std::vector<std::string> all;
+    if (value_->is_object()) {
+        for (const auto& [key, unused] : value_->items()) {
+            all.push_back(key);
+        }
+    }
+    return all;
+}
+
+bool JsonField::is(double number) const {
+    return value_->is_number() && std::abs(value_->get<double>() - number) <= 1e-6 * std::abs(number);
+}
+
+bool JsonField::isNothing() const {
+    return saysNothing(*value_, 0);
 }
 
 std::string JsonField::text() const {

@@ -29,7 +29,12 @@ public:
     uint32_t integer(uint32_t lo, uint32_t hi) const;    // lo..hi, both allowed
     bool boolean() const;
     std::string text() const;
-    bool allZero() const;                        // the number 0, or a list of nothing else
+    std::vector<std::string> keys() const; // of an object; else none
+    bool isText() const { return value_->is_string(); }
+    bool isEmpty() const { return value_->empty(); } // null, or a list or an object without values
+    bool is(double number) const;                    // within a millionth
+    // Null, true or false, 0, a list or an object of nothing else, or text that begins with no number.
+    bool isNothing() const;
     std::vector<double> numbers() const;         // list of finite numbers, any length
     std::vector<double> numbers(size_t n) const; // of exactly n
 

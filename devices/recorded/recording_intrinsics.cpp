@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/recorded/recording_intrinsics.h"
 
+#include "devices/recorded/foreign_field.h"
 #include "devices/recorded/json_field.h"
 #include "devices/recorded/lens_model.h"
 #include "devices/recorded/source_options.h"
 #include "engine/types/decimation.h"
 #include "engine/types/error.h"
+#include "engine/types/number_text.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -16,61 +17,14 @@ namespace fathom {
 
 namespace {
 
-// Names by which other programs store distortion, in other forms and orders.
-constexpr std::array kForeignDistortion{
-    "D", "d", "dist", "dist_coeffs", "coeffs", "distortion_coeffs", "k1", "distortion_coefficients"};
-
 void readDistortion(const JsonField& block, Intrinsics& lens) {
     const auto list = block.find("distortion"), model = block.find("distortion_model");
-    for (const char* name : kForeignDistortion) {
-        const auto foreign = list ? std::nullopt : block.find(name);
-        if (foreign && !foreign->allZero()) {
-            foreign->refuse("zeros, or the coefficients as a list \"distortion\" with \"distortion_model\"");
-        }
-    }
+    refuseForeignDistortion(block);
     const std::vector<double> given = list ? list->numbers() : std::vector<double>{};
     const std::string allowed = setDistortion(lens, model ? model->text() : "", given);
     if (!allowed.empty()) {
         (allowed.starts_with("plumb_bob") && model ? *model : *list).refuse(allowed);
     }
-}
-
-// Names by which other programs store the same value, or all four of a pinhole.
-struct ForeignName {
-    const char *own, *other, *allowed;
-};
-constexpr const char* kFourNumbers =
-    "fx, fy, cx and cy, each under its name, or \"intrinsic_matrix\" column by column";
-constexpr std::array kForeignNames{ForeignName{"width", "w", "the name width"},
-                                   ForeignName{"width", "image_width", "the name width"},
-                                   ForeignName{"height", "h", "the name height"},
-                                   ForeignName{"height", "image_height", "the name height"},
-                                   ForeignName{"fx", "fl_x", "the name fx"},
-                                   ForeignName{"fy", "fl_y", "the name fy"},
-                                   ForeignName{"cx", "ppx", "the name cx"},
-                                   ForeignName{"cy", "ppy", "the name cy"},
-                                   ForeignName{"fx", "K", kFourNumbers},
-                                   ForeignName{"fx", "cam_K", kFourNumbers},
-                                   ForeignName{"fx", "camera_matrix", kFourNumbers},
-                                   ForeignName{"fx", "k", kFourNumbers},
-                                   ForeignName{"fx", "matrix", kFourNumbers},
-                                   ForeignName{"fx", "intrinsics", kFourNumbers},
-                                   ForeignName{"fx", "intrinsic", kFourNumbers},
-                                   ForeignName{"fx", "f_x", "the name fx"},
-                                   ForeignName{"fx", "f", kFourNumbers},
-                                   ForeignName{"fx", "focal", kFourNumbers},
-                                   ForeignName{"fx", "focal_length", kFourNumbers}};
-
-JsonField ownField(const JsonField& block, std::string_view name) {
-    if (const auto own = block.find(name)) {
-        return *own;
-    }
-    for (const ForeignName& foreign : kForeignNames) {
-        if (const auto other = foreign.own == name ? block.find(foreign.other) : std::nullopt) {
-            other->refuse(foreign.allowed);
-        }
-    }
-    return block.at(name);
 }
 
 void readPinhole(const JsonField& block, Intrinsics& lens) {
@@ -105,6 +59,15 @@ Intrinsics readLens(const JsonField& block) {
     return lens;
 }
 
+// position [m]: lenses of one rig are not metres apart; values of millimetres are.
+void checkApart(const std::string& file, const std::string& field, const dvec3& position) {
+    constexpr double kMostApart = 1.0;
+    if (const double apart = glm::length(position); !(apart <= kMostApart)) {
+        throw BadInput(file, field, significant(apart, 4) + " m between the lenses",
+                       "at most 1 m; metres, not millimetres");
+    }
+}
+
 Pose readPose(const JsonField& node) {
     const std::vector<double> t = node.at("t").numbers(3);
     const JsonField rotation = node.at("q_xyzw");
@@ -128,22 +91,24 @@ std::optional<JsonField> findColour(const JsonField& node, std::string_view amer
 // Found on a D435 recording: projected so, depth edges fall on colour edges (mean gradient 24 of 60); by the
 // inverse they do not (2), nor by +t with the inverse rotation (5). It also fits the D435, whose colour
 // camera sits 15 mm to the left of the depth origin, so that points move to the right (+x).
-Pose readColourTdepth(const JsonField& root) {
+Pose readColourTdepth(const JsonField& root, const std::string& file) {
     const JsonField tf = root.at("extrinsics_topic_tf");
     const auto colour = findColour(tf, "Color", "Colour");
     const auto depth = tf.find("Depth");
-    const Pose colourTf = readPose(colour ? *colour : tf.at("Color"));
-    const Pose depthTf = depth ? readPose(*depth) : Pose{};
-    return colourTf * inverse(depthTf);
+    const JsonField ofColour = colour ? *colour : tf.at("Color");
+    const Pose colourTdepth = readPose(ofColour) * inverse(depth ? readPose(*depth) : Pose{});
+    checkApart(file, ofColour.path() + ".t", colourTdepth.position);
+    return colourTdepth;
 }
 
-void readTwoLenses(const JsonField& root, const JsonField& colour, CameraInfo& camera) {
+void readTwoLenses(const JsonField& root, const JsonField& colour, const std::string& file,
+                   CameraInfo& camera) {
     camera.depth = readLens(root.at("depth"));
     camera.colour = readLens(colour);
     const auto registered = findColour(root, "registered_to_color", "registered_to_colour");
     camera.registered = registered && registered->boolean();
     if (!camera.registered) {
-        camera.colourTdepth = readColourTdepth(root);
+        camera.colourTdepth = readColourTdepth(root, file);
         return;
     }
     if (camera.colour.width != camera.depth.width || camera.colour.height != camera.depth.height) {
@@ -197,11 +162,25 @@ void readBeams(const JsonField& root, RecordingIntrinsics& intrinsics) {
     }
 }
 
+// Why the depth scale that a file states under another name is not read; empty = there is none.
+std::string otherScale(const JsonField& root) {
+    try {
+        if (const auto scale = foreignScale(root)) {
+            scale->refuse(
+                "depth_scale_m_per_unit, metres per unit: 1000 units per metre are 0.001; or scale=M "
+                "behind the recording's name");
+        }
+    } catch (const BadInput& e) {
+        return e.what();
+    }
+    return "";
+}
+
 // [m], as stated; nothing where nothing is stated. Open3D states units per metre.
 std::optional<double> statedScale(const JsonField& root, ScaleRule rule) {
     const bool check = rule != ScaleRule::Unchecked, open3d = root.find("intrinsic_matrix").has_value();
     const auto scale = root.find("depth_scale_m_per_unit"), foreign = root.find("depth_scale");
-    if (!scale && foreign && (open3d || check)) {
+    if (!scale && foreign && (open3d || rule == ScaleRule::Needed)) {
         const double unit = 1.0 / foreign->positive();
         if (!open3d || (check && (unit < kFinestUnit || unit > kCoarsestUnit))) {
             foreign->refuse(open3d ? "units per metre, 10 to 1000000"
@@ -211,6 +190,9 @@ std::optional<double> statedScale(const JsonField& root, ScaleRule rule) {
     }
     if (!scale && (open3d || rule != ScaleRule::Needed)) {
         return std::nullopt;
+    }
+    if (const std::string other = scale ? "" : otherScale(root); !other.empty() && check) {
+        throw BadInput(other);
     }
     const double unit = root.at("depth_scale_m_per_unit").positive();
     if (check && (unit < kFinestUnit || unit > kCoarsestUnit)) {
@@ -237,7 +219,12 @@ void readStamps(const JsonField& root, RecordingIntrinsics& intrinsics) {
 Pose readExtrinsics(const std::filesystem::path& file) {
     const nlohmann::json document = parseJsonFile(file);
     const JsonField root(document, file.string(), "");
-    return root.find("extrinsics_topic_tf") ? readColourTdepth(root) : readPose(root);
+    if (root.find("extrinsics_topic_tf")) {
+        return readColourTdepth(root, file.string());
+    }
+    const Pose pose = readPose(root);
+    checkApart(file.string(), "t", pose.position);
+    return pose;
 }
 
 void keepRecordedColour(RecordingIntrinsics& given, const std::function<CameraInfo()>& recorded) {
@@ -271,11 +258,12 @@ RecordingIntrinsics readIntrinsics(const std::filesystem::path& file, ScaleRule 
     const bool two = colour || root.find("depth");
     intrinsics.relatesColour = two || findColour(root, "registered_to_color", "registered_to_colour");
     if (two) {
-        readTwoLenses(root, colour ? *colour : root.at("color"), camera);
+        readTwoLenses(root, colour ? *colour : root.at("color"), file.string(), camera);
     } else {
         readOneLens(root, camera);
     }
     intrinsics.scale = statedScale(root, rule);
+    intrinsics.unreadScale = intrinsics.scale ? "" : otherScale(root);
     camera.metresPerUnit = intrinsics.scale.value_or(camera.metresPerUnit);
     const auto colourThere = findColour(root, "has_color", "has_colour");
     camera.hasColour = !colourThere || colourThere->boolean();

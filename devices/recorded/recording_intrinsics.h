@@ -23,6 +23,9 @@ struct RecordingIntrinsics {
     std::string file; // name of the file that states them; empty for a lens that is known
     CameraInfo camera;
     std::optional<double> scale; // [m per unit] as stated
+    // Why a depth scale under the name of another program is not read: a refusal where images need one.
+    // Empty = there is none, or `scale` is stated, too.
+    std::string unreadScale = {};
     // Only when the file lists them: capture times [s] of the files in depth/ and rgb/ in order of their
     // names.
     std::vector<double> depthStamps, colourStamps;

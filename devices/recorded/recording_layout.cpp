@@ -234,6 +234,9 @@ RecordingLayout readLayout(const fs::path& folder, const SourceOptions& options)
     RecordingLayout layout = readFolder(folder, options);
     layout.metres = holdsMetres(layout);
     layout.statedUnit = layout.intrinsics.scale;
+    if (!layout.metres && !layout.statedUnit && !options.scale && !layout.intrinsics.unreadScale.empty()) {
+        throw BadInput(layout.intrinsics.unreadScale);
+    }
     warnAboutAxis(layout, folder);
     for (IndexLine& line : layout.index) {
         if (layout.posePerImage && !line.baseTcamera && line.fault.empty()) {

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// The depth unit of BagCamera.
+#include "devices/bag/bag_camera.h"
+#include "devices/images/metre_units.h"
+#include "engine/types/error.h"
+#include "engine/types/log.h"
+#include "engine/types/number_text.h"
+
+#include <cmath>
+
+namespace fathom {
+
+namespace {
+
+constexpr double kMillimetre = 0.001; // REP 118: 16-bit depth
+constexpr size_t kUnitSamples = 9;
+
+} // namespace
+
+// An SDK's option of the depth stream; null = none.
+const MessageTopic* BagCamera::unitTopic() const {
+    const std::string options = optionsPrefix(choice_.depth.name);
+    for (const MessageTopic& topic : file_->topics()) {
+        if (!options.empty() && topic.name.starts_with(options) && namedDepthUnits(topic.name) &&
+            !topic.messages.empty()) {
+            return &topic;
+        }
+    }
+    return nullptr;
+}
+
+// By the option, else by the file of the lens, else millimetres.
+double BagCamera::sensorUnit() {
+    const MessageTopic* topic = unitTopic();
+    if (topic == nullptr && (choice_.statedUnit || !choice_.unreadScale.empty())) {
+        return choice_.statedUnit ? *choice_.statedUnit : throw BadInput(choice_.unreadScale);
+    }
+    if (topic == nullptr) {
+        if (isSdkTopic(choice_.depth.name)) {
+            const bool orbbec = !orbbecSensor(choice_.depth.name).empty();
+            const std::string missing = std::string("no ") +
+                                        (orbbec ? "depth unit in /cam/property (75 or 176)"
+                                                : "option Depth_Units beside " + choice_.depth.name) +
+                                        ": depth is read as millimetres";
+            log::warn("{}: {}; scale=M behind the file's name gives another unit{}", file_->file().string(),
+                      missing, orbbec ? "" : " (D405: 0.0001, L515: 0.00025)");
+            addWarning(missing);
+        }
+        return kMillimetre;
+    }
+    // Stored as float: use 0.001, not 0.0010000000474974513.
+    const double unit = std::round(1e9 * static_cast<double>(ros::float32(file_->read(*topic, 0)))) * 1e-9;
+    if (!(unit >= kFinestUnit && unit <= kCoarsestUnit)) {
+        throw BadInput(file_->file().string(), topic->name, std::to_string(unit),
+                       "0.000001 to 0.1 metres per unit, or scale=M behind the file's name");
+    }
+    if (choice_.statedUnit && std::abs(*choice_.statedUnit - unit) > 1e-6 * unit) {
+        const std::string both = "depth_scale_m_per_unit of the lens file is " +
+                                 significant(*choice_.statedUnit, 6) + ", but the recording states " +
+                                 significant(unit, 6) +
+                                 ", which is used; scale=M behind the file's name gives another unit";
+        log::warn("{}: {}", file_->file().string(), both);
+        addWarning(both);
+    }
+    return unit;
+}
+
+ValueSpan BagCamera::sampledMetres() {
+    ValueSpan seen;
+    sample(kUnitSamples, [&](size_t i) {
+        try {
+            seen.add(ros::valueSpan(imageOf(choice_.depth, i)));
+        } catch (const Error&) { // named when it is played
+        }
+    });
+    return seen;
+}
+
+// Metres get the finest unit that holds one and a half times the farthest depth seen, or the scene's far.
+void BagCamera::chooseUnit() {
+    CameraInfo& camera = choice_.camera;
+    if (!choice_.depth.metres) {
+        options_.checkUnit(file_->file().string());
+        camera.metresPerUnit = options_.scale ? *options_.scale : sensorUnit();
+        return;
+    }
+    const double metresPerValue = options_.scale.value_or(1.0);
+    options_.checkMetres(file_->file().string());
+    const ValueSpan seen = sampledMetres().scaled(metresPerValue);
+    addWarning(metresWarning(file_->file().string(), seen.nearest));
+    camera.metresPerUnit = unitForMetres(seen, options_.farthest);
+    valuesPerUnit_ = camera.metresPerUnit / metresPerValue;
+}
+
+} // namespace fathom

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/recorded/foreign_field.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+namespace fathom {
+
+namespace {
+
+// Names by which other programs store the same value, or all four of a pinhole.
+struct ForeignName {
+    const char *own, *other, *allowed;
+};
+constexpr const char* kFourNumbers =
+    "fx, fy, cx and cy, each under its name, or \"intrinsic_matrix\" column by column";
+constexpr std::array kForeignNames{ForeignName{"width", "w", "the name width"},
+                                   ForeignName{"width", "image_width", "the name width"},
+                                   ForeignName{"height", "h", "the name height"},
+                                   ForeignName{"height", "image_height", "the name height"},
+                                   ForeignName{"fx", "fl_x", "the name fx"},
+                                   ForeignName{"fy", "fl_y", "the name fy"},
+                                   ForeignName{"cx", "ppx", "the name cx"},
+                                   ForeignName{"cy", "ppy", "the name cy"},
+                                   ForeignName{"fx", "K", kFourNumbers},
+                                   ForeignName{"fx", "cam_K", kFourNumbers},
+                                   ForeignName{"fx", "camera_matrix", kFourNumbers},
+                                   ForeignName{"fx", "k", kFourNumbers},
+                                   ForeignName{"fx", "matrix", kFourNumbers},
+                                   ForeignName{"fx", "intrinsics", kFourNumbers},
+                                   ForeignName{"fx", "intrinsic", kFourNumbers},
+                                   ForeignName{"fx", "f_x", "the name fx"},
+                                   ForeignName{"fx", "f", kFourNumbers},
+                                   ForeignName{"fx", "focal", kFourNumbers},
+                                   ForeignName{"fx", "focal_length", kFourNumbers}};
+
+constexpr const char *kCoefficients = "distortion", *kModel = "distortion_model";
+
+// Letters in lower case, and digits: "depthScale" and "Depth_Scale" are one name.
+std::string plainLetters(std::string_view name) {
+    std::string plain;
+    for (const char c : name) {
+        if (std::isalnum(static_cast<unsigned char>(c)) != 0) {
+            plain += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+        }
+    }
+    return plain;
+}
+
+template <size_t N>
+bool holdsAny(const std::string& text, const std::array<std::string_view, N>& words) {
+    return std::ranges::any_of(words,
+                               [&](std::string_view word) { return text.find(word) != std::string::npos; });
+}
+
+template <size_t N>
+bool isAny(const std::string& text, const std::array<std::string_view, N>& words) {
+    return std::ranges::find(words, text) != words.end();
+}
+
+bool namesCoefficients(const std::string& key) {
+    constexpr std::array<std::string_view, 5> kWhole{"d", "dist", "coeffs", "coefficients", "kc"};
+    const std::string plain = plainLetters(key);
+    const bool single = plain.size() == 2 && (plain[0] == 'k' || plain[0] == 'p') && plain[1] >= '1' &&
+                        plain[1] <= '6'; // k1 to k6, p1 and p2
+    const bool part = plain.find("dist") != std::string::npos && plain.find("coef") != std::string::npos;
+    return key != kCoefficients &&
+           (single || part || isAny(plain, kWhole) || plain.find("distort") != std::string::npos);
+}
+
+// Of fisheyes and the like, whose rays bend also where all coefficients are zero.
+bool namesBentLens(const std::string& model) {
+    constexpr std::array<std::string_view, 8> kParts{"fisheye",      "equidistant", "kannala",
+                                                     "omni",         "equisolid",   "stereographic",
+                                                     "doublesphere", "scaramuzza"};
+    constexpr std::array<std::string_view, 6> kWhole{"mei", "ucm", "eucm", "fov", "kb4", "kb8"};
+    const std::string plain = plainLetters(model);
+    return holdsAny(plain, kParts) || isAny(plain, kWhole);
+}
+
+void refuseBentModel(const JsonField& block) {
+    const auto list = block.find(kCoefficients);
+    const bool given = list && !list->isNothing();
+    for (const std::string& key : block.keys()) {
+        const std::string plain = plainLetters(key);
+        const bool model = plain.find("model") != std::string::npos || plain.ends_with("type");
+        const bool read = given && block.find(kModel);
+        if (const JsonField field = block.at(key); model && !read && field.isText() &&
+                                                   namesBentLens(field.text()) &&
+                                                   !(key == kModel && list && !list->isEmpty())) {
+            field.refuse("a pinhole, or the coefficients as a list \"distortion\" with \"distortion_model\"");
+        }
+    }
+}
+
+bool namesScale(const std::string& key) {
+    constexpr std::array<std::string_view, 4> kKinds{"scale", "factor", "unit", "shift"};
+    constexpr std::array<std::string_view, 6> kWhole{"scale", "scalefactor",   "unit",
+                                                     "units", "unitspermetre", "unitspermeter"};
+    const std::string plain = plainLetters(key);
+    return key != "depth_scale_m_per_unit" &&
+           (isAny(plain, kWhole) || (plain.find("depth") != std::string::npos && holdsAny(plain, kKinds)));
+}
+
+// Or nothing: 1 is one unit of what the images hold.
+bool saysMillimetres(const JsonField& scale) {
+    constexpr std::array<std::string_view, 5> kTexts{"mm", "millimetre", "millimetres", "millimeter",
+                                                     "millimeters"};
+    constexpr std::array kNumbers{0.001, 1.0, 1000.0};
+    if (scale.isText()) {
+        return isAny(plainLetters(scale.text()), kTexts);
+    }
+    return scale.isNothing() || std::ranges::any_of(kNumbers, [&](double one) { return scale.is(one); });
+}
+
+} // namespace
+
+JsonField ownField(const JsonField& block, std::string_view name) {
+    if (const auto own = block.find(name)) {
+        return *own;
+    }
+    for (const ForeignName& foreign : kForeignNames) {
+        if (const auto other = foreign.own == name ? block.find(foreign.other) : std::nullopt) {
+            other->refuse(foreign.allowed);
+        }
+    }
+    return block.at(name);
+}
+
+void refuseForeignDistortion(const JsonField& block) {
+    const bool own = block.find(kCoefficients).has_value();
+    for (const std::string& key : block.keys()) {
+        if (!own && namesCoefficients(key) && !block.at(key).isNothing()) {
+            block.at(key).refuse(
+                "zeros, or the coefficients as a list \"distortion\" with \"distortion_model\"");
+        }
+    }
+    refuseBentModel(block);
+}
+
+std::optional<JsonField> foreignScale(const JsonField& root) {
+    for (const std::string& key : root.keys()) {
+        if (const JsonField scale = root.at(key); namesScale(key) && !saysMillimetres(scale)) {
+            return scale;
+        }
+    }
+    return std::nullopt;
+}
+
+} // namespace fathom

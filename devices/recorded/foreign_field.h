@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// Fields that other programs write in files of lenses: refused with the name that is read, where leaving them
+// out would change the lens or the depth unit.
+#pragma once
+
+#include "devices/recorded/json_field.h"
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace fathom {
+
+// The field of this name. Throws BadInput where it is missing, which names a field of the same meaning under
+// another name.
+JsonField ownField(const JsonField& block, std::string_view name);
+
+// Of a lens: throws BadInput for distortion under another name than "distortion", unless it is zero or there
+// is a "distortion", too; and for a lens model that is no pinhole, and without coefficients.
+void refuseForeignDistortion(const JsonField& block);
+
+// A depth scale under another name than depth_scale_m_per_unit, unless it says millimetres or nothing.
+std::optional<JsonField> foreignScale(const JsonField& root);
+
+} // namespace fathom

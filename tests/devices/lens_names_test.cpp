@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+// Fields of a lens file under the names of other programs, and its depth unit in every kind of recording.
+#include "devices/recorded/recorded_camera.h"
+#include "tests/devices/played_bag.h"
+
+using namespace fathom;
+using namespace fathom::testing;
+
+namespace {
+
+const std::string kFourFields = R"({"width": 7, "height": 5, "fx": 6, "fy": 6, "cx": 3, "cy": 2, )";
+
+// Plays one pair of numbered images with this lens file; returns the refusal, or empty.
+std::string refusalWith(const std::string& lens, const SourceOptions& options = {}) {
+    const TemporaryFolder folder;
+    addPair(folder, "depth/0.png", "rgb/0.png", 500);
+    folder.write("lens.json", lens);
+    SourceOptions all = options;
+    all.intrinsics = folder.path() / "lens.json";
+    return recordingRefusal(folder.path(), all);
+}
+
+constexpr const char* kOwnScale = "(allowed: depth_scale_m_per_unit";
+
+// A bag of 16-bit depth with the value 5000 everywhere, with this lens file.
+BagCamera bagWith(const TemporaryFolder& folder, const std::string& lens, std::optional<double> scale = {},
+                  const std::string& encoding = "16UC1") {
+    BagMaker maker;
+    addStream(maker, "/camera/depth/image_raw",
+              {.encoding = encoding, .pixels = encoding == "16UC1" ? filled(uint16_t{5000}) : filled(0.5f)});
+    folder.write("lens.json", lens);
+    return playStreams(folder, maker, {.intrinsics = folder.path() / "lens.json", .scale = scale});
+}
+
+const std::string kBagLens = R"({"width": 8, "height": 6, "fx": 7, "fy": 7, "cx": 3.5, "cy": 2.5)";
+
+} // namespace
+
+TEST_CASE("A depth scale under the name of another program is refused with the name that is read") {
+    for (const char* name :
+         {"scale", "png_depth_scale", "depth_factor", "depthFactor", "DepthMapFactor", "depthScale",
+          "depth_unit", "depth_units", "depth_scale_m", "integer_depth_scale", "depth_unit_scale_factor",
+          "m_depthShift", "units_per_metre", "scale_factor", "Depth Map Factor", "depth_scale"}) {
+        CAPTURE(name);
+        for (const char* value : {"6553.5", "0.0001526"}) {
+            const std::string field = "\"" + std::string(name) + "\": " + value + "}";
+            const std::string refusal = refusalWith(kFourFields + field);
+            lineSays(refusal, std::string(name) + ": ");
+            lineSays(refusal, kOwnScale);
+        }
+    }
+    lineSays(refusalWith(R"({"width": 7, "height": 5, "intrinsic_matrix": [6, 0, 0, 0, 6, 0, 3, 2, 1],
+                             "depth_factor": 5000})"),
+             kOwnScale);
+}
+
+TEST_CASE("A depth scale of millimetres, beside the one that is read, or replaced by scale= is not refused") {
+    for (const char* fields :
+         {R"("depth_factor": 1000})", R"("depth_units": 0.001})", R"("depth_unit": "mm"})", R"("scale": 1})",
+          R"("depth_trunc": 3})", R"("scale": null})", R"("depth_shift": 0})",
+          R"("depth_factor": 5000, "depth_scale_m_per_unit": 0.0002})"}) {
+        CAPTURE(fields);
+        CHECK(refusalWith(kFourFields + fields) == "");
+    }
+    CHECK(refusalWith(kFourFields + R"("depth_factor": 5000})", {.scale = 0.0002}) == "");
+    lineSays(refusalWith(kFourFields + R"("depth_unit": "cm"})"), kOwnScale);
+}
+
+TEST_CASE("A bag's depth has the unit that the file of its lens states, unless scale= gives another") {
+    const TemporaryFolder folder;
+    BagCamera tenths = bagWith(folder, kBagLens + R"(, "depth_scale_m_per_unit": 0.0001})");
+    CHECK(firstDepth(tenths) == doctest::Approx(0.5));
+    BagCamera given = bagWith(folder, kBagLens + R"(, "depth_scale_m_per_unit": 0.0001})", 0.001);
+    CHECK(firstDepth(given) == doctest::Approx(5.0));
+    BagCamera none = bagWith(folder, kBagLens + "}");
+    CHECK(firstDepth(none) == doctest::Approx(5.0));
+    lineSays(testing::refusalOf([&] { bagWith(folder, kBagLens + R"(, "depth_factor": 5000})"); }),
+             kOwnScale);
+    for (const char* unused : {R"(, "depth_factor": 5000})", R"(, "depth_scale_m_per_unit": 0.0001})"}) {
+        BagCamera metres = bagWith(folder, kBagLens + unused, {}, "32FC1");
+        CHECK(firstDepth(metres) == doctest::Approx(0.5));
+    }
+}
+
+TEST_CASE("Distortion under the name of another program is refused unless it is zero") {
+    for (const char* name :
+         {"distCoeffs", "distortionCoeff", "distortionCoefficients", "distortion_params", "Distortion", "kc",
+          "distortion_parameters", "radial_distortion", "K1", "k_1", "k2", "p1", "dist_coefs", "distort",
+          "dist", "D", "coeffs", "distortion_coefficients"}) {
+        CAPTURE(name);
+        for (const char* value : {"[0.2, 0.05, 0, 0, 0]", "0.2", R"({"k1": 0.2})", "[[0.2], [0.05]]"}) {
+            const std::string field = "\"" + std::string(name) + "\": " + value + "}";
+            lineSays(refusalWith(kFourFields + field), "(allowed: zeros, or the coefficients as a list");
+        }
+        for (const char* value : {"[0, 0.0, 0, 0, 0]", "0", R"({"k1": 0})", "[[0], [0]]", "null", "[]"}) {
+            CAPTURE(value);
+            CHECK(refusalWith(kFourFields + "\"" + std::string(name) + "\": " + value + "}") == "");
+        }
+    }
+    CHECK(refusalWith(kFourFields + R"("k2": 0.1, "distortion": [0.01, 0.1, 0, 0, 0]})") == "");
+    CHECK(refusalWith(kFourFields + R"("undistorted": true, "distance": 3, "p": 4, "k10": 5})") == "");
+}
+
+TEST_CASE("The model of a lens that bends rays is refused without its coefficients") {
+    for (const char* model : {R"("camera_model": "OPENCV_FISHEYE")", R"("model": "fisheye")",
+                              R"("distortion_model": "equidistant")", R"("camera_type": "kannala_brandt4")",
+                              R"("lens_model": "omni")", R"("model": "double_sphere")"}) {
+        CAPTURE(model);
+        lineSays(refusalWith(kFourFields + model + "}"),
+                 "(allowed: a pinhole, or the coefficients as a list");
+    }
+    for (const char* model : {R"("camera_model": "OPENCV")", R"("model": "Intel RealSense D435")",
+                              R"("distortion_model": "plumb_bob")", R"("camera": "fisheye room")",
+                              R"("distortion_model": "equidistant", "distortion": [0.01, 0, 0, 0])"}) {
+        CAPTURE(model);
+        CHECK(refusalWith(kFourFields + model + "}") == "");
+    }
+}
+
+TEST_CASE("Lenses that the extrinsics of a folder place over a metre apart are refused as millimetres") {
+    const auto refused = [](const std::string& t) {
+        const TemporaryFolder folder;
+        writeSmallRecording(folder, 1);
+        const std::string pose = R"({"t": )" + t + R"(, "q_xyzw": [0, 0, 0, 1]})",
+                          lens = kFourFields.substr(0, kFourFields.size() - 2) + "}";
+        folder.write("intrinsics.json", R"({"depth": )" + lens + R"(, "color": )" + lens +
+                                            R"(, "depth_scale_m_per_unit": 0.001, "extrinsics_topic_tf":
+                                            {"Color": )" +
+                                            pose + "}}");
+        std::string lines = recordingRefusal(folder.path());
+        writeSmallRecording(folder, 1);
+        folder.write("e.json", pose);
+        return lines + "\n" + recordingRefusal(folder.path(), {.extrinsics = folder.path() / "e.json"});
+    };
+    CHECK(refused("[0.015, 0, 0]") == "\n");
+    for (const char* millimetres : {"[9, 0, 0.3]", "[15, 0, 0]"}) {
+        const std::string lines = refused(millimetres);
+        lineSays(lines, "intrinsics.json: extrinsics_topic_tf.Color.t: ");
+        lineSays(lines, "e.json: t: ");
+        lineSays(lines.substr(lines.find('\n')),
+                 " m between the lenses (allowed: at most 1 m; metres, not millimetres)");
+    }
+}
