@@ -25,6 +25,7 @@ BagCamera::BagCamera(std::unique_ptr<MessageFile> file, SourceOptions options)
     try {
         choice_ = StreamChooser(*file_, options_).choose();
         logWarnings();
+        warnOfMotion(choice_.depth.frame);
         useSpan(topicOf(choice_.depth));
         chooseUnit();
         useClocks();

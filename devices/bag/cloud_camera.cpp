@@ -67,6 +67,7 @@ CloudCamera::CloudCamera(std::unique_ptr<MessageFile> file, SourceOptions option
     chooseTopic();
     useSpan(topic());
     learnLens();
+    warnOfMotion(frame_);
     useClock(topic());
     slots_.emplace(info_.depth.pixels(), info_.hasColour, kFramesInFlight + 1);
 }

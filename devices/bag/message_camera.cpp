@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/bag/message_camera.h"
 
+#include "devices/bag/bag_motion.h"
 #include "devices/recorded/set_back.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
@@ -55,6 +56,13 @@ bool MessageCamera::stampsRise() {
 void MessageCamera::addWarning(const std::string& warning) {
     if (!warning.empty()) {
         warnings_.push_back(warning);
+    }
+}
+
+void MessageCamera::warnOfMotion(const std::string& frame) {
+    if (const std::string motion = cameraMotion(*file_, frame); !motion.empty()) {
+        log::warn("{}: {}", file_->file().string(), motion);
+        addWarning(motion);
     }
 }
 

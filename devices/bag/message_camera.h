@@ -39,6 +39,7 @@ protected:
     void useClock(const MessageTopic& topic); // after useSpan()
     // A warning that is logged already; empty = none.
     void addWarning(const std::string& warning);
+    void warnOfMotion(const std::string& frame); // of depth: logs a warning where it moves in the recording
     // Calls use(i) for up to `samples` messages over the whole span.
     template <class Use>
     void sample(size_t samples, Use&& use) const {

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/recorded/name_words.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+namespace fathom {
+
+std::vector<std::string> nameWords(std::string_view name) {
+    std::vector<std::string> words;
+    bool inWord = false, small = false; // the last character
+    for (const char c : name) {
+        const auto byte = static_cast<unsigned char>(c);
+        const bool letter = std::isalnum(byte) != 0, hump = small && std::isupper(byte) != 0;
+        if (letter && (!inWord || hump)) {
+            words.emplace_back();
+        }
+        if (letter) {
+            words.back() += static_cast<char>(std::tolower(byte));
+        }
+        inWord = letter;
+        small = std::islower(byte) != 0 || std::isdigit(byte) != 0;
+    }
+    return words;
+}
+
+bool nameOtherThing(const std::vector<std::string>& words) {
+    constexpr std::array<std::string_view, 30> kThings{
+        "object",  "objects",  "obj",         "hand", "hands",    "human",  "person",  "body",
+        "joint",   "joints",   "tool",        "tcp",  "ee",       "eef",    "gripper", "device",
+        "marker",  "markers",  "tag",         "tags", "goal",     "target", "cmd",     "command",
+        "desired", "setpoint", "initialpose", "face", "skeleton", "fathom"};
+    return std::ranges::any_of(
+        words, [&](const std::string& word) { return std::ranges::find(kThings, word) != kThings.end(); });
+}
+
+} // namespace fathom
