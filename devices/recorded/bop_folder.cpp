@@ -37,6 +37,10 @@ std::map<std::string, BopImage> bopImages(const fs::path& file) {
         BopImage image;
         const std::vector<double> k = entry.at("cam_K").numbers(9);
         std::copy(k.begin(), k.end(), image.k.begin());
+        if (isByColumns(image.k)) {
+            throw BadInput(file.string(), key + ".cam_K", kByColumns,
+                           std::string("row by row, ") + kLensRows);
+        }
         image.unit = entry.at("depth_scale").positive();
         const auto rotation = entry.find("cam_R_w2c"), position = entry.find("cam_t_w2c");
         if (rotation && position) {

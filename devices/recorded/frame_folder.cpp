@@ -12,7 +12,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
+#include <optional>
 
 namespace fathom {
 
@@ -39,7 +41,8 @@ public:
         const std::string small = stream == "Depth" ? "m_depth" : "m_color",
                           matrix = "m_calibration" + stream + "Intrinsic";
         const auto k = numbers(matrix, 16);
-        if (!(k[0] > 0.0 && k[5] > 0.0) || !std::isfinite(k[0] + k[2] + k[5] + k[6])) {
+        const bool byColumns = isByColumns(std::array{k[0], k[1], k[2], k[4], k[5], k[6], k[8], k[9], k[10]});
+        if (byColumns || !(k[0] > 0.0 && k[5] > 0.0) || !std::isfinite(k[0] + k[2] + k[5] + k[6])) {
             refuse(matrix, "fx 0 cx 0, 0 fy cy 0, 0 0 1 0, 0 0 0 1");
         }
         return {.width = size(small + "Width", kMaxImageWidth),
@@ -175,6 +178,32 @@ RecordingIntrinsics sevenScenesLens() {
     return intrinsics;
 }
 
+// The lens of 3DMatch and the like, in a text of one matrix in the folder or above; nothing without one.
+// fault: why such a file is not used.
+std::optional<RecordingIntrinsics> matrixLensOf(const fs::path& folder, const std::vector<IndexLine>& index,
+                                                std::string& fault) {
+    std::vector<fs::path> folders{folder};
+    std::ranges::copy(foldersAbove(folder), std::back_inserter(folders));
+    std::error_code failed;
+    for (const fs::path& one : folders) {
+        for (const char* name : {"camera-intrinsics.txt", "camera_intrinsics.txt", "intrinsics.txt"}) {
+            if (!fs::is_regular_file(one / name, failed)) {
+                continue;
+            }
+            try {
+                RecordingIntrinsics intrinsics;
+                intrinsics.file = name;
+                intrinsics.camera.depth = intrinsics.camera.colour =
+                    matrixLens(one / name, firstDepthSize(index));
+                return intrinsics;
+            } catch (const BadInput& e) {
+                fault = fault.empty() ? e.what() : fault;
+            }
+        }
+    }
+    return std::nullopt;
+}
+
 constexpr std::string_view kFrameName = "frame-", kDepthName = ".depth";
 
 // Poses have no word of their own where depth has one: frame-000000.rendered.depth.png.
@@ -199,9 +228,11 @@ bool hasFrameImages(const fs::path& folder) {
 
 RecordingLayout readFrameFolder(const LayoutRequest& request) {
     const fs::path& folder = request.folder;
-    const Calibration calibration = calibrationOf(folder);
+    Calibration calibration = calibrationOf(folder);
     const std::optional<fs::path>& info = calibration.file;
     RecordingLayout layout;
+    layout.index = pairByNumber({folder, kDepthEndings, std::string(kDepthName)},
+                                {folder, kColourEndings, ".color"}, request.depthOnly);
     if (request.lens) {
         layout.intrinsics = *request.lens;
         if (info && !request.depthOnly) {
@@ -209,6 +240,8 @@ RecordingLayout readFrameFolder(const LayoutRequest& request) {
         }
     } else if (info) {
         layout.intrinsics = readInfo(*info, request.depthOnly);
+    } else if (const auto matrix = matrixLensOf(folder, layout.index, calibration.unusable)) {
+        layout.intrinsics = *matrix;
     } else {
         layout.intrinsics = sevenScenesLens();
         layout.warnings.push_back(nominalWarning(calibration));
@@ -218,8 +251,6 @@ RecordingLayout readFrameFolder(const LayoutRequest& request) {
         layout.intrinsics.scale = layout.intrinsics.camera.metresPerUnit = unit;
     }
     layout.invalid = info ? 0 : 65535;
-    layout.index = pairByNumber({folder, kDepthEndings, std::string(kDepthName)},
-                                {folder, kColourEndings, ".color"}, request.depthOnly);
     for (IndexLine& line : layout.index) {
         std::string stem = line.depth.stem().string();
         stem.resize(stem.size() - kDepthName.size());

@@ -3,12 +3,33 @@
 
 #include "devices/recorded/text_file.h"
 #include "engine/types/error.h"
+#include "engine/types/number_text.h"
 #include "engine/types/split_words.h"
 
+#include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
 namespace fathom {
+
+namespace {
+
+constexpr const char* kHint = " (poses in millimetres?)";
+
+// Other programs write matrices column by column.
+void checkLastRow(const std::array<double, 16>& m, const std::string& file) {
+    constexpr double kMostOff = 1e-3;
+    const bool lost = !std::isfinite(m[12] + m[13] + m[14] + m[15]); // as the rest of it
+    const bool good = lost || (std::abs(m[12]) <= kMostOff && std::abs(m[13]) <= kMostOff &&
+                               std::abs(m[14]) <= kMostOff && std::abs(m[15] - 1.0) <= kMostOff);
+    if (!good) {
+        throw BadInput(file, "pose", "its last row is not 0 0 0 1",
+                       "a matrix row by row, with the position in its last column");
+    }
+}
+
+} // namespace
 
 std::array<double, 16> readMatrix(const std::filesystem::path& file, bool orThree) {
     std::vector<double> all;
@@ -44,18 +65,65 @@ Pose rigidPose(const std::array<double, 9>& rows, const dvec3& position, const s
     return {position, q / length};
 }
 
+bool isByColumns(std::span<const double, 9> k) {
+    return k[2] == 0.0 && k[5] == 0.0 && (k[6] != 0.0 || k[7] != 0.0);
+}
+
+Intrinsics matrixLens(const std::filesystem::path& file, std::optional<PngSize> size) {
+    const auto k = readMatrix(file, true);
+    if (isByColumns(std::array{k[0], k[1], k[2], k[4], k[5], k[6], k[8], k[9], k[10]})) {
+        throw BadInput(file.string(), "matrix", kByColumns, kLensRows);
+    }
+    if (!size || size->width > kMaxImageWidth || size->height > kMaxImageHeight ||
+        !(k[0] > 0.0 && k[5] > 0.0) || !std::isfinite(k[0] + k[2] + k[5] + k[6])) {
+        throw BadInput(file.string(), "matrix", "unusable",
+                       std::string(kLensRows) + " of images that are read");
+    }
+    return {.width = size->width, .height = size->height, .fx = k[0], .fy = k[5], .cx = k[2], .cy = k[6]};
+}
+
 bool usePose(IndexLine& line, const std::filesystem::path& file) {
     if (!std::filesystem::exists(file)) {
         return false;
     }
     try {
         const auto m = readMatrix(file);
+        checkLastRow(m, file.string());
         line.baseTcamera = rigidPose({m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]},
                                      {m[3], m[7], m[11]}, file.string());
     } catch (const BadInput& e) {
         line.fault = e.what();
     }
     return true;
+}
+
+// Cameras in a building are some metres from each other and from the origin.
+std::string fastPoses(const std::vector<IndexLine>& index) {
+    constexpr double kMostStep = 1.0, kFarthest = 100.0; // [m]
+    std::vector<double> steps;
+    const IndexLine* before = nullptr;
+    std::string first; // the first step of over kMostStep
+    for (const IndexLine& line : index) {
+        if (!line.baseTcamera) {
+            continue;
+        }
+        const dvec3& position = line.baseTcamera->position;
+        if (const double away = glm::length(position); away > kFarthest) {
+            return "the pose of " + line.depth.filename().string() + ": the camera is " +
+                   significant(away, 4) + " m from the origin" + kHint;
+        }
+        if (before != nullptr) {
+            steps.push_back(glm::distance(position, before->baseTcamera->position));
+            if (steps.back() > kMostStep && first.empty()) {
+                first = "the pose of " + line.depth.filename().string() + ": the camera moves " +
+                        significant(steps.back(), 4) + " m from one image to the next" + kHint;
+            }
+        }
+        before = &line;
+    }
+    const auto middle = steps.begin() + static_cast<long>(steps.size() / 2);
+    std::nth_element(steps.begin(), middle, steps.end());
+    return !steps.empty() && *middle > kMostStep ? first : "";
 }
 
 } // namespace fathom

@@ -2,9 +2,16 @@
 // Text files of one matrix: lenses of ScanNet, poses of ScanNet and 7-Scenes.
 #pragma once
 
+#include "devices/recorded/png_image.h"
 #include "devices/recorded/recording_index.h"
+#include "engine/types/camera_info.h"
 
 #include <array>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
 
 namespace fathom {
 
@@ -14,11 +21,24 @@ inline constexpr std::array<double, 16> kIdentityMatrix{1, 0, 0, 0, 0, 1, 0, 0, 
 // 4 x 4 numbers, or 3 x 3 if orThree, as 4 x 4, row by row. Throws BadInput.
 std::array<double, 16> readMatrix(const std::filesystem::path& file, bool orThree = false);
 
+// The lens of a file of fx 0 cx, 0 fy cy, 0 0 1, with or without a fourth row and column, of images of this
+// size. Throws BadInput; also without a size.
+Intrinsics matrixLens(const std::filesystem::path& file, std::optional<PngSize> size);
+
 // rows: rotation, row by row. position [m]. file: named by the BadInput thrown for what is no rigid motion.
 Pose rigidPose(const std::array<double, 9>& rows, const dvec3& position, const std::string& file);
+
+// For messages about the matrix of a lens.
+inline constexpr const char *kByColumns = "written column by column", *kLensRows = "fx 0 cx, 0 fy cy, 0 0 1";
+// Whether the matrix of a lens is written column by column, as some programs do: cx and cy in its last row.
+bool isByColumns(std::span<const double, 9> k);
 
 // Sets the line's pose (base_T_camera); for a pose that is missing, was lost (-inf) or cannot be read, its
 // fault. Returns whether the file exists.
 bool usePose(IndexLine& line, const std::filesystem::path& file);
+
+// A warning about poses of images that are farther apart, or farther from the origin, than a camera is moved;
+// empty = none.
+std::string fastPoses(const std::vector<IndexLine>& index);
 
 } // namespace fathom

@@ -60,16 +60,6 @@ RecordingLayout readOpen3d(const LayoutRequest& request) {
     return layout;
 }
 
-Intrinsics scanNetLens(const fs::path& file, std::optional<PngSize> size) {
-    const auto k = readMatrix(file, true);
-    if (!size || size->width > kMaxImageWidth || size->height > kMaxImageHeight ||
-        !(k[0] > 0.0 && k[5] > 0.0) || !std::isfinite(k[0] + k[2] + k[5] + k[6])) {
-        throw BadInput(file.string(), "matrix", "unusable",
-                       "fx 0 cx, 0 fy cy, 0 0 1 of images that are read");
-    }
-    return {.width = size->width, .height = size->height, .fx = k[0], .fy = k[5], .cx = k[2], .cy = k[6]};
-}
-
 std::optional<PngSize> firstColourSize(const std::vector<IndexLine>& index) {
     for (const IndexLine& line : index) {
         if (const auto size = line.colour.empty() ? std::nullopt : colourImageSize(line.colour)) {
@@ -90,10 +80,10 @@ void checkIdentity(const fs::path& file) {
 CameraInfo scanNetCamera(const fs::path& folder, const std::vector<IndexLine>& index, bool depthOnly) {
     CameraInfo camera;
     checkIdentity(folder / "extrinsic_depth.txt");
-    camera.depth = camera.colour = scanNetLens(folder / "intrinsic_depth.txt", firstDepthSize(index));
+    camera.depth = camera.colour = matrixLens(folder / "intrinsic_depth.txt", firstDepthSize(index));
     if (!depthOnly) {
         checkIdentity(folder / "extrinsic_color.txt");
-        camera.colour = scanNetLens(folder / "intrinsic_color.txt", firstColourSize(index));
+        camera.colour = matrixLens(folder / "intrinsic_color.txt", firstColourSize(index));
         camera.registered = false;
     }
     return camera;
@@ -242,6 +232,9 @@ RecordingLayout readLayout(const fs::path& folder, const SourceOptions& options)
         if (layout.posePerImage && !line.baseTcamera && line.fault.empty()) {
             line.fault = "it has no pose, but other images have";
         }
+    }
+    if (const std::string fast = fastPoses(layout.index); !fast.empty()) {
+        layout.warnings.push_back(fast);
     }
     return layout;
 }

@@ -94,3 +94,23 @@ TEST_CASE("Poses of images frame-N belong to their number, whatever word their d
         CHECK(RecordedCamera(folder.path(), kFramesOnly).next().value()->baseTcamera->position.x == own);
     }
 }
+
+TEST_CASE("Images frame-N have the lens of a text file of one matrix that lies with them or above") {
+    for (const char* name : {"scene/camera-intrinsics.txt", "camera-intrinsics.txt", "scene/intrinsics.txt",
+                             "scene/camera_intrinsics.txt"}) {
+        const TemporaryFolder folder;
+        addPair(folder, "scene/frame-000000.depth.png", "scene/frame-000000.color.png", 500);
+        folder.write(name, " 5.25e+00\t 0.0e+00\t 3.5\n 0 5.5 2.5\n 0 0 1\n");
+        RecordedCamera camera(folder.path() / "scene");
+        CHECK(camera.info().registered);
+        CHECK(camera.info().depth.fx == 5.25);
+        CHECK(camera.info().depth.cy == 2.5);
+        CHECK(camera.info().depth.width == kSmallWidth);
+        CHECK(camera.warnings().empty());
+        CHECK(camera.next());
+        folder.write(name, "1 2 3\n");
+        lineSays(RecordedCamera(folder.path() / "scene").warnings().at(0), "nominal lens of 7-Scenes");
+        lineSays(RecordedCamera(folder.path() / "scene").warnings().at(0),
+                 "intrinsics.txt: matrix: 3 numbers");
+    }
+}

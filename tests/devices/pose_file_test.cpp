@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// Poses and lenses in text files of one matrix per image: their order and their unit.
+#include "devices/recorded/recorded_camera.h"
+#include "tests/devices/played_bag.h"
+
+#include <algorithm>
+
+using namespace fathom;
+using namespace fathom::testing;
+
+namespace {
+
+const std::string kDepthMatrix = "7 0 3 0\n0 7 2 0\n0 0 1 0\n0 0 0 1\n";
+
+// ScanNet's layout with one pose per frame.
+void writeScan(const TemporaryFolder& folder, const std::vector<std::string>& poses,
+               const std::string& lens = kDepthMatrix) {
+    for (size_t i = 0; i < poses.size(); ++i) {
+        const std::string number = std::to_string(i);
+        addPair(folder, "depth/" + number + ".png", "color/" + number + ".png", 500);
+        folder.write("pose/" + number + ".txt", poses[i]);
+    }
+    folder.write("intrinsic/intrinsic_depth.txt", lens);
+    folder.write("intrinsic/intrinsic_color.txt", lens);
+}
+
+std::string shifted(double x) {
+    return "1 0 0 " + std::to_string(x) + "\n0 1 0 0\n0 0 1 0\n0 0 0 1\n";
+}
+
+std::string playedToEnd(const TemporaryFolder& folder) {
+    RecordedCamera camera(folder.path());
+    while (camera.next()) {
+    }
+    std::string all;
+    for (const std::string& warning : camera.warnings()) {
+        all += warning + "\n";
+    }
+    return all;
+}
+
+} // namespace
+
+TEST_CASE("A pose with its position in the last row is refused as written column by column") {
+    const TemporaryFolder folder;
+    writeScan(folder, {shifted(0.1), "1 0 0 0\n0 1 0 0\n0 0 1 0\n0.3 0 0 1\n", shifted(0.2)});
+    lineSays(playedToEnd(folder), "frame 1 skipped: ");
+    lineSays(playedToEnd(folder), "pose/1.txt: pose: its last row is not 0 0 0 1 (allowed: a matrix row by "
+                                  "row, with the position in its last column)");
+}
+
+TEST_CASE("A lens that is written column by column is refused as such") {
+    const TemporaryFolder folder;
+    writeScan(folder, {shifted(0.0)}, "7 0 0 0\n0 7 0 0\n3 2 1 0\n0 0 0 1\n");
+    lineSays(recordingRefusal(folder.path()),
+             "intrinsic_depth.txt: matrix: written column by column (allowed: fx 0 cx, 0 fy cy, 0 0 1");
+    const TemporaryFolder bop;
+    addPair(bop, "depth/0.png", "rgb/0.png", 500);
+    bop.write("scene_camera.json", R"({"0": {"cam_K": [6, 0, 0, 0, 6, 0, 3, 2, 1], "depth_scale": 1}})");
+    lineSays(
+        recordingRefusal(bop.path()),
+        "scene_camera.json: 0.cam_K: written column by column (allowed: row by row, fx 0 cx, 0 fy cy, 0 0 1");
+}
+
+TEST_CASE("Poses of images in millimetres have a warning, and those in metres have none") {
+    const auto warned = [](const std::vector<std::string>& poses) {
+        const TemporaryFolder folder;
+        writeScan(folder, poses);
+        return playedToEnd(folder);
+    };
+    CHECK(warned({shifted(0.0), shifted(0.1), shifted(0.3)}) == "");
+    CHECK(warned({shifted(20.0), shifted(20.9), shifted(20.95)}) == "");
+    CHECK(warned({shifted(0.0), shifted(3.0), shifted(3.01), shifted(3.02)}) == ""); // one jump
+    lineSays(warned({shifted(0.0), shifted(10.0), shifted(20.0)}),
+             "the pose of 1.png: the camera moves 10 m from one image to the next (poses in millimetres?)");
+    lineSays(warned({shifted(1500.0), shifted(1500.2)}),
+             "the pose of 0.png: the camera is 1500 m from the origin (poses in millimetres?)");
+}
