@@ -5,6 +5,7 @@
 #include "devices/recorded/name_number.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
+#include "engine/types/read_file.h"
 
 #include <algorithm>
 #include <map>
@@ -123,12 +124,64 @@ IndexLine lineOf(size_t index, const std::filesystem::path& depth) {
     return {stamp, stamp, depth, {}, "", std::nullopt};
 }
 
+// A file with a number in its name, the first one by name; empty = none.
+std::string numberedFileIn(const std::filesystem::path& folder) {
+    std::string first;
+    std::error_code failed;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, failed)) {
+        const std::string name = entry.path().filename().string();
+        const bool numbered = entry.path().stem().string().find_first_of(kDigits) != std::string::npos;
+        if (numbered && isRegularFile(entry.path()) && (first.empty() || name < first)) {
+            first = name;
+        }
+    }
+    return first;
+}
+
+// kind: "depth images".
+[[noreturn]] void refuseNone(const NumberedImages& images, const std::string& kind, const std::string& hint) {
+    const std::string other = images.before.empty() ? numberedFileIn(images.folder) : "";
+    std::string endings;
+    for (const std::string_view ending : images.endings) {
+        endings += (endings.empty() ? "" : ", ") + std::string(ending);
+    }
+    throw BadInput(images.folder.string(), kind,
+                   other.empty() ? "none" : "none that is read; there is " + other,
+                   (other.empty() ? "at least one, with" : endings + " with") +
+                       std::string(" a number in its name") + hint);
+}
+
+// '%d.%d' of seconds and nanoseconds loses the zeros in front of these, and with them the order. True names
+// of so many digits hardly ever have none that begins with 0.
+void warnIfUnpadded(const std::filesystem::path& folder, const std::vector<NamedImage>& images) {
+    constexpr size_t kStampDigits = 9, kMicroseconds = 6; // of seconds since 1970, and behind the point
+    size_t longest = 0, shortest = std::string::npos;
+    std::string example;
+    for (const NamedImage& image : images) {
+        const NameNumber& number = image.last.front();
+        const size_t all = number.end - number.begin;
+        const size_t behind = all > number.digits ? all - number.digits - 1 : 0;
+        if (behind == 0 || number.digits < kStampDigits || number.fraction.starts_with('0')) {
+            return;
+        }
+        longest = std::max(longest, behind);
+        example = behind < shortest ? image.file.filename().string() : example;
+        shortest = std::min(shortest, behind);
+    }
+    if (longest >= kMicroseconds && shortest < longest) {
+        log::warn("{}: seconds in the names have {} to {} digits behind the point, none beginning with 0 "
+                  "(first: {}): "
+                  "if they are nanoseconds or microseconds without leading zeros, the order is wrong",
+                  folder.string(), shortest, longest, example);
+    }
+}
+
 std::vector<NamedImage> depthImagesIn(const NumberedImages& depth) {
     std::vector<NamedImage> images = imagesIn(depth);
     if (images.empty()) {
-        throw BadInput(depth.folder.string(), "depth images", "none",
-                       "at least one, with a number in its name");
+        refuseNone(depth, "depth images", "");
     }
+    warnIfUnpadded(depth.folder, images);
     return images;
 }
 
@@ -182,8 +235,7 @@ std::vector<IndexLine> pairByNumber(const NumberedImages& depth, const NumberedI
     }
     const std::vector<NamedImage> depthImages = depthImagesIn(depth), colourImages = imagesIn(colour);
     if (colourImages.empty()) {
-        throw BadInput(colour.folder.string(), "colour images", "none",
-                       "at least one, with a number in its name, or colour=none behind the folder's name");
+        refuseNone(colour, "colour images", ", or colour=none behind the folder's name");
     }
     const Match last = matchBy(depthImages, colourImages, &NamedImage::last);
     const Match first = matchBy(depthImages, colourImages, &NamedImage::first);

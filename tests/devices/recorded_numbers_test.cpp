@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Folders without an index: images in order of the numbers in their names, and pairs by them.
 #include "devices/recorded/recorded_camera.h"
-#include "tests/devices/recorded_folder.h"
+#include "tests/devices/played_bag.h"
 #include "tests/realtime/listening.h"
 
 #include <bit>
-#include <doctest/doctest.h>
 
 using namespace fathom;
+using namespace fathom::testing;
 
 namespace {
 
@@ -32,6 +32,22 @@ Depths depthsOfNames(const std::vector<std::string>& depth, const std::vector<st
     const TemporaryFolder folder;
     writeNamed(folder, depth, colour);
     return playedDepths(folder.path());
+}
+
+SourceOptions lensIn(const TemporaryFolder& folder) {
+    folder.write("lens.json", kSmallIntrinsics);
+    return {.intrinsics = folder.path() / "lens.json"};
+}
+
+// Plays pairs with these names; returns how often a line says that zeros may be lost.
+size_t lostZeros(const std::vector<std::string>& names) {
+    const TemporaryFolder folder;
+    for (const std::string& name : names) {
+        addPair(folder, "depth/" + name + ".png", "rgb/" + name + ".png", 500);
+    }
+    const testing::Listening log;
+    recordingRefusal(folder.path(), lensIn(folder));
+    return log.count("without leading zeros");
 }
 
 } // namespace
@@ -178,4 +194,30 @@ TEST_CASE("Millimetres rotated by three bits are read as SUN3D wrote them, not w
     CHECK(first(folderOf(flat, sun3d, 704, 0, 3), depthOnly) == 704); // one value
     CHECK(first(folderOf(plain, sun3d, 8200, 7, 0), depthOnly) == 8200);
     CHECK(first(folderOf(coarse, "1.png", 704, 0, 0), depthOnly) == 704); // one multiple of eight
+}
+
+TEST_CASE("Numbered images of a format that is not read are refused with the first one and the formats") {
+    for (const char* name : {"000000.pfm", "000000.npz", "frame1.raw", "1.webp", "0.jpg"}) {
+        const TemporaryFolder folder;
+        addPair(folder, "a/0.png", "rgb/0.png", 500);
+        folder.write(std::string("depth/") + name, "x");
+        folder.write("depth/readme.txt", "x");
+        lineSays(recordingRefusal(folder.path(), lensIn(folder)),
+                 "depth: depth images: none that is read; there is " + std::string(name) +
+                     " (allowed: .png, .pgm, .tif");
+    }
+    const TemporaryFolder folder;
+    addPair(folder, "depth/0.png", "a/0.png", 500);
+    folder.write("rgb/r-1.ppm", "x");
+    lineSays(
+        recordingRefusal(folder.path(), lensIn(folder)),
+        "rgb: colour images: none that is read; there is r-1.ppm (allowed: .png, .jpg, .jpeg with a number");
+}
+
+TEST_CASE("Names of seconds and nanoseconds without their leading zeros have a warning") {
+    CHECK(lostZeros({"1305031102.175304000", "1305031102.5123457", "1305031102.45456789"}) == 1);
+    CHECK(lostZeros({"1305031102.175304000", "1305031102.005123457", "1305031102.5123"}) == 0);
+    CHECK(lostZeros({"1305031102.175304", "1305031102.512345"}) == 0);
+    CHECK(lostZeros({"1.5", "1.25", "2.125"}) == 0);
+    CHECK(lostZeros({"1305031102.5", "1305031102.25", "1305031102.125"}) == 0);
 }
