@@ -271,6 +271,8 @@ StreamChoice StreamChooser::choose() {
     }
     if (!options_.intrinsics.empty()) {
         replaceLenses(choice);
+    } else if (colour != nullptr && !relation.registered) {
+        choice.warnings.push_back(alignedWarning(*depth, *colour));
     }
     if (namedRangeImage(depth->name) && !choice.rangeImages) {
         choice.warnings.push_back(axisWarning(depth->name, "a file of the lens (intrinsics=FILE)"));

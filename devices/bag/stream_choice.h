@@ -72,6 +72,7 @@ private:
     std::optional<Pose> topicPose(const MessageTopic* topic, std::string& fault);
     bool keepsRelation() const;
     void replaceLenses(StreamChoice& choice) const;
+    std::string alignedWarning(const ImageStream& depth, const ImageStream& colour) const;
     std::string unreadStreams() const;
     std::string otherTopics() const;
     std::string describe(const StreamChoice& choice) const;

@@ -3,6 +3,8 @@
 #include "devices/bag/stream_choice.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 
 namespace fathom {
 
@@ -25,6 +27,26 @@ std::string StreamChooser::describe(const StreamChoice& choice) const {
         }
     }
     return words + rest;
+}
+
+// Some drivers publish the lens of raw depth beside the depth that they align to colour. Crops of colour, and
+// one that is calibrated anew, have nearly its focal length; images of another size are resized.
+std::string StreamChooser::alignedWarning(const ImageStream& depth, const ImageStream& colour) const {
+    constexpr double kMostOther = 0.1;
+    const bool toColour = depth.frame == colour.frame || depth.name.find("to_color") != std::string::npos ||
+                          depth.name.find("to_rgb") != std::string::npos;
+    if (!namedRegistered(depth.name) || !toColour || !depth.lens || !colour.lens ||
+        depth.rectified != colour.rectified || depth.width != colour.width || depth.height != colour.height ||
+        std::abs(depth.lens->fx / colour.lens->fx - 1.0) <= kMostOther) {
+        return "";
+    }
+    char focal[2][24];
+    std::snprintf(focal[0], sizeof focal[0], " (fx %.1f) ", depth.lens->fx);
+    std::snprintf(focal[1], sizeof focal[1], " (fx %.1f)", colour.lens->fx);
+    return depth.name + focal[0] + "is named as aligned to colour, but has another lens than " + colour.name +
+           focal[1] +
+           ": its camera_info may be that of the raw depth; intrinsics=FILE behind the file's name replaces "
+           "it";
 }
 
 // Streams that may show colour and are not read, or not taken for it.

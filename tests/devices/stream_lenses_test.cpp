@@ -107,3 +107,24 @@ TEST_CASE("Extrinsics of a file that are over a metre are refused with the file,
                                  "millimetres)");
     lineSays(refused("far.json"), "far.json: t: 1.273 m between the lenses");
 }
+
+TEST_CASE("Aligned depth with another camera's lens than colour has a warning that names both") {
+    const auto warned = [](const std::string& topic, const std::string& frame,
+                           const std::array<double, 4>& k) {
+        const TemporaryFolder folder;
+        BagMaker maker;
+        addStream(maker, topic, depthImage(500, frame), {.frame = frame, .k = k});
+        addStream(maker, "/camera/color/image_raw", redImage());
+        std::string all;
+        for (const std::string& line : playStreams(folder, maker).warnings()) {
+            all += line + "\n";
+        }
+        return all;
+    };
+    const std::string aligned = "/camera/aligned_depth_to_color/image_raw";
+    lineSays(warned(aligned, "camera", {5.0, 5.0, 3.5, 2.5}),
+             aligned + " (fx 5.0) is named as aligned to colour, but has another lens than "
+                       "/camera/color/image_raw (fx 7.0)");
+    CHECK(warned(aligned, "camera", {7.0, 7.0, 3.5, 2.5}) == "");
+    CHECK(warned(aligned, "camera", {6.8, 6.8, 3.6, 2.4}) == "");
+}
