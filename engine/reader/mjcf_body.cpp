@@ -36,13 +36,19 @@ MjcfBodies::MjcfBodies(const std::string& file, const tinyxml2::XMLElement& root
         autoLimits_ = stated(*compiler, "autolimits", autoLimits_ ? "true" : "false") != "false";
     }
     readEqualities();
+    bodyNames_.insert("world");
+    names_.insert("world");
     readNames(root);
 }
 
 void MjcfBodies::readNames(const tinyxml2::XMLElement& element) {
     for (auto* child = element.FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
-        if (std::string(child->Name()) == "body") {
-            bodyNames_.insert(stated(*child, "name"));
+        const std::string kind = child->Name(), name = stated(*child, "name");
+        if (kind == "body") {
+            bodyNames_.insert(name);
+        }
+        if (kind == "body" || kind == "site" || kind == "joint" || kind == "freejoint") {
+            names_.insert(name);
         }
         readNames(*child);
     }
@@ -86,8 +92,13 @@ std::string MjcfBodies::urdf() {
         Contents contents;
         collect(*world, "", Pose{}, contents);
         for (const Part& body : contents.bodies) {
-            addBody(body, "world");
+            addBody(body, "world", true);
         }
+    }
+    if (dropped_ > 0) {
+        notes_.push_back(std::to_string(dropped_) +
+                         " planes or height fields of bodies that do not move, the first in " +
+                         firstDropped_ + ", are not read");
     }
     if (geoms_.fitted() > 0) {
         notes_.push_back(std::to_string(geoms_.fitted()) +
@@ -119,11 +130,25 @@ void MjcfBodies::collect(const tinyxml2::XMLElement& element, const std::string&
 }
 
 std::string MjcfBodies::nameOf(const tinyxml2::XMLElement& element, const char* otherwise) {
-    const std::string name = stated(element, "name");
-    return !name.empty() ? name : otherwise + std::to_string(++unnamed_);
+    std::string name = stated(element, "name");
+    if (name.empty()) {
+        do {
+            name = otherwise + std::to_string(++unnamed_);
+        } while (!names_.insert(name).second);
+    }
+    return name;
 }
 
-void MjcfBodies::addBody(const Part& body, const std::string& parent) {
+// stem + ending, with a number between them if an element has that name.
+std::string MjcfBodies::unusedName(const std::string& stem, const std::string& ending) {
+    std::string name = stem + ending;
+    for (int k = 2; !names_.insert(name).second; ++k) {
+        name = stem + "__" + std::to_string(k) + ending;
+    }
+    return name;
+}
+
+void MjcfBodies::addBody(const Part& body, const std::string& parent, bool still) {
     Contents contents;
     collect(*body.element, body.childClass, Pose{}, contents);
     const std::string name = nameOf(*body.element, "body_");
@@ -133,7 +158,7 @@ void MjcfBodies::addBody(const Part& body, const std::string& parent) {
         const Part& joint = contents.joints[i];
         const bool last = i + 1 == contents.joints.size();
         const bool moved = glm::length(anchorOf(joint).position) > 0.0;
-        const std::string child = last && !moved ? name : name + "__" + std::to_string(i + 1);
+        const std::string child = last && !moved ? name : unusedName(name, "__" + std::to_string(i + 1));
         if (child != name) {
             out_ += "<link name='" + xmlEscaped(child) + "'/>";
         }
@@ -141,15 +166,31 @@ void MjcfBodies::addBody(const Part& body, const std::string& parent) {
         link = child;
     }
     if (link != name) {
-        addFixed(name + "__fixed", link, name, before);
+        addFixed(unusedName(name, "__fixed"), link, name, before);
+    }
+    still = still && contents.joints.empty();
+    if (still) {
+        dropWorldGeoms(contents.geoms);
     }
     addLink(name, contents.geoms);
     for (const Part& site : contents.sites) {
         addSite(site, name);
     }
     for (const Part& inner : contents.bodies) {
-        addBody(inner, name);
+        addBody(inner, name, still);
     }
+}
+
+// Planes and height fields, which MuJoCo allows where nothing moves, as in the world itself.
+void MjcfBodies::dropWorldGeoms(std::vector<Part>& geoms) {
+    std::erase_if(geoms, [&](const Part& geom) {
+        const char* const type = classes_.find(*geom.element, geom.childClass, "type");
+        const bool drops = type != nullptr && (std::string(type) == "plane" || std::string(type) == "hfield");
+        if (drops && ++dropped_ == 1) {
+            firstDropped_ = mjcfPlace(*geom.element, "").line;
+        }
+        return drops;
+    });
 }
 
 // The joint's anchor in its body, with the turn of the frame that the joint is in.
@@ -196,7 +237,9 @@ std::string MjcfBodies::limitsOf(const Part& joint, const std::string& name, boo
     const double ref = classes_.numbers(*joint.element, joint.childClass, "ref", {0.0}, 1, 1)[0];
     const char* const limited = classes_.find(*joint.element, joint.childClass, "limited");
     const std::string says = limited != nullptr ? limited : "auto";
-    const bool bounded = !range.empty() && (says == "true" || (says == "auto" && autoLimits_));
+    // Where nothing says that the joint is limited, a range that does not rise takes back an inherited one.
+    const bool bounded =
+        !range.empty() && (says == "true" || (says == "auto" && autoLimits_ && range[0] < range[1]));
     const auto equality = equalities_.find(name);
     const bool held = equality != equalities_.end() && equality->second.other.empty();
     continuous = !bounded && !held && !slides;
@@ -235,9 +278,9 @@ void MjcfBodies::addSite(const Part& site, const std::string& body) {
     if (name.empty()) {
         return;
     }
-    const std::string link = bodyNames_.count(name) != 0 ? name + kSiteEnding : name;
+    const std::string link = bodyNames_.count(name) != 0 ? unusedName(name, kSiteEnding) : name;
     addLink(link, {});
-    addFixed(name + kSiteEnding, body, link,
+    addFixed(unusedName(name, kSiteEnding), body, link,
              site.at * mjcfShapePose(classes_, angles_, *site.element, site.childClass).pose);
 }
 

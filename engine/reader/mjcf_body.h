@@ -36,7 +36,9 @@ private:
     void readNames(const tinyxml2::XMLElement& element);
     void collect(const tinyxml2::XMLElement& element, const std::string& childClass, const Pose& at,
                  Contents& out) const;
-    void addBody(const Part& body, const std::string& parent);
+    // still: the parent does not move relative to the world.
+    void addBody(const Part& body, const std::string& parent, bool still);
+    void dropWorldGeoms(std::vector<Part>& geoms);
     // Adds a joint from `parent` to `child`; before: pose of the joint's body in the parent. Returns the
     // pose of that body in the child: the anchor's offset.
     Pose addJoint(const Part& joint, const std::string& name, const std::string& parent,
@@ -48,6 +50,7 @@ private:
                   const Pose& parentTchild);
     void addSite(const Part& site, const std::string& body);
     std::string nameOf(const tinyxml2::XMLElement& element, const char* otherwise);
+    std::string unusedName(const std::string& stem, const std::string& ending);
 
     const tinyxml2::XMLElement& root_;
     MjcfClasses classes_;
@@ -61,8 +64,10 @@ private:
     std::map<std::string, Equality> equalities_;
     std::string out_;
     std::vector<std::string> notes_;
-    std::set<std::string> bodyNames_; // stated ones
-    int unnamed_ = 0;
+    std::set<std::string> bodyNames_; // stated ones, and "world"
+    std::set<std::string> names_;     // of all bodies, sites and joints, stated or made here
+    int unnamed_ = 0, dropped_ = 0;
+    std::string firstDropped_;
 };
 
 } // namespace fathom

@@ -196,7 +196,7 @@ TEST_CASE(
          "line 2: <joint name=\"j\">: range=\"1\" (allowed: 2 finite numbers)"},
         {in("<joint name='j' axis='0 nan 1'/>"), "axis=\"0 nan 1\" (allowed: 3 finite numbers)"},
         {in("<joint type='screw'/>"), "type=\"screw\" (allowed: hinge, slide, ball or free)"},
-        {in("<geom type='hfield'/>"), "type=\"hfield\""},
+        {in("<joint/><geom type='hfield'/>"), "type=\"hfield\""},
         {in("<geom type='box' size='1 1'/>"), "size=\"1 1\" (allowed: 3 finite numbers)"},
         {in("<geom type='capsule' fromto='1 1 1 1 1 1' size='0.1'/>"),
          "fromto of length 0 (allowed: two points)"},
