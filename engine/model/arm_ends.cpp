@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/model/arm_ends.h"
 
-#include "engine/model/arm_mimic.h"
+#include "engine/model/gripper_joints.h"
 #include "engine/model/jaw_joint.h"
 #include "engine/model/link_names.h"
 #include "engine/types/error.h"
 #include "engine/types/joined.h"
 
 #include <algorithm>
-#include <map>
-#include <span>
 
 namespace fathom {
 
@@ -19,16 +17,6 @@ using LinkPtr = std::shared_ptr<const urdf::Link>;
 
 constexpr size_t kMaxNamed = 6; // names in a note
 constexpr int kMaxBehind = 2;   // joints of an unknown gripper behind a tool frame
-constexpr int kFingerDepth = 4; // joints of a finger
-
-bool isFree(const urdf::Joint& joint) {
-    return joint.type == urdf::Joint::FLOATING || joint.type == urdf::Joint::PLANAR;
-}
-
-// Whether the joint counts in a chain, which cannot contain free joints.
-bool moves(const urdf::Joint& joint) {
-    return joint.type != urdf::Joint::FIXED && !isFree(joint);
-}
 
 bool isBareFrame(const urdf::Link& link) {
     return link.collision_array.empty() && link.visual_array.empty() && !link.inertial;
@@ -38,16 +26,8 @@ class EndChooser {
 public:
     EndChooser(const urdf::ModelInterface& model, const std::filesystem::path& file)
         : model_(model)
-        , file_(file) {
-        depthBelow(*model.getRoot());
-        for (const auto& [name, tie] : tieJoints(model, file)) {
-            const urdf::Joint& joint = *model.joints_.at(name);
-            if (moves(joint) && moves(*model.joints_.at(tie.root))) {
-                roots_[name] = tie.root;
-                groups_[tie.root].push_back(&joint);
-            }
-        }
-    }
+        , file_(file)
+        , grippers_(model, file) {}
 
     LinkPtr named(const std::string& name) const {
         LinkPtr link = model_.getLink(name);
@@ -70,7 +50,8 @@ public:
         const Seen* best = nullptr;
         for (const Seen& s : seen_) { // a named frame near the end of the longest chain
             const bool near = 2 * s.moving > most && most - s.moving <= kMaxBehind;
-            const bool fits = usable(s) && s.moving > 0 && near && s.rank < kNoTool;
+            const bool fits = usable(s) && s.moving > 0 && near && s.rank < kNoTool &&
+                              !(namesPart(s.link->name) && !behind(s, usable).empty());
             if (fits && (best == nullptr || s.moving > best->moving ||
                          (s.moving == best->moving && (s.rank < best->rank || isBehind(s, *best))))) {
                 best = &s;
@@ -84,6 +65,10 @@ public:
                                              : "the end of the longest chain";
         }
         noteOthers(ends, *best, any);
+        if (const std::string joints = behind(*best, usable); !joints.empty()) {
+            ends.notes.push_back("joints that move lie behind the tip " + best->link->name +
+                                 " and stay where they are: " + joints + "; arm.tip selects another");
+        }
         if (best->rank == kNoTool && best->moving > 2 && !turnsHand(*best->last)) {
             if (const std::string warning = jawWarning(*best->last); !warning.empty()) {
                 ends.notes.push_back(warning);
@@ -102,6 +87,30 @@ private:
         const urdf::Joint* last = nullptr; // last moving joint above it
     };
 
+    // The joints from a frame to the end of a longer chain, if it ends in no gripper: one joint behind the
+    // other, and at least one of them as those of an arm. Empty = none.
+    template <class Usable>
+    std::string behind(const Seen& frame, const Usable& usable) const {
+        for (auto end = seen_.rbegin(); end != seen_.rend(); ++end) {
+            std::string names;
+            bool arm = false, row = end->moving > frame.moving && usable(*end);
+            LinkPtr link = end->link;
+            for (; row && link->parent_joint && link->parent_joint.get() != frame.last;
+                 link = link->getParent()) {
+                const urdf::Joint& joint = *link->parent_joint;
+                if (moves(joint)) {
+                    names = joint.name + (names.empty() ? "" : ", " + names);
+                    arm = arm || movesAsArm(joint);
+                    row = grippers_.branches(*model_.getLink(joint.parent_link_name)) == 1;
+                }
+            }
+            if (row && arm && link->parent_joint) {
+                return names;
+            }
+        }
+        return "";
+    }
+
     // A frame without shapes whose name is as good as that of a part: the tool centre of this gripper. It may
     // have a mass for simulators.
     static bool isBehind(const Seen& frame, const Seen& part) {
@@ -112,83 +121,15 @@ private:
                isPart(*part.link);
     }
 
-    int depthBelow(const urdf::Link& link) {
-        int most = 0;
-        for (const auto& joint : link.child_joints) {
-            most = std::max(most, depthBelow(*model_.getLink(joint->child_link_name)) + moves(*joint));
-        }
-        return depths_[link.name] = most;
-    }
-
-    int depthThrough(const urdf::Joint& joint) const {
-        return depths_.at(joint.child_link_name) + moves(joint);
-    }
-
-    // Alike branches of moving joints at a link that ends a chain: fingers.
-    bool branchesIntoFingers(const urdf::Link& link, int moving) const {
-        int branches = 0, deepest = 0, shallowest = kFingerDepth;
-        for (const auto& joint : link.child_joints) {
-            if (const int depth = depthThrough(*joint); depth > 0) {
-                ++branches;
-                deepest = std::max(deepest, depth);
-                shallowest = std::min(shallowest, depth);
-            }
-        }
-        return branches > 1 && deepest <= kFingerDepth && deepest - shallowest <= 1 && moving >= 2 &&
-               moving >= deepest;
-    }
-
-    bool isGripper(const urdf::Joint& joint, int moving, const urdf::Joint* last) const {
-        if (!moves(joint)) {
-            return false;
-        }
-        const bool tiedEnd =
-            moving >= 2 && groupOf(joint).size() > 1 && depthThrough(joint) <= 2 && !tiedToChain(joint);
-        const bool jaw = moving >= 2 && depthThrough(joint) == 1 && slidesLikeJaw(model_, joint, last);
-        return closesGripper(joint) || tiedEnd || (jaw && !turnsHand(joint));
-    }
-
-    // The joint and those that are tied to it; empty if it follows one that cannot move.
-    std::span<const urdf::Joint* const> groupOf(const urdf::Joint& joint) const {
-        const auto root = roots_.find(joint.name);
-        return root == roots_.end() ? std::span<const urdf::Joint* const>{} : groups_.at(root->second);
-    }
-
-    // Whether the joint mimics one above it or is mimicked from below, as in a chain with coupled joints, or
-    // no joint of its group is on another branch, as in a gripper.
-    bool tiedToChain(const urdf::Joint& joint) const {
-        const auto group = groupOf(joint);
-        const bool coupled = std::any_of(group.begin(), group.end(), [&](const urdf::Joint* other) {
-            return joint.mimic
-                       ? other->name == joint.mimic->joint_name && isAbove(*other, joint)
-                       : other->mimic && other->mimic->joint_name == joint.name && isAbove(joint, *other);
-        });
-        const auto alongAll = [&](const urdf::Joint* one) {
-            return std::all_of(group.begin(), group.end(), [&](const urdf::Joint* other) {
-                return one == other || isAbove(*one, *other) || isAbove(*other, *one);
-            });
-        };
-        return coupled || std::all_of(group.begin(), group.end(), alongAll);
-    }
-
-    bool isAbove(const urdf::Joint& upper, const urdf::Joint& lower) const {
-        for (LinkPtr link = model_.getLink(lower.parent_link_name); link; link = link->getParent()) {
-            if (link->name == upper.child_link_name) {
-                return true;
-            }
-        }
-        return false;
-    }
-
     void walk(const LinkPtr& link, int moving, bool inGripper, const urdf::Joint* last = nullptr) {
         const size_t at = seen_.size();
         seen_.push_back({link, moving, inGripper, false, toolRank(link->name), last});
-        const bool fingers = branchesIntoFingers(*link, moving);
+        const bool fingers = grippers_.branchesIntoFingers(*link, moving);
         for (const auto& joint : link->child_joints) {
-            if (isFree(*joint) && moving > 0 && depthThrough(*joint) == 0) {
+            if (isFree(*joint) && moving > 0 && grippers_.depthThrough(*joint) == 0) {
                 continue; // it would end the chain
             }
-            const bool grips = moves(*joint) && (fingers || isGripper(*joint, moving, last));
+            const bool grips = moves(*joint) && (fingers || grippers_.closes(*joint, moving, last));
             seen_[at].gripperBelow = seen_[at].gripperBelow || grips;
             walk(model_.getLink(joint->child_link_name), moving + moves(*joint), inGripper || grips,
                  moves(*joint) ? joint.get() : last);
@@ -235,7 +176,7 @@ private:
                 const LinkPtr child = model_.getLink(joint->child_link_name);
                 const bool site = joint->name.ends_with(kSiteEnding); // of a sensor or tendon, by its name
                 if (joint->type == urdf::Joint::FIXED && isBareFrame(*child) && !site &&
-                    depths_.at(child->name) == 0) {
+                    grippers_.depthBelow(child->name) == 0) {
                     bare.push_back(child);
                 }
             }
@@ -249,9 +190,7 @@ private:
 
     const urdf::ModelInterface& model_;
     const std::filesystem::path& file_;
-    std::map<std::string, int> depths_;                             // moving joints below each link
-    std::map<std::string, std::string> roots_;                      // of moving joints, see JointTie
-    std::map<std::string, std::vector<const urdf::Joint*>> groups_; // by root
+    GripperJoints grippers_;
     std::vector<Seen> seen_;
 };
 

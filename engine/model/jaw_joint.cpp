@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/model/jaw_joint.h"
 
+#include "engine/model/link_names.h"
 #include "engine/model/urdf_file.h"
 #include "engine/types/number_text.h"
 
@@ -13,6 +14,8 @@ namespace fathom {
 namespace {
 
 constexpr double kJawTravel = 0.1, kJawTurn = 2.0; // [m], [rad] largest of a jaw
+constexpr double kArmTravel = 0.2, kArmTurn = 0.5; // [m], [rad] a jaw has no longer slide, nor turns more to
+                                                   // both sides
 constexpr double kAcross = 0.5;                    // largest cosine of directions across each other
 constexpr double kSameSpot = 1e-3;                 // [m] too near for a direction
 
@@ -48,6 +51,16 @@ bool slidesLikeJaw(const urdf::ModelInterface& model, const urdf::Joint& joint, 
     const dvec3 slide = lastTjoint.rotation * axisOf(joint), way = lastTjoint.position;
     return std::abs(glm::dot(slide, axisOf(*last))) <= kAcross &&
            (glm::length(way) < kSameSpot || std::abs(glm::dot(slide, way)) <= kAcross * glm::length(way));
+}
+
+bool movesAsArm(const urdf::Joint& joint) {
+    if (joint.type == urdf::Joint::CONTINUOUS || turnsHand(joint)) {
+        return true;
+    }
+    const double low = joint.limits ? joint.limits->lower : 0.0,
+                 high = joint.limits ? joint.limits->upper : 0.0;
+    return joint.type == urdf::Joint::PRISMATIC ? high - low > kArmTravel
+                                                : std::min(-low, high) > kArmTurn && !closesGripper(joint);
 }
 
 std::string jawWarning(const urdf::Joint& joint) {

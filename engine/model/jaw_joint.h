@@ -12,6 +12,10 @@ namespace fathom {
 // along these.
 bool slidesLikeJaw(const urdf::ModelInterface& model, const urdf::Joint& joint, const urdf::Joint* last);
 
+// Whether the joint moves as those of arms and not as a jaw: it turns without end or over 0.5 rad to both
+// sides, slides over 0.2 m, or turns a hand by its name.
+bool movesAsArm(const urdf::Joint& joint);
+
 // A note that the joint may close a gripper, if it moves only a little and to one side of 0; else empty.
 std::string jawWarning(const urdf::Joint& joint);
 

@@ -44,6 +44,9 @@ constexpr std::array<std::string_view, 27> kToolNames{"tool0",
 // Also in names of links; the links "gripper" and "grasp_link" are often a wrist's.
 constexpr std::array<std::string_view, 11> kGripperWords{
     "finger", "fngr", "jaw", "knuckle", "claw", "thumb", "pincer", "clamp", "pinch", "tong", "forceps"};
+// A joint of this name moves a finger, also sideways: "thumb_yaw".
+constexpr std::array<std::string_view, 3> kFingerWords{"finger", "fngr", "thumb"};
+constexpr std::string_view kWrist = "wrist";
 constexpr std::array<std::string_view, 3> kGripperJoints{"grip", "grasp", "opening"};
 
 // In the name of a joint these say that it turns a hand and does not close it.
@@ -76,8 +79,17 @@ size_t toolRank(const std::string& link) {
     return best;
 }
 
+bool namesPart(const std::string& link) {
+    const std::string name = lowered(link);
+    const auto first = std::find(kToolNames.begin(), kToolNames.end(), "flange");
+    return toolRank(link) < kNoTool &&
+           std::find(kToolNames.begin(), kToolNames.end(), name) == kToolNames.end() &&
+           toolRank(link) >= static_cast<size_t>(first - kToolNames.begin());
+}
+
 bool turnsHand(const urdf::Joint& joint) {
-    return hasWord(joint.name, kWristWords);
+    const bool wrist = lowered(joint.name).find(kWrist) != std::string::npos;
+    return hasWord(joint.name, kWristWords) && (wrist || !hasWord(joint.name, kFingerWords));
 }
 
 bool closesGripper(const urdf::Joint& joint) {

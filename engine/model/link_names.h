@@ -16,6 +16,10 @@ inline constexpr const char* kSiteEnding = "__site";
 // Rank of a tool frame's name, with or without a prefix such as "left_"; the best is 0. kNoTool = none.
 size_t toolRank(const std::string& link);
 
+// Whether a tool frame's name has a prefix before one of the words that parts of an arm have too:
+// "wrist_flange", "forearm_hand", "calib_tool".
+bool namesPart(const std::string& link);
+
 // Whether the name says that the joint turns a hand, as that of a wrist, and does not close it.
 bool turnsHand(const urdf::Joint& joint);
 

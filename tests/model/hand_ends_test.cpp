@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where chains end at hands whose fingers are not alike, and at frames with the name of a tool before the last
+// joints.
+#include "tests/model/urdf_text.h"
+
+#include <algorithm>
+#include <doctest/doctest.h>
+#include <map>
+
+using namespace fathom;
+using namespace fathom::testing;
+
+namespace {
+
+// Links 0 to n in a row; link k is named by `names` where it has one.
+std::string armOf(int n, const std::map<int, std::string>& names = {}) {
+    const auto link = [&](int k) { return names.count(k) > 0 ? names.at(k) : "l" + std::to_string(k); };
+    std::string urdf = ballLink(link(0));
+    for (int k = 1; k <= n; ++k) {
+        urdf += ballLink(link(k));
+        urdf += jointText("a" + std::to_string(k), "revolute", link(k - 1), link(k), "0 0 0.1",
+                          k % 2 == 0 ? "0 1 0" : "1 0 0");
+    }
+    return urdf;
+}
+
+// A finger of so many joints on the link; mimic: joint that the first one follows.
+std::string fingerOf(const std::string& name, int joints, const std::string& on,
+                     const std::string& mimic = "") {
+    std::string urdf, parent = on;
+    for (int k = 1; k <= joints; ++k) {
+        const std::string link = name + "_" + std::to_string(k);
+        const std::string limit = "<limit lower='0' upper='1.5' velocity='1' effort='1'/>";
+        urdf += ballLink(link, "0.005");
+        urdf += jointText(name + "_joint" + std::to_string(k), "revolute", parent, link, "0 0.01 0.02",
+                          "1 0 0", limit + (k == 1 && !mimic.empty() ? mimicText(mimic) : ""));
+        parent = link;
+    }
+    return urdf;
+}
+
+std::string endOf(const std::string& urdf) {
+    const std::string text = loadUrdf(urdf).tipText;
+    return text.substr(0, text.find(' '));
+}
+
+bool behindTip(const ArmModel& arm) {
+    return std::any_of(arm.notes.begin(), arm.notes.end(), [](const std::string& note) {
+        return note.find("behind the tip") != std::string::npos;
+    });
+}
+
+} // namespace
+
+TEST_CASE("A hand ends the chain though its thumb has other joints than its fingers") {
+    const auto hand = [](int thumb, int finger, int little, const std::string& on) {
+        return fingerOf("thumb", thumb, on) + fingerOf("index", finger, on) + fingerOf("middle", finger, on) +
+               fingerOf("ring", finger, on) + fingerOf("pinky", little, on);
+    };
+    CHECK(endOf(armOf(6) + hand(4, 2, 2, "l6")) == "l6");
+    CHECK(endOf(armOf(6) + hand(5, 4, 5, "l6")) == "l6"); // the thumb has five joints
+    CHECK(endOf(armOf(6) + hand(2, 3, 3, "l6")) == "l6");
+    const std::string yaw = fingerOf("thumb_proximal_yaw", 4, "l6") + fingerOf("index_finger", 2, "l6");
+    CHECK(endOf(armOf(6) + yaw) == "l6");
+}
+
+TEST_CASE("A hand ends the chain though its motor or springs are joints of their own") {
+    const std::string motor = fingerOf("motor", 1, "l5"), left = fingerOf("left", 3, "l5", "motor_joint1"),
+                      right = fingerOf("right", 3, "l5", "motor_joint1");
+    CHECK(endOf(armOf(5) + motor + left + right) == "l5");
+    const std::string named =
+        armOf(5, {{5, "wrist_roll_link"}}) + "<link name='hand_palm_link'/>" +
+        jointText("palm", "fixed", "wrist_roll_link", "hand_palm_link", "0 0 0", "0 0 1");
+    CHECK(endOf(named + fingerOf("motor", 1, "hand_palm_link") + fingerOf("left", 3, "hand_palm_link") +
+                fingerOf("right", 3, "hand_palm_link")) == "hand_palm_link");
+}
+
+TEST_CASE("A trunk with two arms and a head is no hand") {
+    const std::string two =
+        armOf(2) + fingerOf("head", 1, "l2") + fingerOf("left", 4, "l2") + fingerOf("right", 4, "l2");
+    CHECK(endOf(two) == "left_4");
+    const std::string four =
+        armOf(4) + fingerOf("head", 2, "l4") + fingerOf("left", 4, "l4") + fingerOf("right", 4, "l4");
+    CHECK(endOf(four) == "left_4");
+}
+
+TEST_CASE("A link named as a tool before joints of the arm is no tip") {
+    CHECK(endOf(armOf(6, {{5, "wrist_flange"}})) == "l6");
+    CHECK(endOf(armOf(7, {{5, "forearm_hand"}})) == "l7");
+    CHECK(endOf(armOf(6) + "<link name='calib_tool'/>" +
+                jointText("c", "fixed", "l4", "calib_tool", "0 0 0", "0 0 1")) == "l6");
+    const ArmModel exact = loadUrdf(armOf(6, {{5, "tool0"}})); // its maker says so
+    CHECK(exact.tipText.find("tool0 ") == 0);
+    CHECK(behindTip(exact));
+}
+
+TEST_CASE("A link named as a tool before joints that may be a gripper's is the tip") {
+    const std::string slide = "<limit lower='0' upper='0.04' velocity='0.2' effort='1'/>";
+    const ArmModel jaw = loadUrdf(armOf(6, {{6, "my_hand"}}) + ballLink("x") +
+                                  jointText("x1", "prismatic", "my_hand", "x", "0 0 0.1", "0 0 1", slide));
+    CHECK(jaw.tipText.find("my_hand ") == 0);
+    CHECK_FALSE(behindTip(jaw));
+    CHECK(endOf(armOf(6, {{6, "my_hand"}}) + fingerOf("left", 2, "my_hand")) == "my_hand");
+}
