@@ -2,10 +2,12 @@
 #include "engine/model/joint_drives.h"
 
 #include "engine/model/arm_mimic.h"
+#include "engine/model/grasp_ends.h"
 #include "engine/types/error.h"
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <sstream>
 
 namespace fathom {
@@ -37,6 +39,7 @@ public:
         for (const auto& finger : options_.fingers) {
             grasp(finger);
         }
+        holdAbove();
         leadChain();
         std::map<std::string, JointDrive> drives;
         for (const auto& [name, joint] : model_.joints_) {
@@ -48,9 +51,9 @@ public:
     }
 
 private:
-    struct Group {                  // joints tied to one root
-        std::optional<double> held; // value of the root
-        std::string heldBy;
+    struct Group {                      // joints tied to one root
+        std::optional<double> held;     // value of the root
+        std::string heldBy;             // joint
         std::optional<uint32_t> leader; // of the moving chain
         JointTie leaderTie;
         std::string finger; // first one named; empty = none
@@ -120,32 +123,6 @@ private:
         }
     }
 
-    // Where fingers are open and closed in most descriptions, unless their shapes tell (finger_ends.h): they
-    // slide towards 0, or turn from lower to upper.
-    static std::pair<double, double> usualEnds(const urdf::Joint& joint) {
-        const double lower = joint.limits->lower, upper = joint.limits->upper;
-        const bool down = joint.type == urdf::Joint::PRISMATIC && std::abs(upper) >= std::abs(lower);
-        return down ? std::pair{upper, lower} : std::pair{lower, upper};
-    }
-
-    // Of a finger with one given end: the limit farther from it, so that the finger moves. On a tie the usual
-    // one.
-    static double farther(const urdf::Joint& joint, double given, double usual) {
-        const double lower = joint.limits->lower, upper = joint.limits->upper;
-        const double down = given - lower, up = upper - given;
-        return down == up ? usual : down > up ? lower : upper;
-    }
-
-    static std::pair<double, double> endsOf(const ArmOptions::Finger& wanted, const urdf::Joint& joint) {
-        const auto [open, closed] = usualEnds(joint);
-        return {wanted.open     ? *wanted.open
-                : wanted.closed ? farther(joint, *wanted.closed, open)
-                                : open,
-                wanted.closed ? *wanted.closed
-                : wanted.open ? farther(joint, *wanted.open, closed)
-                              : closed};
-    }
-
     void grasp(const ArmOptions::Finger& wanted) {
         checkFinger(wanted);
         const urdf::Joint& joint = *model_.getJoint(wanted.joint);
@@ -154,7 +131,7 @@ private:
         const auto rootAt = [&](double value) { return (value - tie.offset) / tie.multiplier; };
         if (group.finger.empty()) {
             group.finger = wanted.joint;
-            const auto [open, closed] = endsOf(wanted, joint);
+            const auto [open, closed] = graspEnds(wanted, joint);
             group.open = rootAt(open);
             group.closed = rootAt(closed);
             return;
@@ -165,6 +142,30 @@ private:
             if (given && std::abs(*given - follows) > kAgree) {
                 refuse("finger " + wanted.joint, numberText(*given),
                        numberText(follows) + ", as it moves with joint " + group.finger);
+            }
+        }
+    }
+
+    // A joint above the base does not move, so neither do the joints of the chain that are tied to it.
+    void holdAbove() {
+        std::set<std::string> roots; // of the chain
+        for (const auto& joint : chain_) {
+            if (joint->type != urdf::Joint::FIXED && hasAxis(*joint)) {
+                roots.insert(ties_.at(joint->name).root);
+            }
+        }
+        if (chain_.empty()) {
+            return;
+        }
+        auto link = model_.getLink(chain_.front()->parent_link_name);
+        for (; link->parent_joint; link = link->getParent()) {
+            const std::string& name = link->parent_joint->name;
+            above_.insert(name);
+            const bool tied = roots.count(ties_.at(name).root) > 0;
+            Group& group = groupOf(name);
+            if (tied && hasAxis(*link->parent_joint) && !group.held && group.finger.empty()) {
+                group.held = restOf(ties_.at(name).root);
+                group.heldBy = name;
             }
         }
     }
@@ -194,6 +195,24 @@ private:
         }
     }
 
+    std::string whyHeld(const urdf::Joint& joint, const JointTie& tie, const Group& group) const {
+        if (options_.locked.count(joint.name) > 0) {
+            return "locked by the scene";
+        }
+        if (tie.multiplier == 0.0) {
+            return "mimic with multiplier 0";
+        }
+        if (above_.count(joint.name) > 0) {
+            return "above the base";
+        }
+        if (tie.root == joint.name) {
+            return group.heldBy + " follows it, which is " +
+                   (above_.count(group.heldBy) > 0 ? "above the base" : "locked by the scene");
+        }
+        return "follows " + tie.root +
+               (model_.getJoint(tie.root)->type == urdf::Joint::FIXED ? ", which is fixed" : "");
+    }
+
     JointDrive driveOf(const urdf::Joint& joint) {
         JointDrive drive;
         const JointTie& tie = ties_.at(joint.name);
@@ -204,11 +223,7 @@ private:
         }
         if (group.held || tie.multiplier == 0.0) {
             drive.value = tie.offset + tie.multiplier * group.held.value_or(0.0);
-            drive.why = options_.locked.count(joint.name) > 0 ? "locked by the scene"
-                        : tie.multiplier == 0.0               ? "mimic with multiplier 0"
-                        : model_.getJoint(tie.root)->type == urdf::Joint::FIXED
-                            ? "follows " + tie.root + ", which is fixed"
-                            : "follows " + tie.root;
+            drive.why = whyHeld(joint, tie, group);
         } else if (group.leader) {
             follow(joint, tie, group, drive);
         } else if (!group.finger.empty()) {
@@ -231,14 +246,18 @@ private:
         drive.mimic = {*group.leader, gain, tie.offset - gain * group.leaderTie.offset};
     }
 
-    // Off the chain and moved by nothing: at 0, or the nearest limit.
-    void rest(const urdf::Joint& joint, const JointTie& tie, JointDrive& drive) const {
-        const urdf::Joint& root = *model_.getJoint(tie.root);
+    // Of a root that nothing moves: 0, or the nearest limit.
+    double restOf(const std::string& name) const {
+        const urdf::Joint& root = *model_.getJoint(name);
         const bool limited = root.type != urdf::Joint::CONTINUOUS && root.limits;
-        const double at = limited && root.limits->lower <= root.limits->upper
-                              ? std::clamp(0.0, root.limits->lower, root.limits->upper)
-                              : 0.0;
-        drive.value = tie.offset + tie.multiplier * at;
+        return limited && root.limits->lower <= root.limits->upper
+                   ? std::clamp(0.0, root.limits->lower, root.limits->upper)
+                   : 0.0;
+    }
+
+    // Off the chain and moved by nothing.
+    void rest(const urdf::Joint& joint, const JointTie& tie, JointDrive& drive) const {
+        drive.value = tie.offset + tie.multiplier * restOf(tie.root);
         drive.why = tie.root == joint.name ? "not between base and tip" : "follows " + tie.root;
     }
 
@@ -249,6 +268,7 @@ private:
     std::map<std::string, JointTie> ties_;
     std::map<std::string, Group> groups_;        // by root
     std::map<std::string, std::string> leaders_; // by root
+    std::set<std::string> above_;                // joints above the base
 };
 
 } // namespace

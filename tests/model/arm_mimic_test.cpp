@@ -247,3 +247,24 @@ TEST_CASE("Sliding fingers without stated positions close towards 0, and a note 
     CHECK(turning.fingers.at(0).open == 0.0);
     CHECK(turning.fingers.at(0).closed == 0.8);
 }
+
+TEST_CASE("A joint that mimics one above the base, or that one mimics, stays with it where it is") {
+    const auto armWith = [&](const std::string& first, const std::string& second) {
+        ArmOptions options;
+        options.base = "a";
+        return loadUrdf(ballLink("0") + jointText("m", "revolute", "0", "a", "0 0 0.1", "1 0 0", first) +
+                            chainWith(second),
+                        options);
+    };
+    const ArmModel follower = armWith(kWide, kWide + mimicText("m", "multiplier='-1'"));
+    CHECK(follower.count() == 2);
+    CHECK(follower.held ==
+          std::vector<std::string>{"j2 stays at 0 (follows m)", "m stays at 0 (above the base)"});
+    const ArmModel leader = armWith(kWide + mimicText("j2"), kWide);
+    CHECK(leader.count() == 2);
+    CHECK(leader.held == std::vector<std::string>{"j2 stays at 0 (m follows it, which is above the base)",
+                                                  "m stays at 0 (above the base)"});
+    const ArmModel offset = armWith(kWide, kWide + mimicText("m", "offset='0.5'"));
+    CHECK(offset.held.at(0) == "j2 stays at 0.5 (follows m)");
+    CHECK(armWith(kWide, kWide).count() == 3);
+}
