@@ -27,6 +27,11 @@ std::string limitWarning(const std::string& joint, bool slides, double lower, do
 }
 
 std::string speedWarning(const std::string& joint, bool slides, double stated) {
+    if (stated < 0.0) {
+        std::ostringstream none;
+        none << "joint " << joint << ": the file states a speed of " << stated << ", which counts as none";
+        return none.str();
+    }
     constexpr double kFastTurn = 4.0 * std::numbers::pi, kFastSlide = 5.0;
     std::ostringstream line;
     line << "joint " << joint << ": speed " << stated

@@ -147,6 +147,9 @@ private:
 } // namespace
 
 MeshPlace findMesh(const std::string& name, const ShapeSource& source) {
+    if (name.empty()) {
+        throw ShapeRefused{"a mesh without a file name", "<mesh filename=\"...\"/>"};
+    }
     std::vector<std::filesystem::path> folders{source.meshes};
     if (source.meshes.empty()) {
         folders = {source.urdf.parent_path()};

@@ -6,6 +6,7 @@
 #include "engine/reader/answers.h"
 #include "engine/reader/lost_shapes.h"
 #include "engine/reader/mjcf.h"
+#include "engine/reader/other_kinds.h"
 #include "engine/reader/urdf_spelling.h"
 #include "engine/types/error.h"
 #include "engine/types/printable.h"
@@ -76,11 +77,26 @@ void checkLinks(const urdf::ModelInterface& model, const std::string& file) {
     throw BadInput(file, "link " + stray->first, "in a loop of joints", kTree);
 }
 
+void checkCapsule(const std::string& file, const std::string& link, std::string_view tag) {
+    for (const char* size : {"radius", "length"}) {
+        if (xmlAttribute(tag, size).empty()) {
+            throw BadInput(file, "link " + printable(link), std::string("a capsule without ") + size,
+                           "<capsule radius=\"r\" length=\"l\"/> [m], without its round ends");
+        }
+    }
+}
+
 // <capsule radius length/> becomes a mesh whose file name holds the sizes, which the parser passes on.
-std::string hideCapsules(const std::string& text) {
-    std::string out;
+std::string hideCapsules(const std::string& file, const std::string& text) {
+    std::string out, link;
+    bool collides = false;
     for (XmlPieces pieces(text); pieces.next();) {
         const XmlPiece& piece = pieces.piece();
+        link = piece.name == "link" && !piece.closes ? xmlAttribute(piece.text, "name") : link;
+        collides = piece.name == "collision" ? !piece.closes : collides;
+        if (piece.name == "capsule" && collides && !piece.closes) {
+            checkCapsule(file, link, piece.text);
+        }
         if (piece.name != "capsule") {
             out += piece.text;
         } else if (piece.closes) {
@@ -130,30 +146,6 @@ void refuseXacro(const std::filesystem::path& file, const std::string& text,
             line += printable(own) + "> in <" + printable(holder);
             notes.push_back(line + "> is not expanded and not read");
         }
-    }
-}
-
-// Names files that belong to a robot, or describe one in another form.
-void refuseOtherKinds(const std::filesystem::path& file, const std::string& text) {
-    static const std::set<std::string_view> kSemantic{"group",
-                                                      "group_state",
-                                                      "end_effector",
-                                                      "virtual_joint",
-                                                      "passive_joint",
-                                                      "disable_collisions",
-                                                      "disable_default_collisions"};
-    bool links = false, semantic = false;
-    for (XmlTags tags(text); tags.next();) {
-        if (tags.path().empty() && tags.tag().name == "sdf") {
-            throw BadInput(file.string(), "robot", "an SDF", "a URDF or MJCF of the robot");
-        }
-        const bool part = tags.path() == "robot";
-        links = links || (part && tags.tag().name == "link");
-        semantic = semantic || (part && kSemantic.count(tags.tag().name) > 0);
-    }
-    if (semantic && !links) {
-        throw BadInput(file.string(), "robot", "an SRDF of MoveIt, without links and joints",
-                       "the URDF that it belongs to");
     }
 }
 
@@ -217,14 +209,14 @@ std::string packetOf(const std::filesystem::path& file) {
         throw BadInput(file.string(), "file", "empty", "a readable URDF file");
     }
     std::vector<std::string> notes;
-    refuseXacro(file, text, notes);
     refuseOtherKinds(file, text);
+    refuseXacro(file, text, notes);
     text = isMjcf(text) ? urdfOfMjcf(file, text, notes) : withSpaces(text);
     const bool capsules = text.find("<capsule") != std::string::npos;
     const Listener listener;
     const std::shared_ptr<const urdf::ModelInterface> model = [&] {
         const ParserAtWork parser;
-        return urdf::parseURDF(capsules ? hideCapsules(text) : text);
+        return urdf::parseURDF(capsules ? hideCapsules(file.string(), text) : text);
     }();
     if (!model) {
         throw BadInput(file.string(), "robot", printable(faultOf(listener.errors(), text)), "a URDF robot");

@@ -136,3 +136,23 @@ TEST_CASE("A file of MoveIt or SDF in place of a URDF is named as such, with wha
     const ScratchFile sdf("arm.urdf", "<?xml version='1.0'?><sdf version='1.7'><model name='r'/></sdf>");
     CHECK(saysOnly(refusalOf([&] { loadArm(sdf.path(), {}); }), "robot: an SDF (allowed: a URDF or MJCF"));
 }
+
+TEST_CASE("A capsule without a length and a mesh without a file name are named as such, with their link") {
+    const auto link = [](const std::string& shape) {
+        return "<link name='arm'><collision><geometry>" + shape + "</geometry></collision></link>";
+    };
+    CHECK(saysOnly(urdfRefusal(link("<capsule radius='0.02' height='0.1'/>")),
+                   "link arm: a capsule without length (allowed: <capsule radius=\"r\" length=\"l\"/> [m]"));
+    CHECK(saysOnly(urdfRefusal(link("<capsule length='0.1'></capsule>")),
+                   "link arm: a capsule without radius"));
+    CHECK(urdfRefusal(link("<capsule radius='0.02' length='0.1'/>") + ballLink("b") +
+                      jointText("j", "revolute", "arm", "b", "0 0 0", "0 0 1")) == "");
+    CHECK(saysOnly(urdfRefusal(link("<mesh filename=''/>")), "link arm: a mesh without a file name"));
+}
+
+TEST_CASE("A negative speed counts as none, with a note that states it") {
+    const ArmModel arm = loadUrdf(withLimit("<limit lower='-1' upper='1' velocity='-2' effort='1'/>"));
+    CHECK(arm.joints[0].speed == kUnknownTurn);
+    CHECK(arm.notes ==
+          std::vector<std::string>{"joint j: the file states a speed of -2, which counts as none"});
+}
