@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/model/sphere_sets.h"
 #include "engine/types/error.h"
+#include "engine/types/log.h"
 #include "engine/types/read_file.h"
 #include "engine/types/yaml_document.h"
 
@@ -89,6 +90,9 @@ YAML::Node loadYaml(const std::filesystem::path& file) {
 // A list of spheres; `all` counts those of the file.
 std::vector<Sphere> spheresOf(const std::filesystem::path& file, const std::string& link,
                               const YAML::Node& list, const std::string& key, size_t& all) {
+    if (list.IsNull()) { // as cuRobo's `attached_object`
+        return {};
+    }
     if (!list.IsSequence()) {
         throw BadInput(file.string(), lineOf(list), "link " + excerpt(link) + ": not a list",
                        "a list of spheres");
@@ -132,16 +136,21 @@ std::vector<LinkSpheres> linksOf(const std::filesystem::path& file, const YAML::
     return sets;
 }
 
+// The section of an XRDF about collisions with the world; format_version 2.0 has another name for it.
+const char* collisionKey(const std::filesystem::path& file, const YAML::Node& root) {
+    return tableOf(file.string(), root, "world_collision").IsDefined() ? "world_collision" : "collision";
+}
+
 // The name of the geometry that an XRDF uses for collisions.
 std::string geometryOf(const std::filesystem::path& file, const YAML::Node& root,
                        const YAML::Node& geometry) {
-    const YAML::Node named = tableOf(file.string(), tableOf(file.string(), root, "collision"), "geometry");
+    const std::string key = collisionKey(file, root);
+    const YAML::Node named = tableOf(file.string(), tableOf(file.string(), root, key), "geometry");
     if (named && named.IsScalar()) {
         return named.Scalar();
     }
     if (geometry.size() != 1 || !geometry.begin()->first.IsScalar()) {
-        throw BadInput(file.string(), "collision.geometry", "missing",
-                       "the name of one of several geometries");
+        throw BadInput(file.string(), key + ".geometry", "missing", "the name of one of several geometries");
     }
     return geometry.begin()->first.Scalar();
 }
@@ -173,8 +182,19 @@ void growBy(const std::filesystem::path& file, const YAML::Node& table, const st
     std::erase_if(sets, [](const LinkSpheres& set) { return set.spheres.empty(); });
 }
 
+void warnIfNewer(const std::string& file, const YAML::Node& root) {
+    constexpr double kNewest = 2.0;
+    const YAML::Node version = tableOf(file, root, "format_version");
+    double stated = 0.0;
+    if (version && version.IsScalar() && YAML::convert<double>::decode(version, stated) && stated > kNewest) {
+        log::warn("{}: format_version {:.4g} is newer than {:.4g}: keys of it may be missed", file, stated,
+                  kNewest);
+    }
+}
+
 std::vector<LinkSpheres> xrdfSets(const std::filesystem::path& file, const YAML::Node& root) {
     const std::string name = file.string();
+    warnIfNewer(name, root);
     const YAML::Node geometry = tableOf(name, root, "geometry");
     if (!geometry || !geometry.IsMap()) {
         throw BadInput(name, "geometry", "missing or not a table", "{NAME: {spheres: {LINK: [...]}}}");
@@ -192,7 +212,8 @@ std::vector<LinkSpheres> xrdfSets(const std::filesystem::path& file, const YAML:
         }
     }
     std::vector<LinkSpheres> sets = linksOf(file, spheres);
-    growBy(file, tableOf(name, root, "collision"), "buffer_distance", "collision.buffer_distance", sets);
+    const std::string key = collisionKey(file, root);
+    growBy(file, tableOf(name, root, key), "buffer_distance", key + ".buffer_distance", sets);
     return sets;
 }
 

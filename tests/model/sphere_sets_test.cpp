@@ -125,6 +125,24 @@ TEST_CASE(
               .find("geometry.g: 'clone' (allowed: only spheres)") != std::string::npos);
 }
 
+TEST_CASE("An XRDF of version 2 names the geometry and buffer of the world, and links may have no spheres") {
+    const std::string two = "geometry:\n  other: {spheres: {hand: [{center: [0, 0, 0], radius: 0.5}]}}\n"
+                            "  g: {spheres: {hand: [{center: [0, 0, 0], radius: 0.01}], held: }}\n";
+    const testing::ScratchFile file("set.xrdf",
+                                    "format: xrdf\nformat_version: 2.0\nworld_collision: {geometry: g, "
+                                    "buffer_distance: {hand: 0.005}}\nself_collision: {geometry: other}\n" +
+                                        two);
+    const auto sets = readXrdf(file.path());
+    REQUIRE(sets.size() == 1);
+    CHECK(sets[0].spheres[0].radius == doctest::Approx(0.015).epsilon(1e-12));
+    CHECK(setRefusal(".xrdf", "format: xrdf\nformat_version: 2.0\nworld_collision: {}\n" + two)
+              .find("world_collision.geometry: missing") != std::string::npos);
+    const testing::ScratchFile robo("set.yml",
+                                    "collision_spheres: {hand: [{center: [0, 0, 0], radius: 0.01}], "
+                                    "attached_object: null}\n");
+    CHECK(readCuroboYaml(robo.path()).size() == 1);
+}
+
 TEST_CASE(
     "cuRobo's spheres are also read as Lula's list and as JSON; the name of another file is passed on") {
     const testing::ScratchFile lula(
