@@ -94,10 +94,13 @@ void takeGuidance(FixtureSet& set, const Scene& scene, const std::vector<uint32_
             continue;
         }
         const bool chosen = fixture.largestPart || fixture.trim > 0.0;
-        Moments m =
-            chosen ? chosenMoments(set, c, fixture, scene.filter.edge, layout) : classMoments(set, k, layout);
+        size_t untrimmed = 0;
+        Moments m = chosen ? chosenMoments(set, c, fixture, scene.filter.edge, layout, untrimmed)
+                           : classMoments(set, k, layout);
         m.mean += set.host.origin;
-        set.host.guidance.push_back(guidancePose(m, fixture, rows[c], set.host.baseTcamera.position));
+        GuidancePose pose = guidancePose(m, fixture, rows[c], set.host.baseTcamera.position);
+        pose.present = pose.present || (pose.count > 0 && untrimmed >= fixture.minCount);
+        set.host.guidance.push_back(pose);
         ++k;
     }
 }

@@ -103,7 +103,7 @@ void trimFarthest(std::vector<dvec3>& points, double share) {
 } // namespace
 
 Moments chosenMoments(const FixtureSet& set, uint32_t c, const FixtureClass& fixture, double edge,
-                      const PatchLayout& layout) {
+                      const PatchLayout& layout, size_t& untrimmed) {
     std::vector<PartPixel> pixels = PixelsOfClass(set, c, layout).take();
     if (fixture.largestPart) {
         keepLargestPart(pixels, edge);
@@ -114,6 +114,7 @@ Moments chosenMoments(const FixtureSet& set, uint32_t c, const FixtureClass& fix
     for (const PartPixel& p : pixels) {
         points.emplace_back(all[p.slot]);
     }
+    untrimmed = points.size();
     if (fixture.trim > 0.0) {
         trimFarthest(points, fixture.trim);
     }

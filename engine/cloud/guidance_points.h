@@ -12,7 +12,8 @@ namespace fathom::cloud {
 // keeps the largest part of 8-connected pixels whose depths differ by at most edge (relative; 0 = any); of
 // equal parts, the first in row-major order. fixture.trim then drops this share of the points, those farthest
 // from the mean.
+// untrimmed: points before the second filter.
 Moments chosenMoments(const FixtureSet& set, uint32_t c, const FixtureClass& fixture, double edge,
-                      const PatchLayout& layout);
+                      const PatchLayout& layout, size_t& untrimmed);
 
 } // namespace fathom::cloud

@@ -60,7 +60,7 @@ struct RegionSpheres {
 struct GuidancePose {
     uint32_t fixture = 0; // row of Scene::fixtures
     uint32_t count = 0;   // points in the mean
-    bool present = false; // count >= min_count
+    bool present = false; // min_count points before trim
     dvec3 position{0.0};  // [m] base frame: mean of the points
     dvec3 normal{0.0};    // unit, base frame, towards the camera; zero when not planar
     bool planar = false;

@@ -111,3 +111,21 @@ TEST_CASE("Of equally large parts the first one is chosen") {
         CHECK((rig.host().guidance[0].position.x < 0.0) == (top < 10));
     }
 }
+
+TEST_CASE("The trimmed mean leaves a target as many points as the plain one: min_count counts before it") {
+    const CameraInfo camera = pinholeCamera(64, 48, 0.0001);
+    const auto patch = [](int u, int v) { return u >= 20 && u < 28 && v >= 20 && v < 28 ? 0.5 : 0.0; };
+    for (const uint32_t least : {40u, 64u, 65u}) {
+        for (const double trim : {0.0, 0.5}) {
+            CAPTURE(least);
+            CAPTURE(trim);
+            FixtureClass f = chosenClass();
+            f.trim = trim, f.minCount = least;
+            CloudRig rig(sceneOfChosen(f), camera);
+            rig.run(drawnImage(camera, patch));
+            const GuidancePose& pose = rig.host().guidance[0];
+            CHECK(pose.count == (trim > 0.0 ? 32u : 64u));
+            CHECK(pose.present == (least <= 64));
+        }
+    }
+}
