@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 #include <thread>
 
 namespace fathom {
@@ -94,16 +95,43 @@ bool awaitHand(LiveHand& hand, const std::atomic<bool>& stop) {
     }
 }
 
-HandPath openHandPath(const std::filesystem::path& file, double scale) {
-    constexpr double kUsualPath = 10.0; // [m] most
+namespace {
+
+// Least distance [m] of the path from the base's origin, the camera and the placed shapes.
+double distanceOf(const HandPath& path, const Scene& scene) {
+    std::vector<dvec3> places{dvec3(0.0), scene.baseTcamera.position};
+    for (const FixtureClass& f : scene.fixtures) {
+        places.push_back(f.isPoints() ? dvec3(0.0) : f.baseTshape.position);
+    }
+    double least = std::numeric_limits<double>::infinity();
+    for (const HandWaypoint& waypoint : path.waypoints()) {
+        const dvec3 at = scene.hand.scale * (scene.hand.baseRdevice * waypoint.deviceThandle.position);
+        for (const dvec3& place : places) {
+            least = std::min(least, glm::distance(at, place));
+        }
+    }
+    return least;
+}
+
+} // namespace
+
+HandPath openHandPath(const std::filesystem::path& file, const Scene& scene, bool poseless) {
+    constexpr double kUsualPath = 10.0;                   // [m] most
+    constexpr double kUsualPlace = 20.0, kMapPlace = 2e4; // [m] farther, the base frame is that of a map
     HandPath path(readHandCsv(file));
     dvec3 low(path.waypoints()[0].deviceThandle.position), high(low);
     for (const HandWaypoint& waypoint : path.waypoints()) {
         low = glm::min(low, waypoint.deviceThandle.position);
         high = glm::max(high, waypoint.deviceThandle.position);
     }
-    const dvec3 size = scale * (high - low);
-    warnIfLong(file.string() + ": the hand moves", std::max({size.x, size.y, size.z}), kUsualPath);
+    const dvec3 size = scene.hand.scale * (high - low);
+    const double length = std::max({size.x, size.y, size.z}), away = distanceOf(path, scene) - scene.farZ;
+    warnIfLong(file.string() + ": the hand moves", length, kUsualPath);
+    const bool placed = poseless || scene.source.kind == CameraSource::Kind::Simulated;
+    if (length <= kUsualPath && placed && away < kMapPlace) {
+        warnIfLong(file.string() + ": what the camera sees and the hand's way are apart by", away,
+                   kUsualPlace);
+    }
     return path;
 }
 

@@ -29,8 +29,9 @@ std::string axesOf(const std::string& preset);
 // it waits for.
 bool awaitHand(LiveHand& hand, const std::atomic<bool>& stop);
 
-// The path of a CSV file. Logs a warning when, scaled, it is so long that its unit may be the millimetre.
-// Throws BadInput.
-HandPath openHandPath(const std::filesystem::path& file, double scale);
+// The path of a CSV file. Logs a warning when, scaled, it is so long, or so far from everything in the scene,
+// that its unit may be the millimetre. poseless: no frame has a pose, so that the scene's place of the camera
+// holds. Throws BadInput.
+HandPath openHandPath(const std::filesystem::path& file, const Scene& scene, bool poseless);
 
 } // namespace fathom

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/operate/arming.h"
 
+#include "engine/cycle/haptic_notes.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

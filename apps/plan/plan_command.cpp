@@ -4,7 +4,7 @@
 #include "apps/binding/open_hand.h"
 #include "apps/binding/open_source.h"
 #include "engine/cycle/arm_text.h"
-#include "engine/cycle/haptic_options.h"
+#include "engine/cycle/haptic_notes.h"
 #include "engine/gpu/device.h"
 #include "engine/scene/dead_gates.h"
 #include "engine/types/read_file.h"
@@ -42,7 +42,7 @@ void runPlan(const PlanOptions& options, const GlobalOptions& global) {
     const auto arm = openArm(scene);
     const Tool tool = openTool(scene, arm.get());
     if (!scene.hand.builtIn && isRegularFile(scene.hand.path)) { // a live hand needs none
-        openHandPath(scene.hand.path, scene.hand.scale);
+        openHandPath(scene.hand.path, scene, camera->info().poseless);
     }
     const DeviceFacts facts = factsFor(scene, global);
     const Plan plan = makePlan(scene, camera->info(), static_cast<uint32_t>(tool.leafCount()), facts);

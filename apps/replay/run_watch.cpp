@@ -3,6 +3,7 @@
 
 #include "apps/binding/scene_edits.h"
 #include "engine/cloud/frame_params.h"
+#include "engine/cycle/haptic_notes.h"
 #include "engine/cycle/step_record.h"
 #include "engine/scene/dead_gates.h"
 
@@ -44,6 +45,17 @@ bool isGrey(std::span<const uint32_t> colour) {
     return !colour.empty();
 }
 
+uint32_t at(const std::vector<uint32_t>& list, size_t c) {
+    return c < list.size() ? list[c] : 0;
+}
+
+// Null if the class has none in this set.
+const GuidancePose* poseOf(const Fixtures& set, size_t row) {
+    const auto found = std::find_if(set.guidance.begin(), set.guidance.end(),
+                                    [&](const GuidancePose& pose) { return pose.fixture == row; });
+    return found == set.guidance.end() ? nullptr : &*found;
+}
+
 // Why the frame has no depth between near and far.
 std::string depthCause(const Fixtures& set, double nearZ, double farZ) {
     uint16_t least = UINT16_MAX, most = 0;
@@ -62,13 +74,21 @@ std::string depthCause(const Fixtures& set, double nearZ, double farZ) {
 
 } // namespace
 
-std::string RunWatch::causeOf(const FixtureClass& f, uint32_t marked, uint32_t valid, const Fixtures& set,
+std::string RunWatch::causeOf(const ClassState& state, uint32_t marked, uint32_t valid, const Fixtures& set,
                               std::span<const uint32_t> colour) const {
+    const FixtureClass& f = fixtures_[state.row];
     if (valid == 0) {
         return depthCause(set, nearZ_, farZ_);
     }
     if (marked > 0 && f.role == Role::Guidance) {
-        return std::to_string(marked) + " points, min_count is " + std::to_string(f.minCount);
+        const GuidancePose* const pose = poseOf(set, state.row);
+        const std::string left =
+            marked >= f.minCount && pose != nullptr
+                ? ", of which the filter" +
+                      std::string(f.largestPart ? " and largest_part leave " : " leaves ") +
+                      std::to_string(pose->count) + "; min_count is "
+                : ", min_count is ";
+        return std::to_string(marked) + " points" + left + std::to_string(f.minCount);
     }
     if (marked > 0) {
         return "the filter rejects all its points as flying or isolated";
@@ -95,11 +115,8 @@ RunWatch::RunWatch(const Scene& scene, const RunSource& source)
     for (const std::string& dead : deadGates(scene, source.camera)) {
         warnings_.add(dead, dead);
     }
-    if (scene.haptics.forceLimit == 0.0) {
-        warnings_.add("force limit", kNoForce);
-    }
-    if (const std::string doubt = stiffnessDoubt(scene, kUnstableTimes); !doubt.empty()) {
-        warnings_.add("stiffness", doubt);
+    for (const std::string& line : forceWarnings(scene)) {
+        warnings_.add(line, line);
     }
 }
 
@@ -113,18 +130,30 @@ void RunWatch::setFixtures(const std::vector<FixtureClass>& fixtures) {
     fixtures_ = fixtures;
 }
 
+// Pixels of forbidden classes that others of them have too, counted once more for each.
+uint32_t RunWatch::sharedPixels(const cloud::FrameCounts& counts) const {
+    uint32_t all = 0;
+    for (size_t c = 0; c < classes_.size(); ++c) {
+        all += fixtures_[classes_[c].row].role == Role::Forbidden ? at(counts.classPixels, c) : 0;
+    }
+    return all - std::min(all, counts.forbidden);
+}
+
 void RunWatch::frame(double t, const cloud::FrameCounts& counts, const Fixtures& set,
                      std::span<const uint32_t> colour) {
     watchRate(t);
     rate_.framed = true;
-    const auto at = [](const std::vector<uint32_t>& list, size_t c) {
-        return c < list.size() ? list[c] : 0u;
-    };
+    const uint32_t shared = sharedPixels(counts);
     for (size_t c = 0; c < classes_.size(); ++c) {
         ClassState& state = classes_[c];
         const FixtureClass& f = fixtures_[state.row];
         const uint32_t marked = at(counts.classPixels, c);
-        const bool some = f.role == Role::Guidance ? marked >= f.minCount : marked > 0 && counts.spheres > 0;
+        const GuidancePose* const pose = poseOf(set, state.row);
+        // A class whose pixels all belong to another one has its spheres there.
+        const bool rejected = counts.spheres == 0 || (c < counts.classSpheres.size() &&
+                                                      counts.classSpheres[c] == 0 && shared < marked);
+        const bool some = f.role == Role::Guidance ? (pose != nullptr ? pose->present : marked >= f.minCount)
+                                                   : marked > 0 && !rejected;
         if (some || isSpare(f) || f.frozen) {
             state.none.reset();
             state.cause.clear();
@@ -133,7 +162,7 @@ void RunWatch::frame(double t, const cloud::FrameCounts& counts, const Fixtures&
         }
         state.none = state.none.value_or(t);
         if (state.cause.empty() || t - *state.none >= kPatience) {
-            state.cause = causeOf(f, marked, counts.valid, set, colour);
+            state.cause = causeOf(state, marked, counts.valid, set, colour);
         }
         if (t - *state.none >= kPatience) {
             warnClass(state, print("from %.2f s on for %.0f s", *state.none, kPatience));

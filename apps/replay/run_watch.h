@@ -26,7 +26,7 @@ class RunWatch {
 public:
     static constexpr double kPatience = 1.0; // [s] that a class may have no point, or a state give no force
 
-    // Adds the gates of the scene that no point can pass, and a force limit of 0.
+    // Adds the gates of the scene that no point can pass, and settings without a force that a hand feels.
     RunWatch(const Scene& scene, const RunSource& source);
 
     // The fixtures after an edit, for the frames from now on. The classes of points have kept their rows.
@@ -61,8 +61,9 @@ private:
         bool framed = false;
     };
     // Why the class has no point in the frame of this set.
-    std::string causeOf(const FixtureClass& f, uint32_t marked, uint32_t valid, const Fixtures& set,
+    std::string causeOf(const ClassState& state, uint32_t marked, uint32_t valid, const Fixtures& set,
                         std::span<const uint32_t> colour) const;
+    uint32_t sharedPixels(const cloud::FrameCounts& counts) const;
     void warnClass(const ClassState& state, const std::string& since);
     void warnState(double seconds);
     void warnVanished(double t);

@@ -186,10 +186,10 @@ ArmPosture Session::awaitArm(const std::atomic<bool>& stop) {
 
 HandPath Session::path() {
     if (!options.operatorCsv.empty()) {
-        return openHandPath(options.operatorCsv, scene.hand.scale);
+        return openHandPath(options.operatorCsv, scene, camera->info().poseless);
     }
     if (!scene.hand.builtIn) {
-        return openHandPath(scene.hand.path, scene.hand.scale);
+        return openHandPath(scene.hand.path, scene, camera->info().poseless);
     }
     if (approach_.empty()) {
         const auto first = cycles.frames().sets().newest();

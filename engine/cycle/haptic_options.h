@@ -9,9 +9,6 @@
 #include "engine/scene/scene.h"
 #include "engine/types/haptic_device.h"
 
-#include <string>
-#include <vector>
-
 namespace fathom {
 
 struct HapticOptions {
@@ -36,22 +33,11 @@ struct HapticOptions {
     uint32_t deviceDelayTicks = 0; // ticks from write() to the hand; coupling.delayTicks includes them
 };
 
-// Why forces cannot come on when HapticOptions::forceLimit is 0.
-inline constexpr const char* kNoForce = "the force limit is 0: set haptics.limits.force or choose a pilot";
-
-// One line where the stiffness of the scene is more than `times` the largest that every passive hand is stable
-// with (coupling.h); empty otherwise.
-std::string stiffnessDoubt(const Scene& scene, double times = 1.0);
-
-// Runs warn from this multiple on: below it, the damping of a held device is usually enough.
-inline constexpr double kUnstableTimes = 2.0;
+// The options that do not depend on the tool. Throws BadInput as makeHapticOptions().
+HapticOptions handOptions(const Scene& scene);
 
 // Throws BadInput (unknown device; damping that leaves automatic stiffness nothing) or Error (springs
 // impossible).
 HapticOptions makeHapticOptions(const Scene& scene, const Tool& tool);
-
-// One line each for what the scene asks and does not get: limits or stiffness above the device's, a force
-// limit of 0, a stiffness over the passive bound, and hand speeds that its settings cannot follow. Throws BadInput as makeHapticOptions().
-std::vector<std::string> hapticNotes(const Scene& scene);
 
 } // namespace fathom

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/front/core.h"
 
+#include "engine/cycle/haptic_notes.h"
 #include "engine/run/open_scene.h"
 #include "engine/scene/dead_gates.h"
 #include "engine/types/decimation.h"
@@ -70,8 +71,8 @@ ComputeSide::ComputeSide(const HapticSide& side, const CameraInfo& camera, const
     for (const std::string& dead : deadGates(haptic.scene, camera)) {
         log::warn("{}", dead);
     }
-    if (const std::string doubt = stiffnessDoubt(haptic.scene, kUnstableTimes); !doubt.empty()) {
-        log::warn("{}", doubt);
+    for (const std::string& line : forceWarnings(haptic.scene)) {
+        log::warn("{}", line);
     }
     if (haptic.arm) {
         setArm(haptic.arm->startPosture());

@@ -7,8 +7,8 @@
 
 namespace fathom {
 
-// Throws BadInput for files that belong to a robot, describe one in another form, or are no XML: says what the
-// file is and what to give instead.
+// Throws BadInput for files that belong to a robot, describe one in another form, or are no XML: says what
+// the file is and what to give instead.
 void refuseOtherKinds(const std::filesystem::path& file, const std::string& text);
 
 } // namespace fathom

@@ -2,7 +2,7 @@
 // Warnings about protection that is silently off.
 #include "apps/replay/run_watch.h"
 
-#include "engine/cycle/haptic_options.h"
+#include "engine/cycle/haptic_notes.h"
 
 #include <doctest/doctest.h>
 

@@ -73,6 +73,11 @@ TEST_CASE("A tool, a hand path and an arm as large as in millimetres are questio
     CHECK(asksForUnit(runFathom(stage.command()).err, "hand.csv: the hand moves 100 m"));
     scene.hand = "path: hand.csv, map: {scale: 0.001}";
     CHECK(planWarnings(stage, scene) == "");
+    scene.hand = "path: hand.csv";
+    stage.hand({{0.0, {0.0, 0.0, 487.6}}, {1.0, {0.0, 0.0, 496.6}}});
+    CHECK(asksForUnit(planWarnings(stage, scene), "hand.csv: what the camera sees and the hand's way are apart by 484"));
+    stage.hand({{0.0, {0.0, 0.0, 8.0}}, {1.0, {0.0, 0.0, 9.0}}});
+    CHECK(planWarnings(stage, scene) == "");
     stage.write("arm.urdf", twoLinks("0 0 25", "<sphere radius='0.05'/>"));
     scene.more = "arm: {urdf: arm.urdf}\n";
     CHECK(asksForUnit(planWarnings(stage, scene), "arm.urdf: the arm reaches 25"));

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a scene asks of the hand and does not get, in lines for the user.
+#pragma once
+
+#include "engine/scene/scene.h"
+
+#include <string>
+#include <vector>
+
+namespace fathom {
+
+// Why forces cannot come on when HapticOptions::forceLimit is 0.
+inline constexpr const char* kNoForce = "the force limit is 0: set haptics.limits.force or choose a pilot";
+
+// One line each for what leaves the hand without a force that it can feel: force limit, slew limit,
+// stiffness, and a stiffness that leaves guidance `paper` no spring; and for one of more than twice the
+// passive bound. For the warnings of a run. Throws BadInput as makeHapticOptions().
+std::vector<std::string> forceWarnings(const Scene& scene);
+
+// These, also of the other pilots; limits or stiffness above the device's, a stiffness over the passive
+// bound, torques that no hand feels, and hand speeds that the settings cannot follow. Throws BadInput as
+// makeHapticOptions().
+std::vector<std::string> hapticNotes(const Scene& scene);
+
+} // namespace fathom
