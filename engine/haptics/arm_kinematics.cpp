@@ -138,8 +138,9 @@ bool ArmKinematics::beginLinearisation(ProxyRows& rows, ArmStep& out) noexcept {
     const Pose tip = pose();
     // The path to a far target is curved: request only what one solve can reach, or a stretched arm
     // oscillates.
-    Motion left = remaining(tip, target_);
-    left = std::min(1.0, kFarthestAim * options_.stepCap / lengthOf(left, metricRadius_)) * left;
+    const Motion whole = remaining(tip, target_);
+    const Motion left =
+        std::min(1.0, kFarthestAim * options_.stepCap / lengthOf(whole, metricRadius_)) * whole;
     normal_ = ArmNormal(free_.size());
     for (size_t k = 0; k < arm_.count(); ++k) {
         normal_.addColumn(column_[k], gain_[k] * arm_.motionOf(now_.frames, k, tip.position),
@@ -157,7 +158,7 @@ bool ArmKinematics::beginLinearisation(ProxyRows& rows, ArmStep& out) noexcept {
     normal_.damp(dampingFor(smallest, options_.singularBelow, options_.damping, options_.singularDamping));
     normal_.solve(left.a, metricRadius_ * left.alpha, wanted_);
     nudged_ = smallest < options_.singularBelow &&
-              release_.nudge(normal_, {left, metricRadius_, now_.posture.q, now_.frames}, wanted_);
+              release_.nudge(normal_, {left, whole, metricRadius_, now_.posture.q, now_.frames}, wanted_);
     rows.setMetric(normal_.metric());
     return true;
 }

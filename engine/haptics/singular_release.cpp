@@ -14,6 +14,9 @@ constexpr double kNudge = 1e-3;     // [rad], [m] length of a step
 constexpr double kMinPull = 1e-5;   // [m] errors below are left alone
 constexpr double kStuck = 0.01;     // of the error's square: a solve that removes less is stuck
 constexpr double kMinRadius = 0.01; // [m] radius of curvature of the tip's path that is worth a step
+// The same for a turn. At an offset wrist one joint turns another's axis towards the error, and that joint
+// then removes it: the squared error falls with the square of the error itself.
+constexpr double kMinTurn = 0.05; // [1 / rad^2]
 
 } // namespace
 
@@ -65,8 +68,8 @@ double SingularRelease::curvature(const Pull& pull, size_t i, size_t j) const no
     }
     const dvec3 first = arm_.axisOf(pull.frames, i), second = arm_.axisOf(pull.frames, j);
     const dvec3 bend = glm::cross(first, arm_.motionOf(pull.frames, j, arm_.tip(pull.frames).position));
-    const double turn = arm_.joints[j].slides ? 0.0 : glm::dot(pull.left.alpha, glm::cross(first, second));
-    return glm::dot(pull.left.a, bend) + 0.5 * pull.metricRadius * pull.metricRadius * turn;
+    const double turn = arm_.joints[j].slides ? 0.0 : glm::dot(pull.whole.alpha, glm::cross(first, second));
+    return glm::dot(pull.whole.a, bend) + 0.5 * pull.metricRadius * pull.metricRadius * turn;
 }
 
 bool SingularRelease::fits(const JointVector& step, const JointVector& q) const noexcept {
@@ -158,12 +161,15 @@ bool SingularRelease::nudge(const ArmNormal& normal, const Pull& pull, JointVect
     if (pause_ > 0 || left < kMinPull || gain > kStuck * left * left) {
         return false;
     }
+    // The shortened error would hide the fall at a saddle whose joints first move only each other.
+    const double whole = lengthOf(pull.whole, pull.metricRadius);
     const Descent found = descent(normal, pull);
     double slope = 0.0;
     for (size_t u = 0; u < unknowns_; ++u) {
-        slope += found.way[u] * gradient[u];
+        slope += found.way[u] * gradient[u] * whole / left;
     }
-    if (found.fall < kMinRadius * left || std::abs(slope) > found.fall * kNudge) {
+    if (found.fall < std::min(kMinRadius, kMinTurn * whole) * whole ||
+        std::abs(slope) > found.fall * kNudge) {
         return false; // a minimum, or already on the way down
     }
     return take(found.way, pull, wanted);

@@ -26,8 +26,9 @@ public:
     // from, a flip.
     bool begin(bool singular, const JointVector& q) noexcept;
 
-    struct Pull { // the error of the tip as the solver sees it, and the posture
-        Motion left;
+    struct Pull {    // the error of the tip, and the posture
+        Motion left; // what this solve is asked for: the whole error, shortened
+        Motion whole;
         double metricRadius;
         const JointVector& q;
         const ArmFrames& frames;

@@ -51,20 +51,34 @@ ArmModel sixJoints() {
                  {0, 0.1, 0}, kPi);
 }
 
+// The proportions of a UR5 whose last axis but one is offset from the neighbouring ones, which are parallel
+// where it is at 0.
+ArmModel offsetWrist() {
+    return armOf({{{0, 0, 0.089}, {0, 0, 1}, 6.2},
+                  {{0, 0.136, 0}, {0, 1, 0}, 6.2},
+                  {{0, -0.12, 0.425}, {0, 1, 0}, 6.2},
+                  {{0, 0, 0.392}, {0, 1, 0}, 6.2},
+                  {{0, 0.093, 0}, {0, 0, 1}, 6.2},
+                  {{0, 0, 0.0947}, {0, 1, 0}, 6.2}},
+                 {0, 0.0823, 0}, kPi);
+}
+
 struct Result {
     double residual = 0.0;
     int flips = 0;
     JointVector q{};
 };
 
-// Moves the hand from where the tip is by `by` within `seconds`, then holds it for `hold`.
-Result pull(ArmProxy& proxy, const dvec3& by, double metricRadius, double seconds, double hold) {
+// Moves the hand from where the tip is by `by` within `seconds`, and turns it by `angle`, then holds it for
+// `hold`.
+Result pull(ArmProxy& proxy, const dvec3& by, double metricRadius, double seconds, double hold,
+            double angle = 0.0, const dvec3& about = {0, 0, 1}) {
     const Pose from = proxy.tip();
     Result result;
     const int moving = static_cast<int>(1000.0 * seconds), all = moving + static_cast<int>(1000.0 * hold);
     for (int i = 1; i <= all; ++i) {
-        Pose target = from;
-        target.position += std::min(1.0, static_cast<double>(i) / moving) * by;
+        const double part = std::min(1.0, static_cast<double>(i) / moving);
+        const Pose target{from.position + part * by, glm::angleAxis(part * angle, about) * from.rotation};
         const ArmStep step = proxy.step(target, metricRadius, nullptr);
         result.flips += step.flipped ? 1 : 0;
         result.residual = step.residual;
@@ -158,4 +172,25 @@ TEST_CASE(
     }
     CHECK(proxy.tip().position.x == doctest::Approx(0.4).epsilon(0.02));
     CHECK(proxy.tip().position.y == doctest::Approx(0.05).epsilon(0.02));
+}
+
+TEST_CASE("Wrists with and without an offset leave the posture with two parallel axes when the hand turns") {
+    ArmProxyOptions options;
+    options.period = 0.005; // 0.3 s of pull() are 1.5 s
+    const JointVector start{0.0, 0.37, 1.6, kPi - 0.37 - 1.6};
+    for (const double offset : {0.0947, 0.0}) {
+        ArmModel arm = offsetWrist();
+        arm.joints[5].before.position.z = offset;
+        for (const double radius : {0.05, 0.0823}) {
+            for (const double degrees : {10.0, 25.0, 60.0, 100.0, -60.0}) {
+                CAPTURE(offset);
+                CAPTURE(radius);
+                CAPTURE(degrees);
+                ArmProxy proxy(arm, Pose{}, options, start);
+                const Result result = pull(proxy, {}, radius, 0.3, 0.4, degrees * kPi / 180.0, {1, 0, 0});
+                CHECK(result.residual < 1e-5);
+                CHECK(std::abs(result.q[4]) > 0.01);
+            }
+        }
+    }
 }
