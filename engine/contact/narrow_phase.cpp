@@ -21,7 +21,8 @@ constexpr uint64_t kSmoothKey = uint64_t{1} << 63; // set in keys of smooth rows
 } // namespace
 
 NarrowPhase::NarrowPhase(const Tool& tool, size_t maxRows, double cone, bool smooth)
-    : maxRows_(maxRows)
+    : leftOut_(tool.leafCount())
+    , maxRows_(maxRows)
     , cosCone_(std::cos(cone))
     , rows_(tool.leafCount() * kMaxRowsOfLeaf)
     , smooth_(smooth)
@@ -73,7 +74,7 @@ uint32_t NarrowPhase::listedUpTo(const ContactSet& set, uint32_t leaf, double li
 void NarrowPhase::search(const ContactSet& set, double limit) noexcept {
     runs_.clear(leaves_);
     for (uint32_t leaf = 0; leaf < leaves_.size(); ++leaf) {
-        if (set.pairBegin[leaf] != set.pairBegin[leaf + 1]) { // most leaves: no band is read
+        if (counts(set, leaf)) { // else no band is read
             searchLeaf(set, leaf, limit);
         }
     }

@@ -39,6 +39,9 @@ public:
     void gather(const ContactSet& set, const LeafCentres& leaves, const dvec3& toolCentre, double rowLimit,
                 double checkLimit, bool anew) noexcept;
 
+    // Pairs of this leaf count for nothing from now on: no row, no violation, no smallest gap.
+    void leaveOut(size_t leaf) noexcept { leftOut_[leaf] = 1; }
+
     std::span<const ContactRow> rows() const { return {rows_.data(), rowCount_}; }
     // Planes over the spheres near the leaves that almost touch (smooth_plane.h), for at most kMaxSmooth
     // leaves. `gap` is at most that of the leaf's nearest pair and may be negative where that is not; `pair`
@@ -102,7 +105,12 @@ private:
     void deepen(Deepest& deepest, uint32_t leaf, const PairArrays& run, uint32_t firstPair,
                 const uint32_t* pairs, const dvec3& next, const dvec3& exempt) noexcept;
 
+    bool counts(const ContactSet& set, uint32_t leaf) const noexcept { // most leaves have no pairs
+        return set.pairBegin[leaf] != set.pairBegin[leaf + 1] && leftOut_[leaf] == 0;
+    }
+
     std::vector<double> radius_; // of the leaves
+    std::vector<uint8_t> leftOut_;
     size_t maxRows_;
     double cosCone_;
     std::vector<ContactRow> rows_;

@@ -24,7 +24,9 @@ size_t NarrowPhase::check(const ContactSet& set, const LeafCentres& next, std::s
         return count;
     }
     for (uint32_t leaf = 0; leaf < leaves_.size(); ++leaf) {
-        report(leaf, deepestListed(set, leaf, next[leaf], exempt[leaf]));
+        if (counts(set, leaf)) {
+            report(leaf, deepestListed(set, leaf, next[leaf], exempt[leaf]));
+        }
     }
     return count;
 }
@@ -77,7 +79,7 @@ double NarrowPhase::smallestGapAt(const ContactSet& set, const LeafCentres& leav
     // Band 0 of every leaf first: it usually lowers the bound so much that few other pairs are read.
     for (const bool first : {true, false}) {
         for (uint32_t leaf = 0; leaf < leaves.size(); ++leaf) {
-            if (set.pairBegin[leaf] == set.pairBegin[leaf + 1]) {
+            if (!counts(set, leaf)) {
                 continue;
             }
             const double moved = glm::distance(leaves[leaf], set.leafAtQuery[leaf]);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/cycle/arm_setup.h"
 
+#include "engine/cycle/arm_notes.h"
 #include "engine/model/arm_mimic.h"
 #include "engine/model/arm_warnings.h"
 #include "engine/types/error.h"
@@ -41,6 +42,9 @@ public:
         applyJoints();
         checkFingers();
         checkReach();
+        for (const std::string& line : shapeNotes(scene_, *armSetup_)) {
+            note(line);
+        }
         return std::move(armSetup_);
     }
 

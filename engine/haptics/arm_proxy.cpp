@@ -42,6 +42,11 @@ ArmProxy::ArmProxy(const ArmModel& arm, const Pose& baseTarm, const ArmProxyOpti
     : ConstrainedProxy(toolAtZero(arm, baseTarm), shapes, options, ArmKinematics(arm, baseTarm, options))
     , hasFingers_(!arm.fingers.empty())
     , graspPerTick_(options.graspPerTick) {
+    for (size_t i = 0; i < arm.leaves.size(); ++i) {
+        if (!arm.moves(i)) {
+            contacts_.leaveOut(i);
+        }
+    }
     setPosture({start, 0.0});
 }
 

@@ -34,7 +34,10 @@ public:
 
     // Sets the posture without a collision check, clamped to the joint limits. Joints whose value is not
     // finite keep their position. The active set may no longer cover the posture: check with covers().
-    void setPosture(const ArmPosture& posture) noexcept { kinematics_.setPosture(posture); }
+    void setPosture(const ArmPosture& posture) noexcept {
+        kinematics_.setPosture(posture);
+        chooseHeld();
+    }
 
     const JointVector& joints() const { return posture().q; }
     const ArmPosture& posture() const { return kinematics_.posture(); }

@@ -34,8 +34,12 @@ public:
         return TrustRegion::covers(contacts, contacts_.leaves.now);
     }
     // Replaces the shapes from the next tick on, at most kMaxShapes. A shape that now overlaps a leaf pushes
-    // it out gradually, like new data.
-    void setShapes(std::span<const Shape> shapes) noexcept { contacts_.setShapes(shapes); }
+    // it out gradually, like new data; a keep_in shape holds only those leaves of an
+    // arm that are inside now, or that it held before.
+    void setShapes(std::span<const Shape> shapes) noexcept {
+        contacts_.setShapes(shapes);
+        chooseHeld();
+    }
     std::span<const Shape> shapes() const noexcept { return contacts_.shapes(); }
     static constexpr size_t kMaxShapes = LeafContacts::kMaxShapes;
 
@@ -51,6 +55,13 @@ protected:
         , rows_(kinematics_.unknowns(), options.rows)
         , nearShapes_(leaves.leafCount(), std::max(kMaxShapes, shapes.size())) {}
 
+    // Which leaves the keep_in shapes hold, by where they are now. All leaves of a free tool.
+    void chooseHeld() noexcept {
+        if constexpr (Kinematics::kHoldsWhatIsInside) {
+            kinematics_.place(contacts_.leaves);
+            contacts_.chooseHeld();
+        }
+    }
     // One tick: begin(), then finish() if begin() returned true (the set is usable), then report().
     bool begin(const ProxyInput& input) noexcept;
     void finish(const ProxyInput& input, Step& out) noexcept;

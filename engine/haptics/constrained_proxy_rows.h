@@ -60,6 +60,9 @@ void ConstrainedProxy<Kinematics>::findNearShapes() noexcept {
             continue; // no leaf is nearer than the sphere around all
         }
         for (uint32_t leaf = 0; leaf < contacts_.leafCount(); ++leaf) {
+            if (!contacts_.holds(s, leaf)) {
+                continue;
+            }
             const double gap =
                 gapTo(shape, kinematics_.leafNow(leaf, contacts_.leaves), contacts_.radius(leaf)).gap;
             if (gap <= reach) {

@@ -18,6 +18,7 @@ LeafContacts::LeafContacts(const Tool& tool, std::span<const Shape> shapes, doub
                            const RowReduction& reduction)
     : leaves{LeafCentres(tool.leafCount()), LeafCentres(tool.leafCount())}
     , shapes_(shapes.begin(), shapes.end())
+    , held_(tool.leafCount(), std::max(kMaxShapes, shapes.size()))
     // Larger than the cap by rounding only: the check must include every pair that one step can reach.
     , checkLimit_(stepCap * (1.0 + 1e-6) + proxy::kSkin)
     , narrow_(tool, proxy::kMaxPairRows, reduction.cone, reduction.smooth)
@@ -36,6 +37,11 @@ LeafContacts::LeafContacts(const Tool& tool, std::span<const Shape> shapes, doub
 void LeafContacts::setShapes(std::span<const Shape> shapes) noexcept {
     const size_t count = std::min(shapes.size(), shapes_.capacity());
     shapes_.assign(shapes.begin(), shapes.begin() + static_cast<std::ptrdiff_t>(count));
+}
+
+void LeafContacts::leaveOut(size_t leaf) noexcept {
+    held_.leaveOut(leaf);
+    narrow_.leaveOut(leaf);
 }
 
 bool LeafContacts::use(const ContactSet* set, const dvec3& origin) noexcept {
@@ -62,7 +68,7 @@ void LeafContacts::flagBehind() noexcept {
     for (const ContactSet::Behind& flag : set_->behind) {
         const dvec3 since = leaves.now[flag.leaf] - set_->leafAtQuery[flag.leaf];
         const double left = flag.clearance - glm::dot(since, flag.towardsCamera);
-        if (left > 0.0) {
+        if (left > 0.0 && !held_.leftOut(flag.leaf)) {
             exempt_[flag.leaf] = flag.towardsCamera;
             clearance_[flag.leaf] = left;
         }

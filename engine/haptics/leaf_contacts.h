@@ -6,6 +6,7 @@
 #include "engine/contact/contact_set.h"
 #include "engine/contact/narrow_phase.h"
 #include "engine/contact/shapes.h"
+#include "engine/haptics/held_leaves.h"
 #include "engine/haptics/proxy_rows.h"
 #include "engine/haptics/tool_motion.h"
 
@@ -60,6 +61,12 @@ public:
 
     void setShapes(std::span<const Shape> shapes) noexcept;
     std::span<const Shape> shapes() const noexcept { return shapes_; }
+    // Nothing moves this leaf: regions and shapes do not count for it.
+    void leaveOut(size_t leaf) noexcept;
+    // Chooses the leaves that keep_in shapes hold; those at `now` that are outside are not. Without this call
+    // they hold all.
+    void chooseHeld() noexcept { held_.choose(shapes_, leaves.now, leaves.origin, radius_); }
+    bool holds(size_t shape, size_t leaf) const noexcept { return held_.holds(shape, leaf); }
     double radius(size_t leaf) const noexcept { return radius_[leaf]; }
     size_t leafCount() const noexcept { return radius_.size(); }
 
@@ -70,6 +77,7 @@ private:
 
     std::vector<double> radius_; // [m] per leaf
     std::vector<Shape> shapes_;
+    HeldLeaves held_;
     double rowLimit_, checkLimit_; // [m] largest gap of rows, and of pairs that one step can reach
     NarrowPhase narrow_;
     TrustRegion trust_;

@@ -113,6 +113,8 @@ concept ProxyKinematics = KinematicsPlaces<K> && KinematicsRows<K> && Kinematics
     { answer.stalled } -> std::same_as<bool&>;
     // After the last tightening: solve once more, and bisect that answer.
     { K::kSolvesLastRound } -> std::convertible_to<bool>;
+    // A keep_in shape holds only the leaves that are inside when it is placed.
+    { K::kHoldsWhatIsInside } -> std::convertible_to<bool>;
 };
 
 } // namespace fathom

@@ -5,6 +5,9 @@ namespace fathom {
 
 namespace {
 
+constexpr double kAnyPosture = 0.731; // [rad], [m]
+constexpr double kStays = 1e-6;       // [m / rad] slower points stay where they are
+
 Pose movedBy(const dvec3& axis, bool slides, double q) {
     return slides ? Pose{q * axis, {1.0, 0.0, 0.0, 0.0}} : Pose{dvec3(0.0), rotationExp(q * axis)};
 }
@@ -30,6 +33,33 @@ void ArmModel::place(const JointVector& q, const Pose& worldTbase, ArmFrames& fr
         const Pose& carrier = frames[finger.carrier == 0 ? finger.joint : kMaxJoints + finger.carrier];
         frames[kMaxJoints + 1 + f] = carrier * finger.before * movedBy(finger.axis, finger.slides, at);
     }
+}
+
+bool ArmModel::moves(size_t leaf) const noexcept {
+    JointVector q{}; // a posture of no symmetry: what is on an axis there is on it everywhere
+    for (size_t k = 0; k < count(); ++k) {
+        q[k] = kAnyPosture * (1.0 + 0.37 * static_cast<double>(k));
+    }
+    ArmFrames frames;
+    place(q, Pose{}, frames, 0.5 * kAnyPosture);
+    const dvec3 at = centre(frames, leaf);
+    const auto displaces = [&](size_t k, const dvec3& motion) {
+        const ArmJoint& joint = joints[joints[k].mimic ? joints[k].mimic->joint : k];
+        return joint.lower < joint.upper && glm::length(motion) > kStays;
+    };
+    for (size_t k = 0; k < leaves[leaf].joint; ++k) {
+        if (displaces(k, motionOf(frames, k, at))) {
+            return true;
+        }
+    }
+    for (uint32_t f = leaves[leaf].finger; f > 0; f = fingers[f - 1].carrier) {
+        const dvec3 motion = motionOfFinger(frames, f - 1, at);
+        const auto& mimic = fingers[f - 1].mimic;
+        if (mimic ? displaces(mimic->joint, motion) : glm::length(motion) > kStays) {
+            return true;
+        }
+    }
+    return false;
 }
 
 void ArmModel::follow(JointVector& q) const noexcept {

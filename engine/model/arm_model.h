@@ -101,6 +101,8 @@ public:
         return frames[frameOf(leaf)].apply(leaves[leaf].sphere.centre);
     }
     // Velocity of a point carried by joint `k`: d point / d q_k [m/rad] or [1]. axis: direction of the joint.
+    // Some finger, or joint with a range, displaces the leaf's centre: it is not only turned about itself.
+    bool moves(size_t leaf) const noexcept;
     // Mimic joints that follow k are not included.
     dvec3 motionOf(const ArmFrames& frames, size_t k, const dvec3& point) const noexcept;
     dvec3 motionOfFinger(const ArmFrames& frames, size_t f, const dvec3& point) const noexcept;

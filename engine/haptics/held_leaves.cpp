@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/haptics/held_leaves.h"
+
+#include <algorithm>
+
+namespace fathom {
+
+namespace {
+
+constexpr double kOutside = 1e-6; // [m] depth that counts as outside
+
+} // namespace
+
+bool isOutside(const Shape& shape, const dvec3& centre, double radius) noexcept {
+    return shape.keepIn && !shape.isEquality() && gapTo(shape, centre, radius).gap < -kOutside;
+}
+
+HeldLeaves::HeldLeaves(size_t leaves, size_t shapes)
+    : leftOut_(leaves)
+    , free_(leaves * shapes)
+    , before_(leaves * shapes) {
+    placed_.reserve(shapes);
+}
+
+void HeldLeaves::choose(std::span<const Shape> shapes, const LeafCentres& centres, const dvec3& origin,
+                        std::span<const double> radius) noexcept {
+    const size_t leaves = leftOut_.size(), count = std::min(shapes.size(), placed_.capacity());
+    free_.swap(before_);
+    for (size_t s = 0; s < count; ++s) {
+        const size_t was = indexBefore(shapes[s], s);
+        for (size_t leaf = 0; leaf < leaves; ++leaf) {
+            const bool held = was < placed_.size() && before_[was * leaves + leaf] == 0;
+            const bool outside = !held && isOutside(shapes[s], centres[leaf] + origin, radius[leaf]);
+            free_[s * leaves + leaf] = outside ? 1 : 0;
+        }
+    }
+    placed_.assign(shapes.begin(), shapes.begin() + static_cast<std::ptrdiff_t>(count));
+}
+
+// The shape of the same fixture at the last choice; placed_.size() = none. Other shapes may have come or gone
+// before it.
+size_t HeldLeaves::indexBefore(const Shape& shape, size_t index) const noexcept {
+    const auto same = [&](const Shape& other) {
+        return other.keepIn && other.kind == shape.kind && other.fixture == shape.fixture;
+    };
+    if (index < placed_.size() && same(placed_[index])) {
+        return index;
+    }
+    return static_cast<size_t>(std::find_if(placed_.begin(), placed_.end(), same) - placed_.begin());
+}
+
+} // namespace fathom
