@@ -6,6 +6,8 @@
 #include "engine/types/joined.h"
 
 #include <algorithm>
+#include <cmath>
+#include <sstream>
 
 namespace fathom {
 
@@ -89,6 +91,19 @@ std::vector<std::string> shapeNotes(const Scene& scene, const ArmSetup& setup) {
         }
     }
     return notes;
+}
+
+GraspTime graspTimeOf(const ArmModel& model) {
+    GraspTime slowest;
+    for (const ArmFinger& finger : model.fingers) {
+        const double seconds = finger.mimic ? 0.0 : std::abs(finger.closed - finger.open) / finger.speed;
+        if (seconds > slowest.seconds) {
+            std::ostringstream speed;
+            speed << finger.speed << (finger.slides ? " m/s" : " rad/s");
+            slowest = {seconds, finger.name, speed.str()};
+        }
+    }
+    return slowest;
 }
 
 } // namespace fathom

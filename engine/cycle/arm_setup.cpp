@@ -38,7 +38,7 @@ public:
         armSetup_->proxy.stepCap = scene_.haptics.stepCap;
         armSetup_->proxy.solves = scene_.haptics.solves;
         armSetup_->proxy.period = 1.0 / scene_.haptics.rateHz;
-        armSetup_->proxy.graspPerTick = armSetup_->proxy.period / arm_.grasp.seconds;
+        setGraspTime();
         applyJoints();
         checkFingers();
         checkReach();
@@ -76,6 +76,15 @@ private:
             refuse("tip", armSetup_->model.tipText,
                    "a link with a moving joint between it and arm.base, here " + armSetup_->model.baseText);
         }
+    }
+
+    void setGraspTime() {
+        const GraspTime least = graspTimeOf(armSetup_->model);
+        if (least.seconds > arm_.grasp.seconds * (1.0 + 1e-9)) {
+            note("finger " + least.finger + ": " + least.speed + " of the file make the grasp take " +
+                 text(least.seconds) + " s instead of " + text(arm_.grasp.seconds) + " s");
+        }
+        armSetup_->proxy.graspPerTick = armSetup_->proxy.period / std::max(arm_.grasp.seconds, least.seconds);
     }
 
     void addTool(std::span<const Sphere> toolLeaves) {

@@ -63,6 +63,13 @@ public:
             joint.limitsFrom = "mimic joint " + name;
         }
     }
+    void slow(const std::string& name, const ArmMimic& mimic, double speed) {
+        ArmJoint& joint = model_.joints[mimic.joint];
+        if (speed / std::abs(mimic.multiplier) < joint.speed) {
+            joint.speed = speed / std::abs(mimic.multiplier);
+            joint.speedFrom = "mimic joint " + name;
+        }
+    }
     std::vector<std::string> takeNotes() { return std::move(notes_); }
 
 private:
@@ -86,17 +93,15 @@ std::vector<std::string> narrowByMimics(ArmModel& model) {
     for (const ArmJoint& joint : model.joints) {
         if (joint.mimic) {
             narrower.add(joint.name, *joint.mimic, joint.lower, joint.upper);
-            ArmJoint& followed = model.joints[joint.mimic->joint];
-            const double speed = joint.speed / std::abs(joint.mimic->multiplier);
-            if (joint.speedFrom != kNoSpeed && speed < followed.speed) {
-                followed.speed = speed;
-                followed.speedFrom = "mimic joint " + joint.name;
+            if (joint.speedFrom != kNoSpeed) {
+                narrower.slow(joint.name, *joint.mimic, joint.speed);
             }
         }
     }
     for (const ArmFinger& finger : model.fingers) {
         if (finger.mimic) {
             narrower.add(finger.name, *finger.mimic, finger.lower, finger.upper);
+            narrower.slow(finger.name, *finger.mimic, finger.speed);
         }
     }
     return narrower.takeNotes();

@@ -52,6 +52,7 @@ struct ArmFinger {
     double upper = std::numeric_limits<double>::infinity();
     uint32_t carrier = 0;            // 0 = none; else fingers[carrier - 1], an earlier one, carries it
     std::optional<ArmMimic> mimic{}; // follows this joint of the chain instead of the grasp
+    double speed = std::numeric_limits<double>::infinity(); // [rad/s], [m/s] of the URDF
 };
 
 // A sphere of a link.
@@ -100,9 +101,9 @@ public:
     dvec3 centre(const ArmFrames& frames, size_t leaf) const noexcept {
         return frames[frameOf(leaf)].apply(leaves[leaf].sphere.centre);
     }
-    // Velocity of a point carried by joint `k`: d point / d q_k [m/rad] or [1]. axis: direction of the joint.
     // Some finger, or joint with a range, displaces the leaf's centre: it is not only turned about itself.
     bool moves(size_t leaf) const noexcept;
+    // Velocity of a point carried by joint `k`: d point / d q_k [m/rad] or [1]. axis: direction of the joint.
     // Mimic joints that follow k are not included.
     dvec3 motionOf(const ArmFrames& frames, size_t k, const dvec3& point) const noexcept;
     dvec3 motionOfFinger(const ArmFrames& frames, size_t f, const dvec3& point) const noexcept;

@@ -221,6 +221,9 @@ private:
                          before,      axisOf(joint), drive.open,
                          drive.closed};
         finger.carrier = carrier.finger;
+        if (joint.limits && joint.limits->velocity > 0.0) {
+            finger.speed = joint.limits->velocity;
+        }
         if (joint.limits && joint.type != urdf::Joint::CONTINUOUS) {
             finger.lower = joint.limits->lower;
             finger.upper = joint.limits->upper;
