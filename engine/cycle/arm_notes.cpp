@@ -37,7 +37,7 @@ LinksInShape linksIn(const Shape& shape, const ArmSetup& setup) {
         const uint32_t link = model.leaves[i].link;
         ++leaves[link];
         out[link] += isOutside(shape, centre, radius) ? 1 : 0;
-        if (!shape.keepIn && !model.moves(i) && gapTo(shape, centre, radius).gap < -kInside) {
+        if (!shape.keepIn && gapTo(shape, centre, radius).gap < -kInside && !model.moves(i)) {
             addTo(links.stuck, model.links[link]);
         }
     }
