@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/run/open_scene.h"
 
-#include "engine/cycle/arm_overlaps.h"
 #include "engine/cycle/arm_text.h"
 #include "engine/haptics/device_preset.h"
 #include "engine/model/sphere_sets.h"
@@ -117,9 +116,6 @@ std::unique_ptr<ArmSetup> openArm(const Scene& scene, const ReaderOptions& reade
         makeArmSetup(scene, tool ? writtenTool(scene, reader).leaves() : std::span<const Sphere>(), reader);
     if (arm) {
         warnIfLong(scene.arm->urdf.string() + ": the arm reaches", reachOf(*arm), kUsualDistance);
-        for (const std::string& line : startOverlaps(*arm, scene)) {
-            arm->model.notes.push_back(line);
-        }
     }
     for (const std::string& line : arm ? describeArm(*arm) : std::vector<std::string>{}) {
         log::info("arm: {}", line);
