@@ -144,7 +144,8 @@ TEST_CASE("Notes say which links a keep_in shape holds, and which ones stand in 
     scene.fixtures[0].baseTshape.position = {0.0, 0.0, 0.0};
     scene.fixtures[0].size = {9.0, 9.0, 9.0};
     scene.fixtures.pop_back();
-    for (const std::string& note : gripperRig(scene)->model.notes) {
+    const auto whole = gripperRig(scene);
+    for (const std::string& note : whole->model.notes) {
         CHECK(note.find("fixture") == std::string::npos);
     }
 }
