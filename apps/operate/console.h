@@ -91,7 +91,7 @@ struct Placing {
     std::optional<dvec3> from; // start of a line or an axis [m, base]; the next click is its end
 };
 
-// In groups by who writes and who clears.
+// Grouped by writer and by what clears them.
 struct Console {
     // Keys and panels change them, the run obeys in every frame. The run switches them off when it must, and
     // observers may request changes.

@@ -36,7 +36,7 @@ public:
     // Moves the hand by this frame's keys and mouse; returns where the large view was clicked.
     std::optional<ImVec2> steer(Console& console, const ViewPort& large, double toolDepth);
     // Passes on forces, frozen fixtures and buttons. Turns forces off if the window stood still for so long
-    // that nobody could have done it (GatedHand::kSilence).
+    // that no pilot could have done it (GatedHand::kSilence).
     void apply(Console& console);
     // Takes the device's button that is pressed for Console::Editing::mapping, and saves the mapping.
     void mapButtons(Console& console);

@@ -84,8 +84,7 @@ std::string RunWatch::causeOf(const ClassState& state, uint32_t marked, uint32_t
         const GuidancePose* const pose = poseOf(set, state.row);
         const std::string left =
             marked >= f.minCount && pose != nullptr
-                ? ", of which the filter" +
-                      std::string(f.largestPart ? " and largest_part leave " : " leaves ") +
+                ? "; the filter" + std::string(f.largestPart ? " and largest_part leave " : " leaves ") +
                       std::to_string(pose->count) + "; min_count is "
                 : ", min_count is ";
         return std::to_string(marked) + " points" + left + std::to_string(f.minCount);

@@ -103,7 +103,7 @@ bool namesScale(const std::string& key) {
            (isAny(plain, kWhole) || (plain.find("depth") != std::string::npos && holdsAny(plain, kKinds)));
 }
 
-// Or nothing: 1 is one unit of what the images hold.
+// Or nothing: 1 is one unit of the images' values.
 bool saysMillimetres(const JsonField& scale) {
     constexpr std::array<std::string_view, 5> kTexts{"mm", "millimetre", "millimetres", "millimeter",
                                                      "millimeters"};

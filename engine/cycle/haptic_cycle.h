@@ -149,7 +149,7 @@ private:
 
     struct Scene { // what the active regions are
         uint64_t generation = 0;
-        bool edited = false; // shapes were replaced
+        bool edited = false;                                  // shapes were replaced
         double age = std::numeric_limits<double>::infinity(); // [s]
     } scene_;
     struct Pressing {      // of the last step

@@ -66,7 +66,7 @@ inline constexpr double kGuidanceShare = 0.25;
 double passiveStiffness(double deviceDamping, double damping, double period, double delayTicks) noexcept;
 
 // [N/m] or [N m/rad] at the hand, by the passive bound. figure: the preset's stiffness, deviceDamping: its b,
-// damping: B, both at the hand. Without b, the figure stands for b: it is rendered at 1 kHz without delay.
+// damping: B, both at the hand. Without b, the figure is the bound at 1 kHz without delay.
 // Empty when neither is known.
 std::optional<double> passiveLimit(std::optional<double> figure, std::optional<double> deviceDamping,
                                    double damping, const CouplingOptions& options) noexcept;
@@ -74,8 +74,8 @@ std::optional<double> passiveLimit(std::optional<double> figure, std::optional<d
 // Auto: K_t + K_g is the smallest of the preset's stiffness, a share of the passive bound (margin) and the
 // stiffness that the slew limit can follow, divided by the hand map's scale s, because the hand feels s K
 // (hand_map.h). K_r = k0^2 K_t, or its own bound times s when that is lower (the hand feels K_r / s). With b
-// unknown the bound is passiveLimit(), without margin. k = sqrt(K_r / K_t); a given K_r is moved to where k is
-// in its range. Throws Error when no positive stiffness remains or an input is invalid.
+// unknown the bound is passiveLimit(), without margin. k = sqrt(K_r / K_t); a given K_r is moved to where k
+// is in its range. Throws Error when no positive stiffness remains or an input is invalid.
 Springs makeSprings(const DevicePreset& preset, const CouplingOptions& options);
 
 // Margins [N s/m] of the translation at the hand; > 0 = stable. Empty when b is unknown.

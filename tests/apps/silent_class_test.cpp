@@ -74,10 +74,9 @@ TEST_CASE("A guidance class whose points do not suffice after the filter is name
     set.guidance = {pose};
     CHECK(warningsOf(scene, counts, set).empty());
     set.guidance[0].count = 12, set.guidance[0].present = false;
-    CHECK(
-        warningsOf(scene, counts, set) ==
-        std::vector<std::string>{"fixture 'goal' has no target in any frame: 64 points, of which the filter "
-                                 "and largest_part leave 12; min_count is 50"});
+    CHECK(warningsOf(scene, counts, set) ==
+          std::vector<std::string>{"fixture 'goal' has no target in any frame: 64 points; the filter "
+                                   "and largest_part leave 12; min_count is 50"});
 }
 
 TEST_CASE("A force limit that no hand feels is a warning of the run") {

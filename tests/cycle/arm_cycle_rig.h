@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A haptic rig whose tool is the tip of a stretched arm, with a ball beside it.
+// A haptic rig whose tool is the tip of a stretched arm, with a ball next to it.
 #pragma once
 
 #include "tests/cycle/haptic_rig.h"

@@ -119,7 +119,7 @@ TEST_CASE("A follower off the chain binds the speed of the joint that it follows
     CHECK(rig->model.joints.at(0).speedFrom == "mimic joint crank");
 }
 
-TEST_CASE("Notes say which links a keep_in shape holds, and which ones stand in a forbidden shape") {
+TEST_CASE("Notes say which links a keep_in shape holds, and which ones are in a forbidden shape") {
     Scene scene;
     scene.arm.emplace();
     FixtureClass room;

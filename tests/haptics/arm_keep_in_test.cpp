@@ -84,7 +84,7 @@ TEST_CASE("A keep_in shape around the tip does not pull in links that are outsid
     CHECK(proxy.tip().position.z < 0.15 - 0.02 + 1e-9); // the tip stays inside
 }
 
-TEST_CASE("A keep_in shape goes on to hold what was inside when it moves, and takes in what comes inside") {
+TEST_CASE("A keep_in shape that moves still holds what was inside, and takes in what comes inside") {
     const ArmModel arm = armWithBase();
     const dvec3 size(0.3, 0.5, 0.3);
     ArmProxy proxy(arm, Pose{}, {}, kBent, std::vector{boxAt({0.495, 0.0, 0.0}, size, true)});
@@ -101,7 +101,7 @@ TEST_CASE("A keep_in shape goes on to hold what was inside when it moves, and ta
     CHECK(outside.tip().position.z < 0.15 - 0.02 + 1e-9);
 }
 
-TEST_CASE("A base that stands in a forbidden shape never escapes, and the tip still feels the other shapes") {
+TEST_CASE("A base inside a forbidden shape never escapes, and the tip still feels the other shapes") {
     const ArmModel arm = armWithBase();
     const std::vector<Shape> shapes{boxAt({0.0, 0.0, -0.05}, {0.2, 0.2, 0.1}, false),
                                     boxAt({0.5, 0.0, -0.2}, {0.3, 0.3, 0.2}, false)};

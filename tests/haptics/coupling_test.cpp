@@ -108,7 +108,7 @@ TEST_CASE(
     springs = makeSprings(devicePreset("ideal"), options);
     CHECK(springs.stiffness == doctest::Approx(500.0));
     CHECK(*stabilityMargins(devicePreset("ideal"), springs, options).passive == doctest::Approx(0.0));
-    // b unknown: the preset's stiffness, rendered at 1 kHz without delay, stands for it.
+    // b unknown: the preset's stiffness, rendered at 1 kHz without delay, replaces it.
     options = {};
     CHECK(makeSprings(devicePreset("touch"), options).stiffness == 400.0);
     options.period = 0.00025;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where chains end at hands whose fingers are not alike, and at frames with the name of a tool before the last
-// joints.
+// Where chains end at hands whose fingers are not alike, and at frames with the name of a tool before the
+// last joints.
 #include "tests/model/urdf_text.h"
 
 #include <algorithm>

@@ -11,7 +11,7 @@ using namespace fathom::testing;
 
 namespace {
 
-// An arm of two joints; before: in the world, beside it; inner: in its last body.
+// An arm of two joints; before: in the world, next to it; inner: in its last body.
 std::string armOfTwo(const std::string& before, const std::string& body, const std::string& joint,
                      const std::string& inner = "") {
     return "<worldbody>" + before + "<body name='base'>" + mjcfBall() + "<body name='" + body +
@@ -27,7 +27,7 @@ bool noted(const ArmModel& arm, const std::string& part) {
 
 } // namespace
 
-TEST_CASE("Bodies and joints without a name beside an arm with the usual names do not take those") {
+TEST_CASE("Bodies and joints without a name next to an arm with the usual names do not take those") {
     for (const char* cube :
          {"<body name='cube'><freejoint/>", "<body><freejoint/>", "<body>", "<body><joint/>",
           "<body name='body'><joint/><joint axis='1 0 0'/><joint axis='0 1 0'/>"}) {

@@ -75,7 +75,8 @@ TEST_CASE("A tool, a hand path and an arm as large as in millimetres are questio
     CHECK(planWarnings(stage, scene) == "");
     scene.hand = "path: hand.csv";
     stage.hand({{0.0, {0.0, 0.0, 487.6}}, {1.0, {0.0, 0.0, 496.6}}});
-    CHECK(asksForUnit(planWarnings(stage, scene), "hand.csv: what the camera sees and the hand's way are apart by 484"));
+    CHECK(asksForUnit(planWarnings(stage, scene),
+                      "hand.csv: what the camera sees and the hand's way are apart by 484"));
     stage.hand({{0.0, {0.0, 0.0, 8.0}}, {1.0, {0.0, 0.0, 9.0}}});
     CHECK(planWarnings(stage, scene) == "");
     stage.write("arm.urdf", twoLinks("0 0 25", "<sphere radius='0.05'/>"));
