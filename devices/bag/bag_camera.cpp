@@ -91,7 +91,8 @@ void BagCamera::useClocks() {
 }
 
 // Whether images have partners by the headers' stamps. Far from each other in the file, only where it was
-// written later, or where no images were recorded at one time: two clocks may differ by any time.
+// written later, where stamps agree, or where no images were recorded at one time: two clocks may differ by
+// any time.
 bool BagCamera::pairsByStamp() {
     const std::vector<MessageEntry>& all = topicOf(choice_.depth).messages;
     const auto byStamp = [&](size_t i) {
@@ -102,6 +103,10 @@ bool BagCamera::pairsByStamp() {
     } else if (anyOfSome(byStamp)) {
         return true;
     } else {
+        colour_->searchAll();
+        if (stampsAgree()) {
+            return true; // one topic was recorded late
+        }
         size_t recorded = 0; // one alone may end one topic and begin the next
         if (anyOfSome([&](size_t i) {
                 recorded += colour_->hasRecorded(all[i].time, tolerance_) ? 1 : 0;
@@ -110,7 +115,6 @@ bool BagCamera::pairsByStamp() {
             return false;
         }
     }
-    colour_->searchAll();
     return anyOfSome(byStamp);
 }
 

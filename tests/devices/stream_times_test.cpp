@@ -184,3 +184,24 @@ TEST_CASE("A bag whose clock was set back while it was recorded pairs and starts
     CHECK(played == 120);
     CHECK(playStreams(folder, writtenLater(written), {.start = 1.0}).firstFrame() == 31);
 }
+
+TEST_CASE("Colour that is recorded seconds late is paired by its stamps, where these are depth's own") {
+    const TemporaryFolder folder;
+    const auto at = [](double from) { return [=](int i) { return 1000.0 + from + kFrameStep * i; }; };
+    for (const double late : {1.1, 2.0}) {
+        const int unrecorded = static_cast<int>(late / kFrameStep); // the recorder stops at one time
+        for (const Written& written : {Written{.depthAt = at(0.0), .colourAt = at(late)},
+                                       {.depthAt = at(late), .colourAt = at(0.0)},
+                                       {.frames = 250,
+                                       .depthAt = at(0.0),
+                                       .colourAt = at(late),
+                                       .lostFrom = 250 - unrecorded,
+                                       .lostTo = 250}}) {
+            const Listening log;
+            BagCamera camera = playStreams(folder, writtenLater(written));
+            const auto lost = static_cast<uint32_t>(written.lostTo - written.lostFrom);
+            CHECK(playedWhole(camera) == static_cast<uint32_t>(written.frames) - lost);
+            CHECK(log.count("paired by the time of recording") == 0);
+        }
+    }
+}
