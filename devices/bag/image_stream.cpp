@@ -187,6 +187,32 @@ ImageStream usableStream(MessageFile& file, const std::string& info, const Image
     return stream;
 }
 
+// Whether the part of a name with depth and colour is that of a camera: another image there names depth again.
+bool namesCamera(const std::string& folder, const std::vector<ImageStream>& streams) {
+    return !folder.empty() && std::ranges::any_of(streams, [&](const ImageStream& stream) {
+        return stream.content == ros::Content::Depth && stream.name.starts_with(folder) &&
+               namedRole(stream.name.substr(folder.size())) == NamedRole::Depth;
+    });
+}
+
+void settleRole(ImageStream& stream, const std::vector<ImageStream>& streams) {
+    stream.painted = namedDepthImage(stream.name);
+    if (stream.role == NamedRole::Either) {
+        const bool depth = stream.content == ros::Content::Depth;
+        stream.painted = !depth && !namesCamera(folderOfEither(stream.name), streams);
+        stream.role = depth || stream.painted ? NamedRole::Depth : NamedRole::Colour;
+    }
+    const bool other = stream.content != ros::Content::Depth && !stream.painted; // of a camera of depth
+    const auto isDepth = [](const ImageStream& s) {
+        return s.content == ros::Content::Depth &&
+               (s.role == NamedRole::Depth || s.role == NamedRole::Either) && !namedDistance(s.name);
+    };
+    if (stream.role == NamedRole::Depth &&
+        (other || (namedDistance(stream.name) && std::ranges::any_of(streams, isDepth)))) {
+        stream.role = NamedRole::None;
+    }
+}
+
 } // namespace
 
 bool mayBeDepth(const ImageStream& stream) {
@@ -214,6 +240,9 @@ std::vector<ImageStream> imageStreams(MessageFile& file, const std::string& info
         stream.compressed = compressed;
         stream.role = namedRole(topic.name);
         streams.push_back(usableStream(file, info, stream));
+    }
+    for (ImageStream& stream : streams) {
+        settleRole(stream, streams);
     }
     return streams;
 }

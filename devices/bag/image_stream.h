@@ -17,7 +17,8 @@ struct ImageStream {
     size_t topic = 0; // in MessageFile::topics()
     std::string name, frame, encoding;
     ros::Content content = ros::Content::None;
-    NamedRole role = NamedRole::None;
+    NamedRole role = NamedRole::None;         // never Either
+    bool painted = false;                     // by its name depth in colours that a program chose
     uint32_t width = 0, height = 0;           // [pixels]; 0: not readable
     bool compressed = false, metres = false;  // metres: of depth
     ColourFormat format = ColourFormat::Rgba; // of colour

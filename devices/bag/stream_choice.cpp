@@ -104,7 +104,7 @@ std::vector<StreamChooser::Candidate> StreamChooser::colours() const {
     for (const ImageStream& stream : streams_) {
         const bool usable = stream.content == ros::Content::Colour || stream.content == ros::Content::Grey;
         const bool named = stream.name == options_.colour;
-        if (!usable || (!options_.colour.empty() && !named) || (!named && namedDepthImage(stream.name))) {
+        if (!usable || (!options_.colour.empty() && !named) || (!named && stream.painted)) {
             continue;
         }
         // Grey comes last: it is no colour, but shows something.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/bag/stream_names.h"
 
+#include "devices/bag/topic_words.h"
+
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -11,77 +13,41 @@ namespace fathom {
 
 namespace {
 
-constexpr std::array<std::string_view, 2> kDepthWords{"depth", "range"};
-constexpr std::array<std::string_view, 3> kColourWords{"rgb", "color", "colour"};
-constexpr std::array<std::string_view, 32> kInfraredWords{
-    "ir",     "infra",       "infrared",     "nir",        "nearir",      "lwir",      "thermal",
-    "flir",   "intensity",   "amplitude",    "confidence", "disparity",   "reflec",    "reflectivity",
-    "signal", "reflectance", "ambient",      "noise",      "uncertainty", "variance",  "temperature",
-    "label",  "labels",      "segmentation", "semantic",   "mask",        "instances", "gray",
-    "grey",   "mono",        "fisheye",      "phase"};
-// What depth cameras publish about their depth, maps of a height, and what programs draw or compute on
-// images. No part of a camera's name.
-constexpr std::array<std::string_view, 27> kBesideWords{"error",         "err",
-                                                        "std",           "stddev",
-                                                        "sigma",         "snr",
-                                                        "quality",       "cost",
-                                                        "costmap",       "elevation",
-                                                        "height",        "normal",
-                                                        "normals",       "surface",
-                                                        "validity",      "age",
-                                                        "seg",           "instance",
-                                                        "detection",     "detections",
-                                                        "overlay",       "panoptic",
-                                                        "classes",       "heatmap",
-                                                        "depthvis",      "disparitynormalized",
-                                                        "surfacenormals"};
-constexpr std::array<std::string_view, 4> kPainted{"colored", "coloured", "colorized", "colourized"};
-
-template <size_t N>
-bool among(const std::array<std::string_view, N>& words, const std::string& word) {
-    return std::find(words.begin(), words.end(), word) != words.end();
-}
-
-// Lower-case words; humps: "frontDepth" is two.
-std::vector<std::string> wholeWordsOf(const std::string& topic, bool humps = false) {
-    std::vector<std::string> words(1);
-    bool small = false; // the last character
-    for (const char c : topic) {
-        const auto byte = static_cast<unsigned char>(c);
-        if (!words.back().empty() &&
-            (std::isalnum(byte) == 0 || (humps && small && std::isupper(byte) != 0))) {
-            words.emplace_back();
-        }
-        if (std::isalnum(byte) != 0) {
-            words.back() += static_cast<char>(std::tolower(byte));
-        }
-        small = std::islower(byte) != 0 || std::isdigit(byte) != 0;
-    }
-    return words;
+bool namesImage(const std::string& word) {
+    const WordUse use = useOf(word, true);
+    return use == WordUse::Depth || use == WordUse::Colour || use == WordUse::Infrared;
 }
 
 // Words that may name a camera: "front", "2" of "/frontDepth2".
 std::vector<std::string> cameraWordsOf(const std::string& topic) {
-    std::vector<std::string> words = wholeWordsOf(baseTopic(topic), true);
+    std::vector<std::string> words = humpsOf(baseTopic(topic));
     for (std::string& word : words) {
         const size_t name = word.find_last_not_of("0123456789") + 1;
-        const std::string use = word.substr(0, name);
-        if (name < word.size() && (among(kDepthWords, use) || among(kColourWords, use))) {
+        const WordUse use = useOf(word.substr(0, name), true);
+        if (name < word.size() && (use == WordUse::Depth || use == WordUse::Colour)) {
             word.erase(0, name);
         }
     }
     return words;
 }
 
-// Without digits at their end.
 std::vector<std::string> wordsOf(const std::string& topic) {
-    std::vector<std::string> words = wholeWordsOf(topic);
-    for (std::string& word : words) {
-        while (word.size() > 1 && std::isdigit(static_cast<unsigned char>(word.back())) != 0) {
-            word.pop_back();
-        }
+    return withoutDigits(humpsOf(topic));
+}
+
+bool holds(const std::vector<std::string>& words, std::string_view word) {
+    return std::ranges::find(words, word) != words.end();
+}
+
+// What stands between the slashes, and may be empty.
+std::vector<std::string> partsOf(const std::string& topic) {
+    std::vector<std::string> parts;
+    for (size_t start = topic.starts_with('/') ? 1 : 0; start <= topic.size();) {
+        const size_t end = std::min(topic.find('/', start), topic.size());
+        parts.push_back(topic.substr(start, end - start));
+        start = end + 1;
     }
-    return words;
+    return parts;
 }
 
 // "/a/b/" of "/a/b/depth/image_raw"; without such a part of "/a/b/image_raw", too.
@@ -89,15 +55,93 @@ std::string cameraOf(const std::string& topic) {
     const std::string base = baseTopic(topic);
     for (size_t start = 0; start < base.size();) {
         const size_t end = std::min(base.find('/', start), base.size());
-        const auto words = wordsOf(base.substr(start, end - start));
-        if (std::any_of(words.begin(), words.end(), [](const std::string& word) {
-                return among(kDepthWords, word) || among(kColourWords, word) || among(kInfraredWords, word);
-            })) {
+        if (std::ranges::any_of(withoutDigits(tokensOf(base.substr(start, end - start))), namesImage)) {
             return base.substr(0, start);
         }
         start = end + 1;
     }
     return base.substr(0, base.find_last_of('/') + 1);
+}
+
+bool endsCamera(const std::string& word) {
+    constexpr std::array<std::string_view, 5> kCameras{"camera", "cam", "sensor", "ai", "sense"};
+    return std::ranges::find(kCameras, word) != kCameras.end();
+}
+
+// Follows the words of a topic, part by part.
+class RoleOfWords {
+public:
+    void add(const std::vector<std::string>& words, bool first, bool last);
+    NamedRole role() const { return role_; }
+    size_t decided() const { return decided_; } // number of parts up to the one that decides
+
+private:
+    void use(const std::string& word, bool first);
+
+    NamedRole role_ = NamedRole::None;
+    bool target_ = false, named_ = false;         // the next word, and the last one, name another camera
+    bool depthHere_ = false, colourHere_ = false; // in this part
+    bool depthFolder_ = false;                    // the part before holds depth
+    size_t parts_ = 0, decided_ = 0;
+};
+
+void RoleOfWords::use(const std::string& word, bool first) {
+    const WordUse use = useOf(word, first);
+    if (use == WordUse::None) {
+        return;
+    }
+    decided_ = parts_;
+    colourHere_ = use == WordUse::Colour;
+    switch (use) {
+    case WordUse::Colour:
+        role_ = depthHere_ ? NamedRole::Either : NamedRole::Colour;
+        break;
+    case WordUse::Depth:
+    case WordUse::Painted:
+        role_ = NamedRole::Depth;
+        depthHere_ = true;
+        break;
+    default:
+        role_ = NamedRole::Infrared;
+        break;
+    }
+}
+
+void RoleOfWords::add(const std::vector<std::string>& words, bool first, bool last) {
+    ++parts_;
+    depthHere_ = colourHere_ = false;
+    for (size_t i = 0; i < words.size(); ++i) {
+        const std::string& word = words[i];
+        const bool more = i + 1 < words.size();
+        if (target_) {
+            target_ = false;
+            named_ = true;
+        } else if (word == "to" || (word == "in" && more) || (word == "and" && named_)) {
+            target_ = true;
+        } else if (word != "distance" || !more || words[i + 1] != "to") { // of ranges, or of an image's plane
+            named_ = false;
+            use(word, first);
+        }
+    }
+    const bool camera = !words.empty() && endsCamera(words.back());
+    if (camera && role_ == NamedRole::Either) {
+        role_ = NamedRole::Colour;
+    }
+    if (last && colourHere_ && depthFolder_ && role_ == NamedRole::Colour) {
+        role_ = NamedRole::Either;
+        --decided_;
+    }
+    depthFolder_ = depthHere_ && role_ == NamedRole::Depth && !camera &&
+                   (words.front() == "depth" || words.front() == "aligned");
+}
+
+RoleOfWords roleOfWords(const std::string& topic) {
+    RoleOfWords all;
+    const std::vector<std::string> parts = partsOf(baseTopic(topic));
+    for (size_t i = 0; i < parts.size(); ++i) {
+        all.add(wordsOf(parts[i]), i == 0 && parts.size() > 1, i + 1 == parts.size());
+    }
+    return all;
 }
 
 } // namespace
@@ -108,48 +152,43 @@ NamedRole namedRole(const std::string& topic) {
                : sensor == "2" || sensor == "11" || sensor == "12" ? NamedRole::Colour
                                                                    : NamedRole::Infrared;
     }
-    NamedRole role = NamedRole::None;
-    bool target = false;
-    for (const std::string& word : wordsOf(baseTopic(topic))) {
-        if (target) { // the word after "to" is another camera
-            target = false;
-        } else if (word == "to") {
-            target = true;
-        } else if (among(kDepthWords, word) || among(kPainted, word)) {
-            role = NamedRole::Depth;
-        } else if (among(kColourWords, word)) {
-            role = NamedRole::Colour;
-        } else if (among(kInfraredWords, word) || among(kBesideWords, word)) {
-            role = NamedRole::Infrared;
-        }
-    }
-    return role;
+    return roleOfWords(topic).role();
+}
+
+std::string folderOfEither(const std::string& topic) {
+    const size_t parts = partsOf(baseTopic(topic)).size(), decided = roleOfWords(topic).decided();
+    return decided < parts ? parentTopic(baseTopic(topic), static_cast<int>(parts - decided)) + "/" : "";
+}
+
+bool namedDistance(const std::string& topic) {
+    const std::vector<std::string> words = wordsOf(baseTopic(topic));
+    const bool surely = std::ranges::any_of(words, [](const std::string& word) {
+        const WordUse use = useOf(word, false);
+        return !word.starts_with("distance") && word != "z" &&
+               (use == WordUse::Depth || use == WordUse::Painted);
+    });
+    return !surely && namedRole(topic) == NamedRole::Depth;
 }
 
 bool namedDepthImage(const std::string& topic) {
     const std::vector<std::string> words = wordsOf(baseTopic(topic));
-    const auto depth = std::find(words.begin(), words.end(), "depth");
-    const bool camera = depth != words.end() && depth + 1 != words.end() &&
-                        (*(depth + 1) == "camera" || *(depth + 1) == "cam" || *(depth + 1) == "sensor");
-    return namedRole(topic) == NamedRole::Depth && !camera;
+    const auto depth = std::ranges::find(words, "depth");
+    const bool camera = depth != words.end() && depth + 1 != words.end() && endsCamera(*(depth + 1));
+    return namedRole(topic) == NamedRole::Depth && !namedDistance(topic) && !camera;
 }
 
 bool namedRectified(const std::string& topic) {
     const std::vector<std::string> words = wordsOf(baseTopic(topic));
-    return std::any_of(words.begin(), words.end(), [](const std::string& word) {
-        return word == "rect" || word == "rectified" || word == "undistorted";
-    });
+    return holds(words, "rect") || holds(words, "rectified") || holds(words, "undistorted");
 }
 
 bool namedRegistered(const std::string& topic) {
     const std::vector<std::string> words = wordsOf(topic);
-    return std::any_of(words.begin(), words.end(),
-                       [](const std::string& word) { return word == "aligned" || word == "registered"; });
+    return holds(words, "aligned") || holds(words, "registered");
 }
 
 bool namedRight(const std::string& topic) {
-    const std::vector<std::string> words = wordsOf(topic);
-    return std::find(words.begin(), words.end(), "right") != words.end();
+    return holds(wordsOf(topic), "right");
 }
 
 bool isRealSenseTopic(const std::string& topic) {

@@ -9,11 +9,23 @@
 namespace fathom {
 
 // What the images of a topic hold, by its name.
-enum class NamedRole { None, Depth, Colour, Infrared }; // Infrared: also confidence, error and the like
+enum class NamedRole {
+    None,
+    Depth,
+    Colour,
+    Infrared, // also confidence, error and the like
+    Either,   // depth, or depth in colours that a program chose: the encoding tells
+};
 
 // By the last word that decides: "/camera/ir/image" is Infrared, "/kinect2/sd/image_depth_rect" Depth. Words
-// after "to" are a target: "/aligned_depth_to_color/image_raw" is Depth.
+// after "to" and "in" are a target: "/aligned_depth_to_color/image_raw" is Depth. Either: words of depth and then
+// of colour in one part ("/cam/depth_color/image"), or an image of colour in a folder of depth.
 NamedRole namedRole(const std::string& topic);
+// Of a topic that is Either: "/cam/depth_color/", below which all is painted unless a topic there names depth
+// once more; empty where its last part decides.
+std::string folderOfEither(const std::string& topic);
+// "/tof/distances", "/cam/z_image": depth by a word that counts less than those of depth.
+bool namedDistance(const std::string& topic);
 // "/camera/depth/image_colored", but not "/depth_camera/image_raw": its colour would be painted depth.
 bool namedDepthImage(const std::string& topic);
 // "image_rect", "image_rect_raw": rectified images.

@@ -58,7 +58,7 @@ std::string StreamChooser::unreadStreams() const {
     for (const ImageStream& stream : streams_) {
         if (stream.content == ros::Content::None) {
             add(stream.name, stream.encoding);
-        } else if (stream.content == ros::Content::Colour && namedDepthImage(stream.name)) {
+        } else if (stream.content == ros::Content::Colour && stream.painted) {
             add(stream.name,
                 stream.encoding + ", named as painted depth; colour=" + stream.name + " plays it");
         }

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/bag/topic_words.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <string_view>
+
+namespace fathom {
+
+namespace {
+
+constexpr std::array<std::string_view, 3> kDepthWords{"depth", "range", "distance"};
+constexpr std::array<std::string_view, 3> kColourWords{"rgb", "color", "colour"};
+constexpr std::array<std::string_view, 35> kInfraredWords{
+    "ir",         "infra",       "infrared", "nir",          "nearir",    "lwir",         "thermal",
+    "flir",       "lepton",      "boson",    "seek",         "intensity", "amplitude",    "brightness",
+    "confidence", "disparity",   "reflec",   "reflectivity", "signal",    "reflectance",  "ambient",
+    "noise",      "uncertainty", "variance", "temperature",  "label",     "segmentation", "semantic",
+    "mask",       "instances",   "gray",     "grey",         "mono",      "fisheye",      "phase"};
+constexpr std::array<std::string_view, 27> kBesideWords{"error",         "err",
+                                                        "std",           "stddev",
+                                                        "sigma",         "snr",
+                                                        "quality",       "cost",
+                                                        "costmap",       "elevation",
+                                                        "height",        "normal",
+                                                        "normals",       "surface",
+                                                        "validity",      "age",
+                                                        "seg",           "instance",
+                                                        "detection",     "detections",
+                                                        "overlay",       "panoptic",
+                                                        "classes",       "heatmap",
+                                                        "depthvis",      "disparitynormalized",
+                                                        "surfacenormals"};
+constexpr std::array<std::string_view, 4> kPaintedWords{"colored", "coloured", "colorized", "colourized"};
+// Not in the first of several parts. "ab" is active brightness, "disp" disparity.
+constexpr std::array<std::string_view, 1> kLaterDepthWords{"z"};
+constexpr std::array<std::string_view, 3> kLaterPaintedWords{"colormap", "colourmap", "jet"};
+constexpr std::array<std::string_view, 6> kLaterBesideWords{"ab", "conf", "disp", "class", "ids", "events"};
+
+template <size_t N>
+bool among(const std::array<std::string_view, N>& words, const std::string& word) {
+    return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+std::string singularOf(const std::string& word) {
+    constexpr size_t kShortest = 4;
+    if (word.size() < kShortest || word.back() != 's') {
+        return word;
+    }
+    return word.ends_with("ies") ? word.substr(0, word.size() - 3) + "y" : word.substr(0, word.size() - 1);
+}
+
+WordUse useAlone(const std::string& word, bool firstPart) {
+    const bool later = !firstPart;
+    if (among(kDepthWords, word) || (later && among(kLaterDepthWords, word))) {
+        return WordUse::Depth;
+    }
+    if (among(kPaintedWords, word) || (later && among(kLaterPaintedWords, word))) {
+        return WordUse::Painted;
+    }
+    if (among(kColourWords, word)) {
+        return WordUse::Colour;
+    }
+    if (among(kInfraredWords, word)) {
+        return WordUse::Infrared;
+    }
+    return among(kBesideWords, word) || (later && among(kLaterBesideWords, word)) ? WordUse::Beside
+                                                                                  : WordUse::None;
+}
+
+bool isUpper(char c) {
+    return std::isupper(static_cast<unsigned char>(c)) != 0;
+}
+
+bool isLower(char c) {
+    return std::islower(static_cast<unsigned char>(c)) != 0;
+}
+
+bool isDigit(char c) {
+    return std::isdigit(static_cast<unsigned char>(c)) != 0;
+}
+
+// Whether a hump begins at a character behind the first: "ir|Image", "IR|Image", "cam2|RGB".
+bool beginsHump(const std::string& text, size_t at) {
+    const char before = text[at - 1];
+    const bool last = at + 1 == text.size();
+    return isUpper(text[at]) &&
+           (isLower(before) || isDigit(before) || (isUpper(before) && !last && isLower(text[at + 1])));
+}
+
+std::string lower(std::string text) {
+    std::ranges::transform(text, text.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
+// In the case of the name.
+std::vector<std::string> casedTokensOf(const std::string& name) {
+    std::vector<std::string> tokens;
+    bool open = false;
+    for (const char c : name) {
+        const bool letter = std::isalnum(static_cast<unsigned char>(c)) != 0;
+        if (letter && !open) {
+            tokens.emplace_back();
+        }
+        if (letter) {
+            tokens.back() += c;
+        }
+        open = letter;
+    }
+    return tokens;
+}
+
+} // namespace
+
+WordUse useOf(const std::string& word, bool firstPart) {
+    const WordUse use = useAlone(word, firstPart);
+    return use == WordUse::None ? useAlone(singularOf(word), firstPart) : use;
+}
+
+std::vector<std::string> tokensOf(const std::string& name) {
+    std::vector<std::string> tokens = casedTokensOf(name);
+    std::ranges::transform(tokens, tokens.begin(), lower);
+    return tokens;
+}
+
+std::vector<std::string> humpsOf(const std::string& name) {
+    std::vector<std::string> words;
+    for (const std::string& token : casedTokensOf(name)) {
+        words.push_back(lower(token));
+        if (useOf(words.back(), false) != WordUse::None) {
+            continue;
+        }
+        words.back().clear();
+        for (size_t i = 0; i < token.size(); ++i) {
+            if (i > 0 && beginsHump(token, i)) {
+                words.emplace_back();
+            }
+            words.back() += lower(std::string(1, token[i]));
+        }
+    }
+    return words;
+}
+
+std::vector<std::string> withoutDigits(std::vector<std::string> words) {
+    for (std::string& word : words) {
+        while (word.size() > 1 && isDigit(word.back())) {
+            word.pop_back();
+        }
+    }
+    return words;
+}
+
+} // namespace fathom

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// The words in the name of a topic, and what each says of the images.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace fathom {
+
+enum class WordUse {
+    None,
+    Depth,
+    Painted, // depth, in colours that a program chose
+    Colour,
+    Infrared, // also amplitude, confidence, labels and the like
+    Beside,   // what programs compute beside depth, and cameras publish about it; no part of a camera's name
+};
+
+// Plurals are alike. Some words ("z", "ab") may also be the name of a robot: they say nothing in the first of
+// several parts of a topic.
+WordUse useOf(const std::string& word, bool firstPart);
+// In lower case, split at signs.
+std::vector<std::string> tokensOf(const std::string& name);
+// Split at humps, too: "irImage" and "IRImage" are two words; but "DepthVis" is one, which has a use.
+std::vector<std::string> humpsOf(const std::string& name);
+// The same without digits at the end of words.
+std::vector<std::string> withoutDigits(std::vector<std::string> words);
+
+} // namespace fathom
