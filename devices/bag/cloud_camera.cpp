@@ -2,13 +2,17 @@
 #include "devices/bag/cloud_camera.h"
 
 #include "devices/bag/image_stream.h"
+#include "devices/bag/topic_words.h"
 #include "devices/images/metre_units.h"
 #include "devices/pcd/colour_fields.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string_view>
+#include <tuple>
 
 namespace fathom {
 
@@ -39,6 +43,29 @@ double deviation(const PcdCloud& cloud, const FittedLens& fit) {
         }
     }
     return count > 0.0 ? std::sqrt(sum / count) : 0.0;
+}
+
+// Whether a program took the cloud from a camera's: points may lack. "/camera/depth/obstacles".
+bool namedComputed(const std::string& topic) {
+    constexpr std::array<std::string_view, 34> kComputed{
+        "obstacle",  "ground",    "nonground",    "floor",    "plane",       "table",      "filtered",
+        "segment",   "segmented", "segmentation", "cluster",  "object",      "inlier",     "outlier",
+        "crop",      "cropped",   "downsampled",  "voxel",    "voxelized",   "foreground", "background",
+        "roi",       "removed",   "map",          "hull",     "target",      "detection",  "grasp",
+        "candidate", "masked",    "labeled",      "labelled", "transformed", "accumulated"};
+    const size_t first = topic.find('/', 1);
+    const bool robot = first != std::string::npos && topic.find('/', first + 1) != std::string::npos;
+    const auto words = withoutDigits(humpsOf(topic.substr(robot ? first : 0)));
+    return std::ranges::any_of(words, [&](std::string word) {
+        word.erase(word.ends_with('s') ? word.size() - 1 : word.size());
+        return std::ranges::find(kComputed, word) != kComputed.end();
+    });
+}
+
+// "/camera/depth_registered/points".
+bool namedPoints(const std::string& topic) {
+    const auto words = humpsOf(topic.substr(topic.find_last_of('/') + 1));
+    return std::ranges::find(words, "points") != words.end();
 }
 
 } // namespace
@@ -87,10 +114,11 @@ void CloudCamera::checkOptions() const {
     }
 }
 
-// The asked topic; else the first organised one, with colour if there is one.
+// The asked topic; else the first organised one of the best: a camera's own, with colour, named as points.
 void CloudCamera::chooseTopic() {
+    using Score = std::tuple<bool, bool, bool>;
     std::string fault, others;
-    int best = 0;
+    std::optional<Score> best;
     for (size_t i = 0; i < file_->topics().size(); ++i) {
         const MessageTopic& topic = file_->topics()[i];
         if (topic.type != ros::kCloudType || topic.messages.empty() ||
@@ -98,22 +126,22 @@ void CloudCamera::chooseTopic() {
             continue;
         }
         std::string why;
-        int rank = 1;
+        Score score;
         try {
             const ros::Cloud first = ros::cloud(file_->read(topic, 0));
             why = ros::whyNoDepth(first);
             const std::vector<PcdField> fields = first.insideFields();
-            rank += ColourFields(fields) ? 1 : 0;
+            score = {!namedComputed(topic.name), bool(ColourFields(fields)), namedPoints(topic.name)};
         } catch (const Error& e) {
             why = e.what();
         }
-        if (why.empty() && rank > best) {
-            best = rank;
+        if (why.empty() && (!best || score > *best)) {
+            best = score;
             topic_ = i;
         }
         fault = fault.empty() && !why.empty() ? topic.name + ": " + why : fault;
     }
-    if (best == 0) {
+    if (!best) {
         throw BadInput(file_->file().string() + ": " + fault);
     }
     for (const MessageTopic& other : file_->topics()) {

@@ -105,6 +105,47 @@ TEST_CASE("A bag of ROS 1 plays its depth images before its clouds, unless a clo
     CHECK(openBag(folder.path() / "clouds.bag")->info().depth.width == 9);
 }
 
+TEST_CASE("Of several clouds the camera's own is played, not one that a program took from it") {
+    const TemporaryFolder folder;
+    for (const auto& [other, own] :
+         {std::pair<std::string, std::string>{"/camera/depth/obstacles", "/camera/depth/points"},
+          {"/camera/depth/filtered_points", "/camera/depth/points"},
+          {"/camera/depth/groundPlane", "/camera/depth/cloud"},
+          {"/segmentation/points", "/camera/depth_registered/points"},
+          {"/camera/cloud_data", "/camera/points"}}) {
+        BagMaker maker;
+        for (const double t : {1.0, 1.1, 1.2}) {
+            maker.add(other, "sensor_msgs/PointCloud2", t, cloudMessage(t, 9, 7, 7, 2.0f));
+            maker.add(own, "sensor_msgs/PointCloud2", t, cloudMessage(t, 9, 7));
+        }
+        folder.write("a.bag", maker.bag());
+        CHECK(openBag(folder.path() / "a.bag")->streamOptions() == ",depth=" + own);
+        CHECK(openBag(folder.path() / "a.bag", {.depth = other})->streamOptions() == ",depth=" + other);
+    }
+}
+
+TEST_CASE("Clouds whose step of rows is wrong are played where their bytes are those of rows without gaps") {
+    const TemporaryFolder folder;
+    for (const uint32_t step : {0u, 9u, 9u * 7u * 12u, 63u}) {
+        BagMaker maker;
+        for (const double t : {1.0, 1.1, 1.2}) {
+            std::string cloud = cloudMessage(t, 9, 7);
+            const size_t at = cloud.size() - 63 * 12 - 4 - 4 - 1; // before the number of bytes
+            cloud.replace(at, 4, raw(step));
+            maker.add("/points", "sensor_msgs/PointCloud2", t, cloud);
+        }
+        folder.write("a.bag", maker.bag());
+        const auto camera = openBag(folder.path() / "a.bag");
+        uint32_t played = 0;
+        for (; camera->next(); ++played) {
+        }
+        CHECK(played == 3);
+        REQUIRE(camera->warnings().size() == 1);
+        CHECK(camera->warnings()[0] ==
+              "/points: rows of " + std::to_string(step) + " bytes are stated where they have 108");
+    }
+}
+
 TEST_CASE("A big-endian cloud gives the same depth and colour") {
     const auto swapped = [](auto value) {
         std::string bytes = raw(value);
