@@ -160,7 +160,7 @@ std::string BagCamera::changed(uint64_t time) {
                 now.width = stream.lens->width;
                 now.height = stream.lens->height;
             }
-            return sameLens(now, *stream.lens)
+            return nearlySameLens(*stream.lens, now)
                        ? ""
                        : "the lens of " + stream.name + " changes from fx " +
                              std::to_string(stream.lens->fx) + " to " + std::to_string(now.fx);

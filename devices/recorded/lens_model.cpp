@@ -135,4 +135,21 @@ bool sameLens(const Intrinsics& a, const Intrinsics& b) {
            a.model == b.model;
 }
 
+bool nearlySameLens(const Intrinsics& a, const Intrinsics& b) {
+    constexpr double kMostOff = 0.1; // [pixels]
+    if (a.width != b.width || a.height != b.height || a.fan != b.fan) {
+        return false;
+    }
+    for (const double x : {0.0, 0.5, 1.0}) {
+        for (const double y : {0.0, 0.5, 1.0}) {
+            const glm::dvec2 pixel(x * (a.width - 1.0), y * (a.height - 1.0));
+            const glm::dvec2 seen = b.project(dvec3(a.ray(pixel.x, pixel.y), 1.0));
+            if (!(glm::length(seen - pixel) <= kMostOff)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
 } // namespace fathom

@@ -50,6 +50,22 @@ TEST_CASE("Frames of a bag after its lens has changed are skipped and counted, n
 }
 
 TEST_CASE(
+    "A lens that is computed anew for each image, and is the same to a tenth of a pixel, is no other one") {
+    const TemporaryFolder folder;
+    for (const auto& [step, played] : {std::pair(0.001, 3u), {0.5, 1u}}) {
+        BagMaker maker;
+        addStream(maker, "/c/depth/image_raw", depthImage(500));
+        for (const int i : {1, 2}) {
+            const double fx = 7.0 + step * i;
+            maker.add("/c/depth/camera_info", "sensor_msgs/CameraInfo", 1.0 + 0.09 * i,
+                      infoMessage({.distortion = {1e-5 * i, 0, 0, 0, 0}, .k = {fx, fx, 3.5, 2.5}}));
+        }
+        BagCamera camera = playStreams(folder, maker);
+        CHECK(depthsOf(camera).size() == played);
+    }
+}
+
+TEST_CASE(
     "Images of another camera on the topics of the first one are skipped and named, not played as its own") {
     const TemporaryFolder folder;
     BagMaker maker;
