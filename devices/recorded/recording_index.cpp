@@ -141,13 +141,16 @@ struct Candidate {
 };
 
 // All close pairs, closest first; a bounded number per depth image, so that equal stamps do not cause
-// quadratic cost.
+// quadratic cost. The candidates of the nth of several depth images in a row with one stamp begin at the nth
+// colour.
 std::vector<Candidate> closePairs(const std::vector<StampedFile>& depth,
                                   const std::vector<StampedFile>& colour, double within) {
     std::vector<Candidate> pairs;
+    size_t alike = 0; // depth images before this one with its stamp
     for (size_t d = 0; d < depth.size(); ++d) {
+        alike = d > 0 && depth[d].stamp == depth[d - 1].stamp ? alike + 1 : 0;
         const auto at = std::lower_bound(colour.begin(), colour.end(), depth[d].stamp, beforeStamp);
-        const size_t middle = static_cast<size_t>(at - colour.begin());
+        const size_t middle = std::min(static_cast<size_t>(at - colour.begin()) + alike, colour.size());
         const size_t last = std::min(middle + kCandidates, colour.size());
         for (size_t c = middle - std::min(middle, kCandidates); c < last; ++c) {
             const double distance = std::abs(colour[c].stamp - depth[d].stamp);
@@ -181,8 +184,8 @@ std::vector<IndexLine> associate(const std::vector<StampedFile>& depth,
         }
     }
     if (index.size() < depth.size()) {
-        log::info("{} of {} depth images have no colour image within {} s", depth.size() - index.size(),
-                  depth.size(), within);
+        log::warn("{} of {} depth images have no colour image within {} s: they are not played",
+                  depth.size() - index.size(), depth.size(), within);
     }
     return index;
 }

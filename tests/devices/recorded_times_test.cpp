@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Times of a recording that do not belong together: poses and colour far from depth.
 #include "devices/recorded/recorded_camera.h"
+#include "engine/types/colour_copy.h"
 #include "tests/devices/recorded_folder.h"
 #include "tests/realtime/listening.h"
 
@@ -187,4 +188,37 @@ TEST_CASE("Stamps of another unit than seconds have a warning where depth and co
     CHECK(warnings(1e9) == 1);
     folder.write("associations.txt", "1.7e18 rgb/0.png 1.7e18 depth/0.png\n");
     CHECK(recordingRefusal(folder.path(), {.duration = 0.1}).find("duration: 0.1") != std::string::npos);
+}
+
+TEST_CASE(
+    "Images of rgb.txt and depth.txt whose stamps are rounded to one time are paired in order, and those "
+    "without a partner are named with their number") {
+    const TemporaryFolder folder;
+    writeSmallRecording(folder, 12);
+    std::filesystem::remove(folder.path() / "associations.txt");
+    const auto play = [&](const auto& depthStamp, const auto& colourStamp) {
+        std::string depth, colour;
+        for (int i = 0; i < 12; ++i) {
+            depth += depthStamp(i) + " depth/" + std::to_string(i) + ".png\n";
+            colour += colourStamp(i) + " rgb/" + std::to_string(i) + ".png\n";
+        }
+        folder.write("depth.txt", depth);
+        folder.write("rgb.txt", colour);
+        return playedDepths(folder.path());
+    };
+    const auto rounded = [](int) { return std::string("1.30503110e+09"); };
+    const auto exact = [](int i) { return std::to_string(100.0 + 0.1 * i); };
+    const testing::Listening log;
+    CHECK(play(rounded, rounded).size() == 12);
+    RecordedCamera camera(folder.path());
+    for (uint32_t i = 0; i < 12; ++i) {
+        const auto frame = camera.next();
+        REQUIRE(frame);
+        CHECK((*frame)->depth[0] == 1000 + i);
+        CHECK((coloursOf(**frame)[0] & 0xff) == i);
+    }
+    CHECK(log.count("have no colour image") == 0);
+    const auto late = [](int i) { return std::to_string(100.0 + 0.1 * i + (i < 3 ? 0.03 : 0.0)); };
+    CHECK(play(exact, late).size() == 9);
+    CHECK(log.count("3 of 12 depth images have no colour image within 0.02 s: they are not played") == 1);
 }
