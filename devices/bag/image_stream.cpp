@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/bag/image_stream.h"
 
+#include "devices/recorded/lens_model.h"
 #include "devices/recorded/recording_intrinsics.h"
 #include "engine/types/error.h"
 #include "engine/types/number_text.h"
@@ -30,8 +31,10 @@ const MessageTopic* infoOf(const MessageFile& file, const std::string& asked, Im
         names.push_back(asked);
     }
     std::string why = names.front() + ": missing";
+    stream.infoless = true;
     for (const std::string& name : names) {
         if (const MessageTopic* topic = file.find(name); topic != nullptr && !topic->messages.empty()) {
+            stream.infoless = false;
             if (name == asked && topic->type != kInfoType) {
                 stream.noLens =
                     "info: " + asked + " is " + topic->type + " (allowed: a topic of " + kInfoType + ")";
@@ -40,6 +43,7 @@ const MessageTopic* infoOf(const MessageFile& file, const std::string& asked, Im
             return topic;
         }
         const std::string fault = file.faultOf(name);
+        stream.infoless = stream.infoless && fault.empty();
         why = fault.empty() ? why : name + ": " + fault;
     }
     stream.noLens = why + " (allowed: sensor_msgs/CameraInfo beside " + stream.name +
@@ -213,6 +217,47 @@ void settleRole(ImageStream& stream, const std::vector<ImageStream>& streams) {
     }
 }
 
+// The colour stream, of depth's frame or of any, whose lens may be that of depth that is aligned to it; null =
+// none, or several lenses.
+const ImageStream* lensOwner(const ImageStream& depth, const std::vector<ImageStream>& streams,
+                             bool ofFrame) {
+    const ImageStream* owner = nullptr;
+    for (const ImageStream& colour : streams) {
+        const bool frame = !ofFrame || (!depth.frame.empty() && colour.frame == depth.frame);
+        const bool fits = frame && colour.content == ros::Content::Colour && colour.lens && !colour.painted &&
+                          colour.width == depth.width && colour.height == depth.height;
+        if (fits && owner != nullptr && !sameLens(*owner->lens, *colour.lens)) {
+            return nullptr;
+        }
+        owner = fits && owner == nullptr ? &colour : owner;
+    }
+    return owner;
+}
+
+// Recordings often have aligned depth, colour and colour's lens only.
+void takeColourLens(const MessageFile& file, ImageStream& depth, const std::vector<ImageStream>& streams) {
+    if (depth.content != ros::Content::Depth || !depth.infoless || !namedRegistered(depth.name)) {
+        return;
+    }
+    const ImageStream* colour = lensOwner(depth, streams, true);
+    if (colour == nullptr) {
+        const ImageStream* other = lensOwner(depth, streams, false);
+        depth.noLens += other == nullptr ? ""
+                                         : "; if depth is seen by the lens of " + other->name +
+                                               ": info=" + file.topics()[*other->info].name;
+        return;
+    }
+    depth.lens = colour->lens;
+    depth.raw = colour->raw;
+    depth.info = colour->info;
+    depth.rectified = colour->rectified;
+    depth.turned = colour->turned;
+    depth.unsized = colour->unsized;
+    depth.shift = colour->shift;
+    depth.lensOf = colour->name;
+    depth.noLens.clear();
+}
+
 } // namespace
 
 bool mayBeDepth(const ImageStream& stream) {
@@ -243,6 +288,9 @@ std::vector<ImageStream> imageStreams(MessageFile& file, const std::string& info
     }
     for (ImageStream& stream : streams) {
         settleRole(stream, streams);
+    }
+    for (ImageStream& stream : streams) {
+        takeColourLens(file, stream, streams);
     }
     return streams;
 }

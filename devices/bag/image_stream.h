@@ -27,9 +27,12 @@ struct ImageStream {
     Intrinsics raw;
     std::optional<size_t> info; // topic of the lens, in MessageFile::topics()
     bool rectified = false, turned = false;
-    bool unsized = false; // the lens states no size: that of the images is taken
-    dvec3 shift{0.0};     // [m] as in ros::CameraInfo
-    std::string noLens;   // why there is no lens
+    bool unsized = false;  // the lens states no size: that of the images is taken
+    dvec3 shift{0.0};      // [m] as in ros::CameraInfo
+    std::string noLens;    // why there is no lens
+    double skew = 0.0;     // [pixels] of its lens, which is not used
+    bool infoless = false; // no topic of a lens was recorded for it
+    std::string lensOf;    // the topic of colour whose lens it has, as depth that is aligned to it
 };
 
 // Depth by its encoding, and not said to be something else by its name. mono16 is also what grey cameras of

@@ -17,6 +17,9 @@ std::string StreamChooser::describe(const StreamChoice& choice) const {
         if (stream != nullptr && stream->unsized && options_.intrinsics.empty()) {
             words += ", " + file_.topics()[*stream->info].name +
                      " without width and height (taken: " + std::to_string(stream->width) + "x" +
+    words += choice.depth.lensOf.empty() || !options_.intrinsics.empty()
+                 ? ""
+                 : ", depth with the lens of " + choice.depth.lensOf;
                      std::to_string(stream->height) + ")";
         }
     }

@@ -8,9 +8,8 @@
 #include "engine/types/colour_copy.h"
 #include "tests/devices/bag_maker.h"
 #include "tests/devices/database_maker.h"
-#include "tests/devices/recorded_folder.h"
+#include "tests/devices/played_bag.h"
 
-#include <doctest/doctest.h>
 #include <map>
 
 using namespace fathom;
@@ -155,5 +154,26 @@ TEST_CASE("The bytes of a message stay valid while others are read from its file
             }
         }
         CHECK(std::equal(before.begin(), before.end(), held.view.begin(), held.view.end()));
+    }
+}
+
+TEST_CASE("Depth that is aligned to colour has colour's lens where none of its own was recorded") {
+    const TemporaryFolder folder;
+    for (const bool oneFrame : {true, false}) {
+        BagMaker maker;
+        addStream(maker, "/camera/color/image_raw", redImage("color"), {.frame = "color", .k = {6, 6, 3, 2}});
+        for (const double t : {1.0, 1.1, 1.2}) {
+            maker.add("/camera/aligned_depth_to_color/image_raw", "sensor_msgs/Image", t,
+                      imageMessage(t, depthImage(500, oneFrame ? "color" : "depth")));
+        }
+        if (!oneFrame) {
+            lineSays(streamRefusal(folder, maker), "info=/camera/color/camera_info");
+            continue;
+        }
+        const BagCamera camera = playStreams(folder, maker);
+        CHECK(camera.info().registered);
+        CHECK(camera.info().depth.fx == 6.0);
+        CHECK(camera.info().colour.cy == 2.0);
+        lineSays(camera.streams(), "lens of /camera/color/image_raw");
     }
 }
