@@ -187,7 +187,9 @@ std::string BagCamera::changed(uint64_t time) {
 
 ros::Image BagCamera::imageOf(const ImageStream& stream, size_t index) {
     const MessageCursor message = file_->read(topicOf(stream), index);
-    return stream.compressed ? ros::compressedImage(message) : ros::image(message);
+    Image image = stream.compressed ? ros::compressedImage(message) : ros::image(message);
+    warnOnce(stream.name, ros::mendStep(image));
+    return image;
 }
 
 // Returns the fault; empty when the slot is filled.

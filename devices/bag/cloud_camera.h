@@ -32,7 +32,11 @@ private:
     std::string fit(const ros::Cloud& message, const PcdCloud& cloud);
     void learnLens();
     const MessageTopic& topic() const { return file_->topics()[topic_]; }
-    ros::Cloud cloudAt(size_t index) { return ros::cloud(file_->read(topic(), index)); }
+    ros::Cloud cloudAt(size_t index) {
+        ros::Cloud cloud = ros::cloud(file_->read(topic(), index));
+        warnOnce(topic().name, cloud.mended);
+        return cloud;
+    }
     std::string read(size_t index, FrameSlot& slot, double stamp, Frame::Content& content) override;
 
     size_t topic_ = 0;

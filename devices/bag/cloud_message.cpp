@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/bag/cloud_message.h"
 
+#include "devices/bag/ros_messages.h"
 #include "devices/pcd/colour_fields.h"
 #include "devices/recorded/recording_intrinsics.h"
 
@@ -19,6 +20,16 @@ void takeType(PcdField& field, uint8_t type) {
     const bool known = type >= 1 && type <= kTypes.size();
     field.type = known ? kTypes[type - 1] : '?';
     field.size = known ? kSizes[type - 1] - size_t{'0'} : 0;
+}
+
+// Drivers state the bytes of the whole cloud, the points of a row, or nothing.
+void mendRows(Cloud& cloud) {
+    const uint64_t row = uint64_t{cloud.pointStep} * cloud.width;
+    const bool whole = row > 0 && row <= UINT32_MAX && cloud.data.size() == row * cloud.height;
+    if (whole && cloud.rowStep != row) {
+        cloud.mended = statedRows(cloud.rowStep, row);
+        cloud.rowStep = static_cast<uint32_t>(row);
+    }
 }
 
 } // namespace
@@ -72,6 +83,7 @@ Cloud cloud(MessageCursor cursor) {
     out.rowStep = cursor.word();
     out.data = cursor.block();
     out.memory = cursor.memory();
+    mendRows(out);
     return out;
 }
 

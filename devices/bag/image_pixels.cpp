@@ -72,7 +72,39 @@ std::string compressedDepthRows(const Image& image, double metresPerUnit, std::s
     return "";
 }
 
+// Bytes of a row without gaps; 0 for several planes, and unknown encodings.
+uint64_t rowBytes(const Image& image) {
+    const std::string depth = depthEncoding(image.encoding);
+    if (!depth.empty()) {
+        return depth == "rvl" ? 0 : uint64_t{image.width} * (depth == "32FC1" ? 4 : 2);
+    }
+    const ColourLayout* layout = colourLayout(image.encoding);
+    if (layout == nullptr || !layout->raw) {
+        return layout == nullptr ? 0 : uint64_t{image.width} * layout->bytes;
+    }
+    switch (*layout->raw) {
+    case RawKind::Rgb:
+    case RawKind::Bgr:
+        return uint64_t{image.width} * 3;
+    case RawKind::Uyvy:
+    case RawKind::Yuyv:
+        return uint64_t{image.width} * 2;
+    default:
+        return 0;
+    }
+}
+
 } // namespace
+
+std::string mendStep(Image& image) {
+    const uint64_t row = image.compressed ? 0 : rowBytes(image);
+    if (row == 0 || image.data.size() != row * image.height || checkBytes(image, row).empty()) {
+        return "";
+    }
+    const std::string stated = statedRows(image.step, row);
+    image.step = static_cast<uint32_t>(row);
+    return stated;
+}
 
 Content content(const Image& image) {
     const ColourLayout* layout = colourLayout(image.encoding);

@@ -78,6 +78,14 @@ void MessageCamera::warnBeyond(size_t index, uint64_t beyond) {
 bool MessageCamera::seek(uint32_t index) {
     if (index >= end_) {
         return false;
+void MessageCamera::warnOnce(const std::string& subject, const std::string& fault) {
+    const std::string warning = subject + ": " + fault;
+    if (!fault.empty() && std::ranges::find(warnings_, warning) == warnings_.end()) {
+        log::warn("{}: {}", file_->file().string(), warning);
+        addWarning(warning);
+    }
+}
+
     }
     cursor_ = index;
     lastStamp_.reset();

@@ -48,6 +48,8 @@ protected:
             use(i);
         }
     }
+    // Logs and adds "subject: fault" once; an empty fault is none.
+    void warnOnce(const std::string& subject, const std::string& fault);
     // Warns once of points that the unit of depth cannot hold, unless the scene's far excludes them.
     void warnBeyond(size_t index, uint64_t beyond);
     // Fills the slot from message `index`, and content.raw if the colour is not R8 G8 B8 A8. Returns the

@@ -104,6 +104,10 @@ Image image(MessageCursor cursor) {
     return out;
 }
 
+std::string statedRows(uint64_t stated, uint64_t row) {
+    return "rows of " + std::to_string(stated) + " bytes are stated where they have " + std::to_string(row);
+}
+
 Image compressedImage(MessageCursor cursor) {
     const Header head = header(cursor);
     Image out;

@@ -27,6 +27,8 @@ struct Image {
     std::shared_ptr<const void> memory; // as MessageCursor::memory()
 };
 Image image(MessageCursor message);
+// "rows of 0 bytes are stated where they have 160": of images and clouds whose rows can be known.
+std::string statedRows(uint64_t stated, uint64_t row);
 Image compressedImage(MessageCursor message);
 double stamp(MessageCursor message); // [s] of any message that begins with a header
 
