@@ -143,6 +143,7 @@ void readLens(MessageFile& file, const std::string& asked, ImageStream& stream) 
             stream.raw = info.raw;
             stream.rectified = namedRectified(stream.name);
             stream.turned = info.turned;
+            stream.skew = stream.rectified ? info.rectifiedSkew : info.rawSkew;
             stream.unsized = !sized;
             stream.shift = info.shift;
         }

@@ -153,6 +153,8 @@ CameraInfo cameraInfo(MessageCursor cursor) {
     if (!byK && !byP) {
         throw Error(info.rawFault);
     }
+    info.rawSkew = k[1];
+    info.rectifiedSkew = byP ? p[1] : k[1];
     info.rectified = byP ? cropped(p[0], p[5], p[2], p[6], crop) : info.raw;
     if (byP && std::isfinite(p[3] + p[7])) {
         info.shift = {p[3] / p[0], p[7] / p[5], 0.0};

@@ -39,6 +39,7 @@ struct CameraInfo {
     std::string rawFault; // why K or D cannot be used, `raw` is empty then; empty = nothing
     Intrinsics rectified; // P, without distortion; K where P is empty
     bool turned = false;  // rectification turns the camera (R)
+    double rawSkew = 0.0, rectifiedSkew = 0.0; // [pixels] of K and P, which no lens here has
     // [m] What is added to points of the header's frame to be seen from the camera's centre: Tx / fx and Ty /
     // fy of P, which are not 0 for the second camera of a rectified stereo pair.
     dvec3 shift{0.0};

@@ -274,6 +274,10 @@ StreamChoice StreamChooser::choose() {
     } else if (colour != nullptr && !relation.registered) {
         choice.warnings.push_back(alignedWarning(*depth, *colour));
     }
+    warnOf(*depth, choice);
+    if (choice.colour) {
+        warnOf(*choice.colour, choice);
+    }
     if (namedRangeImage(depth->name) && !choice.rangeImages) {
         choice.warnings.push_back(axisWarning(depth->name, "a file of the lens (intrinsics=FILE)"));
     }

@@ -74,6 +74,7 @@ private:
     void replaceLenses(StreamChoice& choice) const;
     std::string alignedWarning(const ImageStream& depth, const ImageStream& colour) const;
     std::string unreadStreams() const;
+    void warnOf(const ImageStream& stream, StreamChoice& choice) const;
     std::string otherTopics() const;
     std::string describe(const StreamChoice& choice) const;
     [[noreturn]] void refuseRelation(const ImageStream& depth, const ImageStream& colour,

@@ -2,6 +2,9 @@
 // Sentences of StreamChooser about the streams of a file.
 #include "devices/bag/stream_choice.h"
 
+#include "devices/bag/topic_words.h"
+#include "engine/types/number_text.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -13,13 +16,13 @@ std::string StreamChooser::describe(const StreamChoice& choice) const {
     std::string words = "depth " + named(choice.depth);
     words += choice.colour ? ", colour " + named(*choice.colour) : ", no colour";
     words += !choice.colour ? "" : (choice.camera.registered ? ", registered" : ", by extrinsics");
+    words += choice.depth.lensOf.empty() || !options_.intrinsics.empty()
+                 ? ""
+                 : ", depth with the lens of " + choice.depth.lensOf;
     for (const ImageStream* stream : {&choice.depth, choice.colour ? &*choice.colour : nullptr}) {
         if (stream != nullptr && stream->unsized && options_.intrinsics.empty()) {
             words += ", " + file_.topics()[*stream->info].name +
                      " without width and height (taken: " + std::to_string(stream->width) + "x" +
-    words += choice.depth.lensOf.empty() || !options_.intrinsics.empty()
-                 ? ""
-                 : ", depth with the lens of " + choice.depth.lensOf;
                      std::to_string(stream->height) + ")";
         }
     }
@@ -74,6 +77,25 @@ std::string StreamChooser::unreadStreams() const {
         }
     }
     return all;
+}
+
+// What may be wrong with images that are played.
+void StreamChooser::warnOf(const ImageStream& stream, StreamChoice& choice) const {
+    constexpr double kMostSkew = 0.1; // [pixels]
+    if (std::abs(stream.skew) > kMostSkew && options_.intrinsics.empty()) {
+        choice.warnings.push_back(file_.topics()[*stream.info].name + ": a skew of " +
+                                  significant(stream.skew, 3) + " pixels is not used: the images of " +
+                                  stream.name + " are played without it");
+    }
+    const auto words = humpsOf(stream.frame);
+    const bool depthFrame = std::ranges::any_of(
+        words, [](const std::string& word) { return useOf(word, true) == WordUse::Depth; });
+    if (stream.content == ros::Content::Depth && stream.role == NamedRole::None && options_.depth.empty() &&
+        !stream.metres && !stream.name.ends_with("/compressedDepth") && !depthFrame) {
+        choice.warnings.push_back(stream.name + ": taken as depth by its encoding alone, " + stream.encoding +
+                                  ", as neither topic nor frame names depth; depth=" + stream.name +
+                                  " confirms it");
+    }
 }
 
 // What a file without images holds.

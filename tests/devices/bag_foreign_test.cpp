@@ -2,6 +2,8 @@
 // Bags as bridges, scripts and crashed recorders leave them: lenses without size, bytes behind the end.
 #include "tests/devices/played_bag.h"
 
+#include <algorithm>
+
 using namespace fathom;
 using namespace fathom::testing;
 
@@ -147,5 +149,65 @@ TEST_CASE("Of several colours that fit equally the one whose name is most like t
             const BagCamera camera = playStreams(folder, maker);
             CHECK(lineSays(camera.streamOptions(), std::string(",colour=") + own));
         }
+    }
+}
+
+TEST_CASE("Images whose step of rows is wrong are played where their bytes are those of rows without gaps") {
+    const TemporaryFolder folder;
+    for (const uint32_t step : {8u, 96u, 1u}) {
+        ImageMessage depth = depthImage(500), colour = redImage();
+        depth.step = step;
+        colour.step = step == 96u ? 144u : step;
+        BagMaker maker;
+        addStream(maker, "/c/depth/image_raw", depth);
+        addStream(maker, "/c/color/image_raw", colour);
+        BagCamera camera = playStreams(folder, maker);
+        for (int frame = 0; frame < 3; ++frame) {
+            CHECK(firstDepth(camera) == doctest::Approx(0.5));
+        }
+        CHECK(camera.skipped() == 0);
+        const auto warnings = camera.warnings();
+        REQUIRE(warnings.size() == 2);
+        CHECK(warnings[0] ==
+              "/c/depth/image_raw: rows of " + std::to_string(step) + " bytes are stated where they have 16");
+    }
+    ImageMessage cut = depthImage(500);
+    cut.step = 8;
+    cut.pixels.resize(90);
+    BagMaker maker;
+    addStream(maker, "/c/depth/image_raw", cut);
+    BagCamera camera = playStreams(folder, maker);
+    CHECK_THROWS_AS(camera.next(), BadInput);
+}
+
+TEST_CASE("Images of 16 bits that nothing names depth are played with a warning, unless they are asked for") {
+    const TemporaryFolder folder;
+    const auto warned = [&](const char* topic, const char* frame, const SourceOptions& options = {}) {
+        BagMaker maker;
+        addStream(maker, topic, depthImage(500, frame));
+        const auto warnings = playStreams(folder, maker, options).warnings();
+        return std::ranges::count_if(warnings, [](const std::string& warning) {
+            return warning.find("taken as depth by its encoding alone") != std::string::npos;
+        });
+    };
+    CHECK(warned("/front/image_raw", "camera") == 1);
+    CHECK(warned("/front/image_raw", "camera", {.depth = "/front/image_raw"}) == 0);
+    CHECK(warned("/front/image_raw", "camera_depth_optical_frame") == 0);
+    CHECK(warned("/front/depth", "camera") == 0);
+    for (const char* topic : {"/lepton/image_raw", "/stereo/disp", "/front/class_ids", "/front/object_ids"}) {
+        BagMaker maker;
+        addStream(maker, topic, depthImage(2731));
+        lineSays(streamRefusal(folder, maker), "whose name is not one of infrared");
+    }
+}
+
+TEST_CASE("A skew of a lens is named, as no lens here has one") {
+    const TemporaryFolder folder;
+    for (const double skew : {0.05, -12.0}) {
+        BagMaker maker;
+        addStream(maker, "/c/depth/image_raw", depthImage(500), {.skew = skew});
+        const auto warnings = playStreams(folder, maker).warnings();
+        REQUIRE(warnings.size() == (skew < 0.0 ? 1 : 0));
+        CHECK((warnings.empty() || lineSays(warnings[0], "/c/depth/camera_info: a skew of -12 pixels")));
     }
 }

@@ -126,7 +126,7 @@ std::string infoMessage(const InfoMessage& info) {
     for (const double d : info.distortion) {
         out.put(d);
     }
-    for (const double k : {info.k[0], 0.0, info.k[2], 0.0, info.k[1], info.k[3], 0.0, 0.0, 1.0}) {
+    for (const double k : {info.k[0], info.skew, info.k[2], 0.0, info.k[1], info.k[3], 0.0, 0.0, 1.0}) {
         out.put(k);
     }
     for (const double r : {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0}) {

@@ -73,6 +73,7 @@ struct InfoMessage {
     uint32_t binning = 0;
     std::array<uint32_t, 4> roi{}; // x, y, height, width
     double tx = 0.0;               // P[3], if p is given
+    double skew = 0.0;             // K[1]
 };
 std::string infoMessage(const InfoMessage& info);
 std::string transformMessage(double x, double y, double z); // geometry_msgs/Transform without rotation
