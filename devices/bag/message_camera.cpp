@@ -35,6 +35,9 @@ void MessageCamera::useClock(const MessageTopic& topic) {
         log::warn("{}: {}: at least half of its stamps do not rise: the time of recording is used",
                   file_->file().string(), topic.name);
         depth_->useRecordingTime();
+    } else if (const std::string fault = depth_->whyNoSeconds(); !fault.empty()) {
+        warnOnce(topic.name, "its stamps are no seconds: " + fault + ": the time of recording is used");
+        depth_->useRecordingTime();
     }
 }
 
@@ -75,9 +78,6 @@ void MessageCamera::warnBeyond(size_t index, uint64_t beyond) {
     }
 }
 
-bool MessageCamera::seek(uint32_t index) {
-    if (index >= end_) {
-        return false;
 void MessageCamera::warnOnce(const std::string& subject, const std::string& fault) {
     const std::string warning = subject + ": " + fault;
     if (!fault.empty() && std::ranges::find(warnings_, warning) == warnings_.end()) {
@@ -86,6 +86,9 @@ void MessageCamera::warnOnce(const std::string& subject, const std::string& faul
     }
 }
 
+bool MessageCamera::seek(uint32_t index) {
+    if (index >= end_) {
+        return false;
     }
     cursor_ = index;
     lastStamp_.reset();

@@ -2,6 +2,7 @@
 #include "devices/bag/stamped_stream.h"
 
 #include "devices/bag/ros_messages.h"
+#include "engine/types/number_text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -176,6 +177,22 @@ bool StampedStream::recordedInTime() {
     }
     const double step = recordedPeriod(); // alike: the clock of the stamps was set forward or back
     return step <= kAlike * period && period <= kAlike * step;
+}
+
+std::string StampedStream::whyNoSeconds() {
+    constexpr double kShortest = 1e-3, kLongest = 0.5; // [s] recorded periods of a camera
+    constexpr double kMost = 10.0, kLeast = 2e-4;      // [s] stamped ones
+    const double recorded = recordedPeriod(), stamped = stamped_ ? rise().period : 0.0;
+    if (stamped <= 0.0 || recorded < kShortest || recorded > kLongest) {
+        return "";
+    }
+    const bool counted = stamped == 1.0 && stampOf(0) == std::round(stampOf(0)) && stampOf(0) < 1e6;
+    if (!counted && stamped >= kLeast && stamped <= kMost) {
+        return "";
+    }
+    return counted ? "they count frames, which were recorded every " + significant(recorded, 3) + " s"
+                   : "images " + significant(stamped, 3) + " apart were recorded every " +
+                         significant(recorded, 3) + " s";
 }
 
 size_t StampedStream::firstAfter(double seconds) {

@@ -205,3 +205,28 @@ TEST_CASE("Colour that is recorded seconds late is paired by its stamps, where t
         }
     }
 }
+
+TEST_CASE("Stamps of a bag that count frames or are in another unit give way to the time of recording") {
+    const TemporaryFolder folder;
+    for (const double step : {1.0, 1000.0 * kFrameStep, 1e-6}) {
+        BagMaker maker;
+        for (const char* topic : {"/c/depth/camera_info", "/c/rgb/camera_info"}) {
+            maker.add(topic, "sensor_msgs/CameraInfo", 1000.0, infoMessage({}));
+        }
+        for (int i = 0; i < 40; ++i) {
+            const double at = 1000.0 + kFrameStep * i, stamp = 3.0 + step * i;
+            maker.add("/c/depth/image", "sensor_msgs/Image", at, imageMessage(stamp, depthImage(500)));
+            maker.add("/c/rgb/image", "sensor_msgs/Image", at, imageMessage(stamp, redImage()));
+        }
+        BagCamera camera = playStreams(folder, maker);
+        REQUIRE(camera.warnings().size() == 1);
+        lineSays(camera.warnings()[0], "/c/depth/image: its stamps are no seconds");
+        double last = 0.0;
+        uint32_t played = 0;
+        for (; const auto frame = camera.next(); ++played) {
+            CHECK((last == 0.0 || (*frame)->captureTime - last == doctest::Approx(kFrameStep)));
+            last = (*frame)->captureTime;
+        }
+        CHECK(played == 40);
+    }
+}
