@@ -15,9 +15,8 @@ namespace fathom {
 
 // Plays the streams that StreamChooser chooses. A depth image is paired with the colour image whose header's
 // stamp is nearest, at most half the slower stream's period away (a colour image may be used twice); by the
-// time of recording, with a warning, where no stamps are that near, or where images far from each other in the
-// file would be paired whose stamps do not agree. An unpaired image is skipped, counted and
-// logged.
+// time of recording, with a warning, where no stamps are that near, or where images far from each other in
+// the file would be paired whose stamps do not agree. An unpaired image is skipped, counted and logged.
 class BagCamera final : public MessageCamera {
 public:
     // Throws BadInput naming the file and the topic.

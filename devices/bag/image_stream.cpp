@@ -192,7 +192,7 @@ ImageStream usableStream(MessageFile& file, const std::string& info, const Image
     return stream;
 }
 
-// Whether the part of a name with depth and colour is that of a camera: another image there names depth again.
+// Whether a name of depth and colour is that of a camera: another image below it names depth again.
 bool namesCamera(const std::string& folder, const std::vector<ImageStream>& streams) {
     return !folder.empty() && std::ranges::any_of(streams, [&](const ImageStream& stream) {
         return stream.content == ros::Content::Depth && stream.name.starts_with(folder) &&
@@ -218,8 +218,8 @@ void settleRole(ImageStream& stream, const std::vector<ImageStream>& streams) {
     }
 }
 
-// The colour stream, of depth's frame or of any, whose lens may be that of depth that is aligned to it; null =
-// none, or several lenses.
+// The colour stream, of depth's frame or of any, whose lens may be that of depth that is aligned to it; null
+// = none, or several lenses.
 const ImageStream* lensOwner(const ImageStream& depth, const std::vector<ImageStream>& streams,
                              bool ofFrame) {
     const ImageStream* owner = nullptr;

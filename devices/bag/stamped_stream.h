@@ -30,8 +30,8 @@ public:
     // Whether messages were recorded when they were sent, as far as the stamps tell; not so where a program
     // wrote the file later. True where the stamps say nothing.
     bool recordedInTime();
-    // Why stamps that rise are no seconds, as far as the times of recording tell: they are numbers of frames, or in
-    // another unit. Empty = they may be seconds.
+    // Why stamps that rise are no seconds, as far as the times of recording tell: they are numbers of frames,
+    // or in another unit. Empty = they may be seconds.
     std::string whyNoSeconds();
     // The first message so many seconds after the first one, by the stamps where it was not recordedInTime().
     size_t firstAfter(double seconds);

@@ -18,8 +18,8 @@ enum class NamedRole {
 };
 
 // By the last word that decides: "/camera/ir/image" is Infrared, "/kinect2/sd/image_depth_rect" Depth. Words
-// after "to" and "in" are a target: "/aligned_depth_to_color/image_raw" is Depth. Either: words of depth and then
-// of colour in one part ("/cam/depth_color/image"), or an image of colour in a folder of depth.
+// after "to" and "in" are a target: "/aligned_depth_to_color/image_raw" is Depth. Either: words of depth and
+// then of colour in one part ("/cam/depth_color/image"), or an image of colour in a folder of depth.
 NamedRole namedRole(const std::string& topic);
 // Of a topic that is Either: "/cam/depth_color/", below which all is painted unless a topic there names depth
 // once more; empty where its last part decides.

@@ -30,7 +30,7 @@ std::vector<std::string> lensWarnings(const CameraInfo& camera);
 
 // Within 1e-6 pixels.
 bool sameLens(const Intrinsics& a, const Intrinsics& b);
-// Whether a pixel of the border, or of the middle, is seen by both within a tenth of a pixel: as one lens that is
+// Whether both see the border and the middle of the image within a tenth of a pixel: as one lens that is
 // computed anew for each image.
 bool nearlySameLens(const Intrinsics& a, const Intrinsics& b);
 
