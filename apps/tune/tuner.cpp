@@ -106,7 +106,6 @@ std::vector<Score> TuneResult::scores() const {
 Tuner::Tuner(gpu::Device& device, const TuneSource& source, const Tool& tool, TuneOptions options)
     : device_(device)
     , source_(source)
-    , tool_(tool)
     , options_(std::move(options))
     , truth_(trueRegions(device, source))
     , places_(tool, truth_, source.truth.baseTcamera) {}

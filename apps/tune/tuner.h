@@ -81,7 +81,6 @@ private:
 
     gpu::Device& device_;
     const TuneSource& source_;
-    const Tool& tool_;
     TuneOptions options_;
     Fixtures truth_;
     profile::FeltPlaces places_;

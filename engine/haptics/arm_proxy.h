@@ -33,9 +33,11 @@ public:
     }
 
     // Sets the posture without a collision check, clamped to the joint limits. Joints whose value is not
-    // finite keep their position. The active set may no longer cover the posture: check with covers().
+    // finite keep their position. keep_in shapes hold the leaves that are inside there, whatever they held
+    // before. The active set may no longer cover the posture: check with covers().
     void setPosture(const ArmPosture& posture) noexcept {
         kinematics_.setPosture(posture);
+        contacts_.forgetHeld();
         chooseHeld();
     }
 

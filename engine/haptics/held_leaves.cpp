@@ -27,7 +27,7 @@ void HeldLeaves::choose(std::span<const Shape> shapes, const LeafCentres& centre
     const size_t leaves = leftOut_.size(), count = std::min(shapes.size(), placed_.capacity());
     free_.swap(before_);
     for (size_t s = 0; s < count; ++s) {
-        const size_t was = indexBefore(shapes[s], s);
+        const size_t was = indexBefore(shapes[s], s, count);
         for (size_t leaf = 0; leaf < leaves; ++leaf) {
             const bool held = was < placed_.size() && before_[was * leaves + leaf] == 0;
             const bool outside = !held && isOutside(shapes[s], centres[leaf] + origin, radius[leaf]);
@@ -37,16 +37,21 @@ void HeldLeaves::choose(std::span<const Shape> shapes, const LeafCentres& centre
     placed_.assign(shapes.begin(), shapes.begin() + static_cast<std::ptrdiff_t>(count));
 }
 
-// The shape of the same fixture at the last choice; placed_.size() = none. Other shapes may have come or gone
-// before it.
-size_t HeldLeaves::indexBefore(const Shape& shape, size_t index) const noexcept {
-    const auto same = [&](const Shape& other) {
-        return other.keepIn && other.kind == shape.kind && other.fixture == shape.fixture;
+// The same shape at the last choice; placed_.size() = none. Rows of fixtures shift when a shape comes or
+// goes, so a shape that moved is known by its row only while their number stays.
+size_t HeldLeaves::indexBefore(const Shape& shape, size_t index, size_t count) const noexcept {
+    const auto equal = [&](const Shape& other) {
+        return other.keepIn == shape.keepIn && other.kind == shape.kind && other.size == shape.size &&
+               other.baseTshape.position == shape.baseTshape.position &&
+               other.baseTshape.rotation == shape.baseTshape.rotation;
     };
-    if (index < placed_.size() && same(placed_[index])) {
-        return index;
+    const auto found = std::find_if(placed_.begin(), placed_.end(), equal);
+    if (found != placed_.end()) {
+        return static_cast<size_t>(found - placed_.begin());
     }
-    return static_cast<size_t>(std::find_if(placed_.begin(), placed_.end(), same) - placed_.begin());
+    const bool moved = index < placed_.size() && count == placed_.size() && placed_[index].keepIn &&
+                       placed_[index].kind == shape.kind && placed_[index].fixture == shape.fixture;
+    return moved ? index : placed_.size();
 }
 
 } // namespace fathom

@@ -29,9 +29,11 @@ public:
     // centres: about `origin` [m], base frame.
     void choose(std::span<const Shape> shapes, const LeafCentres& centres, const dvec3& origin,
                 std::span<const double> radius) noexcept;
+    // The next choice is by where the leaves are alone: the arm was somewhere else.
+    void forget() noexcept { placed_.clear(); }
 
 private:
-    size_t indexBefore(const Shape& shape, size_t index) const noexcept;
+    size_t indexBefore(const Shape& shape, size_t index, size_t count) const noexcept;
 
     std::vector<uint8_t> leftOut_;       // per leaf
     std::vector<uint8_t> free_, before_; // per shape and leaf: outside of a keep_in shape

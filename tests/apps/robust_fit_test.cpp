@@ -144,8 +144,8 @@ TEST_CASE(
 TEST_CASE("Points on one line are doubted whatever their scatter, and points too near to each other for it") {
     const dvec3 line(0.25, 0.0, 0.0);
     for (const size_t count : {4, 8, 30, 300}) {
-        for (const auto& [cameraNoise, baseNoise] :
-             {std::pair(0.0, 0.002), std::pair(0.001, 0.002), std::pair(0.003, 0.003)}) {
+        for (const auto& given : {std::pair(0.0, 0.002), std::pair(0.001, 0.002), std::pair(0.003, 0.003)}) {
+            const auto &cameraNoise = given.first, &baseNoise = given.second;
             CAPTURE(count);
             CAPTURE(cameraNoise);
             CAPTURE(baseNoise);

@@ -27,9 +27,10 @@ HapticRig settledRig(double hz, double depth) {
 } // namespace
 
 TEST_CASE("A slow low-pass holds no force in free space for longer than a ramp, and the force has a cause") {
-    for (const auto& [hz, depth] :
+    for (const auto& given :
          {std::pair(0.1, 0.01), std::pair(0.1, 0.1), std::pair(0.5, 0.1), std::pair(1.0, 0.01),
           std::pair(1.0, 0.05), std::pair(20.0, 0.01), std::pair(20.0, 0.1)}) {
+        const auto &hz = given.first, &depth = given.second;
         INFO(hz << " Hz, " << depth << " m");
         HapticRig rig = settledRig(hz, depth);
         double before = forceOf(rig.step());

@@ -123,9 +123,10 @@ TEST_CASE("Images of one frame and lens are played together where other topics h
         return maker;
     };
     for (const bool tf : {false, true}) {
-        for (const auto& [depth, colour] : {std::pair("/rgbd_camera/depth_image", "/rgbd_camera/image"),
-                                            std::pair("/stereo/depth", "/stereo/left/image_rect"),
-                                            std::pair("/oak/stereo/image_raw", "/oak/rgb/image_raw")}) {
+        for (const auto& given : {std::pair("/rgbd_camera/depth_image", "/rgbd_camera/image"),
+                                  std::pair("/stereo/depth", "/stereo/left/image_rect"),
+                                  std::pair("/oak/stereo/image_raw", "/oak/rgb/image_raw")}) {
+            const auto &depth = given.first, &colour = given.second;
             CAPTURE(depth);
             BagCamera camera = playStreams(folder, bagOf(depth, colour, tf));
             CHECK(camera.info().registered);

@@ -122,13 +122,14 @@ TEST_CASE("Arrays of every size of integers, and of half floats, hold depth as n
     };
     using namespace std::string_literals;
     const std::string zeros6(6, '\0'), ones6(6, '\xff');
-    for (const auto& [descr, values] : {std::pair("<i2"s, "\xe8\x03\xff\xff"s),
-                                        {">i2"s, "\x03\xe8\xff\xff"s},
-                                        {"<i4"s, "\xe8\x03\0\0\xff\xff\xff\xff"s},
-                                        {"<u4"s, "\xe8\x03\0\0\0\0\0\0"s},
-                                        {"<i8"s, "\xe8\x03"s + zeros6 + "\xff\xff"s + ones6},
-                                        {">u8"s, zeros6 + "\x03\xe8\0\0"s + zeros6},
-                                        {"<f2"s, "\0\x3c\0\xbc"s}}) { // 1.0 and -1.0
+    for (const auto& given : {std::pair("<i2"s, "\xe8\x03\xff\xff"s),
+                              {">i2"s, "\x03\xe8\xff\xff"s},
+                              {"<i4"s, "\xe8\x03\0\0\xff\xff\xff\xff"s},
+                              {"<u4"s, "\xe8\x03\0\0\0\0\0\0"s},
+                              {"<i8"s, "\xe8\x03"s + zeros6 + "\xff\xff"s + ones6},
+                              {">u8"s, zeros6 + "\x03\xe8\0\0"s + zeros6},
+                              {"<f2"s, "\0\x3c\0\xbc"s}}) { // 1.0 and -1.0
+        const auto &descr = given.first, &values = given.second;
         INFO(descr);
         std::vector<uint16_t> depth(2, 9);
         CHECK(readAs(descr, values, depth) == "");

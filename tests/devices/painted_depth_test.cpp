@@ -23,7 +23,7 @@ BagMaker withPainted(const std::string& depth, const std::string& painted, const
 
 TEST_CASE("Depth that is painted is not colour, whatever word of colour its name ends in") {
     const TemporaryFolder folder;
-    for (const auto& [depth, painted] :
+    for (const auto& given :
          {std::pair<std::string, std::string>{"/blaze/depth_map", "/blaze/depth_map_color"},
           {"/camera/depth/image_raw", "/camera/depth/image_color"},
           {"/camera/depth", "/camera/depth_color"},
@@ -37,6 +37,7 @@ TEST_CASE("Depth that is painted is not colour, whatever word of colour its name
           {"/cam/depthImage", "/cam/depthColor"},
           {"/camera/depth/image_raw", "/camera/colormap/image"},
           {"/camera/depth/image_raw", "/camera/jet/image"}}) {
+        const auto &depth = given.first, &painted = given.second;
         CAPTURE(painted);
         BagCamera alone = playStreams(folder, withPainted(depth, painted, ""));
         CHECK_FALSE(alone.info().hasColour);

@@ -66,7 +66,7 @@ TEST_CASE("Names that are stamps in seconds or nanoseconds play in order of time
 
 TEST_CASE("File names pair by their counter; if a stamp follows the counter, by the stamp") {
     using Names = std::vector<std::string>;
-    for (const auto& [depth, colour] :
+    for (const auto& given :
          {std::pair(
               Names{"1305031102175_0001", "1305031102242_0002", "1305031102375_0004"},
               Names{"1305031102180_0001", "1305031102247_0002", "1305031102313_0003", "1305031102380_0004"}),
@@ -76,6 +76,7 @@ TEST_CASE("File names pair by their counter; if a stamp follows the counter, by 
           std::pair(Names{"0000002-000000000000", "0000003-000000033369", "0000004-000000100107"},
                     Names{"0000001-000000000000", "0000002-000000033369", "0000003-000000066738",
                           "0000004-000000100107"})}) {
+        const auto &depth = given.first, &colour = given.second;
         INFO(depth.front());
         const TemporaryFolder folder;
         writeNamed(folder, depth, colour);

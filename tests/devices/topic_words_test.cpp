@@ -21,16 +21,17 @@ std::string chosenDepth(const std::string& other, const std::string& depth) {
 } // namespace
 
 TEST_CASE("Infrared, amplitude and confidence are not depth in names of humps and of plurals either") {
-    for (const auto& [other, depth] : {std::pair<std::string, std::string>{"/cam/irImage", "/cam/depthImage"},
-                                       {"/cam/imageIR", "/cam/imageDepth"},
-                                       {"/cam/IRImage", "/cam/DepthImage"},
-                                       {"/cam/infraredImage", "/cam/depthImage"},
-                                       {"/cam/confidenceMap", "/cam/depthMap"},
-                                       {"/tof/amplitudes", "/tof/distances"},
-                                       {"/tof/intensities", "/tof/ranges"},
-                                       {"/tof/brightness", "/tof/image"},
-                                       {"/cam0/ab_image", "/cam0/z_image"},
-                                       {"/tof/conf", "/tof/image"}}) {
+    for (const auto& given : {std::pair<std::string, std::string>{"/cam/irImage", "/cam/depthImage"},
+                              {"/cam/imageIR", "/cam/imageDepth"},
+                              {"/cam/IRImage", "/cam/DepthImage"},
+                              {"/cam/infraredImage", "/cam/depthImage"},
+                              {"/cam/confidenceMap", "/cam/depthMap"},
+                              {"/tof/amplitudes", "/tof/distances"},
+                              {"/tof/intensities", "/tof/ranges"},
+                              {"/tof/brightness", "/tof/image"},
+                              {"/cam0/ab_image", "/cam0/z_image"},
+                              {"/tof/conf", "/tof/image"}}) {
+        const auto &other = given.first, &depth = given.second;
         CAPTURE(other);
         CHECK(chosenDepth(other, depth) == ",depth=" + depth + ",colour=/cam/colorImage");
     }

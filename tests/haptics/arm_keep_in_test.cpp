@@ -101,6 +101,22 @@ TEST_CASE("A keep_in shape that moves still holds what was inside, and takes in 
     CHECK(outside.tip().position.z < 0.15 - 0.02 + 1e-9);
 }
 
+TEST_CASE(
+    "A keep_in shape takes over nothing from one that was removed before it, nor from a former posture") {
+    const ArmModel arm = armWithBase();
+    const Shape room = boxAt({0.0, 0.0, 0.0}, {2.0, 2.0, 2.0}, true);
+    Shape cell = boxAt({0.495, 0.0, 0.0}, {0.2, 0.4, 0.3}, true);
+    cell.fixture = 1;
+    ArmProxy proxy(arm, Pose{}, {}, kBent, std::vector{room, cell});
+    cell.fixture = 0; // as in a scene without the room
+    proxy.setShapes(std::vector{cell});
+    CHECK(move(proxy, {0.0, 0.0, 0.0}).contact == 0);
+
+    proxy.setPosture({{0.0, 0.0, 0.0}, 0.0}); // stretched: other leaves are in the cell
+    proxy.setPosture({kBent, 0.0});
+    CHECK(move(proxy, {0.0, 0.0, 0.0}).contact == 0);
+}
+
 TEST_CASE("A base inside a forbidden shape never escapes, and the tip still feels the other shapes") {
     const ArmModel arm = armWithBase();
     const std::vector<Shape> shapes{boxAt({0.0, 0.0, -0.05}, {0.2, 0.2, 0.1}, false),

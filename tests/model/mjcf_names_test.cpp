@@ -31,8 +31,9 @@ TEST_CASE("Bodies and joints without a name next to an arm with the usual names 
     for (const char* cube :
          {"<body name='cube'><freejoint/>", "<body><freejoint/>", "<body>", "<body><joint/>",
           "<body name='body'><joint/><joint axis='1 0 0'/><joint axis='0 1 0'/>"}) {
-        for (const auto& [body, joint] :
+        for (const auto& given :
              {std::pair("l", "joint_"), {"body_", "j"}, {"body_", "joint_"}, {"body__", "body__fixed"}}) {
+            const auto &body = given.first, &joint = given.second;
             CAPTURE(cube);
             CAPTURE(body);
             const std::string text = armOfTwo(std::string(cube) + mjcfBall() + "</body>", body, joint);

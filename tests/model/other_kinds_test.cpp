@@ -21,7 +21,7 @@ TEST_CASE("A file that is no robot is named as what it is, with what to give ins
                           "spheres of a robot (XRDF or cuRobo), without links and joints (allowed: the URDF "
                           "that it belongs to)",
                       instead = " (allowed: a URDF or MJCF of the robot)";
-    for (const auto& [text, says] : {
+    for (const auto& given : {
              std::pair<std::string, std::string>("format: xrdf\nformat_version: 1.0\n", spheres),
              {"robot_cfg:\n  kinematics: {}\n", spheres},
              {"# spheres\ncollision_spheres: {}\n", spheres},
@@ -41,6 +41,7 @@ TEST_CASE("A file that is no robot is named as what it is, with what to give ins
               "<robot> inside of <model> (allowed: a file whose outermost element is <robot>)"},
              {"<sdf version='1.6'/>", "an SDF" + instead},
          }) {
+        const auto &text = given.first, &says = given.second;
         CAPTURE(text);
         const std::string refusal = refusalOfFile(text);
         CAPTURE(refusal);

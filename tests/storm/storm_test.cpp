@@ -62,7 +62,7 @@ pid_t startBridge(const std::filesystem::path& socket, unsigned seed, const std:
     char* argv[] = {words[0].data(), words[1].data(), words[2].data(), words[3].data(), nullptr};
     pid_t bridge = -1;
     REQUIRE(::posix_spawn(&bridge, STORM_BRIDGE, nullptr, nullptr, argv, environ) == 0);
-    REQUIRE(eventually([&socket] { return std::filesystem::exists(socket); }));
+    REQUIRE(testing::eventually([&socket] { return std::filesystem::exists(socket); }));
     return bridge;
 }
 

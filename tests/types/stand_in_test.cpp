@@ -15,7 +15,7 @@ TEST_CASE(
     "A file that holds a pointer, a web page or an archive in place of its content is refused as such") {
     const testing::ScratchFolder scratch;
     const std::string tar = std::string(257, 'x') + "ustar\0"s;
-    for (const auto& [begin, what] :
+    for (const auto& given :
          {std::tuple("version https://git-lfs.github.com/spec/v1\noid sha256:4d\nsize 12345\n"s,
                      "git lfs pull"),
           std::tuple("/annex/objects/SHA256E-s123--ab.png\n"s, "git annex get"),
@@ -24,6 +24,7 @@ TEST_CASE(
           std::tuple("\x28\xb5\x2f\xfd"s, "zstd -d"), std::tuple("\xfd"s + "7zXZ\0"s, "xz"),
           std::tuple("BZh9"s, "bzip2"), std::tuple("7z\xbc\xaf\x27\x1c"s, "7z"),
           std::tuple("Rar!\x1a"s, "RAR"), std::tuple(tar, "tar archive")}) {
+        const std::string &begin = std::get<0>(given), what = std::get<1>(given);
         scratch.write("a", begin);
         INFO(what);
         CHECK(standInOf(scratch / "a").find(what) != std::string::npos);
