@@ -187,6 +187,9 @@ WrenchStage::Output WrenchStage::step(const WrenchInput& input) noexcept {
         slewed(sized.force, previous_.force, options_.slewForce, options_.forceLimit, input.elapsed);
     out.wrench.torque =
         slewed(sized.torque, previous_.torque, options_.slewTorque, options_.torqueLimit, input.elapsed);
+    // No slew limit outlives a ramp.
+    out.wrench = limitSize(out.wrench, ramps_.fadeGain() * options_.forceLimit,
+                           ramps_.fadeGain() * options_.torqueLimit);
     out.cause = causeOf(input, damper, sized, out.wrench);
     out.finite = input.sampleFinite && isFinite(out.wrench);
     notFinite_ += out.finite ? 0 : 1;

@@ -5,6 +5,7 @@
 #include "engine/haptics/limits.h"
 #include "tests/cycle/haptic_rig.h"
 
+#include <cmath>
 #include <doctest/doctest.h>
 
 using namespace fathom;
@@ -143,4 +144,26 @@ TEST_CASE("A spring that overflows takes the force away in that tick only") {
         hand.stage->step(hand.input);
     }
     CHECK(hand.share({1, 0, 0}, false) == doctest::Approx(full));
+}
+
+TEST_CASE("A force that turns while it ramps out is zero when the ramp is, however low the slew limit is") {
+    for (const double turns : {5.0, 20.0, 60.0}) { // [rad/s]
+        CAPTURE(turns);
+        Stage hand;
+        hand.options.passivityController = false;
+        hand.options.slewForce = 10.0; // [N/s]
+        hand.start();
+        hand.press({1, 0, 0}, 0.02, false);
+        for (int i = 0; i < 20000; ++i) {
+            hand.stage->step(hand.input);
+        }
+        hand.input.forcesOn = false;
+        for (int tick = 0; tick <= 210; ++tick) {
+            const double angle = 0.001 * turns * tick;
+            hand.press({std::cos(angle), std::sin(angle), 0}, 0.02, false);
+            const dvec3 force = hand.stage->step(hand.input).wrench.force;
+            CHECK((!hand.stage->off() || force == dvec3(0.0)));
+        }
+        CHECK(hand.stage->off());
+    }
 }
