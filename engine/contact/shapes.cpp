@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/contact/shapes.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace fathom {
 
@@ -109,6 +111,19 @@ SideGap gapTo(const Shape& shape, const dvec3& centre, double radius) noexcept {
         side = {-side.gap, -side.normal};
     }
     return {side.gap - radius, shape.baseTshape.rotation * side.normal};
+}
+
+double edgeDistance(const Shape& shape, const dvec3& centre) noexcept {
+    const dvec3 p = toShape(shape, centre);
+    if (!shape.keepIn && shape.kind == ShapeKind::Box) {
+        dvec3 left = 0.5 * shape.size - glm::abs(p); // to the faces; the nearest one's is no way along it
+        std::sort(&left[0], &left[0] + 3);
+        return std::max(0.0, left[1]);
+    }
+    if (!shape.keepIn && shape.kind == ShapeKind::Cylinder) {
+        return std::max({0.0, shape.size.x - std::hypot(p.x, p.y), 0.5 * shape.size.y - std::abs(p.z)});
+    }
+    return std::numeric_limits<double>::infinity();
 }
 
 size_t sidesOf(const Shape& shape, const dvec3& centre, double radius,

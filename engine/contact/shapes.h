@@ -40,6 +40,10 @@ inline constexpr size_t kMaxSides = 6;
 // Exact gap of a leaf (centre in the base frame [m], radius [m]) to the whole shape. Not for equalities.
 SideGap gapTo(const Shape& shape, const dvec3& centre, double radius) noexcept;
 
+// [m] from a leaf's centre, along the flat face of a forbidden shape that it is nearest to, to the face's
+// nearest edge; 0 beyond it. Infinite where there is no edge.
+double edgeDistance(const Shape& shape, const dvec3& centre) noexcept;
+
 // Writes the half-spaces that keep the leaf on the allowed side and returns their number: one for a forbidden
 // shape (convex, so the tangent plane at the nearest point is safe), one per face for keep_in.
 size_t sidesOf(const Shape& shape, const dvec3& centre, double radius,

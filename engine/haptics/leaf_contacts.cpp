@@ -132,16 +132,22 @@ double LeafContacts::smallestGap() noexcept {
 }
 
 double LeafContacts::tangentTravel(std::span<const ActiveContact> rows) const noexcept {
-    double curvature = std::numeric_limits<double>::infinity(); // [m] smallest radius
+    double travel = std::numeric_limits<double>::infinity();
+    const auto onCurve = [](double radius) { return std::sqrt(2.0 * radius * kTangentError); };
     for (const ActiveContact& active : rows) {
         const ContactRow& row = active.row;
         if (row.kind == ContactRow::Kind::Sphere) {
-            curvature = std::min(curvature, radius_[row.leaf] + double{set_->pairRadius[row.pair]});
-        } else if (row.kind == ContactRow::Kind::Shape && shapes_[row.pair].isRound()) {
-            curvature = std::min(curvature, radius_[row.leaf] + shapes_[row.pair].size.x);
+            travel = std::min(travel, onCurve(radius_[row.leaf] + double{set_->pairRadius[row.pair]}));
+        } else if (row.kind == ContactRow::Kind::Shape) {
+            const Shape& shape = shapes_[row.pair];
+            const double onShape = shape.isRound() ? onCurve(radius_[row.leaf] + shape.size.x)
+                                                   : std::numeric_limits<double>::infinity();
+            // Beyond a face's edge the leaf goes round the edge.
+            const double toEdge = edgeDistance(shape, leaves.now[row.leaf] + leaves.origin);
+            travel = std::min({travel, onShape, toEdge + onCurve(radius_[row.leaf])});
         }
     }
-    return std::sqrt(2.0 * curvature * kTangentError);
+    return travel;
 }
 
 uint64_t rowKey(ContactRow::Kind kind, uint32_t shape, uint32_t leaf, size_t side) noexcept {

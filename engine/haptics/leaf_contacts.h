@@ -55,7 +55,7 @@ public:
     const TrustRegion& trust() const noexcept { return trust_; }
     double smallestGap() noexcept; // [m] over all listed pairs at `now`
     // [m] leaf travel up to which the tangent planes of these rows, made at `now`, differ from the regions by
-    // less than kTangentError. Infinite without a curved row.
+    // less than kTangentError. Infinite if all rows are of planes or keep_in boxes.
     double tangentTravel(std::span<const ActiveContact> rows) const noexcept;
     static constexpr double kTangentError = 0.0005; // [m]
 

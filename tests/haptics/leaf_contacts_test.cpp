@@ -74,4 +74,19 @@ TEST_CASE("A row is valid up to the travel at which its tangent plane is wrong b
     round.size.x = 0.02;
     ball.contacts.setShapes({&round, 1});
     CHECK(wayOf(ball.contacts, ContactRow::Kind::Shape) == doctest::Approx(way(0.03)));
+    Shape box; // its top face is 0.2 m by 0.1 m, the leaf above it 0.03 m from the long edge
+    box.kind = ShapeKind::Box;
+    box.size = {0.2, 0.1, 0.02};
+    box.baseTshape.position = {0.0, 0.02, -0.02};
+    ball.contacts.setShapes({&box, 1});
+    CHECK(wayOf(ball.contacts, ContactRow::Kind::Shape) == doctest::Approx(0.03 + way(0.01)));
+    box.keepIn = true;
+    ball.contacts.setShapes({&box, 1});
+    CHECK(std::isinf(wayOf(ball.contacts, ContactRow::Kind::Shape)));
+    Shape rod; // the leaf is above its cap, outside of the rim
+    rod.kind = ShapeKind::Cylinder;
+    rod.size = {0.02, 0.1, 0.0};
+    rod.baseTshape.position = {0.03, 0.0, -0.055};
+    ball.contacts.setShapes({&rod, 1});
+    CHECK(wayOf(ball.contacts, ContactRow::Kind::Shape) == doctest::Approx(way(0.01)));
 }
