@@ -74,8 +74,8 @@ size_t differentPoints(std::span<const PointPair> pairs) {
     for (const PointPair& pair : pairs) {
         points.push_back({pair.camera.x, pair.camera.y, pair.camera.z});
     }
-    std::ranges::sort(points);
-    return static_cast<size_t>(std::ranges::unique(points).begin() - points.begin());
+    std::sort(points.begin(), points.end());
+    return static_cast<size_t>(std::unique(points.begin(), points.end()) - points.begin());
 }
 
 } // namespace

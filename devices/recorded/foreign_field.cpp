@@ -72,9 +72,10 @@ bool namesCoefficients(const std::string& key) {
 // Of fisheyes and the like, whose rays bend also where all coefficients are zero.
 bool namesBentLens(const std::string& model) {
     constexpr std::array<std::string_view, 8> kParts{"fisheye",      "equidistant", "kannala",
-                                                     "omni",         "equisolid",   "stereographic",
+                                                     "omnidir",      "equisolid",   "stereographic",
                                                      "doublesphere", "scaramuzza"};
-    constexpr std::array<std::string_view, 6> kWhole{"mei", "ucm", "eucm", "fov", "kb4", "kb8"};
+    // OmniVision is a maker of sensors.
+    constexpr std::array<std::string_view, 7> kWhole{"omni", "mei", "ucm", "eucm", "fov", "kb4", "kb8"};
     const std::string plain = plainLetters(model);
     return holdsAny(plain, kParts) || isAny(plain, kWhole);
 }

@@ -27,7 +27,8 @@ std::string axisWarning(const std::string& name, const std::string& option) {
 
 RangeToAxis::RangeToAxis(const Intrinsics& lens) {
     for (uint32_t i = 0; i < lens.pixels(); ++i) {
-        const dvec3 ray(lens.ray(i % lens.width, i / lens.width), 1.0);
+        const uint32_t row = i / lens.width;
+        const dvec3 ray(lens.ray(i % lens.width, row), 1.0);
         axisShare_.push_back(static_cast<float>(1.0 / glm::length(ray)));
     }
 }

@@ -48,9 +48,10 @@ TEST_CASE("A slow low-pass holds no force in free space for longer than a ramp, 
 
 TEST_CASE(
     "With a slow low-pass an open dead-man switch ramps the force to zero, and none is left for later") {
-    for (const auto& [hz, depth] :
+    for (const auto& given :
          {std::pair(0.1, 0.01), std::pair(0.1, 0.1), std::pair(0.5, 0.1), std::pair(1.0, 0.01),
           std::pair(1.0, 0.05), std::pair(20.0, 0.01), std::pair(20.0, 0.1)}) {
+        const auto &hz = given.first, &depth = given.second;
         INFO(hz << " Hz, " << depth << " m");
         HapticRig rig = settledRig(hz, depth);
         const double pressed = forceOf(rig.step());
@@ -101,7 +102,8 @@ TEST_CASE("A low slew limit slows the rise of a force, and neither its fall nor 
 }
 
 TEST_CASE("The force of a wall that the hand left for another one ends within a ramp") {
-    for (const auto& [slew, hz] : {std::pair(20.0, 0.0), std::pair(5.0, 0.0), std::pair(2000.0, 0.1)}) {
+    for (const auto& given : {std::pair(20.0, 0.0), std::pair(5.0, 0.0), std::pair(2000.0, 0.1)}) {
+        const auto &slew = given.first, &hz = given.second;
         INFO(slew << " N/s, " << hz << " Hz");
         Scene scene; // of shapes alone: walls at x = -25 and 25 mm
         scene.haptics.device = "ideal";

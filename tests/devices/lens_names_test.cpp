@@ -111,6 +111,7 @@ TEST_CASE("The model of a lens that bends rays is refused without its coefficien
     }
     for (const char* model : {R"("camera_model": "OPENCV")", R"("model": "Intel RealSense D435")",
                               R"("distortion_model": "plumb_bob")", R"("camera": "fisheye room")",
+                              R"("sensor_type": "OmniVision OV9281")",
                               R"("distortion_model": "equidistant", "distortion": [0.01, 0, 0, 0])"}) {
         CAPTURE(model);
         CHECK(refusalWith(kFourFields + model + "}") == "");

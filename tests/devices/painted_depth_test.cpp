@@ -65,7 +65,7 @@ TEST_CASE("Images of depth's encoding are depth under a name that holds words of
 
 TEST_CASE("A camera that is named depth has colour") {
     const TemporaryFolder folder;
-    for (const auto& [depth, colour] :
+    for (const auto& given :
          {std::pair<std::string, std::string>{"/depth/depth/image_raw", "/depth/color/image_raw"},
           {"/depth/depth", "/depth/color"},
           {"/depth/image_depth", "/depth/image_color"},
@@ -77,6 +77,7 @@ TEST_CASE("A camera that is named depth has colour") {
           {"/camera/depth/image_raw", "/camera/rgb_to_depth/image_raw"},
           {"/jet/depth/image_raw", "/jet/image_raw"},
           {"/camera/depth_to_rgb/image_raw", "/camera/rgb/image_raw"}}) {
+        const auto &depth = given.first, &colour = given.second;
         CAPTURE(colour);
         CHECK(playStreams(folder, withPainted(depth, colour, "")).streamOptions() ==
               ",depth=" + depth + ",colour=" + colour);

@@ -15,7 +15,8 @@ std::string turnedWall(double x, double y, double z) {
     std::string text = "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 9\nHEIGHT 7\n"
                        "VIEWPOINT 0 0 0 1 0 0 0\nPOINTS 63\nDATA ascii\n";
     for (int i = 0; i < 63; ++i) {
-        const double u = i % 9, v = i / 9, depth = 1.0 + 0.05 * u;
+        const int row = i / 9;
+        const double u = i % 9, v = row, depth = 1.0 + 0.05 * u;
         text += std::to_string(x * (u - 4.25) / 10.0 * depth) + " " +
                 std::to_string(y * (v - 3.5) / 11.0 * depth) + " " + std::to_string(z * depth) + "\n";
     }

@@ -80,7 +80,10 @@ TEST_CASE("Images that a program wrote one topic after the other are paired by t
     const TemporaryFolder folder;
     const auto at = [](double step, double from) { return [=](int i) { return 1000.0 + from + step * i; }; };
     const auto block = [](int later) {
-        return [=](int i) { return 1000.0 + 0.04 * (i / 40 * 80 + later + i % 40); };
+        return [=](int i) {
+            const int first = i / 40 * 80;
+            return 1000.0 + 0.04 * (first + later + i % 40);
+        };
     };
     for (const Written& written : {Written{.depthAt = at(0.01, 0.0), .colourAt = at(0.01, 1.2)},
                                    {.depthAt = at(0.001, 0.0), .colourAt = at(0.001, 0.12)},
