@@ -104,10 +104,11 @@ bool namesScale(const std::string& key) {
            (isAny(plain, kWhole) || (plain.find("depth") != std::string::npos && holdsAny(plain, kKinds)));
 }
 
-// Or nothing: 1 is one unit of the images' values.
+// Or nothing of depth: 1 is one unit of the images' values.
 bool saysMillimetres(const JsonField& scale) {
-    constexpr std::array<std::string_view, 5> kTexts{"mm", "millimetre", "millimetres", "millimeter",
-                                                     "millimeters"};
+    constexpr std::array<std::string_view, 8> kTexts{"mm",         "millimetre",  "millimetres",
+                                                     "millimeter", "millimeters", "px",
+                                                     "pixel",      "pixels"}; // the lens's unit
     constexpr std::array kNumbers{0.001, 1.0, 1000.0};
     if (scale.isText()) {
         return isAny(plainLetters(scale.text()), kTexts);

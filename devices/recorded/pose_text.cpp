@@ -45,6 +45,9 @@ std::vector<Numbers> firstLines(const std::filesystem::path& file) {
         DataLines all(file);
         TextLine line;
         for (size_t i = 0; i < kMostLines && all.next(line); ++i) {
+            if (line.text.starts_with("t_s,")) { // a hand path, or a table of Fathom
+                return {};
+            }
             if (Numbers numbers = numbersOf(line.text); !numbers.empty()) {
                 lines.push_back(std::move(numbers));
             }

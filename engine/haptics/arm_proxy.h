@@ -33,13 +33,15 @@ public:
     }
 
     // Sets the posture without a collision check, clamped to the joint limits. Joints whose value is not
-    // finite keep their position. keep_in shapes hold the leaves that are inside there, whatever they held
-    // before. The active set may no longer cover the posture: check with covers().
+    // finite keep their position. keep_in shapes hold the leaves that are inside there, and those that
+    // they held and that are out by at most kLag, as a real arm overshoots. The active set may no longer
+    // cover the posture: check with covers().
     void setPosture(const ArmPosture& posture) noexcept {
         kinematics_.setPosture(posture);
-        contacts_.forgetHeld();
-        chooseHeld();
+        chooseHeld(kLag);
     }
+
+    static constexpr double kLag = 0.02; // [m]
 
     const JointVector& joints() const { return posture().q; }
     const ArmPosture& posture() const { return kinematics_.posture(); }

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <utility>
 
@@ -38,7 +39,7 @@ public:
     // arm that are inside now, or that it held before.
     void setShapes(std::span<const Shape> shapes) noexcept {
         contacts_.setShapes(shapes);
-        chooseHeld();
+        chooseHeld(std::numeric_limits<double>::infinity());
     }
     std::span<const Shape> shapes() const noexcept { return contacts_.shapes(); }
     static constexpr size_t kMaxShapes = LeafContacts::kMaxShapes;
@@ -55,11 +56,12 @@ protected:
         , rows_(kinematics_.unknowns(), options.rows)
         , nearShapes_(leaves.leafCount(), std::max(kMaxShapes, shapes.size())) {}
 
-    // Which leaves the keep_in shapes hold, by where they are now. All leaves of a free tool.
-    void chooseHeld() noexcept {
+    // Which leaves the keep_in shapes hold: those inside now, and those held before and now at most `keeps`
+    // [m] outside. All leaves of a free tool.
+    void chooseHeld(double keeps) noexcept {
         if constexpr (Kinematics::kHoldsWhatIsInside) {
             kinematics_.place(contacts_.leaves);
-            contacts_.chooseHeld();
+            contacts_.chooseHeld(keeps);
         }
     }
     // One tick: begin(), then finish() if begin() returned true (the set is usable), then report().

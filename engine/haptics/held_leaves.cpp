@@ -5,14 +5,8 @@
 
 namespace fathom {
 
-namespace {
-
-constexpr double kOutside = 1e-6; // [m] depth that counts as outside
-
-} // namespace
-
-bool isOutside(const Shape& shape, const dvec3& centre, double radius) noexcept {
-    return shape.keepIn && !shape.isEquality() && gapTo(shape, centre, radius).gap < -kOutside;
+bool isOutside(const Shape& shape, const dvec3& centre, double radius, double by) noexcept {
+    return shape.keepIn && !shape.isEquality() && gapTo(shape, centre, radius).gap < -by;
 }
 
 HeldLeaves::HeldLeaves(size_t leaves, size_t shapes)
@@ -23,14 +17,15 @@ HeldLeaves::HeldLeaves(size_t leaves, size_t shapes)
 }
 
 void HeldLeaves::choose(std::span<const Shape> shapes, const LeafCentres& centres, const dvec3& origin,
-                        std::span<const double> radius) noexcept {
+                        std::span<const double> radius, double keeps) noexcept {
     const size_t leaves = leftOut_.size(), count = std::min(shapes.size(), placed_.capacity());
     free_.swap(before_);
     for (size_t s = 0; s < count; ++s) {
         const size_t was = indexBefore(shapes[s], s, count);
         for (size_t leaf = 0; leaf < leaves; ++leaf) {
             const bool held = was < placed_.size() && before_[was * leaves + leaf] == 0;
-            const bool outside = !held && isOutside(shapes[s], centres[leaf] + origin, radius[leaf]);
+            const bool outside =
+                isOutside(shapes[s], centres[leaf] + origin, radius[leaf], held ? keeps : kJustOutside);
             free_[s * leaves + leaf] = outside ? 1 : 0;
         }
     }

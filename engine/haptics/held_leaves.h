@@ -25,12 +25,10 @@ public:
     bool holds(size_t shape, size_t leaf) const noexcept {
         return leftOut_[leaf] == 0 && free_[shape * leftOut_.size() + leaf] == 0;
     }
-    // Chooses for each keep_in shape: the leaves that are inside, and those that it held at the last choice.
-    // centres: about `origin` [m], base frame.
+    // Chooses for each keep_in shape: the leaves that are inside, and those that it held at the last choice
+    // and that are now at most `keeps` [m] outside. centres: about `origin` [m], base frame.
     void choose(std::span<const Shape> shapes, const LeafCentres& centres, const dvec3& origin,
-                std::span<const double> radius) noexcept;
-    // The next choice is by where the leaves are alone: the arm was somewhere else.
-    void forget() noexcept { placed_.clear(); }
+                std::span<const double> radius, double keeps) noexcept;
 
 private:
     size_t indexBefore(const Shape& shape, size_t index, size_t count) const noexcept;
@@ -40,8 +38,10 @@ private:
     std::vector<Shape> placed_;          // at the last choice
 };
 
-// Whether a keep_in shape does not hold a leaf that is there when the shape is placed. Centre in the base
-// frame [m], radius [m].
-bool isOutside(const Shape& shape, const dvec3& centre, double radius) noexcept;
+inline constexpr double kJustOutside = 1e-6; // [m] smaller depths are rounding
+
+// Whether a leaf is more than `by` [m] outside of a keep_in shape, which does not hold a leaf that is outside
+// when the shape is placed. Centre in the base frame [m], radius [m].
+bool isOutside(const Shape& shape, const dvec3& centre, double radius, double by = kJustOutside) noexcept;
 
 } // namespace fathom

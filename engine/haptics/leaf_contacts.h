@@ -65,8 +65,9 @@ public:
     void leaveOut(size_t leaf) noexcept;
     // Chooses the leaves that keep_in shapes hold; those at `now` that are outside are not. Without this call
     // they hold all.
-    void chooseHeld() noexcept { held_.choose(shapes_, leaves.now, leaves.origin, radius_); }
-    void forgetHeld() noexcept { held_.forget(); }
+    void chooseHeld(double keeps) noexcept {
+        held_.choose(shapes_, leaves.now, leaves.origin, radius_, keeps);
+    }
     bool holds(size_t shape, size_t leaf) const noexcept { return held_.holds(shape, leaf); }
     double radius(size_t leaf) const noexcept { return radius_[leaf]; }
     size_t leafCount() const noexcept { return radius_.size(); }

@@ -57,7 +57,7 @@ TEST_CASE("A depth scale under the name of another program is refused with the n
 TEST_CASE("A second depth scale of millimetres, or one that scale= replaces, is not refused") {
     for (const char* fields :
          {R"("depth_factor": 1000})", R"("depth_units": 0.001})", R"("depth_unit": "mm"})", R"("scale": 1})",
-          R"("depth_trunc": 3})", R"("scale": null})", R"("depth_shift": 0})",
+          R"("units": "pixels"})", R"("depth_trunc": 3})", R"("scale": null})", R"("depth_shift": 0})",
           R"("depth_factor": 5000, "depth_scale_m_per_unit": 0.0002})"}) {
         CAPTURE(fields);
         CHECK(refusalWith(kFourFields + fields) == "");

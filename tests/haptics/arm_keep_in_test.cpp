@@ -117,6 +117,21 @@ TEST_CASE(
     CHECK(move(proxy, {0.0, 0.0, 0.0}).contact == 0);
 }
 
+TEST_CASE("A keep_in wall still holds a real arm that was measured up to 20 mm beyond it") {
+    const ArmModel arm = armWithBase();
+    ArmProxy proxy(arm, Pose{}, {}, kBent, std::vector{boxAt({0.495, 0.0, 0.0}, {0.3, 0.4, 0.3}, true)});
+    REQUIRE(move(proxy, {0.0, 0.3, 0.0}).contact > 100);
+    REQUIRE(proxy.tip().position.y == doctest::Approx(0.18).epsilon(1e-3));
+    ArmPosture measured = proxy.posture();
+    measured.q[0] += 0.02; // 10 mm
+    proxy.setPosture(measured);
+    move(proxy, {0.0, 0.1, 0.0});
+    CHECK(proxy.tip().position.y < 0.18 + 0.011);
+    measured.q[0] += 0.2; // 0.1 m: the arm is somewhere else
+    proxy.setPosture(measured);
+    CHECK(move(proxy, {0.0, 0.05, 0.0}).contact == 0);
+}
+
 TEST_CASE("A base inside a forbidden shape never escapes, and the tip still feels the other shapes") {
     const ArmModel arm = armWithBase();
     const std::vector<Shape> shapes{boxAt({0.0, 0.0, -0.05}, {0.2, 0.2, 0.1}, false),
