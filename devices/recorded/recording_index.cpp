@@ -7,6 +7,7 @@
 #include "engine/types/error.h"
 #include "engine/types/inside.h"
 #include "engine/types/log.h"
+#include "engine/types/number_text.h"
 #include "engine/types/read_file.h"
 #include "engine/types/split_words.h"
 
@@ -164,6 +165,11 @@ std::vector<Candidate> closePairs(const std::vector<StampedFile>& depth,
     return pairs;
 }
 
+// Whether there was colour at this time: one stream may begin or end before the other.
+bool spans(const std::vector<StampedFile>& colour, double stamp, double within) {
+    return !colour.empty() && stamp >= colour.front().stamp - within && stamp <= colour.back().stamp + within;
+}
+
 // In the order of `depth`; colour in order of its stamps.
 std::vector<IndexLine> associate(const std::vector<StampedFile>& depth,
                                  const std::vector<StampedFile>& colour, double within) {
@@ -177,15 +183,18 @@ std::vector<IndexLine> associate(const std::vector<StampedFile>& depth,
         }
     }
     std::vector<IndexLine> index;
+    size_t lost = 0;
     for (size_t d = 0; d < depth.size(); ++d) {
-        if (colourOf[d] != none) {
-            const StampedFile& c = colour[colourOf[d]];
-            index.push_back({depth[d].stamp, c.stamp, depth[d].file, c.file, "", std::nullopt});
+        if (colourOf[d] == none) {
+            lost += spans(colour, depth[d].stamp, within) ? 1 : 0;
+            continue;
         }
+        const StampedFile& c = colour[colourOf[d]];
+        index.push_back({depth[d].stamp, c.stamp, depth[d].file, c.file, "", std::nullopt});
     }
-    if (index.size() < depth.size()) {
-        log::warn("{} of {} depth images have no colour image within {} s: they are not played",
-                  depth.size() - index.size(), depth.size(), within);
+    if (lost > 0) {
+        log::warn("{} of {} depth images have no colour image within {} s: they are not played", lost,
+                  depth.size(), significant(within, 4));
     }
     return index;
 }
