@@ -1,10 +1,15 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
 # Runs a program on the first or the second half of the processors, so that two suites that run in real time do not disturb each other.
-#   on_half.sh 1|2 PROGRAM [ARG...]
+# IDLE: on what all others leave of the processors.
+#   on_half.sh 1|2|IDLE PROGRAM [ARG...]
 set -eu
 half=$1
 shift
+if [ "$half" = IDLE ]; then
+    ! chrt --idle 0 true 2>/dev/null || exec chrt --idle 0 "$@"
+    exec nice -n 19 "$@"
+fi
 
 # The processors of that half; empty on a single processor.
 cpus=$(awk -v half="$half" '/^Cpus_allowed_list/ {
