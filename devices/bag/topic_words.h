@@ -7,6 +7,7 @@
 
 namespace fathom {
 
+// What a word of a topic's name says about its images.
 enum class WordUse {
     None,
     Depth,

@@ -9,6 +9,7 @@
 
 namespace fathom {
 
+// How 16-bit depth images store their values.
 enum class DepthBits {
     Plain,
     Rotated, // to the left by three, as SUN3D and SUN RGB-D store them

@@ -29,7 +29,9 @@ Intrinsics matrixLens(const std::filesystem::path& file, std::optional<PngSize> 
 Pose rigidPose(const std::array<double, 9>& rows, const dvec3& position, const std::string& file);
 
 // For messages about the matrix of a lens.
-inline constexpr const char *kByColumns = "written column by column", *kLensRows = "fx 0 cx, 0 fy cy, 0 0 1";
+inline constexpr const char* kByColumns = "written column by column";
+// Its rows.
+inline constexpr const char* kLensRows = "fx 0 cx, 0 fy cy, 0 0 1";
 // Whether the matrix of a lens is written column by column, as some programs do: cx and cy in its last row.
 bool isByColumns(std::span<const double, 9> k);
 

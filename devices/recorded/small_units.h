@@ -6,11 +6,13 @@
 
 namespace fathom {
 
+// A unit of time below one second.
 struct SmallUnit {
     double perSecond;
     const char* name;
 };
 
+// From the largest to the smallest.
 inline constexpr std::array kSmallUnits{SmallUnit{1e3, "milliseconds"}, SmallUnit{1e6, "microseconds"},
                                         SmallUnit{1e9, "nanoseconds"}};
 
