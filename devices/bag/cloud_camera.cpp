@@ -55,7 +55,7 @@ bool namedComputed(const std::string& topic) {
         "candidate", "masked",    "labeled",      "labelled", "transformed", "accumulated"};
     const size_t first = topic.find('/', 1);
     const bool robot = first != std::string::npos && topic.find('/', first + 1) != std::string::npos;
-    const auto words = withoutDigits(humpsOf(topic.substr(robot ? first : 0)));
+    const auto words = withoutDigits(camelWordsOf(topic.substr(robot ? first : 0)));
     return std::ranges::any_of(words, [&](std::string word) {
         word.erase(word.ends_with('s') ? word.size() - 1 : word.size());
         return std::ranges::find(kComputed, word) != kComputed.end();
@@ -64,7 +64,7 @@ bool namedComputed(const std::string& topic) {
 
 // "/camera/depth_registered/points".
 bool namedPoints(const std::string& topic) {
-    const auto words = humpsOf(topic.substr(topic.find_last_of('/') + 1));
+    const auto words = camelWordsOf(topic.substr(topic.find_last_of('/') + 1));
     return std::ranges::find(words, "points") != words.end();
 }
 

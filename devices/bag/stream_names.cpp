@@ -20,7 +20,7 @@ bool namesImage(const std::string& word) {
 
 // Words that may name a camera: "front", "2" of "/frontDepth2".
 std::vector<std::string> cameraWordsOf(const std::string& topic) {
-    std::vector<std::string> words = humpsOf(baseTopic(topic));
+    std::vector<std::string> words = camelWordsOf(baseTopic(topic));
     for (std::string& word : words) {
         const size_t name = word.find_last_not_of("0123456789") + 1;
         const WordUse use = useOf(word.substr(0, name), true);
@@ -32,7 +32,7 @@ std::vector<std::string> cameraWordsOf(const std::string& topic) {
 }
 
 std::vector<std::string> wordsOf(const std::string& topic) {
-    return withoutDigits(humpsOf(topic));
+    return withoutDigits(camelWordsOf(topic));
 }
 
 bool holds(const std::vector<std::string>& words, std::string_view word) {

@@ -87,7 +87,7 @@ void StreamChooser::warnOf(const ImageStream& stream, StreamChoice& choice) cons
                                   significant(stream.skew, 3) + " pixels is not used: the images of " +
                                   stream.name + " are played without it");
     }
-    const auto words = humpsOf(stream.frame);
+    const auto words = camelWordsOf(stream.frame);
     const bool depthFrame = std::ranges::any_of(
         words, [](const std::string& word) { return useOf(word, true) == WordUse::Depth; });
     if (stream.content == ros::Content::Depth && stream.role == NamedRole::None && options_.depth.empty() &&

@@ -81,8 +81,8 @@ bool isDigit(char c) {
     return std::isdigit(static_cast<unsigned char>(c)) != 0;
 }
 
-// Whether a hump begins at a character behind the first: "ir|Image", "IR|Image", "cam2|RGB".
-bool beginsHump(const std::string& text, size_t at) {
+// Whether a word of camel case begins at a character behind the first: "ir|Image", "IR|Image", "cam2|RGB".
+bool beginsCamelWord(const std::string& text, size_t at) {
     const char before = text[at - 1];
     const bool last = at + 1 == text.size();
     return isUpper(text[at]) &&
@@ -125,7 +125,7 @@ std::vector<std::string> tokensOf(const std::string& name) {
     return tokens;
 }
 
-std::vector<std::string> humpsOf(const std::string& name) {
+std::vector<std::string> camelWordsOf(const std::string& name) {
     std::vector<std::string> words;
     for (const std::string& token : casedTokensOf(name)) {
         words.push_back(lower(token));
@@ -134,7 +134,7 @@ std::vector<std::string> humpsOf(const std::string& name) {
         }
         words.back().clear();
         for (size_t i = 0; i < token.size(); ++i) {
-            if (i > 0 && beginsHump(token, i)) {
+            if (i > 0 && beginsCamelWord(token, i)) {
                 words.emplace_back();
             }
             words.back() += lower(std::string(1, token[i]));

@@ -22,8 +22,8 @@ enum class WordUse {
 WordUse useOf(const std::string& word, bool firstPart);
 // In lower case, split at signs.
 std::vector<std::string> tokensOf(const std::string& name);
-// Split at humps, too: "irImage" and "IRImage" are two words; but "DepthVis" is one, which has a use.
-std::vector<std::string> humpsOf(const std::string& name);
+// Also split in camel case: "irImage" and "IRImage" are two words; but "DepthVis" is one, which has a use.
+std::vector<std::string> camelWordsOf(const std::string& name);
 // The same without digits at the end of words.
 std::vector<std::string> withoutDigits(std::vector<std::string> words);
 

@@ -12,8 +12,8 @@ std::vector<std::string> nameWords(std::string_view name) {
     bool inWord = false, small = false; // the last character
     for (const char c : name) {
         const auto byte = static_cast<unsigned char>(c);
-        const bool letter = std::isalnum(byte) != 0, hump = small && std::isupper(byte) != 0;
-        if (letter && (!inWord || hump)) {
+        const bool letter = std::isalnum(byte) != 0, camel = small && std::isupper(byte) != 0;
+        if (letter && (!inWord || camel)) {
             words.emplace_back();
         }
         if (letter) {

@@ -4,16 +4,14 @@
 #include "engine/contact/shapes.h"
 #include "engine/haptics/held_leaves.h"
 #include "engine/types/joined.h"
+#include "engine/types/number_text.h"
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace fathom {
 
 namespace {
-
-constexpr double kInside = 1e-6; // [m] smaller depths are rounding
 
 // Where the leaves of each link are, with regard to one shape.
 struct LinksInShape {
@@ -37,7 +35,7 @@ LinksInShape linksIn(const Shape& shape, const ArmSetup& setup) {
         const uint32_t link = model.leaves[i].link;
         ++leaves[link];
         out[link] += isOutside(shape, centre, radius) ? 1 : 0;
-        if (!shape.keepIn && gapTo(shape, centre, radius).gap < -kInside && !model.moves(i)) {
+        if (!shape.keepIn && gapTo(shape, centre, radius).gap < -kJustOutside && !model.moves(i)) {
             addTo(links.stuck, model.links[link]);
         }
     }
@@ -98,9 +96,8 @@ GraspTime graspTimeOf(const ArmModel& model) {
     for (const ArmFinger& finger : model.fingers) {
         const double seconds = finger.mimic ? 0.0 : std::abs(finger.closed - finger.open) / finger.speed;
         if (seconds > slowest.seconds) {
-            std::ostringstream speed;
-            speed << finger.speed << (finger.slides ? " m/s" : " rad/s");
-            slowest = {seconds, finger.name, speed.str()};
+            slowest = {seconds, finger.name,
+                       significant(finger.speed, 4) + (finger.slides ? " m/s" : " rad/s")};
         }
     }
     return slowest;

@@ -34,7 +34,7 @@ struct Lockstep::Impl {
     DelayedContacts contacts;
     SceneUpdate update;
     Nanoseconds stamp = 0;                                      // of the newest frame
-    Nanoseconds last = std::numeric_limits<Nanoseconds>::min(); // step
+    Nanoseconds last = std::numeric_limits<Nanoseconds>::min(); // time of the last step
     SteppedClearance clearance;
 };
 

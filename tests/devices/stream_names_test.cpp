@@ -32,7 +32,8 @@ TEST_CASE("The error of depth is not played instead of depth, in whatever order 
     }
 }
 
-TEST_CASE("Colour of the camera whose name is that of depth is played, also in digits and humps of words") {
+TEST_CASE(
+    "Colour of the camera whose name is that of depth is played, also in digits and camel case of words") {
     CHECK(sharedWords("/depth1", "/color1") == 1);
     CHECK(sharedWords("/depth1", "/color2") == 0);
     CHECK(sharedWords("/frontDepth", "/frontColor") == 1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Words in the names of topics: humps, plurals and further names of depth and of brightness.
+// Words in the names of topics: camel case, plurals and further names of depth and of brightness.
 #include "devices/bag/stream_names.h"
 #include "tests/devices/played_bag.h"
 
@@ -20,7 +20,7 @@ std::string chosenDepth(const std::string& other, const std::string& depth) {
 
 } // namespace
 
-TEST_CASE("Infrared, amplitude and confidence are not depth in names of humps and of plurals either") {
+TEST_CASE("Infrared, amplitude and confidence are not depth in names in camel case and plurals either") {
     for (const auto& given : {std::pair<std::string, std::string>{"/cam/irImage", "/cam/depthImage"},
                               {"/cam/imageIR", "/cam/imageDepth"},
                               {"/cam/IRImage", "/cam/DepthImage"},
@@ -43,7 +43,7 @@ TEST_CASE("Infrared, amplitude and confidence are not depth in names of humps an
     CHECK(namedRole("/front/distance_to_image_plane") == NamedRole::None); // of the same kind as any depth
 }
 
-TEST_CASE("Words in humps say that images are rectified, registered or of a right camera") {
+TEST_CASE("Words in camel case say that images are rectified, registered or of a right camera") {
     for (const char* topic : {"/cam/depthRect", "/cam/rectImage", "/cam/imageRectified"}) {
         CAPTURE(topic);
         CHECK(namedRectified(topic));
@@ -57,7 +57,7 @@ TEST_CASE("Words in humps say that images are rectified, registered or of a righ
     CHECK_FALSE(namedDepthImage("/depthCamera/image"));
 }
 
-TEST_CASE("A topic of depth in humps plays images of mono16 as depth") {
+TEST_CASE("A topic of depth in camel case plays images of mono16 as depth") {
     const TemporaryFolder folder;
     BagMaker maker;
     addStream(maker, "/cam/depthImage", depthImage(500, "camera", "mono16"));
