@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/cycle/wrench_stage.h"
 
-#include "engine/haptics/limits.h"
 #include "engine/haptics/wrench_metric.h"
 
 #include <algorithm>
@@ -32,10 +31,6 @@ dvec3 withEndingTail(const dvec3& wanted, const dvec3& before, const dvec3& filt
     const double calm = glm::dot(sized, wanted) < 0.0 ? 0.0 : kCalmTurn * size;
     const double tail = glm::length(before - wantedPart(before, wanted)) - step;
     return kept + clampLength(sized - kept, std::max(calm, tail));
-}
-
-bool isZero(const Wrench& wrench) {
-    return wrench.force == dvec3(0.0) && wrench.torque == dvec3(0.0);
 }
 
 } // namespace
@@ -146,12 +141,15 @@ void WrenchStage::cut() noexcept {
     passivity_.reset();
 }
 
-// After one tick. However low the slew limit is, what is no longer wanted ends within a ramp, and late ticks
-// do not delay it.
+// After one tick. However low the slew limit is, what is no longer wanted ends within a ramp. Late ticks do not
+// delay that end, unless the slew limit is the faster one: then no step is larger than it.
 dvec3 WrenchStage::slewed(const dvec3& wanted, const dvec3& before, double slew, double limit,
                           double elapsed) const noexcept {
-    const double fall = std::max(options_.period, elapsed) * limit / ForceRamps::kRampTime;
-    return limitSlew(wanted, before, options_.period * slew, fall);
+    const double rise = options_.period * slew, ramp = limit / ForceRamps::kRampTime;
+    const double fall = slew >= ramp ? rise : std::max(options_.period, elapsed) * ramp;
+    // No slew limit outlives a ramp.
+    const double most = std::max(ramps_.fadeGain() * limit, slew >= ramp ? glm::length(before) - rise : 0.0);
+    return clampLength(limitSlew(wanted, before, rise, fall), most);
 }
 
 // The low-pass of the wanted wrench. However slow the filter is, what is no longer wanted ends within a ramp.
@@ -187,9 +185,6 @@ WrenchStage::Output WrenchStage::step(const WrenchInput& input) noexcept {
         slewed(sized.force, previous_.force, options_.slewForce, options_.forceLimit, input.elapsed);
     out.wrench.torque =
         slewed(sized.torque, previous_.torque, options_.slewTorque, options_.torqueLimit, input.elapsed);
-    // No slew limit outlives a ramp.
-    out.wrench = limitSize(out.wrench, ramps_.fadeGain() * options_.forceLimit,
-                           ramps_.fadeGain() * options_.torqueLimit);
     out.cause = causeOf(input, damper, sized, out.wrench);
     out.finite = input.sampleFinite && isFinite(out.wrench);
     notFinite_ += out.finite ? 0 : 1;

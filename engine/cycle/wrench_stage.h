@@ -4,6 +4,7 @@
 
 #include "engine/cycle/haptic_options.h"
 #include "engine/haptics/force_ramps.h"
+#include "engine/haptics/limits.h"
 #include "engine/haptics/passivity.h"
 #include "engine/haptics/reaction.h"
 
@@ -66,7 +67,7 @@ public:
     // Tool and hand start anew at `pose`, without force.
     void restart(const Pose& pose) noexcept { deviceBefore_ = pose; }
 
-    bool off() const noexcept { return ramps_.off(); }            // ramped out, or never on
+    bool off() const noexcept { return ramps_.off() && isZero(previous_); } // ramped out, or never on
     bool fades() const noexcept { return reaction_.fades(); }     // the force of regions that are gone
     double reaction() const noexcept { return reaction_.size(); } // [N] of the last tick
     const PassivityController& passivity() const noexcept { return passivity_; }

@@ -12,6 +12,10 @@ bool isFinite(const Wrench& wrench) noexcept {
     return isFinite(wrench.force) && isFinite(wrench.torque);
 }
 
+bool isZero(const Wrench& wrench) noexcept {
+    return wrench.force == dvec3(0.0) && wrench.torque == dvec3(0.0);
+}
+
 Wrench scaled(const Wrench& wrench, double factor) noexcept {
     return {wrench.force * factor, wrench.torque * factor};
 }

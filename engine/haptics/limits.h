@@ -11,6 +11,8 @@ namespace fathom {
 // All six numbers finite.
 bool isFinite(const Wrench& wrench) noexcept;
 
+bool isZero(const Wrench& wrench) noexcept;
+
 // Force and torque times the factor.
 Wrench scaled(const Wrench& wrench, double factor) noexcept;
 

@@ -167,3 +167,37 @@ TEST_CASE("A force that turns while it ramps out is zero when the ramp is, howev
         CHECK(hand.stage->off());
     }
 }
+
+TEST_CASE(
+    "A force that ends in a late tick falls in steps of at most the slew limit, and is off when it is zero") {
+    for (const double late : {0.03, 0.3, 1.2}) { // [s]
+        for (const char* end : {"off", "stale", "away", "turned"}) {
+            const std::string why = end;
+            CAPTURE(late);
+            CAPTURE(why);
+            Stage hand;
+            hand.options.passivityController = false;
+            hand.options.slewForce = 2000.0; // [N/s]
+            hand.start();
+            hand.press({1, 0, 0}, 0.02, false);
+            for (int i = 0; i < 1000; ++i) {
+                hand.stage->step(hand.input);
+            }
+            dvec3 before = hand.stage->step(hand.input).wrench.force;
+            CHECK(glm::length(before) > 8.0);
+            hand.input.forcesOn = why != "off";
+            hand.input.stale = why == "stale";
+            hand.press(why == "turned" ? dvec3(-1, 0, 0) : dvec3(1, 0, 0), why == "away" ? 0.0 : 0.02, false);
+            for (int tick = 0; tick < 10; ++tick) {
+                hand.input.elapsed = tick == 0 ? late : hand.options.period;
+                const dvec3 force = hand.stage->step(hand.input).wrench.force;
+                CHECK(glm::distance(force, before) <= 2.0 * (1.0 + 1e-9));
+                CHECK((!hand.stage->off() || force == dvec3(0.0)));
+                before = force;
+            }
+            if (late > 1.0 && why != "turned") {
+                CHECK(before == dvec3(0.0));
+            }
+        }
+    }
+}

@@ -74,10 +74,6 @@ struct Loop {
     }
 };
 
-bool isZero(const Wrench& w) {
-    return w.force == dvec3(0.0) && w.torque == dvec3(0.0);
-}
-
 // Proxy on a flat wall at z = 0: the projection of the hand.
 void rest(Loop& loop) {
     loop.tool.position = {loop.hand.position.x, loop.hand.position.y, std::max(0.0, loop.hand.position.z)};
