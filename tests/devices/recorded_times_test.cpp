@@ -199,8 +199,10 @@ TEST_CASE(
     const auto play = [&](const auto& depthStamp, const auto& colourStamp) {
         std::string depth, colour;
         for (int i = 0; i < 12; ++i) {
-            depth += depthStamp(i) + " depth/" + std::to_string(i) + ".png\n";
-            colour += colourStamp(i) + " rgb/" + std::to_string(i) + ".png\n";
+            depth += depthStamp(i);
+            depth += " depth/" + std::to_string(i) + ".png\n";
+            colour += colourStamp(i);
+            colour += " rgb/" + std::to_string(i) + ".png\n";
         }
         folder.write("depth.txt", depth);
         folder.write("rgb.txt", colour);

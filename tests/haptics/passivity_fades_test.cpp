@@ -12,7 +12,7 @@ constexpr double kDevice = 0.5; // [N s/m] of the device
 
 // A controller that owes 27.5 mJ: the tool moved by 5 mm against a hand that pressed by 3 mm.
 struct Owing {
-    PassivityController controller{{kDevice, kDevice * 4e-4, 0.02, 0}};
+    PassivityController controller{PassivityOptions{kDevice, kDevice * 4e-4, 0.02, 0}};
     PassivityStep tick;
 
     explicit Owing(double fadeGain = 1.0) {
