@@ -141,8 +141,8 @@ void WrenchStage::cut() noexcept {
     passivity_.reset();
 }
 
-// After one tick. However low the slew limit is, what is no longer wanted ends within a ramp. Late ticks do not
-// delay that end, unless the slew limit is the faster one: then no step is larger than it.
+// After one tick. However low the slew limit is, what is no longer wanted ends within a ramp. Late ticks do
+// not delay that end, unless the slew limit is the faster one: then no step is larger than it.
 dvec3 WrenchStage::slewed(const dvec3& wanted, const dvec3& before, double slew, double limit,
                           double elapsed) const noexcept {
     const double rise = options_.period * slew, ramp = limit / ForceRamps::kRampTime;
