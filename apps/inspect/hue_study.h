@@ -19,8 +19,8 @@ public:
     void add(std::span<const uint32_t> colours); // 0xAABBGGRR
     uint64_t count(size_t bar) const { return bars_[bar].count; }
     uint64_t clear() const; // counted pixels
-    // One row per bar that holds a share worth a class: hues, bar, and the saturation and lightness of four
-    // fifths of its pixels.
+    // One row per bar with enough pixels for a class: its hues, the bar, and the saturation and lightness of
+    // four fifths of its pixels.
     void write(std::ostream& out) const;
 
 private:

@@ -33,7 +33,7 @@ uint32_t greyOf(uint16_t depth, double metresPerUnit) {
     return 0xff000000u | level << 16 | level << 8 | level;
 }
 
-// Column of the depth image for each of a row. With separate cameras the hatch ignores parallax: it marks the
+// For each column of the view: the column of the depth image that it shows. With separate cameras the hatch ignores parallax: it marks the
 // holes of the depth image.
 using Columns = std::vector<uint32_t>;
 

@@ -55,8 +55,8 @@ struct TimeLine {
 enum class ClosingStage { No, Fades, Asks };
 enum class CloseAnswer { None, Save, Discard, Stay };
 
-// The way to the end: the forces fade, then a question is shown when fixtures are not saved. Only
-// stepClosing() writes it, except `answer`, and `quit` of a playback without a device.
+// How the window closes: the forces fade, then it asks about fixtures that are not saved. Only stepClosing()
+// writes this, except `answer`, and `quit` where a playback has no device.
 struct Closing {
     ClosingStage stage = ClosingStage::No;
     double deadline = 0.0;                  // [s] of the session: then it waits no longer for forces to go

@@ -35,7 +35,7 @@ std::string StreamChooser::describe(const StreamChoice& choice) const {
     return words + rest;
 }
 
-// Some drivers publish the lens of raw depth beside the depth that they align to colour. Crops of colour, and
+// Some drivers publish the lens of raw depth with the depth that they align to colour. Crops of colour, and
 // one that is calibrated anew, have nearly its focal length; images of another size are resized.
 std::string StreamChooser::alignedWarning(const ImageStream& depth, const ImageStream& colour) const {
     constexpr double kMostOther = 0.1;

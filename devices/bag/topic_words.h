@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The words in the name of a topic, and what each says of the images.
+// The words in the name of a topic, and what each word means for its images.
 #pragma once
 
 #include <string>

@@ -107,7 +107,7 @@ private:
     LeafPlaces places_;
     double boundingRadius_;    // [m]
     double stepCap_, catchUp_; // [m] per solve, per tick
-    double mostTravel_;        // [m] of a leaf in a tick
+    double mostTravel_;        // [m] per tick, of any leaf
     double friction_;          // mu
     Pose pose_, nextPose_, target_;
     double metricRadius_ = 0.0;
