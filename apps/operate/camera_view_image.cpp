@@ -33,8 +33,8 @@ uint32_t greyOf(uint16_t depth, double metresPerUnit) {
     return 0xff000000u | level << 16 | level << 8 | level;
 }
 
-// For each column of the view: the column of the depth image that it shows. With separate cameras the hatch ignores parallax: it marks the
-// holes of the depth image.
+// For each column of the view: the column of the depth image that it shows. With separate cameras the hatch
+// ignores parallax: it marks the holes of the depth image.
 using Columns = std::vector<uint32_t>;
 
 void enlarge(const uint32_t* from, uint32_t count, int scale, uint32_t* row) {

@@ -38,8 +38,8 @@ struct TickLog {
 
     // The step record, as far as the files contain it.
     StepRecord recordAt(size_t i) const;
-    // The record as a live run gives it to displays. hand: the recorded one, for its buttons; null = none are known. Whether the device
-    // was there, and which regions disappeared, is not recorded.
+    // The record as a live run gives it to displays. hand: the recorded one, for its buttons; null = none are
+    // known. Whether the device was there, and which regions disappeared, is not recorded.
     TickRow rowAt(size_t i, const HandPath* hand) const;
 };
 
