@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/recorded/hand_csv.h"
 
+#include "devices/recorded/small_units.h"
 #include "devices/recorded/text_file.h"
 #include "engine/types/error.h"
+#include "engine/types/log.h"
+#include "engine/types/number_text.h"
 
 #include <algorithm>
 #include <array>
@@ -80,6 +83,40 @@ HandWaypoint readRow(const Row& row, size_t columns) {
     return point;
 }
 
+// Rows that no run reaches: the next one is not later than the start.
+void warnAboutEarly(const std::string& file, const std::vector<HandWaypoint>& path) {
+    const auto after = std::ranges::find_if(path, [](const HandWaypoint& w) { return w.t > 0.0; });
+    const auto upTo = static_cast<size_t>(after - path.begin());
+    if (upTo > 1) {
+        log::warn(
+            "{}: {} of {} rows are not played, as t_s counts from the start of the run; the first is {} s",
+            file, upTo - 1, path.size(), significant(path.front().t, 6));
+    }
+}
+
+// Many rows, far apart in time but close in space, are those of a recorded hand in another unit.
+void warnAboutUnit(const std::string& file, const std::vector<HandWaypoint>& path) {
+    constexpr size_t kFewest = 50;                        // a script of waypoints has fewer rows
+    constexpr double kSlow = 2e-3;                        // [m/s]
+    constexpr double kShortest = 0.25e-3, kLongRow = 0.1; // [s] between the rows of a recorded hand
+    if (path.size() < kFewest) {
+        return;
+    }
+    double way = 0.0;
+    for (size_t i = 1; i < path.size(); ++i) {
+        way += glm::distance(path[i].deviceThandle.position, path[i - 1].deviceThandle.position);
+    }
+    const double time = path.back().t - path.front().t, row = time / static_cast<double>(path.size() - 1);
+    for (const SmallUnit& unit : kSmallUnits) {
+        const bool rows = row >= kShortest * unit.perSecond && row < kLongRow * unit.perSecond;
+        if (rows && way > 0.0 && way < kSlow * time) {
+            log::warn("{}: rows are {} s apart, and the hand moves {} m in {} s: t_s is read as seconds, but "
+                      "looks like {}",
+                      file, significant(row, 4), significant(way, 3), significant(time, 6), unit.name);
+        }
+    }
+}
+
 } // namespace
 
 std::vector<HandWaypoint> readHandCsv(const std::filesystem::path& file) {
@@ -106,6 +143,8 @@ std::vector<HandWaypoint> readHandCsv(const std::filesystem::path& file) {
     if (path.empty()) {
         throw BadInput(name, "line " + std::to_string(line.number + 1), "end of file", "at least one row");
     }
+    warnAboutEarly(name, path);
+    warnAboutUnit(name, path);
     return path;
 }
 

@@ -2,6 +2,7 @@
 #include "devices/recorded/hand_csv.h"
 #include "engine/types/error.h"
 #include "tests/devices/recorded_folder.h"
+#include "tests/realtime/listening.h"
 #include "tests/support/refusal.h"
 
 #include <cmath>
@@ -84,4 +85,40 @@ TEST_CASE("A path without header or rows, out of order or invalid is rejected wi
     CHECK(refusedWith(kButtonHeader + "0,0,0,0,1,0,0,0,-1\n", "line 2, button: '-1'"));
     CHECK(refusedWith(kButtonHeader + "0,0,0,0,1,0,0,0,1.5\n", "line 2, button: '1.5'"));
     CHECK_THROWS_AS(readHandCsv("no/such/way.csv"), BadInput);
+}
+
+TEST_CASE(
+    "A path of a recorded hand whose times are no seconds has one warning, slow scripts and rest have none") {
+    const auto warned = [](double row, double step, int rows) {
+        std::string text = kHeader;
+        for (int i = 0; i < rows; ++i) {
+            text += std::to_string(row * i) + "," + std::to_string(step * i) + ",0,0,1,0,0,0\n";
+        }
+        const testing::Listening log;
+        CHECK(read(text).size() == static_cast<size_t>(rows));
+        return log.count("t_s is read as seconds, but looks like milliseconds") +
+               10 * log.count("looks like microseconds");
+    };
+    CHECK(warned(1.0, 1e-4, 1000) == 1); // 1 kHz and 0.1 m/s
+    CHECK(warned(10.0, 1e-3, 200) == 1);
+    CHECK(warned(1e3, 1e-4, 80) == 10);
+    CHECK(warned(0.001, 1e-4, 1000) == 0);
+    CHECK(warned(0.02, 1e-5, 1000) == 0); // slow
+    CHECK(warned(1.0, 0.01, 100) == 0);   // a script
+    CHECK(warned(1.0, 1e-3, 40) == 0);
+    CHECK(warned(1.0, 0.0, 1000) == 0); // at rest
+}
+
+TEST_CASE("Rows of a path that end before the run starts are counted in a warning") {
+    const auto warned = [](const std::string& rows, const std::string& words) {
+        const testing::Listening log;
+        read(kHeader + rows);
+        CHECK(log.count("are not played") == (words.empty() ? 0u : 1u));
+        return words.empty() || log.count(words) == 1;
+    };
+    const std::string pose = ",0,0,0,1,0,0,0\n";
+    CHECK(warned("-2" + pose + "-1" + pose + "1" + pose, "1 of 3 rows are not played"));
+    CHECK(warned("-3" + pose + "-2" + pose + "-1" + pose, "2 of 3 rows are not played"));
+    CHECK(warned("-1" + pose + "1" + pose, ""));
+    CHECK(warned("0" + pose + "1" + pose, ""));
 }
