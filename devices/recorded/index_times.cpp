@@ -63,6 +63,16 @@ double medianPeriod(const std::vector<IndexLine>& index) {
     return gaps.empty() ? 0.0 : *middle;
 }
 
+bool countFrames(const std::vector<IndexLine>& index) {
+    constexpr size_t kFewest = 10;
+    constexpr double kMost = 1e6; // seconds since 1970 are more
+    const bool whole = std::ranges::all_of(index, [&](const IndexLine& line) {
+        return line.depthStamp >= 0.0 && line.depthStamp < kMost &&
+               line.depthStamp == std::floor(line.depthStamp);
+    });
+    return whole && index.size() >= kFewest && medianPeriod(index) == 1.0;
+}
+
 std::vector<std::string> settleTimes(RecordingLayout& layout, const std::filesystem::path& folder) {
     const size_t still = countStill(layout.index), all = layout.index.size();
     if (2 * still < all) {

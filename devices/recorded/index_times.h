@@ -9,6 +9,10 @@ namespace fathom {
 // Median of the times between usable frames [s]; 0 for a single frame. A mean would follow a single pause.
 double medianPeriod(const std::vector<IndexLine>& index);
 
+// Whether all stamps are whole numbers that mostly rise by 1, as those of a simulated sequence that counts its
+// frames; not for few frames.
+bool countFrames(const std::vector<IndexLine>& index);
+
 // Single stamps that go back are faults of their frames and stay. Where at least half do not rise, they are
 // no times: frames get 30 per second in the order of the index. Where the clock was set back, frames continue
 // one period after the last one, unless poses.txt is read by stamps. Returns what was changed, logged

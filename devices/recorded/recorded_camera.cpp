@@ -68,6 +68,11 @@ void RecordedCamera::warnAboutStamps() {
     if (index.size() < 2) {
         return;
     }
+    if (countFrames(index)) {
+        warn(
+            "its stamps are whole numbers that rise by 1: they are read as seconds, but look like numbers of "
+            "frames");
+    }
     const double whole = index.back().depthStamp - index.front().depthStamp;
     const double period = whole / static_cast<double>(index.size() - 1);
     for (const SmallUnit& unit : kSmallUnits) {

@@ -190,6 +190,27 @@ TEST_CASE("Stamps of another unit than seconds have a warning where depth and co
     CHECK(recordingRefusal(folder.path(), {.duration = 0.1}).find("duration: 0.1") != std::string::npos);
 }
 
+TEST_CASE("Stamps that count frames have a warning, whole seconds since 1970 and few frames have none") {
+    const TemporaryFolder folder;
+    writeSmallRecording(folder, 12);
+    const auto warned = [&](double first, double step, int frames) {
+        std::string index;
+        for (int i = 0; i < frames; ++i) {
+            const std::string n = std::to_string(i) + ".png", stamp = std::to_string(first + step * i);
+            index += stamp + " rgb/" + n + " " + stamp + " depth/" + n + "\n";
+        }
+        folder.write("associations.txt", index);
+        const std::vector<std::string> lines = RecordedCamera(folder.path()).warnings();
+        return lines.size() == 1 && lines[0].find("look like numbers of frames") != std::string::npos;
+    };
+    CHECK(warned(0.0, 1.0, 12));
+    CHECK(warned(1.0, 1.0, 12));
+    CHECK_FALSE(warned(0.5, 1.0, 12));
+    CHECK_FALSE(warned(0.0, 1.0, 4));
+    CHECK_FALSE(warned(0.0, 2.0, 12));
+    CHECK_FALSE(warned(1305031100.0, 1.0, 12));
+}
+
 TEST_CASE(
     "Images of rgb.txt and depth.txt whose stamps are rounded to one time are paired in order, and those "
     "without a partner are named with their number") {
