@@ -9,13 +9,58 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 #include <limits>
+#include <span>
 
 namespace fathom {
 
+namespace {
+
+// Whether a comment names the columns of a quaternion in another order than x, y, z, w, or before the position.
+bool namesOtherOrder(const std::string& comment) {
+    constexpr std::array<std::string_view, 7> kOrder{"tx", "ty", "tz", "qx", "qy", "qz", "qw"};
+    std::string plain; // "q_w," as "qw"
+    for (const char c : comment) {
+        const auto byte = static_cast<unsigned char>(c);
+        plain += c == '_' ? "" : std::string(1, std::isalpha(byte) != 0 ? char(std::tolower(byte)) : ' ');
+    }
+    std::vector<std::string_view> columns;
+    for (std::string_view word : splitWords(plain)) {
+        word = word == "x" ? "tx" : word == "y" ? "ty" : word == "z" ? "tz" : word;
+        if (std::ranges::find(kOrder, word) != kOrder.end()) {
+            columns.push_back(word);
+        }
+    }
+    const auto differ = [&](std::span<const std::string_view> order) {
+        return std::ranges::is_permutation(columns, order) && !std::ranges::equal(columns, order);
+    };
+    return differ(kOrder) || differ(std::span(kOrder).last(4));
+}
+
+// Comments in front of the first pose may name the columns.
+void checkOrder(const std::filesystem::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    std::array<char, DataLines::kLongest + 1> line{};
+    for (uint32_t number = 1; number < 100 && in.getline(line.data(), line.size()); ++number) {
+        const std::string text = line.data();
+        if (text.find('#') > 3) { // 3: behind a byte order mark
+            return;
+        }
+        if (namesOtherOrder(text)) {
+            throw BadInput(file.string(), "line " + std::to_string(number), text.substr(0, 160),
+                           "columns in the order t tx ty tz qx qy qz qw");
+        }
+    }
+}
+
+} // namespace
+
 PoseTrack::PoseTrack(const std::filesystem::path& file) {
+    checkOrder(file);
     for (const TextLine& line : readDataLines(file)) {
         const auto refuse = [&](const std::string& allowed) {
             throw BadInput(file.string(), "line " + std::to_string(line.number), line.text.substr(0, 160),

@@ -76,3 +76,24 @@ TEST_CASE("Poses of images in millimetres have a warning, and those in metres ha
     lineSays(warned({shifted(1500.0), shifted(1500.2)}),
              "the pose of 0.png: the camera is 1500 m from the origin (poses in millimetres?)");
 }
+
+TEST_CASE("A poses.txt whose comment names its columns in another order is refused with that comment") {
+    const TemporaryFolder folder;
+    writeSmallRecording(folder, 2);
+    const auto refusal = [&](const std::string& head) {
+        folder.write("poses.txt", head + "\n0 0 0 0 0 0 0 1\n0.1 0 0 0 0 0 0 1\n");
+        return recordingRefusal(folder.path());
+    };
+    for (const char* head :
+         {"# timestamp tx ty tz qw qx qy qz", "#t,x,y,z,q_w,q_x,q_y,q_z",
+          "# poses of a rig\n# stamp qx qy qz qw tx ty tz", "# t [s], p, qw, qx, qy, qz"}) {
+        CAPTURE(head);
+        lineSays(refusal(head), "(allowed: columns in the order t tx ty tz qx qy qz qw)");
+    }
+    for (const char* head :
+         {"# timestamp tx ty tz qx qy qz qw", "# ground truth trajectory", "# t x y z qx qy qz qw", "#", "",
+          "# x is right, y is down, z is forward", "# qw is last: t tx ty tz qx qy qz qw"}) {
+        CAPTURE(head);
+        CHECK(refusal(head) == "");
+    }
+}
