@@ -178,6 +178,9 @@ RecordingLayout readFolder(const fs::path& folder, const SourceOptions& options)
         (request.depthOnly || colourFolder(folder))) {
         return readOpen3d(request); // images that pair by number
     }
+    if (given && request.lens->depthStamps.empty()) {
+        refuseMisplacedDepth(folder);
+    }
     if (given) { // its stamps may be the index
         return readTum(folder, intrinsics, options.depthOnly());
     }

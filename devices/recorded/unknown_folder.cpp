@@ -2,6 +2,7 @@
 #include "devices/recorded/unknown_folder.h"
 
 #include "devices/images/depth_image.h"
+#include "devices/recorded/name_words.h"
 #include "engine/types/error.h"
 
 #include <algorithm>
@@ -66,7 +67,45 @@ fs::path recordingBelow(const fs::path& folder, bool (*isRecording)(const fs::pa
     return {};
 }
 
+bool namesDepth(const fs::path& path) {
+    return std::ranges::any_of(nameWords(path.stem().string()), [](const std::string& word) {
+        return word.find("depth") != std::string::npos;
+    });
+}
+
+// Whether one of its first images holds depth.
+bool holdsDepth(const fs::path& folder, bool named) {
+    constexpr int kMostTried = 5;
+    std::error_code failed;
+    int tried = 0;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, failed)) {
+        const bool image = endsAs(entry.path(), kDepthEndings) && (named || namesDepth(entry.path()));
+        if (image && tried++ < kMostTried && depthImageHead(entry.path()).fault.empty()) {
+            return true;
+        }
+    }
+    return false;
+}
+
 } // namespace
+
+void refuseMisplacedDepth(const fs::path& folder) {
+    std::error_code failed;
+    if (fs::exists(folder / "depth", failed)) {
+        return;
+    }
+    std::string place = holdsDepth(folder, false) ? "the folder itself" : "";
+    for (const fs::path& below : entriesOf(folder).folders) {
+        const std::string name = below.filename().string();
+        place = place.empty() && holdsDepth(below, namesDepth(below)) ? name : place;
+    }
+    if (!place.empty()) {
+        throw BadInput(
+            folder.string(), "depth images", "in " + place,
+            "in a folder depth, with colour images in rgb, color or image, and intrinsics=FILE behind "
+            "the folder's name: lens and depth scale as docs/guide/recordings.md has them");
+    }
+}
 
 void refuseUnknownFolder(const fs::path& folder, bool (*isRecording)(const fs::path&)) {
     if (const fs::path file = entriesOf(folder).file; !file.empty()) {
@@ -81,6 +120,7 @@ void refuseUnknownFolder(const fs::path& folder, bool (*isRecording)(const fs::p
         throw BadInput(folder.string(), "folder", "a folder of point clouds",
                        "one cloud, " + cloud.string() + "; or clouds in a bag");
     }
+    refuseMisplacedDepth(folder);
     throw BadInput(
         (folder / "intrinsics.json").string(), "file", "missing",
         "intrinsics.json (docs/guide/recordings.md has every field), or intrinsics=FILE behind the "

@@ -11,4 +11,7 @@ namespace fathom {
 [[noreturn]] void refuseUnknownFolder(const std::filesystem::path& folder,
                                       bool (*isRecording)(const std::filesystem::path&));
 
+// Throws BadInput where depth images lie in a folder of another name than depth, or in the folder itself.
+void refuseMisplacedDepth(const std::filesystem::path& folder);
+
 } // namespace fathom

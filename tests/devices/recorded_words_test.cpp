@@ -116,3 +116,21 @@ TEST_CASE("Text files of a folder in UTF-16 are refused as such") {
                  std::string(name) + ": content: UTF-16 text: save it as UTF-8");
     }
 }
+
+TEST_CASE("A folder whose depth images lie elsewhere than in depth/ is refused with the place of them") {
+    const auto refusal = [](const char* depth, bool lens) {
+        const TemporaryFolder folder;
+        addPair(folder, depth, "frames/frame0.png", 500);
+        folder.write("lens.json", kSmallIntrinsics);
+        return recordingRefusal(folder.path(),
+                                {.intrinsics = lens ? (folder.path() / "lens.json").string() : ""});
+    };
+    for (const bool lens : {false, true}) {
+        lineSays(refusal("lowres_depth/1.png", lens),
+                 "depth images: in lowres_depth (allowed: in a folder depth, ");
+        lineSays(refusal("depths/frame_1.png", lens), "depth images: in depths (");
+        lineSays(refusal("results/depth000000.png", lens), "depth images: in results (");
+        lineSays(refusal("000_depth.png", lens), "depth images: in the folder itself (");
+        CHECK(refusal("disp/1.png", lens).find("depth images: in") == std::string::npos);
+    }
+}
