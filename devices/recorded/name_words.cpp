@@ -31,8 +31,10 @@ bool nameOtherThing(const std::vector<std::string>& words) {
         "joint",   "joints",   "tool",        "tcp",  "ee",       "eef",    "gripper", "device",
         "marker",  "markers",  "tag",         "tags", "goal",     "target", "cmd",     "command",
         "desired", "setpoint", "initialpose", "face", "skeleton", "fathom"};
-    return std::ranges::any_of(
-        words, [&](const std::string& word) { return std::ranges::find(kThings, word) != kThings.end(); });
+    return std::ranges::any_of(words, [&](const std::string& word) { // "object2" as "object"
+        const std::string_view plain(word.data(), word.find_last_not_of("0123456789") + 1);
+        return std::ranges::find(kThings, plain) != kThings.end();
+    });
 }
 
 } // namespace fathom

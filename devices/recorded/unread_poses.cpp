@@ -74,10 +74,11 @@ bool namesPoses(const fs::path& file) {
 bool isPoseText(const fs::path& file, size_t& texts) {
     constexpr std::array<std::string_view, 8> kEndings{".txt",      ".log",  ".csv", ".tum",
                                                        ".freiburg", ".traj", ".gt",  ".sim"};
-    constexpr std::array<std::string_view, 4> kOthers{"imu", "gyro", "accelerometer", "gyroscope"};
+    constexpr std::array<std::string_view, 3> kOthers{"imu", "gyro", "accel"}; // also "imu0", "gyroscope"
     const std::vector<std::string> words = nameWords(file.stem().string());
     const bool other = nameOtherThing(words) || std::ranges::any_of(words, [&](const std::string& word) {
-                           return isAmong(word, kOthers);
+                           return std::ranges::any_of(
+                               kOthers, [&](std::string_view start) { return word.starts_with(start); });
                        });
     if (other || !isAmong(endingOf(file), kEndings) || !isRegularFile(file)) {
         return false;

@@ -81,7 +81,11 @@ TEST_CASE("A text of other numbers is not taken for poses") {
     CHECK(namedPoses("intrinsic.txt", "1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n") == ""); // of one camera
     CHECK(namedPoses("hand.csv", "1 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n") == "");
     CHECK(namedPoses("press.csv", "t_s,x,y,z,qw,qx,qy,qz\n0,0,0,0,1,0,0,0\n1,0,0,0,1,0,0,0\n") == "");
-    CHECK(namedPoses("imu.txt", "1 0 0 0 1 0 0 0\n1 0 0 0 1 0 0 0\n1 0 0 0 1 0 0 0\n") == "");
+    for (const char* name :
+         {"imu.txt", "imu0_data.csv", "IMUdata.txt", "gyro1.csv", "accel.txt", "object2.txt"}) {
+        CAPTURE(name);
+        CHECK(namedPoses(name, "1 0 0 0 1 0 0 0\n1 0 0 0 1 0 0 0\n1 0 0 0 1 0 0 0\n") == "");
+    }
 }
 
 TEST_CASE("Poses in files and folders of other programs are named by their names") {
