@@ -15,8 +15,11 @@ struct ForeignName {
 };
 constexpr const char* kFourNumbers =
     "fx, fy, cx and cy, each under its name, or \"intrinsic_matrix\" column by column";
+constexpr const char* kTopLevel = "width, height, fx, fy, cx and cy at the top level of the file";
 constexpr std::array kForeignNames{ForeignName{"width", "w", "the name width"},
                                    ForeignName{"width", "image_width", "the name width"},
+                                   ForeignName{"width", "camera", kTopLevel},
+                                   ForeignName{"width", "intrinsics", kTopLevel},
                                    ForeignName{"height", "h", "the name height"},
                                    ForeignName{"height", "image_height", "the name height"},
                                    ForeignName{"fx", "fl_x", "the name fx"},

@@ -34,6 +34,9 @@ TEST_CASE("A field of a lens under the name of another program is refused with t
     lineSays(lensRefusal(size + focal + R"("cx": 3, "ppy": 2})"), "ppy: 2 (allowed: the name cy)");
     lineSays(lensRefusal(R"({"w": 7, "h": 5, "fl_x": 6, "fl_y": 6, "cx": 3, "cy": 2})"),
              "w: 7 (allowed: the name width)");
+    lineSays(
+        lensRefusal(R"({"camera": {"w": 7, "h": 5, "fx": 6, "fy": 6, "cx": 3, "cy": 2, "scale": 6553.5}})"),
+        "(allowed: width, height, fx, fy, cx and cy at the top level of the file)");
     lineSays(lensRefusal(R"({"width": 7, "image_height": 5})"), "image_height: 5 (allowed: the name height)");
     lineSays(lensRefusal(size + R"("fl_x": 6, "fl_y": 6, "cx": 3, "cy": 2})"),
              "fl_x: 6 (allowed: the name fx)");
