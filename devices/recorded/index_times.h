@@ -9,8 +9,8 @@ namespace fathom {
 // Median of the times between usable frames [s]; 0 for a single frame. A mean would follow a single pause.
 double medianPeriod(const std::vector<IndexLine>& index);
 
-// Whether all stamps are whole numbers that mostly rise by 1, as those of a simulated sequence that counts its
-// frames; not for few frames.
+// Whether all stamps are whole numbers that mostly rise by 1, as those of a simulated sequence that counts
+// its frames; false for fewer than ten frames.
 bool countFrames(const std::vector<IndexLine>& index);
 
 // Single stamps that go back are faults of their frames and stay. Where at least half do not rise, they are

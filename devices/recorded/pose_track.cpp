@@ -20,7 +20,8 @@ namespace fathom {
 
 namespace {
 
-// Whether a comment names the columns of a quaternion in another order than x, y, z, w, or before the position.
+// Whether a comment names the columns of a quaternion in another order than x, y, z, w, or in front of the
+// position.
 bool namesOtherOrder(const std::string& comment) {
     constexpr std::array<std::string_view, 7> kOrder{"tx", "ty", "tz", "qx", "qy", "qz", "qw"};
     std::string plain; // "q_w," as "qw"
