@@ -35,8 +35,10 @@ void StiffnessWatch::step(double measuredPeriod) noexcept {
     if (!(measuredPeriod > 0.0) || !std::isfinite(measuredPeriod)) {
         return;
     }
-    period_ += std::min(1.0, measuredPeriod / kAverage) * (measuredPeriod - period_);
-    share_ += std::clamp(wantedShare() - share_, -measuredPeriod / kDown, measuredPeriod / kUp);
+    const double counts = std::min(measuredPeriod, std::max(kLateAlone, before_));
+    before_ = measuredPeriod;
+    period_ += std::min(1.0, counts / kAverage) * (counts - period_);
+    share_ += std::clamp(wantedShare() - share_, -counts / kDown, counts / kUp);
     springs_ = planned_;
     springs_.stiffness = share_ * planned_.stiffness;
     springs_.guidanceStiffness = share_ * planned_.guidanceStiffness;

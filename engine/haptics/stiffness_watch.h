@@ -16,16 +16,17 @@ public:
 
     // One tick: measured period [s], 0 = none (lockstep: nothing changes). The period is averaged over
     // kAverage; K_t and K_r ramp down to their bounds (the whole of K_t in kDown) and back up (in kUp), never
-    // in a step.
+    // in a step. A tick that is late by itself counts as kLateAlone: it does not make the ticks slow.
     void step(double measuredPeriod) noexcept;
 
     const Springs& springs() const noexcept { return springs_; } // active; k = sqrt(K_r / K_t) follows
     double period() const noexcept { return period_; }           // [s] averaged
 
-    static constexpr double kAverage = 0.05;  // [s]
-    static constexpr double kDown = 0.2;      // [s] for the whole of K
-    static constexpr double kUp = 2.0;        // [s]
-    static constexpr double kMinShare = 0.01; // of the planned stiffness: lower limit of the ramp
+    static constexpr double kAverage = 0.05;   // [s]
+    static constexpr double kDown = 0.2;       // [s] for the whole of K
+    static constexpr double kUp = 2.0;         // [s]
+    static constexpr double kLateAlone = 0.01; // [s]
+    static constexpr double kMinShare = 0.01;  // of the planned stiffness: lower limit of the ramp
 
 private:
     double wantedShare() const noexcept;
@@ -35,6 +36,7 @@ private:
     Springs planned_, springs_;
     double share_ = 1.0; // of the planned K_t
     double period_;
+    double before_ = 0.0; // [s] measured of the last tick
 };
 
 } // namespace fathom

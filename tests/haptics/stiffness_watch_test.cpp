@@ -111,6 +111,24 @@ TEST_CASE("One late tick lowers the stiffness only slightly, and an hour-long st
     CHECK(std::isfinite(watch.springs().metricRadius));
 }
 
+TEST_CASE("A tick that is late by itself is no slow rate, however late it is") {
+    for (const double late : {0.03, 0.3, 3.0}) { // [s]
+        CAPTURE(late);
+        StiffnessWatch watch = watchOf({});
+        run(watch, 0.001, 0.5);
+        double before = watch.springs().stiffness;
+        watch.step(late);
+        for (int i = 0; i < 500; ++i) {
+            CHECK(before - watch.springs().stiffness <= 1000.0 * 0.01 / StiffnessWatch::kDown + 1e-9);
+            before = watch.springs().stiffness;
+            CHECK(before >= 600.0);
+            watch.step(0.001);
+        }
+        run(watch, 0.03, 2.0);
+        CHECK(watch.springs().stiffness == doctest::Approx(1000.0 / 30.0));
+    }
+}
+
 TEST_CASE("A user-given stiffness and a device with unknown b are not adapted") {
     CouplingOptions options;
     options.stiffness = 900.0;
