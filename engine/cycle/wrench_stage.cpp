@@ -57,7 +57,7 @@ void WrenchStage::stepRamps(const WrenchInput& input) noexcept {
 }
 
 // Acts along the reaction only: a hand that moves freely along a region is not braked. It brakes the hand
-// against the ground, not against the tool, which new data may move by 1 mm per tick.
+// against the ground, not against the tool, which new data may move by 1 mm in a tick.
 Wrench WrenchStage::damping(const WrenchInput& input, const Wrench& reaction) noexcept {
     const Springs& springs = input.springs;
     Wrench wrench;
@@ -141,15 +141,23 @@ void WrenchStage::cut() noexcept {
     passivity_.reset();
 }
 
-// After one tick. However low the slew limit is, what is no longer wanted ends within a ramp. Late ticks do
-// not delay that end, unless the slew limit is the faster one: then no step is larger than it.
-dvec3 WrenchStage::slewed(const dvec3& wanted, const dvec3& before, double slew, double limit,
-                          double elapsed) const noexcept {
+// After one tick. However low the slew limit is, what is no longer wanted ends within a ramp, and late ticks do
+// not delay that. If the slew limit is the faster one, no step is larger than it, unless ticks are late one
+// after the other.
+dvec3 WrenchStage::slewed(const dvec3& wanted, const dvec3& before, double slew,
+                          double limit) const noexcept {
     const double rise = options_.period * slew, ramp = limit / ForceRamps::kRampTime;
-    const double fall = slew >= ramp ? rise : std::max(options_.period, elapsed) * ramp;
-    // No slew limit outlives a ramp.
-    const double most = std::max(ramps_.fadeGain() * limit, slew >= ramp ? glm::length(before) - rise : 0.0);
-    return clampLength(limitSlew(wanted, before, rise, fall), most);
+    const bool follows = slew >= ramp;
+    const double elapsed = follows ? *std::min_element(elapsed_.begin(), elapsed_.end()) : elapsed_.back();
+    const double fall = std::max(rise, elapsed * ramp);
+    const dvec3 next = limitSlew(wanted, before, rise, fall);
+    const double fade = ramps_.fadeGain() * limit; // no slew limit outlives a ramp
+    if (!follows) {
+        return clampLength(next, fade);
+    }
+    const double most = std::max(fade, glm::length(before) - fall);
+    // A force that turned as well would change by more.
+    return glm::length(next) > most ? clampLength(before, most) : next;
 }
 
 // The low-pass of the wanted wrench. However slow the filter is, what is no longer wanted ends within a ramp.
@@ -181,10 +189,10 @@ WrenchStage::Output WrenchStage::step(const WrenchInput& input) noexcept {
     const Wrench sized =
         limitSize(asked, limitScale * options_.forceLimit, limitScale * options_.torqueLimit);
     Output out;
-    out.wrench.force =
-        slewed(sized.force, previous_.force, options_.slewForce, options_.forceLimit, input.elapsed);
-    out.wrench.torque =
-        slewed(sized.torque, previous_.torque, options_.slewTorque, options_.torqueLimit, input.elapsed);
+    std::rotate(elapsed_.begin(), elapsed_.begin() + 1, elapsed_.end());
+    elapsed_.back() = std::max(options_.period, input.elapsed);
+    out.wrench.force = slewed(sized.force, previous_.force, options_.slewForce, options_.forceLimit);
+    out.wrench.torque = slewed(sized.torque, previous_.torque, options_.slewTorque, options_.torqueLimit);
     out.cause = causeOf(input, damper, sized, out.wrench);
     out.finite = input.sampleFinite && isFinite(out.wrench);
     notFinite_ += out.finite ? 0 : 1;

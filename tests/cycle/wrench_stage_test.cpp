@@ -171,7 +171,7 @@ TEST_CASE("A force that turns while it ramps out is zero when the ramp is, howev
 TEST_CASE(
     "A force that ends in a late tick falls in steps of at most the slew limit, and is off when it is zero") {
     for (const double late : {0.03, 0.3, 1.2}) { // [s]
-        for (const char* end : {"off", "stale", "away", "turned"}) {
+        for (const char* end : {"off", "stale", "away", "turned", "across"}) {
             const std::string why = end;
             CAPTURE(late);
             CAPTURE(why);
@@ -185,9 +185,12 @@ TEST_CASE(
             }
             dvec3 before = hand.stage->step(hand.input).wrench.force;
             CHECK(glm::length(before) > 8.0);
-            hand.input.forcesOn = why != "off";
+            const bool across = why == "across"; // while it fades
+            hand.input.forcesOn = why != "off" && !across;
             hand.input.stale = why == "stale";
-            hand.press(why == "turned" ? dvec3(-1, 0, 0) : dvec3(1, 0, 0), why == "away" ? 0.0 : 0.02, false);
+            const dvec3 turned = across ? dvec3(0, 1, 0) : dvec3(-1, 0, 0);
+            hand.press(why == "turned" || across ? turned : dvec3(1, 0, 0), why == "away" ? 0.0 : 0.02,
+                       false);
             for (int tick = 0; tick < 10; ++tick) {
                 hand.input.elapsed = tick == 0 ? late : hand.options.period;
                 const dvec3 force = hand.stage->step(hand.input).wrench.force;
@@ -197,6 +200,35 @@ TEST_CASE(
             }
             if (late > 1.0 && why != "turned") {
                 CHECK(before == dvec3(0.0));
+            }
+        }
+    }
+}
+
+TEST_CASE("Ticks that are all late do not delay the end of a force, whatever the slew limit is") {
+    for (const double slew : {99.0, 101.0, 300.0, 2000.0}) { // [N/s]
+        for (const double late : {0.005, 0.03, 0.3}) {       // [s]
+            for (const bool away : {false, true}) {
+                CAPTURE(slew);
+                CAPTURE(late);
+                CAPTURE(away);
+                Stage hand;
+                hand.options.passivityController = false;
+                hand.options.slewForce = slew;
+                hand.start();
+                hand.press({1, 0, 0}, 0.02, false);
+                hand.input.elapsed = late;
+                for (int i = 0; i < 1000; ++i) {
+                    hand.stage->step(hand.input);
+                }
+                double share = hand.share({1, 0, 0}, false);
+                CHECK(share > 0.4);
+                hand.input.forcesOn = away;
+                hand.press({1, 0, 0}, away ? 0.0 : 0.02, false);
+                for (double t = 0.0; t < ForceRamps::kRampTime; t += late) {
+                    share = hand.share({1, 0, 0}, false);
+                }
+                CHECK(share <= 1e-9);
             }
         }
     }
