@@ -76,6 +76,7 @@ void HapticCycle::shiftHand(const dvec3& by, const dquat& turn) noexcept {
         map_.align(handle_, device_);
     }
     stage_.shift(by, turn);
+    guidance_.shift(by, turn);
     handShift_.total += by;
     if (proxy_) {
         proxy_->setTarget(springEnd_);

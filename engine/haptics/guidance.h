@@ -44,6 +44,10 @@ public:
     // true (forces off) sets w to 0 at once; the button must then be pressed again.
     void step(std::span<const GuidancePose> poses, const Pose& device, bool button, bool cut, double dt,
               const GuidanceReach& reach = {}) noexcept;
+    // The pose that the hand commands was moved by `by` [m] and turned by `turn`, not by the hand.
+    void shift(const dvec3& by, const dquat& turn) noexcept {
+        device_ = {device_.position + by, turn * device_.rotation};
+    }
     // Reach of a lead (see below), or of the pull of mode `paper`, at full weight.
     GuidanceReach leadReach(const Springs& springs) const noexcept;
     GuidanceReach pullReach(const Springs& springs) const noexcept;

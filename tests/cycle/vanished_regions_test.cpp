@@ -247,3 +247,34 @@ TEST_CASE("A slow arm keeps its force while it follows a surface that goes back 
         }
     }
 }
+
+TEST_CASE("A region that vanishes while guidance pulls leaves that pull as it is") {
+    for (const double speed : {0.05, 0.15, 0.3}) { // [m/s] slower and faster than guidance
+        CAPTURE(speed);
+        HapticRig rig(handScene(), at(0, 0, 0.08));
+        rig.show(wallSet());
+        rig.sceneAges = false;
+        rig.ticks(250);
+        GuidancePose behind;
+        behind.present = true;
+        behind.target = at(0, 0, -0.3);
+        rig.guidance = {behind};
+        rig.buttons = kGuidanceButton;
+        rig.ticks(600);
+        StepRecord before = rig.step();
+        while (rig.hand.position.z > -0.005) {
+            rig.hand.position.z -= 0.001 * speed;
+            before = rig.step();
+        }
+        REQUIRE(forceOf(before) > 14.0);
+        rig.show(emptySet(9));
+        rig.sceneAges = false;
+        for (int i = 0; i < 150; ++i) {
+            rig.hand.position.z -= 0.001 * speed;
+            const StepRecord record = rig.step();
+            CHECK(glm::distance(record.wrench.force, before.wrench.force) <= 0.2);
+            before = record;
+        }
+        CHECK(before.vanished == 1);
+    }
+}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which target the guidance button chooses.
+// Which target the guidance button chooses, and what changes of it do to the hand.
 #include "engine/haptics/guidance.h"
 
 #include <doctest/doctest.h>
@@ -43,4 +43,22 @@ TEST_CASE("A button that was pressed without a target and released changes no fa
     step(false);
     CHECK(guidance.weight() > 0.5);
     CHECK(guidance.chosen() == 0);
+}
+
+TEST_CASE("A shift of the hand map changes no lead") {
+    const std::array poses{presentAt(0.2)};
+    Springs springs;
+    springs.stiffness = 1000.0;
+    Guidance guidance;
+    Pose hand;
+    for (int i = 0; i < 1000; ++i) { // faster than guidance
+        hand.position.x = i < 600 ? 0.0 : 0.0002 * (i - 600);
+        guidance.step(poses, hand, true, false, 0.001, guidance.leadReach(springs));
+    }
+    CHECK(glm::length(guidance.lead(hand, springs).translation) < 1e-9);
+    const dvec3 by(-0.02, 0, 0);
+    guidance.shift(by, {1, 0, 0, 0});
+    hand.position += by;
+    guidance.step(poses, hand, true, false, 0.001, guidance.leadReach(springs));
+    CHECK(glm::length(guidance.lead(hand, springs).translation) <= 0.1 * 0.001 + 1e-9);
 }
