@@ -32,7 +32,7 @@ void Guidance::step(std::span<const GuidancePose> poses, const Pose& device, boo
     }
     follow(poses, dt);
     const bool pulls = button && !waiting_ && chosen_ >= 0 && lost_ <= limits_.holdTime && !cut;
-    const double change = limits_.easeTime > 0.0 ? dt / limits_.easeTime : 1.0;
+    const double change = easeStep(dt);
     phase_ = cut ? 0.0 : std::clamp(phase_ + (pulls ? change : -change), 0.0, 1.0);
     weight_ = phase_ * phase_ * (3.0 - 2.0 * phase_);
     advance(device, reach, dt);
@@ -72,7 +72,9 @@ void Guidance::follow(std::span<const GuidancePose> poses, double dt) noexcept {
     }
     lost_ = 0.0;
     const GuidancePose& pose = poses[index];
-    rollFree_ = pose.rollFree && pose.planar; // without a plane the scene's full orientation applies
+    // Without a plane the scene's full orientation applies.
+    const double roll = pose.rollFree && pose.planar ? 0.0 : 1.0;
+    roll_ = phase_ == 0.0 ? roll : roll_ + std::clamp(roll - roll_, -easeStep(dt), easeStep(dt));
     Pose wanted = pose.target;
     if (!pose.planar) {
         wanted.position += standoff_ - pose.standoff;
@@ -115,8 +117,9 @@ GuidanceReach Guidance::pullReach(const Springs& springs) const noexcept {
 }
 
 dvec3 Guidance::turnFrom(const Pose& device) const noexcept {
-    return rollFree_ ? axisTurn(device.rotation, target_.rotation)
-                     : rotationBetween(device.rotation, target_.rotation);
+    const dvec3 axis = axisTurn(device.rotation, target_.rotation);
+    const dvec3 whole = rotationBetween(device.rotation, target_.rotation);
+    return roll_ == 1.0 ? whole : axis + roll_ * (whole - axis);
 }
 
 // The part of `way` to the target that is ahead of the hand. most: what the speed has allowed so far.

@@ -40,8 +40,9 @@ public:
 
     // One tick. poses: one per guidance class, of the newest frame. Pressing the button chooses the nearest
     // present class (if none is present, the first that appears) and keeps it until release, even while it is
-    // lost. Without a plane the stand-off keeps its direction from then on, wherever the camera goes. cut =
-    // true (forces off) sets w to 0 at once; the button must then be pressed again.
+    // lost. Without a plane the stand-off keeps its direction from then on, wherever the camera goes. The pull
+    // of a roll that becomes free, or is no longer, fades out or in. cut = true (forces off) sets w to 0 at
+    // once; the button must then be pressed again.
     void step(std::span<const GuidancePose> poses, const Pose& device, bool button, bool cut, double dt,
               const GuidanceReach& reach = {}) noexcept;
     // The pose that the hand commands was moved by `by` [m] and turned by `turn`, not by the hand.
@@ -72,6 +73,7 @@ public:
     Wrench pull(const Pose& device, const Springs& springs) const noexcept;
 
 private:
+    double easeStep(double dt) const noexcept { return limits_.easeTime > 0.0 ? dt / limits_.easeTime : 1.0; }
     void choose(std::span<const GuidancePose> poses, const Pose& device) noexcept;
     void follow(std::span<const GuidancePose> poses, double dt) noexcept;
     void advance(const Pose& device, const GuidanceReach& reach, double dt) noexcept;
@@ -82,7 +84,7 @@ private:
     int chosen_ = -1;
     bool waiting_ = false; // button down, no class present yet
     bool button_ = false;
-    bool rollFree_ = false;
+    double roll_ = 0.0;  // share of the target's roll that pulls: 0 when its roll is free
     double lost_ = 0.0;  // [s] since the chosen class was last present
     double phase_ = 0.0; // 0..1, linear in time
     double weight_ = 0.0;

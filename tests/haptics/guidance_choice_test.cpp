@@ -4,7 +4,9 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 using namespace fathom;
@@ -43,6 +45,28 @@ TEST_CASE("A button that was pressed without a target and released changes no fa
     step(false);
     CHECK(guidance.weight() > 0.5);
     CHECK(guidance.chosen() == 0);
+}
+
+TEST_CASE("A plane that is lost and found again turns the pull of a free roll without a step") {
+    std::array poses{presentAt(0.2)};
+    poses[0].target.rotation = rotationExp({0.3, 0, 0}) * rotationExp({0, 0, 1.0});
+    Springs springs;
+    springs.stiffness = 1000.0;
+    springs.rotationalStiffness = 0.1; // [N m/rad]
+    Guidance guidance;
+    dvec3 before(0.0);
+    double most = 0.0, roll = 0.0;
+    for (int i = 0; i < 5000; ++i) {
+        poses[0].planar = (i / 1000) % 2 == 0;
+        guidance.step(poses, {}, true, false, 0.001, guidance.leadReach(springs));
+        const dvec3 lead = guidance.lead({}, springs).rotation;
+        most = std::max(most, glm::distance(lead, before));
+        roll = std::max(roll, std::abs(lead.z));
+        before = lead;
+    }
+    CHECK(roll > 0.5);
+    CHECK(most < 0.01);
+    CHECK(std::abs(before.z) < 1e-9); // free again
 }
 
 TEST_CASE("A shift of the hand map changes no lead") {
