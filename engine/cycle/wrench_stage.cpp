@@ -141,9 +141,9 @@ void WrenchStage::cut() noexcept {
     passivity_.reset();
 }
 
-// After one tick. However low the slew limit is, what is no longer wanted ends within a ramp, and late ticks do
-// not delay that. If the slew limit is the faster one, no step is larger than it, unless ticks are late one
-// after the other.
+// After one tick. However low the slew limit is, what is no longer wanted ends within a ramp, and late ticks
+// do not delay that. If the slew limit is the faster one, no step is larger than it, unless three ticks in a
+// row are late.
 dvec3 WrenchStage::slewed(const dvec3& wanted, const dvec3& before, double slew,
                           double limit) const noexcept {
     const double rise = options_.period * slew, ramp = limit / ForceRamps::kRampTime;

@@ -40,9 +40,9 @@ public:
 
     // One tick. poses: one per guidance class, of the newest frame. Pressing the button chooses the nearest
     // present class (if none is present, the first that appears) and keeps it until release, even while it is
-    // lost. Without a plane the stand-off keeps its direction from then on, wherever the camera goes. The pull
-    // of a roll that becomes free, or is no longer, fades out or in. cut = true (forces off) sets w to 0 at
-    // once; the button must then be pressed again.
+    // lost. Without a plane the stand-off keeps its direction from then on, wherever the camera goes. The
+    // pull of a roll that becomes free, or is no longer, fades out or in. cut = true (forces off) sets w to 0
+    // at once; the button must then be pressed again.
     void step(std::span<const GuidancePose> poses, const Pose& device, bool button, bool cut, double dt,
               const GuidanceReach& reach = {}) noexcept;
     // The pose that the hand commands was moved by `by` [m] and turned by `turn`, not by the hand.
