@@ -2,7 +2,9 @@
 #include "engine/model/sphere_sets.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
+#include "engine/types/printable.h"
 #include "engine/types/read_file.h"
+#include "engine/types/suggestion.h"
 #include "engine/types/yaml_document.h"
 
 #include <algorithm>
@@ -156,6 +158,7 @@ std::string geometryOf(const std::filesystem::path& file, const YAML::Node& root
 }
 
 // Adds the distances of a key, {LINK: d} or one for all links, to the radii, and drops links without spheres.
+// A distance for such a link gives a warning, unless it seems to be meant for another one.
 void growBy(const std::filesystem::path& file, const YAML::Node& table, const std::string& key,
             const std::string& field, std::vector<LinkSpheres>& sets) {
     const YAML::Node distances = tableOf(file.string(), table, key);
@@ -164,10 +167,10 @@ void growBy(const std::filesystem::path& file, const YAML::Node& table, const st
     }
     const bool same = distances.IsDefined() && distances.IsScalar();
     const double all = same ? number(file.string(), distances) : 0.0;
-    std::set<std::string> links;
+    std::vector<std::string_view> bare; // links without a distance, of which one may be misspelt
     for (LinkSpheres& set : sets) {
-        links.insert(set.link);
         const YAML::Node own = tableOf(file.string(), distances, set.link);
+        bare.insert(bare.end(), own ? 0 : 1, set.link);
         for (Sphere& s : set.spheres) {
             s.radius += own ? number(file.string(), own) : all;
         }
@@ -175,8 +178,12 @@ void growBy(const std::filesystem::path& file, const YAML::Node& table, const st
     }
     for (auto entry = distances.begin(); distances.IsMap() && entry != distances.end(); ++entry) {
         const std::string link = entry->first.IsScalar() ? entry->first.Scalar() : "";
-        if (links.count(link) == 0) {
+        const bool known = std::ranges::find(sets, link, &LinkSpheres::link) != sets.end();
+        if (!known && !nearestWord(link, bare).empty()) {
             throw BadInput(file.string(), field, "link '" + excerpt(link) + "'", namesOf(sets));
+        }
+        if (!known) {
+            log::warn("{}: {}: link {} has no spheres", file.string(), field, excerpt(printable(link)));
         }
     }
     std::erase_if(sets, [](const LinkSpheres& set) { return set.spheres.empty(); });

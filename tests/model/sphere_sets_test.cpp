@@ -125,6 +125,19 @@ TEST_CASE(
               .find("geometry.g: 'clone' (allowed: only spheres)") != std::string::npos);
 }
 
+TEST_CASE("A buffer for a link without spheres is no error, unless it seems meant for one without a buffer") {
+    const auto text = [](const std::string& buffer) {
+        return "format: xrdf\ncollision: {buffer_distance: {" + buffer +
+               "}}\ngeometry: {g: {spheres: {wrist_1: [{center: [0, 0, 0], radius: 0.01}]}}}\n";
+    };
+    for (const char* buffer : {"wrist_1: 0.005, tool0: 0.02", "wrist_1: 0.005, wrist_2: 0.02"}) {
+        const testing::ScratchFile file("set.xrdf", text(buffer));
+        CHECK(readXrdf(file.path()).at(0).spheres[0].radius == doctest::Approx(0.015));
+    }
+    CHECK(setRefusal(".xrdf", text("wrist_2: 0.02")).find("link 'wrist_2' (allowed: wrist_1)") !=
+          std::string::npos);
+}
+
 TEST_CASE("An XRDF of version 2 names the geometry and buffer of the world, and links may have no spheres") {
     const std::string two = "geometry:\n  other: {spheres: {hand: [{center: [0, 0, 0], radius: 0.5}]}}\n"
                             "  g: {spheres: {hand: [{center: [0, 0, 0], radius: 0.01}], held: }}\n";
