@@ -59,6 +59,11 @@ bool isFace(std::string_view word) {
     return word == "f" || word == "fo"; // fo: the face of older files
 }
 
+// A surface that is no polygon, also of older files. Curves have no area, and nothing is lost with them.
+bool isFreeForm(std::string_view word) {
+    return word == "surf" || word == "bsp" || word == "bzp" || word == "cdp";
+}
+
 // Numbers behind the first three are a weight or a colour. False for a line that is not understood.
 bool addLine(const std::vector<std::string_view>& words, std::string& plain) {
     const bool vertex = isVertex(words[0]);
@@ -88,7 +93,8 @@ public:
         line.clear();
         while (one(line)) {
             const std::vector<std::string_view> words = objWords(line);
-            const bool data = !words.empty() && (isVertex(words[0]) || isFace(words[0]));
+            const bool data =
+                !words.empty() && (isVertex(words[0]) || isFace(words[0]) || isFreeForm(words[0]));
             if (data && line.back() == '\\') {
                 line.back() = ' ';
                 continue;
@@ -132,13 +138,18 @@ private:
 std::string plainObj(const std::filesystem::path& file, std::string& plain) {
     ObjLines lines(file);
     plain.clear();
+    bool faces = false;
     for (std::string line; lines.next(line);) {
-        if (!addLine(objWords(line), plain)) {
+        const std::vector<std::string_view> words = objWords(line);
+        const bool freeForm = isFreeForm(words[0]);
+        if (freeForm || !addLine(words, plain)) {
             return "line " + std::to_string(lines.number()) + ": '" + line.substr(0, kShownText) +
-                   "', not 'v x y z' or 'f' and vertex numbers";
+                   (freeForm ? "', a free-form surface, not faces"
+                             : "', not 'v x y z' or 'f' and vertex numbers");
         }
+        faces = faces || isFace(words[0]);
     }
-    return plain.empty() ? "no vertices" : "";
+    return plain.empty() ? "no vertices" : faces ? "" : "no faces";
 }
 
 } // namespace fathom

@@ -8,8 +8,8 @@
 
 namespace fathom {
 
-// The reason to reject the file, with its line; empty for one that is whole. plain: gets only `v` lines of
-// three numbers and `f` lines of vertex numbers, in the order of the file.
+// The reason to reject the file, with its line; empty for one that is whole and has only faces. plain: gets
+// only `v` lines of three numbers and `f` lines of vertex numbers, in the order of the file.
 std::string plainObj(const std::filesystem::path& file, std::string& plain);
 
 } // namespace fathom

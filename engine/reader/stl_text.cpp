@@ -9,6 +9,7 @@
 #include <fstream>
 #include <iomanip>
 #include <locale>
+#include <sstream>
 
 namespace fathom {
 
@@ -16,6 +17,7 @@ namespace {
 
 constexpr uintmax_t kHeadBytes = 84, kFacetBytes = 50; // of a binary STL
 constexpr size_t kLongestWord = 256, kLargestStl = 512u << 20;
+constexpr const char* kNoFacets = "no facets";
 
 std::string inSmall(std::string text) {
     std::transform(text.begin(), text.end(), text.begin(),
@@ -36,6 +38,9 @@ std::string binaryFault(const std::filesystem::path& file, const std::string& he
         return std::to_string(count) + " facets take " + std::to_string(wanted) + " bytes, the file has " +
                std::to_string(size);
     }
+    if (count == 0) {
+        return kNoFacets;
+    }
     if (size > wanted) {
         instead = readFileAtMost(file, kLargestStl).value_or("").substr(0, wanted);
     }
@@ -48,11 +53,29 @@ void skipLine(std::istream& in) {
     }
 }
 
-std::string textFault(std::istream& in) {
-    size_t facets = 0, corners = 0;
+// The facets of all solids as one, of a text in small letters: Assimp rejects a file with an empty solid.
+std::string oneSolid(const std::string& text) {
+    std::istringstream in(text);
+    std::string out = "solid\n";
+    for (std::string line; std::getline(in, line);) {
+        const std::string start = line.substr(std::min(line.find_first_not_of(" \t"), line.size()), 8);
+        if (!start.starts_with("solid") && !start.starts_with("endsolid")) {
+            out += line + "\n";
+        }
+    }
+    return out + "endsolid\n";
+}
+
+// What Assimp does not read.
+struct StlSpelling {
+    bool capitals = false, gaps = false; // capital keywords, a solid without facets
+};
+
+std::string textFault(std::istream& in, StlSpelling& spelling) {
+    size_t facets = 0, corners = 0, before = 0; // before this solid
     bool ended = false;
-    for (std::string word; in >> std::setw(kLongestWord) >> word;) {
-        word = inSmall(word);
+    for (std::string written; in >> std::setw(kLongestWord) >> written;) {
+        const std::string word = inSmall(written);
         if (word == "vertex") {
             ++corners;
             continue;
@@ -65,15 +88,19 @@ std::string textFault(std::istream& in) {
             return "facet " + std::to_string(facets) + " has " + std::to_string(corners) +
                    " vertices instead of 3";
         }
+        spelling.capitals = spelling.capitals || word != written;
         ended = word == "endsolid";
         if (named) {
+            spelling.gaps = spelling.gaps || (ended && facets == before);
+            before = facets;
             skipLine(in); // the name may be any words
         } else {
             ++facets;
             corners = 0;
         }
     }
-    return ended ? "" : "cut off: no endsolid behind facet " + std::to_string(facets);
+    return ended ? facets > 0 ? "" : kNoFacets
+                 : "cut off: no endsolid behind facet " + std::to_string(facets);
 }
 
 } // namespace
@@ -93,9 +120,11 @@ std::string stlFault(const std::filesystem::path& file, std::string& instead) {
     if (!inSmall(head.substr(first)).starts_with("solid") || head.find('\0') != std::string::npos) {
         return binaryFault(file, head, instead);
     }
-    const std::string fault = textFault(in);
-    if (fault.empty() && !head.starts_with("solid")) {
+    StlSpelling spelling;
+    const std::string fault = textFault(in, spelling);
+    if (fault.empty() && (spelling.gaps || spelling.capitals || first > 0)) {
         instead = inSmall(readFileAtMost(file, kLargestStl).value_or("").substr(first));
+        instead = spelling.gaps ? oneSolid(instead) : instead;
     }
     return fault;
 }

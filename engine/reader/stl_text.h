@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Checks STL files for what Assimp drops or does not explain: it regroups the corners of facets three by
-// three, does not notice that a text ends early, and knows neither capital keywords nor padding.
+// three, does not notice that a text ends early, and knows no capital keywords, padding or empty solids.
 #pragma once
 
 #include <filesystem>

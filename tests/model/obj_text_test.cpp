@@ -93,6 +93,17 @@ TEST_CASE("An OBJ with a vertex or face that is not understood is rejected with 
     CHECK(refuses(replaced(kObjTetra, "v 0.1", "v nan"), "line 2: "));
     CHECK(refuses(replaced(kObjTetra, "f 1 3 2", "f 1 a 2"), "line 5: 'f 1 a 2'"));
     CHECK(refuses(replaced(kObjTetra, "f 1 3 2", "f 0 3 2"), "line 5: "));
+    CHECK(refuses(kObjVertices + "p 1\n", "no faces"));
     CHECK(refuses("an OBJ?\n", "no vertices"));
     CHECK(refuses("", "no vertices"));
+}
+
+TEST_CASE("An OBJ with free-form surfaces, which would be missing, is rejected with the line of the first") {
+    const std::string start = kObjTetra + "cstype bezier\ndeg 3 3\n";
+    for (const char* surface : {"surf 0 1 0 1 1 2 3 4", "surf 0 1 0 1 1 \\\n2 3 4", "bzp 1 2 3 4"}) {
+        const std::string result = readObj(start + surface + "\nend\n");
+        CHECK_MESSAGE(result.find(".obj: mesh: line 1") != std::string::npos, result);
+        CHECK_MESSAGE(result.find("', a free-form surface, not faces") != std::string::npos, result);
+    }
+    CHECK(readObj(start + "curv 0 1 1 2 3 4\nparm u 0 1\nend\n") == kRead);
 }

@@ -73,8 +73,17 @@ TEST_CASE("A text STL with capital keywords or behind blank lines is read like a
     std::transform(capital.begin(), capital.end(), capital.begin(),
                    [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
     CHECK(readStl(capital) == "2");
+    CHECK(readStl("solid a\n" + kFacet + "endsolid a\n" + capital) == "2");
     CHECK(readStl("\n \n  solid a\n" + kFacet + "endsolid a\n") == "1");
     CHECK(refusesStl(capital.substr(0, capital.size() - 20), "cut off"));
+}
+
+TEST_CASE("An STL without facets is rejected as such, and one of several solids may have none") {
+    CHECK(refusesStl("solid a\nendsolid a\n", "no facets"));
+    CHECK(refusesStl(std::string(84, '\0'), "no facets"));
+    const std::string none = "solid none\nendsolid none\n", one = "solid a\n" + kFacet + "endsolid a\n";
+    CHECK(readStl(none + one) == "1");
+    CHECK(readStl(one + "  SOLID none\r\nENDSOLID none\r\n" + "solid b\n" + kOther + "endsolid b\n") == "2");
 }
 
 TEST_CASE("A binary STL may end in padding, and is rejected with both sizes where its count is wrong") {
