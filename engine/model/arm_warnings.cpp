@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/model/arm_warnings.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <sstream>
@@ -51,6 +52,15 @@ std::string beyondWarning(const std::string& joint, double value, double lower, 
     std::ostringstream line;
     line << "joint " << joint << ": stays at " << value << ", beyond its limits " << lower << " to " << upper;
     return value < lower - kRounding || value > upper + kRounding ? line.str() : "";
+}
+
+std::string takenWarning(const std::string& finger, double open, double closed, double lower, double upper) {
+    const double most = std::max(open, closed), least = std::min(open, closed);
+    const double rounding = 0.01 * (most - least); // files state limits with two digits
+    std::ostringstream line;
+    line << "finger " << finger << ": its mimic takes it from " << open << " to " << closed
+         << ", beyond its limits " << lower << " to " << upper;
+    return least < lower - rounding || most > upper + rounding ? line.str() : "";
 }
 
 std::string endsWarning(const std::string& finger, double open, double closed, bool seen) {

@@ -15,6 +15,8 @@ std::string speedWarning(const std::string& joint, bool slides, double stated); 
 std::string heldWarning(const std::string& joint, bool slides, double value);
 // On a joint that stays outside its limits.
 std::string beyondWarning(const std::string& joint, double value, double lower, double upper);
+// On a finger that another one takes there, beyond its own limits.
+std::string takenWarning(const std::string& finger, double open, double closed, double lower, double upper);
 // On a finger whose open or closed position the program chose. seen: by the shapes of the fingers.
 std::string endsWarning(const std::string& finger, double open, double closed, bool seen);
 // On a finger with only one end in the scene: openGiven, or else the closed one.

@@ -231,6 +231,7 @@ private:
         if (drive.kind == Kind::Follows) {
             finger.mimic = drive.mimic;
         } else if (joint.mimic) { // what it follows decides
+            note(takenWarning(finger.name, drive.open, drive.closed, finger.lower, finger.upper));
             finger.lower = std::min({finger.lower, drive.open, drive.closed});
             finger.upper = std::max({finger.upper, drive.open, drive.closed});
         }

@@ -8,7 +8,9 @@
 #include "engine/reader/mjcf.h"
 #include "engine/reader/other_kinds.h"
 #include "engine/reader/urdf_spelling.h"
+#include "engine/types/angle.h"
 #include "engine/types/error.h"
+#include "engine/types/number_text.h"
 #include "engine/types/printable.h"
 #include "engine/types/read_file.h"
 
@@ -203,6 +205,37 @@ void noteSoftLimits(const urdf::ModelInterface& model, std::vector<std::string>&
     }
 }
 
+// Isaac Sim closes chains with <loop_joint>, Gazebo with a <joint> of its own: neither is a tree's.
+void noteLoops(const std::string& text, std::vector<std::string>& notes) {
+    size_t loops = 0;
+    std::string first;
+    for (XmlTags tags(text); tags.next();) {
+        const XmlPiece& tag = tags.tag();
+        const std::string type = xmlAttribute(tag.text, "type");
+        const bool gazebo = tags.path() == "robot/gazebo" && tag.name == "joint" && !type.empty();
+        if ((gazebo && type != "fixed") || (tags.path() == "robot" && tag.name == "loop_joint")) {
+            first = loops++ == 0 ? printable(xmlAttribute(tag.text, "name")) : first;
+        }
+    }
+    if (loops > 0) {
+        notes.push_back(std::to_string(loops) + " joints of <loop_joint> or <gazebo>, the first " + first +
+                        ", are not read: loops stay open");
+    }
+}
+
+// A continuous joint has no limits, whatever the file states; huge ones mean the same.
+void noteContinuous(const urdf::ModelInterface& model, std::vector<std::string>& notes) {
+    for (const auto& [name, joint] : model.joints_) {
+        const auto& limits = joint->limits;
+        if (joint->type == urdf::Joint::CONTINUOUS && limits && limits->lower < limits->upper &&
+            limits->upper - limits->lower < 4.0 * kTurn) {
+            notes.push_back("joint " + printable(name) + ": limits " + significant(limits->lower, 6) +
+                            " to " + significant(limits->upper, 6) +
+                            " are not read, as it is continuous; arm.joints sets limits");
+        }
+    }
+}
+
 std::string packetOf(const std::filesystem::path& file) {
     std::string text = readWholeFile(file, kLargestUrdf, "a readable URDF file");
     if (text.empty()) {
@@ -224,7 +257,9 @@ std::string packetOf(const std::filesystem::path& file) {
     checkLinks(*model, file.string());
     checkSpelling(text, file.string(), notes);
     refuseLostShapes(*model, text, file.string(), listener.errors());
+    noteLoops(text, notes);
     noteSoftLimits(*model, notes);
+    noteContinuous(*model, notes);
     return packUrdf(*model, notes);
 }
 

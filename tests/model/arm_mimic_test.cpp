@@ -218,6 +218,24 @@ TEST_CASE("A joint that its mimic holds beyond its own limits is reported") {
     CHECK(arm.notes[0] == "joint j2: stays at 5, beyond its limits -3 to 3");
 }
 
+TEST_CASE("A finger that its mimic takes beyond its own limits is reported, and not for the last digits") {
+    const auto notesWith = [](const std::string& limits) {
+        ArmOptions options;
+        options.tip = "hand";
+        options.fingers = {{"f1", 0.04, 0.0}};
+        return loadUrdf(kHand + jointText("f1", "prismatic", "hand", "fl", "0 0 0", "0 1 0", kFinger) +
+                            jointText("f2", "prismatic", "hand", "fr", "0 0 0", "0 1 0",
+                                      "<limit " + limits + " velocity='1' effort='1'/>" +
+                                          mimicText("f1", "multiplier='-1'")),
+                        options)
+            .notes;
+    };
+    CHECK(notesWith("lower='-0.0399' upper='0'").empty());
+    CHECK(notesWith("lower='0' upper='0.04'") ==
+          std::vector<std::string>{
+              "finger f2: its mimic takes it from -0.04 to 0, beyond its limits 0 to 0.04"});
+}
+
 TEST_CASE("Sliding fingers without stated positions close towards 0, and a note says which they are") {
     const auto fingerOf = [](const std::string& type, const std::string& limits) {
         ArmOptions options;
