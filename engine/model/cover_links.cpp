@@ -12,6 +12,7 @@
 #include <chrono>
 #include <cstdio>
 #include <exception>
+#include <set>
 #include <thread>
 #include <utility>
 
@@ -55,6 +56,7 @@ struct LinkCover {
     ShapeSpheres made;
     std::filesystem::path file; // of a mesh
     std::string note;           // on that file
+    bool otherCapitals = false; // of the file than of the mesh's name
     std::string key;            // of the cache; empty = not cached
     bool found = false;         // in the cache
     std::exception_ptr refused;
@@ -101,6 +103,7 @@ void look(LinkCover& one, const CoverCache& cache, const ShapeSource& source, ui
     MeshPlace place = meshFileOf(*one.of->shape, source);
     one.file = std::move(place.file);
     one.note = std::move(place.note);
+    one.otherCapitals = place.otherCapitals;
     if (one.file.empty()) {
         return;
     }
@@ -157,6 +160,21 @@ void cover(std::vector<LinkCover>& some, const ShapeSource& source, const CoverC
     work();
 }
 
+// One note for all, on the first link: a robot made on Windows has many.
+void noteCapitals(std::span<const LinkGeometry> shapes, const std::vector<std::filesystem::path>& recased,
+                  std::vector<ShapeSpheres>& made) {
+    const auto first = std::ranges::find_if(recased, [](const auto& file) { return !file.empty(); });
+    if (first == recased.end()) {
+        return;
+    }
+    const auto at = static_cast<size_t>(first - recased.begin());
+    const std::set<std::filesystem::path> files(first, recased.end());
+    made[at].notes.push_back(first->string() + " is taken for '" +
+                             excerpt(dynamic_cast<const urdf::Mesh&>(*shapes[at].shape).filename) +
+                             "', which differs in capitals; meshes taken so: " +
+                             std::to_string(files.size() - files.count(std::filesystem::path())));
+}
+
 } // namespace
 
 std::vector<ShapeSpheres> spheresOf(std::span<const LinkGeometry> shapes, ShapeSource source,
@@ -167,6 +185,7 @@ std::vector<ShapeSpheres> spheresOf(std::span<const LinkGeometry> shapes, ShapeS
         }
     }
     std::vector<ShapeSpheres> made;
+    std::vector<std::filesystem::path> recased; // files whose capitals differ from the mesh's name
     const CoverCache cache;
     CoverProgress progress(shapes.size(), cache);
     while (made.size() < shapes.size()) {
@@ -180,8 +199,10 @@ std::vector<ShapeSpheres> spheresOf(std::span<const LinkGeometry> shapes, ShapeS
                 one.made.notes.push_back(one.note);
             }
             made.push_back(std::move(one.made));
+            recased.push_back(one.otherCapitals ? one.file.lexically_normal() : std::filesystem::path());
         }
     }
+    noteCapitals(shapes, recased, made);
     return made;
 }
 

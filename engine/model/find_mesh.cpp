@@ -6,6 +6,8 @@
 #include "engine/types/printable.h"
 #include "engine/types/read_file.h"
 
+#include <algorithm>
+#include <cctype>
 #include <charconv>
 
 namespace fathom {
@@ -36,7 +38,8 @@ struct MeshName {
     std::string package, path;
 };
 
-MeshName partsOf(const std::string& name) {
+MeshName partsOf(std::string name) {
+    std::ranges::replace(name, '\\', '/'); // of URDFs made on Windows
     for (const std::string scheme : {"package://", "model://", "file://"}) {
         if (name.starts_with(scheme)) {
             const std::string rest = name.substr(scheme.size());
@@ -46,6 +49,40 @@ MeshName partsOf(const std::string& name) {
         }
     }
     return {"", name};
+}
+
+bool sameButCapitals(const std::string& a, const std::string& b) {
+    return std::ranges::equal(
+        a, b, [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
+}
+
+// The only entry of a folder whose name differs from `name` in capitals; empty = none, or several.
+std::filesystem::path entryLike(const std::filesystem::path& folder, const std::string& name) {
+    std::filesystem::path found;
+    std::error_code failed;
+    std::filesystem::directory_iterator at(folder.empty() ? "." : folder, failed);
+    for (; !failed && at != std::filesystem::directory_iterator(); at.increment(failed)) {
+        if (sameButCapitals(at->path().filename().string(), name)) {
+            if (!found.empty()) {
+                return {};
+            }
+            found = at->path();
+        }
+    }
+    return found;
+}
+
+// folder / wanted where each part is looked for with any capitals, its own first; empty = no such file.
+std::filesystem::path inAnyCase(const std::filesystem::path& folder, const std::filesystem::path& wanted) {
+    std::error_code ignored;
+    std::filesystem::path at = wanted.is_absolute() ? wanted.root_path() : folder;
+    for (const std::filesystem::path& part : wanted.relative_path()) {
+        at = std::filesystem::exists(at / part, ignored) ? at / part : entryLike(at, part.string());
+        if (at.empty()) {
+            break;
+        }
+    }
+    return at;
 }
 
 // Names of the package that a folder may be: its own name, or the one of its package.xml.
@@ -81,19 +118,24 @@ public:
     }
 
     MeshPlace in(const std::vector<std::filesystem::path>& folders) {
-        for (const bool whole : {true, false}) { // with the package's name as a folder, and without
-            const std::string path =
-                whole && !parts_.package.empty() ? parts_.package + "/" + parts_.path : parts_.path;
-            for (const std::string& wanted : {path, percentDecoded(path)}) {
-                for (const auto& folder : folders) {
+        for (const auto& folder : folders) { // a backslash may also be part of a file's name
+            std::error_code ignored;
+            if (name_.find('\\') != std::string::npos && std::filesystem::exists(folder / name_, ignored)) {
+                return {folder / name_, ""};
+            }
+        }
+        for (const bool exact : {true, false}) { // capitals
+            exact_ = exact;
+            for (const bool whole : {true, false}) { // with the package's name as a folder, and without
+                for (const auto& [folder, wanted] : places(folders, whole)) {
                     if (auto place = look(folder, wanted, whole || parts_.package.empty());
                         !place.file.empty()) {
                         return place;
                     }
                 }
-            }
-            if (parts_.package.empty()) {
-                break;
+                if (parts_.package.empty()) {
+                    break;
+                }
             }
         }
         throw ShapeRefused{
@@ -102,15 +144,28 @@ public:
     }
 
 private:
+    std::vector<std::pair<std::filesystem::path, std::string>>
+    places(const std::vector<std::filesystem::path>& folders, bool whole) const {
+        const std::string path =
+            whole && !parts_.package.empty() ? parts_.package + "/" + parts_.path : parts_.path;
+        std::vector<std::pair<std::filesystem::path, std::string>> all;
+        for (const std::string& wanted : {path, percentDecoded(path)}) {
+            for (const auto& folder : folders) {
+                all.emplace_back(folder, wanted);
+            }
+        }
+        return all;
+    }
     MeshPlace look(const std::filesystem::path& folder, const std::string& wanted, bool whole) {
         std::error_code ignored;
-        const std::filesystem::path file = folder / wanted;
-        std::string place = file.lexically_normal().string();
-        if (std::filesystem::exists(file, ignored)) {
+        const std::filesystem::path file = exact_ ? folder / wanted : inAnyCase(folder, wanted);
+        std::string place = (file.empty() ? folder / wanted : file).lexically_normal().string();
+        if (!file.empty() && std::filesystem::exists(file, ignored)) {
             const std::string warning = whole || others_.empty() ? "" : warningOf(folder);
             if (warning.empty() || warning == kUnnamed) {
                 return {file,
-                        warning.empty() ? "" : place + " is taken for '" + excerpt(name_) + "'; " + warning};
+                        warning.empty() ? "" : place + " is taken for '" + excerpt(name_) + "'; " + warning,
+                        !exact_};
             }
             place += " (" + warning + ")";
         }
@@ -138,6 +193,7 @@ private:
 
     const std::string& name_;
     MeshName parts_;
+    bool exact_ = true;            // the name as it is; else with any capitals
     std::set<std::string> others_; // packages of the URDF's other meshes
     std::string rivals_;           // those of meshes with the same path
     std::string looked_;           // for the message

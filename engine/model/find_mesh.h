@@ -13,10 +13,12 @@ struct ShapeSource;
 struct MeshPlace {
     std::filesystem::path file;
     std::string note;
+    bool otherCapitals = false; // than the name has
 };
 
 // Searched below arm.meshes, or in the URDF's folder and the three above it; with the package's name as a
-// folder, and without it where nothing says that the file is of another package. Throws ShapeRefused.
+// folder, and without it where nothing says that the file is of another package. Capitals differ only where
+// no file has the name itself. Throws ShapeRefused.
 MeshPlace findMesh(const std::string& name, const ShapeSource& source);
 
 } // namespace fathom

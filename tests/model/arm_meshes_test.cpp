@@ -79,6 +79,37 @@ TEST_CASE("A mesh of a package that is not there is not taken from another packa
           std::string::npos);
 }
 
+TEST_CASE(
+    "Meshes of a URDF made on Windows are found in spite of backslashes, and of capitals with one note") {
+    const testing::ScratchFolder folder;
+    const testing::ObjFile box(testing::boxMesh(dvec3(0.0), dvec3(0.1)));
+    std::filesystem::create_directories(folder / "arm/meshes");
+    for (const char* file : {"arm/meshes/a.obj", "arm/meshes/b.obj", "arm/b\\c.obj"}) {
+        std::filesystem::copy_file(box.path(), folder / file);
+    }
+    const auto notesOf = [&](const std::vector<std::string>& meshes) {
+        std::string shapes;
+        for (const std::string& mesh : meshes) {
+            shapes += "<collision><geometry><mesh filename='" + mesh + "'/></geometry></collision>";
+        }
+        std::ofstream(folder / "arm/r.urdf")
+            << "<robot name='r'><link name='l'>" << shapes << "</link></robot>";
+        return loadArm(folder / "arm/r.urdf").notes;
+    };
+    CHECK(notesOf({"package://arm\\meshes\\a.obj", "meshes\\b.obj", "b\\c.obj"}).empty());
+    const auto notes =
+        notesOf({"meshes/a.obj", "package://Arm/Meshes/A.OBJ", "meshes\\B.obj", "Meshes/A.obj"});
+    REQUIRE(notes.size() == 1);
+    CHECK(notes[0].find(
+              "link l: " + (folder / "arm/meshes/a.obj").string() +
+              " is taken for 'package://Arm/Meshes/A.OBJ', which differs in capitals; meshes taken so: "
+              "2") == 0);
+    std::filesystem::copy_file(box.path(), folder / "arm/meshes/B.obj");
+    CHECK(notesOf({"meshes/B.obj", "meshes/b.obj"}).empty());
+    CHECK_THROWS_WITH_AS(notesOf({"meshes/b.OBJ"}), doctest::Contains("mesh 'meshes/b.OBJ' not found"),
+                         BadInput);
+}
+
 TEST_CASE("An arm's meshes that are not closed are reported once") {
     const testing::ScratchFolder folder;
     TriangleMesh mesh = testing::boxMesh(dvec3(0.0), dvec3(0.1));
