@@ -4,7 +4,13 @@
 #include "engine/model/xml_text.h"
 #include "engine/reader/answers.h"
 #include "engine/reader/mjcf_body.h"
+#include "engine/types/printable.h"
 #include "engine/types/read_file.h"
+
+#include <iterator>
+#include <map>
+#include <set>
+#include <sstream>
 
 namespace fathom {
 
@@ -97,6 +103,70 @@ bool isMjcf(const std::string& text) {
     return false;
 }
 
+namespace {
+
+using MjcfWords = std::set<std::string>;
+
+// What MuJoCo knows of the elements that are read; it rejects a file with anything else.
+const std::map<std::string, MjcfWords>& mjcfAttributes() {
+    constexpr const char* kPose = " pos quat axisangle xyaxes zaxis euler";
+    static const auto wordsOf = [](const std::string& text) {
+        std::istringstream in(text);
+        return MjcfWords{std::istream_iterator<std::string>(in), {}};
+    };
+    static const std::map<std::string, MjcfWords> kAll{
+        {"body", wordsOf(std::string("name childclass mocap gravcomp user sleep") + kPose)},
+        {"frame", wordsOf(std::string("name childclass") + kPose)},
+        {"freejoint", wordsOf("name group align")},
+        {"geom",
+         wordsOf(std::string("name class type contype conaffinity condim group priority size material "
+                             "friction mass density shellinertia solmix solref solimp margin gap "
+                             "fromto hfield mesh fitscale rgba fluidshape fluidcoef adhesion user") +
+                 kPose)},
+        {"joint", wordsOf("name class type group pos axis springdamper limited range ref springref armature "
+                          "damping frictionloss stiffness margin solreflimit solimplimit solreffriction "
+                          "solimpfriction actuatorfrcrange actuatorfrclimited actuatorgravcomp user")},
+        {"site", wordsOf(std::string("name class type group material size fromto rgba user") + kPose)}};
+    return kAll;
+}
+
+bool holdsParts(const std::string& kind) {
+    return kind == "body" || kind == "frame" || kind == "worldbody";
+}
+
+// Notes elements and attributes below bodies and defaults that MuJoCo does not know, each once.
+void noteUnknown(const tinyxml2::XMLElement& holder, MjcfWords& noted, std::vector<std::string>& notes) {
+    static const MjcfWords kOthers{"inertial", "camera", "light",     "plugin", "composite",
+                                   "flexcomp", "attach", "replicate", "skin"};
+    for (auto* child = holder.FirstChildElement(); child != nullptr; child = child->NextSiblingElement()) {
+        const std::string kind = child->Name();
+        const auto note = [&](const std::string& what) {
+            if (noted.insert(what).second) {
+                notes.push_back(mjcfPlace(*child, "").line + ": " + printable(what) +
+                                " is unknown to MuJoCo and not read");
+            }
+        };
+        const auto known = mjcfAttributes().find(kind);
+        if (known == mjcfAttributes().end()) {
+            if (holdsParts(holder.Name()) && kOthers.count(kind) == 0) {
+                note("<" + kind + ">");
+            }
+        } else {
+            for (auto* own = child->FirstAttribute(); own != nullptr; own = own->Next()) {
+                const std::string name = own->Name();
+                if (name != kPlaceAttribute && known->second.count(name) == 0) {
+                    note("<" + kind + " " + name + "=...>");
+                }
+            }
+        }
+        if (kind == "default" || holdsParts(kind)) {
+            noteUnknown(*child, noted, notes);
+        }
+    }
+}
+
+} // namespace
+
 std::string urdfOfMjcf(const std::filesystem::path& file, const std::string& text,
                        std::vector<std::string>& notes) {
     tinyxml2::XMLDocument document;
@@ -105,6 +175,8 @@ std::string urdfOfMjcf(const std::filesystem::path& file, const std::string& tex
     MjcfBodies bodies(file.string(), *document.RootElement());
     std::string urdf = bodies.urdf();
     notes = bodies.notes();
+    MjcfWords noted;
+    noteUnknown(*document.RootElement(), noted, notes);
     return urdf;
 }
 

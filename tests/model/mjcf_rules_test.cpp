@@ -146,3 +146,22 @@ TEST_CASE("A site with fromto lies between its ends, and its z axis leads from t
     CHECK(mjcfRefusal("<worldbody><body><site name='s' fromto='0 0 1 0 0 1'/></body></worldbody>")
               .find("fromto of length 0") != std::string::npos);
 }
+
+TEST_CASE(
+    "Elements and attributes of an MJCF that MuJoCo does not know, as misspelt ones, are reported once") {
+    const auto notesOf = [](const std::string& joint, const std::string& more) {
+        std::vector<std::string> notes =
+            loadMjcf("<default><joint damping='1'/></default><worldbody><body name='a'>" + mjcfBall() +
+                     "<body name='b'><joint name='j' axis='0 1 0' " + joint + "/>" + mjcfBall() + more +
+                     "</body></body></worldbody><tendon><fixed><joint joint='j' coef='1'/></fixed></tendon>")
+                .notes;
+        std::erase_if(notes, [](const auto& note) { return note.find("is unknown") == std::string::npos; });
+        return notes;
+    };
+    CHECK(
+        notesOf("range='-90 90'", "<inertial pos='0 0 0' mass='1'/><site name='s' euler='0 0 1'/>").empty());
+    CHECK(notesOf("rang='-90 90'", "<Geom size='1'/><Geom/><geom Pos='0 0 1' size='0.1'/>") ==
+          std::vector<std::string>{"line 1: <joint rang=...> is unknown to MuJoCo and not read",
+                                   "line 1: <Geom> is unknown to MuJoCo and not read",
+                                   "line 1: <geom Pos=...> is unknown to MuJoCo and not read"});
+}
