@@ -86,8 +86,8 @@ public:
     }
 
 private:
-    // True if a rise is beyond `rise`, or a change beyond both limits. Where three ticks were late one after the
-    // other, what is no longer wanted falls by what a ramp falls in the shortest of them.
+    // True if a rise is beyond `rise`, or a change beyond both limits. Where three ticks were late one after
+    // the other, what is no longer wanted falls by what a ramp falls in the shortest of them.
     bool isSteep(const dvec3& now, const dvec3& before, double rise, double limit) const {
         const double elapsed = *std::min_element(elapsed_.begin(), elapsed_.end());
         const double fall = elapsed * limit / ForceRamps::kRampTime;
