@@ -96,7 +96,7 @@ void warnAboutEarly(const std::string& file, const std::vector<HandWaypoint>& pa
 
 // Many rows, far apart in time but close in space, are those of a recorded hand in another unit.
 void warnAboutUnit(const std::string& file, const std::vector<HandWaypoint>& path) {
-    constexpr size_t kFewest = 50;                        // a script of waypoints has fewer rows
+    constexpr size_t kFewest = 200;                       // a script of waypoints has fewer rows
     constexpr double kSlow = 2e-3;                        // [m/s]
     constexpr double kShortest = 0.25e-3, kLongRow = 0.1; // [s] between the rows of a recorded hand
     if (path.size() < kFewest) {

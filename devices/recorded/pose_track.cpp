@@ -14,14 +14,12 @@
 #include <cstdio>
 #include <fstream>
 #include <limits>
-#include <span>
 
 namespace fathom {
 
 namespace {
 
-// Whether a comment names the columns of a quaternion in another order than x, y, z, w, or in front of the
-// position.
+// Whether consecutive words of a comment name all columns of a pose, and not in this order.
 bool namesOtherOrder(const std::string& comment) {
     constexpr std::array<std::string_view, 7> kOrder{"tx", "ty", "tz", "qx", "qy", "qz", "qw"};
     std::string plain; // "q_w," as "qw"
@@ -29,17 +27,20 @@ bool namesOtherOrder(const std::string& comment) {
         const auto byte = static_cast<unsigned char>(c);
         plain += c == '_' ? "" : std::string(1, std::isalpha(byte) != 0 ? char(std::tolower(byte)) : ' ');
     }
+    plain += " ."; // ends the last run of names
     std::vector<std::string_view> columns;
     for (std::string_view word : splitWords(plain)) {
         word = word == "x" ? "tx" : word == "y" ? "ty" : word == "z" ? "tz" : word;
         if (std::ranges::find(kOrder, word) != kOrder.end()) {
             columns.push_back(word);
+            continue;
         }
+        if (std::ranges::is_permutation(columns, kOrder) && !std::ranges::equal(columns, kOrder)) {
+            return true;
+        }
+        columns.clear();
     }
-    const auto differ = [&](std::span<const std::string_view> order) {
-        return std::ranges::is_permutation(columns, order) && !std::ranges::equal(columns, order);
-    };
-    return differ(kOrder) || differ(std::span(kOrder).last(4));
+    return false;
 }
 
 // Comments in front of the first pose may name the columns.
@@ -48,7 +49,11 @@ void checkOrder(const std::filesystem::path& file) {
     std::array<char, DataLines::kLongest + 1> line{};
     for (uint32_t number = 1; number < 100 && in.getline(line.data(), line.size()); ++number) {
         const std::string text = line.data();
-        if (text.find('#') > 3) { // 3: behind a byte order mark
+        const size_t first = text.find_first_not_of(" \t\r\xef\xbb\xbf"); // also a byte order mark
+        if (first == std::string::npos) {
+            continue;
+        }
+        if (text[first] != '#') {
             return;
         }
         if (namesOtherOrder(text)) {

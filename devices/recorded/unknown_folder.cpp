@@ -78,9 +78,12 @@ bool holdsDepth(const fs::path& folder, bool named) {
     constexpr int kMostTried = 5;
     std::error_code failed;
     int tried = 0;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder, failed)) {
-        const bool image = endsAs(entry.path(), kDepthEndings) && (named || namesDepth(entry.path()));
-        if (image && tried++ < kMostTried && depthImageHead(entry.path()).fault.empty()) {
+    fs::directory_iterator at(folder, failed);
+    for (; !failed && at != fs::directory_iterator() && tried < kMostTried; at.increment(failed)) {
+        const fs::path& file = at->path();
+        const bool image = endsAs(file, kDepthEndings) && (named || namesDepth(file));
+        tried += image ? 1 : 0;
+        if (image && depthImageHead(file).fault.empty()) {
             return true;
         }
     }

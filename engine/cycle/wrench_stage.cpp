@@ -8,7 +8,9 @@
 namespace fathom {
 namespace {
 
-constexpr double kCalmTurn = 0.2; // share of the wanted wrench: 11 degrees
+constexpr double kCalmTurn = 0.2;   // share of the wanted wrench: 11 degrees
+constexpr double kLateFall = 0.1;   // share of the limit: at 20 N as much as the default slew limit
+constexpr double kRounding = 1e-12; // relative
 
 PassivityOptions passivityOf(const HapticOptions& options) {
     PassivityOptions passivity = makePassivity(options.device, options.springs, options.coupling);
@@ -141,23 +143,20 @@ void WrenchStage::cut() noexcept {
     passivity_.reset();
 }
 
-// After one tick. However low the slew limit is, what is no longer wanted ends within a ramp, and late ticks
-// do not delay that. If the slew limit is the faster one, no step is larger than it, unless three ticks in a
-// row are late.
+// After one tick. However low the slew limit is, what is no longer wanted ends within a ramp. After a late
+// tick it falls by more. If the slew limit is the faster one, that is at most kLateFall, unless ticks are
+// late one after the other.
 dvec3 WrenchStage::slewed(const dvec3& wanted, const dvec3& before, double slew,
                           double limit) const noexcept {
     const double rise = options_.period * slew, ramp = limit / ForceRamps::kRampTime;
-    const bool follows = slew >= ramp;
-    const double elapsed = follows ? *std::min_element(elapsed_.begin(), elapsed_.end()) : elapsed_.back();
-    const double fall = std::max(rise, elapsed * ramp);
+    const double last = elapsed_.back() * ramp;
+    const double shortest = *std::min_element(elapsed_.begin(), elapsed_.end()) * ramp;
+    const double late = slew >= ramp ? std::max(shortest, std::min(last, kLateFall * limit)) : last;
+    const double fall = std::max(rise, late);
     const dvec3 next = limitSlew(wanted, before, rise, fall);
-    const double fade = ramps_.fadeGain() * limit; // no slew limit outlives a ramp
-    if (!follows) {
-        return clampLength(next, fade);
-    }
-    const double most = std::max(fade, glm::length(before) - fall);
-    // A force that turned as well would change by more.
-    return glm::length(next) > most ? clampLength(before, most) : next;
+    // No slew limit outlives a ramp. A force that turned as well would change by more.
+    const double most = std::max(ramps_.fadeGain() * limit, glm::length(before) - fall);
+    return glm::length(next) > most * (1.0 + kRounding) ? clampLength(before, most) : next;
 }
 
 // The low-pass of the wanted wrench. However slow the filter is, what is no longer wanted ends within a ramp.

@@ -48,8 +48,8 @@ struct WrenchInput {
 
 // One thread; noexcept, no allocation. Guarantees, whatever the input: force and torque stay within their
 // limits, and what is wanted rises by the slew limits; what is no longer wanted, such as a force that must
-// turn round, ends within ForceRamps::kRampTime; after a tick in which the device rendered nothing, and after
-// every fade, the force rises from there within the ramp.
+// turn round, ends within ForceRamps::kRampTime, or ten ticks that take longer; after a tick in which the
+// device rendered nothing, and after every fade, the force rises from there within the ramp.
 class WrenchStage {
 public:
     explicit WrenchStage(const HapticOptions& options);

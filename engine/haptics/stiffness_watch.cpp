@@ -36,7 +36,7 @@ void StiffnessWatch::step(double measuredPeriod) noexcept {
         return;
     }
     const double counts = std::min(measuredPeriod, std::max(kLateAlone, before_));
-    before_ = measuredPeriod;
+    before_ = std::max(measuredPeriod, kForget * before_);
     period_ += std::min(1.0, counts / kAverage) * (counts - period_);
     share_ += std::clamp(wantedShare() - share_, -counts / kDown, counts / kUp);
     springs_ = planned_;

@@ -16,7 +16,7 @@ public:
 
     // One tick: measured period [s], 0 = none (lockstep: nothing changes). The period is averaged over
     // kAverage; K_t and K_r ramp down to their bounds (the whole of K_t in kDown) and back up (in kUp), never
-    // in a step. A tick that is late by itself counts as kLateAlone: it does not make the ticks slow.
+    // in a step. A tick that is late by itself, as none of some 40 before it, counts as kLateAlone.
     void step(double measuredPeriod) noexcept;
 
     const Springs& springs() const noexcept { return springs_; } // active; k = sqrt(K_r / K_t) follows
@@ -36,7 +36,9 @@ private:
     Springs planned_, springs_;
     double share_ = 1.0; // of the planned K_t
     double period_;
-    double before_ = 0.0; // [s] measured of the last tick
+    static constexpr double kForget = 0.9;
+
+    double before_ = 0.0; // [s] longest of the last ticks; each earlier one counts as kForget of itself
 };
 
 } // namespace fathom

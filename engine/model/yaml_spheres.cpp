@@ -178,13 +178,13 @@ void growBy(const std::filesystem::path& file, const YAML::Node& table, const st
     }
     for (auto entry = distances.begin(); distances.IsMap() && entry != distances.end(); ++entry) {
         const std::string link = entry->first.IsScalar() ? entry->first.Scalar() : "";
-        const bool known = std::ranges::find(sets, link, &LinkSpheres::link) != sets.end();
-        if (!known && !nearestWord(link, bare).empty()) {
+        if (std::ranges::find(sets, link, &LinkSpheres::link) != sets.end()) {
+            continue;
+        }
+        if (std::ranges::any_of(bare, [&](std::string_view name) { return isMisspelt(link, name); })) {
             throw BadInput(file.string(), field, "link '" + excerpt(link) + "'", namesOf(sets));
         }
-        if (!known) {
-            log::warn("{}: {}: link {} has no spheres", file.string(), field, excerpt(printable(link)));
-        }
+        log::warn("{}: {}: link {} has no spheres", file.string(), field, excerpt(printable(link)));
     }
     std::erase_if(sets, [](const LinkSpheres& set) { return set.spheres.empty(); });
 }

@@ -223,12 +223,13 @@ void noteLoops(const std::string& text, std::vector<std::string>& notes) {
     }
 }
 
-// A continuous joint has no limits, whatever the file states; huge ones mean the same.
+// A continuous joint has no limits, whatever the file states; those of a whole turn mean the same.
 void noteContinuous(const urdf::ModelInterface& model, std::vector<std::string>& notes) {
+    constexpr double kRounding = 1e-3; // [rad]
     for (const auto& [name, joint] : model.joints_) {
         const auto& limits = joint->limits;
         if (joint->type == urdf::Joint::CONTINUOUS && limits && limits->lower < limits->upper &&
-            limits->upper - limits->lower < 4.0 * kTurn) {
+            limits->upper - limits->lower < kTurn - kRounding) {
             notes.push_back("joint " + printable(name) + ": limits " + significant(limits->lower, 6) +
                             " to " + significant(limits->upper, 6) +
                             " are not read, as it is continuous; arm.joints sets limits");

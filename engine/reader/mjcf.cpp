@@ -142,8 +142,9 @@ void noteUnknown(const tinyxml2::XMLElement& holder, MjcfWords& noted, std::vect
         const std::string kind = child->Name();
         const auto note = [&](const std::string& what) {
             if (noted.insert(what).second) {
-                notes.push_back(mjcfPlace(*child, "").line + ": " + printable(what) +
-                                " is unknown to MuJoCo and not read");
+                const MjcfPlace place = mjcfPlace(*child, ""); // no file: the main one
+                notes.push_back((place.file.empty() ? "" : place.file + ": ") + place.line + ": " +
+                                excerpt(printable(what)) + " is unknown to MuJoCo and not read");
             }
         };
         const auto known = mjcfAttributes().find(kind);

@@ -54,13 +54,14 @@ void skipLine(std::istream& in) {
 }
 
 // The facets of all solids as one, of a text in small letters: Assimp rejects a file with an empty solid.
-std::string oneSolid(const std::string& text) {
+std::string oneSolid(std::string text) {
+    std::ranges::replace(text, '\r', '\n');
     std::istringstream in(text);
     std::string out = "solid\n";
     for (std::string line; std::getline(in, line);) {
         const std::string start = line.substr(std::min(line.find_first_not_of(" \t"), line.size()), 8);
         if (!start.starts_with("solid") && !start.starts_with("endsolid")) {
-            out += line + "\n";
+            out += line.substr(0, line.find("endsolid")) + "\n";
         }
     }
     return out + "endsolid\n";

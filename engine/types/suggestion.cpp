@@ -2,6 +2,7 @@
 #include "engine/types/suggestion.h"
 
 #include <algorithm>
+#include <iterator>
 #include <vector>
 
 namespace fathom {
@@ -44,6 +45,16 @@ std::string_view nearestWord(std::string_view word, std::span<const std::string_
         }
     }
     return nearest;
+}
+
+bool isMisspelt(std::string_view word, std::string_view known) {
+    const auto digitsOf = [](std::string_view name) {
+        std::string digits;
+        std::ranges::copy_if(name, std::back_inserter(digits), [](char c) { return c >= '0' && c <= '9'; });
+        return digits;
+    };
+    return !nearestWord(word, {&known, 1}).empty() && editDistance(word, known) <= 2 &&
+           digitsOf(word) == digitsOf(known);
 }
 
 std::string suggestion(std::string_view word, std::span<const std::string_view> words) {

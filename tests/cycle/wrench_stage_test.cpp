@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <doctest/doctest.h>
+#include <random>
 
 using namespace fathom;
 using namespace fathom::testing;
@@ -231,5 +232,45 @@ TEST_CASE("Ticks that are all late do not delay the end of a force, whatever the
                 CHECK(share <= 1e-9);
             }
         }
+    }
+}
+
+TEST_CASE("A push beyond the limit reaches the limit in every direction") {
+    std::mt19937 random(7);
+    std::normal_distribution<double> normal;
+    for (int i = 0; i < 300; ++i) {
+        Stage hand;
+        hand.options.passivityController = false;
+        hand.options.forceLimit = 3.3;
+        hand.start();
+        hand.press(glm::normalize(dvec3(normal(random), normal(random), normal(random))), 0.02, false);
+        for (int tick = 0; tick < 300; ++tick) {
+            hand.stage->step(hand.input);
+        }
+        const dvec3 force = hand.stage->step(hand.input).wrench.force;
+        CHECK(glm::length(force) == doctest::Approx(3.3).epsilon(1e-9));
+    }
+}
+
+TEST_CASE("Ticks of which every second one is late end a force in time, also at a low slew limit") {
+    for (const double late : {0.011, 0.021, 0.101}) { // [s]
+        CAPTURE(late);
+        Stage hand;
+        hand.options.passivityController = false;
+        hand.options.forceLimit = 3.3;
+        hand.options.slewForce = 20.0; // [N/s], hardly faster than the ramp
+        hand.start();
+        hand.press({1, 0, 0}, 0.02, false);
+        for (int i = 0; i < 1000; ++i) {
+            hand.stage->step(hand.input);
+        }
+        hand.input.forcesOn = false;
+        double time = 0.0; // [s] until there is no force
+        for (int tick = 0; !hand.stage->off() && tick < 1000; ++tick) {
+            hand.input.elapsed = tick % 2 == 0 ? late : hand.options.period;
+            time += hand.input.elapsed;
+            hand.stage->step(hand.input);
+        }
+        CHECK(time <= std::max(0.25, 21.0 * late));
     }
 }

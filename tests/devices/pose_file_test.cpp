@@ -86,13 +86,14 @@ TEST_CASE("A poses.txt whose comment names its columns in another order is refus
     };
     for (const char* head :
          {"# timestamp tx ty tz qw qx qy qz", "#t,x,y,z,q_w,q_x,q_y,q_z",
-          "# poses of a rig\n# stamp qx qy qz qw tx ty tz", "# t [s], p, qw, qx, qy, qz"}) {
+          "# poses of a rig\n# stamp qx qy qz qw tx ty tz", "\n# t [s], x, y, z, qw, qx, qy, qz"}) {
         CAPTURE(head);
         lineSays(refusal(head), "(allowed: columns in the order t tx ty tz qx qy qz qw)");
     }
     for (const char* head :
          {"# timestamp tx ty tz qx qy qz qw", "# ground truth trajectory", "# t x y z qx qy qz qw", "#", "",
-          "# x is right, y is down, z is forward", "# qw is last: t tx ty tz qx qy qz qw"}) {
+          "# x is right, y is down, z is forward", "# qw is last: t tx ty tz qx qy qz qw",
+          "# t, position tx ty tz, quaternion with qw last: qx qy qz", "# converted from qw qx qy qz"}) {
         CAPTURE(head);
         CHECK(refusal(head) == "");
     }

@@ -101,12 +101,12 @@ TEST_CASE(
     };
     CHECK(warned(1.0, 1e-4, 1000) == 1); // 1 kHz and 0.1 m/s
     CHECK(warned(10.0, 1e-3, 200) == 1);
-    CHECK(warned(1e3, 1e-4, 80) == 10);
+    CHECK(warned(300.0, 3e-5, 250) == 10);
     CHECK(warned(0.001, 1e-4, 1000) == 0);
     CHECK(warned(0.02, 1e-5, 1000) == 0); // slow
     CHECK(warned(1.0, 0.01, 100) == 0);   // a script
-    CHECK(warned(1.0, 1e-3, 40) == 0);
-    CHECK(warned(1.0, 0.0, 1000) == 0); // at rest
+    CHECK(warned(1.0, 1e-3, 60) == 0);    // a slow script
+    CHECK(warned(1.0, 0.0, 1000) == 0);   // at rest
 }
 
 TEST_CASE("Rows of a path that end before the run starts are counted in a warning") {

@@ -163,3 +163,11 @@ TEST_CASE("The slew limits can follow the automatic stiffness at 0.25 m/s and 2.
     options.stiffness = 900.0;
     CHECK(makeSprings(devicePreset("ideal"), options).stiffness == 900.0);
 }
+
+TEST_CASE("Ticks of which every second one is late count as slow") {
+    StiffnessWatch watch = watchOf(CouplingOptions{});
+    for (int i = 0; i < 400; ++i) {
+        watch.step(i % 2 == 0 ? 0.04 : 0.001);
+    }
+    CHECK(watch.period() > 0.03);
+}

@@ -125,7 +125,7 @@ TEST_CASE(
               .find("geometry.g: 'clone' (allowed: only spheres)") != std::string::npos);
 }
 
-TEST_CASE("A buffer for a link without spheres is no error, unless it seems meant for one without a buffer") {
+TEST_CASE("A buffer for a link without spheres is no error, unless it is misspelt") {
     const auto text = [](const std::string& buffer) {
         return "format: xrdf\ncollision: {buffer_distance: {" + buffer +
                "}}\ngeometry: {g: {spheres: {wrist_1: [{center: [0, 0, 0], radius: 0.01}]}}}\n";
@@ -134,7 +134,11 @@ TEST_CASE("A buffer for a link without spheres is no error, unless it seems mean
         const testing::ScratchFile file("set.xrdf", text(buffer));
         CHECK(readXrdf(file.path()).at(0).spheres[0].radius == doctest::Approx(0.015));
     }
-    CHECK(setRefusal(".xrdf", text("wrist_2: 0.02")).find("link 'wrist_2' (allowed: wrist_1)") !=
+    for (const char* other : {"wrist_2: 0.02", "hand: 0.02"}) {
+        const testing::ScratchFile file("set.xrdf", text(other));
+        CHECK(readXrdf(file.path()).at(0).spheres[0].radius == doctest::Approx(0.01));
+    }
+    CHECK(setRefusal(".xrdf", text("wrst_1: 0.02")).find("link 'wrst_1' (allowed: wrist_1)") !=
           std::string::npos);
 }
 

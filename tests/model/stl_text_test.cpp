@@ -84,6 +84,9 @@ TEST_CASE("An STL without facets is rejected as such, and one of several solids 
     const std::string none = "solid none\nendsolid none\n", one = "solid a\n" + kFacet + "endsolid a\n";
     CHECK(readStl(none + one) == "1");
     CHECK(readStl(one + "  SOLID none\r\nENDSOLID none\r\n" + "solid b\n" + kOther + "endsolid b\n") == "2");
+    std::string returns = none + one + "solid b\n" + kOther + "endsolid b\n"; // line ends of old systems
+    std::ranges::replace(returns, '\n', '\r');
+    CHECK(readStl(returns) == "2");
 }
 
 TEST_CASE("A binary STL may end in padding, and is rejected with both sizes where its count is wrong") {
