@@ -9,7 +9,7 @@ namespace fathom {
 namespace {
 
 constexpr double kCalmTurn = 0.2;   // share of the wanted wrench: 11 degrees
-constexpr double kLateFall = 0.1;   // share of the limit: at 20 N as much as the default slew limit
+constexpr double kFastSlew = 4.0;   // times the rate of a ramp; the default slew limits are faster
 constexpr double kRounding = 1e-12; // relative
 
 PassivityOptions passivityOf(const HapticOptions& options) {
@@ -143,16 +143,12 @@ void WrenchStage::cut() noexcept {
     passivity_.reset();
 }
 
-// After one tick. However low the slew limit is, what is no longer wanted ends within a ramp. After a late
-// tick it falls by more. If the slew limit is the faster one, that is at most kLateFall, unless ticks are
-// late one after the other.
-dvec3 WrenchStage::slewed(const dvec3& wanted, const dvec3& before, double slew,
-                          double limit) const noexcept {
+// After one tick. What is no longer wanted ends within a ramp, also with a low slew limit or late ticks. A
+// fast slew limit ends it soon enough by itself: then no step is larger than that, however late a tick is.
+dvec3 WrenchStage::slewed(const dvec3& wanted, const dvec3& before, double slew, double limit,
+                          double elapsed) const noexcept {
     const double rise = options_.period * slew, ramp = limit / ForceRamps::kRampTime;
-    const double last = elapsed_.back() * ramp;
-    const double shortest = *std::min_element(elapsed_.begin(), elapsed_.end()) * ramp;
-    const double late = slew >= ramp ? std::max(shortest, std::min(last, kLateFall * limit)) : last;
-    const double fall = std::max(rise, late);
+    const double fall = slew >= kFastSlew * ramp ? rise : std::max(options_.period, elapsed) * ramp;
     const dvec3 next = limitSlew(wanted, before, rise, fall);
     // No slew limit outlives a ramp. A force that turned as well would change by more.
     const double most = std::max(ramps_.fadeGain() * limit, glm::length(before) - fall);
@@ -188,10 +184,10 @@ WrenchStage::Output WrenchStage::step(const WrenchInput& input) noexcept {
     const Wrench sized =
         limitSize(asked, limitScale * options_.forceLimit, limitScale * options_.torqueLimit);
     Output out;
-    std::rotate(elapsed_.begin(), elapsed_.begin() + 1, elapsed_.end());
-    elapsed_.back() = std::max(options_.period, input.elapsed);
-    out.wrench.force = slewed(sized.force, previous_.force, options_.slewForce, options_.forceLimit);
-    out.wrench.torque = slewed(sized.torque, previous_.torque, options_.slewTorque, options_.torqueLimit);
+    out.wrench.force =
+        slewed(sized.force, previous_.force, options_.slewForce, options_.forceLimit, input.elapsed);
+    out.wrench.torque =
+        slewed(sized.torque, previous_.torque, options_.slewTorque, options_.torqueLimit, input.elapsed);
     out.cause = causeOf(input, damper, sized, out.wrench);
     out.finite = input.sampleFinite && isFinite(out.wrench);
     notFinite_ += out.finite ? 0 : 1;

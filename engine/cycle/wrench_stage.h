@@ -8,8 +8,6 @@
 #include "engine/haptics/passivity.h"
 #include "engine/haptics/reaction.h"
 
-#include <array>
-
 namespace fathom {
 
 // Why a tick has a force: bits of StepRecord::cause.
@@ -48,8 +46,8 @@ struct WrenchInput {
 
 // One thread; noexcept, no allocation. Guarantees, whatever the input: force and torque stay within their
 // limits, and what is wanted rises by the slew limits; what is no longer wanted, such as a force that must
-// turn round, ends within ForceRamps::kRampTime, or ten ticks that take longer; after a tick in which the
-// device rendered nothing, and after every fade, the force rises from there within the ramp.
+// turn round, ends within ForceRamps::kRampTime, or in the ticks that a fast slew limit needs; after a tick
+// in which the device rendered nothing, and after every fade, the force rises from there within the ramp.
 class WrenchStage {
 public:
     explicit WrenchStage(const HapticOptions& options);
@@ -78,7 +76,8 @@ public:
 private:
     void stepRamps(const WrenchInput& input) noexcept;
     Wrench springWrench(const WrenchInput& input) noexcept;
-    dvec3 slewed(const dvec3& wanted, const dvec3& before, double slew, double limit) const noexcept;
+    dvec3 slewed(const dvec3& wanted, const dvec3& before, double slew, double limit,
+                 double elapsed) const noexcept;
     Wrench smoothed(const WrenchInput& input, const Wrench& wanted) noexcept;
     Wrench damping(const WrenchInput& input, const Wrench& reaction) noexcept;
     Wrench passivityWrench(const WrenchInput& input, const Wrench& reaction) noexcept;
@@ -93,11 +92,10 @@ private:
     Reaction reaction_;
     PassivityController passivity_;
     ForceRamps ramps_;
-    Wrench smooth_;                   // low-pass
-    Wrench previous_;                 // rendered, for the slew limit
-    Pose deviceBefore_;               // at the end of the previous tick, for the damping
-    std::array<double, 3> elapsed_{}; // [s] of the last ticks, at least the period
-    bool arming_ = true;              // forces return after they were off: within HapticOptions::armTime
+    Wrench smooth_;      // low-pass
+    Wrench previous_;    // rendered, for the slew limit
+    Pose deviceBefore_;  // at the end of the previous tick, for the damping
+    bool arming_ = true; // forces return after they were off: within HapticOptions::armTime
     uint64_t notFinite_ = 0;
 };
 

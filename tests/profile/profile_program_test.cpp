@@ -26,7 +26,7 @@ TEST_CASE("A quick profile verifies every study and exits with code 0") {
     }
 }
 
-TEST_CASE("A quick profile reports its duration, and is no whole profile") {
+TEST_CASE("A quick profile reports a duration below two minutes") {
     if (kSanitized) {
         MESSAGE("SKIPPED ALOUD: a sanitized program is slower by what its checks cost");
         return;
@@ -35,8 +35,7 @@ TEST_CASE("A quick profile reports its duration, and is no whole profile") {
     const double wall = report["run_seconds"], cpu = report["run_cpu_seconds"];
     CHECK(wall > 1.0);
     CHECK(cpu > 1.0);
-    // Usually under 120 s. Other load stretches the wall time, and a busy host of a virtual machine both.
-    CHECK(std::min(wall, cpu) < 240.0);
+    CHECK(std::min(wall, cpu) < 120.0); // other load on the machine stretches only the wall time
 }
 
 TEST_CASE("Given a recording, each study names it or says that it does not use one") {

@@ -5,8 +5,6 @@
 #include "engine/cycle/wrench_stage.h"
 #include "tests/rig/stage.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
@@ -59,11 +57,9 @@ public:
     std::string add(const Tick& tick, const Terms& terms) {
         const double force = glm::length(tick.force), torque = glm::length(tick.torque);
         const bool lost = mayLose_ && force == 0.0 && torque == 0.0;
-        std::rotate(elapsed_.begin(), elapsed_.begin() + 1, elapsed_.end());
-        elapsed_.back() = tick.t - t_;
         const bool steep =
-            !lost && (isSteep(tick.force, force_, terms.slewForce / terms.rate, terms.forceLimit) ||
-                      isSteep(tick.torque, torque_, terms.slewTorque / terms.rate, terms.torqueLimit));
+            !lost && (glm::length(tick.force - force_) > terms.slewForce / terms.rate * (1.0 + 1e-9) ||
+                      glm::length(tick.torque - torque_) > terms.slewTorque / terms.rate * (1.0 + 1e-9));
         const bool caused = tick.contacts > 0 || tick.guidance > 0.0 || (tick.cause & cause::kJoint) != 0;
         since_ = caused ? tick.t : since_;
         const bool felt = force > 0.05 || torque > 0.005;
@@ -72,7 +68,6 @@ public:
         const bool damping = force <= 1.0 && tick.t - since_ <= 0.1;
         force_ = tick.force;
         torque_ = tick.torque;
-        t_ = tick.t;
         if (steep) {
             return "the wrench changes faster than the slew limit";
         }
@@ -86,19 +81,7 @@ public:
     }
 
 private:
-    // True if a rise is beyond `rise`, or a change beyond both limits. Where three ticks were late one after
-    // the other, what is no longer wanted falls by what a ramp falls in the shortest of them.
-    bool isSteep(const dvec3& now, const dvec3& before, double rise, double limit) const {
-        const double elapsed = *std::min_element(elapsed_.begin(), elapsed_.end());
-        const double fall = elapsed * limit / ForceRamps::kRampTime;
-        const double change = fall > rise ? rise + fall : rise;
-        return glm::length(now) - glm::length(before) > rise * (1.0 + 1e-9) ||
-               glm::length(now - before) > change * (1.0 + 1e-6);
-    }
-
     bool mayLose_;
-    double t_ = 0.0;                  // [s] of the tick before
-    std::array<double, 3> elapsed_{}; // [s] of the last ticks
     dvec3 force_{0.0}, torque_{0.0};
     double since_ = -1e9; // [s] the last tick with a cause
 };
