@@ -8,9 +8,7 @@
 #include "engine/reader/mjcf.h"
 #include "engine/reader/other_kinds.h"
 #include "engine/reader/urdf_spelling.h"
-#include "engine/types/angle.h"
 #include "engine/types/error.h"
-#include "engine/types/number_text.h"
 #include "engine/types/printable.h"
 #include "engine/types/read_file.h"
 
@@ -223,20 +221,6 @@ void noteLoops(const std::string& text, std::vector<std::string>& notes) {
     }
 }
 
-// A continuous joint has no limits, whatever the file states; those of a whole turn mean the same.
-void noteContinuous(const urdf::ModelInterface& model, std::vector<std::string>& notes) {
-    constexpr double kRounding = 1e-3; // [rad]
-    for (const auto& [name, joint] : model.joints_) {
-        const auto& limits = joint->limits;
-        if (joint->type == urdf::Joint::CONTINUOUS && limits && limits->lower < limits->upper &&
-            limits->upper - limits->lower < kTurn - kRounding) {
-            notes.push_back("joint " + printable(name) + ": limits " + significant(limits->lower, 6) +
-                            " to " + significant(limits->upper, 6) +
-                            " are not read, as it is continuous; arm.joints sets limits");
-        }
-    }
-}
-
 std::string packetOf(const std::filesystem::path& file) {
     std::string text = readWholeFile(file, kLargestUrdf, "a readable URDF file");
     if (text.empty()) {
@@ -260,7 +244,6 @@ std::string packetOf(const std::filesystem::path& file) {
     refuseLostShapes(*model, text, file.string(), listener.errors());
     noteLoops(text, notes);
     noteSoftLimits(*model, notes);
-    noteContinuous(*model, notes);
     return packUrdf(*model, notes);
 }
 

@@ -144,7 +144,7 @@ TEST_CASE("An element of xacro beside links and joints gives a note, and any oth
     CHECK(refuses(armOf(kLimit) + "<gazebo><xacro:property name='a' value='1'/></gazebo>", wanted));
 }
 
-TEST_CASE("Joints that close loops, and limits of a continuous joint, are reported as not read") {
+TEST_CASE("Joints that close loops are reported as not read") {
     const std::string loop =
         "<loop_joint name='bar' type='spherical'><link1 link='a'/><link2 link='c'/></loop_joint>";
     CHECK(loadUrdf(
@@ -153,15 +153,4 @@ TEST_CASE("Joints that close loops, and limits of a continuous joint, are report
               .notes ==
           std::vector<std::string>{
               "2 joints of <loop_joint> or <gazebo>, the first bar, are not read: loops stay open"});
-    const auto notes = [](const std::string& limits) {
-        return loadUrdf(ballLink("a") + ballLink("b") +
-                        jointText("j", "continuous", "a", "b", "0 0 1", "0 1 0",
-                                  "<limit effort='1' velocity='1' " + limits + "/>"))
-            .notes;
-    };
-    CHECK(notes("").empty());
-    CHECK(notes("lower='-1e16' upper='1e16'").empty());
-    CHECK(notes("lower='-1' upper='1.5'") ==
-          std::vector<std::string>{
-              "joint j: limits -1 to 1.5 are not read, as it is continuous; arm.joints sets limits"});
 }
