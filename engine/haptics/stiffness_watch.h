@@ -16,7 +16,7 @@ public:
 
     // One tick: measured period [s], 0 = none (lockstep: nothing changes). The period is averaged over
     // kAverage; K_t and K_r ramp down to their bounds (the whole of K_t in kDown) and back up (in kUp), never
-    // in a step. A tick that is late by itself, as none of some 40 before it, counts as kLateAlone.
+    // in a step. A late tick counts as at most kLateAlone, unless one of some 40 ticks before was late, too.
     void step(double measuredPeriod) noexcept;
 
     const Springs& springs() const noexcept { return springs_; } // active; k = sqrt(K_r / K_t) follows
@@ -29,6 +29,8 @@ public:
     static constexpr double kMinShare = 0.01;  // of the planned stiffness: lower limit of the ramp
 
 private:
+    static constexpr double kForget = 0.9;
+
     double wantedShare() const noexcept;
 
     std::optional<double> damping_, rotationalDamping_; // of the device, at the tool; empty = not watched
@@ -36,9 +38,7 @@ private:
     Springs planned_, springs_;
     double share_ = 1.0; // of the planned K_t
     double period_;
-    static constexpr double kForget = 0.9;
-
-    double before_ = 0.0; // [s] longest of the last ticks; each earlier one counts as kForget of itself
+    double before_ = 0.0; // [s] longest of the ticks before; in each tick it shrinks to kForget of itself
 };
 
 } // namespace fathom
