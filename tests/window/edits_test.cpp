@@ -18,8 +18,8 @@ void waitTicks(const WindowRig& rig, int ticks) {
     REQUIRE(rig.await([&](const json& s) { return s["run"]["turns"] > now + ticks; }));
 }
 
-// Pushes against the bump, removes the red class, adds a sphere, undoes both and freezes everything for a
-// while.
+// Pushes against the bump, removes the red class, adds a sphere, undoes both, freezes everything for a
+// while, and pushes again.
 void fly(const WindowRig& rig) {
     rig.key("r");
     REQUIRE(rig.await([](const json& s) { return s["console"]["recording"] == true; }));
@@ -42,6 +42,8 @@ void fly(const WindowRig& rig) {
     waitTicks(rig, 500);
     rig.key("f");
     waitTicks(rig, 500);
+    rig.wheel(1); // until here the tool is where the class was removed, maybe just outside of the bump
+    REQUIRE(rig.await([](const json& s) { return s["run"]["force_N"] > 1.0; }));
     rig.key("r");
     REQUIRE(rig.awaitNotice("frames recorded"));
 }

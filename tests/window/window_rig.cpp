@@ -270,11 +270,12 @@ void WindowRig::wheel(int notches) const {
     xdo("click --delay 30 --repeat " + std::to_string(std::abs(notches)) + (notches > 0 ? " 4" : " 5"));
 }
 
-// Further, and the tool would slide off the bump.
+// Further, and the tool would slide off the bump. So a contact must be seen before the wheel turns again.
 void WindowRig::push() const {
     xdo("mousemove --window $W 300 300");
     for (int i = 0; i < 32 && state()["run"]["contacts"] == 0; ++i) {
         wheel(2);
+        REQUIRE_FALSE(atRest().is_null());
     }
     wheel(2);
 }
