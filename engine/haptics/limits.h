@@ -11,6 +11,7 @@ namespace fathom {
 // All six numbers finite.
 bool isFinite(const Wrench& wrench) noexcept;
 
+// All six numbers zero.
 bool isZero(const Wrench& wrench) noexcept;
 
 // Force and torque times the factor.
