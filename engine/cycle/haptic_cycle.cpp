@@ -90,7 +90,7 @@ StepRecord HapticCycle::step(const StepInput& input) noexcept {
     holdArm(now, moved.trapped, out);
     fillMargins(input, out);
     watch_.step(input.measuredPeriod); // active from the next step on
-    ahead_.moved(place());
+    ahead_.moved(place(), input.measuredPeriod);
     return out;
 }
 

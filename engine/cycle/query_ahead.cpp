@@ -12,15 +12,16 @@ constexpr double kForgetAge = 1.0; // [s] time constant with which the effect of
 
 } // namespace
 
-void QueryAhead::moved(const ToolPlace& now) noexcept {
-    const double blend = started_ ? std::min(1.0, period_ / kSmooth) : 0.0;
+void QueryAhead::moved(const ToolPlace& now, double elapsed) noexcept {
+    const double seconds = std::max(period_, elapsed); // a late tick covers a longer motion
+    const double blend = started_ ? std::min(1.0, seconds / kSmooth) : 0.0;
     const dvec3 turned = rotationBetween(before_.pose.rotation, now.pose.rotation);
     velocity_ = started_ ? velocity_ : dvec3(0.0);
     spin_ = started_ ? spin_ : dvec3(0.0);
-    velocity_ += blend * ((now.pose.position - before_.pose.position) / period_ - velocity_);
-    spin_ += blend * (turned / period_ - spin_);
+    velocity_ += blend * ((now.pose.position - before_.pose.position) / seconds - velocity_);
+    spin_ += blend * (turned / seconds - spin_);
     for (size_t k = 0; k < rates_.size(); ++k) {
-        const double rate = started_ ? (now.arm.q[k] - before_.arm.q[k]) / period_ : 0.0;
+        const double rate = started_ ? (now.arm.q[k] - before_.arm.q[k]) / seconds : 0.0;
         rates_[k] = started_ ? rates_[k] + blend * (rate - rates_[k]) : 0.0;
     }
     before_ = now;

@@ -16,8 +16,8 @@ public:
     explicit QueryAhead(double period) noexcept
         : period_(period) {}
 
-    // One tick: where the tool is now.
-    void moved(const ToolPlace& now) noexcept;
+    // One tick: where the tool is now. elapsed [s]: measured since the last tick; at least a period counts.
+    void moved(const ToolPlace& now, double elapsed) noexcept;
     // An answer to a query at `askedAt` [s] became active at `now` [s].
     void answered(double askedAt, double now) noexcept;
     // The tool was placed elsewhere: no velocity.

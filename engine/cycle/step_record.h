@@ -61,7 +61,7 @@ struct StepInput {
     std::span<const GuidancePose> guidance;
     bool sourceEnded = false; // lockstep: the last frame stays valid and does not age
 
-    double measuredPeriod = 0.0; // [s] since the previous step, for the margins; 0 = the nominal one
+    double measuredPeriod = 0.0; // [s] since the previous step; 0 = the nominal one
     Deadline deadline;           // realtime; none in lockstep
 };
 

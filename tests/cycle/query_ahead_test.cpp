@@ -19,7 +19,7 @@ struct Steady {
         for (int i = 0; i < 500; ++i) {
             now.pose = {i * kTick * speed, rotationExp(i * kTick * spin)};
             now.arm.q[1] = i * kTick * jointRate;
-            ahead.moved(now);
+            ahead.moved(now, kTick);
         }
     }
 };
@@ -48,6 +48,27 @@ TEST_CASE("The reach of a query grows by at most 20 mm, and a tool that was plac
     fast.ahead.restart();
     ToolPlace elsewhere;
     elsewhere.pose.position = {7, 7, 7};
-    fast.ahead.moved(elsewhere);
+    fast.ahead.moved(elsewhere, kTick);
     CHECK(fast.ahead.ask(elsewhere, 0.5, 0).place.pose.position == elsewhere.pose.position);
+}
+
+TEST_CASE("A tick after a stall gives queries no speed that the tool never had") {
+    constexpr double kStall = 0.03; // [s]
+    Steady tool({0.3, 0, 0}, {0, 0, 2.0}, 0.5);
+    tool.ahead.answered(0.47, 0.5);
+    const QueryPlace before = tool.ahead.ask(tool.now, 0.5, 3);
+    ToolPlace after = tool.now; // as fast as before
+    after.pose.position += kStall * dvec3(0.3, 0, 0);
+    after.pose.rotation = rotationExp(kStall * dvec3(0, 0, 2.0)) * after.pose.rotation;
+    after.arm.q[1] += kStall * 0.5;
+    tool.ahead.moved(after, kStall);
+    const QueryPlace asked = tool.ahead.ask(after, 0.5 + kStall, 3);
+    const auto way = [](const QueryPlace& ahead, const ToolPlace& from) {
+        return glm::length(ahead.place.pose.position - from.pose.position);
+    };
+    CHECK(way(asked, after) == doctest::Approx(way(before, tool.now)));
+    CHECK(glm::length(rotationBetween(after.pose.rotation, asked.place.pose.rotation)) ==
+          doctest::Approx(glm::length(rotationBetween(tool.now.pose.rotation, before.place.pose.rotation))));
+    CHECK(asked.place.arm.q[1] - after.arm.q[1] == doctest::Approx(0.015));
+    CHECK(asked.extraReach == doctest::Approx(before.extraReach));
 }
