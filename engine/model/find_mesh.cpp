@@ -148,8 +148,12 @@ private:
     places(const std::vector<std::filesystem::path>& folders, bool whole) const {
         const std::string path =
             whole && !parts_.package.empty() ? parts_.package + "/" + parts_.path : parts_.path;
+        std::vector<std::string> spellings{path};
+        if (std::string decoded = percentDecoded(path); decoded != path) {
+            spellings.push_back(std::move(decoded));
+        }
         std::vector<std::pair<std::filesystem::path, std::string>> all;
-        for (const std::string& wanted : {path, percentDecoded(path)}) {
+        for (const std::string& wanted : spellings) {
             for (const auto& folder : folders) {
                 all.emplace_back(folder, wanted);
             }
