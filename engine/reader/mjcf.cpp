@@ -110,7 +110,7 @@ using MjcfWords = std::set<std::string>;
 // What MuJoCo knows of the elements that are read; it rejects a file with anything else.
 const std::map<std::string, MjcfWords>& mjcfAttributes() {
     constexpr const char* kPose = " pos quat axisangle xyaxes zaxis euler";
-    static const auto wordsOf = [](const std::string& text) {
+    const auto wordsOf = [](const std::string& text) {
         std::istringstream in(text);
         return MjcfWords{std::istream_iterator<std::string>(in), {}};
     };
