@@ -25,7 +25,7 @@ layout(std430, binding = 5) coherent buffer NodeCounts { uint nodeCounts[]; };
 shared uint groupsBefore; // that are done
 
 // The initial value of a counter word: 1 for y and z of indirect arguments, else 0.
-uint nothing(uint word) {
+uint initialValue(uint word) {
     return word < kArgumentWords && ((word & 3u) == 1u || (word & 3u) == 2u) ? 1u : 0u;
 }
 
@@ -52,7 +52,7 @@ void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i < counters.length() && i != kDeliveredWord) {
         setCounters[i] = counters[i];
-        counters[i] = nothing(i);
+        counters[i] = initialValue(i);
     }
     if (i < listed.length()) {
         if (kTree != 0u && listed[i] == 0u) {

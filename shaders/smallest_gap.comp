@@ -22,7 +22,7 @@ layout(std430, binding = 1) readonly buffer Bounds { vec4 bounds[]; };   // R < 
 layout(std430, binding = 2) readonly buffer Spheres { vec4 spheres[]; }; // slot -> centre, R; R < 0 = none
 layout(std430, binding = 3) readonly buffer Held { vec4 held[]; };       // the same for held points
 layout(std430, binding = 4) readonly buffer Classes { uint classes[]; }; // bytes: class, held class << 4
-layout(std430, binding = 5) readonly buffer Still { vec4 still[]; };     // slots, then bounds
+layout(std430, binding = 5) readonly buffer Frozen { vec4 frozen[]; };   // slots, then bounds
 layout(std430, binding = 6) readonly buffer Poses { GapPose poses[]; };
 layout(std430, binding = 7) buffer Found { uvec4 count; GapPair found[]; };
 
@@ -49,7 +49,7 @@ float roughGap(vec4 a, vec4 b) {
     return distance(a.xyz, b.xyz) - (a.w + b.w);
 }
 
-// Blocks of this frame first, then those of classes that are held still.
+// Blocks of this frame first, then those of frozen classes.
 uint blockCount() {
     return batch.live.x + batch.rest.x;
 }
@@ -59,7 +59,7 @@ vec4 boundOf(uint block) {
     if (seen) {
         bound = bounds[batch.live.y + block];
     } else if (block < blockCount()) {
-        bound = still[batch.rest.y + block - batch.live.x];
+        bound = frozen[batch.rest.y + block - batch.live.x];
     }
     return vec4(inFrameOf(rows, bound.xyz), bound.w * 1.00001); // rounding of the bound
 }
@@ -76,8 +76,8 @@ Candidate candidateOf(uint block, uint layer, uint i) {
     c.fixture = 0u;
     if (block >= batch.live.x) {
         uint slot = (block - batch.live.x) * kBlockSlots + i;
-        c.slot = slot * 4u + kLayerStill;
-        c.sphere = still[slot];
+        c.slot = slot * 4u + kLayerFrozen;
+        c.sphere = frozen[slot];
     } else {
         uint slot = block * kBlockSlots + i;
         c.slot = slot * 4u + layer;

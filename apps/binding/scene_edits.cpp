@@ -57,7 +57,7 @@ SceneEdit readEdit(const std::filesystem::path& file, const TextLine& line) {
     if (!parseNumber(fields[3], still) || still > 1) {
         refuse(file, line, "still", fields[3], "0 or 1");
     }
-    edit.still = still == 1;
+    edit.allFrozen = still == 1;
     return edit;
 }
 

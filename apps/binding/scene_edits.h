@@ -23,7 +23,7 @@ std::string spareName(size_t row); // its name in a scene file
 struct SceneEdit {
     uint32_t firstFrame = 0; // the first frame of the recording that uses it
     Scene scene;             // with spare classes; FixtureClass::frozen unchanged
-    bool still = false;      // all fixtures are held: frames make no new set
+    bool allFrozen = false;  // frames make no new set
 };
 
 // edits.csv of a recording, `picture,scene,held,still`: scene is a file in the same folder, held lists the
@@ -50,7 +50,7 @@ private:
 // scene becomes that of the first frame.
 SceneEdits takeEdits(Scene& scene, const std::filesystem::path& source);
 
-// A plan that supports all possible edits: radii, roles and held classes.
+// A plan that supports all possible edits: radii, roles and frozen classes.
 Plan planToEdit(const Scene& scene, const CameraInfo& camera, const Tool& tool, const DeviceFacts& device);
 
 } // namespace fathom

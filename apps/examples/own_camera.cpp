@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Connects your own camera: depth in metres, YUYV colour with a lens of its own, a pose per frame. The frames
-// made here show a red ball of 5 cm radius 0.5 m ahead.
+// made here show a red plate of 10 cm 0.5 m ahead.
 #include <fathom/fathom.h>
 
 #include <chrono>
@@ -28,7 +28,7 @@ struct MyCamera {
 
 int main() {
     const auto scene = fathom::Scene::fromText(R"(
-fixtures: [{ name: ball, role: forbidden, hue: [340, 20], saturation: [0.5, 1], radius: 0.03 }]
+fixtures: [{ name: plate, role: forbidden, hue: [340, 20], saturation: [0.5, 1], radius: 0.03 }]
 tool: { spheres: [[0, 0, 0, 0.01]] }
 )");
     fathom::CameraModel model;

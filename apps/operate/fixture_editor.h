@@ -55,9 +55,8 @@ public:
     const std::vector<uint8_t>& selection() const { return selection_; } // size of the depth image
     uint64_t selectionNumber() const { return selectionNumber_; } // increases when the selection changes
     size_t selectedPoints() const { return selected_; }
-    const std::array<float, 72>& hues() const {
-        return hues_;
-    } // of the image, 5 degrees per bin, largest bin = 1
+    // of the image, 5 degrees per bin, largest bin = 1
+    const std::array<float, 72>& hues() const { return hues_; }
 
 private:
     void select(const FixtureClass& gates, const SceneSnapshot& snapshot);

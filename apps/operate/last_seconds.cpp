@@ -70,7 +70,7 @@ void LastSeconds::frame(const PublishedFrame& frame, const Fixtures& set) {
         kept->frame.report = frame.report;
         kept->frame.t = frame.t;
         kept->frame.edit = frame.edit;
-        kept->frame.still = frame.still;
+        kept->frame.allFrozen = frame.allFrozen;
         kept->baseTcamera = set.baseTcamera;
         kept->pixels = set.depth.size();
         kept->colourPixels = frame.colour.size();

@@ -26,7 +26,7 @@ ButtonBits nativeButtons(const Scene& scene) {
 // With the slow rise of forces of a pilot's run.
 HapticOptions softStartOptions(const Session& session) {
     HapticOptions options = makeHapticOptions(session.scene, session.tool);
-    options.armTime = softStart(options.forceLimit);
+    options.softStartTime = softStart(options.forceLimit);
     return options;
 }
 

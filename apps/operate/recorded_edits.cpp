@@ -14,13 +14,13 @@ void RecordedEdits::begin(const std::filesystem::path& folder, const RecordedSce
     active_ = scene;
     upcoming_.clear();
     scenes_ = 0;
-    still_ = false;
+    allFrozen_ = false;
 }
 
 // The first edit also writes the scene file of the start.
 void RecordedEdits::frame(const PublishedFrame& frame, uint64_t image) {
     const auto takesEffect = [&] { return !upcoming_.empty() && upcoming_.front().first <= frame.edit; };
-    if (!takesEffect() && frame.still == still_) {
+    if (!takesEffect() && frame.allFrozen == allFrozen_) {
         return;
     }
     if (!file_.isOpen()) {
@@ -32,7 +32,7 @@ void RecordedEdits::frame(const PublishedFrame& frame, uint64_t image) {
     for (; takesEffect(); upcoming_.pop_front()) {
         active_ = std::move(upcoming_.front().second);
     }
-    still_ = frame.still;
+    allFrozen_ = frame.allFrozen;
     put(image);
 }
 
@@ -48,7 +48,7 @@ void RecordedEdits::put(uint64_t image) {
     for (size_t i = 0; i < active_.held.size(); ++i) {
         out << (i == 0 ? "" : " ") << active_.held[i];
     }
-    out << "," << (still_ ? 1 : 0) << "\n";
+    out << "," << (allFrozen_ ? 1 : 0) << "\n";
     file_.flush();
 }
 

@@ -101,9 +101,8 @@ public:
 
     const SceneSnapshot& scene() const { return sink_.scene().front(); }
     const TickRow& step() const { return seen_.tick; }
-    const std::optional<Measured>& measured() const {
-        return seen_.measured;
-    } // last measurement; empty = never measured
+    // last measurement; empty = never measured
+    const std::optional<Measured>& measured() const { return seen_.measured; }
     bool anyTick() const { return seen_.ticks > 0; }
     // Whether regions disappeared while they pressed, so recently that their force may still fade.
     bool regionsVanished() const { return seen_.tick.record.t - seen_.vanishedAt <= 5.0; }
@@ -116,16 +115,14 @@ public:
     Peaks peaks() const { return {seen_.force.value(), seen_.torque.value()}; } // of the trace
     uint64_t restarts() const { return restarts_; }                             // calls of rewind()
     const FrameRipple& ripple() const { return seen_.ripple; }
-    const std::deque<Block>& blocks() const {
-        return seen_.blocks;
-    } // newest first; one per kind, fixture and leaf
+    // newest first; one per kind, fixture and leaf
+    const std::deque<Block>& blocks() const { return seen_.blocks; }
     Rates rates() const;
     FrameDelay delay() const;
     // Of the last million ticks, unordered.
     const std::vector<float>& stepMicros() const { return seen_.micros; }
-    const std::vector<float>& wokenLateMicros() const {
-        return seen_.wokenLate;
-    } // also of the last million ticks
+    // also of the last million ticks
+    const std::vector<float>& wokenLateMicros() const { return seen_.wokenLate; }
     uint64_t lateTicks() const { return seen_.late; }
     const std::vector<double>& passMs() const { return passMs_; } // of the last frame that was processed
 

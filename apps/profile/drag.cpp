@@ -144,7 +144,7 @@ private:
         now_ = k;
         answer();
         while (!pending_.empty() && pending_.front().due <= now_) {
-            if (proxy_.covers(*pending_.front().set)) {
+            if (proxy_.accepts(*pending_.front().set)) {
                 std::swap(inForce_, *pending_.front().set);
             }
             pending_.pop_front();

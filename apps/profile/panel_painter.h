@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Paints one panel of a plot.
 #pragma once
 
 #include "apps/profile/panel_colours.h"

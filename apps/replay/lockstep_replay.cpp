@@ -61,7 +61,7 @@ void LockstepReplay::processNext() {
         const bool now = cycle_ && !session_.scene.source.showsArm;
         session_.cycles.frames().setArm(session_.arm->inImage(now ? cycle_->place().arm : taken_));
     }
-    if (session_.heldStill() && !kept_.empty()) {
+    if (session_.allFrozen() && !kept_.empty()) {
         ready_ = session_.cycles.frames().unprocessedReport((*next_)->index);
     } else {
         ready_ = session_.cycles.frames().process(std::move(*next_));

@@ -18,8 +18,8 @@ namespace fathom {
 struct OverlayInput {
     CameraInfo camera;
     Pose baseTcamera;
-    std::span<const uint32_t>
-        colour; // 0xAABBGGRR, size of camera.colour; otherwise the depth is drawn as grey
+    // 0xAABBGGRR, size of camera.colour; otherwise the depth is drawn as grey
+    std::span<const uint32_t> colour;
     std::span<const uint16_t> depth;     // raw units, size of camera.depth; empty: uniform background
     const Fixtures* set = nullptr;       // regions and guidance; null or frame -1: none
     std::vector<std::string> classNames; // rows of Scene::fixtures

@@ -213,7 +213,7 @@ std::string RunWatch::causeOfState() const {
     if (quiet_.state == "fading") {
         return "the regions in use are too old: frames or contact answers are late";
     }
-    return quiet_.frame < 0 ? "no contact answer covers the tool"
+    return quiet_.frame < 0 ? "no contact answer was made near the tool"
                             : "forces are off by the dead-man switch, or the haptic device is lost";
 }
 

@@ -32,7 +32,7 @@ struct ReplaySummary {
         Percentiles stepMicros;
         uint64_t stalledTicks = 0, trappedTicks = 0, escapeTicks = 0, waitingTicks = 0;
         uint32_t regionsVanished = 0;     // times that regions disappeared while they pressed
-        std::optional<double> indexShift; // [m] by which lags moved the hand map, in all
+        std::optional<double> indexShift; // [m] net displacement of the hand map
         uint64_t notFiniteTicks = 0;      // ticks without force because a number was not finite
         std::optional<double> maxPenetration, maxEscapeDepth;       // [m] from the penetration audit
         double maxForce = 0.0, maxTorque = 0.0, maxForceStep = 0.0; // [N], [N m], [N]

@@ -19,7 +19,7 @@ public:
     uint64_t ticks = 0, late = 0, stalled = 0, trapped = 0, escape = 0, infeasible = 0, notFinite = 0;
     uint64_t waiting = 0;
     uint32_t vanished = 0;                  // times that regions disappeared while they pressed
-    double indexShift = 0.0;                // [m] by which lags moved the hand map, in all
+    double indexShift = 0.0;                // [m] net displacement of the hand map
     double maxForce = 0.0, maxTorque = 0.0; // [N], [N m] largest norm
     double maxForceStep = 0.0; // [N] largest change between consecutive ticks; the first counts from zero
     std::optional<double> minMarginPassive, minMarginUncoupled;

@@ -86,7 +86,7 @@ struct Session {
     // The pilot's recorded edit that becomes active at this frame; null when nothing changed since the last
     // call.
     const SceneEdit* newEdit(uint32_t image);
-    bool heldStill() const { return edit_ != nullptr && edit_->still; } // all fixtures frozen
+    bool allFrozen() const { return edit_ != nullptr && edit_->allFrozen; }
 
 private:
     std::vector<HandWaypoint> approach_; // base frame; kept because the fixture set may be gone later

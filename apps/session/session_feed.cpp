@@ -48,7 +48,7 @@ bool SessionFeed::takeEdits(uint32_t index) {
             onShapes_(shapesOf(edit->scene));
         }
     }
-    if ((frozen_.load() || session_.heldStill()) && published_) {
+    if ((frozen_.load() || session_.allFrozen()) && published_) {
         return true;
     }
     if (edited_.exchange(false)) {
@@ -97,7 +97,7 @@ void SessionFeed::publish(double t, PublishedFrame& out) {
     out.report = {};
     out.report.index = (*next_)->index;
     out.edit = applied_;
-    out.still = false;
+    out.allFrozen = false;
     try {
         publishNew(out);
     } catch (const DeviceFailed&) {
@@ -115,8 +115,8 @@ void SessionFeed::publishNew(PublishedFrame& out) {
     if (lost()) { // the window detected the loss
         throw DeviceLost(session_.handover->why());
     }
-    out.still = takeEdits(out.report.index);
-    out.report = out.still ? session_.cycles.frames().unprocessedReport(out.report.index) : process();
+    out.allFrozen = takeEdits(out.report.index);
+    out.report = out.allFrozen ? session_.cycles.frames().unprocessedReport(out.report.index) : process();
     out.edit = applied_;
     out.changed = !out.report.unchanged;
     if (out.changed) {

@@ -34,8 +34,8 @@ struct LoopSpec {
     uint32_t delay = 0;        // [ticks] from writing a force to the hand
     double encoderStep = 0.0;  // [m]
     double encoderAngle = 0.0; // [rad]
-    double armLength =
-        0.1; // [m] inertia, rotational damping and stiffness are the linear values times its square
+    // [m] inertia, rotational damping and stiffness are the linear values times its square
+    double armLength = 0.1;
     std::optional<double> stiffness;           // [N/m]; empty = automatic
     std::optional<double> rotationalStiffness; // [N m/rad]
     double virtualDamping = 0.0;               // B [N s/m]

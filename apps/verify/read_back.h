@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Copies buffers of the device to the host, for checks.
 #pragma once
 
 #include "engine/gpu/commands.h"

@@ -16,8 +16,8 @@ namespace fathom::ros {
 struct ColourLayout {
     const char* encoding;
     uint32_t bytes = 0; // per pixel of a row
-    std::array<uint8_t, 3> rgb =
-        {}; // channel offsets [bytes]; Bayer: places of red and blue in a cell of 2 x 2
+    // channel offsets [bytes]; Bayer: places of red and blue in a cell of 2 x 2
+    std::array<uint8_t, 3> rgb = {};
     bool bayer = false;
     std::optional<RawKind> raw = {}; // the device unpacks it; else bytes and rgb count
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Numbers of 16 bits in EXR images and NPY arrays.
 #pragma once
 
 #include <cmath>

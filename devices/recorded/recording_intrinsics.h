@@ -31,8 +31,8 @@ struct RecordingIntrinsics {
     std::vector<double> depthStamps, colourStamps;
     bool relatesColour = false; // two lenses, or registered_to_color: colour is as this file says
     bool rangeImages = false;   // depth/ holds ranges along the rays, not z
-    double pairWithin =
-        0.02; // [s] largest distance of a depth stamp from its colour stamp: half a frame at nominal_fps
+    // [s] largest distance of a depth stamp from its colour stamp: half a frame at nominal_fps
+    double pairWithin = 0.02;
 };
 
 // Flat: width height fx fy cx cy [distortion_model distortion] depth_scale_m_per_unit [registered_to_color:

@@ -8,7 +8,7 @@
 namespace fathom {
 
 // Purpose of a random number; different purposes use independent numbers.
-enum class NoisePurpose : uint32_t { Depth, Dropout, Flying, Colour, Snow, Texture };
+enum class NoisePurpose : uint32_t { Depth = 0, Flying = 2, Colour, Snow, Texture };
 
 // 64 well-mixed bits of (seed, frame, index, purpose): three rounds of the splitmix64 finaliser (Steele, Lea,
 // Flood, OOPSLA 2014).

@@ -58,8 +58,8 @@ struct UploadBuffers {
     gpu::Buffer depth;                        // uint16 per pixel, row-major
     gpu::Buffer colour;                       // in the camera's format; empty when no class uses colour
     ColourFormat format = ColourFormat::Rgba; // of colour
-    gpu::Buffer
-        arm; // vec4: links and spheres of the arm, in the format of classify.comp; empty without self-filter
+    // vec4: links and spheres of the arm, in the format of classify.comp; empty without self-filter
+    gpu::Buffer arm;
 };
 
 // Device side of one fixture set. The CPU copies from the readback buffers.
@@ -69,8 +69,8 @@ struct SetBuffers {
 
     gpu::Buffer packed; // words: one run per patch with its spheres (shaders/lib/packing.glsl), in any order;
                         // empty without Plan::pack
-    gpu::Buffer
-        places; // 16 uint per listed patch, 8 per layer: bit (layer * 256 + slot) = the slot has a sphere
+    // 16 uint per listed patch, 8 per layer: bit (layer * 256 + slot) = the slot has a sphere
+    gpu::Buffer places;
     gpu::Buffer runs;  // uvec2 per listed patch: first word of its run; number of spheres + 65536 x class
                        // bits, kRunGrown, kRunWide
     gpu::Buffer bits;  // uint per sub-patch of a listed patch: bits of the pixels with a forbidden class

@@ -24,20 +24,20 @@ float largestOf(const RegionSpheres& s) {
 
 } // namespace
 
-void FixtureSet::describeDevice(const Scene& scene, const FrozenClasses& frozen,
+void FixtureSet::describeDevice(const Scene& scene, const FrozenClasses& classes,
                                 const gpu::Device::At& written) {
     rows.clear();
     for (const uint32_t row : classRows(scene)) {
-        rows.push_back(scene.fixtures[row].frozen ? kStill : static_cast<int>(row));
+        rows.push_back(scene.fixtures[row].frozen ? kFrozen : static_cast<int>(row));
     }
-    still = frozen.spheres();
-    stillVersion = frozen.version();
+    frozen = classes.spheres();
+    frozenVersion = classes.version();
     completed = written;
-    float largest = still ? largestOf(*still) : 0.0f;
+    float largest = frozen ? largestOf(*frozen) : 0.0f;
     const auto& counters = device.counters.as<shared::FrameCounters>()[0];
     for (size_t c = 0; c < rows.size(); ++c) {
         largest =
-            rows[c] == kStill ? largest : std::max(largest, std::bit_cast<float>(counters.largestRadius[c]));
+            rows[c] == kFrozen ? largest : std::max(largest, std::bit_cast<float>(counters.largestRadius[c]));
     }
     largestRadius = double{largest};
 }
@@ -48,8 +48,8 @@ PatchBits FixtureSet::forbidden(const PatchLayout& layout) const {
 
 FixtureSet::Place FixtureSet::placeOf(const PatchLayout& layout, uint32_t slot, uint32_t pointClass) const {
     const uint32_t layer = slot & 3u, at = slot >> 2;
-    if (layer == shared::kLayerStill) {
-        return {still->source[at], still->fixture[at]};
+    if (layer == shared::kLayerFrozen) {
+        return {frozen->source[at], frozen->fixture[at]};
     }
     const auto width = static_cast<uint32_t>(host.camera.depth.width);
     const auto pixels = static_cast<uint32_t>(host.camera.depth.pixels());

@@ -46,10 +46,10 @@ GapPose gapPoseOf(const Pose& baseTtool, const dvec3& origin, double toolRadius,
 }
 
 // Bits of the classes whose spheres in the set's device side do not count.
-uint32_t stillClasses(const FixtureSet& set) {
+uint32_t frozenClasses(const FixtureSet& set) {
     uint32_t bits = 0;
     for (size_t c = 0; c < set.rows.size(); ++c) {
-        bits |= set.rows[c] == FixtureSet::kStill ? 1u << c : 0u;
+        bits |= set.rows[c] == FixtureSet::kFrozen ? 1u << c : 0u;
     }
     return bits;
 }
@@ -65,7 +65,7 @@ GapQuery::GapQuery(gpu::Device& device, const Plan& plan, const PatchLayout& lay
     , pipeline_(device, gapPipeline(plan))
     , run_(device)
     , leaves_(device)
-    , still_(device)
+    , frozen_(device)
     , unused_(device, 16, gpu::MemoryKind::Device, "unused") {
     growTo(capacity);
 }
@@ -81,8 +81,8 @@ const gpu::Bindings& GapQuery::bindingsOf(const FixtureSet& set) {
         const SetBuffers& s = pool_.at(i).device;
         bindings_.emplace_back(device_, pipeline_,
                                std::vector<const gpu::Buffer*>{&leaves_.buffer(), &s.nodes, &s.spheres,
-                                                               &s.held, &s.classes, &still_.buffer(), &poses_,
-                                                               &answer_},
+                                                               &s.held, &s.classes, &frozen_.buffer(),
+                                                               &poses_, &answer_},
                                unused_);
     }
     return bindings_[pool_.indexOf(set)];
@@ -128,13 +128,13 @@ void GapQuery::record(const Batch& batch, Part part) {
     constexpr std::array<uint32_t, 4> kZero{};
     commands.update(answer_, 0, kCountBytes, kZero.data());
     leaves_.upload(commands);
-    still_.upload(commands);
+    frozen_.upload(commands);
     commands.barrier();
     run_.startTime();
     GapParams p{};
     p.tool = leaves_.bound();
-    p.live = {layout_.patches(), layout_.levels[1].first, hold_ ? 2u : 1u, stillClasses(batch.set)};
-    p.rest = {still_.count(), still_.firstBound(), leaves_.count(), most_};
+    p.live = {layout_.patches(), layout_.levels[1].first, hold_ ? 2u : 1u, frozenClasses(batch.set)};
+    p.rest = {frozen_.count(), frozen_.firstBound(), leaves_.count(), most_};
     commands.dispatch(pipeline_, bindingsOf(batch.set), static_cast<uint32_t>(part.size()), &p);
     run_.stopTime();
     commands.barrier();
@@ -208,7 +208,7 @@ void GapQuery::find(const FixtureSet& set, const Tool& tool, std::span<const Pos
             askHost(batch, i);
         }
     }
-    if (still_.fillStill(set)) {
+    if (frozen_.fillFrozen(set)) {
         bindings_.clear();
     }
     reserve(std::min(near_.size(), kMaxPosesAtOnce));

@@ -66,8 +66,8 @@ private:
     gpu::Pipeline pipeline_;
     QueryRun run_;
     ToolLeaves leaves_;
-    SphereBlocks still_; // spheres of frozen classes
-    gpu::Buffer poses_;  // GapPose per pose
+    SphereBlocks frozen_; // spheres of frozen classes
+    gpu::Buffer poses_;   // GapPose per pose
     gpu::Buffer answer_, back_;
     uint32_t most_ = 0, copied_ = 0, found_ = 0; // pairs
     gpu::Buffer unused_;

@@ -39,14 +39,14 @@ bool SphereBlocks::fill(std::span<const glm::vec4> spheres) {
     return larger;
 }
 
-bool SphereBlocks::fillStill(const FixtureSet& set) {
-    if (set.stillVersion == stillVersion_) {
+bool SphereBlocks::fillFrozen(const FixtureSet& set) {
+    if (set.frozenVersion == frozenVersion_) {
         return false;
     }
-    stillVersion_ = set.stillVersion;
+    frozenVersion_ = set.frozenVersion;
     std::vector<glm::vec4> spheres;
-    for (size_t i = 0; set.still && i < set.still->size(); ++i) {
-        const RegionSpheres& s = *set.still;
+    for (size_t i = 0; set.frozen && i < set.frozen->size(); ++i) {
+        const RegionSpheres& s = *set.frozen;
         spheres.emplace_back(s.x[i], s.y[i], s.z[i], s.radius[i]);
     }
     return fill(spheres);

@@ -20,7 +20,7 @@ public:
     // True when buffer() is another one than before. No submission may use it.
     bool fill(std::span<const glm::vec4> spheres);
     // The same for the spheres of a set's frozen classes, if they changed.
-    bool fillStill(const FixtureSet& set);
+    bool fillFrozen(const FixtureSet& set);
     // Copies the last fill() to the device, once. False when there is nothing to copy.
     bool upload(gpu::Commands& commands);
 
@@ -34,7 +34,7 @@ private:
     const gpu::Device& device_;
     gpu::Buffer blocks_, written_; // the host writes the second one
     uint32_t count_ = 0;
-    uint64_t stillVersion_ = 0; // of the last fillStill()
+    uint64_t frozenVersion_ = 0; // of the last fillFrozen()
     bool changed_ = false;
 };
 

@@ -19,15 +19,15 @@ struct SphereCounts {
 // The spheres of one patch, by layer (seen, held), then slot.
 struct PatchSpheres {
     uint32_t seen = 0, held = 0; // numbers of spheres; their sum is > 0
-    const uint32_t* places =
-        nullptr;          // 8 words per layer: bit (layer * 256 + slot in the patch) = the slot has a sphere
+    // 8 words per layer: bit (layer * 256 + slot in the patch) = the slot has a sphere.
+    const uint32_t* places = nullptr;
     uint32_t classes = 0; // bits of the classes that occur
     // Per slot: class of the seen sphere | class of the held one << 4; not read if there is one class.
     const uint8_t* classOf = nullptr;
     const float* depths = nullptr;  // [m] of the seen spheres; null: all are in `whole`
     const uint8_t* steps = nullptr; // growth steps of the seen spheres; null: none has grown
-    const glm::vec4* whole =
-        nullptr; // centre relative to the origin, R [m]: of seen spheres without depths, then of held ones
+    // centre relative to the origin, R [m]: of seen spheres without depths, then of held ones
+    const glm::vec4* whole = nullptr;
     uint32_t n() const { return seen + held; }
 };
 

@@ -38,7 +38,7 @@ TreeQuery::TreeQuery(gpu::Device& device, const Plan& plan, const PatchLayout& l
     , pipeline_(device, pipelineOf(plan, subgroups && device.facts().subgroupArithmetic))
     , run_(device)
     , leaves_(device)
-    , still_(device)
+    , frozen_(device)
     , answer_(device, {capacity, kLeavesPerSphere * capacity})
     , unused_(device, 16, gpu::MemoryKind::Device, "unused") {}
 
@@ -52,9 +52,9 @@ void TreeQuery::makeBindings() {
                                                                &s.held, &s.classes, answer, answer},
                                unused_);
     }
-    stillBindings_ = gpu::Bindings(
+    frozenBindings_ = gpu::Bindings(
         device_, pipeline_,
-        {&leaves_.buffer(), &still_.buffer(), &still_.buffer(), nullptr, nullptr, answer, answer}, unused_);
+        {&leaves_.buffer(), &frozen_.buffer(), &frozen_.buffer(), nullptr, nullptr, answer, answer}, unused_);
 }
 
 void TreeQuery::setTool(const Tool& tool) {
@@ -63,8 +63,8 @@ void TreeQuery::setTool(const Tool& tool) {
     }
 }
 
-TreeQuery::Blocks TreeQuery::stillBlocks() const {
-    return {&stillBindings_, still_.count(), still_.firstBound(), shared::kLayerStill, 1};
+TreeQuery::Blocks TreeQuery::frozenBlocks() const {
+    return {&frozenBindings_, frozen_.count(), frozen_.firstBound(), shared::kLayerFrozen, 1};
 }
 
 QueryParams TreeQuery::paramsAt(const Pose& baseTtool, const dvec3& origin, double reach,
@@ -99,7 +99,7 @@ void TreeQuery::record(std::span<const Blocks> all, const QueryParams& params) {
         answer_.clear(commands);
     }
     copied = leaves_.upload(commands) || copied;
-    copied = still_.upload(commands) || copied;
+    copied = frozen_.upload(commands) || copied;
     if (copied) {
         commands.barrier();
     }
@@ -129,7 +129,7 @@ Counts TreeQuery::run(std::span<const Blocks> all, const gpu::Device::At& after,
 
 bool TreeQuery::list(const FixtureSet& set, const Pose& baseTtool, double reach, NearPairs& near) {
     const size_t index = pool_.indexOf(set);
-    if (still_.fillStill(set)) {
+    if (frozen_.fillFrozen(set)) {
         bindings_.clear();
     }
     const QueryParams params = paramsAt(baseTtool, set.host.origin, reach, set.largestRadius);
@@ -139,8 +139,8 @@ bool TreeQuery::list(const FixtureSet& set, const Pose& baseTtool, double reach,
         }
         const Blocks live{&bindings_[index], layout_.patches(), layout_.levels[1].first, shared::kLayerSeen,
                           hold_ ? 2u : 1u};
-        const Blocks both[] = {live, stillBlocks()};
-        const Counts found = run({both, still_.count() > 0 ? 2u : 1u}, set.completed, params);
+        const Blocks both[] = {live, frozenBlocks()};
+        const Counts found = run({both, frozen_.count() > 0 ? 2u : 1u}, set.completed, params);
         if (found.fits(answer_.most())) {
             if (!agree(answer_.spheres(), found.leaves)) {
                 return false;
@@ -160,7 +160,7 @@ void TreeQuery::take(const FixtureSet& set, NearPairs& near) const {
     near.spheres.clear();
     for (const shared::FoundSphere& f : answer_.spheres()) {
         const FixtureSet::Place place = set.placeOf(layout_, f.slot, f.fixture);
-        if (place.row != FixtureSet::kStill) {
+        if (place.row != FixtureSet::kFrozen) {
             near.spheres.push_back({place.source, static_cast<uint32_t>(place.row), f.first, f.count,
                                     f.sphere.x, f.sphere.y, f.sphere.z, f.sphere.w});
         }

@@ -50,7 +50,7 @@ private:
         uint32_t count, firstBound, layer, layers;
     };
     void makeBindings();
-    Blocks stillBlocks() const;
+    Blocks frozenBlocks() const;
     shared::QueryParams paramsAt(const Pose& baseTtool, const dvec3& origin, double reach,
                                  double largest) const;
     QueryAnswer::Counts run(std::span<const Blocks> all, const gpu::Device::At& after,
@@ -67,11 +67,11 @@ private:
     QueryRun run_;
 
     ToolLeaves leaves_;
-    SphereBlocks still_; // spheres of frozen classes
+    SphereBlocks frozen_; // spheres of frozen classes
     QueryAnswer answer_;
     gpu::Buffer unused_;
     std::vector<gpu::Bindings> bindings_; // one per set
-    gpu::Bindings stillBindings_;
+    gpu::Bindings frozenBindings_;
 };
 
 } // namespace fathom::cloud

@@ -76,11 +76,11 @@ bool TreeQuery::passesProbe(double shorter) {
     for (const double away : {0.0, 0.7, 20.0}) { // [m] from the origin of the spheres
         const Pose pose{dvec3(away, -away, 0.3 * away), rotationExp(dvec3(1.1, -0.4, 2.3))};
         Probe probe = probeAt(tool, pose, random);
-        still_.fill(probe.spheres);
+        frozen_.fill(probe.spheres);
         makeBindings();
         shared::QueryParams params = paramsAt(pose, dvec3(0.0), kProbeReach, probe.largest);
         params.reach -= static_cast<float>(shorter);
-        const Blocks blocks = stillBlocks();
+        const Blocks blocks = frozenBlocks();
         while (!run({&blocks, 1}, {}, params).fits(answer_.most()) && answer_.growTo(answer_.found())) {
             makeBindings();
         }
@@ -92,7 +92,7 @@ bool TreeQuery::passesProbe(double shorter) {
         }
         missed += probe.within.size();
     }
-    still_.fill({});
+    frozen_.fill({});
     leaves_.drop();
     bindings_.clear();
     return missed == 0;

@@ -49,8 +49,8 @@ private:
     struct DepthSample {
         bool known = false;     // inside the image, with a depth
         bool forbidden = false; // the pixel has a forbidden class
-        double before =
-            0.0; // [m] distance of the point before the surface along the optical axis; < 0 = deeper
+        // [m] distance of the point before the surface along the optical axis; < 0 = deeper
+        double before = 0.0;
         double sigma = 0.0; // [m] of the depth there
         double range = 0.0; // [m] from the camera to the surface on the point's own ray
     };

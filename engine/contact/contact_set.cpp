@@ -3,22 +3,6 @@
 
 namespace fathom {
 
-void ContactSet::reserve(size_t leaves, size_t spheres, size_t pairs) {
-    for (std::vector<double>* column : {&x, &y, &z, &radius}) {
-        column->reserve(spheres);
-    }
-    source.reserve(spheres);
-    fixture.reserve(spheres);
-    pairBegin.reserve(leaves + 1);
-    pairBandEnd.reserve(leaves * kGapBands);
-    leafAtQuery.reserve(leaves);
-    behind.reserve(leaves);
-    pairSphere.reserve(pairs);
-    for (std::vector<float>* column : {&pairX, &pairY, &pairZ, &pairRadius}) {
-        column->reserve(pairs);
-    }
-}
-
 void ContactSet::clear() noexcept {
     for (std::vector<double>* column : {&x, &y, &z, &radius}) {
         column->clear();

@@ -28,7 +28,7 @@ struct ContactSet {
     double captureTime = 0.0;                                  // [s] of that fixture set
     uint64_t query = 0;                                        // counts answered queries
     double askedAt = std::numeric_limits<double>::quiet_NaN(); // [s] of the step that asked; NaN: none
-    double reach = 0.0;                                        // [m] certified
+    double reach = 0.0;                                        // [m] the set is complete within
     dvec3 origin{0.0};                                         // [m] base frame: origin of all positions here
     dvec3 camera{0.0}; // [m] camera centre of that fixture set, about the origin
 
@@ -46,12 +46,10 @@ struct ContactSet {
     struct Behind {
         uint32_t leaf;
         dvec3 towardsCamera; // unit, base axes
-        double clearance;    // [m] left in that direction until the leaf is clear in front of the surface
+        double distance;     // [m] left in that direction until the leaf is clear in front of the surface
     };
     std::vector<Behind> behind; // by leaf
 
-    // Reserves every vector once, so that the haptic thread copies without allocating.
-    void reserve(size_t leaves, size_t spheres, size_t pairs);
     // Clears spheres, pairs and flags; keeps the memory and all other fields.
     void clear() noexcept;
     size_t size() const { return x.size(); }

@@ -50,9 +50,8 @@ public:
         return {smoothRows_.data(), smallestGap_ < 0.0 ? 0 : smoothCount_};
     }
     static constexpr size_t kMaxSmooth = 16;
-    double smallestGap() const {
-        return smallestGap_;
-    } // [m] among pairs up to rowLimit; rowLimit when there is none
+    // [m] among pairs up to rowLimit; rowLimit when there is none
+    double smallestGap() const { return smallestGap_; }
 
     // A pair that a motion would make too deep: below min(0, its gap at the start) anywhere on the straight
     // path of its leaf.

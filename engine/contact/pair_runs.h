@@ -22,11 +22,11 @@ struct PairRun {
     dvec3 centre{0.0};              // [m] of the leaf when these gaps were computed
     double nearest = 0.0;           // [m] smallest gap
     size_t near = 0, nearCount = 0; // where in PairRuns copies of its nearest pairs are
-    double nearUpTo =
-        -std::numeric_limits<double>::infinity(); // [m] they include every member up to this gap
-    dvec3 normal{0.0};                            // of the only row that the leaf then had
-    double room =
-        -1.0; // [m] by which the members were inside of that row's cone; < 0: there were several rows
+    // [m] they include every member up to this gap
+    double nearUpTo = -std::numeric_limits<double>::infinity();
+    dvec3 normal{0.0}; // of the only row that the leaf then had
+    // [m] by which the members were inside of that row's cone; < 0: there were several rows
+    double room = -1.0;
     double widest = 0.0; // [m] no sphere of the run has a larger radius; unknown while room < 0
 };
 

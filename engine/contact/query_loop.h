@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Repeats a query, on the CPU or the GPU, with a smaller reach until its result fits. So every contact set is
-// complete within its certified reach.
+// complete within the reach that it states.
 #pragma once
 
 #include "engine/contact/contact_set.h"
@@ -33,9 +33,9 @@ public:
         : capacity_(capacity) {}
 
     // list(reach, capacity, out) fills `out` with every pair within the reach, and returns false when there
-    // are more than the capacity. Then the reach is halved until they fit, and that reach is certified
-    // (out.reach). When even the touching spheres do not fit, the capacity is raised at once, so no sphere is
-    // ever dropped. ContactSet::behind stays empty.
+    // are more than the capacity. Then the reach is halved until they fit, and out.reach states it. When even
+    // the touching spheres do not fit, the capacity is raised at once, so no sphere is ever dropped.
+    // ContactSet::behind stays empty.
     template <class List>
     void run(double reach, List&& list, ContactSet& out) {
         bool overflowed = false;
@@ -67,8 +67,8 @@ public:
 
 private:
     static constexpr size_t kMaxPairs = size_t{1} << 20; // 38 MB per set; a tick took 0.26 s with 1.6 million
-    static constexpr double kSmallestReach =
-        2e-5; // [m] below this the trust region is only margin, so halving gains nothing
+    // [m] below this the trust region is only margin, so halving gains nothing
+    static constexpr double kSmallestReach = 2e-5;
 
     void finish(bool overflowed, ContactSet& out) {
         statistics_.overflows += overflowed ? 1 : 0;

@@ -9,7 +9,7 @@ namespace fathom {
 
 namespace {
 
-constexpr double kNothingToTouch = 1000.0; // [m] certified reach without regions: the tool may go anywhere
+constexpr double kNothingToTouch = 1000.0; // [m] reach without regions: the tool may go anywhere
 
 } // namespace
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The contact cadence: from a fixture set and a tool pose to a certified contact set, on the CPU or GPU as
+// The contact cadence: from a fixture set and a tool pose to a complete contact set, on the CPU or GPU as
 // planned.
 #pragma once
 

@@ -52,30 +52,17 @@ HapticCycle::HapticCycle(const Tool& tool, std::span<const Shape> shapes, const 
 StepRecord HapticCycle::step(const StepInput& input) noexcept {
     StepRecord out;
     out.t = time_ = input.time;
-    Situation now;
-    const Pose& hand = input.deviceThandle;
-    now.sampleFinite = (input.unconfirmed ? isFinite(hand) : isUsable(hand)) && std::isfinite(input.time);
-    now.off = lossesHoldForces(input) || input.forcesOff || (input.buttons & kDeadManOpen) != 0;
     const ContactSet* set = chooseSet(input, out);
-    now.setReady = set != nullptr || !options_.needsContacts;
-    out.frame = set != nullptr ? set->frame : now.setReady ? input.frame : -1;
-    out.sceneAge = out.frame >= 0 ? sceneAge(input, set) : kNotKnown;
-    now.stale = isOld(out.sceneAge);
-    now.armStill = realArm_.connected &&
-                   (!realArm_.follows || !now.sampleFinite || now.off || !now.setReady || now.stale);
-    const bool button = (input.buttons & options_.clutchBit) != 0;
-    now.clutch = button || now.armStill || !input.present;
-    now.recentre = button && !now.armStill && input.present && now.setReady && now.off && stage_.off();
-    takeSample(input, now);
+    const Situation situation = situationOf(input, set, out);
+    takeSample(input, situation);
     guidance_.step(input.guidance, device_, (input.buttons & kGuidanceButton) != 0,
-                   now.off || !now.setReady || now.armStill, options_.period,
+                   situation.off || !situation.setReady || situation.armStill, options_.period,
                    options_.paperGuidance ? guidance_.pullReach(watch_.springs())
                                           : guidance_.leadReach(watch_.springs()));
 
-    now.movesTool = now.setReady && now.sampleFinite && !now.armStill;
-    const bool newData = now.movesTool && regionsChanged(set);
+    const bool newData = situation.movesTool && regionsChanged(set);
     const Pose before = tool_, endBefore = springEnd_;
-    ProxyStep moved = stepTool(input, set, now, newData, out);
+    ProxyStep moved = stepTool(input, set, situation, newData, out);
     const std::optional<dvec3> gone =
         newData ? vanishedAlong(moved, before.position, endBefore.position) : std::nullopt;
     if (gone) {
@@ -83,15 +70,34 @@ StepRecord HapticCycle::step(const StepInput& input) noexcept {
     }
     takeUpLag(moved, out);
     allowed_ = moved.allowed;
-    makeWrench(input, now, moved, newData, gone.has_value(), out);
+    makeWrench(input, situation, moved, newData, gone.has_value(), out);
 
-    report(now, moved, set != nullptr, out);
+    report(situation, moved, set != nullptr, out);
     recordTouches(set, moved, out);
-    holdArm(now, moved.trapped, out);
+    holdArm(situation, moved.trapped, out);
     fillMargins(input, out);
     watch_.step(input.measuredPeriod); // active from the next step on
     ahead_.moved(place(), input.measuredPeriod);
     return out;
+}
+
+HapticCycle::Situation HapticCycle::situationOf(const StepInput& input, const ContactSet* set,
+                                                StepRecord& out) noexcept {
+    Situation s;
+    const Pose& hand = input.deviceThandle;
+    s.sampleFinite = (input.unconfirmed ? isFinite(hand) : isUsable(hand)) && std::isfinite(input.time);
+    s.off = lossesHoldForces(input) || input.forcesOff || (input.buttons & kDeadManOpen) != 0;
+    s.setReady = set != nullptr || !options_.needsContacts;
+    out.frame = set != nullptr ? set->frame : s.setReady ? input.frame : -1;
+    out.sceneAge = out.frame >= 0 ? sceneAge(input, set) : kNotKnown;
+    s.stale = isOld(out.sceneAge);
+    s.armStill =
+        realArm_.connected && (!realArm_.follows || !s.sampleFinite || s.off || !s.setReady || s.stale);
+    const bool button = (input.buttons & options_.clutchBit) != 0;
+    s.clutch = button || s.armStill || !input.present;
+    s.recentre = button && !s.armStill && input.present && s.setReady && s.off && stage_.off();
+    s.movesTool = s.setReady && s.sampleFinite && !s.armStill;
+    return s;
 }
 
 // Counts a device that comes and goes. True while forces must stay off because of it.
@@ -106,33 +112,33 @@ bool HapticCycle::lossesHoldForces(const StepInput& input) noexcept {
     return losses_.many || !input.present;
 }
 
-void HapticCycle::takeSample(const StepInput& input, const Situation& now) noexcept {
-    if (!now.sampleFinite || (input.unconfirmed && input.present)) {
+void HapticCycle::takeSample(const StepInput& input, const Situation& situation) noexcept {
+    if (!situation.sampleFinite || (input.unconfirmed && input.present)) {
         return;
     }
     handle_ = {input.deviceThandle.position, glm::normalize(input.deviceThandle.rotation)};
     if (input.reindex) {
         map_.align(handle_, device_);
     }
-    device_ = map_.map(handle_, now.clutch);
-    if (now.recentre) {
+    device_ = map_.map(handle_, situation.clutch);
+    if (situation.recentre) {
         recentre();
     }
 }
 
-ProxyStep HapticCycle::stepTool(const StepInput& input, const ContactSet* set, const Situation& now,
+ProxyStep HapticCycle::stepTool(const StepInput& input, const ContactSet* set, const Situation& situation,
                                 bool newData, StepRecord& out) noexcept {
     ProxyStep moved;
     moved.minGap = kNotKnown;
     springEnd_ = device_;
     jointLimits_ = 0;
     out.arm.posture = place().arm;
-    if (now.movesTool) {
+    if (situation.movesTool) {
         moved = moveTool(input, set, newData, out);
     } else {
         moved.allowed = allowed_; // held: the last reaction fades out
     }
-    realArm_.wasStill = now.armStill;
+    realArm_.wasStill = situation.armStill;
     freeDirection(moved);
     return moved;
 }
@@ -145,13 +151,13 @@ bool HapticCycle::regionsChanged(const ContactSet* set) noexcept {
     return changed;
 }
 
-void HapticCycle::report(const Situation& now, const ProxyStep& moved, bool hasSet,
+void HapticCycle::report(const Situation& situation, const ProxyStep& moved, bool hasSet,
                          StepRecord& out) const noexcept {
     out.device = device_;
     out.tool = tool_;
     out.contacts = static_cast<uint32_t>(moved.active.size()) + (moved.blocked ? 1 : 0);
     out.minGap = hasSet ? moved.minGap : kNotKnown;
-    out.state = stateOf(now, moved, out.lag > kLagLength);
+    out.state = stateOf(situation, moved, out.lag > kLagLength);
     out.guidance = guidance_.weight();
     out.guidanceClass = guidance_.chosen();
     out.guidanceTarget = guidance_.target();
@@ -167,10 +173,9 @@ Wrench HapticCycle::guidancePull() const noexcept {
                                   : couple(watch_.springs(), springEnd_, device_);
 }
 
-void HapticCycle::makeWrench(const StepInput& input, const Situation& now, const ProxyStep& moved,
+void HapticCycle::makeWrench(const StepInput& input, const Situation& situation, const ProxyStep& moved,
                              bool newData, bool vanished, StepRecord& out) noexcept {
     WrenchInput tick;
-    tick.tool = tool_;
     tick.allowed = moved.allowed;
     tick.end = springEnd_;
     tick.device = device_;
@@ -184,11 +189,11 @@ void HapticCycle::makeWrench(const StepInput& input, const Situation& now, const
     tick.lags = arm_ && out.lag > kLagLength; // a free tool follows within some ticks
     tick.escape = moved.escape;
     tick.vanished = vanished;
-    tick.forcesOn = now.setReady && !now.off && !now.clutch;
-    tick.off = now.off;
+    tick.forcesOn = situation.setReady && !situation.off && !situation.clutch;
+    tick.off = situation.off;
     tick.trapped = moved.trapped;
-    tick.stale = now.stale;
-    tick.sampleFinite = now.sampleFinite;
+    tick.stale = situation.stale;
+    tick.sampleFinite = situation.sampleFinite;
     tick.rendered = input.present;
     tick.elapsed = input.measuredPeriod > 0.0 ? input.measuredPeriod : options_.period;
     const WrenchStage::Output made = stage_.step(tick);
@@ -197,23 +202,23 @@ void HapticCycle::makeWrench(const StepInput& input, const Situation& now, const
     out.residual = made.residual;
     out.finite = made.finite;
     out.cause = made.cause;
-    if (now.sampleFinite) { // else nothing was seen to press
+    if (situation.sampleFinite) { // else nothing was seen to press
         pressing_.rows = !moved.active.empty() && stage_.reaction() > kPressedForce;
-        pressing_.out = moved.allowed.position - springEnd_.position;
+        pressing_.spring = moved.allowed.position - springEnd_.position;
     }
 }
 
-StepState HapticCycle::stateOf(const Situation& now, const ProxyStep& moved, bool lags) const noexcept {
-    if (!now.setReady) {
+StepState HapticCycle::stateOf(const Situation& situation, const ProxyStep& moved, bool lags) const noexcept {
+    if (!situation.setReady) {
         return StepState::Off;
     }
-    if (now.off || now.armStill) {
+    if (situation.off || situation.armStill) {
         return stage_.off() ? StepState::Off : StepState::Fading;
     }
     if (moved.trapped) {
         return StepState::Trapped;
     }
-    if (now.stale) {
+    if (situation.stale) {
         return StepState::Fading;
     }
     if (moved.escape) {
@@ -231,10 +236,10 @@ StepState HapticCycle::stateOf(const Situation& now, const ProxyStep& moved, boo
 
 // An arm stands still while anything is wrong, and then until tool and hand meet again or are re-indexed.
 // When a real arm follows, the tool never left it.
-void HapticCycle::holdArm(const Situation& now, bool trapped, StepRecord& out) noexcept {
-    const bool wrong =
-        !now.sampleFinite || !now.setReady || now.off || now.stale || trapped || !out.finite || now.armStill;
-    const bool met = now.clutch || realArm_.connected ||
+void HapticCycle::holdArm(const Situation& situation, bool trapped, StepRecord& out) noexcept {
+    const bool wrong = !situation.sampleFinite || !situation.setReady || situation.off || situation.stale ||
+                       trapped || !out.finite || situation.armStill;
+    const bool met = situation.clutch || realArm_.connected ||
                      glm::distance(out.tool.position, out.device.position) <= kResumeWithin;
     realArm_.commandsHold = wrong || (realArm_.commandsHold && !met);
     out.armHold = realArm_.commandsHold;

@@ -73,14 +73,15 @@ public:
         return ahead_.ask(place(), time_, arm_ ? armSetup_->model.count() : 0);
     }
     bool onArm() const { return arm_.has_value(); }
-    const Springs& springs() const {
-        return watch_.springs();
-    } // active springs: those of the options, or softer ones while ticks are slow
+    // active springs: those of the options, or softer ones while ticks are slow
+    const Springs& springs() const { return watch_.springs(); }
     const PassivityController& passivity() const { return stage_.passivity(); }
     const HapticOptions& options() const { return options_; }
     uint64_t notFinite() const { return stage_.notFinite(); } // steps with a number that is not finite
 
     static constexpr double kRampTime = ForceRamps::kRampTime;
+
+private:
     static constexpr double kLagLength = 1e-4; // [m] a smaller lag counts as none
     static constexpr double kLagTime = 0.05;   // [s] of lag before the hand map takes it up
     static constexpr double kTakeUpTime = 0.2; // [s] time constant of that
@@ -88,7 +89,6 @@ public:
     static constexpr double kVanishedGap = 0.002;
     static constexpr double kResumeWithin = 0.005; // [m] tool to hand, before an arm moves again
 
-private:
     struct Situation {            // what the rules depend on
         bool sampleFinite = true; // the hand's sample is finite
         bool off = false;         // forces off, dead-man open or device lost
@@ -101,12 +101,13 @@ private:
     };
 
     const ContactSet* chooseSet(const StepInput& input, StepRecord& out) noexcept;
+    Situation situationOf(const StepInput& input, const ContactSet* set, StepRecord& out) noexcept;
     double sceneAge(const StepInput& input, const ContactSet* set) noexcept;
-    bool covers(const ContactSet& set) noexcept;
+    bool accepts(const ContactSet& set) noexcept;
     ProxyStep moveTool(const StepInput& input, const ContactSet* set, bool newData, StepRecord& out) noexcept;
     void freeDirection(ProxyStep& moved) noexcept;
-    ProxyStep stepTool(const StepInput& input, const ContactSet* set, const Situation& now, bool newData,
-                       StepRecord& out) noexcept;
+    ProxyStep stepTool(const StepInput& input, const ContactSet* set, const Situation& situation,
+                       bool newData, StepRecord& out) noexcept;
     ProxyStep moveArm(const StepInput& input, const ProxyInput& wanted, StepRecord& out) noexcept;
     std::span<const Shape> shapes() const noexcept { return arm_ ? arm_->shapes() : proxy_->shapes(); }
     double leafRadius(uint32_t leaf) const noexcept {
@@ -114,20 +115,21 @@ private:
     }
     bool lossesHoldForces(const StepInput& input) noexcept;
     void recentre() noexcept;
-    void takeSample(const StepInput& input, const Situation& now) noexcept;
+    void takeSample(const StepInput& input, const Situation& situation) noexcept;
     bool regionsChanged(const ContactSet* set) noexcept;
     std::optional<dvec3> vanishedAlong(const ProxyStep& moved, const dvec3& before,
                                        const dvec3& endBefore) const noexcept;
     void keepHandAtTool(const Pose& before, const dvec3& along, ProxyStep& moved) noexcept;
     void takeUpLag(ProxyStep& moved, StepRecord& out) noexcept;
     void shiftHand(const dvec3& by, const dquat& turn) noexcept;
-    void makeWrench(const StepInput& input, const Situation& now, const ProxyStep& moved, bool newData,
+    void makeWrench(const StepInput& input, const Situation& situation, const ProxyStep& moved, bool newData,
                     bool vanished, StepRecord& out) noexcept;
     Wrench guidancePull() const noexcept;
     void recordTouches(const ContactSet* set, const ProxyStep& moved, StepRecord& out) const noexcept;
-    void report(const Situation& now, const ProxyStep& moved, bool hasSet, StepRecord& out) const noexcept;
-    StepState stateOf(const Situation& now, const ProxyStep& moved, bool lags) const noexcept;
-    void holdArm(const Situation& now, bool trapped, StepRecord& out) noexcept;
+    void report(const Situation& situation, const ProxyStep& moved, bool hasSet,
+                StepRecord& out) const noexcept;
+    StepState stateOf(const Situation& situation, const ProxyStep& moved, bool lags) const noexcept;
+    void holdArm(const Situation& situation, bool trapped, StepRecord& out) noexcept;
     void fillMargins(const StepInput& input, StepRecord& out) const noexcept;
 
     HapticOptions options_;
@@ -154,7 +156,7 @@ private:
     } scene_;
     struct Pressing {      // of the last step
         bool rows = false; // with a force that can be felt
-        dvec3 out{0.0};    // [m] from the hand's end of the spring to where the rows held the tool
+        dvec3 spring{0.0}; // [m] from the hand's end of the spring to where the rows held the tool
     } pressing_;
     struct HandShift {
         double lagTime = 0.0;  // [s] for which the tool has been lagging

@@ -47,7 +47,7 @@ void HapticCycle::recentre() noexcept {
 // they pressed.
 std::optional<dvec3> HapticCycle::vanishedAlong(const ProxyStep& moved, const dvec3& before,
                                                 const dvec3& endBefore) const noexcept {
-    const bool left = glm::dot(before - springEnd_.position, pressing_.out) < 0.0;
+    const bool left = glm::dot(before - springEnd_.position, pressing_.spring) < 0.0;
     if (!pressing_.rows || left || jointLimits_ != 0 || moved.trapped) {
         return std::nullopt;
     }
@@ -56,12 +56,12 @@ std::optional<dvec3> HapticCycle::vanishedAlong(const ProxyStep& moved, const dv
     const double reach =
         kVanishedGap + (arm_ && moved.cut ? glm::distance(tool_.position, springEnd_.position) : 0.0);
     if (!rows && !(moved.minGap <= reach)) { // NaN: no set
-        return pressing_.out;
+        return pressing_.spring;
     }
     // Other regions press or are near.
     const dvec3 held = rows ? moved.allowed.position - springEnd_.position : dvec3(0.0);
-    if (!arm_ && lostItsHold(pressing_.out, held, glm::distance(springEnd_.position, endBefore))) {
-        return pressing_.out - held;
+    if (!arm_ && lostItsHold(pressing_.spring, held, glm::distance(springEnd_.position, endBefore))) {
+        return pressing_.spring - held;
     }
     const bool turned = !arm_ && turnVanished(allowed_, moved, springEnd_, watch_.springs().metricRadius);
     return turned ? std::optional(dvec3(0.0)) : std::nullopt;

@@ -7,20 +7,20 @@
 
 namespace fathom {
 
-bool HapticCycle::covers(const ContactSet& set) noexcept {
-    return arm_ ? arm_->covers(set) : proxy_->covers(set);
+bool HapticCycle::accepts(const ContactSet& set) noexcept {
+    return arm_ ? arm_->accepts(set) : proxy_->accepts(set);
 }
 
 const ContactSet* HapticCycle::chooseSet(const StepInput& input, StepRecord& out) noexcept {
     const ContactSet* offered = input.offered;
-    if (offered != nullptr && offered->frame >= 0 && covers(*offered)) {
+    if (offered != nullptr && offered->frame >= 0 && accepts(*offered)) {
         out.adopted = true;
         realArm_.placed = false;
         ahead_.answered(offered->askedAt, input.time);
         return offered;
     }
     const bool usable = input.contacts != nullptr && input.contacts->frame >= 0;
-    return usable && (!realArm_.placed || covers(*input.contacts)) ? input.contacts : nullptr;
+    return usable && (!realArm_.placed || accepts(*input.contacts)) ? input.contacts : nullptr;
 }
 
 bool HapticCycle::follow(const ArmFollow& status) noexcept {

@@ -25,8 +25,8 @@ struct HapticOptions {
     double forceLimit = 20.0, torqueLimit = 2.0;  // [N], [N m] at the tool; includes the hand's torque limit
     double slewForce = 2000.0, slewTorque = 50.0; // [N/s], [N m/s]
     double lowPassGain = 1.0;                     // limits.h; 1 = off
-    bool needsContacts = true; // the scene has regions of points: hold the tool until the first contact set
-    double armTime = 0.2;      // [s] time for forces to return after forces off or an open dead-man
+    bool needsContacts = true;  // the scene has regions of points: hold the tool until the first contact set
+    double softStartTime = 0.2; // [s] time for forces to return after forces off or an open dead-man
     // Damps the energy that moving fixtures feed into the hand (engine/haptics/passivity.h); changes no force
     // when there is none.
     bool passivityController = true;

@@ -18,7 +18,7 @@
 
 namespace fathom {
 
-// What the tool does.
+// What tool and forces do.
 enum class StepState : uint8_t {
     Off,     // no contact set yet, or forces off and ramped out: the wrench is zero
     Free,    // no region or shape pushes; a joint's limit may
@@ -48,16 +48,16 @@ struct StepInput {
     bool reindex = false;
 
     // The active set (that the previous step obeyed; null = none), and a newer one on offer. Both must
-    // outlive the step. When StepRecord::adopted is true, the newer one is active from now on. A set that
-    // does not cover the tool is not adopted: keep offering it or a newer one.
+    // outlive the step. When StepRecord::adopted is true, the newer one is active from now on. A set
+    // whose trust region the tool has left is not adopted: keep offering it or a newer one.
     const ContactSet* contacts = nullptr;
     const ContactSet* offered = nullptr;
 
     // The newest fixture set of the frame cadence.
     int64_t frame = -1;
     uint64_t generation = 0;
-    double captureTime =
-        0.0; // [s] of the newest frame that confirms the set; later than the set's own while nothing changes
+    // [s] of the newest frame that confirms the set; later than the set's own while nothing changes
+    double captureTime = 0.0;
     std::span<const GuidancePose> guidance;
     bool sourceEnded = false; // lockstep: the last frame stays valid and does not age
 
@@ -152,7 +152,7 @@ struct StepRecord {
     // thread; infinity without such regions.
     double clearance = kNotKnown;
     double lag = 0.0;      // [m] tool to the pose that the rows alone allow
-    dvec3 indexShift{0.0}; // [m] total by which lags moved the hand map
+    dvec3 indexShift{0.0}; // [m] net displacement of the hand map by lags and vanished regions
     uint32_t vanished = 0; // times that regions disappeared while they pressed
 };
 

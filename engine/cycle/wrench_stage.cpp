@@ -48,14 +48,14 @@ void WrenchStage::shift(const dvec3& by, const dquat& turn) noexcept {
 }
 
 void WrenchStage::stepRamps(const WrenchInput& input) noexcept {
-    arming_ = (arming_ || input.off) && (ramps_.active() || input.off);
+    softStart_ = (softStart_ || input.off) && (ramps_.active() || input.off);
     const auto fractionOf = [](const dvec3& v, double limit) {
         return limit > 0.0 ? glm::length(v) / limit : 0.0;
     };
     const double rendered = std::max(fractionOf(previous_.force, options_.forceLimit),
                                      fractionOf(previous_.torque, options_.torqueLimit));
     ramps_.step({input.forcesOn, !input.trapped, !input.stale}, options_.period, input.elapsed, rendered,
-                arming_ ? options_.armTime : ForceRamps::kRampTime);
+                softStart_ ? options_.softStartTime : ForceRamps::kRampTime);
 }
 
 // Acts along the reaction only: a hand that moves freely along a region is not braked. It brakes the hand

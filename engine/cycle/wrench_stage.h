@@ -22,7 +22,6 @@ inline constexpr uint32_t kSlew = 32;    // the slew limit still holds back a ch
 
 // Input of one tick. Base frame.
 struct WrenchInput {
-    Pose tool;    // after the tick
     Pose allowed; // ProxyStep::allowed
     Pose end;     // that the solver aims at: device pose moved by the guidance lead
     Pose device;  // that the hand commands
@@ -36,7 +35,7 @@ struct WrenchInput {
     bool escape = false;   // new data covers the tool, which is on its way out
     bool vanished = false; // as ReactionInput
     bool forcesOn = false; // running, not switched off, no clutch
-    bool off = false;      // forces off or dead-man open: the next rise takes HapticOptions::armTime
+    bool off = false;      // forces off or dead-man open: the next rise takes HapticOptions::softStartTime
     bool trapped = false;
     bool stale = false;
     bool sampleFinite = true; // false: the hand's sample is not finite, and there is no force in this tick
@@ -92,10 +91,10 @@ private:
     Reaction reaction_;
     PassivityController passivity_;
     ForceRamps ramps_;
-    Wrench smooth_;      // low-pass
-    Wrench previous_;    // rendered, for the slew limit
-    Pose deviceBefore_;  // at the end of the previous tick, for the damping
-    bool arming_ = true; // forces return after they were off: within HapticOptions::armTime
+    Wrench smooth_;         // low-pass
+    Wrench previous_;       // rendered, for the slew limit
+    Pose deviceBefore_;     // at the end of the previous tick, for the damping
+    bool softStart_ = true; // forces return after they were off: within HapticOptions::softStartTime
     uint64_t notFinite_ = 0;
 };
 

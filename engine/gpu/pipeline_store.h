@@ -16,8 +16,8 @@ namespace fathom::gpu {
 // whereas storage buffers are read lane by lane.
 struct BindingKind {
     VkDescriptorType type = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-    VkFormat texels =
-        VK_FORMAT_UNDEFINED; // for texel buffers; a format that every device supports in buffers
+    // for texel buffers; a format that every device supports in buffers
+    VkFormat texels = VK_FORMAT_UNDEFINED;
     bool operator==(const BindingKind&) const = default;
 };
 inline constexpr BindingKind kStorage{},         // a storage buffer

@@ -226,14 +226,14 @@ StepOutcome ArmKinematics::outcomeOf(const Answer&, double fraction, const LeafS
     // Arcs and raised offsets must not move the tip away from a hand at rest.
     const double before = lengthOf(remaining(pose(), target_), metricRadius_);
     const double after = lengthOf(remaining(nextPose(), target_), metricRadius_);
-    if (!out.escape && after >= before && before > proxy::kNothing) {
+    if (!out.escape && after >= before && before > proxy::kNegligible) {
         if (nudged_) {
             release_.rejected();
         }
         return StepOutcome::None;
     }
     escapeLeft_ *= 1.0 - fraction;
-    return leaves.travel() > proxy::kNothing ? StepOutcome::More : StepOutcome::Last;
+    return leaves.travel() > proxy::kNegligible ? StepOutcome::More : StepOutcome::Last;
 }
 
 // Joint arcs move the tip off a line by more than its linear rows predict, so the rows request the opposite

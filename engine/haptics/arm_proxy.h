@@ -34,14 +34,14 @@ public:
 
     // Sets the posture without a collision check, clamped to the joint limits. Joints whose value is not
     // finite keep their position. keep_in shapes hold the leaves that are inside there, and those that
-    // they held and that are out by at most kLag, as a real arm overshoots. The active set may no longer
-    // cover the posture: check with covers().
+    // they held and that are out by at most kOvershoot, as a real arm overshoots. The active set may no
+    // longer be usable there: ask accepts().
     void setPosture(const ArmPosture& posture) noexcept {
         kinematics_.setPosture(posture);
-        chooseHeld(kLag);
+        chooseHeld(kOvershoot);
     }
 
-    static constexpr double kLag = 0.02; // [m]
+    static constexpr double kOvershoot = 0.02; // [m]
 
     const JointVector& joints() const { return posture().q; }
     const ArmPosture& posture() const { return kinematics_.posture(); }

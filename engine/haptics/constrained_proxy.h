@@ -29,14 +29,14 @@ template <ProxyKinematics Kinematics>
 class ConstrainedProxy {
 public:
     // True when this set may become the active one for the present leaf positions.
-    bool covers(const ContactSet& contacts) noexcept {
+    bool accepts(const ContactSet& contacts) noexcept {
         contacts_.leaves.origin = contacts.origin;
         kinematics_.place(contacts_.leaves);
-        return TrustRegion::covers(contacts, contacts_.leaves.now);
+        return TrustRegion::allows(contacts, contacts_.leaves.now);
     }
     // Replaces the shapes from the next tick on, at most kMaxShapes. A shape that now overlaps a leaf pushes
-    // it out gradually, like new data; a keep_in shape holds only those leaves of an
-    // arm that are inside now, or that it held before.
+    // it out gradually, like new data; a keep_in shape holds only those leaves of an arm that are inside now,
+    // or that it held before.
     void setShapes(std::span<const Shape> shapes) noexcept {
         contacts_.setShapes(shapes);
         chooseHeld(std::numeric_limits<double>::infinity());

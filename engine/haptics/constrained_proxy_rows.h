@@ -86,7 +86,7 @@ void ConstrainedProxy<Kinematics>::addShapeRows(Step& out) noexcept {
         }
         for (; next < nearShapes_.pairs().size() && nearShapes_.pairs()[next].shape == s; ++next) {
             NearShapes::Pair& pair = nearShapes_.pairs()[next];
-            out.escape = out.escape || pair.gap < -proxy::kNothing;
+            out.escape = out.escape || pair.gap < -proxy::kNegligible;
             pair.row = pair.row && addShapeRows(s, pair.leaf);
             everyShapeRow_ = everyShapeRow_ && pair.row;
         }

@@ -169,13 +169,13 @@ double ConstraintSolver::violationOf(size_t row, const ScaledVector& y) const no
 
 // Adds one violated row and drops rows whose multiplier would become negative. False: no point satisfies it
 // together with the active rows.
-bool ConstraintSolver::enforce(size_t row, double violation, const ScaledVector& s, ScaledVector& y,
-                               int& changes) noexcept {
+bool ConstraintSolver::enforce(size_t row, double violation, const ScaledVector& s,
+                               ScaledVector& y) noexcept {
     ScaledVector g;
     rows_.unitRow(row, g.data());
     const double bound = rows_.bound(row);
     for (;;) {
-        ++changes;
+        ++changes_;
         const auto split = active_.split(g);
         const DualStep dual = longestDualStep(active_, split.r);
         const bool independent = active_.count < n_ && split.length > kDependent;
@@ -245,7 +245,7 @@ SolveStatus ConstraintSolver::solve(std::span<const double> target, std::span<do
             status = SolveStatus::IterationLimit;
             break;
         }
-        if (!(violation < kInfinity) || !enforce(row, violation, s, y, changes_)) {
+        if (!(violation < kInfinity) || !enforce(row, violation, s, y)) {
             status = SolveStatus::Infeasible;
             break;
         }

@@ -25,7 +25,7 @@ enum class SolveStatus {
 // rotation vector [rad] about the tool's centre.
 class ConstraintSolver {
 public:
-    // unknowns: 1..8. addRow() rejects rows beyond maxRows.
+    // unknowns: 1..kMaxUnknowns. addRow() rejects rows beyond maxRows.
     ConstraintSolver(int unknowns, size_t maxRows);
 
     // n x n, row-major, symmetric positive definite: throws Error otherwise.
@@ -60,7 +60,7 @@ private:
     void findWarmRows() noexcept;
     size_t pickRow(const ScaledVector& y, double tolerance, double& amount) noexcept;
     double violationOf(size_t row, const ScaledVector& y) const noexcept;
-    bool enforce(size_t row, double violation, const ScaledVector& s, ScaledVector& y, int& changes) noexcept;
+    bool enforce(size_t row, double violation, const ScaledVector& s, ScaledVector& y) noexcept;
     void unscale(const ScaledVector& y, std::span<double> x) const noexcept;
     void finish(SolveStatus status, ScaledVector& y, std::span<double> x) noexcept;
 

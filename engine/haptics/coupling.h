@@ -81,8 +81,8 @@ Springs makeSprings(const DevicePreset& preset, const CouplingOptions& options);
 // Margins [N s/m] of the translation at the hand; > 0 = stable. Empty when b is unknown.
 struct StabilityMargins {
     std::optional<double> passive; // b - (K T (1 + 2n)/2 + |B|): > 0: stable with any passive hand
-    std::optional<double>
-        uncoupled; // b + B - K (T/2 + n T): > 0: stable without a hand (1-3 % optimistic at B = 4 b)
+    // b + B - K (T/2 + n T): > 0: stable without a hand (1-3 % optimistic at B = 4 b)
+    std::optional<double> uncoupled;
 };
 StabilityMargins stabilityMargins(const DevicePreset& preset, const Springs& springs,
                                   const CouplingOptions& options);

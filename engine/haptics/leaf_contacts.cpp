@@ -24,7 +24,7 @@ LeafContacts::LeafContacts(const Tool& tool, std::span<const Shape> shapes, doub
     , narrow_(tool, proxy::kMaxPairRows, reduction.cone, reduction.smooth)
     , trust_(tool.leafCount())
     , exempt_(tool.leafCount(), dvec3(0.0))
-    , clearance_(tool.leafCount(), 0.0)
+    , distance_(tool.leafCount(), 0.0)
     , violations_(kMaxViolations) {
     rowLimit_ = std::max(reduction.reach * stepCap, checkLimit_);
     for (const Sphere& leaf : tool.leaves()) {
@@ -67,10 +67,10 @@ void LeafContacts::flagBehind() noexcept {
     flagged_ = !set_->behind.empty();
     for (const ContactSet::Behind& flag : set_->behind) {
         const dvec3 since = leaves.now[flag.leaf] - set_->leafAtQuery[flag.leaf];
-        const double left = flag.clearance - glm::dot(since, flag.towardsCamera);
+        const double left = flag.distance - glm::dot(since, flag.towardsCamera);
         if (left > 0.0 && !held_.leftOut(flag.leaf)) {
             exempt_[flag.leaf] = flag.towardsCamera;
-            clearance_[flag.leaf] = left;
+            distance_[flag.leaf] = left;
         }
     }
 }
@@ -106,7 +106,7 @@ std::span<const ContactRow> LeafContacts::behindRows(const dvec3& centre) noexce
         row.normal = exempt_[leaf];
         row.arm = leaves.now[leaf] - (centre - set_->origin);
         row.leaf = leaf;
-        row.gap = -clearance_[leaf];
+        row.gap = -distance_[leaf];
         row.key = rowKey(row.kind, 0, leaf, 0);
         behind_.push_back(row);
     }

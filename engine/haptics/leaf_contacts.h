@@ -45,7 +45,7 @@ public:
     bool holdsBehind(const ContactRow& row) const noexcept;
     // The rows that bring leaves back in front, with offset 0. Valid until the next call.
     std::span<const ContactRow> behindRows(const dvec3& centre) noexcept;
-    bool overlaps() const noexcept { return set_ != nullptr && narrow_.smallestGap() < -proxy::kNothing; }
+    bool overlaps() const noexcept { return set_ != nullptr && narrow_.smallestGap() < -proxy::kNegligible; }
 
     // Exact check of every listed pair on the straight path to `next`. Returns the number of leaves with a
     // violation; violations() has at most as many as there is room for.
@@ -84,9 +84,9 @@ private:
     NarrowPhase narrow_;
     TrustRegion trust_;
     const ContactSet* set_ = nullptr;
-    std::vector<dvec3> exempt_;     // per leaf: direction to the camera while it is behind, else zero
-    bool flagged_ = false;          // some leaf may have one
-    std::vector<double> clearance_; // [m] per leaf: distance left in that direction
+    std::vector<dvec3> exempt_;    // per leaf: direction to the camera while it is behind, else zero
+    bool flagged_ = false;         // some leaf may have one
+    std::vector<double> distance_; // [m] per leaf: distance left in that direction
     std::vector<ContactRow> behind_;
     std::vector<NarrowPhase::Violation> violations_;
     size_t violationCount_ = 0;

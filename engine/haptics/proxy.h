@@ -16,9 +16,9 @@ public:
     ProxyStep step(const ProxyInput& input) noexcept;
 
     const Pose& pose() const noexcept { return kinematics_.pose(); }
-    // Moves the tool without any check (start of a run, arm re-indexed). Ignores a pose that is not finite.
+    // Moves the tool without any check: pressed regions vanished. Ignores a pose that is not finite.
     void setPose(const Pose& pose) noexcept { kinematics_.setPose(pose); }
-    // The target was moved to `target`, not by the hand: the tool may not travel as far at once.
+    // The hand map moved the target to `target`: the next step does not count that as motion of the hand.
     void setTarget(const Pose& target) noexcept { kinematics_.setTarget(target); }
 };
 

@@ -41,7 +41,7 @@ namespace proxy {
 inline constexpr double kSkin = 1e-9; // [m]
 // Rows with a larger offset request motion (an escape). Well above the skin.
 inline constexpr double kEscapeThreshold = 4e-9; // [m]
-inline constexpr double kNothing = 1e-9;         // [m], [rad] a shorter step is not worth another solve
+inline constexpr double kNegligible = 1e-9; // [m], [rad] shorter steps and shallower overlaps are ignored
 inline constexpr size_t kMaxPairRows = 512;
 inline constexpr size_t kMaxRows = 1280;  // the rest: shapes, joints, behind, and rows for violated pairs
 inline constexpr size_t kSpareRows = 256; // that shapes leave to rows of violated pairs and shapes
@@ -60,9 +60,8 @@ public:
     ContactRow& operator[](size_t row) noexcept { return rows_[row].contact; }
     ContactRow* ofPair(uint32_t pair) noexcept;                     // null = the pair has no row
     bool escaping() const noexcept { return largestEscape_ > 0.0; } // some row requests motion
-    double largestEscape() const noexcept {
-        return largestEscape_;
-    } // [m] largest request of a row when added
+    // [m] largest request of a row when added
+    double largestEscape() const noexcept { return largestEscape_; }
 
     // n x n, as ConstraintSolver::setMetric(); must be positive definite.
     void setMetric(std::span<const double> metric) { solver_.setMetric(metric); }

@@ -13,8 +13,8 @@ namespace fathom {
 // Motion options of a proxy, fixed at construction.
 struct ProxyOptions {
     static constexpr double kEscapePerTick = 0.001; // [m] depth reduced where new data overlaps a leaf
-    // [m/s] how much faster than the target a tool without an active row may approach it, but for
-    // ProxyInput::surfaceMoved. A tool that lags (late contact answers) so never lunges at the hand.
+    // [m/s] A tool without an active row approaches its target at most this much faster than the target
+    // moves, so a tool that lags never jumps at the hand. Exception: ProxyInput::surfaceMoved.
     static constexpr double kCatchUp = 0.2;
 
     double stepCap = 0.002; // [m] largest travel of a leaf centre in one solve
@@ -37,7 +37,7 @@ struct ProxyInput {
     Pose target;               // base_T_tool (arm: base_T_tip) requested by hand and guidance
     double metricRadius = 0.1; // [m] k = sqrt(K_r / K_t); 0 (arm only): the tip's direction is free
     // The active set, which must outlive the tick; null = the scene has no regions from points. Adopt a new
-    // set only when covers() accepts it; otherwise the tool could pass spheres that neither set lists.
+    // set only when accepts() returns true; otherwise the tool could pass spheres that neither set lists.
     const ContactSet* contacts = nullptr;
     Deadline deadline;
     // The regions that press on a free tool were replaced: it may follow a surface that went back as far as
@@ -56,14 +56,14 @@ struct ProxyStep {
     bool blocked = false;     // only the exact check keeps the tool from the target: counts as a row
     bool rowsExpired = false; // `allowed` is farther away than the tangents of the active rows are accurate
     std::span<const ActiveContact> active; // valid until the next tick
-    double minGap = 0.0;  // [m] smallest gap in the contact set, or its certified reach if none is smaller;
-                          // NaN without a set
-    bool contact = false; // some row of a region or shape pushes; limits of joints do not count
-    bool escape = false;  // new data overlaps a leaf (some listed pair or shape)
-    bool trapped = false; // no motion satisfies every row: held this tick, tried again at the next
-    bool stalled = false; // stopped by the trust region until the next contact set
-    uint32_t solves = 0;  // linearisations
-    uint32_t rounds = 0;  // solver calls with tightened rows
+    double minGap = 0.0;     // [m] smallest gap in the contact set, or its reach if none is smaller;
+                             // NaN without a set
+    bool contact = false;    // some row of a region or shape pushes; limits of joints do not count
+    bool escape = false;     // new data overlaps a leaf (some listed pair or shape)
+    bool trapped = false;    // no motion satisfies every row: held this tick, tried again at the next
+    bool stalled = false;    // stopped by the trust region until the next contact set
+    uint32_t solves = 0;     // linearisations
+    uint32_t rounds = 0;     // solver calls with tightened rows
     uint32_t infeasible = 0; // solver calls that found no motion
     uint32_t bisected = 0;   // steps that the exact check shortened
 };

@@ -52,9 +52,9 @@ bool Reaction::pushed() const noexcept {
 
 double Reaction::rate(double appeared) noexcept {
     if (pushed()) {
-        riseRate_ = std::clamp(appeared / (interval_ - sinceData_), riseRate_, kAppear);
+        riseRate_ = std::clamp(appeared / (interval_ - sinceData_), riseRate_, kMaxRiseRate);
     }
-    return sinceData_ < kFrameSlack * interval_ ? riseRate_ : kAppear;
+    return sinceData_ < kFrameSlack * interval_ ? riseRate_ : kMaxRiseRate;
 }
 
 void Reaction::beginFade(const Wrench& wanted, const ReactionInput& input) noexcept {
@@ -97,8 +97,8 @@ Wrench Reaction::limitRise(const Wrench& wrench, const Travel& travel, const Rea
             ? (glm::dot(travel.moved, wrench.force) + glm::dot(travel.turned, wrench.torque)) / wanted
             : 0.0;
     const double compressed = out > 0.0 ? 0.0 : input.springs.stiffness * travel.length;
-    const double calm = std::clamp(1.0 - out / (kLeaves * elapsed_), 0.0, 1.0);
-    const double rises = std::min(rate(wanted - compressed - size_) * elapsed_, kAppear * input.period);
+    const double calm = std::clamp(1.0 - out / (kLeavingSpeed * elapsed_), 0.0, 1.0);
+    const double rises = std::min(rate(wanted - compressed - size_) * elapsed_, kMaxRiseRate * input.period);
     const double most = size_ + (input.mayRise ? compressed + calm * rises : 0.0);
     appears_ = wanted > size_ + compressed * (1.0 + 1e-9) + kRoundingForce;
     size_ = std::min(wanted, most);

@@ -26,7 +26,7 @@ struct ReactionInput {
 // One thread; noexcept, no allocation. In a region at rest the reaction grows by no more than the spring that
 // the hand's own motion compresses, because the tool only ever moves nearer to the hand. Any faster
 // growth has another cause: a row appeared, new data moved a surface, a lag ended. It then rises by at most
-// kAppear, and after new data evenly over the time between frames, so that no frame is felt as a click.
+// kMaxRiseRate, and after new data evenly over the time between frames, so that no frame is felt as a click.
 // Falls that the hand causes are immediate. After new data the direction, too, turns evenly over the time
 // between frames.
 //
@@ -36,7 +36,7 @@ struct ReactionInput {
 //
 // A tool that lags, such as an arm, follows a surface that new data moved only after some ticks, and has lost
 // its rows meanwhile. So a fall that new data causes while it lags fades out. If the reaction returns before,
-// in its former direction, it rises from the force on the wire.
+// in its former direction, it rises from the force that the device renders.
 //
 // Times are measured ones, so that late ticks delay nothing; a rise counts ticks.
 class Reaction {
@@ -55,8 +55,8 @@ public:
     // [s] between the last two changes of the regions, at most kLongestFrame.
     double frameInterval() const noexcept { return interval_; }
 
-    static constexpr double kAppear = 100.0;       // [N/s]
-    static constexpr double kLeaves = 0.25;        // [m/s] a hand that leaves this fast needs no further rise
+    static constexpr double kMaxRiseRate = 100.0;  // [N/s]
+    static constexpr double kLeavingSpeed = 0.25;  // [m/s] a hand that leaves this fast needs no further rise
     static constexpr double kLongestFrame = 0.033; // [s]
 
 private:
@@ -87,7 +87,7 @@ private:
     double turnLeft_ = 0.0;     // [s] for which a share of it is still taken back
     double elapsed_ = 0.001;    // [s] since the last tick
     double sinceData_ = kLongestFrame, interval_ = kLongestFrame; // [s] since the newest data; between data
-    double riseRate_ = kAppear;                                   // [N/s] until the next frame is due
+    double riseRate_ = kMaxRiseRate;                              // [N/s] until the next frame is due
     bool started_ = false, appears_ = false;
 };
 

@@ -16,7 +16,8 @@ public:
 
     // One tick: measured period [s], 0 = none (lockstep: nothing changes). The period is averaged over
     // kAverage; K_t and K_r ramp down to their bounds (the whole of K_t in kDown) and back up (in kUp), never
-    // in a step. A late tick counts as at most kLateAlone, unless one of some 40 ticks before was late, too.
+    // in a step. A late tick counts as at most kLateAlone, unless a recent one was late, too: the
+    // longest of the ticks before counts, shrinking to kForget of itself per tick.
     void step(double measuredPeriod) noexcept;
 
     const Springs& springs() const noexcept { return springs_; } // active; k = sqrt(K_r / K_t) follows

@@ -9,12 +9,12 @@ namespace fathom {
 
 namespace {
 
-using proxy::kNothing;
+using proxy::kNegligible;
 
 constexpr double kSettling = 1e-8; // [m] travel too small to be felt: 1e-5 N at 1000 N/m
 
 bool isNothing(const Motion& m) {
-    return glm::length(m.a) <= kNothing && glm::length(m.alpha) <= kNothing;
+    return glm::length(m.a) <= kNegligible && glm::length(m.alpha) <= kNegligible;
 }
 
 std::array<double, 6> unknownsOf(const Motion& m) {

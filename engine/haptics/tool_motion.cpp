@@ -142,7 +142,7 @@ double TrustRegion::share(const ContactSet& contacts, const LeafCentres& from,
     return least;
 }
 
-bool TrustRegion::covers(const ContactSet& contacts, const LeafCentres& leaves) noexcept {
+bool TrustRegion::allows(const ContactSet& contacts, const LeafCentres& leaves) noexcept {
     const double limit = contacts.reach - kMargin + 1e-12;
     return contacts.leafAtQuery.size() == leaves.size() && leavesWithin(contacts.leafAtQuery, leaves, limit);
 }

@@ -63,7 +63,7 @@ private:
     double farthest_ = 0.0; // [m] largest distance of a centre from the tool's
 };
 
-// Trust region: no leaf may end farther from its position at the query than the certified reach less kMargin,
+// Trust region: no leaf may end farther from its position at the query than the reach less kMargin,
 // or than it already is. Within it no unlisted pair can touch.
 class TrustRegion {
 public:
@@ -81,8 +81,8 @@ public:
     // Largest share of the straight paths from -> next that stays inside, 0..1.
     double share(const ContactSet& contacts, const LeafCentres& from, const LeafCentres& next) const noexcept;
 
-    // True when the set is usable with the leaves there: no leaf outside its certified reach.
-    static bool covers(const ContactSet& contacts, const LeafCentres& leaves) noexcept;
+    // True when the set is usable with the leaves there: no leaf outside its reach.
+    static bool allows(const ContactSet& contacts, const LeafCentres& leaves) noexcept;
 
 private:
     double boundOf(size_t leaf) const noexcept { return beyond_ ? bound_[leaf] : limit_; }

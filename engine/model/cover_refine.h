@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// The last step of a sphere cover: more spheres where it protrudes most.
 #pragma once
 
 #include "engine/model/cover_fit.h"

@@ -23,8 +23,8 @@ ClearColour withoutWater(uint32_t rgba, const dvec3& attenuation, double range);
 
 struct ClassImage {
     std::vector<uint32_t> masks;
-    std::vector<uint8_t>
-        unsure; // 1: a coordinate, depth or image position is within 1e-6 m (1e-3 pixels) of its threshold
+    // 1: a coordinate, depth or image position is within 1e-6 m (1e-3 pixels) of its threshold
+    std::vector<uint8_t> unsure;
 };
 
 // cells: result of the occlusion pass; nullptr when colour is registered to depth or missing. Colour gates

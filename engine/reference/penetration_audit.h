@@ -43,9 +43,8 @@ public:
     double maxPenetration() const { return maxPenetration_; } // [m] largest depth beyond the allowance
     double maxEscapeDepth() const { return maxEscapeDepth_; } // [m] largest depth inside the allowance
     double maxBehindDepth() const { return maxBehindDepth_; } // [m] largest depth of a leaf flagged behind
-    uint64_t escapeTicks() const {
-        return escapeTicks_;
-    } // ticks that ended with some depth inside the allowance
+    // ticks that ended with some depth inside the allowance
+    uint64_t escapeTicks() const { return escapeTicks_; }
     uint64_t behindTicks() const { return behindTicks_; } // ticks in which a leaf flagged behind touched
     uint64_t penetrationTicks() const {
         return penetrationTicks_;
@@ -78,8 +77,8 @@ private:
     Worst judge(Leaf& leaf, const dvec3& centre);
 
     std::vector<Leaf> leaves_;
-    std::vector<dvec3> start_,
-        end_; // scratch, per leaf: relative to the set's origin, before and after the tick
+    // scratch, per leaf: relative to the set's origin, before and after the tick
+    std::vector<dvec3> start_, end_;
     std::vector<double> allowed_;   // scratch, per sphere: allowance for the current leaf [m], else 0
     std::vector<Candidate> before_; // scratch
     std::vector<uint8_t> behind_;   // per leaf: flagged in this tick

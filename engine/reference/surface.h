@@ -9,8 +9,8 @@ namespace fathom::reference {
 
 struct SurfaceImage {
     PointImage points;
-    std::vector<uint8_t>
-        unsure; // 1: a distance or depth is within 1e-6 (relative or metres) of its threshold
+    // 1: a distance or depth is within 1e-6 (relative or metres) of its threshold
+    std::vector<uint8_t> unsure;
 };
 
 // Computes the points of the pixels with a class (masks != 0). Flying: nearer than all neighbours on one side

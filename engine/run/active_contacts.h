@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Chooses the contact set that the haptic cycle obeys: the active set, until the cycle adopts a newer one.
+// Keeps the active contact set, and the newer one that the haptic cycle may adopt.
 #pragma once
 
 #include "engine/cycle/haptic_cycle.h"
@@ -9,7 +9,7 @@
 namespace fathom {
 
 // Handle: owns or points to a ContactSet, empty by default, movable, noexcept: a lease, a unique_ptr, a
-// pointer. A set on offer that does not cover the tool is not adopted; it stays on offer until a newer one
+// pointer. A set on offer that the cycle does not adopt stays on offer until a newer one
 // replaces it. Haptic thread only.
 template <class Handle>
 class ActiveContacts {

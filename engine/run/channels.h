@@ -55,8 +55,8 @@ struct PublishedFrame {
     Fixtures fixtures;
     RegionGrid grid; // over fixtures.spheres
     std::vector<uint32_t> colour;
-    uint64_t edit = 0;  // with a window: number of the newest edit of fixtures that the set contains
-    bool still = false; // the pilot has frozen all fixtures: no set is made
+    uint64_t edit = 0;      // with a window: number of the newest edit of fixtures that the set contains
+    bool allFrozen = false; // the pilot has frozen all fixtures: no set is made
 };
 
 // One thread at each end, named by its cadence. Sized once; only QueryNote::behind may grow, on the contact

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// ContactAnswers of a run: asks the device's cycles.
 #pragma once
 
 #include "engine/cycle/device_cycles.h"

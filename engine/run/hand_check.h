@@ -24,8 +24,8 @@ public:
             return;
         }
         if (!isFinite(input.deviceThandle)) {
-            blind_ = true;
-            doubt(input, unconfirmed_);
+            sawInvalid_ = true;
+            mark(input, unconfirmed_);
             return;
         }
         const Pose& pose = input.deviceThandle;
@@ -37,7 +37,7 @@ public:
         const bool plausible = near && (!started_ || reaches(accepted_, pose, sinceAccepted(input.time)));
         input.reindex = !plausible && near && agrees && input.time - since_ >= kConfirmTime - kSlack;
         unconfirmedSince_ = unconfirmed_ ? unconfirmedSince_ : input.time;
-        doubt(input, !plausible && !input.reindex);
+        mark(input, !plausible && !input.reindex);
         if (!unconfirmed_) {
             accept(pose, input.time);
         }
@@ -49,7 +49,7 @@ public:
     static constexpr double kFarthest = 1000.0;   // [m] from the device's origin; re-indexing keeps 1e-13 m
 
 private:
-    void doubt(StepInput& input, bool unconfirmed) noexcept {
+    void mark(StepInput& input, bool unconfirmed) noexcept {
         input.unconfirmed = unconfirmed_ = unconfirmed;
         input.present = !unconfirmed || input.time - unconfirmedSince_ < kConfirmTime + kSlack;
     }
@@ -57,13 +57,13 @@ private:
         accepted_ = pose;
         acceptedAt_ = time;
         started_ = true;
-        blind_ = false;
+        sawInvalid_ = false;
     }
     // [s] in which the hand may have moved from where it was accepted. Without sight of it no more than a
     // jump would take to be confirmed.
     double sinceAccepted(double time) const noexcept {
         const double since = time - acceptedAt_;
-        return blind_ && since > kConfirmTime ? kConfirmTime : since;
+        return sawInvalid_ && since > kConfirmTime ? kConfirmTime : since;
     }
 
     static constexpr double kSlack = 1e-4;     // [s] of timing
@@ -78,7 +78,7 @@ private:
     Pose accepted_, last_;
     double acceptedAt_ = 0.0, lastAt_ = 0.0, since_ = 0.0, unconfirmedSince_ = 0.0; // [s]
     bool started_ = false, unconfirmed_ = false;
-    bool blind_ = false; // a sample since the accepted one was not finite
+    bool sawInvalid_ = false; // a sample since the accepted one was not finite
 };
 
 } // namespace fathom

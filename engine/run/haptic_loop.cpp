@@ -33,10 +33,10 @@ void HapticLoop::run(const std::atomic<bool>& ending, const std::atomic<bool>& u
         if (ended(woken)) {
             break;
         }
-        const double over = step(due);
+        const double finished = step(due);
         // At most one step per period, however late this one was.
         const auto ran = static_cast<uint64_t>(std::max(0.0, woken / period_));
-        const auto now = static_cast<uint64_t>(std::max(0.0, over / period_));
+        const auto now = static_cast<uint64_t>(std::max(0.0, finished / period_));
         const uint64_t next = std::max(std::max(ran, slot) + 1, now);
         missedNow_ = static_cast<uint32_t>(next - slot - 1);
         missed_ += missedNow_;
@@ -53,12 +53,12 @@ double HapticLoop::step(double due) noexcept {
     const double end = (std::floor(began / period_) + 1.0) * period_; // of the period that began is in
     const StepRecord& record = stepper_.step(sample, began, end);
     hand_.write(record.deviceWrench, stepper_.sinceLast() > 0.0 ? stepper_.sinceLast() : period_);
-    const double over = clock_.now();
-    stepper_.log({began - due, over > due + period_, missedNow_});
+    const double finished = clock_.now();
+    stepper_.log({began - due, finished > due + period_, missedNow_});
     if (trace_ != nullptr) {
         trace_->step(stepper_.began(), stepper_.ended(), began - due);
     }
-    return over;
+    return finished;
 }
 
 } // namespace fathom

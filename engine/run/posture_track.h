@@ -20,8 +20,8 @@ class PostureTrack {
 public:
     using Time = std::chrono::steady_clock::time_point;
     static constexpr size_t kKept = 256;
-    static constexpr std::chrono::milliseconds kApart{
-        2}; // postures at shorter intervals are skipped, so that 0.5 s are kept
+    // postures at shorter intervals are skipped, so that 0.5 s are kept
+    static constexpr std::chrono::milliseconds kApart{2};
 
     // Writer, in order of time.
     void add(Time time, const ArmPosture& posture) noexcept;

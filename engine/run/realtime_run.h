@@ -26,8 +26,8 @@ struct RealtimeOptions {
     bool warnWhenStale = true; // logs when forces begin and end to fade because the scene is old
     CadenceTrace* trace = nullptr;
     ArmLink* arm = nullptr; // a real arm that follows; must outlive the run
-    std::function<void(double t, uint64_t frames)>
-        progress; // called on the writer thread, every few milliseconds
+    // called on the writer thread, every few milliseconds
+    std::function<void(double t, uint64_t frames)> progress;
 };
 
 class RealtimeRun {
@@ -39,9 +39,9 @@ public:
     bool firstFrame() { return frames_.first(); }
 
     // Runs until frames and path have ended, `stop` is set or something fails. `stop` takes the force away at
-    // once, also while the sink or `progress` is blocked. After the run the hand has zero force,
-    // all threads have ended and the sink has every record. failure() is the exception of a thread. An
-    // exception of the sink is passed on after the same shutdown.
+    // once, also while the sink or `progress` is blocked. After the run the hand has zero force, all threads
+    // have ended and the sink has every record. failure() is the exception of a thread. An exception of the
+    // sink is passed on after the same shutdown.
     void run(HapticCycle& cycle, HapticDevice& hand, double pathDuration, RunSink& sink,
              const std::atomic<bool>& stop);
 

@@ -16,8 +16,8 @@ struct SceneUpdate {
     int64_t frame = -1;
     uint64_t generation = 0;
     double captureTime = 0.0; // of the newest frame that confirms the set
-    bool sourceEnded =
-        false;         // no frame of a recording will follow: the last one stays valid and does not age
+    // No frame of a recording will follow: the last one stays valid and does not age.
+    bool sourceEnded = false;
     bool live = false; // frames arrive by themselves: only the hand's path ends the run
     bool gone = false; // the camera or the compute device is lost, maybe for a while: the last frame ages
     uint32_t guidanceCount = 0;

@@ -46,8 +46,8 @@ struct PlannedLayout {
     bool rays = false;    // ray table: distorted lens, or a fan
     bool colour = false;  // some class uses colour, so it is uploaded
     bool inPlace = false; // images in whole pages are read in place, not copied
-    bool pack =
-        false; // with byPixel: the device packs spheres for the host, because its memory is across a bus
+    // with byPixel: the device packs spheres for the host, because its memory is across a bus
+    bool pack = false;
     bool memoryTexels = false; // the memory of points is read as texels: faster on a CPU device; on a GPU a
                                // fetch may follow the write to the same place
     bool keepDepth = false;    // classify leaves the depth on the device for the passes after it

@@ -40,8 +40,8 @@ struct FixtureClass {
     std::optional<Band> lightness;  // 0..1
     std::optional<Box> box;
     std::optional<Band> range; // [m] from the camera to the point
-    double radius =
-        0.04; // [m] radius of the sphere at each forbidden point; 3 sigma of the registration are added
+    // [m] radius of the sphere at each forbidden point; 3 sigma of the registration are added
+    double radius = 0.04;
     // Guidance.
     double standoff = 0.0;                 // [m] target = position + standoff x normal
     dquat orientation{1.0, 0.0, 0.0, 0.0}; // base_q_tool when the points are not planar
@@ -90,8 +90,8 @@ struct SceneArm {
         std::optional<double> start;        // [rad], [m]; else 0, or the nearest limit
     };
     std::vector<Joint> joints;
-    bool freeDirection =
-        false; // the hand's orientation is ignored: too few joints, or a device without orientation
+    // the hand's orientation is ignored: too few joints, or a device without orientation
+    bool freeDirection = false;
     std::optional<double> selfFilter; // [m] padding of the links' spheres; empty = no self-filter
     // A gripper joint.
     struct Finger {
@@ -118,8 +118,8 @@ struct SceneArm {
             double open = 0.0, closed = 0.0;
         };
         std::optional<Jaws> jaws; // empty = the gripper is not driven
-        std::optional<double>
-            current; // sustained motor current above which the arm is held [A]; for an ECA the raw byte
+        // sustained motor current above which the arm is held [A]; for an ECA the raw byte
+        std::optional<double> current;
     };
     std::optional<Driver> driver;
 };

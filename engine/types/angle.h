@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Constants of angles.
 #pragma once
 
 #include <numbers>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Text from files, made safe to print.
 #pragma once
 
 #include <cstddef>

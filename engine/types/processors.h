@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Processors that this process may use.
 #pragma once
 
 #include <cstdint>

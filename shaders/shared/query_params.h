@@ -11,7 +11,7 @@ FATHOM_CONST kBlockSlots = 256, // slots per block
 // FoundSphere::slot is 4 x slot + layer.
 FATHOM_CONST kLayerSeen = 0, // spheres of this frame
     kLayerHeld = 1,          // held spheres
-    kLayerStill = 2;         // spheres of classes that are held still
+    kLayerFrozen = 2;         // spheres of frozen classes
 
 // Push constants. q = rows * (s - t) transforms a sphere's centre into the frame of the leaves.
 struct QueryParams {
@@ -19,7 +19,7 @@ struct QueryParams {
     vec4 tool;     // bounds all leaves, in their frame
     uvec4 blocks;  // number of blocks; index of the first bound; number of leaves; leaves per slice
     uvec4 used;    // spheres and leaves found before this query; most of each in this one
-    uint layer;    // of the first layer: kLayerSeen or kLayerStill
+    uint layer;    // of the first layer: kLayerSeen or kLayerFrozen
     uint layers;   // 2 = `held` is a second layer
     uint leafWord; // index of the first leaf in the answer [words]
     float reach;   // [m] outwardReach()

@@ -131,10 +131,10 @@ TEST_CASE(
     none.ticks(0.0, 3.0, "off", -1);
     says(none.only(), "state 'off' from 0.00 s on for 1 s: no frame has become a set of regions");
 
-    WatchedRun uncovered;
-    uncovered.frames(0.1, 20, 5, kColoured);
-    uncovered.ticks(0.0, 1.5, "off", -1);
-    says(uncovered.only(), "no contact answer covers the tool");
+    WatchedRun unplaced;
+    unplaced.frames(0.1, 20, 5, kColoured);
+    unplaced.ticks(0.0, 1.5, "off", -1);
+    says(unplaced.only(), "no contact answer was made near the tool");
 
     WatchedRun switched;
     switched.frames(0.1, 20, 5, kColoured);

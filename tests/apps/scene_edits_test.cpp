@@ -48,7 +48,7 @@ struct Pilot {
         frame.t = images / 30.0;
         frame.report.index = images++;
         frame.edit = edit;
-        frame.still = still;
+        frame.allFrozen = still;
         Fixtures set;
         set.depth.resize(48, 500);
         recorder.frame(frame, set);
@@ -118,14 +118,14 @@ TEST_CASE("A recording has each change of fixtures from the first frame that use
     const Names all{"red", "yellow", "", "", "wall"}, fewer{"", "yellow", "", "", "wall"};
     for (uint32_t image : {0u, 1u, 2u}) {
         CHECK(namesOf(edits.at(image).scene) == all);
-        CHECK_FALSE(edits.at(image).still);
+        CHECK_FALSE(edits.at(image).allFrozen);
     }
     for (uint32_t image : {3u, 4u, 5u, 900u}) {
         const SceneEdit& edit = edits.at(image);
         CHECK(namesOf(edit.scene) == fewer);
         CHECK(edit.scene.fixtures[1].radius == 0.05);
         CHECK(edit.scene.fixtures[1].frozen);
-        CHECK(edit.still == (image == 4));
+        CHECK(edit.allFrozen == (image == 4));
     }
     CHECK(cloud::classRows(edits.at(0).scene) == cloud::classRows(edits.at(3).scene));
 }

@@ -42,7 +42,7 @@ TEST_CASE("A leaf that new data puts behind its surface is flagged, with the dir
     REQUIRE(flags.size() == 1);
     CHECK(flags[0].leaf == 0);
     CHECK(glm::distance(flags[0].towardsCamera, dvec3(0, 0, -1)) < 1e-9);
-    CHECK(flags[0].clearance == doctest::Approx(0.03 + 0.05).epsilon(1e-6));
+    CHECK(flags[0].distance == doctest::Approx(0.03 + 0.05).epsilon(1e-6));
 }
 
 TEST_CASE("The flag stays while the leaf is under or near the surface and is cleared once the leaf is clear "
@@ -66,7 +66,7 @@ TEST_CASE("A flagged leaf that overlaps a sphere before its surface keeps the fl
     REQUIRE(watch.withPairs(near, dvec3(0, 0, 0.5)).size() == 1);
     const auto& flags = watch.withPairs(near, dvec3(0, 0, 0.4199));
     REQUIRE(flags.size() == 1);
-    CHECK(flags[0].clearance == doctest::Approx(0.05 - 0.0301).epsilon(1e-6));
+    CHECK(flags[0].distance == doctest::Approx(0.05 - 0.0301).epsilon(1e-6));
     CHECK(watch.withPairs(near, dvec3(0, 0, 0.3999)).empty());
 }
 
@@ -76,7 +76,7 @@ TEST_CASE("The way out of a surface that comes nearer grows by as much") {
     REQUIRE(watch(wallImage(0.47, 2), dvec3(0, 0, 0.5)).size() == 1);
     const auto& flags = watch(wallImage(0.45, 3), dvec3(0, 0, 0.5));
     REQUIRE(flags.size() == 1);
-    CHECK(flags[0].clearance == doctest::Approx(0.05 + 0.05).epsilon(1e-6));
+    CHECK(flags[0].distance == doctest::Approx(0.05 + 0.05).epsilon(1e-6));
 }
 
 TEST_CASE("The pixel nearest to a leaf decides whether it is behind, not the one before it") {

@@ -199,7 +199,7 @@ TEST_CASE(
     record = rig.step();
     CHECK(glm::distance(record.device.position, held.device.position) <= 1e-12);
     CHECK(glm::distance(record.tool.position, held.tool.position) <= 1e-6);
-    CHECK(forceOf(record) <= 20.0 * 0.001 / rig.options.armTime + 1e-9);
+    CHECK(forceOf(record) <= 20.0 * 0.001 / rig.options.softStartTime + 1e-9);
     CHECK(forceOf(rig.ticks(100)) == doctest::Approx(forceOf(held)).epsilon(0.01));
 }
 

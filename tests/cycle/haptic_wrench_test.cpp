@@ -213,7 +213,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("A set that does not cover the tool is rejected and the active one is kept") {
+TEST_CASE("A set whose trust region the tool has left is rejected and the active one is kept") {
     HapticRig rig(handScene(), at(0, 0, 0.05));
     rig.show(wallSet(1));
     rig.sceneAges = false;

@@ -49,7 +49,7 @@ TEST_CASE("With forces on the clutch keeps the pose that the hand commands") {
 TEST_CASE("Forces that return to a hand pressed deep into a region rise evenly, at most as the time says") {
     auto rig = pressedRig();
     rig.options.forceLimit = 40.0;
-    rig.options.armTime = 2.0;
+    rig.options.softStartTime = 2.0;
     rig.restart();
     rig.hand = at(0, 0, 0.02);
     rig.ticks(50);

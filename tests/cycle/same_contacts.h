@@ -36,7 +36,7 @@ inline void checkSameContacts(const ContactSet& a, const ContactSet& b) {
     for (size_t i = 0; i < a.behind.size(); ++i) {
         CHECK(a.behind[i].leaf == b.behind[i].leaf);
         CHECK(a.behind[i].towardsCamera == b.behind[i].towardsCamera);
-        CHECK(a.behind[i].clearance == b.behind[i].clearance);
+        CHECK(a.behind[i].distance == b.behind[i].distance);
     }
 }
 

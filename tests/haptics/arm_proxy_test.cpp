@@ -103,7 +103,7 @@ TEST_CASE("No leaf of any link enters any of hundreds of spheres under a wild ha
             if (i % 3 == 0) {
                 world.query(arm, proxy); // answers also come late
             }
-            REQUIRE(proxy.covers(world.set));
+            REQUIRE(proxy.accepts(world.set));
             const ArmStep tick = proxy.step(target, 0.05, &world.set);
             deepest = std::max(deepest, world.depth(arm, proxy.frames()));
             worst = std::max(worst, worstLimit(arm, tick.q));
@@ -197,7 +197,7 @@ TEST_CASE("A target that is not finite holds the arm, and a start outside the li
     CHECK(tick.q == proxy.joints());
     CHECK(proxy.joints() == JointVector{0.5, -0.5, 0.0, 0.1});
     ContactSet other; // of another tool
-    CHECK_FALSE(proxy.covers(other));
+    CHECK_FALSE(proxy.accepts(other));
 }
 
 TEST_CASE("The smallest singular value and the damping match the textbook formulas") {

@@ -43,7 +43,7 @@ TEST_CASE("A set counts while every leaf is within its reach less the margin, an
     LeafCentres leaves(1);
     for (const auto& [margins, counts] : {std::pair(1.5, true), {0.5, false}, {-0.5, false}}) {
         leaves.set(0, {ball.set.reach - margins * TrustRegion::kMargin, 0, 0});
-        CHECK(TrustRegion::covers(ball.set, leaves) == counts);
+        CHECK(TrustRegion::allows(ball.set, leaves) == counts);
     }
 }
 

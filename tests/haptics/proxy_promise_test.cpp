@@ -127,7 +127,7 @@ private:
 struct Figures {
     double worst = -1e9, longest = 0.0, path = 0.0;
     uint64_t contact = 0, stalled = 0, trapped = 0, escape = 0, solves = 0, rounds = 0, bisected = 0,
-             uncovered = 0;
+             unaccepted = 0;
 };
 
 Figures run(ProxyRig& rig, Hand& hand, int ticks, uint32_t slowest, double loss, uint64_t seed) {
@@ -151,7 +151,7 @@ Figures run(ProxyRig& rig, Hand& hand, int ticks, uint32_t slowest, double loss,
         f.stalled += tick.stalled ? 1 : 0;
         f.trapped += tick.trapped ? 1 : 0;
         f.escape += tick.escape ? 1 : 0;
-        f.uncovered += rig.proxy().covers(rig.inForce()) ? 0 : 1;
+        f.unaccepted += rig.proxy().accepts(rig.inForce()) ? 0 : 1;
         f.solves += tick.solves;
         f.rounds += tick.rounds;
         f.bisected += tick.bisected;
@@ -182,7 +182,7 @@ TEST_CASE("No leaf enters a region, however violent the hand and however late th
                 CHECK(f.longest <= 4 * 0.002 + 1e-9);
                 CHECK(f.trapped == 0);
                 CHECK(f.escape == 0);
-                CHECK(f.uncovered == 0);
+                CHECK(f.unaccepted == 0);
                 CHECK(f.path > 0.05);
                 CHECK(f.contact > 5);
                 if (slowest == 100 && speed >= 0.5) {

@@ -41,7 +41,7 @@ public:
             answer(*pending_.back().set);
         }
         while (!pending_.empty() && pending_.front().due <= now_) {
-            if (proxy_.covers(*pending_.front().set)) {
+            if (proxy_.accepts(*pending_.front().set)) {
                 std::swap(inForce_, *pending_.front().set);
             } else {
                 ++refused;

@@ -89,7 +89,7 @@ TEST_CASE(
             before = force;
         }
         CHECK(steepest <= 2.0 * 1000.0 * speed);
-        CHECK(steepest >= 0.8 * std::min(1000.0 * speed, Reaction::kAppear));
+        CHECK(steepest >= 0.8 * std::min(1000.0 * speed, Reaction::kMaxRiseRate));
     }
 }
 

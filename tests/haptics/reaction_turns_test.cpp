@@ -23,7 +23,7 @@ TEST_CASE("New data on the other side of the hand begins a new reaction, from ze
     tick.newData = false;
     for (int i = 0; i < 20; ++i) {
         const Wrench next = reaction.step(tick);
-        CHECK(glm::distance(next.force, wrench.force) <= 2.0 * Reaction::kAppear * tick.period);
+        CHECK(glm::distance(next.force, wrench.force) <= 2.0 * Reaction::kMaxRiseRate * tick.period);
         wrench = next;
     }
     CHECK(wrench.force.z < 0.0);

@@ -38,7 +38,7 @@ TEST_CASE("A hand of up to 5 m/s and 50 rad/s is believed in every sample") {
     }
 }
 
-TEST_CASE("One wrong sample is doubted, and the next good one is believed at once") {
+TEST_CASE("One implausible sample is unconfirmed, and the next plausible one is accepted at once") {
     for (const double wrong : {0.02, 1.0, 1e9, 1e200}) {
         Samples samples;
         for (int i = 0; i < 10; ++i) {
@@ -53,16 +53,16 @@ TEST_CASE("One wrong sample is doubted, and the next good one is believed at onc
 
 TEST_CASE(
     "A lasting offset is re-indexed after five samples, once, and samples that contradict each other stay "
-    "doubted") {
+    "unconfirmed") {
     Samples samples;
     samples.next(0.0);
-    int doubted = 0;
+    int unconfirmed = 0;
     StepInput input = samples.next(1.0);
-    while (input.unconfirmed && doubted < 100) {
-        ++doubted;
+    while (input.unconfirmed && unconfirmed < 100) {
+        ++unconfirmed;
         input = samples.next(1.0);
     }
-    CHECK(doubted == 4);
+    CHECK(unconfirmed == 4);
     CHECK(input.reindex);
     input = samples.next(1.001);
     CHECK_FALSE(input.unconfirmed);
@@ -131,7 +131,7 @@ TEST_CASE("A hand that is where it was before samples that are not finite is bel
     CHECK_FALSE(input.reindex);
 }
 
-TEST_CASE("A first sample far from where the hand started is doubted, and then re-indexed") {
+TEST_CASE("A first sample far from where the hand started is unconfirmed, and then re-indexed") {
     Samples samples;
     samples.check.begin({}, 0.0);
     StepInput input = samples.next(0.3);

@@ -40,9 +40,10 @@ struct EngineOptions {
     bool measuredArm = false;
 };
 
-/// Owns a compute device, a frame thread, a contact thread and one for clearances, and hands out ports. Each
-/// port belongs to one thread. Installs no signal handler, locks no memory, changes no environment and does
-/// not fork; the constructor starts the program fathom-reader for scenes with URDFs or meshes.
+/// Owns a compute device, a frame thread, a contact thread, a clearance thread, and up to 11 publishing
+/// workers (`fathom plan`: publishers). Hands out ports; each port belongs to one thread. Installs no signal
+/// handler, locks no memory, changes no environment and does not fork; the constructor starts the program
+/// fathom-reader for scenes with URDFs or meshes.
 class FATHOM_API Engine {
 public:
     /// Opens the compute device and compiles the passes, if the scene has classes of points; takes up to

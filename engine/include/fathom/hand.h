@@ -35,7 +35,7 @@ struct Hand {
     Button buttons = Button::None; ///< those that are down
 };
 
-/// What the forces do.
+/// What tool and forces do.
 enum class State {
     Off,     ///< no fixtures yet, or forces are off (Button::DeadManOpen): the wrench is zero
     Free,    ///< no fixture pushes; a joint's limit of an arm may
