@@ -2,6 +2,7 @@
 #include "devices/bag/ros_messages.h"
 
 #include "devices/recorded/lens_model.h"
+#include "devices/recorded/rotation_fault.h"
 
 #include <array>
 #include <cmath>
@@ -175,14 +176,8 @@ void skipHeader(MessageCursor& cursor) {
 }
 
 Pose rigidPose(const std::array<double, 9>& r, const dvec3& translation) {
-    constexpr double kMaxOff = 1e-2; // of an entry of R R^T from the identity's
     const glm::dmat3 rotation(r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8]);
-    const glm::dmat3 product = rotation * glm::transpose(rotation);
-    bool rigid = glm::determinant(rotation) > 0.0 && std::isfinite(glm::dot(translation, translation));
-    for (int i = 0; i < 9; ++i) {
-        rigid = rigid && std::abs(product[i / 3][i % 3] - (i % 4 == 0 ? 1.0 : 0.0)) < kMaxOff;
-    }
-    if (!rigid) {
+    if (!rotationFault(rotation).empty() || !std::isfinite(glm::dot(translation, translation))) {
         throw Error("an invalid transform");
     }
     return {translation, glm::normalize(glm::quat_cast(rotation))};

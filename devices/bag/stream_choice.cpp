@@ -3,6 +3,7 @@
 
 #include "devices/recorded/lens_model.h"
 #include "devices/recorded/range_images.h"
+#include "devices/recorded/recording_extrinsics.h"
 #include "devices/recorded/recording_intrinsics.h"
 #include "engine/types/error.h"
 

@@ -2,7 +2,7 @@
 // Lenses of StreamChooser that a file gives instead of the recording.
 #include "devices/bag/stream_choice.h"
 
-#include "devices/recorded/json_field.h"
+#include "devices/recorded/recording_extrinsics.h"
 #include "devices/recorded/recording_intrinsics.h"
 #include "engine/types/error.h"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/recorded/hand_csv.h"
 
+#include "devices/recorded/rotation_fault.h"
 #include "devices/recorded/small_units.h"
 #include "devices/recorded/text_file.h"
 #include "engine/types/error.h"
@@ -46,10 +47,13 @@ size_t readHeader(const Row& row) {
 }
 
 dquat unitQuaternion(const Row& row, double w, double x, double y, double z) {
-    const double largest = std::max({std::abs(w), std::abs(x), std::abs(y), std::abs(z)});
-    if (!(largest > 1e-300)) {
-        row.refuse("qw..qz", "0,0,0,0", "a quaternion of non-zero length");
+    if (const std::string fault = quaternionFault({w, x, y, z}, "qw qx qy qz"); !fault.empty()) {
+        row.refuse("qw..qz",
+                   significant(w, 6) + "," + significant(x, 6) + "," + significant(y, 6) + "," +
+                       significant(z, 6),
+                   fault);
     }
+    const double largest = std::max({std::abs(w), std::abs(x), std::abs(y), std::abs(z)});
     return glm::normalize(dquat(w / largest, x / largest, y / largest, z / largest));
 }
 

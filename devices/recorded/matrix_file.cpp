@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/recorded/matrix_file.h"
 
+#include "devices/recorded/lens_model.h"
+#include "devices/recorded/rotation_fault.h"
 #include "devices/recorded/text_file.h"
 #include "engine/types/error.h"
 #include "engine/types/number_text.h"
@@ -54,15 +56,16 @@ std::array<double, 16> readMatrix(const std::filesystem::path& file, bool orThre
     return out;
 }
 
-Pose rigidPose(const std::array<double, 9>& rows, const dvec3& position, const std::string& file) {
+Pose rigidPose(const std::array<double, 9>& rows, const dvec3& position, const std::string& file,
+               const std::string& field) {
     const glm::dmat3 rotation(rows[0], rows[3], rows[6], rows[1], rows[4], rows[7], rows[2], rows[5],
                               rows[8]);
-    const dquat q = glm::quat_cast(rotation);
-    const double length = glm::length(q);
-    if (!(std::abs(length - 1.0) < 0.1) || !std::isfinite(position.x + position.y + position.z)) {
-        throw BadInput(file, "pose", "not a rigid motion", "a rotation matrix and a position");
+    const bool finite = std::isfinite(position.x + position.y + position.z);
+    if (const std::string fault = finite ? rotationFault(rotation) : "not finite"; !fault.empty()) {
+        throw BadInput(file, field, fault, "a rotation matrix and a position");
     }
-    return {position, q / length};
+    const dquat q = glm::quat_cast(rotation);
+    return {position, q / glm::length(q)};
 }
 
 bool isByColumns(std::span<const double, 9> k) {
@@ -90,7 +93,7 @@ bool usePose(IndexLine& line, const std::filesystem::path& file) {
         const auto m = readMatrix(file);
         checkLastRow(m, file.string());
         line.baseTcamera = rigidPose({m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]},
-                                     {m[3], m[7], m[11]}, file.string());
+                                     {m[3], m[7], m[11]}, file.string(), "pose");
     } catch (const BadInput& e) {
         line.fault = e.what();
     }

@@ -25,8 +25,10 @@ std::array<double, 16> readMatrix(const std::filesystem::path& file, bool orThre
 // size. Throws BadInput; also without a size.
 Intrinsics matrixLens(const std::filesystem::path& file, std::optional<PngSize> size);
 
-// rows: rotation, row by row. position [m]. file: named by the BadInput thrown for what is no rigid motion.
-Pose rigidPose(const std::array<double, 9>& rows, const dvec3& position, const std::string& file);
+// rows: rotation, row by row. position [m]. file, field: named by the BadInput thrown for what is no rigid
+// motion.
+Pose rigidPose(const std::array<double, 9>& rows, const dvec3& position, const std::string& file,
+               const std::string& field);
 
 // For messages about the matrix of a lens.
 inline constexpr const char* kByColumns = "written column by column";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/recorded/pose_track.h"
 
+#include "devices/recorded/rotation_fault.h"
 #include "devices/recorded/small_units.h"
 #include "devices/recorded/text_file.h"
 #include "engine/types/error.h"
@@ -82,9 +83,8 @@ PoseTrack::PoseTrack(const std::filesystem::path& file) {
             refuse("eight finite numbers t tx ty tz qx qy qz qw, with decimal points and between spaces");
         }
         const dquat q(v[7], v[4], v[5], v[6]);
-        const double length = glm::length(q);
-        if (!(length > 1e-6) || !std::isfinite(length)) {
-            refuse("a quaternion qx qy qz qw of non-zero length");
+        if (const std::string fault = quaternionFault(q, "qx qy qz qw"); !fault.empty()) {
+            refuse(fault);
         }
         if (!(std::max({std::abs(v[1]), std::abs(v[2]), std::abs(v[3])}) <= kFarthestPose)) {
             refuse("a position within 1000 km of the origin");
@@ -94,6 +94,7 @@ PoseTrack::PoseTrack(const std::filesystem::path& file) {
         }
         // A unit quaternion stays as it is, so that a track that was written is read with the same bits.
         constexpr double kUnit = 4.0 * std::numeric_limits<double>::epsilon();
+        const double length = glm::length(q);
         poses_.push_back({v[0], {{v[1], v[2], v[3]}, std::abs(length - 1.0) <= kUnit ? q : q / length}});
     }
     warnIfFast(file);

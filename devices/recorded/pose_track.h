@@ -13,8 +13,8 @@ namespace fathom {
 
 class PoseTrack {
 public:
-    // Lines "t tx ty tz qx qy qz qw" [s, m], base_T_camera, t strictly increasing, quaternions normalised
-    // here. Throws BadInput with file and line; at least one line.
+    // Lines "t tx ty tz qx qy qz qw" [s, m], base_T_camera, t strictly increasing, quaternions within 2 % of
+    // length 1, normalised here. Throws BadInput with file and line; at least one line.
     explicit PoseTrack(const std::filesystem::path& file);
 
     static constexpr double kNear = 0.05;      // [s] from a pose that still holds

@@ -4,6 +4,7 @@
 #include "devices/recorded/colour_image.h"
 #include "devices/recorded/index_times.h"
 #include "devices/recorded/lens_model.h"
+#include "devices/recorded/recording_extrinsics.h"
 #include "devices/recorded/small_units.h"
 #include "devices/recorded/unread_poses.h"
 #include "engine/types/error.h"

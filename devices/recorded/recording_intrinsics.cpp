@@ -4,13 +4,12 @@
 #include "devices/recorded/foreign_field.h"
 #include "devices/recorded/json_field.h"
 #include "devices/recorded/lens_model.h"
+#include "devices/recorded/recording_extrinsics.h"
 #include "devices/recorded/source_options.h"
 #include "engine/types/decimation.h"
 #include "engine/types/error.h"
-#include "engine/types/number_text.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
 namespace fathom {
@@ -59,46 +58,11 @@ Intrinsics readLens(const JsonField& block) {
     return lens;
 }
 
-// position [m]: lenses of one rig are not metres apart; values of millimetres are.
-void checkApart(const std::string& file, const std::string& field, const dvec3& position) {
-    constexpr double kMostApart = 1.0;
-    if (const double apart = glm::length(position); !(apart <= kMostApart)) {
-        throw BadInput(file, field, significant(apart, 4) + " m between the lenses",
-                       "at most 1 m; metres, not millimetres");
-    }
-}
-
-Pose readPose(const JsonField& node) {
-    const std::vector<double> t = node.at("t").numbers(3);
-    const JsonField rotation = node.at("q_xyzw");
-    const std::vector<double> q = rotation.numbers(4);
-    const dquat quat(q[3], q[0], q[1], q[2]);
-    const double length = glm::length(quat);
-    if (!(length > 1e-6) || !std::isfinite(length)) {
-        rotation.refuse("a quaternion x y z w of non-zero length");
-    }
-    return {{t[0], t[1], t[2]}, quat / length};
-}
-
 // Accepts British and American spelling.
 std::optional<JsonField> findColour(const JsonField& node, std::string_view american,
                                     std::string_view british) {
     const auto found = node.find(american);
     return found ? found : node.find(british);
-}
-
-// A tf entry maps points of the common reference (the depth camera) to its stream: p_colour = R p_depth + t.
-// Found on a D435 recording: projected so, depth edges fall on colour edges (mean gradient 24 of 60); by the
-// inverse they do not (2), nor by +t with the inverse rotation (5). It also fits the D435, whose colour
-// camera sits 15 mm to the left of the depth origin, so that points move to the right (+x).
-Pose readColourTdepth(const JsonField& root, const std::string& file) {
-    const JsonField tf = root.at("extrinsics_topic_tf");
-    const auto colour = findColour(tf, "Color", "Colour");
-    const auto depth = tf.find("Depth");
-    const JsonField ofColour = colour ? *colour : tf.at("Color");
-    const Pose colourTdepth = readPose(ofColour) * inverse(depth ? readPose(*depth) : Pose{});
-    checkApart(file, ofColour.path() + ".t", colourTdepth.position);
-    return colourTdepth;
 }
 
 void readTwoLenses(const JsonField& root, const JsonField& colour, const std::string& file,
@@ -215,17 +179,6 @@ void readStamps(const JsonField& root, RecordingIntrinsics& intrinsics) {
 }
 
 } // namespace
-
-Pose readExtrinsics(const std::filesystem::path& file) {
-    const nlohmann::json document = parseJsonFile(file);
-    const JsonField root(document, file.string(), "");
-    if (root.find("extrinsics_topic_tf")) {
-        return readColourTdepth(root, file.string());
-    }
-    const Pose pose = readPose(root);
-    checkApart(file.string(), "t", pose.position);
-    return pose;
-}
 
 void keepRecordedColour(RecordingIntrinsics& given, const std::function<CameraInfo()>& recorded) {
     CameraInfo& camera = given.camera;

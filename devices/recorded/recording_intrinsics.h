@@ -52,7 +52,4 @@ RecordingIntrinsics readIntrinsics(const std::filesystem::path& file, ScaleRule 
 // that names the file where recorded throws.
 void keepRecordedColour(RecordingIntrinsics& given, const std::function<CameraInfo()>& recorded);
 
-// colourTdepth of a JSON file with t [m] and q_xyzw, or with extrinsics_topic_tf. Throws as above.
-Pose readExtrinsics(const std::filesystem::path& file);
-
 } // namespace fathom

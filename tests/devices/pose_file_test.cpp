@@ -49,6 +49,43 @@ TEST_CASE("A pose with its position in the last row is refused as written column
                                   "row, with the position in its last column)");
 }
 
+TEST_CASE("A pose whose matrix is mirrored, scaled or sheared is refused in these words") {
+    const TemporaryFolder folder;
+    const std::string end = "\n0 0 0 1\n";
+    writeScan(folder, {"0 0 1 1\n-1 0 0 2\n0 -1 0 3" + end, "0 0 1 1\n1 0 0 2\n0 -1 0 3" + end,
+                       "0 0 1.1 1\n-1.1 0 0 2\n0 -1.1 0 3" + end, "1 0.25 0 1\n0 1 0 2\n0 0 1 3" + end,
+                       "-inf -inf -inf -inf\n-inf -inf -inf -inf\n-inf -inf -inf -inf" + end,
+                       "0.001 0.003 1.002 1\n-1 0.002 0 2\n0 -0.998 0 3" + end});
+    const std::string played = playedToEnd(folder);
+    lineSays(played, "pose/1.txt: pose: mirrored (allowed: a rotation matrix and a position)");
+    lineSays(played, "pose/2.txt: pose: scaled by 1.1 (allowed: a rotation matrix");
+    lineSays(played, "pose/3.txt: pose: sheared (allowed: ");
+    lineSays(played, "pose/4.txt: pose: not finite (allowed: ");
+    CHECK(played.find("pose/0.txt") == std::string::npos);
+    CHECK(played.find("pose/5.txt") == std::string::npos); // few digits
+}
+
+TEST_CASE("A pose of BOP whose matrix is mirrored is refused with the image and the field") {
+    const TemporaryFolder bop;
+    addPair(bop, "depth/0.png", "rgb/0.png", 500);
+    bop.write("scene_camera.json", R"({"0": {"cam_K": [6, 0, 3, 0, 6, 2, 0, 0, 1], "depth_scale": 1,
+        "cam_R_w2c": [0, 1, 0, 0, 0, -1, 1, 0, 0], "cam_t_w2c": [0, 0, 0]}})");
+    lineSays(recordingRefusal(bop.path()), "scene_camera.json: 0.cam_R_w2c: mirrored (allowed: a rotation");
+}
+
+TEST_CASE("A quaternion of poses.txt whose length is not 1 is refused with its length and the order") {
+    const TemporaryFolder folder;
+    writeSmallRecording(folder, 2);
+    const auto refusal = [&](const std::string& quaternion) {
+        folder.write("poses.txt", "0 0 0 0 " + quaternion + "\n0.1 0 0 0 0 0 0 1\n");
+        return recordingRefusal(folder.path());
+    };
+    lineSays(refusal("0 1 2 3"), "poses.txt: line 1: 0 0 0 0 0 1 2 3 (allowed: a quaternion qx qy qz qw, in "
+                                 "this order, of length 1; its length is 3.742)");
+    lineSays(refusal("0 0 0 0.97"), "its length is 0.97");
+    CHECK(refusal("0 0.7 0 0.7") == ""); // few digits
+}
+
 TEST_CASE("A lens that is written column by column is refused as such") {
     const TemporaryFolder folder;
     writeScan(folder, {shifted(0.0)}, "7 0 0 0\n0 7 0 0\n3 2 1 0\n0 0 0 1\n");

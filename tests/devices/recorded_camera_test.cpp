@@ -204,7 +204,7 @@ TEST_CASE("poses are interpolated at the capture time and held for 50 ms outside
     const TemporaryFolder folder;
     writeSmallRecording(folder, 4); // stamps 0, 0.1, 0.2, 0.3
     folder.write("poses.txt",
-                 "# t tx ty tz qx qy qz qw\n0.05 0 0 0 0 0 0 1\n0.15 2 0 0 0 0 2 0\n0.25 2 4 0 0 0 1 0\n");
+                 "# t tx ty tz qx qy qz qw\n0.05 0 0 0 0 0 0 1\n0.15 2 0 0 0 0 1 0\n0.25 2 4 0 0 0 1 0\n");
     RecordedCamera camera(folder.path());
     const auto pose = [&] { return camera.next().value()->baseTcamera.value(); };
     CHECK(pose().position == dvec3(0, 0, 0));

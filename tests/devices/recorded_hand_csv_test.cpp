@@ -29,7 +29,7 @@ bool refusedWith(const std::string& text, const std::string& part) {
 
 TEST_CASE("a path with and without buttons is read with w first and unit quaternions") {
     const std::vector<HandWaypoint> plain =
-        read(kHeader + "0,1,2,3,2,0,0,0\r\n0.001, -1e-3 ,0,0,0,3,0,4\n\n");
+        read(kHeader + "0,1,2,3,1,0,0,0\r\n0.001, -1e-3 ,0,0,0,0.6,0,0.8\n\n");
     REQUIRE(plain.size() == 2);
     CHECK(plain[0].deviceThandle.position == dvec3(1, 2, 3));
     CHECK(plain[0].deviceThandle.rotation == dquat(1, 0, 0, 0));

@@ -108,7 +108,7 @@ TEST_CASE("Colour of another size than depth is rejected when the registration i
     const std::string wide = R"({"width": 14, "height": 10, "fx": 13, "fy": 12.5, "cx": 6, "cy": 4})";
     folder.write(
         "intrinsics.json",
-        twoLenses(R"(, "extrinsics_topic_tf": {"Color": {"t": [0.1, 0, 0], "q_xyzw": [0, 0, 0, 2]}})", wide));
+        twoLenses(R"(, "extrinsics_topic_tf": {"Color": {"t": [0.1, 0, 0], "q_xyzw": [0, 0, 0, 1]}})", wide));
     RecordedCamera camera(folder.path());
     CHECK(camera.next().value()->colour.size() == 140);
     CHECK(camera.info().colourTdepth.position == dvec3(0.1, 0, 0));

@@ -81,6 +81,16 @@ TEST_CASE(
     }
 }
 
+TEST_CASE("Two lenses whose q_xyzw turns colour away from depth are refused with the field and the order") {
+    const TemporaryFolder folder;
+    writeSmallRecording(folder, 1);
+    std::string text = kOwnLenses;
+    const std::string unit = "[0, 0, 0, 1]";
+    folder.write("intrinsics.json", text.replace(text.find(unit), unit.size(), "[0.9999, 0, 0, 0.01]"));
+    lineSays(recordingRefusal(folder.path()), "intrinsics.json: extrinsics_topic_tf.Color.q_xyzw: "
+                                              "[0.9999,0,0,0.01] (allowed: x y z w, in this order, with ");
+}
+
 TEST_CASE("A file of one lens is refused where the folder's relation of depth and colour cannot be read") {
     const TemporaryFolder folder;
     addPair(folder, "frame-000000.depth.png", "frame-000000.color.png", 500);

@@ -108,6 +108,25 @@ TEST_CASE("Extrinsics of a file that are over a metre are refused with the file,
     lineSays(refused("far.json"), "far.json: t: 1.273 m between the lenses");
 }
 
+TEST_CASE("Extrinsics of a file whose q_xyzw has w first, or no unit length, are refused with the order") {
+    const TemporaryFolder folder;
+    const BagMaker maker = lenslessDepth("depth", kOtherLens, false);
+    const auto refused = [&](const std::string& q) {
+        folder.write("e.json", R"({"t": [0.1, 0, 0], "q_xyzw": [)" + q + "]}");
+        return streamRefusal(folder, maker,
+                             {.info = "/calib/depth_info", .extrinsics = folder.path() / "e.json"});
+    };
+    lineSays(refused("1, 0, 0, 0"),
+             "e.json: q_xyzw: [1,0,0,0] (allowed: x y z w, in this order, with optical "
+             "axes within 90 degrees of each other)");
+    lineSays(refused("0.9999, 0.01, 0.003, -0.005"), "e.json: q_xyzw: ");
+    lineSays(refused("0, 0, 10, 0.5"), "e.json: q_xyzw: [0,0,10,0.5] (allowed: a quaternion x y z w, in this "
+                                       "order, of length 1; its length is 10.01)");
+    CHECK(refused("0, 0, 0.7071068, 0.7071068") == ""); // a roll
+    CHECK(refused("0, 0, 1, 0") == "");
+    CHECK(refused("0.3826834, 0, 0, 0.9238795") == ""); // 45 degrees down
+}
+
 TEST_CASE("Aligned depth with another camera's lens than colour has a warning that names both") {
     const auto warned = [](const std::string& topic, const std::string& frame,
                            const std::array<double, 4>& k) {

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/recorded/rotation_fault.h"
+
+#include "engine/types/number_text.h"
+
+#include <cmath>
+#include <glm/matrix.hpp>
+
+namespace fathom {
+
+namespace {
+
+bool nearIdentity(const glm::dmat3& matrix) {
+    constexpr double kMaxOff = 1e-2;
+    bool same = true;
+    for (int i = 0; i < 9; ++i) {
+        same = same && std::abs(matrix[i / 3][i % 3] - (i % 4 == 0 ? 1.0 : 0.0)) < kMaxOff;
+    }
+    return same;
+}
+
+} // namespace
+
+std::string rotationFault(const glm::dmat3& matrix) {
+    const glm::dmat3 product = matrix * glm::transpose(matrix);
+    const double determinant = glm::determinant(matrix), scale = std::cbrt(determinant);
+    if (!std::isfinite(determinant)) {
+        return "not finite";
+    }
+    if (determinant < 0.0) {
+        return "mirrored";
+    }
+    if (nearIdentity(product)) {
+        return "";
+    }
+    return nearIdentity(product / (scale * scale)) ? "scaled by " + significant(scale, 4) : "sheared";
+}
+
+std::string quaternionFault(const dquat& q, const std::string& order) {
+    constexpr double kShortest = 1e-6, kMostOff = 0.02; // of numbers with few digits, as 0.7 0 0 0.7
+    const double length = glm::length(q);
+    if (!(length > kShortest)) {
+        return "a quaternion " + order + " of non-zero length";
+    }
+    return std::abs(length - 1.0) <= kMostOff
+               ? ""
+               : "a quaternion " + order + ", in this order, of length 1; its length is " +
+                     significant(length, 4);
+}
+
+} // namespace fathom
