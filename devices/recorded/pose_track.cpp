@@ -20,47 +20,114 @@ namespace fathom {
 
 namespace {
 
-// Whether consecutive words of a comment name all columns of a pose, and not in this order.
-bool namesOtherOrder(const std::string& comment) {
-    constexpr std::array<std::string_view, 7> kOrder{"tx", "ty", "tz", "qx", "qy", "qz", "qw"};
-    std::string plain; // "q_w," as "qw"
-    for (const char c : comment) {
-        const auto byte = static_cast<unsigned char>(c);
-        plain += c == '_' ? "" : std::string(1, std::isalpha(byte) != 0 ? char(std::tolower(byte)) : ' ');
-    }
-    plain += " ."; // ends the last run of names
-    std::vector<std::string_view> columns;
-    for (std::string_view word : splitWords(plain)) {
-        word = word == "x" ? "tx" : word == "y" ? "ty" : word == "z" ? "tz" : word;
-        if (std::ranges::find(kOrder, word) != kOrder.end()) {
-            columns.push_back(word);
+// Words of letters, digits, '_' and '.', in lower case, without units ("[m]", "(s)", "[]") and without the
+// names of groups of columns.
+std::vector<std::string> headWords(const std::string& comment) {
+    constexpr std::array<std::string_view, 10> kGroups{
+        "position", "pos", "translation", "orientation", "rotation", "rot", "quaternion", "quat", "q", "and"};
+    std::vector<std::string> words{""};
+    for (size_t i = 0; i < comment.size(); ++i) {
+        const char c = comment[i];
+        const size_t end = c == '[' || c == '(' ? comment.find_first_of("]), ;", i + 1) : std::string::npos;
+        if (end != std::string::npos && (comment[end] == ']' || comment[end] == ')')) {
+            i = end;
+        } else if (const auto byte = static_cast<unsigned char>(c);
+                   std::isalnum(byte) != 0 || c == '_' || c == '.') {
+            words.back() += static_cast<char>(std::tolower(byte));
             continue;
         }
-        if (std::ranges::is_permutation(columns, kOrder) && !std::ranges::equal(columns, kOrder)) {
-            return true;
+        if (!words.back().empty()) {
+            words.emplace_back();
         }
-        columns.clear();
     }
-    return false;
+    std::erase_if(words, [&](const std::string& word) {
+        return word.empty() || std::ranges::find(kGroups, word) != kGroups.end();
+    });
+    return words;
 }
 
-// Comments in front of the first pose may name the columns.
+// What a word may name: "tx", "pos_x" and "p_RS_R_x" a position, "qx", "quat_x" and "q.x" a quaternion, "x"
+// both.
+struct ColumnName {
+    char axis = 0; // w to z; else the word names neither
+    bool bare = false, position = false, quaternion = false;
+};
+
+ColumnName columnNamed(std::string_view word) {
+    constexpr std::string_view kJoints = "_.";
+    while (word.ends_with('.')) { // the end of a sentence
+        word.remove_suffix(1);
+    }
+    const char axis = word.empty() ? '\0' : word.back();
+    if (axis < 'w' || axis > 'z') {
+        return {};
+    }
+    word.remove_suffix(1);
+    const bool bare = word.empty(), joined = !bare && kJoints.find(word.back()) != std::string_view::npos;
+    const auto has = [&](std::string_view part) { return word.find(part) != std::string_view::npos; };
+    const bool turn = word.starts_with('q') || has("quat") || has("orient") || has("rot");
+    const bool place = !turn && (word.size() <= 2 || joined || word.starts_with("pos"));
+    return {axis, bare, place, turn || bare};
+}
+
+// The axes of `count` names from `at` on, if each axis is there once; else empty.
+std::string axesOf(const std::vector<ColumnName>& names, size_t at, size_t count, bool quaternion) {
+    std::string axes;
+    for (size_t i = at; i < at + count && i < names.size(); ++i) {
+        const ColumnName& name = names[i];
+        const bool fits = quaternion ? name.quaternion && name.bare == names[at].bare : name.position;
+        axes += fits ? name.axis : ' ';
+    }
+    return std::ranges::is_permutation(axes, quaternion ? std::string("xyzw") : std::string("xyz")) ? axes
+                                                                                                    : "";
+}
+
+enum class Order { Unnamed, Own, Other };
+
+// The order of the columns that a comment names: those of a quaternion next to those of a position.
+Order orderNamed(const std::string& comment) {
+    std::vector<ColumnName> names;
+    for (const std::string& word : headWords(comment)) {
+        names.push_back(columnNamed(word));
+    }
+    Order order = Order::Unnamed;
+    for (size_t i = 0; i + 4 <= names.size(); ++i) {
+        const std::string turn = axesOf(names, i, 4, true);
+        const std::string before = i >= 3 ? axesOf(names, i - 3, 3, false) : "";
+        if (turn == "xyzw" && before == "xyz") {
+            return Order::Own;
+        }
+        if (!turn.empty() && (!before.empty() || !axesOf(names, i + 4, 3, false).empty())) {
+            order = Order::Other;
+        }
+    }
+    return order;
+}
+
+// Comments in front of the first pose may name the columns. If they also name them in the order that is read,
+// the other one is that of an earlier file.
 void checkOrder(const std::filesystem::path& file) {
     std::ifstream in(file, std::ios::binary);
     std::array<char, DataLines::kLongest + 1> line{};
+    std::string field, other;
     for (uint32_t number = 1; number < 100 && in.getline(line.data(), line.size()); ++number) {
         const std::string text = line.data();
         const size_t first = text.find_first_not_of(" \t\r\xef\xbb\xbf"); // also a byte order mark
         if (first == std::string::npos) {
             continue;
         }
-        if (text[first] != '#') {
-            return;
+        const Order order = text[first] == '#' ? orderNamed(text) : Order::Unnamed;
+        if (text[first] != '#' || order == Order::Own) {
+            other = order == Order::Own ? "" : other;
+            break;
         }
-        if (namesOtherOrder(text)) {
-            throw BadInput(file.string(), "line " + std::to_string(number), text.substr(0, 160),
-                           "columns in the order t tx ty tz qx qy qz qw");
+        if (order == Order::Other && other.empty()) {
+            field = "line " + std::to_string(number);
+            other = text.substr(0, 160);
         }
+    }
+    if (!other.empty()) {
+        throw BadInput(file.string(), field, other, "columns in the order t tx ty tz qx qy qz qw");
     }
 }
 

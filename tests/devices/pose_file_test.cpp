@@ -122,15 +122,28 @@ TEST_CASE("A poses.txt whose comment names its columns in another order is refus
         return recordingRefusal(folder.path());
     };
     for (const char* head :
-         {"# timestamp tx ty tz qw qx qy qz", "#t,x,y,z,q_w,q_x,q_y,q_z",
-          "# poses of a rig\n# stamp qx qy qz qw tx ty tz", "\n# t [s], x, y, z, qw, qx, qy, qz"}) {
+         {"# timestamp px py pz qw qx qy qz", "# t pos_x pos_y pos_z quat_w quat_x quat_y quat_z",
+          "#timestamp [s],p_RS_R_x [m],p_RS_R_y [m],p_RS_R_z [m],q_RS_w [],q_RS_x [],q_RS_y [],q_RS_z []",
+          "#timestamp [s] p_RS_R_x [m] p_RS_R_y [m] p_RS_R_z [m] q_RS_w [] q_RS_x [] q_RS_y [] q_RS_z [] "
+          "v_RS_R_x [m s^-1]",
+          "# t, qw, qx, qy, qz, px, py, pz", "# time p.x p.y p.z q.w q.x q.y q.z", "# PX PY PZ QW QX QY QZ",
+          "# timestamp, position (x, y, z), quaternion (w, x, y, z)",
+          "# time position.x position.y position.z orientation.w orientation.x orientation.y orientation.z",
+          "# by a rig\n#\n# stamp [s] x (m) y (m) z (m) qw qx qy qz", "# timestamp tx ty tz qw qx qy qz",
+          "#t,x,y,z,q_w,q_x,q_y,q_z", "# poses of a rig\n# stamp qx qy qz qw tx ty tz",
+          "\n# t [s], x, y, z, qw, qx, qy, qz"}) {
         CAPTURE(head);
         lineSays(refusal(head), "(allowed: columns in the order t tx ty tz qx qy qz qw)");
     }
     for (const char* head :
          {"# timestamp tx ty tz qx qy qz qw", "# ground truth trajectory", "# t x y z qx qy qz qw", "#", "",
           "# x is right, y is down, z is forward", "# qw is last: t tx ty tz qx qy qz qw",
-          "# t, position tx ty tz, quaternion with qw last: qx qy qz", "# converted from qw qx qy qz"}) {
+          "# t, position tx ty tz, quaternion with qw last: qx qy qz", "# converted from qw qx qy qz",
+          "# timestamp px py pz qx qy qz qw", "# t pos_x pos_y pos_z quat_x quat_y quat_z quat_w",
+          "#timestamp [s] p_RS_R_x [m] p_RS_R_y [m] p_RS_R_z [m] q_RS_x [] q_RS_y [] q_RS_z [] q_RS_w []",
+          "# timestamp, position (x, y, z), quaternion (x, y, z, w)", "# a new view of the quarry by hand, w",
+          "# was t px py pz qw qx qy qz\n# now t px py pz qx qy qz qw",
+          "# quaternions w x y z were reordered", "# max. error 0.1 px, y is up"}) {
         CAPTURE(head);
         CHECK(refusal(head) == "");
     }
