@@ -31,7 +31,8 @@ void readPinhole(const JsonField& block, Intrinsics& lens) {
     if (!matrix) {
         lens.fx = ownField(block, "fx").positive();
         lens.fy = ownField(block, "fy")
-                      .positive("; y points down here: give a negative fy without its sign"); // ICL-NUIM
+                      .positive("; y points down here: give a negative fy without its sign, and negate ty, "
+                                "qx and qz of poses.txt"); // ICL-NUIM: a reflection about y
         lens.cx = ownField(block, "cx").finite();
         lens.cy = ownField(block, "cy").finite();
         return;
