@@ -24,9 +24,7 @@ bool StreamChooser::keepsRelation() const {
     if (options_.intrinsics.empty()) {
         return true;
     }
-    const nlohmann::json document = parseJsonFile(options_.intrinsics);
-    const JsonField root(document, options_.intrinsics.string(), "");
-    return !root.find("depth") && !root.find("registered_to_color");
+    return !readIntrinsics(options_.intrinsics, ScaleRule::Unchecked).relatesColour;
 }
 
 // Of depth without a recorded lens, whose lens a file gives.
