@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace fathom {
 
@@ -68,6 +69,7 @@ void StreamChooser::replaceLenses(StreamChoice& choice) const {
     choice.camera = given.camera;
     choice.statedUnit = given.scale;
     choice.unreadScale = given.unreadScale;
+    std::ranges::copy(given.warnings, std::back_inserter(choice.warnings));
     choice.rangeImages = given.rangeImages;
     choice.camera.poseless = true;
     choice.camera.hasColour = recorded.hasColour;

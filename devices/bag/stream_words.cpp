@@ -3,7 +3,7 @@
 #include "devices/bag/stream_choice.h"
 
 #include "devices/bag/topic_words.h"
-#include "engine/types/number_text.h"
+#include "devices/recorded/lens_model.h"
 
 #include <algorithm>
 #include <cmath>
@@ -81,11 +81,9 @@ std::string StreamChooser::unreadStreams() const {
 
 // What may be wrong with images that are played.
 void StreamChooser::warnOf(const ImageStream& stream, StreamChoice& choice) const {
-    constexpr double kMostSkew = 0.1; // [pixels]
-    if (std::abs(stream.skew) > kMostSkew && options_.intrinsics.empty()) {
-        choice.warnings.push_back(file_.topics()[*stream.info].name + ": a skew of " +
-                                  significant(stream.skew, 3) + " pixels is not used: the images of " +
-                                  stream.name + " are played without it");
+    if (stream.skew != 0.0 && options_.intrinsics.empty()) {
+        warnAboutSkew(choice.warnings, file_.topics()[*stream.info].name, stream.skew,
+                      "the images of " + stream.name);
     }
     const auto words = camelWordsOf(stream.frame);
     const bool depthFrame = std::ranges::any_of(

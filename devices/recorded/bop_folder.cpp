@@ -3,6 +3,7 @@
 
 #include "devices/images/depth_image.h"
 #include "devices/recorded/json_field.h"
+#include "devices/recorded/lens_model.h"
 #include "devices/recorded/matrix_file.h"
 #include "devices/recorded/numbered_images.h"
 #include "devices/recorded/text_file.h"
@@ -69,6 +70,7 @@ RecordingIntrinsics lensOf(const BopImage& image, PngSize size, const std::strin
     camera.depth.cx = image.k[2];
     camera.depth.cy = image.k[5];
     camera.colour = camera.depth;
+    warnAboutSkew(intrinsics.warnings, "scene_camera.json: cam_K", image.k[1]);
     return intrinsics;
 }
 

@@ -52,6 +52,10 @@ public:
                 .cx = k[2],
                 .cy = k[6]};
     }
+    // [pixels]
+    double skew(const std::string& stream) const {
+        return numbers("m_calibration" + stream + "Intrinsic", 16)[1];
+    }
     void checkExtrinsic(const std::string& stream) const {
         const std::string key = "m_calibration" + stream + "Extrinsic";
         if (has(key) && !std::ranges::equal(numbers(key, 16), kIdentityMatrix)) {
@@ -154,10 +158,13 @@ RecordingIntrinsics readInfo(const fs::path& file, bool depthOnly) {
     CameraInfo& camera = intrinsics.camera;
     info.checkExtrinsic("Depth");
     camera.depth = camera.colour = info.lens("Depth");
+    warnAboutSkew(intrinsics.warnings, intrinsics.file + ": " + kDepthLens, info.skew("Depth"));
     if (!depthOnly) {
         info.checkExtrinsic("Color");
         camera.colour = info.lens("Color");
         camera.registered = sameLens(camera.depth, camera.colour);
+        warnAboutSkew(intrinsics.warnings, intrinsics.file + ": m_calibrationColorIntrinsic",
+                      info.skew("Color"));
     }
     intrinsics.scale = camera.metresPerUnit = info.metresPerUnit();
     return intrinsics;
@@ -194,7 +201,7 @@ std::optional<RecordingIntrinsics> matrixLensOf(const fs::path& folder, const st
                 RecordingIntrinsics intrinsics;
                 intrinsics.file = name;
                 intrinsics.camera.depth = intrinsics.camera.colour =
-                    matrixLens(one / name, firstDepthSize(index));
+                    matrixLens(one / name, firstDepthSize(index), intrinsics.warnings);
                 return intrinsics;
             } catch (const BadInput& e) {
                 fault = fault.empty() ? e.what() : fault;

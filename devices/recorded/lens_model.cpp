@@ -2,6 +2,7 @@
 #include "devices/recorded/lens_model.h"
 
 #include "engine/scene/camera_limits.h"
+#include "engine/types/number_text.h"
 
 #include <algorithm>
 #include <array>
@@ -126,6 +127,15 @@ std::vector<std::string> lensWarnings(const CameraInfo& camera) {
         add(camera.colour, "colour");
     }
     return warnings;
+}
+
+void warnAboutSkew(std::vector<std::string>& warnings, const std::string& matrix, double skew,
+                   const std::string& images) {
+    constexpr double kMostSkew = 0.1; // [pixels]
+    if (std::abs(skew) > kMostSkew) {
+        warnings.push_back(matrix + ": a skew of " + significant(skew, 3) + " pixels is not used: " + images +
+                           " are played without it");
+    }
 }
 
 bool sameLens(const Intrinsics& a, const Intrinsics& b) {

@@ -28,6 +28,10 @@ bool isUnusualLens(const Intrinsics& lens);
 // of another image size.
 std::vector<std::string> lensWarnings(const CameraInfo& camera);
 
+// Adds a warning of a lens matrix, by its name, whose skew [pixels] is over 0.1: it is not used.
+void warnAboutSkew(std::vector<std::string>& warnings, const std::string& matrix, double skew,
+                   const std::string& images = "the images");
+
 // Within 1e-6 pixels.
 bool sameLens(const Intrinsics& a, const Intrinsics& b);
 // Whether both see the border and the middle of the image within a tenth of a pixel: as one lens that is

@@ -72,7 +72,8 @@ bool isByColumns(std::span<const double, 9> k) {
     return k[2] == 0.0 && k[5] == 0.0 && (k[6] != 0.0 || k[7] != 0.0);
 }
 
-Intrinsics matrixLens(const std::filesystem::path& file, std::optional<PngSize> size) {
+Intrinsics matrixLens(const std::filesystem::path& file, std::optional<PngSize> size,
+                      std::vector<std::string>& warnings) {
     const auto k = readMatrix(file, true);
     if (isByColumns(std::array{k[0], k[1], k[2], k[4], k[5], k[6], k[8], k[9], k[10]})) {
         throw BadInput(file.string(), "matrix", kByColumns, kLensRows);
@@ -82,6 +83,7 @@ Intrinsics matrixLens(const std::filesystem::path& file, std::optional<PngSize> 
         throw BadInput(file.string(), "matrix", "unusable",
                        std::string(kLensRows) + " of images that are read");
     }
+    warnAboutSkew(warnings, file.filename().string(), k[1]);
     return {.width = size->width, .height = size->height, .fx = k[0], .fy = k[5], .cx = k[2], .cy = k[6]};
 }
 

@@ -47,11 +47,14 @@ void readPinhole(const JsonField& block, Intrinsics& lens) {
     lens.cy = k[7];
 }
 
-Intrinsics readLens(const JsonField& block) {
+Intrinsics readLens(const JsonField& block, RecordingIntrinsics& intrinsics) {
     Intrinsics lens;
     lens.width = ownField(block, "width").integer(1, kMaxImageWidth);
     lens.height = ownField(block, "height").integer(1, kMaxImageHeight);
     readPinhole(block, lens);
+    if (const auto matrix = block.find("intrinsic_matrix")) {
+        warnAboutSkew(intrinsics.warnings, intrinsics.file + ": " + matrix->path(), matrix->numbers()[3]);
+    }
     readDistortion(block, lens);
     if (!lens.invertible()) {
         block.at("distortion").refuse("coefficients that can be inverted over the whole image");
@@ -67,9 +70,10 @@ std::optional<JsonField> findColour(const JsonField& node, std::string_view amer
 }
 
 void readTwoLenses(const JsonField& root, const JsonField& colour, const std::string& file,
-                   CameraInfo& camera) {
-    camera.depth = readLens(root.at("depth"));
-    camera.colour = readLens(colour);
+                   RecordingIntrinsics& intrinsics) {
+    CameraInfo& camera = intrinsics.camera;
+    camera.depth = readLens(root.at("depth"), intrinsics);
+    camera.colour = readLens(colour, intrinsics);
     const auto registered = findColour(root, "registered_to_color", "registered_to_colour");
     camera.registered = registered && registered->boolean();
     if (!camera.registered) {
@@ -85,8 +89,9 @@ void readTwoLenses(const JsonField& root, const JsonField& colour, const std::st
     }
 }
 
-void readOneLens(const JsonField& root, CameraInfo& camera) {
-    camera.depth = readLens(root);
+void readOneLens(const JsonField& root, RecordingIntrinsics& intrinsics) {
+    CameraInfo& camera = intrinsics.camera;
+    camera.depth = readLens(root, intrinsics);
     camera.colour = camera.depth;
     camera.registered = true; // a single lens implies registration
     const auto registered = findColour(root, "registered_to_color", "registered_to_colour");
@@ -212,9 +217,9 @@ RecordingIntrinsics readIntrinsics(const std::filesystem::path& file, ScaleRule 
     const bool two = colour || root.find("depth");
     intrinsics.relatesColour = two || findColour(root, "registered_to_color", "registered_to_colour");
     if (two) {
-        readTwoLenses(root, colour ? *colour : root.at("color"), file.string(), camera);
+        readTwoLenses(root, colour ? *colour : root.at("color"), file.string(), intrinsics);
     } else {
-        readOneLens(root, camera);
+        readOneLens(root, intrinsics);
     }
     intrinsics.scale = statedScale(root, rule);
     intrinsics.unreadScale = intrinsics.scale ? "" : otherScale(root);

@@ -29,8 +29,9 @@ struct RecordingIntrinsics {
     // Only when the file lists them: capture times [s] of the files in depth/ and rgb/ in order of their
     // names.
     std::vector<double> depthStamps, colourStamps;
-    bool relatesColour = false; // two lenses, or registered_to_color: colour is as this file says
-    bool rangeImages = false;   // depth/ holds ranges along the rays, not z
+    bool relatesColour = false;             // two lenses, or registered_to_color: colour is as this file says
+    std::vector<std::string> warnings = {}; // of what the file states and is not used
+    bool rangeImages = false;               // depth/ holds ranges along the rays, not z
     // [s] largest distance of a depth stamp from its colour stamp: half a frame at nominal_fps
     double pairWithin = 0.02;
 };

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <iterator>
 
 namespace fathom {
 
@@ -77,13 +78,15 @@ void checkIdentity(const fs::path& file) {
 }
 
 // Both lenses, with one pose: the extrinsics are the identity.
-CameraInfo scanNetCamera(const fs::path& folder, const std::vector<IndexLine>& index, bool depthOnly) {
+CameraInfo scanNetCamera(const fs::path& folder, const std::vector<IndexLine>& index, bool depthOnly,
+                         std::vector<std::string>& warnings) {
     CameraInfo camera;
     checkIdentity(folder / "extrinsic_depth.txt");
-    camera.depth = camera.colour = matrixLens(folder / "intrinsic_depth.txt", firstDepthSize(index));
+    camera.depth = camera.colour =
+        matrixLens(folder / "intrinsic_depth.txt", firstDepthSize(index), warnings);
     if (!depthOnly) {
         checkIdentity(folder / "extrinsic_color.txt");
-        camera.colour = matrixLens(folder / "intrinsic_color.txt", firstColourSize(index));
+        camera.colour = matrixLens(folder / "intrinsic_color.txt", firstColourSize(index), warnings);
         camera.registered = false;
     }
     return camera;
@@ -94,11 +97,13 @@ RecordingLayout readScanNet(const LayoutRequest& request) {
     RecordingLayout layout;
     layout.index = pairByNumber({folder / "depth", kDepthEndings}, {folder / "color", kColourEndings},
                                 request.depthOnly);
+    std::vector<std::string> ofRecorded;
     const auto recorded = [&] {
-        return scanNetCamera(folder / "intrinsic", layout.index, request.depthOnly);
+        return scanNetCamera(folder / "intrinsic", layout.index, request.depthOnly, ofRecorded);
     };
     if (!request.lens) {
         layout.intrinsics.camera = recorded();
+        layout.intrinsics.warnings = ofRecorded;
     } else {
         layout.intrinsics = *request.lens;
         if (!request.depthOnly) {
@@ -231,6 +236,7 @@ RecordingLayout readLayout(const fs::path& folder, const SourceOptions& options)
         throw BadInput(layout.intrinsics.unreadScale);
     }
     warnAboutAxis(layout, folder);
+    std::ranges::copy(layout.intrinsics.warnings, std::back_inserter(layout.warnings));
     for (IndexLine& line : layout.index) {
         if (layout.posePerImage && !line.baseTcamera && line.fault.empty()) {
             line.fault = "it has no pose, but other images have";

@@ -116,6 +116,50 @@ TEST_CASE("A lens of another size of image has a warning in the recording of a f
     CHECK(warned("\"width\": 7", R"("projection": "equal_angles", "width": 7)") == "");
 }
 
+TEST_CASE("The skew of a lens matrix of a folder has a warning with the matrix and its pixels") {
+    const auto warnings = [](const std::string& file, const std::string& text, const std::string& depth,
+                             const std::string& colour) {
+        const TemporaryFolder folder;
+        addPair(folder, depth, colour, 500);
+        folder.write(file, text);
+        folder.write("intrinsic/intrinsic_color.txt", "6 0 3\n0 6 2\n0 0 1\n");
+        return RecordedCamera(folder.path()).warnings();
+    };
+    const auto warned = [&](const std::string& skew) {
+        const std::string matrix = "6 " + skew + " 3\n0 6 2\n0 0 1\n", frame = "frame-000000.";
+        const std::string depth = frame + "depth.png", colour = frame + "color.png";
+        const std::string sizes = "m_colorWidth = 7\nm_colorHeight = 5\nm_depthWidth = 7\nm_depthHeight = 5\n"
+                                  "m_depthShift = 1000\n";
+        const std::string rest = " 3 0 0 6 2 0 0 0 1 0 0 0 0 1\n";
+        std::string all;
+        for (const auto& of :
+             {warnings("camera-intrinsics.txt", matrix, depth, colour),
+              warnings("info.txt",
+                       sizes + "m_calibrationDepthIntrinsic = 6 " + skew + rest +
+                           "m_calibrationColorIntrinsic = 6 0" + rest,
+                       depth, colour),
+              warnings("intrinsic/intrinsic_depth.txt", matrix, "depth/0.png", "color/0.png"),
+              warnings("scene_camera.json",
+                       R"({"0": {"depth_scale": 1, "cam_K": [6, )" + skew + ", 3, 0, 6, 2, 0, 0, 1]}}",
+                       "depth/0.png", "rgb/0.png"),
+              warnings("camera_intrinsic.json",
+                       R"({"width": 7, "height": 5, "intrinsic_matrix": [6, 0, 0, )" + skew +
+                           ", 6, 0, 3, 2, 1]}",
+                       "depth/0.png", "color/0.png")}) {
+            all += of.empty() ? "" : of.at(0) + "\n";
+        }
+        return all;
+    };
+    CHECK(warned("0.05") == "");
+    const std::string all = warned("-0.6"),
+                      rest = ": a skew of -0.6 pixels is not used: the images are played without it\n";
+    for (const char* matrix :
+         {"camera-intrinsics.txt", "info.txt: m_calibrationDepthIntrinsic", "intrinsic_depth.txt",
+          "scene_camera.json: cam_K", "camera_intrinsic.json: intrinsic_matrix"}) {
+        lineSays(all, matrix + rest);
+    }
+}
+
 TEST_CASE("A lens of another size of image has a warning in a bag") {
     const auto warned = [](const std::array<double, 4>& k) {
         const TemporaryFolder folder;
