@@ -197,6 +197,10 @@ PcdCamera::PcdCamera(const std::filesystem::path& file, const SourceOptions& opt
         log::warn("{}: {}", file.string(), warning);
         warnings_.push_back(warning);
     }
+    if (cloud_.posed) {
+        warnings_.emplace_back("the pose in VIEWPOINT is not read: base_T_camera of the scene counts");
+        log::warn("{}: {}", file.string(), warnings_.back());
+    }
     scalePoints(fit, options);
     if (options.depthOnly()) {
         cloud_.colour.clear();

@@ -54,7 +54,7 @@ private:
     CameraInfo info_;
     std::optional<FrameSlots> slots_;
     PcdCloud cloud_;
-    std::vector<std::string> warnings_; // of lensWarning() and metresWarning()
+    std::vector<std::string> warnings_; // of the lens, the pose and the unit
     double farthest_ = 0.0;             // [m] of interest
     bool done_ = false;
 };

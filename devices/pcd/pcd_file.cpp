@@ -4,6 +4,7 @@
 #include "devices/pcd/ascii_value.h"
 #include "devices/pcd/colour_fields.h"
 #include "devices/pcd/pcd_field.h"
+#include "devices/recorded/text_file.h"
 #include "engine/types/error.h"
 #include "engine/types/read_file.h"
 
@@ -28,7 +29,8 @@ struct Header {
     std::vector<PcdField> fields;
     uint32_t width = 0, height = 0;
     std::string data;
-    size_t bytes = 0; // a point
+    size_t bytes = 0;   // a point
+    bool posed = false; // PcdCloud::posed
 };
 
 struct Source {
@@ -76,6 +78,19 @@ void checkCount(const Source& source, const std::vector<std::string>& words, con
     }
 }
 
+// x y z qw qx qy qz; other words are none.
+bool isPose(const std::vector<std::string>& viewpoint) {
+    constexpr std::array kIdentity{0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0};
+    constexpr double kRounding = 1e-6;
+    bool known = viewpoint.size() == kIdentity.size() + 1, moved = false;
+    for (size_t i = 0; known && i < kIdentity.size(); ++i) {
+        double value = 0.0;
+        known = parseNumber(viewpoint[i + 1], value);
+        moved |= !(std::abs(value - kIdentity[i]) <= kRounding);
+    }
+    return known && moved;
+}
+
 void readHeaderLine(const Source& source, const std::vector<std::string>& words, Header& header) {
     const std::string& key = words.front();
     if (key == "FIELDS" || key == "COLUMNS") {
@@ -97,6 +112,8 @@ void readHeaderLine(const Source& source, const std::vector<std::string>& words,
         header.width = static_cast<uint32_t>(wholeNumber(source, key, words[1], SIZE_MAX >> 33));
     } else if (words.size() > 1 && key == "HEIGHT") {
         header.height = static_cast<uint32_t>(wholeNumber(source, key, words[1], kMaxHeight));
+    } else if (key == "VIEWPOINT") {
+        header.posed = isPose(words);
     } else if (words.size() > 1 && key == "DATA") {
         header.data = words[1];
     }
@@ -216,7 +233,7 @@ PcdCloud readPcd(const std::filesystem::path& file) {
         }
     }
     const std::vector<uint8_t> bytes = readPoints(source, header);
-    PcdCloud cloud{header.width, header.height, {}, {}, {}, {}};
+    PcdCloud cloud{header.width, header.height, {}, {}, {}, {}, header.posed};
     for (size_t i = 0; i < size_t{header.width} * header.height; ++i) {
         const uint8_t* point = bytes.data() + i * header.bytes;
         cloud.points.push_back({x->at(point), y->at(point), z->at(point)});

@@ -11,9 +11,10 @@ using namespace fathom;
 namespace {
 
 // A tilted wall, with its axes multiplied.
-std::string turnedWall(double x, double y, double z) {
+std::string turnedWall(double x, double y, double z, const std::string& viewpoint = "0 0 0 1 0 0 0") {
     std::string text = "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 9\nHEIGHT 7\n"
-                       "VIEWPOINT 0 0 0 1 0 0 0\nPOINTS 63\nDATA ascii\n";
+                       "VIEWPOINT " +
+                       viewpoint + "\nPOINTS 63\nDATA ascii\n";
     for (int i = 0; i < 63; ++i) {
         const int row = i / 9;
         const double u = i % 9, v = row, depth = 1.0 + 0.05 * u;
@@ -51,4 +52,20 @@ TEST_CASE("That no camera has the lens of a cloud is among its warnings") {
     CHECK(warnings(1.0).empty());
     REQUIRE(warnings(2.0).size() == 1);
     CHECK(warnings(2.0)[0].find("they may be in another frame than their camera's") != std::string::npos);
+}
+
+TEST_CASE("A VIEWPOINT other than the identity has one warning, as the scene's pose counts") {
+    const TemporaryFolder folder;
+    const auto warnings = [&](const std::string& viewpoint) {
+        folder.write("a.pcd", turnedWall(1.0, 1.0, 1.0, viewpoint));
+        return PcdCamera(folder.path() / "a.pcd", {}).warnings();
+    };
+    for (const char* viewpoint : {"1 2 3 0.5 -0.5 0.5 -0.5", "0 0 0.5 1 0 0 0", "0 0 0 0 0 0 1"}) {
+        CAPTURE(viewpoint);
+        REQUIRE(warnings(viewpoint).size() == 1);
+        CHECK(warnings(viewpoint)[0] ==
+              "the pose in VIEWPOINT is not read: base_T_camera of the scene counts");
+    }
+    CHECK(warnings("0.0 0.0 0.0 1.0 0.0 0.0 -0.0").empty());
+    CHECK(warnings("").empty());
 }
