@@ -57,6 +57,15 @@ dquat unitQuaternion(const Row& row, double w, double x, double y, double z) {
     return glm::normalize(dquat(w / largest, x / largest, y / largest, z / largest));
 }
 
+// In any spelling: other programs write 1 as "1.0" or "1e+00".
+uint32_t buttonsIn(const Row& row, std::string_view word) {
+    double value = 0.0;
+    if (!parseNumber(word, value) || !(value >= 0.0 && value <= 4294967295.0) || value != std::floor(value)) {
+        row.refuse("button", word, "a whole number from 0 to 4294967295");
+    }
+    return static_cast<uint32_t>(value);
+}
+
 HandWaypoint readRow(const Row& row, size_t columns) {
     const std::vector<std::string_view> fields = splitFields(row.line.text, ',');
     if (fields.size() != columns) {
@@ -81,9 +90,7 @@ HandWaypoint readRow(const Row& row, size_t columns) {
     point.t = v[0];
     point.deviceThandle.position = {v[1], v[2], v[3]};
     point.deviceThandle.rotation = unitQuaternion(row, v[4], v[5], v[6], v[7]);
-    if (columns > kNumbers && !parseNumber(fields[kNumbers], point.buttons)) {
-        row.refuse("button", fields[kNumbers], "a whole number from 0 to 4294967295");
-    }
+    point.buttons = columns > kNumbers ? buttonsIn(row, fields[kNumbers]) : 0;
     return point;
 }
 

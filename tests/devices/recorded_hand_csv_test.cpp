@@ -45,6 +45,32 @@ TEST_CASE("a path with and without buttons is read with w first and unit quatern
     CHECK(read("\xEF\xBB\xBF" + kHeader + "1,0,0,0,1,0,0,0\n").size() == 1); // byte order mark
 }
 
+TEST_CASE("The buttons of a path may be whole numbers in any spelling, as other programs write them") {
+    for (const auto& [word, buttons] : {std::pair("1.000000000000000000e+00", 1u),
+                                        {"0.0", 0u},
+                                        {"-0.0", 0u},
+                                        {"+3", 3u},
+                                        {"2.5e1", 25u},
+                                        {"4294967295.0", 4294967295u}}) {
+        CAPTURE(word);
+        const auto path = read(kButtonHeader + "0,0,0,0,1,0,0,0," + word + "\n");
+        CHECK(path.at(0).buttons == buttons);
+    }
+    for (const char* word : {"0.5", "-1.0", "4294967296", "inf", "nan", "1.0x", ""}) {
+        CAPTURE(word);
+        CHECK(refusedWith(kButtonHeader + "0,0,0,0,1,0,0,0," + word + "\n",
+                          "line 2, button: '" + std::string(word) + "' (allowed: a whole number from 0 to"));
+    }
+}
+
+TEST_CASE("A quaternion of a path whose length is not 1 is rejected with its length and the order") {
+    CHECK(refusedWith(kHeader + "0,0,0,0,10,20,30,0\n",
+                      "line 2, qw..qz: '10,20,30,0' (allowed: a quaternion qw qx qy qz, in this order, of "
+                      "length 1; its length is 37.42)"));
+    CHECK(refusedWith(kHeader + "0,0,0,0,1e200,1e200,0,0\n", "line 2, qw..qz: '1e+200,1e+200,0,0'"));
+    CHECK(read(kHeader + "0,0,0,0,0.7,0,0,0.7\n").size() == 1); // few digits
+}
+
 TEST_CASE("a path of 100000 rows keeps every one") {
     std::string text = kHeader;
     for (int i = 0; i < 100000; ++i) {
