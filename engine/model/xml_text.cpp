@@ -102,6 +102,17 @@ bool XmlTags::next() {
     return false;
 }
 
+std::string XmlTags::content() const {
+    std::string out;
+    XmlPieces ahead = pieces_;
+    while (!tag().isEmpty && ahead.next() && ahead.piece().name.empty()) {
+        const std::string_view text = ahead.piece().text;
+        out += text.starts_with('<') ? "" : resolved(text); // not a comment
+    }
+    const auto last = std::find_if_not(out.rbegin(), out.rend(), isSpace).base();
+    return {std::find_if_not(out.begin(), last, isSpace), last};
+}
+
 std::vector<std::string_view> xmlAttributeNames(std::string_view tag) {
     std::vector<std::string_view> names;
     size_t at = tag.find_first_of(" \t\r\n"); // behind the tag's own name

@@ -39,6 +39,8 @@ public:
     const XmlPiece& tag() const { return pieces_.piece(); }
     // The elements around the tag, the outermost first: "robot/link".
     std::string_view path() const { return path_; }
+    // The text behind the tag, up to the next one, without white space around it; entities are resolved.
+    std::string content() const;
 
 private:
     XmlPieces pieces_;

@@ -4,6 +4,7 @@
 #include "engine/model/urdf_packet.h"
 #include "engine/model/xml_text.h"
 #include "engine/reader/answers.h"
+#include "engine/reader/control_joints.h"
 #include "engine/reader/lost_shapes.h"
 #include "engine/reader/mjcf.h"
 #include "engine/reader/other_kinds.h"
@@ -232,7 +233,7 @@ std::string packetOf(const std::filesystem::path& file) {
     text = isMjcf(text) ? urdfOfMjcf(file, text, notes) : withSpaces(text);
     const bool capsules = text.find("<capsule") != std::string::npos;
     const Listener listener;
-    const std::shared_ptr<const urdf::ModelInterface> model = [&] {
+    const std::shared_ptr<urdf::ModelInterface> model = [&] {
         const ParserAtWork parser;
         return urdf::parseURDF(capsules ? hideCapsules(file.string(), text) : text);
     }();
@@ -244,6 +245,8 @@ std::string packetOf(const std::filesystem::path& file) {
     refuseLostShapes(*model, text, file.string(), listener.errors());
     noteLoops(text, notes);
     noteSoftLimits(*model, notes);
+    noteCommandLimits(*model, text, notes);
+    addControlMimics(*model, text, file.string(), notes);
     return packUrdf(*model, notes);
 }
 

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a URDF states about its joints for ros2_control and for Gazebo only.
+#pragma once
+
+#include <string>
+#include <urdf_model/model.h>
+#include <vector>
+
+namespace fathom {
+
+// Lets joints without <mimic> follow others as <ros2_control> or a mimic plugin of Gazebo states. file: for
+// messages. notes: gets a line for each such joint, and for each statement that is not used because it
+// differs from the one that is. Throws BadInput for a multiplier or offset that is no finite number.
+void addControlMimics(urdf::ModelInterface& model, const std::string& text, const std::string& file,
+                      std::vector<std::string>& notes);
+
+// Adds a note for each joint whose position limits of <command_interface> are narrower than its <limit>.
+void noteCommandLimits(const urdf::ModelInterface& model, const std::string& text,
+                       std::vector<std::string>& notes);
+
+} // namespace fathom
