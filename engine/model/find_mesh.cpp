@@ -85,20 +85,15 @@ std::filesystem::path inAnyCase(const std::filesystem::path& folder, const std::
     return at;
 }
 
-// Names of the package that a folder may be: its own name, or the one of its package.xml.
-std::set<std::string> packageNames(const std::filesystem::path& folder) {
-    std::error_code ignored;
-    std::set<std::string> names{std::filesystem::weakly_canonical(folder, ignored).filename().string()};
+// The name in a folder's package.xml; empty = none.
+std::string manifestName(const std::filesystem::path& folder) {
     const std::string manifest = readFileAtMost(folder / "package.xml", kLargestManifest).value_or("");
-    bool named = false;
-    for (XmlPieces pieces(manifest); pieces.next();) {
-        const XmlPiece& piece = pieces.piece();
-        if (named) {
-            return {std::string(piece.text)};
+    for (XmlTags tags(manifest); tags.next();) {
+        if (tags.path() == "package" && tags.tag().name == "name") {
+            return tags.content();
         }
-        named = piece.name == "name" && !piece.closes;
     }
-    return names;
+    return "";
 }
 
 class MeshSearch {
@@ -165,7 +160,7 @@ private:
         const std::filesystem::path file = exact_ ? folder / wanted : inAnyCase(folder, wanted);
         std::string place = (file.empty() ? folder / wanted : file).lexically_normal().string();
         if (!file.empty() && std::filesystem::exists(file, ignored)) {
-            const std::string warning = whole || others_.empty() ? "" : warningOf(folder);
+            const std::string warning = whole ? "" : warningOf(folder);
             if (warning.empty() || warning == kUnnamed) {
                 return {file,
                         warning.empty() ? "" : place + " is taken for '" + excerpt(name_) + "'; " + warning,
@@ -183,14 +178,18 @@ private:
 
     // Why a file below a folder may not be of the mesh's package.
     std::string warningOf(const std::filesystem::path& folder) const {
-        const auto names = packageNames(folder);
-        if (names.count(parts_.package) > 0) {
+        if (const std::string stated = manifestName(folder); !stated.empty()) {
+            const bool own = sameButCapitals(stated, parts_.package) ||
+                             sameButCapitals(stated, percentDecoded(parts_.package));
+            return own ? "" : "of package " + excerpt(printable(stated));
+        }
+        std::error_code ignored;
+        const std::string name = std::filesystem::weakly_canonical(folder, ignored).filename().string();
+        if (others_.empty() || name == parts_.package) {
             return "";
         }
-        for (const std::string& other : others_) {
-            if (names.count(other) > 0) {
-                return "of package " + other;
-            }
+        if (others_.count(name) > 0) {
+            return "of package " + name;
         }
         return rivals_.empty() ? kUnnamed : "of package " + parts_.package + rivals_;
     }

@@ -4,6 +4,7 @@
 
 #include "engine/types/error.h"
 #include "tests/model/meshes.h"
+#include "tests/support/refusal.h"
 #include "tests/support/scratch_folder.h"
 
 #include <algorithm>
@@ -77,6 +78,31 @@ TEST_CASE("A mesh of a package that is not there is not taken from another packa
     CHECK(notesOf("flat/r.urdf", {"arm/meshes/base.obj", "grip/meshes/hand.obj"}).empty());
     CHECK(notesOf("flat/r.urdf", {"arm/meshes/base.obj", "grip/meshes/finger.obj"})[0].find("not found") !=
           std::string::npos);
+}
+
+TEST_CASE("A mesh is not taken from a folder whose package.xml names another package") {
+    const testing::ScratchFolder folder;
+    const testing::ObjFile box(testing::boxMesh(dvec3(0.0), dvec3(0.1)));
+    std::filesystem::create_directories(folder / "cell/meshes");
+    std::filesystem::create_directories(folder / "cell/urdf");
+    std::filesystem::copy_file(box.path(), folder / "cell/meshes/base.obj");
+    const auto faultWith = [&](const std::string& manifest, const std::string& more) {
+        std::ofstream(folder / "cell/package.xml") << manifest;
+        std::ofstream(folder / "cell/urdf/arm.urdf")
+            << "<robot name='r'><link name='a'><collision><geometry><mesh filename='package://arm/meshes/"
+               "base.obj'/></geometry></collision>"
+            << more << "</link></robot>";
+        return testing::refusalOf([&] { loadArm(folder / "cell/urdf/arm.urdf"); });
+    };
+    const std::string other = "<?xml version='1.0'?>\n<package format='3'>\n<name>\n cell </name></package>";
+    const std::string beside =
+        "<collision><geometry><mesh filename='../meshes/base.obj'/></geometry></collision>";
+    for (const std::string& more : {std::string(), beside}) {
+        const std::string fault = faultWith(other, more);
+        CHECK_MESSAGE(fault.find("/cell/meshes/base.obj (of package cell)") != std::string::npos, fault);
+    }
+    CHECK(faultWith("<package><name> arm\n</name></package>", "") == "");
+    CHECK(faultWith("<package/>", beside) == "");
 }
 
 TEST_CASE(
