@@ -39,7 +39,7 @@ public:
     }
 
     void chooseTip(ArmEnds& ends) {
-        walk(ends.base, 0, false);
+        walk({ends.base, 0});
         const bool any = std::any_of(seen_.begin(), seen_.end(),
                                      [](const Seen& s) { return s.moving > 0 && !s.inGripper; });
         const auto usable = [&](const Seen& s) { return !any || !s.inGripper; };
@@ -65,11 +65,12 @@ public:
                                              : "the end of the longest chain";
         }
         noteOthers(ends, *best, any);
+        noteLeftOut(ends, *best);
         if (const std::string joints = behind(*best, usable); !joints.empty()) {
             ends.notes.push_back("joints that move lie behind the tip " + best->link->name +
                                  " and stay where they are: " + joints + "; arm.tip selects another");
         }
-        if (best->rank == kNoTool && best->moving > 2 && !turnsHand(*best->last)) {
+        if (best->rank == kNoTool && best->moving > 2 && !turnsHand(wordsOf(model_, *best->last))) {
             if (const std::string warning = jawWarning(*best->last); !warning.empty()) {
                 ends.notes.push_back(warning);
             }
@@ -80,11 +81,13 @@ public:
 private:
     struct Seen { // a link below the base
         LinkPtr link;
-        int moving;             // joints between the base and it
-        bool inGripper = false; // carried by a gripper joint
-        bool gripperBelow = false;
-        size_t rank;
+        int moving;                        // joints between the base and it
         const urdf::Joint* last = nullptr; // last moving joint above it
+        bool inGripper = false;            // carried by a gripper joint
+        bool gripperBelow = false;
+        const urdf::Joint* named = nullptr; // the gripper joint, if only its names say so
+        int before = 0;                     // joints between the base and the gripper
+        size_t rank = kNoTool;
     };
 
     // The joints from a frame to the end of a longer chain, if it ends in no gripper: one joint behind the
@@ -100,7 +103,8 @@ private:
                 const urdf::Joint& joint = *link->parent_joint;
                 if (moves(joint)) {
                     names = joint.name + (names.empty() ? "" : ", " + names);
-                    arm = arm || movesAsArm(joint);
+                    arm = arm || movesAsArm(joint, wordsOf(model_, joint),
+                                            grippers_.depthBelow(joint.child_link_name));
                     row = grippers_.branches(*model_.getLink(joint.parent_link_name)) == 1;
                 }
             }
@@ -121,18 +125,46 @@ private:
                isPart(*part.link);
     }
 
-    void walk(const LinkPtr& link, int moving, bool inGripper, const urdf::Joint* last = nullptr) {
+    void walk(Seen seen) {
         const size_t at = seen_.size();
-        seen_.push_back({link, moving, inGripper, false, toolRank(link->name), last});
-        const bool fingers = grippers_.branchesIntoFingers(*link, moving);
-        for (const auto& joint : link->child_joints) {
-            if (isFree(*joint) && moving > 0 && grippers_.depthThrough(*joint) == 0) {
+        seen.rank = toolRank(seen.link->name);
+        seen_.push_back(seen);
+        const bool fingers = grippers_.branchesIntoFingers(*seen.link, seen.moving);
+        for (const auto& joint : seen.link->child_joints) {
+            if (isFree(*joint) && seen.moving > 0 && grippers_.depthThrough(*joint) == 0) {
                 continue; // it would end the chain
             }
-            const bool grips = moves(*joint) && (fingers || grippers_.closes(*joint, moving, last));
-            seen_[at].gripperBelow = seen_[at].gripperBelow || grips;
-            walk(model_.getLink(joint->child_link_name), moving + moves(*joint), inGripper || grips,
-                 moves(*joint) ? joint.get() : last);
+            Seen next = seen;
+            next.link = model_.getLink(joint->child_link_name);
+            if (moves(*joint)) {
+                const bool closes = fingers || grippers_.closes(*joint, seen.moving, seen.last);
+                const bool grips = closes || grippers_.closesByName(*joint);
+                seen_[at].gripperBelow = seen_[at].gripperBelow || grips;
+                if (grips && !seen.inGripper) {
+                    next.inGripper = true;
+                    next.named = closes ? nullptr : joint.get();
+                    next.before = seen.moving;
+                }
+                next.moving = seen.moving + 1;
+                next.last = joint.get();
+            }
+            walk(next);
+        }
+    }
+
+    // The longest chain elsewhere that has as many joints, but for a joint whose names seem to be a gripper's.
+    void noteLeftOut(ArmEnds& ends, const Seen& best) const {
+        const Seen* longest = nullptr;
+        for (const Seen& s : seen_) {
+            const bool several = s.moving > s.before + 1; // one joint is rather a jaw beside the chain
+            const bool leftOut =
+                s.named != nullptr && several && s.before < best.moving && s.moving >= best.moving;
+            longest = leftOut && (longest == nullptr || s.moving > longest->moving) ? &s : longest;
+        }
+        if (longest != nullptr && !best.inGripper) {
+            ends.notes.push_back("a chain of " + std::to_string(longest->moving) + " joints to " +
+                                 longest->link->name + " is left out: joint " + longest->named->name +
+                                 " seems to be a gripper's by its names; arm.tip selects another");
         }
     }
 

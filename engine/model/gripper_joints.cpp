@@ -88,7 +88,11 @@ bool GripperJoints::closes(const urdf::Joint& joint, int moving, const urdf::Joi
     const bool tiedEnd =
         moving >= 2 && groupOf(joint).size() > 1 && depthThrough(joint) <= 2 && !tiedToChain(joint);
     const bool jaw = moving >= 2 && depthThrough(joint) == 1 && slidesLikeJaw(model_, joint, last);
-    return closesGripper(joint) || tiedEnd || (jaw && !turnsHand(joint));
+    return tiedEnd || (jaw && !turnsHand(wordsOf(model_, joint)));
+}
+
+bool GripperJoints::closesByName(const urdf::Joint& joint) const {
+    return moves(joint) && closesGripper(wordsOf(model_, joint), depthBelow(joint.child_link_name));
 }
 
 // The joint and those that are tied to it; empty if it follows one that cannot move.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/model/jaw_joint.h"
 
-#include "engine/model/link_names.h"
 #include "engine/model/urdf_file.h"
 #include "engine/types/number_text.h"
 
@@ -53,14 +52,15 @@ bool slidesLikeJaw(const urdf::ModelInterface& model, const urdf::Joint& joint, 
            (glm::length(way) < kSameSpot || std::abs(glm::dot(slide, way)) <= kAcross * glm::length(way));
 }
 
-bool movesAsArm(const urdf::Joint& joint) {
-    if (joint.type == urdf::Joint::CONTINUOUS || turnsHand(joint)) {
+bool movesAsArm(const urdf::Joint& joint, const JointWords& words, int behind) {
+    if (joint.type == urdf::Joint::CONTINUOUS || turnsHand(words)) {
         return true;
     }
     const double low = joint.limits ? joint.limits->lower : 0.0,
                  high = joint.limits ? joint.limits->upper : 0.0;
-    return joint.type == urdf::Joint::PRISMATIC ? high - low > kArmTravel
-                                                : std::min(-low, high) > kArmTurn && !closesGripper(joint);
+    return joint.type == urdf::Joint::PRISMATIC
+               ? high - low > kArmTravel
+               : std::min(-low, high) > kArmTurn && !closesGripper(words, behind);
 }
 
 std::string jawWarning(const urdf::Joint& joint) {

@@ -2,6 +2,8 @@
 // What the motion of the last joint of a chain says: whether it closes a gripper, whatever its name.
 #pragma once
 
+#include "engine/model/link_names.h"
+
 #include <string>
 #include <urdf_model/model.h>
 
@@ -13,8 +15,8 @@ namespace fathom {
 bool slidesLikeJaw(const urdf::ModelInterface& model, const urdf::Joint& joint, const urdf::Joint* last);
 
 // Whether the joint moves as those of arms and not as a jaw: it turns without end or over 0.5 rad to both
-// sides, slides over 0.2 m, or turns a hand by its name.
-bool movesAsArm(const urdf::Joint& joint);
+// sides, slides over 0.2 m, or turns a hand by its words. behind: see closesGripper().
+bool movesAsArm(const urdf::Joint& joint, const JointWords& words, int behind);
 
 // A note that the joint may close a gripper, if it moves only a little and to one side of 0; else empty.
 std::string jawWarning(const urdf::Joint& joint);

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/model/link_names.h"
 
+#include "engine/model/gripper_joints.h"
+
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <functional>
 #include <span>
 #include <string_view>
 
@@ -46,11 +49,21 @@ constexpr std::array<std::string_view, 11> kGripperWords{
     "finger", "fngr", "jaw", "knuckle", "claw", "thumb", "pincer", "clamp", "pinch", "tong", "forceps"};
 // A joint of this name moves a finger, also sideways: "thumb_yaw".
 constexpr std::array<std::string_view, 3> kFingerWords{"finger", "fngr", "thumb"};
-constexpr std::string_view kWrist = "wrist";
-constexpr std::array<std::string_view, 3> kGripperJoints{"grip", "grasp", "opening"};
+constexpr std::array<std::string_view, 1> kWrist{"wrist"};
+constexpr std::array<std::string_view, 4> kGripperJoints{"grip", "gripper", "grasp", "opening"};
 
 // In the name of a joint these say that it turns a hand and does not close it.
 constexpr std::array<std::string_view, 6> kWristWords{"wrist", "roll", "rotat", "pitch", "yaw", "swivel"};
+
+// What words are joined to without a mark between: "lfinger", "fingertip", "wristrotation".
+constexpr std::array<std::string_view, 8> kSides{"l",     "r",     "left",  "right",
+                                                 "lower", "upper", "inner", "outer"};
+constexpr std::array<std::string_view, 6> kEndings{"", "s", "e", "ion", "tip", "tips"};
+
+constexpr int kBehindGripper = 2,
+              kBehindFinger = 4;  // moving joints behind the first of a gripper, of a finger
+constexpr size_t kMostAbove = 12; // joints above whose names are compared
+constexpr size_t kSharers = 3;    // joints above that make a prefix of words
 
 std::string lowered(std::string name) {
     name = name.substr(name.rfind('/') + 1);
@@ -59,10 +72,88 @@ std::string lowered(std::string name) {
     return name;
 }
 
-bool hasWord(const std::string& name, std::span<const std::string_view> words) {
-    const std::string low = lowered(name);
-    return std::any_of(words.begin(), words.end(),
-                       [&](std::string_view word) { return low.find(word) != std::string::npos; });
+// Parts of a name between marks and digits, and before capitals; in small letters.
+std::vector<std::string> namePartsOf(const std::string& name) {
+    const auto isUpper = [](char c) { return c >= 'A' && c <= 'Z'; };
+    const auto isLower = [](char c) { return c >= 'a' && c <= 'z'; };
+    std::vector<std::string> parts(1);
+    for (size_t i = name.rfind('/') + 1; i < name.size(); ++i) {
+        const char c = name[i], before = i > 0 ? name[i - 1] : '_',
+                   after = i + 1 < name.size() ? name[i + 1] : '_';
+        const bool begins = isUpper(c) && (isLower(before) || (isUpper(before) && isLower(after)));
+        const bool mark = !isUpper(c) && !isLower(c);
+        if ((begins || mark) && !parts.back().empty()) {
+            parts.emplace_back();
+        }
+        if (!mark) {
+            parts.back() += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+        }
+    }
+    std::erase(parts, "");
+    return parts;
+}
+
+// Whether the part begins or ends with the word, or has it behind a side: "fingertip", "eegripper".
+bool holdsWord(const std::string& part, std::string_view word) {
+    const size_t at = part.find(word);
+    if (at == std::string::npos) {
+        return false;
+    }
+    const std::string_view all(part), head = all.substr(0, at), tail = all.substr(at + word.size());
+    return head.empty() || std::ranges::find(kSides, head) != kSides.end() ||
+           std::ranges::find(kEndings, tail) != kEndings.end();
+}
+
+bool hasWord(const std::vector<std::string>& parts, std::span<const std::string_view> words) {
+    return std::ranges::any_of(parts, [&](const std::string& part) {
+        return std::ranges::any_of(words, [&](std::string_view word) { return holdsWord(part, word); });
+    });
+}
+
+using MovingJoint = std::shared_ptr<const urdf::Joint>;
+
+// Moving joints above the joint, the nearest first; at its root the nearest ones below it.
+std::vector<MovingJoint> neighboursOf(const urdf::ModelInterface& model, const urdf::Joint& joint) {
+    std::vector<MovingJoint> all;
+    for (auto link = model.getLink(joint.parent_link_name); link && link->parent_joint;
+         link = link->getParent()) {
+        if (all.size() < kMostAbove && moves(*link->parent_joint)) {
+            all.push_back(link->parent_joint);
+        }
+    }
+    std::vector<std::string> open;
+    if (all.empty()) {
+        open.push_back(joint.child_link_name);
+    }
+    while (!open.empty()) {
+        const auto link = model.getLink(open.back());
+        open.pop_back();
+        for (const auto& below : link->child_joints) {
+            moves(*below) ? all.push_back(below) : open.push_back(below->child_link_name);
+        }
+    }
+    return all;
+}
+
+size_t sameParts(const std::vector<std::string>& a, const std::vector<std::string>& b) {
+    return static_cast<size_t>(std::ranges::mismatch(a, b).in1 - a.begin());
+}
+
+// The parts of a name behind those that enough of the others begin with, too.
+std::vector<std::string> ownParts(const std::string& name, const std::vector<std::string>& others) {
+    const std::vector<std::string> parts = namePartsOf(name);
+    std::vector<size_t> shared;
+    for (const std::string& other : others) {
+        shared.push_back(sameParts(parts, namePartsOf(other)));
+    }
+    std::ranges::sort(shared, std::greater());
+    size_t prefix = shared.empty() ? 0 : shared[std::min(kSharers, shared.size()) - 1];
+    const auto tells = [](const std::string& part) { return part != "joint" && part != "link"; };
+    if (prefix > 0 && prefix < parts.size() &&
+        std::none_of(parts.begin() + static_cast<std::ptrdiff_t>(prefix), parts.end(), tells)) {
+        --prefix; // "gripper_joint" behind "gripper_arm_wrist"
+    }
+    return {parts.begin() + static_cast<std::ptrdiff_t>(prefix), parts.end()};
 }
 
 } // namespace
@@ -87,14 +178,25 @@ bool namesPart(const std::string& link) {
            toolRank(link) >= static_cast<size_t>(first - kToolNames.begin());
 }
 
-bool turnsHand(const urdf::Joint& joint) {
-    const bool wrist = lowered(joint.name).find(kWrist) != std::string::npos;
-    return hasWord(joint.name, kWristWords) && (wrist || !hasWord(joint.name, kFingerWords));
+JointWords wordsOf(const urdf::ModelInterface& model, const urdf::Joint& joint) {
+    std::vector<std::string> joints, links;
+    for (const MovingJoint& other : neighboursOf(model, joint)) {
+        joints.push_back(other->name);
+        links.push_back(other->child_link_name);
+    }
+    return {ownParts(joint.name, joints), ownParts(joint.child_link_name, links)};
 }
 
-bool closesGripper(const urdf::Joint& joint) {
-    return !turnsHand(joint) && (hasWord(joint.name, kGripperJoints) || hasWord(joint.name, kGripperWords) ||
-                                 hasWord(joint.child_link_name, kGripperWords));
+bool turnsHand(const JointWords& words) {
+    return hasWord(words.joint, kWristWords) &&
+           (hasWord(words.joint, kWrist) || !hasWord(words.joint, kFingerWords));
+}
+
+bool closesGripper(const JointWords& words, int behind) {
+    const bool finger = hasWord(words.joint, kFingerWords) || hasWord(words.link, kFingerWords);
+    return behind <= (finger ? kBehindFinger : kBehindGripper) && !turnsHand(words) &&
+           (hasWord(words.joint, kGripperJoints) || hasWord(words.joint, kGripperWords) ||
+            hasWord(words.link, kGripperWords));
 }
 
 } // namespace fathom

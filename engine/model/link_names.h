@@ -4,7 +4,8 @@
 
 #include <limits>
 #include <string>
-#include <urdf_model/joint.h>
+#include <urdf_model/model.h>
+#include <vector>
 
 namespace fathom {
 
@@ -20,10 +21,18 @@ size_t toolRank(const std::string& link);
 // "wrist_flange", "forearm_hand", "calib_tool".
 bool namesPart(const std::string& link);
 
-// Whether the name says that the joint turns a hand, as that of a wrist, and does not close it.
-bool turnsHand(const urdf::Joint& joint);
+// The words of a joint's name and of its child link's, without those of a prefix that joints above it have,
+// too: a robot called "pincher" has no gripper for that.
+struct JointWords {
+    std::vector<std::string> joint, link;
+};
+JointWords wordsOf(const urdf::ModelInterface& model, const urdf::Joint& joint);
 
-// Whether the names say that the joint closes a gripper.
-bool closesGripper(const urdf::Joint& joint);
+// Whether the words say that the joint turns a hand, as that of a wrist, and does not close it.
+bool turnsHand(const JointWords& words);
+
+// Whether the words say that the joint closes a gripper. behind: moving joints on the longest way behind it,
+// which are few in a gripper.
+bool closesGripper(const JointWords& words, int behind);
 
 } // namespace fathom

@@ -39,6 +39,18 @@ std::string fingerOf(const std::string& name, int joints, const std::string& on,
     return urdf;
 }
 
+// Joints in a row on the link, with links of their names, all behind a prefix.
+std::string rowOf(const std::string& prefix, const std::vector<std::string>& joints, const std::string& on) {
+    std::string urdf, parent = on;
+    for (const std::string& joint : joints) {
+        const std::string link = prefix + joint + "_link";
+        urdf += ballLink(link);
+        urdf += jointText(prefix + joint, "revolute", parent, link, "0 0 0.1", "1 0 0");
+        parent = link;
+    }
+    return urdf;
+}
+
 std::string endOf(const std::string& urdf) {
     const std::string text = loadUrdf(urdf).tipText;
     return text.substr(0, text.find(' '));
@@ -101,4 +113,45 @@ TEST_CASE("A link named as a tool before joints that may be a gripper's is the t
     CHECK(jaw.tipText.find("my_hand ") == 0);
     CHECK_FALSE(behindTip(jaw));
     CHECK(endOf(armOf(6, {{6, "my_hand"}}) + fingerOf("left", 2, "my_hand")) == "my_hand");
+}
+
+TEST_CASE("A word in the prefix of a robot's names makes none of its joints a gripper's or a wrist's") {
+    const std::vector<std::string> arm{"pan", "lift", "elbow", "wrist_1", "wrist_2", "wrist_3"};
+    const std::string world = ballLink("world"), tilt = rowOf("tilt_", {"pan", "lift"}, "world");
+    for (const char* prefix : {"gripper_arm_", "left_claw_", "Clamp-", "pincher/", "finger2_", "wrist_"}) {
+        const std::string end = std::string(prefix) + "wrist_3_link";
+        CHECK_MESSAGE(endOf(world + rowOf(prefix, arm, "world") + tilt) == end, prefix);
+    }
+    const std::vector<std::string> jaw{"pan", "lift", "elbow", "flex", "gripper_joint"};
+    for (const char* prefix : {"phantomx_pincher_", "trolley_", "roller_", "rotating-", "controller_"}) {
+        const std::string end = std::string(prefix) + "flex_link";
+        CHECK_MESSAGE(endOf(world + rowOf(prefix, jaw, "world")) == end, prefix);
+    }
+    CHECK(endOf(world + rowOf("gripper_arm_", arm, "world") +
+                fingerOf("gripper", 1, "gripper_arm_wrist_3_link")) == "gripper_arm_wrist_3_link");
+}
+
+TEST_CASE("Words of grippers and wrists count at the start or end of a part of a name") {
+    for (const char* joint : {"leftGripper", "RFinger1", "rfinger", "left-jaw", "fingertip", "innerknuckle2",
+                              "eegripper", "GRIP", "tongs", "clamping"}) {
+        CHECK_MESSAGE(endOf(armOf(3) + rowOf("", {joint}, "l3")) == "l3", joint);
+    }
+    CHECK(endOf(armOf(3) + rowOf("", {"agriplow"}, "l3")) == "agriplow_link");
+    CHECK(endOf(armOf(3) + rowOf("", {"gripper_wristroll"}, "l3")) == "gripper_wristroll_link");
+    CHECK(endOf(armOf(3) + rowOf("", {"trolley_gripper"}, "l3")) == "l3");
+}
+
+TEST_CASE("A joint with more than two moving joints behind it is no gripper's, unless a finger's") {
+    CHECK(endOf(armOf(3) + rowOf("", {"clamp_mount", "u", "v", "w"}, "l3")) == "w_link");
+    CHECK(endOf(armOf(3) + rowOf("", {"clamp_mount", "u", "v"}, "l3")) == "l3");
+    CHECK(endOf(armOf(3) + rowOf("", {"thumb_yaw", "u", "v", "w"}, "l3")) == "l3");
+}
+
+TEST_CASE("A chain that is as long as the arm's and ends early by a gripper's name gives a note") {
+    const std::string note = "a chain of 4 joints to v_link is left out: joint clamp_mount seems to be a "
+                             "gripper's by its names; arm.tip selects another";
+    const std::string other = rowOf("", {"m", "clamp_mount", "u", "v"}, "l0");
+    CHECK(loadUrdf(armOf(4) + other).notes == std::vector<std::string>{note});
+    CHECK(loadUrdf(armOf(5) + other).notes.empty());
+    CHECK(loadUrdf(armOf(4) + rowOf("", {"clamp_mount", "u", "v"}, "l4")).notes.empty());
 }
