@@ -5,6 +5,7 @@
 #include "engine/model/urdf_file.h"
 #include "engine/types/error.h"
 #include "engine/types/joined.h"
+#include "engine/types/log.h"
 #include "engine/types/printable.h"
 #include "engine/types/read_file.h"
 
@@ -44,6 +45,19 @@ Sphere collisionSphere(const urdf::Collision& collision, const std::filesystem::
 }
 
 } // namespace
+
+void growSpheres(const std::filesystem::path& file, LinkSpheres& set, double distance) {
+    constexpr double kDisabled = -1.0, kLeast = 1e-3; // [m]
+    std::erase_if(set.spheres,
+                  [&](const Sphere& s) { return std::min(s.radius, s.radius + distance) <= kDisabled; });
+    for (Sphere& s : set.spheres) {
+        s.radius = s.radius + distance > 0.0 ? s.radius + distance : kLeast;
+    }
+    if (set.spheres.empty()) {
+        log::warn("{}: link {}: all spheres are disabled by radii of -1 or less", file.string(),
+                  excerpt(printable(set.link)));
+    }
+}
 
 std::string namesOf(const std::vector<LinkSpheres>& sets) {
     return excerpt(joined(sets, &LinkSpheres::link), kShownNames);

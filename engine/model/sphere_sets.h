@@ -18,6 +18,10 @@ struct LinkSpheres {
     std::vector<Sphere> spheres; // link frame [m]
 };
 
+// Adds a distance to the radii as cuRobo does: a radius of -1 or less disables a sphere, and others have at
+// least 1 mm. Warns if all are disabled. file: for the message.
+void growSpheres(const std::filesystem::path& file, LinkSpheres& set, double distance);
+
 // For messages, with commas, cut where there are too many.
 std::string namesOf(const std::vector<LinkSpheres>& sets);
 
@@ -27,13 +31,13 @@ std::vector<LinkSpheres> readSpherizedUrdf(const std::filesystem::path& file, co
                                            const ReaderOptions& reader = {});
 
 // `collision_spheres: {LINK: [{center: [x, y, z], radius: r}]}`, at the top or under robot_cfg / kinematics,
-// or a list of such tables as in Lula's files; links in the file's order. Entries with radius <= 0 are
-// skipped: cuRobo disables spheres that way. `collision_sphere_buffer` next to it, one distance or {LINK: d},
-// is added to the radii. Throws BadInput with the line.
+// or a list of such tables as in Lula's files; links in the file's order. `collision_sphere_buffer` next to
+// it, one distance or {LINK: d}, is added to the radii, see growSpheres(). Throws BadInput with the line.
 std::vector<LinkSpheres> readCuroboYaml(const std::filesystem::path& file);
 
 // XRDF: `geometry: {NAME: {spheres: {LINK: [...]}}}`, NAME from `collision: {geometry: NAME}` or the only
-// one; `collision: {buffer_distance: {LINK: d}}` is added to the radii. Throws BadInput with the line.
+// one; `collision: {buffer_distance: {LINK: d}}` is added to the radii, see growSpheres(). Throws
+// BadInput with the line.
 std::vector<LinkSpheres> readXrdf(const std::filesystem::path& file);
 
 // Either of these two: XRDF says `format: xrdf`.

@@ -107,7 +107,7 @@ std::vector<Sphere> spheresOf(const std::filesystem::path& file, const std::stri
     std::vector<Sphere> spheres;
     for (const YAML::Node& entry : list) {
         const Sphere s = sphereOf(file.string(), entry, key);
-        if (s.radius > 0.0) {
+        if (s.radius > 0.0 || key == "center") { // cuRobo's may grow
             spheres.push_back(s);
         }
     }
@@ -171,10 +171,9 @@ void growBy(const std::filesystem::path& file, const YAML::Node& table, const st
     for (LinkSpheres& set : sets) {
         const YAML::Node own = tableOf(file.string(), distances, set.link);
         bare.insert(bare.end(), own ? 0 : 1, set.link);
-        for (Sphere& s : set.spheres) {
-            s.radius += own ? number(file.string(), own) : all;
+        if (!set.spheres.empty()) {
+            growSpheres(file, set, own ? number(file.string(), own) : all);
         }
-        std::erase_if(set.spheres, [](const Sphere& s) { return !(s.radius > 0.0); });
     }
     for (auto entry = distances.begin(); distances.IsMap() && entry != distances.end(); ++entry) {
         const std::string link = entry->first.IsScalar() ? entry->first.Scalar() : "";

@@ -68,6 +68,23 @@ TEST_CASE("XRDF uses the geometry that collisions name, with its buffer distance
     CHECK(sets[1].spheres[0].radius == 1.0);
 }
 
+TEST_CASE("Spheres of radius 0 or below grow by the buffer, and have 1 mm where nothing is left of them") {
+    const auto radii = [](const std::string& buffer) {
+        const ScratchFile file("set.yml", "collision_spheres: {a: [{center: [0, 0, 0], radius: 0}, "
+                                                   "{center: [0, 0, 1], radius: -0.5}, {center: [0, 0, 2], "
+                                                   "radius: 0.02}]}\ncollision_sphere_buffer: " +
+                                                       buffer);
+        std::vector<double> all;
+        for (const Sphere& s : readCuroboYaml(file.path()).at(0).spheres) {
+            all.push_back(s.radius);
+        }
+        return all;
+    };
+    CHECK(radii("0.01") == std::vector<double>{0.01, 1e-3, 0.03});
+    CHECK(radii("-0.03") == std::vector<double>{1e-3, 1e-3, 1e-3});
+    CHECK(radii("-0.6") == std::vector<double>{1e-3, 1e-3}); // -1.1 disables
+}
+
 TEST_CASE("A damaged XRDF or foam file is rejected with the place of the error") {
     CHECK(refusal("a.xrdf", kXrdf).find("geometry: missing") != std::string::npos);
     CHECK(refusal("a.xrdf", kXrdf + "geometry: {a: {spheres: {}}, b: {spheres: {}}}")
