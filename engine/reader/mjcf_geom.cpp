@@ -37,6 +37,22 @@ std::string fileOf(const tinyxml2::XMLElement& root, const std::string& named) {
     return (folder / file).string();
 }
 
+// Geoms of explicit pairs, which collide whatever contype and conaffinity say.
+std::set<std::string> pairedGeoms(const tinyxml2::XMLElement& root) {
+    std::set<std::string> names;
+    for (auto* contact = root.FirstChildElement("contact"); contact != nullptr;
+         contact = contact->NextSiblingElement("contact")) {
+        for (auto* pair = contact->FirstChildElement("pair"); pair != nullptr;
+             pair = pair->NextSiblingElement("pair")) {
+            for (const char* key : {"geom1", "geom2"}) {
+                const char* const name = pair->Attribute(key);
+                names.insert(name != nullptr ? name : "");
+            }
+        }
+    }
+    return names;
+}
+
 } // namespace
 
 std::string urdfNumber(double value) {
@@ -51,7 +67,8 @@ std::string urdfOrigin(const Pose& pose) {
 
 MjcfGeoms::MjcfGeoms(const MjcfClasses& classes, const MjcfAngles& angles, const tinyxml2::XMLElement& root)
     : classes_(classes)
-    , angles_(angles) {
+    , angles_(angles)
+    , paired_(pairedGeoms(root)) {
     for (auto* asset = root.FirstChildElement("asset"); asset != nullptr;
          asset = asset->NextSiblingElement("asset")) {
         for (auto* mesh = asset->FirstChildElement("mesh"); mesh != nullptr;
@@ -79,7 +96,9 @@ std::string MjcfGeoms::shape(const tinyxml2::XMLElement& geom, const std::string
     const auto touches = [&](const char* name) {
         return classes_.numbers(geom, childClass, name, {1.0}, 1, 1)[0] != 0.0;
     };
-    const std::string kind = touches("contype") || touches("conaffinity") ? "collision" : "visual";
+    const char* const name = geom.Attribute("name");
+    const bool paired = name != nullptr && paired_.count(name) > 0;
+    const std::string kind = paired || touches("contype") || touches("conaffinity") ? "collision" : "visual";
     return "<" + kind + ">" + urdfOrigin(at * place.pose) + "<geometry>" +
            geometry(geom, childClass, place.half ? &*place.half : nullptr) + "</geometry></" + kind + ">";
 }

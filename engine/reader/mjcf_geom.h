@@ -5,6 +5,7 @@
 #include "engine/reader/mjcf_pose.h"
 
 #include <map>
+#include <set>
 #include <string>
 
 namespace fathom {
@@ -39,6 +40,7 @@ private:
 
     const MjcfClasses& classes_;
     const MjcfAngles& angles_;
+    std::set<std::string> paired_; // geoms of <contact><pair>
     std::map<std::string, Mesh> meshes_;
     int fitted_ = 0;
 };

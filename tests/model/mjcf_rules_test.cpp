@@ -72,6 +72,21 @@ TEST_CASE("Elements of one kind in a class add their attributes, the last one fi
               .find("collision: no shapes on any link") != std::string::npos);
 }
 
+TEST_CASE("Geoms of a contact pair are collision shapes, whatever contype and conaffinity say") {
+    const auto leaves = [](const std::string& pair) {
+        return loadMjcf("<worldbody><geom name='floor' type='plane' size='1 1 1'/><body name='a'>" +
+                        mjcfBall() +
+                        "<body name='b'><joint name='j' range='-1 1'/><geom name='guard' size='0.03' "
+                        "contype='0' conaffinity='0'/></body></body></worldbody>" +
+                        pair)
+            .leaves.size();
+    };
+    CHECK(leaves("") == 1);
+    CHECK(leaves("<contact><exclude body1='a' body2='b'/><pair geom1='guard' geom2='floor'/></contact>") ==
+          2);
+    CHECK(leaves("<contact/><contact><pair geom1='floor' geom2='guard'/></contact>") == 2);
+}
+
 TEST_CASE("A primitive that is fitted to a mesh becomes the mesh, with one note") {
     std::ofstream(mjcfFolder() / "tetra.obj")
         << "v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0 0 0.1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
