@@ -9,10 +9,12 @@
 #include "engine/model/sph_file.h"
 #include "engine/model/sphere_sets.h"
 #include "engine/model/write_spheres.h"
+#include "engine/model/xml_text.h"
 #include "engine/types/error.h"
 #include "engine/types/input_files.h"
 #include "engine/types/log.h"
 #include "engine/types/output_file.h"
+#include "engine/types/printable.h"
 #include "engine/types/read_file.h"
 
 #include <CLI/CLI.hpp>
@@ -129,10 +131,24 @@ void convertTree(const SpheresOptions& options) {
               << std::endl;
 }
 
+// Only the text of a URDF can be copied with other collisions; an MJCF file may have this ending, too.
+void refuseOtherText(const SpheresOptions& options) {
+    const std::string text = readWholeFile(options.mesh, kLargestUrdf, "a readable URDF file");
+    XmlTags tags(text);
+    if (tags.next() && tags.tag().name != "robot") {
+        throw BadInput(options.mesh.string(), "--out",
+                       "a .urdf of <" + excerpt(printable(std::string(tags.tag().name))) + ">",
+                       "a .yaml, .xrdf or .json, or --link for a URDF of one link");
+    }
+}
+
 // From a set of another program, or from all shapes of a URDF.
 void convertSets(const SpheresOptions& options) {
     std::vector<LinkSpheres> sets;
     if (endingOf(options.mesh) == ".urdf") {
+        if (endingOf(options.out) == ".urdf" && options.link.empty()) {
+            refuseOtherText(options);
+        }
         const UrdfCover cover =
             coverUrdf(options.mesh, options.meshes, options.cover.leaves, options.file.keepStray);
         for (const std::string& note : cover.notes) {

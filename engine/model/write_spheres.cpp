@@ -2,7 +2,9 @@
 #include "engine/model/write_spheres.h"
 
 #include "engine/model/xml_text.h"
+#include "engine/types/error.h"
 #include "engine/types/number_text.h"
+#include "engine/types/printable.h"
 
 #include <algorithm>
 #include <map>
@@ -96,12 +98,17 @@ std::string spherizedText(const std::string& urdf, std::span<const LinkSpheres> 
             } else if (const auto set = byLink.find(link);
                        isBelow("robot", 1) && piece.name == "link" && set != byLink.end()) {
                 out += collisionsOf(*set->second, name);
+                byLink.erase(set);
             }
             out += piece.text;
         }
         if (element && !piece.closes && !piece.isEmpty) {
             open.push_back(piece.name);
         }
+    }
+    if (!byLink.empty()) {
+        throw BadInput("URDF", "link " + excerpt(printable(byLink.begin()->first)),
+                       "has spheres, but is not in the text", "a URDF with this <link> in <robot>");
     }
     return out;
 }

@@ -14,7 +14,7 @@ std::string xrdfText(std::span<const LinkSpheres> sets);   // XRDF 1.0 of NVIDIA
 std::string foamText(std::span<const LinkSpheres> sets);   // foam's JSON, one entry per link
 
 // The URDF with the spheres of `sets` in place of all collision shapes; links without a set have none.
-// Everything else stays as it is.
+// Everything else stays as it is. Throws BadInput for a set whose link is not in the text.
 std::string spherizedText(const std::string& urdf, std::span<const LinkSpheres> sets);
 // A URDF of one link.
 std::string spherizedText(const LinkSpheres& set);

@@ -157,6 +157,14 @@ TEST_CASE("Only collisions of links become spheres; a name of one, which a conta
     CHECK(same(readSets(ScratchFile("sensor.urdf", text).path()), {{"a", kSets[0].spheres}}));
 }
 
+TEST_CASE("A text without the link of a set is rejected, not written without its spheres") {
+    for (const char* text : {"<mujoco><worldbody><body name='a'/></worldbody></mujoco>",
+                             "<robot name='r'><link name='b'></link></robot>"}) {
+        CHECK_THROWS_WITH_AS(spherizedText(text, std::vector<LinkSpheres>{{"a", kSets[0].spheres}}),
+                             doctest::Contains("link a: has spheres, but is not in the text"), BadInput);
+    }
+}
+
 TEST_CASE("Capsules are covered, and those of a negative size or of none are rejected") {
     const ArmModel arm = loadUrdf("<link name='a'><collision><geometry><capsule radius='0.05' length='0.3'/>"
                                   "</geometry></collision></link>");

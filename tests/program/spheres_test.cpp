@@ -97,6 +97,29 @@ TEST_CASE("spheres scales a set of spheres like a mesh, and warns about a mesh o
     CHECK(spheres > 8);
 }
 
+TEST_CASE(
+    "spheres writes no URDF from an MJCF file of that ending, and warns about a link left without spheres") {
+    const ScratchFolder folder;
+    const ScratchFile model("arm.urdf",
+                            "<mujoco><worldbody><body name='a'><geom size='0.1'/><body name='b'>"
+                            "<joint name='j'/><geom size='0.02'/></body></body></worldbody></mujoco>");
+    const std::string out = (folder / "out.urdf").string();
+    const ProgramRun refused = runFathom({"spheres", model.path().string(), "--out", out});
+    CHECK(refused.exitCode == 2);
+    CHECK_MESSAGE(refused.err.find("--out: a .urdf of <mujoco> (allowed: a .yaml, .xrdf or .json, ") !=
+                      std::string::npos,
+                  refused.err);
+    CHECK(folder.files() == 0);
+    CHECK(runFathom({"spheres", model.path().string(), "--out", out, "--link", "b"}).exitCode == 0);
+    const ScratchFile set("set.yaml", "collision_spheres: {a: [{center: [0, 0, 0], radius: 0.1}], "
+                                      "held: [{center: [0, 0, 0], radius: -10}]}\n");
+    const ProgramRun run = runFathom({"spheres", set.path().string(), "--out", out});
+    CHECK(run.exitCode == 0);
+    CHECK_MESSAGE(run.err.find("link held: all spheres are disabled by radii of -1 or less") !=
+                      std::string::npos,
+                  run.err);
+}
+
 TEST_CASE("spheres rejects unusable input in one line and with exit code 2") {
     const ScratchFolder folder;
     const std::string out = (folder / "tool.sph").string();
