@@ -152,7 +152,7 @@ private:
         }
     }
 
-    // The longest chain elsewhere that has as many joints, but for a joint whose names seem to be a gripper's.
+    // Names the longest chain elsewhere that has as many joints but seems to end before, by a gripper's name.
     void noteLeftOut(ArmEnds& ends, const Seen& best) const {
         const Seen* longest = nullptr;
         for (const Seen& s : seen_) {

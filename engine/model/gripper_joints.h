@@ -31,8 +31,8 @@ public:
     // Whether branches of moving joints at the link are fingers: alike, but for one thumb or motor. moving:
     // joints between base and link.
     bool branchesIntoFingers(const urdf::Link& link, int moving) const;
-    // Whether the joint closes a gripper by what it is tied to, or as a jaw. moving: joints above it; last: the
-    // nearest of them.
+    // Whether the joint closes a gripper, by what it is tied to or as a jaw. moving: joints above it; last:
+    // the nearest of them.
     bool closes(const urdf::Joint& joint, int moving, const urdf::Joint* last) const;
     // The same by its names.
     bool closesByName(const urdf::Joint& joint) const;
