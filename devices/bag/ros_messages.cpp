@@ -177,7 +177,7 @@ void skipHeader(MessageCursor& cursor) {
 
 Pose rigidPose(const std::array<double, 9>& r, const dvec3& translation) {
     const glm::dmat3 rotation(r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8]);
-    if (!rotationFault(rotation).empty() || !std::isfinite(glm::dot(translation, translation))) {
+    if (!rotationFault(rotation, 0.01).empty() || !std::isfinite(glm::dot(translation, translation))) {
         throw Error("an invalid transform");
     }
     return {translation, glm::normalize(glm::quat_cast(rotation))};

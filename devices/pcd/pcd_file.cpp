@@ -78,17 +78,20 @@ void checkCount(const Source& source, const std::vector<std::string>& words, con
     }
 }
 
-// x y z qw qx qy qz; other words are none.
+// x y z qw qx qy qz other than the identity, which some writers state as zeros, or with qw last; other words
+// are none.
 bool isPose(const std::vector<std::string>& viewpoint) {
-    constexpr std::array kIdentity{0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0};
     constexpr double kRounding = 1e-6;
-    bool known = viewpoint.size() == kIdentity.size() + 1, moved = false;
-    for (size_t i = 0; known && i < kIdentity.size(); ++i) {
-        double value = 0.0;
-        known = parseNumber(viewpoint[i + 1], value);
-        moved |= !(std::abs(value - kIdentity[i]) <= kRounding);
+    std::array<double, 7> pose{};
+    bool known = viewpoint.size() == pose.size() + 1;
+    for (size_t i = 0; known && i < pose.size(); ++i) {
+        known = parseNumber(viewpoint[i + 1], pose[i]);
     }
-    return known && moved;
+    double apart = 0.0;
+    for (const size_t i : {0, 1, 2, 4, 5}) {
+        apart += std::abs(pose[i]);
+    }
+    return known && !(apart + std::abs(pose[3] * pose[6]) <= kRounding);
 }
 
 void readHeaderLine(const Source& source, const std::vector<std::string>& words, Header& header) {

@@ -84,7 +84,7 @@ std::string axesOf(const std::vector<ColumnName>& names, size_t at, size_t count
 
 enum class Order { Unnamed, Own, Other };
 
-// The order of the columns that a comment names: those of a quaternion next to those of a position.
+// The last order of the columns that a comment names: those of a quaternion next to those of a position.
 Order orderNamed(const std::string& comment) {
     std::vector<ColumnName> names;
     for (const std::string& word : headWords(comment)) {
@@ -95,17 +95,16 @@ Order orderNamed(const std::string& comment) {
         const std::string turn = axesOf(names, i, 4, true);
         const std::string before = i >= 3 ? axesOf(names, i - 3, 3, false) : "";
         if (turn == "xyzw" && before == "xyz") {
-            return Order::Own;
-        }
-        if (!turn.empty() && (!before.empty() || !axesOf(names, i + 4, 3, false).empty())) {
+            order = Order::Own;
+        } else if (!turn.empty() && (!before.empty() || !axesOf(names, i + 4, 3, false).empty())) {
             order = Order::Other;
         }
     }
     return order;
 }
 
-// Comments in front of the first pose may name the columns. If they also name them in the order that is read,
-// the other one is that of an earlier file.
+// Comments in front of the first pose may name the columns. The last order that they name counts: one before
+// it is that of an earlier file.
 void checkOrder(const std::filesystem::path& file) {
     std::ifstream in(file, std::ios::binary);
     std::array<char, DataLines::kLongest + 1> line{};
@@ -117,13 +116,12 @@ void checkOrder(const std::filesystem::path& file) {
             continue;
         }
         const Order order = text[first] == '#' ? orderNamed(text) : Order::Unnamed;
-        if (text[first] != '#' || order == Order::Own) {
-            other = order == Order::Own ? "" : other;
+        if (text[first] != '#') {
             break;
         }
-        if (order == Order::Other && other.empty()) {
+        if (order != Order::Unnamed) {
             field = "line " + std::to_string(number);
-            other = text.substr(0, 160);
+            other = order == Order::Other ? text.substr(0, 160) : "";
         }
     }
     if (!other.empty()) {

@@ -30,9 +30,10 @@ void readPinhole(const JsonField& block, Intrinsics& lens) {
     const auto matrix = block.find("intrinsic_matrix"); // Open3D, column by column
     if (!matrix) {
         lens.fx = ownField(block, "fx").positive();
-        lens.fy = ownField(block, "fy")
-                      .positive("; y points down here: give a negative fy without its sign, and negate ty, "
-                                "qx and qz of poses.txt"); // ICL-NUIM: a reflection about y
+        lens.fy =
+            ownField(block, "fy")
+                .positive("; y points down here: give a negative fy without its sign; where y points up "
+                          "in the world, too, as at ICL-NUIM, negate ty, qx and qz of poses.txt");
         lens.cx = ownField(block, "cx").finite();
         lens.cy = ownField(block, "cy").finite();
         return;

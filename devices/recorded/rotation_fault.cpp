@@ -10,18 +10,17 @@ namespace fathom {
 
 namespace {
 
-bool nearIdentity(const glm::dmat3& matrix) {
-    constexpr double kMaxOff = 1e-2;
+bool nearIdentity(const glm::dmat3& matrix, double mostOff) {
     bool same = true;
     for (int i = 0; i < 9; ++i) {
-        same = same && std::abs(matrix[i / 3][i % 3] - (i % 4 == 0 ? 1.0 : 0.0)) < kMaxOff;
+        same = same && std::abs(matrix[i / 3][i % 3] - (i % 4 == 0 ? 1.0 : 0.0)) < mostOff;
     }
     return same;
 }
 
 } // namespace
 
-std::string rotationFault(const glm::dmat3& matrix) {
+std::string rotationFault(const glm::dmat3& matrix, double mostOff) {
     const glm::dmat3 product = matrix * glm::transpose(matrix);
     const double determinant = glm::determinant(matrix), scale = std::cbrt(determinant);
     if (!std::isfinite(determinant)) {
@@ -30,14 +29,15 @@ std::string rotationFault(const glm::dmat3& matrix) {
     if (determinant < 0.0) {
         return "mirrored";
     }
-    if (nearIdentity(product)) {
+    if (nearIdentity(product, mostOff)) {
         return "";
     }
-    return nearIdentity(product / (scale * scale)) ? "scaled by " + significant(scale, 4) : "sheared";
+    return nearIdentity(product / (scale * scale), mostOff) ? "scaled by " + significant(scale, 4)
+                                                            : "sheared";
 }
 
 std::string quaternionFault(const dquat& q, const std::string& order) {
-    constexpr double kShortest = 1e-6, kMostOff = 0.02; // of numbers with few digits, as 0.7 0 0 0.7
+    constexpr double kShortest = 1e-6, kMostOff = 0.05; // of numbers with one digit, as 0.6 0.6 0.6 0
     const double length = glm::length(q);
     if (!(length > kShortest)) {
         return "a quaternion " + order + " of non-zero length";

@@ -9,11 +9,11 @@
 
 namespace fathom {
 
-// "mirrored", "scaled by 1.1", "sheared" or "not finite"; empty for a rotation, whose R R^T is within 0.01 of
-// the identity in each entry.
-std::string rotationFault(const glm::dmat3& matrix);
+// "mirrored", "scaled by 1.1", "sheared" or "not finite"; empty for a rotation, whose R R^T is within
+// `mostOff` of the identity in each entry; the usual value is for numbers of two digits.
+std::string rotationFault(const glm::dmat3& matrix, double mostOff = 0.04);
 
-// What is allowed where the length is over 2 % from 1, as that of other columns or of degrees; empty for a
+// What is allowed where the length is over 5 % from 1, as that of other columns or of degrees; empty for a
 // length of 1. order: of the four names, as "qx qy qz qw".
 std::string quaternionFault(const dquat& q, const std::string& order);
 

@@ -9,11 +9,13 @@ namespace fathom {
 namespace {
 
 constexpr double kForgetAge = 1.0; // [s] time constant with which the effect of a late answer decays
+constexpr double kShortest = 1e-6; // [s] between ticks
 
 } // namespace
 
 void QueryAhead::moved(const ToolPlace& now, double elapsed) noexcept {
-    const double seconds = std::max(period_, elapsed); // a late tick covers a longer motion
+    // A late tick covers a longer motion, and the next one a shorter one.
+    const double seconds = elapsed > 0.0 ? std::max(elapsed, kShortest) : period_;
     const double blend = started_ ? std::min(1.0, seconds / kSmooth) : 0.0;
     const dvec3 turned = rotationBetween(before_.pose.rotation, now.pose.rotation);
     velocity_ = started_ ? velocity_ : dvec3(0.0);

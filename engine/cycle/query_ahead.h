@@ -16,7 +16,7 @@ public:
     explicit QueryAhead(double period) noexcept
         : period_(period) {}
 
-    // One tick: where the tool is now. elapsed [s]: measured since the last tick; at least a period counts.
+    // One tick: where the tool is now. elapsed [s]: measured since the last tick; 0 = a period.
     void moved(const ToolPlace& now, double elapsed) noexcept;
     // An answer to a query at `askedAt` [s] became active at `now` [s].
     void answered(double askedAt, double now) noexcept;

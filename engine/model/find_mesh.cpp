@@ -100,7 +100,8 @@ class MeshSearch {
 public:
     MeshSearch(const std::string& name, const ShapeSource& source)
         : name_(name)
-        , parts_(partsOf(name)) {
+        , parts_(partsOf(name))
+        , chosen_(!source.meshes.empty()) {
         for (const std::string& other : source.names) {
             const MeshName parts = partsOf(other);
             if (!parts.package.empty() && parts.package != parts_.package) {
@@ -161,7 +162,7 @@ private:
         std::string place = (file.empty() ? folder / wanted : file).lexically_normal().string();
         if (!file.empty() && std::filesystem::exists(file, ignored)) {
             const std::string warning = whole ? "" : warningOf(folder);
-            if (warning.empty() || warning == kUnnamed) {
+            if (warning.empty() || warning == kUnnamed || (chosen_ && others_.empty())) {
                 return {file,
                         warning.empty() ? "" : place + " is taken for '" + excerpt(name_) + "'; " + warning,
                         !exact_};
@@ -196,6 +197,7 @@ private:
 
     const std::string& name_;
     MeshName parts_;
+    bool chosen_;                  // the user names the folder
     bool exact_ = true;            // the name as it is; else with any capitals
     std::set<std::string> others_; // packages of the URDF's other meshes
     std::string rivals_;           // those of meshes with the same path

@@ -17,9 +17,9 @@ struct MeshPlace {
 };
 
 // Searched below arm.meshes, or in the URDF's folder and the three above it; with the package's name as a
-// folder, and without it where nothing says that the file is of another package, such as the package.xml of
-// the folder. Capitals differ only where
-// no file has the name itself. Throws ShapeRefused.
+// folder, and without it where nothing says that the file is of another package, such as the folder's
+// package.xml, which gives only a note below arm.meshes if the URDF names one package. Capitals differ only
+// where no file has the name itself. Throws ShapeRefused.
 MeshPlace findMesh(const std::string& name, const ShapeSource& source);
 
 } // namespace fathom

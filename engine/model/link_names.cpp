@@ -48,7 +48,7 @@ constexpr std::array<std::string_view, 27> kToolNames{"tool0",
 constexpr std::array<std::string_view, 11> kGripperWords{
     "finger", "fngr", "jaw", "knuckle", "claw", "thumb", "pincer", "clamp", "pinch", "tong", "forceps"};
 // A joint of this name moves a finger, also sideways: "thumb_yaw".
-constexpr std::array<std::string_view, 3> kFingerWords{"finger", "fngr", "thumb"};
+constexpr std::array<std::string_view, 4> kFingerWords{"finger", "fngr", "thumb", "knuckle"};
 constexpr std::array<std::string_view, 1> kWrist{"wrist"};
 constexpr std::array<std::string_view, 4> kGripperJoints{"grip", "gripper", "grasp", "opening"};
 
@@ -58,7 +58,8 @@ constexpr std::array<std::string_view, 6> kWristWords{"wrist", "roll", "rotat", 
 // What words are joined to without a mark between: "lfinger", "fingertip", "wristrotation".
 constexpr std::array<std::string_view, 8> kSides{"l",     "r",     "left",  "right",
                                                  "lower", "upper", "inner", "outer"};
-constexpr std::array<std::string_view, 6> kEndings{"", "s", "e", "ion", "tip", "tips"};
+constexpr std::array kEndings = std::to_array<std::string_view>(
+    {"", "s", "e", "ion", "tip", "tips", "joint", "joints", "link", "motor", "proximal", "distal"});
 
 constexpr int kBehindGripper = 2,
               kBehindFinger = 4;  // moving joints behind the first of a gripper, of a finger

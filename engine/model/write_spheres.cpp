@@ -108,7 +108,8 @@ std::string spherizedText(const std::string& urdf, std::span<const LinkSpheres> 
     }
     if (!byLink.empty()) {
         throw BadInput("URDF", "link " + excerpt(printable(byLink.begin()->first)),
-                       "has spheres, but is not in the text", "a URDF with this <link> in <robot>");
+                       "has spheres, but is not in the text, or is empty (<link/>)",
+                       "a URDF with this <link> in <robot>");
     }
     return out;
 }

@@ -246,7 +246,7 @@ std::string packetOf(const std::filesystem::path& file) {
     noteLoops(text, notes);
     noteSoftLimits(*model, notes);
     noteCommandLimits(*model, text, notes);
-    addControlMimics(*model, text, file.string(), notes);
+    addControlMimics(*model, text, notes);
     return packUrdf(*model, notes);
 }
 

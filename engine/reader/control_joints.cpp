@@ -2,7 +2,6 @@
 #include "engine/reader/control_joints.h"
 
 #include "engine/model/xml_text.h"
-#include "engine/types/error.h"
 #include "engine/types/number_text.h"
 #include "engine/types/printable.h"
 
@@ -14,6 +13,7 @@
 #include <set>
 #include <sstream>
 #include <string_view>
+#include <utility>
 
 namespace fathom {
 
@@ -24,7 +24,8 @@ constexpr double kNarrower = 2e-3; // of a joint's range; less is a rounded limi
 
 // A joint that follows another one; multiplier and offset as in the file, empty = none.
 struct StatedMimic {
-    std::string joint, leader, multiplier, offset, place;
+    std::string joint, leader, multiplier, offset, place, follower; // follower: <jointName> of a plugin
+    bool directed = true;                                           // it is known which of the two follows
 };
 
 std::optional<double> finiteNumber(const std::string& text) {
@@ -46,6 +47,7 @@ std::string* fieldOf(StatedMimic& mimic, std::string_view path, const XmlPiece& 
     const std::string key = plugin ? std::string(tag.name) : xmlAttribute(tag.text, "name");
     return plugin && key == "mimicJoint"         ? &mimic.joint
            : key == (plugin ? "joint" : "mimic") ? &mimic.leader
+           : plugin && key == "jointName"        ? &mimic.follower
            : key == "multiplier"                 ? &mimic.multiplier
            : key == "offset"                     ? &mimic.offset
                                                  : nullptr;
@@ -58,9 +60,16 @@ std::vector<StatedMimic> statedMimics(const std::string& text) {
         if (tags.path() == "robot/ros2_control" && tag.name == "joint") {
             all.push_back({xmlAttribute(tag.text, "name"), "", "", "", "<ros2_control>"});
         } else if (tags.path() == "robot/gazebo" && tag.name == "plugin") {
-            all.push_back({"", "", "", "", "a plugin of <gazebo>"});
+            const bool known = xmlAttribute(tag.text, "filename").find("roboticsgroup") != std::string::npos;
+            all.push_back({"", "", "", "", "a plugin of <gazebo>", "", known});
         } else if (std::string* const field = all.empty() ? nullptr : fieldOf(all.back(), tags.path(), tag)) {
             *field = tags.content();
+        }
+    }
+    for (StatedMimic& mimic : all) {
+        if (!mimic.follower.empty()) { // Care-O-bot
+            mimic.leader = std::exchange(mimic.joint, mimic.follower);
+            mimic.directed = true;
         }
     }
     std::erase_if(all, [](const StatedMimic& mimic) { return mimic.joint.empty() || mimic.leader.empty(); });
@@ -79,9 +88,8 @@ bool areSame(const urdf::JointMimic& a, const urdf::JointMimic& b) {
 
 class MimicAdder {
 public:
-    MimicAdder(urdf::ModelInterface& model, const std::string& file, std::vector<std::string>& notes)
+    MimicAdder(urdf::ModelInterface& model, std::vector<std::string>& notes)
         : model_(model)
-        , file_(file)
         , notes_(notes) {}
 
     void add(const StatedMimic& stated) {
@@ -93,6 +101,14 @@ public:
         } else if (found == model_.joints_.end()) {
             notes_.push_back(name + ": its mimic in " + stated.place +
                              " is not used: the robot has no such joint");
+        } else if (const auto leader = model_.joints_.find(stated.leader); leader == model_.joints_.end()) {
+            notes_.push_back(name + ": its mimic in " + stated.place +
+                             " is not used: the robot has no joint " + excerpt(printable(stated.leader)));
+        } else if (!stated.directed) {
+            if (!found->second->mimic && !leader->second->mimic) {
+                notes_.push_back(name + ": its tie to " + excerpt(printable(stated.leader)) + " in " +
+                                 stated.place + " is not used: the file does not say which one follows");
+            }
         } else if (found->second->type != urdf::Joint::FIXED) {
             tie(*found->second, stated, name);
         }
@@ -100,10 +116,17 @@ public:
 
 private:
     void tie(urdf::Joint& joint, const StatedMimic& stated, const std::string& name) {
+        const auto multiplier = numberOr(stated.multiplier, 1.0), offset = numberOr(stated.offset, 0.0);
+        if (!multiplier || !offset) {
+            notes_.push_back(name + ": its mimic in " + stated.place + " is not used: '" +
+                             excerpt(printable(multiplier ? stated.offset : stated.multiplier)) +
+                             "' is no finite number");
+            return;
+        }
         const auto made = std::make_shared<urdf::JointMimic>();
         made->joint_name = stated.leader;
-        made->multiplier = number(stated, "multiplier", stated.multiplier, 1.0);
-        made->offset = number(stated, "offset", stated.offset, 0.0);
+        made->multiplier = *multiplier;
+        made->offset = *offset;
         const std::string own = stated.place + " (" + textOf(*made) + ")";
         if (joint.mimic && !areSame(*joint.mimic, *made)) {
             notes_.push_back(
@@ -111,7 +134,7 @@ private:
                 (added_.count(joint.name) == 0 ? "that of <mimic> (" : "that of another place (") +
                 textOf(*joint.mimic) + ") differs");
         } else if (!joint.mimic && leadsBack(joint, stated.leader)) {
-            notes_.push_back(name + ": its mimic in " + own + " is not used: by <mimic> joint " +
+            notes_.push_back(name + ": its mimic in " + own + " is not used: joint " +
                              excerpt(printable(stated.leader)) + " follows this one");
         } else if (!joint.mimic) {
             joint.mimic = made;
@@ -121,31 +144,23 @@ private:
         }
     }
 
-    double number(const StatedMimic& stated, const char* key, const std::string& text, double usual) const {
-        const std::optional<double> value = text.empty() ? usual : finiteNumber(text);
-        if (!value) {
-            throw BadInput(file_, "joint " + printable(stated.joint) + ", " + key + " in " + stated.place,
-                           "'" + excerpt(printable(text)) + "'", "a finite number");
-        }
-        return *value;
+    static std::optional<double> numberOr(const std::string& text, double usual) {
+        return text.empty() ? usual : finiteNumber(text);
     }
 
-    // Whether the leader follows the joint, and a <mimic> has a part in it: two places disagree then.
+    // Whether the leader follows the joint, or is the joint.
     bool leadsBack(const urdf::Joint& joint, const std::string& leader) const {
-        bool own = false;
         std::set<std::string> seen;
         for (auto at = model_.joints_.find(leader); at != model_.joints_.end();) {
             if (at->first == joint.name || !at->second->mimic || !seen.insert(at->first).second) {
-                return own && at->first == joint.name;
+                return at->first == joint.name;
             }
-            own = own || added_.count(at->first) == 0;
             at = model_.joints_.find(at->second->mimic->joint_name);
         }
         return false;
     }
 
     urdf::ModelInterface& model_;
-    const std::string& file_;
     std::vector<std::string>& notes_;
     std::set<std::string> added_; // joints without a <mimic> of their own
 };
@@ -162,9 +177,8 @@ bool isNarrower(const urdf::Joint& joint, const std::string& key, const std::str
 
 } // namespace
 
-void addControlMimics(urdf::ModelInterface& model, const std::string& text, const std::string& file,
-                      std::vector<std::string>& notes) {
-    MimicAdder adder(model, file, notes);
+void addControlMimics(urdf::ModelInterface& model, const std::string& text, std::vector<std::string>& notes) {
+    MimicAdder adder(model, notes);
     for (const StatedMimic& stated : statedMimics(text)) {
         adder.add(stated);
     }

@@ -72,3 +72,16 @@ TEST_CASE("A tick after a stall gives queries no speed that the tool never had")
     CHECK(asked.place.arm.q[1] - after.arm.q[1] == doctest::Approx(0.015));
     CHECK(asked.extraReach == doctest::Approx(before.extraReach));
 }
+
+TEST_CASE("Ticks that are late in turns give queries the speed of the tool") {
+    QueryAhead ahead(kTick);
+    ToolPlace now;
+    for (int i = 0; i < 500; ++i) {
+        const double elapsed = i % 2 == 0 ? 1.9 * kTick : 0.1 * kTick;
+        now.pose.position.x += 0.3 * elapsed;
+        ahead.moved(now, elapsed);
+    }
+    ahead.answered(0.47, 0.5);
+    const QueryPlace asked = ahead.ask(now, 0.5, 0);
+    CHECK(asked.place.pose.position.x - now.pose.position.x == doctest::Approx(0.03 * 0.3));
+}

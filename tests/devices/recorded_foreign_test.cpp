@@ -239,10 +239,9 @@ TEST_CASE(
         folder.write("intrinsics.json", text.replace(text.find(part), part.size(), with));
         return recordingRefusal(folder.path());
     };
-    lineSays(
-        refused(R"("fy": 6.25)", R"("fy": -6.25)"), // as ICL-NUIM publishes it
-        "fy: -6.25 (allowed: a number above 0; y points down here: give a negative fy without its sign, and "
-        "negate ty, qx and qz of poses.txt)");
+    lineSays(refused(R"("fy": 6.25)", R"("fy": -6.25)"), // as ICL-NUIM publishes it
+             "fy: -6.25 (allowed: a number above 0; y points down here: give a negative fy without its sign; "
+             "where y points up in the world, too, as at ICL-NUIM, negate ty, qx and qz of poses.txt)");
     lineSays(refused(R"("fx": 6.5)", R"("K": [6.5, 0, 3, 0, 6.25, 2, 0, 0, 1])"),
              "K: [6.5,0,3,0,6.25,2,0,0,1] (allowed: fx, fy, cx and cy, each under its name");
     lineSays(refused(R"("fx": 6.5)", R"("camera_matrix": {"data": []})"),

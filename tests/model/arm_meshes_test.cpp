@@ -101,6 +101,14 @@ TEST_CASE("A mesh is not taken from a folder whose package.xml names another pac
         const std::string fault = faultWith(other, more);
         CHECK_MESSAGE(fault.find("/cell/meshes/base.obj (of package cell)") != std::string::npos, fault);
     }
+    CHECK(faultWith(other, "") != "");
+    ArmOptions chosen;
+    chosen.meshes = folder / "cell";
+    const auto notes = loadArm(folder / "cell/urdf/arm.urdf", chosen).notes;
+    CHECK(std::ranges::any_of(notes, [](const std::string& note) {
+        return note.find("is taken for 'package://arm/meshes/base.obj'; of package cell") !=
+               std::string::npos;
+    }));
     CHECK(faultWith("<package><name> arm\n</name></package>", "") == "");
     CHECK(faultWith("<package/>", beside) == "");
 }

@@ -73,18 +73,38 @@ TEST_CASE("Where several places state other mimics, that of the joint counts, an
     const ArmModel back = loadUrdf(controlledChain(kControlled, "", mimicText("j2")));
     CHECK_FALSE(back.joints.at(1).mimic);
     REQUIRE(back.notes.size() == 1);
-    CHECK(back.notes[0].find("is not used: by <mimic> joint j1 follows this one") != std::string::npos);
+    CHECK(back.notes[0].find("is not used: joint j1 follows this one") != std::string::npos);
 }
 
-TEST_CASE("Mimics of ros2_control and Gazebo are checked as those of joints") {
-    CHECK(urdfRefusal(controlledChain(pluginText("none", "j2")))
-              .find("joint j2, mimic: 'none' (allowed: a joint of the robot)") != std::string::npos);
-    CHECK(urdfRefusal(controlledChain(pluginText("j1", "j2") + pluginText("j2", "j1")))
-              .find("a joint that does not follow this one") != std::string::npos);
-    CHECK(urdfRefusal(
-              controlledChain(controlText("j2", paramText("mimic", "j1") + paramText("multiplier", "x"))))
-              .find("joint j2, multiplier in <ros2_control>: 'x' (allowed: a finite number)") !=
-          std::string::npos);
+TEST_CASE(
+    "A plugin of Gazebo whose direction is unknown ties no joint, and is reported where nothing else does") {
+    const std::string tie = "<joint>j1</joint><mimicJoint>j2</mimicJoint>";
+    const std::string other =
+        "<gazebo><plugin filename='libgazebo_mimic_joint_plugin.so'>" + tie + "</plugin></gazebo>";
+    const ArmModel untied = loadUrdf(controlledChain(other));
+    CHECK_FALSE(untied.joints.at(1).mimic);
+    CHECK(untied.notes == std::vector<std::string>{
+                              "joint j2: its tie to j1 in a plugin of <gazebo> is not used: the file does "
+                              "not say which one follows"});
+    CHECK(loadUrdf(controlledChain(other, mimicText("j1"))).notes.empty());
+    const ArmModel named =
+        loadUrdf(controlledChain("<gazebo><plugin filename='libcob_gazebo_mimic.so'><jointName>j2</jointName>"
+                                 "<mimicJoint>j1</mimicJoint><multiplier>2</multiplier></plugin></gazebo>"));
+    REQUIRE(named.joints.at(1).mimic);
+    CHECK(named.joints[1].mimic->multiplier == 2.0);
+}
+
+TEST_CASE("Mimics of ros2_control and Gazebo that cannot be used are reported, and the robot is read") {
+    CHECK(loadUrdf(controlledChain(pluginText("none", "j2"))).notes ==
+          std::vector<std::string>{
+              "joint j2: its mimic in a plugin of <gazebo> is not used: the robot has no joint none"});
+    const auto circle = loadUrdf(controlledChain(pluginText("j1", "j2") + pluginText("j2", "j1"))).notes;
+    REQUIRE(circle.size() == 2);
+    CHECK(circle[1].find("is not used: joint j2 follows this one") != std::string::npos);
+    CHECK(
+        loadUrdf(controlledChain(controlText("j2", paramText("mimic", "j1") + paramText("multiplier", "x"))))
+            .notes == std::vector<std::string>{
+                          "joint j2: its mimic in <ros2_control> is not used: 'x' is no finite number"});
     CHECK(loadUrdf(controlledChain(pluginText("j1", "j9"))).notes ==
           std::vector<std::string>{
               "joint j9: its mimic in a plugin of <gazebo> is not used: the robot has no such joint"});
