@@ -71,11 +71,12 @@ TEST_CASE("XRDF uses the geometry that collisions name, with its buffer distance
 TEST_CASE("Spheres of radius 0 or below grow by the buffer, and have 1 mm where nothing is left of them") {
     const auto radii = [](const std::string& buffer) {
         const ScratchFile file("set.yml", "collision_spheres: {a: [{center: [0, 0, 0], radius: 0}, "
-                                                   "{center: [0, 0, 1], radius: -0.5}, {center: [0, 0, 2], "
-                                                   "radius: 0.02}]}\ncollision_sphere_buffer: " +
-                                                       buffer);
+                                          "{center: [0, 0, 1], radius: -0.5}, {center: [0, 0, 2], "
+                                          "radius: 0.02}]}\ncollision_sphere_buffer: " +
+                                              buffer);
         std::vector<double> all;
-        for (const Sphere& s : readCuroboYaml(file.path()).at(0).spheres) {
+        const std::vector<LinkSpheres> sets = readCuroboYaml(file.path());
+        for (const Sphere& s : sets.at(0).spheres) {
             all.push_back(s.radius);
         }
         return all;

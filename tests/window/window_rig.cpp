@@ -275,7 +275,8 @@ void WindowRig::push() const {
     xdo("mousemove --window $W 300 300");
     for (int i = 0; i < 32 && state()["run"]["contacts"] == 0; ++i) {
         wheel(2);
-        REQUIRE_FALSE(atRest().is_null());
+        const nlohmann::json gap = state()["depth_cues"]["gap_m"];
+        REQUIRE((gap > 0.06 || !atRest().is_null())); // null, too, is near
     }
     wheel(2);
 }
