@@ -13,7 +13,7 @@ namespace fathom {
 
 class PoseTrack {
 public:
-    // Lines "t tx ty tz qx qy qz qw" [s, m], base_T_camera, t strictly increasing, quaternions within 2 % of
+    // Lines "t tx ty tz qx qy qz qw" [s, m], base_T_camera, t strictly increasing, quaternions within 5 % of
     // length 1, normalised here. Throws BadInput with file and line; at least one line.
     explicit PoseTrack(const std::filesystem::path& file);
 
