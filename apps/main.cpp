@@ -62,23 +62,7 @@ void addHelpCommand(CLI::App& app) {
     });
 }
 
-int run(int argc, char** argv) {
-    std::signal(SIGXFSZ, SIG_IGN); // a file at its size limit is then reported like a full disk
-    CLI::App app("Haptic virtual fixtures from a live depth camera");
-    app.require_subcommand(1);
-    fathom::GlobalOptions global;
-    app.add_option("--device", global.device, "Vulkan device: part of its name, or its index");
-    app.add_option("--trace", global.trace, "write a Chrome trace (JSON) of passes, queries and ticks");
-    app.add_flag("--validate", global.validate,
-                 "enable Vulkan validation with synchronisation; any message gives exit code 1");
-    app.add_flag("--hold-clock", global.holdClock,
-                 "keep an NVIDIA GPU at full clock while it waits for frames; uses more power");
-    app.add_flag("-v,--verbose", global.verbose, "log more");
-    app.set_version_flag("--version", std::string("fathom ") + fathom::version(), "print the version");
-    app.fallthrough();
-    app.parse_complete_callback(
-        [&global] { spdlog::set_level(global.verbose ? spdlog::level::debug : spdlog::level::warn); });
-    int result = 0;
+void addCommands(CLI::App& app, fathom::GlobalOptions& global, int& result) {
     fathom::addReplayCommand(app, global, result);
     fathom::addOperateCommand(app, global);
     fathom::addRecordCommand(app, result);
@@ -97,6 +81,26 @@ int run(int argc, char** argv) {
     fathom::addArmWatchdogCommand(app);
     fathom::addKeepClockCommand(app);
     addHelpCommand(app);
+}
+
+int run(int argc, char** argv) {
+    std::signal(SIGXFSZ, SIG_IGN); // a file at its size limit is then reported like a full disk
+    CLI::App app("Haptic virtual fixtures from a live depth camera");
+    app.require_subcommand(1);
+    fathom::GlobalOptions global;
+    app.add_option("--device", global.device, "Vulkan device: part of its name, or its index");
+    app.add_option("--trace", global.trace, "write a Chrome trace (JSON) of passes, queries and ticks");
+    app.add_flag("--validate", global.validate,
+                 "enable Vulkan validation with synchronisation; any message gives exit code 1");
+    app.add_flag("--hold-clock", global.holdClock,
+                 "keep an NVIDIA GPU at full clock while it waits for frames; uses more power");
+    app.add_flag("-v,--verbose", global.verbose, "log more");
+    app.set_version_flag("--version", std::string("fathom ") + fathom::version(), "print the version");
+    app.fallthrough();
+    app.parse_complete_callback(
+        [&global] { spdlog::set_level(global.verbose ? spdlog::level::debug : spdlog::level::warn); });
+    int result = 0;
+    addCommands(app, global, result);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {

@@ -109,6 +109,18 @@ void showProblem(Console& console, const std::string& problem) {
     }
 }
 
+// Returns whether the user chose a role.
+bool roleOf(Console& console, FixtureClass& fixture) {
+    int role = fixture.role == Role::Guidance ? 1 : 0;
+    ImGui::SetNextItemWidth(110.0f * console.scale());
+    const bool chosen = ImGui::Combo("##role", &role, "forbidden\0guidance\0");
+    markPlace(console, "role " + fixture.name);
+    explain(console, "forbidden: the tool is kept out. guidance: the tool is pulled there while G is on");
+    fixture.role = role == 0 ? Role::Forbidden : Role::Guidance;
+    ImGui::SameLine();
+    return chosen;
+}
+
 // One fixture: name, role, sizes. Releasing a slider makes one undo step.
 void row(Console& console, FixtureEditor& editor, size_t i, const SceneSnapshot& snapshot) {
     const FixtureClass before = editor.scene().fixtures[i];
@@ -125,16 +137,7 @@ void row(Console& console, FixtureEditor& editor, size_t i, const SceneSnapshot&
     ImGui::SameLine(ImGui::GetContentRegionMax().x - 1.7f * line);
     const bool removed =
         markedButton(console, "x", "remove " + now.name, "Remove this fixture; Ctrl Z brings it back");
-    bool done = false;
-    if (now.isPoints()) {
-        int role = guides ? 1 : 0;
-        ImGui::SetNextItemWidth(110.0f * console.scale());
-        done = ImGui::Combo("##role", &role, "forbidden\0guidance\0");
-        markPlace(console, "role " + now.name);
-        explain(console, "forbidden: the tool is kept out. guidance: the tool is pulled there while G is on");
-        now.role = role == 0 ? Role::Forbidden : Role::Guidance;
-        ImGui::SameLine();
-    }
+    bool done = now.isPoints() && roleOf(console, now);
     const bool unbounded =
         now.shape == ShapeKind::Plane || now.shape == ShapeKind::Line || now.shape == ShapeKind::Axis;
     if (now.isPoints() ? now.role == Role::Forbidden : !unbounded) {

@@ -56,25 +56,21 @@ bool inSpace(const FixtureClass& gates, const Fixtures& set, uint32_t u, uint32_
                            glm::all(glm::lessThanEqual(base, gates.box->max))));
 }
 
-} // namespace
+struct MeanColour {
+    double hue = 0.0; // [degrees]
+    double saturation = 0.0, lightness = 0.0;
+};
 
-bool inBand(const std::optional<Band>& band, double value) {
-    return !band || (band->lo <= band->hi ? value >= band->lo && value <= band->hi
-                                          : value >= band->lo || value <= band->hi);
-}
-
-void FixtureEditor::pickAt(Console& console, const SceneSnapshot& snapshot, glm::uvec2 pixel) {
-    const Intrinsics& lens = snapshot.set.camera.colour;
-    if (!hasColours(snapshot)) {
-        return;
-    }
+// Of the pixels around one. Grey pixels have no part in the hue.
+MeanColour meanAround(const Scene& scene, const SceneSnapshot& snapshot, glm::uvec2 pixel) {
+    const CameraInfo& camera = snapshot.set.camera;
+    const Intrinsics& lens = camera.colour;
+    const glm::uvec2 last(std::min(lens.width - 1, pixel.x + kPatch),
+                          std::min(lens.height - 1, pixel.y + kPatch));
     double x = 0.0, y = 0.0, saturation = 0.0, lightness = 0.0, count = 0.0;
-    for (uint32_t v = pixel.y - std::min(pixel.y, kPatch); v <= std::min(lens.height - 1, pixel.y + kPatch);
-         ++v) {
-        for (uint32_t u = pixel.x - std::min(pixel.x, kPatch);
-             u <= std::min(lens.width - 1, pixel.x + kPatch); ++u) {
-            const CameraInfo& camera = snapshot.set.camera;
-            const uint32_t rgba = colourFor(scene_, snapshot, u * camera.depth.width / lens.width,
+    for (uint32_t v = pixel.y - std::min(pixel.y, kPatch); v <= last.y; ++v) {
+        for (uint32_t u = pixel.x - std::min(pixel.x, kPatch); u <= last.x; ++u) {
+            const uint32_t rgba = colourFor(scene, snapshot, u * camera.depth.width / lens.width,
                                             v * camera.depth.height / lens.height,
                                             snapshot.colour[static_cast<size_t>(v) * lens.width + u]);
             const reference::Hsl hsl = reference::hslOf(rgba);
@@ -86,20 +82,34 @@ void FixtureEditor::pickAt(Console& console, const SceneSnapshot& snapshot, glm:
             count += 1.0;
         }
     }
-    const auto around = [&](double value) {
-        return Band{std::max(0.0, value / count - kToneReach), std::min(1.0, value / count + kToneReach)};
+    return {std::fmod(glm::degrees(std::atan2(y, x)) + 360.0, 360.0), saturation / count, lightness / count};
+}
+
+} // namespace
+
+bool inBand(const std::optional<Band>& band, double value) {
+    return !band || (band->lo <= band->hi ? value >= band->lo && value <= band->hi
+                                          : value >= band->lo || value <= band->hi);
+}
+
+void FixtureEditor::pickAt(Console& console, const SceneSnapshot& snapshot, glm::uvec2 pixel) {
+    if (!hasColours(snapshot)) {
+        return;
+    }
+    const MeanColour mean = meanAround(scene_, snapshot, pixel);
+    const auto around = [](double value) {
+        return Band{std::max(0.0, value - kToneReach), std::min(1.0, value + kToneReach)};
     };
-    const double hue = std::fmod(glm::degrees(std::atan2(y, x)) + 360.0, 360.0);
     FixtureClass& gates = console.pick.gates;
     if (console.pick.row < 0) {
         gates = {};
         gates.name = freeName("picked");
     }
-    gates.hue = Band{std::fmod(hue - kHueReach + 360.0, 360.0), std::fmod(hue + kHueReach, 360.0)};
-    gates.saturation = around(saturation);
+    gates.hue = Band{std::fmod(mean.hue - kHueReach + 360.0, 360.0), std::fmod(mean.hue + kHueReach, 360.0)};
+    gates.saturation = around(mean.saturation);
     gates.saturation->lo = std::max(0.08, gates.saturation->lo); // the hue of grey pixels is undefined
     gates.saturation->hi = 1.0;
-    gates.lightness = around(lightness);
+    gates.lightness = around(mean.lightness);
     console.pick.taken = true;
     console.pick.u = pixel.x;
     console.pick.v = pixel.y;

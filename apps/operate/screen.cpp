@@ -26,57 +26,72 @@ bool sameOrbit(const Orbit& a, const Orbit& b) {
 
 void Screen::makeImages(const Console& console, const FixtureEditor& editor, const ScreenInput& input,
                         const Rooms& rooms) {
-    const SceneSnapshot& scene = input.run.scene();
-    const bool newSelection = composed_.selection != editor.selectionNumber();
-    const bool first = !cameraPort_ || std::exchange(redraw_, false) ||
-                       composed_.spaceIsLarge != console.settings.spaceIsLarge;
-    if (!centred_ && scene.any) {
+    const Console::Settings& settings = console.settings;
+    const bool all =
+        !cameraPort_ || std::exchange(redraw_, false) || composed_.spaceIsLarge != settings.spaceIsLarge;
+    if (const SceneSnapshot& scene = input.run.scene(); !centred_ && scene.any) {
         const SpaceBounds bounds = boundsOf(scene.set, input.arm);
         composed_.orbit.centre = bounds.middle;
         floor_ = bounds.floor;
         centred_ = true;
     }
-    const bool fresh = input.freshImage || newSelection || first;
-    if (fresh) {
-        camera_.compose(scene, editor.selection());
-        composed_.selection = editor.selectionNumber();
+    const bool camera = composeCamera(editor, input, all);
+    const bool space = composeSpace(settings, input, settings.spaceIsLarge ? rooms.large : rooms.inset, all);
+    waiting_ = {waiting_[0] || camera, waiting_[1] || space};
+    placeImages(settings.spaceIsLarge, rooms);
+}
+
+bool Screen::composeCamera(const FixtureEditor& editor, const ScreenInput& input, bool all) {
+    if (!input.freshImage && !all && composed_.selection == editor.selectionNumber()) {
+        return false;
     }
-    const PixelRect& spaceRoom = console.settings.spaceIsLarge ? rooms.large : rooms.inset;
-    Orbit orbit = console.settings.orbit;
+    camera_.compose(input.run.scene(), editor.selection());
+    composed_.selection = editor.selectionNumber();
+    return true;
+}
+
+bool Screen::composeSpace(const Console::Settings& settings, const ScreenInput& input, const PixelRect& room,
+                          bool all) {
+    const SceneSnapshot& scene = input.run.scene();
+    Orbit orbit = settings.orbit;
     orbit.centre = composed_.orbit.centre;
-    const bool moved = !sameOrbit(orbit, composed_.orbit) ||
-                       composed_.treeLevel != console.settings.treeLevel ||
-                       composed_.spaceIsLarge != console.settings.spaceIsLarge;
     // Two thirds of the resolution are enough for a cloud.
     const int parts = coarse_ ? 4 : 3;
-    const auto width = static_cast<uint32_t>(std::clamp(spaceRoom.width * 2 / parts, 64, 1200));
-    const auto height = static_cast<uint32_t>(std::clamp(spaceRoom.height * 2 / parts, 48, 900));
+    const auto width = static_cast<uint32_t>(std::clamp(room.width * 2 / parts, 64, 1200));
+    const auto height = static_cast<uint32_t>(std::clamp(room.height * 2 / parts, 48, 900));
+    const bool changed = all || !sameOrbit(orbit, composed_.orbit) ||
+                         composed_.treeLevel != settings.treeLevel || width != space_.view().lens.width ||
+                         height != space_.view().lens.height;
     const uint64_t rest = coarse_ ? 5 : 3; // frames per image of a small 3D view
-    const bool space =
-        first || moved || width != space_.view().lens.width || height != space_.view().lens.height ||
-        (input.freshImage && (console.settings.spaceIsLarge || scene.number >= composed_.spaceScene + rest));
-    if (space) {
-        space_.compose(scene, {orbit, floor_, width, height, console.settings.treeLevel}, input.arm);
-        composed_.orbit = orbit;
-        composed_.spaceScene = scene.number;
-        composed_.treeLevel = console.settings.treeLevel;
-        composed_.spaceIsLarge = console.settings.spaceIsLarge;
+    const bool due = settings.spaceIsLarge || scene.number >= composed_.spaceScene + rest;
+    if (!changed && !(input.freshImage && due)) {
+        return false;
     }
-    const PixelRect& cameraRoom = console.settings.spaceIsLarge ? rooms.inset : rooms.large;
-    cameraPort_ =
-        ViewPort{camera_.view(), fitted(cameraRoom, camera_.view().width(), camera_.view().height())};
-    spacePort_ = ViewPort{space_.view(), fitted(spaceRoom, width, height)};
-    ViewPort& large = console.settings.spaceIsLarge ? *spacePort_ : *cameraPort_;
+    space_.compose(scene, {orbit, floor_, width, height, settings.treeLevel}, input.arm);
+    composed_.orbit = orbit;
+    composed_.spaceScene = scene.number;
+    composed_.treeLevel = settings.treeLevel;
+    composed_.spaceIsLarge = settings.spaceIsLarge;
+    return true;
+}
+
+void Screen::placeImages(bool spaceIsLarge, const Rooms& rooms) {
+    const auto& camera = camera_.view();
+    const auto& lens = space_.view().lens;
+    const PixelRect& cameraRoom = spaceIsLarge ? rooms.inset : rooms.large;
+    const PixelRect& spaceRoom = spaceIsLarge ? rooms.large : rooms.inset;
+    cameraPort_ = ViewPort{camera, fitted(cameraRoom, camera.width(), camera.height())};
+    spacePort_ = ViewPort{space_.view(), fitted(spaceRoom, lens.width, lens.height)};
+    ViewPort& large = spaceIsLarge ? *spacePort_ : *cameraPort_;
     large.where.x = rooms.large.x; // free room, from another aspect ratio, is at the right
     large_ = &large;
     const auto none = std::span<const uint32_t>();
-    const size_t under = console.settings.spaceIsLarge ? 1 : 0; // the inset is drawn over the large view
-    waiting_ = {waiting_[0] || fresh, waiting_[1] || space};
+    const size_t under = spaceIsLarge ? 1 : 0; // the inset is drawn over the large view
     layers_[under] = {waiting_[0] ? std::span<const uint32_t>(camera_.pixels()) : none,
-                      static_cast<uint32_t>(camera_.view().width()),
-                      static_cast<uint32_t>(camera_.view().height()), cameraPort_->where};
-    layers_[1 - under] = {waiting_[1] ? std::span<const uint32_t>(space_.pixels()) : none, width, height,
-                          spacePort_->where};
+                      static_cast<uint32_t>(camera.width()), static_cast<uint32_t>(camera.height()),
+                      cameraPort_->where};
+    layers_[1 - under] = {waiting_[1] ? std::span<const uint32_t>(space_.pixels()) : none, lens.width,
+                          lens.height, spacePort_->where};
 }
 
 // The depth under the pixels of a view. With separate cameras, parallax is ignored.

@@ -52,6 +52,11 @@ public:
 private:
     void makeImages(const Console& console, const FixtureEditor& editor, const ScreenInput& input,
                     const Rooms& rooms);
+    // These return whether the image is new. all: compose it whatever is shown now.
+    bool composeCamera(const FixtureEditor& editor, const ScreenInput& input, bool all);
+    bool composeSpace(const Console::Settings& settings, const ScreenInput& input, const PixelRect& room,
+                      bool all);
+    void placeImages(bool spaceIsLarge, const Rooms& rooms);
     void findGhost(Console& console, const FixtureEditor& editor, const SceneSnapshot& scene);
     void findCues(const ScreenInput& input);
     SurfaceDepth surfaceOf(const ViewPort& port, const Fixtures& set) const;

@@ -224,6 +224,24 @@ Curve classesOf(ScalingRun& run, uint32_t w, uint32_t h, bool quick) {
     return Curve(classes.rbegin(), classes.rend()); // largest first: its passes name the lines
 }
 
+const std::vector<std::string> kColumns = {"pixels",
+                                           "forbidden_percent",
+                                           "classes",
+                                           "upload_to_published_p50_ms",
+                                           "upload_to_collected_p50_ms",
+                                           "upload_p50_ms",
+                                           "collect_p50_ms",
+                                           "grid_p50_ms",
+                                           "spheres",
+                                           "classify_p50_ms",
+                                           "list_p50_ms",
+                                           "surface_p50_ms",
+                                           "thin_p50_ms",
+                                           "spheres_p50_ms",
+                                           "moments_p50_ms",
+                                           "upload_to_answerable_p50_ms",
+                                           "unpack_on_host_p50_ms"};
+
 } // namespace
 
 Study scalingStudy(const StudyContext& context) {
@@ -239,23 +257,7 @@ Study scalingStudy(const StudyContext& context) {
     study.findings.push_back("where the GPU answers contacts, the grid is built only to measure it");
     study.noDefault = "its rows are sizes and scenes, which camera and scene file determine";
     study.timeName = "upload to published p50";
-    study.moreNames = {"pixels",
-                       "forbidden_percent",
-                       "classes",
-                       "upload_to_published_p50_ms",
-                       "upload_to_collected_p50_ms",
-                       "upload_p50_ms",
-                       "collect_p50_ms",
-                       "grid_p50_ms",
-                       "spheres",
-                       "classify_p50_ms",
-                       "list_p50_ms",
-                       "surface_p50_ms",
-                       "thin_p50_ms",
-                       "spheres_p50_ms",
-                       "moments_p50_ms",
-                       "upload_to_answerable_p50_ms",
-                       "unpack_on_host_p50_ms"};
+    study.moreNames = kColumns;
     const bool quick = context.settings.quick;
     const uint32_t w = quick ? 160 : 640, h = quick ? 120 : 480;
     const std::string size = std::to_string(w) + "x" + std::to_string(h);

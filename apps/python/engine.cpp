@@ -141,13 +141,16 @@ void bindLive(py::module_& module) {
         .def("__exit__", [](LiveEngine& engine, const py::args&) { engine.close(); });
 }
 
-void bindLockstep(py::module_& module) {
+void bindFrameTimes(py::module_& module) {
     py::class_<FrameTimes>(module, "FrameTimes", "How long one frame took [s].")
         .def_readonly("upload", &FrameTimes::upload, "copy of the images to the compute device")
         .def_readonly("compute", &FrameTimes::compute,
                       "from submission until the compute device has finished")
         .def_readonly("published", &FrameTimes::published,
                       "until steps can use the set; includes both others");
+}
+
+void bindLockstep(py::module_& module) {
     py::class_<LockstepRun, std::unique_ptr<LockstepRun, WithoutLock>>(
         module, "Lockstep",
         "The same computation on one thread without a clock. Equal input gives equal output to the last bit.")
@@ -211,6 +214,7 @@ void closeEngines() {
 
 void bindEngine(py::module_& module) {
     bindLive(module);
+    bindFrameTimes(module);
     bindLockstep(module);
 }
 

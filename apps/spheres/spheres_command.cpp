@@ -241,6 +241,25 @@ void runSpheres(SpheresOptions options) {
     }
 }
 
+void addFileOptions(CLI::App* command, SpheresOptions& options) {
+    command->add_option("--leaves", options.cover.leaves, "largest number of leaf spheres (128)")
+        ->check(wholeNumberIn(1, kMaxLeaves));
+    command
+        ->add_option("--protrusion", options.cover.protrusion,
+                     "use as few leaves as possible that protrude at most this far [m]")
+        ->check(numberIn(Range::zeroOr(1e-6, 10.0)));
+    command->add_option("--scale", options.file.scale, "metres per unit of the file (1), also for spheres")
+        ->check(numberIn(Range::between(1e-9, 1e6)));
+    command->add_option("--up", options.up, "axis of the file that becomes +z (default: unchanged)")
+        ->check(wordIn({"x", "y", "z"}));
+    command->add_flag(
+        "--drop-stray", options.file.dropStray,
+        "drop pieces that are far from the rest (default: a mesh with such pieces is rejected)");
+    command->add_option("--link", options.link, "link of a .urdf, .yaml, .xrdf or .json");
+    command->add_option("--meshes", options.meshes, "folder to use for package:// in a .urdf");
+    command->add_flag("--keep-stray", options.file.keepStray, "keep pieces that are far from the rest");
+}
+
 } // namespace
 
 void addSpheresCommand(CLI::App& app) {
@@ -256,22 +275,7 @@ void addSpheresCommand(CLI::App& app) {
             "--out", options->out,
             "sphere tree (.sph), in the mesh's frame [m]; or spheres of links: .urdf, .yaml, .xrdf, .json")
         ->required();
-    command->add_option("--leaves", options->cover.leaves, "largest number of leaf spheres (128)")
-        ->check(wholeNumberIn(1, kMaxLeaves));
-    command
-        ->add_option("--protrusion", options->cover.protrusion,
-                     "use as few leaves as possible that protrude at most this far [m]")
-        ->check(numberIn(Range::zeroOr(1e-6, 10.0)));
-    command->add_option("--scale", options->file.scale, "metres per unit of the file (1), also for spheres")
-        ->check(numberIn(Range::between(1e-9, 1e6)));
-    command->add_option("--up", options->up, "axis of the file that becomes +z (default: unchanged)")
-        ->check(wordIn({"x", "y", "z"}));
-    command->add_flag(
-        "--drop-stray", options->file.dropStray,
-        "drop pieces that are far from the rest (default: a mesh with such pieces is rejected)");
-    command->add_option("--link", options->link, "link of a .urdf, .yaml, .xrdf or .json");
-    command->add_option("--meshes", options->meshes, "folder to use for package:// in a .urdf");
-    command->add_flag("--keep-stray", options->file.keepStray, "keep pieces that are far from the rest");
+    addFileOptions(command, *options);
     command->add_flag("--compare", options->compare,
                       "compare with the same number of octree and grid spheres");
     command->add_option("--plot", options->plot, "plot (PNG) of protrusion against number of leaves");

@@ -18,6 +18,7 @@ constexpr double kDepthPerTick = 1e-3;                 // [m] depth removed per 
 constexpr double kTool = 0.01;                         // [m] radius of the tool's balls
 constexpr double kStand = WallCamera::kRegion + kTool; // [m] distance from the wall at which the tool rests
 constexpr double kWall = 0.5;                          // [m]
+constexpr double kSweep = 0.25;                        // [m] that an approaching wall moves
 constexpr double kExtraTicks =
     3.0; // on top of depth / 1 mm: the answer, the last fraction, sideways motion in dimples
 
@@ -154,50 +155,62 @@ Outcome stepCase(RunLength runLength, bool torque) {
     return out;
 }
 
-// The wall approaches the tool frame by frame.
-Outcome sweepCase(RunLength runLength, double speed) {
-    double ratio = 0.0, front = 1.0, growth = 0.0, forceStep = 0.0;
+// Worst values over the runs of a case in which a wall approaches the tool.
+struct SweepFigures {
+    double ratio = 0.0; // ticks until the tool is out over those allowed
+    double front = 1.0; // [m] of the tool in front of the wall at the end
+    double growth = 0.0, forceStep = 0.0;
     uint64_t stuck = 0;
+
+    void sweep(int run, double speed);
+};
+
+// The wall approaches the tool frame by frame.
+void SweepFigures::sweep(int run, double speed) {
+    Rng rng(static_cast<uint64_t>(40 + run));
+    WallCamera camera(run % 2 == 1, static_cast<uint64_t>(run + 1));
+    const double noise = run % 4 < 2 ? 0.0 : 0.0005;
+    const Pose hand{dvec3(rng.uniform(-0.02, 0.02), rng.uniform(-0.02, 0.02), 0.6 - kStand - 0.01), kUpright};
+    LockstepRig rig(ballTool(kTool), hand);
+    const auto frames = static_cast<int>(std::ceil(kSweep / (speed * WallCamera::kFrame)));
+    int tick = 0;
+    double z = 0.6;
+    for (int frame = 0; frame <= frames; ++frame) {
+        z = std::max(0.6 - kSweep, 0.6 - speed * WallCamera::kFrame * frame);
+        rig.show(camera.look({z, noise, 0.0}));
+        for (; frame < frames && tick < (frame + 1) * 1000 / 30; ++tick) {
+            rig.step(hand);
+        }
+    }
+    const EscapeFigures e = escape(rig, hand, 3000, inFrontOf(z));
+    const double swept = frames * WallCamera::kFrame * 1000.0;
+    ratio = std::max(ratio, (tick + e.ticks) /
+                                (std::max(std::ceil(kSweep / kDepthPerTick), swept) + 34.0 + kExtraTicks));
+    front = std::min(front, z - rig.pose().position.z);
+    growth = std::max(growth, rig.audit().maxPenetration());
+    forceStep = std::max(forceStep, rig.figures.forceStep);
+    stuck += e.out ? 0 : 1;
+}
+
+Outcome sweepCase(RunLength runLength, double speed) {
+    SweepFigures f;
     const int trials = some(runLength, 20, 2);
     for (int i = 0; i < trials; ++i) {
-        Rng rng(static_cast<uint64_t>(40 + i));
-        WallCamera camera(i % 2 == 1, static_cast<uint64_t>(i + 1));
-        const double sweep = 0.25, noise = i % 4 < 2 ? 0.0 : 0.0005;
-        const Pose hand{dvec3(rng.uniform(-0.02, 0.02), rng.uniform(-0.02, 0.02), 0.6 - kStand - 0.01),
-                        kUpright};
-        LockstepRig rig(ballTool(kTool), hand);
-        const auto frames = static_cast<int>(std::ceil(sweep / (speed * WallCamera::kFrame)));
-        int tick = 0;
-        double z = 0.6;
-        for (int frame = 0; frame <= frames; ++frame) {
-            z = std::max(0.6 - sweep, 0.6 - speed * WallCamera::kFrame * frame);
-            rig.show(camera.look({z, noise, 0.0}));
-            for (; frame < frames && tick < (frame + 1) * 1000 / 30; ++tick) {
-                rig.step(hand);
-            }
-        }
-        const EscapeFigures e = escape(rig, hand, 3000, inFrontOf(z));
-        const double way = sweep, swept = frames * WallCamera::kFrame * 1000.0;
-        ratio = std::max(ratio, (tick + e.ticks) /
-                                    (std::max(std::ceil(way / kDepthPerTick), swept) + 34.0 + kExtraTicks));
-        front = std::min(front, z - rig.pose().position.z);
-        growth = std::max(growth, rig.audit().maxPenetration());
-        forceStep = std::max(forceStep, rig.figures.forceStep);
-        stuck += e.out ? 0 : 1;
+        f.sweep(i, speed);
     }
     Outcome out = outcomeOf(
-        ratio, 1.0, "1",
+        f.ratio, 1.0, "1",
         "Ticks from the start of the sweep until out over the longer of the sweep and 250 mm at 1 "
         "mm per tick, and a "
         "frame: wall at " +
             num(speed) + " m/s, 30 Hz, with and without held points and noise, " + num(uint64_t(trials)) +
             " runs. At over 1 m/s the surface outruns the 1 mm per tick and the tool is out "
             "after it has stopped, still on the camera's side (" +
-            num(front * 1e3) + " mm in front).");
-    require(out, stuck == 0, num(stuck) + " runs never out");
-    require(out, growth <= 1e-5, "a depth grew by " + num(growth) + " m");
-    require(out, front > 0.5 * kStand, "a tool came out on the far side");
-    require(out, forceStep <= 2.0 + 1e-9, "force step of " + num(forceStep) + " N");
+            num(f.front * 1e3) + " mm in front).");
+    require(out, f.stuck == 0, num(f.stuck) + " runs never out");
+    require(out, f.growth <= 1e-5, "a depth grew by " + num(f.growth) + " m");
+    require(out, f.front > 0.5 * kStand, "a tool came out on the far side");
+    require(out, f.forceStep <= 2.0 + 1e-9, "force step of " + num(f.forceStep) + " N");
     return out;
 }
 

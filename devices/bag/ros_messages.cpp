@@ -87,6 +87,42 @@ Intrinsics cropped(double fx, double fy, double cx, double cy, const Crop& crop)
     return lens;
 }
 
+std::vector<double> coefficients(MessageCursor& cursor) {
+    const uint32_t count = cursor.word();
+    if (count > kMaxCoefficients) {
+        throw Error("camera_info with " + std::to_string(count) + " distortion coefficients");
+    }
+    std::vector<double> out(count);
+    for (double& value : out) {
+        value = cursor.real();
+    }
+    return out;
+}
+
+bool projects(double fx, double fy, double cx, double cy) {
+    return fx > 0.0 && fy > 0.0 && std::isfinite(fx + fy + cx + cy);
+}
+
+// The lens of the raw image from K, that of the rectified image from P, or from K where P is not set.
+void setLenses(CameraInfo& info, const std::array<double, 9>& k, const std::array<double, 12>& p,
+               const Crop& crop) {
+    const bool byK = projects(k[0], k[4], k[2], k[5]), byP = projects(p[0], p[5], p[2], p[6]);
+    if (!byK) {
+        info.rawFault = "camera_info without a focal length: the camera was not calibrated";
+    } else {
+        info.raw = cropped(k[0], k[4], k[2], k[5], crop);
+    }
+    if (!byK && !byP) {
+        throw Error(info.rawFault);
+    }
+    info.rawSkew = k[1];
+    info.rectifiedSkew = byP ? p[1] : k[1];
+    info.rectified = byP ? cropped(p[0], p[5], p[2], p[6], crop) : info.raw;
+    if (byP && std::isfinite(p[3] + p[7])) {
+        info.shift = {p[3] / p[0], p[7] / p[5], 0.0};
+    }
+}
+
 } // namespace
 
 Image image(MessageCursor cursor) {
@@ -131,35 +167,10 @@ CameraInfo cameraInfo(MessageCursor cursor) {
     info.frame = header(cursor).frame;
     const uint32_t height = cursor.word(), width = cursor.word();
     const std::string model = cursor.name();
-    const uint32_t count = cursor.word();
-    if (count > kMaxCoefficients) {
-        throw Error("camera_info with " + std::to_string(count) + " distortion coefficients");
-    }
-    std::vector<double> distortion(count);
-    for (double& value : distortion) {
-        value = cursor.real();
-    }
+    const std::vector<double> distortion = coefficients(cursor);
     const auto k = reals<9>(cursor), r = reals<9>(cursor);
     const auto p = reals<12>(cursor);
-    const Crop crop = cropOf(cursor, width, height);
-    const auto projects = [](double fx, double fy, double cx, double cy) {
-        return fx > 0.0 && fy > 0.0 && std::isfinite(fx + fy + cx + cy);
-    };
-    const bool byK = projects(k[0], k[4], k[2], k[5]), byP = projects(p[0], p[5], p[2], p[6]);
-    if (!byK) {
-        info.rawFault = "camera_info without a focal length: the camera was not calibrated";
-    } else {
-        info.raw = cropped(k[0], k[4], k[2], k[5], crop);
-    }
-    if (!byK && !byP) {
-        throw Error(info.rawFault);
-    }
-    info.rawSkew = k[1];
-    info.rectifiedSkew = byP ? p[1] : k[1];
-    info.rectified = byP ? cropped(p[0], p[5], p[2], p[6], crop) : info.raw;
-    if (byP && std::isfinite(p[3] + p[7])) {
-        info.shift = {p[3] / p[0], p[7] / p[5], 0.0};
-    }
+    setLenses(info, k, p, cropOf(cursor, width, height));
     const double diagonal = r[0] + r[4] + r[8];
     info.turned = diagonal != 0.0 && !(std::abs(diagonal - 3.0) < 1e-9);
     const std::string allowed = setDistortion(info.raw, model, distortion);

@@ -243,6 +243,20 @@ StreamChooser::Pair StreamChooser::bestPair() {
     return pair;
 }
 
+CameraInfo StreamChooser::cameraOf(const ImageStream& depth, const ImageStream* colour,
+                                   const Relation& relation) {
+    CameraInfo camera;
+    camera.poseless = true;
+    camera.depth = camera.colour = depth.lens.value_or(Intrinsics{});
+    camera.hasColour = colour != nullptr;
+    if (colour != nullptr) {
+        camera.registered = relation.registered;
+        camera.colour = relation.registered || !colour->lens ? camera.depth : *colour->lens;
+        camera.colourTdepth = relation.colourTdepth;
+    }
+    return camera;
+}
+
 StreamChoice StreamChooser::choose() {
     auto [depth, colour, relation] = bestPair();
     StreamChoice choice;
@@ -257,15 +271,9 @@ StreamChoice StreamChooser::choose() {
         }
         colour = nullptr;
     }
-    CameraInfo& camera = choice.camera;
-    camera.poseless = true;
-    camera.hasColour = colour != nullptr;
-    camera.depth = camera.colour = depth->lens.value_or(Intrinsics{});
+    choice.camera = cameraOf(*depth, colour, relation);
     if (colour != nullptr) {
         choice.colour = *colour;
-        camera.registered = relation.registered;
-        camera.colour = relation.registered || !colour->lens ? camera.depth : *colour->lens;
-        camera.colourTdepth = relation.colourTdepth;
         if (keepsRelation() && !relation.warning.empty()) {
             choice.warnings.push_back(relation.warning);
         }
@@ -282,7 +290,7 @@ StreamChoice StreamChooser::choose() {
     if (namedRangeImage(depth->name) && !choice.rangeImages) {
         choice.warnings.push_back(axisWarning(depth->name, "a file of the lens (intrinsics=FILE)"));
     }
-    camera.colourFormat = colour != nullptr ? colour->format : ColourFormat::Rgba;
+    choice.camera.colourFormat = colour != nullptr ? colour->format : ColourFormat::Rgba;
     choice.unread = unreadStreams();
     choice.summary = describe(choice);
     return choice;

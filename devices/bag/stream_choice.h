@@ -47,6 +47,7 @@ private:
         Relation relation;
     };
     Pair bestPair();
+    static CameraInfo cameraOf(const ImageStream& depth, const ImageStream* colour, const Relation& relation);
     const ImageStream* bestDepth() const;
     // fit: how well the name fits; 0 only for grey.
     struct Candidate {

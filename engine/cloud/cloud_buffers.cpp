@@ -41,36 +41,50 @@ WorkBuffers::WorkBuffers(const gpu::Device& device, const Plan& plan, const Patc
     if (plan.thin) {
         growth = Buffer(device, subs * 16, MemoryKind::Device, "growth");
     }
-    if (plan.spheres && (!plan.pack || plan.classes > 1)) {
-        classes = Buffer(device, slots, MemoryKind::Readback, "classes");
-    }
-    if (plan.spheres && !plan.pack) {
-        radii = Buffer(device, slots * 4, MemoryKind::Readback, "radii");
-        heldRadii = plan.hold ? Buffer(device, slots * 4, MemoryKind::Readback, "held radii") : Buffer();
+    if (plan.spheres) {
+        addSpheres(device, plan, slots);
     }
     if (plan.hold) {
-        seen = Buffer(device, slots * 16, MemoryKind::Device, "seen");
-        kept = Buffer(device, slots * 16, slotMemory(plan), "kept");
-        keptTime = Buffer(device, slots * 4, MemoryKind::Device, "keptTime");
-        memoryCounts = Buffer(device, patches * 4, MemoryKind::Device, "memory counts");
+        addHold(device, plan, layout);
     }
     if (plan.estimates) {
         estimates = Buffer(device, slots * 32, MemoryKind::Device, "estimates");
     }
     if (plan.occlusion) {
-        // Cells are 1.5 times as wide as the distance between neighbouring depth pixels in the colour image.
-        // A surface that faces the colour camera is stretched there, and gaps would show the points that it
-        // hides.
-        const double ratio = std::max(camera.colour.fx / camera.depth.fx, camera.colour.fy / camera.depth.fy);
-        cellEdge = std::max(1u, static_cast<uint32_t>(std::ceil(1.5 * ratio)));
-        cellsAcross = (camera.colour.width + cellEdge - 1) / cellEdge;
-        cellsDown = (camera.colour.height + cellEdge - 1) / cellEdge;
-        nearest = Buffer(device, 4ull * cellsAcross * cellsDown, MemoryKind::Device, "nearest");
+        addOcclusion(device, camera);
     }
     if (plan.rays) {
         rays = Buffer(device, 8ull * camera.depth.pixels(), MemoryKind::Upload, "rays");
         std::ranges::copy(raysOf(camera.depth), rays.as<glm::vec2>().begin());
     }
+}
+
+void WorkBuffers::addSpheres(const gpu::Device& device, const Plan& plan, uint64_t slots) {
+    if (!plan.pack || plan.classes > 1) {
+        classes = Buffer(device, slots, MemoryKind::Readback, "classes");
+    }
+    if (!plan.pack) {
+        radii = Buffer(device, slots * 4, MemoryKind::Readback, "radii");
+        heldRadii = plan.hold ? Buffer(device, slots * 4, MemoryKind::Readback, "held radii") : Buffer();
+    }
+}
+
+void WorkBuffers::addHold(const gpu::Device& device, const Plan& plan, const PatchLayout& layout) {
+    const uint64_t slots = layout.slots();
+    seen = Buffer(device, slots * 16, MemoryKind::Device, "seen");
+    kept = Buffer(device, slots * 16, slotMemory(plan), "kept");
+    keptTime = Buffer(device, slots * 4, MemoryKind::Device, "keptTime");
+    memoryCounts = Buffer(device, layout.patches() * 4ull, MemoryKind::Device, "memory counts");
+}
+
+// Cells are 1.5 times as wide as the distance between neighbouring depth pixels in the colour image. A
+// surface that faces the colour camera is stretched there, and gaps would show the points that it hides.
+void WorkBuffers::addOcclusion(const gpu::Device& device, const CameraInfo& camera) {
+    const double ratio = std::max(camera.colour.fx / camera.depth.fx, camera.colour.fy / camera.depth.fy);
+    cellEdge = std::max(1u, static_cast<uint32_t>(std::ceil(1.5 * ratio)));
+    cellsAcross = (camera.colour.width + cellEdge - 1) / cellEdge;
+    cellsDown = (camera.colour.height + cellEdge - 1) / cellEdge;
+    nearest = Buffer(device, 4ull * cellsAcross * cellsDown, MemoryKind::Device, "nearest");
 }
 
 UploadBuffers::UploadBuffers(const gpu::Device& device, const Plan& plan, const CameraInfo& camera,

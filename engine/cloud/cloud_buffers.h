@@ -38,6 +38,11 @@ struct WorkBuffers {
     gpu::Buffer unused; // bound instead of buffers that are not in the plan
 
     uint32_t cellEdge = 1, cellsAcross = 1, cellsDown = 1; // occlusion cells [colour pixels]
+
+private:
+    void addSpheres(const gpu::Device& device, const Plan& plan, uint64_t slots);
+    void addHold(const gpu::Device& device, const Plan& plan, const PatchLayout& layout);
+    void addOcclusion(const gpu::Device& device, const CameraInfo& camera);
 };
 
 // Texel formats of uploads, of points and other vec4 buffers, and of class bits.
