@@ -46,7 +46,7 @@ public:
     virtual std::optional<double> framePeriod() const { return std::nullopt; }
     // Recordings of several streams: which ones are played, and what else there is, in one line.
     virtual std::string streams() const { return ""; }
-    // The same as options behind the name of the recording: ",depth=TOPIC,colour=TOPIC"; empty = one stream
+    // The same as options after the name of the recording: ",depth=TOPIC,colour=TOPIC"; empty = one stream
     // only.
     virtual std::string streamOptions() const { return ""; }
     // Why no colour gate can pass: no colour stream, one that is not read, or grey; empty = there is colour.

@@ -69,11 +69,11 @@ uint layersOf(uint block) {
 
 struct Candidate {
     vec4 sphere, here; // as in the set; in the frame of the leaves; R < 0 = none
-    uint slot, fixture;
+    uint slot, pointClass;
 };
 Candidate candidateOf(uint block, uint layer, uint i) {
     Candidate c;
-    c.fixture = 0u;
+    c.pointClass = 0u;
     if (block >= batch.live.x) {
         uint slot = (block - batch.live.x) * kBlockSlots + i;
         c.slot = slot * 4u + kLayerFrozen;
@@ -83,8 +83,8 @@ Candidate candidateOf(uint block, uint layer, uint i) {
         c.slot = slot * 4u + layer;
         c.sphere = layer == kLayerHeld ? held[slot] : spheres[slot];
         uint both = kClasses > 1u ? classes[slot >> 2] >> 8u * (slot & 3u) & 255u : 0u;
-        c.fixture = layer == kLayerHeld ? both >> 4 : both & 15u;
-        c.sphere.w = (batch.live.w >> c.fixture & 1u) != 0u ? -1.0 : c.sphere.w;
+        c.pointClass = layer == kLayerHeld ? both >> 4 : both & 15u;
+        c.sphere.w = (batch.live.w >> c.pointClass & 1u) != 0u ? -1.0 : c.sphere.w;
     }
     c.here = vec4(inFrameOf(rows, c.sphere.xyz), c.sphere.w);
     return c;
@@ -208,7 +208,7 @@ void list(uint block, uint near, float limit) {
             if (nearerThan(limit, c.here, leafListed[k])) {
                 uint at = atomicAdd(count.x, 1u);
                 if (at < batch.rest.w) {
-                    found[at] = GapPair(gl_WorkGroupID.x, idListed[k], c.slot, c.fixture, c.sphere);
+                    found[at] = GapPair(gl_WorkGroupID.x, idListed[k], c.slot, c.pointClass, c.sphere);
                 }
             }
         }

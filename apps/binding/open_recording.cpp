@@ -59,7 +59,7 @@ Kind kindOf(const std::filesystem::path& file) {
 }
 
 constexpr const char* kOptions =
-    "depth=, colour=, info=, intrinsics=, extrinsics=, scale=, start= and duration= behind the file's name";
+    "depth=, colour=, info=, intrinsics=, extrinsics=, scale=, start= and duration= after the file name";
 
 // Names an unknown option where the file is there without it.
 void checkExists(const std::string& file) {

@@ -45,7 +45,7 @@ void hold(Scene& scene, const std::filesystem::path& file, const TextLine& line,
 SceneEdit readEdit(const std::filesystem::path& file, const TextLine& line) {
     const std::vector<std::string_view> fields = splitFields(line.text, ',');
     if (fields.size() != 4) {
-        refuse(file, line, "row", line.text, SceneEdits::kHead);
+        refuse(file, line, "row", line.text, SceneEdits::kHeader);
     }
     SceneEdit edit;
     if (!parseNumber(fields[0], edit.firstFrame)) {
@@ -77,9 +77,9 @@ SceneEdits::SceneEdits(const std::filesystem::path& folder) {
         return;
     }
     const std::vector<TextLine> lines = readDataLines(file);
-    if (lines.empty() || lines[0].text != kHead) {
+    if (lines.empty() || lines[0].text != kHeader) {
         throw BadInput(file.string(), "line 1", lines.empty() ? "none" : "'" + lines[0].text + "'",
-                       std::string("header ") + kHead);
+                       std::string("header ") + kHeader);
     }
     if (lines.size() > kMaxEdits) {
         throw BadInput(file.string(), "rows", std::to_string(lines.size() - 1),

@@ -31,7 +31,7 @@ struct SceneEdit {
 class SceneEdits {
 public:
     static constexpr const char* kFile = "edits.csv";
-    static constexpr const char* kHead = "picture,scene,held,still";
+    static constexpr const char* kHeader = "picture,scene,held,still";
 
     SceneEdits() = default; // no edits
     // No edits if the folder has no such file. Throws BadInput with line and column.

@@ -41,8 +41,8 @@ const char* depthFrame(const CameraInfo& camera) {
 } // namespace
 
 uint64_t messageTime(double stamp) {
-    constexpr double kMost = 2147483647.0; // [s] of a signed 32-bit number
-    if (!(stamp >= 0.0 && stamp < kMost)) {
+    constexpr double kMax = 2147483647.0; // [s] of a signed 32-bit number
+    if (!(stamp >= 0.0 && stamp < kMax)) {
         throw BadInput("convert", "stamp", std::to_string(stamp) + " s", "0 to 2147483647 s for MCAP");
     }
     const double whole = std::floor(stamp);

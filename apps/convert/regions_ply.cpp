@@ -15,7 +15,7 @@ constexpr std::string_view kPlyEnd = "end_header\n", kPlyCount = "element vertex
                            kPlyFields = "property double x\nproperty double y\nproperty double z\n"
                                         "property double radius\nproperty int class\nproperty int held\n";
 
-// Number of vertices; empty when the head is of another kind.
+// Number of vertices; empty when the header is of another kind.
 std::optional<uint32_t> vertices(std::string_view head) {
     const size_t at = head.find(kPlyCount);
     uint32_t count = 0;

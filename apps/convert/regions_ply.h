@@ -8,7 +8,7 @@
 
 namespace fathom {
 
-// Throws BadInput for a file of another kind, or of another size than its head states.
+// Throws BadInput for a file of another kind, or of another size than its header states.
 std::vector<ros2::RegionPoint> readRegionsPly(const std::filesystem::path& file);
 
 } // namespace fathom

@@ -50,9 +50,9 @@ std::string handIsOff(const ArmingInput& input) {
 } // namespace
 
 double softStart(double forceLimit) {
-    constexpr double kLeast = 1.5;     // [s]
+    constexpr double kMin = 1.5;       // [s]
     constexpr double kSteepest = 20.0; // [N/s]
-    return std::max(kLeast, forceLimit / kSteepest);
+    return std::max(kMin, forceLimit / kSteepest);
 }
 
 bool cameraSilent(const StepRecord& record) {

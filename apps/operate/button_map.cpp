@@ -65,12 +65,12 @@ void ButtonMap::save(const std::filesystem::path& file) const {
 }
 
 void ButtonMap::load(const std::filesystem::path& file) {
-    constexpr std::streamoff kMost = 4096; // [bytes]
+    constexpr std::streamoff kMax = 4096; // [bytes]
     std::ifstream in(file, std::ios::ate);
     if (!in) {
         return;
     }
-    if (in.tellg() > kMost) {
+    if (in.tellg() > kMax) {
         throw BadInput(file.string(), "size", std::to_string(in.tellg()) + " bytes", "at most 4096 bytes");
     }
     in.seekg(0);

@@ -68,7 +68,7 @@ bool controlWidget(Console& console, const CameraControl& control, int64_t& valu
     return done;
 }
 
-void controlRow(Console& console, const CameraControl& control, CameraDesk& desk) {
+void controlRow(Console& console, const CameraControl& control, CameraControlThread& desk) {
     ImGui::PushID((control.stream + control.name).c_str());
     if (!control.fixed.empty()) {
         const bool measured = control.most > control.least;
@@ -92,13 +92,13 @@ void controlRow(Console& console, const CameraControl& control, CameraDesk& desk
 
 } // namespace
 
-std::string whyNoControls(const CameraFacts& camera, const CameraDesk& desk) {
+std::string whyNoControls(const CameraFacts& camera, const CameraControlThread& desk) {
     return desk.any()    ? ""
            : camera.live ? "Fathom can set no controls of this kind of camera."
                          : "A recording or simulation has no exposure, gain or laser to set.";
 }
 
-void drawCamera(Console& console, const CameraFacts& camera, const RunView& run, CameraDesk& desk,
+void drawCamera(Console& console, const CameraFacts& camera, const RunView& run, CameraControlThread& desk,
                 const Fonts& fonts) {
     ImGui::PushTextWrapPos(0.0f);
     fontText(fonts.small, colour::kQuiet, camera.description);
@@ -115,7 +115,7 @@ void drawCamera(Console& console, const CameraFacts& camera, const RunView& run,
                 "Live V4L2 cameras have exposure, gain, white balance and, by their driver, a laser");
         return;
     }
-    const CameraDesk::Answer answer = desk.answer();
+    const CameraControlThread::Answer answer = desk.answer();
     if (!answer.fault.empty()) {
         colouredText(colour::kCaution, answer.fault.c_str());
     }

@@ -2,7 +2,7 @@
 // The tab of the camera: streams, delay from exposure to force, controls.
 #pragma once
 
-#include "apps/operate/camera_desk.h"
+#include "apps/operate/camera_control_thread.h"
 #include "apps/operate/console.h"
 #include "apps/operate/run_view.h"
 #include "apps/operate/theme.h"
@@ -21,10 +21,10 @@ struct CameraFacts {
 };
 
 // Sets controls through the desk.
-void drawCamera(Console& console, const CameraFacts& camera, const RunView& run, CameraDesk& desk,
+void drawCamera(Console& console, const CameraFacts& camera, const RunView& run, CameraControlThread& desk,
                 const Fonts& fonts);
 
 // Why there is nothing to set; empty = there is.
-std::string whyNoControls(const CameraFacts& camera, const CameraDesk& desk);
+std::string whyNoControls(const CameraFacts& camera, const CameraControlThread& desk);
 
 } // namespace fathom::operate

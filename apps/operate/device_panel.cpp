@@ -36,7 +36,7 @@ void useRow(Console& console, const ButtonMap& buttons, ButtonUse use) {
 
 } // namespace
 
-void drawDevice(Console& console, const DeviceFacts& device, const Fonts& fonts) {
+void drawDevice(Console& console, const HandDeviceFacts& device, const Fonts& fonts) {
     ImGui::PushTextWrapPos(0.0f);
     if (device.description.empty() || device.buttons == nullptr) {
         ImGui::TextDisabled("No haptic device: there are no buttons to map.");
@@ -49,7 +49,7 @@ void drawDevice(Console& console, const DeviceFacts& device, const Fonts& fonts)
     if (!device.present) {
         colouredText(colour::kWarning, "disconnected");
     }
-    ImGui::TextUnformatted(("Pressed: " + heldButtons(device.held)).c_str());
+    ImGui::TextUnformatted(("Pressed: " + heldButtons(device.buttonsDown)).c_str());
     markPlace(console, "held buttons");
     explain(console, "Buttons of the device that are down now, numbered from 1. Button 2 is the dead-man "
                      "switch: down while it is open");

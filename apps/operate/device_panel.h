@@ -11,14 +11,14 @@
 namespace fathom::operate {
 
 // The device of a run.
-struct DeviceFacts {
+struct HandDeviceFacts {
     std::string description; // empty: mouse and keyboard, or a recording
     bool present = true;
-    uint32_t held = 0; // buttons down at the last tick, as the device reports them
+    uint32_t buttonsDown = 0; // buttons down at the last tick, as the device reports them
     const ButtonMap* buttons = nullptr;
 };
 
 // Starts a mapping (Console::Editing::mapping) by a button of the panel.
-void drawDevice(Console& console, const DeviceFacts& device, const Fonts& fonts);
+void drawDevice(Console& console, const HandDeviceFacts& device, const Fonts& fonts);
 
 } // namespace fathom::operate

@@ -32,8 +32,8 @@ std::vector<EventMark> readMarks(const std::filesystem::path& folder) {
         throw BadInput(file.string(), "line " + std::to_string(line.number), "'" + value.substr(0, 80) + "'",
                        allowed);
     };
-    if (!lines.next(line) || line.text != kMarksHead) {
-        refuse(std::string(line.text), kMarksHead);
+    if (!lines.next(line) || line.text != kMarksHeader) {
+        refuse(std::string(line.text), kMarksHeader);
     }
     while (lines.next(line)) {
         const std::vector<std::string_view> fields = splitFields(line.text, ',');
@@ -61,7 +61,7 @@ void addMark(const std::filesystem::path& folder, std::vector<EventMark>& marks,
     const std::filesystem::path file = folder / kMarksFile,
                                 half = folder / (std::string(kMarksFile) + ".new");
     LineFile out;
-    out.open(half, kMarksHead);
+    out.open(half, kMarksHeader);
     for (const EventMark& mark : next) {
         out.lines() << mark.t << "," << mark.name << "\n";
     }

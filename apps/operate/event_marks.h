@@ -9,7 +9,7 @@
 namespace fathom::operate {
 
 inline constexpr const char* kMarksFile = "marks.csv";
-inline constexpr const char* kMarksHead = "t_s,name";
+inline constexpr const char* kMarksHeader = "t_s,name";
 
 struct EventMark {
     double t = 0.0; // [s] in the recording

@@ -42,7 +42,7 @@ void figure(Console& console, const Fonts& fonts, const Figure& f) {
 }
 
 // The state of the arm and the largest deviation of a joint from its setpoint.
-Figure armFigure(const MeasuredArm& arm) {
+Figure armFigure(const ShownArm& arm) {
     const std::string state = armStateName(arm.state);
     const ImU32 colour = isFault(arm.state)            ? colour::kWarning
                          : arm.isOff()                 ? colour::kMeasured

@@ -33,12 +33,12 @@ struct HudInput {
     double unknownShare = 0.0; // share of the image without depth
     double windowHz = 0.0;
     bool driven = false;               // a device or path drives the hand; otherwise mouse and keyboard
-    const MeasuredArm* arm = nullptr;  // null = no real arm
+    const ShownArm* arm = nullptr;     // null = no real arm
     bool handGone = false;             // the haptic device is disconnected
     std::vector<std::string> armHolds; // measured_arm.h
     const CameraFacts* camera = nullptr;
-    CameraDesk* desk = nullptr; // with `camera`
-    DeviceFacts device = {};
+    CameraControlThread* desk = nullptr; // with `camera`
+    HandDeviceFacts device = {};
 };
 
 void drawHeadLine(Console& console, const HudInput& input, ImVec2 at, ImVec2 size);

@@ -13,10 +13,10 @@
 namespace fathom::operate {
 
 size_t LastSeconds::defaultMemory() {
-    constexpr size_t kMost = size_t{1} << 30;
+    constexpr size_t kMax = size_t{1} << 30;
     const long pages = ::sysconf(_SC_PHYS_PAGES), size = ::sysconf(_SC_PAGESIZE);
-    return pages > 0 && size > 0 ? std::min(kMost, static_cast<size_t>(pages) * static_cast<size_t>(size) / 8)
-                                 : kMost / 4;
+    return pages > 0 && size > 0 ? std::min(kMax, static_cast<size_t>(pages) * static_cast<size_t>(size) / 8)
+                                 : kMax / 4;
 }
 
 double KeptPast::seconds() const {

@@ -63,8 +63,8 @@ Rooms arrange(const LayoutInput& input) {
 double scaleThatFits(ImVec2 size, double wanted, bool pilot) {
     const double fits = pilot ? std::min(double{size.x} / 480.0, double{size.y} / 330.0)
                               : std::min(double{size.x} / 930.0, double{size.y} / 560.0);
-    constexpr double kLeast = 0.75, kMost = 4.0, kSteps = 8.0; // a font is made per step
-    return std::clamp(std::min(wanted, std::floor(kSteps * fits) / kSteps), kLeast, kMost);
+    constexpr double kMin = 0.75, kMax = 4.0, kSteps = 8.0; // a font is made per step
+    return std::clamp(std::min(wanted, std::floor(kSteps * fits) / kSteps), kMin, kMax);
 }
 
 } // namespace fathom::operate

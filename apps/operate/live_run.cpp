@@ -48,15 +48,15 @@ LiveRun::LiveRun(const OperateOptions& options, Session& session, const StopSign
     }
 }
 
-DeviceFacts LiveRun::device() const {
-    return {session_.liveHand ? session_.liveHand->description() : "", hand_->present(), hand_->held(),
+HandDeviceFacts LiveRun::device() const {
+    return {session_.liveHand ? session_.liveHand->description() : "", hand_->present(), hand_->buttonsDown(),
             &buttons_};
 }
 
 void LiveRun::mapButtons(Console& console) {
     std::optional<ButtonUse>& mapping = console.editing.mapping;
     const uint32_t pressed = hand_->takePressed() & ~kDeadManOpen;
-    mappedStillDown_ = mappedStillDown_ && (hand_->held() & ~kDeadManOpen) != 0;
+    mappedStillDown_ = mappedStillDown_ && (hand_->buttonsDown() & ~kDeadManOpen) != 0;
     hand_->capture(mapping || mappedStillDown_);
     if (!mapping || pressed == 0) {
         return;

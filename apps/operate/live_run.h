@@ -40,7 +40,7 @@ public:
     void apply(Console& console);
     // Takes the device's button that is pressed for Console::Editing::mapping, and saves the mapping.
     void mapButtons(Console& console);
-    DeviceFacts device() const;
+    HandDeviceFacts device() const;
     void forcesOff() { hand_->setForces(false); }
     void setShapes(const std::vector<Shape>& shapes);
 

@@ -8,8 +8,8 @@
 
 namespace fathom::operate {
 
-MeasuredArm measuredArm(const ArmSetup* arm, const RunView& run, std::span<const Sphere> wanted) {
-    MeasuredArm measured;
+ShownArm measuredArm(const ArmSetup* arm, const RunView& run, std::span<const Sphere> wanted) {
+    ShownArm measured;
     const TickRow& row = run.step();
     if (arm == nullptr || !row.driven) {
         return measured;

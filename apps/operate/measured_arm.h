@@ -10,7 +10,7 @@
 
 namespace fathom::operate {
 
-struct MeasuredArm {
+struct ShownArm {
     bool real = false;  // a real arm follows the tool
     bool known = false; // measured recently; otherwise the values are the last ones
     ArmState state = ArmState::Held;
@@ -29,7 +29,7 @@ struct MeasuredArm {
 };
 
 // arm: null = no arm in the scene. wanted: the arm's spheres at the setpoint.
-MeasuredArm measuredArm(const ArmSetup* arm, const RunView& run, std::span<const Sphere> wanted);
+ShownArm measuredArm(const ArmSetup* arm, const RunView& run, std::span<const Sphere> wanted);
 
 // Reasons why the arm itself stops the tool in this tick, one phrase each: joints at their limits or at full
 // speed, a singular posture, jaws that would enter a region. Empty without an arm.

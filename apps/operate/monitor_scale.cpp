@@ -28,14 +28,14 @@ GLFWmonitor* monitorWith(GLFWwindow* window) {
 
 double monitorScale(const MonitorFigures& figures) {
     constexpr double kUsual = 96.0, kLowest = 40.0, kHighest = 700.0; // [pixels per inch]
-    constexpr double kStep = 0.125, kMost = 2.5;
+    constexpr double kStep = 0.125, kMax = 2.5;
     double scale = figures.desktop;
     if (scale == 1.0 && figures.millimetres > 0) {
         const double perInch = 25.4 * figures.width / figures.millimetres;
         scale = perInch > kLowest && perInch < kHighest ? perInch / kUsual : 1.0;
     }
     scale /= std::max(1.0, figures.stretch);
-    return std::clamp(kStep * std::floor(scale / kStep + 1e-6), 1.0, kMost);
+    return std::clamp(kStep * std::floor(scale / kStep + 1e-6), 1.0, kMax);
 }
 
 MonitorFigures monitorOf(GLFWwindow* window) {

@@ -91,12 +91,12 @@ double surfaceAt(const Fixtures& set, double u, double v) {
 }
 
 std::vector<Sphere> shadowOf(const Fixtures& set, std::span<const Sphere> tool) {
-    constexpr size_t kMost = 64;                               // spheres
+    constexpr size_t kMax = 64;                                // spheres
     constexpr double kStep = 0.01, kFarthest = 0.8;            // [m] along the light
     const dvec3 light = glm::normalize(dvec3(0.35, 0.5, 1.0)); // camera axes
     const ImageView depth{set.camera.depth, inverse(set.baseTcamera), 1};
     std::vector<Sphere> shadow;
-    const size_t step = tool.size() / kMost + 1;
+    const size_t step = tool.size() / kMax + 1;
     for (size_t i = 0; i < tool.size(); i += step) {
         const dvec3 from = depth.cameraTbase.apply(tool[i].centre);
         for (double s = 0.0; s < kFarthest; s += kStep) {

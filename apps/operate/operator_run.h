@@ -72,7 +72,7 @@ private:
     RunDisplay display_;
     FixtureEditor editor_;
     RecorderControl recording_;
-    MeasuredArm measured_;
+    ShownArm measured_;
     TonePlayer tones_;
     bool showsGone_ = false; // the window's title says that the GPU is gone
     struct {

@@ -56,7 +56,7 @@ void GatedHand::choose(const ButtonBits& buttons) noexcept {
 }
 
 uint32_t GatedHand::buttonsOf(uint32_t raw) noexcept {
-    const uint32_t before = held_.exchange(raw, std::memory_order_relaxed);
+    const uint32_t before = down_.exchange(raw, std::memory_order_relaxed);
     pressed_.fetch_or(raw & ~before, std::memory_order_relaxed);
     ButtonBits chosen{};
     for (size_t i = 0; i < kButtonUses; ++i) {

@@ -53,7 +53,8 @@ public:
     void choose(const ButtonBits& buttons) noexcept;
     // While on, buttons have no effect, so that one can be pressed for a mapping.
     void capture(bool on) noexcept { captures_.store(on, std::memory_order_relaxed); }
-    uint32_t held() const noexcept { return held_.load(std::memory_order_relaxed); } // as the device has them
+    // As the device has them.
+    uint32_t buttonsDown() const noexcept { return down_.load(std::memory_order_relaxed); }
     uint32_t takePressed() noexcept { return pressed_.exchange(0, std::memory_order_relaxed); }
     bool present() const noexcept { return present_.load(std::memory_order_relaxed); } // at the last tick
     HandSample read(double t) noexcept override;
@@ -70,7 +71,7 @@ private:
     std::atomic<uint32_t> extra_{0};
     const ButtonBits native_;
     std::array<std::atomic<uint32_t>, kButtonUses> chosen_;
-    std::atomic<uint32_t> held_{0}, pressed_{0}; // down now; pressed since the last takePressed()
+    std::atomic<uint32_t> down_{0}, pressed_{0}; // down now; pressed since the last takePressed()
     std::atomic<bool> captures_{false};
     const std::atomic<bool>& ends_;
     std::atomic<bool> off_{true}, present_{true}, silent_{false};

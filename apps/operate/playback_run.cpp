@@ -31,16 +31,16 @@ TickLog mappedHand(const HandPath& hand, const Scene& scene) {
     TickLog log;
     HandMap map(scene.hand.baseRdevice, scene.hand.scale);
     for (const HandWaypoint& w : hand.waypoints()) {
-        if (log.moments.size() >= kMaxLoggedTicks) {
+        if (log.ticks.size() >= kMaxLoggedTicks) {
             log.cut = true;
             break;
         }
-        Moment moment;
-        moment.t = w.t;
-        moment.device = map.map(w.deviceThandle, (w.buttons & scene.hand.clutchBit) != 0);
-        moment.tool.position = dvec3(kNone);
-        moment.marginPassive = moment.marginUncoupled = kNone;
-        log.moments.push_back(moment);
+        RecordedTick recorded;
+        recorded.t = w.t;
+        recorded.device = map.map(w.deviceThandle, (w.buttons & scene.hand.clutchBit) != 0);
+        recorded.tool.position = dvec3(kNone);
+        recorded.marginPassive = recorded.marginUncoupled = kNone;
+        log.ticks.push_back(recorded);
     }
     return log;
 }
@@ -53,21 +53,21 @@ TickLog ticksOf(const std::filesystem::path& folder, const std::optional<HandPat
         return log;
     }
     TickLog mapped = mappedHand(*hand, scene);
-    if (log.moments.empty()) {
+    if (log.ticks.empty()) {
         return mapped;
     }
-    for (Moment& moment : log.moments) {
-        const auto at = std::upper_bound(mapped.moments.begin(), mapped.moments.end(), moment.t,
-                                         [](double t, const Moment& m) { return t < m.t; });
-        moment.device = (at == mapped.moments.begin() ? at : at - 1)->device;
-        moment.tool.position = dvec3(std::numeric_limits<double>::quiet_NaN());
+    for (RecordedTick& recorded : log.ticks) {
+        const auto at = std::upper_bound(mapped.ticks.begin(), mapped.ticks.end(), recorded.t,
+                                         [](double t, const RecordedTick& m) { return t < m.t; });
+        recorded.device = (at == mapped.ticks.begin() ? at : at - 1)->device;
+        recorded.tool.position = dvec3(std::numeric_limits<double>::quiet_NaN());
     }
     return log;
 }
 
 double durationOf(const PastScene& past, const TickLog& log) {
     const double framesEnd = past.frames() * PastScene::kPeriod;
-    return log.moments.empty() ? framesEnd : std::max(framesEnd, log.moments.back().t);
+    return log.ticks.empty() ? framesEnd : std::max(framesEnd, log.ticks.back().t);
 }
 
 } // namespace
@@ -97,7 +97,7 @@ PlaybackRun::PlaybackRun(const OperateOptions& options, const GlobalOptions& glo
     line.frames = past_.frames();
     line.duration = durationOf(past_, log_);
     line.marks = readMarks(options.recording);
-    if (log_.moments.empty()) {
+    if (log_.ticks.empty()) {
         display_.console.notify("no hand.csv or wrench.csv there: frames only");
     }
     if (log_.cut) {
@@ -172,7 +172,7 @@ void PlaybackRun::draw(double dt) {
     const bool known = log_.poses && display_.view.anyTick();
     const auto arm =
         armSpheres(known ? session_.arm.get() : nullptr, display_.view.step().record.arm.posture);
-    display_.draw(editor_, {display_.view, session_.tool, hud, fresh, arm, MeasuredArm()});
+    display_.draw(editor_, {display_.view, session_.tool, hud, fresh, arm, ShownArm()});
     const auto& strip = display_.console.places["time line room"];
     panel_.draw(display_.console, display_.canvas.fonts(), {strip[0], strip[1]}, {strip[2], strip[3]});
     handleInput();
@@ -247,12 +247,12 @@ void PlaybackRun::showMoment() {
     constexpr double kSame = 1e-9; // [s]
     display_.view.rewind();
     const double t = display_.console.timeLine.t;
-    const auto& moments = log_.moments;
+    const auto& ticks = log_.ticks;
     const auto after = [&](double when) {
         return static_cast<size_t>(
-            std::upper_bound(moments.begin(), moments.end(), when,
-                             [](double value, const Moment& m) { return value < m.t; }) -
-            moments.begin());
+            std::upper_bound(ticks.begin(), ticks.end(), when,
+                             [](double value, const RecordedTick& m) { return value < m.t; }) -
+            ticks.begin());
     };
     const size_t end = after(t + kSame);
     for (size_t i = after(t - RunView::kSpan); i < end; ++i) {

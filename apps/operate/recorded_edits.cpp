@@ -24,7 +24,7 @@ void RecordedEdits::frame(const PublishedFrame& frame, uint64_t image) {
         return;
     }
     if (!file_.isOpen()) {
-        file_.open(folder_ / SceneEdits::kFile, SceneEdits::kHead);
+        file_.open(folder_ / SceneEdits::kFile, SceneEdits::kHeader);
         if (image > 0) {
             put(0);
         }
@@ -45,8 +45,8 @@ void RecordedEdits::put(uint64_t image) {
     }
     std::ostream& out = file_.lines();
     out << image << "," << name << ",";
-    for (size_t i = 0; i < active_.held.size(); ++i) {
-        out << (i == 0 ? "" : " ") << active_.held[i];
+    for (size_t i = 0; i < active_.frozenRows.size(); ++i) {
+        out << (i == 0 ? "" : " ") << active_.frozenRows[i];
     }
     out << "," << (allFrozen_ ? 1 : 0) << "\n";
     file_.flush();

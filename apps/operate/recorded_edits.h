@@ -14,8 +14,8 @@ namespace fathom::operate {
 
 // The fixtures of a recording at its start or after an edit.
 struct RecordedScene {
-    std::string text;           // text of a scene file
-    std::vector<uint32_t> held; // rows of frozen classes
+    std::string text;                 // text of a scene file
+    std::vector<uint32_t> frozenRows; // rows of frozen classes
 };
 
 // One thread at a time. Every call throws Error that names the file.

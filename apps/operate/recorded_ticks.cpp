@@ -22,8 +22,8 @@ void RecordedTicks::open(const std::filesystem::path& folder) {
     marks_ = 0;
     marksFile_.close();
     hand_.open(folder / "hand.csv", "t_s,x,y,z,qw,qx,qy,qz,button");
-    wrench_.open(folder / kWrenchFile, wrenchHead());
-    touches_.open(folder / kTouchesFile, touchesHead());
+    wrench_.open(folder / kWrenchFile, wrenchHeader());
+    touches_.open(folder / kTouchesFile, touchesHeader());
 }
 
 void RecordedTicks::number(int64_t frame, uint64_t image) {
@@ -59,7 +59,7 @@ void RecordedTicks::put(const Waiting& tick, double t) {
     writeTick(wrench_.lines(), touches_.lines(), t, imageOf(row.record.frame), row.record);
     if (tick.marked) {
         if (!marksFile_.isOpen()) {
-            marksFile_.open(folder_ / kMarksFile, kMarksHead);
+            marksFile_.open(folder_ / kMarksFile, kMarksHeader);
         }
         marksFile_.lines() << t << ",mark " << ++marks_ << "\n";
     }

@@ -124,7 +124,7 @@ void RunDisplay::exportTraces() {
 }
 
 void RunDisplay::writeState(const FixtureEditor& editor, const HapticOptions& haptics,
-                            const MeasuredArm* measured, const DeviceFacts& device, bool now) {
+                            const ShownArm* measured, const HandDeviceFacts& device, bool now) {
     log_.write({console, view, session_, window_, canvas, screen, alarms, editor, haptics, measured, device,
                 pace_.cost(), &camera_, &desk_},
                now);

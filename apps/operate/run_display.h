@@ -31,8 +31,8 @@ struct RunDisplay {
     void exportTraces(); // if requested: traces.csv in the folder of the options
 
     // Writes the state file. measured: null = no real arm.
-    void writeState(const FixtureEditor& editor, const HapticOptions& haptics, const MeasuredArm* measured,
-                    const DeviceFacts& device, bool now);
+    void writeState(const FixtureEditor& editor, const HapticOptions& haptics, const ShownArm* measured,
+                    const HandDeviceFacts& device, bool now);
 
     Console console;
     Canvas canvas;
@@ -46,7 +46,7 @@ private:
     Session& session_;
     TracesPanel traces_;
     CameraFacts camera_;
-    CameraDesk desk_;
+    CameraControlThread desk_;
     FramePace pace_;
     StateLog log_;
     double started_ = 0.0, lastFrame_ = 0.0; // [s] of the steady clock

@@ -49,7 +49,7 @@ struct Peaks {
     double force = 0.0, torque = 0.0; // [N], [N m]
 };
 
-// The largest of the values of some time.
+// Sliding maximum over a time span.
 class PeakHold {
 public:
     void add(double t, float value, double span); // [s]

@@ -174,7 +174,7 @@ RecordedScene recordedScene(const FixtureEditor& editor) {
     const std::vector<FixtureClass>& rows = editor.scene().fixtures;
     for (uint32_t row = 0; row < rows.size(); ++row) {
         if (rows[row].isPoints() && rows[row].frozen) {
-            recorded.held.push_back(row);
+            recorded.frozenRows.push_back(row);
         }
     }
     return recorded;

@@ -21,7 +21,7 @@ struct ScreenInput {
     const HudInput& hud;
     bool freshImage = false;     // a new frame since the previous call
     std::span<const Sphere> arm; // base frame; empty = none
-    const MeasuredArm& measured;
+    const ShownArm& measured;
 };
 
 // Window thread.

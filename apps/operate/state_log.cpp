@@ -28,7 +28,7 @@ json known(double value) {
 }
 
 // The real arm; null without one. Joints [rad], [m] are null while they are not measured.
-json armOf(const MeasuredArm* arm) {
+json armOf(const ShownArm* arm) {
     if (arm == nullptr || !arm->real) {
         return nullptr;
     }
@@ -108,7 +108,7 @@ json handOf(const ShownState& s) {
     return s.session.liveHand
                ? json{{"name", s.session.liveHand->description()},
                       {"there", s.device.present},
-                      {"held", s.device.held},
+                      {"held", s.device.buttonsDown},
                       {"buttons", buttonsOf(*s.device.buttons)},
                       {"mapping", s.console.editing.mapping ? json(buttonUseName(*s.console.editing.mapping))
                                                             : json(nullptr)}}

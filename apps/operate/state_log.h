@@ -26,11 +26,11 @@ struct ShownState {
     const Alarms& alarms;
     const FixtureEditor& editor;
     const HapticOptions& haptics;
-    const MeasuredArm* measured = nullptr; // null = no real arm
-    const DeviceFacts& device;
+    const ShownArm* measured = nullptr; // null = no real arm
+    const HandDeviceFacts& device;
     double frameCost = 0.0; // [s] CPU time of a window frame
     const CameraFacts* camera = nullptr;
-    const CameraDesk* desk = nullptr;
+    const CameraControlThread* desk = nullptr;
 };
 
 class StateLog {

@@ -12,7 +12,7 @@ namespace fathom::operate {
 
 namespace {
 
-constexpr const char* kShortHead = "t_s,fx,fy,fz,tx,ty,tz,contacts,state";
+constexpr const char* kShortHeader = "t_s,fx,fy,fz,tx,ty,tz,contacts,state";
 constexpr size_t kShort = 9, kSevenJoints = 37, kTouchColumns = 13;
 constexpr size_t kFirstJoints = 7; // before the grasp; the others follow it
 constexpr const char* kMoreJoints = ",q8";
@@ -84,8 +84,8 @@ private:
     std::vector<double> values_;
 };
 
-Moment momentFrom(const NumberRows& row, size_t columns) {
-    Moment m;
+RecordedTick tickFrom(const NumberRows& row, size_t columns) {
+    RecordedTick m;
     m.t = row[0];
     m.wrench = {row.vec(1), row.vec(4)};
     m.contacts = row.whole(7, 1e9);
@@ -128,33 +128,33 @@ Touch touchFrom(const NumberRows& row) {
 
 void readTouches(const std::filesystem::path& file, TickLog& log) {
     NumberRows row(file);
-    if (row.head() != touchesHead()) {
-        row.refuse("", row.head(), touchesHead());
+    if (row.head() != touchesHeader()) {
+        row.refuse("", row.head(), touchesHeader());
     }
     size_t tick = 0;
     while (row.next(kTouchColumns)) {
-        while (tick < log.moments.size() && log.moments[tick].t < row[0]) {
+        while (tick < log.ticks.size() && log.ticks[tick].t < row[0]) {
             ++tick;
         }
-        if (tick == log.moments.size() && log.cut) {
+        if (tick == log.ticks.size() && log.cut) {
             return;
         }
-        if (tick == log.moments.size() || log.moments[tick].t != row[0]) {
+        if (tick == log.ticks.size() || log.ticks[tick].t != row[0]) {
             row.refuse(", t_s", std::to_string(row[0]), "the time of a row of wrench.csv, ascending");
         }
-        Moment& moment = log.moments[tick];
-        if (moment.touchCount >= kMaxTouches) {
+        RecordedTick& recorded = log.ticks[tick];
+        if (recorded.touchCount >= kMaxTouches) {
             row.refuse("", "one more", "8 touches per tick");
         }
-        moment.firstTouch = moment.touchCount == 0 ? log.touches.size() : moment.firstTouch;
-        ++moment.touchCount;
+        recorded.firstTouch = recorded.touchCount == 0 ? log.touches.size() : recorded.firstTouch;
+        ++recorded.touchCount;
         log.touches.push_back(touchFrom(row));
     }
 }
 
 } // namespace
 
-const char* wrenchHead() {
+const char* wrenchHeader() {
     return "t_s,fx,fy,fz,tx,ty,tz,contacts,state,guidance,target,scene_age_s,frame,margin_passive,margin_"
            "uncoupled,"
            "device_x,device_y,device_z,device_qw,device_qx,device_qy,device_qz,"
@@ -162,7 +162,7 @@ const char* wrenchHead() {
            "q12,residual_fx,residual_fy,residual_fz,residual_tx,residual_ty,residual_tz";
 }
 
-const char* touchesHead() {
+const char* touchesHeader() {
     return "t_s,kind,fixture,leaf,source,x,y,z,nx,ny,nz,gap,multiplier";
 }
 
@@ -199,8 +199,8 @@ namespace {
 
 // Older versions have fewer columns.
 size_t columnsOf(const NumberRows& row) {
-    const std::string all = wrenchHead(), head = row.head();
-    if (head == kShortHead) {
+    const std::string all = wrenchHeader(), head = row.head();
+    if (head == kShortHeader) {
         return kShort;
     }
     for (const auto& [next, columns] :
@@ -210,7 +210,7 @@ size_t columnsOf(const NumberRows& row) {
         }
     }
     if (head != all) {
-        row.refuse("", head, std::string("header ") + kShortHead + ",...");
+        row.refuse("", head, std::string("header ") + kShortHeader + ",...");
     }
     return kAll;
 }
@@ -226,14 +226,14 @@ TickLog readTickLog(const std::filesystem::path& folder, size_t most) {
     const size_t columns = columnsOf(row);
     log.poses = columns > kShort;
     while (row.next(columns)) {
-        if (!std::isfinite(row[0]) || (!log.moments.empty() && !(row[0] > log.moments.back().t))) {
+        if (!std::isfinite(row[0]) || (!log.ticks.empty() && !(row[0] > log.ticks.back().t))) {
             row.refuse(", t_s", std::to_string(row[0]), "later than the row before");
         }
-        if (log.moments.size() >= most) {
+        if (log.ticks.size() >= most) {
             log.cut = true;
             break;
         }
-        log.moments.push_back(momentFrom(row, columns));
+        log.ticks.push_back(tickFrom(row, columns));
     }
     if (log.poses && std::filesystem::exists(folder / kTouchesFile)) {
         readTouches(folder / kTouchesFile, log);
@@ -242,7 +242,7 @@ TickLog readTickLog(const std::filesystem::path& folder, size_t most) {
 }
 
 StepRecord TickLog::recordAt(size_t i) const {
-    const Moment& m = moments[i];
+    const RecordedTick& m = ticks[i];
     StepRecord r;
     r.t = m.t;
     r.device = m.device;
@@ -266,7 +266,7 @@ StepRecord TickLog::recordAt(size_t i) const {
 TickRow TickLog::rowAt(size_t i, const HandPath* hand) const {
     TickRow row;
     row.record = recordAt(i);
-    row.hand.buttons = hand != nullptr ? hand->at(moments[i].t).buttons : 0;
+    row.hand.buttons = hand != nullptr ? hand->at(ticks[i].t).buttons : 0;
     return row;
 }
 

@@ -13,13 +13,13 @@
 namespace fathom::operate {
 
 // One recorded tick. Values missing in older recordings are NaN.
-struct Moment {
+struct RecordedTick {
     double t = 0.0;                                      // [s] in the recording
     Wrench wrench;                                       // on the hand, base axes
     Wrench residual{dvec3(kNotKnown), dvec3(kNotKnown)}; // the part that the device could not render
     uint32_t contacts = 0;
     StepState state = StepState::Off;
-    double guidance = 0.0;  // w
+    double guidance = 0.0;  // weight
     int guidanceClass = -1; // as in StepRecord
     double sceneAge = kNotKnown, marginPassive = kNotKnown, marginUncoupled = kNotKnown;
     int64_t frame = -1; // frame of the recording whose set was used
@@ -31,7 +31,7 @@ struct Moment {
 
 // All ticks of a recording.
 struct TickLog {
-    std::vector<Moment> moments; // in ascending time
+    std::vector<RecordedTick> ticks; // in ascending time
     std::vector<Touch> touches;
     bool poses = false; // device and tool poses are recorded
     bool cut = false;   // the recording has more ticks
@@ -45,8 +45,8 @@ struct TickLog {
 
 inline constexpr const char* kWrenchFile = "wrench.csv";
 inline constexpr const char* kTouchesFile = "touches.csv";
-const char* wrenchHead(); // header of the file
-const char* touchesHead();
+const char* wrenchHeader(); // header of the file
+const char* touchesHeader();
 
 // Writes one tick at `t` [s] of the recording. frame: the frame of the recording whose set was used. Columns
 // target and frame count from 1; 0 is none.

@@ -76,17 +76,17 @@ void drawMarks(ImDrawList& list, const TimeLine& line, ImVec2 at, ImVec2 room) {
 
 TimeLinePanel::TimeLinePanel(const TickLog& log, double duration)
     : columns_(kColumns) {
-    for (const Moment& moment : log.moments) {
-        times_.push_back(moment.t);
-        const double share = duration > 0.0 ? moment.t / duration : 0.0;
+    for (const RecordedTick& recorded : log.ticks) {
+        times_.push_back(recorded.t);
+        const double share = duration > 0.0 ? recorded.t / duration : 0.0;
         const auto at =
             static_cast<size_t>(std::clamp(share, 0.0, 1.0) * static_cast<double>(kColumns - 1) + 0.5);
-        const auto force = static_cast<float>(glm::length(moment.wrench.force));
+        const auto force = static_cast<float>(glm::length(recorded.wrench.force));
         Column& column = columns_[at];
         column.any = true;
         column.force = std::max(column.force, std::isfinite(force) ? force : 0.0f);
-        column.contact = column.contact || moment.contacts > 0;
-        column.guided = column.guided || moment.guidance > 0.0;
+        column.contact = column.contact || recorded.contacts > 0;
+        column.guided = column.guided || recorded.guidance > 0.0;
         peak_ = std::max(peak_, column.force);
     }
 }

@@ -12,12 +12,12 @@
 namespace fathom::operate {
 
 void TracesPanel::draw(Console& console, const HudInput& input, ImVec2 at, ImVec2 size) {
-    if (console.panels.tracesPaused && held_.empty()) {
-        held_ = input.run.trace();
-        heldPeaks_ = input.run.peaks();
-        heldRipple_ = input.run.ripple();
+    if (console.panels.tracesPaused && paused_.empty()) {
+        paused_ = input.run.trace();
+        pausedPeaks_ = input.run.peaks();
+        pausedRipple_ = input.run.ripple();
     } else if (!console.panels.tracesPaused) {
-        held_.clear();
+        paused_.clear();
     }
     ImGui::SetNextWindowPos(at);
     ImGui::SetNextWindowSize(size);
@@ -61,9 +61,9 @@ void TracesPanel::drawCurves(Console& console, const HudInput& input) {
     const float half = std::max(16.0f, 0.5f * (room.y - lane) - kApart);
     TraceArea area{{left, corner.y}, {width, half}, now - RunView::kSpan, now};
     columns_.follow(trace, input.run.restarts(), static_cast<int>(width));
-    for (const WrenchFigures& plot : held_.empty()
+    for (const WrenchFigures& plot : paused_.empty()
                                          ? figuresOf(input.run, input.haptics)
-                                         : figuresOf(held_, heldPeaks_, heldRipple_, input.haptics)) {
+                                         : figuresOf(paused_, pausedPeaks_, pausedRipple_, input.haptics)) {
         drawTracePlot(plot, area, columns_);
         markPlace(console, std::string("trace ") + plot.name, area.at, area.size);
         ImGui::SetCursorScreenPos(area.at);

@@ -20,14 +20,14 @@ public:
 
 private:
     const std::deque<TraceSample>& shown(const RunView& run) const {
-        return held_.empty() ? run.trace() : held_;
+        return paused_.empty() ? run.trace() : paused_;
     }
     static void drawControls(Console& console);
     void drawCurves(Console& console, const HudInput& input);
 
-    std::deque<TraceSample> held_; // while paused
-    Peaks heldPeaks_;
-    FrameRipple heldRipple_;
+    std::deque<TraceSample> paused_; // while paused
+    Peaks pausedPeaks_;
+    FrameRipple pausedRipple_;
     TraceColumns columns_; // of the shown traces
 };
 

@@ -72,7 +72,7 @@ double toolAt(ImDrawList& list, const MarksInput& input) {
 
 // A real arm that is off its setpoint; grey when the last measurement is old.
 void measuredAt(ImDrawList& list, const MarksInput& input) {
-    const MeasuredArm& measured = input.measured;
+    const ShownArm& measured = input.measured;
     if (!measured.isOff()) {
         return;
     }
@@ -149,12 +149,12 @@ void touches(ImDrawList& list, const MarksInput& input) {
 
 // taken: the plate of other words.
 void force(ImDrawList& list, const MarksInput& input, const ImVec4& taken) {
-    constexpr double kMetresPerNewton = 0.006, kLeast = 0.05;
+    constexpr double kMetresPerNewton = 0.006, kMin = 0.05;
     const StepRecord& record = input.run.step().record;
     const double size = glm::length(record.wrench.force);
     const auto from = input.port.of(record.tool.position),
                to = input.port.of(record.tool.position + kMetresPerNewton * record.wrench.force);
-    if (!(size > kLeast) || !from || !to) {
+    if (!(size > kMin) || !from || !to) {
         return;
     }
     drawArrow(list, *from, *to, colour::kForce, 3.4f);

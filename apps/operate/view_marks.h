@@ -25,7 +25,7 @@ struct MarksInput {
     const Scene& scene; // for the names
     std::span<const Shape> shapes;
     std::span<const Sphere> arm; // the arm in the base frame; empty = the tool moves freely
-    const MeasuredArm& measured; // the real arm
+    const ShownArm& measured;    // the real arm
     const DepthCues& cues;
     const SurfaceDepth& surface; // of this view
     bool names = true;           // labels at guidance and force; off in the small view

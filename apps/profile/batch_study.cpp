@@ -99,7 +99,7 @@ StudyRow gpuBatchRow(const StudyContext& context, const WallRig& rig, const Tool
                               rig.bench.cycle().sets());
         query.setTool(tool);
         if (stamped) {
-            query.askForTime();
+            query.enableTimestamps();
         }
         const auto ask = [&] { query.find(rig.bench.set(), tool, poses, gaps); };
         ask();

@@ -53,9 +53,9 @@ gpu::Buffer streamBuffer(const gpu::Device& device, StreamMemory memory, uint64_
 // Allocates as many buffers as fit. If not even one fits, halves the size until one does. Empty when this
 // memory is not available.
 std::vector<gpu::Buffer> streamBuffers(const gpu::Device& device, StreamMemory memory, StreamSize size) {
-    constexpr uint64_t kLeast = 1u << 20; // below this, dispatch overhead dominates
+    constexpr uint64_t kMin = 1u << 20; // below this, dispatch overhead dominates
     std::vector<gpu::Buffer> buffers;
-    while (buffers.size() < size.buffers && size.bytes >= kLeast) {
+    while (buffers.size() < size.buffers && size.bytes >= kMin) {
         try {
             buffers.push_back(streamBuffer(device, memory, size.bytes));
         } catch (const Error&) {
@@ -182,7 +182,7 @@ double TimedSubmissions::once(const std::function<void(gpu::Commands&)>& record)
     device_.submit(commands_.handle(), {}, {timeline_.handle(), ++ticket_});
     timeline_.wait(ticket_);
     lastWallMs_ = clocks.wallMs();
-    return watch_.works() ? watch_.intervalsMs().front() : lastWallMs_;
+    return watch_.supported() ? watch_.intervalsMs().front() : lastWallMs_;
 }
 
 double TimedSubmissions::best(const Repeats& repeats, const std::function<void(gpu::Commands&)>& record) {

@@ -128,7 +128,7 @@ FrameCost FrameBench::costOf(const FrameSamples& samples) const {
     return cost;
 }
 
-void FrameBench::setArm(cloud::LinkSpheres arm) {
+void FrameBench::setArm(cloud::ArmSpheres arm) {
     arm_ = std::move(arm);
     cycle_->setArm(arm_);
 }

@@ -66,7 +66,7 @@ public:
     FrameCost costOf(const FrameSamples& samples) const;
 
     // Sets the arm's spheres for later frames; no effect without Plan::selfFilter.
-    void setArm(cloud::LinkSpheres arm);
+    void setArm(cloud::ArmSpheres arm);
     // From now on every run repeats the same frame, as from a camera without a new one.
     void holdStill() { still_ = true; }
 
@@ -103,7 +103,7 @@ private:
     std::vector<std::unique_ptr<FrameSlot>> memory_; // frames of the current measurement
     std::vector<Frame::Content> placed_;
     cloud::FixturePool::Lease lease_;
-    cloud::LinkSpheres arm_;
+    cloud::ArmSpheres arm_;
     uint32_t frames_ = 0;
     bool still_ = false;
 };

@@ -43,8 +43,8 @@ Scene fullScene(const Settings& settings) {
 }
 
 // An arm of 64 spheres in front of the left of the image.
-cloud::LinkSpheres armInView() {
-    cloud::LinkSpheres arm;
+cloud::ArmSpheres armInView() {
+    cloud::ArmSpheres arm;
     for (uint32_t i = 0; i < 64; ++i) {
         const uint32_t across = i % 8, down = i / 8;
         arm.spheres.push_back({dvec3(-0.25 + 0.02 * across, -0.2 + 0.05 * down, 0.75), 0.04});

@@ -13,7 +13,7 @@ namespace fathom::profile {
 
 namespace {
 
-constexpr size_t kMostLabels = 24; // of points in a panel that all have a label
+constexpr size_t kMaxLabels = 24; // of points in a panel that all have a label
 
 // Draws one panel into its rectangle of the image.
 class PanelPainter {
@@ -126,7 +126,7 @@ private:
                 }
             }
         }
-        if (points.size() > kMostLabels) {
+        if (points.size() > kMaxLabels) {
             std::erase_if(points, [](const PlotPoint* q) { return !q->isFront && !q->isDefault; });
         }
         std::stable_sort(points.begin(), points.end(), [](const PlotPoint* a, const PlotPoint* b) {

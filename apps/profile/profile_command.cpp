@@ -53,7 +53,7 @@ void checkSource(const std::filesystem::path& source) {
     const bool options = std::filesystem::exists(text.substr(0, text.find(',')));
     throw BadInput(text, "--source",
                    std::filesystem::exists(source) ? "a file"
-                   : options                       ? "options behind a comma"
+                   : options                       ? "options after a comma"
                                                    : "missing",
                    "a recording folder (TUM RGB-D) alone; 'fathom convert' makes one of other recordings");
 }

@@ -60,7 +60,7 @@ QueryLimit measureQuery(const StudyContext& context, const FrameBench& bench, co
     const PatchLayout& layout = bench.cycle().layout();
     cloud::TreeQuery query(context.device, bench.plan(), layout, bench.cycle().sets());
     query.setTool(tool);
-    query.askForTime();
+    query.enableTimestamps();
     NearPairs near;
     DecideScratch scratch;
     ContactSet device, host;

@@ -98,7 +98,7 @@ void timeGpuCull(const StudyContext& context, const WallRig& rig, const Touching
                                rig.bench.cycle().sets());
         query.setTool(at.tool);
         if (stamped) {
-            query.askForTime();
+            query.enableTimestamps();
         }
         const auto cull = [&] { return query.list(rig.bench.set(), at.pose, kQueryReach, near); };
         verify(cull(), "query", row.setting, "overflow");

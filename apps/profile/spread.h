@@ -61,8 +61,9 @@ struct CpuSamples {
     Cost cost() const { return {{}, spreadOf(wall), spreadOf(cpu)}; }
 };
 
-// Calls work() as `effort` says and passes each call's clocks to take(clocks). Warms up first for a quarter
-// of the effort's seconds, because a GPU left idle during verification restarts at a third of its clock.
+// Calls work() as often as `repeats` says and passes each call's clocks to take(clocks). Warms up for a
+// quarter of repeats.seconds first, because a GPU left idle during verification restarts at a third of its
+// clock.
 template <class Work, class Take>
 void repeat(const Repeats& repeats, Work&& work, Take&& take) {
     const Clocks warming;

@@ -122,8 +122,8 @@ void runRegister(const RegisterOptions& options) {
         const RobustFit::Outlier& outlier = robust.outliers[i];
         std::cout << "# left out: " << outlier.name << ", " << 1e3 * outlier.distance << " mm away\n";
     }
-    if (!robust.doubt.empty()) {
-        throw Error(from + ": doubtful: " + robust.doubt);
+    if (!robust.rejection.empty()) {
+        throw Error(from + ": rejected: " + robust.rejection);
     }
     if (fromPoints && robust.flat) {
         log::warn("{}: all points are coplanar, within their scatter: a negated axis would not be noticed; "

@@ -193,7 +193,8 @@ bool isFlat(Pairs pairs) {
     return rootMeanSquare(poseOf(image), image) <= kAlike * rootMeanSquare(poseOf(pairs), pairs) + kRounding;
 }
 
-std::string doubtOf(Pairs pairs, const FitLimits& limits, const Consensus& found, const RobustFit& robust) {
+std::string rejectionOf(Pairs pairs, const FitLimits& limits, const Consensus& found,
+                        const RobustFit& robust) {
     const std::string worst = named(farthest(pairs, robust.fit.baseTcamera, 0.0));
     const auto nearest = std::min_element(pairs.begin(), pairs.end(), [](const auto& a, const auto& b) {
         return glm::length(a.camera) < glm::length(b.camera);
@@ -252,7 +253,7 @@ RobustFit fitRobust(std::span<const PointPair> pairs, const FitLimits& limits, c
     }
     robust.flat =
         isFlat(believed(pairs, robust.fit.baseTcamera, robust.outliers.empty() ? HUGE_VAL : tolerance));
-    robust.doubt = doubtOf(pairs, limits, found, robust);
+    robust.rejection = rejectionOf(pairs, limits, found, robust);
     return robust;
 }
 

@@ -94,7 +94,7 @@ void ArmReport::add(const TickRow& row) {
     }
     row_.add(arm.posture.grasp);
     row_.add(moved ? arm.residual : kNotKnown);
-    row_.add(moved ? arm.manipulability : kNotKnown);
+    row_.add(moved ? arm.smallestSingularValue : kNotKnown);
     row_.add(int64_t{arm.atLimits});
     row_.add(wrong);
     row_.add(int64_t{arm.singular});

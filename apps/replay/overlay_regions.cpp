@@ -47,8 +47,8 @@ void tint(const Canvas& canvas, const RegionMasks& masks) {
 }
 
 void outline(const Canvas& canvas, const std::vector<uint8_t>& mask, bool dashed) {
-    constexpr size_t kLeast = 24; // [pixels] shorter outlines are ignored
-    tracePath(canvas, traceOutline(mask, canvas.view.width(), canvas.view.height(), kLeast));
+    constexpr size_t kMin = 24; // [pixels] shorter outlines are ignored
+    tracePath(canvas, traceOutline(mask, canvas.view.width(), canvas.view.height(), kMin));
     strokeOnShade(canvas, kRegion, 2.4, dashed);
 }
 

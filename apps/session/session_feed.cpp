@@ -101,7 +101,7 @@ void SessionFeed::publish(double t, PublishedFrame& out) {
     try {
         publishNew(out);
     } catch (const DeviceFailed&) {
-        out.changed = begins && session_.cycles.newestSet(out.fixtures, out.grid);
+        out.changed = begins && session_.cycles.copyNewestSet(out.fixtures, out.grid);
         next_.reset();
         if (!out.changed) {
             throw;
@@ -120,7 +120,7 @@ void SessionFeed::publishNew(PublishedFrame& out) {
     out.edit = applied_;
     out.changed = !out.report.unchanged;
     if (out.changed) {
-        session_.cycles.newestSet(out.fixtures, out.grid);
+        session_.cycles.copyNewestSet(out.fixtures, out.grid);
         published_ = true;
     }
 }

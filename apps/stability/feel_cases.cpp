@@ -130,9 +130,9 @@ Outcome rimClicksCase(RunLength runLength) {
 
 // Presses 20 mm deep and leaves within 0.3 s.
 Outcome leaveCase(RunLength runLength) {
-    constexpr double kMost = 0.05; // [N]
+    constexpr double kMax = 0.05; // [N]
     double worst = 0.0;
-    Outcome out = outcomeOf(0.0, kMost, "N", "");
+    Outcome out = outcomeOf(0.0, kMax, "N", "");
     const int places = some(runLength, 4, 1);
     for (int place = 0; place < places; ++place) {
         FeelRig felt({});
@@ -149,7 +149,7 @@ Outcome leaveCase(RunLength runLength) {
         require(out, glm::length(felt.last().wrench.force) == 0.0, "force after the hand has left");
     }
     const std::string failed = out.note;
-    out = outcomeOf(worst, kMost, "N",
+    out = outcomeOf(worst, kMax, "N",
                     "Largest rise of the force from tick to tick while a hand leaves from 20 mm below the "
                     "surface at 0.2 m/s; no force afterwards. " +
                         num(uint64_t(places)) + " places.");

@@ -71,7 +71,7 @@ BagFile::BagFile(const std::filesystem::path& file)
 std::vector<uint8_t> BagFile::readBlock() {
     uint32_t count = 0;
     in_.read(reinterpret_cast<char*>(&count), sizeof count);
-    if (!in_ || count > bag::kMostBytes || count > size_) {
+    if (!in_ || count > bag::kMaxBytes || count > size_) {
         throw Error("truncated");
     }
     std::vector<uint8_t> bytes(count);
@@ -181,7 +181,7 @@ UnpackedChunk BagFile::unpack(uint64_t chunkAt) {
         }
         const Record record = readRecord();
         const auto size = bag::number<uint32_t>(record.fields, "size");
-        if (size > bag::kMostBytes) {
+        if (size > bag::kMaxBytes) {
             throw Error("a chunk of " + std::to_string(size) + " bytes");
         }
         return unpackChunk(bag::word(record.fields, "compression"), record.data, size);

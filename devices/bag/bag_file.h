@@ -26,7 +26,7 @@ private:
         Fields fields;
         std::vector<uint8_t> data;
     };
-    struct Head {
+    struct Header {
         Fields fields;
         uint8_t op = 0;
         uint64_t end = 0;                // of the record [bytes of the file]
@@ -36,14 +36,14 @@ private:
     Record readRecord();
     std::vector<uint8_t> readBlock();
     std::optional<Record> nextOfIndex(bool complete);
-    // connections, chunkInfos: records of the index by the bag's head.
+    // connections, chunkInfos: records of the index by the bag's header.
     std::string readIndex(uint64_t indexAt, uint64_t connections, uint64_t chunkInfos);
     void useIndex(uint64_t indexAt, uint64_t connections, uint64_t chunkInfos);
     void readChunkIndex(uint64_t chunkAt, std::map<uint32_t, size_t>& topicOf);
     // lost: why there is no index. indexAt: 0 = none.
     void scan(uint64_t chunksAt, uint64_t indexAt, const std::string& lost);
     std::map<uint32_t, size_t> connectionsAt(uint64_t indexAt);
-    std::optional<Head> headAt(uint64_t at);
+    std::optional<Header> headerAt(uint64_t at);
     std::optional<uint64_t> nextChunk(uint64_t from);
     uint64_t scanChunk(uint64_t chunkAt, std::map<uint32_t, size_t>& topicOf);
     std::vector<uint8_t> begunChunk();

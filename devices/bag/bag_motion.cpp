@@ -20,9 +20,9 @@ namespace {
 
 // Over 5 mm or 0.57 degrees: more than noise.
 bool isMoved(const Pose& a, const Pose& b) {
-    constexpr double kLeastWay = 0.005, kLeastTurn = 0.01; // [m], [rad]
+    constexpr double kMinWay = 0.005, kMinTurn = 0.01; // [m], [rad]
     const double cosine = std::min(1.0, std::abs(glm::dot(a.rotation, b.rotation)));
-    return glm::distance(a.position, b.position) > kLeastWay || 2.0 * std::acos(cosine) > kLeastTurn;
+    return glm::distance(a.position, b.position) > kMinWay || 2.0 * std::acos(cosine) > kMinTurn;
 }
 
 // Some places over the whole topic, with several messages in a row at each: programs take turns on one topic.
@@ -69,14 +69,14 @@ void addLinks(MessageFile& file, const MessageTopic& topic, MotionLinks& links) 
 }
 
 std::string movingLink(MessageFile& file, std::string frame) {
-    constexpr int kMostLinks = 64; // a loop ends there
+    constexpr int kMaxLinks = 64; // a loop ends there
     MotionLinks links;
     for (const MessageTopic& topic : file.topics()) {
         if (topic.type == "tf2_msgs/TFMessage" || topic.type == "tf/tfMessage") {
             addLinks(file, topic, links);
         }
     }
-    for (int i = 0; i < kMostLinks; ++i) {
+    for (int i = 0; i < kMaxLinks; ++i) {
         const auto link = links.find(frame);
         if (link == links.end()) {
             return "";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Heads of the records of a ROS 1 bag: fields "name=value". Source: wiki.ros.org/Bags/Format/2.0.
+// Headers of the records of a ROS 1 bag: fields "name=value". Source: wiki.ros.org/Bags/Format/2.0.
 #pragma once
 
 #include "engine/types/error.h"
@@ -19,7 +19,7 @@ inline constexpr uint8_t kIndexData = 4;
 inline constexpr uint8_t kChunk = 5;
 inline constexpr uint8_t kChunkInfo = 6;
 inline constexpr uint8_t kConnection = 7;
-inline constexpr uint32_t kMostBytes = 1u << 30; // of one record or chunk
+inline constexpr uint32_t kMaxBytes = 1u << 30; // of one record or chunk
 
 using Fields = std::map<std::string, std::string>; // of a record's header, by name
 

@@ -28,14 +28,14 @@ std::string placesText(uint64_t places, uint64_t first) {
 
 // The record at this place of the file, without its data; nothing at the file's end, at bytes that are none,
 // and at a record that the file's end cuts, unless it is a chunk.
-std::optional<BagFile::Head> BagFile::headAt(uint64_t at) {
+std::optional<BagFile::Header> BagFile::headerAt(uint64_t at) {
     if (at >= size_) {
         return std::nullopt;
     }
     try {
         in_.clear();
         in_.seekg(static_cast<std::streamoff>(at));
-        Head head;
+        Header head;
         head.fields = bag::parseFields(readBlock());
         head.op = bag::number<uint8_t>(head.fields, "op");
         uint32_t size = 0;
@@ -49,24 +49,24 @@ std::optional<BagFile::Head> BagFile::headAt(uint64_t at) {
     }
 }
 
-// The next chunk from this place on, found by its head; empty = none. For files that are damaged between
+// The next chunk from this place on, found by its header; empty = none. For files that are damaged between
 // chunks.
 std::optional<uint64_t> BagFile::nextChunk(uint64_t from) {
-    constexpr std::string_view kMark("\x04\0\0\0op=\x05", 8); // a field of the head, at any place in it
-    constexpr uint64_t kBlock = 1u << 20, kMostHead = 128;    // [bytes]
+    constexpr std::string_view kMark("\x04\0\0\0op=\x05", 8); // a field of the header, at any place in it
+    constexpr uint64_t kBlock = 1u << 20, kMaxHeader = 128;   // [bytes]
     std::string bytes;
     for (uint64_t at = from; at < size_; at += kBlock) {
-        bytes.resize(std::min(kBlock + 2 * kMostHead, size_ - at));
+        bytes.resize(std::min(kBlock + 2 * kMaxHeader, size_ - at));
         in_.clear();
         in_.seekg(static_cast<std::streamoff>(at));
         in_.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
         bytes.resize(static_cast<size_t>(in_.gcount()));
         for (size_t mark = bytes.find(kMark); mark != std::string::npos; mark = bytes.find(kMark, mark + 1)) {
-            for (size_t head = mark - std::min<size_t>(mark, kMostHead); head + 4 <= mark; ++head) {
+            for (size_t head = mark - std::min<size_t>(mark, kMaxHeader); head + 4 <= mark; ++head) {
                 uint32_t length = 0;
                 std::memcpy(&length, bytes.data() + head, sizeof length);
-                const std::optional<Head> found =
-                    length <= kMostHead && head + 4 + length > mark ? headAt(at + head) : std::nullopt;
+                const std::optional<Header> found =
+                    length <= kMaxHeader && head + 4 + length > mark ? headerAt(at + head) : std::nullopt;
                 if (found && found->op == bag::kChunk && found->fields.contains("compression")) {
                     return at + head;
                 }
@@ -99,8 +99,8 @@ void BagFile::scan(uint64_t chunksAt, uint64_t indexAt, const std::string& lost)
     std::map<uint32_t, size_t> topicOf = connectionsAt(indexAt); // of a connection
     uint64_t whole = 0, damaged = 0, messages = 0, gaps = 0, firstGap = 0, unread = 0;
     for (uint64_t at = chunksAt; at < size_ && !begun_;) {
-        const std::optional<Head> head = headAt(at);
-        const bool leads = head && !head->cut && (head->end == size_ || headAt(head->end));
+        const std::optional<Header> head = headerAt(at);
+        const bool leads = head && !head->cut && (head->end == size_ || headerAt(head->end));
         const std::optional<uint64_t> next = leads ? head->end : nextChunk(at + 1);
         uint64_t found = 0;
         if (head && head->op == bag::kChunk) {
@@ -162,10 +162,10 @@ uint64_t BagFile::scanChunk(uint64_t chunkAt, std::map<uint32_t, size_t>& topicO
 
 // The chunk that the recorder had begun, or that the file's end cuts: the rest of the file, not compressed.
 std::vector<uint8_t> BagFile::begunChunk() {
-    readBlock(); // its head
+    readBlock(); // its header
     in_.seekg(sizeof(uint32_t), std::ios::cur);
     const auto from = static_cast<uint64_t>(in_.tellg());
-    if (size_ - from > bag::kMostBytes) {
+    if (size_ - from > bag::kMaxBytes) {
         throw Error("a chunk of " + std::to_string(size_ - from) + " bytes");
     }
     std::vector<uint8_t> rest(size_ - from);

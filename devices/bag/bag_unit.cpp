@@ -42,7 +42,7 @@ double BagCamera::sensorUnit() {
                                         (orbbec ? "depth unit in /cam/property (75 or 176)"
                                                 : "option Depth_Units beside " + choice_.depth.name) +
                                         ": depth is read as millimetres";
-            log::warn("{}: {}; scale=M behind the file's name gives another unit{}", file_->file().string(),
+            log::warn("{}: {}; scale=M after the file name gives another unit{}", file_->file().string(),
                       missing, orbbec ? "" : " (D405: 0.0001, L515: 0.00025)");
             addWarning(missing);
         }
@@ -52,13 +52,13 @@ double BagCamera::sensorUnit() {
     const double unit = std::round(1e9 * static_cast<double>(ros::float32(file_->read(*topic, 0)))) * 1e-9;
     if (!(unit >= kFinestUnit && unit <= kCoarsestUnit)) {
         throw BadInput(file_->file().string(), topic->name, std::to_string(unit),
-                       "0.000001 to 0.1 metres per unit, or scale=M behind the file's name");
+                       "0.000001 to 0.1 metres per unit, or scale=M after the file name");
     }
     if (choice_.statedUnit && std::abs(*choice_.statedUnit - unit) > 1e-6 * unit) {
         const std::string both = "depth_scale_m_per_unit of the lens file is " +
                                  significant(*choice_.statedUnit, 6) + ", but the recording states " +
                                  significant(unit, 6) +
-                                 ", which is used; scale=M behind the file's name gives another unit";
+                                 ", which is used; scale=M after the file name gives another unit";
         log::warn("{}: {}", file_->file().string(), both);
         addWarning(both);
     }

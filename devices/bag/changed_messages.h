@@ -17,9 +17,9 @@ public:
         : file_(file)
         , topic_(topic) {}
 
-    // Calls fault(message) for the message that applies at `time` [ns], and for one that follows at once, as
-    // drivers send it behind its image. Returns the fault, empty = none. Each message is read once in a row.
-    // Throws Error while a damaged message applies.
+    // Calls fault(message) for the message that applies at `time` [ns], and for one at most 20 ms later,
+    // because some drivers send it after its image. Returns the fault, empty = none. Each message is read
+    // once in a row. Throws Error while a damaged message applies.
     template <class Fault>
     std::string at(uint64_t time, Fault&& fault) {
         constexpr uint64_t kAtOnce = 20'000'000; // [ns]

@@ -10,7 +10,7 @@ namespace fathom {
 
 namespace {
 
-constexpr size_t kDepthHead = 12, kRvlHead = 8; // [bytes]: kind and two floats; then columns and rows
+constexpr size_t kDepthHeader = 12, kRvlHeader = 8; // [bytes]: kind and two floats; then columns and rows
 
 // Numbers of 3 bits per nibble, least significant group first; the fourth bit says that more follow. Nibbles
 // are taken from words of 32 bits, most significant first.
@@ -80,12 +80,12 @@ bool unpackRvl(std::span<const uint8_t> in, std::span<uint16_t> out) {
 }
 
 bool CompressedDepth::holdsPng() const {
-    return data.size() > kDepthHead && pngHead(data.subspan(kDepthHead)).has_value();
+    return data.size() > kDepthHeader && pngHeader(data.subspan(kDepthHeader)).has_value();
 }
 
 std::array<float, 2> CompressedDepth::quantum() const {
     std::array<float, 2> quantum{};
-    if ((rvl && data.size() >= kDepthHead) || holdsPng()) {
+    if ((rvl && data.size() >= kDepthHeader) || holdsPng()) {
         std::memcpy(quantum.data(), data.data() + 4, sizeof quantum);
     }
     return quantum;
@@ -98,31 +98,32 @@ bool CompressedDepth::quantised() const {
 }
 
 std::span<const uint8_t> CompressedDepth::png() const {
-    return holdsPng() ? data.subspan(kDepthHead) : data;
+    return holdsPng() ? data.subspan(kDepthHeader) : data;
 }
 
 std::optional<std::pair<uint32_t, uint32_t>> CompressedDepth::size() const {
-    if (data.size() < kDepthHead + kRvlHead) {
+    if (data.size() < kDepthHeader + kRvlHeader) {
         return std::nullopt;
     }
     if (!rvl) {
-        const auto head = pngHead(png());
+        const auto head = pngHeader(png());
         return head ? std::optional(std::pair(head->size.width, head->size.height)) : std::nullopt;
     }
     uint32_t words[2];
-    std::memcpy(words, data.data() + kDepthHead, sizeof words);
+    std::memcpy(words, data.data() + kDepthHeader, sizeof words);
     return std::pair(words[0], words[1]);
 }
 
 std::string CompressedDepth::values(uint32_t width, uint32_t height, std::span<uint16_t> out) const {
     if (size() != std::pair(width, height)) {
-        return "a compressed depth image of another size, or without a head";
+        return "a compressed depth image of another size, or without a header";
     }
     if (!rvl) {
         return readDepthPng(png(), {width, height}, out);
     }
-    return unpackRvl(data.subspan(kDepthHead + kRvlHead), out.first(size_t{width} * height)) ? ""
-                                                                                             : "RVL: damaged";
+    return unpackRvl(data.subspan(kDepthHeader + kRvlHeader), out.first(size_t{width} * height))
+               ? ""
+               : "RVL: damaged";
 }
 
 double CompressedDepth::metres(uint16_t stored) const {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Depth images as compressed_depth_image_transport publishes them: PNG or RVL behind a head of 12 bytes. Some
-// bridges send the PNG without that head.
+// Depth images as compressed_depth_image_transport publishes them: PNG or RVL after a header of 12 bytes.
+// Some bridges send the PNG without that header.
 #pragma once
 
 #include <array>
@@ -16,17 +16,17 @@ namespace fathom {
 // end early or hold another number of values.
 bool unpackRvl(std::span<const uint8_t> in, std::span<uint16_t> out);
 
-// data: head and image. codec: the text behind the encoding ("compressedDepth png", "compressedDepth rvl").
+// data: header and image. codec: the text after the encoding ("compressedDepth png", "compressedDepth rvl").
 struct CompressedDepth {
     std::span<const uint8_t> data;
     bool rvl = false;
 
-    // Whether a PNG lies behind the head.
+    // Whether a PNG follows the header.
     bool holdsPng() const;
-    // Whether the head quantises inverse depth, as that of a 32FC1 image does. Heads of 16UC1 images hold no
-    // numbers there.
+    // Whether the header quantises inverse depth, as that of a 32FC1 image does. Headers of 16UC1 images hold
+    // no numbers there.
     bool quantised() const;
-    // Width and height; empty without a readable head.
+    // Width and height; empty without a readable header.
     std::optional<std::pair<uint32_t, uint32_t>> size() const;
     // The values as stored: raw units of a 16UC1 image, inverse depth of a 32FC1 image. Returns the fault, or
     // empty.
@@ -35,9 +35,9 @@ struct CompressedDepth {
     double metres(uint16_t stored) const;
 
 private:
-    // stored = quantum[0] / metres + quantum[1]; zeros without the head.
+    // stored = quantum[0] / metres + quantum[1]; zeros without the header.
     std::array<float, 2> quantum() const;
-    // The bytes of the PNG, behind the head or without one.
+    // The bytes of the PNG, after the header or without one.
     std::span<const uint8_t> png() const;
 };
 

@@ -56,7 +56,7 @@ EbmlElement EbmlReader::cutElement(uint64_t at, uint64_t parentEnd) {
 EbmlElement EbmlReader::element(uint64_t at, uint64_t parentEnd) {
     const EbmlElement element = cutElement(at, parentEnd);
     if (element.cut) {
-        throw Error("an element ends behind its parent");
+        throw Error("an element ends after its parent");
     }
     return element;
 }

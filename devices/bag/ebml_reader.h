@@ -18,14 +18,14 @@ struct EbmlElement {
     uint64_t size() const { return end - dataAt; }
 };
 
-// All calls throw Error when the element is damaged or ends behind its parent. One thread.
+// All calls throw Error when the element is damaged or ends after its parent. One thread.
 class EbmlReader {
 public:
     explicit EbmlReader(FileBytes& file)
         : file_(file) {}
 
     EbmlElement element(uint64_t at, uint64_t parentEnd);
-    // The same; one that ends behind its parent ends with it, and has no size.
+    // The same; one that ends after its parent ends with it, and has no size.
     EbmlElement cutElement(uint64_t at, uint64_t parentEnd);
     // Calls use(child) for each child, in order.
     template <class Use>

@@ -58,7 +58,7 @@ void FrameTree::read() {
                     add(topic, link);
                 }
             } catch (const Error& e) {
-                tellSkipped(topic, std::string("a message is skipped: ") + e.what());
+                logSkipped(topic, std::string("a message is skipped: ") + e.what());
             }
         }
     }
@@ -66,8 +66,8 @@ void FrameTree::read() {
 
 void FrameTree::add(const MessageTopic& topic, const ros::FrameLink& link) {
     if (!link.isValid) {
-        tellSkipped(topic, "a transform of frame '" + link.child +
-                               "' is skipped (allowed: finite numbers, a quaternion that is not 0)");
+        logSkipped(topic, "a transform of frame '" + link.child +
+                              "' is skipped (allowed: finite numbers, a quaternion that is not 0)");
         return;
     }
     // A drawing of a camera and its calibration differ more than a link of /tf jitters that does not move.
@@ -86,7 +86,7 @@ void FrameTree::add(const MessageTopic& topic, const ros::FrameLink& link) {
     before.otherTchild = link.parentTchild;
 }
 
-void FrameTree::tellSkipped(const MessageTopic& topic, const std::string& what) {
+void FrameTree::logSkipped(const MessageTopic& topic, const std::string& what) {
     constexpr size_t kMaxWarned = 32;
     if (warned_.size() < kMaxWarned && warned_.insert(topic.name + what).second) {
         log::warn("{}: {}: {} (logged once)", file_.file().string(), topic.name, what);
@@ -191,7 +191,7 @@ std::string FrameTree::axesWarning(const std::string& from, const std::string& t
                : "tf between the frames '" + from + "' and '" + to +
                      "' is taken in axes of images (x right, y down, " + "z forward)" +
                      (body ? ", but tf has optical frames below them" : "") +
-                     "; if x is forward, regions by colour are shifted: extrinsics=FILE behind the file's "
+                     "; if x is forward, regions by colour are shifted: extrinsics=FILE after the file "
                      "name";
 }
 

@@ -42,7 +42,7 @@ private:
     void read();
     bool hasOpticalChild(const std::string& frame) const;
     void add(const MessageTopic& topic, const ros::FrameLink& link);
-    void tellSkipped(const MessageTopic& topic, const std::string& what);
+    void logSkipped(const MessageTopic& topic, const std::string& what);
     std::map<std::string, Pose> ancestors(const std::string& frame) const; // ancestor_T_frame
     std::vector<std::string> frameAndAncestors(const std::string& frame) const;
     std::vector<std::string> linksBetween(const std::string& from, const std::string& to);

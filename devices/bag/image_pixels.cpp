@@ -53,14 +53,14 @@ std::string compressedDepthRows(const Image& image, double metresPerUnit, std::s
                                 uint64_t& beyond) {
     const auto size = sizeOf(image);
     if (!size) {
-        return "a compressed image without a head that is read";
+        return "a compressed image without a header that is read";
     }
     if (!isCompressedDepth(image)) {
         return readDepthPng(image.data, {size->first, size->second}, out);
     }
     const CompressedDepth depth = packed(image);
     if (holdsMetres(image) && !depth.rvl && !depth.holdsPng()) {
-        return "a compressed image of 32FC1 without the head that holds its scale";
+        return "a compressed image of 32FC1 without the header that holds its scale";
     }
     const std::string fault = depth.values(size->first, size->second, out);
     if (!fault.empty() || !holdsMetres(image)) {
@@ -117,7 +117,7 @@ Content content(const Image& image) {
     if (isCompressedDepth(image)) {
         return Content::Depth;
     }
-    const auto png = pngHead(image.data);
+    const auto png = pngHeader(image.data);
     if (png && png->grey) {
         return png->bits == 16 ? Content::Depth : Content::Grey;
     }
@@ -134,14 +134,14 @@ std::optional<std::pair<uint32_t, uint32_t>> sizeOf(const Image& image) {
     if (isCompressedDepth(image)) {
         return packed(image).size();
     }
-    if (const auto png = pngHead(image.data)) {
+    if (const auto png = pngHeader(image.data)) {
         return std::pair(png->size.width, png->size.height);
     }
     const auto jpeg = jpegSize(std::as_bytes(image.data));
     return jpeg ? std::optional(std::pair(jpeg->width, jpeg->height)) : std::nullopt;
 }
 
-// A format without encoding leaves that to the head of the compressed image.
+// A format without encoding leaves that to the header of the compressed image.
 bool holdsMetres(const Image& image) {
     const std::string encoding = depthEncoding(image.encoding);
     return encoding == "32FC1" ? !image.compressed || isCompressedDepth(image)
@@ -175,7 +175,7 @@ std::string depthRows(const Image& image, double metresPerUnit, std::span<uint16
 
 ColourFormat colourFormat(const Image& image) {
     if (image.compressed) {
-        return pngHead(image.data) ? ColourFormat::Rgba : ColourFormat::JpegPlanes;
+        return pngHeader(image.data) ? ColourFormat::Rgba : ColourFormat::JpegPlanes;
     }
     const ColourLayout* layout = colourLayout(image.encoding);
     return layout != nullptr && layout->raw ? formatOf(*layout->raw) : ColourFormat::Rgba;
@@ -184,9 +184,9 @@ ColourFormat colourFormat(const Image& image) {
 std::string colourRows(const Image& image, std::span<uint32_t> out, RawColour& raw) {
     const auto size = sizeOf(image);
     if (image.compressed && size) {
-        return pngHead(image.data) ? readColourPng(image.data, {size->first, size->second}, out)
-                                   : readJpeg(std::as_bytes(image.data), {size->first, size->second},
-                                              std::as_writable_bytes(out), raw);
+        return pngHeader(image.data) ? readColourPng(image.data, {size->first, size->second}, out)
+                                     : readJpeg(std::as_bytes(image.data), {size->first, size->second},
+                                                std::as_writable_bytes(out), raw);
     }
     const ColourLayout* layout = colourLayout(image.encoding);
     if (layout == nullptr) {
@@ -201,8 +201,8 @@ ValueSpan valueSpan(const Image& image) {
     ValueSpan span;
     if (image.compressed) {
         const auto size = sizeOf(image);
-        constexpr uint64_t kMost = 3840ull * 2160;
-        if (!size || uint64_t{size->first} * size->second > kMost) {
+        constexpr uint64_t kMax = 3840ull * 2160;
+        if (!size || uint64_t{size->first} * size->second > kMax) {
             return span;
         }
         std::vector<uint16_t> stored(size_t{size->first} * size->second);

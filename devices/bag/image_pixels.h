@@ -21,8 +21,8 @@ inline constexpr const char* kColourEncodings =
     "rgb8, bgr8, rgba8, bgra8, the same with 16 bits, 8UC3, 8UC4, yuv422, uyvy, yuyv, yuy2, nv12, nv21, "
     "i420, yv12, bayer_*, JPEG (mjpg), PNG";
 
-// Width and height [pixels]; of a compressed image as its head states them, empty when it has no readable
-// head.
+// Width and height [pixels]; of a compressed image as its header states them, empty when it has no readable
+// header.
 std::optional<std::pair<uint32_t, uint32_t>> sizeOf(const Image& image);
 
 // Where the stated step of rows cannot be that of the image, and the bytes are those of rows without gaps:

@@ -47,7 +47,7 @@ const MessageTopic* infoOf(const MessageFile& file, const std::string& asked, Im
         why = fault.empty() ? why : name + ": " + fault;
     }
     stream.noLens = why + " (allowed: sensor_msgs/CameraInfo beside " + stream.name +
-                    ", or info=TOPIC or intrinsics=FILE behind the file's name)";
+                    ", or info=TOPIC or intrinsics=FILE after the file name)";
     return nullptr;
 }
 
@@ -81,10 +81,10 @@ glm::dvec2 middleOf(const ImageStream& stream) {
 void takeImageSize(Intrinsics& lens, const ImageStream& stream) {
     // Of the principal point from the middle, in widths. A lens of its own size is off by up to 0.087 (Azure
     // Kinect); 640x480 is off by 0.1 in 800x600, by 0.12 in 848x480, and 640x360 by 0.12 in 640x480.
-    constexpr double kMostOff = 0.09;
+    constexpr double kMaxOff = 0.09;
     const glm::dvec2 middle = middleOf(stream);
-    if (std::abs(lens.cx - middle.x) <= kMostOff * stream.width &&
-        std::abs(lens.cy - middle.y) <= kMostOff * stream.height) {
+    if (std::abs(lens.cx - middle.x) <= kMaxOff * stream.width &&
+        std::abs(lens.cy - middle.y) <= kMaxOff * stream.height) {
         lens.width = stream.width;
         lens.height = stream.height;
     }
@@ -103,7 +103,7 @@ std::string whyUnsized(const Intrinsics& lens, const ImageStream& stream) {
            (inside ? ", as in the middle of images of " + streamSize(twice(lens.cx), twice(lens.cy)) : "") +
            " (allowed: the size of the images of " + stream.name + ", " +
            streamSize(stream.width, stream.height) + ", whose middle is " + point(middle.x, middle.y) +
-           "; or intrinsics=FILE behind the file's name)";
+           "; or intrinsics=FILE after the file name)";
 }
 
 // Why the lens is none of these images; empty = it is.
@@ -153,7 +153,7 @@ void readLens(MessageFile& file, const std::string& asked, ImageStream& stream) 
 }
 
 // Format and size of the images.
-std::string readHead(MessageFile& file, const MessageTopic& topic, size_t index, ImageStream& stream) {
+std::string readHeader(MessageFile& file, const MessageTopic& topic, size_t index, ImageStream& stream) {
     const MessageCursor message = file.read(topic, index);
     const ros::Image image = stream.compressed ? ros::compressedImage(message) : ros::image(message);
     stream.frame = image.frame;
@@ -167,7 +167,7 @@ std::string readHead(MessageFile& file, const MessageTopic& topic, size_t index,
     if (stream.width > 0 && stream.height > 0) {
         return "";
     }
-    return size || image.data.empty() ? "an empty image" : "a compressed image without a head that is read";
+    return size || image.data.empty() ? "an empty image" : "a compressed image without a header that is read";
 }
 
 // By the first message whose lens is known, else by the first one that can be read.
@@ -177,7 +177,7 @@ ImageStream usableStream(MessageFile& file, const std::string& info, const Image
     std::optional<ImageStream> readable;
     const std::string fault = firstUsable(topic, [&](size_t index) {
         stream = named;
-        std::string why = readHead(file, topic, index, stream);
+        std::string why = readHeader(file, topic, index, stream);
         if (!why.empty()) {
             return why;
         }

@@ -63,7 +63,8 @@ KinectCalibration::Sensor KinectCalibration::sensor(const JsonField& camera) {
     const JsonField pose = camera.at("Rt");
     const std::vector<double> r = pose.at("Rotation").numbers(9), t = pose.at("Translation").numbers(3);
     try {
-        out.pose = ros::rigidPose({r[0], r[3], r[6], r[1], r[4], r[7], r[2], r[5], r[8]}, {t[0], t[1], t[2]});
+        out.pose =
+            ros::poseFromColumns({r[0], r[3], r[6], r[1], r[4], r[7], r[2], r[5], r[8]}, {t[0], t[1], t[2]});
     } catch (const Error&) {
         pose.at("Rotation").refuse("a rotation, row by row");
     }

@@ -64,7 +64,7 @@ MatroskaFile::MatroskaFile(const std::filesystem::path& file)
 void MatroskaFile::readSegment() {
     const EbmlElement head = reader_.element(0, data_.size());
     if (!is(head, Matroska::Head)) {
-        throw Error("no head of Matroska");
+        throw Error("no Matroska header");
     }
     // A file that was not finished, or was cut, has a segment that ends elsewhere.
     EbmlElement segment = reader_.element(head.end, UINT64_MAX);
@@ -79,7 +79,7 @@ void MatroskaFile::readSegment() {
             if (head_.tracks().empty()) {
                 throw;
             }
-            tellDamaged(at, e);
+            logDamaged(at, e);
             at = nextCluster(at + 1);
         }
     }
@@ -129,7 +129,7 @@ uint64_t MatroskaFile::readCluster(const EbmlElement& cluster) {
             at = child.end;
         }
     } catch (const Error& e) {
-        tellDamaged(at, e);
+        logDamaged(at, e);
         return cluster.sized ? cluster.end : nextCluster(at + 1);
     }
     return at;
@@ -137,10 +137,10 @@ uint64_t MatroskaFile::readCluster(const EbmlElement& cluster) {
 
 // Track, time relative to the cluster's and flags, then the data of one image.
 void MatroskaFile::readBlock(const EbmlElement& block, uint64_t clusterTime) {
-    constexpr uint64_t kMaxHead = 12;
+    constexpr uint64_t kMaxHeader = 12;
     constexpr uint8_t kLaced = 0x06;
-    const EbmlElement start{block.id, block.dataAt, std::min(block.end, block.dataAt + kMaxHead), true};
-    const std::vector<uint8_t> head = reader_.bytes(start, kMaxHead);
+    const EbmlElement start{block.id, block.dataAt, std::min(block.end, block.dataAt + kMaxHeader), true};
+    const std::vector<uint8_t> head = reader_.bytes(start, kMaxHeader);
     const auto [track, length] = ebmlNumber(head);
     ByteCursor cursor(std::span<const uint8_t>(head).subspan(length));
     const uint16_t high = cursor.value<uint8_t>();
@@ -178,7 +178,7 @@ uint64_t MatroskaFile::nextCluster(uint64_t from) {
     return data_.size();
 }
 
-void MatroskaFile::tellDamaged(uint64_t at, const Error& why) {
+void MatroskaFile::logDamaged(uint64_t at, const Error& why) {
     if (++damaged_ == 1) {
         log::warn("{}: damaged at byte {}: {}; what follows in its cluster is left out", file().string(), at,
                   why.what());

@@ -14,7 +14,7 @@ class KinectCalibration;
 // and the pose from depth to colour as topics, too. One thread.
 class MatroskaFile final : public MessageFile {
 public:
-    // Throws BadInput that names the file: not Matroska, no track, or a damaged head. A damaged cluster is
+    // Throws BadInput that names the file: not Matroska, no track, or a damaged header. A damaged cluster is
     // skipped and named in the log.
     explicit MatroskaFile(const std::filesystem::path& file);
     MessageBytes bytes(const MessageEntry& entry) override;
@@ -25,7 +25,7 @@ private:
     uint64_t readCluster(const EbmlElement& cluster);
     void readBlock(const EbmlElement& block, uint64_t clusterTime);
     uint64_t nextCluster(uint64_t from);
-    void tellDamaged(uint64_t at, const Error& why);
+    void logDamaged(uint64_t at, const Error& why);
     void makeTopics();
     std::string nameOf(const MatroskaTrack& track) const;
     void addTrack(const MatroskaTrack& track);
@@ -35,7 +35,7 @@ private:
 
     FileBytes data_;
     EbmlReader reader_;
-    MatroskaHead head_;
+    MatroskaHeader head_;
     std::map<uint64_t, std::vector<MessageEntry>> blocks_; // by the track's number, until topics are made
     uint64_t count_ = 0, damaged_ = 0;                     // blocks, damaged places
     std::vector<MatroskaImages> tracks_; // a message's chunk is the place here, and the size of its data

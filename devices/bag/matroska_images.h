@@ -2,7 +2,7 @@
 // The images of a Matroska track as sensor_msgs/Image.
 #pragma once
 
-#include "devices/bag/matroska_head.h"
+#include "devices/bag/matroska_header.h"
 
 namespace fathom {
 

@@ -31,7 +31,7 @@ struct Inner {
 };
 
 bool nextInner(std::span<const uint8_t> bytes, size_t& at, Inner& inner) {
-    if (bytes.size() - at < mcap::kRecordHead) {
+    if (bytes.size() - at < mcap::kRecordHeader) {
         return false;
     }
     ByteCursor cursor(bytes.subspan(at));
@@ -42,7 +42,7 @@ bool nextInner(std::span<const uint8_t> bytes, size_t& at, Inner& inner) {
     }
     inner.at = at;
     inner.content = cursor.take(size);
-    at += mcap::kRecordHead + size;
+    at += mcap::kRecordHeader + size;
     return true;
 }
 
@@ -206,7 +206,7 @@ UnpackedChunk McapFile::unpack(uint64_t chunkAt) {
 }
 
 MessageBytes McapFile::bytes(const MessageEntry& entry) {
-    constexpr size_t kMcapHead = 22; // channel, sequence, two times
+    constexpr size_t kMcapHeader = 22; // channel, sequence, two times
     MessageBytes message;
     if (entry.chunk == 0) {
         uint64_t size = 0;
@@ -222,10 +222,10 @@ MessageBytes McapFile::bytes(const MessageEntry& entry) {
         }
         message = {inner.content, chunk};
     }
-    if (message.view.size() < kMcapHead) {
+    if (message.view.size() < kMcapHeader) {
         throw Error("truncated");
     }
-    message.view = message.view.subspan(kMcapHead);
+    message.view = message.view.subspan(kMcapHeader);
     return unpackMessage(std::move(message));
 }
 

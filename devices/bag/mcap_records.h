@@ -18,6 +18,6 @@ inline constexpr uint8_t kChunk = 6;
 inline constexpr uint8_t kMessageIndex = 7;
 inline constexpr uint8_t kChunkIndex = 8;
 inline constexpr uint8_t kStatistics = 11;
-inline constexpr uint64_t kRecordHead = 9; // kind and length [bytes]
+inline constexpr uint64_t kRecordHeader = 9; // kind and length [bytes]
 
 } // namespace fathom::mcap

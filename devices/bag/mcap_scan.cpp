@@ -10,7 +10,7 @@
 
 namespace fathom {
 
-// Takes chunks and channels from the summary, and messages from the indexes behind the chunks. False, with
+// Takes chunks and channels from the summary, and messages from the indexes after the chunks. False, with
 // nothing taken, where these do not hold as many messages as the summary counts.
 bool McapFile::useSummary() {
     const std::optional<McapSummary> summary = mcapSummary(in_);
@@ -55,23 +55,23 @@ void McapFile::readIndexes(uint64_t at, uint64_t size) {
     }
 }
 
-// Heads of all records, in sequence. Chunks are not unpacked.
+// Headers of all records, in sequence. Chunks are not unpacked.
 void McapFile::scan() {
     for (uint64_t at = mcap::kMagic.size(); at < in_.size();) {
-        std::array<uint8_t, mcap::kRecordHead> head{};
+        std::array<uint8_t, mcap::kRecordHeader> head{};
         if (in_.size() - at < head.size()) {
             break;
         }
         in_.read(at, head);
         uint64_t size = 0;
         std::memcpy(&size, head.data() + 1, sizeof size);
-        if (size > in_.size() - at - mcap::kRecordHead) {
+        if (size > in_.size() - at - mcap::kRecordHeader) {
             break;
         }
-        if (!record(head[0], at + mcap::kRecordHead, size)) {
+        if (!record(head[0], at + mcap::kRecordHeader, size)) {
             return; // the footer
         }
-        at += mcap::kRecordHead + size;
+        at += mcap::kRecordHeader + size;
     }
     if (!chunks_.empty()) {
         chunks_.back().indexed = false; // its indexes may be incomplete

@@ -13,7 +13,7 @@ namespace fathom {
 namespace {
 
 constexpr uint64_t kSummaryBytes = 256u << 20; // of the whole summary
-constexpr uint64_t kFooterBytes = mcap::kRecordHead + 20, kEndMagic = mcap::kMagic.size();
+constexpr uint64_t kFooterBytes = mcap::kRecordHeader + 20, kEndMagic = mcap::kMagic.size();
 
 struct Footer {
     uint64_t summaryAt = 0; // 0 = no summary
@@ -31,7 +31,7 @@ std::optional<Footer> footerOf(FileBytes& file) {
     file.read(footer.at, bytes);
     ByteCursor cursor(bytes);
     if (cursor.value<uint8_t>() != mcap::kFooter ||
-        cursor.value<uint64_t>() != kFooterBytes - mcap::kRecordHead) {
+        cursor.value<uint64_t>() != kFooterBytes - mcap::kRecordHeader) {
         return std::nullopt;
     }
     footer.summaryAt = cursor.value<uint64_t>();
@@ -46,17 +46,17 @@ McapSummary::Chunk chunkOf(std::span<const uint8_t> content) {
     const auto at = cursor.value<uint64_t>(), length = cursor.value<uint64_t>();
     cursor.block(); // place of each channel's index
     const auto indexes = cursor.value<uint64_t>();
-    if (length < mcap::kRecordHead || at > UINT64_MAX - length) {
-        throw Error("a chunk without a head");
+    if (length < mcap::kRecordHeader || at > UINT64_MAX - length) {
+        throw Error("a chunk without a header");
     }
-    return {at + mcap::kRecordHead, length - mcap::kRecordHead, at + length, indexes};
+    return {at + mcap::kRecordHeader, length - mcap::kRecordHeader, at + length, indexes};
 }
 
-// Whether all chunks with their indexes lie one behind the other before the summary.
+// Whether all chunks with their indexes follow each other before the summary.
 bool ordered(const std::vector<McapSummary::Chunk>& chunks, uint64_t end) {
     uint64_t last = kEndMagic;
     for (const McapSummary::Chunk& chunk : chunks) {
-        if (chunk.at < last + mcap::kRecordHead || chunk.indexesAt > end ||
+        if (chunk.at < last + mcap::kRecordHeader || chunk.indexesAt > end ||
             chunk.indexesSize > end - chunk.indexesAt) {
             return false;
         }

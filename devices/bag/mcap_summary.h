@@ -12,7 +12,7 @@ namespace fathom {
 struct McapSummary {
     struct Chunk {                               // its place in the file
         uint64_t at = 0, size = 0;               // of the chunk's content [bytes]
-        uint64_t indexesAt = 0, indexesSize = 0; // of the message indexes behind it
+        uint64_t indexesAt = 0, indexesSize = 0; // of the message indexes after it
     };
     std::vector<std::vector<uint8_t>> schemas, channels; // contents of these records
     std::vector<Chunk> chunks;                           // in the order of the file, none overlaps another

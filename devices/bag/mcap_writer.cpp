@@ -83,10 +83,10 @@ uint16_t McapWriter::addChannel(const std::string& topic, const std::string& typ
 }
 
 void McapWriter::add(uint16_t channel, uint64_t time, std::span<const uint8_t> message) {
-    constexpr uint64_t kHead = 22;
+    constexpr uint64_t kHeader = 22;
     index_[channel].emplace_back(time, chunk_.size());
     chunk_.value(kMessageOp);
-    chunk_.value(uint64_t{kHead + message.size()});
+    chunk_.value(uint64_t{kHeader + message.size()});
     chunk_.value(channel);
     chunk_.value(static_cast<uint32_t>(countOf_[channel]++));
     chunk_.value(time);

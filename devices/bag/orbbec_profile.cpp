@@ -64,8 +64,8 @@ OrbbecProfile orbbecProfile(MessageCursor cursor) {
     const auto distortion = floats<8>(cursor);
     setOrbbecDistortion(out.lens, cursor.value<uint8_t>(), distortion);
     if (r != std::array<double, 9>{}) {
-        out.colourTdepth = ros::rigidPose({r[0], r[3], r[6], r[1], r[4], r[7], r[2], r[5], r[8]},
-                                          kMetresPerMillimetre * dvec3(t[0], t[1], t[2]));
+        out.colourTdepth = ros::poseFromColumns({r[0], r[3], r[6], r[1], r[4], r[7], r[2], r[5], r[8]},
+                                                kMetresPerMillimetre * dvec3(t[0], t[1], t[2]));
     }
     return out;
 }

@@ -109,7 +109,7 @@ Pose poseIn(const Fields& fields) {
     const std::vector<double> r = fields.numbers("rotation", 9), t = fields.numbers("translation", 3);
     std::array<double, 9> columns{}; // the SDK's order
     std::copy(r.begin(), r.end(), columns.begin());
-    return ros::rigidPose(columns, {t[0], t[1], t[2]});
+    return ros::poseFromColumns(columns, {t[0], t[1], t[2]});
 }
 
 } // namespace

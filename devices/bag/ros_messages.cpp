@@ -186,7 +186,7 @@ void skipHeader(MessageCursor& cursor) {
     header(cursor);
 }
 
-Pose rigidPose(const std::array<double, 9>& r, const dvec3& translation) {
+Pose poseFromColumns(const std::array<double, 9>& r, const dvec3& translation) {
     const glm::dmat3 rotation(r[0], r[1], r[2], r[3], r[4], r[5], r[6], r[7], r[8]);
     if (!rotationFault(rotation, 0.01).empty() || !std::isfinite(glm::dot(translation, translation))) {
         throw Error("an invalid transform");
@@ -209,11 +209,11 @@ Pose extrinsics(MessageCursor cursor, ExtrinsicsOf driver) {
     }
     const auto rotation = reals<9>(cursor);
     const auto [x, y, z] = reals<3>(cursor);
-    Pose pose = rigidPose(rotation, {x, y, z});
+    Pose pose = poseFromColumns(rotation, {x, y, z});
     if (driver == ExtrinsicsOf::Orbbec) {
-        constexpr double kMostApart = 1.0; // [m] of two lenses in one housing
+        constexpr double kMaxApart = 1.0; // [m] of two lenses in one housing
         pose.rotation = glm::conjugate(pose.rotation);
-        pose.position *= glm::length(pose.position) > kMostApart ? 1e-3 : 1.0;
+        pose.position *= glm::length(pose.position) > kMaxApart ? 1e-3 : 1.0;
     }
     return pose;
 }

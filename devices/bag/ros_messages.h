@@ -57,7 +57,7 @@ CameraInfo cameraInfo(MessageCursor message);
 // Reads over a std_msgs/Header.
 void skipHeader(MessageCursor& cursor);
 // From a rotation matrix, column by column. Throws Error when it is none.
-Pose rigidPose(const std::array<double, 9>& rotation, const dvec3& translation);
+Pose poseFromColumns(const std::array<double, 9>& rotation, const dvec3& translation);
 
 Pose transform(MessageCursor message); // geometry_msgs/Transform
 // The driver whose message it is. realsense2_camera_msgs/Extrinsics has its rotation column by column, those

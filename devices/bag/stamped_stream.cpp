@@ -164,15 +164,15 @@ double StampedStream::period() {
 }
 
 bool StampedStream::recordedInTime() {
-    constexpr double kLeastApart = 1.0, kMostApart = 0.05; // [s], of the span
-    constexpr double kShortest = 1e-4, kLongest = 10.0;    // [s] periods of a camera
+    constexpr double kMinApart = 1.0, kMaxApart = 0.05; // [s], of the span
+    constexpr double kShortest = 1e-4, kLongest = 10.0; // [s] periods of a camera
     constexpr double kAlike = 1.1;
     if (!stamped_ || rise().span <= 0.0 || rise().period < kShortest || rise().period > kLongest) {
         return true;
     }
     const auto [period, span] = rise();
     const double recorded = secondsOf(topic_.messages.back().time - topic_.messages.front().time);
-    if (std::abs(recorded - span) <= std::max(kLeastApart, kMostApart * span)) {
+    if (std::abs(recorded - span) <= std::max(kMinApart, kMaxApart * span)) {
         return true;
     }
     const double step = recordedPeriod(); // alike: the clock of the stamps was set forward or back
@@ -181,13 +181,13 @@ bool StampedStream::recordedInTime() {
 
 std::string StampedStream::whyNoSeconds() {
     constexpr double kShortest = 1e-3, kLongest = 0.5; // [s] recorded periods of a camera
-    constexpr double kMost = 10.0, kLeast = 2e-4;      // [s] stamped ones
+    constexpr double kMax = 10.0, kMin = 2e-4;         // [s] stamped ones
     const double recorded = recordedPeriod(), stamped = stamped_ ? rise().period : 0.0;
     if (stamped <= 0.0 || recorded < kShortest || recorded > kLongest) {
         return "";
     }
     const bool counted = stamped == 1.0 && stampOf(0) == std::round(stampOf(0)) && stampOf(0) < 1e6;
-    if (!counted && stamped >= kLeast && stamped <= kMost) {
+    if (!counted && stamped >= kMin && stamped <= kMax) {
         return "";
     }
     return counted ? "they count frames, which were recorded every " + significant(recorded, 3) + " s"

@@ -127,7 +127,7 @@ bool StreamChooser::sharesFrame(const ImageStream& depth, const ImageStream& col
 
 // By the topics' names; tf may contradict. The depth and colour lenses of a camera are centimetres apart.
 bool StreamChooser::oneCamera(const ImageStream& depth, const ImageStream& colour) {
-    constexpr double kMostApart = 0.1; // [m]
+    constexpr double kMaxApart = 0.1; // [m]
     if (!namedOneCamera(depth.name, colour.name)) {
         return false;
     }
@@ -136,7 +136,7 @@ bool StreamChooser::oneCamera(const ImageStream& depth, const ImageStream& colou
     if (!apart) { // the second camera is of one pair with depth, but elsewhere: its P tells
         return !second || glm::length(shiftOf(colour) - shiftOf(depth)) > kSameCentre;
     }
-    return glm::length(apart->position) <= (second ? kSameCentre : kMostApart);
+    return glm::length(apart->position) <= (second ? kSameCentre : kMaxApart);
 }
 
 StreamChooser::Relation StreamChooser::relate(const ImageStream& depth, const ImageStream& colour) {

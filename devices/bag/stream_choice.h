@@ -28,9 +28,9 @@ struct StreamChoice {
 class StreamChooser {
 public:
     StreamChooser(MessageFile& file, const SourceOptions& options);
-    // Depth and colour of one camera: of one frame and lens, then names, extrinsics, shared path, the nearer,
-    // uncompressed, order. Infrared and the like are never depth, and colour only as grey where nothing else
-    // is. Throws BadInput that names file and topic.
+    // Chooses depth and colour of one camera. Order of preference: one frame and lens, names, extrinsics,
+    // common topic path, shorter distance, uncompressed images, order in the file. Infrared is never depth.
+    // Grey images are colour only if there is no other. Throws BadInput that names file and topic.
     StreamChoice choose();
 
 private:

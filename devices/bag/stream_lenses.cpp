@@ -43,10 +43,10 @@ StreamChooser::Relation StreamChooser::relateGiven(const ImageStream& depth, con
     given.lens = readIntrinsics(options_.intrinsics, ScaleRule::Unchecked).camera.depth;
     given.raw = *given.lens;
     // A calibration of one camera differs little from the lens that the recording states.
-    constexpr double kMostOther = 0.1;
+    constexpr double kMaxOther = 0.1;
     const double x = given.lens->fx / colour.lens->fx, y = given.lens->fy / colour.lens->fy;
     const bool alike = depth.width == colour.width && depth.height == colour.height &&
-                       std::max(std::abs(x - 1.0), std::abs(y - 1.0)) <= kMostOther;
+                       std::max(std::abs(x - 1.0), std::abs(y - 1.0)) <= kMaxOther;
     if (alike && (sameFrame || namedRegistered(depth.name))) {
         given.lens = colour.lens;
         given.raw = colour.raw;
@@ -94,7 +94,7 @@ void StreamChooser::refuseRelation(const ImageStream& depth, const ImageStream& 
     }
     throw BadInput(options_.intrinsics.string(), "color", "missing",
                    "blocks depth and color, or registered_to_color: true, as the recording does not relate " +
-                       depth.name + " and " + colour.name + "; or colour=none behind its name");
+                       depth.name + " and " + colour.name + "; or colour=none after its name");
 }
 
 } // namespace fathom

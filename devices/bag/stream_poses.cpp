@@ -23,8 +23,8 @@ double turnBetween(const Pose& a, const Pose& b) {
 
 // As far as a calibration and the drawing of the same camera differ.
 bool nearlySame(const Pose& a, const Pose& b) {
-    constexpr double kMostApart = 0.005, kMostTurned = 0.01; // [m], [rad]
-    return glm::distance(a.position, b.position) <= kMostApart && turnBetween(a, b) <= kMostTurned;
+    constexpr double kMaxApart = 0.005, kMaxTurned = 0.01; // [m], [rad]
+    return glm::distance(a.position, b.position) <= kMaxApart && turnBetween(a, b) <= kMaxTurned;
 }
 
 } // namespace
@@ -48,7 +48,7 @@ StreamChooser::Relation StreamChooser::relateByPose(const ImageStream& depth, co
             {},
             "extrinsics: " + (found.warning.empty() ? "missing" : found.warning) +
                 " (allowed: depth registered to colour (same frame and lens), or the topic " + topic +
-                ", or extrinsics=FILE or colour=none behind the file's name)"};
+                ", or extrinsics=FILE or colour=none after the file name)"};
 }
 
 // By the driver's topic or by tf, and why it may be wrong. Some versions of realsense-ros publish the inverse
@@ -88,7 +88,7 @@ StreamChooser::FoundPose StreamChooser::driverPose(const ImageStream& depth, con
                   glm::degrees(turnBetween(*topic, *frames)));
     return {topic, "the driver's topic depth_to_color, which is used, and tf between '" + depth.frame +
                        "' and '" + colour.frame + "' differ by " + apart +
-                       "; extrinsics=FILE behind the file's name decides"};
+                       "; extrinsics=FILE after the file name decides"};
 }
 
 // Maps points of the common reference to the stream, as in a recording folder (recording_intrinsics.cpp).

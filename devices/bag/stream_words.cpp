@@ -38,12 +38,12 @@ std::string StreamChooser::describe(const StreamChoice& choice) const {
 // Some drivers publish the lens of raw depth with the depth that they align to colour. Crops of colour, and
 // one that is calibrated anew, have nearly its focal length; images of another size are resized.
 std::string StreamChooser::alignedWarning(const ImageStream& depth, const ImageStream& colour) const {
-    constexpr double kMostOther = 0.1;
+    constexpr double kMaxOther = 0.1;
     const bool toColour = depth.frame == colour.frame || depth.name.find("to_color") != std::string::npos ||
                           depth.name.find("to_rgb") != std::string::npos;
     if (!namedRegistered(depth.name) || !toColour || !depth.lens || !colour.lens ||
         depth.rectified != colour.rectified || depth.width != colour.width || depth.height != colour.height ||
-        std::abs(depth.lens->fx / colour.lens->fx - 1.0) <= kMostOther) {
+        std::abs(depth.lens->fx / colour.lens->fx - 1.0) <= kMaxOther) {
         return "";
     }
     char focal[2][24];
@@ -51,7 +51,7 @@ std::string StreamChooser::alignedWarning(const ImageStream& depth, const ImageS
     std::snprintf(focal[1], sizeof focal[1], " (fx %.1f)", colour.lens->fx);
     return depth.name + focal[0] + "is named as aligned to colour, but has another lens than " + colour.name +
            focal[1] +
-           ": its camera_info may be that of the raw depth; intrinsics=FILE behind the file's name replaces "
+           ": its camera_info may be that of the raw depth; intrinsics=FILE after the file name replaces "
            "it";
 }
 

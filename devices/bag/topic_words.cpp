@@ -81,7 +81,7 @@ bool isDigit(char c) {
     return std::isdigit(static_cast<unsigned char>(c)) != 0;
 }
 
-// Whether a word of camel case begins at a character behind the first: "ir|Image", "IR|Image", "cam2|RGB".
+// Whether a word of camel case begins at a character after the first: "ir|Image", "IR|Image", "cam2|RGB".
 bool beginsCamelWord(const std::string& text, size_t at) {
     const char before = text[at - 1];
     const bool last = at + 1 == text.size();

@@ -43,7 +43,7 @@ void TranslatedFile::add(const std::string& topic, const std::string& type, Byte
     put(added, 0, std::move(message));
 }
 
-void TranslatedFile::tellLeftOut(const MessageTopic& topic, const Error& why) {
+void TranslatedFile::logSkipped(const MessageTopic& topic, const Error& why) {
     faults_.emplace(topic.name, why.what());
     log::warn("{}: a message of {} is left out: {}", file().string(), topic.name, why.what());
 }

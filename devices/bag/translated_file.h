@@ -25,7 +25,7 @@ protected:
             try {
                 put(topic, entry.time, make(MessageCursor(original_->bytes(entry), topic.cdr)));
             } catch (const Error& e) {
-                tellLeftOut(topic, e);
+                logSkipped(topic, e);
             }
         }
         topic.cdr = true;
@@ -37,7 +37,7 @@ private:
     // Checks the number of messages and takes them out.
     static std::vector<MessageEntry> begin(MessageTopic& topic, const std::string& type);
     void put(MessageTopic& topic, uint64_t time, Bytes message);
-    void tellLeftOut(const MessageTopic& topic, const Error& why);
+    void logSkipped(const MessageTopic& topic, const Error& why);
 
     std::unique_ptr<MessageFile> original_;
     std::vector<Bytes> made_;

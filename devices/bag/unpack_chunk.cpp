@@ -87,7 +87,7 @@ std::vector<uint8_t> unpackChunk(const std::string& compression, std::span<const
     }
     if (got != size) {
         throw Error(compression + ": " + std::to_string(got) + " bytes where " + std::to_string(size) +
-                    " are told");
+                    " are declared");
     }
     return out;
 }

@@ -24,8 +24,8 @@ public:
             }
         }
         Kept fresh{chunk, std::make_shared<const std::vector<uint8_t>>(unpack()), ++clock_};
-        if (kept_.size() < kMost) {
-            kept_.reserve(kMost);
+        if (kept_.size() < kMax) {
+            kept_.reserve(kMax);
             return kept_.emplace_back(std::move(fresh)).bytes;
         }
         auto oldest = std::min_element(kept_.begin(), kept_.end(),
@@ -35,7 +35,7 @@ public:
     }
 
 private:
-    static constexpr size_t kMost = 4; // depth, colour and the lenses of both
+    static constexpr size_t kMax = 4; // depth, colour and the lenses of both
     struct Kept {
         uint64_t chunk = 0;
         UnpackedChunk bytes;

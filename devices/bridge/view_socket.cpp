@@ -9,7 +9,7 @@ namespace fathom {
 
 ViewSocket::ViewSocket(std::filesystem::path path)
     : path_(std::move(path))
-    , endpoint_(DeviceSocket::listen(path_, static_cast<int>(kMost))) {}
+    , endpoint_(DeviceSocket::listen(path_, static_cast<int>(kMax))) {}
 
 ViewSocket::~ViewSocket() {
     ::unlink(path_.c_str());

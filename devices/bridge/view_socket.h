@@ -30,7 +30,7 @@ public:
     bool watched() const noexcept;
     uint64_t lost() const noexcept { return lost_; } // packets, over all observers
 
-    static constexpr size_t kMost = 4;
+    static constexpr size_t kMax = 4;
 
 private:
     template <class T>
@@ -38,7 +38,7 @@ private:
 
     std::filesystem::path path_;
     DeviceSocket endpoint_;
-    std::array<DeviceSocket, kMost> observers_;
+    std::array<DeviceSocket, kMax> observers_;
     uint64_t sent_ = 0, lost_ = 0;
 };
 

@@ -38,7 +38,7 @@ bool waitFor(int socket, short events, std::chrono::microseconds most) {
 
 } // namespace
 
-bool WebSocketFrames::head(Head& head) const {
+bool WebSocketFrames::head(Header& head) const {
     const auto byte = [this](size_t i) { return static_cast<uint8_t>(bytes_[i]); };
     if (bytes_.size() < 2) {
         return false;
@@ -64,7 +64,7 @@ bool WebSocketFrames::head(Head& head) const {
 }
 
 WebSocketFrames::Event WebSocketFrames::next(std::string& text) {
-    Head frame;
+    Header frame;
     while (head(frame)) {
         const bool reserved = (static_cast<uint8_t>(bytes_[0]) & 0x70) != 0;
         if (reserved || frame.size > kMaxBytes || message_.size() + frame.size > kMaxBytes) {
@@ -78,7 +78,7 @@ WebSocketFrames::Event WebSocketFrames::next(std::string& text) {
     return Event::None;
 }
 
-WebSocketFrames::Event WebSocketFrames::whole(const Head& frame, std::string& text) {
+WebSocketFrames::Event WebSocketFrames::whole(const Header& frame, std::string& text) {
     const std::string payload = bytes_.substr(frame.at, frame.size);
     bytes_.erase(0, frame.at + frame.size);
     switch (frame.kind) {

@@ -24,14 +24,14 @@ public:
     Event next(std::string& text);
 
 private:
-    struct Head {
+    struct Header {
         bool last = false;
         uint8_t kind = 0;
         size_t at = 0;
         uint64_t size = 0;
     };
-    bool head(Head& head) const; // whole?
-    Event whole(const Head& head, std::string& text);
+    bool head(Header& head) const; // whole?
+    Event whole(const Header& head, std::string& text);
 
     std::string bytes_, message_; // message_: fragments so far
     bool within_ = false;         // inside a fragmented message

@@ -30,14 +30,14 @@ std::string unknown(const std::filesystem::path& file) {
 
 struct DepthFormat {
     bool (*is)(ImageBytes);
-    DepthHead (*head)(ImageBytes);
+    DepthHeader (*head)(ImageBytes);
     std::string (*units)(ImageBytes, std::span<uint16_t>); // null: floating point only
     std::string (*metres)(ImageBytes, std::span<float>);   // null: 16 bits only
 };
 
 constexpr std::array kDepthFormats{
-    DepthFormat{isPgm, pgmHead, readPgm, nullptr}, DepthFormat{isTiff, tiffHead, readTiff, readTiff},
-    DepthFormat{isNpy, npyHead, readNpy, readNpy}, DepthFormat{isExr, exrHead, nullptr, readExr}};
+    DepthFormat{isPgm, pgmHeader, readPgm, nullptr}, DepthFormat{isTiff, tiffHeader, readTiff, readTiff},
+    DepthFormat{isNpy, npyHeader, readNpy, readNpy}, DepthFormat{isExr, exrHeader, nullptr, readExr}};
 
 // By the first bytes; null for PNG and whatever is not known.
 const DepthFormat* formatOf(ImageBytes bytes) {
@@ -58,7 +58,7 @@ const DepthFormat* formatOf(const std::filesystem::path& file) {
     return formatOf(asBytes(begin));
 }
 
-// The image's bytes when its head is as wanted, else the fault.
+// The image's bytes when its header is as wanted, else the fault.
 std::string checkedBytes(const std::filesystem::path& file, const DepthFormat& format, PngSize size,
                          bool metres, std::string& bytes) {
     auto text = readFileAtMost(file, kMaxDepthFile);
@@ -66,7 +66,7 @@ std::string checkedBytes(const std::filesystem::path& file, const DepthFormat& f
         return text ? "over 256 MiB" : whyUnreadable(file);
     }
     bytes = std::move(*text);
-    const DepthHead head = format.head(asBytes(bytes));
+    const DepthHeader head = format.head(asBytes(bytes));
     if (!head.fault.empty()) {
         return head.fault;
     }
@@ -89,15 +89,15 @@ bool endsAs(const std::filesystem::path& file, std::span<const std::string_view>
     return !hidden && std::find(endings.begin(), endings.end(), ending) != endings.end();
 }
 
-DepthHead depthImageHead(const std::filesystem::path& file) {
+DepthHeader depthImageHeader(const std::filesystem::path& file) {
     const DepthFormat* format = formatOf(file);
     if (format == nullptr) {
         const auto size = readPngSize(file);
-        return size ? DepthHead{*size, false, ""} : DepthHead{{}, false, unknown(file)};
+        return size ? DepthHeader{*size, false, ""} : DepthHeader{{}, false, unknown(file)};
     }
     const auto text = readFileAtMost(file, kMaxDepthFile);
     return text && text->size() <= kMaxDepthFile ? format->head(asBytes(*text))
-                                                 : DepthHead{{}, false, "over 256 MiB"};
+                                                 : DepthHeader{{}, false, "over 256 MiB"};
 }
 
 std::string readDepthImage(const std::filesystem::path& file, PngSize size, const DepthUnits& units,

@@ -3,7 +3,7 @@
 // of floating point, in metres; NPY of 16 bits.
 #pragma once
 
-#include "devices/images/depth_head.h"
+#include "devices/images/depth_header.h"
 #include "devices/images/metre_units.h"
 
 #include <array>
@@ -27,7 +27,7 @@ struct DepthUnits {
 };
 
 // Reads the file, at most 256 MiB.
-DepthHead depthImageHead(const std::filesystem::path& file);
+DepthHeader depthImageHeader(const std::filesystem::path& file);
 // Raw values, 0 = no measurement; NaN and infinity become 0, and so does what is too far for 16 bits, counted
 // in `beyond`. Returns the fault, or empty when everything was read; another size or kind than asked for is a
 // fault.

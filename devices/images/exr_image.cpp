@@ -2,7 +2,7 @@
 #include "devices/images/exr_image.h"
 
 #include "devices/bag/byte_cursor.h"
-#include "devices/images/exr_head.h"
+#include "devices/images/exr_header.h"
 #include "devices/images/half_value.h"
 
 #include <algorithm>
@@ -32,7 +32,7 @@ bool unpackExr(ImageBytes packed, std::vector<uint8_t>& scratch, std::span<uint8
 }
 
 // Programs that write depth to R leave G and B at 0 or copy it there. An image of colours is no depth.
-void checkEqual(const ExrHead& head, std::span<const uint8_t> row) {
+void checkEqual(const ExrHeader& head, std::span<const uint8_t> row) {
     const size_t size = head.width * (head.half ? sizeof(uint16_t) : sizeof(float));
     const std::span<const uint8_t> depth = row.subspan(head.channelAt, size);
     for (const size_t at : head.equalAt) {
@@ -45,7 +45,7 @@ void checkEqual(const ExrHead& head, std::span<const uint8_t> row) {
 }
 
 // The rows of one chunk, to `out` from its first row on.
-void takeRows(const ExrHead& head, std::span<const uint8_t> rows, std::span<float> out) {
+void takeRows(const ExrHeader& head, std::span<const uint8_t> rows, std::span<float> out) {
     for (size_t row = 0; row * head.rowBytes < rows.size(); ++row) {
         checkEqual(head, rows.subspan(row * head.rowBytes, head.rowBytes));
         const uint8_t* from = rows.data() + row * head.rowBytes + head.channelAt;
@@ -62,7 +62,7 @@ void takeRows(const ExrHead& head, std::span<const uint8_t> rows, std::span<floa
     }
 }
 
-void readChunks(ImageBytes bytes, const ExrHead& head, std::span<float> out) {
+void readChunks(ImageBytes bytes, const ExrHeader& head, std::span<float> out) {
     std::vector<uint8_t> scratch, unpacked;
     for (size_t i = 0; i < head.chunks.size(); ++i) {
         if (head.chunks[i] > bytes.size()) {
@@ -72,7 +72,7 @@ void readChunks(ImageBytes bytes, const ExrHead& head, std::span<float> out) {
         const auto begin = static_cast<uint32_t>(i) * head.rowsPerChunk,
                    count = std::min(head.rowsPerChunk, head.height - begin);
         if (int64_t{cursor.value<int32_t>()} != int64_t{head.firstRow} + begin) {
-            throw Error("EXR: rows are not where the head says");
+            throw Error("EXR: rows are not where the header says");
         }
         const ImageBytes stored = cursor.block();
         ImageBytes rows = stored;
@@ -98,13 +98,13 @@ bool isExr(ImageBytes bytes) {
     return bytes.size() > kMagic.size() && std::equal(kMagic.begin(), kMagic.end(), bytes.begin());
 }
 
-DepthHead exrHead(ImageBytes bytes) {
-    const ExrHead head = parseExrHead(bytes);
+DepthHeader exrHeader(ImageBytes bytes) {
+    const ExrHeader head = parseExrHeader(bytes);
     return {{head.width, head.height}, true, head.fault};
 }
 
 std::string readExr(ImageBytes bytes, std::span<float> out) {
-    const ExrHead head = parseExrHead(bytes);
+    const ExrHeader head = parseExrHeader(bytes);
     if (!head.fault.empty()) {
         return head.fault;
     }

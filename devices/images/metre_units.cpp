@@ -84,7 +84,7 @@ std::string metresWarning(const std::string& file, double nearest) {
         std::ranges::find_if(kValueUnits, [&](const auto& unit) { return nearest < unit.below; });
     if (likely != kValueUnits.end()) {
         text +=
-            fmt::format("; if its values are {}, put ,scale={} behind its name", likely->name, likely->scale);
+            fmt::format("; if its values are {}, put ,scale={} after its name", likely->name, likely->scale);
     }
     log::warn("{}", text);
     return text;

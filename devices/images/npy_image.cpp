@@ -2,7 +2,7 @@
 #include "devices/images/npy_image.h"
 
 #include "devices/images/half_value.h"
-#include "devices/images/npy_head.h"
+#include "devices/images/npy_header.h"
 
 #include <algorithm>
 #include <array>
@@ -53,7 +53,7 @@ std::string npyUnits(ImageBytes bytes, bool bigEndian, std::span<uint16_t> out) 
 }
 
 template <class Two, class Four, class Eight>
-std::string npyUnits(const NpyHead& head, ImageBytes bytes, std::span<uint16_t> out) {
+std::string npyUnits(const NpyHeader& head, ImageBytes bytes, std::span<uint16_t> out) {
     return head.bytes == 2   ? npyUnits<Two>(bytes, head.bigEndian, out)
            : head.bytes == 4 ? npyUnits<Four>(bytes, head.bigEndian, out)
                              : npyUnits<Eight>(bytes, head.bigEndian, out);
@@ -61,13 +61,13 @@ std::string npyUnits(const NpyHead& head, ImageBytes bytes, std::span<uint16_t> 
 
 } // namespace
 
-DepthHead npyHead(ImageBytes bytes) {
-    const NpyHead head = parseNpyHead(bytes);
+DepthHeader npyHeader(ImageBytes bytes) {
+    const NpyHeader head = parseNpyHeader(bytes);
     return {{head.width, head.height}, head.kind == 'f', head.fault};
 }
 
 std::string readNpy(ImageBytes bytes, std::span<uint16_t> out) {
-    const NpyHead head = parseNpyHead(bytes);
+    const NpyHeader head = parseNpyHeader(bytes);
     if (!head.fault.empty() || head.kind == 'f') {
         return head.fault.empty() ? "NPY: other values" : head.fault;
     }
@@ -77,7 +77,7 @@ std::string readNpy(ImageBytes bytes, std::span<uint16_t> out) {
 }
 
 std::string readNpy(ImageBytes bytes, std::span<float> out) {
-    const NpyHead head = parseNpyHead(bytes);
+    const NpyHeader head = parseNpyHeader(bytes);
     if (!head.fault.empty() || head.kind != 'f') {
         return head.fault.empty() ? "NPY: other values" : head.fault;
     }

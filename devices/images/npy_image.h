@@ -4,15 +4,15 @@
 // 65535 are a fault. Source: numpy.lib.format.
 #pragma once
 
-#include "devices/images/depth_head.h"
+#include "devices/images/depth_header.h"
 
 namespace fathom {
 
 // True if the first bytes are those of NumPy.
 bool isNpy(ImageBytes bytes);
 // Reads the header only.
-DepthHead npyHead(ImageBytes bytes);
-// Both return the fault, or empty when all was read. `out` has as many elements as npyHead() states, of the
+DepthHeader npyHeader(ImageBytes bytes);
+// Both return the fault, or empty when all was read. `out` has as many elements as npyHeader() states, of the
 // kind that it states.
 std::string readNpy(ImageBytes bytes, std::span<uint16_t> out);
 std::string readNpy(ImageBytes bytes, std::span<float> out);

@@ -8,7 +8,7 @@ namespace fathom {
 
 namespace {
 
-struct PgmHead {
+struct PgmHeader {
     uint32_t width = 0, height = 0, most = 0;
     size_t pixels = 0; // where they begin
 };
@@ -27,13 +27,13 @@ std::optional<uint32_t> pgmNumber(ImageBytes bytes, size_t& at) {
     return at == begin ? std::nullopt : std::optional(value);
 }
 
-std::optional<PgmHead> parsePgm(ImageBytes bytes) {
+std::optional<PgmHeader> parsePgm(ImageBytes bytes) {
     size_t at = 2; // "P5"
     const auto width = pgmNumber(bytes, at), height = pgmNumber(bytes, at), most = pgmNumber(bytes, at);
     if (!width || !height || !most || at >= bytes.size() || std::isspace(bytes[at]) == 0) {
         return std::nullopt;
     }
-    return PgmHead{*width, *height, *most, at + 1};
+    return PgmHeader{*width, *height, *most, at + 1};
 }
 
 } // namespace
@@ -42,11 +42,11 @@ bool isPgm(ImageBytes bytes) {
     return bytes.size() > 2 && bytes[0] == 'P' && bytes[1] == '5' && std::isspace(bytes[2]) != 0;
 }
 
-DepthHead pgmHead(ImageBytes bytes) {
+DepthHeader pgmHeader(ImageBytes bytes) {
     const auto head = parsePgm(bytes);
-    DepthHead out;
+    DepthHeader out;
     if (!head) {
-        out.fault = "PGM: a head that is not 'P5 WIDTH HEIGHT MAXIMUM'";
+        out.fault = "PGM: a header that is not 'P5 WIDTH HEIGHT MAXIMUM'";
     } else if (head->most < 256 || head->most > 65535) {
         out.fault = "PGM: maximum value " + std::to_string(head->most) + " (allowed: 256 to 65535, 16 bits)";
     } else {

@@ -2,16 +2,16 @@
 // Binary PGM (P5) with 16 bits per pixel, most significant byte first (netpbm's pgm(5)).
 #pragma once
 
-#include "devices/images/depth_head.h"
+#include "devices/images/depth_header.h"
 
 namespace fathom {
 
 // True if the first bytes are those of PGM.
 bool isPgm(ImageBytes bytes);
 // Refuses 8-bit images: a maximum value below 256.
-DepthHead pgmHead(ImageBytes bytes);
+DepthHeader pgmHeader(ImageBytes bytes);
 // The values as stored; one above the stated maximum is a fault. Returns the fault, or empty when all were
-// read. `out` has as many elements as pgmHead() states.
+// read. `out` has as many elements as pgmHeader() states.
 std::string readPgm(ImageBytes bytes, std::span<uint16_t> out);
 
 } // namespace fathom

@@ -8,7 +8,7 @@
 
 namespace fathom {
 
-// Order of the bytes. The last four have a plane of luma and behind it chroma for every 2 x 2 pixels, in
+// Order of the bytes. The last four have a plane of luma, then chroma for every 2 x 2 pixels, in
 // pairs or in two planes. Sources: docs.kernel.org/userspace-api/media/v4l, pages pixfmt-rgb,
 // pixfmt-packed-yuv, pixfmt-yuv-planar.
 enum class RawKind : uint8_t { Rgb, Bgr, Yuyv, Uyvy, Nv12, Nv21, I420, Yv12 };

@@ -97,8 +97,8 @@ std::string tiffFault(const char* field, uint32_t value, const char* allowed) {
     return std::string("TIFF: ") + field + ": " + std::to_string(value) + " (allowed: " + allowed + ")";
 }
 
-DepthHead headOf(TIFF* tiff) {
-    DepthHead head;
+DepthHeader headOf(TIFF* tiff) {
+    DepthHeader head;
     TIFFGetField(tiff, TIFFTAG_IMAGEWIDTH, &head.size.width);
     TIFFGetField(tiff, TIFFTAG_IMAGELENGTH, &head.size.height);
     const uint16_t bits = tiffField(tiff, TIFFTAG_BITSPERSAMPLE, 1),
@@ -158,7 +158,7 @@ std::string tiffValues(ImageBytes bytes, bool metres, std::span<Value> out, cons
     if (!tiff) {
         return libtiff(stream, "not a TIFF");
     }
-    const DepthHead head = headOf(tiff.get());
+    const DepthHeader head = headOf(tiff.get());
     if (!head.fault.empty()) {
         return head.fault;
     }
@@ -178,10 +178,10 @@ bool isTiff(ImageBytes bytes) {
     });
 }
 
-DepthHead tiffHead(ImageBytes bytes) {
+DepthHeader tiffHeader(ImageBytes bytes) {
     TiffStream stream{bytes, 0, {}};
     const OpenTiff tiff = openTiff(stream);
-    return tiff ? headOf(tiff.get()) : DepthHead{{}, false, libtiff(stream, "not a TIFF")};
+    return tiff ? headOf(tiff.get()) : DepthHeader{{}, false, libtiff(stream, "not a TIFF")};
 }
 
 std::string readTiff(ImageBytes bytes, std::span<uint16_t> out) {

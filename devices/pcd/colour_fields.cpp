@@ -81,13 +81,13 @@ std::vector<uint32_t> ColourFields::read(const PointRows& points, double& larges
 }
 
 std::string whyUncoloured(std::span<const PcdField> fields) {
-    constexpr size_t kMostNamed = 12, kLongestName = 40;
+    constexpr size_t kMaxNamed = 12, kLongestName = 40;
     std::string all;
-    for (const PcdField& field : fields.first(std::min(fields.size(), kMostNamed))) {
+    for (const PcdField& field : fields.first(std::min(fields.size(), kMaxNamed))) {
         all += (all.empty() ? "" : ", ") + field.name.substr(0, kLongestName) + ' ' + field.type +
                std::to_string(field.size) + (field.count > 1 ? " x " + std::to_string(field.count) : "");
     }
-    return "no colour is read from the fields " + all + (fields.size() > kMostNamed ? " and more" : "") +
+    return "no colour is read from the fields " + all + (fields.size() > kMaxNamed ? " and more" : "") +
            " (read are rgb or rgba of 4 bytes or three values, or r, g, b up to 65535)";
 }
 

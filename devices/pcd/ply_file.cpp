@@ -22,7 +22,7 @@ constexpr uint32_t kNoPoint = UINT32_MAX;
 class PlyReader {
 public:
     PlyReader(const std::string& file, std::string_view text)
-        : head_(plyHead(file, text))
+        : head_(plyHeader(file, text))
         , values_(file, text, head_) {}
 
     PcdCloud read() {
@@ -176,7 +176,7 @@ private:
                 spread(std::move(colours_), 0xff000000u), spread(std::move(intensity_), NAN)};
     }
 
-    PlyHead head_;
+    PlyHeader head_;
     PlyValues values_;
     std::vector<dvec3> points_;
     std::vector<uint32_t> colours_, grid_;

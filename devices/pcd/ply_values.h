@@ -2,15 +2,15 @@
 // The values of a PLY file, one after the other.
 #pragma once
 
-#include "devices/pcd/ply_head.h"
+#include "devices/pcd/ply_header.h"
 
 namespace fathom {
 
-// Values behind the header, as double. `element` and `index` name the record in errors. Throws BadInput.
+// Values after the header, as double. `element` and `index` name the record in errors. Throws BadInput.
 class PlyValues {
 public:
     // The text outlives it.
-    PlyValues(std::string file, std::string_view text, const PlyHead& head)
+    PlyValues(std::string file, std::string_view text, const PlyHeader& head)
         : file_(std::move(file))
         , text_(text)
         , at_(head.end)

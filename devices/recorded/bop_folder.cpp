@@ -48,8 +48,8 @@ std::map<std::string, BopImage> bopImages(const fs::path& file) {
             const std::vector<double> r = rotation->numbers(9), t = position->numbers(3);
             std::array<double, 9> rows{};
             std::copy(r.begin(), r.end(), rows.begin());
-            image.baseTcamera = inverse(rigidPose(rows, dvec3(t[0], t[1], t[2]) * 1e-3, file.string(),
-                                                  key + ".cam_R_w2c")); // world to camera [mm]
+            image.baseTcamera = inverse(poseFromRows(rows, dvec3(t[0], t[1], t[2]) * 1e-3, file.string(),
+                                                     key + ".cam_R_w2c")); // world to camera [mm]
         }
         images.emplace(std::to_string(number), image);
     }

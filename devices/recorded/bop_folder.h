@@ -6,9 +6,8 @@
 
 namespace fathom {
 
-// scene_camera.json, rgb/ and depth/ by number, lens and depth_scale of each image, one lens for all
-// unless the request has one. Throws
-// BadInput.
+// Reads scene_camera.json, and rgb/ and depth/ paired by number. All images must have one lens and depth
+// scale, unless the request gives a lens. Throws BadInput.
 RecordingLayout readBop(const LayoutRequest& request);
 
 } // namespace fathom

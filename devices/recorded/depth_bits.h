@@ -20,8 +20,8 @@ enum class DepthBits {
 // A few images over the whole index.
 std::vector<std::filesystem::path> sampledImages(const RecordingLayout& layout);
 
-// Of a few images in units of 1 mm. Names as of SUN3D need fewer signs. Images that cannot be read count
-// nothing.
+// Judged from a few images, if the unit is 1 mm. Folders named like SUN3D's need less evidence. Images that
+// cannot be read are ignored.
 DepthBits depthBits(const RecordingLayout& layout, PngSize size);
 
 } // namespace fathom

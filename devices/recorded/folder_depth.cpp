@@ -36,17 +36,17 @@ void FolderDepth::judgeBits(const RecordingLayout& layout) {
     const DepthBits bits = depthBits(layout, size_);
     if (bits == DepthBits::Either) {
         throw BadInput(folder_, "depth images", "multiples of eight, as of coarse steps or of rotated bits",
-                       "scale=0.001 behind the folder's name for millimetres as they are stored, or "
+                       "scale=0.001 after the folder name for millimetres as they are stored, or "
                        "scale=0.000125 for eighths of them, as of SUN RGB-D and the Kinect SDK");
     }
     rotated_ = bits == DepthBits::Rotated;
     if (rotated_) {
         warning_ =
             "its depths are multiples of eight: read as millimetres rotated by three bits, as of SUN3D "
-            "and SUN RGB-D; scale=0.001 behind the folder's name reads them as they are";
+            "and SUN RGB-D; scale=0.001 after the folder name reads them as they are";
     } else if (bits == DepthBits::Players) {
         warning_ = "most of its depths are multiples of eight, as of the Kinect SDK, which adds the numbers "
-                   "of players to eighths of millimetres; scale=0.000125 behind the folder's name reads "
+                   "of players to eighths of millimetres; scale=0.000125 after the folder name reads "
                    "them so, scale=0.001 as they are, as now";
     }
     if (!warning_.empty()) {
@@ -57,7 +57,7 @@ void FolderDepth::judgeBits(const RecordingLayout& layout) {
 void FolderDepth::chooseUnit(const RecordingLayout& layout, const SourceOptions& options) {
     if (layout.statedUnit && *layout.statedUnit != 1.0 && !options.scale) {
         log::warn("{}: its depth images hold floating point, read as metres: the depth scale {} is not "
-                  "applied; scale=M behind the folder's name is",
+                  "applied; scale=M after the folder name is",
                   folder_, *layout.statedUnit);
     }
     ValueSpan seen;

@@ -59,7 +59,7 @@ public:
     void checkExtrinsic(const std::string& stream) const {
         const std::string key = "m_calibration" + stream + "Extrinsic";
         if (has(key) && !std::ranges::equal(numbers(key, 16), kIdentityMatrix)) {
-            refuse(key, "the identity; or intrinsics=FILE behind the folder's name");
+            refuse(key, "the identity; or intrinsics=FILE after the folder name");
         }
     }
     double metresPerUnit() const {
@@ -172,7 +172,7 @@ RecordingIntrinsics readInfo(const fs::path& file, bool depthOnly) {
 
 std::string nominalWarning(const Calibration& none) {
     return "the nominal lens of 7-Scenes is used (fx and fy 585, principal point (320, 240)); another one is "
-           "read from info.txt or intrinsics=FILE behind the folder's name" +
+           "read from info.txt or intrinsics=FILE after the folder name" +
            (none.unusable.empty() ? "" : ". " + none.unusable);
 }
 

@@ -26,13 +26,13 @@ size_t countStill(const std::vector<IndexLine>& index) {
 std::vector<std::string> followClock(std::vector<IndexLine>& index) {
     const double period = medianPeriod(index);
     const auto stampOf = [&](size_t i) { return index[i].fault.empty() ? index[i].depthStamp : HUGE_VAL; };
-    std::vector<std::string> told;
+    std::vector<std::string> changes;
     double last = -HUGE_VAL, shift = 0.0; // of the stamps as they are in the index
     for (size_t i = 0; i < index.size(); ++i) {
         const double stamp = stampOf(i);
         if (stamp < last && isSetBack(last, i, index.size(), stampOf)) {
-            told.push_back("the clock of depth goes back by " + std::to_string(last - stamp) +
-                           " s at frame " + std::to_string(i) + ": times continue from there");
+            changes.push_back("the clock of depth goes back by " + std::to_string(last - stamp) +
+                              " s at frame " + std::to_string(i) + ": times continue from there");
             shift += last + period - stamp;
             last = stamp;
         }
@@ -40,7 +40,7 @@ std::vector<std::string> followClock(std::vector<IndexLine>& index) {
         index[i].depthStamp += shift;
         index[i].colourStamp += shift;
     }
-    return told;
+    return changes;
 }
 
 } // namespace
@@ -65,9 +65,9 @@ double medianPeriod(const std::vector<IndexLine>& index) {
 
 bool countFrames(const std::vector<IndexLine>& index) {
     constexpr size_t kFewest = 10;
-    constexpr double kMost = 1e6; // seconds since 1970 are more
+    constexpr double kMax = 1e6; // seconds since 1970 are more
     const bool whole = std::ranges::all_of(index, [&](const IndexLine& line) {
-        return line.depthStamp >= 0.0 && line.depthStamp < kMost &&
+        return line.depthStamp >= 0.0 && line.depthStamp < kMax &&
                line.depthStamp == std::floor(line.depthStamp);
     });
     return whole && index.size() >= kFewest && medianPeriod(index) == 1.0;
@@ -76,19 +76,20 @@ bool countFrames(const std::vector<IndexLine>& index) {
 std::vector<std::string> settleTimes(RecordingLayout& layout, const std::filesystem::path& folder) {
     const size_t still = countStill(layout.index), all = layout.index.size();
     if (2 * still < all) {
-        const auto told = layout.poses ? std::vector<std::string>{} : followClock(layout.index);
-        for (const std::string& line : told) {
+        const auto changes = layout.poses ? std::vector<std::string>{} : followClock(layout.index);
+        for (const std::string& line : changes) {
             log::warn("{}: {}", folder.string(), line);
         }
-        return told;
+        return changes;
     }
-    const std::string told =
+    const std::string fault =
         std::to_string(still) + " of " + std::to_string(all) + " depth stamps do not rise";
     if (layout.poses) {
-        throw BadInput(folder.string(), "index", told, "stamps that rise, because poses.txt is read by them");
+        throw BadInput(folder.string(), "index", fault,
+                       "rising stamps, because poses.txt is matched by stamp");
     }
     log::warn("{}: {}: stamps are ignored, frames are played in the order of the index at 30 per second",
-              folder.string(), told);
+              folder.string(), fault);
     for (size_t i = 0; i < all; ++i) {
         layout.index[i].depthStamp = layout.index[i].colourStamp = static_cast<double>(i) / 30.0;
     }

@@ -99,14 +99,14 @@ std::vector<double> distortionCoefficients(const Intrinsics& lens) {
 }
 
 bool isUnusualLens(const Intrinsics& lens) {
-    constexpr double kMostRatio = 1.25;                   // of the focal lengths
+    constexpr double kMaxRatio = 1.25;                    // of the focal lengths
     const auto between = [](double at, uint32_t pixels) { // the outermost pixels
         const double middle = 0.5 * (pixels - 1.0);
         return std::abs(at - middle) < std::max(0.5, middle);
     };
     const bool inside = between(lens.cx, lens.width) && between(lens.cy, lens.height);
     const double ratio = std::max(lens.fx, lens.fy) / std::min(lens.fx, lens.fy);
-    return !lens.fan && isUsableLens(lens) && !(inside && ratio <= kMostRatio);
+    return !lens.fan && isUsableLens(lens) && !(inside && ratio <= kMaxRatio);
 }
 
 std::vector<std::string> lensWarnings(const CameraInfo& camera) {
@@ -131,8 +131,8 @@ std::vector<std::string> lensWarnings(const CameraInfo& camera) {
 
 void warnAboutSkew(std::vector<std::string>& warnings, const std::string& matrix, double skew,
                    const std::string& images) {
-    constexpr double kMostSkew = 0.1; // [pixels]
-    if (std::abs(skew) > kMostSkew) {
+    constexpr double kMaxSkew = 0.1; // [pixels]
+    if (std::abs(skew) > kMaxSkew) {
         warnings.push_back(matrix + ": a skew of " + significant(skew, 3) + " pixels is not used: " + images +
                            " are played without it");
     }
@@ -146,7 +146,7 @@ bool sameLens(const Intrinsics& a, const Intrinsics& b) {
 }
 
 bool nearlySameLens(const Intrinsics& a, const Intrinsics& b) {
-    constexpr double kMostOff = 0.1; // [pixels]
+    constexpr double kMaxOff = 0.1; // [pixels]
     if (a.width != b.width || a.height != b.height || a.fan != b.fan) {
         return false;
     }
@@ -154,7 +154,7 @@ bool nearlySameLens(const Intrinsics& a, const Intrinsics& b) {
         for (const double y : {0.0, 0.5, 1.0}) {
             const glm::dvec2 pixel(x * (a.width - 1.0), y * (a.height - 1.0));
             const glm::dvec2 seen = b.project(dvec3(a.ray(pixel.x, pixel.y), 1.0));
-            if (!(glm::length(seen - pixel) <= kMostOff)) {
+            if (!(glm::length(seen - pixel) <= kMaxOff)) {
                 return false;
             }
         }

@@ -10,7 +10,7 @@
 
 namespace fathom {
 
-void LineFile::open(const std::filesystem::path& file, const char* head) {
+void LineFile::open(const std::filesystem::path& file, const char* header) {
     name_ = file;
     size_ = 0;
     out_ = std::ofstream(file, std::ios::binary);
@@ -18,7 +18,7 @@ void LineFile::open(const std::filesystem::path& file, const char* head) {
         throw Error(file.string() + ": cannot be written");
     }
     waiting_.str("");
-    waiting_ << std::setprecision(17) << head << (*head != 0 ? "\n" : "");
+    waiting_ << std::setprecision(17) << header << (*header != 0 ? "\n" : "");
     flush();
 }
 

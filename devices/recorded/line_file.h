@@ -12,8 +12,8 @@ namespace fathom {
 // leaves those that fitted. One thread.
 class LineFile {
 public:
-    // first: first line; empty = none. Throws Error that names the file when it cannot be written.
-    void open(const std::filesystem::path& file, const char* head = "");
+    // header: first line; empty = none. Throws Error that names the file when it cannot be written.
+    void open(const std::filesystem::path& file, const char* header = "");
     bool isOpen() const { return out_.is_open(); }
     uintmax_t size() const { return size_; }   // [bytes] of whole lines in the file
     std::ostream& lines() { return waiting_; } // 17 digits

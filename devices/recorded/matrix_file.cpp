@@ -21,10 +21,10 @@ constexpr const char* kHint = " (poses in millimetres?)";
 
 // Other programs write matrices column by column.
 void checkLastRow(const std::array<double, 16>& m, const std::string& file) {
-    constexpr double kMostOff = 1e-3;
+    constexpr double kMaxOff = 1e-3;
     const bool lost = !std::isfinite(m[12] + m[13] + m[14] + m[15]); // as the rest of it
-    const bool good = lost || (std::abs(m[12]) <= kMostOff && std::abs(m[13]) <= kMostOff &&
-                               std::abs(m[14]) <= kMostOff && std::abs(m[15] - 1.0) <= kMostOff);
+    const bool good = lost || (std::abs(m[12]) <= kMaxOff && std::abs(m[13]) <= kMaxOff &&
+                               std::abs(m[14]) <= kMaxOff && std::abs(m[15] - 1.0) <= kMaxOff);
     if (!good) {
         throw BadInput(file, "pose", "its last row is not 0 0 0 1",
                        "a matrix row by row, with the position in its last column");
@@ -56,8 +56,8 @@ std::array<double, 16> readMatrix(const std::filesystem::path& file, bool orThre
     return out;
 }
 
-Pose rigidPose(const std::array<double, 9>& rows, const dvec3& position, const std::string& file,
-               const std::string& field) {
+Pose poseFromRows(const std::array<double, 9>& rows, const dvec3& position, const std::string& file,
+                  const std::string& field) {
     const glm::dmat3 rotation(rows[0], rows[3], rows[6], rows[1], rows[4], rows[7], rows[2], rows[5],
                               rows[8]);
     const bool finite = std::isfinite(position.x + position.y + position.z);
@@ -94,8 +94,8 @@ bool usePose(IndexLine& line, const std::filesystem::path& file) {
     try {
         const auto m = readMatrix(file);
         checkLastRow(m, file.string());
-        line.baseTcamera = rigidPose({m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]},
-                                     {m[3], m[7], m[11]}, file.string(), "pose");
+        line.baseTcamera = poseFromRows({m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]},
+                                        {m[3], m[7], m[11]}, file.string(), "pose");
     } catch (const BadInput& e) {
         line.fault = e.what();
     }
@@ -104,10 +104,10 @@ bool usePose(IndexLine& line, const std::filesystem::path& file) {
 
 // Cameras in a building are some metres from each other and from the origin.
 std::string fastPoses(const std::vector<IndexLine>& index) {
-    constexpr double kMostStep = 1.0, kFarthest = 100.0; // [m]
+    constexpr double kMaxStep = 1.0, kFarthest = 100.0; // [m]
     std::vector<double> steps;
     const IndexLine* before = nullptr;
-    std::string first; // the first step of over kMostStep
+    std::string first; // the first step of over kMaxStep
     for (const IndexLine& line : index) {
         if (!line.baseTcamera) {
             continue;
@@ -119,7 +119,7 @@ std::string fastPoses(const std::vector<IndexLine>& index) {
         }
         if (before != nullptr) {
             steps.push_back(glm::distance(position, before->baseTcamera->position));
-            if (steps.back() > kMostStep && first.empty()) {
+            if (steps.back() > kMaxStep && first.empty()) {
                 first = "the pose of " + line.depth.filename().string() + ": the camera moves " +
                         significant(steps.back(), 4) + " m from one image to the next" + kHint;
             }
@@ -128,7 +128,7 @@ std::string fastPoses(const std::vector<IndexLine>& index) {
     }
     const auto middle = steps.begin() + static_cast<long>(steps.size() / 2);
     std::nth_element(steps.begin(), middle, steps.end());
-    return !steps.empty() && *middle > kMostStep ? first : "";
+    return !steps.empty() && *middle > kMaxStep ? first : "";
 }
 
 } // namespace fathom

@@ -28,8 +28,8 @@ Intrinsics matrixLens(const std::filesystem::path& file, std::optional<PngSize> 
 
 // rows: rotation, row by row. position [m]. file, field: named by the BadInput thrown for what is no rigid
 // motion.
-Pose rigidPose(const std::array<double, 9>& rows, const dvec3& position, const std::string& file,
-               const std::string& field);
+Pose poseFromRows(const std::array<double, 9>& rows, const dvec3& position, const std::string& file,
+                  const std::string& field);
 
 // For messages about the matrix of a lens.
 inline constexpr const char* kByColumns = "written column by column";

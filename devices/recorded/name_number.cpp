@@ -58,7 +58,7 @@ std::vector<NameNumber> numbersIn(const std::string& name) {
     return numbers;
 }
 
-bool tellsTime(const std::vector<NameNumber>& numbers) {
+bool isDateOrTime(const std::vector<NameNumber>& numbers) {
     constexpr size_t kTimeDigits = 6; // of HHMMSS
     size_t before = 0;
     for (size_t i = 0; i + 1 < numbers.size(); ++i) {

@@ -26,7 +26,7 @@ std::vector<NameNumber> numbersIn(const std::string& name);
 
 // A name of a date or a time of day: 6 or more digits in front of the last number, or HH-MM-SS. Only all of
 // its numbers together order it.
-bool tellsTime(const std::vector<NameNumber>& numbers);
+bool isDateOrTime(const std::vector<NameNumber>& numbers);
 
 // Sorts by name; numbers within names count as numbers: 2.png is before 10.png.
 void sortByName(std::vector<std::filesystem::path>& files);

@@ -85,7 +85,7 @@ std::vector<NamedImage> imagesIn(const NumberedImages& images) {
 }
 
 bool tellTimes(const std::vector<NamedImage>& images) {
-    return std::ranges::all_of(images, [](const NamedImage& image) { return tellsTime(image.all); });
+    return std::ranges::all_of(images, [](const NamedImage& image) { return isDateOrTime(image.all); });
 }
 
 using ByNumber = std::map<ImageKey, std::filesystem::path>;
@@ -154,7 +154,7 @@ std::string numberedFileIn(const std::filesystem::path& folder) {
 // '%d.%d' of seconds and nanoseconds loses the zeros in front of these, and with them the order. True names
 // of so many digits hardly ever have none that begins with 0.
 void warnIfUnpadded(const std::filesystem::path& folder, const std::vector<NamedImage>& images) {
-    constexpr size_t kStampDigits = 9, kMicroseconds = 6; // of seconds since 1970, and behind the point
+    constexpr size_t kStampDigits = 9, kMicroseconds = 6; // of seconds since 1970, and after the point
     size_t longest = 0, shortest = std::string::npos;
     std::string example;
     for (const NamedImage& image : images) {
@@ -169,7 +169,7 @@ void warnIfUnpadded(const std::filesystem::path& folder, const std::vector<Named
         shortest = std::min(shortest, behind);
     }
     if (longest >= kMicroseconds && shortest < longest) {
-        log::warn("{}: seconds in the names have {} to {} digits behind the point, none beginning with 0 "
+        log::warn("{}: seconds in the names have {} to {} digits after the point, none beginning with 0 "
                   "(first: {}): "
                   "if they are nanoseconds or microseconds without leading zeros, the order is wrong",
                   folder.string(), shortest, longest, example);
@@ -235,7 +235,7 @@ std::vector<IndexLine> pairByNumber(const NumberedImages& depth, const NumberedI
     }
     const std::vector<NamedImage> depthImages = depthImagesIn(depth), colourImages = imagesIn(colour);
     if (colourImages.empty()) {
-        refuseNone(colour, "colour images", ", or colour=none behind the folder's name");
+        refuseNone(colour, "colour images", ", or colour=none after the folder name");
     }
     const Match last = matchBy(depthImages, colourImages, &NamedImage::last);
     const Match first = matchBy(depthImages, colourImages, &NamedImage::first);

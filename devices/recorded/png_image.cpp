@@ -89,12 +89,12 @@ private:
             say("libpng: out of memory");
             return;
         }
-        readHead();
+        readHeader();
     }
 
     void say(const char* text) { std::snprintf(message_.data(), message_.size(), "%s", text); }
 
-    void readHead() {
+    void readHeader() {
         if (setjmp(png_jmpbuf(png_)) != 0) {
             return;
         }
@@ -134,7 +134,7 @@ std::string words(PngSize size) {
 }
 
 // Returns why the image does not match the request; empty = it matches.
-std::string checkHead(const PngReader& png, PngSize size) {
+std::string checkHeader(const PngReader& png, PngSize size) {
     if (!png.fault().empty()) {
         return png.fault();
     }
@@ -142,7 +142,7 @@ std::string checkHead(const PngReader& png, PngSize size) {
 }
 
 std::string readDepth(PngReader& png, PngSize size, std::span<uint16_t> target) {
-    if (std::string fault = checkHead(png, size); !fault.empty()) {
+    if (std::string fault = checkHeader(png, size); !fault.empty()) {
         return fault;
     }
     if (png.bits() != 16 || png.kind() != PNG_COLOR_TYPE_GRAY) {
@@ -154,7 +154,7 @@ std::string readDepth(PngReader& png, PngSize size, std::span<uint16_t> target) 
 }
 
 std::string readColour(PngReader& png, PngSize size, std::span<uint32_t> target) {
-    if (std::string fault = checkHead(png, size); !fault.empty()) {
+    if (std::string fault = checkHeader(png, size); !fault.empty()) {
         return fault;
     }
     std::vector<png_bytep> rows = rowPointers(size, target);
@@ -168,16 +168,16 @@ std::optional<PngSize> readPngSize(const std::filesystem::path& file) {
     return png.fault().empty() ? std::optional(png.size()) : std::nullopt;
 }
 
-std::optional<PngHead> pngHead(std::span<const uint8_t> bytes) {
-    constexpr size_t kHead = 26; // signature, length and name of IHDR, width, height, bits, colour type
-    if (bytes.size() < kHead || !std::equal(kPngSignature.begin(), kPngSignature.end(), bytes.begin())) {
+std::optional<PngHeader> pngHeader(std::span<const uint8_t> bytes) {
+    constexpr size_t kHeader = 26; // signature, length and name of IHDR, width, height, bits, colour type
+    if (bytes.size() < kHeader || !std::equal(kPngSignature.begin(), kPngSignature.end(), bytes.begin())) {
         return std::nullopt;
     }
     const auto word = [&](size_t at) {
         return uint32_t{bytes[at]} << 24 | uint32_t{bytes[at + 1]} << 16 | uint32_t{bytes[at + 2]} << 8 |
                bytes[at + 3];
     };
-    return PngHead{{word(16), word(20)}, bytes[24], bytes[25] == PNG_COLOR_TYPE_GRAY};
+    return PngHeader{{word(16), word(20)}, bytes[24], bytes[25] == PNG_COLOR_TYPE_GRAY};
 }
 
 std::string readDepthPng(const std::filesystem::path& file, PngSize size, std::span<uint16_t> target) {

@@ -34,11 +34,11 @@ std::string readColourPng(std::span<const uint8_t> bytes, PngSize size, std::spa
 inline constexpr std::array<uint8_t, 8> kPngSignature{0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
 
 // What the first bytes of a PNG state; empty when they are not those of a PNG.
-struct PngHead {
+struct PngHeader {
     PngSize size;
     int bits = 0; // per channel
     bool grey = false;
 };
-std::optional<PngHead> pngHead(std::span<const uint8_t> bytes);
+std::optional<PngHeader> pngHeader(std::span<const uint8_t> bytes);
 
 } // namespace fathom

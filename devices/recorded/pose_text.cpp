@@ -19,7 +19,7 @@ namespace fathom {
 namespace {
 
 using Numbers = std::vector<double>;
-constexpr size_t kMostLines = 40, kColumns = 4; // read; of the rows of a motion
+constexpr size_t kMaxLines = 40, kColumns = 4; // read; of the rows of a motion
 
 // Of a line with at most one other word, as the name of an image; else none.
 Numbers numbersOf(std::string line) {
@@ -44,7 +44,7 @@ std::vector<Numbers> firstLines(const std::filesystem::path& file) {
     try {
         DataLines all(file);
         TextLine line;
-        for (size_t i = 0; i < kMostLines && all.next(line); ++i) {
+        for (size_t i = 0; i < kMaxLines && all.next(line); ++i) {
             if (line.text.starts_with("t_s,")) { // a hand path, or a table of Fathom
                 return {};
             }
@@ -59,7 +59,7 @@ std::vector<Numbers> firstLines(const std::filesystem::path& file) {
 
 // Three rows of a rotation with a position behind each.
 bool isMotion(std::span<const double> rows) {
-    constexpr double kMostOff = 0.01;
+    constexpr double kMaxOff = 0.01;
     const auto row = [&](size_t i) {
         return glm::dvec3(rows[kColumns * i], rows[kColumns * i + 1], rows[kColumns * i + 2]);
     };
@@ -67,7 +67,7 @@ bool isMotion(std::span<const double> rows) {
     for (size_t i = 0; i < 3; ++i) {
         const glm::dvec3 one = row(i), next = row((i + 1) % 3);
         rigid =
-            rigid && std::abs(glm::length(one) - 1.0) < kMostOff && std::abs(glm::dot(one, next)) < kMostOff;
+            rigid && std::abs(glm::length(one) - 1.0) < kMaxOff && std::abs(glm::dot(one, next)) < kMaxOff;
     }
     return rigid;
 }
@@ -75,14 +75,14 @@ bool isMotion(std::span<const double> rows) {
 // Where in the line a pose may be, a bit for each place.
 uint32_t posePlaces(const Numbers& line) {
     constexpr uint32_t kMotion = 1u << 31;
-    constexpr double kMostOff = 1e-3;
+    constexpr double kMaxOff = 1e-3;
     const size_t count = line.size();
     const bool rows = count == 12 || count == 13 || count == 16 || count == 17;
     uint32_t places = rows && isMotion(std::span(line).subspan(count % kColumns)) ? kMotion : 0;
     for (size_t i = 0; (count == 17 || (count >= 7 && count <= 10)) && i + 4 <= count; ++i) {
         const double square = line[i] * line[i] + line[i + 1] * line[i + 1] + line[i + 2] * line[i + 2] +
                               line[i + 3] * line[i + 3];
-        places |= std::abs(std::sqrt(square) - 1.0) < kMostOff ? 1u << i : 0;
+        places |= std::abs(std::sqrt(square) - 1.0) < kMaxOff ? 1u << i : 0;
     }
     return places;
 }

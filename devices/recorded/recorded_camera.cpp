@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kMaxApart = 0.1;   // [s] depth and colour of a pair, or half of medianPeriod()
+constexpr double kMaxPairGap = 0.1; // [s] depth and colour of a pair, or half of medianPeriod()
 constexpr size_t kMaxWarnings = 20; // skipped frames that are named in the summary, too
 
 const fs::path& existingFolder(const fs::path& folder) {
@@ -51,7 +51,7 @@ RecordedCamera::RecordedCamera(const fs::path& folder, const SourceOptions& opti
     options.checkNoTopics(folder_.string());
     warnings_ = settleTimes(layout_, folder_);
     std::ranges::for_each(layout_.warnings, [this](const std::string& warning) { warn(warning); });
-    mostApart_ = std::max(kMaxApart, 0.5 * medianPeriod(layout_.index));
+    mostApart_ = std::max(kMaxPairGap, 0.5 * medianPeriod(layout_.index));
     useOptions(options);
     std::ranges::for_each(lensWarnings(info()), [this](const std::string& warning) { warn(warning); });
     if (const std::string poses = info().poseless ? unreadPoses(folder_) : ""; !poses.empty()) {
@@ -127,7 +127,7 @@ void RecordedCamera::takeColourFormat() {
             layout_.intrinsics.camera.colourFormat = colourImageFormat(line.colour);
             return;
         }
-        if (colour && depthImageHead(line.depth).size == sizeOf(info().depth)) {
+        if (colour && depthImageHeader(line.depth).size == sizeOf(info().depth)) {
             other = colour;
         }
     }
@@ -139,7 +139,7 @@ void RecordedCamera::takeColourFormat() {
                 (file.empty() ? "the usual lens of this layout has " + sizeWords(wanted)
                               : sizeWords(wanted) + " is stated"),
             "colour of the depth's size, or blocks depth and color with extrinsics_topic_tf, in the "
-            "layout's file or in intrinsics=FILE behind the folder's name");
+            "layout's file or in intrinsics=FILE after the folder name");
     }
 }
 
@@ -286,7 +286,7 @@ std::optional<Frame> RecordedCamera::next() {
                            " is usable; first: " + firstFault_,
                        "at least one usable pair of images" +
                            (layout_.intrinsics.file.empty() ? ", of the size of this layout's usual lens; or "
-                                                              "intrinsics=FILE behind the folder's name"
+                                                              "intrinsics=FILE after the folder name"
                                                             : ", of the size in " + layout_.intrinsics.file));
     }
     return std::nullopt;

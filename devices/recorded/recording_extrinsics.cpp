@@ -12,8 +12,8 @@ namespace {
 // Lenses of one rig are not metres apart, as values of millimetres are, and see in one direction. node: has t
 // and q_xyzw.
 void checkRig(const JsonField& node, const std::string& file, const Pose& colourTdepth) {
-    constexpr double kMostApart = 1.0, kRounding = 1e-6;
-    if (const double apart = glm::length(colourTdepth.position); !(apart <= kMostApart)) {
+    constexpr double kMaxApart = 1.0, kRounding = 1e-6;
+    if (const double apart = glm::length(colourTdepth.position); !(apart <= kMaxApart)) {
         throw BadInput(file, node.at("t").path(), significant(apart, 4) + " m between the lenses",
                        "at most 1 m; metres, not millimetres");
     }

@@ -39,7 +39,7 @@ std::string stampFault(std::string_view word) {
                                                     : "has a stamp with a comma; numbers have decimal points";
 }
 
-// Whether a path has the word depth behind the folders that it has in common with the other one.
+// Whether a path has the word depth after the folders that it shares with the other one.
 bool namesDepth(std::string_view path, std::string_view other) {
     const auto differ = std::ranges::mismatch(path, other).in1;
     const std::string_view common(path.begin(), differ);
@@ -283,7 +283,7 @@ FoundIndex findIndex(const fs::path& folder, const RecordingIntrinsics& intrinsi
     throw BadInput(folder.string(), "associations.txt",
                    other.empty() ? "missing" : "missing; " + other + " is there",
                    "associations.txt, or rgb.txt and depth.txt, or stamps in intrinsics.json; without colour "
-                   "depth.txt, and \"has_color\": false or colour=none behind the folder's name");
+                   "depth.txt, and \"has_color\": false or colour=none after the folder name");
 }
 
 } // namespace

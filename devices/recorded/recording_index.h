@@ -17,11 +17,11 @@ struct IndexLine {
     std::filesystem::path depth, colour;        // files, the folder included
     std::string fault;                          // why the line is unusable; empty = usable
     std::optional<Pose> baseTcamera;            // where the layout has a pose per image
-    bool orderGuessed = false;                  // the paths do not tell which image is depth
+    bool orderGuessed = false;                  // the paths do not show which image is depth
 };
 
 // One entry per data line of associations.txt ("t_rgb rgb/x.png t_depth depth/x.png", or depth first if the
-// word depth is in its path only, behind the folders of both). Without that file:
+// word depth is in its path only, after the folders of both). Without that file:
 // rgb.txt and depth.txt ("t path") joined to pairs, closest stamps first, each image once, at most 0.02 s
 // apart, in order of depth.txt (as the TUM tool associate.py does). Without those: the stamps of
 // intrinsics.json for the files of depth/ and rgb/ in order of their names (2.png before 10.png), joined

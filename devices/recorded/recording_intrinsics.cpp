@@ -139,7 +139,7 @@ std::string otherScale(const JsonField& root) {
         if (const auto scale = foreignScale(root)) {
             scale->refuse(
                 "depth_scale_m_per_unit, metres per unit: 1000 units per metre are 0.001; or scale=M "
-                "behind the recording's name");
+                "after the recording's name");
         }
     } catch (const BadInput& e) {
         return e.what();

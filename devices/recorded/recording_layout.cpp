@@ -48,7 +48,7 @@ RecordingLayout readOpen3d(const LayoutRequest& request) {
     const auto colour = colourFolder(request.folder);
     if (!colour && !request.depthOnly) {
         throw BadInput(request.folder.string(), "colour images", "none",
-                       "a folder color, rgb or image, or colour=none behind the folder's name");
+                       "a folder color, rgb or image, or colour=none after the folder name");
     }
     RecordingLayout layout;
     layout.intrinsics = request.lens ? *request.lens : readIntrinsics(request.mark, ScaleRule::Optional);
@@ -73,7 +73,7 @@ std::optional<PngSize> firstColourSize(const std::vector<IndexLine>& index) {
 void checkIdentity(const fs::path& file) {
     if (fs::exists(file) && readMatrix(file) != kIdentityMatrix) {
         throw BadInput(file.string(), "matrix", "not the identity",
-                       "the identity; or intrinsics=FILE behind the folder's name");
+                       "the identity; or intrinsics=FILE after the folder name");
     }
 }
 
@@ -118,7 +118,7 @@ RecordingLayout readScanNet(const LayoutRequest& request) {
 
 // Depth scales are for integers.
 bool holdsMetres(const RecordingLayout& layout) {
-    const DepthHead head = firstDepthHead(layout.index);
+    const DepthHeader head = firstDepthHeader(layout.index);
     return head.fault.empty() && head.metres;
 }
 
@@ -205,23 +205,23 @@ void warnAboutAxis(const RecordingLayout& layout, const fs::path& folder) {
 
 } // namespace
 
-DepthHead firstDepthHead(const std::vector<IndexLine>& index) {
-    std::optional<DepthHead> first;
+DepthHeader firstDepthHeader(const std::vector<IndexLine>& index) {
+    std::optional<DepthHeader> first;
     for (const IndexLine& line : index) {
         if (!line.fault.empty()) {
             continue;
         }
-        DepthHead head = depthImageHead(line.depth);
+        DepthHeader head = depthImageHeader(line.depth);
         if (head.fault.empty()) {
             return head;
         }
         first = first ? first : std::optional(std::move(head));
     }
-    return first.value_or(DepthHead{.fault = "no usable pair of images"});
+    return first.value_or(DepthHeader{.fault = "no usable pair of images"});
 }
 
 PngSize firstDepthSize(const std::vector<IndexLine>& index) {
-    const DepthHead head = firstDepthHead(index);
+    const DepthHeader head = firstDepthHeader(index);
     if (!head.fault.empty()) {
         throw BadInput(index.front().depth.string(), "image", head.fault, "one depth image that can be read");
     }

@@ -2,7 +2,7 @@
 // The layout of a recording folder: lens, pairs of images, poses.
 #pragma once
 
-#include "devices/images/depth_head.h"
+#include "devices/images/depth_header.h"
 #include "devices/recorded/pose_track.h"
 #include "devices/recorded/recording_index.h"
 #include "devices/recorded/source_options.h"
@@ -21,7 +21,7 @@ struct RecordingLayout {
 };
 
 // Head of the first depth image that can be read; of the very first one, with its fault, where none can.
-DepthHead firstDepthHead(const std::vector<IndexLine>& index);
+DepthHeader firstDepthHeader(const std::vector<IndexLine>& index);
 // Size of that image. Throws BadInput that names the first image and its fault.
 PngSize firstDepthSize(const std::vector<IndexLine>& index);
 

@@ -115,18 +115,18 @@ RecordingWriter::~RecordingWriter() {
 }
 
 void RecordingWriter::add(const Frame& frame) {
-    Image image{frame->captureTime, {frame->depth.begin(), frame->depth.end()}, {}, frame->baseTcamera};
+    StoredFrame image{frame->captureTime, {frame->depth.begin(), frame->depth.end()}, {}, frame->baseTcamera};
     readColours(*frame, image.colour);
     add(std::move(image));
 }
 
-void RecordingWriter::add(Image image) {
+void RecordingWriter::add(StoredFrame frame) {
     std::unique_lock lock(mutex_);
     room_.wait(lock, [this] { return waiting_.size() < kWaiting || failure_; });
     if (failure_) {
         std::rethrow_exception(failure_);
     }
-    waiting_.push_back({added_++, std::move(image)});
+    waiting_.push_back({added_++, std::move(frame)});
     work_.notify_one();
 }
 
@@ -176,24 +176,24 @@ void RecordingWriter::count(const fs::path& file) {
 void RecordingWriter::write(const Job& job) {
     const auto size = [](const Intrinsics& lens) { return PngSize{lens.width, lens.height}; };
     const fs::path depth = folder_ / numbered("depth", job.number);
-    writeDepthPng(depth, size(camera_.depth), job.image.depth);
+    writeDepthPng(depth, size(camera_.depth), job.frame.depth);
     count(depth);
     if (camera_.hasColour) {
         const fs::path colour = folder_ / numbered("rgb", job.number);
-        writeColourPng(colour, size(camera_.colour), job.image.colour);
+        writeColourPng(colour, size(camera_.colour), job.frame.colour);
         count(colour);
     }
 }
 
 // Lines are written in order, each when all earlier ones are done.
 void RecordingWriter::done(const Job& job) {
-    const std::string depth = text(job.image.stamp) + " " + numbered("depth", job.number);
+    const std::string depth = text(job.frame.stamp) + " " + numbered("depth", job.number);
     const std::string line =
-        camera_.hasColour ? text(job.image.stamp) + " " + numbered("rgb", job.number) + " " + depth : depth;
+        camera_.hasColour ? text(job.frame.stamp) + " " + numbered("rgb", job.number) + " " + depth : depth;
     const std::lock_guard lock(mutex_);
     indexLines_[job.number] = line;
-    if (job.image.pose) {
-        poseLines_[job.number] = {job.image.stamp, poseText(job.image.stamp, *job.image.pose)};
+    if (job.frame.pose) {
+        poseLines_[job.number] = {job.frame.stamp, poseText(job.frame.stamp, *job.frame.pose)};
     }
     while (!indexLines_.empty() && indexLines_.begin()->first == indexed_) {
         index_.lines() << indexLines_.begin()->second << "\n";

@@ -33,7 +33,7 @@ public:
     ~RecordingWriter();
 
     // One depth image with its colour image, row by row, as the camera's info describes them.
-    struct Image {
+    struct StoredFrame {
         double stamp = 0.0; // [s]
         std::vector<uint16_t> depth;
         std::vector<uint32_t> colour;
@@ -41,7 +41,7 @@ public:
     };
     // Returns at once, or waits for room when kWaiting frames are queued. Rethrows an encoder's exception.
     void add(const Frame& frame);
-    void add(Image image);
+    void add(StoredFrame frame);
     // Whether add() would wait now.
     bool full() const;
     // Ends the input and returns at once; queued frames are still written.
@@ -57,7 +57,7 @@ public:
 private:
     struct Job {
         uint32_t number = 0;
-        Image image;
+        StoredFrame frame;
     };
     struct PoseLine {
         double stamp = 0.0; // [s]

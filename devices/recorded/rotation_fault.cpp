@@ -37,12 +37,12 @@ std::string rotationFault(const glm::dmat3& matrix, double mostOff) {
 }
 
 std::string quaternionFault(const dquat& q, const std::string& order) {
-    constexpr double kShortest = 1e-6, kMostOff = 0.05; // of numbers with one digit, as 0.6 0.6 0.6 0
+    constexpr double kShortest = 1e-6, kMaxOff = 0.05; // of numbers with one digit, as 0.6 0.6 0.6 0
     const double length = glm::length(q);
     if (!(length > kShortest)) {
         return "a quaternion " + order + " of non-zero length";
     }
-    return std::abs(length - 1.0) <= kMostOff
+    return std::abs(length - 1.0) <= kMaxOff
                ? ""
                : "a quaternion " + order + ", in this order, of length 1; its length is " +
                      significant(length, 4);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Options behind the name of a recording: FILE,depth=TOPIC,colour=TOPIC,...
+// Options after the name of a recording: FILE,depth=TOPIC,colour=TOPIC,...
 #pragma once
 
 #include <filesystem>

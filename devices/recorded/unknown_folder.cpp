@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr size_t kMostBelow = 200; // folders that are looked at on each level
+constexpr size_t kMaxBelow = 200; // folders that are looked at on each level
 constexpr std::array<std::string_view, 4> kMessageFiles{".mcap", ".db3", ".bag", ".mkv"};
 constexpr std::array<std::string_view, 2> kClouds{".pcd", ".ply"};
 
@@ -31,7 +31,7 @@ Entries entriesOf(const fs::path& folder) {
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, failed)) {
         const fs::path& path = entry.path();
         if (entry.is_directory(failed)) {
-            if (!path.filename().string().starts_with('.') && entries.folders.size() < kMostBelow) {
+            if (!path.filename().string().starts_with('.') && entries.folders.size() < kMaxBelow) {
                 entries.folders.push_back(path);
             }
         } else if (endsAs(path, kMessageFiles) && (entries.file.empty() || path < entries.file)) {
@@ -60,7 +60,7 @@ fs::path recordingBelow(const fs::path& folder, bool (*isRecording)(const fs::pa
                 return entries.file;
             }
             next.insert(next.end(), entries.folders.begin(), entries.folders.end());
-            next.resize(std::min(next.size(), kMostBelow));
+            next.resize(std::min(next.size(), kMaxBelow));
         }
         level = std::move(next);
     }
@@ -75,15 +75,15 @@ bool namesDepth(const fs::path& path) {
 
 // Whether one of its first images holds depth.
 bool holdsDepth(const fs::path& folder, bool named) {
-    constexpr int kMostTried = 5;
+    constexpr int kMaxTried = 5;
     std::error_code failed;
     int tried = 0;
     fs::directory_iterator at(folder, failed);
-    for (; !failed && at != fs::directory_iterator() && tried < kMostTried; at.increment(failed)) {
+    for (; !failed && at != fs::directory_iterator() && tried < kMaxTried; at.increment(failed)) {
         const fs::path& file = at->path();
         const bool image = endsAs(file, kDepthEndings) && (named || namesDepth(file));
         tried += image ? 1 : 0;
-        if (image && depthImageHead(file).fault.empty()) {
+        if (image && depthImageHeader(file).fault.empty()) {
             return true;
         }
     }
@@ -126,7 +126,7 @@ void refuseUnknownFolder(const fs::path& folder, bool (*isRecording)(const fs::p
     refuseMisplacedDepth(folder);
     throw BadInput(
         (folder / "intrinsics.json").string(), "file", "missing",
-        "intrinsics.json (docs/guide/recordings.md has every field), or intrinsics=FILE behind the "
+        "intrinsics.json (docs/guide/recordings.md has every field), or intrinsics=FILE after the "
         "folder's name (its images pair by an index, or by number in depth/ and rgb/, color/ or image/), or "
         "a "
         "folder of Open3D (camera_intrinsic.json), BOP (scene_camera.json), 7-Scenes or BundleFusion "

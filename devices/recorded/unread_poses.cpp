@@ -90,7 +90,7 @@ bool isPoseText(const fs::path& file, size_t& texts) {
 } // namespace
 
 std::string unreadPoses(const fs::path& folder) {
-    constexpr size_t kMostTexts = 50; // that are read: a folder may hold one of each image
+    constexpr size_t kMaxTexts = 50; // that are read: a folder may hold one of each image
     std::string found;
     size_t texts = 0;
     std::error_code failed;
@@ -99,8 +99,7 @@ std::string unreadPoses(const fs::path& folder) {
         const auto order = [](const std::string& one) {
             return std::tuple(one != kOwnPoses, one != kTumPoses, one);
         };
-        const bool poses =
-            namesPoses(entry.path()) || (texts < kMostTexts && isPoseText(entry.path(), texts));
+        const bool poses = namesPoses(entry.path()) || (texts < kMaxTexts && isPoseText(entry.path(), texts));
         if (poses && (found.empty() || order(name) < order(found))) {
             found = name;
         }

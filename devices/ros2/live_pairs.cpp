@@ -18,7 +18,7 @@ void LivePairs::Period::add(double stamp) {
 void LivePairs::depth(LiveImage image) {
     depthPeriod_.add(image.stamp);
     depth_.push_back(std::move(image));
-    if (depth_.size() > kMost) {
+    if (depth_.size() > kMax) {
         depth_.pop_front();
         ++unpaired_;
     }
@@ -30,7 +30,7 @@ void LivePairs::colour(LiveImage image) {
         colour_.clear();
     }
     colour_.push_back(std::move(image));
-    if (colour_.size() > kMost) {
+    if (colour_.size() > kMax) {
         colour_.pop_front();
     }
 }

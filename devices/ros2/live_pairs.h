@@ -50,7 +50,7 @@ private:
     };
     const LiveImage* nearest(double stamp) const;
 
-    static constexpr size_t kMost = 16;
+    static constexpr size_t kMax = 16;
 
     bool hasColour_;
     std::deque<LiveImage> depth_, colour_;

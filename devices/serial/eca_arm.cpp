@@ -17,7 +17,7 @@ constexpr double kAtRest = 0.02;      // [rad] by which a joint at rest may move
 constexpr double kFullSpeed = 0.5;    // [rad/s] at speed 4095; not verified
 constexpr double kFaster = 1.5;       // share of it that a joint may move at
 constexpr double kOverloadTime = 0.3; // [s]
-constexpr double kMostCounts = 8000;  // of an encoder between two frames
+constexpr double kMaxCounts = 8000;   // of an encoder between two frames
 
 } // namespace
 
@@ -44,7 +44,7 @@ void EcaArm::loseHome() noexcept {
 int EcaArm::mostMoved(size_t joint, double silence) const noexcept {
     const double moving = kFaster * kFullSpeed * std::max(silence, options_.period);
     const double most = silence > options_.staleAfter ? kAtRest : moving + kAtRest;
-    return static_cast<int>(std::min(kMostCounts, most / radiansPerCount(joint)));
+    return static_cast<int>(std::min(kMaxCounts, most / radiansPerCount(joint)));
 }
 
 void EcaArm::heard(const std::array<EcaStatus, kEcaJoints>& status, double now) noexcept {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/usb/usb_ftdi.h"
 
+#include "devices/usb/device_files.h"
 #include "devices/usb/udev_rule.h"
 #include "engine/types/error.h"
 
@@ -17,12 +18,6 @@ constexpr size_t kModemStatus = 2;
 constexpr unsigned kControlTimeout = 500; // [ms]
 constexpr auto kDrainTime = std::chrono::milliseconds(50);
 constexpr auto kCancelTime = std::chrono::milliseconds(1000);
-
-std::string idText(uint16_t vendor, uint16_t product) {
-    char text[16];
-    std::snprintf(text, sizeof text, "%04x:%04x", vendor, product);
-    return text;
-}
 
 std::string placeOf(libusb_device* device) {
     std::array<uint8_t, 8> ports{};
@@ -85,7 +80,7 @@ void UsbFtdi::open(const std::string& name, uint16_t vendor, uint16_t product) {
         throw BadInput(name, place_, "another program uses it", "an unused device");
     }
     if (error != 0) {
-        throw BadInput(name, place_.empty() ? "USB device " + idText(vendor, product) : place_,
+        throw BadInput(name, place_.empty() ? "USB device " + usbIdText(vendor, product) : place_,
                        place_.empty() ? "not found" : libusb_error_name(error),
                        "a device that is plugged in");
     }

@@ -60,7 +60,7 @@ fs::path nodeBeside(const fs::path& video) {
 
 std::optional<double> pipeLatencyOf(std::span<const uint8_t> buffer) {
     constexpr size_t kStamp = 10, kCaptureTiming = 40; // bytes: the driver's header; the metadata block
-    constexpr uint32_t kTiming = 0x80000001u, kLatencyTold = 0x20;
+    constexpr uint32_t kTiming = 0x80000001u, kHasLatency = 0x20;
     constexpr uint8_t kPts = 0x04, kScr = 0x08; // stamps in the payload header
     if (buffer.size() < kStamp + 2) {
         return std::nullopt;
@@ -78,8 +78,9 @@ std::optional<double> pipeLatencyOf(std::span<const uint8_t> buffer) {
         }
         if (wordAt(buffer, at) == kTiming && size >= kCaptureTiming) {
             const uint32_t micros = wordAt(buffer, at + 36);
-            const bool told = (wordAt(buffer, at + 12) & kLatencyTold) != 0 && micros > 0 && micros < 1000000;
-            return told ? std::optional(1e-6 * micros) : std::nullopt;
+            const bool reported =
+                (wordAt(buffer, at + 12) & kHasLatency) != 0 && micros > 0 && micros < 1000000;
+            return reported ? std::optional(1e-6 * micros) : std::nullopt;
         }
         at += size;
     }
@@ -143,7 +144,7 @@ void MetadataStream::gather() {
     v4l2_buffer buffer = metadataBuffer(0);
     while (control(descriptor_, VIDIOC_DQBUF, &buffer) == 0) {
         const auto& bytes = buffers_[buffer.index];
-        told_[next_++ % told_.size()] = {
+        reported_[next_++ % reported_.size()] = {
             buffer.sequence,
             static_cast<double>(buffer.timestamp.tv_sec) +
                 1e-6 * static_cast<double>(buffer.timestamp.tv_usec),
@@ -155,11 +156,11 @@ void MetadataStream::gather() {
 
 std::optional<double> MetadataStream::exposureStart(uint32_t sequence, double stamp) {
     gather();
-    const auto same = [=](const Told& told) { // sequence numbers restart with the stream, stamps do not
-        return told.sequence == sequence && std::abs(told.stamp - stamp) < 1e-4;
+    const auto same = [=](const Reported& r) { // sequence numbers restart with the stream, stamps do not
+        return r.sequence == sequence && std::abs(r.stamp - stamp) < 1e-4;
     };
-    const auto found = std::find_if(told_.begin(), told_.end(), same);
-    return found != told_.end() && found->latency ? std::optional(stamp - *found->latency) : std::nullopt;
+    const auto found = std::find_if(reported_.begin(), reported_.end(), same);
+    return found != reported_.end() && found->latency ? std::optional(stamp - *found->latency) : std::nullopt;
 }
 
 } // namespace fathom

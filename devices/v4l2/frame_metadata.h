@@ -36,7 +36,7 @@ public:
 
 private:
     static constexpr uint32_t kBuffers = 8; // some frames are read late
-    struct Told {
+    struct Reported {
         uint32_t sequence = 0;
         double stamp = 0.0;
         std::optional<double> latency;
@@ -48,7 +48,7 @@ private:
 
     int descriptor_;
     std::array<std::span<uint8_t>, kBuffers> buffers_;
-    std::array<Told, kBuffers> told_{}; // the newest, as a ring buffer
+    std::array<Reported, kBuffers> reported_{}; // the newest, as a ring buffer
     size_t next_ = 0;
 };
 

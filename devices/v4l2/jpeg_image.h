@@ -18,7 +18,7 @@ namespace fathom {
 std::string readJpeg(std::span<const std::byte> bytes, VideoSize size, std::span<std::byte> out,
                      RawColour& raw);
 
-// By the first bytes. The size is empty when the head cannot be read.
+// By the first bytes. The size is empty when the header cannot be read.
 bool isJpeg(std::span<const std::byte> bytes);
 std::optional<VideoSize> jpegSize(std::span<const std::byte> bytes);
 

@@ -113,10 +113,10 @@ bool isLaser(const v4l2_query_ext_ctrl& query) {
 
 void appendLasers(const VideoNode& node, const std::string& stream, std::vector<CameraControl>& controls) {
     const size_t before = controls.size();
-    constexpr int kMost = 512; // controls of one driver
+    constexpr int kMax = 512; // controls of one driver
     v4l2_query_ext_ctrl query{};
     query.id = V4L2_CTRL_FLAG_NEXT_CTRL;
-    for (int i = 0; i < kMost && node.control(VIDIOC_QUERY_EXT_CTRL, &query) == 0; ++i) {
+    for (int i = 0; i < kMax && node.control(VIDIOC_QUERY_EXT_CTRL, &query) == 0; ++i) {
         if (isLaser(query) && (query.flags & V4L2_CTRL_FLAG_DISABLED) == 0) {
             const std::string name(query.name, strnlen(query.name, sizeof query.name));
             controls.push_back(valued(node, stream, query, {query.id, name.c_str(), "", ""}));

@@ -152,11 +152,11 @@ bool VideoNode::offers(uint32_t fourcc) const {
 }
 
 std::string VideoNode::offer() const {
-    constexpr size_t kMost = 8; // formats: a line that can be read
+    constexpr size_t kMax = 8; // formats: a line that can be read
     std::string list;
     size_t count = 0;
     for (const uint32_t fourcc : formats()) {
-        if (++count > kMost) {
+        if (++count > kMax) {
             return list + ", ...";
         }
         list += (list.empty() ? "" : ", ") + fourccName(fourcc);

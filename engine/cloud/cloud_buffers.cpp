@@ -27,7 +27,7 @@ WorkBuffers::WorkBuffers(const gpu::Device& device, const Plan& plan, const Patc
                          const CameraInfo& camera) {
     const uint64_t slots = layout.slots(), patches = layout.patches(), subs = patches * 16;
     unused = Buffer(device, 16, MemoryKind::Device, "unused");
-    if (!plan.cloud) {
+    if (!plan.passes) {
         return;
     }
     masks = Buffer(device, slots, MemoryKind::Device, "masks");
@@ -90,7 +90,7 @@ void WorkBuffers::addOcclusion(const gpu::Device& device, const CameraInfo& came
 UploadBuffers::UploadBuffers(const gpu::Device& device, const Plan& plan, const CameraInfo& camera,
                              const std::shared_ptr<const void>& depthMemory,
                              const std::shared_ptr<const void>& colourMemory) {
-    if (!plan.cloud) {
+    if (!plan.passes) {
         return;
     }
     const auto image = [&](const std::shared_ptr<const void>& memory, uint64_t bytes, const char* name) {
@@ -104,13 +104,13 @@ UploadBuffers::UploadBuffers(const gpu::Device& device, const Plan& plan, const 
         format = camera.colourFormat;
     }
     if (plan.selfFilter) {
-        arm = Buffer(device, LinkSpheres::kMaxEntries * 16ull, MemoryKind::Upload, "arm");
+        arm = Buffer(device, ArmSpheres::kMaxEntries * 16ull, MemoryKind::Upload, "arm");
     }
 }
 
 SetBuffers::SetBuffers(const gpu::Device& device, const Plan& plan, const PatchLayout& layout) {
     const uint64_t slots = layout.slots(), patches = layout.patches();
-    if (!plan.cloud) {
+    if (!plan.passes) {
         return;
     }
     counters = Buffer(device, sizeof(shared::FrameCounters), MemoryKind::Readback, "set counters");

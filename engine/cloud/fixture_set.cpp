@@ -25,7 +25,7 @@ float largestOf(const RegionSpheres& s) {
 } // namespace
 
 void FixtureSet::describeDevice(const Scene& scene, const FrozenClasses& classes,
-                                const gpu::Device::At& written) {
+                                const gpu::Device::TimelinePoint& written) {
     rows.clear();
     for (const uint32_t row : classRows(scene)) {
         rows.push_back(scene.fixtures[row].frozen ? kFrozen : static_cast<int>(row));

@@ -21,13 +21,14 @@ struct FixtureSet {
     std::vector<int> rows; // per point class: its row of Scene::fixtures; kFrozen = see below
     std::shared_ptr<const RegionSpheres> frozen; // spheres of frozen classes, about host.origin; null = none
     uint64_t frozenVersion = 0;                  // changes with them; 0 = none so far
-    gpu::Device::At completed;                   // the passes have written `device`
+    gpu::Device::TimelinePoint completed;        // the passes have written `device`
     double largestRadius = 0.0; // [m] of the finite spheres, those of frozen classes included; 0 = none
 
     static constexpr int kFrozen = -1; // a frozen class: its spheres in `device` do not count
 
     // Fills the above. Call after the passes have completed.
-    void describeDevice(const Scene& scene, const FrozenClasses& classes, const gpu::Device::At& written);
+    void describeDevice(const Scene& scene, const FrozenClasses& classes,
+                        const gpu::Device::TimelinePoint& written);
 
     // The sphere that a search of the device found. slot: FoundSphere::slot. row: of Scene::fixtures; kFrozen
     // = the sphere does not count.

@@ -158,7 +158,7 @@ void GapQuery::decide(const Batch& batch, Part part) {
     const auto* const pairs = reinterpret_cast<const GapPair*>(back_.as<uint8_t>().data() + kCountBytes);
     const dvec3& origin = batch.set.host.origin;
     for (const GapPair& pair : std::span(pairs, found_)) {
-        const FixtureSet::Place place = batch.set.placeOf(layout_, pair.slot, pair.fixture);
+        const FixtureSet::Place place = batch.set.placeOf(layout_, pair.slot, pair.pointClass);
         const uint32_t pose = part[pair.pose];
         const glm::dvec4 leaf = leafAt(batch.tool.leaves()[pair.leaf], batch.poses[pose], origin);
         const SmallestGap gap{gapBetween(leaf, pair.sphere), place.source, pair.leaf,

@@ -35,7 +35,7 @@ public:
 
     // Enables timestamps. gpuMs(): device time of the last submission without the copy of its answer; 0 when
     // not enabled or not supported.
-    void askForTime() { run_.askForTime(); }
+    void enableTimestamps() { run_.enableTimestamps(); }
     double gpuMs() const { return run_.gpuMs(); }
     uint32_t pairs() const { return found_; } // that the device listed in the last submission
 

@@ -240,9 +240,9 @@ std::vector<PassInfo> framePasses(const CloudContext& c) {
         }
     };
     add(c.plan.occlusion, occlusion);
-    add(c.plan.cloud, classify);
+    add(c.plan.passes, classify);
     add(c.plan.lists(), list);
-    add(c.plan.cloud, surface);
+    add(c.plan.passes, surface);
     add(c.plan.estimates, estimate);
     add(c.plan.thins(), thin);
     add(c.plan.moments, moments);

@@ -16,16 +16,16 @@ constexpr uint64_t kHeader = 16;            // [bytes]
 constexpr Counts kMinCopied = {1024, 2048}; // in every copy: it costs less than a second one
 constexpr uint32_t kMaxOfAny = 0x80000000u;
 
-uint64_t bytesOf(const Counts& most) {
-    return kHeader + uint64_t{most.spheres} * sizeof(FoundSphere) + 4ull * most.leaves;
+uint64_t bytesOf(const Counts& capacity) {
+    return kHeader + uint64_t{capacity.spheres} * sizeof(FoundSphere) + 4ull * capacity.leaves;
 }
 
 uint32_t roomFor(uint32_t count) {
     return count > kMaxOfAny ? UINT32_MAX : std::bit_ceil(count);
 }
 
-uint32_t guess(uint32_t last, uint32_t least, uint32_t most) {
-    return std::min(most, std::max(least, last + last / 4));
+uint32_t guess(uint32_t last, uint32_t least, uint32_t capacity) {
+    return std::min(capacity, std::max(least, last + last / 4));
 }
 
 } // namespace
@@ -40,23 +40,23 @@ bool agree(std::span<const FoundSphere> spheres, uint64_t leaves) noexcept {
     return inside && all == leaves;
 }
 
-QueryAnswer::QueryAnswer(const gpu::Device& device, const Counts& most)
+QueryAnswer::QueryAnswer(const gpu::Device& device, const Counts& capacity)
     : device_(device)
-    , answer_(device, bytesOf(most), gpu::MemoryKind::Device, "query answer")
-    , back_(device, bytesOf(most), gpu::MemoryKind::Readback, "query answer on the host")
-    , most_(most)
+    , answer_(device, bytesOf(capacity), gpu::MemoryKind::Device, "query answer")
+    , back_(device, bytesOf(capacity), gpu::MemoryKind::Readback, "query answer on the host")
+    , capacity_(capacity)
     , isNew_(true) {}
 
 bool QueryAnswer::growTo(const Counts& count) {
-    const Counts most{std::max(most_.spheres, roomFor(count.spheres)),
-                      std::max(most_.leaves, roomFor(count.leaves))};
-    if (bytesOf(most) > device_.facts().maxStorageBufferBytes) {
+    const Counts capacity{std::max(capacity_.spheres, roomFor(count.spheres)),
+                          std::max(capacity_.leaves, roomFor(count.leaves))};
+    if (bytesOf(capacity) > device_.facts().maxStorageBufferBytes) {
         return false;
     }
-    gpu::Buffer answer(device_, bytesOf(most), gpu::MemoryKind::Device, "query answer");
-    back_ = gpu::Buffer(device_, bytesOf(most), gpu::MemoryKind::Readback, "query answer on the host");
+    gpu::Buffer answer(device_, bytesOf(capacity), gpu::MemoryKind::Device, "query answer");
+    back_ = gpu::Buffer(device_, bytesOf(capacity), gpu::MemoryKind::Readback, "query answer on the host");
     answer_ = std::move(answer);
-    most_ = most;
+    capacity_ = capacity;
     used_ = {};
     isNew_ = true;
     return true;
@@ -68,11 +68,11 @@ void QueryAnswer::clear(gpu::Commands& commands) {
 }
 
 uint64_t QueryAnswer::leafOffset() const {
-    return bytesOf({most_.spheres, 0});
+    return bytesOf({capacity_.spheres, 0});
 }
 
-void QueryAnswer::place(shared::QueryParams& params) const {
-    params.used = {used_.spheres, used_.leaves, most_.spheres, most_.leaves};
+void QueryAnswer::setOutputRange(shared::QueryParams& params) const {
+    params.used = {used_.spheres, used_.leaves, capacity_.spheres, capacity_.leaves};
     params.leafWord = static_cast<uint32_t>(leafOffset() / 4);
 }
 
@@ -84,11 +84,11 @@ void QueryAnswer::copyPart(gpu::Commands& commands, const Counts& part) {
 }
 
 void QueryAnswer::copy(gpu::Commands& commands) {
-    copyPart(commands, {guess(last_.spheres, kMinCopied.spheres, most_.spheres),
-                        guess(last_.leaves, kMinCopied.leaves, most_.leaves)});
+    copyPart(commands, {guess(last_.spheres, kMinCopied.spheres, capacity_.spheres),
+                        guess(last_.leaves, kMinCopied.leaves, capacity_.leaves)});
 }
 
-void QueryAnswer::copyWhole(gpu::Commands& commands) {
+void QueryAnswer::copyAll(gpu::Commands& commands) {
     copyPart(commands, last_);
 }
 

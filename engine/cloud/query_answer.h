@@ -20,28 +20,30 @@ public:
     // Number of spheres and of leaves.
     struct Counts {
         uint32_t spheres = 0, leaves = 0;
-        bool fits(const Counts& most) const { return spheres <= most.spheres && leaves <= most.leaves; }
+        bool fits(const Counts& capacity) const {
+            return spheres <= capacity.spheres && leaves <= capacity.leaves;
+        }
     };
 
-    QueryAnswer(const gpu::Device& device, const Counts& most);
+    QueryAnswer(const gpu::Device& device, const Counts& capacity);
 
     const gpu::Buffer& buffer() const { return answer_; }
-    const Counts& most() const { return most_; }
+    const Counts& capacity() const { return capacity_; }
     bool isNew() const { return isNew_; }
     // Makes room for an answer. False when the device's buffers cannot hold it. The buffer is a new one.
     bool growTo(const Counts& count);
 
     void clear(gpu::Commands& commands); // a new buffer, before its first query
     // Sets the parameters that say where the query writes.
-    void place(shared::QueryParams& params) const;
+    void setOutputRange(shared::QueryParams& params) const;
 
     // Copies to the host a little more than the last answer had, so that one copy usually suffices.
     void copy(gpu::Commands& commands);
-    // After that copy: what the query found, which may exceed most(). found(): the last result.
+    // After that copy: what the query found, which may exceed capacity(). found(): the last result.
     Counts read();
     const Counts& found() const { return last_; }
-    bool isWhole() const { return last_.fits(copied_); }
-    void copyWhole(gpu::Commands& commands); // when it is not
+    bool isComplete() const { return last_.fits(copied_); }
+    void copyAll(gpu::Commands& commands); // when it is not
 
     // The host's copy.
     std::span<const shared::FoundSphere> spheres() const;
@@ -53,7 +55,7 @@ private:
 
     const gpu::Device& device_;
     gpu::Buffer answer_, back_;
-    Counts most_, copied_, last_;
+    Counts capacity_, copied_, last_;
     Counts used_; // found since the buffer is new, modulo 2^32
     bool isNew_ = false;
 };

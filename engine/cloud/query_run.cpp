@@ -27,7 +27,7 @@ void QueryRun::stopTime() {
     }
 }
 
-void QueryRun::submit(const gpu::Device::At& after) {
+void QueryRun::submit(const gpu::Device::TimelinePoint& after) {
     commands_.end();
     device_.submitQuery(commands_.handle(), after, {timeline_.handle(), ++ticket_});
     timeline_.wait(ticket_);

@@ -23,10 +23,10 @@ public:
     void stopTime();
     // Ends and submits the commands behind `after`, and blocks until the device has finished. Throws
     // DeviceLost, DeviceFailed.
-    void submit(const gpu::Device::At& after);
+    void submit(const gpu::Device::TimelinePoint& after);
 
     // Enables timestamps. gpuMs(): device time between the last marks; 0 when not enabled or not supported.
-    void askForTime() { timed_ = true; }
+    void enableTimestamps() { timed_ = true; }
     double gpuMs() const;
 
 private:

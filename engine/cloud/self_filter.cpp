@@ -16,7 +16,7 @@ glm::vec4 entryOf(const dvec3& centre, double radius) {
 }
 
 // Bounding sphere of a link, about the middle of its spheres.
-glm::vec4 boundOf(const LinkSpheres& arm, uint32_t begin, uint32_t end, const dvec3& origin) {
+glm::vec4 boundOf(const ArmSpheres& arm, uint32_t begin, uint32_t end, const dvec3& origin) {
     dvec3 middle(0.0);
     for (uint32_t i = begin; i < end; ++i) {
         middle += arm.spheres[i].centre / static_cast<double>(end - begin);
@@ -30,8 +30,8 @@ glm::vec4 boundOf(const LinkSpheres& arm, uint32_t begin, uint32_t end, const dv
 
 } // namespace
 
-void uploadArm(const UploadBuffers& slot, const LinkSpheres& arm, const dvec3& origin) {
-    if (arm.spheres.size() > LinkSpheres::kMaxSpheres || arm.ends.size() > LinkSpheres::kMaxLinks) {
+void uploadArm(const UploadBuffers& slot, const ArmSpheres& arm, const dvec3& origin) {
+    if (arm.spheres.size() > ArmSpheres::kMaxSpheres || arm.ends.size() > ArmSpheres::kMaxLinks) {
         throw Error("self-filter: " + std::to_string(arm.spheres.size()) + " spheres on " +
                     std::to_string(arm.ends.size()) + " links are too many");
     }

@@ -11,7 +11,7 @@
 namespace fathom::cloud {
 
 // Base frame [m], padding included. Spheres of one link are contiguous.
-struct LinkSpheres {
+struct ArmSpheres {
     std::vector<Sphere> spheres;
     std::vector<uint32_t> ends; // per link: end of its spheres
 
@@ -21,6 +21,6 @@ struct LinkSpheres {
 
 // Writes the arm to the slot's buffer, relative to `origin`. The slot's last submission must have completed.
 // Throws Error when there are too many spheres or links.
-void uploadArm(const UploadBuffers& slot, const LinkSpheres& arm, const dvec3& origin);
+void uploadArm(const UploadBuffers& slot, const ArmSpheres& arm, const dvec3& origin);
 
 } // namespace fathom::cloud

@@ -87,7 +87,7 @@ void TreeQuery::dispatch(gpu::Commands& commands, const Blocks& blocks, QueryPar
     p.blocks = {blocks.count, blocks.firstBound, leaves_.count(), (leaves_.count() + slices - 1) / slices};
     p.layer = blocks.layer;
     p.layers = blocks.layers;
-    answer_.place(p);
+    answer_.setOutputRange(p);
     commands.dispatch(pipeline_, *blocks.bindings, {std::clamp(2 * groups / slices, 1u, count), slices, 1},
                       &p);
 }
@@ -116,12 +116,13 @@ void TreeQuery::record(std::span<const Blocks> all, const QueryParams& params) {
 }
 
 // Returns the number of spheres and leaves found. The answer is whole unless they exceed its capacity.
-Counts TreeQuery::run(std::span<const Blocks> all, const gpu::Device::At& after, const QueryParams& params) {
+Counts TreeQuery::run(std::span<const Blocks> all, const gpu::Device::TimelinePoint& after,
+                      const QueryParams& params) {
     record(all, params);
     run_.submit(after);
     const Counts found = answer_.read();
-    if (found.fits(answer_.most()) && !answer_.isWhole()) {
-        answer_.copyWhole(run_.begin());
+    if (found.fits(answer_.capacity()) && !answer_.isComplete()) {
+        answer_.copyAll(run_.begin());
         run_.submit({});
     }
     return found;
@@ -141,7 +142,7 @@ bool TreeQuery::list(const FixtureSet& set, const Pose& baseTtool, double reach,
                           hold_ ? 2u : 1u};
         const Blocks both[] = {live, frozenBlocks()};
         const Counts found = run({both, frozen_.count() > 0 ? 2u : 1u}, set.completed, params);
-        if (found.fits(answer_.most())) {
+        if (found.fits(answer_.capacity())) {
             if (!agree(answer_.spheres(), found.leaves)) {
                 return false;
             }
@@ -159,7 +160,7 @@ void TreeQuery::take(const FixtureSet& set, NearPairs& near) const {
     near.leaves = answer_.leaves();
     near.spheres.clear();
     for (const shared::FoundSphere& f : answer_.spheres()) {
-        const FixtureSet::Place place = set.placeOf(layout_, f.slot, f.fixture);
+        const FixtureSet::Place place = set.placeOf(layout_, f.slot, f.pointClass);
         if (place.row != FixtureSet::kFrozen) {
             near.spheres.push_back({place.source, static_cast<uint32_t>(place.row), f.first, f.count,
                                     f.sphere.x, f.sphere.y, f.sphere.z, f.sphere.w});

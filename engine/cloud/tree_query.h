@@ -31,7 +31,7 @@ public:
     // Lists in `near` every pair of leaf and sphere whose gap is at most `reach` [m], and a few more. Blocks
     // until the device has finished. False when not even the device's largest buffer holds the answer.
     bool list(const FixtureSet& set, const Pose& baseTtool, double reach, NearPairs& near);
-    uint32_t capacity() const { return answer_.most().spheres; }
+    uint32_t capacity() const { return answer_.capacity().spheres; }
 
     // Asks about pairs at the very limit of the reach, which a device with other arithmetic than Vulkan's
     // would miss. True when it finds them all. shorter: searches a reach that is shorter by this [m]. Drops
@@ -40,7 +40,7 @@ public:
 
     // Enables timestamps, which cost the device a little. gpuMs(): device time of the last query without the
     // copy of its answer; 0 when not enabled or not supported.
-    void askForTime() { run_.askForTime(); }
+    void enableTimestamps() { run_.enableTimestamps(); }
     double gpuMs() const { return run_.gpuMs(); }
 
 private:
@@ -53,7 +53,7 @@ private:
     Blocks frozenBlocks() const;
     shared::QueryParams paramsAt(const Pose& baseTtool, const dvec3& origin, double reach,
                                  double largest) const;
-    QueryAnswer::Counts run(std::span<const Blocks> all, const gpu::Device::At& after,
+    QueryAnswer::Counts run(std::span<const Blocks> all, const gpu::Device::TimelinePoint& after,
                             const shared::QueryParams& params);
     void record(std::span<const Blocks> all, const shared::QueryParams& params);
     void dispatch(gpu::Commands& commands, const Blocks& blocks, shared::QueryParams params);

@@ -81,7 +81,7 @@ bool TreeQuery::passesProbe(double shorter) {
         shared::QueryParams params = paramsAt(pose, dvec3(0.0), kProbeReach, probe.largest);
         params.reach -= static_cast<float>(shorter);
         const Blocks blocks = frozenBlocks();
-        while (!run({&blocks, 1}, {}, params).fits(answer_.most()) && answer_.growTo(answer_.found())) {
+        while (!run({&blocks, 1}, {}, params).fits(answer_.capacity()) && answer_.growTo(answer_.found())) {
             makeBindings();
         }
         for (const shared::FoundSphere& f : answer_.spheres()) {

@@ -71,7 +71,7 @@ std::optional<uint32_t> UploadSlots::room() const {
             return i;
         }
     }
-    return slots_.size() < kMost ? std::optional(static_cast<uint32_t>(slots_.size())) : std::nullopt;
+    return slots_.size() < kMax ? std::optional(static_cast<uint32_t>(slots_.size())) : std::nullopt;
 }
 
 bool UploadSlots::import(uint32_t slot, const Images& images) {

@@ -18,7 +18,7 @@ public:
     static constexpr uint32_t kCopied = 0; // slot of copied frames
     // Slots for pairs of depth and colour memory: a live camera has four blocks in the driver and five of its
     // own. When all are in use, new memory is copied.
-    static constexpr uint32_t kMost = 1 + 20;
+    static constexpr uint32_t kMax = 1 + 20;
 
     UploadSlots(const gpu::Device& device, const Plan& plan, const CameraInfo& camera);
 

@@ -10,9 +10,9 @@ namespace fathom {
 
 namespace {
 
-constexpr size_t kThingsPerBucket = 32; // approximate
-constexpr size_t kMaxBuckets = 512;     // one thread sums their counts
-constexpr size_t kMinBlocks = 8;        // one thread computes their places
+constexpr size_t kItemsPerBucket = 32; // approximate
+constexpr size_t kMaxBuckets = 512;    // one thread sums their counts
+constexpr size_t kMinBlocks = 8;       // one thread computes their places
 
 } // namespace
 
@@ -89,8 +89,8 @@ void CellSort::placesInBlock(size_t block, std::span<uint32_t> begins, uint32_t 
     }
 }
 
-void CellSort::chooseBuckets(size_t things, uint32_t cells) {
-    const size_t most = std::clamp<size_t>(things / kThingsPerBucket, 1, kMaxBuckets);
+void CellSort::chooseBuckets(size_t items, uint32_t cells) {
+    const size_t most = std::clamp<size_t>(items / kItemsPerBucket, 1, kMaxBuckets);
     for (shift_ = 0; (cells - 1) >> shift_ >= most;) {
         ++shift_;
     }

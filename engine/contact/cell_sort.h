@@ -31,7 +31,7 @@ private:
     static constexpr size_t kBlock = 256;     // cells whose counts are cleared and summed together
 
     struct Placed {
-        uint32_t cell, thing;
+        uint32_t cell, item;
     };
     // Sorts items `begin` to `end`, at(i) = cell of item i, into the cells `from` up to `to`. Afterwards the
     // cells' entries in begins hold the end of each cell.
@@ -48,7 +48,7 @@ private:
     void countParts(std::span<const uint32_t> cell, size_t cells, uint32_t parts, ThreadPool& workers);
     void placesOfParts(std::span<uint32_t> begins, uint32_t parts, ThreadPool& workers);
     void placesInBlock(size_t block, std::span<uint32_t> begins, uint32_t parts) noexcept;
-    void chooseBuckets(size_t things, uint32_t cells);
+    void chooseBuckets(size_t items, uint32_t cells);
     void toBuckets(std::span<const uint32_t> cell, uint32_t parts, ThreadPool& workers);
     void placesOfBuckets(uint32_t parts);
 
@@ -62,20 +62,20 @@ private:
 template <class Put>
 void CellSort::sort(std::span<const uint32_t> cell, uint32_t cells, std::span<uint32_t> begins,
                     const Put& put, ThreadPool* workers) {
-    const auto things = static_cast<uint32_t>(cell.size());
-    const size_t members = workers == nullptr ? 1 : workers->size();
-    const auto parts = static_cast<uint32_t>(std::clamp<size_t>(things / kMinPart, 1, members));
-    begins[cells] = things;
+    const auto items = static_cast<uint32_t>(cell.size());
+    const size_t threads = workers == nullptr ? 1 : workers->size();
+    const auto parts = static_cast<uint32_t>(std::clamp<size_t>(items / kMinPart, 1, threads));
+    begins[cells] = items;
     if (parts < 2) {
         countCells(
-            0, things, [&](uint32_t i) { return cell[i]; }, 0, cells, begins.data());
-        for (uint32_t i = things; i-- > 0;) { // backwards, which keeps the order within a cell
+            0, items, [&](uint32_t i) { return cell[i]; }, 0, cells, begins.data());
+        for (uint32_t i = items; i-- > 0;) { // backwards, which keeps the order within a cell
             put(i, --begins[cell[i]]);
         }
-    } else if (cells <= things) {
+    } else if (cells <= items) {
         sortParts(cell, begins.first(cells), put, parts, *workers);
     } else {
-        chooseBuckets(things, cells);
+        chooseBuckets(items, cells);
         toBuckets(cell, parts, *workers);
         inParts(workers, buckets_, kMinBuckets, [&](size_t begin, size_t end) {
             for (size_t bucket = begin; bucket < end; ++bucket) {
@@ -125,7 +125,7 @@ void CellSort::sortBucket(uint32_t bucket, std::span<uint32_t> begins, const Put
         begin, end, [&](uint32_t i) { return placed[i].cell; }, bucket << shift_,
         std::min(cells, (bucket + 1) << shift_), begins.data());
     for (uint32_t i = end; i-- > begin;) {
-        put(placed[i].thing, --begins[placed[i].cell]);
+        put(placed[i].item, --begins[placed[i].cell]);
     }
 }
 

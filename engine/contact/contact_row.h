@@ -9,8 +9,8 @@
 namespace fathom {
 
 // normal . (a + alpha x arm) + spin . alpha >= offset for the tool's motion [a; alpha]: paper eq. 4 with
-// offset = -gap. The kinematics express it in the solver's unknowns. Kind Joint: a limit of an arm's joint,
-// with only a key, the offset of its position or speed limit, and in `gap` that of its position limit.
+// offset = -gap. The kinematics express it in the solver's unknowns. Kind Joint (a limit of an arm's joint)
+// uses only `key`, `offset` (of the position or speed limit, the tighter) and `gap` (position limit).
 struct ContactRow {
     enum class Kind : uint8_t { Sphere, Shape, Equality, Behind, Joint };
 

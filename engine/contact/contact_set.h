@@ -33,7 +33,7 @@ struct ContactSet {
     dvec3 camera{0.0}; // [m] camera centre of that fixture set, about the origin
 
     std::vector<double> x, y, z, radius; // spheres, about the origin [m]
-    std::vector<uint32_t> source;        // slot in the fixture set
+    std::vector<uint32_t> source;        // RegionSpheres::source
     std::vector<uint8_t> fixture;        // row of Scene::fixtures
     std::vector<uint32_t> pairBegin;     // leafCount + 1
     std::vector<uint32_t> pairSphere;    // by band within a leaf, by source within a band

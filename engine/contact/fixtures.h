@@ -16,7 +16,7 @@ namespace fathom {
 struct RegionSpheres {
     std::vector<float> x, y, z;   // [m] base axes, about the origin
     std::vector<float> radius;    // [m]
-    std::vector<uint32_t> source; // slot: pixel index v * width + u; held points: pixels + that index
+    std::vector<uint32_t> source; // pixel v * width + u; held: pixels + that; frozen: 2 pixels + that
     std::vector<uint8_t> fixture; // row of Scene::fixtures
 
     size_t size() const { return x.size(); }
@@ -72,7 +72,7 @@ struct GuidancePose {
 struct Fixtures {
     int64_t frame = -1;       // Frame index; -1 = none
     double captureTime = 0.0; // [s]
-    uint64_t generation = 0;  // number of published sets; if it changes while reading, the copy is torn
+    uint64_t generation = 0;  // number of this set; names it in answers and records
     dvec3 origin{0.0};        // [m] base frame: origin of positions
 
     RegionSpheres spheres;

@@ -21,7 +21,7 @@ constexpr uint64_t kSmoothKey = uint64_t{1} << 63; // set in keys of smooth rows
 } // namespace
 
 NarrowPhase::NarrowPhase(const Tool& tool, size_t maxRows, double cone, bool smooth)
-    : leftOut_(tool.leafCount())
+    : excluded_(tool.leafCount())
     , maxRows_(maxRows)
     , cosCone_(std::cos(cone))
     , rows_(tool.leafCount() * kMaxRowsOfLeaf)

@@ -40,7 +40,7 @@ public:
                 double checkLimit, bool anew) noexcept;
 
     // Pairs of this leaf count for nothing from now on: no row, no violation, no smallest gap.
-    void leaveOut(size_t leaf) noexcept { leftOut_[leaf] = 1; }
+    void exclude(size_t leaf) noexcept { excluded_[leaf] = 1; }
 
     std::span<const ContactRow> rows() const { return {rows_.data(), rowCount_}; }
     // Planes over the spheres near the leaves that almost touch (smooth_plane.h), for at most kMaxSmooth
@@ -105,11 +105,11 @@ private:
                 const uint32_t* pairs, const dvec3& next, const dvec3& exempt) noexcept;
 
     bool counts(const ContactSet& set, uint32_t leaf) const noexcept { // most leaves have no pairs
-        return set.pairBegin[leaf] != set.pairBegin[leaf + 1] && leftOut_[leaf] == 0;
+        return set.pairBegin[leaf] != set.pairBegin[leaf + 1] && excluded_[leaf] == 0;
     }
 
     std::vector<double> radius_; // of the leaves
-    std::vector<uint8_t> leftOut_;
+    std::vector<uint8_t> excluded_;
     size_t maxRows_;
     double cosCone_;
     std::vector<ContactRow> rows_;

@@ -28,16 +28,16 @@ int64_t cellsAlong(double extent, double size) {
     return static_cast<int64_t>(extent / size) + 1;
 }
 
-uint32_t isPlaceless(float v) { // infinite or not a number
+uint32_t isNotFinite(float v) { // infinite or not a number
     return (std::bit_cast<uint32_t>(v) & 0x7f800000u) == 0x7f800000u ? 1u : 0u;
 }
 
 // Number of the n spheres that have a value that is not finite.
-FATHOM_CLONES uint32_t countPlaceless(const float* x, const float* y, const float* z, const float* radius,
+FATHOM_CLONES uint32_t countNotFinite(const float* x, const float* y, const float* z, const float* radius,
                                       size_t n) noexcept {
     uint32_t count = 0;
     for (size_t i = 0; i < n; ++i) {
-        count += isPlaceless(x[i]) | isPlaceless(y[i]) | isPlaceless(z[i]) | isPlaceless(radius[i]);
+        count += isNotFinite(x[i]) | isNotFinite(y[i]) | isNotFinite(z[i]) | isNotFinite(radius[i]);
     }
     return count;
 }
@@ -103,15 +103,15 @@ void RegionGrid::build(const RegionSpheres& spheres, ThreadPool* workers) {
 void RegionGrid::build(std::span<const float> x, std::span<const float> y, std::span<const float> z,
                        std::span<const float> radius, ThreadPool* workers) {
     measure({x, y, z, radius}, workers);
-    const auto placeless = [](const Extent& e) { return e.placeless > 0; };
-    if (std::none_of(extents_.begin(), extents_.end(), placeless)) {
+    const auto notFinite = [](const Extent& e) { return e.notFinite > 0; };
+    if (std::none_of(extents_.begin(), extents_.end(), notFinite)) {
         buildOf({x, y, z, radius}, workers);
         return;
     }
     std::array<std::vector<float>, 4> kept;
     std::vector<uint32_t> from;
     for (size_t i = 0; i < x.size(); ++i) {
-        if ((isPlaceless(x[i]) | isPlaceless(y[i]) | isPlaceless(z[i]) | isPlaceless(radius[i])) == 0) {
+        if ((isNotFinite(x[i]) | isNotFinite(y[i]) | isNotFinite(z[i]) | isNotFinite(radius[i])) == 0) {
             kept[0].push_back(x[i]);
             kept[1].push_back(y[i]);
             kept[2].push_back(z[i]);
@@ -141,7 +141,7 @@ void RegionGrid::measure(const Columns& columns, ThreadPool* workers) {
                 boundsOf(v[a], count, e.lo[a], e.hi[a]);
             }
             e.radii = sumOf(v[3], count);
-            e.placeless = countPlaceless(v[0], v[1], v[2], v[3], count);
+            e.notFinite = countNotFinite(v[0], v[1], v[2], v[3], count);
         }
     });
 }

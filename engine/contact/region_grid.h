@@ -83,7 +83,7 @@ private:
     struct Extent {
         std::array<float, 4> lo, hi; // x, y, z, radius
         double radii;                // their sum
-        uint32_t placeless;          // spheres that are not finite
+        uint32_t notFinite;          // spheres that are not finite
     };
     void measure(const Columns& columns, ThreadPool* workers);
     void buildOf(const Columns& columns, ThreadPool* workers);

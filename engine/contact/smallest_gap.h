@@ -20,7 +20,7 @@ struct SmallestGap {
     static constexpr uint32_t kNone = UINT32_MAX;
     double gap = std::numeric_limits<double>::infinity(); // [m] < 0 = overlap; infinity = no spheres; NaN =
                                                           // the pose is not finite
-    uint32_t source = kNone;                              // slot in the fixture set (RegionSpheres::source)
+    uint32_t source = kNone;                              // RegionSpheres::source
     uint32_t leaf = kNone;                                // index in the tool
     uint32_t fixture = kNone;                             // row of Scene::fixtures
 

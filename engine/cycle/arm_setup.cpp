@@ -196,7 +196,7 @@ private:
     void noteSpeeds() {
         std::string names;
         for (const ArmJoint& joint : armSetup_->model.joints) {
-            if (joint.speedFrom == kNoSpeed && !joint.mimic) {
+            if (joint.speedFrom == kDefaultSpeedSource && !joint.mimic) {
                 names += (names.empty() ? "" : ", ") + joint.name;
             }
         }
@@ -264,9 +264,9 @@ std::vector<Sphere> ArmSetup::aboutTip(const ArmPosture& posture) const {
     return spheres;
 }
 
-cloud::LinkSpheres ArmSetup::inImage(const ArmPosture& posture) const {
+cloud::ArmSpheres ArmSetup::inImage(const ArmPosture& posture) const {
     const ArmFrames frames = framesAt(posture);
-    cloud::LinkSpheres arm;
+    cloud::ArmSpheres arm;
     for (size_t i = 0; i < model.leaves.size(); ++i) {
         if (i > 0 && model.leaves[i].link != model.leaves[i - 1].link) {
             arm.ends.push_back(static_cast<uint32_t>(i));

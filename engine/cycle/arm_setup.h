@@ -32,7 +32,7 @@ struct ArmSetup {
     // The same spheres relative to the tip, for displays. Allocates.
     std::vector<Sphere> aboutTip(const ArmPosture& posture) const;
     // The same spheres in the base frame, grown by the padding, for the self-filter. Allocates.
-    cloud::LinkSpheres inImage(const ArmPosture& posture) const;
+    cloud::ArmSpheres inImage(const ArmPosture& posture) const;
     // The leaves that the last joint and the fingers carry at the start, relative to the tip. The springs'
     // lever and the built-in path use this tool. All leaves if there are none.
     Tool heldTool() const;

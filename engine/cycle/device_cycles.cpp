@@ -77,7 +77,7 @@ void DeviceCycles::renew() {
     }
 }
 
-bool DeviceCycles::newestSet(Fixtures& set, RegionGrid& grid) {
+bool DeviceCycles::copyNewestSet(Fixtures& set, RegionGrid& grid) {
     if (const auto newest = frames_ ? frames_->sets().newest() : cloud::FixturePool::Lease()) {
         set = newest->host;
         grid = newest->grid.get();
@@ -124,7 +124,7 @@ bool DeviceCycles::answer(const QueryPlace& at, ContactSet& out) {
     return true;
 }
 
-DeviceCycles::SetInUse DeviceCycles::newestInUse() {
+DeviceCycles::SetInUse DeviceCycles::leaseNewestSet() {
     const std::lock_guard lock(answerMutex_);
     return {frames_ ? frames_->sets().newest() : cloud::FixturePool::Lease(), lastSet_};
 }
@@ -142,7 +142,7 @@ void DeviceCycles::findGaps(const cloud::FixtureSet& set, const Tool& tool, std:
 
 void DeviceCycles::smallestGaps(std::span<const Pose> baseTtool, GapBatch& out) {
     const std::lock_guard lock(batchMutex_);
-    const SetInUse set = newestInUse();
+    const SetInUse set = leaseNewestSet();
     out.frame = -1;
     out.gaps.clear();
     if (set.get() != nullptr) {
@@ -155,7 +155,7 @@ void DeviceCycles::smallestGaps(std::span<const Pose> baseTtool, GapBatch& out) 
 
 double DeviceCycles::clearance(const ToolPlace& place) {
     const std::lock_guard lock(batchMutex_);
-    const SetInUse set = newestInUse();
+    const SetInUse set = leaseNewestSet();
     if (set.get() == nullptr) {
         return kNotKnown;
     }

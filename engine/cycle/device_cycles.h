@@ -69,17 +69,16 @@ public:
 
     // Copies the newest fixture set with a host copy, also after the device is lost; false when there is none
     // yet.
-    bool newestSet(Fixtures& set, RegionGrid& grid);
+    bool copyNewestSet(Fixtures& set, RegionGrid& grid);
 
-    // The newest fixture set with a host copy, also after the device is lost. Keep it for a
-    // moment only: it occupies one of the frame cycle's leases.
     struct SetInUse { // one of the two, or none
         cloud::FixturePool::Lease lease;
         std::shared_ptr<const cloud::FixtureSet> last; // host copy of the newest set of a lost device
         const cloud::FixtureSet* get() const { return lease ? &*lease : last.get(); }
     };
-    // Any thread, but not while renew() runs: it frees the sets.
-    SetInUse newestInUse();
+    // Leases the newest fixture set with a host copy, also after the device is lost. Release it soon: it
+    // occupies one of the frame cycle's leases. Any thread, but not while renew() runs: it frees the sets.
+    SetInUse leaseNewestSet();
 
     // Call after frames() threw DeviceFailed: closes the device and opens it again. Origin, generations and
     // edited fixtures continue (FrameCycle::ResumeState); held points are dropped. Throws DeviceFailed while
@@ -100,7 +99,7 @@ private:
     std::unique_ptr<gpu::Device> device_;
     DeviceFacts facts_;
     Plan plan_;
-    std::unique_ptr<FrameCycle> frames_; // null while there is no device
+    std::unique_ptr<FrameCycle> frames_; // null from the loss of the device until renew() succeeds
     // batchMutex_: held during a batch of gaps. answerMutex_: held during a contact answer. renew() takes
     // both, in this order.
     std::mutex batchMutex_, answerMutex_;

@@ -34,10 +34,10 @@ FrameCycle::FrameCycle(gpu::Device* device, const Scene& scene, const CameraInfo
     , layout_(patchLayout(camera.depth.width, camera.depth.height))
     , pool_(readers,
             [&] {
-                return plan_.cloud ? std::make_unique<cloud::FixtureSet>(*device, plan_, layout_)
-                                   : std::make_unique<cloud::FixtureSet>();
+                return plan_.passes ? std::make_unique<cloud::FixtureSet>(*device, plan_, layout_)
+                                    : std::make_unique<cloud::FixtureSet>();
             })
-    , device_(plan_.cloud ? std::make_unique<FrameDevice>(*device, plan_, layout_, camera_, pool_) : nullptr)
+    , device_(plan_.passes ? std::make_unique<FrameDevice>(*device, plan_, layout_, camera_, pool_) : nullptr)
     , workers_(plan.publishers, spinTimeOf(plan)) {
     if (plan.packsDepths()) {
         seenPoints_.emplace(camera.depth, layout_);

@@ -80,14 +80,15 @@ public:
     void forget();
     // Sets the arm's spheres for the self-filter from the next upload() on. No effect without a self-filter
     // in the plan.
-    void setArm(cloud::LinkSpheres arm) { arm_ = std::move(arm); }
-    // process() in steps. Frames do not overlap: a camera sends the next one after this one is done, or the
-    // device is slower than the camera, and a frame that was uploaded early would be older than the newest.
+    void setArm(cloud::ArmSpheres arm) { arm_ = std::move(arm); }
+    // process() in steps. Frames do not overlap: with a slower camera there is nothing to upload early, and
+    // with a slower device an early upload would delay the newest frame.
     void upload(Frame frame);
     void submit();
-    // Waits for the device, and publishes the set early. finish() must follow: it makes the host's copy and
-    // publishes the set. It calls waitForDevice() unless the caller did, and no longer needs the device then.
+    // Waits for the device, and publishes the set early, for contact queries on the device.
     void waitForDevice();
+    // Calls waitForDevice() if you did not, makes the host copy and publishes it. Needs no device after the
+    // wait.
     FrameReport finish();
 
     cloud::FixturePool& sets() { return pool_; }
@@ -133,7 +134,7 @@ private:
     std::optional<cloud::SeenPoints> seenPoints_; // if the plan packs depths
     ThreadPool workers_;                          // lay out a set for the host
 
-    cloud::LinkSpheres arm_;
+    cloud::ArmSpheres arm_;
     cloud::FrozenClasses frozen_;
     cloud::EstimateFrames estimateFrames_;
     cloud::GuidanceEstimates guidanceEstimates_;

@@ -31,8 +31,8 @@ public:
     void submit(const gpu::Commands& commands);
     // Waits for the last submission. Throws DeviceLost.
     void wait() const { timeline_.wait(ticket_); }
-    // When the last submission's passes have completed.
-    gpu::Device::At completed() const { return {timeline_.handle(), ticket_}; }
+    // The timeline point at which the last submission's passes have completed.
+    gpu::Device::TimelinePoint completed() const { return {timeline_.handle(), ticket_}; }
     // Clears held points, estimates and counters. Waits for the device.
     void clearMemory();
 

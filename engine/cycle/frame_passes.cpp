@@ -14,7 +14,7 @@ FramePasses::FramePasses(const cloud::CloudContext& c)
     if (c.plan.delivers()) {
         deliver_ = std::make_unique<cloud::Pass>(c, cloud::deliverPass(c));
     }
-    if (c.plan.cloud) {
+    if (c.plan.passes) {
         names_.emplace_back("deliver");
     }
 }
@@ -35,7 +35,7 @@ void FramePasses::bind(uint32_t upload, const cloud::UploadBuffers& buffers) {
 const gpu::Commands& FramePasses::frame(uint32_t upload, uint32_t set) {
     std::unique_ptr<gpu::Commands>& commands = commands_[upload][set];
     if (commands) {
-        watches_[upload]->again();
+        watches_[upload]->resetForResubmit();
     } else {
         commands = std::make_unique<gpu::Commands>(context_.device);
         record(*commands, *watches_[upload], upload, set);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Batches: the smallest gap of a tool at each of many poses. The device answers where it also answers contact
-// queries, else the CPU; both give the same answers to the last bit.
+// Finds the smallest gap of a tool at each of many poses (a batch). The device answers where it also answers
+// contact queries, else the CPU; both give the same answers to the last bit.
 #pragma once
 
 #include "engine/cloud/gap_query.h"

@@ -144,10 +144,10 @@ ProxyStep HapticCycle::stepTool(const StepInput& input, const ContactSet* set, c
 }
 
 bool HapticCycle::regionsChanged(const ContactSet* set) noexcept {
-    const uint64_t generation = set != nullptr ? set->generation : scene_.generation;
-    const bool changed = generation != scene_.generation || scene_.edited;
-    scene_.generation = generation;
-    scene_.edited = false;
+    const uint64_t generation = set != nullptr ? set->generation : regions_.generation;
+    const bool changed = generation != regions_.generation || regions_.edited;
+    regions_.generation = generation;
+    regions_.edited = false;
     return changed;
 }
 
@@ -177,7 +177,7 @@ void HapticCycle::makeWrench(const StepInput& input, const Situation& situation,
                              bool newData, bool vanished, StepRecord& out) noexcept {
     WrenchInput tick;
     tick.allowed = moved.allowed;
-    tick.end = springEnd_;
+    tick.springEnd = springEnd_;
     tick.device = device_;
     tick.baseRhandle = map_.baseRhandle(handle_);
     tick.springs = watch_.springs();

@@ -60,7 +60,7 @@ public:
     // Replaces the placed shapes from the next step on; drops those beyond the room made by the
     // constructor. Haptic thread, between steps.
     void setShapes(std::span<const Shape> shapes) noexcept {
-        scene_.edited = true;
+        regions_.edited = true;
         arm_ ? arm_->setShapes(shapes) : proxy_->setShapes(shapes);
     }
 
@@ -149,11 +149,12 @@ private:
     Pose device_, handle_;    // last good sample: mapped, raw
     double time_ = kNotKnown; // [s] of the last step
 
-    struct Scene { // what the active regions are
+    // Of the regions in force in this step.
+    struct ActiveRegions {
         uint64_t generation = 0;
         bool edited = false;                                  // shapes were replaced
         double age = std::numeric_limits<double>::infinity(); // [s]
-    } scene_;
+    } regions_;
     struct Pressing {      // of the last step
         bool rows = false; // with a force that can be felt
         dvec3 spring{0.0}; // [m] from the hand's end of the spring to where the rows held the tool

@@ -44,11 +44,11 @@ double HapticCycle::sceneAge(const StepInput& input, const ContactSet* set) noex
     // confirms it may be newer.
     const bool newest = set == nullptr || set->generation == input.generation;
     const double age = input.time - (newest ? input.captureTime : set->captureTime);
-    scene_.age = input.sourceEnded ? std::min(age, scene_.age) : age;
-    if (input.sourceEnded && newest && scene_.age > kStaleAfter) {
-        scene_.age = 0.0; // the last frame does not age, however late its regions became active
+    regions_.age = input.sourceEnded ? std::min(age, regions_.age) : age;
+    if (input.sourceEnded && newest && regions_.age > kStaleAfter) {
+        regions_.age = 0.0; // the last frame does not age, however late its regions became active
     }
-    return scene_.age;
+    return regions_.age;
 }
 
 ProxyStep HapticCycle::moveTool(const StepInput& input, const ContactSet* set, bool newData,
@@ -93,8 +93,9 @@ ProxyStep HapticCycle::moveArm(const StepInput& input, const ProxyInput& wanted,
     const ArmStep moved = arm_->step(request);
     tool_ = moved.pose;
     jointLimits_ = moved.atPositionLimits;
-    out.arm = {{moved.q, moved.grasp}, moved.residual, moved.manipulability, moved.atLimits,
-               moved.graspHeld,        moved.singular, moved.flipped};
+    out.arm = {{moved.q, moved.grasp}, moved.residual,  moved.smallestSingularValue,
+               moved.atLimits,         moved.graspHeld, moved.singular,
+               moved.flipped};
     return moved;
 }
 

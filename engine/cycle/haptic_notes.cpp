@@ -16,12 +16,12 @@ namespace {
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 constexpr double kUsualSpeed = 1.0; // [m/s] of a fast hand
 
-// A hand feels no less.
-constexpr double kLeastForce = 0.05, kLeastTorque = 0.001; // [N], [N m]
-constexpr double kLeastSlew = 1.0, kLeastTurnSlew = 0.01;  // [N/s], [N m/s]
-constexpr double kShallow = 0.01;                          // [m] inside a region
+// A hand does not feel less.
+constexpr double kMinForce = 0.05, kMinTorque = 0.001; // [N], [N m]
+constexpr double kMinSlew = 1.0, kMinTurnSlew = 0.01;  // [N/s], [N m/s]
+constexpr double kShallow = 0.01;                      // [m] inside a region
 constexpr double kUnstableTimes = 2.0; // the passive bound; less is usually stable in a hand that holds
-constexpr double kNearTarget = 0.1, kLeastPullShare = 0.25; // [m]; of guidance_pull.force
+constexpr double kNearTarget = 0.1, kMinPullShare = 0.25; // [m]; of guidance_pull.force
 
 void noteLimit(std::vector<std::string>& notes, const char* field, std::optional<double> asked, double device,
                const char* unit, const std::string& name) {
@@ -99,7 +99,7 @@ void warnPull(std::vector<std::string>& warnings, const HapticOptions& options, 
     const Springs automatic = makeSprings(options.device, usual);
     if (options.paperGuidance && options.coupling.stiffness &&
         springs.guidanceStiffness < automatic.guidanceStiffness &&
-        springs.guidanceStiffness * kNearTarget < kLeastPullShare * pull) {
+        springs.guidanceStiffness * kNearTarget < kMinPullShare * pull) {
         warnings.push_back("haptics.guidance: paper pulls with a spring of " +
                            significant(springs.guidanceStiffness, 4) + " N/m: haptics.stiffness, " +
                            significant(springs.stiffness, 4) + " N/m, leaves no more; auto takes " +
@@ -108,8 +108,8 @@ void warnPull(std::vector<std::string>& warnings, const HapticOptions& options, 
     }
 }
 
-// The stiffness against the largest that every passive hand is stable with (coupling.h), at the hand. At
-// once or not at all: from `times` the bound on, up to `most` times.
+// Adds one note if the stiffness at the hand is above `times` and at most `most` times the passive bound
+// (coupling.h).
 void noteBound(std::vector<std::string>& notes, const Scene& scene, double times, double most) {
     const HapticOptions options = handOptions(scene);
     const CouplingOptions& coupling = options.coupling;
@@ -127,14 +127,14 @@ void noteBound(std::vector<std::string>& notes, const Scene& scene, double times
 
 // Torques may be unwanted, so these are notes alone.
 void noteTorques(std::vector<std::string>& notes, const Scene::Haptics& haptics) {
-    if (haptics.torqueLimit && *haptics.torqueLimit < kLeastTorque) {
+    if (haptics.torqueLimit && *haptics.torqueLimit < kMinTorque) {
         notes.push_back("haptics.limits.torque: " + significant(*haptics.torqueLimit, 4) +
-                        " N m, less than a hand feels (" + significant(kLeastTorque, 4) + " N m)");
+                        " N m, less than a hand feels (" + significant(kMinTorque, 4) + " N m)");
     }
-    if (haptics.slewTorque < kLeastTurnSlew) {
+    if (haptics.slewTorque < kMinTurnSlew) {
         notes.push_back("haptics.limits.slew_Nm_per_s: " + significant(haptics.slewTorque, 4) +
-                        " N m/s: a torque of " + significant(kLeastTurnSlew, 4) + " N m takes " +
-                        significant(kLeastTurnSlew / haptics.slewTorque, 4) + " s");
+                        " N m/s: a torque of " + significant(kMinTurnSlew, 4) + " N m takes " +
+                        significant(kMinTurnSlew / haptics.slewTorque, 4) + " s");
     }
 }
 
@@ -147,16 +147,16 @@ std::vector<std::string> forceWarnings(const Scene& scene) {
     std::vector<std::string> warnings;
     if (haptics.forceLimit == 0.0) {
         warnings.emplace_back(kNoForce);
-    } else if (haptics.forceLimit && *haptics.forceLimit < kLeastForce) {
+    } else if (haptics.forceLimit && *haptics.forceLimit < kMinForce) {
         warnings.push_back("haptics.limits.force: " + significant(*haptics.forceLimit, 4) +
-                           " N, less than a hand feels (" + significant(kLeastForce, 4) + " N)");
+                           " N, less than a hand feels (" + significant(kMinForce, 4) + " N)");
     }
-    if (haptics.slewForce < kLeastSlew) {
+    if (haptics.slewForce < kMinSlew) {
         warnings.push_back("haptics.limits.slew_N_per_s: " + significant(haptics.slewForce, 4) +
                            " N/s: a force of 1 N takes " + significant(1.0 / haptics.slewForce, 4) + " s");
     }
     const double felt = springs.stiffness * options.handScale;
-    if (felt * kShallow < kLeastForce) {
+    if (felt * kShallow < kMinForce) {
         warnings.push_back("haptics.stiffness: " + significant(felt, 4) +
                            " N/m at the hand: 10 mm inside a "
                            "region it feels " +

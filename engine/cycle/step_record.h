@@ -68,16 +68,18 @@ struct StepInput {
 // A value that no step has measured yet.
 inline constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
 
+inline constexpr uint32_t kNoFixture = UINT32_MAX; // of rows of kind Behind: the visible surface pushes
+
 // A row that pushed in the last solve of the step, for displays and logs. Base frame [m].
 struct Touch {
     ContactRow::Kind kind = ContactRow::Kind::Sphere;
-    dvec3 point{0.0};        // on the leaf's surface, nearest to the region
-    dvec3 normal{0.0};       // unit, out of the region; zero for a row of pure rotation
-    double gap = 0.0;        // [m] when the row was made
-    double multiplier = 0.0; // of the row in the solution, > 0
-    uint32_t leaf = 0;       // index in the tool
-    uint32_t source = 0;  // sphere: slot in the fixture set (RegionSpheres::source); else the shape's index
-    uint32_t fixture = 0; // row of Scene::fixtures
+    dvec3 point{0.0};              // on the leaf's surface, nearest to the region
+    dvec3 normal{0.0};             // unit, out of the region; zero for a row of pure rotation
+    double gap = 0.0;              // [m] when the row was made
+    double multiplier = 0.0;       // of the row in the solution, > 0
+    uint32_t leaf = 0;             // index in the tool
+    uint32_t source = 0;           // sphere: RegionSpheres::source; else the shape's index
+    uint32_t fixture = kNoFixture; // row of Scene::fixtures
 };
 inline constexpr size_t kMaxTouches = 8;
 
@@ -103,13 +105,13 @@ struct ArmFollow {
 
 // Result of a step for an arm; all zero without an arm.
 struct ArmRecord {
-    ArmPosture posture;          // after the step
-    double residual = 0.0;       // [m] distance to the target in the metric M
-    double manipulability = 0.0; // [m/rad] smallest singular value of M^1/2 J
-    uint32_t atLimits = 0;       // active limits of joints or joint speeds
-    bool graspHeld = false;      // the grasp stopped because a finger would have entered a region
-    bool singular = false;       // near a singularity: the solution is damped
-    bool flipped = false;        // left a singularity to another side than it came from
+    ArmPosture posture;                 // after the step
+    double residual = 0.0;              // [m] distance to the target in the metric M
+    double smallestSingularValue = 0.0; // [m/rad] of M^1/2 J; 0 = singular
+    uint32_t atLimits = 0;              // active limits of joints or joint speeds
+    bool graspHeld = false;             // the grasp stopped because a finger would have entered a region
+    bool singular = false;              // near a singularity: the solution is damped
+    bool flipped = false;               // left a singularity to another side than it came from
 };
 
 inline constexpr double kStaleAfter = 0.1; // [s] scene age from which forces fade
@@ -129,11 +131,12 @@ struct StepRecord {
     uint32_t contacts = 0;     // rows with a positive multiplier in the last solve
     double minGap = kNotKnown; // [m] over the contact set after the step; its reach when none is nearer
     StepState state = StepState::Off;
-    double guidance = 0.0;                                         // w
-    int64_t frame = -1;                                            // index of the frame behind the active set
-    double sceneAge = kNotKnown;                                   // [s]
-    bool stalled = false;                                          // cut by the trust region
-    double marginPassive = kNotKnown, marginUncoupled = kNotKnown; // [N s/m]; NaN = b unknown
+    double guidance = 0.0;       // weight: 0 off .. 1 full pull
+    int64_t frame = -1;          // index of the frame behind the active set
+    double sceneAge = kNotKnown; // [s]
+    bool stalled = false;        // cut by the trust region
+    double marginPassive = kNotKnown,
+           marginUncoupled = kNotKnown; // [N s/m] of damping left; NaN = the device's damping is unknown
 
     ArmRecord arm;
     Wrench deviceWrench;     // for HapticDevice::write: device axes, about the handle, on actuated axes only

@@ -86,7 +86,7 @@ void Trace::put(const std::string& text) {
 
 void Trace::write(const TraceEvent& event, size_t track) {
     if (event.frequent && event.length < kLongSpan && bytes_ > maxBytes_ / 2) {
-        ++shortLeftOut_;
+        ++droppedShort_;
         return;
     }
     const std::string place =
@@ -96,7 +96,7 @@ void Trace::write(const TraceEvent& event, size_t track) {
     const std::string text =
         ",\n{\"name\":" + doubleQuoted(event.name) + kind + place + arguments(event.detail) + "}";
     if (bytes_ + text.size() + kRoomForTheEnd > maxBytes_) {
-        ++leftOut_;
+        ++droppedForSize_;
         return;
     }
     put(text);
@@ -106,7 +106,7 @@ void Trace::write(const TraceEvent& event, size_t track) {
 void Trace::drain() {
     TraceEvent event;
     for (size_t i = 0; i < tracks_.size(); ++i) {
-        while (tracks_[i]->ring_.pop(event)) {
+        while (tracks_[i]->queue_.pop(event)) {
             write(event, i);
         }
     }
@@ -132,11 +132,11 @@ void Trace::finish() {
     writeNames();
     uint64_t lost = 0;
     for (const auto& track : tracks_) {
-        lost += track->ring_.dropped();
+        lost += track->queue_.dropped();
     }
-    put("\n],\"otherData\":{\"events\":" + std::to_string(written_) +
-        ",\"short_frequent_spans_left_out\":" + std::to_string(shortLeftOut_) +
-        ",\"left_out_for_size\":" + std::to_string(leftOut_) + ",\"lost\":" + std::to_string(lost) + "}}\n");
+    put("\n],\"otherData\":{\"events\":" + std::to_string(written_) + ",\"short_frequent_spans_left_out\":" +
+        std::to_string(droppedShort_) + ",\"left_out_for_size\":" + std::to_string(droppedForSize_) +
+        ",\"lost\":" + std::to_string(lost) + "}}\n");
     if (!fault_.empty()) {
         throw Error("trace " + fault_);
     }

@@ -42,24 +42,24 @@ class TraceTrack {
 public:
     TraceTrack(std::string name, uint64_t capacity)
         : name_(std::move(name))
-        , ring_(capacity) {}
+        , queue_(capacity) {}
 
     void span(const char* name, TraceTime begin, TraceTime end, const TraceDetail& detail = {}) noexcept {
-        ring_.push({name, begin, end - begin, detail, false, false});
+        queue_.push({name, begin, end - begin, detail, false, false});
     }
     // The same for events at thousands per second, which are dropped first when the file grows.
     void frequentSpan(const char* name, TraceTime begin, TraceTime end,
                       const TraceDetail& detail = {}) noexcept {
-        ring_.push({name, begin, end - begin, detail, false, true});
+        queue_.push({name, begin, end - begin, detail, false, true});
     }
     void instant(const char* name, TraceTime at, const TraceDetail& detail = {}) noexcept {
-        ring_.push({name, at, {}, detail, true, false});
+        queue_.push({name, at, {}, detail, true, false});
     }
 
 private:
     friend class Trace;
     std::string name_;
-    SpscQueue<TraceEvent> ring_;
+    SpscQueue<TraceEvent> queue_;
 };
 
 // Add tracks before their threads start. One other thread (in lockstep the same one) calls drain() and
@@ -93,7 +93,7 @@ private:
     OutputFile out_;
     std::string fault_; // of the first write that failed
     uint64_t maxBytes_;
-    uint64_t bytes_ = 0, written_ = 0, shortLeftOut_ = 0, leftOut_ = 0;
+    uint64_t bytes_ = 0, written_ = 0, droppedShort_ = 0, droppedForSize_ = 0;
     bool finished_ = false;
     TraceTime start_;
     std::vector<std::unique_ptr<TraceTrack>> tracks_;

@@ -24,8 +24,8 @@ double shareOf(const dvec3& part, const dvec3& whole) {
     return length > 0.0 ? glm::length(part) / length : 1.0;
 }
 
-// Of a low-pass: `filtered`, in which what is not `wanted` is shorter by `step` than it was `before`.
-// Directions that change little are left to the filter.
+// The output of the low-pass, in which the part that is no longer wanted shrinks by at least `step` per tick.
+// Small changes of direction are left to the filter.
 dvec3 withEndingTail(const dvec3& wanted, const dvec3& before, const dvec3& filtered, double step) {
     const double size = glm::length(wanted);
     const dvec3 sized = clampLength(filtered, std::max(size, glm::length(before) - step));
@@ -77,7 +77,7 @@ Wrench WrenchStage::damping(const WrenchInput& input, const Wrench& reaction) no
 Wrench WrenchStage::springWrench(const WrenchInput& input) noexcept {
     ReactionInput tick;
     tick.allowed = input.allowed;
-    tick.end = input.end;
+    tick.springEnd = input.springEnd;
     tick.springs = input.springs;
     tick.period = options_.period;
     tick.elapsed = input.elapsed;
@@ -100,7 +100,7 @@ Wrench WrenchStage::passivityWrench(const WrenchInput& input, const Wrench& reac
     }
     PassivityStep tick;
     tick.device = input.device;
-    tick.end = input.end;
+    tick.springEnd = input.springEnd;
     tick.baseRhandle = input.baseRhandle;
     tick.contact = onActuatedAxes(input, reaction); // damping stores no energy
     tick.fadeGain = ramps_.fadeGain();
@@ -115,7 +115,7 @@ Wrench WrenchStage::passivityWrench(const WrenchInput& input, const Wrench& reac
     return passivity_.step(tick);
 }
 
-// Subtracts the guidance share of the delivered wrench, scaled as the size limit scaled it.
+// Reports the delivered wrench without guidance and damper, each scaled as the size limit scaled it.
 void WrenchStage::reportToPassivity(const WrenchInput& input, const Wrench& damper, const Wrench& asked,
                                     const Wrench& sized, const Wrench& delivered) noexcept {
     const double ramp = ramps_.fadeGain();

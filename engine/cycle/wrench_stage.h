@@ -22,9 +22,9 @@ inline constexpr uint32_t kSlew = 32;    // the slew limit still holds back a ch
 
 // Input of one tick. Base frame.
 struct WrenchInput {
-    Pose allowed; // ProxyStep::allowed
-    Pose end;     // that the solver aims at: device pose moved by the guidance lead
-    Pose device;  // that the hand commands
+    Pose allowed;   // ProxyStep::allowed
+    Pose springEnd; // the hand's end of the spring: device pose moved by the guidance lead
+    Pose device;    // that the hand commands
     dquat baseRhandle{1.0, 0.0, 0.0, 0.0};
     Springs springs;       // active
     Wrench pull;           // of guidance, part of the wrench
@@ -43,10 +43,11 @@ struct WrenchInput {
     double elapsed = 0.001;   // [s] measured since the tick before; nominal in lockstep
 };
 
-// One thread; noexcept, no allocation. Guarantees, whatever the input: force and torque stay within their
-// limits, and what is wanted rises by the slew limits; what is no longer wanted, such as a force that must
-// turn round, ends within ForceRamps::kRampTime, or in the ticks that a fast slew limit needs; after a tick
-// in which the device rendered nothing, and after every fade, the force rises from there within the ramp.
+// One thread; noexcept, no allocation. Guarantees for any input:
+// - Force and torque stay within their limits, and rise at most by the slew limits.
+// - What is no longer wanted, such as a force that must turn round, ends within ForceRamps::kRampTime, or
+//   within the ticks that a fast slew limit needs.
+// - After a fade, or a tick that the device did not render, the force rises from there within the ramp.
 class WrenchStage {
 public:
     explicit WrenchStage(const HapticOptions& options);

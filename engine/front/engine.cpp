@@ -21,7 +21,7 @@ namespace fathom::front {
 // Feeds submitted frames to the frame loop. Frame thread only, except `lost`.
 class SubmittedFeed final : public FrameFeed {
 public:
-    SubmittedFeed(v0::CameraPort::Impl& camera, ComputeSide& compute, Shared& shared)
+    SubmittedFeed(v0::CameraPort::Impl& camera, ComputeSide& compute, PortState& shared)
         : camera_(camera)
         , compute_(compute)
         , shared_(shared) {}
@@ -72,7 +72,7 @@ public:
     void observe() {
         const std::lock_guard lock(showing_);
         observed_ = true;
-        const DeviceCycles::SetInUse newest = compute_.cycles.newestInUse();
+        const DeviceCycles::SetInUse newest = compute_.cycles.leaseNewestSet();
         if (newest.get() != nullptr && newest.get()->host.frame == shown_.frame) { // else publish() shows it
             show(newest.get()->host);
         }
@@ -90,7 +90,7 @@ private:
 
     v0::CameraPort::Impl& camera_;
     ComputeSide& compute_;
-    Shared& shared_;
+    PortState& shared_;
     std::optional<fathom::Frame> next_;
     std::mutex showing_; // between publish() and observe()
     bool observed_ = false;
@@ -133,7 +133,7 @@ auto openOnce(std::atomic<bool>& open, const std::string& port, Make&& make) {
 struct Engine::Impl {
     Impl(const Scene& scene, const CameraModel& model, const EngineOptions& options)
         : camera(std::make_shared<CameraPort::Impl>(front::CameraSide(model, scene.data().scene)))
-        , shared(std::make_shared<front::Shared>(scene.data().scene, camera->info, options))
+        , shared(std::make_shared<front::PortState>(scene.data().scene, camera->info, options))
         , compute(shared->haptic, camera->info, options.computeDevice)
         , feed(*camera, compute, *shared)
         , answers(compute.cycles)
@@ -183,7 +183,7 @@ struct Engine::Impl {
     }
 
     std::shared_ptr<CameraPort::Impl> camera;
-    std::shared_ptr<front::Shared> shared;
+    std::shared_ptr<front::PortState> shared;
     front::ComputeSide compute;
     front::SubmittedFeed feed;
     CycleAnswers answers;

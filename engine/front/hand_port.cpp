@@ -7,7 +7,7 @@
 
 namespace fathom::v0 {
 
-HandPort::Impl::Impl(std::shared_ptr<front::Shared> from, const HandStart& start)
+HandPort::Impl::Impl(std::shared_ptr<front::PortState> from, const HandStart& start)
     : shared(std::move(from))
     , cycle(shared->haptic.cycle(start))
     , stepper(*cycle, shared->channels, shared->clock) {

@@ -2,7 +2,7 @@
 // The display's end of the copies that the frame thread and the haptic thread publish.
 #pragma once
 
-#include "engine/front/hand_port.h"
+#include "engine/front/port_state.h"
 
 namespace fathom::front {
 
@@ -15,9 +15,9 @@ namespace fathom::v0 {
 
 // Display thread only.
 struct ObserverPort::Impl {
-    explicit Impl(std::shared_ptr<front::Shared> from)
+    explicit Impl(std::shared_ptr<front::PortState> from)
         : shared(std::move(from)) {}
-    std::shared_ptr<front::Shared> shared;
+    std::shared_ptr<front::PortState> shared;
     bool pending = false; // newer regions were not copied yet, because memory was exhausted
 };
 

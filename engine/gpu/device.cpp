@@ -174,17 +174,18 @@ uint32_t Device::hostPointerTypes(const void* memory) const {
     return bits;
 }
 
-void Device::submit(VkCommandBuffer commands, const At& wait, const At& signal) {
+void Device::submit(VkCommandBuffer commands, const TimelinePoint& wait, const TimelinePoint& signal) {
     const std::lock_guard lock(queueMutex_);
     submitTo(queue_, commands, wait, signal);
 }
 
-void Device::submitQuery(VkCommandBuffer commands, const At& wait, const At& signal) {
+void Device::submitQuery(VkCommandBuffer commands, const TimelinePoint& wait, const TimelinePoint& signal) {
     const std::lock_guard lock(ownQueryQueue() ? queryMutex_ : queueMutex_);
     submitTo(queryQueue_, commands, wait, signal);
 }
 
-void Device::submitTo(VkQueue queue, VkCommandBuffer commands, const At& wait, const At& signal) {
+void Device::submitTo(VkQueue queue, VkCommandBuffer commands, const TimelinePoint& wait,
+                      const TimelinePoint& signal) {
     VkTimelineSemaphoreSubmitInfo values{VK_STRUCTURE_TYPE_TIMELINE_SEMAPHORE_SUBMIT_INFO};
     values.waitSemaphoreValueCount = wait.value != 0 ? 1 : 0;
     values.pWaitSemaphoreValues = &wait.value;

@@ -55,16 +55,16 @@ public:
     uint32_t hostPointerTypes(const void* memory) const;
 
     // A value of a timeline semaphore.
-    struct At {
+    struct TimelinePoint {
         VkSemaphore timeline = VK_NULL_HANDLE;
         uint64_t value = 0; // 0 = nothing to wait for
     };
     // Submits one command buffer between two values. Holds the queue's mutex during the call. Never called by
     // the haptic thread.
-    void submit(VkCommandBuffer commands, const At& wait, const At& signal);
+    void submit(VkCommandBuffer commands, const TimelinePoint& wait, const TimelinePoint& signal);
     // The same on the queue for contact queries, which does not wait for frames. It is the queue above if the
     // device has no other (ownQueryQueue() is false).
-    void submitQuery(VkCommandBuffer commands, const At& wait, const At& signal);
+    void submitQuery(VkCommandBuffer commands, const TimelinePoint& wait, const TimelinePoint& signal);
     bool ownQueryQueue() const { return queryQueue_ != queue_; }
 
     // The graphics queue; null for Drawing::None. If the device has only one queue, it is also the compute
@@ -86,7 +86,8 @@ public:
 private:
     void createLogicalDevice(bool gpuAssisted, Drawing drawing);
     std::vector<const char*> extensionsFor(Drawing drawing) const;
-    static void submitTo(VkQueue queue, VkCommandBuffer commands, const At& wait, const At& signal);
+    static void submitTo(VkQueue queue, VkCommandBuffer commands, const TimelinePoint& wait,
+                         const TimelinePoint& signal);
     void chooseDrawQueue();
     uint32_t queuesOf(uint32_t family) const;
 

@@ -33,7 +33,7 @@ PipelineStore::keep(PipelineInfo info, std::shared_ptr<const CompiledPipeline> c
         return first;
     }
     entries_.push_back({std::move(info), compiled});
-    for (auto e = entries_.begin(); e != entries_.end() && entries_.size() > kMost;) {
+    for (auto e = entries_.begin(); e != entries_.end() && entries_.size() > kMax;) {
         e = e->compiled.use_count() == 1 ? entries_.erase(e) : e + 1; // the store is the only owner
     }
     return compiled;

@@ -60,7 +60,7 @@ struct CompiledPipeline {
 // Thread: any.
 class PipelineStore {
 public:
-    static constexpr size_t kMost = 48; // beyond that, only pipelines in use are kept
+    static constexpr size_t kMax = 48; // beyond that, only pipelines in use are kept
 
     std::shared_ptr<const CompiledPipeline> find(const PipelineInfo& info); // null: not compiled yet
     // Adds a pipeline and returns the one to use: the first, if two threads compiled the same code.

@@ -27,11 +27,11 @@ Stopwatch::~Stopwatch() {
 
 void Stopwatch::reset() {
     used_ = 0;
-    again();
+    resetForResubmit();
 }
 
-void Stopwatch::again() const {
-    if (works()) {
+void Stopwatch::resetForResubmit() const {
+    if (supported()) {
         vkResetQueryPool(device_.handle(), pool_, 0, capacity_);
     }
 }
@@ -46,7 +46,7 @@ void Stopwatch::markReached(VkCommandBuffer commands) {
 
 void Stopwatch::markAt(VkCommandBuffer commands, VkPipelineStageFlagBits stage) {
     if (used_ < capacity_) {
-        if (works()) {
+        if (supported()) {
             vkCmdWriteTimestamp(commands, stage, pool_, used_);
         }
         ++used_;
@@ -55,7 +55,7 @@ void Stopwatch::markAt(VkCommandBuffer commands, VkPipelineStageFlagBits stage) 
 
 std::vector<double> Stopwatch::intervalsMs() const {
     std::vector<double> intervals(used_ > 0 ? used_ - 1 : 0, 0.0);
-    if (!works() || used_ < 2) {
+    if (!supported() || used_ < 2) {
         return intervals;
     }
     std::vector<uint64_t> stamps(used_);

@@ -17,11 +17,11 @@ public:
     Stopwatch(const Stopwatch&) = delete;
     Stopwatch& operator=(const Stopwatch&) = delete;
 
-    bool works() const { return pool_ != VK_NULL_HANDLE; } // false: the device has no timestamps
+    bool supported() const { return pool_ != VK_NULL_HANDLE; } // false: the device has no timestamps
     // Call before recording marks. No submission with marks may be in flight.
     void reset();
     // Call before submitting the same commands again. The same condition applies.
-    void again() const;
+    void resetForResubmit() const;
     void mark(VkCommandBuffer commands); // taken after all work recorded so far
     // Taken when the device reaches the next command, even if earlier work still runs. For overlapping
     // passes, which mark() would serialise.

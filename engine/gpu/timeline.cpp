@@ -28,7 +28,7 @@ uint64_t Timeline::value() const noexcept {
 }
 
 bool Timeline::comesSoon(uint64_t value) const {
-    const auto until = Clock::now() + std::chrono::duration<double>(kAsk);
+    const auto until = Clock::now() + std::chrono::duration<double>(kPollTime);
     do {
         if (this->value() >= value) {
             return true;

@@ -15,11 +15,11 @@ public:
 
     VkSemaphore handle() const { return handle_; }
     uint64_t value() const noexcept; // current value; 0 on an error, which wait() reports
-    // Throws DeviceLost; waits on if memory is short. On GPUs polls for kAsk before it sleeps, because a
-    // wake-up by the kernel takes as long as half of a frame's passes.
+    // Throws DeviceLost; keeps waiting if memory is short. On GPUs polls for kPollTime before it sleeps,
+    // because a wake-up by the kernel takes as long as half of a frame's passes.
     void wait(uint64_t value) const;
 
-    static constexpr double kAsk = 500e-6; // [s] polling time
+    static constexpr double kPollTime = 500e-6; // [s] polling time
 
 private:
     bool comesSoon(uint64_t value) const;

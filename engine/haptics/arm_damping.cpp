@@ -14,7 +14,7 @@ double ArmNormal::smallestSingular(size_t rows) const noexcept {
     size_t count = 0;
     for (size_t k = 0; k < n_; ++k) {
         columns[count] = columns_[k];
-        count += leftOut_[k] ? 0 : 1;
+        count += excluded_[k] ? 0 : 1;
     }
     const bool wide = count > rows;
     const size_t m = wide ? rows : count;

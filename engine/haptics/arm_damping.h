@@ -21,7 +21,7 @@ public:
         }
     }
     // A joint that cannot move: its column is excluded from smallestSingular().
-    void leaveOut(size_t joint) noexcept { leftOut_[joint] = true; }
+    void exclude(size_t joint) noexcept { excluded_[joint] = true; }
     // Smallest singular value [m] of the included columns, or of the rows when there are more joints than
     // rows: 6, or 3 where directions do not count (k = 0). Computed by Jacobi rotations of the smaller Gram
     // matrix.
@@ -37,7 +37,7 @@ public:
 private:
     size_t n_;
     std::array<std::array<double, 6>, kMaxJoints> columns_{};
-    std::array<bool, kMaxJoints> leftOut_{};
+    std::array<bool, kMaxJoints> excluded_{};
     std::array<double, kMaxJoints * kMaxJoints> metric_{};
 };
 

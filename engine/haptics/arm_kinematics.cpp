@@ -146,12 +146,12 @@ bool ArmKinematics::beginLinearisation(ProxyRows& rows, ArmStep& out) noexcept {
         normal_.addColumn(column_[k], gain_[k] * arm_.motionOf(now_.frames, k, tip.position),
                           gain_[k] * metricRadius_ * arm_.rotationOf(now_.frames, k));
         if (!arm_.joints[k].mimic && arm_.joints[k].lower == arm_.joints[k].upper) {
-            normal_.leaveOut(column_[k]);
+            normal_.exclude(column_[k]);
         }
     }
     const double smallest = normal_.smallestSingular(metricRadius_ == 0.0 ? 3 : 6);
     if (out.solves == 0) {
-        out.manipulability = smallest;
+        out.smallestSingularValue = smallest;
         out.singular = smallest < options_.singularBelow;
         out.flipped = release_.begin(out.singular, now_.posture.q);
     }

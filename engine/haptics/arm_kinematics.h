@@ -31,13 +31,13 @@ struct ArmProxyOptions : ProxyOptions {
 
 // The result of a tick; `pose` is base_T_tip.
 struct ArmStep : ProxyStep {
-    JointVector q{};               // after the tick
-    double grasp = 0.0;            // after the tick
-    double residual = 0.0;         // [m] distance to the target in the metric M
-    double manipulability = 0;     // [m/rad] smallest singular value of M^1/2 J at the start
+    JointVector q{};                  // after the tick
+    double grasp = 0.0;               // after the tick
+    double residual = 0.0;            // [m] distance to the target in the metric M
+    double smallestSingularValue = 0; // [m/rad] of M^1/2 J at the start; 0 = singular
     uint32_t atLimits = 0;         // joint limit and speed rows with a positive multiplier in the last solve
     uint32_t atPositionLimits = 0; // active position limits of joints; atLimits also counts speed limits
-    bool singular = false;         // manipulability below the threshold: damped
+    bool singular = false;         // the value above is below the threshold: damped
     bool flipped = false;          // a singular posture was left to another side than the arm came from
     bool graspHeld = false;        // a finger would have entered a region, so the grasp did not change
 };

@@ -44,7 +44,7 @@ ArmProxy::ArmProxy(const ArmModel& arm, const Pose& baseTarm, const ArmProxyOpti
     , graspPerTick_(options.graspPerTick) {
     for (size_t i = 0; i < arm.leaves.size(); ++i) {
         if (!arm.moves(i)) {
-            contacts_.leaveOut(i);
+            contacts_.exclude(i);
         }
     }
     setPosture({start, 0.0});

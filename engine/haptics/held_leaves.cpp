@@ -10,7 +10,7 @@ bool isOutside(const Shape& shape, const dvec3& centre, double radius, double by
 }
 
 HeldLeaves::HeldLeaves(size_t leaves, size_t shapes)
-    : leftOut_(leaves)
+    : excluded_(leaves)
     , free_(leaves * shapes)
     , before_(leaves * shapes) {
     placed_.reserve(shapes);
@@ -18,7 +18,7 @@ HeldLeaves::HeldLeaves(size_t leaves, size_t shapes)
 
 void HeldLeaves::choose(std::span<const Shape> shapes, const LeafCentres& centres, const dvec3& origin,
                         std::span<const double> radius, double keeps) noexcept {
-    const size_t leaves = leftOut_.size(), count = std::min(shapes.size(), placed_.capacity());
+    const size_t leaves = excluded_.size(), count = std::min(shapes.size(), placed_.capacity());
     free_.swap(before_);
     for (size_t s = 0; s < count; ++s) {
         const size_t was = indexBefore(shapes[s], s, count);

@@ -19,11 +19,11 @@ public:
     HeldLeaves(size_t leaves, size_t shapes);
 
     // Nothing moves this leaf, so nothing holds it.
-    void leaveOut(size_t leaf) noexcept { leftOut_[leaf] = 1; }
-    bool leftOut(size_t leaf) const noexcept { return leftOut_[leaf] != 0; }
+    void exclude(size_t leaf) noexcept { excluded_[leaf] = 1; }
+    bool excluded(size_t leaf) const noexcept { return excluded_[leaf] != 0; }
     // Until choose(), every shape holds every leaf that is not left out.
     bool holds(size_t shape, size_t leaf) const noexcept {
-        return leftOut_[leaf] == 0 && free_[shape * leftOut_.size() + leaf] == 0;
+        return excluded_[leaf] == 0 && free_[shape * excluded_.size() + leaf] == 0;
     }
     // Chooses for each keep_in shape: the leaves that are inside, and those that it held at the last choice
     // and that are now at most `keeps` [m] outside. centres: about `origin` [m], base frame.
@@ -33,7 +33,7 @@ public:
 private:
     size_t indexBefore(const Shape& shape, size_t index, size_t count) const noexcept;
 
-    std::vector<uint8_t> leftOut_;       // per leaf
+    std::vector<uint8_t> excluded_;      // per leaf
     std::vector<uint8_t> free_, before_; // per shape and leaf: outside of a keep_in shape
     std::vector<Shape> placed_;          // at the last choice
 };

@@ -14,13 +14,13 @@ namespace fathom {
 inline constexpr double kRotated2 = 1e-34; // squared
 
 // The first m rows and columns are in use.
-template <size_t kMost>
-using SquareMatrix = std::array<std::array<double, kMost>, kMost>;
+template <size_t kMax>
+using SquareMatrix = std::array<std::array<double, kMax>, kMax>;
 
 // Turns the symmetric m x m matrix into one whose diagonal holds the eigenvalues. vectors: null, or the
 // identity, whose columns become the eigenvectors. No allocation.
-template <size_t kMost>
-void diagonalise(SquareMatrix<kMost>& a, size_t m, SquareMatrix<kMost>* vectors = nullptr) noexcept {
+template <size_t kMax>
+void diagonalise(SquareMatrix<kMax>& a, size_t m, SquareMatrix<kMax>* vectors = nullptr) noexcept {
     bool rotated = true;
     for (int sweep = 0; sweep < 10 && rotated; ++sweep) {
         rotated = false;

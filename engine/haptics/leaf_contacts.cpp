@@ -39,9 +39,9 @@ void LeafContacts::setShapes(std::span<const Shape> shapes) noexcept {
     shapes_.assign(shapes.begin(), shapes.begin() + static_cast<std::ptrdiff_t>(count));
 }
 
-void LeafContacts::leaveOut(size_t leaf) noexcept {
-    held_.leaveOut(leaf);
-    narrow_.leaveOut(leaf);
+void LeafContacts::exclude(size_t leaf) noexcept {
+    held_.exclude(leaf);
+    narrow_.exclude(leaf);
 }
 
 bool LeafContacts::use(const ContactSet* set, const dvec3& origin) noexcept {
@@ -68,7 +68,7 @@ void LeafContacts::flagBehind() noexcept {
     for (const ContactSet::Behind& flag : set_->behind) {
         const dvec3 since = leaves.now[flag.leaf] - set_->leafAtQuery[flag.leaf];
         const double left = flag.distance - glm::dot(since, flag.towardsCamera);
-        if (left > 0.0 && !held_.leftOut(flag.leaf)) {
+        if (left > 0.0 && !held_.excluded(flag.leaf)) {
             exempt_[flag.leaf] = flag.towardsCamera;
             distance_[flag.leaf] = left;
         }

@@ -62,7 +62,7 @@ public:
     void setShapes(std::span<const Shape> shapes) noexcept;
     std::span<const Shape> shapes() const noexcept { return shapes_; }
     // Nothing moves this leaf: regions and shapes do not count for it.
-    void leaveOut(size_t leaf) noexcept;
+    void exclude(size_t leaf) noexcept;
     // Chooses the leaves that keep_in shapes hold; those at `now` that are outside are not. Without this call
     // they hold all.
     void chooseHeld(double keeps) noexcept {

@@ -59,7 +59,7 @@ double PassivityController::storedIn(const PassivityStep& tick) const noexcept {
 
 void PassivityController::shift(const dvec3& by, const dquat& turn) noexcept {
     device_ = {device_.position + by, turn * device_.rotation};
-    end_ = {end_.position + by, turn * end_.rotation};
+    springEnd_ = {springEnd_.position + by, turn * springEnd_.rotation};
 }
 
 void PassivityController::giveUpWithoutRows(const PassivityStep& tick) noexcept {
@@ -76,8 +76,8 @@ Wrench PassivityController::actuated(const PassivityStep& tick, const dvec3& mov
 }
 
 void PassivityController::observe(const PassivityStep& tick) noexcept {
-    const dvec3 endMoved = tick.end.position - end_.position,
-                endTurned = rotationBetween(end_.rotation, tick.end.rotation);
+    const dvec3 endMoved = tick.springEnd.position - springEnd_.position,
+                endTurned = rotationBetween(springEnd_.rotation, tick.springEnd.rotation);
     moved_ = tick.device.position - device_.position;
     turned_ = rotationBetween(device_.rotation, tick.device.rotation);
     // The oldest entry of the ring: the wrench that acted on the hand in the interval that ends now.
@@ -148,7 +148,8 @@ Wrench PassivityController::control(const PassivityStep& tick) const noexcept {
 }
 
 Wrench PassivityController::step(const PassivityStep& tick) noexcept {
-    if (!(tick.fadeGain > 0.0) || !(tick.elapsed > 0.0) || !isFinite(tick.device) || !isFinite(tick.end)) {
+    if (!(tick.fadeGain > 0.0) || !(tick.elapsed > 0.0) || !isFinite(tick.device) ||
+        !isFinite(tick.springEnd)) {
         reset();
         return {};
     }
@@ -162,7 +163,7 @@ Wrench PassivityController::step(const PassivityStep& tick) noexcept {
     }
     started_ = true;
     device_ = tick.device;
-    end_ = tick.end;
+    springEnd_ = tick.springEnd;
     if (!std::isfinite(debt_) || !std::isfinite(stored_)) {
         reset();
         return {};

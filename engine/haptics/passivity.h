@@ -37,7 +37,7 @@ PassivityOptions makePassivity(const DevicePreset& preset, const Springs& spring
 // Input of the observer for one tick, after the proxy has moved.
 struct PassivityStep {
     Pose device;                           // base_T_tool that the hand commands
-    Pose end;                              // hand's end of the spring: device pose plus the guidance lead
+    Pose springEnd;                        // hand's end of the spring: device pose plus the guidance lead
     dquat baseRhandle{1.0, 0.0, 0.0, 0.0}; // frame of the actuated axes
     Wrench contact;                        // reaction of the regions, unscaled, on actuated axes
     bool rows = true;                      // some row is active, or the reaction still fades
@@ -108,7 +108,7 @@ private:
     size_t writes_ = 0, ticks_ = 0;
     double recent_ = 0.0; // sum of credit_
     bool started_ = false;
-    Pose device_, end_;              // at the previous tick
+    Pose device_, springEnd_;        // at the previous tick
     dvec3 moved_{0.0}, turned_{0.0}; // device motion since then
     double stored_ = 0.0, debt_ = 0.0, generated_ = 0.0, dissipated_ = 0.0;
     double dataDebt_ = 0.0;        // [J] part of debt_ that new data caused

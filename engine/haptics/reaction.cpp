@@ -142,8 +142,8 @@ Wrench Reaction::turning(const Wrench& wrench, const ReactionInput& input) noexc
 Wrench Reaction::step(const ReactionInput& input) noexcept {
     k_ = std::max(1e-6, input.springs.metricRadius);
     keepTime(input);
-    Wrench wrench = couple(input.springs, input.allowed, input.end);
-    const Travel travel = travelOf(input.end);
+    Wrench wrench = couple(input.springs, input.allowed, input.springEnd);
+    const Travel travel = travelOf(input.springEnd);
     const double byHand = input.springs.stiffness * travel.length;
     if (input.vanished) {
         beginFade(wrench, input);

@@ -12,7 +12,7 @@ namespace fathom {
 // Input of one tick, after the proxy has moved.
 struct ReactionInput {
     Pose allowed;          // ProxyStep::allowed
-    Pose end;              // the hand's end of the spring: device pose plus the guidance lead
+    Pose springEnd;        // the hand's end of the spring: device pose plus the guidance lead
     Springs springs;       // active
     double period = 0.001; // T [s]
     double elapsed = 0.0;  // [s] measured since the tick before; less than T counts as T

@@ -12,7 +12,7 @@ namespace fathom {
 namespace {
 
 constexpr double kMinByHand = 1e-6;         // [N] less is rounding
-constexpr double kLeastFelt = 1e-3;         // [N] less is not felt
+constexpr double kMinFelt = 1e-3;           // [N] less is not felt
 constexpr double kWithheldShare = 0.5;      // of the spring
 constexpr double kNoiseRatio = 0.65;        // of the mean over the mean size: up to here it is noise
 constexpr double kSlowTimeDecay = 10.0;     // [s/s] without contact, of the time constant
@@ -57,7 +57,7 @@ void SurfaceNoise::adaptSlowTime(const SurfaceNoiseInput& input, bool contact) n
 // After this tick.
 Wrench SurfaceNoise::stillWithheld(const Part& part, double elapsed, double radius) noexcept {
     const double size = metricSize(part.withheld, radius);
-    const double sameWay = metricSize(part.mean, radius) / std::max(part.meanSize, kLeastFelt);
+    const double sameWay = metricSize(part.mean, radius) / std::max(part.meanSize, kMinFelt);
     const double stays = std::clamp((sameWay - kNoiseRatio) / (1.0 - kNoiseRatio), 0.0, 1.0);
     const double decay = std::exp(-elapsed * (stays / kSettle + (1.0 - stays) / part.slowTime));
     return scaled(part.withheld, size * decay > part.most ? part.most / size : decay);
@@ -85,7 +85,7 @@ Wrench SurfaceNoise::step(const SurfaceNoiseInput& input) noexcept {
     across.most = std::max(along.most, kTurnBand * now);
     along.slowTime = across.slowTime = slowTime_;
     withheld_ = sumOf(stillWithheld(along, input.elapsed, k), stillWithheld(across, input.elapsed, k));
-    withholds_ = metricSize(withheld_, k) > kLeastFelt;
+    withholds_ = metricSize(withheld_, k) > kMinFelt;
     return sumOf(input.spring, withheld_, -1.0);
 }
 

@@ -93,7 +93,7 @@ std::vector<std::string> narrowByMimics(ArmModel& model) {
     for (const ArmJoint& joint : model.joints) {
         if (joint.mimic) {
             narrower.add(joint.name, *joint.mimic, joint.lower, joint.upper);
-            if (joint.speedFrom != kNoSpeed) {
+            if (joint.speedFrom != kDefaultSpeedSource) {
                 narrower.slow(joint.name, *joint.mimic, joint.speed);
             }
         }

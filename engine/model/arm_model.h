@@ -19,7 +19,8 @@ inline constexpr size_t kMaxJoints = 12;     // moving joints of a chain, mimic 
 inline constexpr size_t kMaxFingers = 16;    // moving joints off the chain
 inline constexpr double kUnknownTurn = 1.0;  // [rad/s] speed of a revolute joint whose URDF states none
 inline constexpr double kUnknownSlide = 0.1; // [m/s] the same for a prismatic joint
-inline constexpr const char* kNoSpeed = "default, the file states none"; // their source, for messages
+inline constexpr const char* kDefaultSpeedSource =
+    "default, the file states none"; // their source, for messages
 
 // A joint at offset + multiplier * (another joint).
 struct ArmMimic {

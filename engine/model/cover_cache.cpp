@@ -18,7 +18,7 @@ namespace fathom {
 
 namespace {
 
-constexpr const char* kHead = "fathom cover 4"; // raise the number when covers or this format change
+constexpr const char* kHeader = "fathom cover 4"; // raise the number when covers or this format change
 constexpr size_t kLargest = 4u << 20;
 constexpr size_t kLargestMesh = 512u << 20;
 
@@ -38,7 +38,7 @@ std::string hex(uint64_t value) {
 }
 
 std::string textOf(const ShapeSpheres& made) {
-    std::string text = std::string(kHead) + "\n" + (made.open ? "open\n" : "");
+    std::string text = std::string(kHeader) + "\n" + (made.open ? "open\n" : "");
     for (const std::string& note : made.notes) {
         text += "note " + note + "\n";
     }
@@ -54,7 +54,7 @@ std::string textOf(const ShapeSpheres& made) {
 // Nothing when the text is not as textOf() writes it.
 std::optional<ShapeSpheres> madeOf(const std::string& text) {
     const size_t end = text.rfind('\n', text.size() < 2 ? 0 : text.size() - 2) + 1;
-    if (!text.starts_with(std::string(kHead) + "\n") || end == 0 ||
+    if (!text.starts_with(std::string(kHeader) + "\n") || end == 0 ||
         text.substr(end) != hex(hashOf(std::string_view(text).substr(0, end), 0)) + "\n") {
         return std::nullopt;
     }

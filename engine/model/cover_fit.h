@@ -14,7 +14,7 @@ struct CoverFitting {
     const MeshDistance& distance;
     std::vector<CoverPiece> pieces;
     PieceGroups groups;
-    std::vector<CoverSeat> seats;
+    std::vector<CoverCentre> centres;
 };
 
 // Radius that a sphere about c needs to contain the part [m].

@@ -180,12 +180,12 @@ std::vector<CoverPiece> cutToPieces(const TriangleMesh& mesh, const MeshDistance
     return pieces;
 }
 
-std::vector<CoverSeat> findSeats(const TriangleMesh& mesh, const MeshDistance& distance,
-                                 const std::vector<CoverPiece>& pieces, size_t count) {
+std::vector<CoverCentre> findCentres(const TriangleMesh& mesh, const MeshDistance& distance,
+                                     const std::vector<CoverPiece>& pieces, size_t count) {
     const dvec3 low = mesh.low(), high = mesh.high();
     const double largest = 0.5 * glm::distance(low, high), hair = 2e-5 * largest;
-    std::vector<CoverSeat> seats;
-    const auto add = [&](const dvec3& c) { seats.push_back({c, -distance.signedDistance(c)}); };
+    std::vector<CoverCentre> centres;
+    const auto add = [&](const dvec3& c) { centres.push_back({c, -distance.signedDistance(c)}); };
     add(0.5 * (low + high));
     const double stride =
         std::max(1.0, 2.0 * static_cast<double>(pieces.size()) / static_cast<double>(count));
@@ -198,9 +198,9 @@ std::vector<CoverSeat> findSeats(const TriangleMesh& mesh, const MeshDistance& d
         }
         const dvec3 centre = largestBall(distance, piece.middle, inwards, largest);
         add(centre);
-        add(piece.middle + (0.15 + 0.75 * golden(seats.size())) * (centre - piece.middle));
+        add(piece.middle + (0.15 + 0.75 * golden(centres.size())) * (centre - piece.middle));
     }
-    return seats;
+    return centres;
 }
 
 } // namespace fathom

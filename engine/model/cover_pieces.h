@@ -32,14 +32,14 @@ std::vector<CoverPiece> cutToPieces(const TriangleMesh& mesh, const MeshDistance
 double countOfPieces(const TriangleMesh& mesh, double edge);
 
 // A candidate centre with its depth inside the mesh: a sphere of radius depth + e protrudes by at most e.
-struct CoverSeat {
+struct CoverCentre {
     dvec3 centre;
     double depth; // [m] = - signed distance
 };
 
 // About `count` candidates: centres of maximal inner balls at sampled pieces (shrinking ball, Ma et al.
 // 2012), points between those and the surface, the centre of the box, and points of the surface.
-std::vector<CoverSeat> findSeats(const TriangleMesh& mesh, const MeshDistance& distance,
-                                 const std::vector<CoverPiece>& pieces, size_t count);
+std::vector<CoverCentre> findCentres(const TriangleMesh& mesh, const MeshDistance& distance,
+                                     const std::vector<CoverPiece>& pieces, size_t count);
 
 } // namespace fathom

@@ -16,10 +16,9 @@ struct MeshPlace {
     bool otherCapitals = false; // than the name has
 };
 
-// Searched below arm.meshes, or in the URDF's folder and the three above it; with the package's name as a
-// folder, and without it where nothing says that the file is of another package, such as the folder's
-// package.xml, which gives only a note below arm.meshes if the URDF names one package. Capitals differ only
-// where no file has the name itself. Throws ShapeRefused.
+// Searches below arm.meshes, or in the URDF's folder and the three above it: first with the package's name as
+// a folder, then without. A package.xml of another package rejects the file, or below arm.meshes gives a note
+// if the URDF names only one package. Exact capitals are preferred. Throws ShapeRefused.
 MeshPlace findMesh(const std::string& name, const ShapeSource& source);
 
 } // namespace fathom

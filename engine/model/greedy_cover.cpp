@@ -67,8 +67,8 @@ size_t gainOf(const Bits& bits, const Bits& left) {
 }
 
 struct Pick {
-    size_t gain, seat;
-    bool operator<(const Pick& o) const { return gain < o.gain || (gain == o.gain && seat > o.seat); }
+    size_t gain, centre;
+    bool operator<(const Pick& o) const { return gain < o.gain || (gain == o.gain && centre > o.centre); }
 };
 
 class Greedy {
@@ -84,11 +84,11 @@ public:
     }
 
     // False when more than `most` are needed.
-    bool pickSeats(const std::vector<CoverSeat>& seats) {
+    bool pickCentres(const std::vector<CoverCentre>& centres) {
         std::vector<Sphere> balls;
         std::priority_queue<Pick> queue;
-        for (const CoverSeat& seat : seats) {
-            const Sphere ball{seat.centre, seat.depth + protrusion_};
+        for (const CoverCentre& one : centres) {
+            const Sphere ball{one.centre, one.depth + protrusion_};
             if (ball.radius > 0.0) {
                 queue.push({mostHeldBy(ball, groups_), balls.size()});
                 balls.push_back(ball);
@@ -98,9 +98,9 @@ public:
         while (remaining_ > 0 && !queue.empty()) {
             Pick top = queue.top();
             queue.pop();
-            Bits& bits = held[top.seat];
+            Bits& bits = held[top.centre];
             if (bits.empty()) {
-                bits = heldBy(balls[top.seat], groups_, left_); // fewer pieces remain later
+                bits = heldBy(balls[top.centre], groups_, left_); // fewer pieces remain later
             }
             top.gain = gainOf(bits, left_); // gains only decrease, so a ball that is still best is the best
             if (top.gain == 0) {
@@ -110,7 +110,7 @@ public:
                 queue.push(top);
                 continue;
             }
-            if (!take(balls[top.seat], bits)) {
+            if (!take(balls[top.centre], bits)) {
                 return false;
             }
         }
@@ -157,10 +157,10 @@ private:
 
 } // namespace
 
-std::vector<Sphere> greedyCover(const PieceGroups& groups, const std::vector<CoverSeat>& seats,
+std::vector<Sphere> greedyCover(const PieceGroups& groups, const std::vector<CoverCentre>& centres,
                                 double protrusion, size_t most) {
     Greedy greedy(groups, protrusion, most);
-    if (!greedy.pickSeats(seats) || !greedy.rescue()) {
+    if (!greedy.pickCentres(centres) || !greedy.rescue()) {
         return {};
     }
     return std::move(greedy.chosen());

@@ -9,7 +9,7 @@ namespace fathom {
 namespace {
 
 bool take(ReaderPipe& pipe, ImportedTriangles& out) {
-    TrianglesHead head;
+    TrianglesHeader head;
     if (!pipe.readText(out.fault) || !pipe.read(&head, sizeof head) || head.points > kMaxImportedPoints ||
         head.triangles > kMaxImportedPoints) {
         return false;

@@ -20,7 +20,7 @@ struct ImportedTriangles {
 inline constexpr uint64_t kMaxImportedPoints = 6'000'000; // corners, and triangles, of one file
 
 // Sent through the pipe after the fault; points and triangles follow.
-struct TrianglesHead {
+struct TrianglesHeader {
     uint64_t points = 0, triangles = 0;
 };
 

@@ -62,9 +62,9 @@ constexpr std::array kEndings = std::to_array<std::string_view>(
     {"", "s", "e", "ion", "tip", "tips", "joint", "joints", "link", "motor", "proximal", "distal"});
 
 constexpr int kBehindGripper = 2,
-              kBehindFinger = 4;  // moving joints behind the first of a gripper, of a finger
-constexpr size_t kMostAbove = 12; // joints above whose names are compared
-constexpr size_t kSharers = 3;    // joints above that make a prefix of words
+              kBehindFinger = 4; // moving joints behind the first of a gripper, of a finger
+constexpr size_t kMaxAbove = 12; // joints above whose names are compared
+constexpr size_t kSharers = 3;   // joints above that make a prefix of words
 
 std::string lowered(std::string name) {
     name = name.substr(name.rfind('/') + 1);
@@ -118,7 +118,7 @@ std::vector<MovingJoint> neighboursOf(const urdf::ModelInterface& model, const u
     std::vector<MovingJoint> all;
     for (auto link = model.getLink(joint.parent_link_name); link && link->parent_joint;
          link = link->getParent()) {
-        if (all.size() < kMostAbove && moves(*link->parent_joint)) {
+        if (all.size() < kMaxAbove && moves(*link->parent_joint)) {
             all.push_back(link->parent_joint);
         }
     }

@@ -167,7 +167,7 @@ private:
             out.speedFrom = stated > kMaxSpeed ? "file, but at most this" : out.speedFrom;
         } else {
             out.speed = out.slides ? kUnknownSlide : kUnknownTurn;
-            out.speedFrom = kNoSpeed;
+            out.speedFrom = kDefaultSpeedSource;
         }
     }
 

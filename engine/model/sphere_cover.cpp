@@ -13,7 +13,7 @@ namespace fathom {
 
 namespace {
 
-constexpr size_t kSeats = 2000;
+constexpr size_t kCentres = 2000;
 constexpr double kPieces = 6'000.0; // initial number of pieces
 constexpr double kMaxPieces = 2e6;
 constexpr double kSlivers = 6.0; // times as many pieces when the surface consists of needles
@@ -33,7 +33,7 @@ std::vector<Sphere> searchProtrusion(const CoverFitting& f, uint32_t leaves, dou
     std::vector<Sphere> best;
     for (int k = 0; k < trials; ++k) {
         const double middle = k == 0 && low <= 0.0 ? high : std::sqrt(std::max(low, 1e-4 * high) * high);
-        std::vector<Sphere> cover = greedyCover(f.groups, f.seats, middle, leaves);
+        std::vector<Sphere> cover = greedyCover(f.groups, f.centres, middle, leaves);
         if (!cover.empty()) {
             best = std::move(cover);
             high = middle;
@@ -44,9 +44,9 @@ std::vector<Sphere> searchProtrusion(const CoverFitting& f, uint32_t leaves, dou
     return best;
 }
 
-void keepSeats(CoverFitting& f, const std::vector<Sphere>& spheres) {
+void keepCentres(CoverFitting& f, const std::vector<Sphere>& spheres) {
     for (const Sphere& s : spheres) {
-        f.seats.push_back({s.centre, -f.distance.signedDistance(s.centre)});
+        f.centres.push_back({s.centre, -f.distance.signedDistance(s.centre)});
     }
 }
 
@@ -79,7 +79,7 @@ std::vector<Sphere> coverWithin(CoverFitting& f, uint32_t leaves, uint32_t effor
     std::vector<Sphere> best = firstCover(f, leaves);
     for (uint32_t round = 0; round < effort; ++round) {
         const double reached = worstOf(f, best);
-        keepSeats(f, best);
+        keepCentres(f, best);
         const auto again = searchProtrusion(f, leaves, 0.75 * reached, reached, 3);
         const std::vector<Sphere> fitted = fitSpheres(f, again.empty() ? best : again);
         if (worstOf(f, fitted) < reached) {
@@ -93,9 +93,9 @@ CoverFitting makeFitting(const TriangleMesh& mesh, const MeshDistance& distance,
     const dvec3 size = mesh.high() - mesh.low();
     const double cell = std::max(2.0 * edge, std::cbrt(size.x * size.y * size.z / 8000.0));
     std::vector<CoverPiece> pieces = cutToPieces(mesh, distance, edge, cell);
-    std::vector<CoverSeat> seats = findSeats(mesh, distance, pieces, kSeats);
+    std::vector<CoverCentre> centres = findCentres(mesh, distance, pieces, kCentres);
     PieceGroups groups(pieces);
-    return {mesh, distance, std::move(pieces), std::move(groups), std::move(seats)};
+    return {mesh, distance, std::move(pieces), std::move(groups), std::move(centres)};
 }
 
 } // namespace
@@ -112,7 +112,7 @@ Cover coverMesh(const TriangleMesh& mesh, const MeshDistance& distance, const Co
     CoverFitting f = makeFitting(mesh, distance, edge);
     Cover cover;
     if (options.protrusion > 0.0) {
-        cover.spheres = greedyCover(f.groups, f.seats, options.protrusion, kMaxLeaves);
+        cover.spheres = greedyCover(f.groups, f.centres, options.protrusion, kMaxLeaves);
         if (cover.spheres.empty()) {
             throw Error("a protrusion of " + std::to_string(options.protrusion) + " m requires more than " +
                         std::to_string(kMaxLeaves) + " spheres: allow more");
@@ -126,8 +126,8 @@ Cover coverMesh(const TriangleMesh& mesh, const MeshDistance& distance, const Co
             CoverFitting again = makeFitting(mesh, distance, finer);
             f.pieces = std::move(again.pieces);
             f.groups = std::move(again.groups);
-            f.seats = std::move(again.seats);
-            keepSeats(f, cover.spheres);
+            f.centres = std::move(again.centres);
+            keepCentres(f, cover.spheres);
             cover.spheres = coverWithin(f, options.leaves, options.effort);
         }
         cover.spheres = refinedCover(f, cover.spheres, options.leaves);

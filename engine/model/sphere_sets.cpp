@@ -47,11 +47,11 @@ Sphere collisionSphere(const urdf::Collision& collision, const std::filesystem::
 } // namespace
 
 void growSpheres(const std::filesystem::path& file, LinkSpheres& set, double distance) {
-    constexpr double kDisabled = -1.0, kLeast = 1e-3; // [m]
+    constexpr double kDisabled = -1.0, kMin = 1e-3; // [m]
     std::erase_if(set.spheres,
                   [&](const Sphere& s) { return std::min(s.radius, s.radius + distance) <= kDisabled; });
     for (Sphere& s : set.spheres) {
-        s.radius = s.radius + distance > 0.0 ? s.radius + distance : kLeast;
+        s.radius = s.radius + distance > 0.0 ? s.radius + distance : kMin;
     }
     if (set.spheres.empty()) {
         log::warn("{}: link {}: all spheres are disabled by radii of -1 or less", file.string(),

@@ -91,7 +91,7 @@ bool answerMesh(const std::filesystem::path& file, int pipe, uint64_t mostMemory
         mesh = {};
         text = "not understood";
     }
-    const TrianglesHead head{mesh.points.size(), mesh.triangles.size()};
+    const TrianglesHeader head{mesh.points.size(), mesh.triangles.size()};
     return writeText(pipe, text) && writeAll(pipe, &head, sizeof head) &&
            writeAll(pipe, mesh.points.data(), mesh.points.size() * sizeof mesh.points[0]) &&
            writeAll(pipe, mesh.triangles.data(), mesh.triangles.size() * sizeof mesh.triangles[0]);

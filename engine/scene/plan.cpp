@@ -40,8 +40,8 @@ void decideByScene(const Scene& scene, const CameraInfo& camera, Plan& plan) {
     plan.arm = scene.arm.has_value();
     plan.selfFilter = plan.arm && scene.arm->selfFilter && scene.hasPoints();
     plan.moments = scene.hasGuidance();
-    plan.cloud = scene.hasPoints();
-    plan.colour = plan.cloud && scene.usesColour() && camera.hasColour;
+    plan.passes = scene.hasPoints();
+    plan.colour = plan.passes && scene.usesColour() && camera.hasColour;
     plan.water = plan.colour && scene.attenuation;
     plan.occlusion = plan.colour && !camera.registered;
     plan.beam = plan.spheres && camera.beam.has_value();
@@ -56,12 +56,12 @@ void decideByScene(const Scene& scene, const CameraInfo& camera, Plan& plan) {
         plan.guidancePoints = plan.guidancePoints ||
                               (f.isPoints() && f.role == Role::Guidance && (f.largestPart || f.trim > 0.0));
     }
-    plan.rays = plan.cloud && !camera.depth.pinhole();
-    plan.fan = plan.cloud && camera.depth.fan;
+    plan.rays = plan.passes && !camera.depth.pinhole();
+    plan.fan = plan.passes && camera.depth.fan;
     plan.filterRadius = scene.filter.radius;
     plan.edge = scene.filter.edge > 0.0;
     plan.isolation = scene.filter.isolated;
-    plan.estimates = plan.cloud && whyNoEstimates(scene, camera) == nullptr;
+    plan.estimates = plan.passes && whyNoEstimates(scene, camera) == nullptr;
     plan.polynomialWeights = scene.filter.weights == Scene::Filter::Weights::Polynomial;
 }
 
@@ -69,10 +69,10 @@ void decideByScene(const Scene& scene, const CameraInfo& camera, Plan& plan) {
 void decideByDevice(const CameraInfo& camera, const DeviceFacts& device, Plan& plan) {
     const bool cpu = device.kind == DeviceKind::Cpu;
     plan.inPlace =
-        plan.cloud && device.hostPointerAlignment > 0 && device.hostPointerAlignment <= kSmallestPage;
+        plan.passes && device.hostPointerAlignment > 0 && device.hostPointerAlignment <= kSmallestPage;
     plan.memoryTexels = plan.hold && cpu;
     plan.pack = plan.spheres && !cpu; // a CPU device has no bus to cross, and packing takes 2 ms
-    plan.keepDepth = plan.cloud && !cpu && camera.depth.width % 4 == 0;
+    plan.keepDepth = plan.passes && !cpu && camera.depth.width % 4 == 0;
     while (plan.pixelGroup > device.maxInvocations) {
         plan.pixelGroup /= 2;
     }
@@ -128,7 +128,7 @@ uint64_t slotsOf(const CameraInfo& camera, uint32_t every) {
 
 void checkSize(const Plan& plan, const Scene& scene, const CameraInfo& camera, const DeviceFacts& device) {
     const uint64_t most = mostSlots(plan, device);
-    if (!plan.cloud || slotsOf(camera, 1) <= most) {
+    if (!plan.passes || slotsOf(camera, 1) <= most) {
         return;
     }
     uint32_t every = 1;
@@ -182,7 +182,7 @@ bool Plan::has(const std::string& name) const {
 uint32_t Plan::dispatchesPerFrame() const {
     // classify and surface; patches that hold nothing, then those that do; the tree's patches, then all above
     // them in one group, unless `spheres` and `deliver` build them
-    return (occlusion ? 1u : 0u) + (cloud ? 2u : 0u) + (delivers() ? 1u : 0u) + (lists() ? 1u : 0u) +
+    return (occlusion ? 1u : 0u) + (passes ? 2u : 0u) + (delivers() ? 1u : 0u) + (lists() ? 1u : 0u) +
            (estimates ? 1u : 0u) + (thins() ? 1u : 0u) + (spheres ? (hold && lists() ? 2u : 1u) : 0u) +
            (tree && lists() ? 2u : 0u) + (moments ? 1u : 0u);
 }
@@ -190,11 +190,11 @@ uint32_t Plan::dispatchesPerFrame() const {
 uint64_t Plan::setBytes(const PatchLayout& layout) const {
     const uint64_t slots = layout.slots(), patches = layout.patches();
     const uint64_t spheresOfTree = slots * ((hold ? 32u : 16u) + (classes > 1 ? 1u : 0u));
-    return !cloud ? 0
-                  : kCounterBytes + 4 * patches + (spheres ? 64 * patches : 0) +
-                        (spheres && tree ? spheresOfTree : 0) + (tree ? 20ull * layout.nodes() : 0) +
-                        (pack ? slots * packedBytes() + 72 * patches : 0) + (moments ? 64 * 8 * patches : 0) +
-                        (guidancePoints ? 17 * slots : 0);
+    return !passes ? 0
+                   : kCounterBytes + 4 * patches + (spheres ? 64 * patches : 0) +
+                         (spheres && tree ? spheresOfTree : 0) + (tree ? 20ull * layout.nodes() : 0) +
+                         (pack ? slots * packedBytes() + 72 * patches : 0) +
+                         (moments ? 64 * 8 * patches : 0) + (guidancePoints ? 17 * slots : 0);
 }
 
 Plan makePlan(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, const DeviceFacts& device) {

@@ -15,7 +15,7 @@ namespace fathom {
 // What the passes compute.
 struct PlannedPasses {
     bool occlusion = false; // unregistered colour: finds the points that the colour camera sees
-    bool cloud = false;     // any point class: classify and surface
+    bool passes = false;    // any point class: the frame needs a device
     bool spheres = false;   // any forbidden point class
     bool thin = false;      // error budget
     bool tree = false;      // bounds of spheres up to one root, for the GPU query
@@ -90,7 +90,7 @@ struct Plan : PlannedPasses, PlannedLayout, PlannedTuning {
 
     bool has(const std::string& name) const; // whether it includes the item; for tests
     // CPU devices list patches in a separate pass, because divergent lanes of classify would all pay for it.
-    bool lists() const { return cloud && !byPixel; }
+    bool lists() const { return passes && !byPixel; }
     // Thinning is a separate pass, unless the group that computes a patch's spheres does it.
     bool thins() const { return thin && !byPixel; }
     // A seen sphere is packed as its depth, from which the host computes the point. With beams it is packed
@@ -101,7 +101,7 @@ struct Plan : PlannedPasses, PlannedLayout, PlannedTuning {
     }
     // Two filtered pixels per invocation: a sixth faster with many groups, slower with few.
     bool filterPairs() const { return manyPatches && tiled && !filterBlock && filterRadius == 2; }
-    bool delivers() const { return cloud && byPixel; }  // by a dispatch; CPU devices copy instead
+    bool delivers() const { return passes && byPixel; } // by a dispatch; CPU devices copy instead
     uint32_t dispatchesPerFrame() const;                // of the frame cadence, without the query
     uint64_t setBytes(const PatchLayout& layout) const; // buffers of one fixture set (cloud::SetBuffers)
 };

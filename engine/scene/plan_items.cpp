@@ -45,13 +45,13 @@ void explainPasses(Plan& plan, const Scene& scene, const CameraInfo& camera) {
     pass("occlusion", plan.occlusion,
          "colour is not registered to depth: parallax hides points from the colour camera",
          !scene.usesColour() ? "no class uses colour" : "colour is registered to depth");
-    pass("classify", plan.cloud,
+    pass("classify", plan.passes,
          std::string("the scene has point classes") +
              (plan.water ? ", colours corrected for water before the gates" : ""),
          "the scene has no point class");
     pass("list", plan.lists(), "lists patches with work, and those with points or guidance",
-         plan.cloud ? "classify writes the list" : "the scene has no point class");
-    pass("surface", plan.cloud, filterSentence(plan), "the scene has no point class");
+         plan.passes ? "classify writes the list" : "the scene has no point class");
+    pass("surface", plan.passes, filterSentence(plan), "the scene has no point class");
     const char* const noEstimates = whyNoEstimates(scene, camera);
     pass("estimate", plan.estimates,
          "depths averaged over at most " + std::to_string(scene.filter.memory) + " frames" +
@@ -70,7 +70,7 @@ void explainPasses(Plan& plan, const Scene& scene, const CameraInfo& camera) {
              (plan.byPixel ? ", within the passes spheres and deliver" : ""),
          plan.spheres ? "the CPU query uses a grid" : "no forbidden point class");
     pass("moments", plan.moments, "mean and covariance of the guidance classes", "no guidance class");
-    pass("deliver", plan.cloud, "sends patch counters and marks to the host and clears them",
+    pass("deliver", plan.passes, "sends patch counters and marks to the host and clears them",
          "the scene has no point class");
     pass("tree_query", plan.query == Plan::Query::Gpu, "contact query on the GPU",
          plan.query == Plan::Query::Cpu ? "contact query on the CPU" : "no contact constraints");
@@ -84,7 +84,7 @@ void explainImages(Plan& plan, const CameraInfo& camera) {
     const uint64_t pixels = camera.depth.pixels();
     const char* copies =
         plan.inPlace ? "for frames that are not in whole pages of host memory" : "written by the host";
-    explainBuffer(plan, "depth upload", plan.cloud, 2 * pixels, copies);
+    explainBuffer(plan, "depth upload", plan.passes, 2 * pixels, copies);
     explainBuffer(plan, "colour upload", plan.colour, camera.colourBytes(),
                   !plan.colour ? "no class uses colour"
                   : camera.colourFormat != ColourFormat::Rgba
@@ -105,7 +105,7 @@ void explainImages(Plan& plan, const CameraInfo& camera) {
 void explainResults(Plan& plan, const Scene& scene, const CameraInfo& camera) {
     const PatchLayout layout = patchLayout(camera.depth.width, camera.depth.height);
     const uint64_t slots = layout.slots();
-    explainBuffer(plan, "masks and points", plan.cloud, 17 * slots, "class bits and base-frame points");
+    explainBuffer(plan, "masks and points", plan.passes, 17 * slots, "class bits and base-frame points");
     explainBuffer(plan, "depth estimates", plan.estimates, 32 * slots,
                   plan.estimates ? "of this frame and the one before" : whyNoEstimates(scene, camera));
     explainBuffer(plan, "thinning cells", plan.thin, slots,
@@ -133,9 +133,9 @@ void explainResults(Plan& plan, const Scene& scene, const CameraInfo& camera) {
     explainBuffer(plan, "tree nodes", plan.tree, 20ull * layout.nodes(),
                   plan.tree ? "of one fixture set" : "no query traverses a tree");
     explainBuffer(plan, "moments", plan.moments, 64ull * 8 * layout.patches(), "of one fixture set");
-    explainBuffer(plan, "fixture sets", plan.cloud, kFixtureSets * plan.setBytes(layout),
-                  plan.cloud ? std::to_string(kFixtureSets) + " sets, with the buffers of each; never more"
-                             : "the scene has no point class");
+    explainBuffer(plan, "fixture sets", plan.passes, kFixtureSets * plan.setBytes(layout),
+                  plan.passes ? std::to_string(kFixtureSets) + " sets, with the buffers of each; never more"
+                              : "the scene has no point class");
 }
 
 void explainThreads(Plan& plan) {

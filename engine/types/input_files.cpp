@@ -15,7 +15,7 @@ namespace {
 
 // With the time of the last change, because a deleted file's inode is used again.
 using Identity = std::tuple<dev_t, ino_t, time_t, long>;
-constexpr size_t kMost = 100'000; // bounds the memory of a long run
+constexpr size_t kMax = 100'000; // bounds the memory of a long run
 
 std::mutex mutex; // of inputs
 std::set<Identity> inputs;
@@ -33,7 +33,7 @@ std::optional<Identity> identityOf(const std::filesystem::path& file) {
 void noteInput(const std::filesystem::path& file) {
     if (const auto identity = identityOf(file)) {
         const std::lock_guard lock(mutex);
-        if (inputs.size() < kMost) {
+        if (inputs.size() < kMax) {
             inputs.insert(*identity);
         }
     }

@@ -7,16 +7,16 @@
 
 namespace fathom::log {
 
-// Lines that were logged; at most kMost, later ones repeat. One thread at a time.
+// Lines that were logged; at most kMax, later ones repeat. One thread at a time.
 class LoggedLines {
 public:
     // False where the line is known. Adds it.
     bool isNew(const std::string& line) {
-        return lines_.size() >= kMost ? lines_.count(line) == 0 : lines_.insert(line).second;
+        return lines_.size() >= kMax ? lines_.count(line) == 0 : lines_.insert(line).second;
     }
 
 private:
-    static constexpr size_t kMost = 1000;
+    static constexpr size_t kMax = 1000;
     std::set<std::string> lines_;
 };
 

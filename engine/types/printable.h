@@ -35,8 +35,8 @@ inline Utf8 firstCharacter(std::string_view text) {
         }
         code = code << 6 | (byte(i) & 0x3fu);
     }
-    constexpr uint32_t kLeast[] = {0, 0, 0x80, 0x800, 0x10000};
-    const bool valid = code >= kLeast[bytes] && code <= 0x10ffff && (code < 0xd800 || code > 0xdfff);
+    constexpr uint32_t kMin[] = {0, 0, 0x80, 0x800, 0x10000};
+    const bool valid = code >= kMin[bytes] && code <= 0x10ffff && (code < 0xd800 || code > 0xdfff);
     return valid ? Utf8{code, bytes, true} : Utf8{};
 }
 

@@ -13,7 +13,7 @@ bool RunWarnings::add(const std::string& key, const std::string& text) {
         const std::lock_guard lock(mutex_);
         const bool known =
             std::any_of(texts_.begin(), texts_.end(), [&](const auto& t) { return t.first == key; });
-        if (known || texts_.size() == kMost) {
+        if (known || texts_.size() == kMax) {
             return false;
         }
         texts_.emplace_back(key, printable(text));

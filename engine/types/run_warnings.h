@@ -12,7 +12,7 @@ namespace fathom {
 // Not for performance, which the budgets report. Any thread except the haptic one.
 class RunWarnings {
 public:
-    static constexpr size_t kMost = 100; // further keys are dropped
+    static constexpr size_t kMax = 100; // further keys are dropped
 
     // Logs and keeps the text if its key is new. Returns whether it was.
     bool add(const std::string& key, const std::string& text);

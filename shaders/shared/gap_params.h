@@ -26,8 +26,8 @@ FATHOM_SIZE(GapPose, 64);
 // A pair that may have the smallest gap of its pose.
 struct GapPair {
     uint pose, leaf;
-    uint slot, fixture; // 4 x slot + layer, as FoundSphere; index of the point class
-    vec4 sphere;        // as in the set
+    uint slot, pointClass; // slot: 4 x slot + layer, as FoundSphere
+    vec4 sphere;           // as in the set
 };
 FATHOM_SIZE(GapPair, 32);
 

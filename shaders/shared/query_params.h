@@ -11,7 +11,7 @@ FATHOM_CONST kBlockSlots = 256, // slots per block
 // FoundSphere::slot is 4 x slot + layer.
 FATHOM_CONST kLayerSeen = 0, // spheres of this frame
     kLayerHeld = 1,          // held spheres
-    kLayerFrozen = 2;         // spheres of frozen classes
+    kLayerFrozen = 2;        // spheres of frozen classes
 
 // Push constants. q = rows * (s - t) transforms a sphere's centre into the frame of the leaves.
 struct QueryParams {
@@ -28,9 +28,9 @@ FATHOM_SIZE(QueryParams, 112);
 
 // A sphere with the leaves that are near it.
 struct FoundSphere {
-    uint slot, fixture; // fixture: index of the point class
-    uint first, count;  // of its leaves in the answer
-    vec4 sphere;        // as in the set
+    uint slot, pointClass; // slot: 4 x slot + layer
+    uint first, count;     // of its leaves in the answer
+    vec4 sphere;           // as in the set
 };
 FATHOM_SIZE(FoundSphere, 32);
 

@@ -87,7 +87,7 @@ TEST_CASE("While a button is mapped, pressing it has no effect; the dead-man swi
     device.buttons = 8 | kDeadManOpen;
     CHECK(hand.read(0.001).buttons == kDeadManOpen);
     CHECK(hand.takePressed() == (8 | kDeadManOpen));
-    CHECK(hand.held() == (8 | kDeadManOpen));
+    CHECK(hand.buttonsDown() == (8 | kDeadManOpen));
     hand.choose({8, 4, 0});
     hand.capture(false);
     device.buttons = 8;

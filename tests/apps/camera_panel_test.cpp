@@ -45,7 +45,7 @@ private:
 
 struct CameraRig {
     testing::LaidScreen laid;
-    CameraDesk desk{std::make_shared<MadeControls>()};
+    CameraControlThread desk{std::make_shared<MadeControls>()};
     CameraFacts camera{"camera Made", {{"depth", 640, 480, 30.0, "Z16"}}, true, false};
 
     CameraRig() {
@@ -59,7 +59,7 @@ struct CameraRig {
     // Draws until the camera's answer satisfies `wanted`.
     bool await(const std::function<bool(const std::vector<CameraControl>&)>& wanted) {
         for (int i = 0; i < 2000; ++i) {
-            const CameraDesk::Answer answer = desk.answer();
+            const CameraControlThread::Answer answer = desk.answer();
             laid.draw(1);
             if (answer.known && wanted(answer.controls)) {
                 laid.draw(2);
@@ -119,7 +119,7 @@ TEST_CASE("The controls of a camera are read only while its tab is shown") {
 
 TEST_CASE("A source without controls says so, and how old a frame is when forces first use it") {
     ViewedRun run;
-    CameraDesk none(nullptr);
+    CameraControlThread none(nullptr);
     CHECK(whyNoControls({}, none) == "A recording or simulation has no exposure, gain or laser to set.");
     CHECK(!none.any());
     for (int frame = 0; frame < 3; ++frame) {

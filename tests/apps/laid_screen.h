@@ -31,12 +31,12 @@ public:
     Scene scene;
     Screen screen;
     Fonts fonts;
-    MeasuredArm measured;
+    ShownArm measured;
     CameraFacts recorded{"a recording with a rather long name, somewhere on this disk",
                          {{"depth", 640, 480, 30.0, "16 bit"}, {"colour", 1280, 720, 0.0, "RGB"}}};
-    CameraDesk noControls{nullptr};
+    CameraControlThread noControls{nullptr};
     const CameraFacts* camera = &recorded;
-    CameraDesk* desk = &noControls; // of `camera`
+    CameraControlThread* desk = &noControls; // of `camera`
     ButtonMap buttons{{1, 4, 0}};
     TracesPanel traces;
     TickLog log;

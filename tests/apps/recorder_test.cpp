@@ -83,8 +83,8 @@ void checkWhole(const std::filesystem::path& folder, size_t ticks) {
         CHECK(text.back() == '\n');
     }
     const TickLog log = readTickLog(folder);
-    CHECK(log.moments.size() >= ticks);
-    CHECK(readHandCsv(folder / "hand.csv").size() >= log.moments.size());
+    CHECK(log.ticks.size() >= ticks);
+    CHECK(readHandCsv(folder / "hand.csv").size() >= log.ticks.size());
 }
 
 } // namespace
@@ -128,13 +128,13 @@ TEST_CASE(
     for (row.record.t = 0.1; row.record.t < 12.0; row.record.t += 0.01) {
         recorder.step(row, {});
     }
-    CHECK(readTickLog(folder).moments.size() == 2 * 33);
+    CHECK(readTickLog(folder).ticks.size() == 2 * 33);
     session.image();
     recorder.stop();
     recorder.finish();
     CHECK(recorder.failure() == "");
     CHECK(imagesIn(folder) == 3);
-    CHECK(readTickLog(folder).moments.size() == 3 * 33);
+    CHECK(readTickLog(folder).ticks.size() == 3 * 33);
 }
 
 TEST_CASE("A full disk ends a recording with a message that names the file, and the files up to there can be "

@@ -32,7 +32,7 @@ TEST_CASE(
                                            classText("handle", "guidance") + classText("blue", "guidance"),
                                            classText("handle", "guidance") +
                                                classText("\"(spare 1)\"", "forbidden")};
-    std::string edits = std::string(SceneEdits::kHead) + "\n";
+    std::string edits = std::string(SceneEdits::kHeader) + "\n";
     for (size_t i = 0; i < classes.size(); ++i) {
         const std::string name = "scene-" + std::to_string(i) + ".yaml";
         put(recording.path() / name, "fixtures:\n" + classes[i] + "tool: { spheres: [[0, 0, 0, 0.01]] }\n");

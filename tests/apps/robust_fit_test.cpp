@@ -51,14 +51,14 @@ bool mentions(const std::string& text, const std::string& part) {
 
 } // namespace
 
-TEST_CASE("Good pairs raise no doubt and give the least-squares fit, exact or noisy, few or many") {
+TEST_CASE("Good pairs are accepted and give the least-squares fit, exact or noisy, few or many") {
     for (const size_t count : {4, 5, 8, 40, 900}) {
         for (const double noise : {0.0, 0.001, 0.003}) {
             CAPTURE(count);
             CAPTURE(noise);
             const auto pairs = pairsOf(count, noise);
             const RobustFit robust = fitRobust(pairs, kByHand, "test");
-            CHECK(robust.doubt == "");
+            CHECK(robust.rejection == "");
             CHECK(robust.outliers.empty());
             CHECK(offBy(robust) <= 4.0 * noise + 1e-9);
             CHECK(robust.fit.sigma == fitRigid(pairs, "test").sigma);
@@ -66,7 +66,7 @@ TEST_CASE("Good pairs raise no doubt and give the least-squares fit, exact or no
     }
 }
 
-TEST_CASE("Distances in other units are doubted with their ratio and the worst pairs") {
+TEST_CASE("Distances in other units are rejected with their ratio and the worst pairs") {
     for (const double scale : {1000.0, 0.01, 25.4, 1.1, 0.9}) {
         CAPTURE(scale);
         auto pairs = pairsOf(6, 0.001);
@@ -74,24 +74,24 @@ TEST_CASE("Distances in other units are doubted with their ratio and the worst p
             pair.base *= scale;
         }
         const RobustFit robust = fitRobust(pairs, kByHand, "test");
-        mentions(robust.doubt, "times those in the camera frame (units?)");
-        mentions(robust.doubt, "; worst line ");
+        mentions(robust.rejection, "times those in the camera frame (units?)");
+        mentions(robust.rejection, "; worst line ");
     }
 }
 
-TEST_CASE("Points that are all far from the camera are doubted: both columns may be millimetres") {
+TEST_CASE("Points that are all far from the camera are rejected: both columns may be millimetres") {
     auto pairs = pairsOf(6, 0.001);
     for (PointPair& pair : pairs) {
         pair.base *= 1000.0;
         pair.camera *= 1000.0;
     }
-    mentions(fitRobust(pairs, {.residual = 1e3}, "test").doubt, "m from the camera (millimetres?)");
+    mentions(fitRobust(pairs, {.residual = 1e3}, "test").rejection, "m from the camera (millimetres?)");
     pairs[2].camera = {0.0, 0.0, 1.0}; // in metres
     pairs[2].base = kBaseTcamera.position;
-    CHECK(fitRobust(pairs, {.residual = 1e3}, "test").doubt.find("millimetres") == std::string::npos);
+    CHECK(fitRobust(pairs, {.residual = 1e3}, "test").rejection.find("millimetres") == std::string::npos);
 }
 
-TEST_CASE("A mirror image is doubted, whichever axis is negated or swapped") {
+TEST_CASE("A mirror image is rejected, whichever axis is negated or swapped") {
     for (int axis = 0; axis < 4; ++axis) {
         CAPTURE(axis);
         auto pairs = pairsOf(7, 0.001);
@@ -102,11 +102,11 @@ TEST_CASE("A mirror image is doubted, whichever axis is negated or swapped") {
                 pair.base[axis] = -pair.base[axis];
             }
         }
-        mentions(fitRobust(pairs, kByHand, "test").doubt, "mirror image");
+        mentions(fitRobust(pairs, kByHand, "test").rejection, "mirror image");
     }
 }
 
-TEST_CASE("Outliers are left out of the fit, listed farthest first, and doubted") {
+TEST_CASE("Outliers are left out of the fit, listed farthest first, and rejected") {
     for (const size_t count : {6, 10, 60}) {
         CAPTURE(count);
         auto pairs = pairsOf(count, 0.0005);
@@ -122,26 +122,27 @@ TEST_CASE("Outliers are left out of the fit, listed farthest first, and doubted"
         CHECK(robust.outliers[0].name == "line 4");
         CHECK(robust.outliers[0].distance == doctest::Approx(0.3).epsilon(0.02));
         CHECK(offBy(robust) < 0.003);
-        mentions(robust.doubt, std::to_string(outliers) + " of " + std::to_string(count) +
-                                   " pairs do not fit the others; worst line 4 30");
+        mentions(robust.rejection, std::to_string(outliers) + " of " + std::to_string(count) +
+                                       " pairs do not fit the others; worst line 4 30");
         FitLimits lenient;
         lenient.outlierShare = 0.4;
-        CHECK(fitRobust(pairs, lenient, "test").doubt == "");
+        CHECK(fitRobust(pairs, lenient, "test").rejection == "");
     }
 }
 
 TEST_CASE(
-    "Pairs that scatter beyond the bound are doubted with their standard deviation and the worst pairs") {
+    "Pairs that scatter beyond the bound are rejected with their standard deviation and the worst pairs") {
     const auto pairs = pairsOf(20, 0.03);
     const RobustFit robust = fitRobust(pairs, kByHand, "test");
-    CHECK(robust.doubt != "");
-    mentions(robust.doubt, "; worst line ");
+    CHECK(robust.rejection != "");
+    mentions(robust.rejection, "; worst line ");
     FitLimits wide;
     wide.residual = 0.3;
-    CHECK(fitRobust(pairs, wide, "test").doubt == "");
+    CHECK(fitRobust(pairs, wide, "test").rejection == "");
 }
 
-TEST_CASE("Points on one line are doubted whatever their scatter, and points too near to each other for it") {
+TEST_CASE(
+    "Points on one line are rejected whatever their scatter, and points too near to each other for it") {
     const dvec3 line(0.25, 0.0, 0.0);
     for (const size_t count : {4, 8, 30, 300}) {
         for (const auto& given : {std::pair(0.0, 0.002), std::pair(0.001, 0.002), std::pair(0.003, 0.003)}) {
@@ -151,18 +152,18 @@ TEST_CASE("Points on one line are doubted whatever their scatter, and points too
             CAPTURE(baseNoise);
             const RobustFit robust =
                 fitRobust(scattered(count, line, cameraNoise, baseNoise), kByHand, "test");
-            CHECK(robust.doubt != ""); // large scatter also looks like other units
+            CHECK(robust.rejection != ""); // large scatter also looks like other units
             CHECK(robust.fit.turn > 0.1);
         }
     }
-    mentions(fitRobust(scattered(30, line, 0.001, 0.002), kByHand, "test").doubt,
+    mentions(fitRobust(scattered(30, line, 0.001, 0.002), kByHand, "test").rejection,
              "too near to one line, or to each other, for their scatter: the rotation is uncertain by ");
     const RobustFit near = fitRobust(scattered(8, {0.006, 0.006, 0.006}, 0.0, 0.002), kByHand, "test");
-    CHECK(near.doubt != "");
+    CHECK(near.rejection != "");
     CHECK(near.fit.turn > 0.05);
     for (const dvec3& extent : {dvec3(0.25, 0.1, 0.0), dvec3(0.1, 0.1, 0.1), dvec3(0.25, 0.05, 0.05)}) {
         const RobustFit robust = fitRobust(scattered(8, extent, 0.0, 0.002), kByHand, "test");
-        CHECK(robust.doubt == "");
+        CHECK(robust.rejection == "");
         CHECK(offBy(robust) < 0.03);
     }
 }
@@ -181,11 +182,11 @@ TEST_CASE("Points in one plane are called flat, because a mirror image fits them
             }
             const RobustFit robust = fitRobust(flat, kByHand, "test");
             CHECK(robust.flat);
-            CHECK(robust.doubt == "");
+            CHECK(robust.rejection == "");
             if (sign > 0.0) {
                 CHECK_FALSE(fitRobust(deep, kByHand, "test").flat);
             } else {
-                mentions(fitRobust(deep, kByHand, "test").doubt, "mirror image");
+                mentions(fitRobust(deep, kByHand, "test").rejection, "mirror image");
             }
         }
     }
@@ -198,8 +199,9 @@ TEST_CASE("A corner that is far off in several frames is named once among the wo
         pairs.push_back(pairs[i]);
     }
     for (const PointPair& pair : pairs) {
-        const std::string doubt = fitRobust(pairs, kByHand, "test").doubt;
-        const size_t first = doubt.find(pair.name + " ");
-        CHECK((first == std::string::npos || doubt.find(pair.name + " ", first + 1) == std::string::npos));
+        const std::string rejection = fitRobust(pairs, kByHand, "test").rejection;
+        const size_t first = rejection.find(pair.name + " ");
+        CHECK(
+            (first == std::string::npos || rejection.find(pair.name + " ", first + 1) == std::string::npos));
     }
 }

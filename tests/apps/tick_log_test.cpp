@@ -43,8 +43,8 @@ StepRecord step(double seed, uint32_t touches) {
 
 void write(const std::filesystem::path& folder, const std::vector<uint32_t>& touches) {
     std::ofstream wrench(folder / kWrenchFile), touched(folder / kTouchesFile);
-    wrench << std::setprecision(17) << wrenchHead() << "\n";
-    touched << std::setprecision(17) << touchesHead() << "\n";
+    wrench << std::setprecision(17) << wrenchHeader() << "\n";
+    touched << std::setprecision(17) << touchesHeader() << "\n";
     for (size_t i = 0; i < touches.size(); ++i) {
         writeTick(wrench, touched, 0.1 * static_cast<double>(i), static_cast<int64_t>(i) - 1,
                   step(0.3 + static_cast<double>(i), touches[i]));
@@ -62,7 +62,7 @@ TEST_CASE("Ticks are read back exactly, with no touch, one or eight") {
     const std::vector<uint32_t> touches{0, 1, 8, 0, 2, 8, 0};
     write(folder.path(), touches);
     const TickLog log = readTickLog(folder.path());
-    REQUIRE(log.moments.size() == touches.size());
+    REQUIRE(log.ticks.size() == touches.size());
     CHECK(log.poses);
     for (size_t i = 0; i < touches.size(); ++i) {
         CAPTURE(i);
@@ -94,10 +94,10 @@ TEST_CASE("Ticks are read back exactly, with no touch, one or eight") {
 
 TEST_CASE("A folder without ticks is empty, and an old recording is read without poses") {
     const ScratchFolder folder;
-    CHECK(readTickLog(folder.path()).moments.empty());
+    CHECK(readTickLog(folder.path()).ticks.empty());
     put(folder.path() / kWrenchFile, "t_s,fx,fy,fz,tx,ty,tz,contacts,state\n0.5,1,2,3,0,0,0,2,2\n");
     const TickLog log = readTickLog(folder.path());
-    REQUIRE(log.moments.size() == 1);
+    REQUIRE(log.ticks.size() == 1);
     CHECK_FALSE(log.poses);
     CHECK(log.recordAt(0).wrench.force == dvec3(1, 2, 3));
     CHECK(log.recordAt(0).state == StepState::Contact);
@@ -113,7 +113,7 @@ TEST_CASE("A row of a recording has the hand's buttons of its own time, not of t
     CHECK(log.rowAt(1, &hand).hand.buttons == kDeadManOpen);
     CHECK(log.rowAt(2, &hand).hand.buttons == kGuidanceButton);
     CHECK(log.rowAt(1, nullptr).hand.buttons == 0); // not known
-    CHECK(log.rowAt(1, &hand).record.t == log.moments[1].t);
+    CHECK(log.rowAt(1, &hand).record.t == log.ticks[1].t);
 }
 
 TEST_CASE("A recording from before the columns of the residual is read without it") {
@@ -157,7 +157,7 @@ TEST_CASE("Damaged ticks are rejected with line and column") {
     CHECK(refusal(folder.path()).find("line 2") != std::string::npos);
     CHECK(refusal(folder.path()).find("2048 characters at most") != std::string::npos);
     write(folder.path(), {1, 1});
-    put(folder.path() / kTouchesFile, std::string(touchesHead()) + "\n0.05,0,0,0,0,0,0,0,0,0,0,0,0\n");
+    put(folder.path() / kTouchesFile, std::string(touchesHeader()) + "\n0.05,0,0,0,0,0,0,0,0,0,0,0,0\n");
     CHECK(refusal(folder.path()).find("touches.csv: line 2, t_s") != std::string::npos);
 }
 
@@ -167,7 +167,7 @@ TEST_CASE("Of a recording with more ticks than are shown, the first ones are rea
     const TickLog all = readTickLog(folder.path(), 5), first = readTickLog(folder.path(), 3);
     CHECK_FALSE(all.cut);
     CHECK(first.cut);
-    REQUIRE(first.moments.size() == 3);
+    REQUIRE(first.ticks.size() == 3);
     CHECK(first.touches.size() == 3);
     CHECK(first.recordAt(2).touchCount == 2);
     CHECK(readTickLog(folder.path(), 2).touches.size() == 1);

@@ -26,7 +26,7 @@ void checkBuffers(const Plan& plan, const cloud::WorkBuffers& w, const cloud::Se
     CHECK(built(w.heldRadii) == (plan.hold && !plan.pack));
     for (const gpu::Buffer* b :
          {&w.masks, &w.listed, &w.list, &w.counters, &w.points, &s.counters, &s.listed}) {
-        CHECK(built(*b) == plan.cloud);
+        CHECK(built(*b) == plan.passes);
     }
     CHECK(built(s.bits) == plan.spheres);
     CHECK(built(w.radii) == (plan.spheres && !plan.pack));

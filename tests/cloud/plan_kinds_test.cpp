@@ -40,7 +40,7 @@ void compareFrames(const CloudCase& c, uint32_t group, bool manyPatches) {
         forGpu(plan);
         plan.pixelGroup = group;
         plan.manyPatches = manyPatches;
-        plan.keepDepth = plan.cloud && c.camera.depth.width % 4 == 0;
+        plan.keepDepth = plan.passes && c.camera.depth.width % 4 == 0;
     });
     for (uint64_t frame = 0; frame < 3; ++frame) {
         const Image image = frame == 0 ? c.image : stressImage(c.camera, 70 + frame);

@@ -52,7 +52,7 @@ Agreement compare(const CloudRig& rig, std::span<const Sphere> spheres) {
     return a;
 }
 
-cloud::LinkSpheres linksOf(std::vector<Sphere> spheres, std::vector<uint32_t> ends) {
+cloud::ArmSpheres linksOf(std::vector<Sphere> spheres, std::vector<uint32_t> ends) {
     return {std::move(spheres), std::move(ends)};
 }
 
@@ -152,8 +152,8 @@ TEST_CASE("A moving arm is removed where each frame shows it, and an arm outside
     rig.cycle().setArm({});
     rig.run(wall);
     CHECK(compare(rig, {}).marked == all);
-    cloud::LinkSpheres many;
-    many.spheres.resize(cloud::LinkSpheres::kMaxSpheres + 1, {dvec3(0.0), 1.0});
+    cloud::ArmSpheres many;
+    many.spheres.resize(cloud::ArmSpheres::kMaxSpheres + 1, {dvec3(0.0), 1.0});
     many.ends = {static_cast<uint32_t>(many.spheres.size())};
     rig.cycle().setArm(many);
     CHECK_THROWS_AS(rig.run(wall), Error);

@@ -146,17 +146,17 @@ TEST_CASE("Memory released by its camera makes room, and memory without room is 
     if (!canImport()) {
         return;
     }
-    constexpr uint32_t kMost = cloud::UploadSlots::kMost;
+    constexpr uint32_t kMax = cloud::UploadSlots::kMax;
     Slots rig;
     auto gone = std::make_unique<Blocks>(rig.camera, 1);
     const std::weak_ptr<const void> memory = gone->next(rig.image)->depthMemory;
     CHECK(rig.choose(*gone).slot == 1);
     gone.reset();
     CHECK_FALSE(memory.expired()); // the slot keeps the memory, so its address cannot be reused
-    Blocks many(rig.camera, kMost);
+    Blocks many(rig.camera, kMax);
     CHECK(rig.choose(many).slot == 1);
     CHECK(memory.expired());
-    for (uint32_t slot = 2; slot < kMost; ++slot) {
+    for (uint32_t slot = 2; slot < kMax; ++slot) {
         CHECK(rig.choose(many).slot == slot);
     }
     CHECK(rig.choose(many).slot == 0);

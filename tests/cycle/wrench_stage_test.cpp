@@ -34,8 +34,8 @@ struct Stage {
     }
     // The hand presses by `length` [m] along `axis`, or turns by 0.1 rad per 10 mm.
     void press(const dvec3& axis, double length, bool turn) {
-        input.end = input.device = {turn ? dvec3(0.0) : -length * axis,
-                                    turn ? rotationExp(-10.0 * length * axis) : dquat(1, 0, 0, 0)};
+        input.springEnd = input.device = {turn ? dvec3(0.0) : -length * axis,
+                                          turn ? rotationExp(-10.0 * length * axis) : dquat(1, 0, 0, 0)};
     }
     // Along `axis`, as a share of the limit.
     double share(const dvec3& axis, bool turn) {
@@ -105,7 +105,7 @@ TEST_CASE("A torque that its slew limit holds back has that cause, also without 
     hand.options.slewTorque = 0.1; // [N m/s]
     hand.start();
     CHECK((hand.stage->step(hand.input).cause & cause::kSlew) == 0);
-    hand.input.end.rotation = hand.input.device.rotation = rotationExp({0.05, 0, 0});
+    hand.input.springEnd.rotation = hand.input.device.rotation = rotationExp({0.05, 0, 0});
     const WrenchStage::Output turned = hand.stage->step(hand.input);
     CHECK(turned.wrench.force == dvec3(0.0));
     CHECK(glm::length(turned.wrench.torque) == doctest::Approx(1e-4));
@@ -117,14 +117,14 @@ TEST_CASE("The springs' damping does not brake a shift of the hand map") {
     hand.options.springs.damping = 0.1;
     hand.start();
     for (int i = 0; i < 100; ++i) {
-        hand.input.end.position.z = hand.input.device.position.z = -5e-5 * i;
+        hand.input.springEnd.position.z = hand.input.device.position.z = -5e-5 * i;
         hand.stage->step(hand.input);
     }
     const Wrench before = hand.stage->step(hand.input).wrench;
     REQUIRE(before.force.z > 4.0);
     const dvec3 by(0, 0, -0.002);
     hand.stage->shift(by, {1, 0, 0, 0});
-    for (Pose* pose : {&hand.input.end, &hand.input.device, &hand.input.allowed}) {
+    for (Pose* pose : {&hand.input.springEnd, &hand.input.device, &hand.input.allowed}) {
         pose->position += by;
     }
     CHECK(glm::distance(hand.stage->step(hand.input).wrench.force, before.force) < 1e-9);

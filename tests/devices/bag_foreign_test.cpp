@@ -38,13 +38,13 @@ TEST_CASE(
     lineSays(streamRefusal(folder, ofOtherSize),
              "/c/camera_info: width, height: 0, with the principal point (7, 5), as in the middle of images "
              "of 14x10 (allowed: the size of the images of /c/depth, 8x6, whose middle is (3.5, 2.5); "
-             "or intrinsics=FILE behind the file's name)");
+             "or intrinsics=FILE after the file name)");
 }
 
 TEST_CASE("Compressed images of unknown content and empty ones are named apart") {
     const TemporaryFolder folder;
     for (const auto& [bytes, fault] :
-         {std::pair(std::string(40, '\1'), "a compressed image without a head that is read"),
+         {std::pair(std::string(40, '\1'), "a compressed image without a header that is read"),
           {"", "an empty image"}}) {
         BagMaker maker;
         maker.add("/c/depth", "sensor_msgs/CompressedImage", 1.0,

@@ -39,7 +39,7 @@ class BagMaker {
 public:
     void add(const std::string& topic, const std::string& type, double t, const std::string& message);
     std::string bag(const std::string& compression = "none", bool indexed = true) const;
-    // As a crash leaves a bag: head, and the chunk without indexes. head = false: the chunk alone.
+    // As a crash leaves a bag: header, and the chunk without indexes. head = false: the chunk alone.
     std::string chunks(const std::string& compression, bool head = true) const;
     std::string begunChunk() const; // as a recorder has written it before it states the chunk's size
     size_t headSize() const;        // of a bag [bytes]

@@ -12,16 +12,16 @@ namespace fathom::testing {
 
 namespace {
 
-constexpr size_t kHead = 4; // [bytes] in front of the values
+constexpr size_t kHeader = 4; // [bytes] in front of the values
 
 void pad(Out& out) {
-    while ((out.bytes.size() - kHead) % 4 != 0) {
+    while ((out.bytes.size() - kHeader) % 4 != 0) {
         out.put(uint8_t{0});
     }
 }
 
 Out begunCdr() {
-    return Out{std::string("\0\1\0\0", kHead)};
+    return Out{std::string("\0\1\0\0", kHeader)};
 }
 
 void putText(Out& out, const std::string& text) {

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 const fs::path kMade = "tests/fuzz/corpus/depth_image";
 
 std::vector<uint16_t> depthOf(const std::string& name, bool metres, PngSize size = {7, 5}) {
-    const DepthHead head = depthImageHead(kMade / name);
+    const DepthHeader head = depthImageHeader(kMade / name);
     CAPTURE(name);
     CHECK(head.fault == "");
     CHECK(head.size == size);
@@ -43,7 +43,7 @@ void checkValues(const std::vector<uint16_t>& depth, size_t from) {
 std::string faultOf(const std::string& name) {
     std::vector<uint16_t> depth(35);
     uint64_t beyond = 0;
-    const DepthHead head = depthImageHead(kMade / name);
+    const DepthHeader head = depthImageHeader(kMade / name);
     CHECK(readDepthImage(kMade / name, {7, 5}, {}, depth, beyond) == head.fault);
     return head.fault;
 }
@@ -115,7 +115,7 @@ TEST_CASE("Arrays of every size of integers, and of half floats, hold depth as n
         std::string head = "{'descr': '" + descr + "', 'fortran_order': False, 'shape': (1, 2), }";
         head.resize(118, ' ');
         std::ofstream(file, std::ios::binary) << std::string("\x93NUMPY\x01\x00v\x00", 10) << head << values;
-        const DepthHead found = depthImageHead(file);
+        const DepthHeader found = depthImageHeader(file);
         uint64_t beyond = 0;
         return found.fault.empty() ? readDepthImage(file, {2, 1}, {found.metres, 0.001}, depth, beyond)
                                    : found.fault;
@@ -169,8 +169,8 @@ TEST_CASE("A depth image that is cut off anywhere is a fault") {
     for (const char* name : {"pgm_u2", "npy_f8", "tiff_u2", "exr_z_zip", "exr_rgb_none"}) {
         CAPTURE(name);
         fs::copy_file(kMade / name, folder.path() / name);
-        const PngSize size = depthImageHead(kMade / name).size;
-        const bool metres = depthImageHead(kMade / name).metres;
+        const PngSize size = depthImageHeader(kMade / name).size;
+        const bool metres = depthImageHeader(kMade / name).metres;
         std::vector<uint16_t> depth(size.width * size.height);
         for (uintmax_t bytes = fs::file_size(kMade / name); bytes-- > 0;) {
             fs::resize_file(folder.path() / name, bytes);

@@ -230,7 +230,7 @@ TEST_CASE("Compressed depth as PNG and RVL gives the same values as plain depth"
     CHECK_FALSE(ros::depthRows(packedImage("16UC1; compressedDepth rvl", cut), 0.001, out, beyond).empty());
 }
 
-TEST_CASE("Compressed depth is recognised without its format, and without its head") {
+TEST_CASE("Compressed depth is recognised without its format, and without its header") {
     const TemporaryFolder folder;
     const std::string png = pngOf(folder, true, 3124), plain(12, '\0'),
                       quantised = raw(uint32_t{1}) + raw(10100.0f) + raw(-1009.0f);
@@ -244,7 +244,7 @@ TEST_CASE("Compressed depth is recognised without its format, and without its he
     uint64_t beyond = 0;
     const std::string fault =
         ros::depthRows(packedImage("32FC1; compressedDepth png", png), 0.001, out, beyond);
-    CHECK(fault.find("without the head") != std::string::npos);
+    CHECK(fault.find("without the header") != std::string::npos);
     CHECK(ros::content(packedImage("png", pngOf(folder, false, 0))) == ros::Content::Colour);
     CHECK_FALSE(ros::holdsMetres(packedImage("compressedDepth rvl", "cut off")));
 }

@@ -97,7 +97,7 @@ TEST_CASE("A JPEG of another size, cut short, or without Y Cb Cr is a fault") {
     auto cut = jpeg;
     cut.resize(jpeg.size() / 2);
     CHECK(planesOf(cut, {64, 48}, memory, raw).starts_with("JPEG: "));
-    // Component numbers R, G, B and no JFIF head: red, green, blue.
+    // Component numbers R, G, B and no JFIF header: red, green, blue.
     jpeg = jpegOf({16, 16}, TJSAMP_444);
     jpeg.erase(jpeg.begin() + 2, jpeg.begin() + 20);
     const auto number = [&](std::byte marker, size_t from, size_t step) {

@@ -230,7 +230,7 @@ TEST_CASE("Damage in a Matroska file loses the images of its cluster only, and i
         BagCamera camera = playMkv(folder, file.bytes());
         CHECK(soundFrames(camera) == 4);
     }
-    // The head of the cluster of the second depth image.
+    // The header of the cluster of the second depth image.
     const std::string cluster = recorded(4).cluster(4);
     const size_t at = whole.find(cluster);
     constexpr size_t kTime = 34; // another time is no damage that could be seen

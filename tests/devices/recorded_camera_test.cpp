@@ -82,7 +82,7 @@ TEST_CASE("A missing, truncated or unreadable image skips only its frame") {
         const std::string name = std::string(kind) + "/1.png";
         checkSkipsFrameOne("missing", [&](const auto& f) { std::filesystem::remove(f.path() / name); });
         checkSkipsFrameOne("empty", [&](const auto& f) { truncate(f.path() / name, 0); });
-        checkSkipsFrameOne("head only", [&](const auto& f) { truncate(f.path() / name, 40); });
+        checkSkipsFrameOne("header only", [&](const auto& f) { truncate(f.path() / name, 40); });
         for (uintmax_t gone : {12u, 14u}) { // the end mark alone; the end mark and half a checksum
             checkSkipsFrameOne("tail gone", [&](const auto& f) {
                 truncate(f.path() / name, std::filesystem::file_size(f.path() / name) - gone);

@@ -247,7 +247,7 @@ TEST_CASE("Without colour every layout plays with colour=none, and says so when 
     std::string stamps = kSmallIntrinsics;
     listed.write("intrinsics.json", stamps.insert(1, R"("depth_stamps_s": [0.5], )"));
     for (const TemporaryFolder* folder : {&open3d, &bop, &scanNet, &scenes, &tum, &listed}) {
-        CHECK(recordingRefusal(folder->path()).find("colour=none behind the folder's name") !=
+        CHECK(recordingRefusal(folder->path()).find("colour=none after the folder name") !=
               std::string::npos);
         CHECK(playedDepths(folder->path(), {.colour = "none"}) == std::vector<uint16_t>{500});
         CHECK_FALSE(RecordedCamera(folder->path(), {.colour = "none"}).info().hasColour);

@@ -48,9 +48,8 @@ TEST_CASE("Images without a lens file are refused with the option that names one
     const TemporaryFolder folder;
     addPair(folder, "depth/0.png", "rgb/0.png", 500);
     folder.write("cam_K.txt", "6 0 3\n0 6 2\n0 0 1\n");
-    lineSays(recordingRefusal(folder.path()),
-             "or intrinsics=FILE behind the folder's name (its images pair by "
-             "an index, or by number in depth/ and rgb/, color/ or image/)");
+    lineSays(recordingRefusal(folder.path()), "or intrinsics=FILE after the folder name (its images pair by "
+                                              "an index, or by number in depth/ and rgb/, color/ or image/)");
     folder.write("lens.json", kSmallIntrinsics);
     CHECK(playedDepths(folder.path(), {.intrinsics = folder.path() / "lens.json"}) ==
           std::vector<uint16_t>{500});
@@ -91,8 +90,7 @@ TEST_CASE("Depth images with numbers play with a lens alone where there is no fo
     folder.write("lens.json", kSmallIntrinsics);
     const std::filesystem::path lens = folder.path() / "lens.json";
     CHECK(playedDepths(folder.path(), {.colour = "none", .intrinsics = lens}) == std::vector<uint16_t>{500});
-    lineSays(recordingRefusal(folder.path(), {.intrinsics = lens}),
-             "or colour=none behind the folder's name");
+    lineSays(recordingRefusal(folder.path(), {.intrinsics = lens}), "or colour=none after the folder name");
     std::string depthOnly = kSmallIntrinsics;
     folder.write("lens.json", depthOnly.insert(depthOnly.find('{') + 1, R"("has_color": false, )"));
     CHECK(playedDepths(folder.path(), {.intrinsics = lens}) == std::vector<uint16_t>{500});

@@ -65,7 +65,7 @@ TEST_CASE("A text of one pose per line is named as poses that are not read, what
         CAPTURE(line);
         const std::string text = std::string(line) + line + line;
         lineSays(namedPoses("a.txt", text), "the camera counts as fixed: a.txt is not read");
-        lineSays(namedPoses("b.any.freiburg", "# head\n" + text), "b.any.freiburg is not read");
+        lineSays(namedPoses("b.any.freiburg", "# header\n" + text), "b.any.freiburg is not read");
         lineSays(namedPoses("c.csv", "time,x,y,z,a,b,c,d\n" + text), "c.csv is not read");
     }
 }

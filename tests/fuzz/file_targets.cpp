@@ -93,7 +93,7 @@ void readPng(Bytes input) {
 
 void readDepthFile(Bytes input) {
     const auto file = fuzzFile("depth", input);
-    const DepthHead head = depthImageHead(file);
+    const DepthHeader head = depthImageHeader(file);
     if (!head.fault.empty() || uint64_t{head.size.width} * head.size.height > 1u << 16) {
         throw Error(head.fault.empty() ? "too large to be quick" : head.fault);
     }
@@ -171,7 +171,7 @@ void readMessageImage(Bytes input) {
     image.data = input.subspan(3);
     const auto size = ros::sizeOf(image);
     if (!size || uint64_t{size->first} * size->second > 1u << 16) {
-        throw Error("no head, or too large to be quick");
+        throw Error("no header, or too large to be quick");
     }
     std::vector<uint16_t> depth(size_t{size->first} * size->second);
     const ColourFormat format = ros::colourFormat(image);
@@ -188,7 +188,7 @@ void readMessageImage(Bytes input) {
     need(deep || (raw.format == format && raw.needed() <= raw.bytes.size()));
 }
 
-// The options behind the name of a recording.
+// The options after the name of a recording.
 void readSourceText(Bytes input) {
     const SourceRequest request = parseSource(std::string(input.begin(), input.end()));
     need(!request.options.scale || *request.options.scale > 0.0);

@@ -17,10 +17,10 @@ void readTicks(Bytes input) {
     const auto folder = fuzzFile(operate::kWrenchFile, input.first(zero)).parent_path();
     fuzzFile(operate::kTouchesFile, input.subspan(std::min(zero + 1, input.size())));
     const operate::TickLog log = operate::readTickLog(folder);
-    for (size_t i = 0; i < log.moments.size(); ++i) {
-        const operate::Moment& moment = log.moments[i];
-        need(std::isfinite(moment.t) && (i == 0 || moment.t > log.moments[i - 1].t));
-        need(moment.firstTouch + moment.touchCount <= log.touches.size());
+    for (size_t i = 0; i < log.ticks.size(); ++i) {
+        const operate::RecordedTick& recorded = log.ticks[i];
+        need(std::isfinite(recorded.t) && (i == 0 || recorded.t > log.ticks[i - 1].t));
+        need(recorded.firstTouch + recorded.touchCount <= log.touches.size());
         need(log.recordAt(i).touchCount <= kMaxTouches);
     }
 }

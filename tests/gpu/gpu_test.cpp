@@ -140,7 +140,7 @@ TEST_CASE("The stopwatch measures the work between two marks, in milliseconds") 
     using Clock = std::chrono::steady_clock;
     gpu::Device& device = vulkan().device;
     gpu::Stopwatch watch(device, 3);
-    REQUIRE(watch.works());
+    REQUIRE(watch.supported());
     constexpr uint32_t kGroups = 2048;
     const gpu::Pipeline work = ceiling(device, 64, 4096);
     const gpu::Buffer sums(device, kGroups * 64 * 4, gpu::MemoryKind::Device, "sums");
@@ -180,15 +180,15 @@ TEST_CASE("A pipeline is compiled once, and pipelines in use are never dropped")
     CHECK(ceiling(device, 64, 2).handle() != kept.handle());
     CHECK(ceiling(device, 32, 1).handle() != kept.handle());
     CHECK(device.pipelines().size() == 3);
-    for (uint32_t steps = 3; steps < 3 + gpu::PipelineStore::kMost; ++steps) {
+    for (uint32_t steps = 3; steps < 3 + gpu::PipelineStore::kMax; ++steps) {
         ceiling(device, 64, steps);
     }
     gpu::PipelineStore& store = device.pipelines();
-    CHECK(store.size() == gpu::PipelineStore::kMost);
+    CHECK(store.size() == gpu::PipelineStore::kMax);
     const auto there = [&](uint32_t steps) { return store.find(ceilingInfo(64, steps)) != nullptr; };
     CHECK(there(1));
     CHECK_FALSE(there(2)); // the least recently used one was dropped
-    CHECK(there(2 + gpu::PipelineStore::kMost));
+    CHECK(there(2 + gpu::PipelineStore::kMax));
     CHECK(ceiling(device, 64, 1).handle() == kept.handle());
 }
 

@@ -89,6 +89,6 @@ TEST_CASE("The smallest singular value is 0 for zero columns and for an arm whos
     CHECK(still.smallestSingular() == 0.0);
     ArmNormal locked(1);
     locked.addColumn(0, dvec3(1.0, 0.0, 0.0), dvec3(0.0));
-    locked.leaveOut(0);
+    locked.exclude(0);
     CHECK(locked.smallestSingular() == 0.0);
 }

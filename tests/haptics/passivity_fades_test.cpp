@@ -27,7 +27,7 @@ struct Owing {
     }
     Wrench step(const dvec3& moved) {
         tick.device.position += moved;
-        tick.end.position += moved;
+        tick.springEnd.position += moved;
         const Wrench damper = controller.step(tick);
         controller.delivered({tick.fadeGain * tick.contact.force, tick.fadeGain * tick.contact.torque},
                              damper);
@@ -37,7 +37,7 @@ struct Owing {
     void leave() {
         for (int i = 0; i < 8; ++i) {
             tick.device.position.z += 0.001;
-            tick.end.position.z += 0.001;
+            tick.springEnd.position.z += 0.001;
             tick.contact.force.z -= 1.0;
             controller.step(tick);
             controller.delivered(tick.contact, {});

@@ -51,7 +51,7 @@ struct Loop {
     // One tick: observe, then deliver spring (up to the force limit) and damper.
     Wrench step(double fadeGain = 1.0) {
         PassivityStep t;
-        t.device = t.end = hand;
+        t.device = t.springEnd = hand;
         t.contact = spring();
         t.fadeGain = fadeGain;
         t.springs = springs();

@@ -20,7 +20,7 @@ ReactionInput springAt(double allowed, double hand) {
     tick.springs.metricRadius = std::sqrt(1e-3);
     tick.period = kTick;
     tick.allowed.position.z = allowed;
-    tick.end.position.z = hand;
+    tick.springEnd.position.z = hand;
     return tick;
 }
 
@@ -70,12 +70,12 @@ TEST_CASE("Force and torque of vanished regions fade from what was delivered, ea
         for (const double torqueLimit : {2.0, 0.1}) {
             Reaction reaction;
             ReactionInput tick = springAt(0.0, -0.01);
-            tick.end.rotation = rotationExp({0.3, 0.0, 0.0});
+            tick.springEnd.rotation = rotationExp({0.3, 0.0, 0.0});
             tick.forceLimit = forceLimit, tick.torqueLimit = torqueLimit;
             for (int i = 0; i < 1000; ++i) {
                 reaction.step(tick);
             }
-            tick.allowed = tick.end;
+            tick.allowed = tick.springEnd;
             tick.vanished = true;
             const Wrench first = reaction.step(tick);
             CHECK(glm::length(first.force) == doctest::Approx(std::min(10.0, forceLimit)).epsilon(0.01));
@@ -109,7 +109,7 @@ TEST_CASE("A region that appears on the other side pushes away from itself from 
 TEST_CASE("A small force that was there before does not turn a large one that appears as well") {
     Reaction reaction = pressedUp(0.01);
     ReactionInput tick = springAt(0.0, -0.00001);
-    tick.end.position.x = -0.02; // to the side: 20 N
+    tick.springEnd.position.x = -0.02; // to the side: 20 N
     double worst = 0.0;
     for (int i = 0; i < 33; ++i) {
         tick.newData = i == 0;
@@ -129,7 +129,7 @@ TEST_CASE("A hand that slides deep round a ball at rest feels no drag from frame
         const dvec3 out(std::sin(angle), 0.0, std::cos(angle));
         ReactionInput tick = springAt(0.0, 0.0);
         tick.allowed.position = kRound * out;
-        tick.end.position = (kRound - depth) * out;
+        tick.springEnd.position = (kRound - depth) * out;
         tick.newData = i % 33 == 0;
         const dvec3 force = reaction.step(tick).force;
         worst = i > 600 ? std::max(worst, glm::length(glm::cross(force, out)) / glm::length(force)) : 0.0;

@@ -20,7 +20,7 @@ ReactionInput tickAt(double allowed, double hand) {
     tick.springs.metricRadius = std::sqrt(1e-3);
     tick.period = kPeriod;
     tick.allowed.position.z = allowed;
-    tick.end.position.z = hand;
+    tick.springEnd.position.z = hand;
     return tick;
 }
 
@@ -172,7 +172,7 @@ TEST_CASE("New data that turns a reaction by much is felt as an even turn over a
     }
     CHECK(std::atan2(wrench.force.x, wrench.force.z) == doctest::Approx(std::atan2(3.0, 4.0)).epsilon(1e-3));
     CHECK_FALSE(reaction.appears());
-    tick.allowed.position = tick.end.position; // no row any more: no force, whatever was before
+    tick.allowed.position = tick.springEnd.position; // no row any more: no force, whatever was before
     tick.newData = true;
     CHECK(forceOf(reaction.step(tick)) == 0.0);
 }
@@ -276,7 +276,7 @@ TEST_CASE("A surface that approaches is felt at most 2 mm late, and one that is 
         const double force = forceOf(reaction.step(tick));
         CHECK((i % 33 != 32 || force > 1000.0 * (surface + 0.01) - 2.0 - 1e-9));
     }
-    tick.allowed = tick.end;
+    tick.allowed = tick.springEnd;
     tick.newData = true;
     CHECK(forceOf(reaction.step(tick)) == 0.0);
 }

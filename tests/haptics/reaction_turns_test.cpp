@@ -13,7 +13,7 @@ TEST_CASE("New data on the other side of the hand begins a new reaction, from ze
     tick.springs.rotationalStiffness = 1.0;
     tick.springs.metricRadius = 0.03;
     for (int i = 0; i <= 100; ++i) { // pressed by the hand to 5 mm: 5 N up
-        tick.end.position.z = -5e-5 * i;
+        tick.springEnd.position.z = -5e-5 * i;
         reaction.step(tick);
     }
     tick.allowed.position.z = -0.025; // 20 mm below the hand: 20 N down

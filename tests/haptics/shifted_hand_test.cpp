@@ -26,12 +26,12 @@ TEST_CASE("A reaction that appears while the hand map shifts rises as slowly as 
     ReactionInput tick;
     tick.springs = shiftedSprings();
     for (int i = 0; i <= 100; ++i) { // pressed by the hand to 5 mm: 5 N
-        tick.end.position.z = -5e-5 * i;
+        tick.springEnd.position.z = -5e-5 * i;
         CHECK(glm::length(reaction.step(tick).force) == doctest::Approx(0.05 * i));
     }
     const dvec3 by(0, 0, -0.02);
     reaction.shift(by, kUnturned);
-    tick.end.position += by;
+    tick.springEnd.position += by;
     tick.allowed.position = by + dvec3(0, 0, 0.01); // 10 mm more, without the hand
     CHECK(glm::length(reaction.step(tick).force) <= 5.0 + Reaction::kMaxRiseRate * tick.period + 1e-9);
 }
@@ -42,7 +42,7 @@ TEST_CASE("A shift of the hand map against the force generates no energy, and on
         PassivityStep tick;
         tick.springs = shiftedSprings();
         tick.contact.force = {0, 0, 3};
-        tick.device.position = tick.end.position = {0, 0, -0.003};
+        tick.device.position = tick.springEnd.position = {0, 0, -0.003};
         for (int i = 0; i < 3; ++i) {
             controller.step(tick);
             controller.delivered(tick.contact, {});
@@ -51,7 +51,7 @@ TEST_CASE("A shift of the hand map against the force generates no energy, and on
         const dvec3 by(0, 0, way);
         controller.shift(by, kUnturned);
         tick.device.position += by;
-        tick.end.position += by;
+        tick.springEnd.position += by;
         controller.step(tick);
         CHECK(controller.generated() == doctest::Approx(0.0));
         CHECK(controller.debt() == before);

@@ -29,7 +29,7 @@ struct RestingHand {
     double step(double z) { // [N] along the normal
         if (ticks++ % kFrame == 0) {
             tick.newData = true;
-            tick.allowed.position = tick.end.position;
+            tick.allowed.position = tick.springEnd.position;
             tick.allowed.position.z = surface;
             tick.allowed.position += dvec3(across, 0.0, 1.0) * draw();
         }
@@ -37,7 +37,7 @@ struct RestingHand {
         tick.springs.rotationalStiffness = 1.0;
         tick.springs.metricRadius = std::sqrt(1e-3);
         tick.period = kTick;
-        tick.end.position.z = hand = z;
+        tick.springEnd.position.z = hand = z;
         wrench = reaction.step(tick);
         tick.newData = false;
         return wrench.force.z;
@@ -136,7 +136,7 @@ TEST_CASE("A hand that moved elsewhere begins a new mean") {
             RestingHand rig(0.02, 0.0003);
             rig.rest(6000);
             for (int i = 0; i < 200; ++i) { // sideways, with the surface
-                rig.tick.allowed.position.x = rig.tick.end.position.x += way / 200.0;
+                rig.tick.allowed.position.x = rig.tick.springEnd.position.x += way / 200.0;
                 rig.step(rig.hand);
             }
             rig.rest(kFrame - rig.ticks % kFrame);

@@ -179,7 +179,7 @@ TEST_CASE(
     REQUIRE(arm.notes.size() == 1);
     CHECK(arm.notes[0] == "link root: a shape of size 0 is skipped");
     CHECK(arm.joints[2].speed == kUnknownTurn);
-    CHECK(arm.joints[2].speedFrom == kNoSpeed);
+    CHECK(arm.joints[2].speedFrom == kDefaultSpeedSource);
     CHECK(
         urdfRefusal("<link name='a'><collision><geometry><box size='1 -1 1'/></geometry></collision></link>")
             .find("link a: a shape with a negative size") != std::string::npos);

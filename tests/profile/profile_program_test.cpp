@@ -203,7 +203,7 @@ TEST_CASE("A source that is no folder is rejected before the work, with what it 
     std::filesystem::create_directory(folder / "rec");
     for (const auto& [source, what] :
          {std::pair("rec.bag", "rec.bag: --source: a file (allowed: a recording folder"),
-          std::pair("rec,colour=none", "--source: options behind a comma"),
+          std::pair("rec,colour=none", "--source: options after a comma"),
           std::pair("none", "none: --source: missing")}) {
         const ProgramRun run = runFathom({"profile", "filter", "--quick", "--source",
                                           (folder / source).string(), "--out", (folder / "out").string()});

@@ -79,10 +79,10 @@ TEST_CASE("spheres scales a set of spheres like a mesh, and warns about a mesh o
     CHECK(run.err.find("set the unit with --scale") != std::string::npos);
     CHECK(runFathom({"spheres", whole, "--out", half, "--scale", "0.5"}).exitCode == 0);
     std::ifstream before(whole), after(half);
-    std::string head, sameHead, line;
-    std::getline(before, head);
-    std::getline(after, sameHead);
-    CHECK(head == sameHead);
+    std::string header, sameHeader, line;
+    std::getline(before, header);
+    std::getline(after, sameHeader);
+    CHECK(header == sameHeader);
     size_t spheres = 0;
     for (std::string scaled; std::getline(before, line) && std::getline(after, scaled); ++spheres) {
         std::istringstream numbers(line), halves(scaled);

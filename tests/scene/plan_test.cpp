@@ -61,7 +61,7 @@ TEST_CASE("A scene without point classes has no pass, no buffer and no contact t
     wall.shape = ShapeKind::Plane;
     for (const Scene& scene : {sceneOf({}), sceneOf({wall})}) {
         const Plan plan = planOf(scene);
-        CHECK_FALSE((plan.cloud || plan.spheres || plan.thin || plan.hold || plan.moments || plan.colour ||
+        CHECK_FALSE((plan.passes || plan.spheres || plan.thin || plan.hold || plan.moments || plan.colour ||
                      plan.occlusion || plan.rays));
         CHECK(plan.query == Plan::Query::None);
         CHECK(plan.dispatchesPerFrame() == 0);

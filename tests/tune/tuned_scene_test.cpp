@@ -14,7 +14,8 @@ using namespace fathom::tune;
 
 namespace {
 
-const std::string kLeast = "fixtures: [{name: a, role: forbidden}]\ntool: {spheres: [[0, 0, 0, 0.01]]}\n";
+const std::string kSmallestScene =
+    "fixtures: [{name: a, role: forbidden}]\ntool: {spheres: [[0, 0, 0, 0.01]]}\n";
 const std::string kHead = std::string(kWrittenBy) + " 1.0";
 
 // Two points that differ in memory; the second one is chosen.
@@ -120,7 +121,7 @@ TEST_CASE("A tuned scene has the chosen values, copies of its files, and paths t
 
 TEST_CASE("A scene that no earlier run wrote is not replaced, nor a recording's copy of a tuned one") {
     const ScratchFolder home, out;
-    home.write("mine.yaml", kLeast);
+    home.write("mine.yaml", kSmallestScene);
     const Scene scene = loadScene(home / "mine.yaml");
     const std::string tuned = commentLines(kHead) + "camera: {}\n";
     CHECK_NOTHROW(tunedSceneFile(scene, out.path()));
@@ -137,14 +138,14 @@ TEST_CASE("A scene that no earlier run wrote is not replaced, nor a recording's 
     CHECK_THROWS_AS(tunedSceneFile(scene, out.path()), BadInput);
 }
 
-TEST_CASE("Files behind the commas of a camera's source are copied or named as seen from the tuned scene") {
+TEST_CASE("Files after the commas of a camera's source are copied or named as seen from the tuned scene") {
     const ScratchFolder scratch;
     scratch.write("lens.json", "lens");
     scratch.write("home/sub/own.json", "own");
     const std::filesystem::path home = scratch / "home", out = scratch / "results/tuned";
     std::filesystem::create_directories(out);
     const auto moved = [&](const std::string& source) {
-        scratch.write("home/mine.yaml", kLeast + "camera: {source: {" + source + "}}\n");
+        scratch.write("home/mine.yaml", kSmallestScene + "camera: {source: {" + source + "}}\n");
         std::filesystem::remove(out / "scene.yaml");
         std::filesystem::remove_all(out / "sub");
         const TuneResult result = madeUp();

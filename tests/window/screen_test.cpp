@@ -11,14 +11,14 @@ using nlohmann::json;
 TEST_CASE("A recording that stands still is not drawn again until a key changes the layout") {
     WindowRig rig;
     rig.reopen(rig.folder() / "scene.yaml", {"--recording", (rig.folder() / "recording").string()});
-    constexpr int kFrames = 20, kMost = 12; // tiles per frame: the rate of the window in the top line
+    constexpr int kFrames = 20, kMax = 12; // tiles per frame: the rate of the window in the top line
     const json before = rig.state()["window"];
     CHECK(before["tiles"] >= 240);
     REQUIRE(rig.await(
         [&](const json& s) { return s["window"]["frames"] > before["frames"].get<int>() + kFrames; }, 60.0));
     const json after = rig.state()["window"];
     CHECK(after["tiles"].get<int>() - before["tiles"].get<int>() <
-          kMost * (after["frames"].get<int>() - before["frames"].get<int>()));
+          kMax * (after["frames"].get<int>() - before["frames"].get<int>()));
     rig.key("F2");
     REQUIRE(rig.await(
         [&](const json& s) { return s["window"]["tiles"].get<int>() > after["tiles"].get<int>() + 100; }));

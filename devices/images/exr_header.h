@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// The head of an OpenEXR file with one part of scan lines. Source: "OpenEXR File Layout" of the project.
+// The header of an OpenEXR file with one part of scan lines. Source: "OpenEXR File Layout" of the project.
 #pragma once
 
-#include "devices/images/depth_head.h"
+#include "devices/images/depth_header.h"
 
 #include <vector>
 
 namespace fathom {
 
-struct ExrHead {
+struct ExrHeader {
     uint32_t width = 0, height = 0;
     size_t rowBytes = 0;         // of all channels
     size_t channelAt = 0;        // [bytes] in a row, where depth begins
@@ -22,6 +22,6 @@ struct ExrHead {
 };
 
 // At most 64 channels and images of at most 3840x2160. chooseExrDepth() says which channel is depth.
-ExrHead parseExrHead(ImageBytes bytes);
+ExrHeader parseExrHeader(ImageBytes bytes);
 
 } // namespace fathom

@@ -45,9 +45,9 @@ struct MatroskaTrack {
 };
 
 // Throws Error when an element is damaged, or there is more than a recording can need.
-class MatroskaHead {
+class MatroskaHeader {
 public:
-    explicit MatroskaHead(FileBytes& file)
+    explicit MatroskaHeader(FileBytes& file)
         : reader_(file) {}
 
     void readInfo(const EbmlElement& info);

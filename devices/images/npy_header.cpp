@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "devices/images/npy_head.h"
+#include "devices/images/npy_header.h"
 
 #include "devices/images/npy_image.h"
 #include "devices/recorded/recording_intrinsics.h"
@@ -15,7 +15,7 @@ namespace fathom {
 namespace {
 
 constexpr std::array<uint8_t, 6> kNpyMagic{0x93, 'N', 'U', 'M', 'P', 'Y'};
-constexpr size_t kMaxNpyHead = 1u << 16; // [bytes]
+constexpr size_t kMaxNpyHeader = 1u << 16; // [bytes]
 
 // The dictionary's text between its braces, and where the values begin; empty when it is cut off.
 std::string_view npyDictionary(ImageBytes bytes, size_t& values) {
@@ -26,7 +26,7 @@ std::string_view npyDictionary(ImageBytes bytes, size_t& values) {
     }
     size_t length = bytes[8] | size_t{bytes[9]} << 8;
     length |= first ? 0 : size_t{bytes[10]} << 16 | size_t{bytes[11]} << 24;
-    if (length > std::min(kMaxNpyHead, bytes.size() - begin)) {
+    if (length > std::min(kMaxNpyHeader, bytes.size() - begin)) {
         return {};
     }
     values = begin + length;
@@ -59,7 +59,7 @@ std::map<std::string_view, std::string_view> npyFields(std::string_view text) {
     return fields;
 }
 
-bool takeDescr(std::string_view descr, NpyHead& head) {
+bool takeDescr(std::string_view descr, NpyHeader& head) {
     const auto oneOf = [](std::string_view all, char c) { return all.find(c) != std::string_view::npos; };
     if (descr.size() != 5 || descr.front() != '\'' || descr.back() != '\'' || !oneOf("<>", descr[1]) ||
         !oneOf("uif", descr[2]) || !oneOf("248", descr[3])) {
@@ -72,7 +72,7 @@ bool takeDescr(std::string_view descr, NpyHead& head) {
 }
 
 // "(480, 640)" or "(480, 640, 1)".
-bool takeShape(std::string_view shape, NpyHead& head) {
+bool takeShape(std::string_view shape, NpyHeader& head) {
     if (shape.size() < 2 || shape.front() != '(' || shape.back() != ')') {
         return false;
     }
@@ -94,12 +94,12 @@ bool isNpy(ImageBytes bytes) {
     return bytes.size() >= 10 && std::equal(kNpyMagic.begin(), kNpyMagic.end(), bytes.begin());
 }
 
-NpyHead parseNpyHead(ImageBytes bytes) {
-    NpyHead head;
+NpyHeader parseNpyHeader(ImageBytes bytes) {
+    NpyHeader head;
     const std::string_view text = isNpy(bytes) ? npyDictionary(bytes, head.values) : std::string_view{};
     auto fields = npyFields(text);
     if (!fields.contains("descr") || !fields.contains("fortran_order") || !fields.contains("shape")) {
-        head.fault = "NPY: a head without descr, fortran_order and shape, or cut off";
+        head.fault = "NPY: a header without descr, fortran_order and shape, or cut off";
     } else if (!takeDescr(fields["descr"], head)) {
         head.fault = npyFault("descr", fields["descr"], "integers or floating point of 2, 4 or 8 bytes: <u2");
     } else if (fields["fortran_order"] != "False") {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "devices/bag/matroska_head.h"
+#include "devices/bag/matroska_header.h"
 
 #include <charconv>
 
@@ -53,7 +53,7 @@ void bound(size_t count, size_t most, const char* what) {
 
 } // namespace
 
-void MatroskaHead::readInfo(const EbmlElement& info) {
+void MatroskaHeader::readInfo(const EbmlElement& info) {
     reader_.children(info, [&](const EbmlElement& child) {
         timescale_ = fieldOf(child) == Field::Timescale ? reader_.number(child) : timescale_;
     });
@@ -63,7 +63,7 @@ void MatroskaHead::readInfo(const EbmlElement& info) {
     }
 }
 
-void MatroskaHead::readTracks(const EbmlElement& tracks) {
+void MatroskaHeader::readTracks(const EbmlElement& tracks) {
     reader_.children(tracks, [&](const EbmlElement& child) {
         if (fieldOf(child) == Field::TrackEntry) {
             bound(tracks_.size(), kMaxTracks, "tracks");
@@ -72,7 +72,7 @@ void MatroskaHead::readTracks(const EbmlElement& tracks) {
     });
 }
 
-MatroskaTrack MatroskaHead::track(const EbmlElement& entry) {
+MatroskaTrack MatroskaHeader::track(const EbmlElement& entry) {
     MatroskaTrack track;
     std::vector<uint8_t> header;
     reader_.children(entry, [&](const EbmlElement& child) {
@@ -110,7 +110,7 @@ MatroskaTrack MatroskaHead::track(const EbmlElement& entry) {
     return track;
 }
 
-void MatroskaHead::readVideo(const EbmlElement& video, MatroskaTrack& track) {
+void MatroskaHeader::readVideo(const EbmlElement& video, MatroskaTrack& track) {
     reader_.children(video, [&](const EbmlElement& child) {
         if (fieldOf(child) == Field::Width) {
             track.width = reader_.number(child);
@@ -123,7 +123,7 @@ void MatroskaHead::readVideo(const EbmlElement& video, MatroskaTrack& track) {
 }
 
 // Of each tag its first name and text, as the SDK reads them.
-void MatroskaHead::readTags(const EbmlElement& tags) {
+void MatroskaHeader::readTags(const EbmlElement& tags) {
     reader_.children(tags, [&](const EbmlElement& tag) {
         if (fieldOf(tag) != Field::Tag) {
             return;
@@ -143,7 +143,7 @@ void MatroskaHead::readTags(const EbmlElement& tags) {
     });
 }
 
-void MatroskaHead::readAttachments(const EbmlElement& attachments) {
+void MatroskaHeader::readAttachments(const EbmlElement& attachments) {
     reader_.children(attachments, [&](const EbmlElement& file) {
         if (fieldOf(file) != Field::AttachedFile) {
             return;
@@ -163,12 +163,12 @@ void MatroskaHead::readAttachments(const EbmlElement& attachments) {
     });
 }
 
-std::string MatroskaHead::tag(const std::string& name) const {
+std::string MatroskaHeader::tag(const std::string& name) const {
     const auto found = tags_.find(name);
     return found == tags_.end() ? "" : found->second;
 }
 
-int64_t MatroskaHead::numberTag(const std::string& name) const {
+int64_t MatroskaHeader::numberTag(const std::string& name) const {
     const std::string text = tag(name);
     int64_t value = 0;
     const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -178,7 +178,7 @@ int64_t MatroskaHead::numberTag(const std::string& name) const {
     return value;
 }
 
-std::vector<uint8_t> MatroskaHead::attachment(const std::string& name) const {
+std::vector<uint8_t> MatroskaHeader::attachment(const std::string& name) const {
     const auto found = attachments_.find(name);
     return found == attachments_.end() ? std::vector<uint8_t>{} : found->second;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "devices/images/exr_head.h"
+#include "devices/images/exr_header.h"
 
 #include "devices/bag/byte_cursor.h"
 #include "devices/images/exr_channel.h"
@@ -65,7 +65,7 @@ ImageBytes exrAttribute(const std::map<std::string, ImageBytes>& all, const char
     return found->second;
 }
 
-void chooseChannel(const std::vector<ExrChannel>& channels, ExrHead& head) {
+void chooseChannel(const std::vector<ExrChannel>& channels, ExrHeader& head) {
     const ExrDepth chosen = chooseExrDepth(channels);
     const uint32_t kind = channels[chosen.depth].kind;
     head.half = kind == 1;
@@ -82,7 +82,7 @@ void chooseChannel(const std::vector<ExrChannel>& channels, ExrHead& head) {
     }
 }
 
-void takeWindow(const std::map<std::string, ImageBytes>& all, ExrHead& head) {
+void takeWindow(const std::map<std::string, ImageBytes>& all, ExrHeader& head) {
     const auto data = ByteCursor(exrAttribute(all, "dataWindow")).value<ExrBox>();
     if (data != ByteCursor(exrAttribute(all, "displayWindow")).value<ExrBox>()) {
         throw Error("EXR: dataWindow (allowed: equal to displayWindow)");
@@ -97,7 +97,7 @@ void takeWindow(const std::map<std::string, ImageBytes>& all, ExrHead& head) {
     head.firstRow = data.top;
 }
 
-void takeCompression(const std::map<std::string, ImageBytes>& all, ExrHead& head) {
+void takeCompression(const std::map<std::string, ImageBytes>& all, ExrHeader& head) {
     const auto kind = ByteCursor(exrAttribute(all, "compression")).value<uint8_t>();
     if (kind != 0 && kind != 2 && kind != 3) {
         constexpr const char* kNames[] = {"", "RLE", "", "", "PIZ", "PXR24", "B44", "B44A", "DWAA", "DWAB"};
@@ -108,7 +108,7 @@ void takeCompression(const std::map<std::string, ImageBytes>& all, ExrHead& head
     head.rowsPerChunk = kind == 3 ? 16 : 1;
 }
 
-void readExrHead(ImageBytes bytes, ExrHead& head) {
+void readExrHeader(ImageBytes bytes, ExrHeader& head) {
     ByteCursor cursor(bytes);
     cursor.word(); // magic
     if (const uint32_t version = cursor.word(); (version & ~kExrLongNames) != kExrPlain) {
@@ -125,10 +125,10 @@ void readExrHead(ImageBytes bytes, ExrHead& head) {
 
 } // namespace
 
-ExrHead parseExrHead(ImageBytes bytes) {
-    ExrHead head;
+ExrHeader parseExrHeader(ImageBytes bytes) {
+    ExrHeader head;
     try {
-        readExrHead(bytes, head);
+        readExrHeader(bytes, head);
     } catch (const Error& e) {
         head.fault = e.what() == std::string_view("truncated") ? "EXR: truncated" : e.what();
     }

@@ -38,7 +38,7 @@ struct PlyElement {
 enum class PlyFormat : uint8_t { Ascii, LittleEndian, BigEndian };
 
 // What the header says.
-struct PlyHead {
+struct PlyHeader {
     PlyFormat format = PlyFormat::Ascii;
     std::vector<PlyElement> elements;
     uint32_t width = 0, height = 0; // of an organised cloud, 0 = not stated
@@ -46,6 +46,6 @@ struct PlyHead {
 };
 
 // At most 64 elements of 256 properties. Throws BadInput that names the file and the header's line.
-PlyHead plyHead(const std::string& file, std::string_view text);
+PlyHeader plyHeader(const std::string& file, std::string_view text);
 
 } // namespace fathom

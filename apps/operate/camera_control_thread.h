@@ -17,13 +17,13 @@
 namespace fathom::operate {
 
 // Window thread; no call waits for the camera.
-class CameraDesk {
+class CameraControlThread {
 public:
     // controls null: the source has none.
-    explicit CameraDesk(std::shared_ptr<CameraControls> controls);
-    ~CameraDesk();
-    CameraDesk(const CameraDesk&) = delete;
-    CameraDesk& operator=(const CameraDesk&) = delete;
+    explicit CameraControlThread(std::shared_ptr<CameraControls> controls);
+    ~CameraControlThread();
+    CameraControlThread(const CameraControlThread&) = delete;
+    CameraControlThread& operator=(const CameraControlThread&) = delete;
 
     bool any() const { return controls_ != nullptr; }
     void show(bool shown); // reads the controls once per second while shown

@@ -10,7 +10,7 @@
 namespace fathom {
 
 // Size and kind of the values. Where `fault` says why the image cannot be read, the rest may be unset.
-struct DepthHead {
+struct DepthHeader {
     PngSize size;
     bool metres = false; // floating point, else the 16-bit values of a sensor
     std::string fault;

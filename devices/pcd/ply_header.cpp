@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "devices/pcd/ply_head.h"
+#include "devices/pcd/ply_header.h"
 
 #include "engine/types/error.h"
 
@@ -35,7 +35,7 @@ public:
         : file_(file)
         , text_(text) {}
 
-    PlyHead read() {
+    PlyHeader read() {
         if (line() != std::vector<std::string>{"ply"}) {
             refuse("format", "no PLY", "a PLY file");
         }
@@ -168,7 +168,7 @@ private:
     const std::string& file_;
     std::string_view text_;
     size_t at_ = 0;
-    PlyHead head_;
+    PlyHeader head_;
 };
 
 } // namespace
@@ -187,7 +187,7 @@ size_t PlyElement::find(const std::string& property) const {
     return static_cast<size_t>(found - properties.begin());
 }
 
-PlyHead plyHead(const std::string& file, std::string_view text) {
+PlyHeader plyHeader(const std::string& file, std::string_view text) {
     return PlyHeadReader(file, text).read();
 }
 

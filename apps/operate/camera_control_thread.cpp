@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/operate/camera_desk.h"
+#include "apps/operate/camera_control_thread.h"
 
 #include <chrono>
 
 namespace fathom::operate {
 
-CameraDesk::CameraDesk(std::shared_ptr<CameraControls> controls)
+CameraControlThread::CameraControlThread(std::shared_ptr<CameraControls> controls)
     : controls_(std::move(controls)) {
     if (controls_) {
         thread_ = std::thread([this] { serve(); });
     }
 }
 
-CameraDesk::~CameraDesk() {
+CameraControlThread::~CameraControlThread() {
     {
         const std::lock_guard lock(mutex_);
         ends_ = true;
@@ -23,7 +23,7 @@ CameraDesk::~CameraDesk() {
     }
 }
 
-void CameraDesk::show(bool shown) {
+void CameraControlThread::show(bool shown) {
     {
         const std::lock_guard lock(mutex_);
         if (shown == shown_) {
@@ -35,7 +35,7 @@ void CameraDesk::show(bool shown) {
     changed_.notify_one();
 }
 
-void CameraDesk::request(const CameraControl& control, int64_t value) {
+void CameraControlThread::request(const CameraControl& control, int64_t value) {
     {
         const std::lock_guard lock(mutex_);
         requested_.emplace(control, value);
@@ -43,12 +43,12 @@ void CameraDesk::request(const CameraControl& control, int64_t value) {
     changed_.notify_one();
 }
 
-CameraDesk::Answer CameraDesk::answer() const {
+CameraControlThread::Answer CameraControlThread::answer() const {
     const std::lock_guard lock(mutex_);
     return answer_;
 }
 
-void CameraDesk::serve() {
+void CameraControlThread::serve() {
     constexpr auto kPeriod = std::chrono::seconds(1);
     std::unique_lock lock(mutex_);
     while (!ends_) {
