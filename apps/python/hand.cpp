@@ -44,7 +44,8 @@ void bindContact(py::module_& module) {
         .def_property_readonly(
             "normal", [](const Contact& c) { return array(c.normal); }, "out of the fixture")
         .def_readonly("gap", &Contact::gap, "[m]")
-        .def_readonly("fixture", &Contact::fixture, "index into the scene's fixtures");
+        .def_readonly("fixture", &Contact::fixture,
+                      "index into the scene's fixtures; 0xffffffff = the visible surface");
 }
 
 void bindWrench(py::class_<Step>& step) {

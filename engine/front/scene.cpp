@@ -35,6 +35,10 @@ std::size_t Scene::fixtures() const noexcept {
 }
 
 const std::string& Scene::fixtureName(std::size_t fixture) const {
+    static const std::string kSurface = "visible surface";
+    if (fixture == kNoFixture) {
+        return kSurface;
+    }
     if (fixture >= fixtures()) {
         throw BadInput("fixture " + std::to_string(fixture) + " (allowed: below " +
                        std::to_string(fixtures()) + ")");

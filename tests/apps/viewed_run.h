@@ -39,6 +39,7 @@ struct ViewedRun {
     void touch(uint32_t leaf, double beyond) {
         row.record.touchCount = 1;
         row.record.touches[0] = {};
+        row.record.touches[0].fixture = 0;
         row.record.touches[0].leaf = leaf;
         row.record.touches[0].normal = {0.0, 0.0, -1.0};
         row.record.device.position = {0.0, 0.0, beyond};

@@ -2,10 +2,12 @@
 // Names for messages: of enumerators, of fixtures and of the compute device.
 #include "tests/engine/wall_world.h"
 
+#include <algorithm>
 #include <doctest/doctest.h>
 #include <initializer_list>
 #include <string>
 #include <utility>
+#include <vector>
 
 using namespace fathom;
 using namespace fathom::testing;
@@ -72,4 +74,24 @@ TEST_CASE("A scene names the fixture of each index, and no compute device runs f
     CHECK(scene.fixtureName(1) == "floor");
     CHECK_THROWS_WITH_AS(scene.fixtureName(2), "fixture 2 (allowed: below 2)", BadInput);
     CHECK(Engine(scene, smallCamera()).computeDeviceName() == "none");
+}
+
+TEST_CASE("A surface that new frames show in front of the tool pushes without being a fixture of the scene") {
+    Lockstep lockstep(wallScene(), smallCamera(), startAt(0.5));
+    Wall wall;
+    lockstep.process(wall.at(1'000'000));
+    lockstep.queryContacts();
+    lockstep.step(handAt(0.5), 2'000'000);
+    wall.depth.assign(wall.depth.size(), 350);
+    lockstep.process(wall.at(34'000'000));
+    std::vector<Contact> contacts;
+    for (int i = 0; i < 20; ++i) {
+        lockstep.queryContacts();
+        const Step step = lockstep.step(handAt(0.5), 35'000'000 + 1'000'000 * i);
+        contacts.insert(contacts.end(), step.contacts.begin(), step.contacts.begin() + step.contactCount);
+    }
+    const auto surface = std::ranges::find(contacts, kNoFixture, &Contact::fixture);
+    REQUIRE(surface != contacts.end());
+    CHECK(surface->normal[2] < -0.9);
+    CHECK(wallScene().fixtureName(surface->fixture) == "visible surface");
 }

@@ -77,12 +77,15 @@ constexpr StepWarning operator&(StepWarning a, StepWarning b) noexcept {
 /// The name of the lowest bit that is set, for messages: "OldScene"; "None" if there is none. Any thread.
 FATHOM_API const char* name(StepWarning warnings) noexcept;
 
+/// Contact::fixture of the visible surface, which pushes a tool that new frames show behind it.
+inline constexpr std::uint32_t kNoFixture = 0xffffffff;
+
 /// A contact that pushed in the last solve. Base frame.
 struct Contact {
     Vec3 point{};              ///< [m] on the tool's surface
     Vec3 normal{};             ///< unit, out of the fixture
     double gap = 0.0;          ///< [m]
-    std::uint32_t fixture = 0; ///< index into the scene's fixtures
+    std::uint32_t fixture = 0; ///< index into the scene's fixtures, or kNoFixture
 };
 
 /// The result of one step.

@@ -24,7 +24,8 @@ public:
     static Scene fromText(const std::string& yaml);
 
     std::size_t fixtures() const noexcept; ///< number of fixtures, in the order of the scene file
-    /// Name of a fixture, for example of Contact::fixture. @throws BadInput beyond fixtures()
+    /// Name of a fixture, for example of Contact::fixture; "visible surface" for kNoFixture. @throws BadInput
+    /// for another index beyond fixtures()
     const std::string& fixtureName(std::size_t fixture) const;
 
     struct FATHOM_LOCAL Data;
