@@ -139,7 +139,8 @@ TEST_CASE("Axis steps are 1, 2 or 5 times a power of ten, and labels have the di
     CHECK(roundNumber(20.0) == "20");
 }
 
-TEST_CASE("The force trace follows the scale of its axis over 1 tick, 1 s and 1 h") {
+TEST_CASE("The force trace follows the scale of its axis over 1 s and 1 h, and one tick gives an image of "
+          "the usual size") {
     const ScratchFolder folder;
     const auto path = folder.path() / "traces.png";
     for (const int count : {1, 1000, 3600000}) {
