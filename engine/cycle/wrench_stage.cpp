@@ -162,9 +162,11 @@ Wrench WrenchStage::smoothed(const WrenchInput& input, const Wrench& wanted) noe
     }
     const double rampStep = std::max(options_.period, input.elapsed) / ForceRamps::kRampTime;
     const Wrench filtered = lowPass(wanted, smooth_, options_.lowPassGain);
+    const double inForce = std::min(ramps_.limitScale(), ramps_.fadeGain());
     const auto ending = [&](const dvec3& now, const dvec3& before, const dvec3& after, double limit) {
-        return withEndingTail(now, clampLength(before, std::max(glm::length(now), limit)), after,
-                              rampStep * limit);
+        // No more than was felt: what is no longer wanted must not rise with the limits.
+        const double felt = std::max(glm::length(now), inForce * limit);
+        return withEndingTail(now, clampLength(before, felt), after, rampStep * limit);
     };
     smooth_ = {ending(wanted.force, smooth_.force, filtered.force, options_.forceLimit),
                ending(wanted.torque, smooth_.torque, filtered.torque, options_.torqueLimit)};

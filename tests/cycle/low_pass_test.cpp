@@ -74,6 +74,28 @@ TEST_CASE(
     }
 }
 
+TEST_CASE("While forces return, what a slow low-pass still holds of a contact that ended only falls") {
+    for (const double hz : {0.5, 2.0, 5.0}) {
+        for (const int off : {20, 150}) { // ticks
+            CAPTURE(hz);
+            CAPTURE(off);
+            HapticRig rig = settledRig(hz, 0.03);
+            rig.forcesOff = true;
+            rig.ticks(off);
+            rig.forcesOff = false;
+            rig.ticks(20);
+            rig.hand = at(0, 0, 0.03);
+            double before = forceOf(rig.step());
+            REQUIRE(before > 0.05);
+            for (int tick = 0; tick < 300; ++tick) {
+                const double now = forceOf(rig.step());
+                CHECK(now <= before);
+                before = now;
+            }
+        }
+    }
+}
+
 TEST_CASE("A low slew limit slows the rise of a force, and neither its fall nor the dead-man switch") {
     Scene scene = handScene();
     scene.haptics.slewForce = 20.0;
