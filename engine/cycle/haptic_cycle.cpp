@@ -7,8 +7,9 @@
 namespace fathom {
 namespace {
 
-constexpr double kCleanTime = 1.0;    // [s] without a loss of the device before forces return
-constexpr double kPressedForce = 0.5; // [N] of a region that counts as pressed
+constexpr double kCleanTime = 1.0; // [s] without a loss of the device before forces return
+// Force [N] of a region that counts as pressed, and with soft springs the length [m] that it holds.
+constexpr double kPressedForce = 0.5, kPressedLength = 0.0005;
 
 // The pose that the hand commands before the first step.
 Pose begin(HandMap& map, const Pose& start, const Pose* tool0, const ArmSetup* arm) {
@@ -64,7 +65,7 @@ StepRecord HapticCycle::step(const StepInput& input) noexcept {
     const Pose before = tool_, endBefore = springEnd_;
     ProxyStep moved = stepTool(input, set, situation, newData, out);
     const std::optional<dvec3> gone =
-        newData ? vanishedAlong(moved, before.position, endBefore.position) : std::nullopt;
+        newData ? vanishedAlong(moved, set, before.position, endBefore.position) : std::nullopt;
     if (gone) {
         keepHandAtTool(before, *gone, moved);
     }
@@ -203,9 +204,20 @@ void HapticCycle::makeWrench(const StepInput& input, const Situation& situation,
     out.finite = made.finite;
     out.cause = made.cause;
     if (situation.sampleFinite) { // else nothing was seen to press
-        pressing_.rows = !moved.active.empty() && stage_.reaction() > kPressedForce;
-        pressing_.spring = moved.allowed.position - springEnd_.position;
+        notePressing(moved);
     }
+}
+
+void HapticCycle::notePressing(const ProxyStep& moved) noexcept {
+    if (moved.trapped) { // what pressed before still holds the tool, unless the hand leaves it meanwhile
+        const dvec3 spring = tool_.position - springEnd_.position;
+        pressing_.rows = pressing_.rows && glm::dot(spring, pressing_.spring) >= 0.0;
+        pressing_.spring = spring;
+        return;
+    }
+    const double least = std::min(kPressedForce, kPressedLength * watch_.springs().stiffness);
+    pressing_.rows = !moved.active.empty() && stage_.reaction() > least;
+    pressing_.spring = moved.allowed.position - springEnd_.position;
 }
 
 StepState HapticCycle::stateOf(const Situation& situation, const ProxyStep& moved, bool lags) const noexcept {

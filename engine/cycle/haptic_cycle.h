@@ -68,9 +68,12 @@ public:
     const Pose& handle() const { return handle_; } // raw pose of the hand, last good sample
     // Pose and, on an arm, posture.
     ToolPlace place() const { return {tool_, arm_ ? arm_->posture() : ArmPosture{}}; }
-    // Of the next contact query: ahead of place() when answers are late.
+    // Of the next contact query: ahead of place() when answers are late. A pressed arm asks farther, so that
+    // a surface that moved back is told from one that vanished.
     QueryPlace queryPlace() const noexcept {
-        return ahead_.ask(place(), time_, arm_ ? armSetup_->model.count() : 0);
+        QueryPlace next = ahead_.ask(place(), time_, arm_ ? armSetup_->model.count() : 0);
+        next.extraReach += std::min(behindHand(), QueryAhead::kMaxReach);
+        return next;
     }
     bool onArm() const { return arm_.has_value(); }
     // active springs: those of the options, or softer ones while ticks are slow
@@ -117,13 +120,15 @@ private:
     void recentre() noexcept;
     void takeSample(const StepInput& input, const Situation& situation) noexcept;
     bool regionsChanged(const ContactSet* set) noexcept;
-    std::optional<dvec3> vanishedAlong(const ProxyStep& moved, const dvec3& before,
+    std::optional<dvec3> vanishedAlong(const ProxyStep& moved, const ContactSet* set, const dvec3& before,
                                        const dvec3& endBefore) const noexcept;
+    double behindHand() const noexcept;
     void keepHandAtTool(const Pose& before, const dvec3& along, ProxyStep& moved) noexcept;
     void takeUpLag(ProxyStep& moved, StepRecord& out) noexcept;
     void shiftHand(const dvec3& by, const dquat& turn) noexcept;
     void makeWrench(const StepInput& input, const Situation& situation, const ProxyStep& moved, bool newData,
                     bool vanished, StepRecord& out) noexcept;
+    void notePressing(const ProxyStep& moved) noexcept;
     Wrench guidancePull() const noexcept;
     void recordTouches(const ContactSet* set, const ProxyStep& moved, StepRecord& out) const noexcept;
     void report(const Situation& situation, const ProxyStep& moved, bool hasSet,
@@ -156,7 +161,7 @@ private:
         double age = std::numeric_limits<double>::infinity(); // [s]
     } regions_;
     struct Pressing {      // of the last step
-        bool rows = false; // with a force that can be felt
+        bool rows = false; // with a force that can be felt, or the length that holds with soft springs
         dvec3 spring{0.0}; // [m] from the hand's end of the spring to where the rows held the tool
     } pressing_;
     struct HandShift {

@@ -45,18 +45,21 @@ void HapticCycle::recentre() noexcept {
 // class is no longer seen, or their shape was removed. Zero = those that are gone pressed by a torque alone;
 // empty = none are. `before` and `endBefore` are where the tool and the hand's end of the spring were when
 // they pressed.
-std::optional<dvec3> HapticCycle::vanishedAlong(const ProxyStep& moved, const dvec3& before,
-                                                const dvec3& endBefore) const noexcept {
+std::optional<dvec3> HapticCycle::vanishedAlong(const ProxyStep& moved, const ContactSet* set,
+                                                const dvec3& before, const dvec3& endBefore) const noexcept {
     const bool left = glm::dot(before - springEnd_.position, pressing_.spring) < 0.0;
-    if (!pressing_.rows || left || jointLimits_ != 0 || moved.trapped) {
+    if (!pressing_.rows || left || moved.trapped) {
         return std::nullopt;
     }
     const bool rows = !moved.active.empty();
-    // An arm may not yet have followed a surface that lies between it and the hand.
-    const double reach =
-        kVanishedGap + (arm_ && moved.cut ? glm::distance(tool_.position, springEnd_.position) : 0.0);
-    if (!rows && !(moved.minGap <= reach)) { // NaN: no set
+    // A set that lists nothing shows nothing that is near, however short its reach is. An arm may not yet
+    // have followed a surface that lies between it and the hand.
+    const bool none = set == nullptr || !(moved.minGap < set->reach);
+    if (!rows && (none || moved.minGap > kVanishedGap + behindHand())) {
         return pressing_.spring;
+    }
+    if (jointLimits_ != 0) {
+        return std::nullopt;
     }
     // Other regions press or are near.
     const dvec3 held = rows ? moved.allowed.position - springEnd_.position : dvec3(0.0);
@@ -65,6 +68,11 @@ std::optional<dvec3> HapticCycle::vanishedAlong(const ProxyStep& moved, const dv
     }
     const bool turned = !arm_ && turnVanished(allowed_, moved, springEnd_, watch_.springs().metricRadius);
     return turned ? std::optional(dvec3(0.0)) : std::nullopt;
+}
+
+// [m] from a pressed arm's tip to the hand's end of the spring; 0 for a tool without an arm.
+double HapticCycle::behindHand() const noexcept {
+    return arm_ && pressing_.rows ? glm::distance(tool_.position, springEnd_.position) : 0.0;
 }
 
 // Moves the hand map by `by` [m], and with it the pose that the hand commands. `turn` turns that pose.

@@ -93,7 +93,7 @@ struct ToolPlace {
 struct QueryPlace {
     ToolPlace place;            // where the tool is, or will be when the answer is used
     double askedAt = kNotKnown; // [s] of the step that asks; NaN: before any
-    double extraReach = 0.0;    // [m] beyond the scene's reach, for late answers
+    double extraReach = 0.0;    // [m] beyond the scene's reach, for late answers and pressed arms
 };
 
 // Status of the real arm that follows the tool's arm, before a step.

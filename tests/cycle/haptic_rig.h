@@ -100,11 +100,11 @@ public:
     std::unique_ptr<ContactSet> answer() {
         auto set = std::make_unique<ContactSet>();
         const QueryPlace at = cycle->queryPlace();
-        const double reach = 0.01 + at.extraReach;
+        const double all = reach + at.extraReach;
         if (arm) { // its leaves are already in the base frame
-            cull.query(arm->toolAt(at.place.arm), Pose{}, reach, *fixtures, grid, *set);
+            cull.query(arm->toolAt(at.place.arm), Pose{}, all, *fixtures, grid, *set);
         } else {
-            cull.query(tool, at.place.pose, reach, *fixtures, grid, *set);
+            cull.query(tool, at.place.pose, all, *fixtures, grid, *set);
         }
         set->askedAt = at.askedAt;
         set->query = ++queries;
@@ -131,6 +131,7 @@ public:
     double measured = 0.0; // [s] measured tick period; 0 = the nominal period, as in lockstep
     bool sceneAges = true; // false: every tick has a new capture time
     bool query = true;
+    double reach = 0.01; // [m] of contact queries
     size_t late = 0;     // ticks until an answer is offered
     bool present = true; // the device renders and is heard
     uint32_t buttons = 0;
