@@ -71,7 +71,7 @@ public:
                                  " and stay where they are: " + joints + "; arm.tip selects another");
         }
         if (best->rank == kNoTool && best->moving > 2 && !turnsHand(wordsOf(model_, *best->last))) {
-            if (const std::string warning = jawWarning(*best->last); !warning.empty()) {
+            if (const std::string warning = jawWarning(*best->last, gripperHolder(*best)); !warning.empty()) {
                 ends.notes.push_back(warning);
             }
         }
@@ -81,10 +81,11 @@ public:
 private:
     struct Seen { // a link below the base
         LinkPtr link;
-        int moving;                        // joints between the base and it
-        const urdf::Joint* last = nullptr; // last moving joint above it
-        bool inGripper = false;            // carried by a gripper joint
-        bool gripperBelow = false;
+        int moving;                         // joints between the base and it
+        const urdf::Joint* last = nullptr;  // last moving joint above it
+        bool inGripper = false;             // carried by a gripper joint
+        bool gripperBelow = false;          // the next joint that moves closes a gripper
+        bool inHand = false;                // behind fixed joints of a link that branches into fingers
         const urdf::Joint* named = nullptr; // the gripper joint, if only its names say so
         int before = 0;                     // joints between the base and the gripper
         size_t rank = kNoTool;
@@ -129,13 +130,15 @@ private:
         const size_t at = seen_.size();
         seen.rank = toolRank(seen.link->name);
         seen_.push_back(seen);
-        const bool fingers = grippers_.branchesIntoFingers(*seen.link, seen.moving);
+        const bool fingers = seen.inHand || grippers_.branchesIntoFingers(*seen.link, seen.moving);
         for (const auto& joint : seen.link->child_joints) {
             if (isFree(*joint) && seen.moving > 0 && grippers_.depthThrough(*joint) == 0) {
                 continue; // it would end the chain
             }
             Seen next = seen;
             next.link = model_.getLink(joint->child_link_name);
+            const bool fixed = joint->type == urdf::Joint::FIXED;
+            next.inHand = fingers && fixed;
             if (moves(*joint)) {
                 const bool closes = fingers || grippers_.closes(*joint, seen.moving, seen.last);
                 const bool grips = closes || grippers_.closesByName(*joint);
@@ -148,8 +151,30 @@ private:
                 next.moving = seen.moving + 1;
                 next.last = joint.get();
             }
+            const size_t below = seen_.size();
             walk(next);
+            seen_[at].gripperBelow = seen_[at].gripperBelow || (fixed && seen_[below].gripperBelow);
         }
+    }
+
+    // The link that carries the gripper if the chain ends with a joint of one: where the branch begins that
+    // has no joint as those of an arm, so that no finger is cut in two; else the link above the last joint.
+    std::string gripperHolder(const Seen& end) const {
+        std::string holder = end.last->parent_link_name;
+        int above = end.moving; // joints between the base and the link
+        for (const urdf::Joint* joint = end.last; joint != nullptr;) {
+            if (moves(*joint) &&
+                movesAsArm(*joint, wordsOf(model_, *joint), grippers_.depthBelow(joint->child_link_name))) {
+                break;
+            }
+            const LinkPtr link = model_.getLink(joint->parent_link_name);
+            above -= moves(*joint);
+            const bool hand =
+                grippers_.branches(*link) > 1 && above >= std::max(2, grippers_.depthBelow(link->name));
+            holder = hand ? link->name : holder;
+            joint = link->parent_joint.get();
+        }
+        return holder;
     }
 
     // Names the longest chain elsewhere that has as many joints but seems to end before, by a gripper's name.

@@ -63,7 +63,7 @@ bool movesAsArm(const urdf::Joint& joint, const JointWords& words, int behind) {
                : std::min(-low, high) > kArmTurn && !closesGripper(words, behind);
 }
 
-std::string jawWarning(const urdf::Joint& joint) {
+std::string jawWarning(const urdf::Joint& joint, const std::string& holder) {
     const bool slide = joint.type == urdf::Joint::PRISMATIC;
     if (!(slide || joint.type == urdf::Joint::REVOLUTE) ||
         !movesToOneSide(joint, slide ? kJawTravel : kJawTurn)) {
@@ -71,8 +71,7 @@ std::string jawWarning(const urdf::Joint& joint) {
     }
     return "joint " + joint.name + " (" + significant(joint.limits->lower, 3) + " to " +
            significant(joint.limits->upper, 3) + (slide ? " m" : " rad") +
-           ") is the last of the chain and may close a gripper; if so, set arm.tip to " +
-           joint.parent_link_name;
+           ") is the last of the chain and may close a gripper; if so, set arm.tip to " + holder;
 }
 
 } // namespace fathom

@@ -19,6 +19,7 @@ bool slidesLikeJaw(const urdf::ModelInterface& model, const urdf::Joint& joint, 
 bool movesAsArm(const urdf::Joint& joint, const JointWords& words, int behind);
 
 // A note that the joint may close a gripper, if it moves only a little and to one side of 0; else empty.
-std::string jawWarning(const urdf::Joint& joint);
+// holder: the link that carries the gripper then.
+std::string jawWarning(const urdf::Joint& joint, const std::string& holder);
 
 } // namespace fathom

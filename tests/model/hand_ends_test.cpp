@@ -51,6 +51,17 @@ std::string rowOf(const std::string& prefix, const std::vector<std::string>& joi
     return urdf;
 }
 
+// Fingers on l6, each behind a fixed link of its own.
+std::string fixedFingers(const std::map<std::string, int>& fingers) {
+    std::string urdf;
+    for (const auto& [name, joints] : fingers) {
+        urdf += ballLink(name + "_base") +
+                jointText(name + "_mount", "fixed", "l6", name + "_base", "0 0 0.05", "0 0 1", "") +
+                fingerOf(name, joints, name + "_base");
+    }
+    return urdf;
+}
+
 std::string endOf(const std::string& urdf) {
     const std::string text = loadUrdf(urdf).tipText;
     return text.substr(0, text.find(' '));
@@ -85,6 +96,31 @@ TEST_CASE("A hand ends the chain though its motor or springs are joints of their
         jointText("palm", "fixed", "wrist_roll_link", "hand_palm_link", "0 0 0", "0 0 1");
     CHECK(endOf(named + fingerOf("motor", 1, "hand_palm_link") + fingerOf("left", 3, "hand_palm_link") +
                 fingerOf("right", 3, "hand_palm_link")) == "hand_palm_link");
+}
+
+TEST_CASE("A hand ends the chain though its fingers hang on fixed links") {
+    const std::string text =
+        loadUrdf(armOf(6) + fixedFingers({{"index", 3}, {"middle", 3}, {"ring", 3}})).tipText;
+    CHECK(text == "l6 (the end of the longest chain before a gripper)");
+    CHECK(endOf(armOf(6) + fixedFingers({{"index", 4}, {"middle", 4}}) + fingerOf("ring", 3, "l6")) == "l6");
+    CHECK(endOf(armOf(4) + ballLink("plate") +
+                jointText("p", "fixed", "l4", "plate", "0 0 0.1", "0 0 1", "") +
+                fingerOf("one", 2, "plate")) == "one_2"); // one branch is no hand
+}
+
+TEST_CASE("The note on a last joint that may close a gripper names the link where the fingers begin") {
+    const auto note = [](const std::string& hand) {
+        const ArmModel arm = loadUrdf(armOf(6) + hand);
+        const auto found = std::ranges::find_if(arm.notes, [](const std::string& line) {
+            return line.find("may close a gripper") != std::string::npos;
+        });
+        return found == arm.notes.end() ? "" : *found;
+    };
+    const std::string wanted = "joint long_joint4 (0 to 1.5 rad) is the last of the chain and may close a "
+                               "gripper; if so, set arm.tip to l6";
+    CHECK(note(fingerOf("long", 4, "l6") + fingerOf("mid", 2, "l6") + fingerOf("short", 1, "l6")) == wanted);
+    CHECK(note(fixedFingers({{"long", 4}, {"mid", 2}, {"short", 1}})) == wanted);
+    CHECK(note(fingerOf("long", 4, "l6")).ends_with("set arm.tip to long_3")); // no branch
 }
 
 TEST_CASE("A trunk with two arms and a head is no hand") {
