@@ -14,10 +14,24 @@ namespace {
 constexpr int kFingerDepth = 4; // joints of a finger
 constexpr int kHandDepth = 5;   // of a finger among three and more
 constexpr size_t kFewFingers = 3;
+constexpr int kNamedDepth = 8; // of a finger on a link named as a hand, also with joints of simulators
+constexpr int kOwnWrist = 2;   // joints of a forearm that belongs to a hand
 
 // Whether the depths, in rising order, differ by at most one joint.
 bool areAlike(std::span<const int> depths) {
     return depths.size() > 1 && depths.back() - depths.front() <= 1;
+}
+
+// The most of the depths, in rising order, that are alike.
+size_t mostAlike(std::span<const int> depths) {
+    size_t most = 0, first = 0;
+    for (size_t i = 0; i < depths.size(); ++i) {
+        while (depths[i] - depths[first] > 1) {
+            ++first;
+        }
+        most = std::max(most, i + 1 - first);
+    }
+    return most;
 }
 
 } // namespace
@@ -70,6 +84,11 @@ bool GripperJoints::branchesIntoFingers(const urdf::Link& link, int moving) cons
     }
     std::sort(depths.begin(), depths.end());
     const size_t n = depths.size();
+    // A hand by its name may have several motors and a thumb beside its fingers.
+    if (n > kFewFingers && namesHand(link.name) && moving > kOwnWrist && depths.back() <= kNamedDepth &&
+        2 * mostAlike(depths) >= n) {
+        return true;
+    }
     if (n < 2 || depths.back() > (n < kFewFingers ? kFingerDepth : kHandDepth) || moving < 2 ||
         moving < depths.back()) {
         return false;

@@ -28,8 +28,8 @@ public:
     // Branches below the link with moving joints.
     size_t branches(const urdf::Link& link) const;
 
-    // Whether branches of moving joints at the link are fingers: alike, but for one thumb or motor. moving:
-    // joints between base and link.
+    // Whether branches of moving joints at the link are fingers: alike, but for one thumb or motor; of a
+    // link named as a hand, half of them. moving: joints between base and link.
     bool branchesIntoFingers(const urdf::Link& link, int moving) const;
     // Whether the joint closes a gripper, by what it is tied to or as a jaw. moving: joints above it; last:
     // the nearest of them.

@@ -50,6 +50,7 @@ constexpr std::array<std::string_view, 11> kGripperWords{
 // A joint of this name moves a finger, also sideways: "thumb_yaw".
 constexpr std::array<std::string_view, 4> kFingerWords{"finger", "fngr", "thumb", "knuckle"};
 constexpr std::array<std::string_view, 1> kWrist{"wrist"};
+constexpr std::array<std::string_view, 2> kHands{"hand", "palm"};
 constexpr std::array<std::string_view, 4> kGripperJoints{"grip", "gripper", "grasp", "opening"};
 
 // In the name of a joint these say that it turns a hand and does not close it.
@@ -177,6 +178,27 @@ bool namesPart(const std::string& link) {
     return toolRank(link) < kNoTool &&
            std::find(kToolNames.begin(), kToolNames.end(), name) == kToolNames.end() &&
            toolRank(link) >= static_cast<size_t>(first - kToolNames.begin());
+}
+
+bool namesHand(const std::string& link) {
+    return std::ranges::any_of(namePartsOf(link), [](const std::string& part) {
+        return std::ranges::any_of(kHands, [&](std::string_view word) {
+            const std::string_view side = std::string_view(part).substr(0, part.size() - word.size());
+            return part.ends_with(word) && (side.empty() || std::ranges::find(kSides, side) != kSides.end());
+        });
+    });
+}
+
+std::string tipAdvice(const urdf::ModelInterface& model, const urdf::Joint& joint, size_t most) {
+    auto link = model.getLink(joint.parent_link_name);
+    while (link && link->parent_joint && most > 0) {
+        if (toolRank(link->name) < kNoTool || namesHand(link->name)) {
+            return ", for example arm.tip: " + link->name;
+        }
+        most -= moves(*link->parent_joint) ? 1 : 0;
+        link = link->getParent();
+    }
+    return "";
 }
 
 JointWords wordsOf(const urdf::ModelInterface& model, const urdf::Joint& joint) {

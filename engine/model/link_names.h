@@ -21,6 +21,13 @@ size_t toolRank(const std::string& link);
 // "wrist_flange", "forearm_hand", "calib_tool".
 bool namesPart(const std::string& link);
 
+// Whether a part of the name is a hand or palm: "left_hand_base", "rightPalm".
+bool namesHand(const std::string& link);
+
+// Names the last link with a tool frame's or hand's name above the joint, for the message of a chain with too
+// many joints: ", for example arm.tip: NAME". most: moving joints that the chain may have. Empty = none.
+std::string tipAdvice(const urdf::ModelInterface& model, const urdf::Joint& joint, size_t most);
+
 // The words of a joint's name and of its child link's, without those of a prefix that joints above it have,
 // too: a robot called "pincher" has no gripper for that.
 struct JointWords {

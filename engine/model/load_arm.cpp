@@ -7,6 +7,7 @@
 #include "engine/model/arm_warnings.h"
 #include "engine/model/finger_ends.h"
 #include "engine/model/joint_drives.h"
+#include "engine/model/link_names.h"
 #include "engine/model/urdf_file.h"
 #include "engine/types/error.h"
 
@@ -125,7 +126,8 @@ private:
             refuse("joint " + joint.name, "one more moving joint",
                    std::to_string(kMaxJoints) +
                        " at most from base to tip; arm.locked holds joints, arm.base and arm.tip shorten the "
-                       "chain");
+                       "chain" +
+                       tipAdvice(*urdf_, joint, kMaxJoints));
         }
     }
 

@@ -62,6 +62,19 @@ std::string fixedFingers(const std::map<std::string, int>& fingers) {
     return urdf;
 }
 
+// A palm on the link, with three motors, a thumb of five joints and four fingers of so many.
+std::string palmOn(const std::string& on, const std::string& palm, int joints) {
+    std::string urdf = ballLink(palm) + jointText("palm_joint", "fixed", on, palm, "0 0 0.1", "0 0 1", "");
+    for (const char* motor : {"m1", "m2", "m3"}) {
+        urdf += fingerOf(motor, 1, palm);
+    }
+    urdf += fingerOf("flex", 5, palm);
+    for (const char* finger : {"index", "middle", "ring", "little"}) {
+        urdf += fingerOf(finger, joints, palm);
+    }
+    return urdf;
+}
+
 std::string endOf(const std::string& urdf) {
     const std::string text = loadUrdf(urdf).tipText;
     return text.substr(0, text.find(' '));
@@ -106,6 +119,22 @@ TEST_CASE("A hand ends the chain though its fingers hang on fixed links") {
     CHECK(endOf(armOf(4) + ballLink("plate") +
                 jointText("p", "fixed", "l4", "plate", "0 0 0.1", "0 0 1", "") +
                 fingerOf("one", 2, "plate")) == "one_2"); // one branch is no hand
+}
+
+TEST_CASE("A hand by its name ends the chain though it has motors, a thumb and fingers of many joints") {
+    CHECK(endOf(armOf(7) + palmOn("l7", "hand_palm_link", 7)) == "hand_palm_link");
+    CHECK(loadUrdf(armOf(7) + palmOn("l7", "leftPalm", 7)).count() == 7);
+    CHECK(loadUrdf(armOf(5) + palmOn("l5", "lhand_base", 5)).count() == 5);
+    CHECK(urdfRefusal(armOf(7) + palmOn("l7", "mount", 7)).find("one more moving joint") !=
+          std::string::npos);
+    CHECK(loadUrdf(armOf(2) + palmOn("l2", "palm_link", 7)).count() == 9); // a hand without an arm
+}
+
+TEST_CASE("A chain with too many joints is rejected with the last tool frame on it, to set as its tip") {
+    const std::string before = "arm.base and arm.tip shorten the chain";
+    const std::string named = urdfRefusal(armOf(14, {{7, "arm_tool_link"}, {8, "my_palm"}, {13, "x"}}));
+    CHECK(named.find(before + ", for example arm.tip: my_palm)") != std::string::npos);
+    CHECK(urdfRefusal(armOf(14)).find(before + ")") != std::string::npos);
 }
 
 TEST_CASE("The note on a last joint that may close a gripper names the link where the fingers begin") {
