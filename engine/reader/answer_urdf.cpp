@@ -8,6 +8,7 @@
 #include "engine/reader/lost_shapes.h"
 #include "engine/reader/mjcf.h"
 #include "engine/reader/other_kinds.h"
+#include "engine/reader/parser_text.h"
 #include "engine/reader/urdf_spelling.h"
 #include "engine/types/error.h"
 #include "engine/types/printable.h"
@@ -78,39 +79,6 @@ void checkLinks(const urdf::ModelInterface& model, const std::string& file) {
     throw BadInput(file, "link " + stray->first, "in a loop of joints", kTree);
 }
 
-void checkCapsule(const std::string& file, const std::string& link, std::string_view tag) {
-    for (const char* size : {"radius", "length"}) {
-        if (xmlAttribute(tag, size).empty()) {
-            throw BadInput(file, "link " + printable(link), std::string("a capsule without ") + size,
-                           "<capsule radius=\"r\" length=\"l\"/> [m], without its round ends");
-        }
-    }
-}
-
-// <capsule radius length/> becomes a mesh whose file name holds the sizes, which the parser passes on.
-std::string hideCapsules(const std::string& file, const std::string& text) {
-    std::string out, link;
-    bool collides = false;
-    for (XmlPieces pieces(text); pieces.next();) {
-        const XmlPiece& piece = pieces.piece();
-        link = piece.name == "link" && !piece.closes ? xmlAttribute(piece.text, "name") : link;
-        collides = piece.name == "collision" ? !piece.closes : collides;
-        if (piece.name == "capsule" && collides && !piece.closes) {
-            checkCapsule(file, link, piece.text);
-        }
-        if (piece.name != "capsule") {
-            out += piece.text;
-        } else if (piece.closes) {
-            out += "</mesh>";
-        } else {
-            out += "<mesh filename=\"" + std::string(kCapsuleFile) +
-                   xmlEscaped(xmlAttribute(piece.text, "radius") + " " + xmlAttribute(piece.text, "length")) +
-                   (piece.isEmpty ? "\"/>" : "\">");
-        }
-    }
-    return out;
-}
-
 // Whether xacro makes parts of the robot here. An undefined macro stays in expanded files.
 bool isXacro(std::string_view path, const XmlPiece& tag) {
     constexpr std::array<std::string_view, 7> kControl{"macro", "include", "property",    "arg",
@@ -148,22 +116,6 @@ void refuseXacro(const std::filesystem::path& file, const std::string& text,
             notes.push_back(line + "> is not expanded and not read");
         }
     }
-}
-
-// XML reads tabs and line ends in an attribute as spaces; the parser does not.
-std::string withSpaces(const std::string& text) {
-    std::string out;
-    out.reserve(text.size());
-    for (XmlPieces pieces(text); pieces.next();) {
-        const size_t start = out.size();
-        out += pieces.piece().text;
-        if (!pieces.piece().name.empty()) {
-            std::replace_if(
-                out.begin() + static_cast<std::ptrdiff_t>(start), out.end(),
-                [](char c) { return c == '\t' || c == '\r' || c == '\n'; }, ' ');
-        }
-    }
-    return out;
 }
 
 // The joint whose <mimic> has a value that an error quotes in brackets: the parser does not name it.
@@ -231,11 +183,10 @@ std::string packetOf(const std::filesystem::path& file) {
     refuseOtherKinds(file, text);
     refuseXacro(file, text, notes);
     text = isMjcf(text) ? urdfOfMjcf(file, text, notes) : withSpaces(text);
-    const bool capsules = text.find("<capsule") != std::string::npos;
     const Listener listener;
     const std::shared_ptr<urdf::ModelInterface> model = [&] {
         const ParserAtWork parser;
-        return urdf::parseURDF(capsules ? hideCapsules(file.string(), text) : text);
+        return urdf::parseURDF(textForParser(text, file.string()));
     }();
     if (!model) {
         throw BadInput(file.string(), "robot", printable(faultOf(listener.errors(), text)), "a URDF robot");

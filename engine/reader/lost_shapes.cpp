@@ -74,7 +74,7 @@ void refuseLostShapes(const urdf::ModelInterface& model, const std::string& text
         const Reason reason = reasonFor(link, errors);
         if (!reason.ofShape) {
             throw BadInput(file, field, "its collision shapes are lost behind an error: " + reason.words,
-                           "visual and inertial elements as the URDF specification has them");
+                           "visual elements as the URDF specification has them");
         }
         const std::string shape = shapes[read].empty() ? "no shape" : excerpt(printable(shapes[read][0]));
         throw BadInput(file, field,

@@ -71,8 +71,34 @@ TEST_CASE("Elements that the parser skips because of their spelling, such as <Co
 TEST_CASE("An error in front of the collision shapes of a link, which hides them, rejects the URDF") {
     CHECK(namesShape("", "its collision shapes are lost behind an error: ",
                      "<visual><geometry><box size='1'/></geometry></visual>"));
-    CHECK(namesShape(
-        "", "its collision shapes are lost behind an error: ", "<inertial><mass value='heavy'/></inertial>"));
+}
+
+TEST_CASE("Materials and inertial values, which are not read, may have faults") {
+    for (const char* element :
+         {"<visual><geometry><sphere radius='1'/></geometry><material><color rgba='0 0 0 "
+          "1'/></material></visual>",
+          "<visual><geometry><sphere radius='1'/></geometry><material/></visual>",
+          "<inertial><mass value='heavy'/></inertial>", "<inertial/>",
+          "<inertial><origin xyz='0 0'/><mass value='1'/><!-- </inertial> --><inertia ixx='1' ixy='0' "
+          "ixz='-0.3\n' iyy='1' iyz='0' izz='1'/></inertial>"}) {
+        const ArmModel arm = loadUrdf(armWith(shapeText("<box size='1 1 1'/>"), element));
+        CHECK_MESSAGE(arm.links.size() == 2, element);
+        CHECK_MESSAGE(arm.notes.empty(), element);
+    }
+    CHECK(loadUrdf("<material name='m'/><material name='m'/>" + armWith("")).links.size() == 2);
+    CHECK(urdfRefusal(armWith("", "<visual><material></visual>")) != "");
+    CHECK(urdfRefusal(armWith("", "<material>") + "</material>") != "");
+}
+
+TEST_CASE("A link with an inertial and no shapes is a part and not a frame, whatever its values are") {
+    const auto notes = [](const std::string& inertial) {
+        return loadUrdf(armWith("") + "<link name='d'>" + inertial + "</link>" +
+                        jointText("k", "fixed", "b", "d", "0 0 0.1", "0 0 1", ""))
+            .notes;
+    };
+    CHECK(notes("").empty());
+    CHECK(notes("<inertial><mass value='heavy'/></inertial>") ==
+          std::vector<std::string>{"link d has no collision shape and can enter regions"});
 }
 
 TEST_CASE("Words of collisions in comments and in other elements than links are not counted as shapes") {

@@ -144,6 +144,12 @@ TEST_CASE("An element of xacro beside links and joints gives a note, and any oth
     CHECK(refuses(armOf(kLimit) + "<gazebo><xacro:property name='a' value='1'/></gazebo>", wanted));
 }
 
+TEST_CASE("Spaces and line ends around a number of an attribute are skipped") {
+    const ArmModel arm = loadUrdf(armOf("<limit lower=' -1.5 ' upper='\n2\n' velocity='1\t' effort='1 '/>"));
+    CHECK(arm.joints.at(1).lower == -1.5);
+    CHECK(arm.joints.at(1).upper == 2.0);
+}
+
 TEST_CASE("Joints that close loops are reported as not read") {
     const std::string loop =
         "<loop_joint name='bar' type='spherical'><link1 link='a'/><link2 link='c'/></loop_joint>";
