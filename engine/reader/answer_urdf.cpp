@@ -79,6 +79,21 @@ void checkLinks(const urdf::ModelInterface& model, const std::string& file) {
     throw BadInput(file, "link " + stray->first, "in a loop of joints", kTree);
 }
 
+bool hasExpression(std::string_view text) {
+    return text.find("${") != std::string_view::npos || text.find("$(") != std::string_view::npos;
+}
+
+// An expression of xacro in a visual, where the parser reads no number: an undefined name of a material stays
+// in expanded files.
+bool isUnreadExpression(std::string_view path, const XmlPiece& tag) {
+    constexpr std::string_view kVisual = "robot/link/visual", kShape = "robot/link/visual/geometry";
+    const bool numbers = tag.name == "origin" || (path == kShape && tag.name != "mesh") ||
+                         hasExpression(xmlAttribute(tag.text, "scale"));
+    const bool visual = path == kVisual || (path.starts_with(kVisual) && path[kVisual.size()] == '/') ||
+                        (path == "robot/link" && tag.name == "visual");
+    return visual && !numbers && hasExpression(tag.text);
+}
+
 // Whether xacro makes parts of the robot here. An undefined macro stays in expanded files.
 bool isXacro(std::string_view path, const XmlPiece& tag) {
     constexpr std::array<std::string_view, 7> kControl{"macro", "include", "property",    "arg",
@@ -92,12 +107,11 @@ bool isXacro(std::string_view path, const XmlPiece& tag) {
         return std::ranges::count(kControl, tag.name.substr(6)) > 0 || std::ranges::none_of(unread, around);
     }
     const bool part = path == "robot" && (tag.name == "link" || tag.name == "joint");
-    const bool expression =
-        tag.text.find("${") != std::string_view::npos || tag.text.find("$(") != std::string_view::npos;
-    return expression && (part || around("robot/link") || around("robot/joint"));
+    return hasExpression(tag.text) && (part || around("robot/link") || around("robot/joint")) &&
+           !isUnreadExpression(path, tag);
 }
 
-// Throws for elements of xacro, or its expressions in a link or joint; notes those that concern neither.
+// Throws for elements of xacro, or its expressions, that make a link or joint; notes those that do not.
 void refuseXacro(const std::filesystem::path& file, const std::string& text,
                  std::vector<std::string>& notes) {
     const std::string name = file.filename().string(), stem = file.stem().stem().string();
@@ -109,9 +123,10 @@ void refuseXacro(const std::filesystem::path& file, const std::string& text,
             throw BadInput(file.string(), "robot", "a xacro file",
                            "a URDF; expand it with: xacro " + name + " > " + expanded);
         }
-        if (own.starts_with("xacro:") && noted.insert(own).second) {
+        const bool element = own.starts_with("xacro:");
+        if ((element || isUnreadExpression(tags.path(), tags.tag())) && noted.insert(own).second) {
             const std::string holder(tags.path().substr(tags.path().rfind('/') + 1));
-            std::string line = "<";
+            std::string line = element ? "<" : "an expression of xacro in <";
             line += printable(own) + "> in <" + printable(holder);
             notes.push_back(line + "> is not expanded and not read");
         }

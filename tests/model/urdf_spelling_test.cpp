@@ -150,6 +150,32 @@ TEST_CASE("Spaces and line ends around a number of an attribute are skipped") {
     CHECK(arm.joints.at(1).upper == 2.0);
 }
 
+TEST_CASE(
+    "An expression of xacro in a visual that is not read gives a note, and any other rejects the URDF") {
+    const auto robot = [](const std::string& visual, const std::string& shape = "<sphere radius='0.1'/>") {
+        return armOf(kLimit, "<link name='c'>" + visual + "<collision><geometry>" + shape +
+                                 "</geometry></collision></link>");
+    };
+    const auto visual = [](const std::string& shape, const std::string& more = "") {
+        return "<visual><geometry>" + shape + "</geometry>" + more + "</visual>";
+    };
+    const std::string ball = "<sphere radius='0.1'/>", grey = "<material name='${name}_grey'/>";
+    const std::string note = "an expression of xacro in <material> in <visual> is not expanded and not read";
+    const ArmModel arm = loadUrdf("<material name='${name}_grey'><color rgba='0 0 0 1'/></material>" +
+                                  robot(visual(ball, grey) + visual(ball, grey)));
+    CHECK(arm.notes == std::vector<std::string>{note});
+    CHECK(urdfRefusal(robot("<visual name='${v}'>" + visual(ball).substr(8))) == "");
+    CHECK(urdfRefusal(robot(visual("<mesh filename='${mesh}'/>"))) == "");
+    const std::string wanted = "robot: a xacro file (allowed: a URDF; expand it with: xacro ";
+    for (const std::string& text :
+         {robot(visual("<sphere radius='${r}'/>")), robot(visual("<mesh filename='a' scale='${s}'/>")),
+          robot(visual(ball, "<origin xyz='${x} 0 0'/>")), robot("", "<sphere radius='${r}'/>"),
+          robot("", "<mesh filename='$(find p)/a.stl'/>"), armOf(kLimit + "<origin xyz='0 0 ${z}'/>"),
+          armOf(kLimit) + ballLink("${name}_d")}) {
+        CHECK_MESSAGE(refuses(text, wanted), text);
+    }
+}
+
 TEST_CASE("Joints that close loops are reported as not read") {
     const std::string loop =
         "<loop_joint name='bar' type='spherical'><link1 link='a'/><link2 link='c'/></loop_joint>";
