@@ -3,10 +3,14 @@
 
 #include "devices/recorded/name_words.h"
 #include "devices/recorded/pose_text.h"
+#include "devices/recorded/text_file.h"
+#include "engine/types/error.h"
 #include "engine/types/read_file.h"
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
+#include <nlohmann/json.hpp>
 #include <string_view>
 #include <tuple>
 #include <vector>
@@ -48,6 +52,11 @@ bool isKnownFile(const fs::path& file) {
            (name == "images.txt" && fs::exists(file.parent_path() / "cameras.txt", failed));
 }
 
+// FoundationPose and YCBInEOAT keep the poses of an object under the second name.
+bool nameOtherPoses(const std::vector<std::string>& words) {
+    return nameOtherThing(words) || words == std::vector<std::string>{"annotated", "poses"};
+}
+
 // Files of one pose per object or per joint have other names.
 bool namesPoses(const fs::path& file) {
     constexpr std::array<std::string_view, 14> kEndings{".txt",      ".log",  ".json", ".csv", ".tum",
@@ -57,7 +66,7 @@ bool namesPoses(const fs::path& file) {
     std::string plain;
     std::ranges::for_each(words, [&](const std::string& word) { plain += word; });
     std::error_code failed;
-    if (nameOtherThing(words)) {
+    if (nameOtherPoses(words)) {
         return false;
     }
     if (fs::is_directory(file, failed)) {
@@ -70,40 +79,125 @@ bool namesPoses(const fs::path& file) {
            (isAmong(ending, kEndings) && (word || ending == ".traj" || holdsPoseWord(plain)));
 }
 
-// A text whose lines are poses, under any name but those of other readings. texts: counts those read.
+// Also of readings of an IMU: "imu0", "gyroscope".
+bool nameOtherReadings(const std::vector<std::string>& words) {
+    constexpr std::array<std::string_view, 3> kOthers{"imu", "gyro", "accel"};
+    return nameOtherPoses(words) || std::ranges::any_of(words, [&](const std::string& word) {
+               return std::ranges::any_of(kOthers,
+                                          [&](std::string_view start) { return word.starts_with(start); });
+           });
+}
+
+// Of one camera pose: Nerfstudio (transform_matrix), SDFStudio (camtoworld), 3D Scanner App
+// (cameraPoseARFrame).
+bool isPoseKey(const std::string& key) {
+    constexpr std::array<std::string_view, 5> kKeys{"transformmatrix", "camtoworld", "cam2world",
+                                                    "cameratoworld", "c2w"};
+    std::string plain;
+    std::ranges::for_each(nameWords(key), [&](const std::string& word) { plain += word; });
+    return isAmong(plain, kKeys) || plain.starts_with("camerapose");
+}
+
+// Whether JSON has such a key, or Record3D's list "poses" of lists at its top level. Builds no values, so
+// that a file of any depth takes little memory.
+bool holdsPoseKeys(const fs::path& file) {
+    using Json = nlohmann::json;
+    using Event = Json::parse_event_t;
+    bool found = false, listsPoses = false;
+    const auto look = [&](int depth, Event event, Json& value) {
+        if (event == Event::key) {
+            const auto& key = value.get_ref<const std::string&>();
+            found = found || isPoseKey(key);
+            listsPoses = depth == 1 ? key == "poses" : listsPoses;
+        }
+        found = found || (listsPoses && depth == 2 && event == Event::array_start);
+        return false;
+    };
+    try {
+        [[maybe_unused]] const Json none = Json::parse(readTextFile(file), look, false);
+    } catch (const Error&) { // of no interest to the recording that is read
+    }
+    return found;
+}
+
+// A text whose lines or keys are poses, under any name but those of other readings. Record3D's metadata has
+// no ending. texts: counts those read.
 bool isPoseText(const fs::path& file, size_t& texts) {
     constexpr std::array<std::string_view, 8> kEndings{".txt",      ".log",  ".csv", ".tum",
                                                        ".freiburg", ".traj", ".gt",  ".sim"};
-    constexpr std::array<std::string_view, 3> kOthers{"imu", "gyro", "accel"}; // also "imu0", "gyroscope"
-    const std::vector<std::string> words = nameWords(file.stem().string());
-    const bool other = nameOtherThing(words) || std::ranges::any_of(words, [&](const std::string& word) {
-                           return std::ranges::any_of(
-                               kOthers, [&](std::string_view start) { return word.starts_with(start); });
-                       });
-    if (other || !isAmong(endingOf(file), kEndings) || !isRegularFile(file)) {
+    const bool json = endingOf(file) == ".json" || file.filename() == "metadata";
+    if (nameOtherReadings(nameWords(file.stem().string())) || !(json || isAmong(endingOf(file), kEndings)) ||
+        !isRegularFile(file)) {
         return false;
     }
     ++texts;
-    return holdsPoses(file);
+    return json ? holdsPoseKeys(file) : holdsPoses(file);
+}
+
+// What is looked at in one folder: it may hold one text for each image.
+struct Budget {
+    size_t texts, entries;
+};
+
+// The name of the file or folder in this one that holds poses; empty = none.
+std::string posesIn(const fs::path& folder, Budget most) {
+    std::string found;
+    size_t texts = 0, entries = 0;
+    std::error_code failed;
+    fs::directory_iterator at(folder, failed);
+    for (; !failed && at != fs::directory_iterator() && entries < most.entries; at.increment(failed)) {
+        const std::string name = at->path().filename().string();
+        const auto order = [](const std::string& one) {
+            return std::tuple(one != kOwnPoses, one != kTumPoses, one);
+        };
+        const bool poses = namesPoses(at->path()) || (texts < most.texts && isPoseText(at->path(), texts));
+        if (poses && (found.empty() || order(name) < order(found))) {
+            found = name;
+        }
+        ++entries;
+    }
+    return found;
+}
+
+// Folders in which the poses of a recording may lie: scene/ of Open3D, sparse/0/ of COLMAP and of gaussian
+// splatting, and others one level below. Not those of recordings of their own.
+std::vector<fs::path> foldersBelow(const fs::path& folder) {
+    constexpr size_t kMaxFolders = 50;
+    std::vector<fs::path> below;
+    std::error_code failed;
+    fs::directory_iterator at(folder, failed);
+    for (; !failed && at != fs::directory_iterator() && below.size() < kMaxFolders; at.increment(failed)) {
+        const fs::path name = at->path().filename();
+        std::error_code none;
+        if (at->is_directory(none) && !name.string().starts_with('.') &&
+            !nameOtherReadings(nameWords(name.string())) &&
+            !fs::exists(at->path() / "intrinsics.json", none)) {
+            below.push_back(name);
+        }
+    }
+    std::ranges::sort(below);
+    for (const char* deep : {"sparse/0", "colmap/sparse/0"}) {
+        below.emplace_back(deep);
+    }
+    return below;
+}
+
+// Its path from the folder of the recording; empty = none.
+std::string findPoses(const fs::path& folder) {
+    constexpr Budget kHere{.texts = 50, .entries = SIZE_MAX}, kBelow{.texts = 10, .entries = 200};
+    std::string found = posesIn(folder, kHere);
+    const std::vector<fs::path> below = found.empty() ? foldersBelow(folder) : std::vector<fs::path>{};
+    for (auto at = below.begin(); at != below.end() && found.empty(); ++at) {
+        const std::string name = posesIn(folder / *at, kBelow);
+        found = name.empty() ? "" : (*at / name).string();
+    }
+    return found;
 }
 
 } // namespace
 
 std::string unreadPoses(const fs::path& folder) {
-    constexpr size_t kMaxTexts = 50; // that are read: a folder may hold one of each image
-    std::string found;
-    size_t texts = 0;
-    std::error_code failed;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder, failed)) {
-        const std::string name = entry.path().filename().string();
-        const auto order = [](const std::string& one) {
-            return std::tuple(one != kOwnPoses, one != kTumPoses, one);
-        };
-        const bool poses = namesPoses(entry.path()) || (texts < kMaxTexts && isPoseText(entry.path(), texts));
-        if (poses && (found.empty() || order(name) < order(found))) {
-            found = name;
-        }
-    }
+    const std::string found = findPoses(folder);
     if (found.empty()) {
         return "";
     }

@@ -7,8 +7,9 @@
 
 namespace fathom {
 
-// For a folder whose camera counts as fixed: the file or folder in it that holds poses, by its name or lines
-// ("groundtruth.txt", "transforms.json", "pose/"), with what to do; empty = none.
+// For a folder whose camera counts as fixed: the file or folder in it, or one level below or in sparse/0/,
+// that holds poses by its name, lines or JSON keys ("groundtruth.txt", "scene/trajectory.log", "metadata",
+// "pose/"), with what to do; empty = none.
 std::string unreadPoses(const std::filesystem::path& folder);
 
 } // namespace fathom

@@ -108,6 +108,57 @@ TEST_CASE("Poses in files and folders of other programs are named by their names
     }
 }
 
+TEST_CASE("Poses that lie one level below, or in sparse/0, are named with their folder") {
+    const std::string log = "0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n";
+    for (const char* name : {"scene/trajectory.log", "sparse/images.bin", "sparse/0/images.bin",
+                             "colmap/sparse/0/images.bin", "results/CameraTrajectory.txt", "scene/a.log"}) {
+        CAPTURE(name);
+        lineSays(namedPoses(name, log + log), std::string(name) + " is not read");
+    }
+    const TemporaryFolder folder;
+    folder.write("sparse/0/cameras.txt", "1 PINHOLE 64 48 60 60 31.5 23.5\n");
+    CHECK(unreadPoses(folder.path()) == "");
+    folder.write("sparse/0/images.txt", "1 1 0 0 0 0 0 0 1 0.png\n\n");
+    lineSays(unreadPoses(folder.path()), "sparse/0/images.txt is not read");
+    folder.write("trajectory.log", log + log);
+    lineSays(unreadPoses(folder.path()), ": trajectory.log is not read");
+    for (const char* name : {"objects/trajectory.log", "imu/a.log", "a/b/trajectory.log", ".git/traj.txt"}) {
+        CAPTURE(name);
+        CHECK(namedPoses(name, log + log) == "");
+    }
+    const TemporaryFolder other; // with a recording of its own in it
+    other.write("day2/intrinsics.json", "{}");
+    other.write("day2/poses.txt", "0 0 0 0 0 0 0 1\n");
+    CHECK(unreadPoses(other.path()) == "");
+}
+
+TEST_CASE("Poses under a key of JSON are named, whatever the name of the file") {
+    const std::string record3d =
+        R"({"w": 64, "K": [60, 0, 0], "poses": [[0, 0, 0, 1, 0, 0, 0], [0, 0, 0, 1, 0.1, 0, 0]]})";
+    const std::string frames = R"({"frames": [{"file_path": "a.png", ")", matrix = R"(": [[1, 0, 0, 0]]}]})";
+    for (const auto& file :
+         {std::pair("metadata", record3d),
+          {"metadata.json", record3d},
+          {"capture/metadata", record3d},
+          {"frame_00000.json", R"({"cameraPoseARFrame": [1, 0, 0, 0], "intrinsics": [60, 0, 31.5]})"},
+          {"dataset.json", frames + "transform_matrix" + matrix},
+          {"meta_data.json", frames + "camtoworld" + matrix}}) {
+        CAPTURE(file.first);
+        lineSays(namedPoses(file.first, file.second), std::string(file.first) + " is not read");
+    }
+    const std::string deep(100'000, '[');
+    for (const std::string& text :
+         {std::string(R"({"poses": 3, "camera": [[1, 2]]})"), std::string(R"({"image": {"poses": [[1]]}})"),
+          std::string(R"({"poses": [{"keypoints": [1]}]})"), std::string(R"(["transform_matrix", "poses"])"),
+          std::string(R"({"cameraposeless)"), std::string(), "{\"a\": " + deep,
+          std::string(17u << 20, ' ')}) {
+        CHECK(namedPoses("metadata.json", text) == "");
+    }
+    CHECK(namedPoses("object.json", record3d) == "");
+    CHECK(namedPoses("other", record3d) == "");
+    CHECK(namedPoses("annotated_poses/0.txt", "1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n") == ""); // of an object
+}
+
 TEST_CASE("A bag whose tf moves depth's frame has a warning that names the link that moves") {
     BagMaker maker = registeredImages();
     addLink(maker, "/tf_static", 1.0, "camera", "optical", 0.02);
