@@ -70,7 +70,9 @@ RecordingIntrinsics lensOf(const BopImage& image, PngSize size, const std::strin
     camera.depth.cx = image.k[2];
     camera.depth.cy = image.k[5];
     camera.colour = camera.depth;
-    warnAboutSkew(intrinsics.warnings, "scene_camera.json: cam_K", image.k[1]);
+    const std::string matrix = "scene_camera.json: cam_K";
+    warnAboutSkew(intrinsics.warnings, matrix, image.k[1]);
+    warnAboutSize(intrinsics.warnings, matrix, camera.depth);
     return intrinsics;
 }
 

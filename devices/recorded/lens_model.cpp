@@ -138,6 +138,24 @@ void warnAboutSkew(std::vector<std::string>& warnings, const std::string& matrix
     }
 }
 
+// The lens of images of half the width and height has its principal point at a quarter of both. That of a
+// crop rarely is at one share of both.
+void warnAboutSize(std::vector<std::string>& warnings, const std::string& matrix, const Intrinsics& lens) {
+    constexpr double kFarFromMiddle = 0.1, kMaxApart = 0.06;
+    const double across = (lens.cx + 0.5) / lens.width, down = (lens.cy + 0.5) / lens.height;
+    const double share = 0.5 * (across + down);
+    if (std::abs(share - 0.5) <= kFarFromMiddle || std::abs(across - down) > kMaxApart * share ||
+        isUnusualLens(lens)) { // which has a warning of its own
+        return;
+    }
+    char text[200];
+    std::snprintf(text, sizeof text,
+                  ": the principal point (%.1f, %.1f) is at %.0f %% of the width and the height of images of "
+                  "%ux%u: it may be the lens of another image size",
+                  lens.cx, lens.cy, 100.0 * share, lens.width, lens.height);
+    warnings.push_back(matrix + text);
+}
+
 bool sameLens(const Intrinsics& a, const Intrinsics& b) {
     const auto equal = [](double one, double other) { return std::abs(one - other) < 1e-6; };
     return a.width == b.width && a.height == b.height && equal(a.fx, b.fx) && equal(a.fy, b.fy) &&

@@ -31,6 +31,9 @@ std::vector<std::string> lensWarnings(const CameraInfo& camera);
 // Adds a warning of a lens matrix, by its name, whose skew [pixels] is over 0.1: it is not used.
 void warnAboutSkew(std::vector<std::string>& warnings, const std::string& matrix, double skew,
                    const std::string& images = "the images");
+// For a lens matrix, by its name, of a file that states no image size: adds a warning where the principal
+// point is at one share of the images' width and height that is far from their middle.
+void warnAboutSize(std::vector<std::string>& warnings, const std::string& matrix, const Intrinsics& lens);
 
 // Within 1e-6 pixels.
 bool sameLens(const Intrinsics& a, const Intrinsics& b);

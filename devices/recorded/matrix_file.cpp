@@ -83,8 +83,11 @@ Intrinsics matrixLens(const std::filesystem::path& file, std::optional<PngSize> 
         throw BadInput(file.string(), "matrix", "unusable",
                        std::string(kLensRows) + " of images that are read");
     }
+    const Intrinsics lens{
+        .width = size->width, .height = size->height, .fx = k[0], .fy = k[5], .cx = k[2], .cy = k[6]};
     warnAboutSkew(warnings, file.filename().string(), k[1]);
-    return {.width = size->width, .height = size->height, .fx = k[0], .fy = k[5], .cx = k[2], .cy = k[6]};
+    warnAboutSize(warnings, file.filename().string(), lens);
+    return lens;
 }
 
 bool usePose(IndexLine& line, const std::filesystem::path& file) {

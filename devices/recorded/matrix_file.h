@@ -22,7 +22,8 @@ inline constexpr std::array<double, 16> kIdentityMatrix{1, 0, 0, 0, 0, 1, 0, 0, 
 std::array<double, 16> readMatrix(const std::filesystem::path& file, bool orThree = false);
 
 // The lens of a file of fx 0 cx, 0 fy cy, 0 0 1, with or without a fourth row and column, of images of this
-// size. Throws BadInput; also without a size. Adds a warning of a skew, which is not used.
+// size. Throws BadInput; also without a size. Adds a warning of a skew, which is not used, and of a principal
+// point as that of another image size.
 Intrinsics matrixLens(const std::filesystem::path& file, std::optional<PngSize> size,
                       std::vector<std::string>& warnings);
 

@@ -114,6 +114,49 @@ TEST_CASE("A lens of another size of image has a warning in the recording of a f
     CHECK(warned("\"width\": 7", R"("projection": "equal_angles", "width": 7)") == "");
 }
 
+TEST_CASE("A lens matrix whose principal point is that of smaller images has a warning with its file") {
+    const auto warnings = [](const std::string& file, const std::string& text, const std::string& depth,
+                             const std::string& colour) {
+        const TemporaryFolder folder;
+        folder.write(file, text);
+        std::filesystem::create_directories((folder.path() / depth).parent_path());
+        std::filesystem::create_directories((folder.path() / colour).parent_path());
+        writeDepth(folder.path() / depth, 64, 48, 500);
+        writeColour(folder.path() / colour, 64, 48, 1, 2, 3);
+        folder.write("intrinsic/intrinsic_color.txt", "30 0 31.5\n0 30 23.5\n0 0 1\n");
+        return RecordedCamera(folder.path()).warnings();
+    };
+    const auto warned = [&](const std::string& cx, const std::string& cy) {
+        const std::string matrix = "30 0 " + cx + "\n0 30 " + cy + "\n0 0 1\n";
+        std::string all;
+        for (const auto& of :
+             {warnings("camera-intrinsics.txt", matrix, "frame-000000.depth.png", "frame-000000.color.png"),
+              warnings("intrinsic/intrinsic_depth.txt", matrix, "depth/0.png", "color/0.png"),
+              warnings("scene_camera.json",
+                       R"({"0": {"depth_scale": 1, "cam_K": [30, 0, )" + cx + ", 0, 30, " + cy +
+                           ", 0, 0, 1]}}",
+                       "depth/0.png", "rgb/0.png")}) {
+            all += of.empty() ? "" : of.at(0) + "\n";
+        }
+        return all;
+    };
+    for (const auto& point : {std::pair("16", "12"), {"15.5", "11.5"}, {"10.7", "8"}, {"15.7", "12.2"}}) {
+        CAPTURE(point.first);
+        const std::string all = warned(point.first, point.second);
+        for (const char* matrix :
+             {"camera-intrinsics.txt", "intrinsic_depth.txt", "scene_camera.json: cam_K"}) {
+            lineSays(all, std::string(matrix) + ": the principal point (" + point.first);
+        }
+        lineSays(all, " % of the width and the height of images of 64x48: it may be the lens of another");
+    }
+    // In the middle, and of crops.
+    for (const auto& point :
+         {std::pair("31.5", "23.5"), {"32", "24"}, {"29", "25"}, {"16", "23"}, {"20", "12"}, {"45", "26"}}) {
+        CAPTURE(point.first);
+        CHECK(warned(point.first, point.second) == "");
+    }
+}
+
 TEST_CASE("The skew of a lens matrix of a folder has a warning with the matrix and its pixels") {
     const auto warnings = [](const std::string& file, const std::string& text, const std::string& depth,
                              const std::string& colour) {
