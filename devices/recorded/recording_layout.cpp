@@ -122,12 +122,13 @@ bool holdsMetres(const RecordingLayout& layout) {
     return head.fault.empty() && head.metres;
 }
 
-RecordingLayout readTum(const fs::path& folder, const fs::path& intrinsics, bool depthOnly) {
+RecordingLayout readTum(const fs::path& folder, const fs::path& intrinsics, bool depthOnly,
+                        ScaleRule rule = ScaleRule::Needed) {
     RecordingLayout layout;
     layout.intrinsics = readIntrinsics(intrinsics, ScaleRule::Unchecked);
     layout.index = readIndex(folder, layout.intrinsics, depthOnly);
     if (!holdsMetres(layout)) {
-        layout.intrinsics = readIntrinsics(intrinsics);
+        layout.intrinsics = readIntrinsics(intrinsics, rule);
     }
     const fs::path own = folder / "intrinsics.json";
     if (own != intrinsics && fs::exists(own) && !depthOnly) {
@@ -163,6 +164,12 @@ bool isRecordingFolder(const fs::path& folder) {
     return fs::exists(folder / "intrinsics.json") || layoutOf(folder).read != nullptr;
 }
 
+// Which readIndex() takes without fields of a lens file.
+bool hasWholeIndex(const fs::path& folder, bool depthOnly) {
+    return fs::exists(folder / "associations.txt") ||
+           (fs::exists(folder / "depth.txt") && (depthOnly || fs::exists(folder / "rgb.txt")));
+}
+
 RecordingLayout readFolder(const fs::path& folder, const SourceOptions& options) {
     const bool given = !options.intrinsics.empty(), own = fs::exists(folder / "intrinsics.json");
     const fs::path intrinsics = given ? options.intrinsics : folder / "intrinsics.json";
@@ -171,6 +178,9 @@ RecordingLayout readFolder(const fs::path& folder, const SourceOptions& options)
         return readTum(folder, intrinsics, options.depthOnly());
     }
     const KnownLayout known = layoutOf(folder);
+    if (!given && known.read == readOpen3d && hasWholeIndex(folder, options.depthOnly())) {
+        return readTum(folder, folder / known.mark, options.depthOnly(), ScaleRule::Optional);
+    }
     LayoutRequest request{folder, std::nullopt, options.depthOnly(), folder / known.mark};
     if (given) {
         request.lens = readIntrinsics(intrinsics, ScaleRule::Optional);

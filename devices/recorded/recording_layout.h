@@ -33,10 +33,11 @@ struct LayoutRequest {
     std::filesystem::path mark = {};         // the file by which the layout was recognised
 };
 
-// With intrinsics.json, or an index and options.intrinsics: TUM RGB-D (readIndex()), and poses.txt. Else:
-// Open3D (camera_intrinsic.json, intrinsic.json, camera_primesense.json, or the options' lens alone; depth/
-// and color/, rgb/ or image/ by number, millimetres), BOP (readBop()), images frame-N (readFrameFolder()), or
-// ScanNet (intrinsic/, color/ and depth/ by number, millimetres). Frames without stamps are 1/30 s apart.
+// With intrinsics.json, or an index and options.intrinsics or a lens file of Open3D: TUM RGB-D (readIndex()),
+// and poses.txt. Else: Open3D (camera_intrinsic.json, intrinsic.json, camera_primesense.json, or the options'
+// lens alone; depth/ and color/, rgb/ or image/ by number, millimetres), BOP (readBop()), images frame-N
+// (readFrameFolder()), or ScanNet (intrinsic/, color/ and depth/ by number, millimetres). Frames without
+// stamps are 1/30 s apart.
 // Where an image has a pose, images without one are faulty. Images of floating point need no depth scale.
 // Throws BadInput.
 RecordingLayout readLayout(const std::filesystem::path& folder, const SourceOptions& options);

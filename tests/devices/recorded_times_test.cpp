@@ -248,3 +248,31 @@ TEST_CASE(
     CHECK(play(exact, later).size() == 9); // colour begins after the first depth images
     CHECK(log.count("have no colour image") == 1);
 }
+
+TEST_CASE("An index and poses.txt beside a lens file of Open3D give stamps, pairs and poses") {
+    for (const char* lens : {"camera_primesense.json", "intrinsic.json", "camera_intrinsic.json"}) {
+        CAPTURE(lens);
+        const TemporaryFolder folder;
+        writeSmallRecording(folder, 3);
+        std::filesystem::remove(folder.path() / "intrinsics.json");
+        folder.write(lens, R"({"width": 7, "height": 5, "intrinsic_matrix": [6, 0, 0, 0, 6, 0, 3, 2, 1]})");
+        folder.write("associations.txt",
+                     "100 rgb/0.png 100 depth/0.png\n100.25 rgb/2.png 100.25 depth/2.png\n");
+        folder.write("poses.txt", "99 0 0 0 0 0 0 1\n100 0 0 0 0 0 0 1\n100.5 0.5 0 0 0 0 0 1\n");
+        const testing::Listening log;
+        RecordedCamera camera(folder.path());
+        CHECK(log.count("poses.txt is not read") == 0);
+        CHECK_FALSE(camera.info().poseless);
+        CHECK(camera.info().metresPerUnit == 0.001);
+        const auto first = camera.next(), second = camera.next();
+        REQUIRE(first);
+        REQUIRE(second);
+        CHECK((*second)->depth[0] == 1002);
+        CHECK((*second)->captureTime - (*first)->captureTime == doctest::Approx(0.25));
+        REQUIRE((*second)->baseTcamera);
+        CHECK((*second)->baseTcamera->position.x == doctest::Approx(0.25));
+        std::filesystem::remove(folder.path() / "associations.txt"); // depth.txt alone is no index
+        folder.write("depth.txt", "100 depth/0.png\n");
+        CHECK(playedDepths(folder.path()).size() == 3);
+    }
+}
