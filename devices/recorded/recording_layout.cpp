@@ -24,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Names of the folder of colour images, beside depth/.
-constexpr std::array kColourFolders{"color", "rgb", "image"};
+constexpr std::array kColourFolders{"color", "rgb", "image", "images"};
 
 std::optional<fs::path> colourFolder(const fs::path& folder) {
     for (const char* name : kColourFolders) {
@@ -44,20 +44,43 @@ CameraInfo open3dCamera(const fs::path& mark) {
     }
 }
 
-RecordingLayout readOpen3d(const LayoutRequest& request) {
-    const auto colour = colourFolder(request.folder);
-    if (!colour && !request.depthOnly) {
+void checkColourFolder(const LayoutRequest& request) {
+    if (!request.depthOnly && !colourFolder(request.folder)) {
         throw BadInput(request.folder.string(), "colour images", "none",
                        "a folder color, rgb or image, or colour=none after the folder name");
     }
+}
+
+// Of depth/ and the folder of colour.
+std::vector<IndexLine> numberedPairs(const LayoutRequest& request) {
+    return pairByNumber(
+        {request.folder / "depth", kDepthEndings},
+        {colourFolder(request.folder).value_or(request.folder / kColourFolders[0]), kColourEndings},
+        request.depthOnly);
+}
+
+RecordingLayout readOpen3d(const LayoutRequest& request) {
+    checkColourFolder(request);
     RecordingLayout layout;
     layout.intrinsics = request.lens ? *request.lens : readIntrinsics(request.mark, ScaleRule::Optional);
     if (request.lens && !request.depthOnly) {
         keepRecordedColour(layout.intrinsics, [&] { return open3dCamera(request.mark); });
     }
-    layout.index = pairByNumber({request.folder / "depth", kDepthEndings},
-                                {colour.value_or(request.folder / kColourFolders[0]), kColourEndings},
-                                request.depthOnly);
+    layout.index = numberedPairs(request);
+    return layout;
+}
+
+constexpr const char* kMatrixLens = "cam_K.txt";
+
+// FoundationPose and BundleSDF: one lens for registered images, in millimetres.
+RecordingLayout readMatrixFolder(const LayoutRequest& request) {
+    checkColourFolder(request);
+    RecordingLayout layout;
+    layout.index = numberedPairs(request);
+    RecordingIntrinsics& intrinsics = layout.intrinsics;
+    intrinsics.file = kMatrixLens;
+    intrinsics.camera.depth = intrinsics.camera.colour =
+        matrixLens(request.folder / kMatrixLens, firstDepthSize(layout.index), intrinsics.warnings);
     return layout;
 }
 
@@ -77,16 +100,21 @@ void checkIdentity(const fs::path& file) {
     }
 }
 
+constexpr const char* kFramesLens = "intrinsics_depth.txt"; // of ScanNet's scannet_frames_25k
+
 // Both lenses, with one pose: the extrinsics are the identity.
-CameraInfo scanNetCamera(const fs::path& folder, const std::vector<IndexLine>& index, bool depthOnly,
+CameraInfo scanNetCamera(const LayoutRequest& request, const std::vector<IndexLine>& index,
                          std::vector<std::string>& warnings) {
+    const char* plural = request.mark.filename() == kFramesLens ? "s" : "";
+    const auto file = [&](const std::string& matrix, const char* stream) {
+        return request.mark.parent_path() / (matrix + plural + "_" + stream + ".txt");
+    };
     CameraInfo camera;
-    checkIdentity(folder / "extrinsic_depth.txt");
-    camera.depth = camera.colour =
-        matrixLens(folder / "intrinsic_depth.txt", firstDepthSize(index), warnings);
-    if (!depthOnly) {
-        checkIdentity(folder / "extrinsic_color.txt");
-        camera.colour = matrixLens(folder / "intrinsic_color.txt", firstColourSize(index), warnings);
+    checkIdentity(file("extrinsic", "depth"));
+    camera.depth = camera.colour = matrixLens(file("intrinsic", "depth"), firstDepthSize(index), warnings);
+    if (!request.depthOnly) {
+        checkIdentity(file("extrinsic", "color"));
+        camera.colour = matrixLens(file("intrinsic", "color"), firstColourSize(index), warnings);
         camera.registered = false;
     }
     return camera;
@@ -98,9 +126,7 @@ RecordingLayout readScanNet(const LayoutRequest& request) {
     layout.index = pairByNumber({folder / "depth", kDepthEndings}, {folder / "color", kColourEndings},
                                 request.depthOnly);
     std::vector<std::string> ofRecorded;
-    const auto recorded = [&] {
-        return scanNetCamera(folder / "intrinsic", layout.index, request.depthOnly, ofRecorded);
-    };
+    const auto recorded = [&] { return scanNetCamera(request, layout.index, ofRecorded); };
     if (!request.lens) {
         layout.intrinsics.camera = recorded();
         layout.intrinsics.warnings = ofRecorded;
@@ -144,41 +170,48 @@ RecordingLayout readTum(const fs::path& folder, const fs::path& intrinsics, bool
 struct KnownLayout {
     const char* mark; // file that only this layout has
     RecordingLayout (*read)(const LayoutRequest&);
+    const char* beside = ""; // folder without which the mark is that of another program
 };
-constexpr std::array kLayouts{
-    KnownLayout{"camera_intrinsic.json", readOpen3d}, KnownLayout{"intrinsic.json", readOpen3d},
-    KnownLayout{"camera_primesense.json", readOpen3d}, KnownLayout{"scene_camera.json", readBop},
-    KnownLayout{"intrinsic/intrinsic_depth.txt", readScanNet}};
+constexpr std::array kLayouts{KnownLayout{"camera_intrinsic.json", readOpen3d},
+                              KnownLayout{"intrinsic.json", readOpen3d},
+                              KnownLayout{"camera_primesense.json", readOpen3d},
+                              KnownLayout{"scene_camera.json", readBop},
+                              KnownLayout{"intrinsic/intrinsic_depth.txt", readScanNet},
+                              KnownLayout{kFramesLens, readScanNet, "color"}};
 
 // read: null for none of them.
 KnownLayout layoutOf(const fs::path& folder) {
     for (const KnownLayout& layout : kLayouts) {
-        if (fs::exists(folder / layout.mark)) {
+        if (fs::exists(folder / layout.mark) && fs::exists(folder / layout.beside)) {
             return layout;
         }
     }
     return {"", hasFrameImages(folder) ? readFrameFolder : nullptr};
 }
 
-bool isRecordingFolder(const fs::path& folder) {
-    return fs::exists(folder / "intrinsics.json") || layoutOf(folder).read != nullptr;
-}
-
-// Which readIndex() takes without fields of a lens file.
-bool hasWholeIndex(const fs::path& folder, bool depthOnly) {
+bool hasIndex(const fs::path& folder, bool depthOnly = true) {
     return fs::exists(folder / "associations.txt") ||
            (fs::exists(folder / "depth.txt") && (depthOnly || fs::exists(folder / "rgb.txt")));
+}
+
+// Not with an index, as of TUM RGB-D, whose depth rarely is in millimetres.
+bool isMatrixFolder(const fs::path& folder) {
+    return fs::exists(folder / kMatrixLens) && fs::exists(folder / "depth") && !hasIndex(folder);
+}
+
+bool isRecordingFolder(const fs::path& folder) {
+    return fs::exists(folder / "intrinsics.json") || layoutOf(folder).read != nullptr ||
+           isMatrixFolder(folder);
 }
 
 RecordingLayout readFolder(const fs::path& folder, const SourceOptions& options) {
     const bool given = !options.intrinsics.empty(), own = fs::exists(folder / "intrinsics.json");
     const fs::path intrinsics = given ? options.intrinsics : folder / "intrinsics.json";
-    const bool index = fs::exists(folder / "associations.txt") || fs::exists(folder / "depth.txt");
-    if (own || (given && index)) {
+    if (own || (given && hasIndex(folder))) {
         return readTum(folder, intrinsics, options.depthOnly());
     }
     const KnownLayout known = layoutOf(folder);
-    if (!given && known.read == readOpen3d && hasWholeIndex(folder, options.depthOnly())) {
+    if (!given && known.read == readOpen3d && hasIndex(folder, options.depthOnly())) {
         return readTum(folder, folder / known.mark, options.depthOnly(), ScaleRule::Optional);
     }
     LayoutRequest request{folder, std::nullopt, options.depthOnly(), folder / known.mark};
@@ -198,6 +231,9 @@ RecordingLayout readFolder(const fs::path& folder, const SourceOptions& options)
     }
     if (given) { // its stamps may be the index
         return readTum(folder, intrinsics, options.depthOnly());
+    }
+    if (isMatrixFolder(folder)) {
+        return readMatrixFolder(request);
     }
     refuseUnknownFolder(folder, isRecordingFolder);
 }

@@ -35,9 +35,9 @@ struct LayoutRequest {
 
 // With intrinsics.json, or an index and options.intrinsics or a lens file of Open3D: TUM RGB-D (readIndex()),
 // and poses.txt. Else: Open3D (camera_intrinsic.json, intrinsic.json, camera_primesense.json, or the options'
-// lens alone; depth/ and color/, rgb/ or image/ by number, millimetres), BOP (readBop()), images frame-N
-// (readFrameFolder()), or ScanNet (intrinsic/, color/ and depth/ by number, millimetres). Frames without
-// stamps are 1/30 s apart.
+// lens alone; depth/ and color/, rgb/, image/ or images/ by number, millimetres), BOP (readBop()), images
+// frame-N (readFrameFolder()), ScanNet (intrinsic/ or intrinsics_depth.txt, color/ and depth/ by number,
+// millimetres), or FoundationPose (cam_K.txt, else as Open3D). Frames without stamps are 1/30 s apart.
 // Where an image has a pose, images without one are faulty. Images of floating point need no depth scale.
 // Throws BadInput.
 RecordingLayout readLayout(const std::filesystem::path& folder, const SourceOptions& options);

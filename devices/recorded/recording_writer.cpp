@@ -49,7 +49,7 @@ std::string poseText(double stamp, const Pose& pose) {
 }
 
 // Files by which a folder is read as a recording, of any layout.
-constexpr std::array<const char*, 12> kMarks{"associations.txt",
+constexpr std::array<const char*, 14> kMarks{"associations.txt",
                                              "depth.txt",
                                              "rgb.txt",
                                              "poses.txt",
@@ -60,6 +60,8 @@ constexpr std::array<const char*, 12> kMarks{"associations.txt",
                                              "camera_primesense.json",
                                              "scene_camera.json",
                                              "intrinsic",
+                                             "intrinsics_depth.txt",
+                                             "cam_K.txt",
                                              "metadata.yaml"};
 
 // Why the folder must not be written to; empty = it may.

@@ -90,6 +90,29 @@ bool holdsDepth(const fs::path& folder, bool named) {
     return false;
 }
 
+// A file that by its name may hold the lens in a form that is not read; empty = none.
+std::string lensLikeFile(const fs::path& folder) {
+    constexpr std::array<std::string_view, 7> kEndings{".json", ".txt", ".yaml", ".yml",
+                                                       ".xml",  ".npy", ".csv"};
+    constexpr std::array<std::string_view, 10> kWords{"lens",        "intrinsic", "intrinsics", "calib",
+                                                      "calibration", "camera",    "cameras",    "cam",
+                                                      "transforms",  "k"};
+    constexpr std::array<std::string_view, 4> kPoses{"pose", "poses", "trajectory", "extrinsics"};
+    const auto isAny = [](const std::vector<std::string>& words, const auto& of) {
+        return std::ranges::any_of(
+            words, [&](const std::string& word) { return std::ranges::find(of, word) != of.end(); });
+    };
+    std::string first;
+    std::error_code failed;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, failed)) {
+        const std::string name = entry.path().filename().string();
+        const std::vector<std::string> words = nameWords(entry.path().stem().string());
+        const bool like = endsAs(entry.path(), kEndings) && isAny(words, kWords) && !isAny(words, kPoses);
+        first = like && (first.empty() || name < first) ? name : first;
+    }
+    return first;
+}
+
 } // namespace
 
 void refuseMisplacedDepth(const fs::path& folder) {
@@ -105,8 +128,8 @@ void refuseMisplacedDepth(const fs::path& folder) {
     if (!place.empty()) {
         throw BadInput(
             folder.string(), "depth images", "in " + place,
-            "in a folder depth, with colour images in rgb, color or image, and intrinsics=FILE behind "
-            "the folder's name: lens and depth scale as docs/guide/recordings.md has them");
+            "in a folder depth, with colour images in rgb, color or image, and intrinsics=FILE after "
+            "the folder name: lens and depth scale as docs/guide/recordings.md has them");
     }
 }
 
@@ -124,13 +147,15 @@ void refuseUnknownFolder(const fs::path& folder, bool (*isRecording)(const fs::p
                        "one cloud, " + cloud.string() + "; or clouds in a bag");
     }
     refuseMisplacedDepth(folder);
+    const std::string lens = lensLikeFile(folder);
     throw BadInput(
-        (folder / "intrinsics.json").string(), "file", "missing",
+        (folder / "intrinsics.json").string(), "file",
+        lens.empty() ? "missing" : "missing; " + lens + " is there, which is not read by itself",
         "intrinsics.json (docs/guide/recordings.md has every field), or intrinsics=FILE after the "
-        "folder's name (its images pair by an index, or by number in depth/ and rgb/, color/ or image/), or "
-        "a "
+        "folder name (its images pair by an index, or by number in depth/ and rgb/, color/ or image/), or a "
         "folder of Open3D (camera_intrinsic.json), BOP (scene_camera.json), 7-Scenes or BundleFusion "
-        "(frame-000000.depth.png), or ScanNet (intrinsic/)");
+        "(frame-000000.depth.png), ScanNet (intrinsic/ or intrinsics_depth.txt) or FoundationPose "
+        "(cam_K.txt)");
 }
 
 } // namespace fathom

@@ -151,3 +151,27 @@ TEST_CASE("A poses.txt whose comment names its columns in another order is refus
         CHECK(refusal(head) == "");
     }
 }
+
+TEST_CASE("Frames of ScanNet's benchmark play with both lenses under their names there, and their poses") {
+    const TemporaryFolder folder;
+    for (const char* number : {"000000", "000100"}) {
+        addPair(folder, std::string("depth/") + number + ".png", std::string("color/") + number + ".png",
+                501);
+        folder.write(std::string("pose/") + number + ".txt", shifted(0.25));
+    }
+    folder.write("intrinsics_depth.txt", kDepthMatrix);
+    folder.write("intrinsics_color.txt", "14 0 3 0\n0 14 2 0\n0 0 1 0\n0 0 0 1\n");
+    folder.write("extrinsics_depth.txt", "1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n");
+    RecordedCamera camera(folder.path());
+    CHECK(camera.info().depth.fx == 7.0);
+    CHECK(camera.info().colour.fx == 14.0);
+    CHECK_FALSE(camera.info().registered);
+    CHECK_FALSE(camera.info().poseless);
+    const auto frame = camera.next();
+    REQUIRE(frame);
+    CHECK((*frame)->depth[0] * camera.info().metresPerUnit == doctest::Approx(0.501));
+    REQUIRE((*frame)->baseTcamera);
+    CHECK((*frame)->baseTcamera->position.x == doctest::Approx(0.25));
+    folder.write("extrinsics_color.txt", shifted(0.1));
+    lineSays(recordingRefusal(folder.path()), "extrinsics_color.txt: matrix: not the identity");
+}

@@ -47,12 +47,50 @@ TEST_CASE("A field of a lens under the name of another program is refused with t
 TEST_CASE("Images without a lens file are refused with the option that names one, and play with it") {
     const TemporaryFolder folder;
     addPair(folder, "depth/0.png", "rgb/0.png", 500);
-    folder.write("cam_K.txt", "6 0 3\n0 6 2\n0 0 1\n");
+    lineSays(recordingRefusal(folder.path()), "/intrinsics.json: file: missing (allowed: ");
+    folder.write("K.txt", "6 0 3\n0 6 2\n0 0 1\n");
+    folder.write("objects_pose.json", "{}");
+    lineSays(recordingRefusal(folder.path()),
+             "/intrinsics.json: file: missing; K.txt is there, which is not read by itself (allowed: ");
     lineSays(recordingRefusal(folder.path()), "or intrinsics=FILE after the folder name (its images pair by "
                                               "an index, or by number in depth/ and rgb/, color/ or image/)");
     folder.write("lens.json", kSmallIntrinsics);
     CHECK(playedDepths(folder.path(), {.intrinsics = folder.path() / "lens.json"}) ==
           std::vector<uint16_t>{500});
+}
+
+TEST_CASE("Folders of Nerfstudio are refused with the name of their lens file, and play with a lens") {
+    const TemporaryFolder folder;
+    addPair(folder, "depth/0.png", "images/0.png", 500);
+    folder.write("transforms.json", R"({"w": 7, "h": 5, "fl_x": 6, "fl_y": 6, "cx": 3, "cy": 2})");
+    lineSays(recordingRefusal(folder.path()),
+             "missing; transforms.json is there, which is not read by itself");
+    folder.write("mine.json", kSmallIntrinsics);
+    CHECK(playedDepths(folder.path(), {.intrinsics = folder.path() / "mine.json"}) ==
+          std::vector<uint16_t>{500});
+}
+
+TEST_CASE(
+    "A folder of FoundationPose plays with the lens of cam_K.txt in millimetres, unless it has an index") {
+    const TemporaryFolder folder;
+    addPair(folder, "depth/1581120424100262102.png", "rgb/1581120424100262102.png", 501);
+    folder.write("cam_K.txt", "6.0e+00 0 3.0e+00\n0 6.5 2\n0 0 1\n");
+    RecordedCamera camera(folder.path());
+    CHECK(camera.info().depth.fx == 6.0);
+    CHECK(camera.info().depth.fy == 6.5);
+    CHECK(camera.info().registered);
+    CHECK(camera.info().metresPerUnit == 0.001);
+    CHECK(camera.warnings().empty());
+    CHECK(camera.next().value()->depth[0] == 501);
+    folder.write("mine.json", kSmallIntrinsics);
+    RecordedCamera other(folder.path(), {.intrinsics = folder.path() / "mine.json"});
+    CHECK(other.info().depth.fy == 6.25);
+    folder.write("associations.txt", "");
+    lineSays(recordingRefusal(folder.path()), "missing; cam_K.txt is there, which is not read by itself");
+    std::filesystem::remove(folder.path() / "associations.txt");
+    std::filesystem::remove_all(folder.path() / "rgb");
+    lineSays(recordingRefusal(folder.path()), "colour images: none (allowed: a folder color, rgb or image");
+    CHECK(playedDepths(folder.path(), {.colour = "none"}) == std::vector<uint16_t>{501});
 }
 
 TEST_CASE("A range along a pixel's ray is played as the depth along the optical axis, which is smaller") {

@@ -130,9 +130,10 @@ TEST_CASE("A folder with a recording is not overwritten, and an unwritable one i
 
 TEST_CASE("A folder of another layout, and one whose depth or rgb folder holds files, is never written to") {
     const CameraInfo info = someCamera(true);
-    for (const char* name : {"scene_camera.json", "camera_intrinsic.json", "frame-000000.depth.png",
-                             "intrinsic/intrinsic_depth.txt", "metadata.yaml", "poses.txt", "groundtruth.txt",
-                             "depth/000000.png", "rgb/any.jpg"}) {
+    for (const char* name :
+         {"scene_camera.json", "camera_intrinsic.json", "frame-000000.depth.png",
+          "intrinsic/intrinsic_depth.txt", "intrinsics_depth.txt", "cam_K.txt", "metadata.yaml", "poses.txt",
+          "groundtruth.txt", "depth/000000.png", "rgb/any.jpg"}) {
         const TemporaryFolder folder;
         folder.write(name, "kept");
         CHECK_THROWS_WITH_AS(RecordingWriter(folder.path(), info, 1),
