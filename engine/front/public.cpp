@@ -78,6 +78,17 @@ Intrinsics internal(const v0::Intrinsics& lens, const char* field) {
     return {lens.width, lens.height, lens.fx, lens.fy, lens.cx, lens.cy, lens.distortion, false};
 }
 
+// A unit quaternion stays the same to the last bit. Scaling by the largest component first keeps squares from
+// overflowing.
+Pose normalised(Pose pose) {
+    dquat& q = pose.rotation;
+    const double largest = std::max({std::abs(q.w), std::abs(q.x), std::abs(q.y), std::abs(q.z)});
+    if (std::isfinite(largest) && largest > 0.0 && !(std::abs(glm::dot(q, q) - 1.0) < 1e-14)) {
+        q = glm::normalize(q / largest);
+    }
+    return pose;
+}
+
 } // namespace
 
 v0::Step external(const StepRecord& record) noexcept {
@@ -125,7 +136,7 @@ CameraInfo internal(const v0::CameraModel& model) {
     info.depth = internal(model.depth, "depth");
     info.registered = !model.colour.has_value();
     info.colour = model.colour ? internal(*model.colour, "colour") : info.depth;
-    info.colourTdepth = info.registered ? Pose{} : internal(model.colourTdepth);
+    info.colourTdepth = info.registered ? Pose{} : normalised(internal(model.colourTdepth));
     info.metresPerUnit = model.depthFormat == v0::DepthFormat::Metres ? kFloatUnit : model.metresPerUnit;
     info.hasColour = model.colourFormat != v0::ColourFormat::None;
     info.colourFormat = formatOf(model.colourFormat);

@@ -3,9 +3,11 @@
 #include "tests/engine/wall_world.h"
 
 #include <algorithm>
+#include <cmath>
 #include <doctest/doctest.h>
 #include <mutex>
 #include <string>
+#include <vector>
 
 using namespace fathom;
 using namespace fathom::testing;
@@ -32,6 +34,37 @@ TEST_CASE("A camera model that cannot be used is rejected by one line with its n
           std::string::npos);
     CHECK(fault([](CameraModel& m) { m.depthFormat = static_cast<DepthFormat>(-1); }).find("Format: -1 ") !=
           std::string::npos);
+}
+
+TEST_CASE("A pose between the lenses protects the same whatever the length of its quaternion") {
+    const Scene red = Scene::fromText("fixtures: [{ name: red, role: forbidden, hue: [345, 20], saturation: "
+                                      "[0.4, 1], radius: 0.04 }]\nerror_budget: 0\n"
+                                      "tool: { spheres: [[0, 0, 0, 0.01]] }\n");
+    std::vector<std::uint8_t> colour(80 * 60 * 3, 90);
+    for (size_t pixel = 0; pixel < 80 * 60; ++pixel) {
+        if (pixel % 80 < 40) {
+            colour[3 * pixel] = 200, colour[3 * pixel + 1] = colour[3 * pixel + 2] = 20;
+        }
+    }
+    const auto spheresOf = [&](double length) {
+        CameraModel model = smallCamera();
+        model.colour = model.depth;
+        model.colourFormat = ColourFormat::Rgb;
+        model.colourTdepth.rotation = {length * std::cos(0.09), 0.0, length * std::sin(0.09), 0.0};
+        Lockstep lockstep(red, model, startAt(0.5));
+        const Wall wall;
+        Frame frame = wall.at(1);
+        frame.colour = colour.data();
+        lockstep.process(frame);
+        Regions regions;
+        return lockstep.regions(regions) ? regions.spheres.size() : size_t{0};
+    };
+    const size_t spheres = spheresOf(1.0);
+    CHECK(spheres > 0);
+    for (const double length : {2.0, 0.5, 1e200, 1e-200}) {
+        CAPTURE(length);
+        CHECK(spheresOf(length) == spheres);
+    }
 }
 
 TEST_CASE("A camera that protects nothing is named in the log: wrong unit, no depth, no colour") {
