@@ -7,6 +7,7 @@
 #include "apps/operate/operator_run.h"
 #include "apps/operate/playback_run.h"
 #include "engine/types/error.h"
+#include "engine/types/input_files.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -59,7 +60,8 @@ OperateOptions optionsFor(const OperateOptions& first, const std::string& record
 // A recording that cannot be opened from a live run leads back to it, with the reason.
 void runWindows(const OperateOptions& first, const GlobalOptions& global) {
     OperateOptions now = first;
-    for (;;) {
+    for (bool again = false;; again = true) {
+        now.appendsState = again;
         std::string next;
         try {
             next = runWindow(now, global);
@@ -93,6 +95,9 @@ void runOperate(OperateOptions& options, const GlobalOptions& global) {
             throw BadInput("operate", name, *value, "nothing beside a recording");
         }
     }
+    noteInput(options.scene);
+    noteInput(options.source);
+    refuseInput(options.state);                                 // before a window opens
     options.armed = options.path && !options.offscreen.empty(); // offscreen no key can arm forces
     runWindows(options, global);
 }

@@ -22,6 +22,7 @@ struct OperateOptions : SessionOptions {
     double runTime = 0.0;         // [s] ends when the clock of the run reaches this; 0 = never
     double textScale = 0.0;       // 0.75 to 2.5; 0 = the scene's
     std::string state;            // file of JSON lines with the state of the window, for other programs
+    bool appendsState = false;    // to the lines of an earlier window of this process
     std::vector<std::string> job; // lines under exported images
     bool fromLiveRun = false;     // opened from a live run, to which its window may return
     std::string notice;           // shown at the start

@@ -6,6 +6,7 @@
 #include "apps/operate/open_card.h"
 #include "engine/types/clock.h"
 #include "engine/types/error.h"
+#include "engine/types/input_files.h"
 
 #include <algorithm>
 #include <chrono>
@@ -21,6 +22,14 @@ Console consoleFor(const Scene& scene, double textScale) {
     return console;
 }
 
+// Notes the hand path, which is read later, so that the state cannot replace it.
+const std::string& stateFile(const OperateOptions& options, const Scene& scene) {
+    if (!scene.hand.builtIn) {
+        noteInput(scene.hand.path);
+    }
+    return options.state;
+}
+
 } // namespace
 
 RunDisplay::RunDisplay(const OperateOptions& options, Window& window, Session& session, SnapshotSink& sink)
@@ -33,7 +42,7 @@ RunDisplay::RunDisplay(const OperateOptions& options, Window& window, Session& s
     , camera_{session.camera->description(), session.camera->delivered(), session.camera->live(), false}
     , desk_(session.camera->controls())
     , pace_(session.cycles.device().facts().kind == DeviceKind::Cpu)
-    , log_(options.state) {
+    , log_(stateFile(options, session.scene), options.appendsState) {
     canvas.open(session.cycles.device());
     screen.setCoarse(session.cycles.device().facts().kind == DeviceKind::Cpu);
 }

@@ -7,9 +7,11 @@
 #include "engine/gpu/instance.h"
 #include "engine/types/clock.h"
 #include "engine/types/error.h"
+#include "engine/types/input_files.h"
 
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <imgui.h>
 #include <nlohmann/json.hpp>
 
@@ -198,13 +200,18 @@ std::string whyOf(const ShownState& s) {
 
 } // namespace
 
-StateLog::StateLog(const std::filesystem::path& file)
+StateLog::StateLog(const std::filesystem::path& file, bool appends)
     : name_(file.string()) {
-    if (!file.empty()) {
-        out_.open(file);
-        if (!out_) {
-            throw Error(name_ + ": cannot be written");
-        }
+    if (file.empty()) {
+        return;
+    }
+    if (std::filesystem::is_directory(file)) {
+        throw BadInput("operate", "--state", name_, "a file, a device or a pipe");
+    }
+    refuseInput(file);
+    out_.open(file, appends ? std::ios::app : std::ios::trunc);
+    if (!out_) {
+        throw Error(name_ + ": cannot be written");
     }
 }
 

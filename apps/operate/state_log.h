@@ -35,8 +35,9 @@ struct ShownState {
 
 class StateLog {
 public:
-    // An empty file name disables the log. Throws Error that names the file.
-    explicit StateLog(const std::filesystem::path& file);
+    // An empty file name disables the log. appends: keeps the lines that are there. Throws Error that names
+    // the file; BadInput for one that this process reads.
+    explicit StateLog(const std::filesystem::path& file, bool appends = false);
     // Writes when the next line is due, or at once if `now`.
     void write(const ShownState& shown, bool now);
 

@@ -130,6 +130,13 @@ TEST_CASE("No command replaces a file that it reads") {
             "out/haptics.csv");
     refused(stage.command({"--trace", scene}), "scene.yaml");
     refused(stage.command({"--trace", at("hand.csv")}), "hand.csv");
+    const auto operated = [&](const std::string& state) {
+        return std::vector<std::string>{"operate",   scene,      "--source",    at("rec"),
+                                        "--device",  "llvmpipe", "--offscreen", "640x480",
+                                        "--seconds", "0.1",      "--state",     state};
+    };
+    refused(operated(scene), "scene.yaml");
+    refused(operated(at("rec/associations.txt")), "rec/associations.txt");
     REQUIRE(runFathom({"convert", at("rec"), "--out", at("mcap"), "--format", "mcap"}).exitCode == 0);
     const std::string mcap = at("mcap/recording.mcap");
     const std::string before = stage.read("mcap/recording.mcap");
@@ -138,6 +145,10 @@ TEST_CASE("No command replaces a file that it reads") {
     CHECK(run.exitCode == 2);
     has(run.err, mcap + ": output: the input itself");
     CHECK(stage.read("mcap/recording.mcap") == before);
+    SceneText withPath;
+    withPath.hand = "path: hand.csv";
+    stage.scene(withPath);
+    refused(operated(at("hand.csv")), "hand.csv");
 }
 
 TEST_CASE("Spheres of a needle of 0.5 m by 1 nm are made in seconds and contain it") {

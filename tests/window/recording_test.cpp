@@ -137,6 +137,10 @@ TEST_CASE(
     rig.shoot("open");
     rig.key("Return");
     REQUIRE(rig.await(lineIsOn(true), 60.0));
+    std::string firstLine;
+    std::ifstream states(rig.folder() / "state.jsonl");
+    std::getline(states, firstLine);
+    CHECK(json::parse(firstLine)["console"]["time_line"]["on"] == false); // kept from the live run
     rig.findWindow();
     rig.key("o");
     REQUIRE(rig.await(
