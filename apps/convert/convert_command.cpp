@@ -2,14 +2,17 @@
 #include "apps/convert/convert_command.h"
 
 #include "apps/binding/open_source.h"
+#include "apps/binding/stop_signals.h"
 #include "apps/convert/mcap_recording.h"
 #include "apps/convert/tum_folder.h"
 #include "apps/output/output_folder.h"
 #include "apps/output/progress.h"
 #include "engine/scene/camera_limits.h"
 #include "engine/types/error.h"
+#include "engine/types/log.h"
 
 #include <CLI/CLI.hpp>
+#include <atomic>
 #include <iostream>
 #include <memory>
 
@@ -40,6 +43,30 @@ void check(const ConvertOptions& options) {
     }
 }
 
+// Returns the number of frames: all, or at least one after a signal.
+uint64_t convertFrames(Camera& camera, FrameSink& sink, const std::atomic<bool>& stop) {
+    uint64_t frames = 0;
+    const uint64_t first = camera.firstFrame(), end = camera.frameCount();
+    Progress progress;
+    bool ended = false;
+    for (auto frame = camera.next(); frame; frame = camera.next()) {
+        ended = frames > 0 && stop.load();
+        if (ended) {
+            break;
+        }
+        sink.add(*frame);
+        ++frames;
+        progress.update({.framesDone = (*frame)->index + 1 - first,
+                         .framesTotal = end > first ? end - first : 0,
+                         .framesOnly = true});
+    }
+    progress.finish();
+    if (ended) {
+        log::warn("convert: ended by a signal after {} frames", frames);
+    }
+    return frames;
+}
+
 void convert(const ConvertOptions& options) {
     check(options);
     const auto camera = openSource(options.source, Delivery::Every);
@@ -48,20 +75,11 @@ void convert(const ConvertOptions& options) {
                        "a recording; 'record' makes one of a live camera");
     }
     checkCamera(camera->info(), camera->description());
+    const StopSignals signals; // until the files are complete
     const OutputLock lock(options.out);
     const std::unique_ptr<FrameSink> sink = openSink(options, camera->info());
-    uint64_t frames = 0;
-    const uint64_t first = camera->firstFrame(), end = camera->frameCount();
-    Progress progress;
-    for (auto frame = camera->next(); frame; frame = camera->next()) {
-        sink->add(*frame);
-        ++frames;
-        progress.update({.framesDone = (*frame)->index + 1 - first,
-                         .framesTotal = end > first ? end - first : 0,
-                         .framesOnly = true});
-    }
+    const uint64_t frames = convertFrames(*camera, *sink, signals.asked());
     sink->finish();
-    progress.finish();
     std::cout << "converted    " << frames << " frames, " << camera->skipped() << " skipped\n"
               << "from         " << (camera->streams().empty() ? camera->description() : camera->streams())
               << "\nwritten to   " << options.out << (options.format == "mcap" ? "/recording.mcap" : "")

@@ -2,6 +2,7 @@
 #include "apps/replay/lockstep_replay.h"
 
 #include "apps/output/progress.h"
+#include "apps/replay/replay_report.h"
 #include "apps/session/path_hand.h"
 #include "engine/types/clock.h"
 #include "engine/types/colour_copy.h"
@@ -19,8 +20,9 @@ constexpr double kClockSlack = 1e-9; // [s] tolerance: a frame due exactly at a 
 } // namespace
 
 LockstepReplay::LockstepReplay(Session& session, const ReplayOptions& options, ReplayRecorder& recorder,
-                               CadenceTrace* trace)
+                               const std::atomic<bool>& stop, CadenceTrace* trace)
     : ReplayParts(session, options, recorder)
+    , stop_(stop)
     , trace_(trace)
     , clearance_(haptics_.period) {}
 
@@ -171,11 +173,27 @@ void LockstepReplay::tick(double t) {
     ++ticks_;
 }
 
+void LockstepReplay::play() {
+    const uint64_t images = session_.camera->frameCount(), first = session_.camera->firstFrame();
+    const uint64_t frames = images > first ? images - first : 0;
+    const double total = expectedEnd(frames);
+    Progress progress;
+    double t = 0.0;
+    for (; !ended(t) && !(ticks_ > 0 && stop_.load()); t = static_cast<double>(ticks_) * haptics_.period) {
+        takeDueFrames(t);
+        query();
+        tick(t);
+        progress.update({framesDone_, frames, t, total});
+    }
+    progress.finish();
+    if (!ended(t)) {
+        recorder_.warnings().add("signal", "ended by a signal at " + decimal(t) + " s of the run");
+    }
+}
+
 ReplayRecorder::Ending LockstepReplay::run() {
     fetch();
     session_.requireFrame(next_.has_value());
-    const uint64_t images = session_.camera->frameCount(), first = session_.camera->firstFrame();
-    const uint64_t frames = images > first ? images - first : 0;
     // The built-in path starts when the first set is ready; the times of a CSV path count from the start of
     // the run.
     const bool builtIn = session_.options.operatorCsv.empty() && session_.scene.hand.builtIn;
@@ -186,16 +204,7 @@ ReplayRecorder::Ending LockstepReplay::run() {
     hand_ = openPathHand(*path_, session_.scene, options_.yields(session_.scene));
     cycle_.emplace(session_.tool, shapes_, haptics_, hand_->read(0.0).deviceThandle, nullptr,
                    session_.arm.get());
-
-    const double total = expectedEnd(frames);
-    Progress progress;
-    for (double t = 0.0; !ended(t); t = static_cast<double>(ticks_) * haptics_.period) {
-        takeDueFrames(t);
-        query();
-        tick(t);
-        progress.update({framesDone_, frames, t, total});
-    }
-    progress.finish();
+    play();
 
     ReplayRecorder::Ending ending(session_, *cycle_);
     ending.maxPenetration = audit_.figures().maxPenetration();

@@ -9,6 +9,7 @@
 #include "engine/run/delayed_contacts.h"
 #include "engine/run/scene_update.h"
 
+#include <atomic>
 #include <deque>
 #include <memory>
 #include <optional>
@@ -21,11 +22,11 @@ namespace fathom {
 // ended.
 class LockstepReplay final : private ReplayParts {
 public:
-    // trace: records when each cadence runs; null = no trace.
+    // stop: ends the run early, with a warning. trace: records when each cadence runs; null = no trace.
     LockstepReplay(Session& session, const ReplayOptions& options, ReplayRecorder& recorder,
-                   CadenceTrace* trace = nullptr);
+                   const std::atomic<bool>& stop, CadenceTrace* trace = nullptr);
 
-    // Runs to the end; returns the results that only the loop knows.
+    // Runs to the end, or for at least one tick; returns the results that only the loop knows.
     ReplayRecorder::Ending run();
 
 private:
@@ -40,6 +41,7 @@ private:
     void takeEdit(uint32_t image);
     void takeDueFrames(double t);
     bool ended(double t) const;
+    void play(); // all ticks
     double expectedEnd(uint64_t frames) const;
     void query();
     void tick(double t);
@@ -47,6 +49,7 @@ private:
     const Kept* keptSet(uint64_t generation) const;
     void dropOldSets();
 
+    const std::atomic<bool>& stop_;
     CadenceTrace* trace_;
     std::optional<HandPath> path_;
     std::unique_ptr<HapticDevice> hand_;

@@ -4,6 +4,7 @@
 #include "apps/binding/arm_thread.h"
 #include "apps/binding/open_hand.h"
 #include "apps/binding/open_source.h"
+#include "apps/binding/stop_signals.h"
 #include "apps/number_option.h"
 #include "apps/replay/lockstep_replay.h"
 #include "apps/replay/realtime_replay.h"
@@ -42,9 +43,10 @@ void report(const ReplaySummary& summary, const ReplayOptions& options, const Se
 
 ReplaySummary runLockstep(const ReplayOptions& options, const GlobalOptions& global) {
     Session session(options, global);
+    const StopSignals signals; // until the files are complete
     const auto trace = openTrace(session, global);
     ReplayRecorder recorder = recorderOf(session, options, "");
-    LockstepReplay replay(session, options, recorder, trace.get());
+    LockstepReplay replay(session, options, recorder, signals.asked(), trace.get());
     const ReplaySummary summary = recorder.finish(replay.run());
     if (trace) {
         trace->file().finish();

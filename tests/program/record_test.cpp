@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstdio>
 #include <doctest/doctest.h>
 
 using namespace fathom;
@@ -29,4 +30,44 @@ TEST_CASE("A recording that is ended by SIGINT is complete: every frame of its i
     const Replay replay = readReplay(stage / "out", run);
     CHECK(replay.summary.at("frames").at("count") == lines);
     CHECK(replay.summary.at("frames").at("skipped") == 0);
+}
+
+TEST_CASE("A lockstep replay and a conversion that are ended by SIGINT leave complete files and a warning") {
+    const Stage stage;
+    stage.recording({Image(640, 480, 600)});
+    std::string index;
+    for (int i = 0; i < 200; ++i) { // the same images under other names
+        char name[16];
+        std::snprintf(name, sizeof name, "%06d.png", i);
+        for (const char* kind : {"depth", "rgb"}) {
+            if (i > 0) {
+                std::filesystem::create_hard_link(stage / "rec" / kind / "000000.png",
+                                                  stage / "rec" / kind / name);
+            }
+        }
+        const std::string t = std::to_string(i / 30.0);
+        index += t + " rgb/" + name + " " + t + " depth/" + name + "\n";
+    }
+    stage.write("rec/associations.txt", index);
+    stage.scene({});
+    stage.hand({{0.0, {0.0, 0.0, 0.2}}, {3000.0, {0.0, 0.0, 0.2}}});
+
+    pid_t program = startFathom(stage.command(), stage / "said");
+    CHECK(testing::eventually([&] { return std::filesystem::exists(stage / "out/haptics.csv.partial"); }));
+    CHECK(exitCodeOf(program, SIGINT) == 0);
+    CHECK(stage.read("said").find("ended by a signal at ") != std::string::npos);
+    CHECK_FALSE(std::filesystem::exists(stage / "out/.fathom.lock"));
+    const Replay replay = readReplay(stage / "out", {});
+    CHECK(replay.ticks.size() >= 1);
+    CHECK(replay.summary.at("warnings").dump().find("ended by a signal at ") != std::string::npos);
+
+    program = startFathom(
+        {"convert", (stage / "rec").string(), "--out", (stage / "mcap").string(), "--format", "mcap"},
+        stage / "converted");
+    CHECK(
+        testing::eventually([&] { return std::filesystem::exists(stage / "mcap/recording.mcap.partial"); }));
+    CHECK(exitCodeOf(program, SIGINT) == 0);
+    CHECK(stage.read("converted").find("ended by a signal after ") != std::string::npos);
+    CHECK_FALSE(std::filesystem::exists(stage / "mcap/.fathom.lock"));
+    CHECK(runFathom({"inspect", (stage / "mcap/recording.mcap").string()}).exitCode == 0);
 }
