@@ -6,6 +6,7 @@
 #include "apps/clock/keep_clock_command.h"
 #include "apps/convert/convert_command.h"
 #include "apps/devices/devices_command.h"
+#include "apps/empty_values.h"
 #include "apps/global_options.h"
 #include "apps/inspect/inspect_command.h"
 #include "apps/latency/latency_command.h"
@@ -101,6 +102,10 @@ int run(int argc, char** argv) {
         [&global] { spdlog::set_level(global.verbose ? spdlog::level::debug : spdlog::level::warn); });
     int result = 0;
     addCommands(app, global, result);
+    fathom::refuseEmptyValues(app);
+    for (CLI::App* command : app.get_subcommands(nullptr)) {
+        fathom::refuseEmptyValues(*command);
+    }
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {

@@ -66,6 +66,24 @@ TEST_CASE("An empty output folder or scene, and a trace that cannot be written, 
                           "fathom: trace: file: /no/such/t.json: cannot create: No such file");
 }
 
+TEST_CASE("An option with an empty value, as from an unset shell variable, is rejected in one line") {
+    const testing::ScratchFolder folder;
+    const std::string scene = "apps/scenes/demo.yaml", out = (folder.path() / "out").string();
+    const auto refused = [](std::vector<std::string> command, const std::string& option) {
+        CAPTURE(option);
+        command.insert(command.end(), {option, ""});
+        checkRefusedArguments(command, "fathom: " + command[0] + ": " + option +
+                                           ": value: empty (allowed: a value, or no " + option + ")");
+    };
+    for (const char* option : {"--source", "--operator", "--hand-device", "--arm", "--trace", "--device"}) {
+        refused({"replay", scene, "--out", out}, option);
+    }
+    refused({"operate", scene}, "--state");
+    refused({"spheres", "a.urdf", "--out", "a.sph"}, "--link");
+    refused({"spheres", "a.urdf", "--out", "a.yaml"}, "--meshes");
+    CHECK(folder.files() == 0);
+}
+
 TEST_CASE(
     "A missing bridge is named with the command that starts it, and an unknown device with those there are") {
     const auto refused = [](const std::string& hand, const std::string& line) {

@@ -56,6 +56,11 @@ class Results(unittest.TestCase):
         with self.assertRaisesRegex(fathom.ProgramFailed, "none.yaml.*exit code"):
             fathom.replay("none.yaml")
 
+    def test_an_empty_source_is_not_taken_for_none(self):
+        for run in (lambda: fathom.replay("apps/scenes/demo.yaml", source=""), lambda: fathom.profile("budgets", source="")):
+            with self.assertRaisesRegex(fathom.ProgramFailed, "--source: value: empty"):
+                run()
+
     def test_only_files_that_the_run_wrote_are_read_from_its_folder(self):
         with tempfile.TemporaryDirectory() as folder:
             out, program = pathlib.Path(folder) / "out", pathlib.Path(folder) / "fathom"

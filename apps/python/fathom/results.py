@@ -53,7 +53,8 @@ def replay(scene, *, source=None, out=None, device=None, options=()) -> Run:
 
     run["haptics"] has one row per tick, run["frames"] one per frame.
     """
-    return _run("replay", [str(scene)] + (["--source", str(source)] if source else []) + list(options), out, device)
+    chosen = ["--source", str(source)] if source is not None else []
+    return _run("replay", [str(scene)] + chosen + list(options), out, device)
 
 
 def stability(*cases, short=False, out=None, device=None) -> Run:
@@ -66,8 +67,8 @@ def stability(*cases, short=False, out=None, device=None) -> Run:
 
 def profile(*studies, quick=False, source=None, out=None, device=None) -> Run:
     """Measures error against run time. One table per study."""
-    arguments = list(studies) + (["--quick"] if quick else []) + (["--source", str(source)] if source else [])
-    return _run("profile", arguments, out, device)
+    chosen = ["--source", str(source)] if source is not None else []
+    return _run("profile", list(studies) + (["--quick"] if quick else []) + chosen, out, device)
 
 
 def sphere_cover(mesh, leaves=None, *, scale=None) -> numpy.ndarray:
