@@ -130,6 +130,9 @@ std::vector<LinkSpheres> selectLink(std::vector<LinkSpheres> sets, const std::st
 SphereTree readSphereTree(const std::filesystem::path& file, const std::string& link,
                           const ReaderOptions& reader) {
     if (endingOf(file) == ".sph") {
+        if (!link.empty()) {
+            throw BadInput(file.string(), "link", link, "none: a .sph file has no links");
+        }
         return readSph(file);
     }
     const auto sets = readSets(file, link, reader);

@@ -60,8 +60,8 @@ std::vector<LinkSpheres> readSets(const std::filesystem::path& file, const std::
 std::vector<LinkSpheres> selectLink(std::vector<LinkSpheres> sets, const std::string& link,
                                     const std::filesystem::path& file);
 
-// Loads any kind: .sph as it is; the others as a top-down tree of the named link (may be empty when only one
-// link has spheres). Throws BadInput that lists the available links.
+// Loads any kind: .sph as it is, without a link; the others as a top-down tree of the named link (may be
+// empty when only one link has spheres). Throws BadInput that lists the available links.
 SphereTree readSphereTree(const std::filesystem::path& file, const std::string& link = "",
                           const ReaderOptions& reader = {});
 

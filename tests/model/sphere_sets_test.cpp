@@ -223,6 +223,12 @@ TEST_CASE("A damaged set is rejected with the place of the error") {
     CHECK(setRefusal(".txt", "x").find("kind of file: '.txt'") != std::string::npos);
 }
 
+TEST_CASE("A link of a sphere tree, which has none, is rejected") {
+    CHECK(setRefusal(".sph", "1 1\n0 0 0 0.01\n") == "");
+    CHECK(setRefusal(".sph", "1 1\n0 0 0 0.01\n", "foo")
+              .find("link: foo (allowed: none: a .sph file has no links)") != std::string::npos);
+}
+
 TEST_CASE("A set whose tables or lists reference themselves or each other is rejected") {
     CHECK(setRefusal(".yaml", "&a {robot_cfg: {kinematics: *a}}").find("collision_spheres: missing") !=
           std::string::npos);
