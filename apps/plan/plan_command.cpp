@@ -64,6 +64,9 @@ void runPlan(const PlanOptions& options, const GlobalOptions& global) {
     for (const std::string& note : hapticNotes(scene)) {
         std::cout << "note    " << note << "\n";
     }
+    for (const std::string& note : unusedKeys(scene)) {
+        std::cout << "note    " << note << "\n";
+    }
     for (const std::string& dead : deadGates(scene, camera->info())) {
         std::cout << "warning " << dead << "\n";
     }

@@ -8,7 +8,9 @@
 #include "apps/output/progress.h"
 #include "apps/session/repeated_camera.h"
 #include "apps/session/shuttle_camera.h"
+#include "engine/scene/dead_gates.h"
 #include "engine/types/error.h"
+#include "engine/types/log.h"
 #include "shaders/shared/frame_params.h"
 
 #include <algorithm>
@@ -153,6 +155,9 @@ Session::Session(const SessionOptions& asked, const GlobalOptions& global, const
     , answers(cycles) {
     clock = std::make_unique<ClockKeeper>(global, cycles.facts());
     edits.takeUncertainty(*camera);
+    for (const std::string& note : unusedKeys(scene)) {
+        log::warn("{}", note);
+    }
 }
 
 std::string describe(const ThreadPlacement& placement) {

@@ -68,6 +68,9 @@ ComputeSide::ComputeSide(const HapticSide& side, const CameraInfo& camera, const
              })
     , firstDepth_(haptic.scene, camera.metresPerUnit)
     , checked_(!haptic.scene.hasPoints()) {
+    for (const std::string& note : unusedKeys(haptic.scene)) {
+        log::warn("{}", note);
+    }
     for (const std::string& dead : deadGates(haptic.scene, camera)) {
         log::warn("{}", dead);
     }

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/scene/dead_gates.h"
 
+#include "engine/types/joined.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <glm/geometric.hpp>
+#include <utility>
 
 namespace fathom {
 
@@ -57,7 +60,39 @@ std::string deadRange(const FixtureClass& f, const Scene& scene, const CameraInf
     return "";
 }
 
+// Keys of the other role whose values are not the defaults.
+std::vector<std::string> otherKeys(const FixtureClass& f) {
+    const FixtureClass standard;
+    const bool forbidden = f.role == Role::Forbidden;
+    std::vector<std::string> keys;
+    for (const auto& [key, changed] :
+         {std::pair("radius", !forbidden && f.radius != standard.radius),
+          std::pair("standoff", forbidden && f.standoff != standard.standoff),
+          std::pair("quat_xyzw", forbidden && f.orientation != standard.orientation),
+          std::pair("min_count", forbidden && f.minCount != standard.minCount),
+          std::pair("largest_part", forbidden && f.largestPart != standard.largestPart),
+          std::pair("trim", forbidden && f.trim != standard.trim)}) {
+        if (changed) {
+            keys.push_back(key);
+        }
+    }
+    return keys;
+}
+
 } // namespace
+
+std::vector<std::string> unusedKeys(const Scene& scene) {
+    std::vector<std::string> notes;
+    for (const FixtureClass& f : scene.fixtures) {
+        const std::vector<std::string> keys = f.isPoints() ? otherKeys(f) : std::vector<std::string>{};
+        if (!keys.empty()) {
+            notes.push_back("fixture '" + f.name + "': " + joined(keys) + ": no effect with role " +
+                            (f.role == Role::Forbidden ? "forbidden, only with guidance"
+                                                       : "guidance, only with forbidden"));
+        }
+    }
+    return notes;
+}
 
 std::vector<std::string> deadGates(const Scene& scene, const CameraInfo& camera) {
     std::vector<std::string> dead;

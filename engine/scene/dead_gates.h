@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Gates that no point can pass, found before the run from scene and camera alone.
+// Gates that no point can pass and keys without effect, found before the run from scene and camera alone.
 #pragma once
 
 #include "engine/scene/scene.h"
@@ -13,5 +13,9 @@ namespace fathom {
 // One sentence per class of points that cannot get a point, and one when the depth unit leaves few values
 // between near and far.
 std::vector<std::string> deadGates(const Scene& scene, const CameraInfo& camera);
+
+// One sentence per class of points with keys that its role does not use and whose values are not the
+// defaults. Not rejected: the window keeps them when it changes a role.
+std::vector<std::string> unusedKeys(const Scene& scene);
 
 } // namespace fathom

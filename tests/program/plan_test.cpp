@@ -132,6 +132,22 @@ TEST_CASE("Guidance alone needs no spheres, tree or query; shapes alone need no 
     checkRunsThat(stage, shapes);
 }
 
+TEST_CASE("Keys that a class's role does not use are a note in the plan and a line in the log of a replay") {
+    Stage stage;
+    stage.recording({bumpImage()});
+    SceneText scene;
+    scene.fixtures.push_back(std::string(SceneText::kGuideYellow) + ", radius: 0.02");
+    stage.scene(scene);
+    stage.hand({{0.0, {0.0, 0.0, 0.4}}});
+    const std::string note = "fixture 'yellow': radius: no effect with role guidance, only with forbidden";
+    const ProgramRun plan =
+        runFathom({"plan", (stage / "scene.yaml").string(), "--source", (stage / "rec").string()});
+    CHECK(plan.out.find("note    " + note + "\n") != std::string::npos);
+    const ProgramRun run = runFathom(stage.command({"--strict"})); // no warning of the run
+    CHECK(run.exitCode == 0);
+    CHECK(run.err.find(note) != std::string::npos);
+}
+
 TEST_CASE("A scene that sets the query to the GPU gets it in the plan and in the run") {
     Stage stage;
     stage.recording({bumpImage()});

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a camera states about itself: absurd lenses, and gates that no point of it can pass.
+// What a camera states about itself: absurd lenses, and gates that no point of it can pass. Keys of a class
+// that its role does not use.
 #include "engine/scene/camera_limits.h"
 #include "engine/scene/dead_gates.h"
 #include "engine/scene/plan.h"
@@ -9,6 +10,8 @@
 #include <cmath>
 #include <doctest/doctest.h>
 #include <functional>
+#include <string>
+#include <vector>
 
 using namespace fathom;
 
@@ -107,6 +110,23 @@ TEST_CASE("A class that no point can pass is named with its cause, and others ar
           "a depth unit of 1 m leaves 3 depth values between camera.near 0.1 and camera.far 3 m\n");
     CHECK(dead("radius: 0.04", [](CameraInfo& c) { c.metresPerUnit = 1e-6; }).find("leaves 0 depth values") !=
           std::string::npos);
+}
+
+TEST_CASE("Keys of the other role are named per class, unless they equal the defaults") {
+    const auto notes = [](const std::string& row) {
+        const SceneFile file("fixtures: [{name: valve, " + row + "}]\n" + kTool);
+        return unusedKeys(loadScene(file.path()));
+    };
+    CHECK(notes("role: forbidden, radius: 0.03, standoff: 0, min_count: 50, trim: 0, largest_part: false")
+              .empty());
+    CHECK(notes("role: guidance, radius: 0.04, standoff: 0.1, min_count: 10, trim: 0.2").empty());
+    CHECK(notes("role: guidance, radius: 0.03") ==
+          std::vector<std::string>{
+              "fixture 'valve': radius: no effect with role guidance, only with forbidden"});
+    CHECK(notes("role: forbidden, standoff: 0.1, quat_xyzw: [1, 0, 0, 0], min_count: 10, largest_part: true, "
+                "trim: 0.2") ==
+          std::vector<std::string>{"fixture 'valve': standoff, quat_xyzw, min_count, largest_part, trim: no "
+                                   "effect with role forbidden, only with guidance"});
 }
 
 TEST_CASE("An image that a device cannot read is rejected with the decimation that makes it small enough") {
