@@ -13,7 +13,6 @@
 #include "engine/types/error.h"
 #include "engine/types/input_files.h"
 #include "engine/types/log.h"
-#include "engine/types/output_file.h"
 #include "engine/types/printable.h"
 #include "engine/types/read_file.h"
 
@@ -39,8 +38,8 @@ struct SpheresOptions {
     std::vector<std::string> given; // given options that need a mesh
 };
 
-const std::vector<std::string> kOfMeshes{"--leaves",  "--protrusion", "--up",  "--drop-stray",
-                                         "--compare", "--plot",       "--json"};
+const std::vector<std::string> kOfMeshes{"--leaves",     "--protrusion", "--up",   "--drop-stray",
+                                         "--keep-stray", "--compare",    "--plot", "--json"};
 
 // Before the work.
 void checkOutputs(const SpheresOptions& options) {
@@ -80,25 +79,34 @@ bool holdsLinks(const std::filesystem::path& file) {
     return isSphereFile(file) && endingOf(file) != ".sph";
 }
 
-void writeText(const std::filesystem::path& file, const std::string& text) {
-    OutputFile out(file);
-    out.write(text);
-    out.commit();
+bool coversUrdf(const SpheresOptions& options) {
+    return endingOf(options.mesh) == ".urdf" && holdsLinks(options.out);
+}
+
+void checkMeshFolder(const SpheresOptions& options) {
+    if (!options.meshes.empty() && !std::filesystem::is_directory(options.meshes)) {
+        throw BadInput("spheres", "--meshes", options.meshes.string(), "a folder");
+    }
+    if (!options.meshes.empty() && !coversUrdf(options)) {
+        throw BadInput(options.mesh.string(), "--meshes", "given without shapes of a URDF",
+                       "with a .urdf, and --out .urdf, .yaml, .xrdf or .json");
+    }
 }
 
 void writeSets(const SpheresOptions& options, const std::vector<LinkSpheres>& sets) {
     const std::string kind = endingOf(options.out);
     if (kind == ".xrdf") {
-        writeText(options.out, xrdfText(sets));
+        writeSphereText(options.out, xrdfText(sets));
     } else if (kind == ".json") {
-        writeText(options.out, foamText(sets));
+        writeSphereText(options.out, foamText(sets));
     } else if (kind != ".urdf") {
-        writeText(options.out, curoboText(sets));
+        writeSphereText(options.out, curoboText(sets));
     } else if (endingOf(options.mesh) == ".urdf" && options.link.empty()) {
-        writeText(options.out,
-                  spherizedText(readWholeFile(options.mesh, kLargestUrdf, "a readable URDF file"), sets));
+        writeSphereText(
+            options.out,
+            spherizedText(readWholeFile(options.mesh, kLargestUrdf, "a readable URDF file"), sets));
     } else if (sets.size() == 1) {
-        writeText(options.out, spherizedText(sets[0]));
+        writeSphereText(options.out, spherizedText(sets[0]));
     } else {
         throw BadInput(options.out.string(), "links", std::to_string(sets.size()),
                        "one, chosen by --link, or the robot's own URDF as input");
@@ -111,13 +119,8 @@ void writeSets(const SpheresOptions& options, const std::vector<LinkSpheres>& se
               << " written to " << options.out.string() << std::endl;
 }
 
-double scaleOf(const SpheresOptions& options) {
-    const double scale = options.file.scale.value_or(1.0);
-    return scale;
-}
-
 void convertTree(const SpheresOptions& options) {
-    const double scale = scaleOf(options);
+    const double scale = options.file.scale.value_or(1.0);
     SphereTree tree = readSphereTree(options.mesh, options.link);
     for (Sphere& s : tree.nodes) {
         s.centre *= scale;
@@ -158,7 +161,7 @@ void convertSets(const SpheresOptions& options) {
     } else {
         sets = readSets(options.mesh, options.link);
     }
-    const double scale = scaleOf(options);
+    const double scale = options.file.scale.value_or(1.0);
     for (LinkSpheres& set : sets) {
         for (Sphere& s : set.spheres) {
             s.centre *= scale;
@@ -169,9 +172,10 @@ void convertSets(const SpheresOptions& options) {
 }
 
 void convert(const SpheresOptions& options) {
-    const bool covers = endingOf(options.mesh) == ".urdf" && holdsLinks(options.out);
-    const auto wrong = std::find_if(options.given.begin(), options.given.end(),
-                                    [&](const std::string& name) { return !(covers && name == "--leaves"); });
+    const bool covers = coversUrdf(options);
+    const auto wrong = std::ranges::find_if(options.given, [&](const std::string& name) {
+        return !covers || (name != "--leaves" && name != "--keep-stray");
+    });
     if (wrong != options.given.end()) {
         throw BadInput(options.mesh.string(), *wrong, "given with spheres",
                        "a mesh; of the options only --scale applies to spheres");
@@ -204,6 +208,7 @@ void writeCover(const SpheresOptions& options, const Cover& cover) {
 void runSpheres(SpheresOptions options) {
     noteInput(options.mesh);
     checkOutputs(options);
+    checkMeshFolder(options);
     if (isSphereFile(options.mesh)) {
         convert(options);
         return;
@@ -257,7 +262,8 @@ void addFileOptions(CLI::App* command, SpheresOptions& options) {
         "drop pieces that are far from the rest (default: a mesh with such pieces is rejected)");
     command->add_option("--link", options.link, "link of a .urdf, .yaml, .xrdf or .json");
     command->add_option("--meshes", options.meshes, "folder to use for package:// in a .urdf");
-    command->add_flag("--keep-stray", options.file.keepStray, "keep pieces that are far from the rest");
+    command->add_flag("--keep-stray", options.file.keepStray, "keep pieces that are far from the rest")
+        ->excludes("--drop-stray");
 }
 
 } // namespace

@@ -105,8 +105,12 @@ void writeReportJson(const std::filesystem::path& file, const LoadedMesh& loaded
     for (const CoverRow& row : rows) {
         j["covers"].push_back(jsonOf(row));
     }
+    writeSphereText(file, j.dump(2) + "\n");
+}
+
+void writeSphereText(const std::filesystem::path& file, const std::string& text) {
     OutputFile out(file);
-    out.write(j.dump(2) + "\n");
+    out.write(text);
     out.commit();
 }
 

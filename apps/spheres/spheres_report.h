@@ -31,4 +31,7 @@ void writeErrorPlot(const std::filesystem::path& file, const std::string& title,
 void writeReportJson(const std::filesystem::path& file, const LoadedMesh& loaded,
                      const std::vector<CoverRow>& rows);
 
+// The whole file at once.
+void writeSphereText(const std::filesystem::path& file, const std::string& text);
+
 } // namespace fathom

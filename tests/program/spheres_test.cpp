@@ -162,5 +162,15 @@ TEST_CASE("spheres names what is allowed for its files and numbers, before the w
     refused({"--out", out, "--plot", nowhere}, {"spheres: --plot: ", "no/file"});
     refused({"--out", out, "--leaves", "-1"}, {"--leaves", "-1", "a whole number from 1 to "});
     refused({"--out", out, "--leaves", "2.5"}, {"--leaves", "2.5", "a whole number from 1 to "});
+    refused({"--out", out, "--keep-stray", "--drop-stray"}, {"--keep-stray", "excludes", "--drop-stray"});
+    refused({"--out", out, "--meshes", folder.path().string()}, {"--meshes: given without shapes of a URDF"});
+    const ScratchFile tree("ball.sph", "1 1\n0 0 0 0.01\n"), robot("arm.urdf", "<robot name='r'/>");
+    const std::string links = (folder / "links.yaml").string();
+    checkRefusal({"spheres", tree.path().string(), "--out", out, "--keep-stray"},
+                 {"--keep-stray: given with spheres (allowed: a mesh"});
+    checkRefusal({"spheres", robot.path().string(), "--out", out, "--meshes", folder.path().string()},
+                 {"--meshes: given without shapes of a URDF", "--out .urdf, .yaml"});
+    checkRefusal({"spheres", robot.path().string(), "--out", links, "--meshes", nowhere},
+                 {"spheres: --meshes: " + nowhere + " (allowed: a folder)"});
     CHECK(folder.files() == 0);
 }
