@@ -8,6 +8,7 @@
 #include "apps/number_option.h"
 #include "apps/output/try_output.h"
 #include "engine/types/error.h"
+#include "engine/types/input_files.h"
 
 #include <CLI/CLI.hpp>
 #include <iostream>
@@ -30,6 +31,8 @@ void check(const Request& request) {
         throw BadInput("latency", request.secondsGiven ? "--seconds" : "--load", "given with --soak",
                        "none: a soak is one part with frames, of its own length");
     }
+    noteInput(request.run.scene); // both are read after this check
+    noteInput(request.run.source);
     tryOutput("latency", "--out", request.out);
 }
 

@@ -63,6 +63,8 @@ TEST_CASE("latency rejects options that a soak has no use for, and tries its rep
     checkRefusal({"latency", scene, "--soak", "0.02", "--seconds", "3"}, {"--seconds: given with --soak"});
     checkRefusal({"latency", scene, "--out", (stage / "no/l.json").string()},
                  {"latency: --out: ", "no/l.json"});
+    checkRefusal({"latency", scene, "--load", "idle", "--seconds", "0.5", "--out", scene},
+                 {scene + ": output: the input itself"}); // before the measurement, which prints
 }
 
 TEST_CASE("A hand path in seconds since 1970 or with huge positions is rejected with line and column") {
