@@ -118,15 +118,23 @@ Pose poseFrom(const Vec3& position, const std::array<double, 4>& rotation) {
     for (const double value : position) {
         finite("position", value);
     }
-    double norm = 0.0;
+    double largest = 0.0;
     for (const double value : rotation) {
-        norm += finite("rotation", value) * value;
+        largest = std::max(largest, std::abs(finite("rotation", value)));
     }
-    if (!(norm > 1e-12)) {
+    if (!(largest > 0.0)) {
         throw py::value_error("rotation: norm 0 (allowed: a quaternion w, x, y, z that is not zero)");
     }
-    norm = std::sqrt(norm);
-    return {position, {rotation[0] / norm, rotation[1] / norm, rotation[2] / norm, rotation[3] / norm}};
+    int exponent = 0;
+    std::frexp(largest, &exponent);
+    std::array<double, 4> q = rotation; // scaled, so that no square over- or underflows; exactly, by 2^n
+    double squares = 0.0;
+    for (double& value : q) {
+        value = std::ldexp(value, -exponent);
+        squares += value * value;
+    }
+    const double norm = std::sqrt(squares);
+    return {position, {q[0] / norm, q[1] / norm, q[2] / norm, q[3] / norm}};
 }
 
 py::array_t<double> matrixOf(const Pose& pose) {

@@ -64,6 +64,13 @@ class BadInput(unittest.TestCase):
             with self.refused("pose: the upper left", "a rotation matrix"):
                 fathom.Pose(matrix)
 
+    def test_a_quaternion_of_any_length_but_zero_is_normalised(self):
+        for length in (5e-324, 1e-200, 1e-7, 2.0, 1e200, 1.7e308):
+            self.assertEqual(tuple(fathom.Pose((0, 0, 0), (length, 0, 0, 0)).rotation), (1, 0, 0, 0))
+        for length in (1e-300, 1e-7, 1e300):
+            rotation = fathom.Pose((0, 0, 0), (3 * length, 0, -4 * length, 0)).rotation
+            self.assertLess(abs(numpy.array(rotation) - (0.6, 0, -0.8, 0)).max(), 1e-15)
+
     def test_a_matrix_given_where_a_pose_is_wanted_is_refused_with_its_reason(self):
         run = wall.lockstep()
         slanted = numpy.eye(4)
