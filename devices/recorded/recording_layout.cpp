@@ -8,6 +8,7 @@
 #include "devices/recorded/matrix_file.h"
 #include "devices/recorded/numbered_images.h"
 #include "devices/recorded/range_images.h"
+#include "devices/recorded/scannet_folder.h"
 #include "devices/recorded/unknown_folder.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
@@ -47,7 +48,7 @@ CameraInfo open3dCamera(const fs::path& mark) {
 void checkColourFolder(const LayoutRequest& request) {
     if (!request.depthOnly && !colourFolder(request.folder)) {
         throw BadInput(request.folder.string(), "colour images", "none",
-                       "a folder color, rgb or image, or colour=none after the folder name");
+                       "a folder color, rgb, image or images, or colour=none after the folder name");
     }
 }
 
@@ -81,64 +82,6 @@ RecordingLayout readMatrixFolder(const LayoutRequest& request) {
     intrinsics.file = kMatrixLens;
     intrinsics.camera.depth = intrinsics.camera.colour =
         matrixLens(request.folder / kMatrixLens, firstDepthSize(layout.index), intrinsics.warnings);
-    return layout;
-}
-
-std::optional<PngSize> firstColourSize(const std::vector<IndexLine>& index) {
-    for (const IndexLine& line : index) {
-        if (const auto size = line.colour.empty() ? std::nullopt : colourImageSize(line.colour)) {
-            return size;
-        }
-    }
-    return std::nullopt;
-}
-
-void checkIdentity(const fs::path& file) {
-    if (fs::exists(file) && readMatrix(file) != kIdentityMatrix) {
-        throw BadInput(file.string(), "matrix", "not the identity",
-                       "the identity; or intrinsics=FILE after the folder name");
-    }
-}
-
-constexpr const char* kFramesLens = "intrinsics_depth.txt"; // of ScanNet's scannet_frames_25k
-
-// Both lenses, with one pose: the extrinsics are the identity.
-CameraInfo scanNetCamera(const LayoutRequest& request, const std::vector<IndexLine>& index,
-                         std::vector<std::string>& warnings) {
-    const char* plural = request.mark.filename() == kFramesLens ? "s" : "";
-    const auto file = [&](const std::string& matrix, const char* stream) {
-        return request.mark.parent_path() / (matrix + plural + "_" + stream + ".txt");
-    };
-    CameraInfo camera;
-    checkIdentity(file("extrinsic", "depth"));
-    camera.depth = camera.colour = matrixLens(file("intrinsic", "depth"), firstDepthSize(index), warnings);
-    if (!request.depthOnly) {
-        checkIdentity(file("extrinsic", "color"));
-        camera.colour = matrixLens(file("intrinsic", "color"), firstColourSize(index), warnings);
-        camera.registered = false;
-    }
-    return camera;
-}
-
-RecordingLayout readScanNet(const LayoutRequest& request) {
-    const fs::path& folder = request.folder;
-    RecordingLayout layout;
-    layout.index = pairByNumber({folder / "depth", kDepthEndings}, {folder / "color", kColourEndings},
-                                request.depthOnly);
-    std::vector<std::string> ofRecorded;
-    const auto recorded = [&] { return scanNetCamera(request, layout.index, ofRecorded); };
-    if (!request.lens) {
-        layout.intrinsics.camera = recorded();
-        layout.intrinsics.warnings = ofRecorded;
-    } else {
-        layout.intrinsics = *request.lens;
-        if (!request.depthOnly) {
-            keepRecordedColour(layout.intrinsics, recorded);
-        }
-    }
-    for (IndexLine& line : layout.index) {
-        layout.posePerImage |= usePose(line, folder / "pose" / (line.depth.stem().string() + ".txt"));
-    }
     return layout;
 }
 
@@ -177,7 +120,7 @@ constexpr std::array kLayouts{KnownLayout{"camera_intrinsic.json", readOpen3d},
                               KnownLayout{"camera_primesense.json", readOpen3d},
                               KnownLayout{"scene_camera.json", readBop},
                               KnownLayout{"intrinsic/intrinsic_depth.txt", readScanNet},
-                              KnownLayout{kFramesLens, readScanNet, "color"}};
+                              KnownLayout{kScanNetFramesLens, readScanNet, "color"}};
 
 // read: null for none of them.
 KnownLayout layoutOf(const fs::path& folder) {
@@ -212,7 +155,15 @@ RecordingLayout readFolder(const fs::path& folder, const SourceOptions& options)
     }
     const KnownLayout known = layoutOf(folder);
     if (!given && known.read == readOpen3d && hasIndex(folder, options.depthOnly())) {
-        return readTum(folder, folder / known.mark, options.depthOnly(), ScaleRule::Optional);
+        RecordingLayout layout =
+            readTum(folder, folder / known.mark, options.depthOnly(), ScaleRule::Optional);
+        if (!layout.metres && !layout.intrinsics.scale && !options.scale) {
+            layout.warnings.push_back(
+                std::string(known.mark) +
+                " states no depth scale: millimetres are assumed, but depth of TUM RGB-D "
+                "has 5000 units per metre (scale=0.0002 after the folder name)");
+        }
+        return layout;
     }
     LayoutRequest request{folder, std::nullopt, options.depthOnly(), folder / known.mark};
     if (given) {

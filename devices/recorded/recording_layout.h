@@ -20,7 +20,7 @@ struct RecordingLayout {
     std::vector<std::string> warnings = {};
 };
 
-// Head of the first depth image that can be read; of the very first one, with its fault, where none can.
+// Header of the first depth image that can be read; of the very first one, with its fault, where none can.
 DepthHeader firstDepthHeader(const std::vector<IndexLine>& index);
 // Size of that image. Throws BadInput that names the first image and its fault.
 PngSize firstDepthSize(const std::vector<IndexLine>& index);

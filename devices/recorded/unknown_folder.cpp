@@ -128,7 +128,7 @@ void refuseMisplacedDepth(const fs::path& folder) {
     if (!place.empty()) {
         throw BadInput(
             folder.string(), "depth images", "in " + place,
-            "in a folder depth, with colour images in rgb, color or image, and intrinsics=FILE after "
+            "in a folder depth, with colour images in rgb, color, image or images, and intrinsics=FILE after "
             "the folder name: lens and depth scale as docs/guide/recordings.md has them");
     }
 }
@@ -152,10 +152,11 @@ void refuseUnknownFolder(const fs::path& folder, bool (*isRecording)(const fs::p
         (folder / "intrinsics.json").string(), "file",
         lens.empty() ? "missing" : "missing; " + lens + " is there, which is not read by itself",
         "intrinsics.json (docs/guide/recordings.md has every field), or intrinsics=FILE after the "
-        "folder name (its images pair by an index, or by number in depth/ and rgb/, color/ or image/), or a "
+        "folder name (its images pair by an index, or by number in depth/ and rgb/, color/, image/ or "
+        "images/), or a "
         "folder of Open3D (camera_intrinsic.json), BOP (scene_camera.json), 7-Scenes or BundleFusion "
-        "(frame-000000.depth.png), ScanNet (intrinsic/ or intrinsics_depth.txt) or FoundationPose "
-        "(cam_K.txt)");
+        "(frame-000000.depth.png), ScanNet (intrinsic/ or intrinsics_depth.txt) or, without an "
+        "index, FoundationPose (cam_K.txt)");
 }
 
 } // namespace fathom

@@ -102,7 +102,8 @@ TEST_CASE(
     const TemporaryFolder bare;
     writeDepth(bare.path() / "depth/0.png", kSmallWidth, kSmallHeight, 500);
     bare.write("intrinsic.json", kOpen3dLens);
-    lineSays(recordingRefusal(bare.path()), "colour images: none (allowed: a folder color, rgb or image");
+    lineSays(recordingRefusal(bare.path()),
+             "colour images: none (allowed: a folder color, rgb, image or images");
     CHECK(playedDepths(bare.path(), {.colour = "none"}) == Depths{500});
 }
 

@@ -52,8 +52,9 @@ TEST_CASE("Images without a lens file are refused with the option that names one
     folder.write("objects_pose.json", "{}");
     lineSays(recordingRefusal(folder.path()),
              "/intrinsics.json: file: missing; K.txt is there, which is not read by itself (allowed: ");
-    lineSays(recordingRefusal(folder.path()), "or intrinsics=FILE after the folder name (its images pair by "
-                                              "an index, or by number in depth/ and rgb/, color/ or image/)");
+    lineSays(recordingRefusal(folder.path()),
+             "or intrinsics=FILE after the folder name (its images pair by "
+             "an index, or by number in depth/ and rgb/, color/, image/ or images/)");
     folder.write("lens.json", kSmallIntrinsics);
     CHECK(playedDepths(folder.path(), {.intrinsics = folder.path() / "lens.json"}) ==
           std::vector<uint16_t>{500});
@@ -89,7 +90,8 @@ TEST_CASE(
     lineSays(recordingRefusal(folder.path()), "missing; cam_K.txt is there, which is not read by itself");
     std::filesystem::remove(folder.path() / "associations.txt");
     std::filesystem::remove_all(folder.path() / "rgb");
-    lineSays(recordingRefusal(folder.path()), "colour images: none (allowed: a folder color, rgb or image");
+    lineSays(recordingRefusal(folder.path()),
+             "colour images: none (allowed: a folder color, rgb, image or images");
     CHECK(playedDepths(folder.path(), {.colour = "none"}) == std::vector<uint16_t>{501});
 }
 

@@ -264,6 +264,9 @@ TEST_CASE("An index and poses.txt beside a lens file of Open3D give stamps, pair
         CHECK(log.count("poses.txt is not read") == 0);
         CHECK_FALSE(camera.info().poseless);
         CHECK(camera.info().metresPerUnit == 0.001);
+        REQUIRE(camera.warnings().size() == 1);
+        CHECK(camera.warnings()[0].find("states no depth scale") != std::string::npos);
+        CHECK(RecordedCamera(folder.path(), {.scale = 0.0002}).warnings().empty());
         const auto first = camera.next(), second = camera.next();
         REQUIRE(first);
         REQUIRE(second);
