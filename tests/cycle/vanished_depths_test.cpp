@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pressed regions that vanish, at any depth, reach and stiffness: tool and hand stay, and the force fades out.
+// Pressed regions that vanish, at any depth, reach and stiffness: tool and hand stay, the force fades out.
 #include "tests/cycle/arm_cycle_rig.h"
 
 #include <doctest/doctest.h>

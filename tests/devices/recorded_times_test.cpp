@@ -161,8 +161,8 @@ TEST_CASE("Where half of the stamps do not rise, all frames are played at 30 per
         }
         CHECK(camera.skipped() == 0);
         folder.write("poses.txt", "5 0 0 0 0 0 0 1\n");
-        CHECK(recordingRefusal(folder.path())
-                  .find("of 4 depth stamps do not rise (allowed: rising stamps") != std::string::npos);
+        CHECK(recordingRefusal(folder.path()).find("of 4 depth stamps do not rise (allowed: rising stamps") !=
+              std::string::npos);
         std::filesystem::remove(folder.path() / "poses.txt");
     }
 }
