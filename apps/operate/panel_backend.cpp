@@ -101,6 +101,16 @@ void PanelBackend::restart(const Once& once) {
 #endif
 }
 
+// The panels use one texture, the fonts. Since 1.87 ImGui's commands name it, and those that were made before
+// a restart name none, or one that is gone.
+void PanelBackend::nameTexture(ImDrawData& data) {
+    for (int i = 0; i < data.CmdListsCount; ++i) {
+        for (ImDrawCmd& command : data.CmdLists[i]->CmdBuffer) {
+            command.TextureId = ImGui::GetIO().Fonts->TexID;
+        }
+    }
+}
+
 void PanelBackend::record(VkCommandBuffer commands, VkFramebuffer framebuffer, VkExtent2D size,
                           ImDrawData* data) const {
     VkRenderPassBeginInfo pass{VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO};
@@ -108,6 +118,7 @@ void PanelBackend::record(VkCommandBuffer commands, VkFramebuffer framebuffer, V
     pass.framebuffer = framebuffer;
     pass.renderArea.extent = size;
     vkCmdBeginRenderPass(commands, &pass, VK_SUBPASS_CONTENTS_INLINE);
+    nameTexture(*data);
     ImGui_ImplVulkan_RenderDrawData(data, commands);
     vkCmdEndRenderPass(commands);
 }

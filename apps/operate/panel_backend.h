@@ -31,6 +31,7 @@ private:
     explicit PanelBackend(gpu::Device& device); // creates no device objects
     void start();
     void stop();
+    static void nameTexture(ImDrawData& data);
 
     VkInstance instance_ = VK_NULL_HANDLE;
     gpu::Device& device_;
