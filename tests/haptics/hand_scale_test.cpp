@@ -17,7 +17,7 @@ CouplingOptions scaled(double scale) {
 } // namespace
 
 TEST_CASE("The damping of the springs takes its share of the device's as the hand feels it") {
-    const DevicePreset& ideal = devicePreset("ideal"); // 0.5 N s/m
+    const DevicePreset ideal = devicePreset("ideal"); // 0.5 N s/m
     CouplingOptions options = scaled(2.0);
     options.damping = 0.1;
     CHECK(makeSprings(ideal, options).stiffness == doctest::Approx(2.0 * (0.5 - 0.2) / 0.001 / 2.0));
@@ -25,7 +25,7 @@ TEST_CASE("The damping of the springs takes its share of the device's as the han
 
 TEST_CASE(
     "A hand scale changes no spring at the planned rate, and slower ticks lower them by as much as without") {
-    const DevicePreset& ideal = devicePreset("ideal");
+    const DevicePreset ideal = devicePreset("ideal");
     for (const double scale : {0.5, 1.0, 2.0}) {
         CAPTURE(scale);
         CouplingOptions options = scaled(scale);
