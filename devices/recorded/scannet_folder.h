@@ -8,8 +8,8 @@ namespace fathom {
 
 inline constexpr const char* kScanNetFramesLens = "intrinsics_depth.txt"; // of scannet_frames_25k
 
-// Reads the lenses beside the request's mark, and color/ and depth/ paired by number, in millimetres, with a
-// pose per image in pose/. Throws BadInput.
+// Reads the lenses in the folder of the request's mark, and color/ and depth/ paired by number, in
+// millimetres, with a pose per image in pose/. Throws BadInput.
 RecordingLayout readScanNet(const LayoutRequest& request);
 
 } // namespace fathom

@@ -8,7 +8,7 @@ namespace fathom {
 namespace {
 
 constexpr double kCleanTime = 1.0; // [s] without a loss of the device before forces return
-// Force [N] of a region that counts as pressed, and with soft springs the length [m] that it holds.
+// A region counts as pressed from this reaction [N] on; with soft springs, from this spring length [m] on.
 constexpr double kPressedForce = 0.5, kPressedLength = 0.0005;
 
 // The pose that the hand commands before the first step.

@@ -37,7 +37,7 @@ struct ArmStep : ProxyStep {
     double smallestSingularValue = 0; // [m/rad] of M^1/2 J at the start; 0 = singular
     uint32_t atLimits = 0;         // joint limit and speed rows with a positive multiplier in the last solve
     uint32_t atPositionLimits = 0; // active position limits of joints; atLimits also counts speed limits
-    bool singular = false;         // the value above is below the threshold: damped
+    bool singular = false;         // smallestSingularValue is below the threshold: damped
     bool flipped = false;          // a singular posture was left to another side than the arm came from
     bool graspHeld = false;        // a finger would have entered a region, so the grasp did not change
 };

@@ -21,7 +21,7 @@ public:
     // Nothing moves this leaf, so nothing holds it.
     void exclude(size_t leaf) noexcept { excluded_[leaf] = 1; }
     bool excluded(size_t leaf) const noexcept { return excluded_[leaf] != 0; }
-    // Until choose(), every shape holds every leaf that is not left out.
+    // Until choose(), every shape holds every leaf that is not excluded.
     bool holds(size_t shape, size_t leaf) const noexcept {
         return excluded_[leaf] == 0 && free_[shape * excluded_.size() + leaf] == 0;
     }

@@ -157,8 +157,8 @@ private:
         }
     }
 
-    // The link that carries the gripper if the chain ends with a joint of one: where the branch begins that
-    // has no joint as those of an arm, so that no finger is cut in two; else the link above the last joint.
+    // The link that would carry the gripper, if the last joints of the chain belong to one: the highest link
+    // that branches below the last joint that moves as an arm's. Else the link above the last joint.
     std::string gripperHolder(const Seen& end) const {
         std::string holder = end.last->parent_link_name;
         int above = end.moving; // joints between the base and the link
