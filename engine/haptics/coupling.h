@@ -84,6 +84,7 @@ struct StabilityMargins {
     // b + B - K (T/2 + n T): > 0: stable without a hand (1-3 % optimistic at B = 4 b)
     std::optional<double> uncoupled;
 };
+// Of springs with the preset's damping and the options' rate and delay.
 StabilityMargins stabilityMargins(const DevicePreset& preset, const Springs& springs,
                                   const CouplingOptions& options);
 
