@@ -53,8 +53,7 @@ dquat unitQuaternion(const Row& row, double w, double x, double y, double z) {
                        significant(z, 6),
                    fault);
     }
-    const double largest = std::max({std::abs(w), std::abs(x), std::abs(y), std::abs(z)});
-    return glm::normalize(dquat(w / largest, x / largest, y / largest, z / largest));
+    return unitOf({w, x, y, z});
 }
 
 // In any spelling: other programs write 1 as "1.0" or "1e+00".

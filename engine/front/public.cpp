@@ -78,13 +78,12 @@ Intrinsics internal(const v0::Intrinsics& lens, const char* field) {
     return {lens.width, lens.height, lens.fx, lens.fy, lens.cx, lens.cy, lens.distortion, false};
 }
 
-// A unit quaternion stays the same to the last bit. Scaling by the largest component first keeps squares from
-// overflowing.
+// A unit quaternion stays the same to the last bit.
 Pose normalised(Pose pose) {
     dquat& q = pose.rotation;
     const double largest = std::max({std::abs(q.w), std::abs(q.x), std::abs(q.y), std::abs(q.z)});
     if (std::isfinite(largest) && largest > 0.0 && !(std::abs(glm::dot(q, q) - 1.0) < 1e-14)) {
-        q = glm::normalize(q / largest);
+        q = unitOf(q);
     }
     return pose;
 }

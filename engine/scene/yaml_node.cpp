@@ -221,8 +221,7 @@ dquat YamlNode::quatXyzw() const {
     if (!(largest > 1e-300)) {
         refuse(kQuaternion);
     }
-    // Scale first: squares of huge or tiny numbers would overflow or underflow.
-    return glm::normalize(dquat(q[3] / largest, q[0] / largest, q[1] / largest, q[2] / largest));
+    return unitOf({q[3], q[0], q[1], q[2]});
 }
 
 void YamlNode::read(std::string_view key, double& out, const Range& range) const {

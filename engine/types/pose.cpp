@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/types/pose.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace fathom {
@@ -25,6 +26,12 @@ dquat rotationExp(const dvec3& v) noexcept {
     // series of sin(a/2)/a near zero, where the quotient loses digits
     const double k = angle < 1e-6 ? 0.5 - angle * angle / 48.0 : std::sin(0.5 * angle) / angle;
     return glm::normalize(dquat(std::cos(0.5 * angle), v.x * k, v.y * k, v.z * k));
+}
+
+// Scales first: squares of huge or tiny numbers would overflow or underflow.
+dquat unitOf(const dquat& q) noexcept {
+    const double largest = std::max({std::abs(q.w), std::abs(q.x), std::abs(q.y), std::abs(q.z)});
+    return glm::normalize(dquat(q.w / largest, q.x / largest, q.y / largest, q.z / largest));
 }
 
 Pose interpolate(const Pose& a, const Pose& b, double s) noexcept {

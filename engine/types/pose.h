@@ -38,6 +38,9 @@ dvec3 rotationBetween(const dquat& a, const dquat& b) noexcept;
 // Unit quaternion of a rotation vector [rad].
 dquat rotationExp(const dvec3& v) noexcept;
 
+// The unit quaternion of q, whose components are finite and not all 0, of any size.
+dquat unitOf(const dquat& q) noexcept;
+
 // Interpolates between a (s = 0) and b (s = 1) on a straight line and the shortest arc.
 Pose interpolate(const Pose& a, const Pose& b, double s) noexcept;
 
