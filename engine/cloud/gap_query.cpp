@@ -8,7 +8,6 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <limits>
 
 namespace fathom::cloud {
 
@@ -41,8 +40,14 @@ GapPose gapPoseOf(const Pose& baseTtool, const dvec3& origin, double toolRadius,
     writeRows(baseTtool, origin, p.rows);
     const double margin =
         0x1p-20 * (glm::length(baseTtool.position - origin) + 16.0 * (toolRadius + largest));
-    p.margin.x = std::nextafter(static_cast<float>(margin), std::numeric_limits<float>::infinity());
+    p.margin.x = static_cast<float>(margin * (1.0 + 0x1p-23)); // not below the margin after rounding
     return p;
+}
+
+bool searchedOnDevice(const Pose& baseTtool, const dvec3& origin) {
+    const dvec3 away = baseTtool.position - origin;
+    const double turn = glm::dot(baseTtool.rotation, baseTtool.rotation);
+    return glm::dot(away, away) <= kMaxAway * kMaxAway && turn > 0.0 && std::isfinite(turn);
 }
 
 // Bits of the classes whose spheres in the set's device side do not count.
@@ -201,8 +206,7 @@ void GapQuery::find(const FixtureSet& set, const Tool& tool, std::span<const Pos
     hostReady_ = false;
     near_.clear();
     for (uint32_t i = 0; i < baseTtool.size(); ++i) {
-        const bool near = glm::distance(baseTtool[i].position, set.host.origin) <= kMaxAway;
-        if (near && isFinite(baseTtool[i])) {
+        if (searchedOnDevice(baseTtool[i], set.host.origin)) {
             near_.push_back(i);
         } else {
             askHost(batch, i);

@@ -19,7 +19,7 @@ public:
     // because a wake-up by the kernel takes as long as half of a frame's passes.
     void wait(uint64_t value) const;
 
-    static constexpr double kPollTime = 500e-6; // [s] polling time
+    static constexpr double kPollTime = 2e-3; // [s] polling time
 
 private:
     bool comesSoon(uint64_t value) const;
