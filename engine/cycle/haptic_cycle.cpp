@@ -65,9 +65,9 @@ StepRecord HapticCycle::step(const StepInput& input) noexcept {
     const Pose before = tool_, endBefore = springEnd_;
     ProxyStep moved = stepTool(input, set, situation, newData, out);
     const std::optional<dvec3> gone =
-        newData ? vanishedAlong(moved, set, before.position, endBefore.position) : std::nullopt;
+        newData ? vanishedAlong(moved, set, before.position, endBefore) : std::nullopt;
     if (gone) {
-        keepHandAtTool(before, *gone, moved);
+        keepHandAtTool(before, endBefore, *gone, moved);
     }
     takeUpLag(moved, out);
     allowed_ = moved.allowed;

@@ -24,8 +24,8 @@ namespace fathom {
 //   kLagTime the hand map takes up the lag of a free tool.
 // - Regions that disappear while they press, for a free tool also some of them: tool and hand stay, their
 //   force fades out.
-// - Forces off or dead-man open: the guidance weight is zero in that step; the wrench ramps to zero over
-//   0.2 s while the tool follows the hand and still obeys the regions.
+// - Forces off or dead-man open: the guidance weight and the wrench ramp to zero over 0.2 s while the tool
+//   follows the hand and still obeys the regions.
 // - Trapped: the tool is held and the force ramps out over 0.2 s. The clutch ramps the same way.
 // - The clutch while forces are off and ramped out moves the hand map, so that the hand is at the tool again.
 // - Scene older than kStaleAfter: the force fades out in 0.5 s. Fading out uses measured time, so late ticks
@@ -121,9 +121,12 @@ private:
     void takeSample(const StepInput& input, const Situation& situation) noexcept;
     bool regionsChanged(const ContactSet* set) noexcept;
     std::optional<dvec3> vanishedAlong(const ProxyStep& moved, const ContactSet* set, const dvec3& before,
-                                       const dvec3& endBefore) const noexcept;
+                                       const Pose& endBefore) const noexcept;
+    bool turnVanished(const ProxyStep& moved, const Pose& endBefore) const noexcept;
     double behindHand() const noexcept;
-    void keepHandAtTool(const Pose& before, const dvec3& along, ProxyStep& moved) noexcept;
+    double followedGap(double travel) const noexcept;
+    void keepHandAtTool(const Pose& before, const Pose& endBefore, const dvec3& along,
+                        ProxyStep& moved) noexcept;
     void takeUpLag(ProxyStep& moved, StepRecord& out) noexcept;
     void shiftHand(const dvec3& by, const dquat& turn) noexcept;
     void makeWrench(const StepInput& input, const Situation& situation, const ProxyStep& moved, bool newData,

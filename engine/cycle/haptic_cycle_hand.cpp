@@ -4,34 +4,38 @@
 
 #include "engine/haptics/limits.h"
 
+#include <algorithm>
+
 namespace fathom {
 namespace {
 
-// [m] A region counts as vanished if the spring loses more than kPartGone along it (more than noise causes)
-// and at most kStillHeld remains there.
-constexpr double kPartGone = 0.005, kStillHeld = 0.0005;
+// A region counts as vanished if the spring loses more than a length along it, and at most kStillHeld [m]
+// remains there. The length has kPartGone [N] with stiff springs; noise causes less than the smallest one.
+constexpr double kPartGone = 5.0, kMinPartGone = SurfaceNoise::kBand, kMaxPartGone = 0.005,
+                 kStillHeld = 0.0005;
+constexpr double kLightForce = 2.0, kLightLength = 0.002; // [N], [m] of a light press
 constexpr dquat kNoTurn{1.0, 0.0, 0.0, 0.0};
 
 // True if a spring that held `before` [m] now holds `held` although the hand moved by `byHand` [m] only: it
 // lost its length, and nothing else holds there.
-bool lostItsHold(const dvec3& before, const dvec3& held, double byHand) {
+bool lostItsHold(const dvec3& before, const dvec3& held, double byHand, const Springs& springs) {
+    const double partGone = std::clamp(kPartGone / springs.stiffness, kMinPartGone, kMaxPartGone);
     const dvec3 lost = before - held;
-    const bool fell = glm::length(held) < glm::length(before) - byHand - kPartGone;
+    const bool fell = glm::length(held) < glm::length(before) - byHand - partGone;
     return fell && glm::dot(held, lost) <= kStillHeld * glm::length(lost);
 }
 
-// Of the spring between the hand's end and a pose: its turn as a length, with the metric radius k [m].
-dvec3 turnOf(const Pose& allowed, const Pose& end, double k) {
-    return k * rotationBetween(end.rotation, allowed.rotation);
-}
-
-// The regions that pressed by a torque are gone. The hand turns far less than kPartGone in a tick.
-bool turnVanished(const Pose& allowedBefore, const ProxyStep& moved, const Pose& end, double k) {
-    const dvec3 held = moved.active.empty() ? dvec3(0.0) : turnOf(moved.allowed, end, k);
-    return lostItsHold(turnOf(allowedBefore, end, k), held, 0.0);
-}
-
 } // namespace
+
+// The regions that pressed by a torque are gone. Turns count as lengths, by the metric radius.
+bool HapticCycle::turnVanished(const ProxyStep& moved, const Pose& endBefore) const noexcept {
+    const Springs& springs = watch_.springs();
+    const auto turnOf = [&](const Pose& pose) { // from the hand's end of the spring [m]
+        return springs.metricRadius * rotationBetween(springEnd_.rotation, pose.rotation);
+    };
+    const dvec3 held = moved.active.empty() ? dvec3(0.0) : turnOf(moved.allowed);
+    return !arm_ && lostItsHold(turnOf(allowed_), held, glm::length(turnOf(endBefore)), springs);
+}
 
 // A region stopped the tool, and the hand moved farther. The shift changes no force, because there is none.
 void HapticCycle::recentre() noexcept {
@@ -46,7 +50,7 @@ void HapticCycle::recentre() noexcept {
 // empty = none are. `before` and `endBefore` are where the tool and the hand's end of the spring were when
 // they pressed.
 std::optional<dvec3> HapticCycle::vanishedAlong(const ProxyStep& moved, const ContactSet* set,
-                                                const dvec3& before, const dvec3& endBefore) const noexcept {
+                                                const dvec3& before, const Pose& endBefore) const noexcept {
     const bool left = glm::dot(before - springEnd_.position, pressing_.spring) < 0.0;
     if (!pressing_.rows || left || moved.trapped) {
         return std::nullopt;
@@ -55,7 +59,7 @@ std::optional<dvec3> HapticCycle::vanishedAlong(const ProxyStep& moved, const Co
     // A set that lists nothing shows nothing that is near, however short its reach is. An arm may not yet
     // have followed a surface that lies between it and the hand.
     const bool none = set == nullptr || !(moved.minGap < set->reach);
-    if (!rows && (none || moved.minGap > kVanishedGap + behindHand())) {
+    if (!rows && (none || moved.minGap > followedGap(glm::distance(tool_.position, before)))) {
         return pressing_.spring;
     }
     if (jointLimits_ != 0) {
@@ -63,16 +67,26 @@ std::optional<dvec3> HapticCycle::vanishedAlong(const ProxyStep& moved, const Co
     }
     // Other regions press or are near.
     const dvec3 held = rows ? moved.allowed.position - springEnd_.position : dvec3(0.0);
-    if (!arm_ && lostItsHold(pressing_.spring, held, glm::distance(springEnd_.position, endBefore))) {
+    const double byHand = glm::distance(springEnd_.position, endBefore.position);
+    if (!arm_ && lostItsHold(pressing_.spring, held, byHand, watch_.springs())) {
         return pressing_.spring - held;
     }
-    const bool turned = !arm_ && turnVanished(allowed_, moved, springEnd_, watch_.springs().metricRadius);
-    return turned ? std::optional(dvec3(0.0)) : std::nullopt;
+    return turnVanished(moved, endBefore) ? std::optional(dvec3(0.0)) : std::nullopt;
 }
 
 // [m] from a pressed arm's tip to the hand's end of the spring; 0 for a tool without an arm.
 double HapticCycle::behindHand() const noexcept {
     return arm_ && pressing_.rows ? glm::distance(tool_.position, springEnd_.position) : 0.0;
+}
+
+// [m] to the nearest region, up to which those that pressed may have gone back there. A light press ends
+// either way without a jump that is felt, so it is not mistaken for one of regions that vanished. An arm may
+// not have followed yet. travel: of the tool in this tick [m].
+double HapticCycle::followedGap(double travel) const noexcept {
+    const double light = std::min(kLightForce / watch_.springs().stiffness, kLightLength);
+    const bool lightly = !arm_ && glm::length(pressing_.spring) <= light;
+    const double back = lightly ? options_.proxy.solves * options_.proxy.stepCap - travel : 0.0;
+    return std::max(kVanishedGap, back) + behindHand();
 }
 
 // Moves the hand map by `by` [m], and with it the pose that the hand commands. `turn` turns that pose.
@@ -93,10 +107,10 @@ void HapticCycle::shiftHand(const dvec3& by, const dquat& turn) noexcept {
 
 // Pressed regions vanished: the tool stays where it was before, and the hand with it. Otherwise the tool
 // would jump at the hand, through what can no longer be seen.
-void HapticCycle::keepHandAtTool(const Pose& before, const dvec3& along, ProxyStep& moved) noexcept {
+void HapticCycle::keepHandAtTool(const Pose& before, const Pose& endBefore, const dvec3& along,
+                                 ProxyStep& moved) noexcept {
     const bool all = moved.active.empty();
-    const bool turned =
-        all || (!arm_ && turnVanished(allowed_, moved, springEnd_, watch_.springs().metricRadius));
+    const bool turned = all || turnVanished(moved, endBefore);
     if (proxy_ && !moved.escape) { // else it had to leave
         tool_ = moved.pose = before;
         proxy_->setPose(before);

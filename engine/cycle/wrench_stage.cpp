@@ -24,6 +24,12 @@ double shareOf(const dvec3& part, const dvec3& whole) {
     return length > 0.0 ? glm::length(part) / length : 1.0;
 }
 
+// The damper brakes and holds nothing: against the reaction it is at most as large.
+dvec3 damped(const dvec3& moved, const dvec3& reaction, double damping) {
+    const dvec3 force = projectedOn(-moved, reaction) * damping;
+    return glm::dot(force, reaction) < 0.0 ? clampLength(force, glm::length(reaction)) : force;
+}
+
 // The output of the low-pass, in which the part that is no longer wanted shrinks by at least `step` per tick.
 // Small changes of direction are left to the filter.
 dvec3 withEndingTail(const dvec3& wanted, const dvec3& before, const dvec3& filtered, double step) {
@@ -67,8 +73,8 @@ Wrench WrenchStage::damping(const WrenchInput& input, const Wrench& reaction) no
         const double elapsed = std::max(options_.period, input.elapsed); // a late tick covers a longer motion
         const dvec3 moved = input.device.position - deviceBefore_.position;
         const dvec3 spun = rotationBetween(deviceBefore_.rotation, input.device.rotation);
-        wrench.force = projectedOn(-moved, reaction.force) * (springs.damping / elapsed);
-        wrench.torque = projectedOn(-spun, reaction.torque) * (springs.rotationalDamping / elapsed);
+        wrench.force = damped(moved, reaction.force, springs.damping / elapsed);
+        wrench.torque = damped(spun, reaction.torque, springs.rotationalDamping / elapsed);
     }
     deviceBefore_ = input.device;
     return wrench;

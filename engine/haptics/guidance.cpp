@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/haptics/guidance.h"
 
+#include "engine/haptics/force_ramps.h"
 #include "engine/haptics/limits.h"
 #include "engine/types/angle.h"
 
@@ -31,14 +32,15 @@ void Guidance::step(std::span<const GuidancePose> poses, const Pose& device, boo
         choose(poses, device);
     }
     follow(poses, dt);
-    const bool pulls = button && !waiting_ && chosen_ >= 0 && lost_ <= limits_.holdTime && !cut;
-    const double change = easeStep(dt);
-    phase_ = cut ? 0.0 : std::clamp(phase_ + (pulls ? change : -change), 0.0, 1.0);
+    cut_ = cut_ || cut;
+    const bool pulls = button && !waiting_ && chosen_ >= 0 && lost_ <= limits_.holdTime && !cut_;
+    const double change = cut_ ? std::max(dt / ForceRamps::kRampTime, easeStep(dt)) : easeStep(dt);
+    phase_ = std::clamp(phase_ + (pulls ? change : -change), 0.0, 1.0);
     weight_ = phase_ * phase_ * (3.0 - 2.0 * phase_);
     advance(device, reach, dt);
-    if (cut || (phase_ == 0.0 && !button)) {
+    if (phase_ == 0.0 && (cut_ || !button)) {
         chosen_ = -1;
-        waiting_ = false;
+        cut_ = waiting_ = false;
     }
 }
 

@@ -41,8 +41,8 @@ public:
     // One tick. poses: one per guidance class, of the newest frame. Pressing the button chooses the nearest
     // present class (if none is present, the first that appears) and keeps it until release, even while it is
     // lost. Without a plane the stand-off keeps its direction from then on, wherever the camera goes. The
-    // pull of a roll that becomes free, or is no longer, fades out or in. cut = true (forces off) sets w to 0
-    // at once; the button must then be pressed again.
+    // pull of a roll that becomes free, or is no longer, fades out or in. cut = true (forces off) takes w
+    // to 0 within the time of a ramp (ForceRamps); the button must then be pressed again.
     void step(std::span<const GuidancePose> poses, const Pose& device, bool button, bool cut, double dt,
               const GuidanceReach& reach = {}) noexcept;
     // The pose that the hand commands was moved by `by` [m] and turned by `turn`, not by the hand.
@@ -84,6 +84,7 @@ private:
     int chosen_ = -1;
     bool waiting_ = false; // button down, no class present yet
     bool button_ = false;
+    bool cut_ = false;   // forces went off; until w is 0
     double roll_ = 0.0;  // share of the target's roll that pulls: 0 when its roll is free
     double lost_ = 0.0;  // [s] since the chosen class was last present
     double phase_ = 0.0; // 0..1, linear in time

@@ -89,6 +89,19 @@ Wrench Reaction::withoutNoise(const Wrench& spring, double byHand, const Reactio
     return noise_.step(tick);
 }
 
+// What new data took of the reaction since the tick before, beyond what the hand released; it falls to zero
+// until the next frame is due.
+double Reaction::heldBack(double wanted, double byHand) noexcept {
+    const double left = interval_ - sinceData_;
+    if (!(wanted > 0.0) || fade_.active() || !(left > 0.0)) {
+        return held_ = 0.0;
+    }
+    if (pushed()) {
+        held_ = std::max(held_, size_ - byHand - wanted);
+    }
+    return held_ -= held_ * std::min(1.0, elapsed_ / left);
+}
+
 Wrench Reaction::limitRise(const Wrench& wrench, const Travel& travel, const ReactionInput& input) noexcept {
     const double wanted = metricSize(wrench, k_);
     // Along the wanted reaction, which is out of the regions.
@@ -101,8 +114,9 @@ Wrench Reaction::limitRise(const Wrench& wrench, const Travel& travel, const Rea
     const double rises = std::min(rate(wanted - compressed - size_) * elapsed_, kMaxRiseRate * input.period);
     const double most = size_ + (input.mayRise ? compressed + calm * rises : 0.0);
     appears_ = wanted > size_ + compressed * (1.0 + 1e-9) + kRoundingForce;
-    size_ = std::min(wanted, most);
-    return wanted > most ? scaled(wrench, most / wanted) : wrench;
+    const double held = heldBack(wanted, input.springs.stiffness * travel.length);
+    size_ = std::min(wanted + held, most);
+    return size_ != wanted ? scaled(wrench, size_ / wanted) : wrench;
 }
 
 // New data that turns the reaction by more than a right angle begins a new one, from zero: the former
@@ -117,7 +131,7 @@ void Reaction::beginTurn(const Wrench& wrench, const ReactionInput& input) noexc
         return;
     }
     if (metricProduct(lastFelt_, wrench, k_) < 0.0) {
-        size_ = 0.0;
+        size_ = held_ = 0.0;
         return;
     }
     turnLeft_ = interval_;

@@ -27,8 +27,8 @@ struct ReactionInput {
 // the hand's own motion compresses, because the tool only ever moves nearer to the hand. Any faster
 // growth has another cause: a row appeared, new data moved a surface, a lag ended. It then rises by at most
 // kMaxRiseRate, and after new data evenly over the time between frames, so that no frame is felt as a click.
-// Falls that the hand causes are immediate. After new data the direction, too, turns evenly over the time
-// between frames.
+// Falls that the hand causes are immediate, as is the end of contact. What new data takes of a reaction that
+// remains falls over the time between frames, and the direction turns over that time.
 //
 // New data also changes a surface at rest, by the sensor's noise. So a part of each change is felt slowly
 // (SurfaceNoise), while the tool follows at once. What the hand's own motion changes is felt in the same
@@ -51,7 +51,7 @@ public:
     bool fades() const noexcept { return fade_.active(); }
     // In the last tick the reaction grew by more than the hand compressed, or new data still changes or turns
     // it: work that the hand did not do.
-    bool appears() const noexcept { return appears_ || turnLeft_ > 0.0 || noise_.withholds(); }
+    bool appears() const noexcept { return appears_ || turnLeft_ > 0.0 || held_ > 0.0 || noise_.withholds(); }
     // [s] between the last two changes of the regions, at most kLongestFrame.
     double frameInterval() const noexcept { return interval_; }
 
@@ -68,6 +68,7 @@ private:
     Travel travelOf(const Pose& end) noexcept;
     bool pushed() const noexcept;
     double rate(double appeared) noexcept;
+    double heldBack(double wanted, double byHand) noexcept;
     void beginFade(const Wrench& wanted, const ReactionInput& input) noexcept;
     void keepWhileLagging(const Wrench& wanted, double byHand, const ReactionInput& input) noexcept;
     Wrench withoutNoise(const Wrench& spring, double byHand, const ReactionInput& input) noexcept;
@@ -82,6 +83,7 @@ private:
     Wrench lastFelt_;           // of the last tick, what fades included
     double lastFeltSize_ = 0.0; // [N]
     double size_ = 0.0;         // [N] of the last tick, without what fades
+    double held_ = 0.0;         // [N] that new data took, and that still falls
     Wrench turnBack_;           // per newton: from the newest direction to the one before the newest data
     double turnedForce_ = 0.0;  // [N] that had the former direction
     double turnLeft_ = 0.0;     // [s] for which a share of it is still taken back

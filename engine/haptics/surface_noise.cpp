@@ -29,10 +29,23 @@ void SurfaceNoise::settleAt(const Wrench& spring) noexcept {
     spring_ = spring;
 }
 
+// The hand changed the spring to `spring`. What is withheld stays within kWithheldShare of the spring's part
+// in its direction, if it was within it: another region may press across it as hard as ever.
+void SurfaceNoise::releaseWith(const Wrench& spring, double radius) noexcept {
+    const double most = metricProduct(withheld_, withheld_, radius) / kWithheldShare;
+    const double before = metricProduct(spring_, withheld_, radius);
+    const double now = std::copysign(1.0, before) * metricProduct(spring, withheld_, radius);
+    if (most > 0.0 && std::abs(before) >= most * (1.0 - 1e-9) && now < most) {
+        withheld_ = scaled(withheld_, std::max(0.0, now) / most);
+    }
+}
+
 // Round a convex region the tool moves farther than the hand: by how much is seen while the regions rest.
 void SurfaceNoise::withhold(const SurfaceNoiseInput& input) noexcept {
     const Wrench change = sumOf(input.spring, spring_, -1.0);
     const double size = metricSize(change, input.radius);
+    const double byHand = input.dataPushes ? std::min(size, gain_ * input.byHand) : size;
+    releaseWith(sumOf(spring_, change, size > 0.0 ? byHand / size : 0.0), input.radius);
     if (!input.dataPushes) {
         const double seen = input.byHand > kMinByHand ? kGainMargin * size / input.byHand : 1.0;
         gain_ = std::clamp(std::max(seen, kGainKept * gain_), 1.0, kMaxGain);

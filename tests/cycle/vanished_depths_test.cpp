@@ -128,3 +128,23 @@ TEST_CASE("A hand that leaves a trapped tool has not lost a region when the trap
     CHECK(record.vanished == 0);
     CHECK(glm::distance(before, record.device.position) <= 0.001);
 }
+
+TEST_CASE("A wall that goes back by a few millimetres under a light press has not vanished") {
+    for (const double back : {0.003, 0.004, 0.006}) {
+        CAPTURE(back);
+        HapticRig rig(handScene(), at(0, 0, 0.02));
+        rig.show(wallSet(1));
+        rig.sceneAges = false;
+        rig.ticks(250);
+        rig.hand = at(0, 0, 0.0085);
+        REQUIRE(forceOf(rig.ticks(1000)) == doctest::Approx(1.5).epsilon(0.1));
+        Fixtures moved = emptySet(2);
+        addWall(moved, {0.0, 0.0, -0.04 - back}, {1, 0, 0}, {0, 1, 0}, 0.06, 0.004, 0.04);
+        rig.show(std::move(moved));
+        rig.sceneAges = false;
+        const StepRecord after = rig.ticks(100);
+        CHECK(after.vanished == 0);
+        CHECK(forceOf(after) == 0.0);
+        CHECK(glm::distance(after.tool.position, rig.hand.position) < 1e-6);
+    }
+}

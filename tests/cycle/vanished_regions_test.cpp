@@ -25,8 +25,8 @@ const Shape kWall = planeAt({0.03, 0.0, 0.0}, {0.0, -0.5 * M_PI, 0.0}); // faces
 
 // Placed shapes only.
 struct ShapesRig : HapticRig {
-    explicit ShapesRig(std::vector<Shape> all)
-        : HapticRig(Scene{}, at(0.0, 0.0, 0.02)) {
+    explicit ShapesRig(std::vector<Shape> all, const Scene& scene = {})
+        : HapticRig(scene, at(0.0, 0.0, 0.02)) {
         cycle = std::make_unique<HapticCycle>(tool, all, options, hand);
         ticks(300);
     }
@@ -109,6 +109,26 @@ TEST_CASE("If one of two pressed regions vanishes, its force fades out and the o
     CHECK(after.wrench.force.x == doctest::Approx(0.0));
     CHECK(after.wrench.force.z == doctest::Approx(1.0).epsilon(0.01));
     CHECK(after.tool.position.x - pressed.tool.position.x <= 0.0003);
+}
+
+TEST_CASE("With stiff springs one of two pressed regions that vanishes is noticed at a smaller depth") {
+    Scene stiff;
+    stiff.haptics.device = "omega";
+    ShapesRig rig({kFloor, kWall}, stiff);
+    REQUIRE(rig.options.springs.stiffness > 4000.0);
+    rig.move(at(0.0224, 0.0, 0.0097), 200);
+    const StepRecord pressed = rig.ticks(1000);
+    REQUIRE(pressed.wrench.force.x < -10.0);
+    rig.cycle->setShapes(std::array{kFloor});
+    CHECK(travelOf(rig, 199, forceOf(pressed)) <= 0.0003);
+    CHECK(rig.ticks(5).vanished == 1);
+}
+
+TEST_CASE("A hand that turns out of a region in one tick has lost no region") {
+    HeldRod rig(false);
+    rig.showRegions(true, 9);
+    rig.hand.rotation = rotationExp({0.0, -0.3, 0.0});
+    CHECK(rig.ticks(300).vanished == 0);
 }
 
 TEST_CASE("A wall that goes back under a hand is followed, not lost, also with a floor below") {

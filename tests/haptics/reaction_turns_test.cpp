@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// A reaction that new data turns round.
+// A reaction that new data turns round, or takes away.
 #include "engine/haptics/reaction.h"
 
+#include <cmath>
 #include <doctest/doctest.h>
 
 using namespace fathom;
@@ -27,4 +28,41 @@ TEST_CASE("New data on the other side of the hand begins a new reaction, from ze
         wrench = next;
     }
     CHECK(wrench.force.z < 0.0);
+}
+
+TEST_CASE("A surface that goes back in every frame is felt as an even fall, not as a click per frame") {
+    ReactionInput tick;
+    tick.springs.stiffness = 1000.0;
+    tick.springs.rotationalStiffness = 1.0;
+    tick.springs.metricRadius = std::sqrt(1e-3);
+    Reaction reaction;
+    double force = 0.0, z = 0.0;
+    const auto step = [&] {
+        tick.springEnd.position.z = z;
+        force = reaction.step(tick).force.z;
+        tick.newData = false;
+        return force;
+    };
+    for (; z > -0.02; z -= 5e-5) {
+        step();
+    }
+    for (int i = 0; i < 1000; ++i) {
+        step();
+    }
+    REQUIRE(force == doctest::Approx(20.0));
+    for (int frame = 0; frame < 12; ++frame) {
+        tick.newData = true;
+        tick.allowed.position.z -= 0.005; // [m]
+        for (int i = 0; i < 33; ++i) {
+            const double before = force;
+            z -= 0.0035 / 33.0;
+            CHECK(before - step() < 0.35); // [N]; the surface goes back by 5 N per frame, the hand by 3.5 N
+        }
+    }
+    CHECK(force < 8.0);
+    tick.newData = true;
+    tick.allowed.position.z = -1.0; // no contact any more
+    tick.springEnd.position.z = z;
+    tick.allowed = tick.springEnd;
+    CHECK(reaction.step(tick).force.z == 0.0);
 }

@@ -152,3 +152,37 @@ TEST_CASE("A hand that moved elsewhere begins a new mean") {
     CHECK(feltOutlier(0.03) > 0.02);
     CHECK(feltOutlier(0.03) < 0.06);
 }
+
+TEST_CASE("A hand that leaves one of two regions feels nothing of its motion any more") {
+    for (const double moved : {0.002, -0.002}) { // [m] of the region that is left, at new data
+        CAPTURE(moved);
+        ReactionInput tick;
+        tick.springs = RestingHand(0.001).tick.springs;
+        Reaction reaction;
+        double surface = 0.0, x = 0.005, z = 0.0;
+        const auto step = [&](int count) {
+            Wrench felt;
+            for (int i = 0; i < count; ++i) {
+                tick.springEnd.position = {x, 0.0, z};
+                tick.allowed.position = {0.005, 0.0, std::max(surface, z)};
+                felt = reaction.step(tick);
+                tick.newData = false;
+            }
+            return felt.force;
+        };
+        for (int i = 0; i < 200; ++i, x -= 2.5e-5, z -= 5e-5) { // to 5 mm in x and 10 mm in z
+            step(1);
+        }
+        step(2000);
+        tick.newData = true;
+        surface = moved;
+        step(20);
+        REQUIRE(std::abs(step(1).z - 10.0) < 1.0); // most of the motion is not yet felt
+        for (int i = 0; i < 40; ++i, z += 0.00035) {
+            step(1);
+        }
+        const dvec3 felt = step(1);
+        CHECK(felt.x == doctest::Approx(5.0).epsilon(0.01));
+        CHECK(std::abs(felt.z) < 0.02);
+    }
+}
