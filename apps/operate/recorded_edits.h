@@ -36,7 +36,7 @@ private:
     RecordedScene active_;                                    // the active fixtures
     std::deque<std::pair<uint64_t, RecordedScene>> upcoming_; // by number of the change
     uint32_t scenes_ = 0;                                     // files scene-N.yaml
-    bool allFrozen_ = false;                                  // PublishedFrame::still of the last frame
+    bool allFrozen_ = false;                                  // PublishedFrame::allFrozen of the last frame
 };
 
 } // namespace fathom::operate

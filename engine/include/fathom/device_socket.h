@@ -94,7 +94,7 @@ struct fathom_door_state {
     double guidance;     /**< 0..1 weight of guidance */
     int64_t frame;       /**< camera frame of the active set; -1 = none */
     uint64_t generation; /**< active fixture set, as in fathom_door_regions; 0 = none */
-    uint32_t contacts;   /**< active constraint rows */
+    uint32_t contacts;   /**< active constraint rows, and one more if an exact check blocks the tool */
     uint32_t state;      /**< 0 off, 1 free, 2 contact, 3 escape, 4 trapped, 5 fading, 6 waiting */
 };
 
