@@ -125,8 +125,7 @@ std::unique_ptr<Camera> openCamera(const Scene& scene, const std::optional<std::
         camera = std::make_unique<SourceCheck>(std::move(camera), scene);
     }
     if (scene.beam) {
-        const BeamSigma beam{scene.beam->range, scene.beam->perMetre, scene.beam->width};
-        camera = std::make_unique<BeamCamera>(std::move(camera), beam);
+        camera = std::make_unique<BeamCamera>(std::move(camera), *scene.beam);
     }
     // A recording contains all pixels, uncorrected, unless the window recorded what it used.
     if (scene.decimation > 1 && delivery != Delivery::Every && camera->info().decimation == 1) {
@@ -135,8 +134,7 @@ std::unique_ptr<Camera> openCamera(const Scene& scene, const std::optional<std::
     if (!scene.port || delivery == Delivery::Every || camera->info().inWater) {
         return camera;
     }
-    const FlatPort port{scene.port->distance, scene.port->index};
-    return std::make_unique<WaterCamera>(std::move(camera), port, scene.nearZ, scene.farZ);
+    return std::make_unique<WaterCamera>(std::move(camera), *scene.port, scene.nearZ, scene.farZ);
 }
 
 void takeUncertainty(Scene& scene, const Camera& camera) {

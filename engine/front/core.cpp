@@ -33,11 +33,10 @@ CameraSide::CameraSide(const v0::CameraModel& given, const fathom::Scene& scene)
     , decimation(scene.decimation)
     , info(decimated(delivered, decimation)) {
     if (scene.beam) {
-        info.beam = BeamSigma{scene.beam->range, scene.beam->perMetre, scene.beam->width};
+        info.beam = scene.beam;
     }
     if (scene.port) {
-        const FlatPort port{scene.port->distance, scene.port->index};
-        correction.emplace(port, info, scene.nearZ, scene.farZ, "camera " + model.name);
+        correction.emplace(*scene.port, info, scene.nearZ, scene.farZ, "camera " + model.name);
     }
 }
 

@@ -122,7 +122,7 @@ void loadDepthRange(const YamlNode& camera, Scene& scene) {
 
 void loadPort(const YamlNode& node, Scene& scene) {
     node.checkKeys({"distance", "index"});
-    Scene::Port port;
+    FlatPort port;
     port.distance = node.at("distance").number(Range::between(0.0, 10.0));
     if (!(port.distance < scene.nearZ)) {
         node.at("distance").refuse("a number below camera.near = " + std::to_string(scene.nearZ));
@@ -133,7 +133,7 @@ void loadPort(const YamlNode& node, Scene& scene) {
 
 void loadBeam(const YamlNode& node, Scene& scene) {
     node.checkKeys({"width_deg", "sigma", "sigma_per_m"});
-    Scene::Beam beam;
+    BeamSigma beam;
     beam.width = kDegree * node.at("width_deg").number(Range::between(0.0, 30.0));
     node.read("sigma", beam.range, Range::between(0.0, 1.0));
     node.read("sigma_per_m", beam.perMetre, Range::between(0.0, 1.0));

@@ -2,6 +2,8 @@
 // The scene file as checked, plain values. loadScene() fills it; it is constant afterwards.
 #pragma once
 
+#include "engine/types/camera_info.h"
+#include "engine/types/flat_port.h"
 #include "engine/types/haptic_device.h"
 #include "engine/types/pose.h"
 
@@ -135,20 +137,11 @@ struct Scene {
     uint32_t decimation = 1;        // every nth column and row of the camera's images is used
     bool cameraStatic = false;      // it never moves, though its frames have no poses
     double registrationSigma = 0.0; // [m]; regions grow by 3 of them
-    // A flat window between the camera and the water.
-    struct Port {
-        double distance = 0.0; // [m] from the lens to the water
-        double index = 1.34;   // sea water
-    };
     // [1/m] of linear light along the ray from point to lens: red, green, blue (Beer and Lambert). Colours
     // are corrected before the gates; empty = no correction.
     std::optional<dvec3> attenuation;
-    std::optional<Port> port;               // the camera looks through a flat port, calibrated in air
-    struct Beam {                           // replaces the sensor's own BeamSigma
-        double range = 0.0, perMetre = 0.0; // [m], [m/m]
-        double width = 0.0;                 // [rad]
-    };
-    std::optional<Beam> beam;
+    std::optional<FlatPort> port;  // the camera looks through a flat port, calibrated in air
+    std::optional<BeamSigma> beam; // replaces the sensor's own
 
     // Depth filter, the first step of every frame.
     struct Filter {

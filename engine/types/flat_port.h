@@ -13,7 +13,7 @@ namespace fathom {
 
 struct FlatPort {
     double distance = 0.0; // [m] from the lens's centre of projection to the water
-    double index = 1.33;   // of the water; air = 1. Sea water 1.34
+    double index = 1.34;   // of sea water; fresh water 1.33, air 1
 };
 
 // Slope (tangent of the angle to the axis) in water of the ray that has slope `air` before the window

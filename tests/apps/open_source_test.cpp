@@ -37,9 +37,7 @@ CameraInfo plainCamera() {
 TEST_CASE("A recording of raw frames is corrected for the port, a recording of processed frames is not") {
     const ScratchFolder folder;
     Scene scene;
-    Scene::Port port;
-    port.distance = 0.03, port.index = 1.34;
-    scene.port = port;
+    scene.port = FlatPort{0.03, 1.34};
     record(folder.path() / "raw", plainCamera());
     const auto corrected = openCamera(scene, folder.path() / "raw", Delivery::Newest);
     const CameraInfo used = corrected->info();
