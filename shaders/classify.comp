@@ -17,7 +17,7 @@ layout(constant_id = kSpecClasses) const uint kClasses = 1;
 layout(constant_id = kSpecBox) const uint kBox = 0;
 layout(constant_id = kSpecFour) const uint kFour = 0;
 layout(constant_id = kSpecRange) const uint kRange = 0;
-layout(constant_id = kSpecSelfFilter) const uint kArm = 0;
+layout(constant_id = kSpecSelfFilter) const uint kSelfFilter = 0;
 layout(constant_id = kSpecWater) const uint kWater = 0;
 layout(constant_id = kSpecRows) const uint kRows = 1;
 layout(constant_id = kSpecWide) const uint kWide = 0;
@@ -121,7 +121,7 @@ uint classBits(uvec2 at, float z, vec3 rgb) {
     vec3 p = vec3(rayOf(at) * z, z);
     bool seen = kColour == kColourLookedUp ? colourOf(p, rgb) : kColour == kColourRegistered;
     Hsl colourHere = hslOf(withoutWater(rgb, p));
-    vec3 base = kBox != 0 || kArm != 0 ? transformPoint(params.baseTcamera, p) : vec3(0.0);
+    vec3 base = kBox != 0 || kSelfFilter != 0 ? transformPoint(params.baseTcamera, p) : vec3(0.0);
     float range = kRange != 0 ? length(p) : 0.0;
     uint mask = 0;
     for (uint c = 0; c < kClasses; ++c) {
@@ -129,7 +129,7 @@ uint classBits(uvec2 at, float z, vec3 rgb) {
         mask |= member << c;
     }
     mask = z != 0.0 ? mask : 0u;
-    if (kArm != 0 && mask != 0 && onArm(base)) {
+    if (kSelfFilter != 0 && mask != 0 && onArm(base)) {
         return 0;
     }
     return mask;

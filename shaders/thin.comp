@@ -27,9 +27,9 @@ layout(std430, binding = 6) writeonly buffer Cells { vec4 growth[]; };
 #include "shaders/lib/slots.glsl"
 #include "shaders/lib/thin_point.glsl"
 
-const uint kEdge = 5u; // a 4x4 cell has 5x5 points with the corners of the next cells; index y * 5 + x
-vec3 point[kEdge * kEdge];
-uint kind[kEdge * kEdge]; // forbidden class, or kNone
+const uint kCellPoints = 5u; // a 4x4 cell has 5x5 points with the corners of the next cells; index y * 5 + x
+vec3 point[kCellPoints * kCellPoints];
+uint kind[kCellPoints * kCellPoints]; // forbidden class, or kNone
 
 // One of the four sub-patches that contain the points: own, right, below, diagonal. Class bits are 0 outside
 // the image and in unlisted patches.
@@ -49,15 +49,15 @@ Quarter quarterAt(uvec2 at) {
 // Issues all reads before the first use: one memory latency instead of 25.
 void readPoints(uvec2 at) {
     Quarter quarters[4] = Quarter[4](quarterAt(at), quarterAt(at + uvec2(4, 0)), quarterAt(at + uvec2(0, 4)), quarterAt(at + uvec2(4, 4)));
-    float ranges[kEdge * kEdge];
-    [[unroll]] for (uint i = 0; i < kEdge * kEdge; ++i) {
-        const uint x = i % kEdge, y = i / kEdge;
+    float ranges[kCellPoints * kCellPoints];
+    [[unroll]] for (uint i = 0; i < kCellPoints * kCellPoints; ++i) {
+        const uint x = i % kCellPoints, y = i / kCellPoints;
         vec4 here = texelFetch(points, int(quarters[y / 4u * 2u + x / 4u].slot + (y & 3u) * 4u + (x & 3u)));
         point[i] = here.xyz;
         ranges[i] = here.w;
     }
-    [[unroll]] for (uint i = 0; i < kEdge * kEdge; ++i) {
-        const uint x = i % kEdge, y = i / kEdge;
+    [[unroll]] for (uint i = 0; i < kCellPoints * kCellPoints; ++i) {
+        const uint x = i % kCellPoints, y = i / kCellPoints;
         uint mark = maskInRow(quarters[y / 4u * 2u + x / 4u].rows[y & 3u], x & 3u);
         kind[i] = forbiddenClass(ranges[i] != 0.0 ? mark : 0u);
     }
@@ -69,10 +69,10 @@ void readPoints(uvec2 at) {
 float thinned(const uint first, const uint k) {
     const uint c = kind[first];
     float radius = radiusOf(c), most = 0.0;
-    Corners corners = cornersOf(point[first], point[first + k], point[first + k * kEdge], point[first + k * (kEdge + 1u)]);
+    Corners corners = cornersOf(point[first], point[first + k], point[first + k * kCellPoints], point[first + k * (kCellPoints + 1u)]);
     uint others = c == kNone ? 1u : 0u;
     [[unroll]] for (uint i = 0; i < (k + 1u) * (k + 1u); ++i) {
-        const uint x = i % (k + 1u), y = i / (k + 1u), at = first + y * kEdge + x;
+        const uint x = i % (k + 1u), y = i / (k + 1u), at = first + y * kCellPoints + x;
         others |= kind[at] ^ c;
         most = max(most, askedBy(point[at], corners, float(x) / float(k), float(y) / float(k), radius));
     }
@@ -84,7 +84,7 @@ float thinned(const uint first, const uint k) {
 vec4 decidedCell(uvec2 at) {
     readPoints(at);
     float whole = thinned(0u, 4u);
-    vec4 quarters = max(vec4(0.0), vec4(thinned(0u, 2u), thinned(2u, 2u), thinned(2u * kEdge, 2u), thinned(2u * kEdge + 2u, 2u)));
+    vec4 quarters = max(vec4(0.0), vec4(thinned(0u, 2u), thinned(2u, 2u), thinned(2u * kCellPoints, 2u), thinned(2u * kCellPoints + 2u, 2u)));
     return whole >= 0.0 ? vec4(-whole, 0.0, 0.0, 0.0) : quarters;
 }
 

@@ -16,7 +16,7 @@
 
 const uint kGrownHere = kRunGrown >> 16, kWideHere = kRunWide >> 16; // shifted to the upper half of runs[].y
 const uint kRunAlign = 32u; // [words] so that no two groups write to the same 128 bytes of host memory
-const uint kReach = 0x800000u; // half the range of 24 bits
+const uint kHalfRange = 0x800000u; // half the range of 24 bits
 shared uint present[16];    // one bit per slot: seen spheres, then held ones
 shared uint packedFrom, packedSeen, packedBase;
 shared uint classesOfPatch; // one bit per class that occurs; kGrownHere
@@ -100,7 +100,7 @@ void placeRun() {
         uint words = (kByDepth ? packedSeen + steps : 4u * packedSeen) + 4u * held;
         words = (words + kRunAlign - 1u) / kRunAlign * kRunAlign;
         packedFrom = words != 0 ? atomicAdd(counters.packedWords, words) : 0u;
-        packedBase = kByDepth && packedSeen != 0 ? firstDepth() - kReach : 0u;
+        packedBase = kByDepth && packedSeen != 0 ? firstDepth() - kHalfRange : 0u;
     }
 }
 
@@ -135,7 +135,7 @@ void packByDepth() {
             if (kThin != 0) {
                 stepsOfRank[rank] = notesOfPatch[slot] >> 16;
             }
-            if (grownHere() && bits - packedBase >= 2u * kReach) {
+            if (grownHere() && bits - packedBase >= 2u * kHalfRange) {
                 atomicOr(wideOfPatch, kWideHere);
             }
         }

@@ -4,7 +4,7 @@
 // per pixel. Needs what surface.comp defines before it.
 
 // Size of the window with which pixels are rejected and filters of up to 5x5 are computed.
-const int kReach = 2, kWide = 4 + 2 * kReach;
+const int kWindowRadius = 2, kWindow = 4 + 2 * kWindowRadius;
 // Larger filters go through rows of points: of the own four columns and kOwn on either side.
 const int kFetches = int(kHalo + 3u) / 4, kOwn = 4 * kFetches, kRowWide = 4 + 2 * kOwn;
 
@@ -20,14 +20,14 @@ vec4 fourDepths(ivec2 q) {
 }
 
 // depth: of the four pixels in each row of the window [m].
-void loadWindow(ivec2 at, out vec3 window[kWide * kWide], out vec4 depth[kWide]) {
-    [[unroll]] for (int y = 0; y < kWide; ++y) {
-        ivec2 left = at + ivec2(-4, y - kReach);
+void loadWindow(ivec2 at, out vec3 window[kWindow * kWindow], out vec4 depth[kWindow]) {
+    [[unroll]] for (int y = 0; y < kWindow; ++y) {
+        ivec2 left = at + ivec2(-4, y - kWindowRadius);
         vec4 before = fourDepths(left), own = fourDepths(left + ivec2(4, 0)), after = fourDepths(left + ivec2(8, 0));
         depth[y] = own;
-        float z[kWide] = float[kWide](before.z, before.w, own.x, own.y, own.z, own.w, after.x, after.y);
-        [[unroll]] for (int x = 0; x < kWide; ++x) {
-            window[y * kWide + x] = windowPointAt(at + ivec2(x, y) - kReach, z[x]);
+        float z[kWindow] = float[kWindow](before.z, before.w, own.x, own.y, own.z, own.w, after.x, after.y);
+        [[unroll]] for (int x = 0; x < kWindow; ++x) {
+            window[y * kWindow + x] = windowPointAt(at + ivec2(x, y) - kWindowRadius, z[x]);
         }
     }
 }
@@ -44,19 +44,19 @@ void loadRow(ivec2 at, out vec3 row[kRowWide]) {
 
 // Index in the window of pixel k (0..15, row-major) of the sub-patch.
 int centreOf(int k) {
-    return ((k >> 2) + kReach) * kWide + (k & 3) + kReach;
+    return ((k >> 2) + kWindowRadius) * kWindow + (k & 3) + kWindowRadius;
 }
 
 // Difference from the earlier to the later point of the window, whichever is the centre. So two pixels need
 // the same weight, and the compiler computes it once.
-vec3 between(vec3 window[kWide * kWide], const int a, const int b) {
+vec3 between(vec3 window[kWindow * kWindow], const int a, const int b) {
     return window[max(a, b)] - window[min(a, b)];
 }
 
-bool rejectedInWindow(vec3 window[kWide * kWide], const int centre) {
+bool rejectedInWindow(vec3 window[kWindow * kWindow], const int centre) {
     float z[9], square[9];
     [[unroll]] for (int i = 0; i < 9; ++i) {
-        const int at = centre + (i / 3 - 1) * kWide + i % 3 - 1;
+        const int at = centre + (i / 3 - 1) * kWindow + i % 3 - 1;
         vec3 apart = between(window, centre, at);
         z[i] = window[at].z;
         square[i] = dot(apart, apart);
@@ -64,12 +64,12 @@ bool rejectedInWindow(vec3 window[kWide * kWide], const int centre) {
     return isRejected(z, square);
 }
 
-Mean meanInWindow(vec3 window[kWide * kWide], const int centre) {
-    const int radius = min(int(kRadius), kReach);
+Mean meanInWindow(vec3 window[kWindow * kWindow], const int centre) {
+    const int radius = min(int(kRadius), kWindowRadius);
     Mean mean = Mean(0.0, 0.0);
     [[unroll]] for (int dy = -radius; dy <= radius; ++dy) {
         [[unroll]] for (int dx = -radius; dx <= radius; ++dx) {
-            const int at = centre + dy * kWide + dx;
+            const int at = centre + dy * kWindow + dx;
             vec3 apart = between(window, centre, at);
             mean = added(mean, window[at].z - window[centre].z, weightOf(dot(apart, apart)));
         }
@@ -122,13 +122,13 @@ void plainBlock(uint sub) {
 void filterBlock(uint sub) {
     ivec2 at = ivec2(pixelOfSlot(sub * 16u));
     uvec4 rows = rowsOfMasks(sub);
-    vec3 window[kWide * kWide];
-    vec4 depth[kWide];
+    vec3 window[kWindow * kWindow];
+    vec4 depth[kWindow];
     loadWindow(at, window, depth);
     [[unroll]] for (int k = 0; k < 16; ++k) {
         const int centre = centreOf(k);
         bool shown = all(bvec2(maskInRow(rows[k >> 2], uint(k & 3)) != 0u, !rejectedInWindow(window, centre)));
-        float z = depth[kReach + (k >> 2)][k & 3];
+        float z = depth[kWindowRadius + (k >> 2)][k & 3];
         z = kRadius != 0u ? filteredDepth(meanInWindow(window, centre), window[centre], z) : z;
         vec4 point = basePoint(at + ivec2(k & 3, k >> 2), z);
         points[sub * 16u + uint(k)] = shown ? point : vec4(0.0);
@@ -140,8 +140,8 @@ void filterTwoRows(uint slot) {
     ivec2 at = ivec2(pixelOfSlot(slot));
     uvec4 rows = rowsOfMasks(slot >> 4);
     uvec2 masks = (slot & 8u) != 0u ? rows.zw : rows.xy;
-    vec3 window[kWide * kWide], p[8];
-    vec4 depth[kWide];
+    vec3 window[kWindow * kWindow], p[8];
+    vec4 depth[kWindow];
     loadWindow(at, window, depth);
     bool shown[8];
     [[unroll]] for (int k = 0; k < 8; ++k) {
@@ -151,7 +151,7 @@ void filterTwoRows(uint slot) {
     Mean mean[8];
     meansFromRows(at, p, mean);
     [[unroll]] for (int k = 0; k < 8; ++k) {
-        float z = filteredDepth(mean[k], p[k], depth[kReach + (k >> 2)][k & 3]);
+        float z = filteredDepth(mean[k], p[k], depth[kWindowRadius + (k >> 2)][k & 3]);
         vec4 point = basePoint(at + ivec2(k & 3, k >> 2), z);
         points[slot + uint(k)] = shown[k] ? point : vec4(0.0);
     }
