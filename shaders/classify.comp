@@ -29,8 +29,8 @@ layout(constant_id = kSpecFormat) const uint kFormat = 0;
 layout(std140, binding = 0) uniform Params { FrameParams params; };
 layout(binding = 1) uniform usamplerBuffer depths; // uint16 per pixel; kFour: four per texel
 layout(std430, binding = 2) readonly buffer Rays { vec2 rays[]; };
-// Four bytes per texel, or one word if the format is of single bytes; kFourDepthAndColour: words, of four
-// pixels if the format has words.
+// Texels: one pixel (RGBA) or one pair (YUYV, UYVY) of four bytes; one word for formats of single bytes.
+// With kFourDepthAndColour: the words of four pixels, except for formats of single bytes.
 layout(binding = 3) uniform usamplerBuffer colours;
 layout(std430, binding = 4) readonly buffer Cells { uint nearest[]; };
 layout(std430, binding = 5) writeonly buffer Masks { uint masks[]; };       // one byte per slot: class bits
@@ -134,7 +134,6 @@ uint classBits(uvec2 at, float z, vec3 rgb) {
     }
     return mask;
 }
-
 
 // Depths [m] of four adjacent pixels in a row; 0 outside the image and where there is no measurement.
 vec4 depthsAt(uvec2 at) {

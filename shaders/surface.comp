@@ -15,7 +15,6 @@ layout(constant_id = kSpecRadius) const uint kRadius = 2;
 layout(constant_id = kSpecEdge) const uint kEdge = 1;
 layout(constant_id = kSpecIsolation) const uint kIsolation = 1;
 layout(constant_id = kSpecTiled) const uint kTiled = 0;
-
 layout(constant_id = kSpecBlock) const uint kBlock = 0;
 layout(constant_id = kSpecFour) const uint kFour = 0;
 layout(constant_id = kSpecWeights) const uint kWeights = kWeightsExponential;
@@ -84,8 +83,9 @@ vec3[9] aroundOf(ivec2 at, ivec2 patchOrigin) {
 }
 
 // Depths of three neighbours on one side, in any unit. Returns -1 when all valid ones are nearer than z by
-// more than the edge threshold, +1 when all are farther, else 0. Numbers that are not negative compare as
-// their bits, which takes fewer instructions; none (0) less one is the largest.
+// more than the edge threshold, +1 when all are farther, else 0. Non-negative floats compare like their bits,
+// which takes fewer instructions. "No depth" is 0, so bits - 1 makes it the largest unsigned value and min()
+// ignores it.
 float sideJump(vec3 side, float z) {
     uvec3 bits = floatBitsToUint(side);
     uint far = max(bits.x, max(bits.y, bits.z)), near = min(bits.x - 1u, min(bits.y - 1u, bits.z - 1u)) + 1u;

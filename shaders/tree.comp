@@ -10,7 +10,7 @@
 layout(local_size_x_id = kSpecGroupSize) in;
 layout(constant_id = kSpecPatches) const uint kPatches = 0;
 
-layout(push_constant) uniform Push { TreeParams tree; } ;
+layout(push_constant) uniform Push { TreeParams tree; };
 layout(std430, binding = 0) readonly buffer Listed { uint listed[]; };
 layout(std430, binding = 1) coherent buffer Nodes { vec4 nodes[]; };
 layout(std430, binding = 2) coherent buffer NodeCounts { uint nodeCounts[]; };

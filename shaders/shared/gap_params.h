@@ -5,7 +5,7 @@
 #include "shaders/shared/interop.h"
 FATHOM_SHARED_BEGIN
 
-// A listed pair's gap exceeds the smallest rounded gap g by at most GapPose::margin + max(g, 0) / kGapSlope.
+// Pairs are listed up to g + GapPose::margin + max(g, 0) / kGapSlope, where g is the smallest gap in float32.
 FATHOM_CONST kGapSlope = 65536;
 
 // Push constants.
