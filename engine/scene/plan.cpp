@@ -5,6 +5,7 @@
 #include "engine/scene/plan_items.h"
 #include "engine/types/decimation.h"
 #include "engine/types/error.h"
+#include "shaders/shared/frame_params.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +16,6 @@ namespace {
 
 constexpr uint32_t kMaxWidth = 3840, kMaxHeight = 2160;
 constexpr uint32_t kManyPatches = 6000; // measured on an H100; 1280x720 has 3600 patches, 1920x1080 has 8160
-constexpr uint64_t kCounterBytes = 224; // of FrameCounters
 constexpr uint32_t kManyProcessors = 8, kMaxPublishers = 12;
 // Haptic, contact, writer or window, and one for the system and the clearance (a tenth of a CPU).
 constexpr uint32_t kOtherThreads = 4;
@@ -187,14 +187,22 @@ uint32_t Plan::dispatchesPerFrame() const {
            (tree && lists() ? 2u : 0u) + (moments ? 1u : 0u);
 }
 
+uint64_t Plan::momentBytes(const PatchLayout& layout) {
+    return sizeof(shared::PatchMoments) * shared::kMaxClasses * layout.patches();
+}
+
 uint64_t Plan::setBytes(const PatchLayout& layout) const {
+    if (!passes) {
+        return 0;
+    }
     const uint64_t slots = layout.slots(), patches = layout.patches();
     const uint64_t spheresOfTree = slots * ((hold ? 32u : 16u) + (classes > 1 ? 1u : 0u));
-    return !passes ? 0
-                   : kCounterBytes + 4 * patches + (spheres ? 64 * patches : 0) +
-                         (spheres && tree ? spheresOfTree : 0) + (tree ? 20ull * layout.nodes() : 0) +
-                         (pack ? slots * packedBytes() + 72 * patches : 0) +
-                         (moments ? 64 * 8 * patches : 0) + (guidancePoints ? 17 * slots : 0);
+    return sizeof(shared::FrameCounters) + 4 * patches + // patch marks
+           (spheres ? 64 * patches : 0) +                // one word of pixel bits per sub-patch
+           (spheres && tree ? spheresOfTree : 0) +
+           (tree ? 20ull * layout.nodes() : 0) +               // bound and count of each node
+           (pack ? slots * packedBytes() + 72 * patches : 0) + // places (64) and run (8) of each patch
+           (moments ? momentBytes(layout) : 0) + (guidancePoints ? 17 * slots : 0); // point and class bits
 }
 
 Plan makePlan(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, const DeviceFacts& device) {

@@ -101,9 +101,10 @@ struct Plan : PlannedPasses, PlannedLayout, PlannedTuning {
     }
     // Two filtered pixels per invocation: a sixth faster with many groups, slower with few.
     bool filterPairs() const { return manyPatches && tiled && !filterBlock && filterRadius == 2; }
-    bool delivers() const { return passes && byPixel; } // by a dispatch; CPU devices copy instead
-    uint32_t dispatchesPerFrame() const;                // of the frame cadence, without the query
-    uint64_t setBytes(const PatchLayout& layout) const; // buffers of one fixture set (cloud::SetBuffers)
+    bool delivers() const { return passes && byPixel; }     // by a dispatch; CPU devices copy instead
+    uint32_t dispatchesPerFrame() const;                    // of the frame cadence, without the query
+    uint64_t setBytes(const PatchLayout& layout) const;     // buffers of one fixture set (cloud::SetBuffers)
+    static uint64_t momentBytes(const PatchLayout& layout); // of one fixture set with guidance
 };
 
 // Range [m] below which neighbouring points of one surface (|dz| <= 0.7 of their distance) are nearer to each

@@ -132,7 +132,7 @@ void explainResults(Plan& plan, const Scene& scene, const CameraInfo& camera) {
                                        : "the host reads radii with the points");
     explainBuffer(plan, "tree nodes", plan.tree, 20ull * layout.nodes(),
                   plan.tree ? "of one fixture set" : "no query traverses a tree");
-    explainBuffer(plan, "moments", plan.moments, 64ull * 8 * layout.patches(), "of one fixture set");
+    explainBuffer(plan, "moments", plan.moments, Plan::momentBytes(layout), "of one fixture set");
     explainBuffer(plan, "fixture sets", plan.passes, kFixtureSets * plan.setBytes(layout),
                   plan.passes ? std::to_string(kFixtureSets) + " sets, with the buffers of each; never more"
                               : "the scene has no point class");
