@@ -50,7 +50,7 @@ void explainPasses(Plan& plan, const Scene& scene, const CameraInfo& camera) {
              (plan.water ? ", colours corrected for water before the gates" : ""),
          "the scene has no point class");
     pass("list", plan.lists(), "lists patches with work, and those with points or guidance",
-         plan.passes ? "classify writes the list" : "the scene has no point class");
+         plan.passes ? "classify makes the lists" : "the scene has no point class");
     pass("surface", plan.passes, filterSentence(plan), "the scene has no point class");
     const char* const noEstimates = whyNoEstimates(scene, camera);
     pass("estimate", plan.estimates,

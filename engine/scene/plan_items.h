@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `fathom plan` says: each pass, buffer and thread that a plan has or leaves out, with the reason.
+// What `fathom plan` says: each pass, buffer and thread that a plan includes or skips, with the reason.
 #pragma once
 
 #include "engine/scene/plan.h"
