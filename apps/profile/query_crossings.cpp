@@ -2,7 +2,6 @@
 #include "apps/profile/query_crossings.h"
 
 #include "apps/profile/frame_sequence.h"
-#include "engine/gpu/query_crossover.h"
 #include "engine/scene/plan.h"
 #include "engine/types/joined.h"
 
@@ -154,7 +153,7 @@ uint32_t leavesForTheDevice(const std::vector<StudyRow>& rows) {
     for (const std::string& source : sourcesIn(all)) {
         most = std::max(most, crossingOf(pairsByLeaves(all, source)).from);
     }
-    return most > 0.0 && std::isfinite(most) ? static_cast<uint32_t>(most) : gpu::kNeverOnGpu;
+    return most > 0.0 && std::isfinite(most) ? static_cast<uint32_t>(most) : kNeverOnGpu;
 }
 
 std::vector<std::string> crossingFindings(const std::vector<StudyRow>& rows) {
@@ -192,7 +191,7 @@ std::string autoDecision(const DeviceFacts& device, const std::vector<uint32_t>&
             ? "the device with every tool measured"
             : "the device with tools of " + listOf(asked) + " leaves, the CPU with the others";
     const std::string why = device.kind == DeviceKind::Cpu ? "this device is a CPU, which it never asks"
-                            : device.gpuQueryLeaves == gpu::kNeverOnGpu
+                            : device.gpuQueryLeaves == kNeverOnGpu
                                 ? "no tool is known for which the device is faster in every set measured"
                                 : "the device is faster in every set measured from " +
                                       countOf(device.gpuQueryLeaves) + " leaves on";

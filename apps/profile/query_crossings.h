@@ -25,7 +25,7 @@ struct Crossing {
 Crossing crossingOf(const std::vector<TimePair>& pairs);
 
 // Smallest leaf count at which the device was faster than the CPU in every set, also for every larger tool.
-// gpu::kNeverOnGpu if there is none.
+// kNeverOnGpu if there is none.
 uint32_t leavesForTheDevice(const std::vector<StudyRow>& rows);
 
 // Sentences on the crossings. For each set the leaf count, and for each tool the sphere count, from which the

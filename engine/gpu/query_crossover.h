@@ -9,9 +9,6 @@
 
 namespace fathom::gpu {
 
-// More leaves than any tool has: the CPU always answers.
-inline constexpr uint32_t kNeverOnGpu = 0xffffffffu;
-
 // File for one device and driver in the user's cache folder; empty when there is no such folder.
 std::string cacheFileOf(VkPhysicalDevice device, const std::string& extension);
 

@@ -11,6 +11,9 @@ namespace fathom {
 // The device type that the driver reports.
 enum class DeviceKind { Discrete, Integrated, Cpu, Other };
 
+// More leaves than any tool has: the CPU always answers.
+inline constexpr uint32_t kNeverOnGpu = 0xffffffffu;
+
 struct DeviceFacts {
     std::string name;
     std::string driver;
@@ -29,7 +32,7 @@ struct DeviceFacts {
     uint32_t timestampBits = 64;       // after which they begin again at 0
     // Number of tool leaves from which `contact.where: auto` uses this device, if it is not a CPU. Never by
     // default; discrete GPUs start with a measured number, and `fathom profile query` stores one per device.
-    uint32_t gpuQueryLeaves = 0xffffffffu;
+    uint32_t gpuQueryLeaves = kNeverOnGpu;
 };
 
 // In place of a device, for a scene without passes.

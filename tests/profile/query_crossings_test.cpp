@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Crossings between query methods, with synthetic times; and the text about `where: auto` against the plan.
 #include "apps/profile/query_crossings.h"
-#include "engine/gpu/query_crossover.h"
 #include "tests/profile/quick_run.h"
 
 #include <algorithm>
@@ -51,8 +50,8 @@ TEST_CASE("The device is used from the leaf count at which it is faster in every
         addWays(rows, 60000, 256, 9, 7, NAN);
     CHECK(leavesForTheDevice(rows) == 256);
     addWays(rows, 300000, 1, 1, 7, NAN), addWays(rows, 300000, 256, 1, 7, NAN);
-    CHECK(leavesForTheDevice(rows) == gpu::kNeverOnGpu);
-    CHECK(leavesForTheDevice({}) == gpu::kNeverOnGpu);
+    CHECK(leavesForTheDevice(rows) == kNeverOnGpu);
+    CHECK(leavesForTheDevice({}) == kNeverOnGpu);
 }
 
 TEST_CASE("The crossings of each set, each tool and brute force are reported, even if there is none") {
@@ -86,7 +85,7 @@ TEST_CASE("The text about 'where: auto' matches its plan: by leaf count, and nev
             "in every set measured from 64 leaves on") != std::string::npos);
     CHECK(autoDecision(device, {64, 256}).find("it asks the device with every tool measured") !=
           std::string::npos);
-    device.gpuQueryLeaves = gpu::kNeverOnGpu;
+    device.gpuQueryLeaves = kNeverOnGpu;
     CHECK(autoDecision(device, {1, 256}).find("it asks the CPU with every tool measured: no tool is known") !=
           std::string::npos);
     device.gpuQueryLeaves = 1, device.kind = DeviceKind::Cpu;
