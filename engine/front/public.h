@@ -26,6 +26,7 @@ inline v0::Pose external(const Pose& p) noexcept {
     return {external(p.position), {p.rotation.w, p.rotation.x, p.rotation.y, p.rotation.z}};
 }
 static_assert(v0::kMaxArmJoints == kMaxJoints);
+static_assert(v0::kNoFixture == fathom::kNoFixture); // Touch::fixture is copied as it is
 inline ArmPosture internal(const v0::ArmPosture& arm) noexcept {
     return {arm.joints, arm.grasp};
 }
