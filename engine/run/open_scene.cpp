@@ -63,7 +63,7 @@ Scene openSceneText(const std::string& text) {
 
 void warnIfLong(const std::string& what, double length, double most) {
     if (length > most) {
-        log::warn("{} {:.4g} m if its unit is the metre (millimetres?)", what, length);
+        log::warn("{} {:.4g} m (is the value in millimetres?)", what, length);
     }
 }
 

@@ -167,8 +167,8 @@ void RealtimeRun::run(HapticCycle& cycle, HapticDevice& hand, double pathDuratio
             std::string refused;
             guarded([&] { refused = makeHapticThread(options_.placement); });
             if (!refused.empty()) {
-                log::warn("haptic thread: refused {}; wake-ups will be later (how to permit it: man fathom, "
-                          "PERMISSIONS)",
+                log::warn("haptic thread: the system refused {}; the thread will wake later "
+                          "(how to permit it: man fathom, PERMISSIONS)",
                           refused);
             }
             haptic.run(ending_, stop); // not only ending_, which the writer sets: its output may be blocked

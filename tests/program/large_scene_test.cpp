@@ -22,7 +22,7 @@ std::string planWarnings(const Stage& stage, const SceneText& scene) {
 bool asksForUnit(const std::string& warnings, const std::string& what) {
     INFO(warnings);
     return warnings.find(what) != std::string::npos &&
-           warnings.find("if its unit is the metre (millimetres?)") != std::string::npos;
+           warnings.find(" m (is the value in millimetres?)") != std::string::npos;
 }
 
 // An arm of two links with a shape on the second one, at this place in its joint.
