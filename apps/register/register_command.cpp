@@ -120,7 +120,7 @@ void runRegister(const RegisterOptions& options) {
               << 1e3 * fit.worst << " mm (" << fit.worstName << ")\n";
     for (size_t i = 0; i < std::min(robust.outliers.size(), kMaxListed); ++i) {
         const RobustFit::Outlier& outlier = robust.outliers[i];
-        std::cout << "# left out: " << outlier.name << ", " << 1e3 * outlier.distance << " mm away\n";
+        std::cout << "# rejected: " << outlier.name << ", " << 1e3 * outlier.distance << " mm away\n";
     }
     if (!robust.rejection.empty()) {
         throw Error(from + ": rejected: " + robust.rejection);
