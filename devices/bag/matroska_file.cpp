@@ -180,7 +180,7 @@ uint64_t MatroskaFile::nextCluster(uint64_t from) {
 
 void MatroskaFile::logDamaged(uint64_t at, const Error& why) {
     if (++damaged_ == 1) {
-        log::warn("{}: damaged at byte {}: {}; what follows in its cluster is left out", file().string(), at,
+        log::warn("{}: damaged at byte {}: {}; the rest of its cluster is skipped", file().string(), at,
                   why.what());
     }
 }

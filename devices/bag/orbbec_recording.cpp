@@ -88,7 +88,7 @@ void OrbbecRecording::readProperties() {
                 properties_[id] = numberOf(id, message.block());
             }
         } catch (const Error& e) {
-            log::warn("{}: {}: message {} is left out: {}", file().string(), kProperties, i, e.what());
+            log::warn("{}: {}: message {} is skipped: {}", file().string(), kProperties, i, e.what());
         }
     }
 }

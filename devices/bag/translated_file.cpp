@@ -45,7 +45,7 @@ void TranslatedFile::add(const std::string& topic, const std::string& type, Byte
 
 void TranslatedFile::logSkipped(const MessageTopic& topic, const Error& why) {
     faults_.emplace(topic.name, why.what());
-    log::warn("{}: a message of {} is left out: {}", file().string(), topic.name, why.what());
+    log::warn("{}: a message of {} is skipped: {}", file().string(), topic.name, why.what());
 }
 
 } // namespace fathom

@@ -17,7 +17,7 @@ protected:
 
     explicit TranslatedFile(std::unique_ptr<MessageFile> original);
     // The messages of a topic become those of the type, each make(message). One for which make() throws Error
-    // is left out and named in the log. Throws Error when there are more than 10,000.
+    // is skipped and named in the log. Throws Error when there are more than 10,000.
     template <class Make>
     void replace(MessageTopic& topic, const std::string& type, Make&& make) {
         const std::vector<MessageEntry> entries = begin(topic, type);
