@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The observers that a realtime run is asked for.
+// The observers requested for a realtime run.
 #pragma once
 
 #include "apps/binding/run_observer.h"

@@ -55,7 +55,7 @@ std::string SerialArm::description(const Driver& driver, const std::string& port
 
 void SerialArm::awaitWatchdog(const std::atomic<bool>& stop) {
     const auto until = SerialClock::now() + kWatchdogStart;
-    while (!watchdog_->stands(0.0)) { // nothing has been asked of it
+    while (!watchdog_->stands(0.0)) { // no command was sent
         if (stop.load() || watchdog_->ended() || SerialClock::now() > until) {
             throw Error(description_ + ": its watchdog process does not start");
         }

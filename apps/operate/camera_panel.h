@@ -20,7 +20,7 @@ struct CameraFacts {
     bool stampsExposure = false; // the delay begins at the start of exposure
 };
 
-// Sets controls through the desk.
+// Sends requests to the control thread.
 void drawCamera(Console& console, const CameraFacts& camera, const RunView& run, CameraControlThread& desk,
                 const Fonts& fonts);
 

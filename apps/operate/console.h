@@ -101,7 +101,7 @@ struct Console {
         bool recording = false;
         void forcesOff() { forces = guidance = false; }
     };
-    // Keys and panels set them; whoever obeys clears them, so that each acts once.
+    // Keys and panels set them; the handler named at each field clears it, so that each acts once.
     struct Requests {
         bool screenshot = false, newSwapchain = false;                            // Canvas
         bool exportTraces = false;                                                // RunDisplay

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A rigid fit that says which pairs it does not believe, and when it does not believe the whole.
+// A rigid fit that reports outliers, and rejects the whole if there are too many.
 #pragma once
 
 #include "apps/register/rigid_fit.h"

@@ -73,8 +73,8 @@ struct Session {
 
     // Null when the plan has no contact query.
     ContactAnswers* contacts() { return cycles.plan().query != Plan::Query::None ? &answers : nullptr; }
-    std::string title() const; // Scene and source, for titles.
-    std::string where() const; // Device of the contact query: cpu, gpu, none.
+    std::string title() const; // scene and source
+    std::string where() const; // device of the contact query: cpu, gpu, none
     // Throws BadInput when the source gave no first frame.
     void requireFrame(bool first) const;
     // Waits for the real arm, makes its posture the start of the scene's arm and returns it.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the frames of a real camera tell about the truth: where the camera stands still, how large the noise
-// is, and the mean image of a still part. Pure functions of frames.
+// Estimates depth noise and the true surface from frames of a camera at rest: where the camera is still, how
+// large the noise is, and the mean image of a still part. Pure functions of frames.
 #pragma once
 
 #include "apps/profile/frame_bench.h"

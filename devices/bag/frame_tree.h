@@ -22,7 +22,7 @@ public:
     std::optional<Pose> pose(const std::string& from, const std::string& to);
     // Why images in these two frames, whose pose tf has, may have other axes than the optical ones (x right,
     // y down, z forward): a turned child is called optical, or the frames are parallel and neither name says
-    // so. Empty = no doubt.
+    // so. Empty = none.
     std::string axesWarning(const std::string& from, const std::string& to);
     // Which link of tf has several poses, so that there is no pose between these frames; empty = none has.
     std::string whyMoving(const std::string& from, const std::string& to);

@@ -25,7 +25,7 @@ DepthHeader firstDepthHeader(const std::vector<IndexLine>& index);
 // Size of that image. Throws BadInput that names the first image and its fault.
 PngSize firstDepthSize(const std::vector<IndexLine>& index);
 
-// What is asked of a layout.
+// Input of the readers of a layout.
 struct LayoutRequest {
     std::filesystem::path folder;
     std::optional<RecordingIntrinsics> lens; // replaces the folder's; with its scale if it states one

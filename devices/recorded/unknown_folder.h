@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a folder that is no recording says about the one that was meant.
+// Suggests the recording that was probably meant.
 #pragma once
 
 #include <filesystem>

@@ -25,7 +25,7 @@ public:
                  const QueryCapacity& capacity = {});
 
     // From the next query on: use() works on the device as the plan requires, dropDevice() on the CPU. A
-    // device whose arithmetic fails a test at use() is not asked; a warning says so. device: null is allowed
+    // device whose arithmetic fails a test at use() is not used, with a warning. device: null is allowed
     // unless the plan queries on the GPU.
     void use(gpu::Device* device, const Plan& plan, const PatchLayout& layout, cloud::FixturePool& pool);
     void dropDevice() { gpu_.reset(); }

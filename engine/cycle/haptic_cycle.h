@@ -68,8 +68,8 @@ public:
     const Pose& handle() const { return handle_; } // raw pose of the hand, last good sample
     // Pose and, on an arm, posture.
     ToolPlace place() const { return {tool_, arm_ ? arm_->posture() : ArmPosture{}}; }
-    // Of the next contact query: ahead of place() when answers are late. A pressed arm asks farther, so that
-    // a surface that moved back is told from one that vanished.
+    // Of the next contact query: ahead of place() when answers are late. A pressed arm queries farther,
+    // to distinguish a surface that moved back from one that vanished.
     QueryPlace queryPlace() const noexcept {
         QueryPlace next = ahead_.ask(place(), time_, arm_ ? armSetup_->model.count() : 0);
         next.extraReach += std::min(behindHand(), QueryAhead::kMaxReach);
@@ -157,7 +157,7 @@ private:
     Pose device_, handle_;    // last good sample: mapped, raw
     double time_ = kNotKnown; // [s] of the last step
 
-    // Of the regions in force in this step.
+    // The active regions of this step.
     struct ActiveRegions {
         uint64_t generation = 0;
         bool edited = false;                                  // shapes were replaced

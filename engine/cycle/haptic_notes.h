@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a scene asks of the hand and does not get, in lines for the user.
+// Warnings about settings that weaken or remove forces, one line each.
 #pragma once
 
 #include "engine/scene/scene.h"

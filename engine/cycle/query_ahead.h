@@ -6,10 +6,10 @@
 
 namespace fathom {
 
-// Chooses the pose that the next contact query asks for. While answers are at most kInTime ticks old, that is
-// the tool's present pose. While they are later, it is the pose that the tool will have when the answer
-// becomes active: the present one, moved by its own velocity for lead(). The reach then grows by what the
-// hand may add meanwhile. Haptic thread; noexcept, no allocation.
+// Chooses the pose of the next contact query. While answers are at most kInTime ticks old, that is the
+// tool's present pose. While they are later, it is the pose that the tool will have when the answer becomes
+// active: the present one, moved by its own velocity for lead(). The reach then grows by what the hand may
+// add meanwhile. Haptic thread; noexcept, no allocation.
 class QueryAhead {
 public:
     // T [s]: haptic period.

@@ -85,7 +85,7 @@ public:
     std::vector<ArmLeaf> leaves; // grouped by link
     std::vector<std::string> links; // that have leaves
     Pose lastTtip;                  // frame after the last joint -> tip
-    std::vector<std::string> notes; // one line per doubt about the files: what no leaf covers, defaults
+    std::vector<std::string> notes; // one warning per line: what no leaf covers, defaults
     std::string baseText, tipText;  // links, each with the reason for its choice
     std::vector<std::string> held;  // one line per joint that stays where it is
 
@@ -122,8 +122,8 @@ struct ArmOptions {
     // A gripper joint, which is not part of the chain.
     struct Finger {
         std::string joint;
-        // [rad], [m]; empty = a limit of the URDF: see chooseFingerEnds(). If the shapes do not tell, the one
-        // farther from 0 is open if it slides, else the lower one.
+        // [rad], [m]; empty = a limit of the URDF: see chooseFingerEnds(). If the shapes do not decide, the
+        // one farther from 0 is open if it slides, else the lower one.
         std::optional<double> open, closed;
     };
     std::vector<Finger> fingers;          // joints off the chain; one per group of mimic joints is enough

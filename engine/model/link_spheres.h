@@ -32,7 +32,7 @@ struct ShapeRefused {
 // The spheres of one shape, and notes for the user.
 struct ShapeSpheres {
     std::vector<Sphere> spheres;    // in the shape's own frame [m]
-    std::vector<std::string> notes; // one line per doubt about its file
+    std::vector<std::string> notes; // one warning about its file per line
     std::filesystem::path outside;  // the file, when it is outside the folder that was searched
     bool open = false;              // a mesh that is not closed: only its surface is covered
 };

@@ -25,7 +25,7 @@ struct MeshOptions {
 struct LoadedMesh {
     TriangleMesh mesh; // [m], tidy
     MeshFacts facts;
-    std::string warning; // why its unit is probably wrong; empty = no doubt
+    std::string warning; // why its unit is probably wrong; empty = none
 };
 
 // Node transforms are applied; a .dae's <unit> is applied, its <up_axis> is not (as ROS programs do). Throws

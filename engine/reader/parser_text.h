@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Changes a URDF's text so that urdfdom reads it as meant.
+// Rewrites a URDF so that urdfdom accepts it.
 #pragma once
 
 #include <string>
@@ -10,9 +10,8 @@ namespace fathom {
 // parser rejects both.
 std::string withSpaces(const std::string& text);
 
-// The text without what the parser does not know or rejects though nothing here reads it: capsules become
-// meshes (kCapsuleFile), materials are left out, and an inertial keeps no values. Throws BadInput for a
-// capsule without a size.
+// Removes what Fathom does not read and the parser may reject: capsules become meshes (kCapsuleFile),
+// materials are dropped, and an inertial keeps no values. Throws BadInput for a capsule without a size.
 std::string textForParser(const std::string& text, const std::string& file);
 
 } // namespace fathom

@@ -19,12 +19,12 @@ void FirstDepth::look(std::span<const uint16_t> depth) noexcept {
     }
 }
 
-std::string FirstDepth::fault(std::string_view mend) const {
+std::string FirstDepth::fault(std::string_view remedy) const {
     return largest_ == 0
                ? "no depth in the first second: nothing is protected"
                : fmt::format("no depth of the first second is between camera.near {} m and camera.far {} m: "
                              "nothing is protected; it is {:.4g} to {:.4g} m, so check {} or near and far",
-                             near_, far_, least_ * unit_, largest_ * unit_, mend);
+                             near_, far_, least_ * unit_, largest_ * unit_, remedy);
 }
 
 } // namespace fathom

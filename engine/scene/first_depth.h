@@ -22,8 +22,8 @@ public:
     // Raw depths of an image. Stops at the first one in range: for a good camera that is soon.
     void look(std::span<const uint16_t> depth) noexcept;
     bool seen() const noexcept { return seen_; }
-    // Why nothing is protected, if nothing was seen in the first second. `mend`: where the unit is set.
-    std::string fault(std::string_view mend) const;
+    // Why nothing is protected, if nothing was seen in the first second. `remedy`: where the unit is set.
+    std::string fault(std::string_view remedy) const;
 
 private:
     double near_, far_, unit_; // [m]; [m per raw step]

@@ -71,7 +71,8 @@ struct CameraSource {
     bool yuyv = false;          // a simulated camera delivers colour as YUYV, like USB cameras
 };
 
-struct HandLoop {             // the simulated hand that closes the loop (--hand)
+// The simulated hand that closes the loop (--hand).
+struct HandLoop {
     double mass = 0.2;        // [kg]
     double damping = 1.0;     // [N s/m]
     double stiffness = 300.0; // [N/m] of the spring to the intended path
@@ -85,7 +86,8 @@ struct SceneArm {
     std::map<std::string, double> locked; // joints that stay at this value [rad], [m]
     bool keepStray = false;               // keep pieces of meshes that lie far from the rest
     uint32_t leaves = 24;                 // of each box, cylinder or mesh of the URDF
-    struct Joint {                        // overrides of the URDF
+    // Overrides of the URDF.
+    struct Joint {
         std::string name;
         std::optional<double> lower, upper; // [rad], [m]
         std::optional<double> speed;        // [rad/s], [m/s]
@@ -106,17 +108,20 @@ struct SceneArm {
         uint32_t button = 8;  // bit of the hand's buttons: closes while it is down
         double seconds = 1.0; // from open to closed
     } grasp;
-    struct Driver { // the real arm; it moves only when a command names its serial port
+    // The real arm; it moves only when a command names its serial port.
+    struct Driver {
         enum class Protocol { ReachAlpha5, ReachBravo7, Eca5e } protocol = Protocol::ReachAlpha5;
         uint32_t baud = 115200;
         bool rs485 = false; // the kernel switches the transmit direction
-        struct Axis {       // q = zero + sign * axis reading
+        // q = zero + sign * axis reading
+        struct Axis {
             std::string axis, joint;
             double sign = 1.0; // 1 or -1
             double zero = 0.0; // [rad] joint value at axis reading 0; for an ECA, at its clockwise stop
         };
         std::vector<Axis> axes; // each joint of the chain once
-        struct Jaws {           // readings of the gripper axis: [m] for a Reach, [rad] for an ECA
+        // Readings of the gripper axis: [m] for a Reach, [rad] for an ECA.
+        struct Jaws {
             double open = 0.0, closed = 0.0;
         };
         std::optional<Jaws> jaws; // empty = the gripper is not driven

@@ -101,7 +101,7 @@ WaterLens inWater(const Intrinsics& air, const FlatPort& port, double nearZ, dou
         const double factor = middle / (toldZ(port, slope, cosine2, z0) - port.distance);
         water.factor[i] = static_cast<float>(factor);
         if (i % 7 != 0 && i + 1 != air.pixels()) {
-            continue; // the errors are smooth: every seventh pixel tells them
+            continue; // smooth errors: every seventh pixel suffices
         }
         const double used = glm::length(water.lens.ray(column, row));
         for (const double z : {nearZ, farZ}) {
