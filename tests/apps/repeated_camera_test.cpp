@@ -21,7 +21,7 @@ void writeDoubtful(const TemporaryFolder& folder) {
 
 } // namespace
 
-TEST_CASE("A recording that is repeated says each warning once, and again where it is another one") {
+TEST_CASE("A repeated recording logs each warning once, and again if it is another one") {
     const TemporaryFolder folder;
     writeDoubtful(folder);
     Scene scene;
@@ -44,7 +44,7 @@ TEST_CASE("A recording that is repeated says each warning once, and again where 
     CHECK_FALSE(camera.warnings().empty()); // of the newest round, for displays
 }
 
-TEST_CASE("A recording that is opened twice says its warnings twice") {
+TEST_CASE("A recording that is opened twice logs its warnings twice") {
     const TemporaryFolder folder;
     writeDoubtful(folder);
     const Listening log;

@@ -115,7 +115,8 @@ TEST_CASE("Messages of a database that are compressed one by one give the same f
     CHECK(lineSays(databaseRefusal(folder, all), "camera_info: zstd: no size"));
 }
 
-TEST_CASE("Without the option, the depth unit is that of the first image's metadata, else it is said") {
+TEST_CASE("Without the option, the depth unit is that of the first image's metadata, otherwise a warning is "
+          "logged") {
     const TemporaryFolder folder;
     const Messages bare = without(sdkMessages(), "Depth_Units");
     CHECK(playDatabase(folder, bare).info().metresPerUnit == doctest::Approx(0.0001).epsilon(1e-12));

@@ -177,7 +177,7 @@ TEST_CASE("New data that turns a reaction by much is felt as an even turn over a
     CHECK(forceOf(reaction.step(tick)) == 0.0);
 }
 
-TEST_CASE("A surface that noise shakes is felt calmly, and the hand's own motion in the same tick") {
+TEST_CASE("Noise of a surface reaches the hand slowly, and the hand's own motion in the same tick") {
     Reaction reaction = pressed(0.01);
     constexpr std::array kShake{0.4, -0.7, 0.9, -0.2, -0.9, 0.6, 0.1, -0.5, 0.8, -0.5}; // [mm]
     double shaken = 0.0, felt = 0.0, mean = 0.0, hand = -0.01, force = 10.0;
