@@ -38,7 +38,7 @@ glm::dvec2 seen(const FlatPort& port, const dvec3& p, double eye) {
 }
 
 // z that stereo measures: baseline over difference of slopes, with the eyes left and right of the camera.
-double told(const FlatPort& port, const dvec3& p) {
+double measuredZ(const FlatPort& port, const dvec3& p) {
     return kBaseline / (seen(port, p, -0.5 * kBaseline).x - seen(port, p, 0.5 * kBaseline).x);
 }
 
@@ -64,12 +64,12 @@ TEST_CASE("Points seen by stereo through a flat port are recovered within the er
                     const double slope = glm::length(air);
                     const double across = distance * slope + (z - distance) * waterSlope(port, slope);
                     const dvec3 p(slope > 0.0 ? glm::dvec2(air * (across / slope)) : glm::dvec2(0.0), z);
-                    const double tellsZ = told(port, p);
+                    const double zHere = measuredZ(port, p);
                     const float factor = water.factor[static_cast<size_t>(v) * 161 + static_cast<size_t>(u)];
-                    const double found = distance + factor * (tellsZ - distance);
+                    const double found = distance + factor * (zHere - distance);
                     const glm::dvec2 ray = water.lens.ray(u, v);
                     worst = std::max(worst, glm::length(dvec3(ray * found, found) - p));
-                    uncorrected = std::max(uncorrected, glm::length(dvec3(air * tellsZ, tellsZ) - p));
+                    uncorrected = std::max(uncorrected, glm::length(dvec3(air * zHere, zHere) - p));
                 }
             }
         }
@@ -78,7 +78,7 @@ TEST_CASE("Points seen by stereo through a flat port are recovered within the er
         CHECK(water.worst < 0.02);
         CHECK(uncorrected > 0.3);
         MESSAGE("port " << distance << " m: off by " << 1e3 * worst << " mm of " << 1e3 * water.worst
-                        << " told, uncorrected " << 1e3 * uncorrected << " mm");
+                        << " reported, uncorrected " << 1e3 * uncorrected << " mm");
     }
 }
 
@@ -90,7 +90,7 @@ TEST_CASE("A camera behind a port gives true depth, keeps holes, reports its unc
     const FlatPort port{0.03, 1.34};
     std::vector<uint16_t> depth(kAir.pixels(), 0);
     const size_t centre = 60 * 161 + 80;
-    depth[centre] = static_cast<uint16_t>(std::lround(1e3 * told(port, {0, 0, 0.9})));
+    depth[centre] = static_cast<uint16_t>(std::lround(1e3 * measuredZ(port, {0, 0, 0.9})));
     depth[0] = 65535;
     auto source = std::make_unique<OneFrame>(info, depth);
     OneFrame& watched = *source;

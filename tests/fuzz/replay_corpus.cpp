@@ -39,8 +39,8 @@ void keepInput() {
     }
     const int file = ::open(kLastInput, O_CREAT | O_TRUNC | O_WRONLY, 0600);
     if (current != nullptr && file >= 0 && ::write(file, current->data(), current->size()) >= 0) {
-        constexpr char kTold[] = "the input is in the file fuzz-finding\n";
-        [[maybe_unused]] const auto told = ::write(2, kTold, sizeof kTold - 1);
+        constexpr char kMessage[] = "the input is in the file fuzz-finding\n";
+        [[maybe_unused]] const auto written = ::write(2, kMessage, sizeof kMessage - 1);
     }
 }
 

@@ -53,8 +53,8 @@ private:
 
 // [s] longest motion after the engine ends: the watchdog waits for 0.2 s of silence, and a busy machine may
 // add a second.
-constexpr double kUntold = 1.2;    // [s]
-constexpr double kEcaHoming = 0.1; // [rad/s]
+constexpr double kUnreported = 1.2; // [s]
+constexpr double kEcaHoming = 0.1;  // [rad/s]
 
 // Waits until the joint has been at rest for 0.3 s.
 bool comesToRest(ArmBench& bench, const double& joint) {
@@ -134,7 +134,7 @@ TEST_CASE("An ECA stops far from its end stop when the engine is killed or crash
         run.engine->signal(signal);
         CHECK(run.engine->wait() == (kSanitized && signal == SIGSEGV ? 1 : -1)); // sanitizers exit on a crash
         CHECK(comesToRest(*run.bench, run.arm.angle[0]));
-        CHECK(killed - run.arm.angle[0] < kUntold * kEcaHoming);
+        CHECK(killed - run.arm.angle[0] < kUnreported * kEcaHoming);
     }
 }
 
@@ -156,7 +156,7 @@ TEST_CASE("A Reach stops before its last setpoint when the engine is killed, als
         const double killed = run.angle();
         run.engine->kill();
         CHECK(comesToRest(*run.bench, run.shoulder));
-        CHECK(std::abs(run.shoulder - killed) < kUntold * run.arm.speed[4]);
+        CHECK(std::abs(run.shoulder - killed) < kUnreported * run.arm.speed[4]);
     }
 }
 
@@ -167,7 +167,7 @@ TEST_CASE(
     run.engine->signal(SIGSTOP);
     CHECK(comesToRest(*run.bench, run.arm.angle[0]));
     const double rest = run.angle();
-    CHECK(stopped - rest < kUntold * kEcaHoming);
+    CHECK(stopped - rest < kUnreported * kEcaHoming);
     run.engine->signal(SIGCONT);
     CHECK(run.bench->wait([&] { return run.arm.angle[0] < rest - 0.02; }));
 }

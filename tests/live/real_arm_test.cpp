@@ -223,11 +223,11 @@ TEST_CASE("A motor that draws too much holds the arm until forces are turned off
     checkHeld(driven);
     CHECK(driven.turns("overloaded") > 300);
     bool released = true;
-    int goneOn = 0;
+    int resumed = 0;
     for (const auto& [t, state] : driven.states) { // latched: it never resumes by itself
         released = state == "overloaded" ? false : released || t > 2.7;
         CHECK((state != "follows" || released));
-        goneOn += t > 3.3 && state == "follows" ? 1 : 0;
+        resumed += t > 3.3 && state == "follows" ? 1 : 0;
     }
-    CHECK(goneOn > 100);
+    CHECK(resumed > 100);
 }

@@ -10,7 +10,7 @@ using namespace fathom::testing;
 
 namespace {
 
-bool saysOnly(const std::string& refusal, const std::string& words) {
+bool reportsOnly(const std::string& refusal, const std::string& words) {
     INFO(refusal);
     CHECK(refusal.find(".urdf: ") != std::string::npos);
     CHECK(refusal.find('\n') == std::string::npos);
@@ -25,26 +25,26 @@ std::string withLimit(const std::string& limit) {
 
 TEST_CASE("Two roots, circles, limits that are crossed or no numbers, and too many links are rejected in one "
           "line") {
-    CHECK(saysOnly(urdfRefusal(ballLink("a") + ballLink("b")), "root"));
-    CHECK(saysOnly(urdfRefusal(ballLink("a") + ballLink("b") +
-                               jointText("j", "revolute", "a", "b", "0 0 0", "0 0 1") +
-                               jointText("k", "revolute", "b", "a", "0 0 0", "0 0 1")),
-                   "root"));
-    CHECK(saysOnly(urdfRefusal(withLimit("<limit lower='1' upper='-1' velocity='1' effort='1'/>")),
-                   "joint j: limits missing or crossed (allowed: lower <= upper)"));
-    CHECK(saysOnly(urdfRefusal(withLimit("<limit lower='nan' upper='1' velocity='1' effort='1'/>")),
-                   "(allowed: "));
-    CHECK(saysOnly(urdfRefusal(withLimit("<limit lower='0' upper='many' velocity='1' effort='1'/>")),
-                   "(allowed: "));
-    CHECK(saysOnly(urdfRefusal(withLimit("")), "(allowed: "));
+    CHECK(reportsOnly(urdfRefusal(ballLink("a") + ballLink("b")), "root"));
+    CHECK(reportsOnly(urdfRefusal(ballLink("a") + ballLink("b") +
+                                  jointText("j", "revolute", "a", "b", "0 0 0", "0 0 1") +
+                                  jointText("k", "revolute", "b", "a", "0 0 0", "0 0 1")),
+                      "root"));
+    CHECK(reportsOnly(urdfRefusal(withLimit("<limit lower='1' upper='-1' velocity='1' effort='1'/>")),
+                      "joint j: limits missing or crossed (allowed: lower <= upper)"));
+    CHECK(reportsOnly(urdfRefusal(withLimit("<limit lower='nan' upper='1' velocity='1' effort='1'/>")),
+                      "(allowed: "));
+    CHECK(reportsOnly(urdfRefusal(withLimit("<limit lower='0' upper='many' velocity='1' effort='1'/>")),
+                      "(allowed: "));
+    CHECK(reportsOnly(urdfRefusal(withLimit("")), "(allowed: "));
     std::string many;
     for (int i = 0; i < 50'000; ++i) {
         many += "<link name='";
         many += std::to_string(i);
         many += "'/>";
     }
-    CHECK(saysOnly(urdfRefusal(many), "(allowed: "));
-    CHECK(saysOnly(urdfRefusal(many + std::string(16u << 20, ' ')), "16 MiB"));
+    CHECK(reportsOnly(urdfRefusal(many), "(allowed: "));
+    CHECK(reportsOnly(urdfRefusal(many + std::string(16u << 20, ' ')), "16 MiB"));
 }
 
 TEST_CASE(
@@ -58,11 +58,11 @@ TEST_CASE(
                                     joint("0 0 1", "<limit lower='-1' upper='1' velocity='1'/>"),
                                     joint("0 0 1", "<limit lower='-1' upper='1' effort='1'/>"),
                                     joint("0 0 1", limit + mimicText("a", "multiplier='x'"))}) {
-        CHECK(saysOnly(urdfRefusal(text), "oint [elbow]"));
+        CHECK(reportsOnly(urdfRefusal(text), "oint [elbow]"));
     }
     for (const std::string& text : {joint("0 0 ${height}", limit), joint("0 0 $(arg height)", limit),
                                     ballLink("$(arg prefix)a"), ballLink("a", "${2 * r}")}) {
-        CHECK(saysOnly(urdfRefusal(text), "expand it with: xacro"));
+        CHECK(reportsOnly(urdfRefusal(text), "expand it with: xacro"));
     }
     CHECK(urdfRefusal(joint("0 0 1", limit) +
                       "<gazebo><plugin><joint>${j}</joint><link name='${l}'/></plugin></gazebo>") == "");
@@ -128,26 +128,27 @@ TEST_CASE("A file of MoveIt or SDF in place of a URDF is named as such, with wha
     const std::string groups = "<group name='arm'><chain base_link='a' tip_link='b'/></group>"
                                "<disable_collisions link1='a' link2='b' reason='Never'/>";
     const std::string srdf = urdfRefusal(groups);
-    CHECK(saysOnly(srdf, "robot: an SRDF of MoveIt, without links and joints (allowed: the URDF that it "
-                         "belongs to)"));
-    CHECK(saysOnly(urdfRefusal("<!-- <link name='a'/> -->" + groups), "an SRDF of MoveIt"));
-    CHECK_FALSE(saysOnly(urdfRefusal("<group name='arm'/>" + withLimit("")), "SRDF"));
-    CHECK_FALSE(saysOnly(urdfRefusal(""), "SRDF"));
+    CHECK(reportsOnly(srdf, "robot: an SRDF of MoveIt, without links and joints (allowed: the URDF that it "
+                            "belongs to)"));
+    CHECK(reportsOnly(urdfRefusal("<!-- <link name='a'/> -->" + groups), "an SRDF of MoveIt"));
+    CHECK_FALSE(reportsOnly(urdfRefusal("<group name='arm'/>" + withLimit("")), "SRDF"));
+    CHECK_FALSE(reportsOnly(urdfRefusal(""), "SRDF"));
     const ScratchFile sdf("arm.urdf", "<?xml version='1.0'?><sdf version='1.7'><model name='r'/></sdf>");
-    CHECK(saysOnly(refusalOf([&] { loadArm(sdf.path(), {}); }), "robot: an SDF (allowed: a URDF or MJCF"));
+    CHECK(reportsOnly(refusalOf([&] { loadArm(sdf.path(), {}); }), "robot: an SDF (allowed: a URDF or MJCF"));
 }
 
 TEST_CASE("A capsule without a length and a mesh without a file name are named as such, with their link") {
     const auto link = [](const std::string& shape) {
         return "<link name='arm'><collision><geometry>" + shape + "</geometry></collision></link>";
     };
-    CHECK(saysOnly(urdfRefusal(link("<capsule radius='0.02' height='0.1'/>")),
-                   "link arm: a capsule without length (allowed: <capsule radius=\"r\" length=\"l\"/> [m]"));
-    CHECK(saysOnly(urdfRefusal(link("<capsule length='0.1'></capsule>")),
-                   "link arm: a capsule without radius"));
+    CHECK(
+        reportsOnly(urdfRefusal(link("<capsule radius='0.02' height='0.1'/>")),
+                    "link arm: a capsule without length (allowed: <capsule radius=\"r\" length=\"l\"/> [m]"));
+    CHECK(reportsOnly(urdfRefusal(link("<capsule length='0.1'></capsule>")),
+                      "link arm: a capsule without radius"));
     CHECK(urdfRefusal(link("<capsule radius='0.02' length='0.1'/>") + ballLink("b") +
                       jointText("j", "revolute", "arm", "b", "0 0 0", "0 0 1")) == "");
-    CHECK(saysOnly(urdfRefusal(link("<mesh filename=''/>")), "link arm: a mesh without a file name"));
+    CHECK(reportsOnly(urdfRefusal(link("<mesh filename=''/>")), "link arm: a mesh without a file name"));
 }
 
 TEST_CASE("A negative speed counts as none, with a note that states it") {

@@ -49,7 +49,7 @@ std_msgs_msg_dds__Header_ header() {
     return out;
 }
 
-void sayPose(dds_entity_t writer, const std::string& line) {
+void publishPose(dds_entity_t writer, const std::string& line) {
     const std::vector<double> n = numbersOf(line);
     geometry_msgs_msg_dds__PoseStamped_ m{};
     m.header = header();
@@ -58,7 +58,7 @@ void sayPose(dds_entity_t writer, const std::string& line) {
     dds_write(writer, &m);
 }
 
-void sayJoy(dds_entity_t writer, const std::string& line) {
+void publishJoy(dds_entity_t writer, const std::string& line) {
     const std::vector<double> n = numbersOf(line);
     std::vector<int32_t> buttons(n.begin(), n.end());
     float axes[2] = {0.5f, -0.5f};
@@ -71,7 +71,7 @@ void sayJoy(dds_entity_t writer, const std::string& line) {
 }
 
 // NAME POSITION NAME POSITION ...
-void sayJoints(dds_entity_t writer, const std::string& line) {
+void publishJoints(dds_entity_t writer, const std::string& line) {
     std::istringstream words(line);
     std::vector<std::string> names;
     std::vector<double> positions;
@@ -91,28 +91,28 @@ void sayJoints(dds_entity_t writer, const std::string& line) {
     dds_write(writer, &m);
 }
 
-void sayBool(dds_entity_t writer, const std::string& line) {
+void publishBool(dds_entity_t writer, const std::string& line) {
     const std::vector<double> n = numbersOf(line);
     const std_msgs_msg_dds__Bool_ m{n.at(0) != 0.0};
     dds_write(writer, &m);
 }
 
-void sayEmpty(dds_entity_t writer, const std::string&) {
+void publishEmpty(dds_entity_t writer, const std::string&) {
     const std_msgs_msg_dds__Empty_ m{0};
     dds_write(writer, &m);
 }
 
 struct Type {
     const dds_topic_descriptor_t* descriptor;
-    void (*say)(dds_entity_t writer, const std::string& line);
+    void (*publish)(dds_entity_t writer, const std::string& line);
 };
 
 const std::map<std::string, Type> kTypes{
-    {"PoseStamped", {&geometry_msgs_msg_dds__PoseStamped__desc, sayPose}},
-    {"JointState", {&sensor_msgs_msg_dds__JointState__desc, sayJoints}},
-    {"Joy", {&sensor_msgs_msg_dds__Joy__desc, sayJoy}},
-    {"Bool", {&std_msgs_msg_dds__Bool__desc, sayBool}},
-    {"Empty", {&std_msgs_msg_dds__Empty__desc, sayEmpty}}};
+    {"PoseStamped", {&geometry_msgs_msg_dds__PoseStamped__desc, publishPose}},
+    {"JointState", {&sensor_msgs_msg_dds__JointState__desc, publishJoints}},
+    {"Joy", {&sensor_msgs_msg_dds__Joy__desc, publishJoy}},
+    {"Bool", {&std_msgs_msg_dds__Bool__desc, publishBool}},
+    {"Empty", {&std_msgs_msg_dds__Empty__desc, publishEmpty}}};
 
 dds_entity_t writerOf(dds_entity_t participant, const std::string& topic,
                       const dds_topic_descriptor_t& type) {
@@ -148,7 +148,7 @@ int main(int argc, char** argv) {
             const builtin_interfaces_msg_dds__Time_ few{1, 2};
             dds_write(shortWriter, &few);
         } else {
-            type.say(writer, takeAge(line));
+            type.publish(writer, takeAge(line));
         }
         std::cout << "ok" << std::endl;
     }

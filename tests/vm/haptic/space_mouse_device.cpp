@@ -44,7 +44,7 @@ void SpaceMouseDevice::deflect(const std::array<int16_t, 3>& shift, const std::a
     const std::lock_guard lock(mutex_);
     shift_ = shift;
     tick_ = tick;
-    zeroTold_ = false;
+    zeroReported_ = false;
 }
 
 void SpaceMouseDevice::press(uint8_t buttons) {
@@ -83,11 +83,11 @@ void SpaceMouseDevice::queueMotion() {
 std::optional<UsbReply> SpaceMouseDevice::in(uint8_t /*endpoint*/, size_t /*room*/) {
     const std::lock_guard lock(mutex_);
     const auto now = Clock::now();
-    if (queue_.empty() && now >= due_ && !zeroTold_ && !silent) {
+    if (queue_.empty() && now >= due_ && !zeroReported_ && !silent) {
         due_ = now + kPeriod;
         queueMotion();
         const std::array<int16_t, 3> zero{};
-        zeroTold_ = shift_ == zero && tick_ == zero;
+        zeroReported_ = shift_ == zero && tick_ == zero;
     }
     if (queue_.empty()) {
         due_ = std::max(due_, now + std::chrono::milliseconds(1));

@@ -33,7 +33,7 @@ private:
     Bytes reportDescriptor_;
     std::mutex mutex_;
     std::array<int16_t, 3> shift_{}, tick_{};
-    bool zeroTold_ = true;
+    bool zeroReported_ = true;
     std::deque<Bytes> queue_;
     Clock::time_point due_ = Clock::now();
 };
