@@ -27,7 +27,7 @@ layout(std430, binding = 6) readonly buffer Poses { GapPose poses[]; };
 layout(std430, binding = 7) buffer Found { uvec4 count; GapPair found[]; };
 
 const float kFar = 1e18; // [m] no gap yet; its square is a float
-const uint kNobody = 0xffffffffu;
+const uint kNoIndex = 0xffffffffu;
 
 vec4 rows[3];              // of the pose
 shared uint best, nearest; // keyOf() a gap; an index
@@ -51,20 +51,20 @@ float roughGap(vec4 a, vec4 b) {
 
 // Blocks of this frame first, then those of frozen classes.
 uint blockCount() {
-    return batch.live.x + batch.rest.x;
+    return batch.blocks.x + batch.frozenBlocks.x;
 }
 vec4 boundOf(uint block) {
-    bool seen = block < batch.live.x;
+    bool seen = block < batch.blocks.x;
     vec4 bound = vec4(0.0, 0.0, 0.0, -1.0);
     if (seen) {
-        bound = bounds[batch.live.y + block];
+        bound = bounds[batch.blocks.y + block];
     } else if (block < blockCount()) {
-        bound = frozen[batch.rest.y + block - batch.live.x];
+        bound = frozen[batch.frozenBlocks.y + block - batch.blocks.x];
     }
     return vec4(inFrameOf(rows, bound.xyz), bound.w * 1.00001); // rounding of the bound
 }
 uint layersOf(uint block) {
-    return block < batch.live.x ? batch.live.z : 1u;
+    return block < batch.blocks.x ? batch.blocks.z : 1u;
 }
 
 struct Candidate {
@@ -74,8 +74,8 @@ struct Candidate {
 Candidate candidateOf(uint block, uint layer, uint i) {
     Candidate c;
     c.pointClass = 0u;
-    if (block >= batch.live.x) {
-        uint slot = (block - batch.live.x) * kBlockSlots + i;
+    if (block >= batch.blocks.x) {
+        uint slot = (block - batch.blocks.x) * kBlockSlots + i;
         c.slot = slot * 4u + kLayerFrozen;
         c.sphere = frozen[slot];
     } else {
@@ -84,18 +84,18 @@ Candidate candidateOf(uint block, uint layer, uint i) {
         c.sphere = layer == kLayerHeld ? held[slot] : spheres[slot];
         uint both = kClasses > 1u ? classes[slot >> 2] >> 8u * (slot & 3u) & 255u : 0u;
         c.pointClass = layer == kLayerHeld ? both >> 4 : both & 15u;
-        c.sphere.w = (batch.live.w >> c.pointClass & 1u) != 0u ? -1.0 : c.sphere.w;
+        c.sphere.w = (batch.blocks.w >> c.pointClass & 1u) != 0u ? -1.0 : c.sphere.w;
     }
     c.here = vec4(inFrameOf(rows, c.sphere.xyz), c.sphere.w);
     return c;
 }
 
-// Index with the smallest gap of all invocations; kNobody without any below kFar.
+// Index with the smallest gap of all invocations; kNoIndex without any below kFar.
 uint nearestOf(float gap, uint index) {
     barrier();
     if (gl_LocalInvocationID.x == 0u) {
         best = keyOf(kFar);
-        nearest = kNobody;
+        nearest = kNoIndex;
     }
     barrier();
     atomicMin(best, keyOf(gap));
@@ -109,7 +109,7 @@ uint nearestOf(float gap, uint index) {
 
 uint nearestBlock() {
     float least = kFar;
-    uint which = kNobody;
+    uint which = kNoIndex;
     for (uint block = gl_LocalInvocationID.x; block < blockCount(); block += gl_WorkGroupSize.x) {
         vec4 bound = boundOf(block);
         float gap = bound.w >= 0.0 ? roughGap(bound, batch.tool) : kFar;
@@ -121,7 +121,7 @@ uint nearestBlock() {
 
 uint nearestSphere(uint block) {
     float least = kFar;
-    uint which = kNobody;
+    uint which = kNoIndex;
     for (uint i = gl_LocalInvocationID.x; i < layersOf(block) * kBlockSlots; i += gl_WorkGroupSize.x) {
         vec4 here = candidateOf(block, i / kBlockSlots, i % kBlockSlots).here;
         float gap = here.w >= 0.0 ? roughGap(here, batch.tool) : kFar;
@@ -133,16 +133,16 @@ uint nearestSphere(uint block) {
 
 void seed() {
     uint block = nearestBlock();
-    uint which = block != kNobody ? nearestSphere(block) : kNobody;
+    uint which = block != kNoIndex ? nearestSphere(block) : kNoIndex;
     barrier();
     if (gl_LocalInvocationID.x == 0u) {
         best = keyOf(kFar);
     }
     barrier();
-    if (which != kNobody) {
+    if (which != kNoIndex) {
         vec4 here = candidateOf(block, which / kBlockSlots, which % kBlockSlots).here;
         float least = kFar;
-        for (uint i = gl_LocalInvocationID.x; i < batch.rest.z; i += gl_WorkGroupSize.x) {
+        for (uint i = gl_LocalInvocationID.x; i < batch.frozenBlocks.z; i += gl_WorkGroupSize.x) {
             least = min(least, roughGap(here, leaves[i]));
         }
         atomicMin(best, keyOf(least));
@@ -172,7 +172,7 @@ void listLeaves(uint from, vec4 bound, float limit) {
         leavesListed = 0u;
     }
     barrier();
-    uint to = min(from + kSliceLeaves, batch.rest.z);
+    uint to = min(from + kSliceLeaves, batch.frozenBlocks.z);
     for (uint i = from + gl_LocalInvocationID.x; i < to; i += gl_WorkGroupSize.x) {
         vec4 leaf = leaves[i];
         if (nearerThan(limit, leaf, bound)) {
@@ -188,8 +188,8 @@ void tighten(uint block, uint near, float limit) {
     float least = limit;
     for (uint i = gl_LocalInvocationID.x; i < layersOf(block) * kBlockSlots; i += gl_WorkGroupSize.x) {
         vec4 here = candidateOf(block, i / kBlockSlots, i % kBlockSlots).here;
-        bool mayBe = here.w >= 0.0 && nearerThan(least, here, batch.tool);
-        for (uint k = 0u; k < near && mayBe; ++k) {
+        bool inReach = here.w >= 0.0 && nearerThan(least, here, batch.tool);
+        for (uint k = 0u; k < near && inReach; ++k) {
             if (nearerThan(least, here, leafListed[k])) {
                 least = min(least, roughGap(here, leafListed[k]));
             }
@@ -203,11 +203,11 @@ void tighten(uint block, uint near, float limit) {
 void list(uint block, uint near, float limit) {
     for (uint i = gl_LocalInvocationID.x; i < layersOf(block) * kBlockSlots; i += gl_WorkGroupSize.x) {
         Candidate c = candidateOf(block, i / kBlockSlots, i % kBlockSlots);
-        bool mayBe = c.here.w >= 0.0 && nearerThan(limit, c.here, batch.tool);
-        for (uint k = 0u; k < near && mayBe; ++k) {
+        bool inReach = c.here.w >= 0.0 && nearerThan(limit, c.here, batch.tool);
+        for (uint k = 0u; k < near && inReach; ++k) {
             if (nearerThan(limit, c.here, leafListed[k])) {
                 uint at = atomicAdd(count.x, 1u);
-                if (at < batch.rest.w) {
+                if (at < batch.frozenBlocks.w) {
                     found[at] = GapPair(gl_WorkGroupID.x, idListed[k], c.slot, c.pointClass, c.sphere);
                 }
             }
@@ -217,7 +217,7 @@ void list(uint block, uint near, float limit) {
 
 // listed: the limit of the third step; kFar in the second, which has a limit that falls.
 void searchBlock(uint block, vec4 bound, float listed) {
-    for (uint from = 0u; from < batch.rest.z; from += kSliceLeaves) {
+    for (uint from = 0u; from < batch.frozenBlocks.z; from += kSliceLeaves) {
         barrier(); // no invocation changes `best` until the next one
         float limit = listed < kFar ? listed : gapOf(best);
         if (nearerThan(limit, bound, batch.tool)) {

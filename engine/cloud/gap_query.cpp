@@ -138,8 +138,8 @@ void GapQuery::record(const Batch& batch, Part part) {
     run_.startTime();
     GapParams p{};
     p.tool = leaves_.bound();
-    p.live = {layout_.patches(), layout_.levels[1].first, hold_ ? 2u : 1u, frozenClasses(batch.set)};
-    p.rest = {frozen_.count(), frozen_.firstBound(), leaves_.count(), most_};
+    p.blocks = {layout_.patches(), layout_.levels[1].first, hold_ ? 2u : 1u, frozenClasses(batch.set)};
+    p.frozenBlocks = {frozen_.count(), frozen_.firstBound(), leaves_.count(), most_};
     commands.dispatch(pipeline_, bindingsOf(batch.set), static_cast<uint32_t>(part.size()), &p);
     run_.stopTime();
     commands.barrier();

@@ -10,9 +10,9 @@ FATHOM_CONST kGapSlope = 65536;
 
 // Push constants.
 struct GapParams {
-    vec4 tool;  // bounds all leaves, in their frame
-    uvec4 live; // number of blocks; index of the first bound; layers; bits of the classes to skip
-    uvec4 rest; // still blocks; index of the first of their bounds; leaves; most pairs of the answer
+    vec4 tool;          // bounds all leaves, in their frame
+    uvec4 blocks;       // number of blocks; index of the first bound; layers; bits of the classes to skip
+    uvec4 frozenBlocks; // frozen blocks; index of the first of their bounds; leaves; most pairs of the answer
 };
 FATHOM_SIZE(GapParams, 48);
 
