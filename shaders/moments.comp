@@ -63,7 +63,7 @@ PatchMoments merge(PatchMoments a, PatchMoments b) {
     return PatchMoments(vec4(a.anchor.xyz, n), vec4(a.offset.xyz + d * (b.anchor.w / n), 0.0), first, second);
 }
 
-PatchMoments wholePatch(uint patchIndex, uint c) {
+PatchMoments patchMoments(uint patchIndex, uint c) {
     PatchMoments m = subMoments(patchIndex * 16u, c);
     for (uint s = 1; s < 16u; ++s) {
         m = merge(m, subMoments(patchIndex * 16u + s, c));
@@ -93,7 +93,7 @@ void main() {
         if (params.classes[c].role.z == 0.0) {
             continue;
         }
-        PatchMoments m = kShared != 0 ? patchOfGroup(patchIndex, c) : wholePatch(patchIndex, c);
+        PatchMoments m = kShared != 0 ? patchOfGroup(patchIndex, c) : patchMoments(patchIndex, c);
         if (kShared == 0 || gl_LocalInvocationID.x == 0) {
             moments[patchIndex * kMaxClasses + k] = m;
         }

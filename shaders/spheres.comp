@@ -47,7 +47,7 @@ CellsAround cellsOfSub(ivec2 at) {
     return CellsAround(cellAt(at), cellAt(at - ivec2(4, 0)), cellAt(at - ivec2(0, 4)), cellAt(at - ivec2(4, 4)));
 }
 
-void wholeSub(uint sub) {
+void processSubPatch(uint sub) {
     vec4 mine[16u * kLayers];
     uvec2 corner = pixelOfSlot(sub * 16u);
     CellsAround around = CellsAround(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
@@ -111,6 +111,6 @@ uint patchOfPart(uint i) {
 
 void main() {
     if (gl_GlobalInvocationID.x < patchesOfPart() * 16u) {
-        wholeSub(patchOfPart(gl_GlobalInvocationID.x >> 4) * 16u + (gl_GlobalInvocationID.x & 15u));
+        processSubPatch(patchOfPart(gl_GlobalInvocationID.x >> 4) * 16u + (gl_GlobalInvocationID.x & 15u));
     }
 }

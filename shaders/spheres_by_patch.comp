@@ -23,7 +23,7 @@ layout(std430, binding = 20) writeonly buffer Places { uint places[]; };
 // Listed patch -> x: first word of its run; y: number of spheres + 65536 x class bits, kRunGrown, kRunWide.
 layout(std430, binding = 21) writeonly buffer Runs { uvec2 runs[]; };
 // sub-patch -> growth, as thin.comp writes it; for verification only.
-layout(std430, binding = 22) writeonly buffer Decided { vec4 decided[]; };
+layout(std430, binding = 22) writeonly buffer Cells { vec4 growth[]; };
 
 vec4 seenAt(uint slot) {
     return seen[slot];
@@ -38,10 +38,10 @@ uint keptTimeAt(uint slot) {
 }
 
 // Seen spheres of the patch, then held ones; until thinning is decided, the points that it reads.
-shared vec4 ofPatch[kThin != 0 && kHold == 0 ? 441u : 256u * kLayers];
-shared uint notesOfPatch[256];                     // PixelResult::note of each pixel
+shared vec4 patchSpheres[kThin != 0 && kHold == 0 ? 441u : 256u * kLayers];
+shared uint patchNotes[256];                       // PixelResult::note of each pixel
 const bool kByDepth = kPack != 0 && kBeam == 0;     // seen spheres are packed as depths
-shared float zOfPatch[kByDepth ? 256 : 1];
+shared float patchDepths[kByDepth ? 256 : 1];
 shared uint rememberedOfPatch;                     // same encoding as `memoryCounts`
 shared uint largestOfPatch[kTree != 0 ? kMaxClasses : 1u]; // as FrameCounters::largestRadius
 shared vec4 sumOfColumn[kTree != 0 ? 64 : 1]; // per column: sum of the centres, w = their number
@@ -62,9 +62,9 @@ uint placeOf(uint q, uint k) {
 void sumColumn(uint q) {
     vec4 sum = vec4(0.0);
     [[unroll]] for (uint k = 0; k < 4u * kLayers; ++k) {
-        vec4 sphere = ofPatch[placeOf(q, k)];
+        vec4 sphere = patchSpheres[placeOf(q, k)];
         sum += sphere.w >= 0.0 ? vec4(sphere.xyz, 1.0) : vec4(0.0);
-        uint note = notesOfPatch[placeOf(q, k) & 255u], c = note >> (k < 4u ? 8 : 12) & 15u, bits = radiusBits(sphere);
+        uint note = patchNotes[placeOf(q, k) & 255u], c = note >> (k < 4u ? 8 : 12) & 15u, bits = radiusBits(sphere);
         if (bits > largestOfPatch[c]) {
             atomicMax(largestOfPatch[c], bits);
         }
@@ -85,7 +85,7 @@ void reachColumn(uint q) {
     vec3 centre = centreOf(q >> 2).xyz;
     float radius = -1.0;
     [[unroll]] for (uint k = 0; k < 4u * kLayers; ++k) {
-        vec4 sphere = ofPatch[placeOf(q, k)];
+        vec4 sphere = patchSpheres[placeOf(q, k)];
         radius = sphere.w >= 0.0 ? max(radius, distance(sphere.xyz, centre) + sphere.w) : radius;
     }
     reachOfColumn[q] = radius;
@@ -106,12 +106,12 @@ void prepareBounds() {
 void boundOfGroup(uint patchIndex, uint s) {
     for (uint k = 0; k < 4u; ++k) {
         uint a = s * 16u + 4u * k, b = 256u * (kLayers - 1u) + a;
-        putRadii(patchIndex * 16u + s, k, vec4(ofPatch[a].w, ofPatch[a + 1u].w, ofPatch[a + 2u].w, ofPatch[a + 3u].w),
-                 vec4(ofPatch[b].w, ofPatch[b + 1u].w, ofPatch[b + 2u].w, ofPatch[b + 3u].w));
+        putRadii(patchIndex * 16u + s, k, vec4(patchSpheres[a].w, patchSpheres[a + 1u].w, patchSpheres[a + 2u].w, patchSpheres[a + 3u].w),
+                 vec4(patchSpheres[b].w, patchSpheres[b + 1u].w, patchSpheres[b + 2u].w, patchSpheres[b + 3u].w));
     }
     Notes notes = Notes(0, 0, uvec4(0));
     [[unroll]] for (uint p = 0; p < 16u; ++p) {
-        notes = noted(notes, p, notesOfPatch[s * 16u + p]);
+        notes = noted(notes, p, patchNotes[s * 16u + p]);
     }
     vec4 centre = vec4(0.0);
     float radius = -1.0;
@@ -185,7 +185,7 @@ void prepareGroup(uint patchIndex, ivec2 patchAt) {
     }
 }
 
-void wholePatch(uint patchIndex) {
+void processPatch(uint patchIndex) {
     uvec2 patchAt = uvec2(patchIndex % patchesAcross(), patchIndex / patchesAcross()) * 16u;
     bool holding = (listed[patchIndex] & kPatchHolding) != 0;
     prepareGroup(patchIndex, ivec2(patchAt));
@@ -196,18 +196,18 @@ void wholePatch(uint patchIndex) {
         }
         uint sub = patchIndex * 16u + (i >> 4);
         PixelResult r = handlePixel(sub, i & 15u, patchAt + pixelInPatch(i & 240u), maskAt(sub * 16u + (i & 15u)) & forbiddenMask(), around, holding);
-        ofPatch[i] = r.sphere;
+        patchSpheres[i] = r.sphere;
         if (kByDepth) {
-            zOfPatch[i] = r.z;
+            patchDepths[i] = r.z;
         }
         markPresent(i, r.sphere.w);
         markClass(1u << (r.note >> 8 & 15u) | (r.note >> 16 != 0 ? kGrownHere : 0u), r.sphere.w);
         if (kHold != 0) {
-            ofPatch[256u * (kLayers - 1u) + i] = r.held;
+            patchSpheres[256u * (kLayers - 1u) + i] = r.held;
             markPresent(256u * (kLayers - 1u) + i, r.held.w);
             markClass(1u << (r.note >> 12 & 15u), r.held.w);
         }
-        notesOfPatch[i] = r.note;
+        patchNotes[i] = r.note;
     }
     barrier();
     if (gl_LocalInvocationID.x == gl_WorkGroupSize.x - 1u) {
@@ -239,5 +239,5 @@ void wholePatch(uint patchIndex) {
 }
 
 void main() {
-    wholePatch(list[gl_WorkGroupID.x]);
+    processPatch(list[gl_WorkGroupID.x]);
 }

@@ -74,7 +74,7 @@ vec3 windowPoint(ivec2 at, ivec2 patchOrigin) {
 }
 
 // The pixel and its eight neighbours, row-major.
-vec3[9] aroundOf(ivec2 at, ivec2 patchOrigin) {
+vec3[9] neighbourhood(ivec2 at, ivec2 patchOrigin) {
     vec3 around[9];
     [[unroll]] for (int k = 0; k < 9; ++k) {
         around[k] = windowPoint(at + ivec2(k % 3 - 1, k / 3 - 1), patchOrigin);
@@ -122,7 +122,7 @@ float filtered(ivec2 at, vec3 p, ivec2 patchOrigin) {
     Mean mean = Mean(0.0, 0.0);
     for (int dy = -int(kRadius); dy <= int(kRadius); ++dy) {
         for (int dx = -int(kRadius); dx <= int(kRadius); ++dx) {
-            mean = weighed(mean, windowPoint(at + ivec2(dx, dy), patchOrigin), p);
+            mean = addWeighted(mean, windowPoint(at + ivec2(dx, dy), patchOrigin), p);
         }
     }
     return filteredDepth(mean, p, depthOfPixel(at));
@@ -147,7 +147,7 @@ void filterPixel(uint slot, ivec2 patchOrigin) {
     vec4 result = vec4(0.0);
     if (maskAt(slot) != 0) {
         ivec2 at = ivec2(pixelOfSlot(slot));
-        vec3 around[9] = aroundOf(at, patchOrigin);
+        vec3 around[9] = neighbourhood(at, patchOrigin);
         if (!isRejected(around)) {
             result = basePoint(at, kRadius != 0 ? filtered(at, around[4], patchOrigin) : depthOfPixel(at));
         }
@@ -171,13 +171,13 @@ void filterPair(uint slot, ivec2 patchOrigin) {
         [[unroll]] for (int x = -2; x <= 3; ++x) {
             vec3 q = windowPoint(at + ivec2(x, dy), patchOrigin);
             [[unroll]] for (int k = 0; k < 2; ++k) {
-                mean[k] = x - k >= -2 && x - k <= 2 ? weighed(mean[k], q, p[k]) : mean[k];
+                mean[k] = x - k >= -2 && x - k <= 2 ? addWeighted(mean[k], q, p[k]) : mean[k];
             }
         }
     }
     [[unroll]] for (int k = 0; k < 2; ++k) {
         ivec2 here = at + ivec2(k, 0);
-        bool shown = mask[k] != 0 && !isRejected(aroundOf(here, patchOrigin));
+        bool shown = mask[k] != 0 && !isRejected(neighbourhood(here, patchOrigin));
         points[slot + uint(k)] = shown ? basePoint(here, filteredDepth(mean[k], p[k], depthOfPixel(here))) : vec4(0.0);
     }
 }

@@ -74,7 +74,7 @@ float thinned(const uint first, const uint k) {
     [[unroll]] for (uint i = 0; i < (k + 1u) * (k + 1u); ++i) {
         const uint x = i % (k + 1u), y = i / (k + 1u), at = first + y * kCellPoints + x;
         others |= kind[at] ^ c;
-        most = max(most, askedBy(point[at], corners, float(x) / float(k), float(y) / float(k), radius));
+        most = max(most, requiredSquare(point[at], corners, float(x) / float(k), float(y) / float(k), radius));
     }
     return others == 0u ? growthOf(most, radius) : -1.0;
 }

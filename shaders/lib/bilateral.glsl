@@ -48,15 +48,15 @@ struct Mean {
 };
 
 // Precise, so that all variants of the pass round the same sums.
-Mean added(Mean mean, float beyond, float weight) {
+Mean addToMean(Mean mean, float beyond, float weight) {
     precise float sum = mean.sum + beyond * weight;
     precise float weights = mean.weights + weight;
     return Mean(sum, weights);
 }
 
-Mean weighed(Mean mean, vec3 q, vec3 p) {
+Mean addWeighted(Mean mean, vec3 q, vec3 p) {
     vec3 apart = q - p;
-    return added(mean, apart.z, weightOf(dot(apart, apart)));
+    return addToMean(mean, apart.z, weightOf(dot(apart, apart)));
 }
 
 // Depth z [m] of the window's point p moved to the mean, along its ray by at most filterLimit(): a region

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Marks which slots of the group's patch have spheres, by layer (seen, held), then slot. With kPack, packs
-// these spheres into the run that the host reads. Needs counters, kPack, kThin, kByDepth, kLayers, ofPatch,
-// zOfPatch, notesOfPatch and packedWords, places, runs.
+// these spheres into the run that the host reads. Needs counters, kPack, kThin, kByDepth, kLayers,
+// patchSpheres, patchDepths, patchNotes and packedWords, places, runs.
 //
 // A run is a sequence of words. First come the seen spheres as depths z, because the host knows each pixel's
 // ray:
@@ -22,8 +22,8 @@ shared uint packedFrom, packedSeen, packedBase;
 shared uint classesOfPatch; // one bit per class that occurs; kGrownHere
 shared uint wideOfPatch;    // kWideHere, or 0
 // Seen spheres in packed order: float bits of the depth.
-shared uint ofRank[kByDepth ? 256 : 1];
-shared uint stepsOfRank[kByDepth && kThin != 0 ? 260 : 1]; // and growth in steps
+shared uint packedDepths[kByDepth ? 256 : 1];
+shared uint packedSteps[kByDepth && kThin != 0 ? 260 : 1]; // and growth in steps
 
 void markPresent(uint place, float radius) {
     if (radius >= 0.0) {
@@ -89,7 +89,7 @@ uint firstDepth() {
     while (w < 7u && present[w] == 0) {
         ++w;
     }
-    return floatBitsToUint(zOfPatch[kByDepth ? w * 32u + uint(findLSB(present[w])) : 0u]);
+    return floatBitsToUint(patchDepths[kByDepth ? w * 32u + uint(findLSB(present[w])) : 0u]);
 }
 
 // Reserves space for the patch's run. Runs are in any order; the host sorts them.
@@ -117,23 +117,23 @@ void packWhole(uint at, vec4 sphere) {
 // Word w of the run's seen spheres.
 uint seenWord(uint w) {
     if (!grownHere() || (wideHere() && w < packedSeen)) {
-        return ofRank[w];
+        return packedDepths[w];
     }
     if (wideHere()) {
         uint four = kThin != 0 ? 4u * (w - packedSeen) : 0u; // beyond the last one: unused
-        return stepsOfRank[four] | (stepsOfRank[four + 1u] & 255u) << 8 | (stepsOfRank[four + 2u] & 255u) << 16 | stepsOfRank[four + 3u] << 24;
+        return packedSteps[four] | (packedSteps[four + 1u] & 255u) << 8 | (packedSteps[four + 2u] & 255u) << 16 | packedSteps[four + 3u] << 24;
     }
-    return w == 0 ? packedBase : (ofRank[w - 1u] - packedBase) << 8 | stepsOfRank[w - 1u];
+    return w == 0 ? packedBase : (packedDepths[w - 1u] - packedBase) << 8 | packedSteps[w - 1u];
 }
 
 // Called by the whole group. Words are collected in shared memory, so that whole sectors cross the bus.
 void packByDepth() {
     for (uint slot = gl_LocalInvocationID.x; slot < 256u; slot += gl_WorkGroupSize.x) {
         if (isPresent(slot)) {
-            uint rank = rankOf(slot), bits = floatBitsToUint(zOfPatch[slot]);
-            ofRank[rank] = bits;
+            uint rank = rankOf(slot), bits = floatBitsToUint(patchDepths[slot]);
+            packedDepths[rank] = bits;
             if (kThin != 0) {
-                stepsOfRank[rank] = notesOfPatch[slot] >> 16;
+                packedSteps[rank] = patchNotes[slot] >> 16;
             }
             if (grownHere() && bits - packedBase >= 2u * kHalfRange) {
                 atomicOr(wideOfPatch, kWideHere);
@@ -157,7 +157,7 @@ void packPatch(uint patchIndex) {
     }
     for (uint place = gl_LocalInvocationID.x + (kByDepth ? 256u : 0u); place < 256u * kLayers; place += gl_WorkGroupSize.x) {
         if (isPresent(place)) {
-            packWhole(packedFrom + (place >= 256u ? wordsOfSeen() : 0u) + 4u * rankOf(place), ofPatch[place]);
+            packWhole(packedFrom + (place >= 256u ? wordsOfSeen() : 0u) + 4u * rankOf(place), patchSpheres[place]);
         }
     }
     if (gl_LocalInvocationID.x == 0) {

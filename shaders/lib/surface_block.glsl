@@ -71,7 +71,7 @@ Mean meanInWindow(vec3 window[kWindow * kWindow], const int centre) {
         [[unroll]] for (int dx = -radius; dx <= radius; ++dx) {
             const int at = centre + dy * kWindow + dx;
             vec3 apart = between(window, centre, at);
-            mean = added(mean, window[at].z - window[centre].z, weightOf(dot(apart, apart)));
+            mean = addToMean(mean, window[at].z - window[centre].z, weightOf(dot(apart, apart)));
         }
     }
     return mean;
@@ -81,7 +81,7 @@ Mean meanInWindow(vec3 window[kWindow * kWindow], const int centre) {
 void addRow(vec3 row[kRowWide], vec3 p[8], const int v, inout Mean mean[8]) {
     [[unroll]] for (int k = 4 * v; k < 4 * v + 4; ++k) {
         [[unroll]] for (int dx = -int(kRadius); dx <= int(kRadius); ++dx) {
-            mean[k] = weighed(mean[k], row[kOwn + (k & 3) + dx], p[k]);
+            mean[k] = addWeighted(mean[k], row[kOwn + (k & 3) + dx], p[k]);
         }
     }
 }

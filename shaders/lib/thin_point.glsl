@@ -21,7 +21,7 @@ Corners cornersOf(vec3 own, vec3 right, vec3 below, vec3 across) {
 }
 
 // R'^2 - R^2 that dropping point q requires, at (tx, ty) in the cell, 0..1 each.
-float askedBy(vec3 q, Corners c, float tx, float ty, float radius) {
+float requiredSquare(vec3 q, Corners c, float tx, float ty, float radius) {
     vec3 l = vec3(tx * (1.0 - ty), (1.0 - tx) * ty, tx * ty);
     vec3 mean = l.x * c.right + l.y * c.below + l.z * c.across;
     float spread = l.x * c.squares.x + l.y * c.squares.y + l.z * c.squares.z - dot(mean, mean);
