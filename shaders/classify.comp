@@ -12,7 +12,7 @@ layout(local_size_x_id = kSpecGroupSize) in;
 layout(constant_id = kSpecRays) const uint kRays = 0;
 layout(constant_id = kSpecColour) const uint kColour = 1;
 layout(constant_id = kSpecHold) const uint kHold = 0;
-layout(constant_id = kSpecSubGroup) const uint kGroupSubs = 64;
+layout(constant_id = kSpecSubPatchGroup) const uint kSubPatchGroup = 64;
 layout(constant_id = kSpecClasses) const uint kClasses = 1;
 layout(constant_id = kSpecBox) const uint kBox = 0;
 layout(constant_id = kSpecFour) const uint kFour = 0;
@@ -224,7 +224,7 @@ void mark(uint patchIndex, uint bits) {
     if (kLists != 0 && (fresh & kPatchListed) != 0) {
         uint place = atomicAdd(counters.patchGroups.x, 1u);
         list[place] = patchIndex;
-        atomicMax(counters.subGroups.x, groupsUpTo(place, kGroupSubs));
+        atomicMax(counters.subPatchGroups.x, groupsUpTo(place, kSubPatchGroup));
         if (kHold != 0 && memoryCounts[patchIndex] >> 16 != 0) {
             atomicOr(listed[patchIndex], kPatchHolding);
         }

@@ -10,7 +10,7 @@
 layout(local_size_x_id = kSpecGroupSize) in;
 layout(constant_id = kSpecHold) const uint kHold = 0;
 layout(constant_id = kSpecGuidance) const uint kGuidance = 0;
-layout(constant_id = kSpecSubGroup) const uint kGroupSubs = 64;
+layout(constant_id = kSpecSubPatchGroup) const uint kSubPatchGroup = 64;
 
 layout(std140, binding = 0) uniform Params { FrameParams params; };
 layout(std430, binding = 1) buffer Listed { uint listed[]; };               // patch -> kPatch bits
@@ -28,11 +28,11 @@ void putByMemory(uint patchIndex, uint patches) {
     if (memoryCounts[patchIndex] >> 16 != 0) {
         uint place = atomicAdd(counters.withHeldGroups.w, 1u);
         list[3u * patches - 1u - place] = patchIndex;
-        atomicMax(counters.withHeldGroups.x, groupsUpTo(place, kGroupSubs));
+        atomicMax(counters.withHeldGroups.x, groupsUpTo(place, kSubPatchGroup));
     } else {
         uint place = atomicAdd(counters.withoutHeldGroups.w, 1u);
         list[2u * patches + place] = patchIndex;
-        atomicMax(counters.withoutHeldGroups.x, groupsUpTo(place, kGroupSubs));
+        atomicMax(counters.withoutHeldGroups.x, groupsUpTo(place, kSubPatchGroup));
     }
 }
 
@@ -49,7 +49,7 @@ void main() {
     if ((bits & kPatchListed) != 0) {
         uint place = atomicAdd(counters.patchGroups.x, 1u);
         list[place] = patchIndex;
-        atomicMax(counters.subGroups.x, groupsUpTo(place, kGroupSubs));
+        atomicMax(counters.subPatchGroups.x, groupsUpTo(place, kSubPatchGroup));
         if (kHold != 0) {
             putByMemory(patchIndex, patches);
         }
@@ -57,6 +57,6 @@ void main() {
     if (kGuidance != 0 && (bits & kPatchGuided) != 0) {
         uint place = atomicAdd(counters.guidedGroups.w, 1u);
         list[patches + place] = patchIndex;
-        atomicMax(counters.guidedGroups.x, groupsUpTo(place, kGroupSubs));
+        atomicMax(counters.guidedGroups.x, groupsUpTo(place, kSubPatchGroup));
     }
 }

@@ -15,7 +15,8 @@ using namespace shared;
 PassInfo deliverPass(const CloudContext& c) {
     static_assert(offsetof(FrameCounters, delivered) == kDeliveredWord * sizeof(uint32_t));
     const uint32_t words = std::max<uint32_t>(sizeof(FrameCounters) / sizeof(uint32_t), c.layout.patches());
-    const uint32_t group = c.plan.tree ? std::max(c.plan.subGroup, c.plan.pixelGroup) : c.plan.subGroup;
+    const uint32_t group =
+        c.plan.tree ? std::max(c.plan.subPatchGroup, c.plan.pixelGroup) : c.plan.subPatchGroup;
     return {"deliver",
             deliver_spv,
             {&WorkBuffers::counters, &WorkBuffers::listed, &SetBuffers::counters, &SetBuffers::listed,
@@ -35,7 +36,7 @@ void deliverByCopies(gpu::Commands& commands, const WorkBuffers& work, const Set
 
 void clearCounters(gpu::Commands& commands, const WorkBuffers& work) {
     FrameCounters zero{};
-    zero.patchGroups = zero.subGroups = zero.guidedGroups = {0, 1, 1, 0};
+    zero.patchGroups = zero.subPatchGroups = zero.guidedGroups = {0, 1, 1, 0};
     zero.withoutHeldGroups = zero.withHeldGroups = {0, 1, 1, 0};
     commands.update(work.counters, 0, sizeof(zero), &zero);
     commands.fill(work.listed, 0);

@@ -92,7 +92,7 @@ PassInfo classify(const CloudContext& c) {
              {kSpecColour, colour},
              {kSpecLens, lensModelOf(c.camera.colour)},
              {kSpecHold, plan.hold},
-             {kSpecSubGroup, plan.subGroup},
+             {kSpecSubPatchGroup, plan.subPatchGroup},
              {kSpecClasses, plan.classes},
              {kSpecBox, plan.box},
              {kSpecFour, four},
@@ -114,11 +114,11 @@ PassInfo list(const CloudContext& c) {
     return {"list",
             list_spv,
             {&Up::params, &Work::listed, &Work::memoryCounts, &Work::list, &Work::counters},
-            {{kSpecGroupSize, c.plan.subGroup},
+            {{kSpecGroupSize, c.plan.subPatchGroup},
              {kSpecHold, c.plan.hold},
              {kSpecGuidance, c.plan.moments},
-             {kSpecSubGroup, c.plan.subGroup}},
-            groupsFor(c.layout.patches(), c.plan.subGroup),
+             {kSpecSubPatchGroup, c.plan.subPatchGroup}},
+            groupsFor(c.layout.patches(), c.plan.subPatchGroup),
             After::IndirectBarrier};
 }
 
@@ -183,14 +183,14 @@ PassInfo thin(const CloudContext& c) {
              &Work::list,
              &Work::counters,
              &Work::growth},
-            {{kSpecGroupSize, c.plan.subGroup}, {kSpecClasses, c.plan.classes}},
-            GroupsCounted{offsetof(FrameCounters, subGroups)}};
+            {{kSpecGroupSize, c.plan.subPatchGroup}, {kSpecClasses, c.plan.classes}},
+            GroupsCounted{offsetof(FrameCounters, subPatchGroups)}};
 }
 
 PassInfo moments(const CloudContext& c) {
-    // Without shared memory: one invocation per patch; `guidedGroups` counts groups of subGroup / 16
+    // Without shared memory: one invocation per patch; `guidedGroups` counts groups of subPatchGroup / 16
     // patches.
-    const uint32_t group = c.plan.byPixel ? 16u : std::max(8u, c.plan.subGroup / 16u);
+    const uint32_t group = c.plan.byPixel ? 16u : std::max(8u, c.plan.subPatchGroup / 16u);
     return {"moments",
             moments_spv,
             {&Up::params,
@@ -206,7 +206,7 @@ PassInfo moments(const CloudContext& c) {
 
 // Builds the level of patches, or all levels above it in one group.
 PassInfo treeLevels(const CloudContext& c, bool patches) {
-    const uint32_t group = c.plan.subGroup;
+    const uint32_t group = c.plan.subPatchGroup;
     return {"tree",
             tree_spv,
             {&Work::listed,

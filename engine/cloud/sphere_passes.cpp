@@ -72,7 +72,7 @@ PassInfo spheresBySub(const CloudContext& c, uint32_t hold, size_t counted) {
                                                &Set::classes});
     pass.constants.insert(
         pass.constants.end(),
-        {{kSpecGroupSize, c.plan.subGroup}, {kSpecHold, hold}, {kSpecTexels, c.plan.memoryTexels}});
+        {{kSpecGroupSize, c.plan.subPatchGroup}, {kSpecHold, hold}, {kSpecTexels, c.plan.memoryTexels}});
     return pass;
 }
 
@@ -83,7 +83,7 @@ std::vector<PassInfo> spherePasses(const CloudContext& c) {
         return {spheresByPatch(c)};
     }
     if (!c.plan.hold) {
-        return {spheresBySub(c, kHoldNone, offsetof(FrameCounters, subGroups))};
+        return {spheresBySub(c, kHoldNone, offsetof(FrameCounters, subPatchGroups))};
     }
     PassInfo withoutHeld = spheresBySub(c, kHoldWithoutPoints, offsetof(FrameCounters, withoutHeldGroups));
     withoutHeld.filled = &Work::memoryCounts; // `classify` has read it; both dispatches count again

@@ -63,10 +63,10 @@ struct PlannedTuning {
     // Groups run in several rounds, so throughput counts more than latency. Decided by the image size,
     // because the number of patches with work is unknown when passes are recorded.
     bool manyPatches = false;
-    uint32_t pixelGroup = 256; // most invocations per group of the pixel passes; divides 256
-    uint32_t subGroup = 64;    // invocations per group of the sub-patch passes
-    bool passTimes = true;     // the device times the passes; else their times are zero
-    uint32_t publishers = 1;   // threads that lay out a set for the host, including the frame thread
+    uint32_t pixelGroup = 256;   // most invocations per group of the pixel passes; divides 256
+    uint32_t subPatchGroup = 64; // invocations per group of the sub-patch passes
+    bool passTimes = true;       // the device times the passes; else their times are zero
+    uint32_t publishers = 1;     // threads that lay out a set for the host, including the frame thread
 };
 
 // Fixture sets of a program: one that is written, the newest, and four that are leased: by the contact query,

@@ -77,11 +77,11 @@ FATHOM_CONST kPatchHolding =
 FATHOM_CONST kArgumentWords =
     20; // words at the start: for five indirect dispatches the groups x, y, z and a count
 struct FrameCounters {
-    uvec4 patchGroups;       // indirect arguments: one group per listed patch (x = listed patches, 1, 1)
-    uvec4 subGroups;         // indirect arguments: one invocation per sub-patch of a listed patch
-    uvec4 guidedGroups;      // as patchGroups where `classify` makes the lists, else as subGroups; w = guided
-                             // patches
-    uvec4 withoutHeldGroups; // as subGroups, for listed patches without held points; w = their number
+    uvec4 patchGroups;    // indirect arguments: one group per listed patch (x = listed patches, 1, 1)
+    uvec4 subPatchGroups; // indirect arguments: one invocation per sub-patch of a listed patch
+    uvec4 guidedGroups; // as patchGroups where `classify` makes the lists, else as subPatchGroups; w = guided
+                        // patches
+    uvec4 withoutHeldGroups; // as subPatchGroups, for listed patches without held points; w = their number
     uvec4 withHeldGroups;    // the same for listed patches with held points
     uint subs;               // 4x4 sub-patches with a sphere
     uint packedWords;        // words in all runs (packing.glsl)

@@ -56,7 +56,8 @@ void checkList(CloudRig& rig) {
           list.begin() + static_cast<long>(count));
     CHECK(std::all_of(list.begin(), list.begin() + static_cast<long>(count),
                       [&](uint32_t p) { return expected[p] == 1; }));
-    CHECK(counters.subGroups.x == (count * 16 + rig.plan().subGroup - 1) / rig.plan().subGroup);
+    CHECK(counters.subPatchGroups.x ==
+          (count * 16 + rig.plan().subPatchGroup - 1) / rig.plan().subPatchGroup);
     for (size_t c = 0; c < 8; ++c) {
         CHECK(counters.classPixels[c] == pixels[c]);
     }

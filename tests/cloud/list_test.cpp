@@ -54,10 +54,10 @@ void checkLists(const CloudRig& rig, const Lists& expected) {
     const List list = verify::readBack<uint32_t>(vulkan().device, rig.cycle().work().list);
     const List bits = rig.listed();
     const shared::FrameCounters n = rig.counters();
-    const uint32_t patches = rig.layout().patches(), subs = rig.plan().subGroup;
+    const uint32_t patches = rig.layout().patches(), subs = rig.plan().subPatchGroup;
     const auto groups = [&](uint32_t count) { return (count * 16 + subs - 1) / subs; };
     CHECK(sorted(list.begin(), n.patchGroups.x) == expected.listed);
-    CHECK(n.subGroups.x == groups(n.patchGroups.x));
+    CHECK(n.subPatchGroups.x == groups(n.patchGroups.x));
     if (rig.plan().moments) {
         CHECK(sorted(list.begin() + patches, n.guidedGroups.w) == expected.guided);
         CHECK(n.guidedGroups.x == (rig.plan().lists() ? groups(n.guidedGroups.w) : n.guidedGroups.w));
