@@ -62,7 +62,7 @@ bool colourOf(vec3 p, out vec3 rgb) {
     if (q.z <= 0.0) {
         return false;
     }
-    ivec2 at = ivec2(round(projectPoint(q, params.colourLens, params.colourDistortion, colourK3(), params.colourLensMore)));
+    ivec2 at = ivec2(round(projectPoint(q, params.colourLens, params.colourDistortion, colourK3(), params.colourLensDivisor)));
     if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, ivec2(colourSize())))) {
         return false;
     }

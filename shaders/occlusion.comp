@@ -33,7 +33,7 @@ void main() {
     if (p.z <= 0.0) {
         return;
     }
-    ivec2 at = ivec2(round(projectPoint(p, params.colourLens, params.colourDistortion, colourK3(), params.colourLensMore)));
+    ivec2 at = ivec2(round(projectPoint(p, params.colourLens, params.colourDistortion, colourK3(), params.colourLensDivisor)));
     if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, ivec2(colourSize())))) {
         return;
     }

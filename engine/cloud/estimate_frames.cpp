@@ -29,8 +29,8 @@ void EstimateFrames::next(shared::FrameParams& params, const Scene& scene, const
                      scene.filter.memory};
     number_ = params.memory.x;
     const Pose before = follows ? last_->pose : now;
-    setRows(params.beforeTbase, inverse(Pose{before.position - origin, before.rotation}));
-    params.memoryMore.w = isStill(before, now) ? 0.0f : 1.0f;
+    setRows(params.previousTbase, inverse(Pose{before.position - origin, before.rotation}));
+    params.memoryLimits.w = isStill(before, now) ? 0.0f : 1.0f;
     last_.reset();
     if (known) {
         last_ = Last{now, captureTime};

@@ -26,7 +26,7 @@ vec4 distortionOf(const Intrinsics& lens) {
     return {lens.distortion[0], lens.distortion[1], lens.distortion[2], lens.distortion[3]};
 }
 
-vec4 moreOf(const Intrinsics& lens) {
+vec4 divisorOf(const Intrinsics& lens) {
     const double reach = lens.reach();
     return {lens.divisor[0], lens.divisor[1], lens.divisor[2], reach * reach};
 }
@@ -85,7 +85,7 @@ uint32_t forbiddenOrder(const shared::FrameParams& params) {
 // sphere.
 void setMemoryGates(shared::FrameParams& p, double bound) {
     p.memoryGates = {1.0, std::min(0.0004, bound), 0.6, std::min(0.0006, bound)};
-    p.memoryMore = {0.2, std::min(0.0002, 0.25 * bound), 1e-8, 0.0};
+    p.memoryLimits = {0.2, std::min(0.0002, 0.25 * bound), 1e-8, 0.0};
 }
 
 } // namespace
@@ -133,10 +133,10 @@ shared::FrameParams sceneParams(const Scene& scene, const CameraInfo& camera, co
     p.distortion = distortionOf(camera.depth);
     p.colourLens = lensOf(camera.colour);
     p.colourDistortion = distortionOf(camera.colour);
-    p.lensMore = moreOf(camera.depth);
-    p.colourLensMore = moreOf(camera.colour);
-    p.more = {camera.depth.distortion[4], camera.colour.distortion[4], camera.metresPerUnit,
-              scene.filter.edge};
+    p.lensDivisor = divisorOf(camera.depth);
+    p.colourLensDivisor = divisorOf(camera.colour);
+    p.depthAndEdges = {camera.depth.distortion[4], camera.colour.distortion[4], camera.metresPerUnit,
+                       scene.filter.edge};
     p.filterParams = {1.0 / (2.0 * scene.filter.sigma * scene.filter.sigma), scene.errorBudget, kIsolation,
                       kIsolationPixels / std::min(camera.depth.fx, camera.depth.fy)};
     const double constant = depthSigma(0.0);

@@ -44,10 +44,10 @@ void store(uint slot, Estimate e) {
 // The estimate of the surface that a pixel shows at depth z [m], from the four pixels around it in the frame
 // before; none unless all four have one of that surface.
 Estimate carried(uvec2 at, float z) {
-    vec3 q = transformPoint(params.beforeTbase, basePoint(ivec2(at), z).xyz);
+    vec3 q = transformPoint(params.previousTbase, basePoint(ivec2(at), z).xyz);
     bool before = all(bvec2(z != 0.0, q.z > 0.0));
     q.z = before ? q.z : 1.0;
-    vec2 pixel = projectPoint(q, params.lens, params.distortion, depthK3(), params.lensMore);
+    vec2 pixel = projectPoint(q, params.lens, params.distortion, depthK3(), params.lensDivisor);
     ivec2 from = ivec2(floor(pixel));
     vec2 f = pixel - vec2(from);
     // A negative number converts to a large one.

@@ -34,7 +34,7 @@ bool uncontradicted(vec3 p) {
     vec3 q = transformPoint(params.cameraTbase, p);
     bool before = q.z > 0.0;
     q.z = before ? q.z : 1.0;
-    vec2 pixel = kFan != 0 ? projectFan(q, params.lens) : projectPoint(q, params.lens, params.distortion, depthK3(), params.lensMore);
+    vec2 pixel = kFan != 0 ? projectFan(q, params.lens) : projectPoint(q, params.lens, params.distortion, depthK3(), params.lensDivisor);
     ivec2 at = ivec2(round(pixel));
     bool inside = all(lessThan(uvec2(at), depthSize())); // a negative number converts to a large one
     float z = depthAt(inside ? uint(at.y) * depthWidth() + uint(at.x) : 0u);

@@ -13,11 +13,11 @@ uint cellEdge() { return params.colourSize.w; }
 // Depth and lenses.
 uint smallestRaw() { return params.depthBand.x; }
 uint largestRaw() { return params.depthBand.y; }
-float metresPerUnit() { return params.more.z; }
+float metresPerUnit() { return params.depthAndEdges.z; }
 vec2 opticalCentre() { return params.lens.zw; } // [pixels]
 vec2 rayStep() { return params.steps.xy; }      // per pixel
-float depthK3() { return params.more.x; }
-float colourK3() { return params.more.y; }
+float depthK3() { return params.depthAndEdges.x; }
+float colourK3() { return params.depthAndEdges.y; }
 vec3 cameraCentre() { return vec3(params.baseTcamera[0].w, params.baseTcamera[1].w, params.baseTcamera[2].w); }
 
 // Point classes: masks have one bit per class.
@@ -34,7 +34,7 @@ uint holdTime() { return params.time.y; }
 // Noise and implausible depth.
 float depthSigma(float z) { return params.noise.x + params.noise.y * z * z; } // [m]
 float sigmasOfDifference() { return params.noise.z; }
-float edgeJump() { return params.more.w; }                  // relative
+float edgeJump() { return params.depthAndEdges.w; }         // relative
 float isolationDistance() { return params.filterParams.z; } // [m]
 float isolationSlope() { return params.filterParams.w; }    // [m] per metre of z
 
@@ -50,11 +50,11 @@ uint frameNumber() { return params.memory.x; }
 uint estimatesFrom() { return params.memory.y; } // number of that frame
 uint mostAveraged() { return params.memory.z; }  // [frames]
 uint mostMissed() { return params.memory.w; }    // [frames]
-float jumpLimit(float sigma) { return min(params.memoryGates.x * sigma, params.memoryGates.y); }    // [m]
-float driftLimit(float sigma) { return min(params.memoryGates.z * sigma, params.memoryGates.w); }   // [m]
-float unshownChange(float sigma) { return min(params.memoryMore.x * sigma, params.memoryMore.y); }  // [m]
-float movedPoseVariance() { return params.memoryMore.z; }                                           // [m^2]
-uint cameraMoved() { return uint(params.memoryMore.w); } // 1: since the frame that the estimates come from
+float jumpLimit(float sigma) { return min(params.memoryGates.x * sigma, params.memoryGates.y); }         // [m]
+float driftLimit(float sigma) { return min(params.memoryGates.z * sigma, params.memoryGates.w); }        // [m]
+float unshownChange(float sigma) { return min(params.memoryLimits.x * sigma, params.memoryLimits.y); } // [m]
+float movedPoseVariance() { return params.memoryLimits.z; } // [m^2]
+uint cameraMoved() { return uint(params.memoryLimits.w); } // 1: since the frame that the estimates come from
 
 // Colour. In planes: bytes between rows of luma and of chroma, where U and V begin, log2 of the columns and
 // rows that share a sample, and log2 of the bytes between samples.

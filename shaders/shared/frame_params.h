@@ -28,7 +28,7 @@ struct FrameParams {
     vec4 distortion;       // depth k1, k2, p1, p2
     vec4 colourLens;       // fx, fy, cx, cy
     vec4 colourDistortion; // k1, k2, p1, p2
-    vec4 more;             // depth k3, colour k3, metres per raw unit, depth jump that is an edge (relative)
+    vec4 depthAndEdges;    // depth k3, colour k3, metres per raw unit, depth jump that is an edge (relative)
     vec4 filterParams;     // 1 / (2 sigma^2) [1/m^2], error budget [m], isolation distance [m], 3 x isolation
                            // pixels / focal
     vec4 noise;            // depth sigma = x + y z^2 [m]; z: number of sigma (3) that counts as a difference;
@@ -40,15 +40,16 @@ struct FrameParams {
     vec4 beam;                // sigma along a beam = x + y r [m], across it z r [m] (BeamSigma); -
     vec4 ranges[kMaxClasses]; // per class: least and largest range [m]; 1 = has a range gate; -
     vec4 water;               // attenuation of stored red, green, blue [1/m]; -
-    vec4 lensMore;            // depth k4, k5, k6; square of Intrinsics::reach()
-    vec4 colourLensMore;      // the same of colour
+    vec4 lensDivisor;         // depth k4, k5, k6; square of Intrinsics::reach()
+    vec4 colourLensDivisor;   // the same of colour
     vec4 steps;       // ray increments per pixel 1 / fx, 1 / fy; growth step of spheres [m]; its reciprocal
     uvec4 memory;     // number of this frame and of the frame that the estimates come from (0 = none); most
                       // frames that an estimate averages, and that it outlasts its pixel
     vec4 memoryGates; // largest jump and drift of an estimate: in sigma, x and z, but at most y and w [m]
-    vec4 memoryMore; // change that is not shown: in sigma, x, but at most y [m]; z: variance of a moved pose,
-                     // [m^2]; w: 1 = the camera has moved since the frame that the estimates come from
-    vec4 beforeTbase[3]; // rows of the pose of that frame, as cameraTbase
+    // Change that is not shown: in sigma, x, but at most y [m]; z: variance of a moved pose [m^2]; w: 1 = the
+    // camera has moved since the frame that the estimates come from.
+    vec4 memoryLimits;
+    vec4 previousTbase[3]; // rows of the pose of that frame, as cameraTbase
     uvec4 planes; // colour in planes, ColourPlanes: step of luma rows, first U, first V, step of chroma rows
                   // [bytes]
     uvec4 chroma; // log2 of the columns and rows that share a sample, and of the bytes between samples;
