@@ -80,7 +80,7 @@ PickedParts takeParts(std::span<uint8_t> selection, const Fixtures& set, glm::uv
     if (pixels.empty()) {
         return found;
     }
-    const std::vector<uint32_t> parts = cloud::partsOf(pixels, edge);
+    const std::vector<uint32_t> parts = cloud::connectedParts(pixels, edge);
     const std::vector<uint8_t> takes =
         takenParts(pixels, parts, clicked, rules, speckPoints(set.camera.depth), found);
     if (!rules.onlyClicked && !rules.noSpecks) {

@@ -65,7 +65,7 @@ private:
 
 // Of equally large parts, keeps the first.
 void keepLargestPart(std::vector<PartPixel>& pixels, double edge) {
-    const std::vector<uint32_t> parts = partsOf(pixels, edge), sizes = partSizes(parts);
+    const std::vector<uint32_t> parts = connectedParts(pixels, edge), sizes = partSizes(parts);
     const auto best = static_cast<uint32_t>(std::ranges::max_element(sizes) - sizes.begin());
     uint32_t kept = 0;
     for (uint32_t i = 0; i < pixels.size(); ++i) {

@@ -35,7 +35,7 @@ private:
 } // namespace
 
 // Joins each pixel with the one to its left and the three above it.
-std::vector<uint32_t> partsOf(std::span<const PartPixel> pixels, double edge) {
+std::vector<uint32_t> connectedParts(std::span<const PartPixel> pixels, double edge) {
     Parts parts(pixels.size());
     const auto joinNear = [&](uint32_t i, uint32_t j) { // symmetric in i and j
         const float z = pixels[i].z, w = pixels[j].z;

@@ -10,8 +10,8 @@ namespace fathom::cloud {
 namespace {
 
 // Splits words into 24 bits of offset from `base` and 8 bits of growth steps.
-FATHOM_CLONES void takeApart(const uint32_t* words, size_t n, uint32_t base, float* __restrict z,
-                             uint8_t* __restrict steps) noexcept {
+FATHOM_CLONES void unpackDepths(const uint32_t* words, size_t n, uint32_t base, float* __restrict z,
+                                uint8_t* __restrict steps) noexcept {
     for (size_t i = 0; i < n; ++i) {
         z[i] = std::bit_cast<float>(base + (words[i] >> 8));
         steps[i] = static_cast<uint8_t>(words[i]);
@@ -31,7 +31,7 @@ PatchSpheres SphereRun::take(const uint32_t* words, uint32_t n, uint32_t mark,
     s.places = places;
     s.classes = mark & 0xff;
     if (depths_ && grown != 0 && wide == 0) {
-        takeApart(words + 1, s.seen, words[0], z_.data(), steps_.data());
+        unpackDepths(words + 1, s.seen, words[0], z_.data(), steps_.data());
         s.depths = z_.data();
         s.steps = steps_.data();
         words += s.seen + 1;

@@ -65,7 +65,7 @@ public:
                                              : "the end of the longest chain";
         }
         noteOthers(ends, *best, any);
-        noteLeftOut(ends, *best);
+        noteSkipped(ends, *best);
         if (const std::string joints = behind(*best, usable); !joints.empty()) {
             ends.notes.push_back("joints that move lie behind the tip " + best->link->name +
                                  " and stay where they are: " + joints + "; arm.tip selects another");
@@ -178,7 +178,7 @@ private:
     }
 
     // Names the longest chain elsewhere that has as many joints but seems to end before, by a gripper's name.
-    void noteLeftOut(ArmEnds& ends, const Seen& best) const {
+    void noteSkipped(ArmEnds& ends, const Seen& best) const {
         const Seen* longest = nullptr;
         for (const Seen& s : seen_) {
             const bool several = s.moving > s.before + 1; // one joint is rather a jaw beside the chain

@@ -197,7 +197,7 @@ std::string packetOf(const std::filesystem::path& file) {
     std::vector<std::string> notes;
     refuseOtherKinds(file, text);
     refuseXacro(file, text, notes);
-    text = isMjcf(text) ? urdfOfMjcf(file, text, notes) : withSpaces(text);
+    text = isMjcf(text) ? urdfOfMjcf(file, text, notes) : withNormalisedTags(text);
     const Listener listener;
     const std::shared_ptr<urdf::ModelInterface> model = [&] {
         const ParserAtWork parser;

@@ -95,7 +95,7 @@ std::string_view trimmedNumber(std::string_view value) {
     return inner.find_first_not_of("0123456789+-.eE") == std::string_view::npos ? inner : value;
 }
 
-std::string normalTag(std::string_view tag) {
+std::string normalisedTag(std::string_view tag) {
     std::string out;
     for (size_t open = 0; (open = tag.find_first_of("'\"")) != std::string_view::npos;) {
         const size_t close = tag.find(tag[open], open + 1);
@@ -115,12 +115,12 @@ std::string normalTag(std::string_view tag) {
 
 } // namespace
 
-std::string withSpaces(const std::string& text) {
+std::string withNormalisedTags(const std::string& text) {
     std::string out;
     out.reserve(text.size());
     for (XmlPieces pieces(text); pieces.next();) {
         const XmlPiece& piece = pieces.piece();
-        out += piece.name.empty() ? std::string(piece.text) : normalTag(piece.text);
+        out += piece.name.empty() ? std::string(piece.text) : normalisedTag(piece.text);
     }
     return out;
 }

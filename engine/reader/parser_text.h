@@ -6,9 +6,8 @@
 
 namespace fathom {
 
-// XML reads tabs and line ends in an attribute as spaces, and spaces around a number have no meaning: the
-// parser rejects both.
-std::string withSpaces(const std::string& text);
+// Replaces tabs and line ends in attributes by spaces, and trims numbers: urdfdom rejects both.
+std::string withNormalisedTags(const std::string& text);
 
 // Removes what Fathom does not read and the parser may reject: capsules become meshes (kCapsuleFile),
 // materials are dropped, and an inertial keeps no values. Throws BadInput for a capsule without a size.

@@ -55,9 +55,9 @@ const std::map<std::string_view, Readable>& attributesRead() {
     return kAll;
 }
 
-// The word that was meant by another one; empty = none. Names with '_' or ':' are extensions, such as
+// The word that was probably meant; empty = none. Names with '_' or ':' are extensions, such as
 // k_velocity.
-std::string_view meantBy(std::string_view written, const Words& words) {
+std::string_view correctionOf(std::string_view written, const Words& words) {
     if (std::ranges::find(words, written) != words.end()) {
         return "";
     }
@@ -127,7 +127,7 @@ private:
             return;
         }
         const std::string_view other = otherName(path, tag.name);
-        const std::string_view meant = other.empty() ? meantBy(tag.name, known->second.names) : other;
+        const std::string_view meant = other.empty() ? correctionOf(tag.name, known->second.names) : other;
         if (!meant.empty()) {
             refuse(path, quoted(tag.name) + ": not read", quoted(meant));
         }
@@ -178,7 +178,7 @@ private:
         for (const std::string_view name : xmlAttributeNames(tag.text)) {
             const bool unread = known->second.nothingElse && name.find(':') == std::string_view::npos &&
                                 std::ranges::find(names, name) == names.end();
-            if (unread || !meantBy(name, names).empty()) {
+            if (unread || !correctionOf(name, names).empty()) {
                 refuse(own, quoted(tag.name, std::string(name) + "=...") + ": not read",
                        joined(std::span(names)));
             }

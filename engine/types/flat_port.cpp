@@ -58,7 +58,7 @@ std::array<double, 3> fitRadial(const FlatPort& port, double scale, double most,
 }
 
 // z that stereo along x measures for a true z: the inverse of the change of the ray's slope per unit of x.
-double toldZ(const FlatPort& port, double air, double cosine2, double z) {
+double measuredZ(const FlatPort& port, double air, double cosine2, double z) {
     const double beyond = z - port.distance;
     const double along = port.distance + beyond * waterSlopeRate(port, air);
     const double across =
@@ -98,14 +98,15 @@ WaterLens inWater(const Intrinsics& air, const FlatPort& port, double nearZ, dou
         const uint32_t column = i % air.width, row = i / air.width;
         const glm::dvec2 ray = air.ray(column, row);
         const double slope = glm::length(ray), cosine2 = slope > 1e-9 ? ray.x * ray.x / (slope * slope) : 1.0;
-        const double factor = middle / (toldZ(port, slope, cosine2, z0) - port.distance);
+        const double factor = middle / (measuredZ(port, slope, cosine2, z0) - port.distance);
         water.factor[i] = static_cast<float>(factor);
         if (i % 7 != 0 && i + 1 != air.pixels()) {
             continue; // smooth errors: every seventh pixel suffices
         }
         const double used = glm::length(water.lens.ray(column, row));
         for (const double z : {nearZ, farZ}) {
-            const double found = port.distance + factor * (toldZ(port, slope, cosine2, z) - port.distance);
+            const double found =
+                port.distance + factor * (measuredZ(port, slope, cosine2, z) - port.distance);
             const double sideways = used * found - slopeTo(port, slope, z) * z;
             water.worst = std::max(water.worst, std::hypot(sideways, found - z));
         }
