@@ -124,7 +124,7 @@ void OperatorRun::frame() {
     display_.draw(editor_, {display_.view, session_.tool, hud, fresh, arm, measured_});
     handleInput();
     display_.alarms.step(display_.console, display_.view, live_.haptics(), editor_.scene(),
-                         {session_.handover->gone(), !live_.handPresent(), sinks_.recorder.failure()});
+                         {session_.handover->notInUse(), !live_.handPresent(), sinks_.recorder.failure()});
     tones_.step(display_.console, display_.view, display_.alarms);
     show();
     writeState(false);
@@ -203,7 +203,7 @@ void OperatorRun::checkArming() {
     Console::Switches& switches = console.switches;
     if (switches.forces && !forces_.wereOn) {
         console.messages.refusal = whyNotArmed({display_.view, editor_.scene(), live_.haptics(),
-                                                session_.handover->gone(), !live_.handPresent()});
+                                                session_.handover->notInUse(), !live_.handPresent()});
         switches.forces = console.messages.refusal.empty();
     }
 }
@@ -253,7 +253,7 @@ void OperatorRun::show() {
         display_.canvas.drop();
         device.release();
     }
-    const bool gone = device.gone();
+    const bool gone = device.notInUse();
     if (std::exchange(showsGone_, gone) != gone) { // as text, which needs no GPU
         window_.setTitle(title(options_) + (gone ? ": GPU is gone, forces fade" : ""));
     }

@@ -231,7 +231,7 @@ void StateLog::write(const ShownState& s, bool now) {
                        {"window", windowOf(s)},
                        {"hand", handOf(s)},
                        {"gpu",
-                        {{"there", s.canvas.isOpen() && !s.session.handover->gone()},
+                        {{"there", s.canvas.isOpen() && !s.session.handover->notInUse()},
                          {"made_anew", s.session.cycles.renewals()}}},
                        {"depth_cues", cuesOf(s.screen)},
                        {"unknown_share", s.screen.unknownShare()},

@@ -34,7 +34,7 @@ DeviceHandover::State DeviceHandover::awaitOther(State than, const std::atomic<b
 
 void DeviceHandover::lose(const std::string& why) {
     const std::lock_guard lock(mutex_);
-    if (state_ == State::There || state_ == State::Offered) {
+    if (state_ == State::InUse || state_ == State::Offered) {
         state_ = State::Lost;
         why_ = why;
         changed_.notify_all();
@@ -46,8 +46,8 @@ bool DeviceHandover::lost() const {
     return now == State::Lost || now == State::Released;
 }
 
-bool DeviceHandover::gone() const {
-    return state() != State::There;
+bool DeviceHandover::notInUse() const {
+    return state() != State::InUse;
 }
 
 std::string DeviceHandover::why() const {
@@ -61,7 +61,7 @@ bool DeviceHandover::awaitRelease(const std::atomic<bool>& stop) {
 
 bool DeviceHandover::offer(const std::atomic<bool>& stop) {
     change(State::Released, State::Offered);
-    return awaitOther(State::Offered, stop) == State::There;
+    return awaitOther(State::Offered, stop) == State::InUse;
 }
 
 bool DeviceHandover::wanted() const {
@@ -77,7 +77,7 @@ bool DeviceHandover::offered() const {
 }
 
 void DeviceHandover::accept() {
-    change(State::Offered, State::There);
+    change(State::Offered, State::InUse);
 }
 
 } // namespace fathom

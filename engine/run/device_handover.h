@@ -10,16 +10,16 @@
 
 namespace fathom {
 
-// The device is destroyed when neither user has objects on it, and counts as there when both use the new one.
-// States: there -> lost (detected by either) -> released (the window has destroyed its objects; the frame
-// thread opens a device) -> offered (the window builds its objects) -> there, or lost again. Only the frame
+// The device is destroyed when neither user has objects on it, and is in use when both use the new one.
+// States: in use -> lost (detected by either) -> released (the window has destroyed its objects; the frame
+// thread opens a device) -> offered (the window builds its objects) -> in use, or lost again. Only the frame
 // thread waits, and not after its run should stop. Never used by the haptic thread.
 class DeviceHandover {
 public:
     // Either thread: reports that the device failed. Keeps the first reason of a loss.
     void lose(const std::string& why);
-    bool lost() const; // and no new device is offered
-    bool gone() const; // lost, or offered and not accepted yet
+    bool lost() const;     // and no new device is offered
+    bool notInUse() const; // lost, or offered and not accepted yet
     std::string why() const;
 
     // Frame thread, after a loss. Waits until the window has released the device. False: `stop` came first,
@@ -36,7 +36,7 @@ public:
     void accept();        // no effect unless offered
 
 private:
-    enum class State { There, Lost, Released, Offered };
+    enum class State { InUse, Lost, Released, Offered };
     State state() const;
     void change(State from, State to);
     // Waits until the state changes or `stop`; returns the state.
@@ -44,7 +44,7 @@ private:
 
     mutable std::mutex mutex_; // guards all below
     std::condition_variable changed_;
-    State state_ = State::There;
+    State state_ = State::InUse;
     std::string why_;
 };
 

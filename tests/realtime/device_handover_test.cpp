@@ -104,10 +104,10 @@ TEST_CASE("A run that is to stop does not wait for the window, and leaves its de
     CHECK_FALSE(handover.offer(stop));
     CHECK(handover.offered()); // for a later run
     CHECK_FALSE(handover.lost());
-    CHECK(handover.gone());
+    CHECK(handover.notInUse());
     handover.accept();
-    CHECK_FALSE(handover.gone());
+    CHECK_FALSE(handover.notInUse());
     handover.accept();
     handover.release(); // no effect
-    CHECK_FALSE(handover.gone());
+    CHECK_FALSE(handover.notInUse());
 }
