@@ -68,7 +68,7 @@ bool controlWidget(Console& console, const CameraControl& control, int64_t& valu
     return done;
 }
 
-void controlRow(Console& console, const CameraControl& control, CameraControlThread& desk) {
+void controlRow(Console& console, const CameraControl& control, CameraControlThread& controlThread) {
     ImGui::PushID((control.stream + control.name).c_str());
     if (!control.fixed.empty()) {
         const bool measured = control.most > control.least;
@@ -81,7 +81,7 @@ void controlRow(Console& console, const CameraControl& control, CameraControlThr
                       .c_str());
         ImGui::PopTextWrapPos();
     } else if (int64_t value = control.value; controlWidget(console, control, value)) {
-        desk.request(control, value);
+        controlThread.request(control, value);
         console.notify(control.stream + " " + control.name + ": " + std::to_string(value));
     }
     markPlace(console, control.stream + " " + control.name);
@@ -92,21 +92,21 @@ void controlRow(Console& console, const CameraControl& control, CameraControlThr
 
 } // namespace
 
-std::string whyNoControls(const CameraFacts& camera, const CameraControlThread& desk) {
-    return desk.any()    ? ""
-           : camera.live ? "Fathom can set no controls of this kind of camera."
-                         : "A recording or simulation has no exposure, gain or laser to set.";
+std::string whyNoControls(const CameraFacts& camera, const CameraControlThread& controlThread) {
+    return controlThread.any() ? ""
+           : camera.live       ? "Fathom can set no controls of this kind of camera."
+                               : "A recording or simulation has no exposure, gain or laser to set.";
 }
 
-void drawCamera(Console& console, const CameraFacts& camera, const RunView& run, CameraControlThread& desk,
-                const Fonts& fonts) {
+void drawCamera(Console& console, const CameraFacts& camera, const RunView& run,
+                CameraControlThread& controlThread, const Fonts& fonts) {
     ImGui::PushTextWrapPos(0.0f);
     fontText(fonts.small, colour::kQuiet, camera.description);
     ImGui::PopTextWrapPos();
     streamRows(camera);
     delayRow(console, camera, run, fonts);
     ImGui::Separator();
-    if (const std::string why = whyNoControls(camera, desk); !why.empty()) {
+    if (const std::string why = whyNoControls(camera, controlThread); !why.empty()) {
         ImGui::PushTextWrapPos(0.0f);
         ImGui::TextDisabled("%s", why.c_str());
         ImGui::PopTextWrapPos();
@@ -115,7 +115,7 @@ void drawCamera(Console& console, const CameraFacts& camera, const RunView& run,
                 "Live V4L2 cameras have exposure, gain, white balance and, by their driver, a laser");
         return;
     }
-    const CameraControlThread::Answer answer = desk.answer();
+    const CameraControlThread::Answer answer = controlThread.answer();
     if (!answer.fault.empty()) {
         colouredText(colour::kCaution, answer.fault.c_str());
     }
@@ -129,7 +129,7 @@ void drawCamera(Console& console, const CameraFacts& camera, const RunView& run,
             stream = control.stream;
             fontText(fonts.bold, colour::kText, stream == "depth" ? "Depth" : "Colour");
         }
-        controlRow(console, control, desk);
+        controlRow(console, control, controlThread);
     }
 }
 

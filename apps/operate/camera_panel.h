@@ -21,10 +21,10 @@ struct CameraFacts {
 };
 
 // Sends requests to the control thread.
-void drawCamera(Console& console, const CameraFacts& camera, const RunView& run, CameraControlThread& desk,
-                const Fonts& fonts);
+void drawCamera(Console& console, const CameraFacts& camera, const RunView& run,
+                CameraControlThread& controlThread, const Fonts& fonts);
 
 // Why there is nothing to set; empty = there is.
-std::string whyNoControls(const CameraFacts& camera, const CameraControlThread& desk);
+std::string whyNoControls(const CameraFacts& camera, const CameraControlThread& controlThread);
 
 } // namespace fathom::operate

@@ -37,7 +37,7 @@ struct HudInput {
     bool handGone = false;             // the haptic device is disconnected
     std::vector<std::string> armHolds; // measured_arm.h
     const CameraFacts* camera = nullptr;
-    CameraControlThread* desk = nullptr; // with `camera`
+    CameraControlThread* controlThread = nullptr; // with `camera`
     HandDeviceFacts device = {};
 };
 

@@ -40,7 +40,7 @@ RunDisplay::RunDisplay(const OperateOptions& options, Window& window, Session& s
     , window_(window)
     , session_(session)
     , camera_{session.camera->description(), session.camera->delivered(), session.camera->live(), false}
-    , desk_(session.camera->controls())
+    , controlThread_(session.camera->controls())
     , pace_(session.cycles.device().facts().kind == DeviceKind::Cpu)
     , log_(stateFile(options, session.scene), options.appendsState) {
     canvas.open(session.cycles.device());
@@ -98,7 +98,7 @@ HudInput RunDisplay::hud(const HapticOptions& haptics) {
             .unknownShare = screen.unknownShare(),
             .windowHz = windowHz_,
             .camera = &camera_,
-            .desk = &desk_};
+            .controlThread = &controlThread_};
 }
 
 void RunDisplay::draw(FixtureEditor& editor, const ScreenInput& input) {
@@ -110,8 +110,8 @@ void RunDisplay::draw(FixtureEditor& editor, const ScreenInput& input) {
             ? captionOf(
                   {{console, view, input.hud.haptics}, screen.cues(), editor.scene().pilot, options_.job})
             : std::vector<std::string>();
-    desk_.show(console.panels.shownTab == Tab::Camera &&
-               (!console.settings.pilotLayout || console.panels.open));
+    controlThread_.show(console.panels.shownTab == Tab::Camera &&
+                        (!console.settings.pilotLayout || console.panels.open));
     const auto& room = console.places["traces room"];
     if (room[3] <= 0.0f) {
         return; // not in the pilot's layout
@@ -135,7 +135,7 @@ void RunDisplay::exportTraces() {
 void RunDisplay::writeState(const FixtureEditor& editor, const HapticOptions& haptics,
                             const ShownArm* measured, const HandDeviceFacts& device, bool now) {
     log_.write({console, view, session_, window_, canvas, screen, alarms, editor, haptics, measured, device,
-                pace_.cost(), &camera_, &desk_},
+                pace_.cost(), &camera_, &controlThread_},
                now);
 }
 

@@ -46,7 +46,7 @@ private:
     Session& session_;
     TracesPanel traces_;
     CameraFacts camera_;
-    CameraControlThread desk_;
+    CameraControlThread controlThread_;
     FramePace pace_;
     StateLog log_;
     double started_ = 0.0, lastFrame_ = 0.0; // [s] of the steady clock

@@ -181,13 +181,13 @@ json cameraOf(const ShownState& s) {
                            {"rate", c.rate},
                            {"format", c.format}});
     }
-    for (const CameraControl& c : s.desk->answer().controls) {
+    for (const CameraControl& c : s.controlThread->answer().controls) {
         controls.push_back({{"stream", c.stream}, {"name", c.name}, {"value", c.value}, {"fixed", c.fixed}});
     }
     const FrameDelay delay = s.view.delay();
     return {{"streams", streams},
             {"controls", controls},
-            {"no_controls", whyNoControls(*s.camera, *s.desk)},
+            {"no_controls", whyNoControls(*s.camera, *s.controlThread)},
             {"delay_s", known(delay.median)},
             {"worst_delay_s", known(delay.worst)}};
 }

@@ -30,7 +30,7 @@ struct ShownState {
     const HandDeviceFacts& device;
     double frameCost = 0.0; // [s] CPU time of a window frame
     const CameraFacts* camera = nullptr;
-    const CameraControlThread* desk = nullptr;
+    const CameraControlThread* controlThread = nullptr;
 };
 
 class StateLog {

@@ -21,7 +21,7 @@ void drawKeys(const Console& console) {
 // Grey: there is nothing to set.
 bool isGrey(Tab tab, const HudInput& hud) {
     return (tab == Tab::Camera &&
-            (hud.camera == nullptr || !whyNoControls(*hud.camera, *hud.desk).empty())) ||
+            (hud.camera == nullptr || !whyNoControls(*hud.camera, *hud.controlThread).empty())) ||
            (tab == Tab::Device && hud.device.description.empty());
 }
 
@@ -34,7 +34,7 @@ void drawContent(Console& console, FixtureEditor& editor, Alarms& alarms, const 
     } else if (tab == Tab::Alarms) {
         drawAlarms(console, alarms);
     } else if (tab == Tab::Camera && input.hud.camera != nullptr) {
-        drawCamera(console, *input.hud.camera, input.run, *input.hud.desk, input.hud.fonts);
+        drawCamera(console, *input.hud.camera, input.run, *input.hud.controlThread, input.hud.fonts);
     } else if (tab == Tab::Device) {
         drawDevice(console, input.hud.device, input.hud.fonts);
     } else if (tab == Tab::Help) {

@@ -45,21 +45,21 @@ private:
 
 struct CameraRig {
     testing::LaidScreen laid;
-    CameraControlThread desk{std::make_shared<MadeControls>()};
+    CameraControlThread controlThread{std::make_shared<MadeControls>()};
     CameraFacts camera{"camera Made", {{"depth", 640, 480, 30.0, "Z16"}}, true, false};
 
     CameraRig() {
         laid.camera = &camera;
-        laid.desk = &desk;
+        laid.controlThread = &controlThread;
         laid.run.console.panels.tab = Tab::Camera;
         laid.loadFontsFor({1280, 720}, 1.0);
         laid.draw();
-        desk.show(true);
+        controlThread.show(true);
     }
     // Draws until the camera's answer satisfies `wanted`.
     bool await(const std::function<bool(const std::vector<CameraControl>&)>& wanted) {
         for (int i = 0; i < 2000; ++i) {
-            const CameraControlThread::Answer answer = desk.answer();
+            const CameraControlThread::Answer answer = controlThread.answer();
             laid.draw(1);
             if (answer.known && wanted(answer.controls)) {
                 laid.draw(2);
@@ -94,26 +94,26 @@ int64_t exposureIn(const std::vector<CameraControl>& controls) {
 TEST_CASE("A click switches auto exposure off, then a slider sets the exposure in the camera's steps") {
     CameraRig rig;
     REQUIRE(rig.await([](const auto& c) { return c.size() == 3; }));
-    CHECK(rig.desk.answer().controls[1].fixed == "switch off auto exposure");
+    CHECK(rig.controlThread.answer().controls[1].fixed == "switch off auto exposure");
     rig.drag("depth exposure", 0.2f, 0.8f); // greyed
     rig.drag("depth auto exposure", 0.05f, 0.05f);
     REQUIRE(rig.await([](const auto& c) { return c[0].value == 0 && c[1].fixed.empty(); }));
-    CHECK(exposureIn(rig.desk.answer().controls) == 20);
+    CHECK(exposureIn(rig.controlThread.answer().controls) == 20);
     rig.drag("depth exposure", 0.1f, 0.5f);
     REQUIRE(rig.await([](const auto& c) { return exposureIn(c) > 40; }));
-    CHECK(exposureIn(rig.desk.answer().controls) % 5 == 0);
-    CHECK(exposureIn(rig.desk.answer().controls) < 70);
+    CHECK(exposureIn(rig.controlThread.answer().controls) % 5 == 0);
+    CHECK(exposureIn(rig.controlThread.answer().controls) < 70);
     rig.drag("depth exposure", 0.5f, 1.2f);
     REQUIRE(rig.await([](const auto& c) { return exposureIn(c) == 100; }));
-    CHECK(rig.desk.answer().fault == "depth exposure was not set: Device or resource busy");
+    CHECK(rig.controlThread.answer().fault == "depth exposure was not set: Device or resource busy");
 }
 
 TEST_CASE("The controls of a camera are read only while its tab is shown") {
     CameraRig rig;
     REQUIRE(rig.await([](const auto& c) { return c.size() == 3; }));
-    rig.desk.show(false);
-    CHECK(!rig.desk.answer().known);
-    rig.desk.show(true);
+    rig.controlThread.show(false);
+    CHECK(!rig.controlThread.answer().known);
+    rig.controlThread.show(true);
     CHECK(rig.await([](const auto& c) { return c.size() == 3; }));
 }
 

@@ -50,7 +50,7 @@ void LaidScreen::draw(int frames) {
                  .fonts = fonts,
                  .title = "a recording with a rather long name, somewhere on this disk",
                  .camera = camera,
-                 .desk = desk,
+                 .controlThread = controlThread,
                  .device = {"a haptic device with a long name on a socket", true, 5, &buttons}};
     for (int i = 0; i < frames; ++i) {
         ImGui::NewFrame();

@@ -36,7 +36,7 @@ public:
                          {{"depth", 640, 480, 30.0, "16 bit"}, {"colour", 1280, 720, 0.0, "RGB"}}};
     CameraControlThread noControls{nullptr};
     const CameraFacts* camera = &recorded;
-    CameraControlThread* desk = &noControls; // of `camera`
+    CameraControlThread* controlThread = &noControls; // of `camera`
     ButtonMap buttons{{1, 4, 0}};
     TracesPanel traces;
     TickLog log;
