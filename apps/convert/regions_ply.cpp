@@ -16,14 +16,14 @@ constexpr std::string_view kPlyEnd = "end_header\n", kPlyCount = "element vertex
                                         "property double radius\nproperty int class\nproperty int held\n";
 
 // Number of vertices; empty when the header is of another kind.
-std::optional<uint32_t> vertices(std::string_view head) {
-    const size_t at = head.find(kPlyCount);
+std::optional<uint32_t> vertices(std::string_view header) {
+    const size_t at = header.find(kPlyCount);
     uint32_t count = 0;
-    if (!head.starts_with("ply\nformat binary_little_endian 1.0\n") || at == std::string_view::npos ||
-        head.find(kPlyFields) == std::string_view::npos) {
+    if (!header.starts_with("ply\nformat binary_little_endian 1.0\n") || at == std::string_view::npos ||
+        header.find(kPlyFields) == std::string_view::npos) {
         return std::nullopt;
     }
-    const std::string_view rest = head.substr(at + kPlyCount.size());
+    const std::string_view rest = header.substr(at + kPlyCount.size());
     return parseNumber(rest.substr(0, rest.find('\n')), count) ? std::optional(count) : std::nullopt;
 }
 

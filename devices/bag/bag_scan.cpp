@@ -35,15 +35,15 @@ std::optional<BagFile::Header> BagFile::headerAt(uint64_t at) {
     try {
         in_.clear();
         in_.seekg(static_cast<std::streamoff>(at));
-        Header head;
-        head.fields = bag::parseFields(readBlock());
-        head.op = bag::number<uint8_t>(head.fields, "op");
+        Header header;
+        header.fields = bag::parseFields(readBlock());
+        header.op = bag::number<uint8_t>(header.fields, "op");
         uint32_t size = 0;
         in_.read(reinterpret_cast<char*>(&size), sizeof size);
-        head.end = static_cast<uint64_t>(in_.tellg()) + size;
-        head.empty = size == 0;
-        head.cut = head.end > size_;
-        return in_ && (!head.cut || head.op == bag::kChunk) ? std::optional(head) : std::nullopt;
+        header.end = static_cast<uint64_t>(in_.tellg()) + size;
+        header.empty = size == 0;
+        header.cut = header.end > size_;
+        return in_ && (!header.cut || header.op == bag::kChunk) ? std::optional(header) : std::nullopt;
     } catch (const Error&) {
         return std::nullopt;
     }
@@ -62,13 +62,13 @@ std::optional<uint64_t> BagFile::nextChunk(uint64_t from) {
         in_.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
         bytes.resize(static_cast<size_t>(in_.gcount()));
         for (size_t mark = bytes.find(kMark); mark != std::string::npos; mark = bytes.find(kMark, mark + 1)) {
-            for (size_t head = mark - std::min<size_t>(mark, kMaxHeader); head + 4 <= mark; ++head) {
+            for (size_t start = mark - std::min<size_t>(mark, kMaxHeader); start + 4 <= mark; ++start) {
                 uint32_t length = 0;
-                std::memcpy(&length, bytes.data() + head, sizeof length);
+                std::memcpy(&length, bytes.data() + start, sizeof length);
                 const std::optional<Header> found =
-                    length <= kMaxHeader && head + 4 + length > mark ? headerAt(at + head) : std::nullopt;
+                    length <= kMaxHeader && start + 4 + length > mark ? headerAt(at + start) : std::nullopt;
                 if (found && found->op == bag::kChunk && found->fields.contains("compression")) {
-                    return at + head;
+                    return at + start;
                 }
             }
         }
@@ -99,26 +99,26 @@ void BagFile::scan(uint64_t chunksAt, uint64_t indexAt, const std::string& lost)
     std::map<uint32_t, size_t> topicOf = connectionsAt(indexAt); // of a connection
     uint64_t whole = 0, damaged = 0, messages = 0, gaps = 0, firstGap = 0, unread = 0;
     for (uint64_t at = chunksAt; at < size_ && !begun_;) {
-        const std::optional<Header> head = headerAt(at);
-        const bool leads = head && !head->cut && (head->end == size_ || headerAt(head->end));
-        const std::optional<uint64_t> next = leads ? head->end : nextChunk(at + 1);
+        const std::optional<Header> header = headerAt(at);
+        const bool leads = header && !header->cut && (header->end == size_ || headerAt(header->end));
+        const std::optional<uint64_t> next = leads ? header->end : nextChunk(at + 1);
         uint64_t found = 0;
-        if (head && head->op == bag::kChunk) {
+        if (header && header->op == bag::kChunk) {
             // The recorder states the size of a chunk when it is complete. An incomplete copy cuts it, too.
-            const bool plain = bag::word(head->fields, "compression") == "none";
-            if ((head->empty || (head->cut && plain)) && (leads || !next)) {
+            const bool plain = bag::word(header->fields, "compression") == "none";
+            if ((header->empty || (header->cut && plain)) && (leads || !next)) {
                 begun_ = at;
             }
             found = scanChunk(at, topicOf);
             (found > 0 ? whole : damaged) += 1;
             messages += found;
         }
-        const uint64_t read = found > 0 ? head->end : at;
-        if (!leads && next && (found > 0 || !head || head->op != bag::kChunk)) {
+        const uint64_t read = found > 0 ? header->end : at;
+        if (!leads && next && (found > 0 || !header || header->op != bag::kChunk)) {
             firstGap = gaps++ == 0 ? read : firstGap;
         }
-        unread = !next && !head ? size_ - at : 0;
-        at = next.value_or(head && !head->cut ? head->end : size_);
+        unread = !next && !header ? size_ - at : 0;
+        at = next.value_or(header && !header->cut ? header->end : size_);
     }
     if (messages == 0) {
         throw BadInput(file().string(), "index",

@@ -106,8 +106,8 @@ std::optional<std::pair<uint32_t, uint32_t>> CompressedDepth::size() const {
         return std::nullopt;
     }
     if (!rvl) {
-        const auto head = pngHeader(png());
-        return head ? std::optional(std::pair(head->size.width, head->size.height)) : std::nullopt;
+        const auto header = pngHeader(png());
+        return header ? std::optional(std::pair(header->size.width, header->size.height)) : std::nullopt;
     }
     uint32_t words[2];
     std::memcpy(words, data.data() + kDepthHeader, sizeof words);
