@@ -47,8 +47,8 @@ struct ArmStep : ProxyStep {
 class ArmKinematics {
 public:
     using Step = ArmStep;
-    static constexpr bool kHoldsWhatIsInside = true; // keep_in shapes do not pull in the other links
-    static constexpr bool kSolvesLastRound = true;   // bisect the result of the last tightening
+    static constexpr bool kHoldsOnlyInside = true; // keep_in shapes do not pull in the other links
+    static constexpr bool kSolvesLastRound = true; // bisect the result of the last tightening
     // The motion that the solver found, and how much of it is taken.
     struct Answer {
         JointVector dq{};         // of the free joints

@@ -59,7 +59,7 @@ protected:
     // Which leaves the keep_in shapes hold: those inside now, and those held before and now at most `keeps`
     // [m] outside. All leaves of a free tool.
     void chooseHeld(double keeps) noexcept {
-        if constexpr (Kinematics::kHoldsWhatIsInside) {
+        if constexpr (Kinematics::kHoldsOnlyInside) {
             kinematics_.place(contacts_.leaves);
             contacts_.chooseHeld(keeps);
         }

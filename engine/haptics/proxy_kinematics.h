@@ -114,7 +114,7 @@ concept ProxyKinematics = KinematicsPlaces<K> && KinematicsRows<K> && Kinematics
     // After the last tightening: solve once more, and bisect that answer.
     { K::kSolvesLastRound } -> std::convertible_to<bool>;
     // A keep_in shape holds only the leaves that are inside when it is placed.
-    { K::kHoldsWhatIsInside } -> std::convertible_to<bool>;
+    { K::kHoldsOnlyInside } -> std::convertible_to<bool>;
 };
 
 } // namespace fathom

@@ -14,7 +14,7 @@ namespace fathom {
 // everything else is noexcept.
 class ToolKinematics {
 public:
-    static constexpr bool kHoldsWhatIsInside = false;
+    static constexpr bool kHoldsOnlyInside = false;
     using Step = ProxyStep;
     static constexpr bool kSolvesLastRound = false; // bisect the last checked motion
     // The motions that the solver found, and how much of them is taken.
