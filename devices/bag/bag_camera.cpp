@@ -188,7 +188,7 @@ std::string BagCamera::changed(uint64_t time) {
 ros::Image BagCamera::imageOf(const ImageStream& stream, size_t index) {
     const MessageCursor message = file_->read(topicOf(stream), index);
     Image image = stream.compressed ? ros::compressedImage(message) : ros::image(message);
-    warnOnce(stream.name, ros::mendStep(image));
+    warnOnce(stream.name, ros::correctStep(image));
     return image;
 }
 

@@ -149,7 +149,7 @@ void CloudCamera::chooseTopic() {
             others += (others.empty() ? "; not used: " : ", ") + other.name;
         }
     }
-    said_ = "depth " + topic().name + " (organised cloud)" + others;
+    summary_ = "depth " + topic().name + " (organised cloud)" + others;
 }
 
 // Fits lens and axes; why they do not fit, empty = they do.

@@ -20,7 +20,7 @@ public:
 
     const CameraInfo& info() const override { return info_; }
     std::string description() const override { return "clouds of " + file_->file().string(); }
-    std::string streams() const override { return said_; }
+    std::string streams() const override { return summary_; }
     std::string streamOptions() const override { return ",depth=" + topic().name; }
     std::string whyNoColour() const override { return info_.hasColour ? "" : uncoloured_; }
 
@@ -34,13 +34,13 @@ private:
     const MessageTopic& topic() const { return file_->topics()[topic_]; }
     ros::Cloud cloudAt(size_t index) {
         ros::Cloud cloud = ros::cloud(file_->read(topic(), index));
-        warnOnce(topic().name, cloud.mended);
+        warnOnce(topic().name, cloud.stepFault);
         return cloud;
     }
     std::string read(size_t index, FrameSlot& slot, double stamp, Frame::Content& content) override;
 
     size_t topic_ = 0;
-    std::string said_;
+    std::string summary_;
     CameraInfo info_;
     FittedLens fit_;
     std::string frame_;                                 // of the cloud with that lens

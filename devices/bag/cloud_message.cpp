@@ -27,7 +27,7 @@ void mendRows(Cloud& cloud) {
     const uint64_t row = uint64_t{cloud.pointStep} * cloud.width;
     const bool whole = row > 0 && row <= UINT32_MAX && cloud.data.size() == row * cloud.height;
     if (whole && cloud.rowStep != row) {
-        cloud.mended = statedRows(cloud.rowStep, row);
+        cloud.stepFault = statedRows(cloud.rowStep, row);
         cloud.rowStep = static_cast<uint32_t>(row);
     }
 }

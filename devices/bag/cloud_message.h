@@ -22,7 +22,7 @@ struct Cloud {
     std::vector<PcdField> fields; // of unknown types: size 0
     std::span<const uint8_t> data;
     std::shared_ptr<const void> memory; // as MessageCursor::memory()
-    std::string mended;                 // what was stated of rows that have no gaps; empty = nothing wrong
+    std::string stepFault;              // what was stated of rows that have no gaps; empty = nothing wrong
 
     const PcdField* find(const std::string& name) const;
     // Those that lie inside of a point.

@@ -96,7 +96,7 @@ uint64_t rowBytes(const Image& image) {
 
 } // namespace
 
-std::string mendStep(Image& image) {
+std::string correctStep(Image& image) {
     const uint64_t row = image.compressed ? 0 : rowBytes(image);
     if (row == 0 || image.data.size() != row * image.height || checkBytes(image, row).empty()) {
         return "";

@@ -27,7 +27,7 @@ std::optional<std::pair<uint32_t, uint32_t>> sizeOf(const Image& image);
 
 // Where the stated step of rows cannot be that of the image, and the bytes are those of rows without gaps:
 // sets it. Returns what was stated, empty = nothing was set.
-std::string mendStep(Image& image);
+std::string correctStep(Image& image);
 
 // Whether depth values are metres (float) rather than the sensor's units.
 bool holdsMetres(const Image& image);

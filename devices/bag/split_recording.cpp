@@ -109,8 +109,8 @@ std::vector<fs::path> unlistedFiles(const fs::path& folder, const std::vector<fs
 }
 
 // Names a folder's files that its metadata.yaml does not list.
-void tellUnlisted(const fs::path& folder, const std::vector<fs::path>& there,
-                  const std::vector<fs::path>& listed) {
+void logUnlisted(const fs::path& folder, const std::vector<fs::path>& there,
+                 const std::vector<fs::path>& listed) {
     std::string others;
     for (const fs::path& file : there) {
         if (std::find(listed.begin(), listed.end(), file) == listed.end()) {
@@ -163,7 +163,7 @@ std::vector<fs::path> SplitRecording::chooseFiles() {
     if (chosen.empty()) {
         return unlistedFiles(file(), there);
     }
-    tellUnlisted(file(), there, chosen);
+    logUnlisted(file(), there, chosen);
     return chosen;
 }
 

@@ -26,13 +26,13 @@ FolderDepth::FolderDepth(const std::filesystem::path& folder, const RecordingLay
     } else {
         options.checkUnit(folder_);
         if (std::abs(metresPerUnit_ - 1e-3) < 1e-5 && !options.scale) {
-            judgeBits(layout);
+            detectBits(layout);
         }
     }
     toAxis_ = layout.intrinsics.rangeImages ? RangeToAxis(layout.intrinsics.camera.depth) : RangeToAxis();
 }
 
-void FolderDepth::judgeBits(const RecordingLayout& layout) {
+void FolderDepth::detectBits(const RecordingLayout& layout) {
     const DepthBits bits = depthBits(layout, size_);
     if (bits == DepthBits::Either) {
         throw BadInput(folder_, "depth images", "multiples of eight, as of coarse steps or of rotated bits",

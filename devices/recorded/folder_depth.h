@@ -27,7 +27,7 @@ public:
     std::string read(const std::filesystem::path& file, std::span<uint16_t> depth);
 
 private:
-    void judgeBits(const RecordingLayout& layout);
+    void detectBits(const RecordingLayout& layout);
     void chooseUnit(const RecordingLayout& layout, const SourceOptions& options);
     void dropInvalid(std::span<uint16_t> depth) const;
 

@@ -108,7 +108,7 @@ bool namesScale(const std::string& key) {
 }
 
 // Or nothing of depth: 1 is one unit of the images' values.
-bool saysMillimetres(const JsonField& scale) {
+bool isMillimetres(const JsonField& scale) {
     constexpr std::array<std::string_view, 8> kTexts{"mm",         "millimetre",  "millimetres",
                                                      "millimeter", "millimeters", "px",
                                                      "pixel",      "pixels"}; // the lens's unit
@@ -146,7 +146,7 @@ void refuseForeignDistortion(const JsonField& block) {
 
 std::optional<JsonField> foreignScale(const JsonField& root) {
     for (const std::string& key : root.keys()) {
-        if (const JsonField scale = root.at(key); namesScale(key) && !saysMillimetres(scale)) {
+        if (const JsonField scale = root.at(key); namesScale(key) && !isMillimetres(scale)) {
             return scale;
         }
     }

@@ -44,11 +44,11 @@ std::string reasonOf(const nlohmann::json::exception& e) {
 }
 
 // To a few levels: deeply nested files could overflow the stack.
-bool saysNothing(const nlohmann::json& value, int level) {
+bool isEmptyValue(const nlohmann::json& value, int level) {
     constexpr int kDeepest = 4;
     if (value.is_structured()) {
         return std::all_of(value.begin(), value.end(), [level](const nlohmann::json& one) {
-            return level < kDeepest && saysNothing(one, level + 1);
+            return level < kDeepest && isEmptyValue(one, level + 1);
         });
     }
     if (value.is_string()) {
@@ -128,7 +128,7 @@ bool JsonField::is(double number) const {
 }
 
 bool JsonField::isNothing() const {
-    return saysNothing(*value_, 0);
+    return isEmptyValue(*value_, 0);
 }
 
 std::string JsonField::text() const {
