@@ -50,11 +50,11 @@ void Ros2Commands::receiveTopics() {
 
 // The reply says that the request was handed over.
 void Ros2Commands::serve() {
-    const auto set = [this](std::optional<bool>& wish, const char* on, const char* off) {
-        return [this, &wish, on, off](MessageCursor& request) {
-            const bool value = request.value<uint8_t>() != 0;
+    const auto set = [this](std::optional<bool>& request, const char* on, const char* off) {
+        return [this, &request, on, off](MessageCursor& message) {
+            const bool value = message.value<uint8_t>() != 0;
             const std::lock_guard lock(mutex_);
-            wish = value;
+            request = value;
             return std::string(value ? on : off);
         };
     };

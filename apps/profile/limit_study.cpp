@@ -95,7 +95,7 @@ std::vector<LimitCase> limitCases(const Settings& settings, uint32_t w, uint32_t
     return cases;
 }
 
-void sayCeilings(Study& study, const Ceilings& c) {
+void reportCeilings(Study& study, const Ceilings& c) {
     study.findings.push_back(
         "device: its memory gives " + digits(c.deviceBytes * 1e-9) + " GB/s (read + written), it computes " +
         digits(c.deviceFlops * 1e-9) + " GFLOP/s, reads what the CPU writes at " +
@@ -173,7 +173,7 @@ Study limitStudy(const StudyContext& context) {
     const CameraInfo camera = wallFrame(w, h, 1.0).camera;
     const uint32_t publishers = makePlan(studyScene(plain), camera, 1, context.device.facts()).publishers;
     const Ceilings c = measureCeilings(context.device, publishers, context.settings.repeats());
-    sayCeilings(study, c);
+    reportCeilings(study, c);
     for (const LimitCase& each : limitCases(plain, w, h)) {
         addCase(context, each, c, study);
     }
