@@ -124,7 +124,7 @@ void runSimulator(const SimulatorOptions& options) {
     const Link link(options.link, terminal.name());
     std::cout << options.protocol << " simulated at " << terminal.name() << "; Ctrl-C ends it" << std::endl;
     const auto began = Clock::now();
-    for (auto before = began; !signals.asked().load();) {
+    for (auto before = began; !signals.requested().load();) {
         const auto now = Clock::now();
         if (options.seconds > 0.0 && std::chrono::duration<double>(now - began).count() > options.seconds) {
             break;

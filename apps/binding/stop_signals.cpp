@@ -5,19 +5,19 @@ namespace fathom {
 
 namespace {
 
-std::atomic<bool> stopAsked{false}; // global, because a signal handler gets no context
+std::atomic<bool> stopRequested{false}; // global, because a signal handler gets no context
 static_assert(std::atomic<bool>::is_always_lock_free);
 
-extern "C" void fathomAskStop(int) {
-    stopAsked.store(true);
+extern "C" void fathomRequestStop(int) {
+    stopRequested.store(true);
 }
 
 } // namespace
 
 StopSignals::StopSignals() noexcept {
-    stopAsked.store(false);
+    stopRequested.store(false);
     struct sigaction action {};
-    action.sa_handler = &fathomAskStop;
+    action.sa_handler = &fathomRequestStop;
     action.sa_flags = SA_RESTART;
     ::sigemptyset(&action.sa_mask);
     for (size_t i = 0; i < kStopping.size(); ++i) {
@@ -37,8 +37,8 @@ StopSignals::~StopSignals() {
     ::sigaction(SIGPIPE, &beforePipe_, nullptr);
 }
 
-const std::atomic<bool>& StopSignals::asked() const noexcept {
-    return stopAsked;
+const std::atomic<bool>& StopSignals::requested() const noexcept {
+    return stopRequested;
 }
 
 } // namespace fathom

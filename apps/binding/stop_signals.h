@@ -20,7 +20,7 @@ public:
     ~StopSignals();
 
     // Set by the first signal, cleared by the next StopSignals.
-    const std::atomic<bool>& asked() const noexcept;
+    const std::atomic<bool>& requested() const noexcept;
 
 private:
     static constexpr std::array kStopping{SIGINT, SIGTERM, SIGQUIT, SIGHUP};

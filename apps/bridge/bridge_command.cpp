@@ -44,7 +44,7 @@ void runBridge(Bridge& bridge, const BridgeOptions& options, const StopSignals& 
     std::cout << options.kind << " at " << bridge.place() << ", socket " << bridge.endpoint().path().string()
               << "; Ctrl-C ends with zero force" << std::endl;
     hurry();
-    bridge.run(signals.asked());
+    bridge.run(signals.requested());
     const auto& f = bridge.figures();
     std::cout << "ended with zero force after " << f.replies << " exchanges; " << f.late << " answers late, "
               << f.faults << " packets broken, " << bridge.losses() << " times unplugged, "

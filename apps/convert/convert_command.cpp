@@ -78,7 +78,7 @@ void convert(const ConvertOptions& options) {
     const StopSignals signals; // until the files are complete
     const OutputLock lock(options.out);
     const std::unique_ptr<FrameSink> sink = openSink(options, camera->info());
-    const uint64_t frames = convertFrames(*camera, *sink, signals.asked());
+    const uint64_t frames = convertFrames(*camera, *sink, signals.requested());
     sink->finish();
     std::cout << "converted    " << frames << " frames, " << camera->skipped() << " skipped\n"
               << "from         " << (camera->streams().empty() ? camera->description() : camera->streams())

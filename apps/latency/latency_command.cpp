@@ -47,13 +47,13 @@ int measure(const Request& request, const GlobalOptions& global, const WindowLoa
     } else if (loads.empty()) {
         loads = {"idle", "frames", "window"};
     }
-    LatencyRun run(options, global, windowLoad, signals.asked());
+    LatencyRun run(options, global, windowLoad, signals.requested());
     std::cout << "rate         " << run.rateHz() << " ticks per second, " << options.seconds
               << " s per part; " << run.placement() << "\nframes       30 per second on " << run.device()
               << "\n";
     std::vector<LatencyPart> parts;
     for (const std::string& load : loads) {
-        if (!signals.asked().load()) {
+        if (!signals.requested().load()) {
             parts.push_back(load == "idle" ? run.idle() : load == "frames" ? run.frames() : run.window());
             printLatency(std::cout, parts.back());
         }

@@ -97,7 +97,7 @@ void LiveRun::makeHand(const std::vector<Shape>& shapes, const Pose& start, cons
     Pose raw = tool != nullptr ? start : path.waypoints().front().deviceThandle;
     pilot_ = std::make_unique<PilotHand>(raw);
     path_ = std::make_unique<PathHand>(path);
-    hand_ = std::make_unique<GatedHand>(driver(), live, buttons_.native(), signals_.asked());
+    hand_ = std::make_unique<GatedHand>(driver(), live, buttons_.native(), signals_.requested());
     hand_->choose(buttons_.chosen());
     steering_ = std::make_unique<Steering>(raw, session_.scene.hand);
     raw = live != nullptr ? hand_->read(0.0).deviceThandle : raw;
@@ -114,7 +114,7 @@ void LiveRun::makeEngine(const std::vector<Shape>& shapes, const Pose& start, co
     o.warnWhenStale = false; // the window reports it
     if (session_.realArm) {
         if (engine_ == nullptr) {
-            session_.awaitArm(signals_.asked());
+            session_.awaitArm(signals_.requested());
         }
         o.arm = &session_.realArm->link();
     }
@@ -134,7 +134,7 @@ void LiveRun::awaitFrame() {
             session_.requireFrame(engine_->firstFrame());
             return;
         } catch (const DeviceLost& e) {
-            if (thread_ == nullptr || signals_.asked().load()) {
+            if (thread_ == nullptr || signals_.requested().load()) {
                 throw;
             }
             log::warn("camera is gone ({}): the new run waits for it", e.what());

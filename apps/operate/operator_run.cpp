@@ -44,7 +44,7 @@ OperatorRun::OperatorRun(const OperateOptions& options, const GlobalOptions& glo
     , confined_(placement_.rest) // before the device opens: inherited by a software device's workers
     , session_(options, global,
                {window_.offscreen() ? gpu::Drawing::Offscreen : gpu::Drawing::Surface, window_.extensions()},
-               signals_.asked())
+               signals_.requested())
     , sinks_(options, makeHapticOptions(session_.scene, session_.tool).period, session_.arm.get())
     , display_(options_, window_, session_, sinks_.snapshots)
     , editor_(session_.scene,
@@ -76,11 +76,11 @@ void OperatorRun::keepScene(uint64_t number) {
 
 bool OperatorRun::wantsToEnd() const {
     const bool reached = options_.runTime > 0.0 && display_.view.step().record.t >= options_.runTime;
-    return reached || display_.wantsToEnd() || live_.ended() || signals_.asked().load();
+    return reached || display_.wantsToEnd() || live_.ended() || signals_.requested().load();
 }
 
 std::string OperatorRun::next() const {
-    return opensNext(display_.console, signals_.asked().load());
+    return opensNext(display_.console, signals_.requested().load());
 }
 
 void OperatorRun::run() {

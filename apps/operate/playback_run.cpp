@@ -77,7 +77,7 @@ PlaybackRun::PlaybackRun(const OperateOptions& options, const GlobalOptions& glo
     , window_(options.offscreen, "Fathom, recording " + options.recording)
     , session_(options, global,
                {window_.offscreen() ? gpu::Drawing::Offscreen : gpu::Drawing::Surface, window_.extensions()},
-               signals_.asked())
+               signals_.requested())
     , haptics_(makeHapticOptions(session_.scene, session_.tool))
     , hand_(handOf(options.recording))
     , log_(ticksOf(options.recording, hand_, session_.scene))
@@ -108,14 +108,14 @@ PlaybackRun::PlaybackRun(const OperateOptions& options, const GlobalOptions& glo
 
 void PlaybackRun::run() {
     display_.begin();
-    while (!display_.wantsToEnd() && !signals_.asked().load()) {
+    while (!display_.wantsToEnd() && !signals_.requested().load()) {
         frame(display_.beginFrame());
     }
     display_.writeState(editor_, haptics_, nullptr, {}, true);
 }
 
 std::string PlaybackRun::next() const {
-    return opensNext(display_.console, signals_.asked().load());
+    return opensNext(display_.console, signals_.requested().load());
 }
 
 void PlaybackRun::frame(double dt) {

@@ -73,7 +73,7 @@ int runRecord(const RecordOptions& options) {
     double length = 0.0;
     std::string gone;
     try {
-        length = copyFrames(*camera, writer, hand.get(), options.seconds, signals.asked());
+        length = copyFrames(*camera, writer, hand.get(), options.seconds, signals.requested());
     } catch (const DeviceLost& e) {
         gone = e.what(); // frames up to then are kept
     }

@@ -69,13 +69,13 @@ void RealtimeReplay::spool() {
     }
     const CpuConfinement everywhere(placement_.all);
     session_.camera =
-        std::make_unique<SpooledCamera>(std::move(session_.camera), recorder_.folder(), signals_.asked(),
+        std::make_unique<SpooledCamera>(std::move(session_.camera), recorder_.folder(), signals_.requested(),
                                         [&](uint64_t frames) { progress_.update({.framesDone = frames}); });
 }
 
 ReplayRecorder::Ending RealtimeReplay::run() {
     if (session_.realArm) {
-        feed_->armAtCapture(session_.awaitArm(signals_.asked()));
+        feed_->armAtCapture(session_.awaitArm(signals_.requested()));
     }
     session_.requireFrame(run_->firstFrame());
     const HandPath path = session_.path();
@@ -86,7 +86,7 @@ ReplayRecorder::Ending RealtimeReplay::run() {
             openPathHand(path, session_.scene, options_.yields(session_.scene));
         cycle_.emplace(session_.tool, shapes_, haptics_, hand->read(0.0).deviceThandle, nullptr,
                        session_.arm.get());
-        run_->run(*cycle_, *hand, path.duration(), faults_, signals_.asked());
+        run_->run(*cycle_, *hand, path.duration(), faults_, signals_.requested());
     }
     progress_.finish();
     figures_.wokenLateMicros = percentilesOf(std::move(wokenLateMicros_));
@@ -97,19 +97,19 @@ ReplayRecorder::Ending RealtimeReplay::run() {
     figures_.staleTicks = run_->staleTicks();
     figures_.recordsLost = run_->recordsLost();
     figures_.renewals = session_.cycles.renewals();
-    figures_.stopped = signals_.asked().load();
+    figures_.stopped = signals_.requested().load();
     return ending();
 }
 
 // The tool starts where the scene's path starts, wherever the hand is.
 void RealtimeReplay::runLive(const HandPath& path) {
     LiveHand& hand = *session_.liveHand;
-    awaitHand(hand, signals_.asked());
+    awaitHand(hand, signals_.requested());
     const Pose start = startOf(path, session_.scene);
     cycle_.emplace(session_.tool, shapes_, haptics_, hand.read(0.0).deviceThandle, &start,
                    session_.arm.get());
     watched_.emplace(hand);
-    run_->run(*cycle_, *watched_, options_.seconds, faults_, signals_.asked());
+    run_->run(*cycle_, *watched_, options_.seconds, faults_, signals_.requested());
 }
 
 ReplayRecorder::Ending RealtimeReplay::ending() {

@@ -46,7 +46,7 @@ ReplaySummary runLockstep(const ReplayOptions& options, const GlobalOptions& glo
     const StopSignals signals; // until the files are complete
     const auto trace = openTrace(session, global);
     ReplayRecorder recorder = recorderOf(session, options, "");
-    LockstepReplay replay(session, options, recorder, signals.asked(), trace.get());
+    LockstepReplay replay(session, options, recorder, signals.requested(), trace.get());
     const ReplaySummary summary = recorder.finish(replay.run());
     if (trace) {
         trace->file().finish();

@@ -199,15 +199,15 @@ TEST_CASE("SIGINT, SIGTERM, SIGQUIT and SIGHUP end a run early with zero force a
         CAPTURE(signal);
         FakeRun fake(300, pressingPath(10.0));
         StopSignals signals;
-        CHECK_FALSE(signals.asked().load());
+        CHECK_FALSE(signals.requested().load());
         fake.sink.onTurn = [&](const TickRow& row) {
             if (row.record.t > 0.5 && !fake.stop.load()) {
                 std::raise(signal);
-                fake.stop.store(signals.asked().load());
+                fake.stop.store(signals.requested().load());
             }
         };
         fake.go();
-        CHECK(signals.asked().load());
+        CHECK(signals.requested().load());
         checkEnded(fake);
         CHECK(fake.sink.rows.back().record.t < 5.0);
     }
@@ -244,7 +244,7 @@ TEST_CASE("A closed reader of the output does not end a run, nor does an ignored
         const StopSignals signals;
         std::raise(SIGPIPE);
         std::raise(SIGHUP);
-        CHECK_FALSE(signals.asked().load());
+        CHECK_FALSE(signals.requested().load());
     }
     CHECK((std::signal(SIGHUP, before) == SIG_IGN));
     CHECK((std::signal(SIGPIPE, SIG_DFL) == SIG_DFL)); // restored
