@@ -2,7 +2,7 @@
 // What the frames of a camera hold: times, depth, colour; and the first frame as images.
 #pragma once
 
-#include "apps/inspect/histogram_picture.h"
+#include "apps/inspect/histogram_image.h"
 #include "devices/camera.h"
 
 #include <filesystem>

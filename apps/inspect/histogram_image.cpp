@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/inspect/histogram_picture.h"
+#include "apps/inspect/histogram_image.h"
 
 #include "apps/output/image.h"
 

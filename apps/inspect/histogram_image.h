@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The histograms of `fathom inspect` as a picture.
+// The histograms of `fathom inspect` as an image.
 #pragma once
 
 #include "apps/inspect/hue_study.h"
