@@ -4,6 +4,7 @@
 #include "apps/binding/stop_signals.h"
 #include "apps/number_option.h"
 #include "devices/simulated/arm_simulator.h"
+#include "engine/types/clock.h"
 #include "engine/types/error.h"
 
 #include <CLI/CLI.hpp>
@@ -21,8 +22,6 @@
 namespace fathom {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr double kMaxStep = 0.05; // [s] largest simulated step, so that a stopped process does not jump
 constexpr double kEcaRange = 1.6; // [rad] between the stops of every joint

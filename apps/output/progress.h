@@ -2,7 +2,8 @@
 // A progress line on the terminal during a run, removed at its end.
 #pragma once
 
-#include <chrono>
+#include "engine/types/clock.h"
+
 #include <cstdint>
 #include <cstdio>
 #include <string>
@@ -34,7 +35,6 @@ public:
     void finish() noexcept; // removes the line; may be called repeatedly
 
 private:
-    using Clock = std::chrono::steady_clock;
     std::FILE* out_;
     bool terminal_;
     bool shown_ = false;

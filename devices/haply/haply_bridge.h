@@ -6,6 +6,7 @@
 #include "devices/bridge/device_bridge.h"
 #include "devices/haply/haply_message.h"
 #include "devices/haply/web_socket.h"
+#include "engine/types/clock.h"
 
 #include <chrono>
 #include <memory>
@@ -44,7 +45,6 @@ public:
     static constexpr auto kPeriod = std::chrono::microseconds(500); // from request to request, at least
 
 private:
-    using Clock = std::chrono::steady_clock;
     void open() override;
     bool isOpen() const noexcept override { return service_ != nullptr; }
     void close() noexcept override;

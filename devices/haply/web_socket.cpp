@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/haply/web_socket.h"
 
+#include "engine/types/clock.h"
 #include "engine/types/error.h"
 
 #include <algorithm>
@@ -19,8 +20,6 @@
 namespace fathom {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr uint8_t kContinued = 0, kText = 1, kClose = 8, kPing = 9, kPong = 10;
 // The example pair of RFC 6455, 1.3. A random key would defeat caching proxies; between two programs on one

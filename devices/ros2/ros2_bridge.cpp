@@ -4,6 +4,7 @@
 #include "devices/bag/ros2_messages.h"
 #include "devices/ros2/first_publisher.h"
 #include "devices/ros2/received_messages.h"
+#include "engine/types/clock.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
 
@@ -14,13 +15,7 @@ namespace fathom {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr auto kQuiet = std::chrono::seconds(5); // after a loss was logged
-
-double secondsSince(Clock::time_point time) {
-    return std::chrono::duration<double>(Clock::now() - time).count();
-}
 
 uint64_t utcNanoseconds() {
     const auto now = std::chrono::system_clock::now().time_since_epoch();

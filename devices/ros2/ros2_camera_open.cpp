@@ -2,6 +2,7 @@
 // Finds the streams of ros2_camera.h and their lenses.
 #include "devices/images/metre_units.h"
 #include "devices/ros2/ros2_camera.h"
+#include "engine/types/clock.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
 
@@ -108,7 +109,6 @@ void Ros2Camera::logWarnings() const {
 
 // The choice is repeated with each new message until it succeeds: lenses and transforms may come late.
 void Ros2Camera::awaitStreams() {
-    using Clock = std::chrono::steady_clock;
     const auto end = Clock::now() + std::chrono::duration<double>(request_.wait);
     std::string why = "no message";
     for (;;) {

@@ -4,6 +4,7 @@
 
 #include "devices/usb/falcon_packet.h"
 #include "devices/usb/ftdi_port.h"
+#include "engine/types/clock.h"
 
 namespace fathom {
 
@@ -40,7 +41,6 @@ public:
     static constexpr auto kDeaf = std::chrono::milliseconds(500);
 
 private:
-    using Clock = std::chrono::steady_clock;
     bool answers();
 
     FtdiPort& port_;

@@ -15,15 +15,9 @@ namespace fathom {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr int kPollMs = 50;
 constexpr double kFirstFrame = 5.0; // [s] start-up time of a camera
 constexpr double kUnusable = 2.5;   // of `silence`; more than watch() allows, which names a silent stream
-
-double secondsSince(Clock::time_point t) {
-    return std::chrono::duration<double>(Clock::now() - t).count();
-}
 
 Clock::time_point grace() {
     return Clock::now() + std::chrono::milliseconds(static_cast<int>(1e3 * kFirstFrame));

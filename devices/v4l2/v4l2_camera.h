@@ -8,6 +8,7 @@
 #include "devices/v4l2/choose_nodes.h"
 #include "devices/v4l2/frame_pairing.h"
 #include "devices/v4l2/v4l2_controls.h"
+#include "engine/types/clock.h"
 
 #include <atomic>
 #include <chrono>
@@ -62,9 +63,9 @@ private:
         bool depth = false;
         CapturedBuffer buffer;
     };
-    struct Watch {                                  // over one stream
-        std::chrono::steady_clock::time_point last; // time of the newest frame, or deadline of the first
-        bool restarted = false;                     // since then
+    struct Watch {              // over one stream
+        Clock::time_point last; // time of the newest frame, or deadline of the first
+        bool restarted = false; // since then
     };
 
     void open();
@@ -94,7 +95,7 @@ private:
     FramePairing pairing_{0.0};
     std::vector<Arrival> arrivals_; // taken, not yet paired; oldest first
     Watch depthWatch_, colourWatch_;
-    std::chrono::steady_clock::time_point firstBy_; // deadline of the first frame
+    Clock::time_point firstBy_; // deadline of the first frame
     double depthPeriod_ = 0.0, lastStamp_ = 0.0, lastCapture_ = 0.0;
     uint32_t delivered_ = 0;
     SkippedFrames skipped_;

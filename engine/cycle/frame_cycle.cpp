@@ -12,12 +12,6 @@ namespace fathom {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-double millis(Clock::time_point begin, Clock::time_point end) {
-    return std::chrono::duration<double, std::milli>(end - begin).count();
-}
-
 // On a GPU workers spin while the passes run, for less than a millisecond. A CPU device needs the processors
 // itself.
 std::chrono::microseconds spinTimeOf(const Plan& plan) {

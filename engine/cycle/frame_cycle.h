@@ -14,11 +14,11 @@
 #include "engine/cloud/self_filter.h"
 #include "engine/cycle/frame_device.h"
 #include "engine/cycle/leak_warnings.h"
+#include "engine/types/clock.h"
 #include "engine/types/frame.h"
 #include "engine/types/thread_pool.h"
 
 #include <atomic>
-#include <chrono>
 #include <memory>
 #include <optional>
 #include <string>
@@ -34,17 +34,17 @@ struct FrameReport {
     cloud::FrameCounts counts;
     uint32_t guidanceCount = 0; // pixels in guidance classes, as counted by `classify`
     double uploadMs = 0.0, publishMs = 0.0, latencyMs = 0.0; // [ms]
-    double answerableMs = 0.0;  // [ms] from the start of the upload until contact queries can be answered
-    std::vector<double> passMs; // [ms] in the order of FrameCycle::passNames(); device time, zeros without
-                                // Plan::passTimes
-    struct Times {              // on the host's monotonic clock, in order
-        std::chrono::steady_clock::time_point started; // of the upload
-        std::chrono::steady_clock::time_point uploaded, submitted;
-        std::chrono::steady_clock::time_point completed; // the device has finished
-        std::chrono::steady_clock::time_point collected; // the host has the results
-        std::chrono::steady_clock::time_point published; // the host's copy is complete, and its grid if any
+    double answerableMs = 0.0;     // [ms] from the start of the upload until contact queries can be answered
+    std::vector<double> passMs;    // [ms] in the order of FrameCycle::passNames(); device time, zeros without
+                                   // Plan::passTimes
+    struct Times {                 // on the host's monotonic clock, in order
+        Clock::time_point started; // of the upload
+        Clock::time_point uploaded, submitted;
+        Clock::time_point completed; // the device has finished
+        Clock::time_point collected; // the host has the results
+        Clock::time_point published; // the host's copy is complete, and its grid if any
         // Contact queries can be answered: after `completed` on a GPU, else with `published`.
-        std::chrono::steady_clock::time_point answerable;
+        Clock::time_point answerable;
     } times;
 };
 

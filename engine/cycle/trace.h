@@ -3,6 +3,7 @@
 // tracks.
 #pragma once
 
+#include "engine/types/clock.h"
 #include "engine/types/output_file.h"
 #include "engine/types/spsc_queue.h"
 
@@ -16,7 +17,7 @@
 namespace fathom {
 
 // Clock of all events; displayed as time since the trace was created.
-using TraceTime = std::chrono::steady_clock::time_point;
+using TraceTime = Clock::time_point;
 
 // A detail of an event: a number, or a word when `word` is set. Null name = no detail. All texts must live as
 // long as the trace: literals, or results of Trace::keep().

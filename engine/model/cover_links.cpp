@@ -2,6 +2,7 @@
 #include "engine/model/cover_links.h"
 
 #include "engine/model/cover_cache.h"
+#include "engine/types/clock.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
 #include "engine/types/printable.h"
@@ -41,7 +42,6 @@ public:
     }
 
 private:
-    using Clock = std::chrono::steady_clock;
     static constexpr Clock::rep kEvery = Clock::duration(std::chrono::seconds(5)).count();
 
     size_t all_;

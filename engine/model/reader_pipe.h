@@ -2,7 +2,8 @@
 // The bytes between this process and the program fathom-reader, which share a machine and a version.
 #pragma once
 
-#include <chrono>
+#include "engine/types/clock.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -21,7 +22,7 @@ bool writeText(int pipe, const std::string& text);
 // The reading end. Every call returns false once the pipe has ended, broken a bound or outlived its time.
 class ReaderPipe {
 public:
-    using Time = std::chrono::steady_clock::time_point;
+    using Time = Clock::time_point;
 
     ReaderPipe(int pipe, Time until)
         : pipe_(pipe)

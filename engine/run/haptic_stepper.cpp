@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/run/haptic_stepper.h"
 
+#include "engine/types/clock.h"
+
 namespace fathom {
 
 namespace {
@@ -56,11 +58,11 @@ const StepRecord& HapticStepper::step(const HandSample& hand, double now, double
     input.deadline = {&Until::passed, &until};
     followArm(now);
     row_.start = cycle_.place();
-    began_ = std::chrono::steady_clock::now();
+    began_ = Clock::now();
     row_.record = contacts_.step(cycle_, input);
     channels_.clearance.refresh();
     row_.record.clearance = channels_.clearance.front();
-    ended_ = std::chrono::steady_clock::now();
+    ended_ = Clock::now();
     publish(hand, now);
     before_ = now;
     first_ = false;
@@ -72,7 +74,7 @@ void HapticStepper::publish(const HandSample& hand, double now) noexcept {
     const ContactSet* active = contacts_.active();
     row_.generation = active != nullptr ? active->generation : 0;
     row_.query = active != nullptr ? active->query : 0;
-    row_.micros = std::chrono::duration<double, std::micro>(ended_ - began_).count();
+    row_.micros = micros(began_, ended_);
     sendSetpoint(row_.record, (hand.buttons & kDeadManOpen) != 0, now);
     channels_.queryAt.back() = cycle_.queryPlace();
     channels_.queryAt.publish();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/model/arm_model.h"
+#include "engine/types/clock.h"
 
 #include <array>
 #include <atomic>
@@ -18,7 +19,7 @@ namespace fathom {
 // models?, 2012).
 class PostureTrack {
 public:
-    using Time = std::chrono::steady_clock::time_point;
+    using Time = Clock::time_point;
     static constexpr size_t kKept = 256;
     // postures at shorter intervals are skipped, so that 0.5 s are kept
     static constexpr std::chrono::milliseconds kApart{2};

@@ -2,6 +2,8 @@
 // The clock of a realtime run: seconds since its start on the host's monotonic clock.
 #pragma once
 
+#include "engine/types/clock.h"
+
 #include <atomic>
 #include <chrono>
 #include <cmath>
@@ -16,12 +18,12 @@ inline const std::atomic<bool> kNeverStop{false};
 // allocation.
 class RunClock {
 public:
-    using Time = std::chrono::steady_clock::time_point;
+    using Time = Clock::time_point;
 
     // Sets t = 0 to `ahead` seconds from now, so that threads can get ready.
-    void start(double ahead) noexcept { zero_ = std::chrono::steady_clock::now() + nanoseconds(ahead); }
+    void start(double ahead) noexcept { zero_ = Clock::now() + nanoseconds(ahead); }
 
-    double now() const noexcept { return at(std::chrono::steady_clock::now()); }
+    double now() const noexcept { return at(Clock::now()); }
     double at(Time time) const noexcept { return std::chrono::duration<double>(time - zero_).count(); }
     // Time of a CLOCK_MONOTONIC stamp [s], which live cameras and hands use.
     static Time sinceBoot(double stamp) noexcept { return Time(nanoseconds(stamp)); }
@@ -49,7 +51,7 @@ private:
     static std::chrono::nanoseconds nanoseconds(double seconds) noexcept {
         return std::chrono::nanoseconds(static_cast<int64_t>(std::llround(seconds * 1e9)));
     }
-    Time zero_ = std::chrono::steady_clock::now();
+    Time zero_ = Clock::now();
 };
 
 } // namespace fathom
