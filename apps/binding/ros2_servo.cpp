@@ -5,7 +5,6 @@
 #include "engine/types/error.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <iterator>
 
@@ -15,11 +14,6 @@ namespace {
 
 constexpr double kLongestGap = 0.1; // [s] between two steps of one velocity
 constexpr double kReachedIn = 2.0;  // periods from a message to its joints
-
-uint64_t utcNow() {
-    const auto now = std::chrono::system_clock::now().time_since_epoch();
-    return static_cast<uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(now).count());
-}
 
 std::vector<size_t> drivenJoints(const std::vector<Ros2Joint>& joints) {
     std::vector<size_t> driven;
@@ -78,7 +72,7 @@ Ros2Servo::~Ros2Servo() {
 
 void Ros2Servo::rest() {
     if (twist_) {
-        twist_->write(ros2::twist({utcNow(), frame_}, dvec3(0.0), dvec3(0.0)));
+        twist_->write(ros2::twist({utcNanoseconds(), frame_}, dvec3(0.0), dvec3(0.0)));
     }
     before_.reset();
 }

@@ -4,7 +4,6 @@
 #include "engine/types/clock.h"
 
 #include <algorithm>
-#include <chrono>
 
 namespace fathom {
 
@@ -20,12 +19,12 @@ bool MessagePace::due(double t) noexcept {
 
 uint64_t TickStamps::at(double t) noexcept {
     const double now = monotonicSeconds();
-    const auto utc = std::chrono::system_clock::now().time_since_epoch();
+    const uint64_t utc = utcNanoseconds();
     zero_ = any_ && t >= last_ ? std::min(zero_, now - t) : now - t;
     last_ = t;
     any_ = true;
     const auto age = static_cast<int64_t>(1e9 * (now - t - zero_));
-    return static_cast<uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(utc).count() - age);
+    return utc - static_cast<uint64_t>(age);
 }
 
 } // namespace fathom

@@ -17,11 +17,6 @@ namespace {
 
 constexpr auto kQuiet = std::chrono::seconds(5); // after a loss was logged
 
-uint64_t utcNanoseconds() {
-    const auto now = std::chrono::system_clock::now().time_since_epoch();
-    return static_cast<uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(now).count());
-}
-
 class GuardOfTopics final : public Ros2Bridge {
 public:
     GuardOfTopics(const Ros2HandRequest& request, const SocketServer::Options& options)

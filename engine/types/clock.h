@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The host's monotonic clock (CLOCK_MONOTONIC), and times as numbers. For any thread.
+// The host's monotonic clock (CLOCK_MONOTONIC), UTC, and times as numbers. For any thread.
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 
 namespace fathom {
 
@@ -14,6 +15,12 @@ inline double secondsOf(Clock::time_point time) noexcept {
 }
 inline double monotonicSeconds() noexcept {
     return secondsOf(Clock::now());
+}
+
+// [ns] of UTC, for messages to other programs.
+inline uint64_t utcNanoseconds() noexcept {
+    const auto now = std::chrono::system_clock::now().time_since_epoch();
+    return static_cast<uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(now).count());
 }
 
 // [s]
