@@ -64,7 +64,7 @@ std::string clearanceText(double clearance) {
 }
 
 // Keeps the end of a long name, which distinguishes it.
-std::string shortened(const std::string& text) {
+std::string endOf(const std::string& text) {
     constexpr size_t kMaxCharacters = 38;
     return text.size() <= kMaxCharacters ? text : "..." + text.substr(text.size() - kMaxCharacters);
 }
@@ -128,7 +128,7 @@ void drawHeadLine(Console& console, const HudInput& input, ImVec2 at, ImVec2 siz
     const Mode mode = modeOf({console, input.run, input.haptics});
     ImGui::BeginGroup();
     fontText(input.fonts.large, mode.colour, std::string(mode.sign) + " " + mode.word);
-    fontText(input.fonts.small, colour::kQuiet, shortened(input.title));
+    fontText(input.fonts.small, colour::kQuiet, endOf(input.title));
     ImGui::EndGroup();
     markPlace(console, "head mode");
     explain(console, mode.meaning);
