@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/operate/pilot_hand.h"
 
-#include "engine/haptics/limits.h"
 #include "engine/types/haptic_device.h"
+#include "engine/types/wrench.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,19 +2,8 @@
 #include "devices/bridge/force_gate.h"
 
 #include <algorithm>
-#include <cmath>
-#include <glm/geometric.hpp>
 
 namespace fathom {
-
-namespace {
-
-dvec3 shortened(const dvec3& v, double limit) noexcept {
-    const double length = glm::length(v);
-    return length > limit ? v * (limit / length) : v;
-}
-
-} // namespace
 
 void ForceGate::accept(const Wrench& wrench, uint64_t stamp) noexcept {
     if (!isFinite(wrench.force) || !isFinite(wrench.torque)) {
@@ -44,7 +33,8 @@ Wrench ForceGate::at(uint64_t now) const noexcept {
         return {};
     }
     const double share = std::min(1.0, static_cast<double>(now - since_) / static_cast<double>(kRamp));
-    return {shortened(wrench_.force, forceLimit_ * share), shortened(wrench_.torque, torqueLimit_ * share)};
+    return {clampLength(wrench_.force, forceLimit_ * share),
+            clampLength(wrench_.torque, torqueLimit_ * share)};
 }
 
 } // namespace fathom

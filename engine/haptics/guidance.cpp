@@ -2,7 +2,6 @@
 #include "engine/haptics/guidance.h"
 
 #include "engine/haptics/force_ramps.h"
-#include "engine/haptics/limits.h"
 #include "engine/types/angle.h"
 
 #include <algorithm>

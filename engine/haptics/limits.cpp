@@ -20,11 +20,6 @@ Wrench scaled(const Wrench& wrench, double factor) noexcept {
     return {wrench.force * factor, wrench.torque * factor};
 }
 
-dvec3 clampLength(const dvec3& v, double limit) noexcept {
-    const double length = glm::length(v);
-    return length > limit ? v * (limit / length) : v;
-}
-
 dvec3 projectedOn(const dvec3& v, const dvec3& axis) noexcept {
     const double square = glm::dot(axis, axis);
     return square > 0.0 ? axis * (glm::dot(v, axis) / square) : dvec3(0.0);
@@ -39,7 +34,7 @@ Wrench limitSize(const Wrench& wrench, double force, double torque) noexcept {
     return {clampLength(wrench.force, force), clampLength(wrench.torque, torque)};
 }
 
-dvec3 shortened(const dvec3& v, double by) noexcept {
+dvec3 shortenedBy(const dvec3& v, double by) noexcept {
     return clampLength(v, std::max(0.0, glm::length(v) - by));
 }
 
@@ -48,7 +43,7 @@ dvec3 limitSlew(const dvec3& wanted, const dvec3& previous, double rise, double 
         return previous + clampLength(wanted - previous, rise);
     }
     const dvec3 kept = wantedPart(previous, wanted);
-    const dvec3 next = kept + clampLength(wanted - kept, rise) + shortened(previous - kept, fall);
+    const dvec3 next = kept + clampLength(wanted - kept, rise) + shortenedBy(previous - kept, fall);
     return clampLength(next, std::max(glm::length(wanted), glm::length(previous)));
 }
 

@@ -17,9 +17,6 @@ bool isZero(const Wrench& wrench) noexcept;
 // Force and torque times the factor.
 Wrench scaled(const Wrench& wrench, double factor) noexcept;
 
-// v shortened to length `limit`, same direction. limit >= 0.
-dvec3 clampLength(const dvec3& v, double limit) noexcept;
-
 // v along `axis` (of any length) only; zero for a zero axis.
 dvec3 projectedOn(const dvec3& v, const dvec3& axis) noexcept;
 
@@ -30,7 +27,7 @@ dvec3 wantedPart(const dvec3& v, const dvec3& wanted) noexcept;
 Wrench limitSize(const Wrench& wrench, double force, double torque) noexcept;
 
 // v shorter by `by`, same direction; zero if it was not longer.
-dvec3 shortened(const dvec3& v, double by) noexcept;
+dvec3 shortenedBy(const dvec3& v, double by) noexcept;
 
 // The force or torque after one tick. What of `previous` is not wanted becomes shorter by `fall`, also where
 // it points the wrong way or lies across; what is wanted rises by `rise`. With a fall that is no larger it is
