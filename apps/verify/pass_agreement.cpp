@@ -8,7 +8,7 @@ namespace fathom::verify {
 
 namespace {
 
-void widen(double& largest, double error) {
+void keepLargest(double& largest, double error) {
     largest = error > largest || std::isnan(error) ? error : largest;
 }
 
@@ -24,8 +24,8 @@ void compareBounds(const std::vector<reference::Bound>& here, const std::vector<
         a.wrong += here[i].count != there[i].count || (here[i].radius < 0.0) != (here[i].count == 0);
         if (here[i].count != 0 && there[i].count != 0) {
             ++a.nodes;
-            widen(a.centre, glm::distance(here[i].centre, there[i].centre));
-            widen(a.radius, std::abs(here[i].radius - roundedOutward(there[i].radius)));
+            keepLargest(a.centre, glm::distance(here[i].centre, there[i].centre));
+            keepLargest(a.radius, std::abs(here[i].radius - roundedOutward(there[i].radius)));
         }
     }
 }
@@ -80,7 +80,7 @@ ThinAgreement thinAgreement(const PassRig& rig) {
             a.thinned += here >= 0.0;
             if (here >= 0.0 && there >= 0.0) {
                 ++a.compared;
-                widen(a.growth, std::max({0.0, there - here, here - there - step}));
+                keepLargest(a.growth, std::max({0.0, there - here, here - there - step}));
             }
         };
         ++a.cells;
@@ -104,8 +104,8 @@ SphereAgreement sphereAgreement(const PassRig& rig) {
         a.wrong += (here[i].radius >= 0.0) != (twin[i].radius >= 0.0) || here[i].cls != twin[i].cls;
         if (here[i].radius >= 0.0 && twin[i].radius >= 0.0) {
             ++a.compared;
-            widen(a.centre, glm::distance(here[i].centre, twin[i].centre));
-            widen(a.radius, std::abs(here[i].radius - twin[i].radius));
+            keepLargest(a.centre, glm::distance(here[i].centre, twin[i].centre));
+            keepLargest(a.radius, std::abs(here[i].radius - twin[i].radius));
         }
     }
     return a;
