@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/reference/kkt.h"
 
+#include "engine/reference/long_vector.h"
 #include "engine/types/error.h"
 
 #include <Eigen/Dense>
@@ -12,12 +13,6 @@ namespace fathom {
 namespace {
 
 using Matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-using Vector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
-
-Vector widen(std::span<const double> v) {
-    return Eigen::Map<const Eigen::VectorXd>(v.data(), static_cast<Eigen::Index>(v.size()))
-        .cast<long double>();
-}
 
 double ratio(long double value, long double scale) {
     if (value <= 0.0L) {
@@ -42,17 +37,19 @@ KktResidual checkKkt(const NearestPointProblem& problem, std::span<const double>
     if (cholesky.info() != Eigen::Success) {
         throw Error("KKT check: metric is not positive definite");
     }
-    const Vector t = widen(problem.target), answer = widen(x);
+    const LongVector t = longVector(problem.target), answer = longVector(x);
     const auto lower = cholesky.matrixL();
-    const Vector gradient = lower.adjoint() * (answer - t); // L^T (x - t): both sides are compared after L^-1
-    const long double scale = Vector(lower.adjoint() * t).norm() + Vector(lower.adjoint() * answer).norm();
+    const LongVector gradient =
+        lower.adjoint() * (answer - t); // L^T (x - t): both sides are compared after L^-1
+    const long double scale =
+        LongVector(lower.adjoint() * t).norm() + LongVector(lower.adjoint() * answer).norm();
 
     KktResidual out;
-    Vector sum = Vector::Zero(n);
+    LongVector sum = LongVector::Zero(n);
     long double sumOfLengths = 0.0L, largest = 0.0L, negative = 0.0L, slack = 0.0L;
     for (size_t i = 0; i < problem.offsets.size(); ++i) {
-        const Vector normal = widen(problem.normals.subspan(i * problem.unknowns, problem.unknowns));
-        const Vector unscaled = lower.solve(normal);
+        const LongVector normal = longVector(problem.normals.subspan(i * problem.unknowns, problem.unknowns));
+        const LongVector unscaled = lower.solve(normal);
         const long double length = unscaled.norm();
         const long double violation = problem.offsets[i] - normal.dot(answer);
         // A row with a zero normal is either always satisfied or infeasible.

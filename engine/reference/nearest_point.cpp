@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/reference/nearest_point.h"
 
+#include "engine/reference/long_vector.h"
 #include "engine/types/error.h"
 
 #include <Eigen/Dense>
@@ -12,18 +13,12 @@ namespace fathom {
 namespace {
 
 using Matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
-using Vector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
 
 constexpr long double kNoResidual = 1e-12L;
 constexpr long double kGradient = 1e-16L;     // relative to the residual
 constexpr long double kLongRounding = 1e-18L; // relative to f, whose length is 1
 
-Vector widen(std::span<const double> v) {
-    return Eigen::Map<const Eigen::VectorXd>(v.data(), static_cast<Eigen::Index>(v.size()))
-        .cast<long double>();
-}
-
-Vector leastSquares(const Matrix& e, const Vector& f, const std::vector<Eigen::Index>& passive) {
+LongVector leastSquares(const Matrix& e, const LongVector& f, const std::vector<Eigen::Index>& passive) {
     Matrix columns(e.rows(), static_cast<Eigen::Index>(passive.size()));
     for (size_t i = 0; i < passive.size(); ++i) {
         columns.col(static_cast<Eigen::Index>(i)) = e.col(passive[i]);
@@ -32,9 +27,9 @@ Vector leastSquares(const Matrix& e, const Vector& f, const std::vector<Eigen::I
 }
 
 // Moves u towards the least-squares solution on the passive columns and removes columns that reach 0.
-void settle(const Matrix& e, const Vector& f, std::vector<Eigen::Index>& passive, Vector& u) {
+void settle(const Matrix& e, const LongVector& f, std::vector<Eigen::Index>& passive, LongVector& u) {
     while (!passive.empty()) {
-        const Vector wanted = leastSquares(e, f, passive);
+        const LongVector wanted = leastSquares(e, f, passive);
         if (wanted.minCoeff() > 0.0L) {
             for (size_t i = 0; i < passive.size(); ++i) {
                 u[passive[i]] = wanted[static_cast<Eigen::Index>(i)];
@@ -59,16 +54,16 @@ void settle(const Matrix& e, const Vector& f, std::vector<Eigen::Index>& passive
 }
 
 // min |E u - f| subject to u >= 0.
-Vector nonNegativeLeastSquares(const Matrix& e, const Vector& f) {
-    Vector u = Vector::Zero(e.cols());
+LongVector nonNegativeLeastSquares(const Matrix& e, const LongVector& f) {
+    LongVector u = LongVector::Zero(e.cols());
     std::vector<Eigen::Index> passive;
     std::vector<char> refused(static_cast<size_t>(e.cols()), 0);
     for (Eigen::Index step = 0; step < 10 * (e.cols() + e.rows()); ++step) {
-        const Vector rest = f - e * u;
+        const LongVector rest = f - e * u;
         if (rest.norm() < kNoResidual) {
             return u; // only rounding is left: no column has a gradient
         }
-        const Vector gradient = e.transpose() * rest;
+        const LongVector gradient = e.transpose() * rest;
         Eigen::Index best = -1;
         for (Eigen::Index i = 0; i < e.cols(); ++i) {
             const bool in = std::find(passive.begin(), passive.end(), i) != passive.end();
@@ -97,9 +92,9 @@ Vector nonNegativeLeastSquares(const Matrix& e, const Vector& f) {
 // z = L^T (x - t): columns (g; h) with g = L^-1 n / |.|, h = (d - n^T t) / |L^-1 n|.
 struct LeastDistance {
     Eigen::LLT<Matrix> cholesky;
-    Vector target;
+    LongVector target;
     Matrix columns;
-    Vector lengths;        // |L^-1 n|
+    LongVector lengths;    // |L^-1 n|
     bool hopeless = false; // a row with a zero normal cannot be satisfied
 };
 
@@ -108,14 +103,15 @@ LeastDistance leastDistance(const NearestPointProblem& problem) {
     const auto m = static_cast<Eigen::Index>(problem.offsets.size());
     using RowMajor = Eigen::Matrix<double, -1, -1, Eigen::RowMajor>;
     const Matrix metric = Eigen::Map<const RowMajor>(problem.metric.data(), n, n).cast<long double>();
-    LeastDistance out{Eigen::LLT<Matrix>(metric), widen(problem.target), Matrix::Zero(n + 1, m),
-                      Vector::Zero(m)};
+    LeastDistance out{Eigen::LLT<Matrix>(metric), longVector(problem.target), Matrix::Zero(n + 1, m),
+                      LongVector::Zero(m)};
     if (out.cholesky.info() != Eigen::Success) {
         throw Error("nearest point: metric is not positive definite");
     }
     for (Eigen::Index i = 0; i < m; ++i) {
-        const Vector normal = widen(problem.normals.subspan(static_cast<size_t>(i * n), problem.unknowns));
-        const Vector g = out.cholesky.matrixL().solve(normal);
+        const LongVector normal =
+            longVector(problem.normals.subspan(static_cast<size_t>(i * n), problem.unknowns));
+        const LongVector g = out.cholesky.matrixL().solve(normal);
         const long double h =
             static_cast<long double>(problem.offsets[static_cast<size_t>(i)]) - normal.dot(out.target);
         out.lengths[i] = g.norm();
@@ -147,17 +143,17 @@ NearestPoint nearestPoint(const NearestPointProblem& problem) {
         return out;
     }
     ldp.columns.row(n) /= largest; // brings |z| to order 1
-    Vector f = Vector::Zero(n + 1);
+    LongVector f = LongVector::Zero(n + 1);
     f[n] = 1.0L;
-    const Vector u = nonNegativeLeastSquares(ldp.columns, f);
-    const Vector rest = ldp.columns * u - f;
+    const LongVector u = nonNegativeLeastSquares(ldp.columns, f);
+    const LongVector rest = ldp.columns * u - f;
     out.residual = static_cast<double>(rest.norm());
     if (rest.norm() < kNoResidual || !(rest[n] < 0.0L)) {
         return out;
     }
     out.feasible = true;
-    const Vector z = -rest.head(n) / rest[n] * largest;
-    const Vector x = ldp.target + ldp.cholesky.matrixL().adjoint().solve(z);
+    const LongVector z = -rest.head(n) / rest[n] * largest;
+    const LongVector x = ldp.target + ldp.cholesky.matrixL().adjoint().solve(z);
     out.x.resize(problem.unknowns);
     for (size_t i = 0; i < out.x.size(); ++i) {
         out.x[i] = static_cast<double>(x[static_cast<Eigen::Index>(i)]);
