@@ -4,10 +4,10 @@
 
 #include "engine/scene/yaml_node.h"
 #include "engine/types/joined.h"
+#include "engine/types/parse_number.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <charconv>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -22,8 +22,7 @@ inline CLI::Validator numberIn(const Range& range) {
         std::string_view digits = text;
         digits.remove_prefix(digits.starts_with('+') ? 1 : 0);
         double x = 0.0;
-        const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), x);
-        const bool good = error == std::errc{} && end == digits.data() + digits.size() && range.contains(x);
+        const bool good = parseWhole(digits, x) && range.contains(x);
         return good ? "" : text + " (allowed: " + range.words() + ")";
     };
     return CLI::Validator(check, "");
@@ -33,8 +32,7 @@ inline CLI::Validator numberIn(const Range& range) {
 inline CLI::Validator wholeNumberIn(uint32_t least, uint32_t most) {
     const auto check = [least, most](const std::string& text) -> std::string {
         uint32_t n = 0;
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), n);
-        const bool good = error == std::errc{} && end == text.data() + text.size() && n >= least && n <= most;
+        const bool good = parseWhole(text, n) && n >= least && n <= most;
         return good ? ""
                     : text + " (allowed: a whole number from " + std::to_string(least) + " to " +
                           std::to_string(most) + ")";

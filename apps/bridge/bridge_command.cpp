@@ -10,9 +10,9 @@
 #include "engine/run/thread_placement.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
+#include "engine/types/parse_number.h"
 
 #include <CLI/CLI.hpp>
-#include <charconv>
 #include <iostream>
 #include <memory>
 
@@ -55,8 +55,7 @@ HaplyBridge::Options haplyOptions(const BridgeOptions& options, const std::files
     HaplyBridge::Options haply{endpoint, "", 0, options.device};
     const size_t colon = options.service.rfind(':');
     const std::string port = colon == std::string::npos ? "" : options.service.substr(colon + 1);
-    const auto [end, error] = std::from_chars(port.data(), port.data() + port.size(), haply.port);
-    if (colon == 0 || error != std::errc() || end != port.data() + port.size() || haply.port == 0) {
+    if (colon == 0 || !parseWhole(port, haply.port) || haply.port == 0) {
         throw BadInput("guard", "--service", options.service, "HOST:PORT");
     }
     haply.host = options.service.substr(0, colon);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/bag/matroska_header.h"
 
-#include <charconv>
+#include "engine/types/parse_number.h"
 
 namespace fathom {
 
@@ -171,8 +171,7 @@ std::string MatroskaHeader::tag(const std::string& name) const {
 int64_t MatroskaHeader::numberTag(const std::string& name) const {
     const std::string text = tag(name);
     int64_t value = 0;
-    const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (!text.empty() && (fault != std::errc() || end != text.data() + text.size())) {
+    if (!text.empty() && !parseWhole(text, value)) {
         throw Error("tag " + name + ": '" + text + "' (allowed: a whole number)");
     }
     return value;

@@ -5,10 +5,10 @@
 #include "devices/bag/ros_messages.h"
 #include "devices/bag/stream_names.h"
 #include "devices/recorded/lens_model.h"
+#include "engine/types/parse_number.h"
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <map>
 
 namespace fathom {
@@ -41,8 +41,7 @@ std::vector<std::string> partsOf(const std::string& text, char between) {
 
 double numberIn(const std::string& field, const std::string& text) {
     double value = 0.0;
-    const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (fault != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) {
+    if (!parseWhole(text, value) || !std::isfinite(value)) {
         throw Error(field + ": '" + text + "' (allowed: a number)");
     }
     return value;

@@ -6,11 +6,11 @@
 #include "devices/pcd/pcd_field.h"
 #include "devices/recorded/text_file.h"
 #include "engine/types/error.h"
+#include "engine/types/parse_number.h"
 #include "engine/types/read_file.h"
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <iterator>
@@ -64,8 +64,7 @@ std::vector<std::string> wordsOf(const std::string& line) {
 
 size_t wholeNumber(const Source& source, const std::string& field, const std::string& word, size_t most) {
     size_t value = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error != std::errc() || end != word.data() + word.size() || value < 1 || value > most) {
+    if (!parseWhole(word, value) || value < 1 || value > most) {
         source.refuse(field, word, "1 to " + std::to_string(most));
     }
     return value;

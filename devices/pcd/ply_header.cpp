@@ -2,11 +2,11 @@
 #include "devices/pcd/ply_header.h"
 
 #include "engine/types/error.h"
+#include "engine/types/parse_number.h"
 
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <charconv>
 
 namespace fathom {
 
@@ -107,8 +107,7 @@ private:
     void readElement(const std::vector<std::string>& words) {
         PlyElement element;
         const std::string count = words.size() == 3 ? words[2] : "missing";
-        const auto [end, error] = std::from_chars(count.data(), count.data() + count.size(), element.count);
-        if (error != std::errc() || end != count.data() + count.size()) {
+        if (!parseWhole(count, element.count)) {
             refuse("element " + (words.size() > 1 ? words[1] : ""), count, "a name and a number");
         }
         if (head_.elements.size() >= kPlyElements) {
@@ -159,8 +158,7 @@ private:
         const bool columns = name == "num_cols" || name == "width" || name == "cols" || name == "columns";
         const bool rows = name == "num_rows" || name == "height" || name == "rows";
         uint32_t number = 0;
-        const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
-        if ((columns || rows) && error == std::errc() && end == value.data() + value.size()) {
+        if ((columns || rows) && parseWhole(value, number)) {
             (columns ? head_.width : head_.height) = number;
         }
     }

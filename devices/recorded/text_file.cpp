@@ -3,10 +3,9 @@
 
 #include "engine/types/error.h"
 #include "engine/types/input_files.h"
+#include "engine/types/parse_number.h"
 #include "engine/types/read_file.h"
 #include "engine/types/stand_in.h"
-
-#include <charconv>
 
 namespace fathom {
 
@@ -22,12 +21,6 @@ std::string_view trim(std::string_view text) {
     const size_t begin = text.find_first_not_of(kSpace);
     return begin == std::string_view::npos ? std::string_view{}
                                            : text.substr(begin, text.find_last_not_of(kSpace) - begin + 1);
-}
-
-template <class T>
-bool parseWhole(std::string_view word, T& value) {
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    return error == std::errc{} && end == word.data() + word.size();
 }
 
 } // namespace

@@ -2,8 +2,7 @@
 #include "devices/v4l2/camera_request.h"
 
 #include "engine/types/error.h"
-
-#include <charconv>
+#include "engine/types/parse_number.h"
 
 namespace fathom {
 
@@ -16,18 +15,12 @@ constexpr std::string_view kPrefix = "v4l2:";
     throw BadInput(text, field, value.empty() ? "empty" : value, allowed);
 }
 
-template <class T>
-bool parse(std::string_view text, T& out) {
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), out);
-    return error == std::errc() && end == text.data() + text.size();
-}
-
 VideoSize parseSize(const std::string& all, const std::string& name, const std::string& value) {
     const size_t cross = value.find('x');
     VideoSize size;
     const bool good = cross != std::string::npos &&
-                      parse(std::string_view(value).substr(0, cross), size.width) &&
-                      parse(std::string_view(value).substr(cross + 1), size.height);
+                      parseWhole(std::string_view(value).substr(0, cross), size.width) &&
+                      parseWhole(std::string_view(value).substr(cross + 1), size.height);
     if (!good || size.width < 1 || size.height < 1 || size.width > 3840 || size.height > 2160) {
         refuse(all, name, value, "WIDTHxHEIGHT, at most 3840x2160");
     }
@@ -48,7 +41,7 @@ uint32_t parseFourcc(const std::string& all, const std::string& name, const std:
 
 double parseRate(const std::string& all, const std::string& name, const std::string& value) {
     double rate = 0.0;
-    if (!parse(std::string_view(value), rate) || !(rate >= 1.0 && rate <= 300.0)) {
+    if (!parseWhole(value, rate) || !(rate >= 1.0 && rate <= 300.0)) {
         refuse(all, name, value, "1 to 300 frames per second");
     }
     return rate;
@@ -72,7 +65,7 @@ void set(CameraRequest& request, const std::string& name, const std::string& val
     } else if (name == "intrinsics") {
         request.intrinsics = value;
     } else if (name == "frames") {
-        if (!parse(std::string_view(value), request.frames) || request.frames == 0) {
+        if (!parseWhole(value, request.frames) || request.frames == 0) {
             refuse(request.text, name, value, "1 or more");
         }
     } else {

@@ -4,11 +4,11 @@
 #include "engine/types/error.h"
 #include "engine/types/input_files.h"
 #include "engine/types/output_file.h"
+#include "engine/types/parse_number.h"
 #include "engine/types/read_file.h"
 #include "engine/types/split_words.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -22,12 +22,6 @@ constexpr size_t kShownCharacters = 60;
 constexpr uint64_t kMaxBytes = 256u << 20;
 constexpr uint64_t kShortestLine = 8; // "0 0 0 0" and its end: bounds the number of nodes in a file
 constexpr size_t kLongestLine = 4096; // free text may be longer, a node line never is
-
-template <class T>
-bool parse(std::string_view word, T& value) {
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    return error == std::errc{} && end == word.data() + word.size();
-}
 
 // The lines of the file that are not blank, with their numbers.
 class Lines {
@@ -96,7 +90,7 @@ SphereTree readHeader(Lines& lines) {
     const std::string wanted = "the number of levels and of children per node, both at least 1";
     const std::vector<std::string_view> words = lines.next(wanted);
     SphereTree tree;
-    if (words.size() != 2 || !parse(words[0], tree.levels) || !parse(words[1], tree.degree) ||
+    if (words.size() != 2 || !parseWhole(words[0], tree.levels) || !parseWhole(words[1], tree.degree) ||
         tree.levels == 0 || tree.degree == 0) {
         lines.refuseLine(wanted);
     }
@@ -117,7 +111,7 @@ Sphere readNode(Lines& lines, double scale) {
     double v[4];
     bool good = columns == 4 || columns == 5 || columns == 9 || columns == 10;
     for (size_t i = 0; good && i < 4; ++i) {
-        good = parse(words[i], v[i]);
+        good = parseWhole(words[i], v[i]);
     }
     if (good && v[3] < 0.0) {
         return {}; // unused: its numbers may be anything

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/reader/obj_text.h"
 
+#include "engine/types/parse_number.h"
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -30,8 +32,7 @@ std::vector<std::string_view> objWords(std::string_view line) {
 bool addNumber(std::string_view word, std::string& plain) {
     word.remove_prefix(word.starts_with('+') ? 1 : 0);
     double value = NAN;
-    const auto [end, fault] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (fault != std::errc() || end != word.data() + word.size() || !std::isfinite(value)) {
+    if (!parseWhole(word, value) || !std::isfinite(value)) {
         return false;
     }
     char text[40];
@@ -43,8 +44,7 @@ bool addNumber(std::string_view word, std::string& plain) {
 bool addCorner(std::string_view word, std::string& plain) {
     word = word.substr(0, word.find('/'));
     long long vertex = 0;
-    const auto [end, fault] = std::from_chars(word.data(), word.data() + word.size(), vertex);
-    if (fault != std::errc() || end != word.data() + word.size() || vertex == 0) {
+    if (!parseWhole(word, vertex) || vertex == 0) {
         return false;
     }
     plain.append(word).push_back(' ');

@@ -3,12 +3,12 @@
 
 #include "engine/types/error.h"
 #include "engine/types/joined.h"
+#include "engine/types/parse_number.h"
 #include "engine/types/read_file.h"
 #include "engine/types/suggestion.h"
 #include "engine/types/yaml_document.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <set>
 
@@ -168,9 +168,8 @@ double YamlNode::number(const Range& range, const std::string& orElse) const {
     bool good = node_.IsScalar() && !isQuoted(node_);
     if (good) {
         std::string_view digits = node_.Scalar();
-        digits.remove_prefix(digits.starts_with('+') ? 1 : 0); // valid in YAML, rejected by from_chars
-        const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), x);
-        good = error == std::errc{} && end == digits.data() + digits.size() && std::isfinite(x);
+        digits.remove_prefix(digits.starts_with('+') ? 1 : 0); // valid in YAML, rejected by parseWhole()
+        good = parseWhole(digits, x) && std::isfinite(x);
     }
     if (!good || !range.contains(x)) {
         refuse(withQuotes(node_, value()), orElse + range.words());
@@ -180,12 +179,7 @@ double YamlNode::number(const Range& range, const std::string& orElse) const {
 
 uint32_t YamlNode::integer(uint32_t lo, uint32_t hi) const {
     uint32_t n = 0;
-    bool good = node_.IsScalar() && !isQuoted(node_);
-    if (good) {
-        const std::string& digits = node_.Scalar();
-        const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), n);
-        good = error == std::errc{} && end == digits.data() + digits.size();
-    }
+    const bool good = node_.IsScalar() && !isQuoted(node_) && parseWhole(node_.Scalar(), n);
     if (!good || n < lo || n > hi) {
         refuse(withQuotes(node_, value()),
                "a whole number from " + std::to_string(lo) + " to " + std::to_string(hi));

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/rig/replay_output.h"
 
-#include <charconv>
+#include "engine/types/parse_number.h"
+
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -86,8 +87,7 @@ private:
     template <class T>
     T parse(const std::string& field) {
         T value{};
-        const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-        if (error != std::errc{} || end != field.data() + field.size()) {
+        if (!parseWhole(field, value)) {
             fail(file_, line_, "'" + field + "' is no number");
         }
         return value;
