@@ -10,7 +10,6 @@
 #include "engine/types/stand_in.h"
 
 #include <array>
-#include <fstream>
 
 namespace fathom {
 
@@ -35,16 +34,9 @@ constexpr std::array kFiles{KnownFile{".bag", "#ROSBAG", Kind::Messages},
                             KnownFile{".ply", "ply\n", Kind::Cloud},
                             KnownFile{".ply", "ply\r\n", Kind::Cloud}};
 
-std::string firstBytes(const std::filesystem::path& file) {
-    std::string bytes(16, '\0');
-    std::ifstream in(isRegularFile(file) ? std::ifstream(file, std::ios::binary) : std::ifstream());
-    in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    return bytes.substr(0, static_cast<size_t>(in.gcount()));
-}
-
 Kind kindOf(const std::filesystem::path& file) {
     const std::string ending = endingOf(file);
-    const std::string begin = firstBytes(file);
+    const std::string begin = firstBytes(file, 16);
     for (const KnownFile& known : kFiles) {
         if (begin.starts_with(known.begin)) {
             return known.kind;

@@ -13,8 +13,6 @@
 #include "engine/types/read_file.h"
 #include "engine/types/stand_in.h"
 
-#include <fstream>
-
 namespace fathom {
 
 const MessageTopic* MessageFile::find(const std::string& name) const {
@@ -81,10 +79,7 @@ std::unique_ptr<MessageFile> openMessageFile(const std::filesystem::path& file) 
         return std::make_unique<SplitRecording>(file);
     }
     noteInput(file);
-    std::string begin(16, '\0');
-    std::ifstream in(isRegularFile(file) ? std::ifstream(file, std::ios::binary) : std::ifstream());
-    in.read(begin.data(), static_cast<std::streamsize>(begin.size()));
-    const std::string ending = endingOf(file);
+    const std::string begin = firstBytes(file, 16), ending = endingOf(file);
     const bool bag = begin.starts_with("#ROSBAG"), database = begin.starts_with("SQLite format 3"),
                mcap = begin.starts_with("\x89MCAP"), matroska = begin.starts_with("\x1a\x45\xdf\xa3"),
                known = bag || database || mcap || matroska;

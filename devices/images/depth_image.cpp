@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <fstream>
 #include <vector>
 
 namespace fathom {
@@ -51,11 +50,7 @@ ImageBytes asBytes(const std::string& text) {
 }
 
 const DepthFormat* formatOf(const std::filesystem::path& file) {
-    std::string begin(16, '\0');
-    std::ifstream in(isRegularFile(file) ? std::ifstream(file, std::ios::binary) : std::ifstream());
-    in.read(begin.data(), static_cast<std::streamsize>(begin.size()));
-    begin.resize(static_cast<size_t>(in.gcount()));
-    return formatOf(asBytes(begin));
+    return formatOf(asBytes(firstBytes(file, 16)));
 }
 
 // The image's bytes when its header is as wanted, else the fault.

@@ -40,6 +40,14 @@ std::string whyUnreadable(const std::filesystem::path& file) {
     }
 }
 
+std::string firstBytes(const std::filesystem::path& file, size_t most) {
+    std::string bytes(most, '\0');
+    std::ifstream in(isRegularFile(file) ? std::ifstream(file, std::ios::binary) : std::ifstream());
+    in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    bytes.resize(static_cast<size_t>(in.gcount()));
+    return bytes;
+}
+
 std::optional<std::string> readFileAtMost(const std::filesystem::path& file, size_t most) {
     constexpr size_t kPiece = 1u << 16;
     if (!isRegularFile(file)) {

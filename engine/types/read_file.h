@@ -17,6 +17,9 @@ std::string endingOf(const std::filesystem::path& file);
 // Why a file is not readable, for messages.
 std::string whyUnreadable(const std::filesystem::path& file);
 
+// Its first `most` bytes, or all if it has fewer. Empty when it cannot be opened or is not a regular file.
+std::string firstBytes(const std::filesystem::path& file, size_t most);
+
 // Reads at most `most` + 1 bytes, so size() > most means that the file is larger. Memory grows with the bytes
 // read. Empty when the file cannot be opened or is not a regular file.
 std::optional<std::string> readFileAtMost(const std::filesystem::path& file, size_t most);

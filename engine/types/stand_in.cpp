@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <fstream>
 
 namespace fathom {
 
@@ -60,11 +59,7 @@ std::string standIn(std::string_view begin) {
 }
 
 std::string standInOf(const std::filesystem::path& file) {
-    std::string begin(kTarAt + kTar.size(), '\0');
-    std::ifstream in(isRegularFile(file) ? std::ifstream(file, std::ios::binary) : std::ifstream());
-    in.read(begin.data(), static_cast<std::streamsize>(begin.size()));
-    begin.resize(static_cast<size_t>(in.gcount()));
-    return standIn(begin);
+    return standIn(firstBytes(file, kTarAt + kTar.size()));
 }
 
 void refuseStandIn(const std::filesystem::path& file, const std::string& kind) {
