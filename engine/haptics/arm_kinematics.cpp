@@ -16,21 +16,14 @@ ArmKinematics::ArmKinematics(const ArmModel& arm, const Pose& baseTarm, const Ar
     : arm_(arm)
     , base_(baseTarm)
     , options_(options)
+    , joints_(arm)
     , places_(arm)
     , normal_(arm.count())
     , release_(arm, options.release) {
     for (size_t k = 0; k < arm.count(); ++k) {
         now_.posture.q[k] = std::clamp(0.0, arm.joints[k].lower, arm.joints[k].upper);
-        gain_[k] = 1.0;
         if (!arm.joints[k].mimic) {
-            column_[k] = free_.size();
             free_.push_back(k);
-        }
-    }
-    for (size_t k = 0; k < arm.count(); ++k) {
-        if (const auto& mimic = arm.joints[k].mimic) {
-            column_[k] = column_[mimic->joint];
-            gain_[k] = mimic->multiplier;
         }
     }
     arm.follow(now_.posture.q);
@@ -98,8 +91,9 @@ JointVector ArmKinematics::normalOf(const ContactRow& row, const LeafState& leav
     JointVector normal{}; // constrains the tip
     const dvec3 tip = pose().position;
     for (size_t k = 0; k < arm_.count(); ++k) {
-        normal[column_[k]] += gain_[k] * (glm::dot(row.normal, arm_.motionOf(now_.frames, k, tip)) +
-                                          glm::dot(row.spin, arm_.rotationOf(now_.frames, k)));
+        normal[joints_.column[k]] +=
+            joints_.gain[k] * (glm::dot(row.normal, arm_.motionOf(now_.frames, k, tip)) +
+                               glm::dot(row.spin, arm_.rotationOf(now_.frames, k)));
     }
     return normal;
 }
@@ -108,11 +102,12 @@ JointVector ArmKinematics::leafNormal(const ArmLeaf& leaf, const dvec3& centre,
                                       const dvec3& direction) const noexcept {
     JointVector normal{};
     for (size_t k = 0; k < leaf.joint; ++k) {
-        normal[column_[k]] += gain_[k] * glm::dot(direction, arm_.motionOf(now_.frames, k, centre));
+        normal[joints_.column[k]] +=
+            joints_.gain[k] * glm::dot(direction, arm_.motionOf(now_.frames, k, centre));
     }
     for (size_t f = leaf.finger; f > 0; f = arm_.fingers[f - 1].carrier) {
         if (const auto& mimic = arm_.fingers[f - 1].mimic) {
-            normal[column_[mimic->joint]] +=
+            normal[joints_.column[mimic->joint]] +=
                 mimic->multiplier * glm::dot(direction, arm_.motionOfFinger(now_.frames, f - 1, centre));
         }
     }
@@ -143,10 +138,10 @@ bool ArmKinematics::beginLinearisation(ProxyRows& rows, ArmStep& out) noexcept {
         std::min(1.0, kFarthestAim * options_.stepCap / lengthOf(whole, metricRadius_)) * whole;
     normal_ = ArmNormal(free_.size());
     for (size_t k = 0; k < arm_.count(); ++k) {
-        normal_.addColumn(column_[k], gain_[k] * arm_.motionOf(now_.frames, k, tip.position),
-                          gain_[k] * metricRadius_ * arm_.rotationOf(now_.frames, k));
+        normal_.addColumn(joints_.column[k], joints_.gain[k] * arm_.motionOf(now_.frames, k, tip.position),
+                          joints_.gain[k] * metricRadius_ * arm_.rotationOf(now_.frames, k));
         if (!arm_.joints[k].mimic && arm_.joints[k].lower == arm_.joints[k].upper) {
-            normal_.exclude(column_[k]);
+            normal_.exclude(joints_.column[k]);
         }
     }
     const double smallest = normal_.smallestSingular(metricRadius_ == 0.0 ? 3 : 6);

@@ -7,13 +7,13 @@
 
 #include "engine/haptics/arm_damping.h"
 #include "engine/haptics/arm_leaf_places.h"
+#include "engine/haptics/joint_columns.h"
 #include "engine/haptics/proxy_kinematics.h"
 #include "engine/haptics/singular_release.h"
 #include "engine/haptics/tool_motion.h"
 #include "engine/model/arm_model.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <span>
 #include <vector>
@@ -128,9 +128,8 @@ private:
     const ArmModel& arm_;
     Pose base_;
     ArmProxyOptions options_;
-    std::vector<size_t> free_;                // joints that follow no other: the unknowns
-    std::array<size_t, kMaxJoints> column_{}; // unknown that moves each joint
-    JointVector gain_{};                      // motion of each joint per motion of its unknown
+    std::vector<size_t> free_; // joints that follow no other: the unknowns
+    JointColumns joints_;
     ArmLeafPlaces places_;
     State now_, next_;
     JointVector start_{}; // joints at the start of the tick

@@ -8,7 +8,7 @@ Motion ArmKinematics::motionOf(const JointVector& dq) const noexcept {
     const dvec3 tip = pose().position;
     Motion motion;
     for (size_t k = 0; k < arm_.count(); ++k) {
-        const double moved = gain_[k] * dq[column_[k]];
+        const double moved = joints_.gain[k] * dq[joints_.column[k]];
         motion.a += moved * arm_.motionOf(now_.frames, k, tip);
         motion.alpha += moved * arm_.rotationOf(now_.frames, k);
     }

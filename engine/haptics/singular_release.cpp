@@ -22,18 +22,8 @@ constexpr double kMinTurn = 0.05; // [1 / rad^2]
 
 SingularRelease::SingularRelease(const ArmModel& arm, const ReleaseWeights& weights) noexcept
     : arm_(arm)
-    , weights_(weights) {
-    for (size_t k = 0; k < arm.count(); ++k) {
-        gain_[k] = 1.0;
-        column_[k] = arm.joints[k].mimic ? 0 : unknowns_++;
-    }
-    for (size_t k = 0; k < arm.count(); ++k) {
-        if (const auto& mimic = arm.joints[k].mimic) {
-            column_[k] = column_[mimic->joint];
-            gain_[k] = mimic->multiplier;
-        }
-    }
-}
+    , weights_(weights)
+    , joints_(arm) {}
 
 void SingularRelease::reset(const JointVector& q) noexcept {
     known_ = released_ = false;
@@ -49,8 +39,8 @@ bool SingularRelease::begin(bool singular, const JointVector& q) noexcept {
     double before = 0.0, after = 0.0;
     for (size_t k = 0; k < arm_.count(); ++k) {
         if (!arm_.joints[k].mimic) {
-            before += way_[column_[k]] * (regular_[k] - at_[k]);
-            after += way_[column_[k]] * (q[k] - at_[k]);
+            before += way_[joints_.column[k]] * (regular_[k] - at_[k]);
+            after += way_[joints_.column[k]] * (q[k] - at_[k]);
         }
     }
     const bool flipped = released_ && known_ && before * after < 0.0;
@@ -74,7 +64,7 @@ double SingularRelease::curvature(const Pull& pull, size_t i, size_t j) const no
 
 bool SingularRelease::fits(const JointVector& step, const JointVector& q) const noexcept {
     for (size_t k = 0; k < arm_.count(); ++k) {
-        const double to = q[k] + gain_[k] * step[column_[k]];
+        const double to = q[k] + joints_.gain[k] * step[joints_.column[k]];
         if (!arm_.joints[k].mimic && (to < arm_.joints[k].lower || to > arm_.joints[k].upper)) {
             return false;
         }
@@ -90,7 +80,7 @@ double SingularRelease::signOf(const JointVector& direction, const JointVector& 
         if (joint.mimic) {
             continue;
         }
-        const double along = direction[column_[k]], range = joint.upper - joint.lower;
+        const double along = direction[joints_.column[k]], range = joint.upper - joint.lower;
         score += known_ ? weights_.continuity * along * (regular_[k] - q[k]) : 0.0;
         if (std::isfinite(range) && range > 0.0) {
             score += weights_.centring * along * (0.5 * (joint.lower + joint.upper) - q[k]) / range;
@@ -105,23 +95,23 @@ SingularRelease::Descent SingularRelease::descent(const ArmNormal& normal, const
     SquareMatrix<kMaxJoints> hessian = normal.gram(), vectors{};
     for (size_t j = 0; j < arm_.count(); ++j) {
         for (size_t i = 0; i <= j; ++i) {
-            const double bend = gain_[i] * gain_[j] * curvature(pull, i, j);
-            hessian[column_[i]][column_[j]] -= bend;
+            const double bend = joints_.gain[i] * joints_.gain[j] * curvature(pull, i, j);
+            hessian[joints_.column[i]][joints_.column[j]] -= bend;
             if (i != j) {
-                hessian[column_[j]][column_[i]] -= bend;
+                hessian[joints_.column[j]][joints_.column[i]] -= bend;
             }
         }
     }
-    for (size_t u = 0; u < unknowns_; ++u) {
+    for (size_t u = 0; u < joints_.unknowns; ++u) {
         vectors[u][u] = 1.0;
     }
-    diagonalise(hessian, unknowns_, &vectors);
+    diagonalise(hessian, joints_.unknowns, &vectors);
     size_t least = 0;
-    for (size_t u = 1; u < unknowns_; ++u) {
+    for (size_t u = 1; u < joints_.unknowns; ++u) {
         least = hessian[u][u] < hessian[least][least] ? u : least;
     }
     Descent found;
-    for (size_t u = 0; u < unknowns_; ++u) {
+    for (size_t u = 0; u < joints_.unknowns; ++u) {
         found.way[u] = vectors[u][least];
     }
     found.fall = -hessian[least][least];
@@ -133,11 +123,11 @@ bool SingularRelease::take(const JointVector& way, const Pull& pull, JointVector
     const double length = kNudge * signOf(way, pull.q);
     for (const double sign : {1.0, -1.0}) {
         JointVector tried{};
-        for (size_t u = 0; u < unknowns_; ++u) {
+        for (size_t u = 0; u < joints_.unknowns; ++u) {
             tried[u] = sign * length * way[u];
         }
         if (fits(tried, pull.q)) {
-            for (size_t u = 0; u < unknowns_; ++u) {
+            for (size_t u = 0; u < joints_.unknowns; ++u) {
                 wanted[u] += tried[u];
             }
             released_ = true;
@@ -155,7 +145,7 @@ bool SingularRelease::nudge(const ArmNormal& normal, const Pull& pull, JointVect
     JointVector gradient{};
     normal.gradient(pull.left.a, pull.metricRadius * pull.left.alpha, gradient);
     double gain = 0.0;
-    for (size_t u = 0; u < unknowns_; ++u) {
+    for (size_t u = 0; u < joints_.unknowns; ++u) {
         gain += gradient[u] * wanted[u];
     }
     if (pause_ > 0 || left < kMinPull || gain > kStuck * left * left) {
@@ -165,7 +155,7 @@ bool SingularRelease::nudge(const ArmNormal& normal, const Pull& pull, JointVect
     const double whole = lengthOf(pull.whole, pull.metricRadius);
     const Descent found = descent(normal, pull);
     double slope = 0.0;
-    for (size_t u = 0; u < unknowns_; ++u) {
+    for (size_t u = 0; u < joints_.unknowns; ++u) {
         slope += found.way[u] * gradient[u] * whole / left;
     }
     if (found.fall < std::min(kMinRadius, kMinTurn * whole) * whole ||

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "engine/haptics/arm_damping.h"
+#include "engine/haptics/joint_columns.h"
 #include "engine/haptics/tool_motion.h"
 
 namespace fathom {
@@ -53,9 +54,7 @@ private:
 
     const ArmModel& arm_;
     ReleaseWeights weights_;
-    std::array<size_t, kMaxJoints> column_{}; // unknown of each joint
-    JointVector gain_{};
-    size_t unknowns_ = 0;
+    JointColumns joints_;
     bool known_ = false;    // regular_ is set
     JointVector regular_{}; // last posture that was not singular
     bool released_ = false; // since then
