@@ -15,6 +15,7 @@ constexpr double kPlaneWidth = 0.005; // [m]
 constexpr double kLongAxis = 2.0;
 
 // Rotates rows and columns p, q so that a[p][q] becomes zero (Golub and Van Loan 8.4).
+// Not jacobi.h, which skips tiny a[p][q]: guidance must stay bit-equal.
 void jacobiRotate(double (&a)[3][3], double (&v)[3][3], int p, int q) noexcept {
     if (a[p][q] == 0.0) {
         return;
