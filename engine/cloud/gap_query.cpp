@@ -63,32 +63,16 @@ uint32_t frozenClasses(const FixtureSet& set) {
 
 GapQuery::GapQuery(gpu::Device& device, const Plan& plan, const PatchLayout& layout, FixturePool& pool,
                    uint32_t capacity)
-    : device_(device)
-    , layout_(layout)
-    , pool_(pool)
-    , hold_(plan.hold)
-    , pipeline_(device, gapPipeline(plan))
-    , run_(device)
-    , leaves_(device)
-    , frozen_(device)
+    : DeviceQuery(device, plan, layout, pool, gapPipeline(plan))
     , unused_(device, 16, gpu::MemoryKind::Device, "unused") {
     growTo(capacity);
 }
 
-void GapQuery::setTool(const Tool& tool) {
-    if (leaves_.fill(tool)) {
-        bindings_.clear();
-    }
-}
-
 const gpu::Bindings& GapQuery::bindingsOf(const FixtureSet& set) {
     for (size_t i = bindings_.size(); i < pool_.size(); ++i) {
-        const SetBuffers& s = pool_.at(i).device;
-        bindings_.emplace_back(device_, pipeline_,
-                               std::vector<const gpu::Buffer*>{&leaves_.buffer(), &s.nodes, &s.spheres,
-                                                               &s.held, &s.classes, &frozen_.buffer(),
-                                                               &poses_, &answer_},
-                               unused_);
+        std::vector<const gpu::Buffer*> buffers = inputsOf(pool_.at(i).device);
+        buffers.insert(buffers.end(), {&frozen_.buffer(), &poses_, &answer_});
+        bindings_.emplace_back(device_, pipeline_, buffers, unused_);
     }
     return bindings_[pool_.indexOf(set)];
 }

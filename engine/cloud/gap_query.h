@@ -3,12 +3,8 @@
 // The device lists a few pairs per pose, and the host decides in float64.
 #pragma once
 
-#include "engine/cloud/fixture_set.h"
-#include "engine/cloud/query_run.h"
-#include "engine/cloud/sphere_blocks.h"
-#include "engine/cloud/tool_leaves.h"
+#include "engine/cloud/device_query.h"
 #include "engine/contact/smallest_gap.h"
-#include "engine/gpu/pipeline.h"
 #include "shaders/shared/gap_params.h"
 
 #include <span>
@@ -16,16 +12,12 @@
 
 namespace fathom::cloud {
 
-// One thread. Has a timeline and a command buffer of its own, and shares the queue for contact queries.
-class GapQuery {
+// One thread. Shares the queue for contact queries. A query is a batch.
+class GapQuery : public DeviceQuery {
 public:
-    // pool: every set of it can be asked. capacity: pairs in the first answer; it grows when one does not
-    // fit.
+    // capacity: pairs in the first answer; it grows when one does not fit.
     GapQuery(gpu::Device& device, const Plan& plan, const PatchLayout& layout, FixturePool& pool,
              uint32_t capacity = 4096);
-
-    // The leaves of the next batches. The device gets a copy with the next batch and keeps it.
-    void setTool(const Tool& tool);
 
     // One answer per pose, as smallest_gap.h defines it. Blocks until the device has finished. Poses more
     // than 20 m from the set's origin are searched on the host, because float32 leaves too many pairs there.
@@ -33,10 +25,6 @@ public:
     void find(const FixtureSet& set, const Tool& tool, std::span<const Pose> baseTtool,
               std::vector<SmallestGap>& out);
 
-    // Enables timestamps. gpuMs(): device time of the last submission without the copy of its answer; 0 when
-    // not enabled or not supported.
-    void enableTimestamps() { run_.enableTimestamps(); }
-    double gpuMs() const { return run_.gpuMs(); }
     uint32_t pairs() const { return found_; } // that the device listed in the last submission
 
 private:
@@ -59,20 +47,11 @@ private:
     bool growTo(uint32_t pairs);
     void decide(const Batch& batch, Part part);
 
-    gpu::Device& device_;
-    const PatchLayout layout_;
-    FixturePool& pool_;
-    bool hold_;
-    gpu::Pipeline pipeline_;
-    QueryRun run_;
-    ToolLeaves leaves_;
-    SphereBlocks frozen_; // spheres of frozen classes
-    gpu::Buffer poses_;   // GapPose per pose
+    gpu::Buffer poses_; // GapPose per pose
     gpu::Buffer answer_, back_;
     uint32_t most_ = 0, copied_ = 0, found_ = 0; // pairs
     gpu::Buffer unused_;
-    std::vector<gpu::Bindings> bindings_; // one per set
-    std::vector<uint32_t> near_;          // poses for the device
+    std::vector<uint32_t> near_; // poses for the device
     GapSearch host_;
     bool hostReady_ = false; // it searches the set of this batch
 };

@@ -31,14 +31,8 @@ gpu::PipelineInfo pipelineOf(const Plan& plan, bool subgroups) {
 
 TreeQuery::TreeQuery(gpu::Device& device, const Plan& plan, const PatchLayout& layout, FixturePool& pool,
                      uint32_t capacity, bool subgroups)
-    : device_(device)
-    , layout_(layout)
-    , pool_(pool)
-    , hold_(plan.hold)
-    , pipeline_(device, pipelineOf(plan, subgroups && device.facts().subgroupArithmetic))
-    , run_(device)
-    , leaves_(device)
-    , frozen_(device)
+    : DeviceQuery(device, plan, layout, pool,
+                  pipelineOf(plan, subgroups && device.facts().subgroupArithmetic))
     , answer_(device, {capacity, kLeavesPerSphere * capacity})
     , unused_(device, 16, gpu::MemoryKind::Device, "unused") {}
 
@@ -46,21 +40,13 @@ void TreeQuery::makeBindings() {
     const gpu::Buffer* const answer = &answer_.buffer();
     bindings_.clear();
     for (size_t i = 0; i < pool_.size(); ++i) {
-        const SetBuffers& s = pool_.at(i).device;
-        bindings_.emplace_back(device_, pipeline_,
-                               std::vector<const gpu::Buffer*>{&leaves_.buffer(), &s.nodes, &s.spheres,
-                                                               &s.held, &s.classes, answer, answer},
-                               unused_);
+        std::vector<const gpu::Buffer*> buffers = inputsOf(pool_.at(i).device);
+        buffers.insert(buffers.end(), {answer, answer});
+        bindings_.emplace_back(device_, pipeline_, buffers, unused_);
     }
     frozenBindings_ = gpu::Bindings(
         device_, pipeline_,
         {&leaves_.buffer(), &frozen_.buffer(), &frozen_.buffer(), nullptr, nullptr, answer, answer}, unused_);
-}
-
-void TreeQuery::setTool(const Tool& tool) {
-    if (leaves_.fill(tool)) {
-        bindings_.clear();
-    }
 }
 
 TreeQuery::Blocks TreeQuery::frozenBlocks() const {
