@@ -149,19 +149,19 @@ void RealtimeRun::run(HapticCycle& cycle, HapticDevice& hand, double pathDuratio
     RecordDrain drain(channels_, watched);
     channels_.queryAt.back() = {cycle.place()};
     channels_.queryAt.publish();
+    const auto runOn = [this](const auto& processors, auto& loop) {
+        guarded([&] {
+            pinThread(processors);
+            loop.run(ending_);
+        });
+    };
     clock_.start(kHeadStart);
     {
-        StoppedThread camera(ending_, [this] {
-            guarded([this] { pinThread(options_.placement.rest), frames_.run(ending_); });
-        });
+        StoppedThread camera(ending_, [&] { runOn(options_.placement.rest, frames_); });
         std::optional<StoppedThread> contact, clearance;
         if (contact_) {
-            contact.emplace(ending_, [this] {
-                guarded([this] { pinThread(options_.placement.contact), contact_->run(ending_); });
-            });
-            clearance.emplace(ending_, [this] {
-                guarded([this] { pinThread(options_.placement.rest), clearance_->run(ending_); });
-            });
+            contact.emplace(ending_, [&] { runOn(options_.placement.contact, *contact_); });
+            clearance.emplace(ending_, [&] { runOn(options_.placement.rest, *clearance_); });
         }
         StoppedThread ticks(ending_, [this, &haptic, &stop] {
             std::string refused;
