@@ -15,7 +15,7 @@ namespace {
 // On a GPU workers spin while the passes run, for less than a millisecond. A CPU device needs the processors
 // itself.
 std::chrono::microseconds spinTimeOf(const Plan& plan) {
-    return std::chrono::microseconds(plan.pack ? 1000 : 100);
+    return std::chrono::microseconds(plan.onCpu ? 100 : 1000);
 }
 
 } // namespace
@@ -169,7 +169,7 @@ void FrameCycle::submit() {
 
 // The parts of the host copy that need no device, while it works. A CPU device uses the same processors.
 void FrameCycle::fillHost(InFlight& f) {
-    ThreadPool* const meanwhile = plan_.pack ? &workers_ : nullptr;
+    ThreadPool* const meanwhile = plan_.onCpu ? nullptr : &workers_;
     if (meanwhile != nullptr && workers_.size() > 1) {
         workers_.wake();
     }

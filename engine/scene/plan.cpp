@@ -68,6 +68,7 @@ void decideByScene(const Scene& scene, const CameraInfo& camera, Plan& plan) {
 // How the passes that a scene needs are laid out.
 void decideByDevice(const CameraInfo& camera, const DeviceFacts& device, Plan& plan) {
     const bool cpu = device.kind == DeviceKind::Cpu;
+    plan.onCpu = cpu;
     plan.inPlace =
         plan.passes && device.hostPointerAlignment > 0 && device.hostPointerAlignment <= kSmallestPage;
     plan.memoryTexels = plan.hold && cpu;

@@ -55,6 +55,7 @@ struct PlannedLayout {
 
 // How the passes are divided among invocations and threads. Changes times, never results.
 struct PlannedTuning {
+    bool onCpu = false;       // the device is a CPU: it uses the processors of the host
     bool tiled = false;       // the filter reads its window from shared memory
     bool filterBlock = false; // the filter has one invocation per 4x4 sub-patch and its window in registers
     // With shared memory: `spheres` has one invocation per pixel, `moments` one per sub-patch. Otherwise one

@@ -87,6 +87,7 @@ TEST_CASE(
     CHECK(plan.dispatchesPerFrame() == 6); // spheres of patches that hold points and of others
     const Plan behindBus = planOf(scene, cameraOf(640, 480), DeviceKind::Discrete);
     CHECK((behindBus.pack && !plan.pack && behindBus.dispatchesPerFrame() == 4));
+    CHECK((plan.onCpu && !behindBus.onCpu));
     CHECK((behindBus.keepDepth && !plan.keepDepth && !behindBus.tree));
     CHECK(plan.filterRadius == 2);
     CHECK((plan.edge && plan.isolation));
