@@ -5,6 +5,7 @@
 #include "devices/bag/topic_words.h"
 #include "devices/images/metre_units.h"
 #include "devices/pcd/colour_fields.h"
+#include "devices/pcd/pcd_file.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
 
@@ -26,16 +27,12 @@ double mostOff(const Intrinsics& lens) {
     return std::min(1.0, 0.01 * lens.width);
 }
 
-bool hasPoint(const dvec3& p) {
-    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z) && p.z > 0.0;
-}
-
 // Root of the mean square distance [pixels] of the points from their pixels; 0 without points.
 double deviation(const PcdCloud& cloud, const FittedLens& fit) {
     double sum = 0.0, count = 0.0;
     for (size_t i = 0; i < cloud.points.size(); ++i) {
         const dvec3 p = fit.opticalTcloud * cloud.points[i];
-        if (hasPoint(p)) {
+        if (isMeasured(p)) {
             const size_t column = i % cloud.width, row = i / cloud.width;
             const glm::dvec2 off = fit.lens.project(p) - glm::dvec2(column, row);
             sum += off.x * off.x + off.y * off.y;
@@ -178,7 +175,7 @@ void CloudCamera::learnLens() {
             fault = fault.empty() ? "" : fit(message, cloud);
             for (const dvec3& point : cloud.points) {
                 const dvec3 p = metresPerValue_ * (fit_.opticalTcloud * point);
-                seen.add(hasPoint(p) ? p.z : 0.0);
+                seen.add(isMeasured(p) ? p.z : 0.0);
             }
         } catch (const Error& e) {
             fault = fault.empty() ? "" : e.what();
@@ -222,7 +219,7 @@ std::string CloudCamera::read(size_t index, FrameSlot& slot, double, Frame::Cont
     const double valuesPerUnit = info_.metresPerUnit / metresPerValue_;
     for (size_t i = 0; i < cloud.points.size(); ++i) {
         const dvec3 p = fit_.opticalTcloud * cloud.points[i];
-        slot.depth()[i] = hasPoint(p) ? unitsOf(p.z, valuesPerUnit, beyond) : uint16_t{0};
+        slot.depth()[i] = isMeasured(p) ? unitsOf(p.z, valuesPerUnit, beyond) : uint16_t{0};
     }
     warnBeyond(index, beyond);
     if (info_.hasColour) {

@@ -51,10 +51,6 @@ PcdCloud readCloud(const std::filesystem::path& file) {
     return ply ? readPlyCloud(file) : readPcd(file);
 }
 
-bool measured(const dvec3& p) {
-    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z) && p.z > 0.0;
-}
-
 // Rows: right, down and forward in the cloud's axes.
 glm::dmat3 axes(const dvec3& right, const dvec3& down, const dvec3& forward) {
     return glm::transpose(glm::dmat3(right, down, forward));
@@ -67,7 +63,7 @@ std::optional<FittedLens> fitAs(const PcdCloud& cloud, const glm::dmat3& optical
     size_t behind = 0;
     for (size_t i = 0; i < cloud.points.size(); ++i) {
         const dvec3 p = opticalTcloud * cloud.points[i];
-        if (measured(p)) {
+        if (isMeasured(p)) {
             const double x = fan ? std::atan2(p.x, p.z) : p.x / p.z;
             const double y = fan ? std::atan2(p.y, std::hypot(p.x, p.z)) : p.y / p.z;
             // Relative to the centre, for precision of the sums.
@@ -219,7 +215,7 @@ void PcdCamera::scalePoints(const FittedLens& fit, const SourceOptions& options)
     ValueSpan seen;
     for (dvec3& p : cloud_.points) {
         p = fit.opticalTcloud * p * options.scale.value_or(1.0);
-        seen.add(measured(p) ? p.z : 0.0);
+        seen.add(isMeasured(p) ? p.z : 0.0);
     }
     if (const std::string warning = metresWarning(file_.string(), seen.nearest); !warning.empty()) {
         warnings_.push_back(warning);
@@ -247,7 +243,7 @@ std::optional<Frame> PcdCamera::next() {
     uint64_t beyond = 0;
     for (size_t i = 0; i < cloud_.points.size(); ++i) {
         const dvec3& p = cloud_.points[i];
-        depth[i] = measured(p) ? unitsOf(p.z, info_.metresPerUnit, beyond) : uint16_t{0};
+        depth[i] = isMeasured(p) ? unitsOf(p.z, info_.metresPerUnit, beyond) : uint16_t{0};
     }
     if (const double limit = 65535.0 * info_.metresPerUnit; beyond > 0 && limit < farthest_) {
         log::warn("{}: points beyond {:.4g} m count as not measured: {}", file_.string(), limit, beyond);

@@ -5,6 +5,7 @@
 
 #include "engine/types/pose.h"
 
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <span>
@@ -21,6 +22,11 @@ struct PcdCloud {
     std::string uncoloured = {};  // why `colour` is empty, where the file's kind says more
     bool posed = false;           // the file states a pose of its sensor, which is not read
 };
+
+// p: in the camera's optical axes.
+inline bool isMeasured(const dvec3& p) noexcept {
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z) && p.z > 0.0;
+}
 
 // Throws BadInput naming the file and the header's line, also for a cloud that is not organised (height 1).
 PcdCloud readPcd(const std::filesystem::path& file);
