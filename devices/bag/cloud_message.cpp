@@ -34,11 +34,6 @@ void mendRows(Cloud& cloud) {
 
 } // namespace
 
-const PcdField* Cloud::find(const std::string& name) const {
-    const auto found = std::ranges::find(fields, name, &PcdField::name);
-    return found == fields.end() ? nullptr : &*found;
-}
-
 std::vector<PcdField> Cloud::insideFields() const {
     std::vector<PcdField> inside = fields;
     std::erase_if(inside, [&](const PcdField& f) {
@@ -99,7 +94,7 @@ std::string whyNoDepth(const Cloud& cloud) {
                " points (allowed: at most 3840x2160)";
     }
     for (const char* name : {"x", "y", "z"}) {
-        const PcdField* field = cloud.find(name);
+        const PcdField* field = fieldNamed(cloud.fields, name);
         const bool real = field != nullptr && field->type == 'F';
         if (!real || field->offset + field->size > cloud.pointStep) {
             return std::string("field ") + name +
@@ -120,7 +115,8 @@ std::string whyNoDepth(const Cloud& cloud) {
 
 PcdCloud pointsOf(const Cloud& cloud, double& largest) {
     PcdCloud out{cloud.width, cloud.height, {}, {}, {}, {}};
-    const PcdField *x = cloud.find("x"), *y = cloud.find("y"), *z = cloud.find("z");
+    const PcdField *x = fieldNamed(cloud.fields, "x"), *y = fieldNamed(cloud.fields, "y"),
+                   *z = fieldNamed(cloud.fields, "z");
     out.points.reserve(size_t{cloud.width} * cloud.height);
     for (uint32_t v = 0; v < cloud.height; ++v) {
         const uint8_t* point = cloud.data.data() + size_t{v} * cloud.rowStep;

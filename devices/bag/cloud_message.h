@@ -24,7 +24,6 @@ struct Cloud {
     std::shared_ptr<const void> memory; // as MessageCursor::memory()
     std::string stepFault;              // what was stated of rows that have no gaps; empty = nothing wrong
 
-    const PcdField* find(const std::string& name) const;
     // Those that lie inside of a point.
     std::vector<PcdField> insideFields() const;
     // "640x480 points of x y z rgb, frame 'camera'".

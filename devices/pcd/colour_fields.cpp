@@ -11,11 +11,6 @@ namespace fathom {
 
 namespace {
 
-const PcdField* fieldNamed(std::span<const PcdField> fields, std::string_view name) {
-    const auto found = std::ranges::find(fields, name, &PcdField::name);
-    return found == fields.end() ? nullptr : &*found;
-}
-
 // use(point) in order of rows.
 template <class Use>
 void eachPoint(const PointRows& points, Use&& use) {

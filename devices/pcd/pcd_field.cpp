@@ -18,6 +18,11 @@ double valueAs(const uint8_t* from) {
 
 } // namespace
 
+const PcdField* fieldNamed(std::span<const PcdField> fields, std::string_view name) {
+    const auto found = std::ranges::find(fields, name, &PcdField::name);
+    return found == fields.end() ? nullptr : &*found;
+}
+
 bool PcdField::isNumber() const {
     return type == 'F' ? size == 4 || size == 8 : size == 1 || size == 2 || size == 4;
 }

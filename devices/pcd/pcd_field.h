@@ -4,7 +4,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
+#include <string_view>
 
 namespace fathom {
 
@@ -19,5 +21,8 @@ struct PcdField {
     // One of its `count` values. point: the first byte of a point that has the whole field.
     double at(const uint8_t* point, size_t value = 0, bool bigEndian = false) const;
 };
+
+// The first one of that name, or null.
+const PcdField* fieldNamed(std::span<const PcdField> fields, std::string_view name);
 
 } // namespace fathom

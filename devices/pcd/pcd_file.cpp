@@ -214,20 +214,15 @@ std::vector<uint8_t> readPoints(Source& source, const Header& header) {
     return {begin, begin + static_cast<long>(wanted)};
 }
 
-const PcdField* find(const Header& header, const char* name) {
-    const auto it = std::find_if(header.fields.begin(), header.fields.end(),
-                                 [&](const PcdField& f) { return f.name == name; });
-    return it == header.fields.end() ? nullptr : &*it;
-}
-
 } // namespace
 
 PcdCloud readPcd(const std::filesystem::path& file) {
     const std::string text = readWholeFile(file, kMaxBytes, "an organised PCD file");
     Source source{file.string(), {text.begin(), text.end()}, 0};
     const Header header = readHeader(source);
-    const PcdField *x = find(header, "x"), *y = find(header, "y"), *z = find(header, "z");
-    const PcdField* intensity = find(header, "intensity");
+    const PcdField *x = fieldNamed(header.fields, "x"), *y = fieldNamed(header.fields, "y"),
+                   *z = fieldNamed(header.fields, "z");
+    const PcdField* intensity = fieldNamed(header.fields, "intensity");
     for (const PcdField* field : {x, y, z}) {
         if (field == nullptr || field->type != 'F' || !field->isNumber()) {
             source.refuse("FIELDS", field == nullptr ? "no x, y, z" : field->name,
