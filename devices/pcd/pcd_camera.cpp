@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <glm/matrix.hpp>
 
 namespace fathom {
@@ -43,10 +42,7 @@ struct Line {
 };
 
 PcdCloud readCloud(const std::filesystem::path& file) {
-    std::string begin(4, ' '); // "ply" and the end of its line
-    if (isRegularFile(file)) {
-        std::ifstream(file, std::ios::binary).read(begin.data(), static_cast<std::streamsize>(begin.size()));
-    }
+    const std::string begin = firstBytes(file, 4); // "ply" and the end of its line
     const bool ply = begin == "ply\n" || begin == "ply\r" || file.extension() == ".ply";
     return ply ? readPlyCloud(file) : readPcd(file);
 }
