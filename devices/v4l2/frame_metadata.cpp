@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/v4l2/frame_metadata.h"
 
+#include "devices/v4l2/little_endian.h"
+
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
@@ -22,10 +24,6 @@ int control(int descriptor, unsigned long request, void* argument) {
         result = ::ioctl(descriptor, request, argument);
     } while (result < 0 && errno == EINTR);
     return result;
-}
-
-uint32_t wordAt(std::span<const uint8_t> bytes, size_t at) {
-    return bytes[at] | bytes[at + 1] << 8 | bytes[at + 2] << 16 | static_cast<uint32_t>(bytes[at + 3]) << 24;
 }
 
 v4l2_buffer metadataBuffer(uint32_t index) {
@@ -72,14 +70,14 @@ std::optional<double> pipeLatencyOf(std::span<const uint8_t> buffer) {
         return std::nullopt;
     }
     while (at + 8 <= end) {
-        const size_t size = wordAt(buffer, at + 4);
+        const size_t size = littleEndianWord(buffer, at + 4);
         if (size < 8 || size > end - at) {
             return std::nullopt;
         }
-        if (wordAt(buffer, at) == kTiming && size >= kCaptureTiming) {
-            const uint32_t micros = wordAt(buffer, at + 36);
+        if (littleEndianWord(buffer, at) == kTiming && size >= kCaptureTiming) {
+            const uint32_t micros = littleEndianWord(buffer, at + 36);
             const bool reported =
-                (wordAt(buffer, at + 12) & kHasLatency) != 0 && micros > 0 && micros < 1000000;
+                (littleEndianWord(buffer, at + 12) & kHasLatency) != 0 && micros > 0 && micros < 1000000;
             return reported ? std::optional(1e-6 * micros) : std::nullopt;
         }
         at += size;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/v4l2/realsense_control.h"
 
+#include "devices/v4l2/little_endian.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
 
@@ -23,10 +24,6 @@ void store(std::span<uint8_t> at, uint32_t value) {
     }
 }
 
-uint32_t word(std::span<const uint8_t> bytes, size_t at) {
-    return bytes[at] | bytes[at + 1] << 8 | bytes[at + 2] << 16 | static_cast<uint32_t>(bytes[at + 3]) << 24;
-}
-
 } // namespace
 
 std::optional<Mailbox> Mailbox::find(const VideoNode& depth) {
@@ -47,7 +44,7 @@ std::vector<uint8_t> Mailbox::ask(uint32_t command, uint32_t parameter) const {
     store(bytes.subspan(8, 4), parameter);
     unit_.set(kMailbox, request);
     const std::vector<uint8_t> reply = unit_.get(kMailbox, kBytes);
-    const uint32_t echo = word(reply, 0), size = word(reply, kSizeAt);
+    const uint32_t echo = littleEndianWord(reply, 0), size = littleEndianWord(reply, kSizeAt);
     if (echo != command || size > kMaxData) {
         throw Error("RealSense command " + std::to_string(command) + ": " +
                     (static_cast<int32_t>(echo) < 0
@@ -65,7 +62,7 @@ double Mailbox::depthUnit() const {
     constexpr double kDefault = 0.001;
     try {
         const std::vector<uint8_t> control = ask(kGetAdvanced, kDepthControl);
-        const double unit = control.size() >= 4 ? 1e-6 * word(control, 0) : 0.0;
+        const double unit = control.size() >= 4 ? 1e-6 * littleEndianWord(control, 0) : 0.0;
         if (unit > 0.0) {
             return unit;
         }

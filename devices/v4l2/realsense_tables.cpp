@@ -2,6 +2,7 @@
 #include "devices/v4l2/realsense_tables.h"
 
 #include "devices/v4l2/inverse_distortion.h"
+#include "devices/v4l2/little_endian.h"
 #include "engine/types/error.h"
 
 #include <algorithm>
@@ -16,12 +17,8 @@ namespace {
 
 constexpr size_t kHeader = 16;
 
-uint32_t tableWord(std::span<const uint8_t> bytes, size_t at) {
-    return bytes[at] | bytes[at + 1] << 8 | bytes[at + 2] << 16 | static_cast<uint32_t>(bytes[at + 3]) << 24;
-}
-
 double real(std::span<const uint8_t> bytes, size_t at) {
-    const uint32_t bits = tableWord(bytes, at);
+    const uint32_t bits = littleEndianWord(bytes, at);
     float value = 0.0f;
     std::memcpy(&value, &bits, sizeof value);
     return value;
@@ -34,12 +31,12 @@ std::span<const uint8_t> body(std::span<const uint8_t> table, uint32_t number, s
         throw Error(name + ": " + std::to_string(table.size()) + " bytes, " +
                     std::to_string(kHeader + least) + " make one");
     }
-    const uint32_t size = tableWord(table, 4);
-    if ((tableWord(table, 0) >> 16) != number || size < least || size > table.size() - kHeader) {
-        throw Error(name + ": its header names table " + std::to_string(tableWord(table, 0) >> 16) +
+    const uint32_t size = littleEndianWord(table, 4);
+    if ((littleEndianWord(table, 0) >> 16) != number || size < least || size > table.size() - kHeader) {
+        throw Error(name + ": its header names table " + std::to_string(littleEndianWord(table, 0) >> 16) +
                     " with " + std::to_string(size) + " bytes");
     }
-    if (crc32(table.subspan(kHeader, size)) != tableWord(table, 12)) {
+    if (crc32(table.subspan(kHeader, size)) != littleEndianWord(table, 12)) {
         throw Error(name + ": wrong checksum");
     }
     return table.subspan(kHeader, size);
@@ -165,7 +162,7 @@ Intrinsics d405Lens(Normalised k, VideoSize calibrated, VideoSize size) {
 ColourTable colourLens(std::span<const uint8_t> table, VideoSize size, ColourSensor sensor) {
     const auto bytes = body(table, kColourTable, 216);
     const Normalised k{real(bytes, 0), real(bytes, 8), real(bytes, 16), real(bytes, 20)};
-    const uint32_t both = tableWord(bytes, 128); // width, height: 16 bits each
+    const uint32_t both = littleEndianWord(bytes, 128); // width, height: 16 bits each
     const VideoSize calibrated{both & 0xffff, both >> 16};
     ColourTable colour;
     colour.lens =
