@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/bag/bag_camera.h"
 
+#include "devices/bag/image_faults.h"
 #include "devices/recorded/lens_model.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
@@ -195,11 +196,7 @@ ros::Image BagCamera::imageOf(const ImageStream& stream, size_t index) {
 // Returns the fault; empty when the slot is filled.
 std::string BagCamera::read(size_t index, FrameSlot& slot, double stamp, Frame::Content& content) {
     const Image depth = imageOf(choice_.depth, index);
-    const bool alike = (depth.compressed ? depth.format : depth.encoding) == choice_.depth.encoding;
-    if (!alike || ros::sizeOf(depth) != std::pair(info().depth.width, info().depth.height)) {
-        return "size or encoding differs from the frames that are played";
-    }
-    if (const std::string other = otherFrame(choice_.depth.frame, depth.frame); !other.empty()) {
+    if (const std::string other = depthFault(choice_.depth, depth, info()); !other.empty()) {
         return choice_.depth.name + ": " + other;
     }
     if (const std::string other = changed(topicOf(choice_.depth).messages[index].time); !other.empty()) {
@@ -221,14 +218,10 @@ std::string BagCamera::readColour(size_t depthIndex, double stamp, FrameSlot& sl
         return "no colour frame within " + std::to_string(tolerance_) + " s";
     }
     const Image colour = imageOf(*choice_.colour, *pair);
-    if (ros::sizeOf(colour) != std::pair(info().colour.width, info().colour.height)) {
-        return "colour size differs from its camera_info";
-    }
-    if (const std::string other = otherFrame(choice_.colour->frame, colour.frame); !other.empty()) {
+    if (const std::string other = colourFault(*choice_.colour, colour, info()); !other.empty()) {
         return choice_.colour->name + ": " + other;
     }
-    return ros::colourFormat(colour) == info().colourFormat ? ros::colourRows(colour, slot.colour(), raw)
-                                                            : "colour encoding differs from the first image";
+    return ros::colourRows(colour, slot.colour(), raw);
 }
 
 } // namespace fathom

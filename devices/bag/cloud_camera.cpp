@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/bag/cloud_camera.h"
 
-#include "devices/bag/image_stream.h"
+#include "devices/bag/image_faults.h"
 #include "devices/bag/topic_words.h"
 #include "devices/images/metre_units.h"
 #include "devices/pcd/colour_fields.h"

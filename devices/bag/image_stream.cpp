@@ -266,12 +266,6 @@ bool mayBeDepth(const ImageStream& stream) {
     return stream.content == ros::Content::Depth && stream.role != NamedRole::Infrared && named;
 }
 
-std::string otherFrame(const std::string& first, const std::string& now) {
-    return first == now || first.empty() || now.empty()
-               ? ""
-               : "its frame is '" + now + "', that of the first one '" + first + "'";
-}
-
 std::vector<ImageStream> imageStreams(MessageFile& file, const std::string& info) {
     std::vector<ImageStream> streams;
     for (size_t i = 0; i < file.topics().size(); ++i) {

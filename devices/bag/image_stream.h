@@ -39,10 +39,6 @@ struct ImageStream {
 // 16 bits send: it is depth only under a name that says so.
 bool mayBeDepth(const ImageStream& stream);
 
-// Why a message is of another camera than the first one of its topic, by the frames in their headers; empty =
-// it is not, or a header names none.
-std::string otherFrame(const std::string& first, const std::string& now);
-
 // Every topic of sensor_msgs/Image or CompressedImage that has messages, by the first of five messages that
 // can be read and has a lens. The lens comes likewise from the camera_info next to the images, or
 // from the topic `info` if it is not empty: of depth, and of others without such a camera_info.

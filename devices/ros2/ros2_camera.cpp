@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/ros2/ros2_camera.h"
 
+#include "devices/bag/image_faults.h"
 #include "engine/types/clock.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
@@ -73,11 +74,7 @@ void Ros2Camera::receive() {
 
 std::string Ros2Camera::fillDepth(const RawMessage& message, FrameSlot& slot) {
     const ros::Image image = imageOf(choice_.depth, message);
-    const bool alike = (image.compressed ? image.format : image.encoding) == choice_.depth.encoding;
-    if (!alike || ros::sizeOf(image) != std::pair(info().depth.width, info().depth.height)) {
-        return "size or encoding differs from the first image";
-    }
-    if (const std::string other = otherFrame(choice_.depth.frame, image.frame); !other.empty()) {
+    if (const std::string other = depthFault(choice_.depth, image, info()); !other.empty()) {
         return other;
     }
     uint64_t beyond = 0;
@@ -94,14 +91,8 @@ std::string Ros2Camera::fillDepth(const RawMessage& message, FrameSlot& slot) {
 
 std::string Ros2Camera::fillColour(const RawMessage& message, FrameSlot& slot, RawColour& raw) {
     const ros::Image image = imageOf(*choice_.colour, message);
-    if (ros::sizeOf(image) != std::pair(info().colour.width, info().colour.height)) {
-        return "size differs from its camera_info";
-    }
-    if (const std::string other = otherFrame(choice_.colour->frame, image.frame); !other.empty()) {
-        return other;
-    }
-    return ros::colourFormat(image) == info().colourFormat ? ros::colourRows(image, slot.colour(), raw)
-                                                           : "encoding differs from the first image";
+    const std::string other = colourFault(*choice_.colour, image, info());
+    return other.empty() ? ros::colourRows(image, slot.colour(), raw) : other;
 }
 
 // Returns the fault; empty when the slot is filled.
