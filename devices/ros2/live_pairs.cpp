@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/ros2/live_pairs.h"
 
+#include "devices/nearest_stamp.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -40,12 +42,7 @@ double LivePairs::within() const {
 }
 
 const LiveImage* LivePairs::nearest(double stamp) const {
-    const LiveImage* best = nullptr;
-    for (const LiveImage& image : colour_) {
-        if (best == nullptr || std::abs(image.stamp - stamp) < std::abs(best->stamp - stamp)) {
-            best = &image;
-        }
-    }
+    const LiveImage* best = nearestStamp(colour_, stamp);
     return best != nullptr && std::abs(best->stamp - stamp) <= within() ? best : nullptr;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/v4l2/frame_pairing.h"
 
+#include "devices/nearest_stamp.h"
+
 #include <cmath>
 
 namespace fathom {
@@ -42,16 +44,6 @@ void FramePairing::clear() {
     used_.clear();
 }
 
-const CapturedBuffer* FramePairing::nearest(double stamp) const {
-    const CapturedBuffer* best = nullptr;
-    for (const CapturedBuffer& one : colour_) {
-        if (best == nullptr || std::abs(one.stamp - stamp) < std::abs(best->stamp - stamp)) {
-            best = &one;
-        }
-    }
-    return best;
-}
-
 // The newest one at or before `stamp` may still be the nearest to the next depth frame.
 void FramePairing::dropColourBefore(double stamp) {
     while (colour_.size() > 1 && colour_[1].stamp <= stamp) {
@@ -68,7 +60,7 @@ std::optional<FramePairing::Pair> FramePairing::next() {
             return Pair{oldest, std::nullopt};
         }
         dropColourBefore(oldest.stamp);
-        const CapturedBuffer* best = nearest(oldest.stamp);
+        const CapturedBuffer* best = nearestStamp(colour_, oldest.stamp);
         const double distance = best == nullptr ? INFINITY : std::abs(best->stamp - oldest.stamp);
         const bool later = !colour_.empty() && colour_.back().stamp >= oldest.stamp;
         if (distance > kAtOnce * period_ && !later && depth_.size() <= kWaiting) {

@@ -44,7 +44,6 @@ public:
     void clear();
 
 private:
-    const CapturedBuffer* nearest(double stamp) const;
     void dropColourBefore(double stamp);
 
     double period_;
