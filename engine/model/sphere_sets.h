@@ -30,17 +30,15 @@ std::string namesOf(const std::vector<LinkSpheres>& sets);
 std::vector<LinkSpheres> readSpherizedUrdf(const std::filesystem::path& file, const std::string& link = "",
                                            const ReaderOptions& reader = {});
 
-// `collision_spheres: {LINK: [{center: [x, y, z], radius: r}]}`, at the top or under robot_cfg / kinematics,
-// or a list of such tables as in Lula's files; links in the file's order. `collision_sphere_buffer` next to
-// it, one distance or {LINK: d}, is added to the radii, see growSpheres(). Throws BadInput with the line.
-std::vector<LinkSpheres> readCuroboYaml(const std::filesystem::path& file);
-
 // XRDF: `geometry: {NAME: {spheres: {LINK: [...]}}}`, NAME from `collision: {geometry: NAME}` or the only
 // one; `collision: {buffer_distance: {LINK: d}}` is added to the radii, see growSpheres(). Throws
 // BadInput with the line.
 std::vector<LinkSpheres> readXrdf(const std::filesystem::path& file);
 
-// Either of these two: XRDF says `format: xrdf`.
+// XRDF if the file says `format: xrdf`. Otherwise cuRobo's `collision_spheres: {LINK: [{center: [x, y, z],
+// radius: r}]}`, at the top or under robot_cfg / kinematics, or a list of such tables as in Lula's files;
+// links in the file's order. `collision_sphere_buffer` next to it, one distance or {LINK: d}, is added to the
+// radii, see growSpheres(). Throws BadInput with the line.
 std::vector<LinkSpheres> readYamlSets(const std::filesystem::path& file);
 
 // JSON of foam: {"LINK::anything": {"spheres": [{"origin": [x, y, z], "radius": r}]}}, or one such table, or

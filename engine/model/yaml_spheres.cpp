@@ -245,10 +245,6 @@ bool isXrdf(const std::string& file, const YAML::Node& root) {
 
 } // namespace
 
-std::vector<LinkSpheres> readCuroboYaml(const std::filesystem::path& file) {
-    return curoboSets(file, loadYaml(file));
-}
-
 std::vector<LinkSpheres> readXrdf(const std::filesystem::path& file) {
     return xrdfSets(file, loadYaml(file));
 }

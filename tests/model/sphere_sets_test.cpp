@@ -73,7 +73,7 @@ TEST_CASE("cuRobo's YAML is read at the top and under its tables; disabled spher
     }
     for (const std::string& text : {spheres, nested}) {
         const testing::ScratchFile file("set.yml", text);
-        const auto sets = readCuroboYaml(file.path());
+        const auto sets = readYamlSets(file.path());
         REQUIRE(sets.size() == 2);
         CHECK(sets[0].link == "hand");
         CHECK(sets[0].spheres.size() == 1);
@@ -91,7 +91,7 @@ TEST_CASE("cuRobo's buffer, one number or one per link, is added to the radii") 
         "  collision_sphere_buffer: ";
     const auto radii = [&](const std::string& buffer) {
         const testing::ScratchFile file("set.yml", spheres + buffer);
-        const auto sets = readCuroboYaml(file.path());
+        const auto sets = readYamlSets(file.path());
         REQUIRE(sets.size() == 2);
         return glm::dvec2(sets[0].spheres[0].radius, sets[1].spheres[0].radius);
     };
@@ -157,7 +157,7 @@ TEST_CASE("An XRDF of version 2 names the geometry and buffer of the world, and 
     const testing::ScratchFile robo("set.yml",
                                     "collision_spheres: {hand: [{center: [0, 0, 0], radius: 0.01}], "
                                     "attached_object: null}\n");
-    CHECK(readCuroboYaml(robo.path()).size() == 1);
+    CHECK(readYamlSets(robo.path()).size() == 1);
 }
 
 TEST_CASE(
@@ -165,7 +165,7 @@ TEST_CASE(
     const testing::ScratchFile lula(
         "set.yaml", "api_version: 1.0\ncollision_spheres:\n  - hand:\n    - \"center\": [0, 0, 0.05]\n"
                     "      \"radius\": 0.045\n  - arm:\n    - {center: [0, 0, 0.1], radius: 0.05}\n");
-    const auto sets = readCuroboYaml(lula.path());
+    const auto sets = readYamlSets(lula.path());
     REQUIRE(sets.size() == 2);
     CHECK(sets[0].link == "hand");
     CHECK(sets[0].spheres[0].centre == dvec3(0, 0, 0.05));

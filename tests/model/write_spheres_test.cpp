@@ -75,7 +75,7 @@ TEST_CASE("Spheres of radius 0 or below grow by the buffer, and have 1 mm where 
                                           "radius: 0.02}]}\ncollision_sphere_buffer: " +
                                               buffer);
         std::vector<double> all;
-        const std::vector<LinkSpheres> sets = readCuroboYaml(file.path());
+        const std::vector<LinkSpheres> sets = readYamlSets(file.path());
         for (const Sphere& s : sets.at(0).spheres) {
             all.push_back(s.radius);
         }
