@@ -36,7 +36,7 @@ const DevicePreset* findPreset(const std::string& name); // null when there is n
 // All names, for messages.
 std::string presetNames();
 
-// All of them, in the order of the documentation.
+// All of them, in the order of the documentation; for tests.
 std::span<const DevicePreset> devicePresets();
 
 } // namespace fathom

@@ -67,7 +67,8 @@ public:
     // The hand's end of the spring was moved by `by` [m] and turned by `turn`, not by the hand.
     void shift(const dvec3& by, const dquat& turn) noexcept;
 
-    double debt() const noexcept { return debt_; }             // [J] > 0 = generated and not yet dissipated
+    // [J] > 0 = generated and not yet dissipated; for tests
+    double debt() const noexcept { return debt_; }
     double generated() const noexcept { return generated_; }   // [J] total energy generated
     double dissipated() const noexcept { return dissipated_; } // [J] total, by the controller
 

@@ -42,13 +42,13 @@ public:
     double leafPenetration(size_t leaf) const { return leaves_[leaf].worst; }
     double maxPenetration() const { return maxPenetration_; } // [m] largest depth beyond the allowance
     double maxEscapeDepth() const { return maxEscapeDepth_; } // [m] largest depth inside the allowance
-    double maxBehindDepth() const { return maxBehindDepth_; } // [m] largest depth of a leaf flagged behind
+    // [m] largest depth of a leaf flagged behind; for tests
+    double maxBehindDepth() const { return maxBehindDepth_; }
     // ticks that ended with some depth inside the allowance
     uint64_t escapeTicks() const { return escapeTicks_; }
     uint64_t behindTicks() const { return behindTicks_; } // ticks in which a leaf flagged behind touched
-    uint64_t penetrationTicks() const {
-        return penetrationTicks_;
-    }                                         // ticks that ended with some depth beyond the allowance
+    // ticks that ended with some depth beyond the allowance; for tests
+    uint64_t penetrationTicks() const { return penetrationTicks_; }
     uint64_t ticks() const { return ticks_; } // ticks with a set
 
 private:
