@@ -3,6 +3,7 @@
 
 #include "apps/output/fixtures_ply.h"
 #include "engine/types/error.h"
+#include "engine/types/output_file.h"
 
 #include <algorithm>
 #include <cctype>
@@ -13,7 +14,6 @@
 #include <string>
 #include <string_view>
 #include <sys/file.h>
-#include <sys/stat.h>
 #include <unistd.h>
 #include <utility>
 #include <vector>
@@ -32,13 +32,6 @@ std::string holderOf(int descriptor) {
     const bool digits =
         size > 0 && std::all_of(text, text + size, [](unsigned char c) { return std::isdigit(c); });
     return digits ? "process " + std::string(text) : "another process";
-}
-
-bool isNamed(int descriptor, const std::filesystem::path& file) {
-    struct stat open {
-    }, named{};
-    return ::fstat(descriptor, &open) == 0 && ::lstat(file.c_str(), &named) == 0 &&
-           open.st_dev == named.st_dev && open.st_ino == named.st_ino;
 }
 
 // A file of this name may also be the user's own.
@@ -120,7 +113,7 @@ OutputLock::OutputLock(const std::filesystem::path& folder)
             throw BadInput(folder.string(), "output folder", "in use by " + holder,
                            "a folder of its own for each run");
         }
-    } while (!isNamed(descriptor_, file_));
+    } while (!isOpenAs(descriptor_, file_));
     const std::string self = std::to_string(::getpid());
     if (::ftruncate(descriptor_, 0) != 0 || ::pwrite(descriptor_, self.data(), self.size(), 0) < 0) {
         const std::string reason = std::strerror(errno);

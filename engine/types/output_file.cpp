@@ -20,6 +20,13 @@ constexpr size_t kBufferBytes = size_t{1} << 20;
 
 } // namespace
 
+bool isOpenAs(int descriptor, const std::filesystem::path& name) noexcept {
+    struct stat open {
+    }, named{};
+    return ::fstat(descriptor, &open) == 0 && ::lstat(name.c_str(), &named) == 0 &&
+           open.st_dev == named.st_dev && open.st_ino == named.st_ino;
+}
+
 OutputFile::OutputFile(std::filesystem::path path, Replaces replaces)
     : path_(std::move(path))
     , temporary_(path_)
@@ -47,18 +54,11 @@ OutputFile::OutputFile(OutputFile&& other) noexcept
 
 OutputFile::~OutputFile() {
     if (descriptor_ >= 0) {
-        if (isMine()) {
+        if (isOpenAs(descriptor_, temporary_)) {
             ::unlink(temporary_.c_str());
         }
         ::close(descriptor_);
     }
-}
-
-bool OutputFile::isMine() const {
-    struct stat open {
-    }, named{};
-    return ::fstat(descriptor_, &open) == 0 && ::lstat(temporary_.c_str(), &named) == 0 &&
-           open.st_dev == named.st_dev && open.st_ino == named.st_ino;
 }
 
 void OutputFile::write(const void* bytes, size_t count) {
@@ -76,7 +76,7 @@ void OutputFile::write(const void* bytes, size_t count) {
 void OutputFile::commit() {
     refuseReplacing(); // also a file that was read since
     flush();
-    if (!isMine()) {
+    if (!isOpenAs(descriptor_, temporary_)) {
         ::close(std::exchange(descriptor_, -1));
         throw Error(path_.string() + ": cannot write: another program writes the same file");
     }

@@ -11,6 +11,9 @@
 
 namespace fathom {
 
+// Whether the name, links not followed, is still that of the open file.
+bool isOpenAs(int descriptor, const std::filesystem::path& name) noexcept;
+
 // Buffers at most one megabyte. One thread. Follows no link. Every failure (missing folder, no permission,
 // disk full, `path` is a folder, device or pipe, an input of this process, or written by another program)
 // throws Error that names the file. Without commit(), the destructor leaves an older file at `path`
@@ -32,7 +35,6 @@ public:
     const std::filesystem::path& path() const { return path_; }
 
 private:
-    bool isMine() const;          // the temporary name still belongs to the open file
     void refuseReplacing() const; // throws BadInput when `path` is an input and must not be
     void flush();
     void writeAll(const char* bytes, size_t count);
