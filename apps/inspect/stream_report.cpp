@@ -3,6 +3,7 @@
 
 #include "devices/bag/cloud_message.h"
 #include "engine/types/error.h"
+#include "engine/types/median.h"
 #include "engine/types/printable.h"
 
 #include <algorithm>
@@ -81,10 +82,8 @@ Rate Rate::of(const std::vector<MessageEntry>& messages) {
     const auto longest = std::max_element(gaps.begin(), gaps.end());
     rate.longestGap = *longest;
     rate.at = seconds(messages.front().time, messages[static_cast<size_t>(longest - gaps.begin())].time);
-    std::vector<double> sorted = gaps;
-    std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2),
-                     sorted.end());
-    const double median = sorted[sorted.size() / 2];
+    std::vector<double> reordered = gaps;
+    const double median = medianOf(reordered);
     rate.gaps = static_cast<size_t>(
         std::count_if(gaps.begin(), gaps.end(), [&](double g) { return g > 1.5 * median; }));
     rate.perSecond = static_cast<double>(gaps.size()) / seconds(messages.front().time, messages.back().time);

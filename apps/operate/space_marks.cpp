@@ -4,6 +4,7 @@
 #include "apps/operate/theme.h"
 #include "apps/output/silhouette.h"
 #include "engine/types/angle.h"
+#include "engine/types/median.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,8 +28,7 @@ dvec3 middleOfDepth(const Fixtures& set) {
     if (near.empty()) {
         return {0.0, 0.0, 1.0};
     }
-    std::nth_element(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(near.size() / 2), near.end());
-    return set.baseTcamera.apply({0.0, 0.0, near[near.size() / 2] * set.camera.metresPerUnit});
+    return set.baseTcamera.apply({0.0, 0.0, medianOf(near) * set.camera.metresPerUnit});
 }
 
 } // namespace

@@ -6,6 +6,7 @@
 #include "apps/profile/peers_rows.h"
 
 #include "engine/reference/surface.h"
+#include "engine/types/median.h"
 
 #include <algorithm>
 
@@ -81,13 +82,9 @@ double rmsBetween(const std::vector<A>& a, const std::vector<B>& b, const std::v
     return count > 0.0 ? std::sqrt(squares / count) : NAN;
 }
 
-double medianOf(std::vector<float> z) {
+double medianDepth(std::vector<float> z) {
     std::erase_if(z, [](float value) { return std::isnan(value); });
-    if (z.empty()) {
-        return 1.0;
-    }
-    std::nth_element(z.begin(), z.begin() + static_cast<std::ptrdiff_t>(z.size() / 2), z.end());
-    return z[z.size() / 2];
+    return z.empty() ? 1.0 : double{medianOf(z)};
 }
 
 StudyRow twinRow(const StudyContext& context, const reference::FrameView& view, const std::string& source,
@@ -133,7 +130,7 @@ void addFilter(const StudyContext& context, const FrameSequence& frames, uint32_
     row = twinRow(context, view, source, twin);
     judge(row, twin);
     // The same Gaussian as in Fathom, for a surface perpendicular to the view at the median depth.
-    const double pixels = scene.filter.sigma * frames.camera.depth.fx / medianOf(raw);
+    const double pixels = scene.filter.sigma * frames.camera.depth.fx / medianDepth(raw);
     for (const auto& way : peers::filterWays(radius, pixels, scene.filter.sigma)) {
         const auto peer = way.make();
         peer->load({frames.camera.depth, raw});

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/register/robust_fit.h"
 
+#include "engine/types/median.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -107,12 +109,7 @@ double scaleOf(Pairs pairs) {
             ratios.push_back(base / camera);
         }
     }
-    if (ratios.empty()) {
-        return 1.0;
-    }
-    const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
-    std::nth_element(ratios.begin(), middle, ratios.end());
-    return *middle;
+    return ratios.empty() ? 1.0 : medianOf(ratios);
 }
 
 std::vector<PointPair> mirrored(Pairs pairs) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/tune/still_part.h"
 
+#include "engine/types/median.h"
+
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
@@ -16,13 +18,8 @@ constexpr double kMaxGrowth = 1.5; // of the change between two frames, with the
 constexpr double kMaxNoise = 4.0;  // of depthSigma(); more comes from images that show different things
 constexpr double kFlicker = 5.0;   // [sigma] scatter of a pixel at a border
 
-double medianOf(std::vector<double>& values) {
-    if (values.empty()) {
-        return 0.0;
-    }
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
+double medianOrZero(std::vector<double>& values) {
+    return values.empty() ? 0.0 : medianOf(values);
 }
 
 double roundingSigma(const CameraInfo& camera) {
@@ -56,7 +53,7 @@ std::vector<double> termsOf(const CameraInfo& camera, std::initializer_list<cons
 double changeBetween(const CameraInfo& camera, const SampleFrame& a, const SampleFrame& b) {
     std::vector<double> changes =
         termsOf(camera, {&a, &b}, [&](size_t i) { return 1.0 * b.depth[i] - a.depth[i]; });
-    return medianOf(changes);
+    return medianOrZero(changes);
 }
 
 // Value below which a quarter of the list lies: recordings may consist of many short parts.
@@ -115,8 +112,8 @@ DepthNoise noiseWithin(const CameraInfo& camera, const SampleFrame& image) {
             }
         }
     }
-    const double sigma = kGaussianMedian * medianOf(bends) / std::sqrt(6.0) * camera.metresPerUnit;
-    return {std::max(sigma, roundingSigma(camera)), medianOf(ranges) * camera.metresPerUnit};
+    const double sigma = kGaussianMedian * medianOrZero(bends) / std::sqrt(6.0) * camera.metresPerUnit;
+    return {std::max(sigma, roundingSigma(camera)), medianOrZero(ranges) * camera.metresPerUnit};
 }
 
 DepthNoise noiseOverTime(const FrameSequence& source) {
@@ -127,7 +124,7 @@ DepthNoise noiseOverTime(const FrameSequence& source) {
         std::vector<double> bends = termsOf(source.camera, {&b, &a, &c}, [&](size_t i) {
             return a.depth[i] - 2.0 * b.depth[i] + c.depth[i];
         });
-        levels.push_back(kGaussianMedian * medianOf(bends) / std::sqrt(6.0));
+        levels.push_back(kGaussianMedian * medianOrZero(bends) / std::sqrt(6.0));
     }
     const double overTime = quarterOf(levels) * noise.range * noise.range, usual = depthSigma(noise.range);
     noise.measured = !levels.empty() && overTime <= kMaxNoise * usual;
@@ -169,13 +166,13 @@ MeanImage meanOf(const FrameSequence& source, const StillPart& part) {
             farthest = std::max(farthest, sums.mean[i]);
         }
     }
-    const double typical = medianOf(scatters), unit = source.camera.metresPerUnit;
+    const double typical = medianOrZero(scatters), unit = source.camera.metresPerUnit;
     uint32_t finer = 16; // parts of a unit, as many as 16 bits hold
     while (finer > 1 && finer * farthest > 65535.0) {
         finer /= 2;
     }
     MeanImage mean{source.camera, source.frames[part.first], {}};
-    mean.noise = {std::max(typical * unit, roundingSigma(source.camera)), medianOf(ranges) * unit};
+    mean.noise = {std::max(typical * unit, roundingSigma(source.camera)), medianOrZero(ranges) * unit};
     mean.camera.metresPerUnit = unit / finer;
     mean.camera.colourFormat = ColourFormat::Rgba;
     const double border = kFlicker * std::max(typical, 1.0);

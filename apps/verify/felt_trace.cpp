@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/verify/felt_trace.h"
 
+#include "engine/types/median.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -138,12 +140,7 @@ double FeltTrace::sawtooth(const dvec3& axis, double window) const {
         }
         spans.push_back(0.5 * (high - low));
     }
-    if (spans.empty()) {
-        return 0.0;
-    }
-    std::nth_element(spans.begin(), spans.begin() + static_cast<std::ptrdiff_t>(spans.size() / 2),
-                     spans.end());
-    return spans[spans.size() / 2];
+    return spans.empty() ? 0.0 : medianOf(spans);
 }
 
 } // namespace fathom

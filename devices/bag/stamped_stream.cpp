@@ -2,6 +2,7 @@
 #include "devices/bag/stamped_stream.h"
 
 #include "devices/bag/ros_messages.h"
+#include "engine/types/median.h"
 #include "engine/types/number_text.h"
 
 #include <algorithm>
@@ -17,12 +18,6 @@ constexpr size_t kTriedByStamp = 8;           // likewise, around a place found 
 
 double secondsOf(uint64_t nanoseconds) {
     return 1e-9 * static_cast<double>(nanoseconds);
-}
-
-double medianOf(std::vector<double>& values) {
-    const auto middle = values.begin() + static_cast<long>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 #include "devices/recorded/set_back.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
+#include "engine/types/median.h"
 
 #include <algorithm>
 #include <cmath>
@@ -58,9 +59,7 @@ double medianPeriod(const std::vector<IndexLine>& index) {
         }
         last = &line;
     }
-    const auto middle = gaps.begin() + static_cast<long>(gaps.size() / 2);
-    std::nth_element(gaps.begin(), middle, gaps.end());
-    return gaps.empty() ? 0.0 : *middle;
+    return gaps.empty() ? 0.0 : medianOf(gaps);
 }
 
 bool countFrames(const std::vector<IndexLine>& index) {

@@ -5,10 +5,10 @@
 #include "devices/recorded/rotation_fault.h"
 #include "devices/recorded/text_file.h"
 #include "engine/types/error.h"
+#include "engine/types/median.h"
 #include "engine/types/number_text.h"
 #include "engine/types/split_words.h"
 
-#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -129,9 +129,7 @@ std::string fastPoses(const std::vector<IndexLine>& index) {
         }
         before = &line;
     }
-    const auto middle = steps.begin() + static_cast<long>(steps.size() / 2);
-    std::nth_element(steps.begin(), middle, steps.end());
-    return !steps.empty() && *middle > kMaxStep ? first : "";
+    return !steps.empty() && medianOf(steps) > kMaxStep ? first : "";
 }
 
 } // namespace fathom

@@ -5,6 +5,7 @@
 #include "devices/recorded/recording_writer.h"
 #include "devices/simulated/sonar_scene.h"
 #include "engine/types/error.h"
+#include "engine/types/median.h"
 #include "tests/devices/recorded_folder.h"
 
 #include <algorithm>
@@ -74,8 +75,7 @@ TEST_CASE("Steel echoes louder than sand and concrete, in a frame of greys") {
     }
     const auto median = [](std::vector<uint32_t>& v) {
         REQUIRE(v.size() > 20);
-        std::nth_element(v.begin(), v.begin() + std::ssize(v) / 2, v.end());
-        return v[v.size() / 2];
+        return medianOf(v);
     };
     CHECK(median(levels[1]) > 120); // steel
     CHECK(median(levels[0]) < 40);  // sand
