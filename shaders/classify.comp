@@ -49,6 +49,7 @@ layout(std430, binding = 11) writeonly buffer Depth { uvec2 keptDepth[]; }; // u
 #include "shaders/lib/colour.glsl"
 #include "shaders/lib/depth.glsl"
 #include "shaders/lib/lens.glsl"
+#include "shaders/lib/colour_cell.glsl"
 #include "shaders/lib/lists.glsl"
 #include "shaders/lib/raw_colour.glsl"
 #include "shaders/lib/slots.glsl"
@@ -62,12 +63,11 @@ bool colourOf(vec3 p, out vec3 rgb) {
     if (q.z <= 0.0) {
         return false;
     }
-    ivec2 at = ivec2(round(projectPoint(q, params.colourLens, params.colourDistortion, colourK3(), params.colourLensDivisor)));
-    if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, ivec2(colourSize())))) {
+    ivec2 at = colourPixel(q);
+    if (isOutsideColour(at)) {
         return false;
     }
-    uvec2 cell = uvec2(at) / cellEdge();
-    float front = uintBitsToFloat(nearest[cell.y * cellsAcross() + cell.x]);
+    float front = uintBitsToFloat(nearest[cellOfColour(at)]);
     if (q.z > front * 1.02 + 0.005) {
         return false; // a nearer surface hides it from the colour camera
     }

@@ -18,6 +18,7 @@ layout(std430, binding = 3) buffer Cells { uint nearest[]; };
 #include "shaders/lib/params.glsl"
 #include "shaders/lib/depth.glsl"
 #include "shaders/lib/lens.glsl"
+#include "shaders/lib/colour_cell.glsl"
 #include "shaders/lib/transform.glsl"
 
 void main() {
@@ -33,10 +34,9 @@ void main() {
     if (p.z <= 0.0) {
         return;
     }
-    ivec2 at = ivec2(round(projectPoint(p, params.colourLens, params.colourDistortion, colourK3(), params.colourLensDivisor)));
-    if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, ivec2(colourSize())))) {
+    ivec2 at = colourPixel(p);
+    if (isOutsideColour(at)) {
         return;
     }
-    uvec2 cell = uvec2(at) / cellEdge();
-    atomicMin(nearest[cell.y * cellsAcross() + cell.x], floatBitsToUint(p.z));
+    atomicMin(nearest[cellOfColour(at)], floatBitsToUint(p.z));
 }
