@@ -26,6 +26,8 @@ layout(std430, binding = 5) readonly buffer Frozen { vec4 frozen[]; };   // slot
 layout(std430, binding = 6) readonly buffer Poses { GapPose poses[]; };
 layout(std430, binding = 7) buffer Found { uvec4 count; GapPair found[]; };
 
+#include "shaders/lib/slot_class.glsl"
+
 const float kFar = 1e18; // [m] no gap yet; its square is a float
 const uint kNoIndex = 0xffffffffu;
 
@@ -82,8 +84,7 @@ Candidate candidateOf(uint block, uint layer, uint i) {
         uint slot = block * kBlockSlots + i;
         c.slot = slot * 4u + layer;
         c.sphere = layer == kLayerHeld ? held[slot] : spheres[slot];
-        uint both = kClasses > 1u ? classes[slot >> 2] >> 8u * (slot & 3u) & 255u : 0u;
-        c.pointClass = layer == kLayerHeld ? both >> 4 : both & 15u;
+        c.pointClass = classOf(slot, layer);
         c.sphere.w = (batch.blocks.w >> c.pointClass & 1u) != 0u ? -1.0 : c.sphere.w;
     }
     c.here = vec4(inFrameOf(rows, c.sphere.xyz), c.sphere.w);

@@ -24,6 +24,8 @@ layout(std430, binding = 4) readonly buffer Classes { uint classes[]; }; // byte
 layout(std430, binding = 5) buffer Found { uvec4 counts; FoundSphere found[]; };
 layout(std430, binding = 6) writeonly buffer FoundLeaves { uint foundLeaves[]; }; // the same buffer in words
 
+#include "shaders/lib/slot_class.glsl"
+
 struct Place {
     uint sphere, pair; // in the answer, counted since it was created
 };
@@ -80,11 +82,6 @@ void listLeaves(vec4 bound) {
         }
     }
     barrier();
-}
-
-uint classOf(uint slot, uint layer) {
-    uint both = kClasses > 1u ? classes[slot >> 2] >> 8u * (slot & 3u) & 255u : 0u;
-    return layer == kLayerHeld ? both >> 4 : both & 15u;
 }
 
 void testSphere(uint slot, uint layer, uint near) {
