@@ -35,7 +35,7 @@ Diagnosis forcesOf(const StepRecord& r) {
             r.finite ? stateName(r.state) : "a number is not finite: no force",
             {{"force_n", significant(glm::length(r.wrench.force), 4)},
              {"torque_nm", significant(glm::length(r.wrench.torque), 4)},
-             {"contacts", std::to_string(r.contacts)},
+             {"contacts", std::to_string(r.contactCount)},
              {"min_gap_m", significant(r.minGap, 4)},
              {"clearance_m", significant(r.clearance, 4)},
              {"lag_m", significant(r.lag, 4)},

@@ -89,7 +89,7 @@ void ViewPublisher::step(const TickRow& row) {
     state_.guidance = r.guidance;
     state_.frame = r.frame;
     state_.generation = row.generation;
-    state_.contacts = r.contacts;
+    state_.contacts = r.contactCount;
     state_.state = static_cast<uint32_t>(r.state);
     endpoint_.send(state_);
 }

@@ -40,7 +40,7 @@ std::string handIsOff(const ArmingInput& input) {
                ": " + toTool(input);
     }
     const double turn = glm::length(rotationBetween(record.tool.rotation, record.device.rotation));
-    if (turn > kTwist && record.contacts > 0) {
+    if (turn > kTwist && record.contactCount > 0) {
         return std::string("hand is turned against the tool: ") +
                (input.haptics.clutchBit != 0 ? "hold C to re-centre" : "turn it back");
     }

@@ -54,7 +54,7 @@ json runOf(const ShownState& s) {
             {"tool", vec(r.tool.position)},
             {"force_N", glm::length(r.wrench.force)},
             {"torque_Nm", glm::length(r.wrench.torque)},
-            {"contacts", r.contacts},
+            {"contacts", r.contactCount},
             {"touches", r.touchCount},
             {"state", static_cast<int>(r.state)},
             {"guidance_w", r.guidance},

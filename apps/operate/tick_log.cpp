@@ -170,7 +170,7 @@ void writeTick(std::ostream& wrench, std::ostream& touches, double t, int64_t fr
     wrench << t;
     put(wrench, tick.wrench.force);
     put(wrench, tick.wrench.torque);
-    wrench << "," << tick.contacts << "," << static_cast<int>(tick.state) << "," << tick.guidance << ","
+    wrench << "," << tick.contactCount << "," << static_cast<int>(tick.state) << "," << tick.guidance << ","
            << tick.guidanceClass + 1 << "," << tick.sceneAge << "," << frame + 1 << "," << tick.marginPassive
            << "," << tick.marginUncoupled;
     put(wrench, tick.device);
@@ -250,7 +250,7 @@ StepRecord TickLog::recordAt(size_t i) const {
     r.arm.posture = m.arm;
     r.wrench = m.wrench;
     r.residual = m.residual;
-    r.contacts = m.contacts;
+    r.contactCount = m.contacts;
     r.state = m.state;
     r.guidance = m.guidance;
     r.guidanceClass = m.guidanceClass;

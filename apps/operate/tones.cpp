@@ -81,7 +81,7 @@ std::optional<Tone> ToneRules::step(const Console& console, const RunView& run, 
     }
     before_ = std::move(now);
     const StepRecord& record = run.step().record;
-    if (console.switches.forces && record.contacts > 0) {
+    if (console.switches.forces && record.contactCount > 0) {
         const bool newRun = record.t < contact_; // each run begins at 0
         if (newRun || record.t - contact_ > kFirst) {
             raise(Tone::Contact);

@@ -46,7 +46,7 @@ void Digest::add(const StepRecord& tick) noexcept {
         add(part->y);
         add(part->z);
     }
-    add(uint64_t{tick.contacts});
+    add(uint64_t{tick.contactCount});
     add(tick.minGap);
     add(uint64_t{static_cast<uint8_t>(tick.state)});
     add(tick.guidance);

@@ -33,7 +33,7 @@ void HapticsCsv::add(const StepRecord& tick) {
     addPose(row_, tick.tool);
     addVector(row_, tick.wrench.force);
     addVector(row_, tick.wrench.torque);
-    row_.add(int64_t{tick.contacts});
+    row_.add(int64_t{tick.contactCount});
     row_.add(tick.minGap);
     row_.add(std::string_view(stateName(tick.state)));
     row_.add(tick.guidance);

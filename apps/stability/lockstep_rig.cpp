@@ -109,7 +109,7 @@ void LockstepRig::judge(const Pose& before, const StepRecord& record) {
         audit_.tick(obeyed.set, obeyed.grid, before, record.tool, behind);
     }
     ++figures.ticks;
-    figures.contact += record.contacts > 0 ? 1 : 0;
+    figures.contact += record.contactCount > 0 ? 1 : 0;
     figures.stalled += record.stalled ? 1 : 0;
     figures.trapped += record.state == StepState::Trapped ? 1 : 0;
     figures.escape += record.state == StepState::Escape ? 1 : 0;

@@ -71,7 +71,7 @@ struct LongRun {
 void judge(const StepRecord& record, LongRun& run, Digest& digest) {
     run.norm = std::max({run.norm, std::abs(glm::length(record.tool.rotation) - 1.0),
                          std::abs(glm::length(record.device.rotation) - 1.0)});
-    run.contacts += record.contacts > 0;
+    run.contacts += record.contactCount > 0;
     run.escapes += record.state == StepState::Escape;
     run.guided += record.guidance > 0.0;
     digest.add(record);

@@ -26,7 +26,7 @@ void pressAndWatch(const LoopSpec& spec, double allowance, EnergyFigures& all) {
     LoopRig rig(spec);
     bool touched = false;
     while (rig.time() < spec.path.back().t) {
-        touched = rig.tick().contacts > 0 || touched;
+        touched = rig.tick().contactCount > 0 || touched;
         all.given = std::max(all.given, rig.energyOut());
         const double net = rig.netEnergyOut() - allowance * rig.path();
         if (touched && net > all.net) {

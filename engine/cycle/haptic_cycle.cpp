@@ -156,7 +156,7 @@ void HapticCycle::report(const Situation& situation, const ProxyStep& moved, boo
                          StepRecord& out) const noexcept {
     out.device = device_;
     out.tool = tool_;
-    out.contacts = static_cast<uint32_t>(moved.active.size()) + (moved.blocked ? 1 : 0);
+    out.contactCount = static_cast<uint32_t>(moved.active.size()) + (moved.blocked ? 1 : 0);
     out.minGap = hasSet ? moved.minGap : kNotKnown;
     out.state = stateOf(situation, moved, out.lag > kLagLength);
     out.guidance = guidance_.weight();

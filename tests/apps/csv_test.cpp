@@ -32,7 +32,7 @@ StepRecord someTick() {
     tick.device = {{1, 2, 3}, {0.5, -0.5, 0.5, -0.5}};
     tick.tool = {{4, 5, 6}, {1, 0, 0, 0}};
     tick.wrench = {{7, 8, 9}, {10, 11, 12}};
-    tick.contacts = 13;
+    tick.contactCount = 13;
     tick.minGap = 14;
     tick.state = StepState::Escape;
     tick.guidance = 0.25;
@@ -179,7 +179,7 @@ TEST_CASE("The digest of a run changes with the last bit of any column and with 
         CHECK(nudged([&](StepRecord& other) { up(other.device.rotation[part]); }));
         CHECK(nudged([&](StepRecord& other) { up(other.tool.rotation[part]); }));
     }
-    CHECK(nudged([](StepRecord& other) { ++other.contacts; }));
+    CHECK(nudged([](StepRecord& other) { ++other.contactCount; }));
     CHECK(nudged([](StepRecord& other) { ++other.frame; }));
     CHECK(nudged([](StepRecord& other) { other.stalled = false; }));
     CHECK(nudged([](StepRecord& other) { other.state = StepState::Contact; }));

@@ -184,7 +184,7 @@ TEST_CASE("Forces come on only with the hand on the tool, a fresh scene and the 
     run.row.record.device = run.row.record.tool;
     run.row.record.device.rotation = dquat(std::cos(0.25), std::sin(0.25), 0.0, 0.0); // 0.5 rad
     CHECK(why().empty()); // in free space the tool follows
-    run.row.record.contacts = 1;
+    run.row.record.contactCount = 1;
     CHECK(why() == "hand is turned against the tool: hold C to re-centre");
     run.haptics.clutchBit = 0;
     CHECK(why() == "hand is turned against the tool: turn it back");

@@ -19,7 +19,7 @@ StepRecord step(double seed, uint32_t touches) {
     StepRecord r;
     r.wrench = {dvec3(seed, -seed, 0.1), dvec3(0.01 * seed, 0.0, -1e-9)};
     r.residual = {dvec3(0.0), dvec3(0.01 * seed, 0.0, -1e-9)};
-    r.contacts = touches;
+    r.contactCount = touches;
     r.state = touches > 0 ? StepState::Contact : StepState::Free;
     r.guidance = 0.25;
     r.guidanceClass = touches > 1 ? 1 : -1;
@@ -73,7 +73,7 @@ TEST_CASE("Ticks are read back exactly, with no touch, one or eight") {
         CHECK(read.wrench.torque == wrote.wrench.torque);
         CHECK(read.residual.force == wrote.residual.force);
         CHECK(read.residual.torque == wrote.residual.torque);
-        CHECK(read.contacts == wrote.contacts);
+        CHECK(read.contactCount == wrote.contactCount);
         CHECK(read.state == wrote.state);
         CHECK(read.guidanceClass == wrote.guidanceClass);
         CHECK(read.sceneAge == wrote.sceneAge);

@@ -19,20 +19,20 @@ TEST_CASE("Tones are heard at a first contact, at a limit, for an old image and 
         const auto tone = rules.step(run.console, run.view, run.alarms);
         return tone ? toneName(*tone) : "";
     };
-    run.row.record.contacts = 1;
+    run.row.record.contactCount = 1;
     CHECK(heard() == ""); // forces are off
     run.console.switches.forces = true;
     CHECK(heard() == "contact");
     CHECK(heard() == "");
-    run.row.record.contacts = 0;
+    run.row.record.contactCount = 0;
     run.row.record.t += 0.5;
     CHECK(heard() == "");
-    run.row.record.contacts = 1;
+    run.row.record.contactCount = 1;
     CHECK(heard() == ""); // half a second without contact
-    run.row.record.contacts = 0;
+    run.row.record.contactCount = 0;
     run.row.record.t += 1.1;
     CHECK(heard() == "");
-    run.row.record.contacts = 1;
+    run.row.record.contactCount = 1;
     run.row.record.wrench.force = {run.haptics.forceLimit, 0.0, 0.0};
     CHECK(heard() == "limit"); // and a contact
     CHECK(heard() == "");
@@ -53,7 +53,7 @@ TEST_CASE("In a new run, whose time begins at 0, old alarms end and a first cont
     ViewedRun run;
     ToneRules rules;
     run.console.switches.forces = run.console.switches.frozen = true;
-    run.row.record.contacts = 1;
+    run.row.record.contactCount = 1;
     run.row.record.t = 100.0;
     run.row.record.wrench.force = {run.haptics.forceLimit, 0.0, 0.0};
     run.step();

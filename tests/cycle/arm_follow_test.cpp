@@ -51,7 +51,7 @@ TEST_CASE("Without contact an arm at the limits of its joints is free, and one t
         const double step = i < 700 ? 0.0003 : 0.0;
         follow.hand.position.y -= i == 100 ? 0.05 : step; // no joint follows such a jump at once
         const StepRecord record = follow.step();
-        REQUIRE(record.contacts == 0);
+        REQUIRE(record.contactCount == 0);
         CHECK(record.state != StepState::Contact);
         const bool pushes = (record.cause & cause::kJoint) != 0 && forceOf(record) > 0.0;
         CHECK((!pushes || record.state == StepState::Free));

@@ -56,7 +56,7 @@ TEST_CASE("With answers up to 20 ms late a hand of 0.5 m/s never waits, and feel
             now.hand = delayed.hand = slidingHand(0.001 * i, 0.5);
             const StepRecord a = now.step(), b = delayed.step();
             waits += b.stalled || b.state == StepState::Waiting ? 1 : 0;
-            contacts += b.contacts > 0 ? 1 : 0;
+            contacts += b.contactCount > 0 ? 1 : 0;
             apart = std::max(apart, glm::distance(a.wrench.force, b.wrench.force));
             CHECK(delayed.gap() >= 0.0);
         }
@@ -81,7 +81,7 @@ TEST_CASE("With answers 50 and 100 ms late or lost at random there is no force w
                 const double force = forceOf(record);
                 CHECK(rig.gap() >= 0.0);
                 const bool free =
-                    record.contacts == 0 && (record.cause & (cause::kRow | cause::kDamping)) == 0;
+                    record.contactCount == 0 && (record.cause & (cause::kRow | cause::kDamping)) == 0;
                 CHECK((!free || force <= 0.05 || force < before));
                 before = force;
             }

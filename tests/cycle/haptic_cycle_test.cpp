@@ -26,7 +26,7 @@ TEST_CASE("Until the first contact set the tool is held, the wrench is zero and 
         CHECK(forceOf(record) == 0.0);
         CHECK(record.frame == -1);
         CHECK(std::isnan(record.sceneAge));
-        CHECK(record.contacts == 0);
+        CHECK(record.contactCount == 0);
         CHECK(record.armHold);
     }
     rig.hand = at(0, 0, 0.05);
@@ -59,7 +59,7 @@ TEST_CASE("Pressed into a wall the tool stays outside and the hand feels K times
     auto rig = pressedRig();
     const auto record = rig.step();
     CHECK(record.state == StepState::Contact);
-    CHECK(record.contacts >= 1);
+    CHECK(record.contactCount >= 1);
     CHECK(rig.gap() >= 0.0);
     CHECK(rig.gap() <= 1e-6);
     CHECK(record.minGap == doctest::Approx(rig.gap()).epsilon(1e-6));

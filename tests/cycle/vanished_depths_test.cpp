@@ -48,7 +48,7 @@ TEST_CASE("An arm stays where it is when the region vanishes that it presses int
         CAPTURE(depth);
         ArmCycleRig rig;
         double y = 0.0;
-        while (rig.step().contacts == 0 && y < 0.2) {
+        while (rig.step().contactCount == 0 && y < 0.2) {
             y += 5e-5;
             rig.hand = at(0.0, y, 0.0);
         }

@@ -54,7 +54,7 @@ TEST_CASE("A haptic tick allocates nothing, with contact sets, guidance and a tr
         during += allocationCount() - before;
         REQUIRE(channels.ticks.pop(row));
         CHECK(row.query == query);
-        contacts += row.record.contacts > 0 ? 1 : 0;
+        contacts += row.record.contactCount > 0 ? 1 : 0;
         std::this_thread::sleep_for(std::chrono::microseconds(300));
     }
     CHECK(allocationCount() > beforeAny); // the counter works
