@@ -19,8 +19,8 @@ const ContactSet* HapticCycle::chooseSet(const StepInput& input, StepRecord& out
         ahead_.answered(offered->askedAt, input.time);
         return offered;
     }
-    const bool usable = input.contacts != nullptr && input.contacts->frame >= 0;
-    return usable && (!realArm_.placed || accepts(*input.contacts)) ? input.contacts : nullptr;
+    const bool usable = input.active != nullptr && input.active->frame >= 0;
+    return usable && (!realArm_.placed || accepts(*input.active)) ? input.active : nullptr;
 }
 
 bool HapticCycle::follow(const ArmFollow& status) noexcept {

@@ -50,7 +50,7 @@ struct StepInput {
     // The active set (that the previous step obeyed; null = none), and a newer one on offer. Both must
     // outlive the step. When StepRecord::adopted is true, the newer one is active from now on. A set
     // whose trust region the tool has left is not adopted: keep offering it or a newer one.
-    const ContactSet* contacts = nullptr;
+    const ContactSet* active = nullptr;
     const ContactSet* offered = nullptr;
 
     // The newest fixture set of the frame cadence.

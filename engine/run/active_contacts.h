@@ -27,7 +27,7 @@ public:
 
     // Runs one step of the cycle. The set on offer becomes active if the cycle adopts it.
     StepRecord step(HapticCycle& cycle, StepInput input) noexcept {
-        input.contacts = active_ ? &*active_ : nullptr;
+        input.active = active_ ? &*active_ : nullptr;
         input.offered = offered_ ? &*offered_ : nullptr;
         StepRecord record = cycle.step(input);
         if (record.adopted) {

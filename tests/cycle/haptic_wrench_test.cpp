@@ -223,7 +223,7 @@ TEST_CASE("A set whose trust region the tool has left is rejected and the active
     StepInput input;
     input.time = rig.time;
     input.deviceThandle = rig.hand;
-    input.contacts = rig.contacts.active();
+    input.active = rig.contacts.active();
     input.offered = &far;
     const auto record = rig.cycle->step(input);
     CHECK_FALSE(record.adopted);
@@ -254,7 +254,7 @@ TEST_CASE("The same run twice gives the same bits, and steps do not allocate") {
         StepInput input;
         input.time = rig.time;
         input.deviceThandle = rig.hand;
-        input.contacts = rig.contacts.active();
+        input.active = rig.contacts.active();
         input.guidance = rig.guidance;
         const uint64_t before = allocationCount();
         for (int i = 0; i < 200; ++i) {
