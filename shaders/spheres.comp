@@ -47,15 +47,31 @@ CellsAround cellsOfSub(ivec2 at) {
     return CellsAround(cellAt(at), cellAt(at - ivec2(4, 0)), cellAt(at - ivec2(0, 4)), cellAt(at - ivec2(4, 4)));
 }
 
+vec4 mine[16u * kLayers]; // seen spheres of the sub-patch, then held ones
+
+vec4 boundOfSub(out uint count) {
+    count = 0;
+    vec3 sum = vec3(0.0);
+    [[unroll]] for (uint k = 0; k < 16u * kLayers; ++k) {
+        sum += mine[k].w >= 0.0 ? mine[k].xyz : vec3(0.0);
+        count += mine[k].w >= 0.0 ? 1u : 0u;
+    }
+    vec3 centre = count != 0 ? sum / float(count) : vec3(0.0);
+    float radius = -1.0;
+    [[unroll]] for (uint k = 0; k < 16u * kLayers; ++k) {
+        float reach = distance(mine[k].xyz, centre) + mine[k].w;
+        radius = mine[k].w >= 0.0 ? max(radius, reach) : radius;
+    }
+    return outward(centre, radius);
+}
+
 void processSubPatch(uint sub) {
-    vec4 mine[16u * kLayers];
     uvec2 corner = pixelOfSlot(sub * 16u);
     CellsAround around = CellsAround(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
     if (kThin != 0) {
         around = cellsOfSub(ivec2(corner));
     }
     Notes notes = Notes(0, 0, uvec4(0));
-    uint count = 0;
     uvec4 rows = rowsOfMasks(sub);
     [[unroll]] for (uint p = 0; p < 16u; ++p) {
         uint mask = maskInRow(rows[p >> 2], p & 3u) & forbiddenMask();
@@ -71,18 +87,9 @@ void processSubPatch(uint sub) {
         putRadii(sub, k, vec4(mine[a].w, mine[a + 1u].w, mine[a + 2u].w, mine[a + 3u].w),
                  vec4(mine[b].w, mine[b + 1u].w, mine[b + 2u].w, mine[b + 3u].w));
     }
-    vec3 sum = vec3(0.0);
-    [[unroll]] for (uint k = 0; k < 16u * kLayers; ++k) {
-        sum += mine[k].w >= 0.0 ? mine[k].xyz : vec3(0.0);
-        count += mine[k].w >= 0.0 ? 1u : 0u;
-    }
-    vec3 centre = count != 0 ? sum / float(count) : vec3(0.0);
-    float radius = -1.0;
-    [[unroll]] for (uint k = 0; k < 16u * kLayers; ++k) {
-        float reach = distance(mine[k].xyz, centre) + mine[k].w;
-        radius = mine[k].w >= 0.0 ? max(radius, reach) : radius;
-    }
-    putBound(sub, outward(centre, radius), count, notes);
+    uint count;
+    vec4 bound = boundOfSub(count);
+    putBound(sub, bound, count, notes);
     classes[sub] = notes.classes;
     for (uint c = 0; kTree != 0 && c < kClasses; ++c) {
         uint largest = 0;

@@ -185,10 +185,7 @@ void prepareGroup(uint patchIndex, ivec2 patchAt) {
     }
 }
 
-void processPatch(uint patchIndex) {
-    uvec2 patchAt = uvec2(patchIndex % patchesAcross(), patchIndex / patchesAcross()) * 16u;
-    bool holding = (listed[patchIndex] & kPatchHolding) != 0;
-    prepareGroup(patchIndex, ivec2(patchAt));
+void handlePixels(uint patchIndex, uvec2 patchAt, bool holding) {
     for (uint i = gl_LocalInvocationID.x; i < 256u; i += gl_WorkGroupSize.x) {
         CellsAround around = CellsAround(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
         if (kThin != 0) {
@@ -209,6 +206,13 @@ void processPatch(uint patchIndex) {
         }
         patchNotes[i] = r.note;
     }
+}
+
+void processPatch(uint patchIndex) {
+    uvec2 patchAt = uvec2(patchIndex % patchesAcross(), patchIndex / patchesAcross()) * 16u;
+    bool holding = (listed[patchIndex] & kPatchHolding) != 0;
+    prepareGroup(patchIndex, ivec2(patchAt));
+    handlePixels(patchIndex, patchAt, holding);
     barrier();
     if (gl_LocalInvocationID.x == gl_WorkGroupSize.x - 1u) {
         countSubs();

@@ -124,11 +124,12 @@ inline bool isOld(double sceneAge) noexcept {
 
 // One row of haptics.csv, and further values for the window.
 struct StepRecord {
-    double t = 0.0;            // [s]
-    Pose device;               // base_T_tool that the hand commands, mapped
-    Pose tool;                 // base_T_tool of the proxy after the step
-    Wrench wrench;             // on the hand, base axes, after all limits, before projection
-    uint32_t contactCount = 0; // active rows of the last solve; one more if the exact check alone blocks the tool
+    double t = 0.0; // [s]
+    Pose device;    // base_T_tool that the hand commands, mapped
+    Pose tool;      // base_T_tool of the proxy after the step
+    Wrench wrench;  // on the hand, base axes, after all limits, before projection
+    uint32_t contactCount =
+        0; // active rows of the last solve; one more if the exact check alone blocks the tool
     double minGap = kNotKnown; // [m] over the contact set after the step; its reach when none is nearer
     StepState state = StepState::Off;
     double guidance = 0.0;       // weight: 0 off .. 1 full pull
