@@ -27,6 +27,30 @@ std::string sizeText(int width, int height) {
     return std::to_string(width) + "x" + std::to_string(height);
 }
 
+std::vector<std::string> encoderArguments(const fs::path& encoder, const fs::path& file,
+                                          const std::string& size) {
+    return {encoder.string(),
+            "-hide_banner",
+            "-loglevel",
+            "error",
+            "-y",
+            "-f",
+            "rawvideo",
+            "-pix_fmt",
+            "bgra",
+            "-s",
+            size,
+            "-r",
+            "30",
+            "-i",
+            "pipe:0",
+            "-vf",
+            "pad=ceil(iw/2)*2:ceil(ih/2)*2",
+            "-pix_fmt",
+            "yuv420p",
+            file.string()};
+}
+
 } // namespace
 
 std::optional<fs::path> findEncoder() {
@@ -46,27 +70,7 @@ VideoFile::VideoFile(const fs::path& encoder, const fs::path& file, int width, i
     : file_(file)
     , width_(width)
     , height_(height) {
-    const std::string size = sizeText(width, height);
-    std::vector<std::string> words{encoder.string(),
-                                   "-hide_banner",
-                                   "-loglevel",
-                                   "error",
-                                   "-y",
-                                   "-f",
-                                   "rawvideo",
-                                   "-pix_fmt",
-                                   "bgra",
-                                   "-s",
-                                   size,
-                                   "-r",
-                                   "30",
-                                   "-i",
-                                   "pipe:0",
-                                   "-vf",
-                                   "pad=ceil(iw/2)*2:ceil(ih/2)*2",
-                                   "-pix_fmt",
-                                   "yuv420p",
-                                   file.string()};
+    std::vector<std::string> words = encoderArguments(encoder, file, sizeText(width, height));
     std::vector<char*> argv;
     for (std::string& word : words) {
         argv.push_back(word.data());
