@@ -101,8 +101,7 @@ Pipeline::Pipeline(const Device& device, PipelineInfo info)
 Bindings::Bindings(const Device& device, const Pipeline& pipeline, const std::vector<const Buffer*>& buffers,
                    const Buffer& unused)
     : device_(&device) {
-    const std::vector<BindingKind>& kinds = pipeline.bindings();
-    const auto count = static_cast<uint32_t>(kinds.size());
+    const auto count = static_cast<uint32_t>(pipeline.bindings().size());
     if (buffers.size() != count) {
         throw Error(std::string(pipeline.name()) + " has " + std::to_string(count) + " bindings, not " +
                     std::to_string(buffers.size()));
@@ -121,7 +120,13 @@ Bindings::Bindings(const Device& device, const Pipeline& pipeline, const std::ve
     allocate.descriptorSetCount = 1;
     allocate.pSetLayouts = &layout;
     check(vkAllocateDescriptorSets(device.handle(), &allocate, &set_), "vkAllocateDescriptorSets");
+    write(pipeline, buffers, unused);
+}
 
+void Bindings::write(const Pipeline& pipeline, const std::vector<const Buffer*>& buffers,
+                     const Buffer& unused) {
+    const std::vector<BindingKind>& kinds = pipeline.bindings();
+    const auto count = static_cast<uint32_t>(kinds.size());
     std::vector<VkDescriptorBufferInfo> infos(count);
     std::vector<VkWriteDescriptorSet> writes(count, {VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET});
     views_.resize(count, VK_NULL_HANDLE);
@@ -138,7 +143,7 @@ Bindings::Bindings(const Device& device, const Pipeline& pipeline, const std::ve
         writes[b].pBufferInfo = &infos[b];
         writes[b].pTexelBufferView = &views_[b];
     }
-    vkUpdateDescriptorSets(device.handle(), count, writes.data(), 0, nullptr);
+    vkUpdateDescriptorSets(device_->handle(), count, writes.data(), 0, nullptr);
 }
 
 // Reads beyond the limit of a device are undefined.

@@ -46,6 +46,7 @@ public:
     VkDescriptorSet handle() const { return set_; }
 
 private:
+    void write(const Pipeline& pipeline, const std::vector<const Buffer*>& buffers, const Buffer& unused);
     VkBufferView viewOf(const Buffer& buffer, VkFormat format, const char* pass);
     void swap(Bindings& other) noexcept;
 
