@@ -44,6 +44,13 @@ static void drive(const double force[3], double share) {
     }
 }
 
+static int isWrench(const struct fathom_door_wrench* wrench, ssize_t size) {
+    return size == (ssize_t)sizeof *wrench && wrench->header.magic == FATHOM_DOOR_MAGIC &&
+           wrench->header.version == FATHOM_DOOR_VERSION && wrench->header.kind == FATHOM_DOOR_WRENCH &&
+           wrench->header.size == sizeof *wrench && !(wrench->flags & FATHOM_DOOR_LAST) &&
+           isfinite(wrench->force[0] + wrench->force[1] + wrench->force[2]);
+}
+
 static void exchange(int engine) {
     struct fathom_door_hand hand = {
         {FATHOM_DOOR_MAGIC, FATHOM_DOOR_VERSION, FATHOM_DOOR_HAND, sizeof hand, 0, 0, 0},
@@ -62,10 +69,7 @@ static void exchange(int engine) {
         char bytes[sizeof wrench + 1];
         while ((got = recv(engine, bytes, sizeof bytes, MSG_DONTWAIT)) > 0) {
             memcpy(&wrench, bytes, sizeof wrench);
-            if (got != (ssize_t)sizeof wrench || wrench.header.magic != FATHOM_DOOR_MAGIC ||
-                wrench.header.version != FATHOM_DOOR_VERSION || wrench.header.kind != FATHOM_DOOR_WRENCH ||
-                wrench.header.size != sizeof wrench || (wrench.flags & FATHOM_DOOR_LAST) ||
-                !isfinite(wrench.force[0] + wrench.force[1] + wrench.force[2])) {
+            if (!isWrench(&wrench, got)) {
                 return;
             }
             const uint64_t stamp = wrench.header.time_ns; /* a queued packet may be old */
