@@ -16,6 +16,7 @@ constexpr int kHandDepth = 5;   // of a finger among three and more
 constexpr size_t kFewFingers = 3;
 constexpr int kNamedDepth = 8; // of a finger on a link named as a hand, also with joints of simulators
 constexpr int kOwnWrist = 2;   // joints of a forearm that belongs to a hand
+constexpr int kArmRest = 3;    // joints of an arm behind one whose balancers or rods are tied to it
 
 // Whether the depths, in rising order, differ by at most one joint.
 bool areAlike(std::span<const int> depths) {
@@ -54,6 +55,7 @@ GripperJoints::GripperJoints(const urdf::ModelInterface& model, const std::files
             groups_[tie.root].push_back(&joint);
         }
     }
+    measureDriven(*model.getRoot(), false);
 }
 
 int GripperJoints::measure(const urdf::Link& link) {
@@ -62,6 +64,19 @@ int GripperJoints::measure(const urdf::Link& link) {
         most = std::max(most, measure(*model_.getLink(joint->child_link_name)) + moves(*joint));
     }
     return depths_[link.name] = most;
+}
+
+// Moving joints on the longest way below the link, without the passive ones of fingers: joints without limits
+// behind a tied one, as in the pads of simulated grippers.
+int GripperJoints::measureDriven(const urdf::Link& link, bool onFinger) {
+    int most = 0;
+    for (const auto& joint : link.child_joints) {
+        const bool tied = groupOf(*joint).size() > 1;
+        const bool passive = onFinger && !tied && joint->type == urdf::Joint::CONTINUOUS;
+        const int below = measureDriven(*model_.getLink(joint->child_link_name), onFinger || tied);
+        most = std::max(most, below + (moves(*joint) && !passive));
+    }
+    return driven_[link.name] = most;
 }
 
 int GripperJoints::depthThrough(const urdf::Joint& joint) const {
@@ -101,17 +116,16 @@ bool GripperJoints::branchesIntoFingers(const urdf::Link& link, int moving) cons
 }
 
 bool GripperJoints::closes(const urdf::Joint& joint, int moving, const urdf::Joint* last) const {
-    if (!moves(joint)) {
+    if (!moves(joint) || moving < 2) {
         return false;
     }
-    const bool tiedEnd =
-        moving >= 2 && groupOf(joint).size() > 1 && depthThrough(joint) <= 2 && !tiedToChain(joint);
-    const bool jaw = moving >= 2 && depthThrough(joint) == 1 && slidesLikeJaw(model_, joint, last);
-    return tiedEnd || (jaw && !turnsHand(wordsOf(model_, joint)));
+    const bool tiedEnd = groupOf(joint).size() > 1 && depthThrough(joint) <= 2 && !tiedToChain(joint);
+    const bool jaw = depthThrough(joint) == 1 && slidesLikeJaw(model_, joint, last);
+    return tiedEnd || movesFingers(joint) || (jaw && !turnsHand(wordsOf(model_, joint)));
 }
 
 bool GripperJoints::closesByName(const urdf::Joint& joint) const {
-    return moves(joint) && closesGripper(wordsOf(model_, joint), depthBelow(joint.child_link_name));
+    return moves(joint) && closesGripper(wordsOf(model_, joint), driven_.at(joint.child_link_name));
 }
 
 // The joint and those that are tied to it; empty if it follows one that cannot move.
@@ -134,6 +148,48 @@ bool GripperJoints::tiedToChain(const urdf::Joint& joint) const {
         });
     };
     return coupled || std::all_of(group.begin(), group.end(), alongAll);
+}
+
+// Whether two or more branches below it have joints that are tied to it, whatever hangs on those. An arm may
+// continue next to its balancers, or behind one of them.
+bool GripperJoints::movesFingers(const urdf::Joint& joint) const {
+    if (groupOf(joint).size() < 3) {
+        return false;
+    }
+    const urdf::Link& link = *model_.getLink(joint.child_link_name);
+    const std::string& root = roots_.at(joint.name);
+    std::vector<int> depths = tiedBelow(link, root);
+    std::sort(depths.rbegin(), depths.rend());
+    return depths.size() > 1 && depths[0] - depths[1] < kArmRest && depthBeside(link, root) < kArmRest;
+}
+
+// For each branch below the link that has joints of the root's group: its depth from the first of them, or
+// from where they part, without passive joints.
+std::vector<int> GripperJoints::tiedBelow(const urdf::Link& link, const std::string& root) const {
+    std::vector<int> all;
+    for (const auto& joint : link.child_joints) {
+        std::vector<int> below = tiedBelow(*model_.getLink(joint->child_link_name), root);
+        const auto tied = roots_.find(joint->name);
+        if (below.size() < 2 && tied != roots_.end() && tied->second == root) {
+            below = {driven_.at(joint->child_link_name) + 1};
+        }
+        all.insert(all.end(), below.begin(), below.end());
+    }
+    return all;
+}
+
+// Moving joints on the longest way below the link that begins with none of the root's group.
+int GripperJoints::depthBeside(const urdf::Link& link, const std::string& root) const {
+    int most = 0;
+    for (const auto& joint : link.child_joints) {
+        const auto tied = roots_.find(joint->name);
+        if (!moves(*joint)) {
+            most = std::max(most, depthBeside(*model_.getLink(joint->child_link_name), root));
+        } else if (tied == roots_.end() || tied->second != root) {
+            most = std::max(most, depthThrough(*joint));
+        }
+    }
+    return most;
 }
 
 bool GripperJoints::isAbove(const urdf::Joint& upper, const urdf::Joint& lower) const {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where chains end at hands whose fingers are not alike, and at frames with the name of a tool before the
-// last joints.
+// Where chains end at hands whose fingers are not alike, at joints that move several fingers, and at frames
+// with the name of a tool before the last joints.
 #include "tests/model/urdf_text.h"
 
 #include <algorithm>
@@ -71,6 +71,28 @@ std::string palmOn(const std::string& on, const std::string& palm, int joints) {
     urdf += fingerOf("flex", 5, palm);
     for (const char* finger : {"index", "middle", "ring", "little"}) {
         urdf += fingerOf(finger, joints, palm);
+    }
+    return urdf;
+}
+
+// Two fingers on `slider`, which slides on l3; each joint with its <mimic>, and `pads` joints of this kind on
+// each finger.
+std::string sliderWith(const std::string& slide, const std::string& mimicOfSlide,
+                       const std::string& mimicOfLeft, const std::string& mimicOfRight, int pads,
+                       const std::string& kind) {
+    const std::string limit = "<limit lower='-0.02' upper='0.04' velocity='1' effort='1'/>";
+    std::string urdf = ballLink("slider") + jointText(slide, "prismatic", "l3", "slider", "0 0 0.1", "1 0 0",
+                                                      limit + mimicOfSlide);
+    for (const auto& [name, mimic] : {std::pair{"left", mimicOfLeft}, {"right", mimicOfRight}}) {
+        std::string parent = name;
+        urdf += ballLink(name) +
+                jointText(parent + "_open", "revolute", "slider", name, "0 0 0.1", "0 0 1", limit + mimic);
+        for (int k = 1; k <= pads; ++k) {
+            const std::string pad = name + std::to_string(k);
+            urdf += ballLink(pad, "0.005");
+            urdf += jointText(pad + "_pad", kind, parent, pad, "0 0 0.02", k % 2 == 0 ? "0 1 0" : "1 0 0");
+            parent = pad;
+        }
     }
     return urdf;
 }
@@ -150,6 +172,37 @@ TEST_CASE("The note on a last joint that may close a gripper names the link wher
     CHECK(note(fingerOf("long", 4, "l6") + fingerOf("mid", 2, "l6") + fingerOf("short", 1, "l6")) == wanted);
     CHECK(note(fixedFingers({{"long", 4}, {"mid", 2}, {"short", 1}})) == wanted);
     CHECK(note(fingerOf("long", 4, "l6")).ends_with("set arm.tip to long_3")); // no branch
+}
+
+TEST_CASE("A joint that joints on two branches below it mimic closes a gripper, whatever hangs on those") {
+    const std::string tied = mimicText("m4", "multiplier='10'"), left = mimicText("left_open");
+    for (const int pads : {0, 1, 2, 3}) {
+        for (const char* kind : {"continuous", "revolute"}) {
+            CAPTURE(pads);
+            CHECK(endOf(armOf(3) + sliderWith("m4", "", tied, tied, pads, kind)) == "l3");
+            CHECK(endOf(armOf(3) + sliderWith("m4", left, "", left, pads, kind)) == "l3");
+        }
+    }
+    const ArmModel arm = loadUrdf(armOf(3) + sliderWith("m4", "", tied, tied, 2, "continuous"));
+    CHECK(arm.tipText == "l3 (the end of the longest chain before a gripper)");
+    CHECK(arm.count() == 3);
+}
+
+TEST_CASE("A joint named as a gripper's closes it though pads without limits hang on its fingers") {
+    const std::string left = mimicText("left_open");
+    CHECK(endOf(armOf(3) + sliderWith("gripper_slide", "", "", left, 2, "continuous")) == "l3");
+}
+
+TEST_CASE("A joint of an arm that moves balancers or rods, too, closes no gripper") {
+    const auto tied = [](const std::string& name, const std::string& on, const std::string& more = "") {
+        return ballLink(name) + jointText(name + "_joint", "revolute", on, name, "0 0.1 0", "0 1 0",
+                                          "<limit lower='-2' upper='2' velocity='1' effort='1'/>" + more);
+    };
+    const std::string back = mimicText("a3", "multiplier='-1'");
+    CHECK(endOf(armOf(6) + tied("b1", "l3", back) + tied("b2", "l3", back)) ==
+          "l6"); // with the arm next to them
+    const std::string level = tied("level", "l3", back), rest = rowOf("", {"w1", "w2", "w3"}, "level");
+    CHECK(endOf(armOf(3) + level + rest + tied("rod", "l3", back)) == "w3_link"); // with the arm behind one
 }
 
 TEST_CASE("A trunk with two arms and a head is no hand") {
