@@ -7,6 +7,8 @@
 #include "engine/types/printable.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <string_view>
 #include <vector>
 
@@ -51,10 +53,47 @@ std::string hideCapsules(const std::string& file, const std::string& text) {
     return out;
 }
 
-// Without materials and values of inertials. A text whose tags do not match stays, for the parser to reject.
-std::string withoutUnread(const std::string& text) {
+// Also of numbers that are too large for a double.
+bool isInfinite(const std::string& value) {
+    char* end = nullptr;
+    const bool infinite = std::isinf(std::strtod(value.c_str(), &end));
+    return infinite && std::string_view(end).find_first_not_of(" \t\r\n") == std::string_view::npos;
+}
+
+// A <limit> with 0 for what is not read or states nothing: an effort, an infinite or missing speed, infinite
+// ends of a joint that needs none. joint: its <joint>.
+std::string limitForParser(const std::string& file, std::string_view joint, std::string_view tag) {
+    const std::string type = xmlAttribute(joint, "type");
+    const bool needsEnds = type == "revolute" || type == "prismatic";
+    std::string out, absent = " effort='0' velocity='0'";
+    size_t copied = 0;
+    for (const std::string_view name : xmlAttributeNames(tag)) {
+        const std::string value = xmlAttribute(tag, name);
+        const bool isEnd = name == "lower" || name == "upper", infinite = isInfinite(value);
+        if (isEnd && infinite && needsEnds) {
+            throw BadInput(file, "joint " + printable(xmlAttribute(joint, "name")),
+                           "limit " + std::string(name) + "=\"" + excerpt(printable(value)) + "\"",
+                           "finite numbers; type=\"continuous\" for a joint that turns without limits");
+        }
+        if (const size_t at = absent.find(" " + std::string(name) + "='"); at != std::string::npos) {
+            absent.erase(at, name.size() + 5);
+        }
+        const size_t quote = tag.find_first_of("'\"", static_cast<size_t>(name.data() - tag.data()));
+        if (name == "effort" || ((isEnd || name == "velocity") && infinite)) {
+            out += std::string(tag.substr(copied, quote + 1 - copied)) + "0";
+            copied = std::min(tag.find(tag[quote], quote + 1), tag.size());
+        }
+    }
+    out += tag.substr(copied);
+    return out.insert(std::string_view("<limit").size(), absent);
+}
+
+// Without materials, and without values of inertials and limits that are not read. A text whose tags do not
+// match stays, for the parser to reject.
+std::string withoutUnread(const std::string& text, const std::string& file) {
     std::string out;
     out.reserve(text.size());
+    std::string_view joint;             // the last <joint> of the robot
     std::vector<std::string_view> open; // elements around the piece
     size_t inside = 0;                  // their number within the element that is left out; 0 = none is
     for (XmlPieces pieces(text); pieces.next();) {
@@ -72,8 +111,10 @@ std::string withoutUnread(const std::string& text) {
             inside = open.size() + 1;
             out += piece.name == "inertial" ? kInertial : "";
         }
+        joint = opens && piece.name == "joint" && open.size() == 1 ? piece.text : joint;
+        const bool limit = piece.name == "limit" && !piece.closes && open.size() == 2 && open[1] == "joint";
         if (inside == 0) {
-            out += piece.text;
+            out += limit ? limitForParser(file, joint, piece.text) : std::string(piece.text);
         } else if (tag && !opens && open.size() < inside) {
             inside = 0;
         }
@@ -126,7 +167,7 @@ std::string withNormalisedTags(const std::string& text) {
 }
 
 std::string textForParser(const std::string& text, const std::string& file) {
-    const std::string read = withoutUnread(text);
+    const std::string read = withoutUnread(text, file);
     return read.find("<capsule") == std::string::npos ? read : hideCapsules(file, read);
 }
 

@@ -3,6 +3,7 @@
 #include "engine/model/arm_warnings.h"
 #include "tests/model/urdf_text.h"
 
+#include <cmath>
 #include <doctest/doctest.h>
 
 using namespace fathom;
@@ -55,8 +56,8 @@ TEST_CASE(
     const std::string limit = "<limit lower='-1' upper='1' velocity='1' effort='1'/>";
     for (const std::string& text : {joint("0 0 nan", limit), joint("0 0", limit),
                                     joint("0 0 1", "<limit lower='-1,5' upper='1' velocity='1' effort='1'/>"),
-                                    joint("0 0 1", "<limit lower='-1' upper='1' velocity='1'/>"),
-                                    joint("0 0 1", "<limit lower='-1' upper='1' effort='1'/>"),
+                                    joint("0 0 1", "<limit lower='-1' upper='1' velocity='x' effort='1'/>"),
+                                    joint("0 0 1", "<limit lower='-1' upper='1' velocity='nan'/>"),
                                     joint("0 0 1", limit + mimicText("a", "multiplier='x'"))}) {
         CHECK(reportsOnly(urdfRefusal(text), "oint [elbow]"));
     }
@@ -156,4 +157,47 @@ TEST_CASE("A negative speed counts as none, with a note that states it") {
     CHECK(arm.joints[0].speed == kUnknownTurn);
     CHECK(arm.notes ==
           std::vector<std::string>{"joint j: the file states a speed of -2, which counts as none"});
+}
+
+TEST_CASE("Values of a limit that are not read, infinite speeds and missing ones do not reject a URDF") {
+    const auto jointOf = [](const std::string& type, const std::string& limit) {
+        return loadUrdf(ballLink("a") + ballLink("b") +
+                        jointText("j", type, "a", "b", "0 0 0", "0 0 1", "<limit " + limit + "/>"));
+    };
+    for (const char* limit :
+         {"lower='-inf' upper='inf' effort='inf' velocity='inf'", "lower='-inf' upper='inf'",
+          "lower=' -Infinity ' upper=\"+INF\" effort='1' velocity='1e999'", ""}) {
+        const ArmModel arm = jointOf("continuous", limit); // the first one as Isaac Sim exports it
+        CAPTURE(limit);
+        CHECK(std::isinf(arm.joints[0].upper));
+        CHECK(arm.joints[0].speed == kUnknownTurn);
+        CHECK(arm.joints[0].speedFrom == kDefaultSpeedSource);
+        CHECK(arm.notes.empty());
+    }
+    for (const char* effort : {"", " effort='inf'", " effort='strong'"}) {
+        const ArmModel arm = jointOf("revolute", std::string("lower='-1' upper='2' velocity='0.5'") + effort);
+        CAPTURE(effort);
+        CHECK(arm.joints[0].lower == -1.0);
+        CHECK(arm.joints[0].upper == 2.0);
+        CHECK(arm.joints[0].speed == 0.5);
+    }
+    const ArmModel slide = jointOf("prismatic", "lower='0' upper='2' effort='inf' velocity='inf'");
+    CHECK(slide.joints[0].upper == 2.0);
+    CHECK(slide.joints[0].speed == kUnknownSlide);
+    CHECK(slide.joints[0].speedFrom == kDefaultSpeedSource);
+    CHECK(urdfRefusal(withLimit("<limit lower='-1' upper='1' velocity='1' effort='1'/>") + ballLink("c") +
+                      jointText("f", "fixed", "b", "c", "0 0 0", "0 0 1",
+                                "<limit lower='-inf' upper='inf'/>")) == "");
+}
+
+TEST_CASE(
+    "An infinite limit of a joint that needs finite ones is rejected with the joint and what is allowed") {
+    const std::string allowed =
+        " (allowed: finite numbers; type=\"continuous\" for a joint that turns without limits)";
+    CHECK(saysOnly(urdfRefusal(withLimit("<limit lower='-inf' upper='1' velocity='1' effort='1'/>")),
+                   "joint j: limit lower=\"-inf\"" + allowed));
+    CHECK(saysOnly(urdfRefusal(ballLink("a") + ballLink("b") +
+                               jointText("rail", "prismatic", "a", "b", "0 0 0", "0 0 1",
+                                         "<limit velocity='inf' lower='0' upper='Infinity'/>")),
+                   "joint rail: limit upper=\"Infinity\"" + allowed));
 }
