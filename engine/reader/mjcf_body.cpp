@@ -60,7 +60,8 @@ void MjcfBodies::readEqualities() {
     for (auto* all = root_.FirstChildElement("equality"); all != nullptr;
          all = all->NextSiblingElement("equality")) {
         for (auto* joint = all->FirstChildElement(); joint != nullptr; joint = joint->NextSiblingElement()) {
-            if (stated(*joint, "active") == "false") {
+            const char* const active = classes_.find(*joint, "", "active");
+            if (active != nullptr && std::string(active) == "false") {
                 continue;
             }
             if (std::string(joint->Name()) != "joint") {

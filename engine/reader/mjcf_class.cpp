@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <sstream>
+#include <string_view>
 
 namespace fathom {
 
@@ -14,6 +15,13 @@ constexpr const char* kMainClass = "main";
 std::string attribute(const tinyxml2::XMLElement& element, const char* name) {
     const char* const text = element.Attribute(name);
     return text != nullptr ? text : "";
+}
+
+// The element of a class that states the defaults of the element.
+const char* kindOf(const tinyxml2::XMLElement& element) {
+    const tinyxml2::XMLElement* const holder = element.Parent()->ToElement();
+    const bool equality = holder != nullptr && std::string_view(holder->Name()) == "equality";
+    return equality ? holder->Name() : element.Name();
 }
 
 } // namespace
@@ -70,7 +78,7 @@ const char* MjcfClasses::find(const tinyxml2::XMLElement& element, const std::st
         if (known == classes_.end()) {
             return nullptr;
         }
-        const auto stated = known->second.elements.find(element.Name());
+        const auto stated = known->second.elements.find(kindOf(element));
         if (stated != known->second.elements.end()) {
             for (auto last = stated->second.rbegin(); last != stated->second.rend(); ++last) {
                 if (const char* const text = (*last)->Attribute(name)) {

@@ -27,7 +27,8 @@ public:
     MjcfClasses(const std::string& file, const tinyxml2::XMLElement& root);
 
     // An attribute of the element, else of its class (attribute `class`, else childClass), else of the
-    // classes above that. Null when none states it. childClass: empty = the main class.
+    // classes above that. Null when none states it. childClass: empty = the main class. A class states those
+    // of all equalities in its <equality>.
     const char* find(const tinyxml2::XMLElement& element, const std::string& childClass,
                      const char* name) const;
 

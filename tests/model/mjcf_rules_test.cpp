@@ -35,6 +35,34 @@ TEST_CASE("Constraints of an MJCF that are not read, as of closed loops, are rep
     }));
 }
 
+TEST_CASE("An equality that its class switches off is not followed, unless it is active itself") {
+    const auto with = [](const std::string& classes, const std::string& own) {
+        return loadMjcf("<default>" + classes + "</default><equality><joint joint1='k' joint2='j' " + own +
+                        "/><weld body1='a' body2='b' " + own + "/></equality><worldbody><body name='a'>" +
+                        mjcfBall() + "<body name='b'><joint name='j' range='-90 90'/>" + mjcfBall() +
+                        "<body name='c'><joint name='k' range='-90 90'/>" + mjcfBall() +
+                        "</body></body></body></worldbody>");
+    };
+    const auto follows = [&](const std::string& classes, const std::string& own) {
+        const ArmModel arm = with(classes, own);
+        const bool noted = std::any_of(arm.notes.begin(), arm.notes.end(), [](const std::string& note) {
+            return note.find("equalities that are no <joint>") != std::string::npos;
+        });
+        CHECK(noted == arm.joints.at(1).mimic.has_value()); // the weld is not read
+        return noted;
+    };
+    const std::string off = "<equality active='false'/>",
+                      inner = "<default class='off'>" + off + "</default>";
+    CHECK_FALSE(follows(off, ""));
+    CHECK_FALSE(follows(inner, "class='off'"));
+    CHECK_FALSE(follows(off + "<default class='in'/>", "class='in'"));
+    CHECK(follows(off, "active='true'"));
+    CHECK(follows(inner, ""));
+    CHECK(follows("<joint active='false'/>", "")); // of joints, not of equalities
+    CHECK(mjcfRefusal("<equality><weld class='none'/></equality>").find("<weld>: class 'none' (allowed: ") !=
+          std::string::npos);
+}
+
 TEST_CASE("A turn that an element states itself, in any form, replaces the quat of its class") {
     const std::string classes = "<default><geom quat='0 1 0 0' type='capsule' size='0.01 0.1'/></default>";
     const auto top = [&](const std::string& turn) { // highest point of the capsule
