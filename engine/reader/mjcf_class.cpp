@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <optional>
 #include <sstream>
 #include <string_view>
 
@@ -22,6 +23,20 @@ const char* kindOf(const tinyxml2::XMLElement& element) {
     const tinyxml2::XMLElement* const holder = element.Parent()->ToElement();
     const bool equality = holder != nullptr && std::string_view(holder->Name()) == "equality";
     return equality ? holder->Name() : element.Name();
+}
+
+// Nothing if there are more than `most`, or a word is no finite number.
+std::optional<std::vector<double>> numbersIn(const char* text, size_t most) {
+    std::vector<double> all;
+    std::istringstream words(text);
+    for (std::string word; words >> word;) {
+        char* end = nullptr;
+        all.push_back(std::strtod(word.c_str(), &end));
+        if (*end != '\0' || !std::isfinite(all.back()) || all.size() > most) {
+            return std::nullopt;
+        }
+    }
+    return all;
 }
 
 } // namespace
@@ -65,9 +80,20 @@ void MjcfClasses::read(const tinyxml2::XMLElement& element, const std::string& a
 
 const char* MjcfClasses::find(const tinyxml2::XMLElement& element, const std::string& childClass,
                               const char* name) const {
-    if (const char* const own = element.Attribute(name)) {
-        return own;
-    }
+    const auto texts = statedBy(element, childClass, name);
+    return texts.empty() ? nullptr : texts[0];
+}
+
+// All texts of an attribute, in the order of find().
+std::vector<const char*> MjcfClasses::statedBy(const tinyxml2::XMLElement& element,
+                                               const std::string& childClass, const char* name) const {
+    std::vector<const char*> texts;
+    const auto add = [&](const tinyxml2::XMLElement& from) {
+        if (const char* const text = from.Attribute(name)) {
+            texts.push_back(text);
+        }
+    };
+    add(element);
     std::string at = attribute(element, "class");
     at = !at.empty() ? at : !childClass.empty() ? childClass : main_;
     if (at != main_ && classes_.count(at) == 0) {
@@ -76,41 +102,44 @@ const char* MjcfClasses::find(const tinyxml2::XMLElement& element, const std::st
     for (size_t depth = 0; !at.empty() && depth <= classes_.size(); ++depth) {
         const auto known = classes_.find(at);
         if (known == classes_.end()) {
-            return nullptr;
+            break;
         }
         const auto stated = known->second.elements.find(kindOf(element));
         if (stated != known->second.elements.end()) {
             for (auto last = stated->second.rbegin(); last != stated->second.rend(); ++last) {
-                if (const char* const text = (*last)->Attribute(name)) {
-                    return text;
-                }
+                add(**last);
             }
         }
         at = known->second.above;
     }
-    return nullptr;
+    return texts;
 }
 
 std::vector<double> MjcfClasses::numbers(const tinyxml2::XMLElement& element, const std::string& childClass,
                                          const char* name, std::vector<double> absent, size_t least,
-                                         size_t most) const {
-    const char* const text = find(element, childClass, name);
-    if (text == nullptr) {
+                                         size_t most, bool fills) const {
+    auto texts = statedBy(element, childClass, name);
+    if (texts.empty()) {
         return absent;
     }
+    texts.resize(fills ? texts.size() : 1);
+    const char* fault = texts[0];
     std::vector<double> all;
-    bool good = true;
-    std::istringstream words(text);
-    for (std::string word; good && words >> word;) {
-        char* end = nullptr;
-        all.push_back(std::strtod(word.c_str(), &end));
-        good = *end == '\0' && std::isfinite(all.back()) && all.size() <= most;
+    for (const char* const text : texts) {
+        const auto own = numbersIn(text, most);
+        if (!own) {
+            fault = text;
+            break;
+        }
+        for (size_t i = all.size(); i < own->size(); ++i) {
+            all.push_back((*own)[i]);
+        }
+        if (all.size() >= least) {
+            return all;
+        }
     }
-    if (!good || all.size() < least) {
-        refuse(element, std::string(name) + "=\"" + std::string(text).substr(0, 60) + "\"",
-               std::to_string(least) + (most > least ? ".." + std::to_string(most) : "") + " finite numbers");
-    }
-    return all;
+    refuse(element, std::string(name) + "=\"" + std::string(fault).substr(0, 60) + "\"",
+           std::to_string(least) + (most > least ? ".." + std::to_string(most) : "") + " finite numbers");
 }
 
 void MjcfClasses::refuse(const tinyxml2::XMLElement& element, const std::string& value,

@@ -32,10 +32,11 @@ public:
     const char* find(const tinyxml2::XMLElement& element, const std::string& childClass,
                      const char* name) const;
 
-    // Numbers of an attribute; `absent` when it is not stated. most: more numbers are refused.
+    // Numbers of an attribute; `absent` when it is not stated. most: more numbers are refused. fills: where
+    // there are fewer than `least`, those behind them are the class's, then those of the classes above.
     std::vector<double> numbers(const tinyxml2::XMLElement& element, const std::string& childClass,
-                                const char* name, std::vector<double> absent, size_t least,
-                                size_t most) const;
+                                const char* name, std::vector<double> absent, size_t least, size_t most,
+                                bool fills = false) const;
 
     [[noreturn]] void refuse(const tinyxml2::XMLElement& element, const std::string& value,
                              const std::string& allowed) const;
@@ -47,6 +48,8 @@ private:
         std::map<std::string, std::vector<const tinyxml2::XMLElement*>> elements;
     };
     void read(const tinyxml2::XMLElement& element, const std::string& above, bool main);
+    std::vector<const char*> statedBy(const tinyxml2::XMLElement& element, const std::string& childClass,
+                                      const char* name) const;
 
     std::string file_, main_;
     std::map<std::string, Class> classes_;

@@ -118,7 +118,7 @@ std::string MjcfGeoms::geometry(const tinyxml2::XMLElement& geom, const std::str
                         "sphere, capsule, cylinder, box, ellipsoid or mesh on a body");
     }
     const size_t least = type == "sphere" || half != nullptr ? 1 : round ? 2 : 3;
-    const auto size = classes_.numbers(geom, childClass, "size", {}, least, 3);
+    const auto size = classes_.numbers(geom, childClass, "size", {}, least, 3, true);
     if (size.size() < least) {
         classes_.refuse(geom, "no size", std::to_string(least) + " numbers [m]");
     }

@@ -100,6 +100,40 @@ TEST_CASE("Elements of one kind in a class add their attributes, the last one fi
               .find("collision: no shapes on any link") != std::string::npos);
 }
 
+TEST_CASE("A size with fewer numbers than the geom needs keeps the others of its class and those above") {
+    const auto reach = [](const std::string& classes,
+                          const std::string& geom) { // of b's geom from its centre
+        const ArmModel arm = loadMjcf("<default>" + classes + "</default><worldbody><body name='a'>" +
+                                      mjcfBall() + "<body name='b'><joint name='j' range='-90 90'/><geom " +
+                                      geom + "/></body></body></worldbody>");
+        dvec3 most(0.0);
+        for (const ArmLeaf& leaf : arm.leaves) {
+            const bool own = arm.links[leaf.link] == "b";
+            most = own ? glm::max(most, glm::abs(leaf.sphere.centre) + leaf.sphere.radius) : most;
+        }
+        return most;
+    };
+    const std::string capsule = "<geom type='capsule' size='0.03 0.2'/>";
+    const dvec3 whole = reach("", "type='capsule' size='0.05 0.2'");
+    CHECK(reach(capsule, "size='0.05'") == whole); // as in MuJoCo 3.2
+    CHECK(reach(capsule + "<default class='c'><geom size='0.05'/></default>", "class='c'") == whole);
+    CHECK(reach(capsule + "<geom size='0.05'/>", "") == whole);
+    const std::string box = "<geom type='box' size='0.3 0.2 0.1'/>";
+    CHECK(reach(box, "size='0.1 0.1'") == reach("", "type='box' size='0.1 0.1 0.1'"));
+    CHECK(reach(box + "<default class='c'><geom size='1 0.1'/></default>", "class='c' size='0.1'") ==
+          reach("", "type='box' size='0.1 0.1 0.1'"));
+    const auto refusalOfGeom = [](const std::string& classes, const std::string& geom) {
+        return mjcfRefusal("<default>" + classes + "</default><worldbody><body><geom " + geom +
+                           "/></body></worldbody>");
+    };
+    CHECK(refusalOfGeom("<geom size='0.03'/>", "type='capsule' size='0.05'")
+              .find("size=\"0.05\" (allowed: 2..3 finite numbers)") != std::string::npos);
+    CHECK(refusalOfGeom("<geom size='0.03 x'/>", "type='capsule' size='0.05'").find("size=\"0.03 x\"") !=
+          std::string::npos);
+    CHECK(refusalOfGeom("<geom pos='0 0 1'/>", "size='0.05' pos='0 0'").find("pos=\"0 0\" (allowed: 3") !=
+          std::string::npos);
+}
+
 TEST_CASE("Geoms of a contact pair are collision shapes, whatever contype and conaffinity say") {
     const auto leaves = [](const std::string& pair) {
         return loadMjcf("<worldbody><geom name='floor' type='plane' size='1 1 1'/><body name='a'>" +
