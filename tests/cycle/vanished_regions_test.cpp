@@ -25,8 +25,8 @@ const Shape kWall = planeAt({0.03, 0.0, 0.0}, {0.0, -0.5 * M_PI, 0.0}); // faces
 
 // Placed shapes only.
 struct ShapesRig : HapticRig {
-    explicit ShapesRig(std::vector<Shape> all, const Scene& scene = {})
-        : HapticRig(scene, at(0.0, 0.0, 0.02)) {
+    explicit ShapesRig(std::vector<Shape> all, const Scene& wanted = {})
+        : HapticRig(wanted, at(0.0, 0.0, 0.02)) {
         cycle = std::make_unique<HapticCycle>(tool, all, options, hand);
         ticks(300);
     }

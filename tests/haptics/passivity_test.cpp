@@ -3,6 +3,7 @@
 // damping.
 #include "engine/haptics/passivity.h"
 
+#include "engine/haptics/limits.h"
 #include "tests/haptics/allocation_count.h"
 
 #include <doctest/doctest.h>

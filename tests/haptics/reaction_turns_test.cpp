@@ -50,7 +50,7 @@ TEST_CASE("A surface that goes back in every frame is felt as an even fall, not 
         step();
     }
     REQUIRE(force == doctest::Approx(20.0));
-    for (int frame = 0; frame < 12; ++frame) {
+    for (int frame = 0; frame < 11; ++frame) {
         tick.newData = true;
         tick.allowed.position.z -= 0.005; // [m]
         for (int i = 0; i < 33; ++i) {
@@ -59,10 +59,8 @@ TEST_CASE("A surface that goes back in every frame is felt as an even fall, not 
             CHECK(before - step() < 0.35); // [N]; the surface goes back by 5 N per frame, the hand by 3.5 N
         }
     }
-    CHECK(force < 8.0);
+    CHECK(force < 4.0);
     tick.newData = true;
-    tick.allowed.position.z = -1.0; // no contact any more
-    tick.springEnd.position.z = z;
-    tick.allowed = tick.springEnd;
+    tick.allowed = tick.springEnd; // no contact any more
     CHECK(reaction.step(tick).force.z == 0.0);
 }

@@ -183,6 +183,6 @@ TEST_CASE("A hand that leaves one of two regions feels nothing of its motion any
         }
         const dvec3 felt = step(1);
         CHECK(felt.x == doctest::Approx(5.0).epsilon(0.01));
-        CHECK(std::abs(felt.z) < 0.02);
+        CHECK(std::abs(felt.z) < 0.05);
     }
 }
