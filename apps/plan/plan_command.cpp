@@ -35,6 +35,17 @@ std::string sizeOf(const CameraInfo& camera) {
     return size + (camera.decimation > 1 ? ", decimation " + std::to_string(camera.decimation) : "");
 }
 
+void printNotes(const Scene& scene, const CameraInfo& camera) {
+    for (const auto& notes : {hapticNotes(scene), unusedKeys(scene), equalityNotes(scene)}) {
+        for (const std::string& note : notes) {
+            std::cout << "note    " << note << "\n";
+        }
+    }
+    for (const std::string& dead : deadGates(scene, camera)) {
+        std::cout << "warning " << dead << "\n";
+    }
+}
+
 void runPlan(const PlanOptions& options, const GlobalOptions& global) {
     const Scene scene = openScene(options.scene);
     const auto camera = openCamera(
@@ -61,15 +72,7 @@ void runPlan(const PlanOptions& options, const GlobalOptions& global) {
             std::cout << "        " << note << "\n";
         }
     }
-    for (const std::string& note : hapticNotes(scene)) {
-        std::cout << "note    " << note << "\n";
-    }
-    for (const std::string& note : unusedKeys(scene)) {
-        std::cout << "note    " << note << "\n";
-    }
-    for (const std::string& dead : deadGates(scene, camera->info())) {
-        std::cout << "warning " << dead << "\n";
-    }
+    printNotes(scene, camera->info());
     std::cout << "\nin: this scene uses it; out: it does not\n";
     printPlan(std::cout, plan);
     std::cout << "\n" << plan.dispatchesPerFrame() << " dispatches per frame\n";

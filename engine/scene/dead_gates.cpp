@@ -94,6 +94,19 @@ std::vector<std::string> unusedKeys(const Scene& scene) {
     return notes;
 }
 
+std::vector<std::string> equalityNotes(const Scene& scene) {
+    std::vector<std::string> notes;
+    for (const FixtureClass& f : scene.fixtures) {
+        if (f.isEquality()) {
+            notes.push_back(
+                "fixture '" + f.name + "': " + (f.shape == ShapeKind::Line ? "a line" : "an axis") +
+                " holds the tool with any role, whenever forces are on: no button switches it, and "
+                "guidance_pull does not limit it");
+        }
+    }
+    return notes;
+}
+
 std::vector<std::string> deadGates(const Scene& scene, const CameraInfo& camera) {
     std::vector<std::string> dead;
     bool points = false;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Gates that no point can pass and keys without effect, found before the run from scene and camera alone.
+// Gates that no point can pass, and keys without effect or with another one than expected, found before the
+// run from scene and camera alone.
 #pragma once
 
 #include "engine/scene/scene.h"
@@ -17,5 +18,9 @@ std::vector<std::string> deadGates(const Scene& scene, const CameraInfo& camera)
 // One sentence per class of points with keys that its role does not use and whose values are not the
 // defaults. Not rejected: the window keeps them when it changes a role.
 std::vector<std::string> unusedKeys(const Scene& scene);
+
+// One sentence per line and axis: a guidance role suggests a button and the limits of guidance_pull, and
+// neither applies.
+std::vector<std::string> equalityNotes(const Scene& scene);
 
 } // namespace fathom

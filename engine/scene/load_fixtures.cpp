@@ -106,10 +106,6 @@ void refuseKeys(const YamlNode& row, std::span<const std::string_view> keys, con
     }
 }
 
-bool isEquality(ShapeKind shape) {
-    return shape == ShapeKind::Line || shape == ShapeKind::Axis;
-}
-
 void loadRole(const YamlNode& node, FixtureClass& fixture) {
     const RoleWord role = node.choice<RoleWord>({{"forbidden", RoleWord::Forbidden},
                                                  {"guidance", RoleWord::Guidance},
@@ -117,7 +113,7 @@ void loadRole(const YamlNode& node, FixtureClass& fixture) {
     if (fixture.isPoints() && role == RoleWord::KeepIn) {
         node.refuse("forbidden or guidance for points; keep_in needs a shape");
     }
-    if (!fixture.isPoints() && !isEquality(fixture.shape) && role == RoleWord::Guidance) {
+    if (!fixture.isPoints() && !fixture.isEquality() && role == RoleWord::Guidance) {
         node.refuse("forbidden or keep_in for this shape");
     }
     fixture.role = role == RoleWord::Guidance ? Role::Guidance : Role::Forbidden;

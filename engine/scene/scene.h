@@ -60,6 +60,8 @@ struct FixtureClass {
 
     bool usesColour() const { return hue || saturation || lightness; }
     bool isPoints() const { return shape == ShapeKind::None; }
+    // A hard constraint of the tool's pose, whatever the role.
+    bool isEquality() const { return shape == ShapeKind::Line || shape == ShapeKind::Axis; }
 };
 
 // Source of the frames.

@@ -148,6 +148,22 @@ TEST_CASE("Keys that a class's role does not use are a note in the plan and a li
     CHECK(run.err.find(note) != std::string::npos);
 }
 
+TEST_CASE("The plan notes that a line or an axis holds the tool with any role, without a button") {
+    Stage stage;
+    stage.recording({bumpImage()});
+    SceneText scene;
+    scene.fixtures = {"name: rail, role: guidance, shape: line", "name: bore, role: forbidden, shape: axis",
+                      "name: wall, role: forbidden, shape: plane, base_T_shape: {xyz: [0, 0, -1]}"};
+    stage.scene(scene);
+    const ProgramRun plan =
+        runFathom({"plan", (stage / "scene.yaml").string(), "--source", (stage / "rec").string()});
+    REQUIRE_MESSAGE(plan.exitCode == 0, plan.err);
+    CHECK(plan.out.find("note    fixture 'rail': a line holds the tool with any role") != std::string::npos);
+    CHECK(plan.out.find("note    fixture 'bore': an axis holds the tool with any role") != std::string::npos);
+    CHECK(plan.out.find("no button switches it") != std::string::npos);
+    CHECK(plan.out.find("fixture 'wall'") == std::string::npos);
+}
+
 TEST_CASE("A scene that sets the query to the GPU gets it in the plan and in the run") {
     Stage stage;
     stage.recording({bumpImage()});
