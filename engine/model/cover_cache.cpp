@@ -106,10 +106,10 @@ std::optional<ShapeSpheres> CoverCache::find(const std::string& key) const {
     return text && text->size() <= kLargest ? madeOf(*text) : std::nullopt;
 }
 
-void CoverCache::store(const std::string& key, const ShapeSpheres& made) const {
+bool CoverCache::store(const std::string& key, const ShapeSpheres& made) const {
     const std::string text = textOf(made);
     if (key.empty() || made.spheres.empty() || text.size() > kLargest) {
-        return;
+        return false;
     }
     std::error_code failed;
     std::filesystem::create_directories(folder_, failed);
@@ -119,11 +119,13 @@ void CoverCache::store(const std::string& key, const ShapeSpheres& made) const {
         out << text;
         if (!out.flush()) {
             std::filesystem::remove(fresh, failed);
-            return;
+            return false;
         }
     }
     std::filesystem::rename(fresh, folder_ / key, failed);
+    const bool stored = !failed;
     trim();
+    return stored;
 }
 
 void CoverCache::trim() const {

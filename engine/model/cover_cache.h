@@ -25,7 +25,7 @@ public:
     // cannot be read.
     std::string keyOf(const std::filesystem::path& mesh, const std::string& options) const;
     std::optional<ShapeSpheres> find(const std::string& key) const;
-    void store(const std::string& key, const ShapeSpheres& made) const;
+    bool store(const std::string& key, const ShapeSpheres& made) const; // true: the next find() has it
     const std::filesystem::path& folder() const { return folder_; }
 
 private:

@@ -31,13 +31,13 @@ public:
         : all_(all)
         , cache_(cache) {}
 
-    void add() {
-        const size_t done = ++done_;
+    // cached: the cover is in the cache.
+    void add(bool cached) {
+        const size_t kept = cached ? ++cached_ : cached_.load(), done = ++done_;
         const auto now = Clock::now().time_since_epoch().count();
         auto due = due_.load();
         if (now >= due && done < all_ && due_.compare_exchange_strong(due, now + kEvery)) {
-            log::warn("{} of {} shapes are covered with spheres; the next start finds them in {}", done, all_,
-                      cache_.folder().empty() ? "no cache" : cache_.folder().string());
+            log::warn("{}", coverProgressText(done, all_, kept, cache_.folder()));
         }
     }
 
@@ -46,7 +46,7 @@ private:
 
     size_t all_;
     const CoverCache& cache_;
-    std::atomic<size_t> done_{0};
+    std::atomic<size_t> done_{0}, cached_{0};
     std::atomic<Clock::rep> due_{Clock::now().time_since_epoch().count() + kEvery};
 };
 
@@ -144,15 +144,15 @@ void cover(std::vector<LinkCover>& some, const ShapeSource& source, const CoverC
     const auto work = [&] {
         for (size_t i = next++; i < some.size(); i = next++) {
             LinkCover& one = some[i];
+            bool cached = one.found;
             if (!one.refused && !one.found) {
                 one.attempt(source.urdf, [&] {
                     one.made = linkSpheres(std::move(one.read), leaves);
-                    if (!one.key.empty()) {
-                        cache.store(one.key, renamed(one.made, one.file.string(), kFile));
-                    }
+                    cached =
+                        !one.key.empty() && cache.store(one.key, renamed(one.made, one.file.string(), kFile));
                 });
             }
-            progress.add();
+            progress.add(cached);
         }
     };
     std::vector<std::jthread> others(std::min<size_t>(usableProcessors(), some.size()) - 1);
@@ -176,6 +176,14 @@ void noteCapitals(std::span<const LinkGeometry> shapes, const std::vector<std::f
 }
 
 } // namespace
+
+std::string coverProgressText(size_t done, size_t all, size_t cached, const std::filesystem::path& folder) {
+    const std::string text =
+        std::to_string(done) + " of " + std::to_string(all) + " shapes are covered with spheres";
+    return cached == 0
+               ? text
+               : text + "; the next start finds " + std::to_string(cached) + " of them in " + folder.string();
+}
 
 std::vector<ShapeSpheres> spheresOf(std::span<const LinkGeometry> shapes, ShapeSource source,
                                     uint32_t leaves) {

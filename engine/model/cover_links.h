@@ -4,6 +4,7 @@
 
 #include "engine/model/link_spheres.h"
 
+#include <filesystem>
 #include <memory>
 #include <span>
 #include <string>
@@ -21,5 +22,9 @@ struct LinkGeometry {
 // URDF and link, or the mesh file.
 std::vector<ShapeSpheres> spheresOf(std::span<const LinkGeometry> shapes, ShapeSource source,
                                     uint32_t leaves);
+
+// What spheresOf() logs every 5 s. cached: covers that are in the cache's folder, which has those of meshes
+// only.
+std::string coverProgressText(size_t done, size_t all, size_t cached, const std::filesystem::path& folder);
 
 } // namespace fathom

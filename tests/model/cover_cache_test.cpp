@@ -65,6 +65,18 @@ TEST_CASE("A link's mesh is covered once, and the second time its cover comes fr
     ::unsetenv("XDG_CACHE_HOME");
 }
 
+TEST_CASE("A long start names the cache only for covers that are in it, so not for boxes or a folder that "
+          "cannot be written") {
+    const ScratchFolder folder;
+    std::ofstream(folder / "file") << "x";
+    CHECK(CoverCache(folder.path()).store("key", kMade));
+    CHECK_FALSE(CoverCache(folder / "file" / "covers").store("key", kMade));
+    CHECK_FALSE(CoverCache(folder.path()).store("", kMade));
+    CHECK(coverProgressText(3, 8, 0, folder.path()) == "3 of 8 shapes are covered with spheres");
+    CHECK(coverProgressText(7, 8, 2, "covers") ==
+          "7 of 8 shapes are covered with spheres; the next start finds 2 of them in covers");
+}
+
 TEST_CASE("The cache keeps a bounded number of files, the newest ones") {
     const ScratchFolder folder;
     const CoverCache cache(folder.path());
