@@ -34,7 +34,7 @@ std::unique_ptr<Camera> openSimulated(const Scene& scene) {
     if (scene.source.value == "sonar") {
         SimulatedSonarOptions sonar;
         sonar.baseTscene = scene.baseTcamera;
-        sonar.frames = scene.source.images > 0 ? scene.source.images : sonar.frames;
+        sonar.frames = scene.source.images;
         return std::make_unique<SimulatedSonar>(sonarScene(), sonar);
     }
     const auto solids = analyticScene(scene.source.value);
@@ -44,7 +44,7 @@ std::unique_ptr<Camera> openSimulated(const Scene& scene) {
     }
     SimulatedCameraOptions options;
     options.baseTscene = scene.baseTcamera;
-    options.frames = scene.source.images > 0 ? scene.source.images : options.frames;
+    options.frames = scene.source.images;
     options.yuyv = scene.source.yuyv;
     return std::make_unique<SimulatedCamera>(*solids, options);
 }

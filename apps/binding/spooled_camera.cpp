@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <unistd.h>
@@ -12,7 +13,8 @@
 namespace fathom {
 
 SpooledCamera::SpooledCamera(std::unique_ptr<Camera> source, const std::filesystem::path& folder,
-                             const std::atomic<bool>& stop, const std::function<void(uint64_t)>& progress)
+                             const std::atomic<bool>& stop, const std::function<void(uint64_t)>& progress,
+                             std::optional<uint32_t> still)
     : info_(source->info())
     , description_(source->description())
     , folder_(folder.string()) {
@@ -23,7 +25,7 @@ SpooledCamera::SpooledCamera(std::unique_ptr<Camera> source, const std::filesyst
     }
     ::unlink(name.c_str());
     try {
-        while (kept_.empty() || !stop.load()) {
+        while (kept_.empty() || (!still && !stop.load())) {
             const std::optional<Frame> frame = source->next();
             if (!frame) {
                 break;
@@ -35,6 +37,7 @@ SpooledCamera::SpooledCamera(std::unique_ptr<Camera> source, const std::filesyst
         ::close(descriptor_);
         throw;
     }
+    count_ = kept_.empty() ? 0 : still.value_or(kept_.size());
     skipped_ = source->skipped();
     warnings_ = source->warnings();
     slots_ = std::make_unique<FrameSlots>(info_.slotPixels(), info_.hasColour, kFramesInFlight + 1);
@@ -84,15 +87,22 @@ void SpooledCamera::readAll(void* bytes, size_t count) {
 }
 
 std::optional<Frame> SpooledCamera::next() {
-    if (next_ == kept_.size()) {
+    if (next_ == count_) {
         return std::nullopt;
     }
     FrameSlot* slot = slots_->acquire();
     if (slot == nullptr) {
         throw Error("camera: too many frames in flight");
     }
-    const Kept& kept = kept_[next_++];
+    const bool still = kept_.size() < count_;
+    const Kept& kept = kept_[still ? 0 : next_];
     Frame::Content content = kept.content;
+    if (still) {
+        read_ = 0;
+        content.index += static_cast<uint32_t>(next_);
+        content.sourceNumber += next_;
+    }
+    ++next_;
     content.depth = slot->depth().first(info_.depth.pixels());
     const std::span<std::byte> colours = slot->colourBytes().first(kept.colourBytes);
     content.setColourBytes(colours);
@@ -100,6 +110,16 @@ std::optional<Frame> SpooledCamera::next() {
     readAll(slot->depth().data(), content.depth.size_bytes());
     readAll(colours.data(), colours.size());
     return frame;
+}
+
+std::string spoolNotice(uint64_t done, uint64_t all, double seconds) {
+    if (seconds < 1.0 || done == 0 || done >= all) {
+        return "";
+    }
+    const double whole = seconds * static_cast<double>(all) / static_cast<double>(done);
+    return "the run waits until the simulated camera has rendered its " + std::to_string(all) +
+           " frames, about " + std::to_string(static_cast<unsigned>(std::ceil(whole))) +
+           " s; camera.source.frames sets how many";
 }
 
 } // namespace fathom

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,10 +20,11 @@ namespace fathom {
 class SpooledCamera final : public Camera {
 public:
     // Stores frames until the source ends or `stop`, at least one. `folder`: location of the file. Calls
-    // progress(frames so far) after each. Throws Error with the folder, and passes on exceptions of the
-    // source.
+    // progress(frames so far) after each. still: takes one frame only, and delivers it this many times, for
+    // runs that use no pixel. Throws Error with the folder, and passes on exceptions of the source.
     SpooledCamera(std::unique_ptr<Camera> source, const std::filesystem::path& folder,
-                  const std::atomic<bool>& stop, const std::function<void(uint64_t)>& progress);
+                  const std::atomic<bool>& stop, const std::function<void(uint64_t)>& progress,
+                  std::optional<uint32_t> still = std::nullopt);
     ~SpooledCamera() override;
 
     const CameraInfo& info() const override { return info_; }
@@ -47,9 +49,13 @@ private:
         size_t colourBytes = 0;
     };
     std::vector<Kept> kept_;
-    size_t next_ = 0;
+    size_t count_ = 0, next_ = 0;    // frames that it delivers; has delivered
     int64_t written_ = 0, read_ = 0; // [bytes]
     std::unique_ptr<FrameSlots> slots_;
 };
+
+// What a run that waits for the frames logs once, after a second: what is rendered and about how long it
+// takes, with `done` of `all` frames in `seconds`. Empty: nothing to say yet.
+std::string spoolNotice(uint64_t done, uint64_t all, double seconds);
 
 } // namespace fathom

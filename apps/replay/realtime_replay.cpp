@@ -5,6 +5,7 @@
 #include "apps/binding/raw_path.h"
 #include "apps/binding/spooled_camera.h"
 #include "apps/session/path_hand.h"
+#include "engine/types/clock.h"
 #include "engine/types/error.h"
 #include "engine/types/frame.h"
 #include "engine/types/log.h"
@@ -62,15 +63,27 @@ RealtimeOptions RealtimeReplay::runOptions(CadenceTrace* trace) {
     return o;
 }
 
-// Uses all CPUs, because no other thread runs yet.
+// Uses all CPUs, because no other thread runs yet. Placed shapes use no pixel, so one frame is enough.
 void RealtimeReplay::spool() {
     if (session_.scene.source.showsArm) {
         log::warn("the simulated camera's frames are taken beforehand: they do not show the arm");
     }
     const CpuConfinement everywhere(placement_.all);
-    session_.camera =
-        std::make_unique<SpooledCamera>(std::move(session_.camera), recorder_.folder(), signals_.requested(),
-                                        [&](uint64_t frames) { progress_.update({.framesDone = frames}); });
+    const uint32_t all = session_.scene.source.images;
+    const std::optional<uint32_t> still = session_.scene.hasPoints() ? std::nullopt : std::optional(all);
+    bool noted = false;
+    const Clock::time_point begun = Clock::now();
+    session_.camera = std::make_unique<SpooledCamera>(
+        std::move(session_.camera), recorder_.folder(), signals_.requested(),
+        [&](uint64_t frames) {
+            progress_.update({.framesDone = frames});
+            if (const std::string notice = spoolNotice(frames, all, secondsSince(begun));
+                !noted && !still && !notice.empty()) {
+                log::warn("{}", notice);
+                noted = true;
+            }
+        },
+        still);
 }
 
 ReplayRecorder::Ending RealtimeReplay::run() {

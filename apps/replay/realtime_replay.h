@@ -39,7 +39,7 @@ class RealtimeReplay final : private ReplayParts, private RunSink {
 public:
     // Build the session on a thread confined to placement.rest, because the workers of a software device
     // inherit its CPUs. Renders the frames of a simulated camera in advance (SpooledCamera), so that the run
-    // does not measure rendering. trace may be null.
+    // does not measure rendering; only the first one if no fixture selects points. trace may be null.
     RealtimeReplay(Session& session, const ReplayOptions& options, ReplayRecorder& recorder,
                    const ThreadPlacement& placement, CadenceTrace* trace);
     ~RealtimeReplay() override;

@@ -68,7 +68,7 @@ struct FixtureClass {
 struct CameraSource {
     enum class Kind { Simulated, Recorded, V4l2, Ros2 } kind = Kind::Simulated;
     std::string value = "tank"; // simulated: scene name; recorded: folder; v4l2: device; ros2: topics
-    uint32_t images = 0;        // frames of a simulated camera; 0 = its default
+    uint32_t images = 240;      // frames of a simulated camera
     bool showsArm = false;      // a simulated camera draws the scene's arm, in lockstep
     bool yuyv = false;          // a simulated camera delivers colour as YUYV, like USB cameras
 };

@@ -184,6 +184,38 @@ TEST_CASE("A spooled camera returns exactly the frames of its source, once, and 
     CHECK_THROWS_AS(unspooled(), Error);
 }
 
+TEST_CASE("A spooled camera for runs without points takes one frame and delivers it as new ones") {
+    SimulatedCameraOptions options;
+    options.width = 70;
+    options.height = 50;
+    SimulatedCamera plain(*analyticScene("tank"), options);
+    const auto first = plain.next();
+    const testing::ScratchFolder scratch;
+    const std::atomic<bool> stop{false};
+    uint64_t taken = 0;
+    SpooledCamera still(
+        std::make_unique<SimulatedCamera>(*analyticScene("tank"), options), scratch.path(), stop,
+        [&](uint64_t frames) { taken = frames; }, 7);
+    CHECK(taken == 1);
+    for (uint32_t i = 0; i < 7; ++i) {
+        const auto frame = still.next();
+        REQUIRE(frame.has_value());
+        CHECK((*frame)->index == i);
+        CHECK((*frame)->sourceNumber == (*first)->sourceNumber + i);
+        CHECK(std::ranges::equal((*frame)->depth, (*first)->depth));
+        CHECK(std::ranges::equal((*frame)->colour, (*first)->colour));
+    }
+    CHECK_FALSE(still.next().has_value());
+}
+
+TEST_CASE("A run that waits for rendered frames says after a second what it waits for and how long") {
+    CHECK(spoolNotice(30, 240, 0.9) == "");
+    CHECK(spoolNotice(240, 240, 9.0) == "");
+    CHECK(spoolNotice(12, 240, 1.2) ==
+          "the run waits until the simulated camera has rendered its 240 frames, about 24 s; "
+          "camera.source.frames sets how many");
+}
+
 TEST_CASE("The haptic thread has a CPU that no other thread uses") {
     const ThreadPlacement placement = ThreadPlacement::ofThisProcess();
     REQUIRE(!placement.all.empty());
