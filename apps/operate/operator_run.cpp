@@ -89,9 +89,7 @@ void OperatorRun::run() {
         display_.beginFrame();
         frame();
     }
-    if (window_.offscreen() && !options_.shots.empty()) { // no key can request one offscreen
-        display_.console.requests.screenshot = true;
-        window_.beginFrame(0.0);
+    if (display_.beginLastShot()) {
         frame();
     }
     writeState(true);

@@ -111,6 +111,9 @@ void PlaybackRun::run() {
     while (!display_.wantsToEnd() && !signals_.requested().load()) {
         frame(display_.beginFrame());
     }
+    if (display_.beginLastShot()) {
+        frame(0.0);
+    }
     display_.writeState(editor_, haptics_, nullptr, {}, true);
 }
 

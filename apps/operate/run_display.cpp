@@ -69,6 +69,15 @@ double RunDisplay::beginFrame() {
     return dt;
 }
 
+bool RunDisplay::beginLastShot() {
+    if (!window_.offscreen() || options_.shots.empty()) {
+        return false;
+    }
+    console.requests.screenshot = true;
+    window_.beginFrame(0.0);
+    return true;
+}
+
 void RunDisplay::followClosing(FixtureEditor& editor, bool forcesGone) {
     stepOpenCard(console, options_.shots, options_.fromLiveRun);
     const bool closed = window_.takeClose();

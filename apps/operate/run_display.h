@@ -20,6 +20,9 @@ struct RunDisplay {
 
     void begin();        // the time of the run counts from now
     double beginFrame(); // waits for the window's next frame; returns the time since the last one [s]
+    // Call at the end. True where the run ends with a screenshot, since no key can request one: offscreen,
+    // with a folder. The caller then draws one more frame, which has begun.
+    bool beginLastShot();
     void followClosing(FixtureEditor& editor, bool forcesGone); // the window's close button (closing.h)
     // True when the window is closed or the time is up.
     bool wantsToEnd() const;

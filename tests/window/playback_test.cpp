@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "tests/rig/replay_output.h"
 #include "tests/rig/run_fathom.h"
 #include "tests/window/felt.h"
 #include "tests/window/window_rig.h"
@@ -160,6 +161,18 @@ TEST_CASE("Keys step a recording by frames and ticks, and play it until it is st
     REQUIRE(rig.await([](const json& s) { return s["console"]["large"] == "space"; }));
     CHECK(lineTime(rig.state()) == stopped);
     CHECK(rig.close() == 0);
+}
+
+TEST_CASE("A recording that is shown offscreen with a folder ends with a screenshot, as a live scene does") {
+    const TemporaryFolder folder;
+    const auto recording = folder.path() / "recording", shots = folder.path() / "new" / "shots";
+    writeRecording(recording, {bumpImage()});
+    folder.write("recording/hand.csv", "t_s,x,y,z,qw,qx,qy,qz,button\n0,0,0,0,1,0,0,0,0\n");
+    folder.write("recording/scene.yaml", SceneText{}.text());
+    const ProgramRun run = runFathom({"operate", recording.string(), "--offscreen", "640x480", "--seconds",
+                                      "1", "--device", "llvmpipe", "--folder", shots.string()});
+    REQUIRE_MESSAGE(run.exitCode == 0, run.err);
+    CHECK(readImage(shots / "screenshot-1.png").pixels.size() == 640 * 480);
 }
 
 TEST_CASE("An input that is not a recording is rejected in one line with exit code 2") {
