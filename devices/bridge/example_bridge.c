@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* A complete bridge in C for a simulated device, so no hardware is needed. Its handle moves slowly on a
  * circle and yields to the force like a soft spring. To write your own bridge, replace readHandle() and
- * drive() and keep the rest. cc -O2 -o example_bridge example_bridge.c && ./example_bridge
- * /run/user/1000/example.door */
+ * drive() and keep the rest. In this folder of a clone (an installed header needs no -I):
+ * cc -O2 -I../../engine/include -o example_bridge example_bridge.c -lm
+ * ./example_bridge /run/user/1000/example.door */
 #define _GNU_SOURCE
 #include <fathom/device_socket.h>
 
