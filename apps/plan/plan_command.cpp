@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/plan/plan_command.h"
 
+#include "apps/binding/arm_axes.h"
 #include "apps/binding/open_hand.h"
 #include "apps/binding/open_source.h"
 #include "engine/cycle/arm_text.h"
 #include "engine/cycle/haptic_notes.h"
 #include "engine/gpu/device.h"
 #include "engine/scene/dead_gates.h"
+#include "engine/types/error.h"
+#include "engine/types/printable.h"
 #include "engine/types/read_file.h"
 
 #include <CLI/CLI.hpp>
@@ -46,6 +49,21 @@ void printNotes(const Scene& scene, const CameraInfo& camera) {
     }
 }
 
+// What is in order for a plan, but not for each replay of the scene.
+void printRefusals(const Scene& scene, const ArmSetup* arm) {
+    if (!scene.hand.builtIn && !isRegularFile(scene.hand.path)) {
+        std::cout << "warning hand.path: " << printable(scene.hand.path)
+                  << ": no such file: replay rejects it unless --operator or --hand-device names a hand\n";
+    }
+    if (arm != nullptr && scene.arm->driver) {
+        try {
+            armAxes(scene, *arm);
+        } catch (const BadInput& e) {
+            std::cout << "warning " << e.what() << ": --arm rejects it\n";
+        }
+    }
+}
+
 void runPlan(const PlanOptions& options, const GlobalOptions& global) {
     const Scene scene = openScene(options.scene);
     const auto camera = openCamera(
@@ -73,6 +91,7 @@ void runPlan(const PlanOptions& options, const GlobalOptions& global) {
         }
     }
     printNotes(scene, camera->info());
+    printRefusals(scene, arm.get());
     std::cout << "\nin: this scene uses it; out: it does not\n";
     printPlan(std::cout, plan);
     std::cout << "\n" << plan.dispatchesPerFrame() << " dispatches per frame\n";

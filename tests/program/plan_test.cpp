@@ -164,6 +164,30 @@ TEST_CASE("The plan notes that a line or an axis holds the tool with any role, w
     CHECK(plan.out.find("fixture 'wall'") == std::string::npos);
 }
 
+TEST_CASE("The plan names a missing hand path and a joint without an axis, which a replay would reject") {
+    const Stage stage;
+    stage.write("arm41.urdf", readWhole("apps/scenes/arm41.urdf"));
+    stage.hand({{0.0, {0.0, 0.0, 0.0}}});
+    const auto plan = [&](const std::string& axes, const std::string& path) {
+        SceneText scene;
+        scene.hand = "path: " + path;
+        scene.more =
+            "arm: {urdf: arm41.urdf, tip: tip, driver: {protocol: reach_alpha5, axes: [" + axes + "]}}\n";
+        stage.scene(scene);
+        const ProgramRun run = runFathom({"plan", (stage / "scene.yaml").string()});
+        CHECK_MESSAGE(run.exitCode == 0, run.err);
+        return run.out;
+    };
+    const std::string lacking = plan("{axis: base, joint: slew}", "none.csv");
+    CHECK(lacking.find("arm.driver.axes: joint 'shoulder' has none (allowed: one axis per joint): --arm "
+                       "rejects it\n") != std::string::npos);
+    CHECK(lacking.find("none.csv: no such file: replay rejects it unless") != std::string::npos);
+    const std::string whole = plan("{axis: base, joint: slew}, {axis: shoulder, joint: shoulder}, "
+                                   "{axis: elbow, joint: elbow}, {axis: wrist, joint: wrist_roll}",
+                                   "hand.csv");
+    CHECK(whole.find("rejects it") == std::string::npos);
+}
+
 TEST_CASE("A scene that sets the query to the GPU gets it in the plan and in the run") {
     Stage stage;
     stage.recording({bumpImage()});
