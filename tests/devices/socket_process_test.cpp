@@ -54,6 +54,29 @@ std::unique_ptr<SocketHand> connected(const SocketFolder& folder) {
 // A silence of 10 ms, and the rest for a machine that has other things to do.
 constexpr double kLongestForce = 0.2; // [s]
 
+// A handle that yields to the force and returns afterwards.
+void checkActsAsDevice(const std::function<int(const char*)>& start) {
+    SocketFolder folder;
+    const std::string endpoint = folder.endpoint().string();
+    Child bridge([&] { return start(endpoint.c_str()); });
+    std::unique_ptr<SocketHand> hand = connected(folder);
+    CHECK(hand->preset() == "falcon");
+    const auto height = [&](double fz) {
+        const HandSample sample = hand->read(0.0);
+        hand->write({{0.0, 0.0, fz}, {}}, 0.001);
+        pauseMs(1);
+        return sample.buttons == 0 ? sample.deviceThandle.position.z : 0.0;
+    };
+    CHECK(eventually([&] { return height(3.0) > 0.009; })); // 3 N on 300 N/m
+    CHECK(eventually([&] { return height(0.0) < 0.001; }));
+    CHECK(eventually([&] { return height(3.0) > 0.009; }));
+    CHECK(eventually([&] { return hand->read(0.0).deviceThandle.position.z < 0.001; })); // silence
+    hand.reset();
+    bridge.signal(SIGTERM);
+    CHECK(bridge.wait() == 0);
+    CHECK_FALSE(std::filesystem::exists(folder.endpoint()));
+}
+
 } // namespace
 
 TEST_CASE("After SIGKILL of the engine in contact, the device has zero force within 10 ms") {
@@ -145,26 +168,16 @@ TEST_CASE("A user without permission on the socket file gets no connection") {
     CHECK(asNobody() == 0);
 }
 
-TEST_CASE("The example bridge acts as a device: its handle yields to the force and returns afterwards") {
-    SocketFolder folder;
-    const std::string endpoint = folder.endpoint().string();
-    Child bridge([&] { return ::execl(EXAMPLE_BRIDGE, "example_bridge", endpoint.c_str(), nullptr); });
-    std::unique_ptr<SocketHand> hand = connected(folder);
-    CHECK(hand->preset() == "falcon");
-    const auto height = [&](double fz) {
-        const HandSample sample = hand->read(0.0);
-        hand->write({{0.0, 0.0, fz}, {}}, 0.001);
-        pauseMs(1);
-        return sample.buttons == 0 ? sample.deviceThandle.position.z : 0.0;
-    };
-    CHECK(eventually([&] { return height(3.0) > 0.009; })); // 3 N on 300 N/m
-    CHECK(eventually([&] { return height(0.0) < 0.001; }));
-    CHECK(eventually([&] { return height(3.0) > 0.009; }));
-    CHECK(eventually([&] { return hand->read(0.0).deviceThandle.position.z < 0.001; })); // silence
-    hand.reset();
-    bridge.signal(SIGTERM);
-    CHECK(bridge.wait() == 0);
-    CHECK_FALSE(std::filesystem::exists(folder.endpoint()));
+TEST_CASE("The example bridges in C and Python act as a device: the handle yields to the force and returns "
+          "afterwards") {
+    checkActsAsDevice(
+        [](const char* endpoint) { return ::execl(EXAMPLE_BRIDGE, "example_bridge", endpoint, nullptr); });
+    constexpr const char* kPython = "/usr/bin/python3";
+    if (std::filesystem::exists(kPython)) {
+        checkActsAsDevice([](const char* endpoint) {
+            return ::execl(kPython, "python3", "devices/bridge/example_bridge.py", endpoint, nullptr);
+        });
+    }
 }
 
 TEST_CASE("The example bridge exits cleanly when its terminal closes, and continues without a reader of its "
