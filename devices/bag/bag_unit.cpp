@@ -2,9 +2,9 @@
 // The depth unit of BagCamera.
 #include "devices/bag/bag_camera.h"
 #include "devices/images/metre_units.h"
+#include "devices/recorded/depth_scale.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
-#include "engine/types/number_text.h"
 
 #include <cmath>
 
@@ -54,11 +54,10 @@ double BagCamera::sensorUnit() {
         throw BadInput(file_->file().string(), topic->name, std::to_string(unit),
                        "0.000001 to 0.1 metres per unit, or scale=M after the file name");
     }
-    if (choice_.statedUnit && std::abs(*choice_.statedUnit - unit) > 1e-6 * unit) {
-        const std::string both = "depth_scale_m_per_unit of the lens file is " +
-                                 significant(*choice_.statedUnit, 6) + ", but the recording states " +
-                                 significant(unit, 6) +
-                                 ", which is used; scale=M after the file name gives another unit";
+    const std::string both = choice_.statedUnit ? unitsDiffer(options_.intrinsics.filename().string(),
+                                                              *choice_.statedUnit, topic->name, unit)
+                                                : "";
+    if (!both.empty()) {
         log::warn("{}: {}", file_->file().string(), both);
         addWarning(both);
     }

@@ -2,6 +2,7 @@
 #include "devices/recorded/bop_folder.h"
 
 #include "devices/images/depth_image.h"
+#include "devices/recorded/depth_scale.h"
 #include "devices/recorded/json_field.h"
 #include "devices/recorded/lens_model.h"
 #include "devices/recorded/matrix_file.h"
@@ -112,8 +113,11 @@ RecordingLayout readBop(const LayoutRequest& request) {
     }
     layout.intrinsics =
         request.lens ? *request.lens : lensOf(*first, firstDepthSize(layout.index), file.string());
-    if (!layout.intrinsics.scale) {
-        layout.intrinsics.scale = layout.intrinsics.camera.metresPerUnit = unitOf(*first, file.string());
+    const auto unit = [&] { return unitOf(*first, file.string()); };
+    if (request.lens) {
+        keepRecordedUnit(layout.intrinsics, file.filename().string(), unit);
+    } else {
+        layout.intrinsics.scale = layout.intrinsics.camera.metresPerUnit = unit();
     }
     return layout;
 }

@@ -2,6 +2,7 @@
 #include "devices/recorded/frame_folder.h"
 
 #include "devices/images/depth_image.h"
+#include "devices/recorded/depth_scale.h"
 #include "devices/recorded/lens_model.h"
 #include "devices/recorded/matrix_file.h"
 #include "devices/recorded/numbered_images.h"
@@ -253,9 +254,9 @@ RecordingLayout readFrameFolder(const LayoutRequest& request) {
         layout.intrinsics = sevenScenesLens();
         layout.warnings.push_back(nominalWarning(calibration));
     }
-    if (info && !layout.intrinsics.scale) { // a file of a lens alone
-        const double unit = SensorInfo(*info).metresPerUnit();
-        layout.intrinsics.scale = layout.intrinsics.camera.metresPerUnit = unit;
+    if (info && request.lens) {
+        keepRecordedUnit(layout.intrinsics, info->filename().string(),
+                         [&] { return SensorInfo(*info).metresPerUnit(); });
     }
     layout.invalid = info ? 0 : 65535;
     for (IndexLine& line : layout.index) {

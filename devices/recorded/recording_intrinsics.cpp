@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/recorded/recording_intrinsics.h"
 
+#include "devices/recorded/depth_scale.h"
 #include "devices/recorded/foreign_field.h"
 #include "devices/recorded/json_field.h"
 #include "devices/recorded/lens_model.h"
 #include "devices/recorded/recording_extrinsics.h"
-#include "devices/recorded/source_options.h"
 #include "engine/types/decimation.h"
 #include "engine/types/error.h"
 
@@ -131,45 +131,6 @@ void readBeams(const JsonField& root, RecordingIntrinsics& intrinsics) {
         }
         intrinsics.camera.beam = sigma;
     }
-}
-
-// Why the depth scale that a file states under another name is not read; empty = there is none.
-std::string otherScale(const JsonField& root) {
-    try {
-        if (const auto scale = foreignScale(root)) {
-            scale->refuse(
-                "depth_scale_m_per_unit, metres per unit: 1000 units per metre are 0.001; or scale=M "
-                "after the recording's name");
-        }
-    } catch (const BadInput& e) {
-        return e.what();
-    }
-    return "";
-}
-
-// [m], as stated; nothing where nothing is stated. Open3D states units per metre.
-std::optional<double> statedScale(const JsonField& root, ScaleRule rule) {
-    const bool check = rule != ScaleRule::Unchecked, open3d = root.find("intrinsic_matrix").has_value();
-    const auto scale = root.find("depth_scale_m_per_unit"), foreign = root.find("depth_scale");
-    if (!scale && foreign && (open3d || rule == ScaleRule::Needed)) {
-        const double unit = 1.0 / foreign->positive();
-        if (!open3d || (check && (unit < kFinestUnit || unit > kCoarsestUnit))) {
-            foreign->refuse(open3d ? "units per metre, 10 to 1000000"
-                                   : "depth_scale_m_per_unit: 1000 units per metre are 0.001");
-        }
-        return unit;
-    }
-    if (!scale && (open3d || rule != ScaleRule::Needed)) {
-        return std::nullopt;
-    }
-    if (const std::string other = scale ? "" : otherScale(root); !other.empty() && check) {
-        throw BadInput(other);
-    }
-    const double unit = root.at("depth_scale_m_per_unit").positive();
-    if (check && (unit < kFinestUnit || unit > kCoarsestUnit)) {
-        scale->refuse("metres per unit, 0.000001 to 0.1: 1000 units per metre are 0.001");
-    }
-    return unit;
 }
 
 void readStamps(const JsonField& root, RecordingIntrinsics& intrinsics) {

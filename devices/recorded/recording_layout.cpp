@@ -4,6 +4,7 @@
 #include "devices/images/depth_image.h"
 #include "devices/recorded/bop_folder.h"
 #include "devices/recorded/colour_image.h"
+#include "devices/recorded/depth_scale.h"
 #include "devices/recorded/frame_folder.h"
 #include "devices/recorded/matrix_file.h"
 #include "devices/recorded/numbered_images.h"
@@ -67,11 +68,15 @@ RecordingLayout readOpen3d(const LayoutRequest& request) {
     if (request.lens && !request.depthOnly) {
         keepRecordedColour(layout.intrinsics, [&] { return open3dCamera(request.mark); });
     }
+    if (request.lens && fs::is_regular_file(request.mark)) {
+        keepRecordedUnit(layout.intrinsics, request.mark.filename().string(),
+                         [&] { return scaleIn(request.mark); });
+    }
     layout.index = numberedPairs(request);
     return layout;
 }
 
-constexpr const char* kMatrixLens = "cam_K.txt";
+constexpr const char *kMatrixLens = "cam_K.txt", *kOwnLens = "intrinsics.json";
 
 // FoundationPose and BundleSDF: one lens for registered images, in millimetres.
 RecordingLayout readMatrixFolder(const LayoutRequest& request) {
@@ -91,18 +96,31 @@ bool holdsMetres(const RecordingLayout& layout) {
     return head.fault.empty() && head.metres;
 }
 
-RecordingLayout readTum(const fs::path& folder, const fs::path& intrinsics, bool depthOnly,
-                        ScaleRule rule = ScaleRule::Needed) {
+bool statesUnit(const fs::path& file) {
+    try {
+        return scaleIn(file).has_value();
+    } catch (const BadInput&) {
+        return false;
+    }
+}
+
+// own: the folder's file of lenses, which `intrinsics` may replace; empty = none.
+RecordingLayout readTum(const fs::path& folder, const fs::path& intrinsics, const fs::path& own,
+                        bool depthOnly, ScaleRule rule = ScaleRule::Needed) {
+    const bool replaced = !own.empty() && own != intrinsics;
+    rule = replaced && statesUnit(own) ? ScaleRule::Optional : rule;
     RecordingLayout layout;
     layout.intrinsics = readIntrinsics(intrinsics, ScaleRule::Unchecked);
     layout.index = readIndex(folder, layout.intrinsics, depthOnly);
     if (!holdsMetres(layout)) {
         layout.intrinsics = readIntrinsics(intrinsics, rule);
     }
-    const fs::path own = folder / "intrinsics.json";
-    if (own != intrinsics && fs::exists(own) && !depthOnly) {
+    if (replaced && own.filename() == kOwnLens && !depthOnly) {
         keepRecordedColour(layout.intrinsics,
                            [&] { return readIntrinsics(own, ScaleRule::Unchecked).camera; });
+    }
+    if (replaced) {
+        keepRecordedUnit(layout.intrinsics, own.filename().string(), [&] { return scaleIn(own); });
     }
     if (fs::exists(folder / "poses.txt")) {
         layout.poses.emplace(folder / "poses.txt");
@@ -143,20 +161,22 @@ bool isMatrixFolder(const fs::path& folder) {
 }
 
 bool isRecordingFolder(const fs::path& folder) {
-    return fs::exists(folder / "intrinsics.json") || layoutOf(folder).read != nullptr ||
-           isMatrixFolder(folder);
+    return fs::exists(folder / kOwnLens) || layoutOf(folder).read != nullptr || isMatrixFolder(folder);
 }
 
 RecordingLayout readFolder(const fs::path& folder, const SourceOptions& options) {
-    const bool given = !options.intrinsics.empty(), own = fs::exists(folder / "intrinsics.json");
-    const fs::path intrinsics = given ? options.intrinsics : folder / "intrinsics.json";
-    if (own || (given && hasIndex(folder))) {
-        return readTum(folder, intrinsics, options.depthOnly());
-    }
+    const bool given = !options.intrinsics.empty(), own = fs::exists(folder / kOwnLens);
+    const fs::path intrinsics = given ? options.intrinsics : folder / kOwnLens;
     const KnownLayout known = layoutOf(folder);
+    if (own || (given && hasIndex(folder))) {
+        const fs::path recorded = own                        ? folder / kOwnLens
+                                  : known.read == readOpen3d ? folder / known.mark
+                                                             : fs::path();
+        return readTum(folder, intrinsics, recorded, options.depthOnly());
+    }
     if (!given && known.read == readOpen3d && hasIndex(folder, options.depthOnly())) {
         RecordingLayout layout =
-            readTum(folder, folder / known.mark, options.depthOnly(), ScaleRule::Optional);
+            readTum(folder, folder / known.mark, {}, options.depthOnly(), ScaleRule::Optional);
         if (!layout.metres && !layout.intrinsics.scale && !options.scale) {
             layout.warnings.push_back(
                 std::string(known.mark) +
@@ -181,7 +201,7 @@ RecordingLayout readFolder(const fs::path& folder, const SourceOptions& options)
         refuseMisplacedDepth(folder);
     }
     if (given) { // its stamps may be the index
-        return readTum(folder, intrinsics, options.depthOnly());
+        return readTum(folder, intrinsics, {}, options.depthOnly());
     }
     if (isMatrixFolder(folder)) {
         return readMatrixFolder(request);
@@ -231,6 +251,9 @@ RecordingLayout readLayout(const fs::path& folder, const SourceOptions& options)
     layout.statedUnit = layout.intrinsics.scale;
     if (!layout.metres && !layout.statedUnit && !options.scale && !layout.intrinsics.unreadScale.empty()) {
         throw BadInput(layout.intrinsics.unreadScale);
+    }
+    if (!layout.metres && !options.scale && !layout.intrinsics.unitWarning.empty()) {
+        layout.warnings.push_back(layout.intrinsics.unitWarning);
     }
     warnAboutAxis(layout, folder);
     std::ranges::copy(layout.intrinsics.warnings, std::back_inserter(layout.warnings));

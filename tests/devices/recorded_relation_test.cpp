@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// How colour relates to depth in a folder whose lens is replaced by a file.
+// What of a folder stays whose lens is replaced by a file: how colour relates to depth, and the unit.
 #include "devices/recorded/recorded_camera.h"
 #include "tests/devices/played_bag.h"
+#include "tests/realtime/listening.h"
 
 using namespace fathom;
 using namespace fathom::testing;
@@ -38,6 +39,18 @@ void checkKept(const TemporaryFolder& folder, double x) {
     CHECK(told.colour.fx == 9.0);
     CHECK(told.registered);
     CHECK_FALSE(playedInfo(folder, kLensAlone + "}", {.colour = "none"}).hasColour);
+}
+
+// The folder's own files state 0.1 mm per unit, in whatever form.
+void checkUnit(const TemporaryFolder& folder) {
+    const std::string lens = R"({"width": 7, "height": 5, "fx": 9, "fy": 9, "cx": 3, "cy": 2})";
+    const testing::Listening log;
+    CHECK(playedInfo(folder, lens).metresPerUnit == doctest::Approx(1e-4));
+    CHECK(playedInfo(folder, kLensAlone + "}", {.scale = 0.002}).metresPerUnit == 0.002);
+    CHECK(log.count("the depth unit of") == 0);
+    CHECK(playedInfo(folder, kLensAlone + "}").metresPerUnit == doctest::Approx(1e-4));
+    CHECK(log.count("the depth unit of lens.json is 0.001 m, but that of ") == 1);
+    CHECK(log.count(" is 0.0001 m, which is used; scale=M after the recording's name") == 1);
 }
 
 } // namespace
@@ -101,4 +114,43 @@ TEST_CASE("A file of one lens is refused where the folder's relation of depth an
     lineSays(refused, "m_calibrationColorExtrinsic: 0.9");
     CHECK(playedInfo(folder, kLensAlone + R"(, "registered_to_color": true})").registered);
     CHECK_FALSE(playedInfo(folder, kLensAlone + "}", {.colour = "none"}).hasColour);
+}
+
+TEST_CASE(
+    "The unit that a folder's files state stays where a file replaces the lens; two that differ are named") {
+    const TemporaryFolder open3d, indexed, bop, frames, tum;
+    const std::string mark = R"({"width": 7, "height": 5, "intrinsic_matrix": [6, 0, 0, 0, 6, 0, 3, 2, 1],
+                                 "depth_scale": 10000})";
+    addPair(open3d, "depth/0.png", "color/0.png", 500);
+    open3d.write("camera_intrinsic.json", mark);
+    checkUnit(open3d);
+    writeSmallRecording(indexed, 1);
+    std::filesystem::remove(indexed.path() / "intrinsics.json");
+    indexed.write("camera_intrinsic.json", mark);
+    checkUnit(indexed);
+    addPair(bop, "depth/0.png", "rgb/0.png", 500);
+    bop.write("scene_camera.json", R"({"0": {"cam_K": [6, 0, 3, 0, 6, 2, 0, 0, 1], "depth_scale": 0.1}})");
+    checkUnit(bop);
+    addPair(frames, "frame-000000.depth.png", "frame-000000.color.png", 500);
+    std::string info = kTwoInfos;
+    frames.write("info.txt", info.replace(info.find("1000"), 4, "10000"));
+    checkUnit(frames);
+    writeSmallRecording(tum, 1);
+    std::string own = kSmallIntrinsics;
+    tum.write("intrinsics.json", own.replace(own.find("0.001"), 5, "0.0001"));
+    checkUnit(tum);
+}
+
+TEST_CASE(
+    "A unit of the folder that cannot be read is refused, unless a file of a lens or scale=M states one") {
+    const TemporaryFolder folder;
+    addPair(folder, "depth/0.png", "color/0.png", 500);
+    folder.write("camera_intrinsic.json", R"({"intrinsic_matrix": [], "depth_scale": 0.001})");
+    folder.write("lens.json", R"({"width": 7, "height": 5, "fx": 9, "fy": 9, "cx": 3, "cy": 2,
+                                  "registered_to_color": true})");
+    const std::filesystem::path lens = folder.path() / "lens.json";
+    lineSays(recordingRefusal(folder.path(), {.intrinsics = lens}),
+             "camera_intrinsic.json: depth_scale: 0.001 (allowed: units per metre, 10 to 1000000)");
+    CHECK(playedDepths(folder.path(), {.intrinsics = lens, .scale = 0.001}).size() == 1);
+    CHECK(playedInfo(folder, kLensAlone + "}").metresPerUnit == 0.001);
 }
