@@ -86,7 +86,7 @@ void BagCamera::chooseUnit() {
     const double metresPerValue = options_.scale.value_or(1.0);
     options_.checkMetres(file_->file().string());
     const ValueSpan seen = sampledMetres().scaled(metresPerValue);
-    addWarning(metresWarning(file_->file().string(), seen.nearest));
+    addWarning(metresWarning(file_->file().string(), seen));
     camera.metresPerUnit = unitForMetres(seen, options_.farthest);
     valuesPerUnit_ = camera.metresPerUnit / metresPerValue;
 }

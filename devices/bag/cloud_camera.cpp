@@ -186,7 +186,7 @@ void CloudCamera::learnLens() {
                "clouds in the frame of their camera: x right and y down, y up and z backward, or x forward "
                "and z up");
     }
-    addWarning(metresWarning(file_->file().string(), seen.nearest));
+    addWarning(metresWarning(file_->file().string(), seen));
     if (const std::string warning = lensWarning(fit_.lens); !warning.empty()) {
         log::warn("{}: {}: {}", file_->file().string(), topic().name, warning);
         addWarning(warning);

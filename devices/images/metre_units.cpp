@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <fmt/core.h>
+#include <optional>
 
 namespace fathom {
 
@@ -22,37 +23,81 @@ constexpr std::array kValueUnits{ValueUnit{200.0, "centimetres", "0.01"},
                                  ValueUnit{5e4, "millimetres", "0.001"},
                                  ValueUnit{5e7, "micrometres", "0.000001"}};
 
+double share(double part, double whole) {
+    return whole > 0.0 ? part / whole : 0.0;
+}
+
+// The nearest point, without a few that are nearer than the bound where the others are beyond it; nothing
+// where more are nearer.
+struct FarPoint {
+    double distance, beyond; // beyond: share of the points at this distance or farther
+};
+
+std::optional<FarPoint> nearestBeyond(const ValueSpan& seen, double bound) {
+    constexpr double kFewNear = 0.01, kFewOfOthers = 0.1; // shares; others: than the farthest value
+    double near = 0.0, all = 0.0, before = 0.0;
+    for (const ValueOctave& octave : seen.octaves) {
+        near += octave.least >= bound ? 0.0 : octave.count; // an octave without values has none nearer
+        all += octave.count;
+    }
+    if (near == 0.0 && all > 0.0) {
+        return FarPoint{seen.nearest, 1.0};
+    }
+    if (share(near, all) >= kFewNear && near >= kFewOfOthers * (all - seen.atFarthest)) {
+        return std::nullopt;
+    }
+    for (const ValueOctave& octave : seen.octaves) {
+        if (before + octave.count > kFewOfOthers * all) {
+            return FarPoint{octave.least, 1.0 - share(before, all)};
+        }
+        before += octave.count;
+    }
+    return std::nullopt;
+}
+
 } // namespace
+
+void ValueOctave::add(const ValueOctave& other) {
+    least = std::min(least, other.least);
+    largest = std::max(largest, other.largest);
+    count += other.count;
+}
+
+void ValueSpan::takeEnds(double least, double largest, double atLargest) {
+    nearest = std::min(nearest, least);
+    atFarthest = largest > farthest ? atLargest : atFarthest + (largest == farthest ? atLargest : 0.0);
+    farthest = std::max(farthest, largest);
+}
 
 void ValueSpan::add(double value) {
     if (value > 0.0 && std::isfinite(value)) {
-        nearest = std::min(nearest, value);
-        farthest = std::max(farthest, value);
         constexpr int kMiddle = 32, kLast = 63; // 2^-32 to 2^31: depths in metres to micrometres
-        double& octave = octaves[static_cast<size_t>(std::clamp(std::ilogb(value) + kMiddle, 0, kLast))];
-        octave = std::max(octave, value);
+        octaves[static_cast<size_t>(std::clamp(std::ilogb(value) + kMiddle, 0, kLast))].add(
+            {value, value, 1.0});
+        takeEnds(value, value, 1.0);
     }
 }
 
 void ValueSpan::add(const ValueSpan& other) {
-    nearest = std::min(nearest, other.nearest);
-    farthest = std::max(farthest, other.farthest);
-    std::ranges::transform(octaves, other.octaves, octaves.begin(),
-                           [](double a, double b) { return std::max(a, b); });
+    for (size_t i = 0; i < octaves.size(); ++i) {
+        octaves[i].add(other.octaves[i]);
+    }
+    takeEnds(other.nearest, other.farthest, other.atFarthest);
 }
 
 ValueSpan ValueSpan::scaled(double factor) const {
-    ValueSpan span{factor * nearest, factor * farthest, octaves};
-    for (double& octave : span.octaves) {
-        octave *= factor;
+    ValueSpan span{factor * nearest, factor * farthest, octaves, atFarthest};
+    for (ValueOctave& octave : span.octaves) {
+        octave.least *= factor;
+        octave.largest *= factor;
     }
     return span;
 }
 
 double ValueSpan::farthestWithin(double bound) const {
     double within = 0.0;
-    for (const double octave : octaves) {
-        within = octave <= bound ? std::max(within, octave) : within;
+    for (const ValueOctave& octave : octaves) {
+        within = octave.largest <= bound ? std::max(within, octave.largest) : within;
     }
     return within;
 }
@@ -74,14 +119,18 @@ double unitForMetres(const ValueSpan& seen, double ofInterest, double spare) {
     return unitForMetres(std::min(spare * (within > 0.0 ? within : seen.farthest), bound));
 }
 
-std::string metresWarning(const std::string& file, double nearest) {
+std::string metresWarning(const std::string& file, const ValueSpan& seen) {
     constexpr double kUnlikelyDistance = 50.0; // [m]
-    if (!(nearest >= kUnlikelyDistance && std::isfinite(nearest))) {
+    const std::optional<FarPoint> far = nearestBeyond(seen, kUnlikelyDistance);
+    if (!far) {
         return "";
     }
-    std::string text = fmt::format("{}: the nearest point is at {:.4g} m", file, nearest);
+    std::string text = far->beyond == 1.0
+                           ? fmt::format("{}: the nearest point is at {:.4g} m", file, far->distance)
+                           : fmt::format("{}: {:.3g} % of its points are at {:.4g} m or beyond", file,
+                                         100.0 * far->beyond, far->distance);
     const auto likely =
-        std::ranges::find_if(kValueUnits, [&](const auto& unit) { return nearest < unit.below; });
+        std::ranges::find_if(kValueUnits, [&](const auto& unit) { return far->distance < unit.below; });
     if (likely != kValueUnits.end()) {
         text +=
             fmt::format("; if its values are {}, put ,scale={} after its name", likely->name, likely->scale);

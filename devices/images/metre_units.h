@@ -9,10 +9,19 @@
 
 namespace fathom {
 
+// Of the values from one power of two to the next.
+struct ValueOctave {
+    double least = HUGE_VAL, largest = 0.0;
+    double count = 0.0;
+
+    void add(const ValueOctave& other);
+};
+
 // Least and largest of measured values.
 struct ValueSpan {
     double nearest = HUGE_VAL, farthest = 0.0; // without a value: infinity and 0
-    std::array<double, 64> octaves{};          // the largest value of each power of two; 0 = none
+    std::array<ValueOctave, 64> octaves{};
+    double atFarthest = 0.0; // values that are the farthest one
 
     // Zero, negative values, NaN and infinity are not measured.
     void add(double value);
@@ -21,6 +30,9 @@ struct ValueSpan {
     // The largest value up to `bound`, without those of its own power of two if one of them is beyond; 0 =
     // none.
     double farthestWithin(double bound) const;
+
+private:
+    void takeEnds(double least, double largest, double atLargest);
 };
 
 // The unit [m] for depth of up to `farthest` metres: 0.1 mm or the least multiple of it with which 16 bits
@@ -32,10 +44,11 @@ double unitForMetres(double farthest);
 // others their precision.
 double unitForMetres(const ValueSpan& seen, double ofInterest, double spare = 1.5);
 
-// Warns when the nearest point of a recording is farther than any camera sees: its values are no metres, but
-// likely of the unit that it names.
+// Warns when nearly all points of a recording are farther than any camera sees: its values are no metres, but
+// likely of the unit that it names. A few near values do not count: resizing makes them at the borders of
+// holes. The one far value of a renderer's background does not count, either, beside 1 % of near ones.
 // Returns the warning; empty when there is none.
-std::string metresWarning(const std::string& file, double nearest);
+std::string metresWarning(const std::string& file, const ValueSpan& seen);
 
 // `value` in units, rounded; 0 for what is no positive finite number. What is
 // too far for 16 bits becomes 0 and is counted in `beyond`.

@@ -213,7 +213,7 @@ void PcdCamera::scalePoints(const FittedLens& fit, const SourceOptions& options)
         p = fit.opticalTcloud * p * options.scale.value_or(1.0);
         seen.add(isMeasured(p) ? p.z : 0.0);
     }
-    if (const std::string warning = metresWarning(file_.string(), seen.nearest); !warning.empty()) {
+    if (const std::string warning = metresWarning(file_.string(), seen); !warning.empty()) {
         warnings_.push_back(warning);
     }
     info_.metresPerUnit = unitForMetres(seen, options.farthest, 1.0);

@@ -66,7 +66,7 @@ void FolderDepth::chooseUnit(const RecordingLayout& layout, const SourceOptions&
     }
     const double metresPerValue = options.scale.value_or(1.0);
     seen = seen.scaled(metresPerValue);
-    warning_ = metresWarning(folder_, seen.nearest);
+    warning_ = metresWarning(folder_, seen);
     metresPerUnit_ = unitForMetres(seen, options.farthest);
     units_.valuesPerUnit = metresPerUnit_ / metresPerValue;
 }

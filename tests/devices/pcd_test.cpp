@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/pcd/pcd_camera.h"
 
-#include "devices/images/metre_units.h"
 #include "devices/recorded/recorded_camera.h"
 #include "tests/devices/organised_cloud.h"
 #include "tests/devices/recorded_folder.h"
@@ -184,17 +183,6 @@ TEST_CASE("LZF unpacks literals and short, long and overlapping matches, and rej
     CHECK_FALSE(unpackLzf(std::vector<uint8_t>{3 << 5, 0}, small)); // points before the start
     CHECK_FALSE(unpackLzf(std::vector<uint8_t>{1, 'a'}, small));
     CHECK_FALSE(unpackLzf(std::vector<uint8_t>{7 << 5}, small));
-}
-
-TEST_CASE(
-    "Values that are too large for metres are taken for the unit that places them in front of a camera") {
-    CHECK(metresWarning("a.pcd", 49.0).empty());
-    for (const auto& [nearest, unit] : {std::pair{50.0, "centimetres, put ,scale=0.01 "},
-                                        {500.0, "millimetres, put ,scale=0.001 "},
-                                        {5e5, "micrometres, put ,scale=0.000001 "}}) {
-        CHECK(metresWarning("a.pcd", nearest).find(unit) != std::string::npos);
-    }
-    CHECK(metresWarning("a.pcd", 1e9) == "a.pcd: the nearest point is at 1e+09 m");
 }
 
 TEST_CASE("Fields of sizes that no number has are not read beyond their bytes") {

@@ -78,10 +78,11 @@ TEST_CASE("A camera that protects nothing is named in the log: wrong unit, no de
         const std::lock_guard lock(mutex);
         lines += level == LogLevel::Warning ? std::string(line) + "\n" : "";
     });
-    const auto play = [](const Scene& scene, std::uint16_t depth) {
+    const auto play = [](const Scene& scene, std::uint16_t depth, std::size_t right = 0) {
         Lockstep lockstep(scene, smallCamera(), startAt(0.5));
         Wall wall;
         std::ranges::fill(wall.depth, depth);
+        std::fill_n(wall.depth.begin(), right, std::uint16_t{600});
         for (const Nanoseconds stamp : {1'000'000'000, 1'500'000'000, 2'000'000'000}) {
             lockstep.process(wall.at(stamp));
         }
@@ -91,6 +92,10 @@ TEST_CASE("A camera that protects nothing is named in the log: wrong unit, no de
     play(wallScene(), 6000); // a unit of 0.1 mm, said to be 1 mm
     CHECK(has("camera: no depth of the first second is between camera.near 0.1 m and camera.far 3 m: nothing "
               "is protected; it is 6 to 6 m, so check metresPerUnit"));
+    play(wallScene(), 6000, 24); // at the edges of objects
+    CHECK(has(
+        "camera: only 0.5 % of the depth of the first second is between camera.near 0.1 m and camera.far 3 "
+        "m: hardly anything is protected; it is 0.6 to 6 m, so check metresPerUnit"));
     play(wallScene(), 0);
     CHECK(has("no depth in the first second"));
     {
