@@ -58,15 +58,18 @@ std::vector<NameNumber> numbersIn(const std::string& name) {
     return numbers;
 }
 
+bool endsInClock(const std::vector<NameNumber>& numbers) {
+    return numbers.size() >= 3 &&
+           std::all_of(numbers.end() - 3, numbers.end(), [](const auto& n) { return n.digits == 2; });
+}
+
 bool isDateOrTime(const std::vector<NameNumber>& numbers) {
     constexpr size_t kTimeDigits = 6; // of HHMMSS
     size_t before = 0;
     for (size_t i = 0; i + 1 < numbers.size(); ++i) {
         before += numbers[i].digits;
     }
-    const bool clock = numbers.size() >= 3 && std::all_of(numbers.end() - 3, numbers.end(),
-                                                          [](const auto& n) { return n.digits == 2; });
-    return before >= kTimeDigits || clock;
+    return before >= kTimeDigits || endsInClock(numbers);
 }
 
 void sortByName(std::vector<std::filesystem::path>& files) {

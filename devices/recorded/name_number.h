@@ -24,6 +24,8 @@ struct NameNumber {
 // In the order of the name. A point between digits is a decimal point.
 std::vector<NameNumber> numbersIn(const std::string& name);
 
+// HH-MM-SS.
+bool endsInClock(const std::vector<NameNumber>& numbers);
 // A name of a date or a time of day: 6 or more digits in front of the last number, or HH-MM-SS. Only all of
 // its numbers together order it.
 bool isDateOrTime(const std::vector<NameNumber>& numbers);

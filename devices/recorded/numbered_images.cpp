@@ -88,6 +88,35 @@ bool tellTimes(const std::vector<NamedImage>& images) {
     return std::ranges::all_of(images, [](const NamedImage& image) { return isDateOrTime(image.all); });
 }
 
+// Several cameras or views in one folder: behind each of several numbers or times, the last number counts the
+// same images, from 0 or 1. Milliseconds do not, nor do seconds.
+void refuseViews(const std::filesystem::path& folder, const std::vector<NamedImage>& images) {
+    std::map<ImageKey, std::map<NameNumber, const NamedImage*>> moments;
+    for (const NamedImage& image : images) {
+        ImageKey moment = image.all;
+        moment.pop_back();
+        moments[moment].emplace(image.all.back(), &image);
+    }
+    const auto& views = moments.begin()->second;
+    size_t next = views.begin()->first.text() == "0" ? 0 : 1;
+    const bool counted = std::ranges::all_of(
+        views, [&](const auto& view) { return view.first.text() == std::to_string(next++); });
+    const auto sameViews = [&](const auto& moment) {
+        return std::ranges::equal(
+            moment.second, views, {}, [](const auto& view) { return view.first.text(); },
+            [](const auto& view) { return view.first.text(); });
+    };
+    if (moments.size() > 1 && views.size() > 1 && counted && !endsInClock(images.front().all) &&
+        std::ranges::all_of(moments, sameViews)) {
+        throw BadInput(folder.string(), "names of images",
+                       views.begin()->second->file.filename().string() + " and " +
+                           std::next(views.begin())->second->file.filename().string() +
+                           ", as of several cameras: the same " + std::to_string(views.size()) +
+                           " last numbers behind " + std::to_string(moments.size()) + " others",
+                       "the images of one camera");
+    }
+}
+
 using ByNumber = std::map<ImageKey, std::filesystem::path>;
 
 // Both folders by the first or the last number of their names.
@@ -214,7 +243,11 @@ std::vector<IndexLine> pairsOf(const Match& match, const std::filesystem::path& 
 
 std::vector<IndexLine> depthByNumber(const NumberedImages& depth) {
     const std::vector<NamedImage> found = depthImagesIn(depth);
-    Match images = matchBy(found, {}, tellTimes(found) ? &NamedImage::all : &NamedImage::last);
+    const bool times = tellTimes(found);
+    if (times) {
+        refuseViews(depth.folder, found);
+    }
+    Match images = matchBy(found, {}, times ? &NamedImage::all : &NamedImage::last);
     if (Match first = matchBy(found, {}, &NamedImage::first); !images.twice.empty() && first.twice.empty()) {
         images = std::move(first); // 0000_depth16
     }
@@ -240,6 +273,7 @@ std::vector<IndexLine> pairByNumber(const NumberedImages& depth, const NumberedI
     const Match last = matchBy(depthImages, colourImages, &NamedImage::last);
     const Match first = matchBy(depthImages, colourImages, &NamedImage::first);
     if (tellTimes(depthImages) && tellTimes(colourImages)) {
+        refuseViews(depth.folder, depthImages);
         const Match all = matchBy(depthImages, colourImages, &NamedImage::all);
         const auto isBetter = [](const Match& other, const Match& than) {
             return other.twice.empty() && other.pairs > than.pairs;

@@ -134,6 +134,28 @@ TEST_CASE(
     CHECK(depthsOfNames({"cam10_1", "cam9_2"}, {"1", "2"}) == Depths{500, 600}); // a counter orders alone
 }
 
+TEST_CASE("Images of several cameras in one folder are refused, however long the numbers in front are") {
+    using Names = std::vector<std::string>;
+    for (const Names& names :
+         {Names{"000000_0", "000000_1", "000001_0", "000001_1"},
+          {"1305031102000_cam1", "1305031102000_cam2", "1305031102033_cam1", "1305031102033_cam2"},
+          {"213522070137_000000", "213522070137_000001", "851112060943_000000",
+           "851112060943_000001"}, // serial numbers
+          {"a1b2c3d4e5f6_d0_0", "a1b2c3d4e5f6_d0_1", "a1b2c3d4e5f6_d1_0", "a1b2c3d4e5f6_d1_1"}}) {
+        const TemporaryFolder folder;
+        writeNamed(folder, names, names);
+        CAPTURE(names[0]);
+        for (const char* colour : {"", "none"}) {
+            lineSays(recordingRefusal(folder.path(), {.colour = colour}),
+                     "names of images: " + names[0] + ".png and " + names[1] +
+                         ".png, as of several cameras: the same 2 last numbers behind 2 others (allowed: the "
+                         "images of one camera)");
+        }
+    }
+    const Names clock{"20240101_12-00-00", "20240101_12-00-01", "20240101_12-01-00", "20240101_12-01-01"};
+    CHECK(depthsOfNames(clock, clock) == Depths{500, 600, 700, 800});
+}
+
 TEST_CASE("A number in front of the image's kind counts where no name ends in a number") {
     CHECK(depthsOfNames({"0000_depth", "0001_depth"}, {"0000_color", "0001_color"}) == Depths{500, 600});
     CHECK(depthsOfNames({"frame0000.depth", "frame0001.depth"}, {"1", "0"}) == Depths{500, 600});
