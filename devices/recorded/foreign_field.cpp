@@ -62,14 +62,36 @@ bool isAny(const std::string& text, const std::array<std::string_view, N>& words
     return std::ranges::find(words, text) != words.end();
 }
 
-bool namesCoefficients(const std::string& key) {
-    constexpr std::array<std::string_view, 5> kWhole{"d", "dist", "coeffs", "coefficients", "kc"};
+bool namesCoefficients(const JsonField& block, const std::string& key) {
+    constexpr std::array<std::string_view, 5> kWhole{"d", "dist", "kc", "k0", "xi"};
+    constexpr std::array<std::string_view, 6> kParts{"disto",      "coef",  "radial",
+                                                     "tangential", "prism", "lensdist"};
     const std::string plain = plainLetters(key);
     const bool single = plain.size() == 2 && (plain[0] == 'k' || plain[0] == 'p') && plain[1] >= '1' &&
                         plain[1] <= '6'; // k1 to k6, p1 and p2
-    const bool part = plain.find("dist") != std::string::npos && plain.find("coef") != std::string::npos;
+    const bool part = plain.find("dist") != std::string::npos && plain.find("par") != std::string::npos;
+    const bool kappa = plain.find("kappa") != std::string::npos && !block.find("omega"); // else angles
     return key != kCoefficients &&
-           (single || part || isAny(plain, kWhole) || plain.find("distort") != std::string::npos);
+           (single || part || kappa || isAny(plain, kWhole) || holdsAny(plain, kParts));
+}
+
+// Lists of any lens: coefficients where they hold more than the pinhole and its size. 9 are a matrix.
+bool listsCoefficients(const JsonField& block, const std::string& key) {
+    constexpr std::array<std::string_view, 5> kLists{"k", "params", "parameters", "lensparams",
+                                                     "lensparameters"};
+    constexpr std::array<std::string_view, 6> kPinhole{"fx", "fy", "cx", "cy", "width", "height"};
+    const JsonField list = block.at(key);
+    if (!isAny(plainLetters(key), kLists) || !(list.isNumber() || list.isNumbers())) {
+        return false;
+    }
+    const std::vector<double> values = list.isNumber() ? std::vector{list.finite()} : list.numbers();
+    const auto known = [&](double value) {
+        return value == 0.0 || value == 1.0 || std::ranges::any_of(kPinhole, [&](std::string_view name) {
+                   const auto own = block.find(name);
+                   return own && own->is(value);
+               });
+    };
+    return values.size() != 9 && !std::ranges::all_of(values, known);
 }
 
 // Of fisheyes and the like, whose rays bend also where all coefficients are zero.
@@ -83,6 +105,9 @@ bool namesBentLens(const std::string& model) {
     return holdsAny(plain, kParts) || isAny(plain, kWhole);
 }
 
+constexpr const char* kBentAllowed =
+    "a pinhole, or the coefficients as a list \"distortion\" with \"distortion_model\"";
+
 void refuseBentModel(const JsonField& block) {
     const auto list = block.find(kCoefficients);
     const bool given = list && !list->isNothing();
@@ -90,10 +115,13 @@ void refuseBentModel(const JsonField& block) {
         const std::string plain = plainLetters(key);
         const bool model = plain.find("model") != std::string::npos || plain.ends_with("type");
         const bool read = given && block.find(kModel);
+        if (block.at(key).isTrue() && !read && namesBentLens(key)) {
+            block.at(key).refuse(kBentAllowed);
+        }
         if (const JsonField field = block.at(key); model && !read && field.isText() &&
                                                    namesBentLens(field.text()) &&
                                                    !(key == kModel && list && !list->isEmpty())) {
-            field.refuse("a pinhole, or the coefficients as a list \"distortion\" with \"distortion_model\"");
+            field.refuse(kBentAllowed);
         }
     }
 }
@@ -136,7 +164,8 @@ JsonField ownField(const JsonField& block, std::string_view name) {
 void refuseForeignDistortion(const JsonField& block) {
     const bool own = block.find(kCoefficients).has_value();
     for (const std::string& key : block.keys()) {
-        if (!own && namesCoefficients(key) && !block.at(key).isNothing()) {
+        const bool named = !own && (namesCoefficients(block, key) || listsCoefficients(block, key));
+        if (named && !block.at(key).isNothing()) {
             block.at(key).refuse(
                 "zeros, or the coefficients as a list \"distortion\" with \"distortion_model\"");
         }

@@ -127,6 +127,11 @@ bool JsonField::is(double number) const {
     return value_->is_number() && std::abs(value_->get<double>() - number) <= 1e-6 * std::abs(number);
 }
 
+bool JsonField::isNumbers() const {
+    return value_->is_array() &&
+           std::ranges::all_of(*value_, [](const auto& one) { return one.is_number(); });
+}
+
 bool JsonField::isNothing() const {
     return isEmptyValue(*value_, 0);
 }

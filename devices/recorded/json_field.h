@@ -31,6 +31,9 @@ public:
     std::string text() const;
     std::vector<std::string> keys() const; // of an object; else none
     bool isText() const { return value_->is_string(); }
+    bool isNumber() const { return value_->is_number(); }
+    bool isNumbers() const; // a list of nothing else
+    bool isTrue() const { return value_->is_boolean() && value_->get<bool>(); }
     bool isEmpty() const { return value_->empty(); } // null, or a list or an object without values
     bool is(double number) const;                    // within a millionth
     // Null, true or false, 0, a list or an object of nothing else, or text that begins with no number.

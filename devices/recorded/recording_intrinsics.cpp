@@ -56,6 +56,9 @@ Intrinsics readLens(const JsonField& block, RecordingIntrinsics& intrinsics) {
     if (const auto matrix = block.find("intrinsic_matrix")) {
         warnAboutSkew(intrinsics.warnings, intrinsics.file + ": " + matrix->path(), matrix->numbers()[3]);
     }
+    if (const auto skew = block.find("skew"); skew && skew->isNumber()) {
+        warnAboutSkew(intrinsics.warnings, intrinsics.file + ": " + skew->path(), skew->finite());
+    }
     readDistortion(block, lens);
     if (!lens.invertible()) {
         block.at("distortion").refuse("coefficients that can be inverted over the whole image");

@@ -83,10 +83,37 @@ TEST_CASE("A bag's depth has the unit that the file of its lens states, unless s
 }
 
 TEST_CASE("Distortion under the name of another program is refused unless it is zero") {
-    for (const char* name :
-         {"distCoeffs", "distortionCoeff", "distortionCoefficients", "distortion_params", "Distortion", "kc",
-          "distortion_parameters", "radial_distortion", "K1", "k_1", "k2", "p1", "dist_coefs", "distort",
-          "dist", "D", "coeffs", "distortion_coefficients"}) {
+    for (const char* name : {"distCoeffs",
+                             "distortionCoeff",
+                             "distortionCoefficients",
+                             "distortion_params",
+                             "Distortion",
+                             "kc",
+                             "distortion_parameters",
+                             "radial_distortion",
+                             "K1",
+                             "k_1",
+                             "k2",
+                             "p1",
+                             "dist_coefs",
+                             "distort",
+                             "dist",
+                             "D",
+                             "coeffs",
+                             "distortion_coefficients",
+                             "radial",
+                             "tangential",
+                             "radial_params",
+                             "disto_k3",
+                             "dist_params",
+                             "lens_dist",
+                             "coeff",
+                             "coefs",
+                             "distorsion",
+                             "k0",
+                             "kappa",
+                             "xi",
+                             "thin_prism"}) {
         CAPTURE(name);
         for (const char* value : {"[0.2, 0.05, 0, 0, 0]", "0.2", R"({"k1": 0.2})", "[[0.2], [0.05]]"}) {
             const std::string field = "\"" + std::string(name) + "\": " + value + "}";
@@ -98,6 +125,17 @@ TEST_CASE("Distortion under the name of another program is refused unless it is 
         }
     }
     CHECK(refusalWith(kFourFields + R"("k2": 0.1, "distortion": [0.01, 0.1, 0, 0, 0]})") == "");
+    for (const char* list :
+         {R"("params": [6, 6, 3, 2, 0.12, -0.25])", R"("lens_params": [0.12, -0.25])",
+          R"("parameters": [6, 3, 2, 0.12])", R"("k": [0.12, -0.25, 0, 0])", R"("k": 0.12)"}) {
+        lineSays(refusalWith(kFourFields + list + "}"), "(allowed: zeros, or the coefficients as a list");
+    }
+    for (const char* list : {R"("params": [6, 6, 3, 2, 0, 0])", R"("K": [600, 0, 300, 0, 600, 200, 0, 0, 1])",
+                             R"("k": [[6, 0, 3], [0, 6, 2], [0, 0, 1]])", R"("params": {"k": 0.1})",
+                             R"("omega": 1, "phi": 2, "kappa": 3)", R"("is_fisheye": false)"}) {
+        CAPTURE(list);
+        CHECK(refusalWith(kFourFields + list + "}") == "");
+    }
     CHECK(refusalWith(kFourFields + R"("undistorted": true, "distance": 3, "p": 4, "k10": 5})") == "");
 }
 
@@ -109,6 +147,12 @@ TEST_CASE("The model of a lens that bends rays is refused without its coefficien
         lineSays(refusalWith(kFourFields + model + "}"),
                  "(allowed: a pinhole, or the coefficients as a list");
     }
+    lineSays(refusalWith(kFourFields + R"("is_fisheye": true, "distortion": [0.1, 0, 0, 0]})"),
+             "is_fisheye: true (allowed: a pinhole, or the coefficients as a list");
+    CHECK(refusalWith(
+              kFourFields +
+              R"("is_fisheye": true, "distortion_model": "equidistant", "distortion": [0.01, 0, 0, 0]})") ==
+          "");
     for (const char* model : {R"("camera_model": "OPENCV")", R"("model": "Intel RealSense D435")",
                               R"("distortion_model": "plumb_bob")", R"("camera": "fisheye room")",
                               R"("sensor_type": "OmniVision OV9281")",

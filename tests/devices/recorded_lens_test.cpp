@@ -226,6 +226,10 @@ TEST_CASE("The skew of a lens matrix of a folder has a warning with the matrix a
               warnings("camera_intrinsic.json",
                        R"({"width": 7, "height": 5, "intrinsic_matrix": [6, 0, 0, )" + skew +
                            ", 6, 0, 3, 2, 1]}",
+                       "depth/0.png", "color/0.png"),
+              warnings("intrinsic.json",
+                       R"({"width": 7, "height": 5, "fx": 6, "fy": 6, "cx": 3, "cy": 2, "skew": )" + skew +
+                           "}",
                        "depth/0.png", "color/0.png")}) {
             all += of.empty() ? "" : of.at(0) + "\n";
         }
@@ -236,7 +240,7 @@ TEST_CASE("The skew of a lens matrix of a folder has a warning with the matrix a
                       rest = ": a skew of -0.6 pixels is not used: the images are played without it\n";
     for (const char* matrix :
          {"camera-intrinsics.txt", "info.txt: m_calibrationDepthIntrinsic", "intrinsic_depth.txt",
-          "scene_camera.json: cam_K", "camera_intrinsic.json: intrinsic_matrix"}) {
+          "scene_camera.json: cam_K", "camera_intrinsic.json: intrinsic_matrix", "intrinsic.json: skew"}) {
         lineSays(all, matrix + rest);
     }
 }
