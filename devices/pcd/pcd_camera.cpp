@@ -189,8 +189,8 @@ PcdCamera::PcdCamera(const std::filesystem::path& file, const SourceOptions& opt
         log::warn("{}: {}", file.string(), warning);
         warnings_.push_back(warning);
     }
-    if (cloud_.posed) {
-        warnings_.emplace_back("the pose in VIEWPOINT is not read: base_T_camera of the scene counts");
+    if (!cloud_.pose.empty()) {
+        warnings_.push_back("the pose in " + cloud_.pose + " is not read: base_T_camera of the scene counts");
         log::warn("{}: {}", file.string(), warnings_.back());
     }
     scalePoints(fit, options);

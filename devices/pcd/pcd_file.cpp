@@ -30,7 +30,7 @@ struct Header {
     uint32_t width = 0, height = 0;
     std::string data;
     size_t bytes = 0;   // a point
-    bool posed = false; // PcdCloud::posed
+    bool posed = false; // by VIEWPOINT
 };
 
 struct Source {
@@ -230,7 +230,7 @@ PcdCloud readPcd(const std::filesystem::path& file) {
         }
     }
     const std::vector<uint8_t> bytes = readPoints(source, header);
-    PcdCloud cloud{header.width, header.height, {}, {}, {}, {}, header.posed};
+    PcdCloud cloud{header.width, header.height, {}, {}, {}, {}, header.posed ? "VIEWPOINT" : ""};
     for (size_t i = 0; i < size_t{header.width} * header.height; ++i) {
         const uint8_t* point = bytes.data() + i * header.bytes;
         cloud.points.push_back({x->at(point), y->at(point), z->at(point)});

@@ -20,7 +20,7 @@ struct PcdCloud {
     std::vector<uint32_t> colour; // 0xAABBGGRR; empty without fields rgb, rgba, or r, g, b
     std::vector<float> intensity; // empty without a field intensity
     std::string uncoloured = {};  // why `colour` is empty, where the file's kind says more
-    bool posed = false;           // the file states a pose of its sensor, which is not read
+    std::string pose = {}; // where the file states a pose of its sensor, which is not read; empty = nowhere
 };
 
 // p: in the camera's optical axes.

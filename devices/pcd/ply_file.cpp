@@ -119,15 +119,36 @@ private:
         if (element.properties.empty()) {
             return; // whatever their number, they take no bytes
         }
+        std::vector<double> record(element.properties.size());
         for (uint64_t i = 0; i < element.count; ++i) {
-            for (size_t p = 0; p < element.properties.size(); ++p) {
-                const double value = values_.property(element.properties[p], element.name, i);
+            for (size_t p = 0; p < record.size(); ++p) {
+                const double value = record[p] = values_.property(element.properties[p], element.name, i);
                 uint32_t* to = p == columns ? &viewport_[0] : (p == rows ? &viewport_[1] : nullptr);
                 if (element.name == "camera" && to != nullptr && value >= 1.0 && value <= kPlyWidth) {
                     *to = static_cast<uint32_t>(value);
                 }
             }
+            posed_ = posed_ || (element.name == "camera" && isPose(element, record));
         }
+    }
+
+    // Of a camera as the Point Cloud Library writes it; some writers leave its axes 0.
+    static bool isPose(const PlyElement& camera, const std::vector<double>& record) {
+        constexpr double kRounding = 1e-6;
+        double apart = 0.0, turned = 0.0, axes = 0.0;
+        const auto stated = [&](const std::string& name) {
+            const size_t at = camera.find(name);
+            return at < record.size() ? record[at] : 0.0;
+        };
+        for (const char of : {'x', 'y', 'z'}) {
+            apart += std::abs(stated(std::string("view_p") + of));
+            for (const char along : {'x', 'y', 'z'}) {
+                const double value = stated(std::string{of} + "_axis" + along);
+                turned += std::abs(value - (of == along ? 1.0 : 0.0));
+                axes += std::abs(value);
+            }
+        }
+        return !(apart <= kRounding) || (axes > 0.0 && !(turned <= kRounding));
     }
 
     void checkSize() {
@@ -172,8 +193,13 @@ private:
     }
 
     PcdCloud organised() {
-        return {head_.width, head_.height, spread(std::move(points_), dvec3(NAN)),
-                spread(std::move(colours_), 0xff000000u), spread(std::move(intensity_), NAN)};
+        return {head_.width,
+                head_.height,
+                spread(std::move(points_), dvec3(NAN)),
+                spread(std::move(colours_), 0xff000000u),
+                spread(std::move(intensity_), NAN),
+                {},
+                posed_ ? "element camera" : ""};
     }
 
     PlyHeader head_;
@@ -182,6 +208,7 @@ private:
     std::vector<uint32_t> colours_, grid_;
     std::vector<float> intensity_;
     std::array<uint32_t, 2> viewport_{};
+    bool posed_ = false; // by an element camera
 };
 
 } // namespace

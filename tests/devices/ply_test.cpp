@@ -185,3 +185,26 @@ TEST_CASE("A grid of a PLY that names points or lists beyond the file is rejecte
               .find("fits the file") != std::string::npos);
     CHECK(plyRefusal(replaced(lists, "element face 0", "element face 18446744073709551615")).empty());
 }
+
+TEST_CASE("A PLY whose element camera has a pose has one warning, as the scene's pose counts") {
+    const auto warned = [](const std::string& position, const std::string& axes) {
+        std::string fields;
+        for (const char* name : {"view_px", "view_py", "view_pz", "x_axisx", "x_axisy", "x_axisz", "y_axisx",
+                                 "y_axisy", "y_axisz", "z_axisx", "z_axisy", "z_axisz"}) {
+            fields += std::string("property float ") + name + "\n";
+        }
+        const TemporaryFolder folder;
+        folder.write("x.ply", replaced(withCamera("ascii"), "end_header\n",
+                                       "element camera 1\n" + fields + "end_header\n") +
+                                  "\n" + position + axes + "\n");
+        return PcdCamera(folder.path() / "x.ply").warnings();
+    };
+    const std::string identity = "1 0 0 0 1 0 0 0 1", none = "0 0 0 0 0 0 0 0 0";
+    for (const std::string& axes : {identity, none}) {
+        CHECK(warned("0 0 0 ", axes).empty());
+        const std::vector<std::string> moved = warned("1 2 3 ", axes);
+        REQUIRE(moved.size() == 1);
+        CHECK(moved[0] == "the pose in element camera is not read: base_T_camera of the scene counts");
+    }
+    CHECK(warned("0 0 0 ", "0 0 -1 0 1 0 1 0 0").size() == 1);
+}
