@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <tuple>
 #include <utility>
 
@@ -11,11 +12,11 @@ namespace fathom {
 namespace {
 
 // Texts that compare as the names do when their numbers count as numbers.
-std::string sortingText(const std::string& name) {
+std::string sortingText(const std::string& name, const std::vector<NameNumber>& numbers) {
     constexpr size_t kLongestName = 255; // [bytes] of Linux
     std::string text;
     size_t done = 0;
-    for (const NameNumber& number : numbersIn(name)) {
+    for (const NameNumber& number : numbers) {
         text += name.substr(done, number.begin - done);
         text += std::string(kLongestName - std::min(kLongestName, number.whole.size()), '0');
         text += number.whole + "." + number.fraction;
@@ -35,7 +36,7 @@ std::string NameNumber::text() const {
     return (whole.empty() ? "0" : whole) + (fraction.empty() ? "" : "." + fraction);
 }
 
-std::vector<NameNumber> numbersIn(const std::string& name) {
+std::vector<NameNumber> numbersIn(const std::string& name, bool decimal) {
     std::vector<NameNumber> numbers;
     for (size_t begin = name.find_first_of(kDigits); begin != std::string::npos;
          begin = name.find_first_of(kDigits, begin)) {
@@ -45,7 +46,8 @@ std::vector<NameNumber> numbersIn(const std::string& name) {
         number.digits = end - begin;
         number.whole = name.substr(begin, end - begin);
         number.whole.erase(0, number.whole.find_first_not_of('0'));
-        if (end + 1 < name.size() && name[end] == '.' && kDigits.find(name[end + 1]) != std::string::npos) {
+        if (decimal && end + 1 < name.size() && name[end] == '.' &&
+            kDigits.find(name[end + 1]) != std::string::npos) {
             begin = end + 1;
             end = std::min(name.find_first_not_of(kDigits, begin), name.size());
             number.fraction = name.substr(begin, end - begin);
@@ -54,6 +56,45 @@ std::vector<NameNumber> numbersIn(const std::string& name) {
         number.end = end;
         numbers.push_back(std::move(number));
         begin = end;
+    }
+    return numbers;
+}
+
+bool PointDigits::count() const {
+    return unpadded && endInZero && oneWhole && front < kStampDigits;
+}
+
+PointDigits pointDigits(const std::vector<std::vector<NameNumber>>& names) {
+    PointDigits all;
+    bool padded = false;
+    for (size_t i = 0; i < names.size(); ++i) {
+        if (names[i].empty()) {
+            return {};
+        }
+        const NameNumber& number = names[i].back();
+        const size_t digits = number.end - number.begin - number.digits;
+        const size_t behind = digits > 0 ? digits - 1 : 0; // without the point
+        const bool zero = number.fraction.size() < behind;
+        padded = padded || behind == 0 || number.fraction.starts_with('0') ||
+                 (number.fraction.empty() && behind > 1);
+        all.endInZero = all.endInZero || (zero && behind > 1);
+        all.oneWhole = all.oneWhole && number.whole == names[0].back().whole;
+        all.example = behind < all.shortest ? i : all.example;
+        all.shortest = std::min(all.shortest, behind);
+        all.longest = std::max(all.longest, behind);
+        all.front = std::min(all.front, number.digits);
+    }
+    all.unpadded = !padded && all.shortest < all.longest;
+    return all;
+}
+
+std::vector<std::vector<NameNumber>> numbersInNames(const std::vector<std::string>& names) {
+    std::vector<std::vector<NameNumber>> numbers;
+    std::ranges::transform(names, std::back_inserter(numbers),
+                           [](const auto& name) { return numbersIn(name); });
+    if (pointDigits(numbers).count()) {
+        std::ranges::transform(names, numbers.begin(),
+                               [](const auto& name) { return numbersIn(name, false); });
     }
     return numbers;
 }
@@ -78,9 +119,13 @@ void sortByName(std::vector<std::filesystem::path>& files) {
         std::ranges::sort(files); // right for decimal and hexadecimal numbers
         return;
     }
+    std::vector<std::string> names;
+    std::ranges::transform(files, std::back_inserter(names),
+                           [](const auto& file) { return file.stem().string(); });
+    const std::vector<std::vector<NameNumber>> numbers = numbersInNames(names);
     std::vector<std::pair<std::string, std::filesystem::path>> sorted;
-    for (std::filesystem::path& file : files) {
-        sorted.emplace_back(sortingText(file.stem().string()), std::move(file));
+    for (size_t i = 0; i < files.size(); ++i) {
+        sorted.emplace_back(sortingText(names[i], numbers[i]), std::move(files[i]));
     }
     std::ranges::sort(sorted);
     std::ranges::transform(sorted, files.begin(), [](auto& pair) { return std::move(pair.second); });

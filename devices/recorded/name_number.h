@@ -21,8 +21,27 @@ struct NameNumber {
     std::string text() const;
 };
 
-// In the order of the name. A point between digits is a decimal point.
-std::vector<NameNumber> numbersIn(const std::string& name);
+// In the order of the name. A point between digits is a decimal point, if `decimal`.
+std::vector<NameNumber> numbersIn(const std::string& name, bool decimal = true);
+
+// The digits behind the point of the last number of several names.
+struct PointDigits {
+    size_t shortest = std::string::npos, longest = 0;
+    size_t front = std::string::npos; // fewest digits in front of the point
+    size_t example = 0;               // which name has the shortest
+    // All names have such digits, in different numbers, and none begins with 0.
+    bool unpadded = false;
+    bool endInZero = false; // some of several digits, which decimals without their last zeros do not
+    bool oneWhole = true;   // one number in front of the point
+
+    // A point in front of a counter, as in cam1.9 and cam1.10.
+    bool count() const;
+};
+PointDigits pointDigits(const std::vector<std::vector<NameNumber>>& names);
+inline constexpr size_t kStampDigits = 9; // of seconds since 1970
+
+// numbersIn() of each name. A point is no decimal point where these names count behind it.
+std::vector<std::vector<NameNumber>> numbersInNames(const std::vector<std::string>& names);
 
 // HH-MM-SS.
 bool endsInClock(const std::vector<NameNumber>& numbers);

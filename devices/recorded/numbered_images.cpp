@@ -8,6 +8,7 @@
 #include "engine/types/read_file.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <vector>
 
@@ -76,10 +77,14 @@ std::vector<NamedFile> numberedFiles(const NumberedImages& images) {
 }
 
 std::vector<NamedImage> imagesIn(const NumberedImages& images) {
+    std::vector<NamedFile> files = numberedFiles(images);
+    std::vector<std::string> stems;
+    std::ranges::transform(files, std::back_inserter(stems), &NamedFile::stem);
+    std::vector<ImageKey> numbers = numbersInNames(stems);
     std::vector<NamedImage> found;
-    for (NamedFile& named : numberedFiles(images)) {
-        ImageKey numbers = numbersIn(named.stem);
-        found.push_back({std::move(named.file), {numbers.front()}, {numbers.back()}, std::move(numbers)});
+    for (size_t i = 0; i < files.size(); ++i) {
+        ImageKey& all = numbers[i];
+        found.push_back({std::move(files[i].file), {all.front()}, {all.back()}, std::move(all)});
     }
     return found;
 }
@@ -180,28 +185,19 @@ std::string numberedFileIn(const std::filesystem::path& folder) {
                        std::string(" a number in its name") + hint);
 }
 
-// '%d.%d' of seconds and nanoseconds loses the zeros in front of these, and with them the order. True names
-// of so many digits hardly ever have none that begins with 0.
+// '%d.%d' of seconds and parts of them loses the zeros in front of these, and with them the order. True names
+// of so many digits hardly ever have none that begins with 0. No decimals of different lengths end in 0.
 void warnIfUnpadded(const std::filesystem::path& folder, const std::vector<NamedImage>& images) {
-    constexpr size_t kStampDigits = 9, kMicroseconds = 6; // of seconds since 1970, and after the point
-    size_t longest = 0, shortest = std::string::npos;
-    std::string example;
-    for (const NamedImage& image : images) {
-        const NameNumber& number = image.last.front();
-        const size_t all = number.end - number.begin;
-        const size_t behind = all > number.digits ? all - number.digits - 1 : 0;
-        if (behind == 0 || number.digits < kStampDigits || number.fraction.starts_with('0')) {
-            return;
-        }
-        longest = std::max(longest, behind);
-        example = behind < shortest ? image.file.filename().string() : example;
-        shortest = std::min(shortest, behind);
-    }
-    if (longest >= kMicroseconds && shortest < longest) {
+    constexpr size_t kMicroseconds = 6; // digits
+    std::vector<ImageKey> numbers;
+    std::ranges::transform(images, std::back_inserter(numbers), &NamedImage::last);
+    const PointDigits digits = pointDigits(numbers);
+    const bool stamps = digits.front >= kStampDigits && digits.longest >= kMicroseconds;
+    if (digits.unpadded && (stamps || digits.endInZero)) {
         log::warn("{}: seconds in the names have {} to {} digits after the point, none beginning with 0 "
-                  "(first: {}): "
-                  "if they are nanoseconds or microseconds without leading zeros, the order is wrong",
-                  folder.string(), shortest, longest, example);
+                  "(first: {}): if they are parts of a second without leading zeros, the order is wrong",
+                  folder.string(), digits.shortest, digits.longest,
+                  images[digits.example].file.filename().string());
     }
 }
 

@@ -134,6 +134,16 @@ TEST_CASE(
     CHECK(depthsOfNames({"cam10_1", "cam9_2"}, {"1", "2"}) == Depths{500, 600}); // a counter orders alone
 }
 
+TEST_CASE("A counter behind a point, as in cam1.9 and cam1.10, orders and pairs images as any other") {
+    using Names = std::vector<std::string>;
+    const Names names{"cam1.8", "cam1.9", "cam1.10", "cam1.11"}, begun{"v2.0", "v2.1", "v2.2", "v2.10"};
+    for (const Names& all : {names, begun}) {
+        CHECK(depthsOfNames(all, all) == Depths{500, 600, 700, 800});
+    }
+    const Names seconds{"7.5", "7.52", "7.6", "7.64"}; // decimals without their last zeros
+    CHECK(depthsOfNames(seconds, seconds) == Depths{500, 600, 700, 800});
+}
+
 TEST_CASE("Images of several cameras in one folder are refused, however long the numbers in front are") {
     using Names = std::vector<std::string>;
     for (const Names& names :
@@ -242,5 +252,6 @@ TEST_CASE("Names of seconds and nanoseconds without their leading zeros have a w
     CHECK(lostZeros({"1305031102.175304000", "1305031102.005123457", "1305031102.5123"}) == 0);
     CHECK(lostZeros({"1305031102.175304", "1305031102.512345"}) == 0);
     CHECK(lostZeros({"1.5", "1.25", "2.125"}) == 0);
+    CHECK(lostZeros({"12-00-00.960", "12-00-00.993", "12-00-01.27"}) == 1); // milliseconds
     CHECK(lostZeros({"1305031102.5", "1305031102.25", "1305031102.125"}) == 0);
 }
