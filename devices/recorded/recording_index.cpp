@@ -3,6 +3,7 @@
 
 #include "devices/images/depth_image.h"
 #include "devices/recorded/name_number.h"
+#include "devices/recorded/stamped_files.h"
 #include "devices/recorded/text_file.h"
 #include "engine/types/error.h"
 #include "engine/types/inside.h"
@@ -23,21 +24,6 @@ namespace fs = std::filesystem;
 
 constexpr double kTumTolerance = 0.02; // [s] the default of associate.py
 constexpr size_t kCandidates = 4;      // colour stamps tried on either side of a depth stamp
-
-struct StampedFile {
-    double stamp = 0.0; // [s]
-    fs::path file;
-};
-
-bool parseStamp(std::string_view word, double& stamp) {
-    return parseNumber(word, stamp) && std::isfinite(stamp);
-}
-
-// Decimal commas are a common cause.
-std::string stampFault(std::string_view word) {
-    return word.find(',') == std::string_view::npos ? "has a stamp that is not a finite number"
-                                                    : "has a stamp with a comma; numbers have decimal points";
-}
 
 // Whether a path has the word depth after the folders that it shares with the other one.
 bool namesDepth(std::string_view path, std::string_view other) {
@@ -71,11 +57,13 @@ std::vector<IndexLine> readAssociations(const fs::path& folder) {
             std::rotate(words.begin(), words.begin() + (first && !second ? 2 : 0), words.end());
         }
         if (words.size() != 4) {
-            entry.fault =
-                "line " + std::to_string(line.number) + " is not 't_rgb rgb/x.png t_depth depth/x.png'";
+            const std::string columns = columnFault(line.text);
+            entry.fault = "line " + std::to_string(line.number) + " " +
+                          (columns.empty() ? "is not 't_rgb rgb/x.png t_depth depth/x.png'" : columns);
         } else if (!parseStamp(words[0], entry.colourStamp) || !parseStamp(words[2], entry.depthStamp)) {
             const bool colour = parseStamp(words[0], entry.colourStamp);
-            entry.fault = "line " + std::to_string(line.number) + " " + stampFault(words[colour ? 2 : 0]);
+            entry.fault =
+                "line " + std::to_string(line.number) + " " + stampFault(line.text, words[colour ? 2 : 0]);
         } else if (!staysInside(words[1]) || !staysInside(words[3])) {
             entry.fault = "line " + std::to_string(line.number) + " points outside the recording's folder";
         } else {
@@ -86,28 +74,6 @@ std::vector<IndexLine> readAssociations(const fs::path& folder) {
     }
     stampFaulty(index);
     return index;
-}
-
-std::vector<StampedFile> readStampedFiles(const fs::path& folder, const char* name) {
-    std::vector<StampedFile> files;
-    for (const TextLine& line : readDataLines(folder / name)) {
-        const std::vector<std::string_view> words = splitWords(line.text);
-        StampedFile entry;
-        if (words.size() != 2 || !parseStamp(words[0], entry.stamp)) {
-            const bool comma = words.size() == 2 && words[0].find(',') != std::string_view::npos;
-            log::warn("{}: line {} {}: skipped", (folder / name).string(), line.number,
-                      comma ? stampFault(words[0]) : "is not 't path'");
-            continue;
-        }
-        if (!staysInside(words[1])) {
-            log::warn("{}: line {} points outside the recording's folder: skipped", (folder / name).string(),
-                      line.number);
-            continue;
-        }
-        entry.file = folder / words[1];
-        files.push_back(std::move(entry));
-    }
-    return files;
 }
 
 std::vector<StampedFile> stampFilesOf(const fs::path& folder, const std::vector<double>& stamps,

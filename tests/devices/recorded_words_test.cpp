@@ -63,6 +63,31 @@ TEST_CASE("Decimal commas in an index and in poses are named as such") {
              "(allowed: eight finite numbers t tx ty tz qx qy qz qw, with decimal points and between spaces");
 }
 
+TEST_CASE("Columns between commas, semicolons or quotation marks are named once, with the first line") {
+    for (const auto& [line, fault] :
+         {std::pair("0.0,depth/0.png", "has columns between ','; they stand between spaces"),
+          {"0.0, depth/0.png", "has columns between ','; they stand between spaces"},
+          {"depth/0.png,0.0", "has columns between ','; they stand between spaces"},
+          {"0.0;depth/0.png", "has columns between ';'; they stand between spaces"},
+          {"\"0.0\" \"depth/0.png\"", "has quotation marks; columns stand between spaces, without them"},
+          {"depth/0.png", "is not 't path'"}}) {
+        const TemporaryFolder folder;
+        writeSmallRecording(folder, 1);
+        std::filesystem::remove(folder.path() / "associations.txt");
+        folder.write("rgb.txt", "0.0 rgb/0.png\n");
+        folder.write("depth.txt", std::string("# t path\n") + line + "\n" + line + "\n" + line + "\n");
+        const testing::Listening log;
+        lineSays(recordingRefusal(folder.path()), "no pair of images");
+        CHECK(log.count("depth.txt: line 2 " + std::string(fault) + ": skipped, as are 2 others; it is " +
+                        line) == 1);
+        CHECK(log.count(": skipped") == 1);
+    }
+    const TemporaryFolder folder;
+    writeSmallRecording(folder, 1);
+    folder.write("associations.txt", "0.0,rgb/0.png,0.0,depth/0.png\n");
+    lineSays(recordingRefusal(folder.path()), "line 1 has columns between ','; they stand between spaces");
+}
+
 TEST_CASE("Poses in Fathom's format beside images that have no stamps are named with what they need") {
     const TemporaryFolder folder;
     folder.write("poses.txt", "0 0 0 0 0 0 0 1\n");
