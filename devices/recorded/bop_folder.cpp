@@ -20,6 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct BopImage {
+    std::string key;           // its number in the file
     std::array<double, 9> k{}; // row by row
     double unit = 0.0;         // [mm]
     std::optional<Pose> baseTcamera;
@@ -37,12 +38,9 @@ std::map<std::string, BopImage> bopImages(const fs::path& file) {
         }
         const JsonField entry = root.at(key);
         BopImage image;
+        image.key = key;
         const std::vector<double> k = entry.at("cam_K").numbers(9);
         std::copy(k.begin(), k.end(), image.k.begin());
-        if (isByColumns(image.k)) {
-            throw BadInput(file.string(), key + ".cam_K", kByColumns,
-                           std::string("row by row, ") + kLensRows);
-        }
         image.unit = entry.at("depth_scale").positive();
         const auto rotation = entry.find("cam_R_w2c"), position = entry.find("cam_t_w2c");
         if (rotation && position) {
@@ -59,9 +57,13 @@ std::map<std::string, BopImage> bopImages(const fs::path& file) {
 
 RecordingIntrinsics lensOf(const BopImage& image, PngSize size, const std::string& file) {
     RecordingIntrinsics intrinsics;
-    if (size.width < 1 || size.width > kMaxImageWidth || size.height > kMaxImageHeight ||
-        !(image.k[0] > 0.0 && image.k[4] > 0.0)) {
-        throw BadInput(file, "cam_K", "unusable", "a lens for the first depth image");
+    if (const std::string fault = lensFault(image.k); !fault.empty()) {
+        throw BadInput(file, image.key + ".cam_K", fault, std::string("row by row, ") + kLensRows);
+    }
+    if (size.width < 1 || size.width > kMaxImageWidth || size.height > kMaxImageHeight) {
+        throw BadInput(file, image.key + ".cam_K",
+                       "for images of " + std::to_string(size.width) + "x" + std::to_string(size.height),
+                       "images of at most 3840x2160");
     }
     CameraInfo& camera = intrinsics.camera;
     camera.depth.width = size.width;

@@ -42,8 +42,7 @@ public:
         const std::string small = stream == "Depth" ? "m_depth" : "m_color",
                           matrix = "m_calibration" + stream + "Intrinsic";
         const auto k = numbers(matrix, 16);
-        const bool byColumns = isByColumns(std::array{k[0], k[1], k[2], k[4], k[5], k[6], k[8], k[9], k[10]});
-        if (byColumns || !(k[0] > 0.0 && k[5] > 0.0) || !std::isfinite(k[0] + k[2] + k[5] + k[6])) {
+        if (!lensFault(std::array{k[0], k[1], k[2], k[4], k[5], k[6], k[8], k[9], k[10]}).empty()) {
             refuse(matrix, "fx 0 cx 0, 0 fy cy 0, 0 0 1 0, 0 0 0 1");
         }
         return {.width = size(small + "Width", kMaxImageWidth),

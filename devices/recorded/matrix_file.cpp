@@ -18,13 +18,13 @@ namespace fathom {
 namespace {
 
 constexpr const char* kHint = " (poses in millimetres?)";
+constexpr double kMaxRowOff = 1e-3; // of 0 and 1 in the last row of a matrix
 
 // Other programs write matrices column by column.
 void checkLastRow(const std::array<double, 16>& m, const std::string& file) {
-    constexpr double kMaxOff = 1e-3;
     const bool lost = !std::isfinite(m[12] + m[13] + m[14] + m[15]); // as the rest of it
-    const bool good = lost || (std::abs(m[12]) <= kMaxOff && std::abs(m[13]) <= kMaxOff &&
-                               std::abs(m[14]) <= kMaxOff && std::abs(m[15] - 1.0) <= kMaxOff);
+    const bool good = lost || (std::abs(m[12]) <= kMaxRowOff && std::abs(m[13]) <= kMaxRowOff &&
+                               std::abs(m[14]) <= kMaxRowOff && std::abs(m[15] - 1.0) <= kMaxRowOff);
     if (!good) {
         throw BadInput(file, "pose", "its last row is not 0 0 0 1",
                        "a matrix row by row, with the position in its last column");
@@ -68,20 +68,37 @@ Pose poseFromRows(const std::array<double, 9>& rows, const dvec3& position, cons
     return {position, q / glm::length(q)};
 }
 
-bool isByColumns(std::span<const double, 9> k) {
-    return k[2] == 0.0 && k[5] == 0.0 && (k[6] != 0.0 || k[7] != 0.0);
+std::string lensFault(std::span<const double, 9> k) {
+    if (k[2] == 0.0 && k[5] == 0.0 && (k[6] != 0.0 || k[7] != 0.0)) {
+        return "written column by column";
+    }
+    constexpr std::array<const char*, 9> kNames{"fx", "", "cx", "", "fy", "cy", "", "", ""};
+    for (const size_t i : {0, 4, 2, 5}) {
+        if (!std::isfinite(k[i]) || (i % 4 == 0 && !(k[i] > 0.0))) {
+            return std::string(kNames[i]) + " is " + significant(k[i], 6);
+        }
+    }
+    // Some programs leave the last row out, or scale the matrix with its images.
+    if (std::abs(k[6]) > kMaxRowOff || std::abs(k[7]) > kMaxRowOff || !(std::abs(k[8] - 1.0) <= kMaxRowOff)) {
+        return "its last row is " + significant(k[6], 6) + " " + significant(k[7], 6) + " " +
+               significant(k[8], 6);
+    }
+    return "";
 }
 
 Intrinsics matrixLens(const std::filesystem::path& file, std::optional<PngSize> size,
                       std::vector<std::string>& warnings) {
     const auto k = readMatrix(file, true);
-    if (isByColumns(std::array{k[0], k[1], k[2], k[4], k[5], k[6], k[8], k[9], k[10]})) {
-        throw BadInput(file.string(), "matrix", kByColumns, kLensRows);
+    const std::string fault = lensFault(std::array{k[0], k[1], k[2], k[4], k[5], k[6], k[8], k[9], k[10]});
+    if (!fault.empty()) {
+        throw BadInput(file.string(), "matrix", fault, kLensRows);
     }
-    if (!size || size->width > kMaxImageWidth || size->height > kMaxImageHeight ||
-        !(k[0] > 0.0 && k[5] > 0.0) || !std::isfinite(k[0] + k[2] + k[5] + k[6])) {
-        throw BadInput(file.string(), "matrix", "unusable",
-                       std::string(kLensRows) + " of images that are read");
+    if (!size || size->width > kMaxImageWidth || size->height > kMaxImageHeight) {
+        throw BadInput(file.string(), "matrix",
+                       size ? "for images of " + std::to_string(size->width) + "x" +
+                                  std::to_string(size->height)
+                            : "for images of unknown size",
+                       "images of at most 3840x2160 that are read");
     }
     const Intrinsics lens{
         .width = size->width, .height = size->height, .fx = k[0], .fy = k[5], .cx = k[2], .cy = k[6]};

@@ -32,12 +32,11 @@ Intrinsics matrixLens(const std::filesystem::path& file, std::optional<PngSize> 
 Pose poseFromRows(const std::array<double, 9>& rows, const dvec3& position, const std::string& file,
                   const std::string& field);
 
-// For messages about the matrix of a lens.
-inline constexpr const char* kByColumns = "written column by column";
-// Its rows.
-inline constexpr const char* kLensRows = "fx 0 cx, 0 fy cy, 0 0 1";
-// Whether the matrix of a lens is written column by column, as some programs do: cx and cy in its last row.
-bool isByColumns(std::span<const double, 9> k);
+// Rows of the matrix of a lens, for messages.
+inline constexpr const char* kLensRows = "fx 0 cx, 0 fy cy, 0 0 1 with fx and fy above 0";
+// Why these rows are no matrix of a lens, with the element: written column by column, as some programs do,
+// focal lengths that are not above 0, or another last row. The skew is not looked at. Empty = they are one.
+std::string lensFault(std::span<const double, 9> k);
 
 // Sets the line's pose (base_T_camera); for a pose that is missing, was lost (-inf) or cannot be read, its
 // fault. Returns whether the file exists.

@@ -101,6 +101,40 @@ TEST_CASE("A lens that is written column by column is refused as such") {
         "scene_camera.json: 0.cam_K: written column by column (allowed: row by row, fx 0 cx, 0 fy cy, 0 0 1");
 }
 
+TEST_CASE(
+    "A matrix that is no lens is refused with the element and its value, in every layout that has one") {
+    for (const auto& [rows, fault] : {std::pair("6 0 3, 0 -6.5 2, 0 0 1", "fy is -6.5"),
+                                      {"0 0 3, 0 6 2, 0 0 1", "fx is 0"},
+                                      {"6 0 3, 0 6 2, 0 0 0", "its last row is 0 0 0"},
+                                      {"12 0 6, 0 12 4, 0 0 2", "its last row is 0 0 2"}}) {
+        const TemporaryFolder matrix, bop, frames;
+        std::string text = rows, info = rows;
+        std::ranges::replace(text, ',', '\n');
+        addPair(matrix, "depth/0.png", "rgb/0.png", 500);
+        matrix.write("cam_K.txt", text + "\n");
+        lineSays(recordingRefusal(matrix.path()),
+                 "cam_K.txt: matrix: " + std::string(fault) + " (allowed: fx 0 cx");
+        std::ranges::replace(text, '\n', ' ');
+        addPair(bop, "depth/0.png", "rgb/0.png", 500);
+        std::string list = text;
+        for (size_t at = list.find(' '); at != std::string::npos; at = list.find(' ', at)) {
+            list.replace(at, list[at + 1] == ' ' ? 2 : 1, ",");
+        }
+        bop.write("scene_camera.json", R"({"0": {"cam_K": [)" + list + R"(], "depth_scale": 1}})");
+        lineSays(recordingRefusal(bop.path()),
+                 "scene_camera.json: 0.cam_K: " + std::string(fault) + " (allowed: row by");
+        addPair(frames, "frame-000000.depth.png", "frame-000000.color.png", 500);
+        for (size_t at = info.find(','); at != std::string::npos; at = info.find(',')) {
+            info.replace(at, 1, " 0");
+        }
+        frames.write("info.txt", "m_depthWidth = 7\nm_depthHeight = 5\nm_depthShift = 1000\n"
+                                 "m_calibrationDepthIntrinsic = " +
+                                     info + " 0 0 0 0 1\n");
+        lineSays(recordingRefusal(frames.path(), {.colour = "none"}),
+                 "info.txt: m_calibrationDepthIntrinsic: " + info);
+    }
+}
+
 TEST_CASE("Poses of images in millimetres have a warning, and those in metres have none") {
     const auto warned = [](const std::vector<std::string>& poses) {
         const TemporaryFolder folder;
