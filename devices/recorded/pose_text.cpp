@@ -57,21 +57,6 @@ std::vector<Numbers> firstLines(const std::filesystem::path& file) {
     return lines;
 }
 
-// Three rows of a rotation with a position behind each.
-bool isMotion(std::span<const double> rows) {
-    constexpr double kMaxOff = 0.01;
-    const auto row = [&](size_t i) {
-        return glm::dvec3(rows[kColumns * i], rows[kColumns * i + 1], rows[kColumns * i + 2]);
-    };
-    bool rigid = true;
-    for (size_t i = 0; i < 3; ++i) {
-        const glm::dvec3 one = row(i), next = row((i + 1) % 3);
-        rigid =
-            rigid && std::abs(glm::length(one) - 1.0) < kMaxOff && std::abs(glm::dot(one, next)) < kMaxOff;
-    }
-    return rigid;
-}
-
 // Where in the line a pose may be, a bit for each place.
 uint32_t posePlaces(const Numbers& line) {
     constexpr uint32_t kMotion = 1u << 31;
@@ -116,6 +101,20 @@ bool posePerRows(const std::vector<Numbers>& lines) {
 }
 
 } // namespace
+
+bool isMotion(std::span<const double> rows) {
+    constexpr double kMaxOff = 0.01;
+    const auto row = [&](size_t i) {
+        return glm::dvec3(rows[kColumns * i], rows[kColumns * i + 1], rows[kColumns * i + 2]);
+    };
+    bool rigid = true;
+    for (size_t i = 0; i < 3; ++i) {
+        const glm::dvec3 one = row(i), next = row((i + 1) % 3);
+        rigid =
+            rigid && std::abs(glm::length(one) - 1.0) < kMaxOff && std::abs(glm::dot(one, next)) < kMaxOff;
+    }
+    return rigid;
+}
 
 bool holdsPoses(const std::filesystem::path& file) {
     const std::vector<Numbers> lines = firstLines(file);

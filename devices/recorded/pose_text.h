@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 
 namespace fathom {
 
@@ -10,5 +11,8 @@ namespace fathom {
 // rigid motion, in a line or on lines of their own. False for one pose alone, and for a file that cannot be
 // read.
 bool holdsPoses(const std::filesystem::path& file);
+
+// Whether 12 or more numbers are three rows of a rotation with a position behind each.
+bool isMotion(std::span<const double> rows);
 
 } // namespace fathom

@@ -2,15 +2,13 @@
 #include "devices/recorded/unread_poses.h"
 
 #include "devices/recorded/name_words.h"
+#include "devices/recorded/pose_json.h"
 #include "devices/recorded/pose_text.h"
-#include "devices/recorded/text_file.h"
-#include "engine/types/error.h"
 #include "engine/types/read_file.h"
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <string_view>
 #include <tuple>
 #include <vector>
@@ -38,9 +36,9 @@ bool holdsPoseWord(const std::string& plain) {
 }
 
 bool isPoseFolder(const std::vector<std::string>& words) {
-    constexpr std::array<std::string_view, 10> kWords{"pose",       "poses",        "extrinsic", "extrinsics",
+    constexpr std::array<std::string_view, 11> kWords{"pose",       "poses",        "extrinsic", "extrinsics",
                                                       "trajectory", "trajectories", "cameras",   "odom",
-                                                      "cam2world",  "c2w"};
+                                                      "cam2world",  "c2w",          "w2c"};
     return std::ranges::any_of(words, [&](const std::string& word) { return isAmong(word, kWords); });
 }
 
@@ -73,9 +71,11 @@ bool namesPoses(const fs::path& file) {
         return isPoseFolder(words) || holdsPoseWord(plain);
     }
     const std::string ending = endingOf(file);
+    constexpr std::array<std::string_view, 4> kWords{"pose", "odom", "c2w", "w2c"};
     const bool word =
-        std::ranges::any_of(words, [](const std::string& one) { return one == "pose" || one == "odom"; });
-    return isKnownFile(file) ||
+        std::ranges::any_of(words, [&](const std::string& one) { return isAmong(one, kWords); });
+    const bool cameras = ending == ".npz" && plain.starts_with("camera"); // NeuS and IDR
+    return isKnownFile(file) || cameras || ending == ".pose" ||
            (isAmong(ending, kEndings) && (word || ending == ".traj" || holdsPoseWord(plain)));
 }
 
@@ -86,38 +86,6 @@ bool nameOtherReadings(const std::vector<std::string>& words) {
                return std::ranges::any_of(kOthers,
                                           [&](std::string_view start) { return word.starts_with(start); });
            });
-}
-
-// Of one camera pose: Nerfstudio (transform_matrix), SDFStudio (camtoworld), 3D Scanner App
-// (cameraPoseARFrame).
-bool isPoseKey(const std::string& key) {
-    constexpr std::array<std::string_view, 5> kKeys{"transformmatrix", "camtoworld", "cam2world",
-                                                    "cameratoworld", "c2w"};
-    std::string plain;
-    std::ranges::for_each(nameWords(key), [&](const std::string& word) { plain += word; });
-    return isAmong(plain, kKeys) || plain.starts_with("camerapose");
-}
-
-// Whether JSON has such a key, or Record3D's list "poses" of lists at its top level. Builds no values, so
-// that a file of any depth takes little memory.
-bool holdsPoseKeys(const fs::path& file) {
-    using Json = nlohmann::json;
-    using Event = Json::parse_event_t;
-    bool found = false, listsPoses = false;
-    const auto look = [&](int depth, Event event, Json& value) {
-        if (event == Event::key) {
-            const auto& key = value.get_ref<const std::string&>();
-            found = found || isPoseKey(key);
-            listsPoses = depth == 1 ? key == "poses" : listsPoses;
-        }
-        found = found || (listsPoses && depth == 2 && event == Event::array_start);
-        return false;
-    };
-    try {
-        [[maybe_unused]] const Json none = Json::parse(readTextFile(file), look, false);
-    } catch (const Error&) { // of no interest to the recording that is read
-    }
-    return found;
 }
 
 // A text whose lines or keys are poses, under any name but those of other readings. Record3D's metadata has
@@ -131,7 +99,7 @@ bool isPoseText(const fs::path& file, size_t& texts) {
         return false;
     }
     ++texts;
-    return json ? holdsPoseKeys(file) : holdsPoses(file);
+    return json ? holdsJsonPoses(file) : holdsPoses(file);
 }
 
 // What is looked at in one folder: it may hold one text for each image.

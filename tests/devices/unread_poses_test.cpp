@@ -92,12 +92,13 @@ TEST_CASE("Poses in files and folders of other programs are named by their names
     for (const char* name :
          {"frames_pose.json", "cameras.json", "images.bin", "cam_poses.npy", "gt_trajectory.npz",
           "lowres_wide.traj", "sensor_poses.yaml", "gt_pose.log", "transforms_train.json", "odom.csv",
-          "trajectory.mat", "camera_pose.csv", "CameraTrajectory.txt"}) {
+          "trajectory.mat", "camera_pose.csv", "CameraTrajectory.txt", "c2w.npy", "w2c.json", "cameras.npz",
+          "cameras_sphere.npz", "000012.pose"}) {
         CAPTURE(name);
         lineSays(namedPoses(name, "x"), std::string(name) + " is not read");
     }
     for (const char* name : {"extrinsics", "cameras", "camera_poses", "camera_pose", "cam2world", "extrinsic",
-                             "poses_gt", "camera_to_world", "odom", "trajectories"}) {
+                             "poses_gt", "camera_to_world", "odom", "trajectories", "w2c"}) {
         CAPTURE(name);
         lineSays(namedPoses(std::string(name) + "/0.txt", "x"), std::string(name) + " is not read");
     }
@@ -157,6 +158,43 @@ TEST_CASE("Poses under a key of JSON are named, whatever the name of the file") 
     CHECK(namedPoses("object.json", record3d) == "");
     CHECK(namedPoses("other", record3d) == "");
     CHECK(namedPoses("annotated_poses/0.txt", "1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n") == ""); // of an object
+}
+
+TEST_CASE(
+    "Motions of JSON that differ are named under any key, unless there are few or they are of an object") {
+    const auto frames = [](const std::string& key, const std::string& before, const std::string& behind,
+                           const std::vector<double>& xs) {
+        std::string text = R"({"frames": [)";
+        for (size_t i = 0; i < xs.size(); ++i) {
+            text += std::string(i == 0 ? "" : ", ") + R"({"file": "0.png", "K": [60, 0, 31], ")" + key +
+                    "\": " + before + std::to_string(xs[i]) + behind + "}";
+        }
+        return text + "]}";
+    };
+    const auto rows = [&](const std::string& key, const std::vector<double>& xs) {
+        return frames(key, "[[1, 0, 0, ", "], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]", xs);
+    };
+    for (const char* key : {"pose", "T_wc", "extrinsic"}) {
+        CAPTURE(key);
+        lineSays(namedPoses("meta.json", rows(key, {0.0, 0.1, 0.2})), "meta.json is not read");
+        lineSays(
+            namedPoses("meta.json", frames(key, "[1, 0, 0, ", ", 0, 1, 0, 0, 0, 0, 1, 0]", {0.0, 0.1, 0.2})),
+            "meta.json is not read");
+        CHECK(namedPoses("meta.json", rows(key, {0.1, 0.1, 0.1})) == ""); // at rest
+        CHECK(namedPoses("rig.json", rows(key, {0.0, 0.1})) == "");       // of two cameras
+    }
+    lineSays(
+        namedPoses("a.json", R"({"extrinsics": [[1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0], [1, 0, 0, 1, 0, 1, 0, 0,
+                                     0, 0, 1, 0], [1, 0, 0, 2, 0, 1, 0, 0, 0, 0, 1, 0]]})"),
+        "a.json is not read");
+    lineSays(namedPoses("a.json", R"([{"position": [0, 0, 0], "rotation": [0, 0, 0, 1]},
+                                      {"position": [0, 0, 1], "rotation": [0, 0, 1, 0]},
+                                      {"position": [0, 0, 2], "rotation": [1, 0, 0, 0]}])"),
+             "a.json is not read");
+    CHECK(namedPoses("meta.json", rows("object_pose", {0.0, 0.1, 0.2})) == "");
+    CHECK(namedPoses("meta.json", R"({"objects": )" + rows("pose", {0.0, 0.1, 0.2}) + "}") == "");
+    CHECK(namedPoses("meta.json", frames("K_4", "[[600, 0, 320, ", "], [0, 600, 240, 0], [0, 0, 1, 0]]",
+                                         {0.0, 0.1, 0.2})) == "");
 }
 
 TEST_CASE("A bag whose tf moves depth's frame has a warning that names the link that moves") {
