@@ -76,11 +76,9 @@ void RecordedCamera::warnAboutStamps() {
     }
     const double whole = index.back().depthStamp - index.front().depthStamp;
     const double period = whole / static_cast<double>(index.size() - 1);
-    for (const SmallUnit& unit : kSmallUnits) {
-        if (period > 0.005 * unit.perSecond && period < 0.5 * unit.perSecond) { // 2 to 200 frames per second
-            warn(significant(period, 6) +
-                 " s between its frames: stamps are read as seconds, but look like " + unit.name);
-        }
+    if (const SmallUnit* unit = smallUnitOf(period)) {
+        warn(significant(period, 6) + " s between its frames: stamps are read as seconds, but look like " +
+             unit->name);
     }
 }
 

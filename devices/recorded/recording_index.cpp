@@ -3,6 +3,7 @@
 
 #include "devices/images/depth_image.h"
 #include "devices/recorded/name_number.h"
+#include "devices/recorded/small_units.h"
 #include "devices/recorded/stamped_files.h"
 #include "devices/recorded/text_file.h"
 #include "engine/types/error.h"
@@ -136,6 +137,14 @@ bool spans(const std::vector<StampedFile>& colour, double stamp, double within) 
     return !colour.empty() && stamp >= colour.front().stamp - within && stamp <= colour.back().stamp + within;
 }
 
+// Stamps in another unit than seconds pair by chance, or not at all; empty = they look like seconds.
+std::string unitHint(const std::vector<StampedFile>& depth) {
+    const double whole = depth.empty() ? 0.0 : depth.back().stamp - depth.front().stamp;
+    const SmallUnit* unit =
+        depth.size() > 1 ? smallUnitOf(whole / static_cast<double>(depth.size() - 1)) : nullptr;
+    return unit == nullptr ? "" : std::string("; stamps are read as seconds, but look like ") + unit->name;
+}
+
 // In the order of `depth`; colour in order of its stamps.
 std::vector<IndexLine> associate(const std::vector<StampedFile>& depth,
                                  const std::vector<StampedFile>& colour, double within) {
@@ -159,8 +168,8 @@ std::vector<IndexLine> associate(const std::vector<StampedFile>& depth,
         index.push_back({depth[d].stamp, c.stamp, depth[d].file, c.file, "", std::nullopt});
     }
     if (lost > 0) {
-        log::warn("{} of {} depth images have no colour image within {} s: they are not played", lost,
-                  depth.size(), significant(within, 4));
+        log::warn("{} of {} depth images have no colour image within {} s: they are not played{}", lost,
+                  depth.size(), significant(within, 4), unitHint(depth));
     }
     return index;
 }
@@ -203,7 +212,7 @@ FoundIndex pairedByStamp(const std::vector<StampedFile>& depth, std::vector<Stam
     if (found.lines.empty() && !depth.empty() && !colour.empty()) { // in another unit all are too far apart
         std::ostringstream why;
         why << ": depth and colour are at least " << nearestApart(depth, colour) << " apart, more than "
-            << within << " (stamps are seconds)";
+            << within << " (stamps are seconds)" << unitHint(depth);
         found.whyNone = why.str();
     }
     return found;

@@ -37,6 +37,28 @@ TEST_CASE("Stamps that look like milli, micro or nanoseconds are named by that u
     }
 }
 
+TEST_CASE("Stamps in milliseconds are named as such where few pairs of depth and colour are found by them") {
+    for (const int apart : {0, 1}) { // of the first pair [ms]
+        const TemporaryFolder folder;
+        writeSmallRecording(folder, 5);
+        std::filesystem::remove(folder.path() / "associations.txt");
+        std::string depth, colour;
+        for (int i = 0; i < 5; ++i) {
+            const std::string name = std::to_string(i) + ".png\n";
+            depth += std::to_string(1700000000000 + 33 * i) + " depth/" + name;
+            colour += std::to_string(1700000000000 + 34 * i + apart) + " rgb/" + name;
+        }
+        folder.write("depth.txt", depth);
+        folder.write("rgb.txt", colour);
+        const testing::Listening log;
+        const std::string refused = recordingRefusal(folder.path());
+        const std::string words = "stamps are read as seconds, but look like milliseconds";
+        CHECK(log.count("4 of 5 depth images have no colour image within 0.02 s: they are not played; " +
+                        words) == 1);
+        CHECK((refused.find(words) != std::string::npos) == (apart == 1));
+    }
+}
+
 TEST_CASE("Poses whose stamps look like nanoseconds of those of the images are named by that unit") {
     const TemporaryFolder folder;
     writeStamps(folder, 1);
