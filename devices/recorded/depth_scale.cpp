@@ -13,9 +13,9 @@ namespace fathom {
 std::string otherScale(const JsonField& root) {
     try {
         if (const auto scale = foreignScale(root)) {
-            scale->refuse(
-                "depth_scale_m_per_unit, metres per unit: 1000 units per metre are 0.001; or scale=M "
-                "after the recording's name");
+            scale->refuse("depth_scale_m_per_unit at the top level, metres per unit: 1000 units per metre "
+                          "are 0.001; or scale=M "
+                          "after the recording's name");
         }
     } catch (const BadInput& e) {
         return e.what();

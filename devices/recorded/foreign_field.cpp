@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <vector>
 
 namespace fathom {
 
@@ -126,13 +127,22 @@ void refuseBentModel(const JsonField& block) {
     }
 }
 
+constexpr const char* kOwnScale = "depth_scale_m_per_unit";
+
+bool namesDepth(const std::string& key) {
+    return plainLetters(key).find("depth") != std::string::npos;
+}
+
 bool namesScale(const std::string& key) {
-    constexpr std::array<std::string_view, 4> kKinds{"scale", "factor", "unit", "shift"};
-    constexpr std::array<std::string_view, 6> kWhole{"scale", "scalefactor",   "unit",
-                                                     "units", "unitspermetre", "unitspermeter"};
+    constexpr std::array<std::string_view, 7> kKinds{"scale", "factor",  "unit",      "shift",
+                                                     "divi",  "multipl", "resolution"};
+    constexpr std::array<std::string_view, 7> kWhole{"scale",  "scalefactor", "unit",      "units",
+                                                     "zscale", "meterscale",  "metrescale"};
+    constexpr std::array<std::string_view, 8> kRates{"permetre", "permeter", "metresper", "metersper",
+                                                     "metreper", "meterper", "tometre",   "tometer"};
     const std::string plain = plainLetters(key);
-    return key != "depth_scale_m_per_unit" &&
-           (isAny(plain, kWhole) || (plain.find("depth") != std::string::npos && holdsAny(plain, kKinds)));
+    const bool rate = holdsAny(plain, kRates) && plain.find("pixel") == std::string::npos;
+    return key != kOwnScale && (isAny(plain, kWhole) || rate || (namesDepth(key) && holdsAny(plain, kKinds)));
 }
 
 // Or nothing of depth: 1 is one unit of the images' values.
@@ -173,10 +183,32 @@ void refuseForeignDistortion(const JsonField& block) {
     refuseBentModel(block);
 }
 
+void refuseDistortionBeside(const JsonField& root, const JsonField& depth, const JsonField& colour) {
+    if (depth.find(kCoefficients) && colour.find(kCoefficients)) {
+        return;
+    }
+    if (const auto list = root.find(kCoefficients); list && !list->isNothing()) {
+        list->refuse("\"distortion\" in each of the blocks depth and color");
+    }
+    refuseForeignDistortion(root);
+}
+
 std::optional<JsonField> foreignScale(const JsonField& root) {
+    std::vector<JsonField> blocks{root};
     for (const std::string& key : root.keys()) {
-        if (const JsonField scale = root.at(key); namesScale(key) && !isMillimetres(scale)) {
-            return scale;
+        if (namesDepth(key)) { // its own fields, if it has some
+            blocks.push_back(root.at(key));
+        }
+    }
+    for (const JsonField& block : blocks) {
+        const bool inner = &block != &blocks.front();
+        for (const std::string& key : block.keys()) {
+            const JsonField scale = block.at(key);
+            const bool size = plainLetters(key).find("resolution") != std::string::npos && !scale.isNumber();
+            const bool misplaced = inner && key == kOwnScale;
+            if ((namesScale(key) || misplaced) && !size && !isMillimetres(scale)) {
+                return scale;
+            }
         }
     }
     return std::nullopt;

@@ -19,7 +19,11 @@ JsonField ownField(const JsonField& block, std::string_view name);
 // is a "distortion", too; and for a lens model that is no pinhole, and without coefficients.
 void refuseForeignDistortion(const JsonField& block);
 
-// A depth scale under another name than depth_scale_m_per_unit, unless it says millimetres or nothing.
+// The same of a file of two lenses, for fields beside its blocks, if these have no distortion of their own.
+void refuseDistortionBeside(const JsonField& root, const JsonField& depth, const JsonField& colour);
+
+// A depth scale under another name than depth_scale_m_per_unit, or in a block of depth, unless it says
+// millimetres or nothing.
 std::optional<JsonField> foreignScale(const JsonField& root);
 
 } // namespace fathom

@@ -37,10 +37,29 @@ const std::string kBagLens = R"({"width": 8, "height": 6, "fx": 7, "fy": 7, "cx"
 } // namespace
 
 TEST_CASE("A depth scale under the name of another program is refused with the name that is read") {
-    for (const char* name :
-         {"scale", "png_depth_scale", "depth_factor", "depthFactor", "DepthMapFactor", "depthScale",
-          "depth_unit", "depth_units", "depth_scale_m", "integer_depth_scale", "depth_unit_scale_factor",
-          "m_depthShift", "units_per_metre", "scale_factor", "Depth Map Factor", "depth_scale"}) {
+    for (const char* name : {"scale",
+                             "png_depth_scale",
+                             "depth_factor",
+                             "depthFactor",
+                             "DepthMapFactor",
+                             "depthScale",
+                             "depth_unit",
+                             "depth_units",
+                             "depth_scale_m",
+                             "integer_depth_scale",
+                             "depth_unit_scale_factor",
+                             "m_depthShift",
+                             "units_per_metre",
+                             "scale_factor",
+                             "Depth Map Factor",
+                             "depth_scale",
+                             "depth_to_meters",
+                             "metres_per_unit",
+                             "depth_divisor",
+                             "depth_multiplier",
+                             "depth_resolution",
+                             "meter_scale",
+                             "z_scale"}) {
         CAPTURE(name);
         for (const char* value : {"6553.5", "0.0001526"}) {
             const std::string field = "\"" + std::string(name) + "\": " + value + "}";
@@ -57,13 +76,39 @@ TEST_CASE("A depth scale under the name of another program is refused with the n
 TEST_CASE("A second depth scale of millimetres, or one that scale= replaces, is not refused") {
     for (const char* fields :
          {R"("depth_factor": 1000})", R"("depth_units": 0.001})", R"("depth_unit": "mm"})", R"("scale": 1})",
-          R"("units": "pixels"})", R"("depth_trunc": 3})", R"("scale": null})", R"("depth_shift": 0})",
-          R"("depth_factor": 5000, "depth_scale_m_per_unit": 0.0002})"}) {
+          R"("units": "pixels"})", R"("depth_trunc": 3})", R"("depth_resolution": [640, 480]})",
+          R"("pixels_per_meter": 3780})", R"("depth_info": {"scale": 0.001}})", R"("scale": null})",
+          R"("depth_shift": 0})", R"("depth_factor": 5000, "depth_scale_m_per_unit": 0.0002})"}) {
         CAPTURE(fields);
         CHECK(refusalWith(kFourFields + fields) == "");
     }
     CHECK(refusalWith(kFourFields + R"("depth_factor": 5000})", {.scale = 0.0002}) == "");
     lineSays(refusalWith(kFourFields + R"("depth_unit": "cm"})"), kOwnScale);
+}
+
+TEST_CASE("A depth scale in the block of depth, or distortion outside of those of two lenses, is refused") {
+    const std::string lens = kFourFields.substr(0, kFourFields.size() - 2);
+    const auto two = [&](const std::string& inDepth, const std::string& beside,
+                         const std::string& inBoth = "") {
+        return R"({"depth": )" + lens + inBoth + inDepth + R"(}, "color": )" + lens + inBoth + "}" + beside +
+               R"(, "extrinsics_topic_tf": {"Color": {"t": [0.015, 0, 0], "q_xyzw": [0, 0, 0, 1]}}})";
+    };
+    for (const char* field : {R"(, "depth_scale_m_per_unit": 0.0001)", R"(, "depth_scale": 0.0001)",
+                              R"(, "scale": 0.0001)", R"(, "units": "cm")"}) {
+        CAPTURE(field);
+        lineSays(refusalWith(two(field, "")), "lens.json: depth.");
+        lineSays(refusalWith(two(field, "")), "(allowed: depth_scale_m_per_unit at the top level");
+        CHECK(refusalWith(two(field, R"(, "depth_scale_m_per_unit": 0.0001)")) == "");
+        CHECK(refusalWith(two(field, ""), {.scale = 0.0001}) == "");
+    }
+    CHECK(refusalWith(two(R"(, "depth_scale_m_per_unit": 0.001)", "")) == "");
+    lineSays(refusalWith(kFourFields + R"("depth_info": {"scale": 0.0002}})"), "depth_info.scale: 0.0002 (");
+    for (const char* field : {R"(, "distortion": [0.1, 0, 0, 0])", R"(, "D": [0.1, 0, 0, 0, 0])",
+                              R"(, "camera_model": "OPENCV_FISHEYE")"}) {
+        CAPTURE(field);
+        CHECK(refusalWith(two("", field)) != "");
+        CHECK(refusalWith(two("", field, R"(, "distortion": [0.01, 0, 0, 0])")) == "");
+    }
 }
 
 TEST_CASE("A bag's depth has the unit that the file of its lens states, unless scale= gives another") {

@@ -194,9 +194,9 @@ TEST_CASE(
     "An infinite limit of a joint that needs finite ones is rejected with the joint and what is allowed") {
     const std::string allowed =
         " (allowed: finite numbers; type=\"continuous\" for a joint that turns without limits)";
-    CHECK(saysOnly(urdfRefusal(withLimit("<limit lower='-inf' upper='1' velocity='1' effort='1'/>")),
+    CHECK(reportsOnly(urdfRefusal(withLimit("<limit lower='-inf' upper='1' velocity='1' effort='1'/>")),
                    "joint j: limit lower=\"-inf\"" + allowed));
-    CHECK(saysOnly(urdfRefusal(ballLink("a") + ballLink("b") +
+    CHECK(reportsOnly(urdfRefusal(ballLink("a") + ballLink("b") +
                                jointText("rail", "prismatic", "a", "b", "0 0 0", "0 0 1",
                                          "<limit velocity='inf' lower='0' upper='Infinity'/>")),
                    "joint rail: limit upper=\"Infinity\"" + allowed));
