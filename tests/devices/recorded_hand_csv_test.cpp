@@ -46,15 +46,15 @@ TEST_CASE("a path with and without buttons is read with w first and unit quatern
 }
 
 TEST_CASE("The buttons of a path may be whole numbers in any spelling, as other programs write them") {
-    for (const auto& [word, buttons] : {std::pair("1.000000000000000000e+00", 1u),
-                                        {"0.0", 0u},
-                                        {"-0.0", 0u},
-                                        {"+3", 3u},
-                                        {"2.5e1", 25u},
-                                        {"4294967295.0", 4294967295u}}) {
-        CAPTURE(word);
-        const auto path = read(kButtonHeader + "0,0,0,0,1,0,0,0," + word + "\n");
-        CHECK(path.at(0).buttons == buttons);
+    for (const auto& spelling : {std::pair("1.000000000000000000e+00", 1u),
+                                 {"0.0", 0u},
+                                 {"-0.0", 0u},
+                                 {"+3", 3u},
+                                 {"2.5e1", 25u},
+                                 {"4294967295.0", 4294967295u}}) {
+        CAPTURE(spelling.first);
+        const auto path = read(kButtonHeader + "0,0,0,0,1,0,0,0," + spelling.first + "\n");
+        CHECK(path.at(0).buttons == spelling.second);
     }
     for (const char* word : {"0.5", "-1.0", "4294967296", "inf", "nan", "1.0x", ""}) {
         CAPTURE(word);

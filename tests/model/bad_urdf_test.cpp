@@ -195,9 +195,9 @@ TEST_CASE(
     const std::string allowed =
         " (allowed: finite numbers; type=\"continuous\" for a joint that turns without limits)";
     CHECK(reportsOnly(urdfRefusal(withLimit("<limit lower='-inf' upper='1' velocity='1' effort='1'/>")),
-                   "joint j: limit lower=\"-inf\"" + allowed));
+                      "joint j: limit lower=\"-inf\"" + allowed));
     CHECK(reportsOnly(urdfRefusal(ballLink("a") + ballLink("b") +
-                               jointText("rail", "prismatic", "a", "b", "0 0 0", "0 0 1",
-                                         "<limit velocity='inf' lower='0' upper='Infinity'/>")),
-                   "joint rail: limit upper=\"Infinity\"" + allowed));
+                                  jointText("rail", "prismatic", "a", "b", "0 0 0", "0 0 1",
+                                            "<limit velocity='inf' lower='0' upper='Infinity'/>")),
+                      "joint rail: limit upper=\"Infinity\"" + allowed));
 }
