@@ -22,7 +22,8 @@ using ImageKey = std::vector<NameNumber>;
 std::string keyText(const ImageKey& key) {
     std::string text;
     for (const NameNumber& number : key) {
-        text += (text.empty() ? "" : "-") + number.text();
+        text += text.empty() ? "" : "-";
+        text += number.text();
     }
     return text;
 }
