@@ -64,8 +64,7 @@ StepRecord HapticCycle::step(const StepInput& input) noexcept {
     const bool newData = situation.movesTool && regionsChanged(set);
     const Pose before = tool_, endBefore = springEnd_;
     ProxyStep moved = stepTool(input, set, situation, newData, out);
-    const std::optional<dvec3> gone =
-        newData ? vanishedAlong(moved, set, before.position, endBefore) : std::nullopt;
+    const std::optional<dvec3> gone = newData ? vanishedAlong(moved, set, before, endBefore) : std::nullopt;
     if (gone) {
         keepHandAtTool(before, endBefore, *gone, moved);
     }

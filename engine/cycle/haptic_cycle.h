@@ -120,8 +120,9 @@ private:
     void recentre() noexcept;
     void takeSample(const StepInput& input, const Situation& situation) noexcept;
     bool regionsChanged(const ContactSet* set) noexcept;
-    std::optional<dvec3> vanishedAlong(const ProxyStep& moved, const ContactSet* set, const dvec3& before,
+    std::optional<dvec3> vanishedAlong(const ProxyStep& moved, const ContactSet* set, const Pose& before,
                                        const Pose& endBefore) const noexcept;
+    bool handLeft(const Pose& before, const Pose& endBefore) const noexcept;
     bool turnVanished(const ProxyStep& moved, const Pose& endBefore) const noexcept;
     double behindHand() const noexcept;
     double followedGap(double travel) const noexcept;

@@ -45,21 +45,29 @@ void HapticCycle::recentre() noexcept {
     stage_.shift(by, kNoTurn);
 }
 
+// The hand moved or turned out of what pressed. The arguments are those of vanishedAlong().
+bool HapticCycle::handLeft(const Pose& before, const Pose& endBefore) const noexcept {
+    const double moved = glm::dot(before.position - springEnd_.position, pressing_.spring);
+    const double turned = glm::dot(rotationBetween(springEnd_.rotation, before.rotation),
+                                   rotationBetween(endBefore.rotation, allowed_.rotation));
+    const double k = watch_.springs().metricRadius;
+    return moved < 0.0 || moved + k * k * turned < 0.0;
+}
+
 // The direction along which regions that pressed are gone although the hand did not move out of them: their
 // class is no longer seen, or their shape was removed. Zero = those that are gone pressed by a torque alone;
 // empty = none are. `before` and `endBefore` are where the tool and the hand's end of the spring were when
 // they pressed.
 std::optional<dvec3> HapticCycle::vanishedAlong(const ProxyStep& moved, const ContactSet* set,
-                                                const dvec3& before, const Pose& endBefore) const noexcept {
-    const bool left = glm::dot(before - springEnd_.position, pressing_.spring) < 0.0;
-    if (!pressing_.rows || left || moved.trapped) {
+                                                const Pose& before, const Pose& endBefore) const noexcept {
+    if (!pressing_.rows || moved.trapped || handLeft(before, endBefore)) {
         return std::nullopt;
     }
     const bool rows = !moved.active.empty();
     // A set that lists nothing shows nothing that is near, however short its reach is. An arm may not yet
     // have followed a surface that lies between it and the hand.
     const bool none = set == nullptr || !(moved.minGap < set->reach);
-    if (!rows && (none || moved.minGap > followedGap(glm::distance(tool_.position, before)))) {
+    if (!rows && (none || moved.minGap > followedGap(glm::distance(tool_.position, before.position)))) {
         return pressing_.spring;
     }
     if (jointLimits_ != 0) {
