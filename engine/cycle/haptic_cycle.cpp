@@ -130,7 +130,7 @@ ProxyStep HapticCycle::stepTool(const StepInput& input, const ContactSet* set, c
                                 bool newData, StepRecord& out) noexcept {
     ProxyStep moved;
     moved.minGap = kNotKnown;
-    springEnd_ = device_;
+    springEnd_ = guidedEnd();
     jointLimits_ = 0;
     out.arm.posture = place().arm;
     if (situation.movesTool) {
@@ -184,6 +184,8 @@ void HapticCycle::makeWrench(const StepInput& input, const Situation& situation,
     tick.pull = guidancePull();
     tick.pushes =
         (moved.active.empty() && !moved.blocked ? 0 : cause::kRow) | (jointLimits_ == 0 ? 0 : cause::kJoint);
+    tick.bothWays = std::ranges::any_of(
+        moved.active, [](const ActiveContact& c) { return c.row.kind == ContactRow::Kind::Equality; });
     tick.mayRise = !moved.rowsExpired && !input.unconfirmed;
     tick.newData = newData;
     tick.lags = arm_ && out.lag > kLagLength; // a free tool follows within some ticks

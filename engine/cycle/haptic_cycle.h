@@ -125,7 +125,8 @@ private:
     bool handLeft(const Pose& before, const Pose& endBefore) const noexcept;
     bool turnVanished(const ProxyStep& moved, const Pose& endBefore) const noexcept;
     double behindHand() const noexcept;
-    double followedGap(double travel) const noexcept;
+    bool wentBack(const ContactSet* set, const dvec3& out) const noexcept;
+    Pose guidedEnd() const noexcept;
     void keepHandAtTool(const Pose& before, const Pose& endBefore, const dvec3& along,
                         ProxyStep& moved) noexcept;
     void takeUpLag(ProxyStep& moved, StepRecord& out) noexcept;

@@ -13,7 +13,7 @@ namespace {
 // remains there. The length has kPartGone [N] with stiff springs; noise causes less than the smallest one.
 constexpr double kPartGone = 5.0, kMinPartGone = SurfaceNoise::kBand, kMaxPartGone = 0.005,
                  kStillHeld = 0.0005;
-constexpr double kLightForce = 2.0, kLightLength = 0.002; // [N], [m] of a light press
+constexpr double kSameWay = 0.8; // cosine between directions that count as the same one
 constexpr dquat kNoTurn{1.0, 0.0, 0.0, 0.0};
 
 // True if a spring that held `before` [m] now holds `held` although the hand moved by `byHand` [m] only: it
@@ -67,7 +67,8 @@ std::optional<dvec3> HapticCycle::vanishedAlong(const ProxyStep& moved, const Co
     // A set that lists nothing shows nothing that is near, however short its reach is. An arm may not yet
     // have followed a surface that lies between it and the hand.
     const bool none = set == nullptr || !(moved.minGap < set->reach);
-    if (!rows && (none || moved.minGap > followedGap(glm::distance(tool_.position, before.position)))) {
+    const bool away = none || moved.minGap > kVanishedGap + behindHand();
+    if (!rows && away && !wentBack(set, pressing_.spring)) {
         return pressing_.spring;
     }
     if (jointLimits_ != 0) {
@@ -76,8 +77,9 @@ std::optional<dvec3> HapticCycle::vanishedAlong(const ProxyStep& moved, const Co
     // Other regions press or are near.
     const dvec3 held = rows ? moved.allowed.position - springEnd_.position : dvec3(0.0);
     const double byHand = glm::distance(springEnd_.position, endBefore.position);
-    if (!arm_ && lostItsHold(pressing_.spring, held, byHand, watch_.springs())) {
-        return pressing_.spring - held;
+    const dvec3 lost = pressing_.spring - held;
+    if (!arm_ && lostItsHold(pressing_.spring, held, byHand, watch_.springs()) && !wentBack(set, lost)) {
+        return lost;
     }
     return turnVanished(moved, endBefore) ? std::optional(dvec3(0.0)) : std::nullopt;
 }
@@ -87,14 +89,22 @@ double HapticCycle::behindHand() const noexcept {
     return arm_ && pressing_.rows ? glm::distance(tool_.position, springEnd_.position) : 0.0;
 }
 
-// [m] to the nearest region, up to which those that pressed may have gone back there. A light press ends
-// either way without a jump that is felt, so it is not mistaken for one of regions that vanished. An arm may
-// not have followed yet. travel: of the tool in this tick [m].
-double HapticCycle::followedGap(double travel) const noexcept {
-    const double light = std::min(kLightForce / watch_.springs().stiffness, kLightLength);
-    const bool lightly = !arm_ && glm::length(pressing_.spring) <= light;
-    const double back = lightly ? options_.proxy.solves * options_.proxy.stepCap - travel : 0.0;
-    return std::max(kVanishedGap, back) + behindHand();
+// The surface that pressed along `out` went back by no more than the tool follows in a tick. Reads the set's
+// pairs, so only where the rows have changed that much.
+bool HapticCycle::wentBack(const ContactSet* set, const dvec3& out) const noexcept {
+    const double followed = options_.proxy.solves * options_.proxy.stepCap, length = glm::length(out);
+    for (uint32_t leaf = 0; set != nullptr && !arm_ && leaf < set->leafCount(); ++leaf) {
+        for (uint32_t i = set->pairBegin[leaf]; i < set->pairsUpTo(leaf, followed); ++i) {
+            const dvec3 apart = set->leafAtQuery[leaf] - dvec3(set->pairX[i], set->pairY[i], set->pairZ[i]);
+            const double distance = glm::length(apart);
+            const bool near =
+                distance <= followed + leafRadius(leaf) + static_cast<double>(set->pairRadius[i]);
+            if (near && glm::dot(apart, out) > kSameWay * distance * length) {
+                return true;
+            }
+        }
+    }
+    return false;
 }
 
 // Moves the hand map by `by` [m], and with it the pose that the hand commands. `turn` turns that pose.

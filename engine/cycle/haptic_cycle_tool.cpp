@@ -51,24 +51,29 @@ double HapticCycle::sceneAge(const StepInput& input, const ContactSet* set) noex
     return regions_.age;
 }
 
+// The hand's end of the spring: the pose that the hand commands, and the lead of guidance. The rotation is
+// composed, not added to log(q_dev q^-1): equal to first order, and at rest the torque is exactly K_r times
+// the lead.
+Pose HapticCycle::guidedEnd() const noexcept {
+    Pose end = device_;
+    if (!options_.paperGuidance) {
+        const auto lead = guidance_.lead(device_, watch_.springs());
+        end.position += lead.translation;
+        if (lead.rotation != dvec3(0.0)) {
+            end.rotation = glm::normalize(rotationExp(lead.rotation) * device_.rotation);
+        }
+    }
+    return end;
+}
+
 ProxyStep HapticCycle::moveTool(const StepInput& input, const ContactSet* set, bool newData,
                                 StepRecord& out) noexcept {
     ProxyInput wanted;
-    wanted.target = device_;
+    wanted.target = springEnd_;
     wanted.metricRadius = watch_.springs().metricRadius;
     wanted.contacts = set;
     wanted.deadline = input.deadline;
     wanted.surfaceMoved = newData && pressing_.rows;
-    if (!options_.paperGuidance) {
-        // The rotation is composed, not added to log(q_dev q^-1): equal to first order, and at rest the
-        // torque is exactly K_r times the lead.
-        const auto lead = guidance_.lead(device_, watch_.springs());
-        wanted.target.position += lead.translation;
-        if (lead.rotation != dvec3(0.0)) {
-            wanted.target.rotation = glm::normalize(rotationExp(lead.rotation) * device_.rotation);
-        }
-    }
-    springEnd_ = wanted.target;
     if (arm_) {
         return moveArm(input, wanted, out);
     }

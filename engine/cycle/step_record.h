@@ -128,8 +128,8 @@ struct StepRecord {
     Pose device;    // base_T_tool that the hand commands, mapped
     Pose tool;      // base_T_tool of the proxy after the step
     Wrench wrench;  // on the hand, base axes, after all limits, before projection
-    uint32_t contactCount =
-        0; // active rows of the last solve; one more if the exact check alone blocks the tool
+    // Active rows of the last solve; one more if the exact check alone blocks the tool.
+    uint32_t contactCount = 0;
     double minGap = kNotKnown; // [m] over the contact set after the step; its reach when none is nearer
     StepState state = StepState::Off;
     double guidance = 0.0;       // weight: 0 off .. 1 full pull

@@ -24,10 +24,11 @@ double shareOf(const dvec3& part, const dvec3& whole) {
     return length > 0.0 ? glm::length(part) / length : 1.0;
 }
 
-// The damper brakes and holds nothing: against the reaction it is at most as large.
-dvec3 damped(const dvec3& moved, const dvec3& reaction, double damping) {
+// A damper of a region brakes and holds nothing: against the reaction it is at most as large.
+dvec3 damped(const dvec3& moved, const dvec3& reaction, double damping, bool bothWays) {
     const dvec3 force = projectedOn(-moved, reaction) * damping;
-    return glm::dot(force, reaction) < 0.0 ? clampLength(force, glm::length(reaction)) : force;
+    const bool holds = !bothWays && glm::dot(force, reaction) < 0.0;
+    return holds ? clampLength(force, glm::length(reaction)) : force;
 }
 
 // The output of the low-pass, in which the part that is no longer wanted shrinks by at least `step` per tick.
@@ -73,8 +74,8 @@ Wrench WrenchStage::damping(const WrenchInput& input, const Wrench& reaction) no
         const double elapsed = std::max(options_.period, input.elapsed); // a late tick covers a longer motion
         const dvec3 moved = input.device.position - deviceBefore_.position;
         const dvec3 spun = rotationBetween(deviceBefore_.rotation, input.device.rotation);
-        wrench.force = damped(moved, reaction.force, springs.damping / elapsed);
-        wrench.torque = damped(spun, reaction.torque, springs.rotationalDamping / elapsed);
+        wrench.force = damped(moved, reaction.force, springs.damping / elapsed, input.bothWays);
+        wrench.torque = damped(spun, reaction.torque, springs.rotationalDamping / elapsed, input.bothWays);
     }
     deviceBefore_ = input.device;
     return wrench;

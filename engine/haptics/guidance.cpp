@@ -25,13 +25,13 @@ void Guidance::step(std::span<const GuidancePose> poses, const Pose& device, boo
     if (button && !button_) {
         waiting_ = true;
     }
-    waiting_ = waiting_ && button;
+    waiting_ = waiting_ && button && !cut;
     button_ = button;
-    if (waiting_) {
+    cut_ = cut_ || cut;
+    if (waiting_ && !cut_) {
         choose(poses, device);
     }
     follow(poses, dt);
-    cut_ = cut_ || cut;
     const bool pulls = button && !waiting_ && chosen_ >= 0 && lost_ <= limits_.holdTime && !cut_;
     const double change = cut_ ? std::max(dt / ForceRamps::kRampTime, easeStep(dt)) : easeStep(dt);
     phase_ = std::clamp(phase_ + (pulls ? change : -change), 0.0, 1.0);
@@ -39,7 +39,7 @@ void Guidance::step(std::span<const GuidancePose> poses, const Pose& device, boo
     advance(device, reach, dt);
     if (phase_ == 0.0 && (cut_ || !button)) {
         chosen_ = -1;
-        cut_ = waiting_ = false;
+        cut_ = false;
     }
 }
 

@@ -17,7 +17,7 @@ constexpr double kMinDirectionForce = 1e-3; // [N] a smaller reaction has no dir
 constexpr double kPushTime = 0.012;         // [s] in which new data pushes a tool out, or half a frame
 constexpr double kFrameSlack = 1.25;        // frame intervals to wait for the next frame
 constexpr double kMinMixLength = 0.3;       // directions that differ more than that are not mixed
-constexpr double kSameWay = 0.8;            // cosine between the reaction that returns and the former one
+constexpr double kSameWay = 0.8; // cosine between a reaction and the former one, which it continues
 
 } // namespace
 
@@ -89,17 +89,21 @@ Wrench Reaction::withoutNoise(const Wrench& spring, double byHand, const Reactio
     return noise_.step(tick);
 }
 
-// What new data took of the reaction since the tick before, beyond what the hand released; it falls to zero
-// until the next frame is due.
-double Reaction::heldBack(double wanted, double byHand) noexcept {
-    const double left = interval_ - sinceData_;
-    if (!(wanted > 0.0) || fade_.active() || !(left > 0.0)) {
+// What new data took of the reaction, beyond what the hand released, if the reaction keeps its direction: else
+// one region's force would be felt on another. It falls to zero until the next frame is due, and with the
+// spring if the hand moves out. out: of the hand in this tick [m].
+double Reaction::heldBack(const Wrench& wrench, double byHand, double out) noexcept {
+    const double wanted = metricSize(wrench, k_), left = interval_ - sinceData_;
+    if (!(wanted > kMinDirectionForce) || fade_.active() || !(left > 0.0)) {
         return held_ = 0.0;
     }
     if (pushed()) {
-        held_ = std::max(held_, size_ - byHand - wanted);
+        const double before = metricProduct(lastFelt_, wrench, k_) / wanted;
+        const double lost = before > kSameWay * lastFeltSize_ ? before - byHand - wanted : 0.0;
+        held_ = std::max(held_, lost);
     }
-    return held_ -= held_ * std::min(1.0, elapsed_ / left);
+    const double kept = out > 0.0 ? wanted / (wanted + byHand) : 1.0;
+    return held_ *= kept * (1.0 - std::min(1.0, elapsed_ / left));
 }
 
 Wrench Reaction::limitRise(const Wrench& wrench, const Travel& travel, const ReactionInput& input) noexcept {
@@ -114,7 +118,7 @@ Wrench Reaction::limitRise(const Wrench& wrench, const Travel& travel, const Rea
     const double rises = std::min(rate(wanted - compressed - size_) * elapsed_, kMaxRiseRate * input.period);
     const double most = size_ + (input.mayRise ? compressed + calm * rises : 0.0);
     appears_ = wanted > size_ + compressed * (1.0 + 1e-9) + kRoundingForce;
-    const double held = heldBack(wanted, input.springs.stiffness * travel.length);
+    const double held = heldBack(wrench, input.springs.stiffness * travel.length, out);
     size_ = std::min(wanted + held, most);
     return size_ != wanted ? scaled(wrench, size_ / wanted) : wrench;
 }

@@ -28,7 +28,7 @@ struct ReactionInput {
 // growth has another cause: a row appeared, new data moved a surface, a lag ended. It then rises by at most
 // kMaxRiseRate, and after new data evenly over the time between frames, so that no frame is felt as a click.
 // Falls that the hand causes are immediate, as is the end of contact. What new data takes of a reaction that
-// remains falls over the time between frames, and the direction turns over that time.
+// keeps its direction falls over the time between frames. A direction that changes turns over that time.
 //
 // New data also changes a surface at rest, by the sensor's noise. So a part of each change is felt slowly
 // (SurfaceNoise), while the tool follows at once. What the hand's own motion changes is felt in the same
@@ -51,13 +51,16 @@ public:
     bool fades() const noexcept { return fade_.active(); }
     // In the last tick the reaction grew by more than the hand compressed, or new data still changes or turns
     // it: work that the hand did not do.
-    bool appears() const noexcept { return appears_ || turnLeft_ > 0.0 || held_ > 0.0 || noise_.withholds(); }
+    bool appears() const noexcept {
+        return appears_ || turnLeft_ > 0.0 || held_ > kMinHeld || noise_.withholds();
+    }
     // [s] between the last two changes of the regions, at most kLongestFrame.
     double frameInterval() const noexcept { return interval_; }
 
     static constexpr double kMaxRiseRate = 100.0;  // [N/s]
     static constexpr double kLeavingSpeed = 0.25;  // [m/s] a hand that leaves this fast needs no further rise
     static constexpr double kLongestFrame = 0.033; // [s]
+    static constexpr double kMinHeld = 1e-3;       // [N] less is not felt
 
 private:
     struct Travel { // of the hand's end of the spring in this tick, not by shift()
@@ -68,7 +71,7 @@ private:
     Travel travelOf(const Pose& end) noexcept;
     bool pushed() const noexcept;
     double rate(double appeared) noexcept;
-    double heldBack(double wanted, double byHand) noexcept;
+    double heldBack(const Wrench& wrench, double byHand, double out) noexcept;
     void beginFade(const Wrench& wanted, const ReactionInput& input) noexcept;
     void keepWhileLagging(const Wrench& wanted, double byHand, const ReactionInput& input) noexcept;
     Wrench withoutNoise(const Wrench& spring, double byHand, const ReactionInput& input) noexcept;

@@ -11,12 +11,13 @@ namespace fathom {
 
 namespace {
 
-constexpr double kMinByHand = 1e-6;         // [N] less is rounding
-constexpr double kMinFelt = 1e-3;           // [N] less is not felt
-constexpr double kWithheldShare = 0.5;      // of the spring
-constexpr double kNoiseRatio = 0.65;        // of the mean over the mean size: up to here it is noise
-constexpr double kSlowTimeDecay = 10.0;     // [s/s] without contact, of the time constant
-constexpr double kNewSurfaceTravel = 0.01;  // [m] of travel, after which the surface is another one,
+constexpr double kMinByHand = 1e-6;        // [N] less is rounding
+constexpr double kMinFelt = 1e-3;          // [N] less is not felt
+constexpr double kWithheldShare = 0.5;     // of the spring
+constexpr double kAcross = 0.25;           // of what is withheld: the spring has no part there if it has less
+constexpr double kNoiseRatio = 0.65;       // of the mean over the mean size: up to here it is noise
+constexpr double kSlowTimeDecay = 10.0;    // [s/s] without contact, of the time constant
+constexpr double kNewSurfaceTravel = 0.01; // [m] of travel, after which the surface is another one,
 constexpr double kNewSurfaceSlowTime = 1.2; // [s] and the time constant at most there
 // Of the tool's motion round a ball, over the hand's: most, margin over what was seen, kept from tick to
 // tick.
@@ -29,14 +30,21 @@ void SurfaceNoise::settleAt(const Wrench& spring) noexcept {
     spring_ = spring;
 }
 
-// The hand changed the spring to `spring`. What is withheld stays within kWithheldShare of the spring's part
-// in its direction, if it was within it: another region may press across it as hard as ever.
-void SurfaceNoise::releaseWith(const Wrench& spring, double radius) noexcept {
-    const double most = metricProduct(withheld_, withheld_, radius) / kWithheldShare;
-    const double before = metricProduct(spring_, withheld_, radius);
-    const double now = std::copysign(1.0, before) * metricProduct(spring, withheld_, radius);
-    if (most > 0.0 && std::abs(before) >= most * (1.0 - 1e-9) && now < most) {
-        withheld_ = scaled(withheld_, std::max(0.0, now) / most);
+// `change`: of the spring, by the hand. Where the spring's part in that direction falls below what is withheld
+// there over kWithheldShare, that falls with it: force ends where contact ends, whatever presses in other
+// directions. A hand that slides turns the spring, which has no part in the direction of that change.
+void SurfaceNoise::releaseWith(const Wrench& change, double radius) noexcept {
+    const double size = metricSize(change, radius);
+    if (!(size > kMinByHand)) {
+        return;
+    }
+    const double withheld = metricProduct(withheld_, change, radius) / size;
+    const double before = std::abs(metricProduct(spring_, change, radius) / size);
+    const double now = metricProduct(spring_, change, radius) < 0.0 ? before - size : before + size;
+    const double from = std::min(before, std::abs(withheld) / kWithheldShare);
+    if (from > kAcross * std::abs(withheld) && now < from) {
+        const double ends = withheld * (1.0 - std::max(0.0, now) / from);
+        withheld_ = sumOf(withheld_, change, -ends / size);
     }
 }
 
@@ -45,7 +53,7 @@ void SurfaceNoise::withhold(const SurfaceNoiseInput& input) noexcept {
     const Wrench change = sumOf(input.spring, spring_, -1.0);
     const double size = metricSize(change, input.radius);
     const double byHand = input.dataPushes ? std::min(size, gain_ * input.byHand) : size;
-    releaseWith(sumOf(spring_, change, size > 0.0 ? byHand / size : 0.0), input.radius);
+    releaseWith(scaled(change, size > 0.0 ? byHand / size : 0.0), input.radius);
     if (!input.dataPushes) {
         const double seen = input.byHand > kMinByHand ? kGainMargin * size / input.byHand : 1.0;
         gain_ = std::clamp(std::max(seen, kGainKept * gain_), 1.0, kMaxGain);

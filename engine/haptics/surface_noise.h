@@ -52,7 +52,7 @@ private:
         double slowTime = 0.0; // [s] time constant of a change that does not stay
     };
     void withhold(const SurfaceNoiseInput& input) noexcept;
-    void releaseWith(const Wrench& spring, double radius) noexcept;
+    void releaseWith(const Wrench& change, double radius) noexcept;
     void adaptSlowTime(const SurfaceNoiseInput& input, bool contact) noexcept;
     static Wrench stillWithheld(const Part& part, double elapsed, double radius) noexcept;
 

@@ -203,6 +203,23 @@ TEST_CASE("A cut takes the weight to zero within 0.2 s, however short it is, and
     CHECK(guidance.weight() == 1.0);
 }
 
+TEST_CASE("A press of the button while a cut pull fades out counts once it is gone") {
+    const std::vector<GuidancePose> poses{poseAt({0.1, 0, 0})};
+    Guidance guidance;
+    run(guidance, poses, {}, true, 500);
+    for (int i = 0; i < 20; ++i) {
+        guidance.step(poses, {}, true, true, kTick);
+    }
+    run(guidance, poses, {}, false, 30);
+    for (int i = 0; i < 150; ++i) {
+        const double before = guidance.weight();
+        run(guidance, poses, {}, true, 1);
+        CHECK(guidance.weight() <= before);
+    }
+    run(guidance, poses, {}, true, 600);
+    CHECK(guidance.weight() == 1.0);
+}
+
 TEST_CASE("At rest the hand feels at most F_g, and the pull ends at the target") {
     const auto springs = springs1000();
     const std::vector<GuidancePose> poses{poseAt({0.1, 0, 0})};

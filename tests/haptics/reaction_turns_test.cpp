@@ -2,6 +2,7 @@
 // A reaction that new data turns round, or takes away.
 #include "engine/haptics/reaction.h"
 
+#include <algorithm>
 #include <cmath>
 #include <doctest/doctest.h>
 
@@ -63,4 +64,67 @@ TEST_CASE("A surface that goes back in every frame is felt as an even fall, not 
     tick.newData = true;
     tick.allowed = tick.springEnd; // no contact any more
     CHECK(reaction.step(tick).force.z == 0.0);
+}
+
+namespace {
+
+// A hand that presses a wall across z and a side across y, at 1000 N/m.
+struct CornerHand {
+    CornerHand() {
+        tick.springs.stiffness = 1000.0;
+        tick.springs.rotationalStiffness = 1.0;
+        tick.springs.metricRadius = std::sqrt(1e-3);
+    }
+    dvec3 step() {
+        tick.springEnd.position = hand;
+        tick.allowed.position = {0.0, std::max(side, hand.y), std::max(wall, hand.z)};
+        const Wrench felt = reaction.step(tick);
+        tick.newData = false;
+        return felt.force;
+    }
+    void pressTo(const dvec3& depth) {
+        for (int i = 0; i < 200; ++i) {
+            hand -= depth / 200.0;
+            step();
+        }
+        for (int i = 0; i < 1000; ++i) {
+            step();
+        }
+    }
+    Reaction reaction;
+    ReactionInput tick;
+    dvec3 hand{0.0};
+    double side = 0.0, wall = 0.0; // [m]
+};
+
+} // namespace
+
+TEST_CASE("What a surface that goes back still gives ends with the spring of a hand that leaves") {
+    CornerHand hand;
+    hand.pressTo({0.0, 0.0, 0.01});
+    hand.tick.newData = true;
+    hand.wall = -0.006; // 4 N are left of 10
+    CHECK(hand.step().z > 9.0);
+    while (hand.hand.z < hand.wall + 0.002) {
+        hand.hand.z += 0.0003; // 0.3 m/s
+        const double felt = hand.step().z, spring = 1000.0 * std::max(0.0, hand.wall - hand.hand.z);
+        CHECK(felt <= 2.5 * spring + 0.8);
+    }
+}
+
+TEST_CASE("What one region loses is not felt on another one") {
+    for (const int ticks : {0, 3}) { // after the frame, until the tool follows
+        CAPTURE(ticks);
+        CornerHand hand;
+        hand.pressTo({0.0, 0.0003, 0.005});
+        REQUIRE(hand.step().z == doctest::Approx(5.0).epsilon(0.01));
+        hand.tick.newData = true;
+        for (int i = 0; i < ticks; ++i) {
+            hand.step();
+        }
+        hand.wall = -0.0052;
+        for (int i = 0; i < 60; ++i) {
+            CHECK(hand.step().y < 0.35);
+        }
+    }
 }
