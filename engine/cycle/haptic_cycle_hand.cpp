@@ -45,7 +45,7 @@ void HapticCycle::recentre() noexcept {
     stage_.shift(by, kNoTurn);
 }
 
-// The hand moved or turned out of what pressed. The arguments are those of vanishedAlong().
+// The hand moved or turned out of the regions that pressed. Arguments as in vanishedAlong().
 bool HapticCycle::handLeft(const Pose& before, const Pose& endBefore) const noexcept {
     const double moved = glm::dot(before.position - springEnd_.position, pressing_.spring);
     const double turned = glm::dot(rotationBetween(springEnd_.rotation, before.rotation),

@@ -11,13 +11,13 @@ namespace fathom {
 
 namespace {
 
-constexpr double kMinByHand = 1e-6;        // [N] less is rounding
-constexpr double kMinFelt = 1e-3;          // [N] less is not felt
-constexpr double kWithheldShare = 0.5;     // of the spring
-constexpr double kAcross = 0.25;           // of what is withheld: the spring has no part there if it has less
-constexpr double kNoiseRatio = 0.65;       // of the mean over the mean size: up to here it is noise
-constexpr double kSlowTimeDecay = 10.0;    // [s/s] without contact, of the time constant
-constexpr double kNewSurfaceTravel = 0.01; // [m] of travel, after which the surface is another one,
+constexpr double kMinByHand = 1e-6;         // [N] less is rounding
+constexpr double kMinFelt = 1e-3;           // [N] less is not felt
+constexpr double kWithheldShare = 0.5;      // of the spring
+constexpr double kAcross = 0.25;            // of the withheld force: with less, the spring has no part there
+constexpr double kNoiseRatio = 0.65;        // of the mean over the mean size: up to here it is noise
+constexpr double kSlowTimeDecay = 10.0;     // [s/s] without contact, of the time constant
+constexpr double kNewSurfaceTravel = 0.01;  // [m] of travel, after which the surface is another one,
 constexpr double kNewSurfaceSlowTime = 1.2; // [s] and the time constant at most there
 // Of the tool's motion round a ball, over the hand's: most, margin over what was seen, kept from tick to
 // tick.

@@ -153,7 +153,7 @@ TEST_CASE("With stiff springs a wall that goes back while another region presses
     const auto show = [&](double back, uint64_t generation) {
         Fixtures set = emptySet(generation);
         addWall(set, {0.0, 0.0, -0.04 - back}, {1, 0, 0}, {0, 1, 0}, 0.06, 0.004, 0.04);
-        set.spheres.add({0.0, 0.0597, 0.01}, 0.05); // beside the tool, 0.3 mm inside
+        set.spheres.add({0.0, 0.0597, 0.01}, 0.05); // next to the tool, 0.3 mm inside
         rig.show(std::move(set));
         rig.sceneAges = false;
     };
