@@ -124,7 +124,7 @@ void Alarms::step(Console& console, const RunView& run, const HapticOptions& hap
     if (run.anyTick()) {
         const StepRecord& r = run.step().record;
         set(!r.finite, Level::Warning, "finite",
-            {"A tick without force: a number was not finite", "Space, then restart"}, r.t);
+            {"A tick had no force, a number was not finite", "Space, then restart"}, r.t);
         stepScene(r, health.gpuGone, console.switches.forces);
         stepProtection(run, scene, r, console.switches.forces);
         stepForces(run, haptics, console.switches.forces);
