@@ -154,16 +154,12 @@ TEST_CASE(
     "A realtime replay of shapes alone does not wait until the simulated camera has rendered all frames") {
     Stage stage;
     stage.hand({{0.0, {0.0, 0.0, 0.4}}, {0.2, {0.0, 0.0, 0.4}}});
-    const auto secondsToFirstSet = [&](int frames) {
-        SceneText scene;
-        scene.camera = "source: {simulated: tank, frames: " + std::to_string(frames) + "}";
-        scene.fixtures = {"name: wall, role: forbidden, shape: plane, base_T_shape: {xyz: [0, 0, -1]}"};
-        stage.scene(scene);
-        const ProgramRun run = runFathom(stage.command({"--realtime", "--frame-rate", "240"}));
-        REQUIRE_MESSAGE(run.exitCode == 0, run.err);
-        const auto counts = nlohmann::json::parse(stage.read("out/summary.json")).at("frames");
-        CHECK(counts.at("count") == frames);
-        return counts.at("first_s").get<double>();
-    };
-    CHECK(secondsToFirstSet(240) < 10.0 * secondsToFirstSet(1)); // rendering them all takes far longer
+    SceneText scene;
+    scene.camera = "source: {simulated: tank, frames: 240}";
+    scene.fixtures = {"name: wall, role: forbidden, shape: plane, base_T_shape: {xyz: [0, 0, -1]}"};
+    stage.scene(scene);
+    const ProgramRun run = runFathom(stage.command({"--realtime", "--frame-rate", "240"}));
+    REQUIRE_MESSAGE(run.exitCode == 0, run.err);
+    CHECK(nlohmann::json::parse(stage.read("out/summary.json")).at("frames").at("count") == 240);
+    CHECK(run.err.find("has rendered its") == std::string::npos); // a notice of runs that render them all
 }
