@@ -128,6 +128,18 @@ RecordingLayout readTum(const fs::path& folder, const fs::path& intrinsics, cons
     return layout;
 }
 
+// The lens of Open3D beside an index.
+RecordingLayout readIndexedOpen3d(const fs::path& folder, const fs::path& mark,
+                                  const SourceOptions& options) {
+    RecordingLayout layout = readTum(folder, mark, {}, options.depthOnly(), ScaleRule::Optional);
+    if (!layout.metres && !layout.intrinsics.scale && !options.scale) {
+        layout.warnings.push_back(mark.filename().string() +
+                                  " states no depth scale: millimetres are assumed, but depth of TUM RGB-D "
+                                  "has 5000 units per metre (scale=0.0002 after the folder name)");
+    }
+    return layout;
+}
+
 struct KnownLayout {
     const char* mark; // file that only this layout has
     RecordingLayout (*read)(const LayoutRequest&);
@@ -175,15 +187,7 @@ RecordingLayout readFolder(const fs::path& folder, const SourceOptions& options)
         return readTum(folder, intrinsics, recorded, options.depthOnly());
     }
     if (!given && known.read == readOpen3d && hasIndex(folder, options.depthOnly())) {
-        RecordingLayout layout =
-            readTum(folder, folder / known.mark, {}, options.depthOnly(), ScaleRule::Optional);
-        if (!layout.metres && !layout.intrinsics.scale && !options.scale) {
-            layout.warnings.push_back(
-                std::string(known.mark) +
-                " states no depth scale: millimetres are assumed, but depth of TUM RGB-D "
-                "has 5000 units per metre (scale=0.0002 after the folder name)");
-        }
-        return layout;
+        return readIndexedOpen3d(folder, folder / known.mark, options);
     }
     LayoutRequest request{folder, std::nullopt, options.depthOnly(), folder / known.mark};
     if (given) {

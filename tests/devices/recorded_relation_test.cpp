@@ -13,7 +13,8 @@ const std::string kLensAlone = R"({"width": 7, "height": 5, "fx": 9, "fy": 9, "c
                                  "depth_scale_m_per_unit": 0.001)";
 const std::string kOwnLenses =
     R"({"depth": {"width": 7, "height": 5, "fx": 6, "fy": 6, "cx": 3, "cy": 2},
-        "color": {"width": 7, "height": 5, "fx": 5, "fy": 5, "cx": 3, "cy": 2}, "depth_scale_m_per_unit": 0.001,
+        "color": {"width": 7, "height": 5, "fx": 5, "fy": 5, "cx": 3, "cy": 2},
+        "depth_scale_m_per_unit": 0.001,
         "extrinsics_topic_tf": {"Color": {"t": [0.015, 0, 0], "q_xyzw": [0, 0, 0, 1]}}})";
 const std::string kRestOfRows = " 0 3 0 0 6 2 0 0 0 1 0 0 0 0 1\n";
 const std::string kTwoInfos = "m_colorWidth = 7\nm_colorHeight = 5\nm_depthWidth = 7\nm_depthHeight = 5\n"
