@@ -61,7 +61,7 @@ std::vector<NameNumber> numbersIn(const std::string& name, bool decimal) {
 }
 
 bool PointDigits::count() const {
-    return unpadded && endInZero && oneWhole && front < kStampDigits;
+    return unpadded && endInZero && mayCount();
 }
 
 PointDigits pointDigits(const std::vector<std::vector<NameNumber>>& names) {
@@ -88,15 +88,18 @@ PointDigits pointDigits(const std::vector<std::vector<NameNumber>>& names) {
     return all;
 }
 
-std::vector<std::vector<NameNumber>> numbersInNames(const std::vector<std::string>& names) {
-    std::vector<std::vector<NameNumber>> numbers;
-    std::ranges::transform(names, std::back_inserter(numbers),
-                           [](const auto& name) { return numbersIn(name); });
-    if (pointDigits(numbers).count()) {
-        std::ranges::transform(names, numbers.begin(),
-                               [](const auto& name) { return numbersIn(name, false); });
-    }
-    return numbers;
+std::vector<std::vector<NameNumber>> numbersInNames(const std::vector<std::string>& names,
+                                                    const std::vector<std::string>& beside) {
+    const auto read = [](const std::vector<std::string>& all, bool decimal) {
+        std::vector<std::vector<NameNumber>> numbers;
+        std::ranges::transform(all, std::back_inserter(numbers),
+                               [&](const auto& name) { return numbersIn(name, decimal); });
+        return numbers;
+    };
+    std::vector<std::vector<NameNumber>> numbers = read(names, true);
+    const PointDigits own = pointDigits(numbers);
+    const bool counts = own.count() || (own.mayCount() && pointDigits(read(beside, true)).count());
+    return counts ? read(names, false) : numbers;
 }
 
 bool endsInClock(const std::vector<NameNumber>& numbers) {

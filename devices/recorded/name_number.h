@@ -24,6 +24,8 @@ struct NameNumber {
 // In the order of the name. A point between digits is a decimal point, if `decimal`.
 std::vector<NameNumber> numbersIn(const std::string& name, bool decimal = true);
 
+inline constexpr size_t kStampDigits = 9; // of seconds since 1970
+
 // The digits behind the point of the last number of several names.
 struct PointDigits {
     size_t shortest = std::string::npos, longest = 0;
@@ -36,12 +38,14 @@ struct PointDigits {
 
     // A point in front of a counter, as in cam1.9 and cam1.10.
     bool count() const;
+    bool mayCount() const { return oneWhole && front < kStampDigits; } // as cam1.8 and cam1.9
 };
 PointDigits pointDigits(const std::vector<std::vector<NameNumber>>& names);
-inline constexpr size_t kStampDigits = 9; // of seconds since 1970
 
-// numbersIn() of each name. A point is no decimal point where these names count behind it.
-std::vector<std::vector<NameNumber>> numbersInNames(const std::vector<std::string>& names);
+// numbersIn() of each name. A point is no decimal point where these names count behind it; nor where those of
+// `beside` do, images of another kind, if these names have one number in front of the point.
+std::vector<std::vector<NameNumber>> numbersInNames(const std::vector<std::string>& names,
+                                                    const std::vector<std::string>& beside = {});
 
 // HH-MM-SS.
 bool endsInClock(const std::vector<NameNumber>& numbers);

@@ -77,15 +77,19 @@ std::vector<NamedFile> numberedFiles(const NumberedImages& images) {
     return files;
 }
 
-std::vector<NamedImage> imagesIn(const NumberedImages& images) {
-    std::vector<NamedFile> files = numberedFiles(images);
+std::vector<std::string> stemsOf(const std::vector<NamedFile>& files) {
     std::vector<std::string> stems;
     std::ranges::transform(files, std::back_inserter(stems), &NamedFile::stem);
-    std::vector<ImageKey> numbers = numbersInNames(stems);
+    return stems;
+}
+
+// beside: the files of the other kind; points in both kinds of names mean the same.
+std::vector<NamedImage> imagesOf(const std::vector<NamedFile>& files, const std::vector<NamedFile>& beside) {
+    std::vector<ImageKey> numbers = numbersInNames(stemsOf(files), stemsOf(beside));
     std::vector<NamedImage> found;
     for (size_t i = 0; i < files.size(); ++i) {
         ImageKey& all = numbers[i];
-        found.push_back({std::move(files[i].file), {all.front()}, {all.back()}, std::move(all)});
+        found.push_back({files[i].file, {all.front()}, {all.back()}, std::move(all)});
     }
     return found;
 }
@@ -202,13 +206,12 @@ void warnIfUnpadded(const std::filesystem::path& folder, const std::vector<Named
     }
 }
 
-std::vector<NamedImage> depthImagesIn(const NumberedImages& depth) {
-    std::vector<NamedImage> images = imagesIn(depth);
-    if (images.empty()) {
+std::vector<NamedFile> depthFilesIn(const NumberedImages& depth) {
+    std::vector<NamedFile> files = numberedFiles(depth);
+    if (files.empty()) {
         refuseNone(depth, "depth images", "");
     }
-    warnIfUnpadded(depth.folder, images);
-    return images;
+    return files;
 }
 
 void refuseTwice(const NumberedImages& images, const std::string& twice) {
@@ -239,7 +242,8 @@ std::vector<IndexLine> pairsOf(const Match& match, const std::filesystem::path& 
 }
 
 std::vector<IndexLine> depthByNumber(const NumberedImages& depth) {
-    const std::vector<NamedImage> found = depthImagesIn(depth);
+    const std::vector<NamedImage> found = imagesOf(depthFilesIn(depth), {});
+    warnIfUnpadded(depth.folder, found);
     const bool times = tellTimes(found);
     if (times) {
         refuseViews(depth.folder, found);
@@ -263,10 +267,13 @@ std::vector<IndexLine> pairByNumber(const NumberedImages& depth, const NumberedI
     if (depthOnly) {
         return depthByNumber(depth);
     }
-    const std::vector<NamedImage> depthImages = depthImagesIn(depth), colourImages = imagesIn(colour);
-    if (colourImages.empty()) {
+    const std::vector<NamedFile> depthFiles = depthFilesIn(depth), colourFiles = numberedFiles(colour);
+    if (colourFiles.empty()) {
         refuseNone(colour, "colour images", ", or colour=none after the folder name");
     }
+    const std::vector<NamedImage> depthImages = imagesOf(depthFiles, colourFiles),
+                                  colourImages = imagesOf(colourFiles, depthFiles);
+    warnIfUnpadded(depth.folder, depthImages);
     const Match last = matchBy(depthImages, colourImages, &NamedImage::last);
     const Match first = matchBy(depthImages, colourImages, &NamedImage::first);
     if (tellTimes(depthImages) && tellTimes(colourImages)) {

@@ -140,6 +140,9 @@ TEST_CASE("A counter behind a point, as in cam1.9 and cam1.10, orders and pairs 
     for (const Names& all : {names, begun}) {
         CHECK(depthsOfNames(all, all) == Depths{500, 600, 700, 800});
     }
+    const Names few{"cam1.8", "cam1.9"}; // of one kind, and those of the other count beyond 9
+    CHECK(depthsOfNames(names, few) == Depths{500, 600});
+    CHECK(depthsOfNames(few, {"cam2.8", "cam2.9", "cam2.10"}) == Depths{500, 600});
     const Names seconds{"7.5", "7.52", "7.6", "7.64"}; // decimals without their last zeros
     CHECK(depthsOfNames(seconds, seconds) == Depths{500, 600, 700, 800});
 }
