@@ -2,6 +2,7 @@
 #include "devices/recorded/numbered_images.h"
 
 #include "devices/images/depth_image.h"
+#include "devices/recorded/image_views.h"
 #include "devices/recorded/name_number.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
@@ -98,31 +99,15 @@ bool tellTimes(const std::vector<NamedImage>& images) {
     return std::ranges::all_of(images, [](const NamedImage& image) { return isDateOrTime(image.all); });
 }
 
-// Several cameras or views in one folder: behind each of several numbers or times, the last number counts the
-// same images, from 0 or 1. Milliseconds do not, nor do seconds.
 void refuseViews(const std::filesystem::path& folder, const std::vector<NamedImage>& images) {
-    std::map<ImageKey, std::map<NameNumber, const NamedImage*>> moments;
-    for (const NamedImage& image : images) {
-        ImageKey moment = image.all;
-        moment.pop_back();
-        moments[moment].emplace(image.all.back(), &image);
-    }
-    const auto& views = moments.begin()->second;
-    size_t next = views.begin()->first.text() == "0" ? 0 : 1;
-    const bool counted = std::ranges::all_of(
-        views, [&](const auto& view) { return view.first.text() == std::to_string(next++); });
-    const auto sameViews = [&](const auto& moment) {
-        return std::ranges::equal(
-            moment.second, views, {}, [](const auto& view) { return view.first.text(); },
-            [](const auto& view) { return view.first.text(); });
-    };
-    if (moments.size() > 1 && views.size() > 1 && counted && !endsInClock(images.front().all) &&
-        std::ranges::all_of(moments, sameViews)) {
+    std::vector<ImageKey> names;
+    std::ranges::transform(images, std::back_inserter(names), &NamedImage::all);
+    if (const auto views = severalViews(names)) {
         throw BadInput(folder.string(), "names of images",
-                       views.begin()->second->file.filename().string() + " and " +
-                           std::next(views.begin())->second->file.filename().string() +
-                           ", as of several cameras: the same " + std::to_string(views.size()) +
-                           " last numbers behind " + std::to_string(moments.size()) + " others",
+                       images[views->first].file.filename().string() + " and " +
+                           images[views->second].file.filename().string() +
+                           ", as of several cameras: the same " + std::to_string(views->last) +
+                           " last numbers behind " + std::to_string(views->fronts) + " others",
                        "the images of one camera");
     }
 }

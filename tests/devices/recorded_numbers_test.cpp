@@ -169,6 +169,35 @@ TEST_CASE("Images of several cameras in one folder are refused, however long the
     CHECK(depthsOfNames(clock, clock) == Depths{500, 600, 700, 800});
 }
 
+TEST_CASE("A counter that begins anew each second, or in each episode of equal length, is one camera's") {
+    for (const auto& [fronts, each] :
+         {std::pair(std::vector<std::string>{"20240101_120058", "20240101_120059", "20240101_120100"}, 10),
+          {{"20240101_120000", "20240101_120001", "20240101_120002"}, 3},
+          {{"2024-01-01_12-00-00", "2024-01-01_12-00-01"}, 2},
+          {{"240101120000", "240101120001", "240101120002"}, 2},
+          {{"120000", "120001", "120002"}, 2},
+          {{"1600000000", "1600000001"}, 2},
+          {{"000000", "000001"}, 4},                   // episodes
+          {{"20240101_120000", "20240101_130000"}, 4}, // recordings of one day
+          {{"1600000000123", "1600000100456"}, 4}}) {
+        CAPTURE(fronts[0]);
+        std::vector<std::string> names;
+        Depths depths;
+        for (const std::string& front : fronts) {
+            for (int i = 0; i < each; ++i) {
+                depths.push_back(static_cast<uint16_t>(500 + 100 * names.size()));
+                names.push_back(front + "_" + std::to_string(i));
+            }
+        }
+        CHECK(depthsOfNames(names, names) == depths);
+    }
+    const std::vector<std::string> serials{"213522070137_0", "213522070137_1", "213522070137_2",
+                                           "851112060943_0", "851112060943_1", "851112060943_2"};
+    const TemporaryFolder folder;
+    writeNamed(folder, serials, serials);
+    lineSays(recordingRefusal(folder.path()), "the same 3 last numbers behind 2 others");
+}
+
 TEST_CASE("A number in front of the image's kind counts where no name ends in a number") {
     CHECK(depthsOfNames({"0000_depth", "0001_depth"}, {"0000_color", "0001_color"}) == Depths{500, 600});
     CHECK(depthsOfNames({"frame0000.depth", "frame0001.depth"}, {"1", "0"}) == Depths{500, 600});
