@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/recorded/foreign_field.h"
 
+#include "devices/recorded/name_words.h"
+
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <vector>
 
 namespace fathom {
@@ -63,36 +66,67 @@ bool isAny(const std::string& text, const std::array<std::string_view, N>& words
     return std::ranges::find(words, text) != words.end();
 }
 
-bool namesCoefficients(const JsonField& block, const std::string& key) {
-    constexpr std::array<std::string_view, 5> kWhole{"d", "dist", "kc", "k0", "xi"};
-    constexpr std::array<std::string_view, 6> kParts{"disto",      "coef",  "radial",
-                                                     "tangential", "prism", "lensdist"};
-    const std::string plain = plainLetters(key);
-    const bool single = plain.size() == 2 && (plain[0] == 'k' || plain[0] == 'p') && plain[1] >= '1' &&
-                        plain[1] <= '6'; // k1 to k6, p1 and p2
-    const bool part = plain.find("dist") != std::string::npos && plain.find("par") != std::string::npos;
-    const bool kappa = plain.find("kappa") != std::string::npos && !block.find("omega"); // else angles
-    return key != kCoefficients &&
-           (single || part || kappa || isAny(plain, kWhole) || holdsAny(plain, kParts));
+// Of distortion alone: "distorsion", "disto_k3", "radialDistortion", "distcoeffs".
+bool isDistortionWord(std::string_view word) {
+    return word.starts_with("disto") || word.starts_with("distpar") ||
+           word.find("distort") != std::string_view::npos || word.find("distcoef") != std::string_view::npos;
 }
 
-// Lists of any lens: coefficients where they hold more than the pinhole and its size. 9 are a matrix.
+// Alone or beside each other, or "dist" with one of them: water has coefficients, too, and points have a
+// radial accuracy.
+bool areCoefficientWords(const std::vector<std::string>& words) {
+    constexpr std::array<std::string_view, 5> kDistortion{"dist", "lensdist", "radial", "tangential",
+                                                          "prism"};
+    constexpr std::array<std::string_view, 6> kCoefficientWords{"coef",   "coefs",       "coeff",
+                                                                "coeffs", "coefficient", "coefficients"};
+    constexpr std::array<std::string_view, 4> kParameters{"param", "params", "parameter", "parameters"};
+    constexpr std::array<std::string_view, 8> kBeside{"lens",  "thin",    "k",      "p",
+                                                      "brown", "conrady", "opencv", ""};
+    bool named = false, listed = false, dist = false, other = false;
+    for (const std::string& word : words) {
+        const std::string plain = word.substr(0, word.find_last_not_of("0123456789") + 1);
+        const bool coefficients = isAny(plain, kCoefficientWords), parameters = isAny(plain, kParameters);
+        named = named || coefficients || isAny(plain, kDistortion);
+        listed = listed || coefficients || parameters;
+        dist = dist || plain == "dist";
+        other = other || !(coefficients || parameters || isAny(plain, kDistortion) || isAny(plain, kBeside));
+    }
+    return (named && !other) || (dist && listed);
+}
+
+bool namesCoefficients(const JsonField& block, const std::string& key) {
+    constexpr std::array<std::string_view, 4> kWhole{"d", "kc", "k0", "xi"};
+    const std::string plain = plainLetters(key);
+    const std::vector<std::string> words = nameWords(key);
+    const bool single = plain.size() == 2 && (plain[0] == 'k' || plain[0] == 'p') && plain[1] >= '1' &&
+                        plain[1] <= '6'; // k1 to k6, p1 and p2
+    const bool kappa = plain.find("kappa") != std::string::npos && !block.find("omega"); // else angles
+    return key != kCoefficients && (single || kappa || isAny(plain, kWhole) || areCoefficientWords(words) ||
+                                    std::ranges::any_of(words, isDistortionWord));
+}
+
+// Lists of any lens: coefficients where they hold a number below 1 that is not of the pinhole. Others may be
+// the pinhole of another image size. 9 are a matrix, and one may be anything but for "k".
 bool listsCoefficients(const JsonField& block, const std::string& key) {
     constexpr std::array<std::string_view, 5> kLists{"k", "params", "parameters", "lensparams",
                                                      "lensparameters"};
-    constexpr std::array<std::string_view, 6> kPinhole{"fx", "fy", "cx", "cy", "width", "height"};
+    constexpr std::array<std::string_view, 4> kPinhole{"fx", "fy", "cx", "cy"};
+    constexpr double kPrinted = 0.01; // relative
     const JsonField list = block.at(key);
-    if (!isAny(plainLetters(key), kLists) || !(list.isNumber() || list.isNumbers())) {
+    const std::string plain = plainLetters(key);
+    if (!isAny(plain, kLists) || !(list.isNumber() || list.isNumbers())) {
         return false;
     }
     const std::vector<double> values = list.isNumber() ? std::vector{list.finite()} : list.numbers();
-    const auto known = [&](double value) {
-        return value == 0.0 || value == 1.0 || std::ranges::any_of(kPinhole, [&](std::string_view name) {
+    const auto coefficient = [&](double value) {
+        return value != 0.0 && std::abs(value) < 1.0 &&
+               std::ranges::none_of(kPinhole, [&](std::string_view name) {
                    const auto own = block.find(name);
-                   return own && own->is(value);
+                   return own && own->isNumber() && std::abs(own->finite() - value) < kPrinted * value;
                });
     };
-    return values.size() != 9 && !std::ranges::all_of(values, known);
+    return values.size() != 9 && (values.size() != 1 || plain == "k") &&
+           std::ranges::any_of(values, coefficient);
 }
 
 // Of fisheyes and the like, whose rays bend also where all coefficients are zero.

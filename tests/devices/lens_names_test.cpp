@@ -151,6 +151,9 @@ TEST_CASE("Distortion under the name of another program is refused unless it is 
                              "radial_params",
                              "disto_k3",
                              "dist_params",
+                             "cameraDistCoeffs",
+                             "coefficients",
+                             "lens_coeffs",
                              "lens_dist",
                              "coeff",
                              "coefs",
@@ -182,6 +185,19 @@ TEST_CASE("Distortion under the name of another program is refused unless it is 
         CHECK(refusalWith(kFourFields + list + "}") == "");
     }
     CHECK(refusalWith(kFourFields + R"("undistorted": true, "distance": 3, "p": 4, "k10": 5})") == "");
+}
+
+TEST_CASE("Fields of a lens file that only sound like distortion, or repeat the pinhole, are not refused") {
+    for (const char* field :
+         {R"("attenuation_coefficients": [0.2, 0.1, 0.05])", R"("coefficient_count": 5)",
+          R"("image_coeff": 1.5)", R"("radial_accuracy": 0.02)", R"("radial_resolution": 0.01)",
+          R"("distance_apart": 0.05)", R"("distance_parallel": 1.5)", R"("min_distance_param": 0.3)",
+          R"("prismatic": 2)", R"("camera_dist": 0.8)", R"("K": [6.01, 6.01, 3, 2])",
+          R"("params": [6, 6, 2.9999, 2])", R"("params": [6.05, 3, 2])", R"("params": [12, 12, 6, 4])",
+          R"("parameters": 4)", R"("k": 3)", R"("params": [6.5])", R"("params": 0.5)"}) {
+        CAPTURE(field);
+        CHECK(refusalWith(kFourFields + field + "}") == "");
+    }
 }
 
 TEST_CASE("The model of a lens that bends rays is refused without its coefficients") {
