@@ -26,11 +26,11 @@ std::vector<std::string> nameWords(std::string_view name) {
 }
 
 bool nameOtherThing(const std::vector<std::string>& words) {
-    constexpr std::array<std::string_view, 30> kThings{
-        "object",  "objects",  "obj",         "hand", "hands",    "human",  "person",  "body",
-        "joint",   "joints",   "tool",        "tcp",  "ee",       "eef",    "gripper", "device",
-        "marker",  "markers",  "tag",         "tags", "goal",     "target", "cmd",     "command",
-        "desired", "setpoint", "initialpose", "face", "skeleton", "fathom"};
+    constexpr std::array<std::string_view, 35> kThings{
+        "object", "objects",  "obj",    "hand",   "hands", "human",   "person",  "body",     "joint",
+        "joints", "tool",     "tcp",    "ee",     "eef",   "gripper", "device",  "marker",   "markers",
+        "tag",    "tags",     "goal",   "target", "cmd",   "command", "desired", "setpoint", "initialpose",
+        "face",   "skeleton", "fathom", "box",    "boxes", "bbox",    "asset",   "assets"};
     return std::ranges::any_of(words, [&](const std::string& word) { // "object2" as "object"
         const std::string_view plain(word.data(), word.find_last_not_of("0123456789") + 1);
         return std::ranges::find(kThings, plain) != kThings.end();

@@ -40,6 +40,8 @@ bool isQuaternionKey(const std::string& plain) {
 // Receives the events of nlohmann's parser; false ends it.
 class PoseSearch final : public nlohmann::json_sax<nlohmann::json> {
 public:
+    explicit PoseSearch(size_t fewest)
+        : fewest_(fewest) {}
     bool found() const { return found_; }
 
     bool null() override { return true; }
@@ -103,7 +105,6 @@ private:
     // Of the list that ends.
     void judge() {
         constexpr double kMaxOff = 1e-3;
-        constexpr size_t kFewest = 3;
         const std::vector<double> list(numbers_.begin() + static_cast<long>(starts_.back()), numbers_.end());
         double square = 0.0;
         std::ranges::for_each(list, [&](double value) { square += value * value; });
@@ -116,9 +117,10 @@ private:
         Motions& motions = motions_[key_];
         motions.first = motions.count == 0 ? list : motions.first;
         motions.differ = motions.differ || list != motions.first;
-        found_ = found_ || (++motions.count >= kFewest && motions.differ);
+        found_ = found_ || (++motions.count >= fewest_ && motions.differ);
     }
 
+    size_t fewest_; // motions
     // Under one key.
     struct Motions {
         std::vector<double> first;
@@ -135,8 +137,8 @@ private:
 
 } // namespace
 
-bool holdsJsonPoses(const std::filesystem::path& file) {
-    PoseSearch search;
+bool holdsJsonPoses(const std::filesystem::path& file, size_t fewest) {
+    PoseSearch search(fewest);
     try {
         const std::string text = readTextFile(file);
         nlohmann::json::sax_parse(text, &search);

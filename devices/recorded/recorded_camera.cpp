@@ -54,7 +54,8 @@ RecordedCamera::RecordedCamera(const fs::path& folder, const SourceOptions& opti
     mostApart_ = std::max(kMaxPairGap, 0.5 * medianPeriod(layout_.index));
     useOptions(options);
     std::ranges::for_each(lensWarnings(info()), [this](const std::string& warning) { warn(warning); });
-    if (const std::string poses = info().poseless ? unreadPoses(folder_) : ""; !poses.empty()) {
+    if (const std::string poses = info().poseless ? unreadPoses(folder_, layout_.index.size()) : "";
+        !poses.empty()) {
         log::warn("{}: {}", folder_.string(), poses);
     }
     if (info().hasColour) {

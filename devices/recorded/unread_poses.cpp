@@ -42,11 +42,14 @@ bool isPoseFolder(const std::vector<std::string>& words) {
     return std::ranges::any_of(words, [&](const std::string& word) { return isAmong(word, kWords); });
 }
 
-// Gaussian splatting and COLMAP.
+// Gaussian splatting and COLMAP; NeuS and IDR, but not "camera.npz" and the like, which are lenses.
 bool isKnownFile(const fs::path& file) {
+    constexpr std::array<std::string_view, 6> kNames{"cameras.json",      "images.bin",
+                                                     "cameras.npz",       "cameras_sphere.npz",
+                                                     "cameras_large.npz", "cameras_linear_init.npz"};
     std::error_code failed;
     const std::string name = file.filename().string();
-    return name == "cameras.json" || name == "images.bin" ||
+    return isAmong(name, kNames) ||
            (name == "images.txt" && fs::exists(file.parent_path() / "cameras.txt", failed));
 }
 
@@ -74,14 +77,13 @@ bool namesPoses(const fs::path& file) {
     constexpr std::array<std::string_view, 4> kWords{"pose", "odom", "c2w", "w2c"};
     const bool word =
         std::ranges::any_of(words, [&](const std::string& one) { return isAmong(one, kWords); });
-    const bool cameras = ending == ".npz" && plain.starts_with("camera"); // NeuS and IDR
-    return isKnownFile(file) || cameras || ending == ".pose" ||
+    return isKnownFile(file) || ending == ".pose" ||
            (isAmong(ending, kEndings) && (word || ending == ".traj" || holdsPoseWord(plain)));
 }
 
-// Also of readings of an IMU: "imu0", "gyroscope".
+// Also of readings of an IMU: "imu0", "gyroscope"; and of cameras to each other: "calibration".
 bool nameOtherReadings(const std::vector<std::string>& words) {
-    constexpr std::array<std::string_view, 3> kOthers{"imu", "gyro", "accel"};
+    constexpr std::array<std::string_view, 4> kOthers{"imu", "gyro", "accel", "calib"};
     return nameOtherPoses(words) || std::ranges::any_of(words, [&](const std::string& word) {
                return std::ranges::any_of(kOthers,
                                           [&](std::string_view start) { return word.starts_with(start); });
@@ -89,8 +91,8 @@ bool nameOtherReadings(const std::vector<std::string>& words) {
 }
 
 // A text whose lines or keys are poses, under any name but those of other readings. Record3D's metadata has
-// no ending. texts: counts those read.
-bool isPoseText(const fs::path& file, size_t& texts) {
+// no ending. texts: counts those read. fewest: motions of JSON under a key of any name.
+bool isPoseText(const fs::path& file, size_t& texts, size_t fewest) {
     constexpr std::array<std::string_view, 8> kEndings{".txt",      ".log",  ".csv", ".tum",
                                                        ".freiburg", ".traj", ".gt",  ".sim"};
     const bool json = endingOf(file) == ".json" || file.filename() == "metadata";
@@ -99,12 +101,13 @@ bool isPoseText(const fs::path& file, size_t& texts) {
         return false;
     }
     ++texts;
-    return json ? holdsJsonPoses(file) : holdsPoses(file);
+    return json ? holdsJsonPoses(file, fewest) : holdsPoses(file);
 }
 
 // What is looked at in one folder: it may hold one text for each image.
 struct Budget {
     size_t texts, entries;
+    size_t fewest; // as above
 };
 
 // The name of the file or folder in this one that holds poses; empty = none.
@@ -118,7 +121,8 @@ std::string posesIn(const fs::path& folder, Budget most) {
         const auto order = [](const std::string& one) {
             return std::tuple(one != kOwnPoses, one != kTumPoses, one);
         };
-        const bool poses = namesPoses(at->path()) || (texts < most.texts && isPoseText(at->path(), texts));
+        const bool poses =
+            namesPoses(at->path()) || (texts < most.texts && isPoseText(at->path(), texts, most.fewest));
         if (poses && (found.empty() || order(name) < order(found))) {
             found = name;
         }
@@ -151,12 +155,14 @@ std::vector<fs::path> foldersBelow(const fs::path& folder) {
 }
 
 // Its path from the folder of the recording; empty = none.
-std::string findPoses(const fs::path& folder) {
-    constexpr Budget kHere{.texts = 50, .entries = SIZE_MAX}, kBelow{.texts = 10, .entries = 200};
-    std::string found = posesIn(folder, kHere);
+std::string findPoses(const fs::path& folder, size_t images) {
+    const size_t fewest = std::max(size_t{3}, images / 2); // others are of a few cameras or things
+    const Budget here{.texts = 50, .entries = SIZE_MAX, .fewest = fewest},
+        inBelow{.texts = 10, .entries = 200, .fewest = fewest};
+    std::string found = posesIn(folder, here);
     const std::vector<fs::path> below = found.empty() ? foldersBelow(folder) : std::vector<fs::path>{};
     for (auto at = below.begin(); at != below.end() && found.empty(); ++at) {
-        const std::string name = posesIn(folder / *at, kBelow);
+        const std::string name = posesIn(folder / *at, inBelow);
         found = name.empty() ? "" : (*at / name).string();
     }
     return found;
@@ -164,8 +170,8 @@ std::string findPoses(const fs::path& folder) {
 
 } // namespace
 
-std::string unreadPoses(const fs::path& folder) {
-    const std::string found = findPoses(folder);
+std::string unreadPoses(const fs::path& folder, size_t images) {
+    const std::string found = findPoses(folder, images);
     if (found.empty()) {
         return "";
     }

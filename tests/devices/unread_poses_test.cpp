@@ -10,10 +10,10 @@ using namespace fathom::testing;
 
 namespace {
 
-std::string namedPoses(const std::string& name, const std::string& text) {
+std::string namedPoses(const std::string& name, const std::string& text, size_t images = 0) {
     const TemporaryFolder folder;
     folder.write(name, text);
-    return unreadPoses(folder.path());
+    return unreadPoses(folder.path(), images);
 }
 
 // A transform of /tf, or of /tf_static, at x [m].
@@ -93,7 +93,7 @@ TEST_CASE("Poses in files and folders of other programs are named by their names
          {"frames_pose.json", "cameras.json", "images.bin", "cam_poses.npy", "gt_trajectory.npz",
           "lowres_wide.traj", "sensor_poses.yaml", "gt_pose.log", "transforms_train.json", "odom.csv",
           "trajectory.mat", "camera_pose.csv", "CameraTrajectory.txt", "c2w.npy", "w2c.json", "cameras.npz",
-          "cameras_sphere.npz", "000012.pose"}) {
+          "cameras_sphere.npz", "cameras_linear_init.npz", "000012.pose"}) {
         CAPTURE(name);
         lineSays(namedPoses(name, "x"), std::string(name) + " is not read");
     }
@@ -103,7 +103,8 @@ TEST_CASE("Poses in files and folders of other programs are named by their names
         lineSays(namedPoses(std::string(name) + "/0.txt", "x"), std::string(name) + " is not read");
     }
     for (const char* name : {"object_poses.json", "hand_pose.csv", "human_pose/0.json", "composed.json",
-                             "images.json", "cameras.txt", "joint_trajectory.csv", "purpose.txt"}) {
+                             "images.json", "cameras.txt", "joint_trajectory.csv", "purpose.txt",
+                             "camera.npz", "camera_intrinsics.npz", "camera_calibration.npz"}) {
         CAPTURE(name);
         CHECK(namedPoses(name, "x") == "");
     }
@@ -192,6 +193,11 @@ TEST_CASE(
                                       {"position": [0, 0, 2], "rotation": [1, 0, 0, 0]}])"),
              "a.json is not read");
     CHECK(namedPoses("meta.json", rows("object_pose", {0.0, 0.1, 0.2})) == "");
+    CHECK(namedPoses("annotations.json", rows("box_pose", {0.0, 0.1, 0.2})) == "");
+    CHECK(namedPoses("scene.json", R"({"assets": )" + rows("matrix", {0.0, 0.1, 0.2}) + "}") == "");
+    CHECK(namedPoses("calib.json", rows("T", {0.0, 0.1, 0.2})) == ""); // of three cameras
+    CHECK(namedPoses("rig.json", rows("T", {0.0, 0.1, 0.2}), 8) == "");
+    lineSays(namedPoses("rig.json", rows("T", {0.0, 0.1, 0.2}), 6), "rig.json is not read");
     CHECK(namedPoses("meta.json", R"({"objects": )" + rows("pose", {0.0, 0.1, 0.2}) + "}") == "");
     CHECK(namedPoses("meta.json", frames("K_4", "[[600, 0, 320, ", "], [0, 600, 240, 0], [0, 0, 1, 0]]",
                                          {0.0, 0.1, 0.2})) == "");
