@@ -38,7 +38,7 @@ std::vector<std::string> SourceCheck::warnings() const {
 
 SourceCheck::SourceCheck(std::unique_ptr<Camera> source, const Scene& scene)
     : CameraDecorator(std::move(source))
-    , depth_(scene, CameraDecorator::info().metresPerUnit) {
+    , depth_(scene, CameraDecorator::info()) {
     const std::string why = CameraDecorator::whyNoColour();
     bool asked = false;
     for (const FixtureClass& fixture : scene.fixtures) {

@@ -28,13 +28,13 @@ double share(double part, double whole) {
 }
 
 // The nearest point, without a few that are nearer than the bound where the others are beyond it; nothing
-// where more are nearer.
+// where more are nearer. The farthest value is no other one: it may be a renderer's background.
 struct FarPoint {
     double distance, beyond; // beyond: share of the points at this distance or farther
 };
 
 std::optional<FarPoint> nearestBeyond(const ValueSpan& seen, double bound) {
-    constexpr double kFewNear = 0.01, kFewOfOthers = 0.1; // shares; others: than the farthest value
+    constexpr double kFewOfOthers = 0.1; // share
     double near = 0.0, all = 0.0, before = 0.0;
     for (const ValueOctave& octave : seen.octaves) {
         near += octave.least >= bound ? 0.0 : octave.count; // an octave without values has none nearer
@@ -43,7 +43,7 @@ std::optional<FarPoint> nearestBeyond(const ValueSpan& seen, double bound) {
     if (near == 0.0 && all > 0.0) {
         return FarPoint{seen.nearest, 1.0};
     }
-    if (share(near, all) >= kFewNear && near >= kFewOfOthers * (all - seen.atFarthest)) {
+    if (near >= kFewOfOthers * (all - seen.atFarthest)) {
         return std::nullopt;
     }
     for (const ValueOctave& octave : seen.octaves) {
@@ -125,13 +125,16 @@ std::string metresWarning(const std::string& file, const ValueSpan& seen) {
     if (!far) {
         return "";
     }
-    std::string text = far->beyond == 1.0
-                           ? fmt::format("{}: the nearest point is at {:.4g} m", file, far->distance)
-                           : fmt::format("{}: {:.3g} % of its points are at {:.4g} m or beyond", file,
-                                         100.0 * far->beyond, far->distance);
     const auto likely =
         std::ranges::find_if(kValueUnits, [&](const auto& unit) { return far->distance < unit.below; });
-    if (likely != kValueUnits.end()) {
+    const bool all = far->beyond == 1.0, known = likely != kValueUnits.end();
+    if (!all && !known) {
+        return ""; // no unit, but a background
+    }
+    std::string text = all ? fmt::format("{}: the nearest point is at {:.4g} m", file, far->distance)
+                           : fmt::format("{}: {:.3g} % of its points are at {:.4g} m or beyond", file,
+                                         100.0 * far->beyond, far->distance);
+    if (known) {
         text +=
             fmt::format("; if its values are {}, put ,scale={} after its name", likely->name, likely->scale);
     }

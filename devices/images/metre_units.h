@@ -46,7 +46,7 @@ double unitForMetres(const ValueSpan& seen, double ofInterest, double spare = 1.
 
 // Warns when nearly all points of a recording are farther than any camera sees: its values are no metres, but
 // likely of the unit that it names. A few near values do not count: resizing makes them at the borders of
-// holes. The one far value of a renderer's background does not count, either, beside 1 % of near ones.
+// holes. Where all others are one far value, they do: that value is the background of a renderer.
 // Returns the warning; empty when there is none.
 std::string metresWarning(const std::string& file, const ValueSpan& seen);
 

@@ -65,7 +65,7 @@ ComputeSide::ComputeSide(const HapticSide& side, const CameraInfo& camera, const
              [&](const DeviceFacts& facts) {
                  return makePlan(haptic.scene, camera, static_cast<uint32_t>(haptic.tool.leafCount()), facts);
              })
-    , firstDepth_(haptic.scene, camera.metresPerUnit)
+    , firstDepth_(haptic.scene, camera)
     , checked_(!haptic.scene.hasPoints()) {
     for (const std::string& note : unusedKeys(haptic.scene)) {
         log::warn("{}", note);

@@ -89,9 +89,9 @@ Wrench Reaction::withoutNoise(const Wrench& spring, double byHand, const Reactio
     return noise_.step(tick);
 }
 
-// What new data took of the reaction, beyond what the hand released, if the reaction keeps its direction: else
-// one region's force would be felt on another. It falls to zero until the next frame is due, and with the
-// spring if the hand moves out. out: of the hand in this tick [m].
+// What new data took of the reaction, beyond what the hand released, if the reaction keeps its direction:
+// else one region's force would be felt on another. It falls to zero until the next frame is due, and with
+// the spring if the hand moves out. out: of the hand in this tick [m].
 double Reaction::heldBack(const Wrench& wrench, double byHand, double out) noexcept {
     const double wanted = metricSize(wrench, k_), left = interval_ - sinceData_;
     if (!(wanted > kMinDirectionForce) || fade_.active() || !(left > 0.0)) {

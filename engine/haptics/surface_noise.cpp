@@ -30,9 +30,9 @@ void SurfaceNoise::settleAt(const Wrench& spring) noexcept {
     spring_ = spring;
 }
 
-// `change`: of the spring, by the hand. Where the spring's part in that direction falls below what is withheld
-// there over kWithheldShare, that falls with it: force ends where contact ends, whatever presses in other
-// directions. A hand that slides turns the spring, which has no part in the direction of that change.
+// change: of the spring, by the hand. Where the spring's part in that direction falls below the withheld part
+// over kWithheldShare, the withheld part falls with it: force ends where contact ends, whatever presses in
+// other directions. A hand that slides turns the spring, which has no part in the direction of that change.
 void SurfaceNoise::releaseWith(const Wrench& change, double radius) noexcept {
     const double size = metricSize(change, radius);
     if (!(size > kMinByHand)) {

@@ -2,6 +2,7 @@
 // The unit of frames whose depth is in metres.
 #include "devices/images/metre_units.h"
 
+#include <algorithm>
 #include <doctest/doctest.h>
 #include <limits>
 #include <vector>
@@ -65,9 +66,16 @@ TEST_CASE("A few near values, as resizing makes them at holes, do not hide that 
     };
     CHECK(warned(1, 999, 0.0, 0) == "a.npy: 99.9 % of its points are at 600 m or beyond; if its values are "
                                     "millimetres, put ,scale=0.001 after its name");
-    CHECK(warned(1, 0, 500.0, 999).find("millimetres") != std::string::npos); // a plane
+    CHECK(warned(0, 0, 500.0, 999).find("millimetres") != std::string::npos); // a plane
     CHECK(warned(50, 900, 0.0, 0).find("millimetres") != std::string::npos);
-    CHECK(warned(50, 0, 1000.0, 900).empty()); // the background of a renderer
-    CHECK(warned(200, 800, 0.0, 0).empty());   // a landscape
+    for (const double background : {60.0, 100.0, 1000.0, 1e10}) { // of a renderer
+        CHECK(warned(7, 0, background, 993).empty());
+    }
+    std::vector<double> rays(20, 0.0); // a background along the rays
+    std::ranges::generate(rays, [far = 1e10]() mutable { return far += 1e8; });
+    rays.push_back(0.5);
+    CHECK(metresWarning("a.npy", spanOf(rays)).empty());
+    CHECK(warned(7, 900, 1e10, 93).find("millimetres") != std::string::npos);
+    CHECK(warned(200, 800, 0.0, 0).empty()); // a landscape
     CHECK(metresWarning("a.npy", spanOf({})).empty());
 }

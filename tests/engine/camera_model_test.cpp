@@ -78,24 +78,31 @@ TEST_CASE("A camera that protects nothing is named in the log: wrong unit, no de
         const std::lock_guard lock(mutex);
         lines += level == LogLevel::Warning ? std::string(line) + "\n" : "";
     });
-    const auto play = [](const Scene& scene, std::uint16_t depth, std::size_t right = 0) {
+    // right, rows: pixels at 0.6 m in the upper left corner
+    const auto play = [](const Scene& scene, std::uint16_t depth, long right = 0, long rows = 1) {
         Lockstep lockstep(scene, smallCamera(), startAt(0.5));
         Wall wall;
         std::ranges::fill(wall.depth, depth);
-        std::fill_n(wall.depth.begin(), right, std::uint16_t{600});
+        for (long row = 0; row < rows; ++row) {
+            std::fill_n(wall.depth.begin() + 80 * row, right, std::uint16_t{600});
+        }
         for (const Nanoseconds stamp : {1'000'000'000, 1'500'000'000, 2'000'000'000}) {
             lockstep.process(wall.at(stamp));
         }
     };
     play(wallScene(), 600);
     CHECK(lines.empty());
+    play(wallScene(), 6000, 6, 5); // a small object in front of a far room
+    CHECK_FALSE(has("camera: "));
     play(wallScene(), 6000); // a unit of 0.1 mm, said to be 1 mm
     CHECK(has("camera: no depth of the first second is between camera.near 0.1 m and camera.far 3 m: nothing "
               "is protected; it is 6 to 6 m, so check metresPerUnit"));
-    play(wallScene(), 6000, 24); // at the edges of objects
-    CHECK(has(
-        "camera: only 0.5 % of the depth of the first second is between camera.near 0.1 m and camera.far 3 "
-        "m: hardly anything is protected; it is 0.6 to 6 m, so check metresPerUnit"));
+    for (const auto& [right, rows] : {std::pair(24, 1), {1, 24}}) { // at the edges of objects
+        lines.clear();
+        play(wallScene(), 6000, right, rows);
+        CHECK(has("camera: only 0.5 % of the depth of the first second is between camera.near 0.1 m and "
+                  "camera.far 3 m: hardly anything is protected; it is 0.6 to 6 m, so check metresPerUnit"));
+    }
     play(wallScene(), 0);
     CHECK(has("no depth in the first second"));
     {
