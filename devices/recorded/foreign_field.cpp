@@ -72,7 +72,7 @@ bool isDistortionWord(std::string_view word) {
            word.find("distort") != std::string_view::npos || word.find("distcoef") != std::string_view::npos;
 }
 
-// Alone or beside each other, or "dist" with one of them: water has coefficients, too, and points have a
+// Alone or together, or "dist" with one of them: water has coefficients, too, and points have a
 // radial accuracy.
 bool areCoefficientWords(const std::vector<std::string>& words) {
     constexpr std::array<std::string_view, 5> kDistortion{"dist", "lensdist", "radial", "tangential",

@@ -128,7 +128,7 @@ RecordingLayout readTum(const fs::path& folder, const fs::path& intrinsics, cons
     return layout;
 }
 
-// The lens of Open3D beside an index.
+// The lens of Open3D next to an index.
 RecordingLayout readIndexedOpen3d(const fs::path& folder, const fs::path& mark,
                                   const SourceOptions& options) {
     RecordingLayout layout = readTum(folder, mark, {}, options.depthOnly(), ScaleRule::Optional);

@@ -63,8 +63,9 @@ void Reaction::beginFade(const Wrench& wanted, const ReactionInput& input) noexc
     noise_.settleAt(wanted); // what fades contains what was withheld
 }
 
-// Begins to fade when new data took the reaction of a tool that lags, and ends when the reaction is back.
-void Reaction::keepWhileLagging(const Wrench& wanted, double byHand, const ReactionInput& input) noexcept {
+// Begins to fade when new data took the reaction of a tool that lags, or left none in its direction. Ends
+// when the reaction is back.
+void Reaction::fadeLost(const Wrench& wanted, double byHand, const ReactionInput& input) noexcept {
     const double size = metricSize(wanted, k_), band = SurfaceNoise::kBand * input.springs.stiffness;
     if (fade_.active()) {
         if (size >= lastFeltSize_ &&
@@ -73,7 +74,10 @@ void Reaction::keepWhileLagging(const Wrench& wanted, double byHand, const React
             size_ = lastFeltSize_;
             noise_.settleAt(wanted);
         }
-    } else if (input.lags && pushed() && size < lastFeltSize_ - byHand - band) {
+        return;
+    }
+    const bool continues = metricProduct(lastFelt_, wanted, k_) > kSameWay * size * lastFeltSize_;
+    if ((input.lags || !continues) && pushed() && size < lastFeltSize_ - byHand - band) {
         beginFade(wanted, input);
     }
 }
@@ -166,7 +170,7 @@ Wrench Reaction::step(const ReactionInput& input) noexcept {
     if (input.vanished) {
         beginFade(wrench, input);
     } else {
-        keepWhileLagging(wrench, byHand, input);
+        fadeLost(wrench, byHand, input);
     }
     wrench = withoutNoise(wrench, byHand, input);
     beginTurn(wrench, input);

@@ -27,16 +27,17 @@ struct ReactionInput {
 // the hand's own motion compresses, because the tool only ever moves nearer to the hand. Any faster
 // growth has another cause: a row appeared, new data moved a surface, a lag ended. It then rises by at most
 // kMaxRiseRate, and after new data evenly over the time between frames, so that no frame is felt as a click.
-// Falls that the hand causes are immediate, as is the end of contact. What new data takes of a reaction that
-// keeps its direction falls over the time between frames. A direction that changes turns over that time.
+// Falls that the hand causes are immediate. What new data takes of a reaction that keeps its direction falls
+// over the time between frames. A direction that changes turns over that time.
 //
 // New data also changes a surface at rest, by the sensor's noise. So a part of each change is felt slowly
 // (SurfaceNoise), while the tool follows at once. What the hand's own motion changes is felt in the same
 // tick.
 //
 // A tool that lags, such as an arm, follows a surface that new data moved only after some ticks, and has lost
-// its rows meanwhile. So a fall that new data causes while it lags fades out. If the reaction returns before,
-// in its former direction, it rises from the force that the device renders.
+// its rows meanwhile. So a fall that new data causes while it lags fades out. So does a fall by more than
+// SurfaceNoise::kBand that leaves nothing in that direction: a surface went back beyond the hand. If the
+// reaction returns before, in its former direction, it rises from the force that the device renders.
 //
 // Times are measured ones, so that late ticks delay nothing; a rise counts ticks.
 class Reaction {
@@ -73,7 +74,7 @@ private:
     double rate(double appeared) noexcept;
     double heldBack(const Wrench& wrench, double byHand, double out) noexcept;
     void beginFade(const Wrench& wanted, const ReactionInput& input) noexcept;
-    void keepWhileLagging(const Wrench& wanted, double byHand, const ReactionInput& input) noexcept;
+    void fadeLost(const Wrench& wanted, double byHand, const ReactionInput& input) noexcept;
     Wrench withoutNoise(const Wrench& spring, double byHand, const ReactionInput& input) noexcept;
     Wrench limitRise(const Wrench& wrench, const Travel& travel, const ReactionInput& input) noexcept;
     void beginTurn(const Wrench& wrench, const ReactionInput& input) noexcept;

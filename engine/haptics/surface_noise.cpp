@@ -14,7 +14,6 @@ namespace {
 constexpr double kMinByHand = 1e-6;         // [N] less is rounding
 constexpr double kMinFelt = 1e-3;           // [N] less is not felt
 constexpr double kWithheldShare = 0.5;      // of the spring
-constexpr double kAcross = 0.25;            // of the withheld force: with less, the spring has no part there
 constexpr double kNoiseRatio = 0.65;        // of the mean over the mean size: up to here it is noise
 constexpr double kSlowTimeDecay = 10.0;     // [s/s] without contact, of the time constant
 constexpr double kNewSurfaceTravel = 0.01;  // [m] of travel, after which the surface is another one,
@@ -30,30 +29,10 @@ void SurfaceNoise::settleAt(const Wrench& spring) noexcept {
     spring_ = spring;
 }
 
-// change: of the spring, by the hand. Where the spring's part in that direction falls below the withheld part
-// over kWithheldShare, the withheld part falls with it: force ends where contact ends, whatever presses in
-// other directions. A hand that slides turns the spring, which has no part in the direction of that change.
-void SurfaceNoise::releaseWith(const Wrench& change, double radius) noexcept {
-    const double size = metricSize(change, radius);
-    if (!(size > kMinByHand)) {
-        return;
-    }
-    const double withheld = metricProduct(withheld_, change, radius) / size;
-    const double before = std::abs(metricProduct(spring_, change, radius) / size);
-    const double now = metricProduct(spring_, change, radius) < 0.0 ? before - size : before + size;
-    const double from = std::min(before, std::abs(withheld) / kWithheldShare);
-    if (from > kAcross * std::abs(withheld) && now < from) {
-        const double ends = withheld * (1.0 - std::max(0.0, now) / from);
-        withheld_ = sumOf(withheld_, change, -ends / size);
-    }
-}
-
 // Round a convex region the tool moves farther than the hand: by how much is seen while the regions rest.
 void SurfaceNoise::withhold(const SurfaceNoiseInput& input) noexcept {
     const Wrench change = sumOf(input.spring, spring_, -1.0);
     const double size = metricSize(change, input.radius);
-    const double byHand = input.dataPushes ? std::min(size, gain_ * input.byHand) : size;
-    releaseWith(scaled(change, size > 0.0 ? byHand / size : 0.0), input.radius);
     if (!input.dataPushes) {
         const double seen = input.byHand > kMinByHand ? kGainMargin * size / input.byHand : 1.0;
         gain_ = std::clamp(std::max(seen, kGainKept * gain_), 1.0, kMaxGain);

@@ -20,7 +20,7 @@ struct SurfaceNoiseInput {
 // One thread; noexcept, no allocation. A force that new data changes is withheld from the hand and released
 // slowly. At most this much is withheld: along the reaction kBand of the surface's motion, across it kBand,
 // or kTurnBand of the reaction if that is more; never more than half of the reaction, so that force ends
-// where contact ends. A hand that leaves one of several regions leaves what is withheld of that region.
+// where contact ends.
 //
 // How slowly depends on whether the change stays. The mean over kWatch of the withheld force is near zero
 // while noise makes it change its sign, and near its size when a surface has moved. What stays is released
@@ -52,7 +52,6 @@ private:
         double slowTime = 0.0; // [s] time constant of a change that does not stay
     };
     void withhold(const SurfaceNoiseInput& input) noexcept;
-    void releaseWith(const Wrench& change, double radius) noexcept;
     void adaptSlowTime(const SurfaceNoiseInput& input, bool contact) noexcept;
     static Wrench stillWithheld(const Part& part, double elapsed, double radius) noexcept;
 
