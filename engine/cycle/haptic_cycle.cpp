@@ -74,6 +74,9 @@ StepRecord HapticCycle::step(const StepInput& input) noexcept {
 
     report(situation, moved, set != nullptr, out);
     recordTouches(set, moved, out);
+    if (situation.sampleFinite) { // else nothing was seen to press
+        notePressing(moved, out);
+    }
     holdArm(situation, moved.trapped, out);
     fillMargins(input, out);
     watch_.step(input.measuredPeriod); // active from the next step on
@@ -184,7 +187,7 @@ void HapticCycle::makeWrench(const StepInput& input, const Situation& situation,
     tick.pull = guidancePull();
     tick.pushes =
         (moved.active.empty() && !moved.blocked ? 0 : cause::kRow) | (jointLimits_ == 0 ? 0 : cause::kJoint);
-    tick.bothWays = std::ranges::any_of(
+    tick.bothWays = std::ranges::all_of(
         moved.active, [](const ActiveContact& c) { return c.row.kind == ContactRow::Kind::Equality; });
     tick.mayRise = !moved.rowsExpired && !input.unconfirmed;
     tick.newData = newData;
@@ -204,12 +207,9 @@ void HapticCycle::makeWrench(const StepInput& input, const Situation& situation,
     out.residual = made.residual;
     out.finite = made.finite;
     out.cause = made.cause;
-    if (situation.sampleFinite) { // else nothing was seen to press
-        notePressing(moved);
-    }
 }
 
-void HapticCycle::notePressing(const ProxyStep& moved) noexcept {
+void HapticCycle::notePressing(const ProxyStep& moved, const StepRecord& out) noexcept {
     if (moved.trapped) { // what pressed before still holds the tool, unless the hand leaves it meanwhile
         const dvec3 spring = tool_.position - springEnd_.position;
         pressing_.rows = pressing_.rows && glm::dot(spring, pressing_.spring) >= 0.0;
@@ -219,6 +219,12 @@ void HapticCycle::notePressing(const ProxyStep& moved) noexcept {
     const double least = std::min(kPressedForce, kPressedLength * watch_.springs().stiffness);
     pressing_.rows = !moved.active.empty() && stage_.reaction() > least;
     pressing_.spring = moved.allowed.position - springEnd_.position;
+    pressing_.fixtures.reset();
+    for (const Touch& touch : std::span(out.touches).first(out.touchCount)) {
+        if (touch.kind == ContactRow::Kind::Sphere) {
+            pressing_.fixtures.set(touch.fixture % pressing_.fixtures.size());
+        }
+    }
 }
 
 StepState HapticCycle::stateOf(const Situation& situation, const ProxyStep& moved, bool lags) const noexcept {

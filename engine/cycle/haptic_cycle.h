@@ -10,6 +10,7 @@
 #include "engine/haptics/hand_map.h"
 #include "engine/haptics/stiffness_watch.h"
 
+#include <bitset>
 #include <limits>
 #include <optional>
 
@@ -133,7 +134,7 @@ private:
     void shiftHand(const dvec3& by, const dquat& turn) noexcept;
     void makeWrench(const StepInput& input, const Situation& situation, const ProxyStep& moved, bool newData,
                     bool vanished, StepRecord& out) noexcept;
-    void notePressing(const ProxyStep& moved) noexcept;
+    void notePressing(const ProxyStep& moved, const StepRecord& out) noexcept;
     Wrench guidancePull() const noexcept;
     void recordTouches(const ContactSet* set, const ProxyStep& moved, StepRecord& out) const noexcept;
     void report(const Situation& situation, const ProxyStep& moved, bool hasSet,
@@ -165,9 +166,10 @@ private:
         bool edited = false;                                  // shapes were replaced
         double age = std::numeric_limits<double>::infinity(); // [s]
     } regions_;
-    struct Pressing {      // of the last step
-        bool rows = false; // with a force that can be felt, or the length that holds with soft springs
-        dvec3 spring{0.0}; // [m] from the hand's end of the spring to where the rows held the tool
+    struct Pressing {             // of the last step
+        bool rows = false;        // with a force that can be felt, or the length that holds with soft springs
+        dvec3 spring{0.0};        // [m] from the hand's end of the spring to where the rows held the tool
+        std::bitset<64> fixtures; // rows of Scene::fixtures whose points pressed, modulo 64
     } pressing_;
     struct HandShift {
         double lagTime = 0.0;  // [s] for which the tool has been lagging

@@ -89,7 +89,7 @@ double HapticCycle::behindHand() const noexcept {
     return arm_ && pressing_.rows ? glm::distance(tool_.position, springEnd_.position) : 0.0;
 }
 
-// The surface that pressed along `out` went back by no more than the tool follows in a tick. Reads the set's
+// A surface that pressed along `out` went back by no more than the tool follows in a tick. Reads the set's
 // pairs, so only where the rows have changed that much.
 bool HapticCycle::wentBack(const ContactSet* set, const dvec3& out) const noexcept {
     const double followed = options_.proxy.solves * options_.proxy.stepCap, length = glm::length(out);
@@ -97,9 +97,10 @@ bool HapticCycle::wentBack(const ContactSet* set, const dvec3& out) const noexce
         for (uint32_t i = set->pairBegin[leaf]; i < set->pairsUpTo(leaf, followed); ++i) {
             const dvec3 apart = set->leafAtQuery[leaf] - dvec3(set->pairX[i], set->pairY[i], set->pairZ[i]);
             const double distance = glm::length(apart);
-            const bool near =
-                distance <= followed + leafRadius(leaf) + static_cast<double>(set->pairRadius[i]);
-            if (near && glm::dot(apart, out) > kSameWay * distance * length) {
+            const bool pressed =
+                pressing_.fixtures[set->fixture[set->pairSphere[i]] % pressing_.fixtures.size()];
+            const double gap = distance - leafRadius(leaf) - static_cast<double>(set->pairRadius[i]);
+            if (pressed && gap <= followed && glm::dot(apart, out) > kSameWay * distance * length) {
                 return true;
             }
         }

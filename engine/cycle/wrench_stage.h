@@ -29,7 +29,7 @@ struct WrenchInput {
     Springs springs;       // active
     Wrench pull;           // of guidance, part of the wrench
     uint32_t pushes = 0;   // cause::kRow and kJoint of the solver's answer
-    bool bothWays = false; // a line or an axis holds the tool on both sides
+    bool bothWays = false; // only lines and axes hold the tool: on both sides
     bool mayRise = true;   // as ReactionInput
     bool newData = false;  // as ReactionInput
     bool lags = false;     // as ReactionInput
