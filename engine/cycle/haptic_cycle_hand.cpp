@@ -69,9 +69,8 @@ std::optional<dvec3> HapticCycle::vanishedAlong(const ProxyStep& moved, const Co
     // A set that lists nothing shows nothing that is near, however short its reach is. An arm may not yet
     // have followed a surface that lies between it and the hand.
     const bool none = set == nullptr || !(moved.minGap < set->reach);
-    const bool away = none || moved.minGap > kVanishedGap + behindHand();
-    const bool followed = stage_.reaction() <= kFollowedForce && wentBack(set, pressing_.spring);
-    if (!rows && away && !followed) {
+    const bool away = !rows && (none || moved.minGap > kVanishedGap + behindHand());
+    if (away && !(stage_.reaction() <= kFollowedForce && wentBack(set, pressing_.spring))) {
         return pressing_.spring;
     }
     if (jointLimits_ != 0) {
