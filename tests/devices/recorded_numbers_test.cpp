@@ -170,7 +170,7 @@ TEST_CASE("Images of several cameras in one folder are refused, however long the
 }
 
 TEST_CASE("A counter that begins anew each second, or in each episode of equal length, is one camera's") {
-    for (const auto& [fronts, each] :
+    for (const auto& series :
          {std::pair(std::vector<std::string>{"20240101_120058", "20240101_120059", "20240101_120100"}, 10),
           {{"20240101_120000", "20240101_120001", "20240101_120002"}, 3},
           {{"2024-01-01_12-00-00", "2024-01-01_12-00-01"}, 2},
@@ -180,11 +180,11 @@ TEST_CASE("A counter that begins anew each second, or in each episode of equal l
           {{"000000", "000001"}, 4},                   // episodes
           {{"20240101_120000", "20240101_130000"}, 4}, // recordings of one day
           {{"1600000000123", "1600000100456"}, 4}}) {
-        CAPTURE(fronts[0]);
+        CAPTURE(series.first[0]);
         std::vector<std::string> names;
         Depths depths;
-        for (const std::string& front : fronts) {
-            for (int i = 0; i < each; ++i) {
+        for (const std::string& front : series.first) {
+            for (int i = 0; i < series.second; ++i) {
                 depths.push_back(static_cast<uint16_t>(500 + 100 * names.size()));
                 names.push_back(front + "_" + std::to_string(i));
             }
