@@ -187,8 +187,8 @@ void HapticCycle::makeWrench(const StepInput& input, const Situation& situation,
     tick.pull = guidancePull();
     tick.pushes =
         (moved.active.empty() && !moved.blocked ? 0 : cause::kRow) | (jointLimits_ == 0 ? 0 : cause::kJoint);
-    tick.bothWays = std::ranges::all_of(
-        moved.active, [](const ActiveContact& c) { return c.row.kind == ContactRow::Kind::Equality; });
+    const auto holds = [](const ActiveContact& c) { return c.row.kind == ContactRow::Kind::Equality; };
+    tick.bothWays = !moved.active.empty() && std::ranges::all_of(moved.active, holds);
     tick.mayRise = !moved.rowsExpired && !input.unconfirmed;
     tick.newData = newData;
     tick.lags = arm_ && out.lag > kLagLength; // a free tool follows within some ticks

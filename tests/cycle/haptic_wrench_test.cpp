@@ -267,17 +267,25 @@ TEST_CASE("The same run twice gives the same bits, and steps do not allocate") {
 }
 
 TEST_CASE("The springs' damping brakes a hand that leaves, and never pulls it back in") {
-    HapticRig rig(handScene(), at(0, 0, 0.02));
-    rig.options.springs.damping = 20.0; // [N s/m]
-    rig.options.passivityController = false;
-    rig.restart();
-    rig.show(wallSet());
-    rig.sceneAges = false;
-    rig.ticks(250);
-    rig.hand = at(0, 0, 0.008);
-    REQUIRE(rig.ticks(1000).wrench.force.z == doctest::Approx(2.0).epsilon(0.1));
-    while (rig.hand.position.z < 0.012) {
-        rig.hand.position.z += 0.0003; // 0.3 m/s: the damper alone is 6 N
-        CHECK(rig.step().wrench.force.z >= 0.0);
+    for (const bool vanished : {false, true}) { // in the latter case from a force that fades
+        CAPTURE(vanished);
+        HapticRig rig(handScene(), at(0, 0, 0.02));
+        rig.options.springs.damping = 20.0; // [N s/m]
+        rig.options.passivityController = false;
+        rig.restart();
+        rig.show(wallSet());
+        rig.sceneAges = false;
+        rig.ticks(250);
+        rig.hand = at(0, 0, 0.006);
+        REQUIRE(rig.ticks(1000).wrench.force.z == doctest::Approx(4.0).epsilon(0.1));
+        if (vanished) {
+            rig.show(emptySet(2));
+            rig.sceneAges = false;
+            REQUIRE(rig.ticks(2).vanished == 1);
+        }
+        while (rig.hand.position.z < 0.012) {
+            rig.hand.position.z += 0.0003;              // 0.3 m/s: the damper alone is 6 N
+            CHECK(rig.step().wrench.force.z >= -1e-12); // rounding
+        }
     }
 }
