@@ -75,7 +75,8 @@ std::string limitForParser(const std::string& file, std::string_view joint, std:
                            "limit " + std::string(name) + "=\"" + excerpt(printable(value)) + "\"",
                            "finite numbers; type=\"continuous\" for a joint that turns without limits");
         }
-        if (const size_t at = absent.find(" " + std::string(name) + "='"); at != std::string::npos) {
+        if (const size_t at = absent.find(std::string(" ").append(name).append("='"));
+            at != std::string::npos) {
             absent.erase(at, name.size() + 5);
         }
         const size_t quote = tag.find_first_of("'\"", static_cast<size_t>(name.data() - tag.data()));
