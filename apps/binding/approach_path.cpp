@@ -39,7 +39,7 @@ struct Goal {
 // Tests free moves of the tool: straight lines with the orientation of the base frame.
 class FreeSpace {
 public:
-    FreeSpace(const Tool& tool, const Fixtures& set, const RegionGrid& grid)
+    FreeSpace(const Tool& tool, const HostFixtures& set, const RegionGrid& grid)
         : tool_(tool)
         , set_(set)
         , grid_(grid) {}
@@ -79,7 +79,7 @@ private:
     }
 
     const Tool& tool_;
-    const Fixtures& set_;
+    const HostFixtures& set_;
     const RegionGrid& grid_;
 };
 
@@ -128,7 +128,7 @@ private:
 };
 
 // Centre of the class's sphere nearest to their mean; empty without spheres.
-std::optional<dvec3> middleSphere(const Fixtures& set, int fixture) {
+std::optional<dvec3> middleSphere(const HostFixtures& set, int fixture) {
     const RegionSpheres& s = set.spheres;
     dvec3 sum(0.0);
     size_t count = 0;
@@ -151,7 +151,7 @@ std::optional<dvec3> middleSphere(const Fixtures& set, int fixture) {
     return middle;
 }
 
-std::vector<Goal> goalsOf(const Scene& scene, const Fixtures& set) {
+std::vector<Goal> goalsOf(const Scene& scene, const HostFixtures& set) {
     std::vector<Goal> goals;
     for (size_t row = 0; row < scene.fixtures.size(); ++row) {
         const FixtureClass& fixture = scene.fixtures[row];
@@ -221,7 +221,7 @@ void seek(PathWriter& path, const FreeSpace& space, const Goal& goal, const dvec
 
 } // namespace
 
-double leastGap(const Tool& tool, const Fixtures& set, const RegionGrid& grid, const Pose& baseTtool,
+double leastGap(const Tool& tool, const HostFixtures& set, const RegionGrid& grid, const Pose& baseTtool,
                 double cap, int fixture) {
     const RegionSpheres& s = set.spheres;
     double least = cap;
@@ -237,7 +237,7 @@ double leastGap(const Tool& tool, const Fixtures& set, const RegionGrid& grid, c
     return least;
 }
 
-std::vector<HandWaypoint> approachPath(const Scene& scene, const Tool& tool, const Fixtures& firstSet,
+std::vector<HandWaypoint> approachPath(const Scene& scene, const Tool& tool, const HostFixtures& firstSet,
                                        const RegionGrid& grid) {
     const FreeSpace space(tool, firstSet, grid);
     const dvec3 camera = firstSet.baseTcamera.position;

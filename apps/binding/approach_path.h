@@ -3,7 +3,7 @@
 #pragma once
 
 #include "devices/simulated/hand_path.h"
-#include "engine/contact/fixtures.h"
+#include "engine/contact/host_fixtures.h"
 #include "engine/contact/region_grid.h"
 #include "engine/contact/tool.h"
 #include "engine/scene/scene.h"
@@ -21,12 +21,12 @@ namespace fathom {
 //   the first contact of a leaf, and there rotates by up to 4 degrees, so that long tools feel torque.
 // - guidance: stops 60 mm before the target, or just before a region in the way, with button 1 down for the
 //   last 1.5 s.
-std::vector<HandWaypoint> approachPath(const Scene& scene, const Tool& tool, const Fixtures& firstSet,
+std::vector<HandWaypoint> approachPath(const Scene& scene, const Tool& tool, const HostFixtures& firstSet,
                                        const RegionGrid& grid);
 
 // Smallest gap [m] between the tool's leaves at a pose and the regions, at most `cap`. fixture >= 0: only
 // spheres of that row of Scene::fixtures.
-double leastGap(const Tool& tool, const Fixtures& set, const RegionGrid& grid, const Pose& baseTtool,
+double leastGap(const Tool& tool, const HostFixtures& set, const RegionGrid& grid, const Pose& baseTtool,
                 double cap, int fixture = -1);
 
 } // namespace fathom

@@ -78,7 +78,7 @@ public:
     }
 
     void step(const TickRow& row) override;
-    void frame(const Fixtures& set) override {
+    void frame(const HostFixtures& set) override {
         set_ = &set;
         totals_.sets += 1;
     }
@@ -102,7 +102,7 @@ private:
     MessagePace pace_;
     TickStamps stamps_;
     RunTotals totals_;
-    const Fixtures* set_ = nullptr;
+    const HostFixtures* set_ = nullptr;
     double regionsAt_ = -kRegionRepeat; // [s] time of the run
     uint64_t generation_ = 0;           // of the regions handed over
     // Thread of this class.
@@ -139,8 +139,8 @@ void Ros2Output::offerRegions(const TickRow& row, uint64_t time) {
     if (!watched_.load(std::memory_order_relaxed) || pause < kRegionPause) {
         return;
     }
-    static const Fixtures kEmpty; // of a scene with shapes only
-    const Fixtures& set = set_ != nullptr ? *set_ : kEmpty;
+    static const HostFixtures kEmpty; // of a scene with shapes only
+    const HostFixtures& set = set_ != nullptr ? *set_ : kEmpty;
     if (set.generation == generation_ && !shapes_.changed() && pause < kRegionRepeat) {
         return;
     }

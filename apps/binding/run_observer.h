@@ -15,7 +15,7 @@ public:
     virtual ~RunObserver() = default;
     virtual void step(const TickRow& row) = 0;
     // `set` must stay valid until the next call, because an observer that connects later receives it.
-    virtual void frame(const Fixtures& set) = 0;
+    virtual void frame(const HostFixtures& set) = 0;
     // Active from now on. Any thread; waits while the writer copies them.
     virtual void setShapes(std::span<const Shape> shapes) = 0;
     // Drops the last set. Call it only while no run is active.

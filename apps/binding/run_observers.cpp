@@ -39,7 +39,7 @@ void RunObservers::step(const TickRow& row) {
     }
 }
 
-void RunObservers::frame(const Fixtures& set) {
+void RunObservers::frame(const HostFixtures& set) {
     for (const auto& observer : all_) {
         observer->frame(set);
     }

@@ -31,7 +31,7 @@ public:
     RunObservers(const ObserverOptions& options, const ArmSetup* arm);
 
     void step(const TickRow& row) override;
-    void frame(const Fixtures& set) override;
+    void frame(const HostFixtures& set) override;
     void setShapes(std::span<const Shape> shapes) override;
     void forget() noexcept override;
     RemoteRequests takeRequests() override;
@@ -47,7 +47,7 @@ public:
     PublishedSink(RunSink& next, RunObserver& observers)
         : ForwardingSink(next)
         , observers_(observers) {}
-    void frame(const PublishedFrame& frame, const Fixtures& set) override {
+    void frame(const PublishedFrame& frame, const HostFixtures& set) override {
         ForwardingSink::frame(frame, set);
         observers_.frame(set);
     }

@@ -94,7 +94,7 @@ void ViewPublisher::step(const TickRow& row) {
     endpoint_.send(state_);
 }
 
-void ViewPublisher::frame(const Fixtures& set) {
+void ViewPublisher::frame(const HostFixtures& set) {
     set_ = &set;
     if (set.generation != sent_) {
         sendRegions();

@@ -17,7 +17,7 @@ public:
         : endpoint_(path) {}
 
     void step(const TickRow& row) override;
-    void frame(const Fixtures& set) override;
+    void frame(const HostFixtures& set) override;
     void setShapes(std::span<const Shape> shapes) override;
     void forget() noexcept override { set_ = nullptr; }
 
@@ -31,7 +31,7 @@ private:
     static constexpr uint32_t kPollEvery = 16; // ticks
 
     ViewSocket endpoint_;
-    const Fixtures* set_ = nullptr;
+    const HostFixtures* set_ = nullptr;
     uint64_t sent_ = 0; // generation of the last set that was sent
     uint32_t ticks_ = 0;
     fathom_door_state state_{};

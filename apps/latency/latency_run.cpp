@@ -41,7 +41,7 @@ public:
         , seconds_(seconds)
         , asked_(asked) {}
 
-    void frame(const PublishedFrame&, const Fixtures&) override { ++part_.frames; }
+    void frame(const PublishedFrame&, const HostFixtures&) override { ++part_.frames; }
     void query(const QueryNote&) override {}
     void step(const TickRow& row, const ObeyedSet&) override {
         part_.late.add(row.wokenLate * 1e6);

@@ -18,7 +18,7 @@ constexpr double kShortLoss = 1.0;  // [s] without regions or forces that raises
 constexpr double kHandApart = 0.10; // [m] from hand to tool
 
 // Whether the points of a class end where its box does: more than a tenth of them are at one of its sides.
-bool endsAtBox(const Fixtures& set, uint8_t row, const Box& box) {
+bool endsAtBox(const HostFixtures& set, uint8_t row, const Box& box) {
     constexpr double kAtSide = 0.003; // [m]
     size_t all = 0, ends = 0;
     for (size_t i = 0; i < set.spheres.size(); ++i) {
@@ -54,7 +54,7 @@ void Alarms::stepScene(const StepRecord& tick, bool deviceGone, bool forces) {
 
 // The conditions that replay reports as warnings (apps/replay/run_watch.h), from the data of the window.
 void Alarms::stepProtection(const RunView& run, const Scene& scene, const StepRecord& tick, bool forces) {
-    const Fixtures& shown = run.scene().set;
+    const HostFixtures& shown = run.scene().set;
     regionSeen_.resize(scene.fixtures.size(), tick.t);
     for (size_t row = 0; row < scene.fixtures.size(); ++row) {
         const FixtureClass& f = scene.fixtures[row];

@@ -143,7 +143,7 @@ void CameraViewImage::paintImage(const SceneSnapshot& scene, const Selection& se
     unknown_ = static_cast<double>(unknown) / static_cast<double>(std::max<size_t>(1, pixels_.size()));
 }
 
-void CameraViewImage::paintRegions(const Fixtures& set) {
+void CameraViewImage::paintRegions(const HostFixtures& set) {
     seen_.clear();
     held_.clear();
     if (set.frame < 0 || set.spheres.size() == 0) {

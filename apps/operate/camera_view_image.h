@@ -29,7 +29,7 @@ public:
 
 private:
     void paintImage(const SceneSnapshot& scene, const Selection& selection);
-    void paintRegions(const Fixtures& set);
+    void paintRegions(const HostFixtures& set);
 
     ImageView view_;
     std::vector<uint32_t> pixels_;

@@ -62,7 +62,7 @@ ViewPort portOf(const Pose& eye, double reach, const PixelRect& where) {
 
 // Cuts spheres with the plane at this depth [m] of the eye. Of many circles in a cell of the view, the
 // largest.
-std::vector<Sphere> sectionOf(const Fixtures& set, const Pose& eyeTbase, double reach, double depth) {
+std::vector<Sphere> sectionOf(const HostFixtures& set, const Pose& eyeTbase, double reach, double depth) {
     const double cellEdge = 2.0 * reach / static_cast<double>(kCells);
     std::vector<Sphere> cells(kCells * kCells, Sphere{dvec3(0.0), 0.0});
     const dvec3 along = glm::conjugate(eyeTbase.rotation) * dvec3(0.0, 0.0, 1.0); // base axes
@@ -101,7 +101,7 @@ std::vector<Sphere> sectionOf(const Fixtures& set, const Pose& eyeTbase, double 
     return section;
 }
 
-std::vector<dvec3> surfaceNear(const Fixtures& set, const Pose& eyeTbase, double reach, double depth) {
+std::vector<dvec3> surfaceNear(const HostFixtures& set, const Pose& eyeTbase, double reach, double depth) {
     const Intrinsics& lens = set.camera.depth;
     std::vector<dvec3> points;
     if (set.depth.size() != lens.pixels()) {
@@ -181,7 +181,7 @@ void drawNames(ImDrawList& list, const PixelRect& where, CloseUpSide side, ImFon
 
 } // namespace
 
-std::optional<CloseUp> closeUp(const Fixtures& set, const DepthCues& cues, CloseUpSide side,
+std::optional<CloseUp> closeUp(const HostFixtures& set, const DepthCues& cues, CloseUpSide side,
                                const PixelRect& where) {
     if (cues.tool.empty() || where.width <= 0) {
         return std::nullopt;

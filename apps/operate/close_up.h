@@ -22,7 +22,7 @@ struct CloseUp {
 };
 
 // where: a square of the window. Empty without a tool.
-std::optional<CloseUp> closeUp(const Fixtures& set, const DepthCues& cues, CloseUpSide side,
+std::optional<CloseUp> closeUp(const HostFixtures& set, const DepthCues& cues, CloseUpSide side,
                                const PixelRect& where);
 
 // Draws the view and records its place as "close-up side" or "close-up top".

@@ -17,7 +17,7 @@ constexpr float kNear = 18.0f;   // [pixels] mouse distance from a contact point
 constexpr double kLasting = 0.1; // [s] since the last tick in which it stopped the tool
 
 // The region sphere of a contact; shapes and surfaces are drawn anyway.
-std::optional<Sphere> regionOf(const Touch& touch, const Fixtures& set) {
+std::optional<Sphere> regionOf(const Touch& touch, const HostFixtures& set) {
     if (touch.kind != ContactRow::Kind::Sphere) {
         return std::nullopt;
     }

@@ -106,7 +106,7 @@ std::string gapText(double gap) {
     return text;
 }
 
-DepthCues depthCues(const Fixtures& set, std::vector<Sphere> tool, double measured) {
+DepthCues depthCues(const HostFixtures& set, std::vector<Sphere> tool, double measured) {
     DepthCues cues;
     cues.tool = std::move(tool);
     cues.nearest = nearestRegion(set, cues.tool);

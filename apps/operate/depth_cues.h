@@ -32,7 +32,7 @@ struct DepthCues {
 };
 
 // measured [m]: as in StepRecord::clearance; NaN = use the distance of the nearest pair.
-DepthCues depthCues(const Fixtures& set, std::vector<Sphere> tool, double measured);
+DepthCues depthCues(const HostFixtures& set, std::vector<Sphere> tool, double measured);
 
 // [m] along the axis of a view of the surface at one of its pixels; 0 = unknown.
 using SurfaceDepth = std::function<double(glm::dvec2)>;

@@ -14,7 +14,7 @@ namespace {
 constexpr double kRoom = 0.01; // [m] margin of a new box around the points
 
 // Box around the current points of the class; without points, around a point 1 m in front of the camera.
-Box boxAbout(const Fixtures& set, int row) {
+Box boxAbout(const HostFixtures& set, int row) {
     constexpr double kFar = std::numeric_limits<double>::infinity();
     Box box{dvec3(kFar), dvec3(-kFar)};
     for (size_t i = 0; i < set.spheres.size(); ++i) {

@@ -64,7 +64,7 @@ void LastSeconds::forgetOld() {
     }
 }
 
-void LastSeconds::frame(const PublishedFrame& frame, const Fixtures& set) {
+void LastSeconds::frame(const PublishedFrame& frame, const HostFixtures& set) {
     if (most_ > 0) {
         auto kept = std::make_shared<KeptFrame>();
         kept->frame.report = frame.report;
@@ -114,7 +114,7 @@ void feed(Recorder& recorder, const KeptPast& past) {
         }
         PublishedFrame frame = kept->frame;
         frame.colour = unpackColour(kept->colour, kept->colourPixels);
-        Fixtures set;
+        HostFixtures set;
         set.depth = unpackDepth(kept->depth, kept->pixels);
         set.baseTcamera = kept->baseTcamera;
         recorder.frame(frame, set);

@@ -60,7 +60,7 @@ public:
     size_t bytes() const;
 
     // Writer thread of the run.
-    void frame(const PublishedFrame& frame, const Fixtures& set) override;
+    void frame(const PublishedFrame& frame, const HostFixtures& set) override;
     void step(const TickRow& row, const ObeyedSet& obeyed) override;
 
 private:

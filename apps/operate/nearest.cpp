@@ -28,7 +28,7 @@ Sphere around(std::span<const Sphere> spheres) {
 
 constexpr size_t kBlock = 16; // region spheres that are tested together first; neighbours in order
 
-std::vector<Sphere> blocksOf(const Fixtures& set) {
+std::vector<Sphere> blocksOf(const HostFixtures& set) {
     std::vector<Sphere> blocks, members;
     for (size_t first = 0; first < set.spheres.size(); first += kBlock) {
         members.clear();
@@ -46,7 +46,7 @@ double gapBetween(const Sphere& a, const Sphere& b) {
 
 } // namespace
 
-std::optional<Nearest> nearestRegion(const Fixtures& set, std::span<const Sphere> tool) {
+std::optional<Nearest> nearestRegion(const HostFixtures& set, std::span<const Sphere> tool) {
     const size_t count = set.spheres.size();
     if (count == 0 || tool.empty()) {
         return std::nullopt;
@@ -81,7 +81,7 @@ std::optional<Nearest> nearestRegion(const Fixtures& set, std::span<const Sphere
                    least, set.spheres.fixture[region]};
 }
 
-double surfaceAt(const Fixtures& set, double u, double v) {
+double surfaceAt(const HostFixtures& set, double u, double v) {
     const Intrinsics& lens = set.camera.depth;
     if (!(u >= 0.0) || !(v >= 0.0) || u >= lens.width || v >= lens.height ||
         set.depth.size() != lens.pixels()) {
@@ -90,7 +90,7 @@ double surfaceAt(const Fixtures& set, double u, double v) {
     return set.depth[static_cast<size_t>(v) * lens.width + static_cast<size_t>(u)] * set.camera.metresPerUnit;
 }
 
-std::vector<Sphere> shadowOf(const Fixtures& set, std::span<const Sphere> tool) {
+std::vector<Sphere> shadowOf(const HostFixtures& set, std::span<const Sphere> tool) {
     constexpr size_t kMax = 64;                                // spheres
     constexpr double kStep = 0.01, kFarthest = 0.8;            // [m] along the light
     const dvec3 light = glm::normalize(dvec3(0.35, 0.5, 1.0)); // camera axes

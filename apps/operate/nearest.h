@@ -2,7 +2,7 @@
 // How far the tool is from what must not be touched, and what lies behind it.
 #pragma once
 
-#include "engine/contact/fixtures.h"
+#include "engine/contact/host_fixtures.h"
 #include "engine/types/sphere_tree.h"
 
 #include <optional>
@@ -20,14 +20,14 @@ struct Nearest {
 
 // tool: spheres in the base frame. Empty without regions or without a tool. Exact, and fast while most
 // regions are far away.
-std::optional<Nearest> nearestRegion(const Fixtures& set, std::span<const Sphere> tool);
+std::optional<Nearest> nearestRegion(const HostFixtures& set, std::span<const Sphere> tool);
 
 // The shadow that the tool would throw on what the depth camera sees, with the light above and left of the
 // camera: spheres on the surface (base frame), one for each sphere of the tool, or for each n-th of a large
 // one. Spheres whose shadow falls where no surface is seen have none.
-std::vector<Sphere> shadowOf(const Fixtures& set, std::span<const Sphere> tool);
+std::vector<Sphere> shadowOf(const HostFixtures& set, std::span<const Sphere> tool);
 
 // [m] along the depth camera's axis of the surface at a pixel of it; 0 = no depth there.
-double surfaceAt(const Fixtures& set, double u, double v);
+double surfaceAt(const HostFixtures& set, double u, double v);
 
 } // namespace fathom::operate

@@ -44,7 +44,7 @@ size_t colourPixel(const CameraInfo& camera, uint32_t u, uint32_t v) {
 }
 
 // Whether the point of a depth pixel is in the box and the range of a class.
-bool inSpace(const FixtureClass& gates, const Fixtures& set, uint32_t u, uint32_t v) {
+bool inSpace(const FixtureClass& gates, const HostFixtures& set, uint32_t u, uint32_t v) {
     if (!gates.box && !gates.range) {
         return true;
     }

@@ -25,7 +25,7 @@ double coverOf(std::span<const Sphere> ghost, const Sphere& what) {
 
 } // namespace
 
-std::vector<Sphere> ghostOf(const Fixtures& set, std::span<const uint8_t> selection, double radius) {
+std::vector<Sphere> ghostOf(const HostFixtures& set, std::span<const uint8_t> selection, double radius) {
     const Intrinsics& lens = set.camera.depth;
     std::vector<Sphere> ghost;
     if (selection.size() != lens.pixels() || set.depth.size() != selection.size()) {

@@ -13,7 +13,7 @@ namespace fathom::operate {
 
 // The spheres around the selected points of the depth image (base frame). Of many points only some, close
 // enough together that the outline is the same to a few per cent of the radius [m].
-std::vector<Sphere> ghostOf(const Fixtures& set, std::span<const uint8_t> selection, double radius);
+std::vector<Sphere> ghostOf(const HostFixtures& set, std::span<const uint8_t> selection, double radius);
 
 // What regions would do at once: "covers the tool: it will be pushed out 12 mm", "covers the target
 // 'yellow valve'". tool: spheres in the base frame.

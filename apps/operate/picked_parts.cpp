@@ -14,7 +14,7 @@ using Pixels = std::vector<cloud::PartPixel>;
 
 constexpr double kPickRoom = 0.02; // [m] of the box around the points: noise, and a little motion
 
-Pixels selectedPixels(std::span<const uint8_t> selection, const Fixtures& set) {
+Pixels selectedPixels(std::span<const uint8_t> selection, const HostFixtures& set) {
     Pixels pixels;
     const uint32_t width = set.camera.depth.width;
     for (uint32_t i = 0; i < selection.size(); ++i) {
@@ -26,7 +26,7 @@ Pixels selectedPixels(std::span<const uint8_t> selection, const Fixtures& set) {
     return pixels;
 }
 
-dvec3 pointOf(const cloud::PartPixel& p, const Fixtures& set) {
+dvec3 pointOf(const cloud::PartPixel& p, const HostFixtures& set) {
     return set.baseTcamera.apply(double{p.z} * dvec3(set.camera.depth.ray(p.u, p.v), 1.0));
 }
 
@@ -73,7 +73,7 @@ uint32_t speckPoints(const Intrinsics& lens) {
     return std::max<uint32_t>(8, static_cast<uint32_t>(lens.pixels() / 10'000));
 }
 
-PickedParts takeParts(std::span<uint8_t> selection, const Fixtures& set, glm::uvec2 clicked,
+PickedParts takeParts(std::span<uint8_t> selection, const HostFixtures& set, glm::uvec2 clicked,
                       const PartRules& rules, double edge) {
     PickedParts found;
     const Pixels pixels = selectedPixels(selection, set);

@@ -2,7 +2,7 @@
 // Which connected parts of the matching points a pick takes.
 #pragma once
 
-#include "engine/contact/fixtures.h"
+#include "engine/contact/host_fixtures.h"
 #include "engine/scene/scene.h"
 
 #include <glm/vec2.hpp>
@@ -29,7 +29,7 @@ struct PickedParts {
 // selection: one byte per depth pixel, 1 = the gates of a class accept it. Parts are as in `largest_part`;
 // edge: filter.edge. Leaves only those points selected that are in the box, as the class with this box will.
 // If all parts are specks, the rule about specks does not apply.
-PickedParts takeParts(std::span<uint8_t> selection, const Fixtures& set, glm::uvec2 clicked,
+PickedParts takeParts(std::span<uint8_t> selection, const HostFixtures& set, glm::uvec2 clicked,
                       const PartRules& rules, double edge);
 
 } // namespace fathom::operate

@@ -95,7 +95,7 @@ std::string Recorder::failure() const {
     return failure_;
 }
 
-void Recorder::frame(const PublishedFrame& frame, const Fixtures& set) {
+void Recorder::frame(const PublishedFrame& frame, const HostFixtures& set) {
     if (!recording()) {
         return;
     }
@@ -119,7 +119,7 @@ void Recorder::endTicks() {
     ticks_.drop();
 }
 
-void Recorder::addImage(const PublishedFrame& frame, const Fixtures& set) {
+void Recorder::addImage(const PublishedFrame& frame, const HostFixtures& set) {
     if (frames_ > 0 && frame.t > lastCapture_) {
         const double start = static_cast<double>(frames_ - 1) * kLockstepFramePeriod;
         ticks_.flush(lastCapture_, frame.t, start, kLockstepFramePeriod / (frame.t - lastCapture_));

@@ -50,7 +50,7 @@ public:
     uint64_t bytes() const;                            // on disk
 
     // Writer thread of the run.
-    void frame(const PublishedFrame& frame, const Fixtures& set) override;
+    void frame(const PublishedFrame& frame, const HostFixtures& set) override;
     void query(const QueryNote&) override {}
     void step(const TickRow& row, const ObeyedSet&) override;
 
@@ -58,7 +58,7 @@ private:
     template <class Job>
     void orFail(const Job& job); // call with mutex_ held
     void endTicks();
-    void addImage(const PublishedFrame& frame, const Fixtures& set);
+    void addImage(const PublishedFrame& frame, const HostFixtures& set);
 
     std::atomic<bool> recording_{false};
     std::atomic<uint64_t> lost_{0}, frames_{0};

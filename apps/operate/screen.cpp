@@ -95,7 +95,7 @@ void Screen::placeImages(bool spaceIsLarge, const Rooms& rooms) {
 }
 
 // The depth under the pixels of a view. With separate cameras, parallax is ignored.
-SurfaceDepth Screen::surfaceOf(const ViewPort& port, const Fixtures& set) const {
+SurfaceDepth Screen::surfaceOf(const ViewPort& port, const HostFixtures& set) const {
     if (&port == &*spacePort_) {
         return [this](glm::dvec2 p) { return space_.depthAt(p); };
     }

@@ -59,7 +59,7 @@ private:
     void placeImages(bool spaceIsLarge, const Rooms& rooms);
     void findGhost(Console& console, const FixtureEditor& editor, const SceneSnapshot& scene);
     void findCues(const ScreenInput& input);
-    SurfaceDepth surfaceOf(const ViewPort& port, const Fixtures& set) const;
+    SurfaceDepth surfaceOf(const ViewPort& port, const HostFixtures& set) const;
     void drawViews(Console& console, const FixtureEditor& editor, const ScreenInput& input);
     void drawOver(Console& console, const Alarms& alarms, const ScreenInput& input, const Rooms& rooms);
     void drawCloseUps(Console& console, const FixtureEditor& editor, const ScreenInput& input,

@@ -3,7 +3,7 @@
 
 namespace fathom::operate {
 
-void SnapshotSink::frame(const PublishedFrame& frame, const Fixtures& set) {
+void SnapshotSink::frame(const PublishedFrame& frame, const HostFixtures& set) {
     SceneSnapshot& out = scene_.back();
     out.any = true;
     out.report = frame.report;

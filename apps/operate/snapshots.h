@@ -15,7 +15,7 @@ struct SceneSnapshot {
     bool any = false;   // false before the first frame
     FrameReport report; // passMs is empty for a repeated frame and while frozen
     double t = 0.0;     // [s] capture time in the run
-    Fixtures set;
+    HostFixtures set;
     std::vector<uint32_t> colour;
     uint64_t number = 0; // number of the frame
 };
@@ -29,7 +29,7 @@ public:
         : ForwardingSink(next)
         , ticks_(8192) {}
 
-    void frame(const PublishedFrame& frame, const Fixtures& set) override;
+    void frame(const PublishedFrame& frame, const HostFixtures& set) override;
     void step(const TickRow& row, const ObeyedSet& obeyed) override;
 
     TripleBuffer<SceneSnapshot>& scene() { return scene_; } // read by the window

@@ -18,7 +18,7 @@ namespace {
 constexpr double kBelow = 0.02; // [m] of the grid under the lowest region
 
 // The median depth of the camera on its axis.
-dvec3 middleOfDepth(const Fixtures& set) {
+dvec3 middleOfDepth(const HostFixtures& set) {
     std::vector<uint16_t> near;
     for (size_t i = 0; i < set.depth.size(); i += 37) {
         if (set.depth[i] != 0) {
@@ -33,7 +33,7 @@ dvec3 middleOfDepth(const Fixtures& set) {
 
 } // namespace
 
-SpaceBounds boundsOf(const Fixtures& set, std::span<const Sphere> arm) {
+SpaceBounds boundsOf(const HostFixtures& set, std::span<const Sphere> arm) {
     if (set.spheres.size() == 0) {
         const dvec3 middle = middleOfDepth(set);
         return {middle, middle.y + 0.2};

@@ -4,7 +4,7 @@
 
 #include "apps/operate/console.h"
 #include "apps/operate/view_port.h"
-#include "engine/contact/fixtures.h"
+#include "engine/contact/host_fixtures.h"
 #include "engine/types/sphere_tree.h"
 
 #include <span>
@@ -16,7 +16,7 @@ struct SpaceBounds {
     dvec3 middle{0.0};  // of regions and arm; without regions, the median depth on the camera's axis
     double floor = 0.0; // y of the grid, below the regions (y points down)
 };
-SpaceBounds boundsOf(const Fixtures& set, std::span<const Sphere> arm);
+SpaceBounds boundsOf(const HostFixtures& set, std::span<const Sphere> arm);
 
 // Standard directions of the eye; the distance stays. Reset also restores the distance.
 enum class Side { Front, Right, Top, Reset };

@@ -117,7 +117,7 @@ double SpaceViewImage::depthAt(glm::dvec2 p) const {
 }
 
 void SpaceViewImage::splatPoints(const SceneSnapshot& scene) {
-    const Fixtures& set = scene.set;
+    const HostFixtures& set = scene.set;
     const Intrinsics& lens = set.camera.depth;
     if (set.depth.size() != lens.pixels()) {
         return;
@@ -213,7 +213,7 @@ void SpaceViewImage::splatArm(std::span<const Sphere> arm) {
     }
 }
 
-void SpaceViewImage::splatRegions(const Fixtures& set) {
+void SpaceViewImage::splatRegions(const HostFixtures& set) {
     float *const front = front_.data(), *const facing = facing_.data();
     double cost = 0.0;
     for (size_t i = 0; i < set.spheres.size(); i += 8) {
@@ -257,7 +257,7 @@ void SpaceViewImage::shadeRegions() {
 
 // The engine's tree exists on the device only. These are the same blocks of pixels, bounded around their
 // centroid.
-void SpaceViewImage::boundBlocks(const Fixtures& set, int level) {
+void SpaceViewImage::boundBlocks(const HostFixtures& set, int level) {
     const uint32_t edge = 4u << (2 * level);
     const uint32_t width = set.camera.depth.width, pixels = set.camera.depth.pixels();
     std::map<uint32_t, std::vector<size_t>> blocks;

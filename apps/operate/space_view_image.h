@@ -38,9 +38,9 @@ private:
     void splatPoints(const SceneSnapshot& scene);
     void putPoint(size_t first, float z, uint32_t colour);
     void splatArm(std::span<const Sphere> arm);
-    void splatRegions(const Fixtures& set);
+    void splatRegions(const HostFixtures& set);
     void shadeRegions();
-    void boundBlocks(const Fixtures& set, int level);
+    void boundBlocks(const HostFixtures& set, int level);
 
     ImageView view_;
     std::vector<uint32_t> pixels_;

@@ -11,7 +11,7 @@ namespace {
 // Points of a depth image in the base frame.
 class Cloud {
 public:
-    explicit Cloud(const Fixtures& set)
+    explicit Cloud(const HostFixtures& set)
         : set_(set) {}
 
     std::optional<dvec3> at(int u, int v) const {
@@ -47,7 +47,7 @@ public:
     }
 
 private:
-    const Fixtures& set_;
+    const HostFixtures& set_;
 };
 
 struct SurfacePoint {
@@ -55,7 +55,7 @@ struct SurfacePoint {
 };
 
 // The surface under a point of the window.
-std::optional<SurfacePoint> surfaceUnder(const Screen& screen, const Fixtures& set, ImVec2 at) {
+std::optional<SurfacePoint> surfaceUnder(const Screen& screen, const HostFixtures& set, ImVec2 at) {
     const auto pixel = screen.colourPixelAt(at);
     if (!pixel || set.depth.empty()) {
         return std::nullopt;
@@ -120,7 +120,7 @@ void clickInView(Console& console, FixtureEditor& editor, const Screen& screen, 
 }
 
 std::optional<Shape> shapeToPlace(const Console& console, const FixtureEditor& editor, const Screen& screen,
-                                  const Fixtures& set) {
+                                  const HostFixtures& set) {
     const ImGuiIO& io = ImGui::GetIO();
     if (console.placing.shape == ShapeKind::None || console.settings.spaceIsLarge ||
         (!console.cursor && io.WantCaptureMouse)) {

@@ -13,6 +13,6 @@ void clickInView(Console& console, FixtureEditor& editor, const Screen& screen, 
 
 // What a click at the mouse or the keyboard's cursor would place; empty without a surface there.
 std::optional<Shape> shapeToPlace(const Console& console, const FixtureEditor& editor, const Screen& screen,
-                                  const Fixtures& set);
+                                  const HostFixtures& set);
 
 } // namespace fathom::operate

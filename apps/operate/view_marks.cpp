@@ -215,7 +215,7 @@ void drawBounds(ImDrawList& list, const ViewPort& port, std::span<const Sphere> 
     }
 }
 
-void drawCameraFrustum(ImDrawList& list, const ViewPort& port, const Fixtures& set) {
+void drawCameraFrustum(ImDrawList& list, const ViewPort& port, const HostFixtures& set) {
     const Intrinsics& lens = set.camera.depth;
     if (lens.width == 0) {
         return;

@@ -36,7 +36,7 @@ std::vector<Sphere> armSpheres(const ArmSetup* arm, const ArmPosture& posture);
 
 void drawRegionOutlines(ImDrawList& list, const ViewPort& port, const CameraViewImage& image);
 void drawBounds(ImDrawList& list, const ViewPort& port, std::span<const Sphere> bounds);
-void drawCameraFrustum(ImDrawList& list, const ViewPort& port, const Fixtures& set);
+void drawCameraFrustum(ImDrawList& list, const ViewPort& port, const HostFixtures& set);
 // Draws shapes, guidance, shadow, device ghost, tool, tether, contacts and force, in this order. Returns the
 // share of the tool's outline that is hidden.
 double drawMarks(ImDrawList& list, const MarksInput& input);

@@ -10,7 +10,7 @@ namespace fathom::operate {
 
 namespace {
 
-std::string obstacle(const Block& block, const Scene& scene, const Fixtures& set) {
+std::string obstacle(const Block& block, const Scene& scene, const HostFixtures& set) {
     const Touch& touch = block.touch;
     const std::string name = touch.fixture < scene.fixtures.size() && !isSpare(scene.fixtures[touch.fixture])
                                  ? "'" + scene.fixtures[touch.fixture].name + "'"
@@ -40,7 +40,7 @@ std::string obstacle(const Block& block, const Scene& scene, const Fixtures& set
 
 } // namespace
 
-std::string whyBlocked(const Block& block, const Scene& scene, const Fixtures& set) {
+std::string whyBlocked(const Block& block, const Scene& scene, const HostFixtures& set) {
     char rest[160];
     std::snprintf(rest, sizeof rest,
                   ": tool sphere %u stopped; the hand is %.1f mm beyond (at most %.1f), %.2f N, since frame "

@@ -10,7 +10,7 @@
 namespace fathom::operate {
 
 // One block in one sentence.
-std::string whyBlocked(const Block& block, const Scene& scene, const Fixtures& set);
+std::string whyBlocked(const Block& block, const Scene& scene, const HostFixtures& set);
 // armHolds: measured_arm.h.
 void drawWhy(const RunView& run, const Scene& scene, const std::vector<std::string>& armHolds);
 

@@ -31,7 +31,7 @@ std::filesystem::path fixturesFileName(int64_t frame) {
     return std::filesystem::path("fixtures") / (digits + ".ply");
 }
 
-void writeFixturesPly(const std::filesystem::path& file, const Fixtures& set) {
+void writeFixturesPly(const std::filesystem::path& file, const HostFixtures& set) {
     const RegionSpheres& spheres = set.spheres;
     OutputFile out(file);
     out.write(std::string(kFixturesPlyStart) + "element vertex " + std::to_string(spheres.size()) +

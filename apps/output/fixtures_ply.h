@@ -2,7 +2,7 @@
 // Writes the region spheres of one fixture set as a binary PLY file.
 #pragma once
 
-#include "engine/contact/fixtures.h"
+#include "engine/contact/host_fixtures.h"
 
 #include <filesystem>
 #include <string_view>
@@ -19,6 +19,6 @@ std::filesystem::path fixturesFileName(int64_t frame);
 // One vertex per region sphere, in the order of the set: double x y z (base frame [m], float position plus
 // origin in float64), double radius [m], int class (row of Scene::fixtures), int held (1 = not observed in
 // this frame). Always little-endian. Throws Error that names the file.
-void writeFixturesPly(const std::filesystem::path& file, const Fixtures& set);
+void writeFixturesPly(const std::filesystem::path& file, const HostFixtures& set);
 
 } // namespace fathom

@@ -195,7 +195,7 @@ std::vector<uint8_t> Silhouette::mask(const Box& box) const {
     return mask;
 }
 
-RegionMasks regionMasks(const ImageView& view, const Fixtures& set) {
+RegionMasks regionMasks(const ImageView& view, const HostFixtures& set) {
     const uint32_t pixels = set.camera.depth.pixels();
     Silhouette seen(view), held(view);
     size_t before = 0;                        // step of the previous pass

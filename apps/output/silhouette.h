@@ -3,7 +3,7 @@
 #pragma once
 
 #include "apps/output/image_view.h"
-#include "engine/contact/fixtures.h"
+#include "engine/contact/host_fixtures.h"
 #include "engine/types/sphere_tree.h"
 
 #include <algorithm>
@@ -49,7 +49,7 @@ private:
 };
 
 // Centre of a region sphere in the base frame [m].
-inline dvec3 regionCentre(const Fixtures& set, size_t i) {
+inline dvec3 regionCentre(const HostFixtures& set, size_t i) {
     const RegionSpheres& s = set.spheres;
     return set.origin + dvec3(double{s.x[i]}, double{s.y[i]}, double{s.z[i]});
 }
@@ -59,7 +59,7 @@ struct RegionMasks {
     std::vector<uint8_t> seen, held; // held: only pixels without a seen region
     bool anyHeld = false;            // some pixel of `held` is set
 };
-RegionMasks regionMasks(const ImageView& view, const Fixtures& set);
+RegionMasks regionMasks(const ImageView& view, const HostFixtures& set);
 
 using OutlineLine = std::vector<glm::dvec2>; // [pixels], corners of pixels, smoothed
 

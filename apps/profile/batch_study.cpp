@@ -55,7 +55,7 @@ struct Expected {
 
 // By the search on the host, and for a few poses also by brute force over all pairs.
 Expected expectedOf(const WallRig& rig, const Tool& tool, const std::vector<Pose>& poses) {
-    const Fixtures& set = rig.host();
+    const HostFixtures& set = rig.host();
     GapSearch search;
     search.build(set);
     Expected expected;

@@ -3,7 +3,7 @@
 // float32 test.
 #pragma once
 
-#include "engine/contact/fixtures.h"
+#include "engine/contact/host_fixtures.h"
 #include "engine/contact/tool.h"
 
 #include <cstdint>

@@ -15,7 +15,7 @@ namespace fathom::profile {
 // A wavy wall, its grid, a tool, and poses with the tool's deepest leaf `depth` [m] inside the wall.
 // Orientations are random, positions are spread over the middle of the wall.
 struct TouchRig {
-    Fixtures wall;
+    HostFixtures wall;
     RegionGrid grid;
     Tool tool;
     std::vector<Pose> poses;

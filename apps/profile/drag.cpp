@@ -176,7 +176,7 @@ private:
     DragSetting setting_;
     Tool own_;
     const Tool& tool_;
-    Fixtures wall_;
+    HostFixtures wall_;
     RegionGrid grid_;
     CullCpu cull_;
     Proxy proxy_;

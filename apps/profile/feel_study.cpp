@@ -67,7 +67,7 @@ std::vector<FeelSetting> feelSettings() {
 // Everything in a row except the frame's times.
 StudyRow feltRow(const StudyContext& context, const FrameSequence& source, const FeltPlaces& places,
                  const FeelSetting& setting, FrameBench& bench) {
-    std::vector<Fixtures> frames;
+    std::vector<HostFixtures> frames;
     for (const SampleFrame& image : source.frames) {
         bench.run(image);
         if (frames.empty()) {
@@ -90,7 +90,7 @@ StudyRow feltRow(const StudyContext& context, const FrameSequence& source, const
 void addFeltSource(const StudyContext& context, Study& study, const FrameSequence& source,
                    const FrameSequence& exact) {
     const Tool tool(buildSphereTree(gripperLeaves()));
-    const Fixtures truth =
+    const HostFixtures truth =
         regionsOf(context.device, studyScene(context.settings), exact.camera, exact.frames.front());
     refuseEmpty(context.settings, exact, truth.spheres);
     const FeltPlaces places(tool, truth);

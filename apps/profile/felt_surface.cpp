@@ -28,7 +28,8 @@ constexpr double kPlainStiffness = 1000.0; // [N/m] for which the ripple is stat
 // A run at one place.
 class StillHand {
 public:
-    StillHand(const Scene& scene, const Tool& tool, const std::vector<Fixtures>& frames, const Pose& start)
+    StillHand(const Scene& scene, const Tool& tool, const std::vector<HostFixtures>& frames,
+              const Pose& start)
         : options_(makeHapticOptions(scene, tool))
         , reach_(scene.contact.reach)
         , tool_(tool)
@@ -79,11 +80,11 @@ private:
     HapticOptions options_;
     double reach_;
     const Tool& tool_;
-    const std::vector<Fixtures>& frames_;
+    const std::vector<HostFixtures>& frames_;
     HapticCycle cycle_;
     CullCpu cull_;
     BehindTracker behind_;
-    Fixtures shown_;
+    HostFixtures shown_;
     RegionGrid grid_;
     std::array<ContactSet, 2> sets_;
     ActiveContacts<ContactSet*> contacts_;
@@ -96,8 +97,8 @@ Pose moved(const Pose& pose, const dvec3& by) {
 }
 
 // The spheres that a tool can meet on its way from the camera along `in`.
-Fixtures alongPath(const Fixtures& truth, const Tool& tool, const dvec3& from, const dvec3& in) {
-    Fixtures near;
+HostFixtures alongPath(const HostFixtures& truth, const Tool& tool, const dvec3& from, const dvec3& in) {
+    HostFixtures near;
     near.origin = truth.origin;
     const RegionSpheres& all = truth.spheres;
     for (size_t i = 0; i < all.size(); ++i) {
@@ -124,7 +125,7 @@ struct FeltSums {
 
 } // namespace
 
-FeltPlaces::FeltPlaces(const Tool& tool, const Fixtures& truth, const Pose& baseTcamera)
+FeltPlaces::FeltPlaces(const Tool& tool, const HostFixtures& truth, const Pose& baseTcamera)
     : tool_(tool) {
     const RegionSpheres& s = truth.spheres;
     for (size_t k = 0; k < kPlaces && s.size() > 0; ++k) {
@@ -151,7 +152,7 @@ FeltPlaces::FeltPlaces(const Tool& tool, const Fixtures& truth, const Pose& base
     }
 }
 
-FeltSurface FeltPlaces::feel(const Scene& scene, const std::vector<Fixtures>& frames, double rateHz,
+FeltSurface FeltPlaces::feel(const Scene& scene, const std::vector<HostFixtures>& frames, double rateHz,
                              double seconds) const {
     FeltSurface felt;
     FeltSums sums;

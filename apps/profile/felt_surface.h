@@ -4,7 +4,7 @@
 #pragma once
 
 #include "apps/profile/spread.h"
-#include "engine/contact/fixtures.h"
+#include "engine/contact/host_fixtures.h"
 #include "engine/contact/tool.h"
 #include "engine/scene/scene.h"
 
@@ -27,20 +27,20 @@ class FeltPlaces {
 public:
     // truth: regions of the exact surface, as the camera at `baseTcamera` sees it. The tool, which must
     // outlive this object, has the camera's orientation. Throws Error when it touches nothing.
-    FeltPlaces(const Tool& tool, const Fixtures& truth, const Pose& baseTcamera = {});
+    FeltPlaces(const Tool& tool, const HostFixtures& truth, const Pose& baseTcamera = {});
 
     // Lets the hand press the tool 5 mm deep away from the camera, or less far on a device that cannot push
     // so hard, and shows it `frames` in turn at rateHz for `seconds` per place. The sets need no generation.
-    FeltSurface feel(const Scene& scene, const std::vector<Fixtures>& frames, double rateHz,
+    FeltSurface feel(const Scene& scene, const std::vector<HostFixtures>& frames, double rateHz,
                      double seconds) const;
 
     size_t count() const { return places_.size(); }
 
 private:
     struct Place {
-        Pose rest;      // base_T_tool
-        dvec3 in;       // unit, from the camera to the surface
-        Fixtures truth; // the part near the tool's path
+        Pose rest;          // base_T_tool
+        dvec3 in;           // unit, from the camera to the surface
+        HostFixtures truth; // the part near the tool's path
     };
     const Tool& tool_;
     std::vector<Place> places_;

@@ -29,7 +29,7 @@ Scene sceneFor(const Settings& settings, double radius, double budget) {
 // Always queries the set of the first frame, so that every budget is measured on the same surface.
 void addQuery(const StudyContext& context, FrameBench& bench, const SampleFrame& image, StudyRow& row) {
     bench.run(image);
-    const Fixtures& host = bench.set().host;
+    const HostFixtures& host = bench.set().host;
     if (host.spheres.size() == 0) {
         row.more.insert(row.more.end(), {NAN, 0.0});
         return;

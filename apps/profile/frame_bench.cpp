@@ -133,7 +133,7 @@ void FrameBench::setArm(cloud::ArmSpheres arm) {
     cycle_->setArm(arm_);
 }
 
-Fixtures regionsOf(gpu::Device& device, Scene scene, const CameraInfo& camera, const SampleFrame& image) {
+HostFixtures regionsOf(gpu::Device& device, Scene scene, const CameraInfo& camera, const SampleFrame& image) {
     scene.filter.radius = 0;
     scene.filter.edge = scene.errorBudget = 0.0;
     FrameBench bench(device, std::move(scene), camera);

@@ -109,7 +109,7 @@ private:
 };
 
 // Regions around every measured pixel of one image: no filter, no check for flying pixels, no thinning.
-Fixtures regionsOf(gpu::Device& device, Scene scene, const CameraInfo& camera, const SampleFrame& image);
+HostFixtures regionsOf(gpu::Device& device, Scene scene, const CameraInfo& camera, const SampleFrame& image);
 
 uint64_t bytesOf(const Plan& plan); // all buffers of the plan
 // Bytes in use on the program's heap, which includes the buffers of a CPU device. 0 when the allocator does

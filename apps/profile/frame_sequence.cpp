@@ -219,7 +219,7 @@ Tool ballTool(uint32_t leaves) {
     return Tool(buildSphereTree(spheres));
 }
 
-Pose touchingPose(const Tool& tool, const Fixtures& fixtures, const Pose& baseTcamera) {
+Pose touchingPose(const Tool& tool, const HostFixtures& fixtures, const Pose& baseTcamera) {
     const RegionSpheres& s = fixtures.spheres;
     dvec3 mean(0.0);
     for (size_t i = 0; i < s.size(); ++i) {

@@ -51,7 +51,7 @@ struct WallRig {
         , bench(device, everyPointScene(), source.camera) {
         bench.run(source.frames.front());
     }
-    const Fixtures& host() const { return bench.set().host; }
+    const HostFixtures& host() const { return bench.set().host; }
 };
 
 // "60 k spheres", as the source of a row.
@@ -76,6 +76,6 @@ std::vector<FixtureClass> redAndYellow();
 Tool ballTool(uint32_t leaves);
 
 // base_T_tool with the tool 1 mm deep in the middle of the set's spheres, on the camera's side.
-Pose touchingPose(const Tool& tool, const Fixtures& fixtures, const Pose& baseTcamera);
+Pose touchingPose(const Tool& tool, const HostFixtures& fixtures, const Pose& baseTcamera);
 
 } // namespace fathom::profile

@@ -31,7 +31,7 @@ struct Rig {
         const double own = tree != cost.passes.end() ? tree->second.p50 : 0.0; // GPUs: within `spheres`
         return spheres != cost.passes.end() ? spheres->second.p50 + own : NAN;
     }
-    const Fixtures& host() const { return bench.set().host; }
+    const HostFixtures& host() const { return bench.set().host; }
 };
 
 // One tool at several poses, from first contact to 20 mm deep, with the exact answers.

@@ -18,7 +18,7 @@ constexpr double kTestOperations = 12.0; // per test: d^2 takes 8, the squared l
 constexpr double kSphereBytes = 16.0;    // of one sphere, bound or leaf
 
 // The patch of each sphere.
-std::vector<uint32_t> patchesOf(const Fixtures& host, const std::vector<uint32_t>& source,
+std::vector<uint32_t> patchesOf(const HostFixtures& host, const std::vector<uint32_t>& source,
                                 const PatchLayout& layout) {
     const uint32_t width = host.camera.depth.width, pixels = host.camera.depth.pixels();
     std::vector<uint32_t> patches;

@@ -2,7 +2,7 @@
 // Distance between the boundaries of two unions of spheres, sampled with rays.
 #pragma once
 
-#include "engine/contact/fixtures.h"
+#include "engine/contact/host_fixtures.h"
 
 #include <cstdint>
 

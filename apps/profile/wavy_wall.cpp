@@ -9,8 +9,8 @@ double wallHeight(double x, double y) {
     return 0.01 * std::sin(20.0 * x) * std::cos(17.0 * y);
 }
 
-Fixtures wavyWall(int half, double spacing) {
-    Fixtures f;
+HostFixtures wavyWall(int half, double spacing) {
+    HostFixtures f;
     f.frame = 0;
     f.generation = 1;
     for (int j = -half; j <= half; ++j) {

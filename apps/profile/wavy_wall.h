@@ -2,7 +2,7 @@
 // A noisy, wavy wall of region spheres for measurements of the haptic side.
 #pragma once
 
-#include "engine/contact/fixtures.h"
+#include "engine/contact/host_fixtures.h"
 
 namespace fathom::profile {
 
@@ -13,6 +13,6 @@ double wallHeight(double x, double y);
 
 // (2 half + 1)^2 spheres around the origin, `spacing` [m] apart in x and y, row by row, with noise of at most
 // 0.15 mm. Deterministic.
-Fixtures wavyWall(int half, double spacing);
+HostFixtures wavyWall(int half, double spacing);
 
 } // namespace fathom::profile

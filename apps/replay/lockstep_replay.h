@@ -32,7 +32,7 @@ public:
 private:
     // A published set. Kept for the audit as long as a contact set may refer to it.
     struct Kept {
-        Fixtures fixtures;
+        HostFixtures fixtures;
         RegionGrid grid;
     };
 

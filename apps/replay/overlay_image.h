@@ -2,7 +2,7 @@
 // Draws overlay.png: the last camera image with regions, guidance, tool, hand and force.
 #pragma once
 
-#include "engine/contact/fixtures.h"
+#include "engine/contact/host_fixtures.h"
 #include "engine/cycle/step_record.h"
 #include "engine/types/camera_info.h"
 #include "engine/types/sphere_tree.h"
@@ -21,7 +21,7 @@ struct OverlayInput {
     // 0xAABBGGRR, size of camera.colour; otherwise the depth is drawn as grey
     std::span<const uint32_t> colour;
     std::span<const uint16_t> depth;     // raw units, size of camera.depth; empty: uniform background
-    const Fixtures* set = nullptr;       // regions and guidance; null or frame -1: none
+    const HostFixtures* set = nullptr;   // regions and guidance; null or frame -1: none
     std::vector<std::string> classNames; // rows of Scene::fixtures
     std::span<const Sphere> leaves;      // tool frame [m]
     StepRecord tick;                     // the last one: proxy, hand, wrench, state, guidance

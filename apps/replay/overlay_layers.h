@@ -34,7 +34,7 @@ SeenLayers seenLayers(const ImageView& view, const OverlayInput& input);
 
 bool hasColour(const OverlayInput& input);
 void drawCameraImage(const Canvas& canvas, const OverlayInput& input);
-void drawRegions(const Canvas& canvas, const Fixtures& set);
+void drawRegions(const Canvas& canvas, const HostFixtures& set);
 void drawGuidance(const Canvas& canvas, const OverlayInput& input);
 void drawGuidanceNames(const Canvas& canvas, const OverlayInput& input); // drawn above tool and hand
 void drawTool(const Canvas& canvas, const OverlayInput& input);

@@ -53,7 +53,7 @@ void outline(const Canvas& canvas, const std::vector<uint8_t>& mask, bool dashed
 }
 
 // One dot per point. Writes pixels directly, because there may be as many points as pixels.
-void points(const Canvas& canvas, const Fixtures& set) {
+void points(const Canvas& canvas, const HostFixtures& set) {
     const int width = canvas.view.width(), height = canvas.view.height();
     const int dot = std::max(1, static_cast<int>(std::lround(1.6 * canvas.size)));
     canvas.image.beginPixels();
@@ -76,7 +76,7 @@ void points(const Canvas& canvas, const Fixtures& set) {
 
 } // namespace
 
-void drawRegions(const Canvas& canvas, const Fixtures& set) {
+void drawRegions(const Canvas& canvas, const HostFixtures& set) {
     if (set.spheres.size() == 0) {
         return;
     }

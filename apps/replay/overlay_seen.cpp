@@ -36,7 +36,7 @@ bool differ(const ImageView& view, std::span<const Sphere> leaves, const Pose& a
 SeenLayers seenLayers(const ImageView& view, const OverlayInput& input) {
     SeenLayers seen;
     if (input.set != nullptr && input.set->frame >= 0) {
-        const Fixtures& set = *input.set;
+        const HostFixtures& set = *input.set;
         const RegionMasks masks = regionMasks(view, set);
         constexpr std::ptrdiff_t kMinHeld = 100; // [pixels]
         seen.held = std::count(masks.held.begin(), masks.held.end(), 1) >= kMinHeld;

@@ -147,7 +147,7 @@ void RealtimeReplay::rethrowFailure() const {
     }
 }
 
-void RealtimeReplay::frame(const PublishedFrame& frame, const Fixtures& set) {
+void RealtimeReplay::frame(const PublishedFrame& frame, const HostFixtures& set) {
     recorder_.frame(frame.report, frame.t, set, frame.colour);
     figures_.framesInPlace += frame.report.inPlace ? 1 : 0;
     observers_.frame(set);

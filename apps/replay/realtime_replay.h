@@ -54,7 +54,7 @@ public:
 private:
     class Feed;
 
-    void frame(const PublishedFrame& frame, const Fixtures& set) override;
+    void frame(const PublishedFrame& frame, const HostFixtures& set) override;
     void query(const QueryNote& note) override;
     void step(const TickRow& row, const ObeyedSet& obeyed) override;
     void audit(const TickRow& row, const ObeyedSet& obeyed);

@@ -106,7 +106,7 @@ ReplaySummary::GuidanceRow& ReplayRecorder::guidanceOf(uint32_t row) {
     return at->second;
 }
 
-void ReplayRecorder::frame(const FrameReport& report, double t, const Fixtures& set,
+void ReplayRecorder::frame(const FrameReport& report, double t, const HostFixtures& set,
                            std::span<const uint32_t> colour) {
     takeEdit(report.index);
     if (!report.unchanged) {
@@ -132,7 +132,7 @@ void ReplayRecorder::frame(const FrameReport& report, double t, const Fixtures& 
     }
 }
 
-void ReplayRecorder::addGuidance(const Fixtures& set) {
+void ReplayRecorder::addGuidance(const HostFixtures& set) {
     for (const GuidancePose& pose : set.guidance) {
         if (!pose.present) {
             continue;
@@ -162,7 +162,7 @@ bool ReplayRecorder::wantsMoment() const {
            (force > moment_.force && lastTick_.frame != moment_.tick.frame);
 }
 
-void ReplayRecorder::moment(const Fixtures& set, std::span<const uint32_t> colour) {
+void ReplayRecorder::moment(const HostFixtures& set, std::span<const uint32_t> colour) {
     moment_.force = glm::length(lastTick_.wrench.force);
     moment_.tick = lastTick_;
     if (moment_.set.generation != set.generation) {

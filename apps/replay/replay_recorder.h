@@ -35,12 +35,13 @@ public:
                    const std::string& realArm = "", const SceneEdits* edits = nullptr);
 
     // A processed frame at t [s] of the run with its set; also when the set is unchanged.
-    void frame(const FrameReport& report, double t, const Fixtures& set, std::span<const uint32_t> colour);
+    void frame(const FrameReport& report, double t, const HostFixtures& set,
+               std::span<const uint32_t> colour);
     void tick(const TickRow& row);
     // overlay.png shows the moment of the largest force. True when the last tick is the largest so far, by a
     // clear margin or in a new frame; then call moment() with that tick's set and image.
     bool wantsMoment() const;
-    void moment(const Fixtures& set, std::span<const uint32_t> colour);
+    void moment(const HostFixtures& set, std::span<const uint32_t> colour);
     void query(double micros) { queryMicros_.push_back(static_cast<float>(micros)); }
 
     // Results that only the caller knows.
@@ -62,7 +63,7 @@ public:
         double forceLimit = 0.0, torqueLimit = 0.0; // [N], [N m]
         CameraInfo camera;
         std::span<const uint32_t> colour; // of the last frame, used when no force occurred; may be empty
-        const Fixtures* lastSet = nullptr;
+        const HostFixtures* lastSet = nullptr;
         std::span<const Sphere> leaves;
         std::vector<std::string> warnings;   // of the camera
         std::vector<double> linkPenetration; // [m] from ToolAudit; empty = no arm or no audit
@@ -80,7 +81,7 @@ private:
     void takeEdit(uint32_t image);
     void takeFixtures(const std::vector<FixtureClass>& fixtures);
     ReplaySummary::GuidanceRow& guidanceOf(uint32_t row);
-    void addGuidance(const Fixtures& set);
+    void addGuidance(const HostFixtures& set);
     std::vector<ReplaySummary::FixtureRow> fixtureRows() const;
     void writeImages(const Ending& ending) const;
 
@@ -99,7 +100,7 @@ private:
     struct Moment {
         double force = 0.0; // [N]
         StepRecord tick;
-        Fixtures set;
+        HostFixtures set;
         std::vector<uint32_t> colour;
     } moment_;
     uint64_t frameCount_ = 0;

@@ -50,14 +50,14 @@ uint32_t at(const std::vector<uint32_t>& list, size_t c) {
 }
 
 // Null if the class has none in this set.
-const GuidancePose* poseOf(const Fixtures& set, size_t row) {
+const GuidancePose* poseOf(const HostFixtures& set, size_t row) {
     const auto found = std::find_if(set.guidance.begin(), set.guidance.end(),
                                     [&](const GuidancePose& pose) { return pose.fixture == row; });
     return found == set.guidance.end() ? nullptr : &*found;
 }
 
 // Why the frame has no depth between near and far.
-std::string depthCause(const Fixtures& set, double nearZ, double farZ) {
+std::string depthCause(const HostFixtures& set, double nearZ, double farZ) {
     uint16_t least = UINT16_MAX, most = 0;
     for (const uint16_t d : set.depth) {
         least = d != 0 ? std::min(least, d) : least;
@@ -74,8 +74,8 @@ std::string depthCause(const Fixtures& set, double nearZ, double farZ) {
 
 } // namespace
 
-std::string RunWatch::causeOf(const ClassState& state, uint32_t marked, uint32_t valid, const Fixtures& set,
-                              std::span<const uint32_t> colour) const {
+std::string RunWatch::causeOf(const ClassState& state, uint32_t marked, uint32_t valid,
+                              const HostFixtures& set, std::span<const uint32_t> colour) const {
     const FixtureClass& f = fixtures_[state.row];
     if (valid == 0) {
         return depthCause(set, nearZ_, farZ_);
@@ -138,7 +138,7 @@ uint32_t RunWatch::sharedPixels(const cloud::FrameCounts& counts) const {
     return all - std::min(all, counts.forbidden);
 }
 
-void RunWatch::frame(double t, const cloud::FrameCounts& counts, const Fixtures& set,
+void RunWatch::frame(double t, const cloud::FrameCounts& counts, const HostFixtures& set,
                      std::span<const uint32_t> colour) {
     watchRate(t);
     rate_.framed = true;

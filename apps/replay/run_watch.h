@@ -32,7 +32,7 @@ public:
     // The fixtures after an edit, for the frames from now on. The classes of points have kept their rows.
     void setFixtures(const std::vector<FixtureClass>& fixtures);
     // A frame at t [s] with its counts, its set and its colours (R8 G8 B8 A8, may be empty).
-    void frame(double t, const cloud::FrameCounts& counts, const Fixtures& set,
+    void frame(double t, const cloud::FrameCounts& counts, const HostFixtures& set,
                std::span<const uint32_t> colour);
     // A tick at t [s]: its state as in haptics.csv, the frame of its active set (-1 = none), and how often
     // regions have disappeared while they pressed (StepRecord::vanished).
@@ -61,7 +61,7 @@ private:
         bool framed = false;
     };
     // Why the class has no point in the frame of this set.
-    std::string causeOf(const ClassState& state, uint32_t marked, uint32_t valid, const Fixtures& set,
+    std::string causeOf(const ClassState& state, uint32_t marked, uint32_t valid, const HostFixtures& set,
                         std::span<const uint32_t> colour) const;
     uint32_t sharedPixels(const cloud::FrameCounts& counts) const;
     void warnClass(const ClassState& state, const std::string& since);

@@ -17,7 +17,7 @@ void ToolAudit::place(const ArmPosture& posture, std::vector<dvec3>& centres) co
     }
 }
 
-void ToolAudit::tick(const Fixtures& set, const RegionGrid& grid, const ToolPlace& start,
+void ToolAudit::tick(const HostFixtures& set, const RegionGrid& grid, const ToolPlace& start,
                      const ToolPlace& end, std::span<const uint32_t> behind) {
     if (arm_ == nullptr) {
         audit_.tick(set, grid, start.pose, end.pose, behind);

@@ -17,7 +17,7 @@ public:
     ToolAudit(const Tool& tool, const ArmSetup* arm);
 
     // Like PenetrationAudit::tick().
-    void tick(const Fixtures& set, const RegionGrid& grid, const ToolPlace& start, const ToolPlace& end,
+    void tick(const HostFixtures& set, const RegionGrid& grid, const ToolPlace& start, const ToolPlace& end,
               std::span<const uint32_t> behind);
 
     void retake() { audit_.retake(); } // like PenetrationAudit::retake()

@@ -58,7 +58,7 @@ SimulatedCamera FeelRig::cameraOf(bool noise) const {
 }
 
 // Every pixel at kWall, with the noise of the simulated camera.
-Fixtures FeelRig::wallFrame(ImageFixtures& make, bool noise) {
+HostFixtures FeelRig::wallFrame(ImageFixtures& make, bool noise) {
     const std::vector<uint32_t> red(kWide * kHigh, 0xff2020c0u); // 0xAABBGGRR
     std::vector<uint16_t> depth(kWide * kHigh);
     const double sigma = noise ? SimulatedCamera::kDepthSigmaShare * depthSigma(kWall) : 0.0;

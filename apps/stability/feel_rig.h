@@ -51,7 +51,7 @@ public:
 private:
     void look();
     SimulatedCamera cameraOf(bool noise) const;
-    Fixtures wallFrame(ImageFixtures& make, bool noise);
+    HostFixtures wallFrame(ImageFixtures& make, bool noise);
     double restingPlace(double x, double y, const dquat& rotation) const;
 
     FeelSpec spec_;
@@ -61,9 +61,9 @@ private:
     SimulatedCamera camera_;
     Rng rng_{17};
     uint64_t frames_ = 0;
-    Fixtures truth_;
+    HostFixtures truth_;
     ImageFixtures make_;
-    std::optional<Fixtures> still_; // the newest frame; without noise all are the same
+    std::optional<HostFixtures> still_; // the newest frame; without noise all are the same
     std::unique_ptr<LockstepRig> rig_;
     std::unique_ptr<HapticDevice> hand_;
     FeltTrace trace_;

@@ -15,8 +15,8 @@ namespace {
 constexpr double kNanometre = 1e-9;     // [m] penetration limit: zero plus the rounding error of the audit
 constexpr double kEscapePerTick = 1e-3; // [m] depth removed per tick
 
-Fixtures oneSphere(const dvec3& centre, double radius) {
-    Fixtures set;
+HostFixtures oneSphere(const dvec3& centre, double radius) {
+    HostFixtures set;
     set.spheres.add(centre, radius);
     return set;
 }
@@ -81,7 +81,7 @@ Outcome insideManyCase(RunLength runLength) {
     for (int i = 0; i < trials; ++i) {
         const double radius = rng.uniform(0.02, 0.05);
         const dvec3 up = rng.direction();
-        Fixtures set;
+        HostFixtures set;
         for (int k = 0; k < 800; ++k) {
             const dvec3 about = 0.5 * radius * rng.direction();
             set.spheres.add(about - (std::max(0.0, glm::dot(about, up)) + 0.006) * up,

@@ -21,7 +21,7 @@ constexpr double kBudget = 0.0001; // [m] error budget of thinning
 
 struct TruthImage {
     AnalyticScene scene;
-    Fixtures set;
+    HostFixtures set;
 };
 
 TruthImage imageOf(AnalyticScene scene, double radius, double edge, uint32_t width) {
@@ -182,7 +182,7 @@ Outcome cameraOriginCase(RunLength runLength) {
         const double radius = rng.logUniform(0.001, 0.05);
         const Pose start{dvec3(0.0, 0.0, i % 3 == 0 ? 0.0 : -rng.logUniform(1e-12, 1e-6)), kUpright};
         LockstepRig rig(ballTool(kBall), start);
-        const auto withImage = [](Fixtures set, uint16_t depth) {
+        const auto withImage = [](HostFixtures set, uint16_t depth) {
             set.camera.depth.width = 16;
             set.camera.depth.height = 12;
             set.camera.depth.fx = set.camera.depth.fy = 14.0;
@@ -192,7 +192,7 @@ Outcome cameraOriginCase(RunLength runLength) {
             set.forbiddenBits.assign(6, ~0u);
             return set;
         };
-        Fixtures first, second;
+        HostFixtures first, second;
         first.spheres.add(dvec3(10, 0, 0), radius);
         for (int k = 0; k < 1 + i % 5; ++k) { // on one side, so that there is a way out
             const dvec3 off = k == 0 ? dvec3(0.0) : glm::normalize(rng.direction() + dvec3(0, 0, 1.5));

@@ -10,7 +10,7 @@ namespace fathom::stability {
 
 namespace {
 
-void add(const std::vector<reference::RegionSphere>& spheres, uint32_t firstSource, Fixtures& set) {
+void add(const std::vector<reference::RegionSphere>& spheres, uint32_t firstSource, HostFixtures& set) {
     for (size_t i = 0; i < spheres.size(); ++i) {
         const reference::RegionSphere& s = spheres[i];
         if (s.radius < 0.0) {
@@ -23,7 +23,7 @@ void add(const std::vector<reference::RegionSphere>& spheres, uint32_t firstSour
 
 } // namespace
 
-Fixtures ImageFixtures::make(const Frame::Content& frame) {
+HostFixtures ImageFixtures::make(const Frame::Content& frame) {
     const Pose baseTcamera = frame.baseTcamera.value_or(scene_.baseTcamera);
     std::vector<uint32_t> rgba;
     readColours(frame, rgba);
@@ -40,7 +40,7 @@ Fixtures ImageFixtures::make(const Frame::Content& frame) {
         const auto thinned = reference::thin(scene_, view.width(), view.height(), classes, surface.points);
         growth = reference::keptGrowth(view.width(), view.height(), thinned);
     }
-    Fixtures set;
+    HostFixtures set;
     set.origin = baseTcamera.position;
     set.camera = camera_;
     set.baseTcamera = baseTcamera;

@@ -4,7 +4,7 @@
 // frames.
 #pragma once
 
-#include "engine/contact/fixtures.h"
+#include "engine/contact/host_fixtures.h"
 #include "engine/reference/hold.h"
 #include "engine/scene/scene.h"
 #include "engine/types/camera_info.h"
@@ -22,7 +22,7 @@ public:
         , hold_(hold) {}
 
     // Positions are relative to the camera's centre. The rig sets generation and frame number.
-    Fixtures make(const Frame::Content& frame);
+    HostFixtures make(const Frame::Content& frame);
 
 private:
     Scene scene_;

@@ -27,7 +27,7 @@ LockstepRig::LockstepRig(const Tool& tool, const HapticOptions& options, const P
     , cull_(setup.capacity)
     , audit_(tool_) {}
 
-void LockstepRig::show(Fixtures set) {
+void LockstepRig::show(HostFixtures set) {
     auto next = std::make_unique<Published>();
     next->set = std::move(set);
     next->set.generation = ++generation_;

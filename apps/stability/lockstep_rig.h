@@ -62,7 +62,7 @@ public:
                 const RigSetup& setup = {});
 
     // Publishes a new frame's fixture set; the next query uses it. Sets its generation and frame number.
-    void show(Fixtures set);
+    void show(HostFixtures set);
     // From now on the shown set ages. Without this, every tick counts as a new frame with the same content.
     void freeze() { fresh_ = false; }
 
@@ -75,14 +75,14 @@ public:
     const Tool& tool() const { return tool_; }
     const HapticOptions& options() const { return options_; }
     Pose pose() const { return cycle_->pose(); }
-    const Fixtures& shown() const { return published_.back()->set; }
+    const HostFixtures& shown() const { return published_.back()->set; }
     const ContactSet* active() const { return contacts_.active(); }
     // Depth of the deepest leaf in the shown set by brute force [m]; negative: the smallest gap.
     double depth() const;
 
 private:
     struct Published {
-        Fixtures set;
+        HostFixtures set;
         RegionGrid grid;
     };
     struct Answer {

@@ -65,7 +65,7 @@ LoopRig::LoopRig(const LoopSpec& spec)
     }
 }
 
-void LoopRig::show(Fixtures fixtures) {
+void LoopRig::show(HostFixtures fixtures) {
     spec_.fixtures = std::move(fixtures);
     grid_.build(spec_.fixtures->spheres);
 }
@@ -133,10 +133,10 @@ Shape lineShape(const dvec3& along) {
     return shape;
 }
 
-Fixtures sphereWall(double height, uint64_t generation) {
+HostFixtures sphereWall(double height, uint64_t generation) {
     constexpr double kRadius = 0.04, kSpacing = 0.004;
     constexpr int kHalf = 8;
-    Fixtures fixtures;
+    HostFixtures fixtures;
     fixtures.frame = static_cast<int64_t>(generation);
     fixtures.generation = generation;
     fixtures.origin = {0.0, 0.0, height};

@@ -46,9 +46,9 @@ struct LoopSpec {
     bool limited = true;    // 20 N, 2 N m and slew limits; false: no limits, a linear loop
     std::vector<Sphere> leaves{{dvec3(0.0), 0.01}};
     std::vector<Shape> shapes;
-    std::optional<Fixtures> fixtures;   // points; LoopRig::show replaces them
-    std::vector<GuidancePose> guidance; // active while the path's button is pressed
-    std::vector<HandWaypoint> path;     // target poses of the hand; the device starts at the first one
+    std::optional<HostFixtures> fixtures; // points; LoopRig::show replaces them
+    std::vector<GuidancePose> guidance;   // active while the path's button is pressed
+    std::vector<HandWaypoint> path;       // target poses of the hand; the device starts at the first one
 
     double period() const { return 1.0 / rateHz; }
     double wholeMass() const { return mass + hand.mass; }
@@ -66,7 +66,7 @@ public:
 
     const StepRecord& tick();
     void run(double seconds);
-    void show(Fixtures fixtures); // a new frame
+    void show(HostFixtures fixtures); // a new frame
     // Sets the real tick period [s] from now on, which the cycle also receives; 0 = the nominal period.
     void setMeasuredPeriod(double period) { measured_ = period; }
 
@@ -107,7 +107,7 @@ private:
 Shape wallShape(const dvec3& normal, double height);
 Shape lineShape(const dvec3& along); // infinite line through the origin: a two-sided spring
 // Square patch of spheres of 40 mm radius, spaced by 4 mm, with their tops at z = height.
-Fixtures sphereWall(double height, uint64_t generation);
+HostFixtures sphereWall(double height, uint64_t generation);
 
 HandWaypoint wayAt(double t, const dvec3& position, const dvec3& rotation = dvec3(0.0));
 

@@ -145,8 +145,8 @@ Outcome restlessCase(RunLength runLength, const Restless& stream, const std::str
     return out;
 }
 
-Fixtures vice(double overlap) { // two walls of spheres, closer than the ball needs by 2 x overlap
-    Fixtures set;
+HostFixtures vice(double overlap) { // two walls of spheres, closer than the ball needs by 2 x overlap
+    HostFixtures set;
     const double half = kStreamStand - overlap;
     addWall(set, dvec3(0, 0, -half), dvec3(1, 0, 0), dvec3(0, 1, 0), 0.12, 0.004, 0.04);
     addWall(set, dvec3(0, 0, half), dvec3(1, 0, 0), dvec3(0, 1, 0), 0.12, 0.004, 0.04);
@@ -179,7 +179,7 @@ ViceRun closeVice(LockstepRig& rig, double overlap, const Pose& hand) {
                              ? std::max(run.forceAfter, glm::length(record.wrench.force))
                              : 0.0;
     }
-    Fixtures open;
+    HostFixtures open;
     addWall(open, dvec3(0, 0, -(kStreamStand - overlap)), dvec3(1, 0, 0), dvec3(0, 1, 0), 0.12, 0.004, 0.04);
     rig.show(std::move(open));
     run.left = escape(rig, hand, 200);

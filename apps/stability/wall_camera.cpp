@@ -35,7 +35,7 @@ CameraInfo WallCamera::camera() {
     return info;
 }
 
-Fixtures WallCamera::look(const WallView& look) {
+HostFixtures WallCamera::look(const WallView& look) {
     depth_.assign(camera_.depth.pixels(), 0);
     for (uint16_t& raw : depth_) {
         const double seen = look.z + (look.noise > 0.0 ? look.noise * rng_.normal() : 0.0);

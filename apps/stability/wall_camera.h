@@ -23,7 +23,7 @@ public:
     static constexpr double kFrame = 1.0 / 30.0;
 
     WallCamera(bool hold, uint64_t seed);
-    Fixtures look(const WallView& look);
+    HostFixtures look(const WallView& look);
 
     // Largest distance [m] to the nearest pixel with depth, over points of the last wall within 30 mm of (x,
     // y).

@@ -72,8 +72,8 @@ std::vector<Sphere> crossLeaves(double radius) {
     return leaves;
 }
 
-void addWall(Fixtures& set, const dvec3& centre, const dvec3& u, const dvec3& v, double half, double spacing,
-             double radius) {
+void addWall(HostFixtures& set, const dvec3& centre, const dvec3& u, const dvec3& v, double half,
+             double spacing, double radius) {
     const int n = static_cast<int>(std::lround(half / spacing));
     for (int i = -n; i <= n; ++i) {
         for (int j = -n; j <= n; ++j) {

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "apps/stability/random_hand.h"
-#include "engine/contact/fixtures.h"
+#include "engine/contact/host_fixtures.h"
 #include "engine/contact/tool.h"
 
 #include <filesystem>
@@ -18,7 +18,7 @@ inline const dquat kUpright(1.0, 0.0, 0.0, 0.0);
 
 struct World {
     std::string name;
-    Fixtures fixtures;
+    HostFixtures fixtures;
     std::vector<Sphere> leaves; // of the tool
     Pose start;                 // base_T_tool outside every region
     dvec3 focus{0.0};           // [m] base frame: centre of the hand's motion
@@ -32,8 +32,8 @@ Tool ballTool(double radius);
 std::vector<Sphere> crossLeaves(double radius);
 
 // Square patch of the plane spanned by the unit vectors u and v, with a sphere every `spacing` [m].
-void addWall(Fixtures& set, const dvec3& centre, const dvec3& u, const dvec3& v, double half, double spacing,
-             double radius);
+void addWall(HostFixtures& set, const dvec3& centre, const dvec3& u, const dvec3& v, double half,
+             double spacing, double radius);
 // Copy with the whole scene moved by `way` in the base frame. Coordinates relative to the local origin stay
 // the same.
 World movedBy(const World& world, const dvec3& way);

@@ -33,7 +33,7 @@ Scene withoutMemory(const Scene& written) {
     return scene;
 }
 
-Fixtures trueRegions(gpu::Device& device, const TuneSource& source) {
+HostFixtures trueRegions(gpu::Device& device, const TuneSource& source) {
     const auto refuse = [](const Scene& scene) {
         throw BadInput(scene.file.string(), "fixtures", "no forbidden class has points in these frames",
                        "a forbidden class that does; 'fathom replay' shows what each class selects");
@@ -46,7 +46,8 @@ Fixtures trueRegions(gpu::Device& device, const TuneSource& source) {
     if (source.twin && std::ranges::none_of(source.own.frames.frames, selects)) {
         refuse(source.own.scene);
     }
-    Fixtures truth = profile::regionsOf(device, withoutMemory(source.scene), source.trueCamera, source.truth);
+    HostFixtures truth =
+        profile::regionsOf(device, withoutMemory(source.scene), source.trueCamera, source.truth);
     if (truth.spheres.size() == 0) {
         refuse(source.scene);
     }
@@ -54,7 +55,7 @@ Fixtures trueRegions(gpu::Device& device, const TuneSource& source) {
 }
 
 // The farthest region along the optical axis [m].
-double farthestOf(const Fixtures& truth, const Pose& baseTcamera) {
+double farthestOf(const HostFixtures& truth, const Pose& baseTcamera) {
     const dvec3 axis = baseTcamera.rotation * dvec3(0.0, 0.0, 1.0),
                 from = truth.origin - baseTcamera.position;
     double farthest = 0.0;

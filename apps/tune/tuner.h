@@ -64,7 +64,7 @@ public:
     TuneResult run();
 
 private:
-    using Sets = std::vector<Fixtures>;
+    using Sets = std::vector<HostFixtures>;
     struct Bench;
 
     std::vector<size_t> measure(const std::vector<Setting>& settings, const std::string& varied);
@@ -82,7 +82,7 @@ private:
     gpu::Device& device_;
     const TuneSource& source_;
     TuneOptions options_;
-    Fixtures truth_;
+    HostFixtures truth_;
     profile::FeltPlaces places_;
     TuneResult result_;
     std::map<uint32_t, FrameSequence> sizes_; // of smaller images

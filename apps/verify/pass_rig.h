@@ -54,7 +54,7 @@ public:
 
     reference::FrameView view() const;
     const cloud::FixtureSet& set() const { return *lease_; }
-    const Fixtures& host() const { return lease_->host; }
+    const HostFixtures& host() const { return lease_->host; }
     const dvec3& origin() const { return lease_->host.origin; }
 
     std::vector<uint32_t> listed() const; // per patch

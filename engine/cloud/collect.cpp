@@ -107,7 +107,8 @@ void takeGuidance(FixtureSet& set, const Scene& scene, const std::vector<uint32_
 
 } // namespace
 
-uint32_t copyDepth(Fixtures& host, std::span<const uint16_t> depth, const Scene& scene, ThreadPool* workers) {
+uint32_t copyDepth(HostFixtures& host, std::span<const uint16_t> depth, const Scene& scene,
+                   ThreadPool* workers) {
     const auto [lo, hi] = depthBand(scene, host.camera.metresPerUnit);
     // lo > hi: no depth value is in near..far, so the band 1..0 counts nothing.
     const auto least = static_cast<uint16_t>(lo <= hi ? lo : 1),

@@ -21,7 +21,8 @@ struct FrameCounts {
 // Copies the frame's depth to host.depth and returns the number of readings in near..far. The CPU counts,
 // because a counter shared by 300 000 invocations costs the device milliseconds. workers: null = the caller
 // does all the work.
-uint32_t copyDepth(Fixtures& host, std::span<const uint16_t> depth, const Scene& scene, ThreadPool* workers);
+uint32_t copyDepth(HostFixtures& host, std::span<const uint16_t> depth, const Scene& scene,
+                   ThreadPool* workers);
 
 // Fills set.host.spheres, forbiddenBits and guidance from the device side, for a plan with passes. The caller
 // has set camera, pose, origin and frame, and counts the valid pixels. work: source of radii and points when

@@ -6,7 +6,7 @@
 #include "engine/cloud/frozen_classes.h"
 #include "engine/cloud/host_grid.h"
 #include "engine/contact/behind.h"
-#include "engine/contact/fixtures.h"
+#include "engine/contact/host_fixtures.h"
 #include "engine/types/lease_pool.h"
 
 namespace fathom::cloud {
@@ -14,7 +14,7 @@ namespace fathom::cloud {
 // Written by the frame cadence, then read-only while a reader leases it. The host part survives the loss of
 // the device.
 struct FixtureSet {
-    Fixtures host;
+    HostFixtures host;
     HostGrid grid; // over host.spheres
     SetBuffers device;
     // For the GPU query.

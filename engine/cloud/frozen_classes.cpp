@@ -29,7 +29,7 @@ bool isFrozen(const Scene& scene, uint32_t row) {
 
 } // namespace
 
-FrozenClasses::Kept FrozenClasses::take(const Fixtures& set, uint32_t row) {
+FrozenClasses::Kept FrozenClasses::take(const HostFixtures& set, uint32_t row) {
     Kept kept{set.origin, {}, {}};
     const uint32_t moved = 2u * set.camera.depth.pixels();
     for (size_t i = 0; i < set.spheres.size(); ++i) {
@@ -76,7 +76,7 @@ bool FrozenClasses::covers(const Scene& scene) {
     return all;
 }
 
-void FrozenClasses::apply(Fixtures& set, const Scene& scene) {
+void FrozenClasses::apply(HostFixtures& set, const Scene& scene) {
     if (!covers(scene)) {
         for (uint32_t row = 0; row < scene.fixtures.size(); ++row) {
             if (isFrozen(scene, row) && !kept_.contains(row)) {

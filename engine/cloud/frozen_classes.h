@@ -2,7 +2,7 @@
 // Point classes whose spheres stay fixed in the base frame while new frames arrive.
 #pragma once
 
-#include "engine/contact/fixtures.h"
+#include "engine/contact/host_fixtures.h"
 #include "engine/scene/scene.h"
 
 #include <map>
@@ -22,7 +22,7 @@ public:
     // Replaces spheres and targets of classes with FixtureClass::frozen in the host copy of a set by those of
     // the first set since the class was frozen. Other classes are unchanged. The fixed spheres come last.
     // Their sources are offset by twice the number of pixels, so that every source in a set is unique.
-    void apply(Fixtures& set, const Scene& scene);
+    void apply(HostFixtures& set, const Scene& scene);
 
     // The fixed spheres, about the origin, which no one changes; null = none. version(): changes with them; 0
     // = none so far.
@@ -35,7 +35,7 @@ private:
         RegionSpheres spheres;
         std::optional<GuidancePose> guidance;
     };
-    static Kept take(const Fixtures& set, uint32_t row);
+    static Kept take(const HostFixtures& set, uint32_t row);
     void join();
 
     std::map<uint32_t, Kept> kept_;                // by row of Scene::fixtures

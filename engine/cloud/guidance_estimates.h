@@ -3,7 +3,7 @@
 // that sees a little more of one side move the mean of a class; its target should rest.
 #pragma once
 
-#include "engine/contact/fixtures.h"
+#include "engine/contact/host_fixtures.h"
 #include "engine/scene/scene.h"
 
 #include <map>

@@ -3,7 +3,7 @@
 // functions in float64.
 #pragma once
 
-#include "engine/contact/fixtures.h"
+#include "engine/contact/host_fixtures.h"
 #include "engine/scene/scene.h"
 
 #include <array>

@@ -29,7 +29,7 @@ double overlapOf(const ContactSet& set, uint32_t leaf, double radius) {
 
 } // namespace
 
-BehindTracker::DepthSample BehindTracker::sampleAt(const Fixtures& fixtures, const PatchBits* bits,
+BehindTracker::DepthSample BehindTracker::sampleAt(const HostFixtures& fixtures, const PatchBits* bits,
                                                    const Pose& cameraTbase, const dvec3& point) {
     DepthSample sample;
     const Intrinsics& lens = fixtures.camera.depth;
@@ -83,8 +83,8 @@ void BehindTracker::follow(Leaf& leaf, const DepthSample& sample, const LeafDist
     leaf.inFront = !leaf.behind && sample.known && sample.forbidden && sample.before > -margin;
 }
 
-void BehindTracker::update(const Tool& tool, const Fixtures& fixtures, double regionRadius, ContactSet& set,
-                           const PatchBits* bits) {
+void BehindTracker::update(const Tool& tool, const HostFixtures& fixtures, double regionRadius,
+                           ContactSet& set, const PatchBits* bits) {
     leaves_.resize(tool.leafCount());
     const bool newSet = any_ && fixtures.generation != generation_;
     any_ = true;

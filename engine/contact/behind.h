@@ -12,7 +12,7 @@
 namespace fathom {
 
 // Pixels with a forbidden class as the passes leave them, before the host has its copy
-// (Fixtures::forbiddenBits). Both give the same answers.
+// (HostFixtures::forbiddenBits). Both give the same answers.
 struct PatchBits {
     std::span<const uint32_t> listed; // per patch of 16x16 pixels; 0 = no such pixel, whatever its bits are
     std::span<const uint32_t> bits;   // per sub-patch of 4x4 pixels, 16 per patch: one bit per pixel
@@ -41,7 +41,7 @@ public:
     // regionRadius: largest radius of the set's spheres [m] (RegionGrid::maxRadius()). The pairs of the set
     // must be listed already (or be empty). Fills set.behind. Reads no spheres of the fixtures, and with
     // `bits` no forbiddenBits, so that their host copy may still be incomplete.
-    void update(const Tool& tool, const Fixtures& fixtures, double regionRadius, ContactSet& set,
+    void update(const Tool& tool, const HostFixtures& fixtures, double regionRadius, ContactSet& set,
                 const PatchBits* bits = nullptr);
 
 private:
@@ -54,7 +54,7 @@ private:
         double sigma = 0.0; // [m] of the depth there
         double range = 0.0; // [m] from the camera to the surface on the point's own ray
     };
-    static DepthSample sampleAt(const Fixtures& fixtures, const PatchBits* bits, const Pose& cameraTbase,
+    static DepthSample sampleAt(const HostFixtures& fixtures, const PatchBits* bits, const Pose& cameraTbase,
                                 const dvec3& point);
 
     struct Leaf {

@@ -72,7 +72,7 @@ void orderBySphere(PairScratch& scratch, ContactSet& set) {
 
 } // namespace
 
-void fillContactSet(const Tool& tool, const Pose& baseTtool, double reach, const Fixtures& fixtures,
+void fillContactSet(const Tool& tool, const Pose& baseTtool, double reach, const HostFixtures& fixtures,
                     std::span<const uint32_t> indices, ContactSet& out) {
     out.clear();
     out.frame = fixtures.frame;

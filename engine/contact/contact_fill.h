@@ -23,7 +23,7 @@ struct PairScratch {
 
 // Fills everything except the pairs, the behind flags and ContactSet::query: identity of the fixture set,
 // pose, reach, leaf centres, and the spheres in the order of `indices` (sorted by source).
-void fillContactSet(const Tool& tool, const Pose& baseTtool, double reach, const Fixtures& fixtures,
+void fillContactSet(const Tool& tool, const Pose& baseTtool, double reach, const HostFixtures& fixtures,
                     std::span<const uint32_t> indices, ContactSet& out);
 
 // The deciding step for spheres that are already in `set`, sorted by source: lists the same pairs in the same

@@ -3,7 +3,7 @@
 // pose of the query.
 #pragma once
 
-#include "engine/contact/fixtures.h"
+#include "engine/contact/host_fixtures.h"
 #include "engine/contact/leaf_centres.h"
 #include "engine/contact/tool.h"
 

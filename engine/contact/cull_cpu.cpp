@@ -70,7 +70,7 @@ void CullCpu::cull(const PosedLeaves& leaves, float reach, const RegionGrid& gri
     }
 }
 
-void CullCpu::query(const Tool& tool, const Pose& baseTtool, double reach, const Fixtures& fixtures,
+void CullCpu::query(const Tool& tool, const Pose& baseTtool, double reach, const HostFixtures& fixtures,
                     const RegionGrid& grid, ContactSet& out) {
     poseLeaves(tool, baseTtool, fixtures.origin, leaves_);
     const auto onGrid = [&](double tried, const QueryCapacity& most, ContactSet& set) {

@@ -21,7 +21,7 @@ public:
 
     // Fills `out` with every pair of leaf and sphere whose gap is at most `reach`, as decidePairs() defines
     // it. `grid` must have been built from `fixtures`. Overflow: see QueryLoop::run.
-    void query(const Tool& tool, const Pose& baseTtool, double reach, const Fixtures& fixtures,
+    void query(const Tool& tool, const Pose& baseTtool, double reach, const HostFixtures& fixtures,
                const RegionGrid& grid, ContactSet& out);
 
     // Only the first step of query(): the index of every sphere with d^2 <= (reach + r_t + R)^2 for some

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "engine/contact/cell_sort.h"
-#include "engine/contact/fixtures.h"
+#include "engine/contact/host_fixtures.h"
 
 #include <algorithm>
 #include <array>

@@ -50,7 +50,7 @@ glm::vec4 GapSearch::sphereAt(size_t i) const {
     return {s.x[i], s.y[i], s.z[i], s.radius[i]};
 }
 
-void GapSearch::build(const Fixtures& set) {
+void GapSearch::build(const HostFixtures& set) {
     set_ = &set;
     blocks_.clear();
     const size_t count = set.spheres.size();

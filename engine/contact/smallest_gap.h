@@ -4,7 +4,7 @@
 // same answer to the last bit: the smallest gap of all pairs; on ties the pair that comesBefore() all others.
 #pragma once
 
-#include "engine/contact/fixtures.h"
+#include "engine/contact/host_fixtures.h"
 #include "engine/contact/tool.h"
 
 #include <cstdint>
@@ -42,7 +42,7 @@ glm::dvec4 leafAt(const Sphere& leaf, const Pose& baseTtool, const dvec3& origin
 class GapSearch {
 public:
     // Bounds the blocks of a set, which must stay unchanged until the last find(). Allocates.
-    void build(const Fixtures& set);
+    void build(const HostFixtures& set);
     // Allocates only for a tool or a set that is larger than any before.
     SmallestGap find(const Tool& tool, const Pose& baseTtool);
 
@@ -57,7 +57,7 @@ private:
     void tryPair(size_t sphere, size_t leaf, SmallestGap& best) const;
     glm::vec4 sphereAt(size_t i) const;
 
-    const Fixtures* set_ = nullptr;
+    const HostFixtures* set_ = nullptr;
     std::vector<Block> blocks_;
     std::vector<glm::dvec4> leaves_;                 // leafAt() of the pose
     std::vector<std::pair<double, uint32_t>> queue_; // a heap of lower bounds [m] and blocks

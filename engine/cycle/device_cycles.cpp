@@ -77,7 +77,7 @@ void DeviceCycles::renew() {
     }
 }
 
-bool DeviceCycles::copyNewestSet(Fixtures& set, RegionGrid& grid) {
+bool DeviceCycles::copyNewestSet(HostFixtures& set, RegionGrid& grid) {
     if (const auto newest = frames_ ? frames_->sets().newest() : cloud::FixturePool::Lease()) {
         set = newest->host;
         grid = newest->grid.get();

@@ -54,7 +54,7 @@ public:
 
     // Answers of a batch, and the set that they are about.
     struct GapBatch {
-        int64_t frame = -1;       // Fixtures::frame; -1 = no set yet
+        int64_t frame = -1;       // HostFixtures::frame; -1 = no set yet
         double captureTime = 0.0; // [s]
         dvec3 origin{0.0};        // [m] base frame: origin of SmallestGap::sphere
         std::vector<SmallestGap> gaps;
@@ -69,7 +69,7 @@ public:
 
     // Copies the newest fixture set with a host copy, also after the device is lost; false when there is none
     // yet.
-    bool copyNewestSet(Fixtures& set, RegionGrid& grid);
+    bool copyNewestSet(HostFixtures& set, RegionGrid& grid);
 
     struct SetInUse { // one of the two, or none
         cloud::FixturePool::Lease lease;

@@ -173,7 +173,7 @@ void FrameCycle::fillHost(InFlight& f) {
     if (meanwhile != nullptr && workers_.size() > 1) {
         workers_.wake();
     }
-    Fixtures& host = pool_.back().host;
+    HostFixtures& host = pool_.back().host;
     host.frame = f.frame->index;
     host.captureTime = f.frame->captureTime;
     host.generation = ++generation_;

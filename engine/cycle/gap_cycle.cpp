@@ -29,7 +29,7 @@ void GapCycle::find(const cloud::FixtureSet& set, const Tool& tool, std::span<co
     gpu_->find(set, tool, baseTtool, out);
 }
 
-void GapCycle::findOnHost(const Fixtures& set, const Tool& tool, std::span<const Pose> baseTtool,
+void GapCycle::findOnHost(const HostFixtures& set, const Tool& tool, std::span<const Pose> baseTtool,
                           std::vector<SmallestGap>& out) {
     if (searched_ != &set || generation_ != set.generation) {
         cpu_.build(set);

@@ -22,7 +22,7 @@ public:
               std::vector<SmallestGap>& out);
 
 private:
-    void findOnHost(const Fixtures& set, const Tool& tool, std::span<const Pose> baseTtool,
+    void findOnHost(const HostFixtures& set, const Tool& tool, std::span<const Pose> baseTtool,
                     std::vector<SmallestGap>& out);
 
     struct Place {
@@ -34,8 +34,8 @@ private:
     std::optional<Place> place_;
     std::optional<cloud::GapQuery> gpu_;
     GapSearch cpu_;
-    const Fixtures* searched_ = nullptr; // what cpu_ was built from
-    uint64_t generation_ = 0;            // and its generation
+    const HostFixtures* searched_ = nullptr; // what cpu_ was built from
+    uint64_t generation_ = 0;                // and its generation
 };
 
 } // namespace fathom

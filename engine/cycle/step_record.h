@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/contact/contact_set.h"
-#include "engine/contact/fixtures.h"
+#include "engine/contact/host_fixtures.h"
 #include "engine/haptics/proxy.h"
 #include "engine/model/arm_model.h"
 #include "engine/types/haptic_device.h"

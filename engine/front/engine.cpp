@@ -82,7 +82,7 @@ public:
 
 private:
     // Under the lock.
-    void show(const Fixtures& set) {
+    void show(const HostFixtures& set) {
         fill(shared_.regions.back(), set);
         shared_.regions.back().stamp = shown_.stamp;
         shared_.regions.publish();

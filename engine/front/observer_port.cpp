@@ -3,7 +3,7 @@
 
 namespace fathom::front {
 
-void fill(v0::Regions& out, const Fixtures& set) {
+void fill(v0::Regions& out, const HostFixtures& set) {
     out.frame = set.frame;
     out.origin = external(set.origin);
     const RegionSpheres& from = set.spheres;

@@ -7,7 +7,7 @@
 namespace fathom::front {
 
 // Frame thread: all of `out` except the stamp. Reuses its memory.
-void fill(v0::Regions& out, const Fixtures& set);
+void fill(v0::Regions& out, const HostFixtures& set);
 
 } // namespace fathom::front
 

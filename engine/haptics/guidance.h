@@ -2,7 +2,7 @@
 // Guidance pulls the hand towards a target, in one of two modes, while a button is held. It fades in and out.
 #pragma once
 
-#include "engine/contact/fixtures.h"
+#include "engine/contact/host_fixtures.h"
 #include "engine/haptics/coupling.h"
 #include "engine/types/pose.h"
 #include "engine/types/wrench.h"

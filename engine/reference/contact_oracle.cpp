@@ -23,7 +23,7 @@ dvec3 leafCentre(const Tool& tool, size_t leaf, const Pose& baseTtool, const dve
 } // namespace
 
 std::vector<uint32_t> oracleSources(const Tool& tool, const Pose& baseTtool, double reach,
-                                    const Fixtures& fixtures) {
+                                    const HostFixtures& fixtures) {
     std::vector<uint32_t> sources;
     for (const OraclePair& pair : oraclePairs(tool, baseTtool, reach + kPairMargin, fixtures)) {
         sources.push_back(pair.source);
@@ -34,7 +34,7 @@ std::vector<uint32_t> oracleSources(const Tool& tool, const Pose& baseTtool, dou
 }
 
 std::vector<OraclePair> oraclePairs(const Tool& tool, const Pose& baseTtool, double limit,
-                                    const Fixtures& fixtures) {
+                                    const HostFixtures& fixtures) {
     std::vector<OraclePair> pairs;
     const RegionSpheres& s = fixtures.spheres;
     for (uint32_t t = 0; t < tool.leafCount(); ++t) {
@@ -50,7 +50,7 @@ std::vector<OraclePair> oraclePairs(const Tool& tool, const Pose& baseTtool, dou
     return pairs;
 }
 
-double oracleSmallestGap(const Tool& tool, const Pose& baseTtool, const Fixtures& fixtures) {
+double oracleSmallestGap(const Tool& tool, const Pose& baseTtool, const HostFixtures& fixtures) {
     double smallest = std::numeric_limits<double>::infinity();
     const RegionSpheres& s = fixtures.spheres;
     for (size_t t = 0; t < tool.leafCount(); ++t) {
@@ -63,7 +63,7 @@ double oracleSmallestGap(const Tool& tool, const Pose& baseTtool, const Fixtures
     return smallest;
 }
 
-SmallestGap oracleSmallestPair(const Tool& tool, const Pose& baseTtool, const Fixtures& fixtures) {
+SmallestGap oracleSmallestPair(const Tool& tool, const Pose& baseTtool, const HostFixtures& fixtures) {
     SmallestGap best;
     const RegionSpheres& s = fixtures.spheres;
     for (uint32_t t = 0; t < tool.leafCount(); ++t) {

@@ -3,7 +3,7 @@
 // and trim. Eigenvectors come from Eigen.
 #pragma once
 
-#include "engine/contact/fixtures.h"
+#include "engine/contact/host_fixtures.h"
 #include "engine/reference/moments.h"
 
 namespace fathom::reference {

@@ -43,8 +43,8 @@ PenetrationAudit::PenetrationAudit(const Tool& tool) {
     end_.resize(leaves_.size());
 }
 
-void PenetrationAudit::tick(const Fixtures& set, const RegionGrid& grid, const Pose& start, const Pose& end,
-                            std::span<const uint32_t> behind) {
+void PenetrationAudit::tick(const HostFixtures& set, const RegionGrid& grid, const Pose& start,
+                            const Pose& end, std::span<const uint32_t> behind) {
     if (set.frame < 0) {
         return;
     }
@@ -59,7 +59,7 @@ void PenetrationAudit::tick(const Fixtures& set, const RegionGrid& grid, const P
     audit(set, grid, behind);
 }
 
-void PenetrationAudit::tick(const Fixtures& set, const RegionGrid& grid, std::span<const dvec3> start,
+void PenetrationAudit::tick(const HostFixtures& set, const RegionGrid& grid, std::span<const dvec3> start,
                             std::span<const dvec3> end, std::span<const uint32_t> behind) {
     if (set.frame < 0) {
         return;
@@ -77,7 +77,8 @@ void PenetrationAudit::tick(const Fixtures& set, const RegionGrid& grid, std::sp
     audit(set, grid, behind);
 }
 
-void PenetrationAudit::audit(const Fixtures& set, const RegionGrid& grid, std::span<const uint32_t> behind) {
+void PenetrationAudit::audit(const HostFixtures& set, const RegionGrid& grid,
+                             std::span<const uint32_t> behind) {
     set_ = &set;
     grid_ = &grid;
     if (!anySet_ || set.generation != generation_) {

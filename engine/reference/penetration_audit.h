@@ -4,7 +4,7 @@
 // shrinks with the depth and never grows.
 #pragma once
 
-#include "engine/contact/fixtures.h"
+#include "engine/contact/host_fixtures.h"
 #include "engine/contact/region_grid.h"
 #include "engine/contact/tool.h"
 
@@ -23,15 +23,15 @@ public:
     explicit PenetrationAudit(const Tool& tool);
 
     // Audits one tick. set: the set that the step obeyed. grid: built from that set. start, end: base_T_tool
-    // before and after. With a new Fixtures::generation, the allowances become the depths at `start`. Leaves
-    // in `behind` (indices) are exempt from the guarantee and counted separately. A set with frame -1 is
-    // ignored. Throws Error when the grid does not fit the set or a pose is not finite.
-    void tick(const Fixtures& set, const RegionGrid& grid, const Pose& start, const Pose& end,
+    // before and after. With a new HostFixtures::generation, the allowances become the depths at `start`.
+    // Leaves in `behind` (indices) are exempt from the guarantee and counted separately. A set with frame -1
+    // is ignored. Throws Error when the grid does not fit the set or a pose is not finite.
+    void tick(const HostFixtures& set, const RegionGrid& grid, const Pose& start, const Pose& end,
               std::span<const uint32_t> behind = {});
 
     // The same for a tool whose leaves move relative to each other: takes their centres in the base frame
     // [m], in the order of the constructor's tool. Throws Error when their number differs.
-    void tick(const Fixtures& set, const RegionGrid& grid, std::span<const dvec3> start,
+    void tick(const HostFixtures& set, const RegionGrid& grid, std::span<const dvec3> start,
               std::span<const dvec3> end, std::span<const uint32_t> behind = {});
 
     // Call before a tick whose tool was moved by something other than the engine (a real arm that stood
@@ -73,16 +73,16 @@ private:
     dvec3 centreOf(const Leaf& leaf, const Pose& pose) const;
     void checkGrid() const;
     void takeAllowances();
-    void audit(const Fixtures& set, const RegionGrid& grid, std::span<const uint32_t> behind);
+    void audit(const HostFixtures& set, const RegionGrid& grid, std::span<const uint32_t> behind);
     Worst judge(Leaf& leaf, const dvec3& centre);
 
     std::vector<Leaf> leaves_;
     // scratch, per leaf: relative to the set's origin, before and after the tick
     std::vector<dvec3> start_, end_;
-    std::vector<double> allowed_;   // scratch, per sphere: allowance for the current leaf [m], else 0
-    std::vector<Candidate> before_; // scratch
-    std::vector<uint8_t> behind_;   // per leaf: flagged in this tick
-    const Fixtures* set_ = nullptr; // during tick() only
+    std::vector<double> allowed_;       // scratch, per sphere: allowance for the current leaf [m], else 0
+    std::vector<Candidate> before_;     // scratch
+    std::vector<uint8_t> behind_;       // per leaf: flagged in this tick
+    const HostFixtures* set_ = nullptr; // during tick() only
     const RegionGrid* grid_ = nullptr;
     uint64_t generation_ = 0;
     size_t placed_ = 0; // finite spheres of the set, as many as its grid must have

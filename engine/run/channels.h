@@ -52,7 +52,7 @@ struct PublishedFrame {
     FrameReport report;
     double t = 0.0;       // [s] capture time in the run
     bool changed = false; // false: the source repeated its frame, no new set
-    Fixtures fixtures;
+    HostFixtures fixtures;
     RegionGrid grid; // over fixtures.spheres
     std::vector<uint32_t> colour;
     uint64_t edit = 0;      // with a window: number of the newest edit of fixtures that the set contains

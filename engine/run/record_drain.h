@@ -23,7 +23,7 @@ public:
     virtual ~RunSink() = default;
     // A processed frame. `set` is the newest set from this frame on; frame.fixtures may be empty for a
     // repeated frame.
-    virtual void frame(const PublishedFrame& frame, const Fixtures& set) = 0;
+    virtual void frame(const PublishedFrame& frame, const HostFixtures& set) = 0;
     virtual void query(const QueryNote& note) = 0;
     virtual void step(const TickRow& row, const ObeyedSet& obeyed) = 0;
 };
@@ -34,7 +34,7 @@ public:
     // `next` outlives this.
     explicit ForwardingSink(RunSink& next)
         : next_(next) {}
-    void frame(const PublishedFrame& frame, const Fixtures& set) override { next_.frame(frame, set); }
+    void frame(const PublishedFrame& frame, const HostFixtures& set) override { next_.frame(frame, set); }
     void query(const QueryNote& note) override { next_.query(note); }
     void step(const TickRow& row, const ObeyedSet& obeyed) override { next_.step(row, obeyed); }
 

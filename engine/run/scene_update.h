@@ -24,7 +24,7 @@ struct SceneUpdate {
     std::array<GuidancePose, shared::kMaxClasses> guidance;
 
     // Copies the data of a new fixture set; keeps the times.
-    void show(const Fixtures& set) noexcept {
+    void show(const HostFixtures& set) noexcept {
         frame = set.frame;
         generation = set.generation;
         guidanceCount = static_cast<uint32_t>(std::min(set.guidance.size(), guidance.size()));

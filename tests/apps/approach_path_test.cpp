@@ -17,11 +17,11 @@ namespace {
 // placed shape, row 1 the red valve, row 2 a class without points, row 3 the yellow valve, row 4 guidance.
 struct Setting {
     Scene scene;
-    Fixtures set;
+    HostFixtures set;
     RegionGrid grid;
 };
 
-void addSpheres(Fixtures& set, const SimulatedCamera& camera, const Pose& baseTscene, uint8_t object,
+void addSpheres(HostFixtures& set, const SimulatedCamera& camera, const Pose& baseTscene, uint8_t object,
                 uint8_t row) {
     const SimulatedCamera::ExactView view = camera.exactView(0);
     for (uint32_t pixel = 0; pixel < view.depth.size(); pixel += 3) {

@@ -15,7 +15,7 @@ namespace {
 
 constexpr PixelRect kCloseUpRoom{100, 50, 200, 200};
 
-CloseUp viewOf(const Fixtures& set, const std::vector<Sphere>& tool, CloseUpSide side) {
+CloseUp viewOf(const HostFixtures& set, const std::vector<Sphere>& tool, CloseUpSide side) {
     const auto view =
         closeUp(set, depthCues(set, tool, std::numeric_limits<double>::quiet_NaN()), side, kCloseUpRoom);
     REQUIRE(view);
@@ -26,7 +26,7 @@ CloseUp viewOf(const Fixtures& set, const std::vector<Sphere>& tool, CloseUpSide
 
 TEST_CASE(
     "The side view has the camera at the left, the top view at the lower edge, both without perspective") {
-    const Fixtures set;
+    const HostFixtures set;
     const std::vector<Sphere> tool{{{0.0, 0.0, 0.5}, 0.01}};
     const CloseUp side = viewOf(set, tool, CloseUpSide::Right), top = viewOf(set, tool, CloseUpSide::Top);
     const double pixels = 200.0 / (2.0 * side.reach);
@@ -49,7 +49,7 @@ TEST_CASE(
 
 TEST_CASE(
     "The section shows the regions in the plane through the tool's nearest point, at their true distance") {
-    Fixtures set;
+    HostFixtures set;
     addRegion(set, {0.0, 0.0, 0.08}, 0.03, 0);  // in front of the tool
     addRegion(set, {0.06, 0.0, 0.06}, 0.03, 0); // next to the plane of the side view
     const CloseUp side = viewOf(set, {{{0.0, 0.0, 0.0}, 0.01}}, CloseUpSide::Right);
@@ -66,7 +66,7 @@ TEST_CASE(
 }
 
 TEST_CASE("The view is larger than the tool, and a surface of the camera shows where the plane cuts it") {
-    const Fixtures set = flatWall(); // 1 m away
+    const HostFixtures set = flatWall(); // 1 m away
     const CloseUp small = viewOf(set, {{{0.0, 0.0, 0.95}, 0.01}}, CloseUpSide::Right);
     CHECK(small.reach == doctest::Approx(0.12));
     REQUIRE(!small.surface.empty());

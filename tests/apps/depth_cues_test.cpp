@@ -16,7 +16,7 @@ using namespace fathom::operate;
 TEST_CASE("The nearest pair of tool and regions is the one that a search over all pairs finds") {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> at(-0.4, 0.4), size(0.005, 0.04);
-    Fixtures set;
+    HostFixtures set;
     set.origin = {0.1, 0.0, 1.0};
     for (int i = 0; i < 400; ++i) {
         addRegion(set, {at(random), at(random), at(random)}, size(random), static_cast<uint8_t>(i % 3));
@@ -42,7 +42,7 @@ TEST_CASE("The nearest pair of tool and regions is the one that a search over al
         }
     }
     CHECK(!nearestRegion(set, {}));
-    CHECK(!nearestRegion(Fixtures(), std::vector<Sphere>{{dvec3(0.0), 0.01}}));
+    CHECK(!nearestRegion(HostFixtures(), std::vector<Sphere>{{dvec3(0.0), 0.01}}));
 }
 
 TEST_CASE(
@@ -61,7 +61,7 @@ TEST_CASE(
 }
 
 TEST_CASE("The shadow is on the surface behind the tool, below and right of it, and a hidden tool has none") {
-    const Fixtures set = flatWall();
+    const HostFixtures set = flatWall();
     const std::vector<Sphere> tool{{{0.0, 0.0, 0.8}, 0.02}};
     const auto shadow = shadowOf(set, tool);
     REQUIRE(shadow.size() == 1);
@@ -70,13 +70,13 @@ TEST_CASE("The shadow is on the surface behind the tool, below and right of it, 
     CHECK(shadow[0].centre.y == doctest::Approx(0.10).epsilon(0.1));
     CHECK(shadow[0].radius == 0.02);
     CHECK(shadowOf(set, std::vector<Sphere>{{{0.0, 0.0, 1.2}, 0.02}}).empty());
-    Fixtures blind = flatWall();
+    HostFixtures blind = flatWall();
     blind.depth.assign(blind.depth.size(), 0);
     CHECK(shadowOf(blind, tool).empty());
 }
 
 TEST_CASE("The gap is the measured clearance, or without one the distance of the nearest pair") {
-    Fixtures set = flatWall();
+    HostFixtures set = flatWall();
     addRegion(set, {0.0, 0.0, 1.0}, 0.05, 0);
     const std::vector<Sphere> tool{{{0.0, 0.0, 0.9}, 0.02}};
     const double unknown = std::numeric_limits<double>::quiet_NaN();

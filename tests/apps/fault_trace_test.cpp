@@ -15,7 +15,7 @@ namespace {
 
 struct Nothing final : RunSink {
     uint64_t ticks = 0;
-    void frame(const PublishedFrame&, const Fixtures&) override {}
+    void frame(const PublishedFrame&, const HostFixtures&) override {}
     void query(const QueryNote&) override {}
     void step(const TickRow&, const ObeyedSet&) override { ++ticks; }
 };

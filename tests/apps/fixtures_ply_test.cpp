@@ -11,8 +11,8 @@ using namespace fathom::testing;
 
 namespace {
 
-Fixtures setOf(size_t count) {
-    Fixtures set;
+HostFixtures setOf(size_t count) {
+    HostFixtures set;
     set.frame = 12;
     set.origin = {1000.125, -2.0, 0.3};
     set.camera.depth.width = 4;
@@ -41,7 +41,7 @@ TEST_CASE(
     "A fixture set is a PLY of doubles in the base frame, with class and held, for 0, 1 and 37 spheres") {
     const ScratchFolder folder;
     for (const size_t count : {size_t{0}, size_t{1}, size_t{37}}) {
-        const Fixtures set = setOf(count);
+        const HostFixtures set = setOf(count);
         const auto path = folder.path() / "set.ply";
         std::filesystem::remove(path); // read below, and inputs are never replaced
         writeFixturesPly(path, set);

@@ -12,7 +12,7 @@ LaidScreen::LaidScreen() {
     yellow.role = Role::Guidance;
     scene.fixtures = {red, yellow};
     run.haptics.forceLimit = 20.0;
-    Fixtures set;
+    HostFixtures set;
     set.frame = 0;
     set.camera.depth.width = 64, set.camera.depth.height = 48;
     set.camera.depth.fx = set.camera.depth.fy = 60.0;

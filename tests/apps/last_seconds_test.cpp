@@ -41,7 +41,7 @@ public:
         frame.t = start_ + static_cast<double>(frames_) / 30.0;
         frame.report.index = frames_++;
         frame.edit = edit;
-        Fixtures set;
+        HostFixtures set;
         for (size_t i = 0; i < size_t{kAcross} * kDown; ++i) {
             noise_ = noise_ * 1664525u + 1013904223u;
             set.depth.push_back(static_cast<uint16_t>(i % 7 == 0 ? noise_ >> 16 : 600 + (noise_ >> 29)));

@@ -106,7 +106,7 @@ TEST_CASE("The tooltip of the stop plate has room round its text") {
 
 TEST_CASE("The values of distance and force do not cover each other") {
     LaidScreen laid;
-    Fixtures set = laid.run.view.scene().set;
+    HostFixtures set = laid.run.view.scene().set;
     addRegion(set, {0.05, 0.0, 0.7}, 0.02, 0);
     laid.run.sink.frame({}, set);
     laid.run.view.refresh();

@@ -109,7 +109,7 @@ TEST_CASE("A class without a region, or a run without an active set, raises an a
     FixtureClass valve;
     valve.name = "valve";
     run.scene.fixtures = {valve};
-    Fixtures set;
+    HostFixtures set;
     set.frame = 0;
     run.sink.frame({}, set);
     run.view.refresh();

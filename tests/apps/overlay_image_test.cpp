@@ -35,7 +35,7 @@ bool hits(const ImageView& view, int u, int v, const dvec3& c, double radius) {
 }
 
 struct Drawn {
-    Fixtures set;
+    HostFixtures set;
     std::vector<uint32_t> colour;
     OverlayInput input;
 };

@@ -14,7 +14,7 @@ TEST_CASE("The legend of an overlay names only what is inside the image") {
     const std::vector<Sphere> leaves{{{0.0, 0.0, 0.0}, 0.01}};
     input.leaves = leaves;
     input.tick.tool.position = input.tick.device.position = {0.0, 0.0, 0.5};
-    Fixtures set;
+    HostFixtures set;
     set.frame = 0;
     set.camera = input.camera;
     set.spheres.resize(1);

@@ -10,7 +10,7 @@ using namespace fathom;
 using namespace fathom::operate;
 
 TEST_CASE("The ghost has a sphere of the radius at each selected point, and fewer of very many points") {
-    Fixtures set = flatWall();
+    HostFixtures set = flatWall();
     std::vector<uint8_t> selection(set.depth.size(), 0);
     selection[size_t{24} * 64 + 32] = selection[size_t{24} * 64 + 33] = 1;
     const auto two = ghostOf(set, selection, 0.03);

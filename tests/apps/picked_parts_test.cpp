@@ -38,7 +38,7 @@ constexpr double kEdge = 0.05;
 } // namespace
 
 TEST_CASE("A pick takes the part that was clicked, or the nearest one, with a box around it") {
-    const Fixtures set = flatWall();
+    const HostFixtures set = flatWall();
     Selection selection = twoSquares();
     const PickedParts clicked = takeParts(selection, set, {44, 8}, {}, kEdge);
     CHECK(clicked.parts == 3);
@@ -62,7 +62,7 @@ TEST_CASE("A pick takes the part that was clicked, or the nearest one, with a bo
 
 TEST_CASE(
     "Without the rule of the click all parts but specks are taken; without both rules there is no box") {
-    const Fixtures set = flatWall();
+    const HostFixtures set = flatWall();
     Selection selection = twoSquares();
     const PickedParts large =
         takeParts(selection, set, {44, 8}, {.onlyClicked = false, .noSpecks = true}, kEdge);
@@ -82,7 +82,7 @@ TEST_CASE(
 }
 
 TEST_CASE("Points of other parts inside the box stay selected and are counted, and a jump of depth parts") {
-    Fixtures set = flatWall();
+    HostFixtures set = flatWall();
     Selection selection(size_t{64} * 48, 0);
     fill(selection, 4, 4, 30, 6); // a corner ...
     fill(selection, 4, 4, 6, 30);
@@ -106,7 +106,7 @@ TEST_CASE("An alarm says when more than a tenth of a class's points are at the s
     run.scene.fixtures.resize(1);
     run.scene.fixtures[0].name = "pipe";
     run.scene.fixtures[0].box = Box{{0.0, 0.0, 0.0}, {0.2, 0.2, 0.2}};
-    Fixtures set = flatWall();
+    HostFixtures set = flatWall();
     set.frame = 0;
     for (int i = 0; i < 19; ++i) {
         addRegion(set, {0.1, 0.1, 0.1}, 0.04, 0);

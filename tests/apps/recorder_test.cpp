@@ -42,7 +42,7 @@ public:
         PublishedFrame frame;
         frame.t = static_cast<double>(frames_) / 30.0;
         frame.report.index = frames_++;
-        Fixtures set;
+        HostFixtures set;
         set.depth.resize(size_t{kWidth} * kHeight);
         for (uint16_t& depth : set.depth) { // noise, which does not compress
             noise_ = noise_ * 1664525u + 1013904223u;

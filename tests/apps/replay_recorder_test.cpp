@@ -46,7 +46,7 @@ TEST_CASE(
     ReplayRecorder recorder(out.path() / "run", scene, {camera, ""}, {}, false, nullptr, "", &edited);
     const std::vector<std::vector<GuidancePose>> poses{
         {seen(1, 50)}, {seen(0, 60), seen(1, 61)}, {seen(0, 70)}};
-    Fixtures set;
+    HostFixtures set;
     set.camera = camera;
     for (uint32_t image = 0; image < poses.size(); ++image) {
         FrameReport report;

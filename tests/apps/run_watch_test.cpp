@@ -60,7 +60,7 @@ struct WatchedRun {
     bool quiet() { return watch.warnings().list().empty(); }
 
     RunWatch watch;
-    Fixtures set;
+    HostFixtures set;
     double t = 0.0;
 };
 

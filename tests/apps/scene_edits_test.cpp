@@ -49,7 +49,7 @@ struct Pilot {
         frame.report.index = images++;
         frame.edit = edit;
         frame.allFrozen = still;
-        Fixtures set;
+        HostFixtures set;
         set.depth.resize(48, 500);
         recorder.frame(frame, set);
     }

@@ -28,7 +28,7 @@ Scene twoClasses() {
 
 // Warnings of a short run with these counts in every frame.
 std::vector<std::string> warningsOf(const Scene& scene, const cloud::FrameCounts& counts,
-                                    const Fixtures& set) {
+                                    const HostFixtures& set) {
     RunWatch watch(scene, {smallCamera(), ""});
     for (int i = 0; i < 3; ++i) {
         watch.frame(i / 30.0, counts, set, {});
@@ -68,7 +68,7 @@ TEST_CASE("A guidance class whose points do not suffice after the filter is name
     cloud::FrameCounts counts;
     counts.valid = 3000;
     counts.classPixels = {64};
-    Fixtures set;
+    HostFixtures set;
     GuidancePose pose;
     pose.count = 64, pose.present = true;
     set.guidance = {pose};

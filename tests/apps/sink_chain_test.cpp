@@ -12,7 +12,7 @@ namespace {
 
 struct CountingSink final : RunSink {
     int frames = 0, queries = 0, steps = 0;
-    void frame(const PublishedFrame&, const Fixtures&) override { ++frames; }
+    void frame(const PublishedFrame&, const HostFixtures&) override { ++frames; }
     void query(const QueryNote&) override { ++queries; }
     void step(const TickRow&, const ObeyedSet&) override { ++steps; }
 };
@@ -26,7 +26,7 @@ TEST_CASE("The chain of sinks of a window passes on frames, queries and steps") 
     PublishedSink published(last, observers);
     FaultTrace faults("", 0.001, published);
     operate::SnapshotSink first(faults);
-    const Fixtures set{};
+    const HostFixtures set{};
     first.frame(PublishedFrame(), set);
     first.query(QueryNote());
     first.step(TickRow(), {});

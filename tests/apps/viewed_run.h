@@ -10,7 +10,7 @@
 namespace fathom::operate {
 
 struct NoSink final : RunSink {
-    void frame(const PublishedFrame&, const Fixtures&) override {}
+    void frame(const PublishedFrame&, const HostFixtures&) override {}
     void query(const QueryNote&) override {}
     void step(const TickRow&, const ObeyedSet&) override {}
 };

@@ -21,7 +21,7 @@ void forGpu(Plan& plan) {
     plan.filterBlock = false;
 }
 
-bool samePoses(const Fixtures& a, const Fixtures& b) {
+bool samePoses(const HostFixtures& a, const HostFixtures& b) {
     bool same = a.guidance.size() == b.guidance.size();
     for (size_t i = 0; same && i < a.guidance.size(); ++i) {
         same = a.guidance[i].count == b.guidance[i].count &&
@@ -47,7 +47,7 @@ void compareFrames(const CloudCase& c, uint32_t group, bool manyPatches) {
         const FrameReport one = cpu.run(image), other = gpu.run(image);
         CHECK(one.counts.classPixels == other.counts.classPixels);
         CHECK(cpu.masks() == gpu.masks());
-        const Fixtures &a = cpu.host(), &b = gpu.host();
+        const HostFixtures &a = cpu.host(), &b = gpu.host();
         CHECK(a.forbiddenBits == b.forbiddenBits);
         // A GPU's compiler may contract sums differently in one variant, so that a point more or less is
         // thinned.

@@ -18,13 +18,13 @@ struct Watch {
     CullCpu cull;
     ContactSet set;
 
-    const std::vector<ContactSet::Behind>& operator()(const Fixtures& fixtures, const dvec3& position) {
+    const std::vector<ContactSet::Behind>& operator()(const HostFixtures& fixtures, const dvec3& position) {
         fillContactSet(tool, {position, kUpright}, 0.01, fixtures, {}, set);
         tracker.update(tool, fixtures, 0.04, set);
         return set.behind;
     }
     // The same with the pairs of the fixtures' spheres.
-    const std::vector<ContactSet::Behind>& withPairs(const Fixtures& fixtures, const dvec3& position) {
+    const std::vector<ContactSet::Behind>& withPairs(const HostFixtures& fixtures, const dvec3& position) {
         RegionGrid grid;
         grid.build(fixtures.spheres);
         cull.query(tool, {position, kUpright}, 0.01, fixtures, grid, set);
@@ -49,7 +49,7 @@ TEST_CASE("The flag stays while the leaf is under or near the surface and is cle
           "in front") {
     Watch watch;
     watch(wallImage(0.6, 1), dvec3(0, 0, 0.5));
-    const Fixtures near = wallImage(0.47, 2);
+    const HostFixtures near = wallImage(0.47, 2);
     CHECK(watch(near, dvec3(0, 0, 0.5)).size() == 1);
     CHECK(watch(near, dvec3(0, 0, 0.48)).size() == 1);
     CHECK(watch(wallImage(0.47, 3), dvec3(0, 0, 0.48)).size() == 1); // the next frame shows the same
@@ -61,7 +61,7 @@ TEST_CASE("The flag stays while the leaf is under or near the surface and is cle
 TEST_CASE("A flagged leaf that overlaps a sphere before its surface keeps the flag until it is out of that") {
     Watch watch;
     watch(wallImage(0.6, 1), dvec3(0, 0, 0.5));
-    Fixtures near = wallImage(0.47, 2);
+    HostFixtures near = wallImage(0.47, 2);
     near.spheres.add({0, 0, 0.45}, 0.04); // noise: 20 mm before the depth of its pixel
     REQUIRE(watch.withPairs(near, dvec3(0, 0, 0.5)).size() == 1);
     const auto& flags = watch.withPairs(near, dvec3(0, 0, 0.4199));
@@ -84,7 +84,7 @@ TEST_CASE("The pixel nearest to a leaf decides whether it is behind, not the one
         Watch watch;
         const dvec3 leaf(1.1 / 140.0 * 0.5, 0, 0.5); // at column 80.6
         watch(wallImage(0.6, 1), leaf);
-        Fixtures next = wallImage(0.47, 2);
+        HostFixtures next = wallImage(0.47, 2);
         for (uint32_t v = 0; v < 120; ++v) {
             next.depth[v * 160 + (wallHere ? 80 : 81)] = 8000; // 0.8 m
         }
@@ -94,7 +94,7 @@ TEST_CASE("The pixel nearest to a leaf decides whether it is behind, not the one
 
 TEST_CASE("A leaf that moves behind a surface of the same set is occluded, not behind") {
     Watch watch;
-    const Fixtures wall = wallImage(0.5, 1);
+    const HostFixtures wall = wallImage(0.5, 1);
     CHECK(watch(wall, dvec3(0, 0, 0.4)).empty());
     CHECK(watch(wall, dvec3(0, 0, 0.6)).empty());
     CHECK(watch(wallImage(0.5, 2), dvec3(0, 0, 0.6)).empty());
@@ -106,7 +106,7 @@ TEST_CASE("No leaf is flagged at the first set, behind allowed points, without d
     for (const int what : {0, 1, 2, 3}) {
         Watch other;
         other(wallImage(0.6, 1), what == 3 ? dvec3(5, 0, 0.5) : dvec3(0, 0, 0.5));
-        Fixtures next = wallImage(0.4, 2);
+        HostFixtures next = wallImage(0.4, 2);
         if (what == 0) {
             std::fill(next.forbiddenBits.begin(), next.forbiddenBits.end(), 0u);
         } else if (what == 1) {
@@ -121,7 +121,7 @@ TEST_CASE("No leaf is flagged at the first set, behind allowed points, without d
 TEST_CASE(
     "A leaf that was in front of allowed points and is now hidden by a region is occluded, not behind") {
     Watch watch;
-    Fixtures open = wallImage(0.6, 1);
+    HostFixtures open = wallImage(0.6, 1);
     std::fill(open.forbiddenBits.begin(), open.forbiddenBits.end(), 0u);
     watch(open, dvec3(0, 0, 0.5));
     CHECK(watch(wallImage(0.4, 2), dvec3(0, 0, 0.5)).empty());
@@ -131,10 +131,10 @@ TEST_CASE("A flagged leaf keeps its flag while its pixel has no depth and loses 
     Watch watch;
     watch(wallImage(0.6, 1), dvec3(0, 0, 0.5));
     REQUIRE(watch(wallImage(0.47, 2), dvec3(0, 0, 0.5)).size() == 1);
-    Fixtures blind = wallImage(0.47, 3);
+    HostFixtures blind = wallImage(0.47, 3);
     std::fill(blind.depth.begin(), blind.depth.end(), uint16_t{0});
     CHECK(watch(blind, dvec3(0, 0, 0.5)).size() == 1);
-    Fixtures open = wallImage(0.8, 4);
+    HostFixtures open = wallImage(0.8, 4);
     std::fill(open.forbiddenBits.begin(), open.forbiddenBits.end(), 0u);
     CHECK(watch(open, dvec3(0, 0, 0.5)).empty());
 }

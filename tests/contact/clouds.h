@@ -3,7 +3,7 @@
 // leaves.
 #pragma once
 
-#include "engine/contact/fixtures.h"
+#include "engine/contact/host_fixtures.h"
 #include "engine/contact/tool.h"
 
 #include <algorithm>
@@ -28,20 +28,20 @@ inline dquat randomRotation(std::mt19937_64& random) {
 }
 
 // Sources in an order unrelated to position, as from patches.
-inline void shuffleSources(Fixtures& fixtures, std::mt19937_64& random) {
+inline void shuffleSources(HostFixtures& fixtures, std::mt19937_64& random) {
     std::shuffle(fixtures.spheres.source.begin(), fixtures.spheres.source.end(), random);
 }
 
-inline Fixtures emptySet(uint64_t generation = 1) {
-    Fixtures fixtures;
+inline HostFixtures emptySet(uint64_t generation = 1) {
+    HostFixtures fixtures;
     fixtures.frame = static_cast<int64_t>(generation);
     fixtures.generation = generation;
     return fixtures;
 }
 
-inline Fixtures randomCloud(std::mt19937_64& random, size_t count, double half, double smallest,
-                            double largest) {
-    Fixtures fixtures = emptySet();
+inline HostFixtures randomCloud(std::mt19937_64& random, size_t count, double half, double smallest,
+                                double largest) {
+    HostFixtures fixtures = emptySet();
     std::uniform_real_distribution<double> logRadius(std::log(smallest), std::log(largest));
     for (size_t i = 0; i < count; ++i) {
         const dvec3 centre = randomIn(random, half);
@@ -52,7 +52,7 @@ inline Fixtures randomCloud(std::mt19937_64& random, size_t count, double half, 
 }
 
 // Square patch of a plane through `centre` spanned by the unit vectors u and v: spheres every `spacing`.
-inline void addWall(Fixtures& fixtures, const dvec3& centre, const dvec3& u, const dvec3& v, double half,
+inline void addWall(HostFixtures& fixtures, const dvec3& centre, const dvec3& u, const dvec3& v, double half,
                     double spacing, double radius) {
     const int n = static_cast<int>(std::lround(half / spacing));
     for (int i = -n; i <= n; ++i) {

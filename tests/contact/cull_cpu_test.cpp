@@ -20,7 +20,8 @@ struct Query {
 
     explicit Query(const QueryCapacity& capacity = {})
         : cull(capacity) {}
-    const ContactSet& operator()(const Tool& tool, const Pose& pose, double reach, const Fixtures& fixtures) {
+    const ContactSet& operator()(const Tool& tool, const Pose& pose, double reach,
+                                 const HostFixtures& fixtures) {
         grid.build(fixtures.spheres);
         cull.query(tool, pose, reach, fixtures, grid, set);
         return set;
@@ -58,7 +59,7 @@ void checkShape(const Tool& tool, const ContactSet& set) {
     CHECK(wrong == 0);
 }
 
-void checkPairs(const Tool& tool, const Pose& pose, const Fixtures& fixtures, const ContactSet& set) {
+void checkPairs(const Tool& tool, const Pose& pose, const HostFixtures& fixtures, const ContactSet& set) {
     std::set<std::pair<uint32_t, uint32_t>> listed;
     for (uint32_t leaf = 0; leaf < tool.leafCount(); ++leaf) {
         for (uint32_t k = set.pairBegin[leaf]; k < set.pairBegin[leaf + 1]; ++k) {
@@ -82,7 +83,7 @@ TEST_CASE("The cull returns the same spheres as brute force for tools of 1 to 40
     size_t total = 0;
     for (const size_t leaves : {1, 2, 3, 37, 256, 1023, 4096}) {
         const Tool tool = randomTool(random, leaves, 0.15, 0.008);
-        const Fixtures fixtures = randomCloud(random, leaves > 1000 ? 1500 : 4001, 0.4, 0.001, 0.06);
+        const HostFixtures fixtures = randomCloud(random, leaves > 1000 ? 1500 : 4001, 0.4, 0.001, 0.06);
         Query query;
         for (const double reach : {0.0, 0.001, 0.01, 0.05}) {
             const Pose pose{randomIn(random, 0.2), randomRotation(random)};
@@ -100,7 +101,7 @@ TEST_CASE("The cull returns the same spheres as brute force for tools of 1 to 40
 
 TEST_CASE("The cull equals brute force when the base frame's origin is kilometres away") {
     std::mt19937_64 random(12);
-    Fixtures fixtures = randomCloud(random, 3000, 0.4, 0.005, 0.05);
+    HostFixtures fixtures = randomCloud(random, 3000, 0.4, 0.005, 0.05);
     fixtures.origin = dvec3(48123.75, -91234.5, 1234.125);
     const Tool tool = randomTool(random, 100, 0.1, 0.01);
     Query query;
@@ -117,7 +118,7 @@ TEST_CASE("The cull equals brute force when the base frame's origin is kilometre
 
 TEST_CASE("A tool kilometres from the origin keeps its whole reach and misses no pair within it") {
     std::mt19937_64 random(13);
-    Fixtures fixtures = emptySet();
+    HostFixtures fixtures = emptySet();
     const dvec3 far(3000.0, -2000.0, 500.0);
     for (int i = 0; i < 3000; ++i) {
         fixtures.spheres.add(far + randomIn(random, 0.3), 0.03);
@@ -135,7 +136,7 @@ TEST_CASE("A sparse set is searched by patches of leaves, a dense one leaf by le
     std::mt19937_64 random(16);
     size_t byPatch = 0, byLeaf = 0, found = 0;
     for (const size_t spheres : {1, 700, 60000}) {
-        const Fixtures fixtures = randomCloud(random, spheres, spheres > 1000 ? 0.1 : 0.3, 0.01, 0.03);
+        const HostFixtures fixtures = randomCloud(random, spheres, spheres > 1000 ? 0.1 : 0.3, 0.01, 0.03);
         for (const size_t leaves : {7, 8, 32, 33, 65, 300}) {
             const Tool tool = randomTool(random, leaves, 0.1, 0.01);
             Query query;
@@ -161,7 +162,7 @@ TEST_CASE("No spheres, or none within reach, give an empty set that certifies it
     CHECK(query(tool, Pose{}, 0.01, emptySet()).size() == 0);
     CHECK(query.set.reach == 0.01);
     CHECK(query.set.pairBegin.size() == 10);
-    Fixtures one = emptySet(5);
+    HostFixtures one = emptySet(5);
     one.spheres.add(dvec3(2.0), 0.04);
     CHECK(query(tool, Pose{}, 0.01, one).size() == 0);
     CHECK(query.set.frame == 5);
@@ -173,7 +174,7 @@ TEST_CASE("No spheres, or none within reach, give an empty set that certifies it
 
 TEST_CASE("Radii of 0.1 mm to 10 m in one cloud are all found") {
     std::mt19937_64 random(15);
-    const Fixtures fixtures = randomCloud(random, 2000, 12.0, 1e-4, 10.0);
+    const HostFixtures fixtures = randomCloud(random, 2000, 12.0, 1e-4, 10.0);
     const Tool tool = randomTool(random, 20, 0.3, 0.02);
     Query query;
     for (int k = 0; k < 10; ++k) {
@@ -186,7 +187,7 @@ TEST_CASE("Radii of 0.1 mm to 10 m in one cloud are all found") {
 
 TEST_CASE("An overflow halves the reach until the result fits, certifies it, and doubles the next capacity") {
     std::mt19937_64 random(16);
-    Fixtures fixtures = emptySet();
+    HostFixtures fixtures = emptySet();
     addWall(fixtures, dvec3(0.0), dvec3(1, 0, 0), dvec3(0, 1, 0), 0.1, 0.002, 0.01);
     const Tool tool = ballTool(0.01);
     const Pose pose{dvec3(0, 0, 0.021), kUpright}; // 1 mm above the wall

@@ -10,8 +10,8 @@ namespace fathom::testing {
 
 // Every pixel sees the wall at depth z [m] (to the unit of the depth image, 0.1 mm) and is forbidden.
 // spheres: one per pixel in the middle of the wall, with +-noise [m] along the ray; none when radius is 0.
-inline Fixtures wallImage(double z, uint64_t generation, double radius = 0.0, double noise = 0.0) {
-    Fixtures set = emptySet(generation);
+inline HostFixtures wallImage(double z, uint64_t generation, double radius = 0.0, double noise = 0.0) {
+    HostFixtures set = emptySet(generation);
     Intrinsics& lens = set.camera.depth;
     lens.width = 160, lens.height = 120;
     lens.fx = lens.fy = 140.0;

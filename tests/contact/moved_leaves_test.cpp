@@ -18,7 +18,7 @@ constexpr double kBallRadius = 0.01, kRegion = 0.02; // [m] radii of leaves and 
 // A tool of balls at `centres` and spheres, each at a gap [m] from the nearest ball along a direction.
 struct MovedLeaves {
     Tool tool;
-    Fixtures fixtures = emptySet();
+    HostFixtures fixtures = emptySet();
     ContactSet set;
     NarrowPhase narrow;
     LeafCentres leaves;

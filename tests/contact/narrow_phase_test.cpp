@@ -18,14 +18,14 @@ namespace {
 
 struct Bench {
     Tool tool;
-    Fixtures fixtures;
+    HostFixtures fixtures;
     RegionGrid grid;
     CullCpu cull;
     ContactSet set;
     NarrowPhase narrow;
     LeafCentres leaves;
 
-    Bench(Tool t, Fixtures f, const Pose& pose, double reach = 0.01, size_t maxRows = 512)
+    Bench(Tool t, HostFixtures f, const Pose& pose, double reach = 0.01, size_t maxRows = 512)
         : tool(std::move(t))
         , fixtures(std::move(f))
         , narrow(tool, maxRows)
@@ -163,7 +163,7 @@ TEST_CASE("After small and large motions the rows, smooth planes and violations 
     std::mt19937_64 random(56);
     size_t rows = 0, planes = 0, violating = 0;
     for (int k = 0; k < 40; ++k) {
-        Fixtures wall = emptySet();
+        HostFixtures wall = emptySet();
         addWall(wall, dvec3(0.0), dvec3(1, 0, 0), dvec3(0, 1, 0), 0.05, 0.002, 0.04);
         const Tool tool = randomTool(random, 20, 0.02, 0.01);
         Pose pose{dvec3(0, 0, 0.09), randomRotation(random)};
@@ -205,7 +205,7 @@ TEST_CASE("After small and large motions the rows, smooth planes and violations 
 
 TEST_CASE("A leaf gets a second row in the small motion that takes a sphere out of the cone of the first") {
     constexpr double kAngle = NarrowPhase::kCone - 1e-4; // [rad]
-    Fixtures fixtures = emptySet();
+    HostFixtures fixtures = emptySet();
     fixtures.spheres.add(dvec3(0, 0, -0.0502), 0.04);
     fixtures.spheres.add(0.051 * dvec3(std::sin(kAngle), 0, -std::cos(kAngle)), 0.04);
     Bench bench(ballTool(0.01), fixtures, Pose{});
@@ -217,7 +217,7 @@ TEST_CASE("A leaf gets a second row in the small motion that takes a sphere out 
 }
 
 TEST_CASE("All touching pairs are checked, also when they exceed the lists") {
-    Fixtures fixtures = emptySet();
+    HostFixtures fixtures = emptySet();
     addWall(fixtures, dvec3(0.0), dvec3(1, 0, 0), dvec3(0, 1, 0), 0.05, 0.0007, 0.04);
     std::mt19937_64 random(54);
     const Pose pose{dvec3(0, 0, 0.02), kUpright};
@@ -233,7 +233,7 @@ TEST_CASE("All touching pairs are checked, also when they exceed the lists") {
 }
 
 TEST_CASE("For coinciding centres the normal is the leaf's last one or the direction to the camera") {
-    Fixtures fixtures = emptySet();
+    HostFixtures fixtures = emptySet();
     fixtures.baseTcamera.position = dvec3(0, -2, 0);
     fixtures.spheres.add(dvec3(0.0), 0.04);
     Bench bench(ballTool(0.01), fixtures, Pose{});
@@ -249,7 +249,7 @@ TEST_CASE("For coinciding centres the normal is the leaf's last one or the direc
 
 TEST_CASE("Only the deepest rows are kept when there are too many, and none when nothing is near") {
     std::mt19937_64 random(55);
-    Fixtures fixtures = emptySet();
+    HostFixtures fixtures = emptySet();
     addWall(fixtures, dvec3(0.0), dvec3(1, 0, 0), dvec3(0, 1, 0), 0.1, 0.004, 0.04);
     const Tool tool = randomTool(random, 300, 0.02, 0.01);
     const Pose pose{dvec3(0, 0, 0.05), kUpright};

@@ -27,7 +27,7 @@ float smallestGap(const PosedLeaves& leaves, size_t leaf, const RegionSpheres& s
 }
 
 // Number of leaves that have one.
-size_t check(const Fixtures& fixtures, const Tool& tool, const Pose& pose, float limit) {
+size_t check(const HostFixtures& fixtures, const Tool& tool, const Pose& pose, float limit) {
     RegionGrid grid;
     grid.build(fixtures.spheres);
     PosedLeaves leaves;
@@ -54,7 +54,7 @@ TEST_CASE("The nearest sphere of every leaf has the smallest gap in sets of any 
     std::mt19937_64 random(31);
     size_t near = 0;
     for (const size_t count : {size_t{1}, size_t{15}, size_t{16}, size_t{17}, size_t{333}, size_t{5000}}) {
-        const Fixtures fixtures = randomCloud(random, count, 0.3, 0.002, 0.05);
+        const HostFixtures fixtures = randomCloud(random, count, 0.3, 0.002, 0.05);
         const Tool tool = randomTool(random, 37, 0.1, 0.01);
         for (const float limit : {0.0f, 0.01f, 0.5f}) {
             for (int k = 0; k < 4; ++k) {
@@ -66,7 +66,7 @@ TEST_CASE("The nearest sphere of every leaf has the smallest gap in sets of any 
 }
 
 TEST_CASE("A leaf with no sphere within the limit has none, and an empty set has none for any leaf") {
-    Fixtures fixtures = emptySet();
+    HostFixtures fixtures = emptySet();
     const Tool tool = ballTool(0.01);
     CHECK(check(fixtures, tool, {dvec3(0.0), kUpright}, 1.0f) == 0);
     fixtures.spheres.add(dvec3(0.0, 0.0, 0.05), 0.01);

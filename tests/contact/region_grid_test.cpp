@@ -43,7 +43,7 @@ TEST_CASE("An empty grid visits nothing") {
 
 TEST_CASE("The grid finds a single sphere, and all of several equal ones") {
     for (const size_t count : {size_t{1}, size_t{1000}}) {
-        Fixtures set = emptySet();
+        HostFixtures set = emptySet();
         for (size_t i = 0; i < count; ++i) {
             set.spheres.add(dvec3(0.5, -0.25, 2.0), 0.04);
         }
@@ -59,7 +59,7 @@ TEST_CASE("The grid misses no sphere of random clouds of any radii and extent") 
     std::mt19937_64 random(7);
     const double halves[] = {0.001, 0.3, 5.0, 20000.0};
     for (const double half : halves) {
-        const Fixtures set = randomCloud(random, 3001, half, 1e-4, 10.0);
+        const HostFixtures set = randomCloud(random, 3001, half, 1e-4, 10.0);
         RegionGrid grid;
         grid.build(set.spheres);
         CHECK(grid.size() == set.spheres.size());
@@ -77,7 +77,7 @@ TEST_CASE("The grid misses no sphere of random clouds of any radii and extent") 
 
 TEST_CASE("One far outlier costs no memory and no result") {
     std::mt19937_64 random(8);
-    Fixtures set = randomCloud(random, 2000, 0.5, 0.01, 0.04);
+    HostFixtures set = randomCloud(random, 2000, 0.5, 0.01, 0.04);
     set.spheres.add(dvec3(1e6, -2e6, 3e7), 0.04);
     RegionGrid grid;
     grid.build(set.spheres);
@@ -86,7 +86,7 @@ TEST_CASE("One far outlier costs no memory and no result") {
 }
 
 TEST_CASE("Spheres that are not finite are skipped and the others are found") {
-    Fixtures set = emptySet();
+    HostFixtures set = emptySet();
     set.spheres.add(dvec3(0.0), 0.04);
     set.spheres.add(dvec3(std::numeric_limits<double>::quiet_NaN()), 0.04);
     set.spheres.add(dvec3(std::numeric_limits<double>::infinity()), 0.04);
@@ -102,7 +102,7 @@ TEST_CASE("Spheres that are not finite are skipped and the others are found") {
 
 // The second time, one in the middle is not finite.
 void checkSharedGrid(size_t count, double leastRadius, ThreadPool& workers) {
-    Fixtures set = emptySet();
+    HostFixtures set = emptySet();
     for (size_t i = 0; i < count; ++i) {
         const double at = static_cast<double>(i * 7919 % 50'021) / 50'021.0;
         set.spheres.add(dvec3(at, std::fmod(at * 37.0, 0.6), std::fmod(at * 411.0, 0.3)),
@@ -139,7 +139,7 @@ TEST_CASE("Building again discards the earlier contents") {
     std::mt19937_64 random(9);
     RegionGrid grid;
     grid.build(randomCloud(random, 500, 1.0, 0.01, 0.04).spheres);
-    const Fixtures set = randomCloud(random, 77, 0.2, 0.01, 0.02);
+    const HostFixtures set = randomCloud(random, 77, 0.2, 0.01, 0.02);
     grid.build(set.spheres);
     CHECK(checkAgainstBruteForce(set.spheres, grid, dvec3(0.0), 10.0) == 77);
 }

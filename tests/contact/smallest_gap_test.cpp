@@ -11,7 +11,7 @@ using namespace fathom::testing;
 
 namespace {
 
-void check(GapSearch& search, const Tool& tool, const Pose& pose, const Fixtures& set) {
+void check(GapSearch& search, const Tool& tool, const Pose& pose, const HostFixtures& set) {
     const SmallestGap found = search.find(tool, pose), truth = oracleSmallestPair(tool, pose, set);
     CHECK(found == truth);
     CHECK(found.gap == doctest::Approx(oracleSmallestGap(tool, pose, set)).epsilon(1e-12));
@@ -23,7 +23,7 @@ TEST_CASE("The host's smallest gap and its pair are those of brute force, near, 
     std::mt19937_64 random(41);
     GapSearch search;
     for (const size_t count : {size_t{1}, size_t{255}, size_t{256}, size_t{257}, size_t{3001}}) {
-        Fixtures set = randomCloud(random, count, 0.3, 0.002, 0.05);
+        HostFixtures set = randomCloud(random, count, 0.3, 0.002, 0.05);
         set.origin = dvec3(120.0, -3.0, 7.0);
         search.build(set);
         const Tool tool = randomTool(random, 37, 0.1, 0.01);
@@ -34,7 +34,7 @@ TEST_CASE("The host's smallest gap and its pair are those of brute force, near, 
 }
 
 TEST_CASE("Of equal gaps the host takes the lowest source, then the lowest leaf") {
-    Fixtures set = emptySet();
+    HostFixtures set = emptySet();
     for (const double x : {0.2, -0.2, 0.2}) {
         set.spheres.add({x, 0.0, 0.0}, 0.05);
     }
@@ -49,12 +49,12 @@ TEST_CASE("Of equal gaps the host takes the lowest source, then the lowest leaf"
 }
 
 TEST_CASE("Without spheres the smallest gap is infinite, and for a broken pose it is unknown") {
-    const Fixtures none = emptySet();
+    const HostFixtures none = emptySet();
     GapSearch search;
     search.build(none);
     CHECK(search.find(ballTool(0.01), Pose{}).gap == std::numeric_limits<double>::infinity());
     CHECK_FALSE(search.find(ballTool(0.01), Pose{}).any());
-    Fixtures one = emptySet();
+    HostFixtures one = emptySet();
     one.spheres.add(dvec3(0.0), 0.1);
     search.build(one);
     const Pose broken{{std::nan(""), 0.0, 0.0}, kUpright};

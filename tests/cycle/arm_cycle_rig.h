@@ -37,7 +37,7 @@ public:
 
     // y [m] of the ball's centre from now on.
     void showBall(double y) {
-        Fixtures set = emptySet(++generation_);
+        HostFixtures set = emptySet(++generation_);
         set.spheres.add({0.95, y, 0.0}, 0.05);
         show(std::move(set));
         sceneAges = false;

@@ -145,7 +145,7 @@ TEST_CASE(
         CHECK(batch.gaps.empty());
         CHECK(std::isnan(rig.cycles.clearance({poses[0], {}})));
         rig.next();
-        const Fixtures set = rig.cycles.frames().sets().newest()->host;
+        const HostFixtures set = rig.cycles.frames().sets().newest()->host;
         for (const bool anew : {false, true}) {
             if (anew) {
                 rig.cycles.renew();

@@ -78,7 +78,7 @@ std::vector<Need> needs() {
 }
 
 // Compares all data of a set that a reader can see.
-bool sameBits(const Fixtures& a, const Fixtures& b) {
+bool sameBits(const HostFixtures& a, const HostFixtures& b) {
     const auto pose = [](const Pose& p, const Pose& q) {
         return p.position == q.position && p.rotation == q.rotation;
     };
@@ -180,7 +180,7 @@ TEST_CASE("Without hold a frame's set does not depend on the frames before it") 
     }
     const Image image = stressImage(camera, 9);
     fresh.run(image), used.run(image);
-    Fixtures one = fresh.host(), other = used.host();
+    HostFixtures one = fresh.host(), other = used.host();
     REQUIRE(one.guidance.size() == other.guidance.size());
     for (size_t i = 0; i < one.guidance.size(); ++i) { // targets of guidance settle over frames
         CHECK(one.guidance[i].count == other.guidance[i].count);
@@ -201,7 +201,7 @@ TEST_CASE(
     const Image first = stressImage(camera, 1), second = stressImage(camera, 2);
     cycle.process(frameOf(first, 0, 0.0));
     const auto lease = cycle.sets().newest();
-    const Fixtures copy = lease->host;
+    const HostFixtures copy = lease->host;
     CHECK(copy.generation == 1);
     for (uint32_t k = 1; k <= 5; ++k) {
         cycle.process(frameOf(k % 2 == 0 ? first : second, k, k / 30.0));

@@ -11,7 +11,7 @@ using namespace fathom::testing;
 namespace {
 
 // Smallest and largest z [m] of the spheres of a scene row.
-std::pair<double, double> depths(const Fixtures& set, uint8_t row) {
+std::pair<double, double> depths(const HostFixtures& set, uint8_t row) {
     std::pair<double, double> span{1e9, -1e9};
     for (size_t i = 0; i < set.spheres.size(); ++i) {
         if (set.spheres.fixture[i] == row) {

@@ -165,7 +165,7 @@ TEST_CASE("A trapped tool is held without a new force, and follows slowly when a
     rig.sceneAges = false;
     rig.hand = at(0, 0, 0.003);
     rig.ticks(250);
-    Fixtures shell = emptySet(2); // six spheres around the tool: any motion goes deeper into one
+    HostFixtures shell = emptySet(2); // six spheres around the tool: any motion goes deeper into one
     for (int axis = 0; axis < 3; ++axis) {
         for (const double side : {-1.0, 1.0}) {
             dvec3 centre(0, 0, 0.003);
@@ -235,7 +235,7 @@ TEST_CASE("A source that has ended does not age in lockstep, and an older active
     // The active set stays at frame 1 although frame 2 is available, captured later.
     rig.scene.sourceEnded = false;
     rig.query = false;
-    Fixtures next = wallSet(2);
+    HostFixtures next = wallSet(2);
     next.captureTime = rig.time;
     rig.show(next);
     record = rig.step();

@@ -24,8 +24,8 @@ HapticRig restingRig(bool controller) {
     return rig;
 }
 
-Fixtures raisedWall(double height = 0.002) { // [m]
-    Fixtures fixtures = wallSet(2);
+HostFixtures raisedWall(double height = 0.002) { // [m]
+    HostFixtures fixtures = wallSet(2);
     fixtures.origin.z = height;
     return fixtures;
 }

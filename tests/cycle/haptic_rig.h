@@ -31,8 +31,8 @@ inline Tool ballTool() {
 }
 
 // Horizontal wall of spheres of 40 mm radius with tops at z = 0; the tool's centre rests near z = 0.01.
-inline Fixtures wallSet(uint64_t generation = 1) {
-    Fixtures fixtures = emptySet(generation);
+inline HostFixtures wallSet(uint64_t generation = 1) {
+    HostFixtures fixtures = emptySet(generation);
     addWall(fixtures, {0.0, 0.0, -0.04}, {1, 0, 0}, {0, 1, 0}, 0.06, 0.004, 0.04);
     return fixtures;
 }
@@ -64,7 +64,7 @@ public:
                                               arm ? &hand : nullptr, arm.get());
     }
 
-    void show(Fixtures set) {
+    void show(HostFixtures set) {
         fixtures = std::move(set);
         grid.build(fixtures->spheres);
         scene.show(*fixtures);
@@ -121,7 +121,7 @@ public:
     std::unique_ptr<HapticCycle> cycle;
     CullCpu cull;
     RegionGrid grid;
-    std::optional<Fixtures> fixtures;
+    std::optional<HostFixtures> fixtures;
     DelayedContacts contacts;
     uint64_t queries = 0;
     SceneUpdate scene;                  // of `fixtures`

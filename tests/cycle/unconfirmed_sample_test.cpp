@@ -25,7 +25,7 @@ TEST_CASE(
     const StepRecord before = stepOf(rig, false, false);
     REQUIRE(forceOf(before) == doctest::Approx(5.0).epsilon(0.01));
     rig.hand = at(0.3, 0, -0.3);
-    Fixtures higher = wallSet(2);
+    HostFixtures higher = wallSet(2);
     for (float& z : higher.spheres.z) {
         z += 0.003f;
     }

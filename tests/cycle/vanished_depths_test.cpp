@@ -94,7 +94,7 @@ TEST_CASE("A coarse hand map makes soft springs, and a vanished region still hol
 TEST_CASE("A tool that a squeezed picture trapped stays where it is when all regions vanish") {
     HapticRig rig(handScene(), at(0, 0, 0.02));
     press(rig, 0.01);
-    Fixtures squeezed = wallSet(2);
+    HostFixtures squeezed = wallSet(2);
     addWall(squeezed, {0, 0, 0.06}, {1, 0, 0}, {0, 1, 0}, 0.06, 0.004, 0.042);
     rig.show(squeezed);
     rig.sceneAges = false;
@@ -106,7 +106,7 @@ TEST_CASE("A tool that a squeezed picture trapped stays where it is when all reg
 TEST_CASE("A hand that leaves a trapped tool has not lost a region when the trap ends") {
     HapticRig rig(handScene(), at(0, 0, 0.02));
     press(rig, 0.01);
-    Fixtures squeezed = wallSet(2);
+    HostFixtures squeezed = wallSet(2);
     addWall(squeezed, {0, 0, 0.06}, {1, 0, 0}, {0, 1, 0}, 0.06, 0.004, 0.042);
     rig.show(squeezed);
     rig.sceneAges = false;
@@ -136,7 +136,7 @@ TEST_CASE("A wall that goes back by up to 8 mm under a lightly pressing hand has
             CAPTURE(back);
             HapticRig rig(handScene(), at(0, 0, 0.02));
             REQUIRE(forceOf(press(rig, pressed)) == doctest::Approx(1000.0 * pressed).epsilon(0.1));
-            Fixtures moved = emptySet(2);
+            HostFixtures moved = emptySet(2);
             addWall(moved, {0.0, 0.0, -0.04 - back}, {1, 0, 0}, {0, 1, 0}, 0.06, 0.004, 0.04);
             rig.show(std::move(moved));
             rig.sceneAges = false;
@@ -151,7 +151,7 @@ TEST_CASE("A wall that goes back by up to 8 mm under a lightly pressing hand has
 TEST_CASE("Another class behind a pressed region does not hide that the region vanished") {
     HapticRig rig(handScene(), at(0, 0, 0.02));
     REQUIRE(forceOf(press(rig, 0.006)) == doctest::Approx(6.0).epsilon(0.05));
-    Fixtures other = emptySet(2);
+    HostFixtures other = emptySet(2);
     addWall(other, {0.0, 0.0, -0.0475}, {1, 0, 0}, {0, 1, 0}, 0.06, 0.004, 0.04);
     std::ranges::fill(other.spheres.fixture, uint8_t{1});
     rig.show(std::move(other));
@@ -162,7 +162,7 @@ TEST_CASE("Another class behind a pressed region does not hide that the region v
 TEST_CASE("With stiff springs a wall that goes back while another region presses has not vanished") {
     HapticRig rig(handScene("omega"), at(0, 0, 0.02));
     const auto show = [&](double back, uint64_t generation) {
-        Fixtures set = emptySet(generation);
+        HostFixtures set = emptySet(generation);
         addWall(set, {0.0, 0.0, -0.04 - back}, {1, 0, 0}, {0, 1, 0}, 0.06, 0.004, 0.04);
         set.spheres.add({0.0, 0.0597, 0.01}, 0.05); // next to the tool, 0.3 mm inside
         rig.show(std::move(set));

@@ -68,7 +68,7 @@ struct HeldRod : HapticRig {
         ticks(600);
     }
     void showRegions(bool held, uint64_t generation) {
-        Fixtures set = emptySet(generation);
+        HostFixtures set = emptySet(generation);
         for (const double side : {-1.0, 1.0}) {
             set.spheres.add({side * 0.05, 0.0605, 0.0}, 0.05); // next to it
             if (held) {

@@ -32,7 +32,7 @@ inline ArmModel makeArm(size_t joints, size_t spheres, double limit = 1.2) {
 }
 
 struct World {
-    Fixtures fixtures = emptySet();
+    HostFixtures fixtures = emptySet();
     RegionGrid grid;
     CullCpu cull;
     ContactSet set;

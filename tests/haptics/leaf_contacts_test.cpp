@@ -18,7 +18,7 @@ constexpr double kLeafRadius = 0.01, kRegionRadius = 0.04; // [m]
 // A ball at the origin 2 mm above a region, and the set of a query there.
 struct BallAndRegion {
     Tool tool = ballTool(kLeafRadius);
-    Fixtures fixtures = emptySet();
+    HostFixtures fixtures = emptySet();
     ContactSet set;
     LeafContacts contacts{tool, {}, 0.001, RowReduction{}};
 

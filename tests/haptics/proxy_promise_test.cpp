@@ -25,7 +25,7 @@ Tool probe(double radius) { // a rod of overlapping spheres with a cross bar: ro
 
 struct World {
     std::string name;
-    Fixtures fixtures;
+    HostFixtures fixtures;
     Tool tool;
     Pose start;
     dvec3 focus{0.0};    // attracts the hand, base frame

@@ -16,7 +16,7 @@ namespace {
 
 struct Walls {
     std::string name;
-    Fixtures fixtures;
+    HostFixtures fixtures;
     dvec3 start;
     double spread; // [m] hand motion about the start
     double into;   // [m] down from there to the middle of the hand's path

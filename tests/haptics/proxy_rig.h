@@ -16,7 +16,7 @@ namespace fathom::testing {
 
 class ProxyRig {
 public:
-    ProxyRig(Tool tool, Fixtures fixtures, const Pose& start, const ProxyOptions& options = {},
+    ProxyRig(Tool tool, HostFixtures fixtures, const Pose& start, const ProxyOptions& options = {},
              std::span<const Shape> shapes = {}, double reach = 0.01)
         : tool_(std::move(tool))
         , fixtures_(std::move(fixtures))
@@ -27,7 +27,7 @@ public:
     }
 
     // New data. Present overlaps are allowed and may only shrink.
-    void replace(Fixtures fixtures) {
+    void replace(HostFixtures fixtures) {
         fixtures_ = std::move(fixtures);
         grid_.build(fixtures_.spheres);
         pending_.clear();
@@ -61,7 +61,7 @@ public:
 
     Proxy& proxy() { return proxy_; }
     const Tool& tool() const { return tool_; }
-    const Fixtures& fixtures() const { return fixtures_; }
+    const HostFixtures& fixtures() const { return fixtures_; }
     const ContactSet& inForce() const { return inForce_; }
     BehindTracker& behind() { return behind_; }
 
@@ -78,7 +78,7 @@ private:
         std::unique_ptr<ContactSet> set;
     };
     Tool tool_;
-    Fixtures fixtures_;
+    HostFixtures fixtures_;
     double reach_;
     RegionGrid grid_;
     CullCpu cull_;

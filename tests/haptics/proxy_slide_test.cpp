@@ -10,8 +10,8 @@ using namespace fathom::testing;
 
 namespace {
 
-Fixtures lattice() {
-    Fixtures wall = emptySet();
+HostFixtures lattice() {
+    HostFixtures wall = emptySet();
     addWall(wall, {0.0, 0.0, -0.04}, {1, 0, 0}, {0, 1, 0}, 0.06, 0.004, 0.04);
     return wall;
 }
@@ -82,7 +82,7 @@ TEST_CASE("With friction the tool stays behind the hand by mu times its depth, e
 
 TEST_CASE("A tool dragged over a noisy wall of 60 k spheres never enters it") {
     std::mt19937_64 random(21);
-    Fixtures fixtures = emptySet();
+    HostFixtures fixtures = emptySet();
     std::normal_distribution<double> noise(0.0, 0.0003);
     addWall(fixtures, dvec3(0.0), dvec3(1, 0, 0), dvec3(0, 1, 0), 0.2144, 0.00175, 0.04);
     for (float& z : fixtures.spheres.z) { // a bulging, noisy surface

@@ -13,8 +13,8 @@ namespace {
 
 const dvec3 kAxisX(1, 0, 0), kAxisY(0, 1, 0);
 
-Fixtures flatWall(double z, uint64_t generation = 1) {
-    Fixtures fixtures = emptySet(generation);
+HostFixtures flatWall(double z, uint64_t generation = 1) {
+    HostFixtures fixtures = emptySet(generation);
     addWall(fixtures, dvec3(0, 0, z), kAxisX, kAxisY, 0.12, 0.004, 0.04);
     return fixtures;
 }
@@ -148,7 +148,7 @@ TEST_CASE("A tool with many leaves also leaves new data, pressed or not") {
 
 TEST_CASE(
     "Between two walls without clearance the tool is trapped and held, and leaves when one is removed") {
-    Fixtures squeeze = flatWall(0.0, 2);
+    HostFixtures squeeze = flatWall(0.0, 2);
     addWall(squeeze, dvec3(0, 0, 0.095), kAxisX, kAxisY, 0.12, 0.004, 0.04);
     ProxyRig rig(ballTool(0.01), flatWall(-0.003), at(0.002, 0.002, 0.0475));
     rig.replace(squeeze); // 2.5 mm of overlap on either side

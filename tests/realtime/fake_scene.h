@@ -18,7 +18,7 @@ namespace fathom::testing {
 
 // A fixture set with its grid, as one lease.
 struct FakeSet {
-    Fixtures host;
+    HostFixtures host;
     RegionGrid grid;
 };
 
@@ -139,7 +139,7 @@ struct AuditingSink final : RunSink {
     std::vector<TickRow> rows;
     uint64_t frames = 0, queries = 0, unknown = 0;
 
-    void frame(const PublishedFrame& frame, const Fixtures& set) override {
+    void frame(const PublishedFrame& frame, const HostFixtures& set) override {
         CHECK(set.frame == static_cast<int64_t>(frames));
         CHECK(frame.t == set.captureTime);
         ++frames;

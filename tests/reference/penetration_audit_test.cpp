@@ -24,7 +24,7 @@ Tool toolOf(const std::vector<Sphere>& leaves) {
 }
 
 struct Scene {
-    Fixtures set;
+    HostFixtures set;
     RegionGrid grid;
 };
 
@@ -50,7 +50,8 @@ public:
     explicit BruteForce(const Tool& tool)
         : leaves_(tool.leaves()) {}
 
-    void tick(const Fixtures& set, const Pose& start, const Pose& end, const std::vector<uint32_t>& behind) {
+    void tick(const HostFixtures& set, const Pose& start, const Pose& end,
+              const std::vector<uint32_t>& behind) {
         const auto depth = [&](size_t leaf, size_t i, const Pose& pose) {
             const dvec3 centre = (pose.position - set.origin) + pose.rotation * leaves_[leaf].centre;
             const RegionSpheres& s = set.spheres;
@@ -228,7 +229,7 @@ TEST_CASE("The audit ignores ticks before the first set and rejects a grid of an
     const Scene scene = sceneOf({{{0, 0, 0}, 0.04}}, 1);
     const Scene other = sceneOf({{{0, 0, 0}, 0.04}, {{1, 0, 0}, 0.04}}, 2);
     PenetrationAudit audit(tool);
-    audit.tick(Fixtures{}, RegionGrid{}, at(0), at(0));
+    audit.tick(HostFixtures{}, RegionGrid{}, at(0), at(0));
     CHECK(audit.ticks() == 0);
     CHECK_THROWS_AS(audit.tick(scene.set, other.grid, at(1), at(1)), Error);
     CHECK_THROWS_AS(audit.tick(scene.set, scene.grid, at(1), at(std::nan(""))), Error);

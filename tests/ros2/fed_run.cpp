@@ -23,8 +23,8 @@ StepRecord someRecord() {
     return r;
 }
 
-Fixtures someSet() {
-    Fixtures set;
+HostFixtures someSet() {
+    HostFixtures set;
     set.frame = 3;
     set.generation = 1;
     set.origin = {10.0, 0.0, 0.0};

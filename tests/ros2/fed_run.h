@@ -27,7 +27,7 @@ private:
     void feed();
 
     std::unique_ptr<fathom::RunObserver> output_;
-    fathom::Fixtures set_;
+    fathom::HostFixtures set_;
     std::mutex mutex_; // guards the members below
     fathom::TickRow row_;
     std::function<void(fathom::TickRow&)> each_;

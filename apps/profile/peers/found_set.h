@@ -3,7 +3,7 @@
 // test, so that it favours none in time or precision.
 #pragma once
 
-#include "engine/contact/fixtures.h"
+#include "engine/contact/host_fixtures.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -2,7 +2,7 @@
 // Tests every leaf against every sphere in float64, as the reference for all answers.
 #pragma once
 
-#include "engine/contact/fixtures.h"
+#include "engine/contact/host_fixtures.h"
 #include "engine/contact/tool.h"
 
 #include <cstdint>

@@ -3,7 +3,7 @@
 // library is used in its documented and fastest way; if there are two natural ways, both are here.
 #pragma once
 
-#include "engine/contact/fixtures.h"
+#include "engine/contact/host_fixtures.h"
 #include "engine/contact/tool.h"
 
 #include <cstdint>

@@ -11,8 +11,8 @@
 namespace fathom {
 
 // Region spheres in order of patch (16x16 pixels), then layer (seen, then held), then 4x4 sub-patch, then
-// pixel, so equal frames give equal orders. Positions are float32 about Fixtures::origin. These floats define
-// the region for the GPU, the CPU and every check.
+// pixel, so equal frames give equal orders. Positions are float32 about HostFixtures::origin. These floats
+// define the region for the GPU, the CPU and every check.
 struct RegionSpheres {
     std::vector<float> x, y, z;   // [m] base axes, about the origin
     std::vector<float> radius;    // [m]
@@ -69,7 +69,7 @@ struct GuidancePose {
     dvec3 standoff{0.0};  // [m] part of target.position: along the normal, or towards the camera without one
 };
 
-struct Fixtures {
+struct HostFixtures {
     int64_t frame = -1;       // Frame index; -1 = none
     double captureTime = 0.0; // [s]
     uint64_t generation = 0;  // number of this set; names it in answers and records
