@@ -142,7 +142,8 @@ Wrench PassivityController::control(const PassivityStep& tick) const noexcept {
     const double power = (owed - fromData) / tick.elapsed + fromData / std::max(tick.elapsed, tick.repay);
     double alpha = tick.fadeGain * std::max(std::min(power / speed, most), release(tick, v, w, owed) / speed);
     if (!tick.rows) {
-        alpha = std::min(alpha, kFreeDamper / std::sqrt(speed));
+        const double left = std::min(1.0, (kFreeTime - timeWithoutRows_) / kFreeEnd);
+        alpha = std::min(alpha, left * kFreeDamper / std::sqrt(speed));
     }
     return {-alpha * v, -alpha * kk * w};
 }

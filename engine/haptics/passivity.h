@@ -58,7 +58,7 @@ public:
     // Observes the interval that ends now and returns the damping wrench to add: -alpha v and -alpha k^2 w
     // with alpha = debt / (T (v.v + k^2 w.w)), where what appeared is divided by `repay` instead of T, capped
     // (kMaxDamping, kMaxImpulse); more while the springs push the hand out (release()); zero below kMinSpeed,
-    // kMinTurnSpeed. Without an active row it is at most kFreeDamper and ends after kFreeTime; energy that
+    // kMinTurnSpeed. Without an active row it is at most kFreeDamper and ends at kFreeTime; energy that
     // remains then is not removed.
     Wrench step(const PassivityStep& tick) noexcept;
     // The wrench sent to the device from now on: the springs' part and the part that step() added.
@@ -85,6 +85,7 @@ public:
     static constexpr double kMinDebtRatio = 0.25;
     static constexpr double kFreeDamper = 0.99; // [N] largest damping force without an active row
     static constexpr double kFreeTime = 0.09;   // [s] longest time of it
+    static constexpr double kFreeEnd = 0.03;    // [s] in which it ends then, without a click
     static constexpr double kTolerance = 1e-6;  // [J] smaller debts are rounding of the solver
     // [s] time constant to forget a debt beyond the energy that the springs hold: it cannot come back.
     static constexpr double kForget = 0.5;

@@ -56,6 +56,19 @@ TEST_CASE("The damping falls by the factor by which forces fade") {
     CHECK(glm::length(Owing(0.5).step(inwards).force) == doctest::Approx(0.5 * whole));
 }
 
+TEST_CASE("Without an active row the damping ends without a click") {
+    Owing owing;
+    owing.leave();
+    double before = glm::length(owing.step({0, 1e-5, 0}).force);
+    CHECK(before > 0.15); // at 0.01 m/s, 20 N s/m
+    for (int i = 0; i < 100; ++i) {
+        const double force = glm::length(owing.step({0, 5e-5, 0}).force);
+        CHECK(before - force < 0.04);
+        before = force;
+    }
+    CHECK(before == 0.0);
+}
+
 TEST_CASE("Without an active row the damping is below 1 N, and the debt is given up after 90 ms") {
     Owing fast;
     fast.leave();
