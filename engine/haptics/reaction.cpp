@@ -17,6 +17,7 @@ constexpr double kMinDirectionForce = 1e-3; // [N] a smaller reaction has no dir
 constexpr double kPushTime = 0.012;         // [s] in which new data pushes a tool out, or half a frame
 constexpr double kFrameSlack = 1.25;        // frame intervals to wait for the next frame
 constexpr double kMinMixLength = 0.3;       // directions that differ more than that are not mixed
+constexpr double kTurnedLoss = 2.0;         // [N] with stiff springs: a larger loss that turns it fades
 constexpr double kSameWay = 0.8; // cosine between a reaction and the former one, which it continues
 
 } // namespace
@@ -73,12 +74,15 @@ void Reaction::fadeLost(const Wrench& wanted, double byHand, const ReactionInput
             fade_.end();
             size_ = lastFeltSize_;
             noise_.settleAt(wanted);
+        } else if (input.lags && pushed() && size < size_ - byHand - band) {
+            beginFade(wanted, input);
         }
         return;
     }
     const double along = metricProduct(lastFelt_, wanted, k_);
     const bool turned = size > kMinDirectionForce && along > 0.0 && along <= kSameWay * size * lastFeltSize_;
-    if ((input.lags || turned) && pushed() && size < lastFeltSize_ - byHand - band) {
+    const double lost = lastFeltSize_ - byHand - size;
+    if (pushed() && ((input.lags && lost > band) || (turned && lost > std::min(band, kTurnedLoss)))) {
         beginFade(wanted, input);
     }
 }
@@ -94,38 +98,44 @@ Wrench Reaction::withoutNoise(const Wrench& spring, double byHand, const Reactio
     return noise_.step(tick);
 }
 
-// What new data took of the reaction, beyond what the hand released, if the reaction keeps its direction:
-// else one region's force would be felt on another. It falls to zero until the next frame is due, and with
-// the spring if the hand moves out. out: of the hand in this tick [m].
-double Reaction::heldBack(const Wrench& wrench, double byHand, double out) noexcept {
-    const double wanted = metricSize(wrench, k_), left = interval_ - sinceData_;
-    if (!(wanted > kMinDirectionForce) || fade_.active() || !(left > 0.0)) {
+// What new data took of the reaction, beyond what the hand released, if the reaction keeps its direction or
+// ends: else one region's force would be felt on another. It falls to zero until the next frame is due, and
+// with the spring if the hand moves out. way: of the reaction, or of the last one that was felt if it ended.
+// wanted [N]: size of the reaction. released [N]: by the hand, which moves out, in this tick.
+double Reaction::heldBack(const Wrench& way, double wanted, double byHand, double released) noexcept {
+    const double left = interval_ - sinceData_, length = metricSize(way, k_);
+    if (fade_.active() || !(left > 0.0) || !(length > 0.0)) {
         return held_ = 0.0;
     }
-    if (pushed()) {
-        const double before = metricProduct(lastFelt_, wrench, k_) / wanted;
-        const double lost = before > kSameWay * lastFeltSize_ ? before - byHand - wanted : 0.0;
-        held_ = std::max(held_, lost);
+    const double before = metricProduct(lastFelt_, way, k_) / length;
+    const bool same = before > kSameWay * lastFeltSize_, ended = !(wanted > kMinDirectionForce);
+    if (ended_ && !same) {
+        held_ = 0.0;
+    } else if (same && pushed()) {
+        held_ = std::max(held_, before - byHand - wanted);
     }
-    const double kept = out > 0.0 ? wanted / (wanted + byHand) : 1.0;
-    return held_ *= kept * (1.0 - std::min(1.0, elapsed_ / left));
+    ended_ = ended;
+    const double kept = ended ? std::max(0.0, held_ - released) : held_ * wanted / (wanted + released);
+    return held_ = kept * (1.0 - std::min(1.0, elapsed_ / left));
 }
 
 Wrench Reaction::limitRise(const Wrench& wrench, const Travel& travel, const ReactionInput& input) noexcept {
     const double wanted = metricSize(wrench, k_);
-    // Along the wanted reaction, which is out of the regions.
+    // Out of the regions: along the wanted reaction, or the last one.
+    const Wrench way = wanted > kMinDirectionForce ? wrench : lastFelt_;
+    const double length = metricSize(way, k_);
     const double out =
-        wanted > 0.0
-            ? (glm::dot(travel.moved, wrench.force) + glm::dot(travel.turned, wrench.torque)) / wanted
-            : 0.0;
+        length > 0.0 ? (glm::dot(travel.moved, way.force) + glm::dot(travel.turned, way.torque)) / length
+                     : 0.0;
     const double compressed = out > 0.0 ? 0.0 : input.springs.stiffness * travel.length;
     const double calm = std::clamp(1.0 - out / (kLeavingSpeed * elapsed_), 0.0, 1.0);
     const double rises = std::min(rate(wanted - compressed - size_) * elapsed_, kMaxRiseRate * input.period);
     const double most = size_ + (input.mayRise ? compressed + calm * rises : 0.0);
     appears_ = wanted > size_ + compressed * (1.0 + 1e-9) + kRoundingForce;
-    const double held = heldBack(wrench, input.springs.stiffness * travel.length, out);
+    const double held = heldBack(way, wanted, input.springs.stiffness * travel.length,
+                                 input.springs.stiffness * std::max(0.0, out));
     size_ = std::min(wanted + held, most);
-    return size_ != wanted ? scaled(wrench, size_ / wanted) : wrench;
+    return size_ != wanted ? scaled(way, size_ / length) : wrench;
 }
 
 // New data that turns the reaction by more than a right angle begins a new one, from zero: the former

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The reaction of the regions: the spring between the hand and the pose that the active rows allow. Zero
-// without an active row, however far the tool lags behind the hand.
+// The reaction of the regions: the spring between the hand and the pose that the active rows allow. Without
+// an active row it goes to zero, within a frame if new data ended it, however far the tool lags behind.
 #pragma once
 
 #include "engine/haptics/coupling.h"
@@ -27,8 +27,8 @@ struct ReactionInput {
 // the hand's own motion compresses, because the tool only ever moves nearer to the hand. Any faster
 // growth has another cause: a row appeared, new data moved a surface, a lag ended. It then rises by at most
 // kMaxRiseRate, and after new data evenly over the time between frames, so that no frame is felt as a click.
-// Falls that the hand causes are immediate. What new data takes of a reaction that keeps its direction falls
-// over the time between frames. A direction that changes turns over that time.
+// Falls that the hand causes are immediate. What new data takes of a reaction that keeps its direction, or
+// ends, falls over the time between frames. A direction that changes turns over that time.
 //
 // New data also changes a surface at rest, by the sensor's noise. So a part of each change is felt slowly
 // (SurfaceNoise), while the tool follows at once. What the hand's own motion changes is felt in the same
@@ -36,7 +36,7 @@ struct ReactionInput {
 //
 // A tool that lags, such as an arm, follows a surface that new data moved only after some ticks, and has lost
 // its rows meanwhile. So a fall that new data causes while it lags fades out. So does a fall by more than
-// SurfaceNoise::kBand that turns the reaction by much: one of several surfaces went back beyond the hand. If
+// SurfaceNoise::kBand or 2 N that turns the reaction by much: one of several surfaces went back beyond it. If
 // the reaction returns before, in its former direction, it rises from the force that the device renders.
 //
 // Times are measured ones, so that late ticks delay nothing; a rise counts ticks.
@@ -72,7 +72,7 @@ private:
     Travel travelOf(const Pose& end) noexcept;
     bool pushed() const noexcept;
     double rate(double appeared) noexcept;
-    double heldBack(const Wrench& wrench, double byHand, double out) noexcept;
+    double heldBack(const Wrench& way, double wanted, double byHand, double released) noexcept;
     void beginFade(const Wrench& wanted, const ReactionInput& input) noexcept;
     void fadeLost(const Wrench& wanted, double byHand, const ReactionInput& input) noexcept;
     Wrench withoutNoise(const Wrench& spring, double byHand, const ReactionInput& input) noexcept;
@@ -95,6 +95,7 @@ private:
     double sinceData_ = kLongestFrame, interval_ = kLongestFrame; // [s] since the newest data; between data
     double riseRate_ = kMaxRiseRate;                              // [N/s] until the next frame is due
     bool started_ = false, appears_ = false;
+    bool ended_ = false; // the reaction is zero, and only held_ is felt
 };
 
 } // namespace fathom

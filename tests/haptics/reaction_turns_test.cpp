@@ -62,8 +62,12 @@ TEST_CASE("A surface that goes back in every frame is felt as an even fall, not 
     }
     CHECK(force < 4.0);
     tick.newData = true;
-    tick.allowed = tick.springEnd; // no contact any more
-    CHECK(reaction.step(tick).force.z == 0.0);
+    for (int i = 0; i < 34; ++i) {
+        tick.allowed = tick.springEnd; // no contact any more
+        const double before = force;
+        CHECK(before - step() < 0.2);
+    }
+    CHECK(force == 0.0);
 }
 
 namespace {
@@ -110,6 +114,48 @@ TEST_CASE("What a surface that goes back still gives ends with the spring of a h
         const double felt = hand.step().z, spring = 1000.0 * std::max(0.0, hand.wall - hand.hand.z);
         CHECK(felt <= 2.5 * spring + 0.8);
     }
+}
+
+TEST_CASE("A surface that goes back to the hand or beyond ends its force within a frame, not as a blow") {
+    for (const double beyond : {0.0, 0.001, 0.004}) {
+        CAPTURE(beyond);
+        CornerHand hand;
+        hand.pressTo({0.0, 0.0, 0.01});
+        hand.tick.newData = true;
+        hand.wall = -0.01 - beyond;
+        double before = 10.0;
+        for (int i = 0; i < 34; ++i) {
+            const double felt = hand.step().z;
+            CHECK(before - felt < 0.33); // [N] 10 N evenly over 33 ms
+            CHECK(felt <= before);
+            CHECK(hand.reaction.size() == doctest::Approx(felt));
+            before = felt;
+        }
+        CHECK(before == 0.0);
+    }
+}
+
+TEST_CASE("The end of a surface's force is over when the hand has moved out as far as it was pressed") {
+    CornerHand hand;
+    hand.pressTo({0.0, 0.0, 0.004});
+    hand.tick.newData = true;
+    hand.wall = -0.004;
+    CHECK(hand.step().z > 3.8);
+    for (int i = 0; i < 10; ++i) {
+        hand.hand.z += 0.0004;
+        CHECK(hand.step().z <= 4.0 - 0.4 * (i + 1) + 1e-9);
+    }
+}
+
+TEST_CASE("A reaction that begins elsewhere takes over nothing of one that ended") {
+    CornerHand hand;
+    hand.pressTo({0.0, 0.0, 0.01});
+    hand.tick.newData = true;
+    hand.wall = -0.02;
+    CHECK(hand.step().z > 9.0);
+    hand.hand.y -= 0.0002; // 0.2 N
+    const dvec3 felt = hand.step();
+    CHECK(felt.y <= 0.21);
 }
 
 TEST_CASE("What one region loses is not felt on another one") {
