@@ -41,7 +41,7 @@ void NarrowPhase::gather(const ContactSet& set, const LeafCentres& leaves, const
     leaves_ = leaves; // same size: does not allocate
     toolCentre_ = toolCentre;
     checkLimit_ = checkLimit;
-    rowCount_ = smoothCount_ = 0;
+    rowCount_ = smoothCount_ = smoothLeaves_ = 0;
     smallestGap_ = rowLimit;
     if (anew || !searchStillServes(rowLimit - checkLimit)) {
         search(set, rowLimit);
@@ -202,23 +202,28 @@ void NarrowPhase::finishLeaf(const ContactSet& set, uint32_t leaf, size_t firstR
                           [](const ContactRow& a, const ContactRow& b) { return a.gap < b.gap; });
     lastNormal_[leaf] = deepest.normal;
     smallestGap_ = std::min(smallestGap_, deepest.gap);
-    if (smooth_ && run != nullptr) {
-        addSmoothRow(set, *run, deepest);
+    if (smooth_ && run != nullptr && deepest.gap >= 0.0 && smoothLeaves_ < kMaxSmooth) {
+        const size_t before = smoothCount_;
+        for (size_t r = firstRow; r < rowCount_ && smoothCount_ < before + kMaxSurfaces; ++r) {
+            addSmoothRow(set, *run, rows_[r]);
+        }
+        smoothLeaves_ += smoothCount_ > before ? 1 : 0;
     }
 }
 
+// A plane over the surface that this row's sphere is the nearest of, if it is.
 void NarrowPhase::addSmoothRow(const ContactSet& set, const PairRun& run,
                                const ContactRow& nearest) noexcept {
     const double touch = radius_[run.leaf] + static_cast<double>(set.pairRadius[nearest.pair]);
     const double depth = std::min(patchDepth(touch), 0.5 * checkLimit_);
-    if (smoothCount_ == kMaxSmooth || !(nearest.gap >= 0.0) || nearest.gap + depth > checkLimit_) {
+    if (nearest.gap + depth > checkLimit_) {
         return;
     }
     uint32_t from = 0;
     const PairList near = runs_.upTo(set, run, nearest.gap + depth + travelled(run) + kPairRounding, from);
     SmoothPlane plane;
-    if (near.complete &&
-        smoothPlane(near.arrays, leaves_[run.leaf], radius_[run.leaf], nearest.gap, depth, plane)) {
+    if (near.complete && smoothPlane(near.arrays, leaves_[run.leaf], radius_[run.leaf],
+                                     {nearest.normal, nearest.gap}, depth, plane)) {
         ContactRow& row = smoothRows_[smoothCount_++] = nearest;
         row.normal = plane.normal;
         row.gap = plane.gap;

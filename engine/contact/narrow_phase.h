@@ -44,12 +44,13 @@ public:
 
     std::span<const ContactRow> rows() const { return {rows_.data(), rowCount_}; }
     // Planes over the spheres near the leaves that almost touch (smooth_plane.h), for at most kMaxSmooth
-    // leaves. `gap` is at most that of the leaf's nearest pair and may be negative where that is not; `pair`
-    // is the nearest pair. Empty unless asked for at construction, or while a leaf overlaps a sphere.
+    // leaves: one per surface, so up to three in a corner of three walls. `gap` is at most that of the
+    // surface's nearest pair and may be negative where that is not; `pair` is that pair. Empty unless asked
+    // for at construction, or while a leaf overlaps a sphere.
     std::span<const ContactRow> smoothRows() const {
         return {smoothRows_.data(), smallestGap_ < 0.0 ? 0 : smoothCount_};
     }
-    static constexpr size_t kMaxSmooth = 16;
+    static constexpr size_t kMaxSmooth = 16, kMaxSurfaces = 3;
     // [m] among pairs up to rowLimit; rowLimit when there is none
     double smallestGap() const { return smallestGap_; }
 
@@ -114,8 +115,8 @@ private:
     double cosCone_;
     std::vector<ContactRow> rows_;
     size_t rowCount_ = 0;
-    std::array<ContactRow, kMaxSmooth> smoothRows_;
-    size_t smoothCount_ = 0;
+    std::array<ContactRow, kMaxSmooth * kMaxSurfaces> smoothRows_;
+    size_t smoothCount_ = 0, smoothLeaves_ = 0;
     bool smooth_;
     LeafCentres leaves_;            // at the last gather()
     std::vector<dvec3> lastNormal_; // normal of each leaf's deepest row; zero = none yet

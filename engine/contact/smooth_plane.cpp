@@ -15,6 +15,7 @@ namespace {
 constexpr double kOffPlane = std::numeric_limits<double>::infinity();
 constexpr double kMinNormal = 0.5;  // a shorter mean normal is no direction
 constexpr double kRounding = 1e-15; // [m] of a bend that is not negative
+constexpr double kAgree = 10.0;     // 1 / rise of the cosine to full weight, for spheres like the nearest
 
 // Spheres of a run that are processed together.
 struct PatchBlock {
@@ -22,12 +23,14 @@ struct PatchBlock {
     alignas(64) std::array<double, kSize> x, y, z, weight;
 };
 
-// Weighted directions from the spheres to the centre, zero for spheres that are not in the patch.
+// Weighted directions from the spheres to the centre, zero for spheres that are not in the patch. n: normal
+// of the nearest sphere. agree [1/m]: how fast the weight grows away from kOtherSurface and kOpposite.
 FATHOM_CLONES
 void weighKernel(const float* __restrict sx, const float* __restrict sy, const float* __restrict sz,
                  const float* __restrict radius, size_t count, double cx, double cy, double cz, double r,
-                 double nearest, double depth, double* __restrict toX, double* __restrict toY,
-                 double* __restrict toZ, double* __restrict weights) noexcept {
+                 double nearest, double nx, double ny, double nz, double agree, double depth,
+                 double* __restrict toX, double* __restrict toY, double* __restrict toZ,
+                 double* __restrict weights) noexcept {
     for (size_t k = 0; k < count; ++k) {
         const double dx = cx - static_cast<double>(sx[k]);
         const double dy = cy - static_cast<double>(sy[k]);
@@ -37,7 +40,10 @@ void weighKernel(const float* __restrict sx, const float* __restrict sy, const f
         const double inside =
             square < farthest * farthest ? 1.0 : 0.0; // a factor, because branches do not vectorise
         const double length = std::sqrt(square), share = 1.0 - (length - touch - nearest) / depth;
-        const double weight = share * share * inside, scale = weight / length;
+        const double along = nx * dx + ny * dy + nz * dz;
+        const double counts = std::max(along - kOtherSurface * length, kOpposite * length - along) * agree;
+        const double part = std::min(1.0, std::max(0.0, counts)); // no rounding where that is 1
+        const double weight = share * share * inside * part, scale = weight / length;
         toX[k] = scale * dx;
         toY[k] = scale * dy;
         toZ[k] = scale * dz;
@@ -64,31 +70,35 @@ void heightKernel(const float* __restrict sx, const float* __restrict sy, const 
 }
 
 // Mean normal of the spheres of the patch, weighted so that a sphere enters with weight 0. False when it is
-// no direction.
-bool meanNormal(const PairArrays& run, const dvec3& centre, double leafRadius, double nearest, double depth,
-                dvec3& normal) noexcept {
+// no direction, and when a sphere that counts is nearer.
+bool meanNormal(const PairArrays& run, const dvec3& centre, double leafRadius, const SmoothPlane& nearest,
+                double depth, double agree, dvec3& normal) noexcept {
+    const dvec3& n = nearest.normal;
     dvec3 sum(0.0);
-    double weights = 0.0;
+    double weights = 0.0, most = 0.0;
     for (size_t begin = 0; begin < run.count; begin += PatchBlock::kSize) {
         PatchBlock block;
         const PairArrays some = part(run, begin, PatchBlock::kSize);
         weighKernel(some.x, some.y, some.z, some.radius, some.count, centre.x, centre.y, centre.z, leafRadius,
-                    nearest, depth, block.x.data(), block.y.data(), block.z.data(), block.weight.data());
+                    nearest.gap, n.x, n.y, n.z, agree, depth, block.x.data(), block.y.data(), block.z.data(),
+                    block.weight.data());
         for (size_t k = 0; k < some.count; ++k) {
             sum += dvec3(block.x[k], block.y[k], block.z[k]);
             weights += block.weight[k];
+            most = std::max(most, block.weight[k]); // 1 without rounding for the nearest sphere
         }
     }
     const double length = glm::length(sum);
     normal = sum / length;
-    return length > kMinNormal * weights;
+    return length > kMinNormal * weights && most <= 1.0;
 }
 
 } // namespace
 
-bool smoothPlane(const PairArrays& run, const dvec3& centre, double leafRadius, double nearest, double depth,
-                 SmoothPlane& plane) noexcept {
-    if (!meanNormal(run, centre, leafRadius, nearest, depth, plane.normal)) {
+bool smoothPlane(const PairArrays& run, const dvec3& centre, double leafRadius, const SmoothPlane& nearest,
+                 double depth, SmoothPlane& plane) noexcept {
+    const double agree = 0.5 * kAgree * kPatch * kPatch / depth; // kAgree / (R + r) of the nearest, or more
+    if (!meanNormal(run, centre, leafRadius, nearest, depth, agree, plane.normal)) {
         return false;
     }
     plane.gap = kOffPlane;
@@ -96,7 +106,7 @@ bool smoothPlane(const PairArrays& run, const dvec3& centre, double leafRadius, 
         alignas(64) std::array<double, PatchBlock::kSize> heights;
         const PairArrays some = part(run, begin, PatchBlock::kSize);
         heightKernel(some.x, some.y, some.z, some.radius, some.count, centre.x, centre.y, centre.z,
-                     leafRadius, nearest, plane.normal.x, plane.normal.y, plane.normal.z, depth,
+                     leafRadius, nearest.gap, plane.normal.x, plane.normal.y, plane.normal.z, depth,
                      heights.data());
         for (size_t k = 0; k < some.count; ++k) {
             if (heights[k] > plane.gap + kRounding || !(heights[k] < kOffPlane)) {
@@ -112,7 +122,7 @@ bool smoothPlane(const PairArrays& run, const dvec3& centre, double leafRadius, 
             }
         }
     }
-    return plane.gap < nearest;
+    return plane.gap < nearest.gap;
 }
 
 } // namespace fathom

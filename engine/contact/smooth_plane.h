@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The plane that a leaf slides on where many region spheres form a surface. The spheres' union has cusps
 // between neighbours; a tool that slides over them feels a sawtooth of slope spacing / 2 (R + r). The plane
-// has the mean normal of the nearest spheres and lies outside of all of them.
+// has the mean normal of the nearest spheres of one surface and lies outside of all of them.
 #pragma once
 
 #include "engine/contact/pair_gaps.h"
@@ -19,11 +19,17 @@ inline constexpr double kPatch = 0.18;
 // The plane curves like a sphere of radius (R + r) / kBend, so that the patch's border is never felt.
 inline constexpr double kBend = 0.01;
 
-// Plane for a leaf at `centre` whose nearest pair has this gap [m] >= 0. run: its pairs, complete up to gap +
-// patchDepth(). False where there is no plane outside of the nearest sphere, as at an edge; the spheres' own
-// rows then suffice. Identical bits everywhere.
-bool smoothPlane(const PairArrays& run, const dvec3& centre, double leafRadius, double nearest, double depth,
-                 SmoothPlane& plane) noexcept;
+// Cosines of the angles from the nearest sphere's normal between which a sphere belongs to another surface
+// and does not count, as at the other wall of a corner. Within 36 degrees spheres of similar size count in
+// full. Opposite ones, beyond 120 degrees, do so too: planes must not hold a leaf from both sides of a slot.
+inline constexpr double kOtherSurface = 0.70710678118654752, kOpposite = -0.4;
+
+// Plane for a leaf at `centre` over the surface whose nearest sphere has this tangent, at a gap >= 0. run:
+// pairs of the leaf, complete up to that gap + depth. False where a sphere that counts is nearer, and where
+// there is no plane outside of the nearest sphere, as at an edge; the spheres' own rows then suffice.
+// Identical bits everywhere.
+bool smoothPlane(const PairArrays& run, const dvec3& centre, double leafRadius, const SmoothPlane& nearest,
+                 double depth, SmoothPlane& plane) noexcept;
 
 // [m] how much farther than the nearest the spheres of a patch may be; reach = R + r of the nearest.
 constexpr double patchDepth(double reach) noexcept {

@@ -216,6 +216,25 @@ TEST_CASE("A leaf gets a second row in the small motion that takes a sphere out 
     CHECK(bench.narrow.rows().size() == 2);
 }
 
+TEST_CASE("In a corner of three walls a leaf gets a smooth plane per wall, on a flat wall one") {
+    const std::array<dvec3, 3> axes{dvec3(1, 0, 0), dvec3(0, 1, 0), dvec3(0, 0, 1)};
+    HostFixtures corner = emptySet();
+    const dvec3 centre(0.0103, 0.0102, 0.0101); // of the leaf: 0.3, 0.2 and 0.1 mm from the walls
+    for (size_t walls = 1; walls <= 3; ++walls) {
+        const dvec3 &up = axes[3 - walls], &u = axes[(4 - walls) % 3], &v = axes[(5 - walls) % 3];
+        addWall(corner, -0.04 * up, u, v, 0.03, 0.002, 0.04);
+        Bench bench(ballTool(0.01), corner, Pose{centre, kUpright});
+        NarrowPhase narrow(bench.tool, 512, NarrowPhase::kCone, true);
+        narrow.gather(bench.set, bench.leaves, centre, 0.004, 0.002, true);
+        REQUIRE(narrow.smoothRows().size() == walls);
+        for (size_t w = 0; w < walls; ++w) { // the nearest wall first
+            const ContactRow& row = narrow.smoothRows()[w];
+            CHECK(glm::dot(row.normal, axes[2 - w]) > 0.9999);
+            CHECK(row.gap == doctest::Approx(1e-4 * static_cast<double>(1 + w)).epsilon(0.05));
+        }
+    }
+}
+
 TEST_CASE("All touching pairs are checked, also when they exceed the lists") {
     HostFixtures fixtures = emptySet();
     addWall(fixtures, dvec3(0.0), dvec3(1, 0, 0), dvec3(0, 1, 0), 0.05, 0.0007, 0.04);

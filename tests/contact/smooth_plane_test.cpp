@@ -20,15 +20,23 @@ struct Patch {
         return {spheres.x.data(), spheres.y.data(), spheres.z.data(), spheres.radius.data(),
                 spheres.x.size()};
     }
-    double nearest(const dvec3& leaf) const {
-        double least = HUGE_VAL;
+    // Of the spheres with a normal near `side` (zero: of all).
+    SmoothPlane tangent(const dvec3& leaf, const dvec3& side = dvec3(0.0)) const {
+        SmoothPlane least{side, HUGE_VAL};
         for (size_t k = 0; k < spheres.x.size(); ++k) {
-            least = std::min(least, gapOf(run(), k, leaf, kLeaf));
+            const double gap = gapOf(run(), k, leaf, kLeaf);
+            const dvec3 normal = glm::normalize(awayFrom(run(), k, leaf));
+            if (gap < least.gap && (side == dvec3(0.0) || glm::dot(normal, side) > 0.8)) {
+                least = {normal, gap};
+            }
         }
         return least;
     }
-    bool plane(const dvec3& leaf, SmoothPlane& out) {
-        return smoothPlane(run(), leaf, kLeaf, std::max(0.0, nearest(leaf)), patchDepth(kTouch), out);
+    double nearest(const dvec3& leaf) const { return tangent(leaf).gap; }
+    bool plane(const dvec3& leaf, SmoothPlane& out, const dvec3& side = dvec3(0.0)) const {
+        SmoothPlane near = tangent(leaf, side);
+        near.gap = std::max(0.0, near.gap);
+        return smoothPlane(run(), leaf, kLeaf, near, patchDepth(kTouch), out);
     }
 };
 
@@ -97,6 +105,26 @@ TEST_CASE("A raised sphere that the patch reaches lowers the plane's gap without
     }
     CHECK(lowest < 1.3e-4);
     CHECK(most < 2e-5);
+}
+
+TEST_CASE("In a corner each wall has the plane that it would have alone, and what is not nearest has none") {
+    Patch corner = wallOf(0.002, 0.0);
+    const RegionSpheres flat = corner.spheres;
+    for (size_t k = 0; k < flat.x.size(); ++k) { // the same wall upright, from y = 0 and x = 0
+        corner.spheres.add({-kBall, flat.x[k], flat.y[k] + 0.02}, kBall);
+    }
+    const dvec3 leaf(kLeaf + 1e-4, 0.0007, kLeaf + 2e-4), x(1, 0, 0), z(0, 0, 1);
+    SmoothPlane plane, alone;
+    REQUIRE(corner.plane(leaf, plane, z));
+    REQUIRE(wallOf(0.002, 0.0).plane(leaf, alone));
+    CHECK(plane.normal == alone.normal);
+    CHECK(plane.gap == alone.gap);
+    REQUIRE(corner.plane(leaf, plane, x));
+    CHECK(glm::dot(plane.normal, x) > 0.99999);
+    CHECK(plane.gap == doctest::Approx(1e-4).epsilon(0.05));
+    SmoothPlane farther = corner.tangent(leaf, z);
+    farther.gap += 1e-4; // spheres of the same wall are nearer
+    CHECK_FALSE(smoothPlane(corner.run(), leaf, kLeaf, farther, patchDepth(kTouch), plane));
 }
 
 TEST_CASE("One sphere alone and two opposite ones give no plane") {

@@ -45,6 +45,24 @@ double sawtooth(ProxyRig& rig) {
     return 0.5 * (high - low);
 }
 
+// As sawtooth(), along a corner with the hand 20 mm inside of each of its two walls.
+double sawtoothInCorner(bool smooth) {
+    constexpr double kRadius = 0.02, kSpacing = 0.003; // [m]
+    HostFixtures corner = emptySet();
+    addWall(corner, {0.0, 0.0, -kRadius}, {1, 0, 0}, {0, 1, 0}, 0.06, kSpacing, kRadius);
+    addWall(corner, {kRadius, 0.0, 0.0}, {0, 0, 1}, {0, 1, 0}, 0.06, kSpacing, kRadius);
+    ProxyRig rig(ball(), corner, {{-0.012, -0.03, 0.012}, kUpright}, sliding(0.0, smooth));
+    double low = 1.0, high = -1.0;
+    for (int k = 0; k < 400; ++k) {
+        const Pose hand{{0.01, 1e-4 * k - 0.03, -0.01}, kUpright};
+        const double lateral = rig.step(hand).allowed.position.y - hand.position.y;
+        REQUIRE(rig.depth() <= 0.0);
+        low = k < 100 ? low : std::min(low, lateral);
+        high = k < 100 ? high : std::max(high, lateral);
+    }
+    return 0.5 * (high - low);
+}
+
 } // namespace
 
 TEST_CASE(
@@ -57,6 +75,22 @@ TEST_CASE(
     const double before = sawtooth(bumpy), after = sawtooth(smooth);
     CHECK(before > 5e-4); // 0.5 N at 1000 N/m
     CHECK(after < 3e-5);  // 0.03 N
+}
+
+TEST_CASE("In a corner of two walls smooth planes take the sawtooth away as on one wall") {
+    CHECK(sawtoothInCorner(false) > 1e-3); // 1 N at 1000 N/m
+    CHECK(sawtoothInCorner(true) < 1e-4);
+}
+
+TEST_CASE("Smooth planes do not narrow a slot: a ball with 0.2 mm of room follows the hand through it") {
+    HostFixtures slot = emptySet();
+    addWall(slot, {-0.0501, 0.0, 0.0}, {0, 0, 1}, {0, 1, 0}, 0.05, 0.004, 0.04);
+    addWall(slot, {0.0501, 0.0, 0.0}, {0, 0, 1}, {0, 1, 0}, 0.05, 0.004, 0.04);
+    ProxyRig rig(ball(), slot, {{0.0, -0.1, 0.0}, kUpright}, sliding(0.0, true));
+    for (int k = 0; k < 1500; ++k) {
+        const double y = -0.1 + 1e-4 * k;
+        REQUIRE(rig.step({{0.0, y, 0.0}, kUpright}).pose.position.y == doctest::Approx(y).epsilon(1e-3));
+    }
 }
 
 TEST_CASE("With friction the tool stays behind the hand by mu times its depth, either way, and at rest") {
