@@ -82,7 +82,7 @@ void bindFormats(py::module_& module) {
         .value("STAMP_BACK", SubmitStatus::StampBack, "not later than the one before")
         .value("MISSING_IMAGE", SubmitStatus::MissingImage)
         .value("BAD_POSE", SubmitStatus::BadPose)
-        .value("CLOSED", SubmitStatus::Closed, "the engine is closed or has failed: Engine.failure()");
+        .value("CLOSED", SubmitStatus::Closed, "the engine is closed, or failed: Engine.failure says why");
 }
 
 } // namespace

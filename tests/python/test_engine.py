@@ -80,6 +80,11 @@ class Live(unittest.TestCase):
             self.assertEqual(images.submit(wall.depth(), stamp=stamp), fathom.SubmitStatus.ACCEPTED)
             self.assertEqual(images.submit(wall.depth(), stamp=stamp), fathom.SubmitStatus.STAMP_BACK)
 
+    def test_the_text_of_closed_names_a_property_that_can_be_read(self):
+        self.assertIn("Engine.failure says why", fathom.SubmitStatus.__doc__)
+        self.assertNotIn("failure()", fathom.SubmitStatus.__doc__)
+        self.assertIsInstance(fathom.Engine.failure, property)
+
     def test_ports_outlive_their_engine(self):
         made = engine()
         images, hand = made.camera(), made.open_hand()
